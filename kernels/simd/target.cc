@@ -1,0 +1,82 @@
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/simd/target.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/simd/target.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+int LanesOfTarget() {
+  return static_cast<int>(hwy::HWY_NAMESPACE::Lanes(hwy::HWY_NAMESPACE::ScalableTag<float>()));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include <strings.h>
+
+#include "src/core/error.h"
+
+namespace lanelight {
+
+HWY_EXPORT(LanesOfTarget);
+
+namespace {
+
+// Targets that are compiled in and supported by the machine, whatever is forced.
+const std::vector<std::int64_t>& UsableTargets() {
+  static const std::vector<std::int64_t> targets = [] {
+    hwy::SetSupportedTargetsForTest(0);
+    return std::vector<std::int64_t>(hwy::SupportedAndGeneratedTargets());
+  }();
+  return targets;
+}
+
+}  // namespace
+
+std::vector<std::string> AvailableTargets() {
+  std::vector<std::string> names;
+  for (std::int64_t target : UsableTargets()) names.push_back(hwy::TargetName(target));
+  return names;
+}
+
+void ForceTarget(const std::string& name) {
+  const auto& usable = UsableTargets();
+  std::int64_t forced = 0;
+  for (std::int64_t target : usable) {
+    if (strcasecmp(hwy::TargetName(target), name.c_str()) == 0) forced = target;
+  }
+  if (forced == 0 && !name.empty()) {
+    std::string legal;
+    for (const std::string& t : AvailableTargets()) legal += (legal.empty() ? "" : ", ") + t;
+    throw InputError("unknown SIMD target '" + name + "'; this machine can run: " + legal);
+  }
+  hwy::SetSupportedTargetsForTest(forced);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+std::string CurrentTarget() {
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  // Usable targets are best first; the first one still supported is the one chosen.
+  for (std::int64_t target : UsableTargets()) {
+    if (hwy::SupportedTargets() & target) return hwy::TargetName(target);
+  }
+  return "none";
+}
+
+int CurrentLanes() {
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  return HWY_DYNAMIC_DISPATCH(LanesOfTarget)();
+}
+
+}  // namespace lanelight
+
+#endif  // HWY_ONCE

@@ -1,0 +1,40 @@
+// The only door to oneTBB: everything parallel goes through these few functions.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace lanelight {
+
+/// Limits the threads used by the functions below while it lives. 0 = all cores.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Threads the functions below will use at most.
+int MaxThreads();
+
+/// Index of the calling thread in [0, MaxThreads()) inside a parallel function.
+int ThreadIndex();
+
+/// Calls body(i) for i in [0, n), in parallel, in no particular order. The first
+/// exception thrown by a body is rethrown here; the remaining items may be skipped.
+void ParallelFor(std::size_t n, const std::function<void(std::size_t)>& body);
+
+/// Like ParallelFor over chunks [begin, end) of at least `grain` items.
+void ParallelForRange(std::size_t n, std::size_t grain,
+                      const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// Runs both, in parallel if a thread is free.
+void ParallelInvoke(const std::function<void()>& a, const std::function<void()>& b);
+
+}  // namespace lanelight

@@ -1,0 +1,60 @@
+// The film: sums in double, per pixel and channel, of group means, so that a million
+// samples lose nothing and dependent samples (one randomisation of a low-discrepancy
+// sequence) count as one observation.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/core/vec.h"
+
+namespace lanelight {
+
+/// Auxiliary planes of a sample after its three colour planes.
+inline constexpr int kColorPlanes = 3;
+inline constexpr int kAovPlanes = 7;  // albedo rgb, normal xyz, depth
+
+class FilmAccumulator {
+ public:
+  /// A film of the pixels [x0, x0+width) x [y0, y0+height) of the full image.
+  /// Samples `k*group_size ... (k+1)*group_size - 1` of a pixel form one group.
+  FilmAccumulator(int x0, int y0, int width, int height, std::uint32_t group_size, bool aov);
+
+  int x0() const { return x0_; }
+  int y0() const { return y0_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  std::uint32_t group_size() const { return group_size_; }
+  bool has_aov() const { return !aov_.empty(); }
+
+  /// Adds `count` consecutive samples of one pixel; planes[p][i * step] is plane p of the
+  /// i-th. Must be called with the samples of a pixel in order. Safe for different pixels
+  /// from different threads.
+  void AddSamples(int x, int y, const float* const* planes, std::uint32_t count);
+
+  std::uint64_t Samples(int x, int y) const { return pixel(x, y).samples; }
+  /// Mean of all samples; zero without samples.
+  Rgb Mean(int x, int y) const;
+  /// Estimated variance of Mean() per channel, from the scatter of complete groups; NaN-free:
+  /// zero where fewer than two groups are complete (see HasVariance).
+  Rgb Variance(int x, int y) const;
+  bool HasVariance(int x, int y) const { return pixel(x, y).groups >= 2; }
+  /// Mean of an auxiliary plane.
+  double Aov(int x, int y, int plane) const;
+
+ private:
+  struct Pixel {
+    double sum[3] = {}, group[3] = {}, squares[3] = {}, group_total[3] = {};
+    std::uint64_t samples = 0, groups = 0;
+  };
+  const Pixel& pixel(int x, int y) const {
+    return pixels_[static_cast<std::size_t>(y - y0_) * width_ + (x - x0_)];
+  }
+
+  int x0_, y0_, width_, height_;
+  std::uint32_t group_size_;
+  std::vector<Pixel> pixels_;
+  std::vector<double> aov_;  // kAovPlanes sums per pixel
+};
+
+}  // namespace lanelight

@@ -1,0 +1,220 @@
+// What a scene file says, in double precision and in the file's own units, after the
+// parser has resolved names, transforms and spectra. Nothing here depends on how it will
+// be rendered. Produced by ParseScene (src/scene/parse.h), consumed by CompileScene
+// (src/scene/compile.h) and, independently, by the scalar reference tracer in tests/.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/core/error.h"
+#include "src/core/transform.h"
+#include "src/core/vec.h"
+
+namespace lanelight {
+
+/// Index into one of the vectors of SceneDescription; kNone = absent.
+using Index = std::int32_t;
+inline constexpr Index kNone = -1;
+
+/// A parameter that is either constant or textured. With a texture, the constant is
+/// unused.
+struct ColorValue {
+  Rgb constant;
+  Index texture = kNone;
+};
+struct FloatValue {
+  double constant = 0;
+  Index texture = kNone;
+};
+
+enum class TextureKind { kConstant, kScale, kMix, kCheckerboard, kImage };
+enum class WrapMode { kRepeat, kClamp, kBlack, kOctahedralSphere };
+enum class Encoding { kSrgb, kLinear, kGamma };
+
+/// uv' = (su*u + du, sv*v + dv)   (pbrt "uv" mapping).
+struct UvMapping {
+  double su = 1, sv = 1, du = 0, dv = 0;
+};
+
+/// Float textures are stored as grey colours (r = g = b).
+struct Texture {
+  TextureKind kind = TextureKind::kConstant;
+  std::string name;
+  SourceLocation where;
+  bool is_float = false;
+  Rgb value;                  // kConstant
+  ColorValue tex1, tex2;      // kScale uses tex1; kMix and kCheckerboard use both
+  FloatValue amount;          // kScale: factor; kMix: weight of tex2
+  UvMapping mapping;          // kCheckerboard, kImage
+  std::string path;           // kImage: resolved path
+  WrapMode wrap = WrapMode::kRepeat;
+  Encoding encoding = Encoding::kSrgb;  // of 8-bit files
+  double gamma = 2.2;                   // for Encoding::kGamma
+  double scale = 1;
+  bool invert = false;        // 1 - value, after decoding, before scale (as pbrt)
+  bool bilinear = true;       // false: nearest
+};
+
+/// Diffuse scattering models of the founding paper (README, "Diffuse models").
+/// kLambertian: density cos/pi. kUniform: directions uniform over the hemisphere,
+/// path weight = albedo. kInSphere: normal + point inside the unit sphere, density
+/// proportional to cos^3 (2 cos^3 / pi), path weight = albedo.
+enum class Scattering { kLambertian, kUniform, kInSphere };
+
+enum class MaterialKind {
+  kDiffuse, kConductor, kDielectric, kThinDielectric, kCoatedDiffuse, kCoatedConductor,
+  kDiffuseTransmission, kMix, kInterface
+};
+
+/// Roughness values are what the file says; alpha = remap ? sqrt(roughness) : roughness.
+struct Material {
+  MaterialKind kind = MaterialKind::kDiffuse;
+  std::string name;
+  SourceLocation where;
+  Scattering scattering = Scattering::kLambertian;
+  ColorValue reflectance{{0.5, 0.5, 0.5}, kNone};  // diffuse, coateddiffuse, diffusetransmission
+  ColorValue transmittance{{0.25, 0.25, 0.25}, kNone};  // diffusetransmission
+  ColorValue eta, k;       // conductor (also below a coat)
+  bool has_reflectance = false;  // conductor given by `reflectance`: normal-incidence
+                                 // reflectance; eta = 1, k = 2 sqrt(r / (1 - r))
+  double interface_eta = 1.5;    // dielectric, thindielectric, coats
+  FloatValue uroughness, vroughness;                      // of the (outer) interface
+  FloatValue conductor_uroughness, conductor_vroughness;  // coatedconductor
+  bool remap_roughness = true;
+  double thickness = 0.01;       // coats
+  double coat_g = 0;
+  Rgb coat_albedo;               // coats: scattering albedo of the medium between
+  int coat_max_depth = 10, coat_samples = 1;
+  Index mix[2] = {kNone, kNone};
+  FloatValue mix_amount{0.5, kNone};                      // weight of mix[1]
+};
+
+/// Object-space triangles. Normals and uvs are per vertex, or empty.
+struct TriangleMesh {
+  std::vector<Vec3d> positions;
+  std::vector<Vec3d> normals;
+  std::vector<std::array<double, 2>> uvs;
+  std::vector<std::uint32_t> indices;  // 3 per triangle, all < positions.size()
+};
+
+enum class ShapeKind { kMesh, kSphere, kDisk, kPlane };
+
+struct Shape {
+  ShapeKind kind = ShapeKind::kMesh;
+  SourceLocation where;
+  Transform world_from_object;   // inside an object definition: object_from_shape
+  bool reverse_orientation = false;
+  Index material = kNone;        // always set by the parser
+  Index area_light = kNone;
+  FloatValue alpha{1, kNone};
+  std::shared_ptr<const TriangleMesh> mesh;  // kMesh (bilinear patches become meshes)
+  double radius = 1;             // kSphere, kDisk
+  double inner_radius = 0;       // kDisk
+  double height = 0;             // kDisk: object-space z; normal +z
+  // kPlane: infinite, through the object-space origin, normal +z, uv = (x, y).
+};
+
+/// Shapes of one ObjectBegin/End, in the coordinates at ObjectBegin.
+struct ObjectDefinition {
+  std::string name;
+  std::vector<Shape> shapes;
+};
+struct Instance {
+  Index object = kNone;
+  Transform world_from_object;
+  SourceLocation where;
+};
+
+/// Emission of a shape: radiance `radiance * scale`, one-sided along the surface normal
+/// unless two_sided; if power > 0 the radiance is rescaled so that the shape emits that
+/// many watts in total (pbrt: Phi = pi * area * (two_sided ? 2 : 1) * Y(L)).
+struct AreaLight {
+  SourceLocation where;
+  Rgb radiance{1, 1, 1};
+  double scale = 1;
+  double power = -1;
+  bool two_sided = false;
+};
+
+enum class LightKind { kPoint, kSpot, kDistant, kInfinite };
+
+/// Intensities include every scale, power and illuminance parameter of the file.
+struct Light {
+  LightKind kind = LightKind::kPoint;
+  SourceLocation where;
+  Transform world_from_light;
+  Rgb emission;          // kPoint, kSpot: W/sr. kDistant: irradiance on a facing surface.
+                         // kInfinite without image: radiance.
+  Vec3d from, to{0, 0, 1};  // light space. kPoint: from. kSpot: from, to. kDistant: from-to
+  double cone_angle = 30, cone_delta = 5;  // kSpot, degrees
+  std::string image_path;   // kInfinite: equal-area octahedral map, square
+  double image_scale = 1;
+  double illuminance = -1;  // kInfinite: if > 0, rescale to this illuminance on +z
+};
+
+enum class CameraKind { kPerspective, kOrthographic };
+struct Camera {
+  CameraKind kind = CameraKind::kPerspective;
+  SourceLocation where;
+  Transform world_from_camera;  // camera looks along +z, x right, y up
+  double fov = 90;              // degrees, of the shorter image axis
+  double lens_radius = 0, focal_distance = 1e6;
+  double frame_aspect = 0;      // 0: from the resolution
+  double screen_window[4] = {0, 0, 0, 0};  // x0 x1 y0 y1; all 0: from the aspect
+};
+
+enum class FilterKind { kBox, kTriangle, kGaussian, kMitchell, kLanczos };
+struct Filter {
+  FilterKind kind = FilterKind::kGaussian;
+  double x_radius = 1.5, y_radius = 1.5;
+  double sigma = 0.5;             // gaussian
+  double b = 1. / 3, c = 1. / 3;  // mitchell
+  double tau = 3;                 // lanczos
+};
+
+struct Film {
+  int width = 1280, height = 720;
+  int crop[4] = {0, 0, 0, 0};     // pixel bounds x0 x1 y0 y1; all 0: whole image
+  std::string filename = "lanelight.exr";
+  double imaging_ratio = 1;       // exposure time * ISO / 100
+};
+
+enum class SamplerKind { kIndependent, kSobol };
+struct Sampler {
+  SamplerKind kind = SamplerKind::kSobol;
+  int spp = 16;
+  std::uint64_t seed = 0;
+};
+
+struct Integrator {
+  int max_depth = 5;      // scattering events at most, as in pbrt
+};
+
+/// Something that was read and deliberately not used.
+struct Note {
+  SourceLocation where;
+  std::string message;
+};
+
+struct SceneDescription {
+  std::string path;
+  Camera camera;
+  Film film;
+  Filter filter;
+  Sampler sampler;
+  Integrator integrator;
+  std::vector<Texture> textures;    // a texture refers only to earlier ones
+  std::vector<Material> materials;  // a mix refers only to earlier ones
+  std::vector<AreaLight> area_lights;
+  std::vector<Light> lights;
+  std::vector<Shape> shapes;        // world space
+  std::vector<ObjectDefinition> objects;
+  std::vector<Instance> instances;
+  std::vector<Note> notes;
+};
+
+}  // namespace lanelight

@@ -1,0 +1,43 @@
+// The plan of a render: the stages, columns and kernel variants that this scene and these
+// options need, and nothing else; with a reason for everything left out.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "src/scene/compiled.h"
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+struct PlanOptions {
+  std::uint32_t max_depth = 5;
+  SamplerKind sampler = SamplerKind::kSobol;
+  bool aov = false;
+  std::uint32_t wavefront = 0;  // paths; 0 = sized so that the live columns fit in L2
+};
+
+struct PlannedStage {
+  Stage stage;
+  StageFn kernel = nullptr;
+};
+struct OmittedStage {
+  Stage stage;
+  std::string reason;  // "no spheres", ...
+};
+
+struct Plan {
+  FeatureSet features;               // of scene and options together
+  std::vector<PlannedStage> stages;  // in execution order
+  std::vector<OmittedStage> omitted;
+  std::vector<Field> live_fields, absent_fields;
+  std::size_t bytes_per_path = 0;
+  std::uint32_t wavefront = 0;       // paths per wavefront
+  PlanOptions options;
+};
+
+/// Throws CheckFailure if a stage would read a live column that no earlier stage writes.
+Plan MakePlan(const CompiledScene& scene, const PlanOptions& options);
+
+}  // namespace lanelight

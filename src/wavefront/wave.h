@@ -1,0 +1,94 @@
+// What a stage sees: the columns of one wavefront, its queues of path slots, the scene.
+// A wavefront belongs to one task; nothing here is shared or locked.
+#pragma once
+
+#include <cstdint>
+
+#include "src/scene/compiled.h"
+#include "src/wavefront/path_fields.h"
+
+namespace lanelight {
+
+// Queues hold path slots. One writer stage appends, one or more readers consume; the
+// driver (src/wavefront/run.cc) clears them.
+// X(name, meaning)
+#define LANELIGHT_QUEUES(X)                                                    \
+  X(kFree, "slots without a path")                                             \
+  X(kCamera, "paths that need a camera ray")                                   \
+  X(kActive, "paths with a ray to intersect")                                  \
+  X(kMiss, "paths whose ray left the scene")                                   \
+  X(kHit, "paths whose ray hit something")                                     \
+  X(kSurface, "hits that will scatter")                                        \
+  X(kShadow, "paths with a shadow ray in ls_* carrying sh_*")                  \
+  X(kScattered, "paths with a new ray after shading")                          \
+  X(kDone, "paths whose radiance is complete")                                 \
+  X(kScratch, "filtered sub-queue, valid inside one stage call")
+
+enum class QueueId : std::uint8_t {
+#define X(name, meaning) name,
+  LANELIGHT_QUEUES(X)
+#undef X
+      kShade,  // + ShadeKind: one queue per kind of material
+  kCount = kShade + static_cast<int>(ShadeKind::kCount)
+};
+inline constexpr int kNumQueues = static_cast<int>(QueueId::kCount);
+constexpr QueueId ShadeQueue(ShadeKind kind) {
+  return static_cast<QueueId>(static_cast<int>(QueueId::kShade) + static_cast<int>(kind));
+}
+const char* QueueName(QueueId id);
+
+/// Slots of paths. `items` has room for the wavefront plus one full vector: kernels pad
+/// the tail with the last valid slot (kernels/queue/batch-inl.h).
+struct Queue {
+  std::uint32_t* items = nullptr;
+  std::uint32_t size = 0;
+};
+
+/// Constants of a render.
+struct RunParameters {
+  std::uint32_t seed = 0;
+  std::uint32_t width = 0, height = 0;      // full image
+  std::uint32_t spp = 0;                    // planned samples per pixel
+  std::uint32_t group_size = 1;             // samples that share one randomisation
+  std::uint32_t max_depth = 5;
+  std::uint32_t roulette_depth = 1;         // first depth with roulette, as in pbrt
+  FeatureSet features;
+};
+
+/// Occupancy of the stage that is running; kernels count through the batch loop.
+struct LaneCounters {
+  std::uint64_t items = 0;    // paths processed
+  std::uint64_t vectors = 0;  // vector iterations
+};
+
+/// Samples still to be started by this task: pixels [x0,x1) x [y0,y1), samples
+/// [s0, s1), enumerated sample-major within a pixel; `next` counts those started.
+struct TileWork {
+  std::uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0, s0 = 0, s1 = 0;
+  std::uint32_t next = 0, total = 0;
+};
+
+/// Where finished samples go: plane-major buffer of the task's tile,
+/// plane p of sample `output` is at samples[p * stride + output].
+struct SampleBuffer {
+  float* samples = nullptr;
+  std::uint32_t stride = 0;
+};
+
+struct Wave {
+  PathColumns path;
+  const CompiledScene* scene = nullptr;
+  const RunParameters* run = nullptr;
+  Queue queues[kNumQueues];
+  std::uint32_t capacity = 0;
+  TileWork work;
+  SampleBuffer buffer;
+  LaneCounters lanes;
+  std::uint64_t rays_closest = 0, rays_shadow = 0;
+
+  Queue& queue(QueueId id) { return queues[static_cast<int>(id)]; }
+};
+
+using StageFn = void (*)(Wave&);
+
+}  // namespace lanelight
