@@ -35,8 +35,8 @@ std::optional<BsdfSample> SampleTwoSidedDiffuse(const LocalMaterial& m, Vec3d wo
   const double r = peak(m.reflectance), t = transmits ? peak(m.transmittance) : 0;
   if (!(r + t > 0)) return std::nullopt;
   const bool reflect = random.Uniform() * (r + t) < r;
-  const Rgb weight = reflect ? m.reflectance * ((r + t) / r)
-                             : m.transmittance * ((r + t) / t);
+  const Rgb weight =
+      reflect ? m.reflectance * ((r + t) / r) : m.transmittance * ((r + t) / t);
   const Vec3d wi = SampleDiffuse(m.scattering, random);
   return BsdfSample{(wo.z > 0) == reflect ? wi : FlipZ(wi), weight, false};
 }
@@ -45,13 +45,16 @@ std::optional<BsdfSample> SampleTwoSidedDiffuse(const LocalMaterial& m, Vec3d wo
 
 // Lambert: cos / pi. Uniform: 1 / (2 pi). In-sphere: a ball of radius 1 around the tip of
 // the unit normal touches the surface at the origin; along a direction at angle theta the
-// ray stays in it for a length 2 cos, so the ball holds the volume (2 cos)^3 / 3 per solid
-// angle, out of 4 pi / 3: density 2 cos^3 / pi.
+// ray stays in it for a length 2 cos, so the ball holds the volume (2 cos)^3 / 3 per
+// solid angle, out of 4 pi / 3: density 2 cos^3 / pi.
 double DiffuseDensity(Scattering scattering, double cosine) {
   switch (scattering) {
-    case Scattering::kLambertian: return cosine / kPi;
-    case Scattering::kUniform: return 1 / (2 * kPi);
-    case Scattering::kInSphere: return 2 * cosine * cosine * cosine / kPi;
+    case Scattering::kLambertian:
+      return cosine / kPi;
+    case Scattering::kUniform:
+      return 1 / (2 * kPi);
+    case Scattering::kInSphere:
+      return 2 * cosine * cosine * cosine / kPi;
   }
   LL_CHECK(false);
   return 0;
@@ -61,9 +64,12 @@ Vec3d SampleDiffuse(Scattering scattering, Random& random) {
   const Vec3d up = {0, 0, 1};
   const Vec3d p = SampleBall(random);
   switch (scattering) {
-    case Scattering::kLambertian: return Normalize(up + Normalize(p));  // Shirley's trick
-    case Scattering::kUniform: return Normalize(Vec3d{p.x, p.y, std::abs(p.z)});
-    case Scattering::kInSphere: return Normalize(up + p);
+    case Scattering::kLambertian:
+      return Normalize(up + Normalize(p));  // Shirley's trick
+    case Scattering::kUniform:
+      return Normalize(Vec3d{p.x, p.y, std::abs(p.z)});
+    case Scattering::kInSphere:
+      return Normalize(up + p);
   }
   LL_CHECK(false);
   return up;
@@ -160,11 +166,14 @@ Rgb EvaluateCos(const LocalMaterial& m, Vec3d wo, Vec3d wi, Random& random) {
       return EvaluateConductorCos(m.interface, m.eta, m.k, wo, wi);
     case MaterialKind::kDielectric:
       return kWhite * EvaluateDielectricCos(m.interface, m.index, wo, wi);
-    case MaterialKind::kThinDielectric: return {};
+    case MaterialKind::kThinDielectric:
+      return {};
     case MaterialKind::kCoatedDiffuse:
-    case MaterialKind::kCoatedConductor: return EvaluateCoatCos(m, wo, wi, random);
+    case MaterialKind::kCoatedConductor:
+      return EvaluateCoatCos(m, wo, wi, random);
     case MaterialKind::kMix:
-    case MaterialKind::kInterface: break;
+    case MaterialKind::kInterface:
+      break;
   }
   LL_CHECK(false);
   return {};
@@ -173,16 +182,20 @@ Rgb EvaluateCos(const LocalMaterial& m, Vec3d wo, Vec3d wi, Random& random) {
 std::optional<BsdfSample> SampleBsdf(const LocalMaterial& m, Vec3d wo, Random& random) {
   switch (m.kind) {
     case MaterialKind::kDiffuse:
-    case MaterialKind::kDiffuseTransmission: return SampleTwoSidedDiffuse(m, wo, random);
+    case MaterialKind::kDiffuseTransmission:
+      return SampleTwoSidedDiffuse(m, wo, random);
     case MaterialKind::kConductor:
       return SampleConductor(m.interface, m.eta, m.k, wo, random);
     case MaterialKind::kDielectric:
       return SampleDielectric(m.interface, m.index, wo, random);
-    case MaterialKind::kThinDielectric: return SampleThin(m.index, wo, random);
+    case MaterialKind::kThinDielectric:
+      return SampleThin(m.index, wo, random);
     case MaterialKind::kCoatedDiffuse:
-    case MaterialKind::kCoatedConductor: return SampleCoat(m, wo, random);
+    case MaterialKind::kCoatedConductor:
+      return SampleCoat(m, wo, random);
     case MaterialKind::kMix:
-    case MaterialKind::kInterface: break;
+    case MaterialKind::kInterface:
+      break;
   }
   LL_CHECK(false);
   return std::nullopt;

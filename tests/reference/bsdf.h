@@ -1,7 +1,7 @@
 // Scattering at a surface, in a local frame with the shading normal along +z; `wo` points
-// to where the path came from (the camera), `wi` to where it goes on (the light). Radiance
-// is what is transported: crossing into a medium of relative index eta scales it by
-// 1 / eta^2.
+// to where the path came from (the camera), `wi` to where it goes on (the light).
+// Radiance is what is transported: crossing into a medium of relative index eta scales it
+// by 1 / eta^2.
 //
 // No density is ever needed: the estimators of the reference tracer do not combine
 // strategies, so a sample carries only its weight.
@@ -20,18 +20,18 @@ struct LocalMaterial {
   MaterialKind kind = MaterialKind::kDiffuse;
   Scattering scattering = Scattering::kLambertian;
   Rgb reflectance, transmittance;
-  Rgb eta, k;              // metal, relative to what is above it
-  double index = 1.5;      // dielectric: inside (-z) over outside (+z)
-  Ggx interface;           // of the outer interface
-  Ggx metal;               // of the metal below a coat
-  double thickness = 0;    // coats
+  Rgb eta, k;            // metal, relative to what is above it
+  double index = 1.5;    // dielectric: inside (-z) over outside (+z)
+  Ggx interface;         // of the outer interface
+  Ggx metal;             // of the metal below a coat
+  double thickness = 0;  // coats
   int coat_max_depth = 10;
 };
 
 struct BsdfSample {
   Vec3d wi;
-  Rgb weight;              // f |cos| / density
-  bool specular = false;   // a direction that EvaluateCos knows nothing of
+  Rgb weight;             // f |cos| / density
+  bool specular = false;  // a direction that EvaluateCos knows nothing of
 };
 
 /// An unbiased estimate of f(wo, wi) |wi.z|, without perfectly specular parts.
@@ -47,7 +47,8 @@ std::optional<BsdfSample> SampleDielectric(const Ggx& ggx, double index, Vec3d w
 Rgb EvaluateConductorCos(const Ggx& ggx, Rgb eta, Rgb k, Vec3d wo, Vec3d wi);
 std::optional<BsdfSample> SampleConductor(const Ggx& ggx, Rgb eta, Rgb k, Vec3d wo,
                                           Random& random);
-/// Density, per solid angle, of the scattered direction of a diffuse model at this cosine.
+/// Density, per solid angle, of the scattered direction of a diffuse model at this
+/// cosine.
 double DiffuseDensity(Scattering scattering, double cosine);
 /// Direction in the upper hemisphere with that density.
 Vec3d SampleDiffuse(Scattering scattering, Random& random);

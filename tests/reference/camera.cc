@@ -22,7 +22,8 @@ void SampleDisk(Random& random, double& x, double& y) {
 double SampleFilter(const Filter& filter, double radius, Random& random) {
   const double x = (2 * random.Uniform() - 1) * radius;
   switch (filter.kind) {
-    case FilterKind::kBox: return x;
+    case FilterKind::kBox:
+      return x;
     case FilterKind::kTriangle:  // the sum of two boxes of half the width
       return (x + (2 * random.Uniform() - 1) * radius) / 2;
     case FilterKind::kGaussian: {
@@ -34,14 +35,16 @@ double SampleFilter(const Filter& filter, double radius, Random& random) {
       return SampleFilter(filter, radius, random);
     }
     case FilterKind::kMitchell:
-    case FilterKind::kLanczos: break;
+    case FilterKind::kLanczos:
+      break;
   }
   LL_CHECK(filter.kind <= FilterKind::kGaussian);
   return 0;
 }
 
 // The shorter image axis spans [-1, 1] on a screen, times tan(fov / 2) at depth 1.
-Ray CameraRay(const Camera& camera, const Film& film, double x, double y, Random& random) {
+Ray CameraRay(const Camera& camera, const Film& film, double x, double y,
+              Random& random) {
   const double aspect = camera.frame_aspect > 0
                             ? camera.frame_aspect
                             : static_cast<double>(film.width) / film.height;

@@ -11,14 +11,16 @@
 namespace lanelight::closed_form {
 
 /// Radiance of a convex diffuse body of this albedo under a uniform environment: every
-/// diffuse model turns a fraction `albedo` of the path's weight to a direction that leaves
-/// the body and meets the environment.
+/// diffuse model turns a fraction `albedo` of the path's weight to a direction that
+/// leaves the body and meets the environment.
 inline double Furnace(double albedo, double environment) { return albedo * environment; }
 
 /// Radiance inside a closed room whose walls all emit `emission` and reflect `albedo`
 /// diffusely: L = Le + albedo L everywhere, in every direction. With at most `max_depth`
 /// scattering events the geometric series stops after albedo^max_depth.
-inline double ClosedRoom(double emission, double albedo) { return emission / (1 - albedo); }
+inline double ClosedRoom(double emission, double albedo) {
+  return emission / (1 - albedo);
+}
 inline double ClosedRoom(double emission, double albedo, int max_depth) {
   if (albedo == 1) return emission * (max_depth + 1);
   return emission * (1 - std::pow(albedo, max_depth + 1)) / (1 - albedo);
@@ -28,9 +30,12 @@ inline double ClosedRoom(double emission, double albedo, int max_depth) {
 /// uniform 1 / (2 pi); in-sphere 2 cos^3 / pi.
 inline double ScatteringDensity(Scattering scattering, double cosine) {
   switch (scattering) {
-    case Scattering::kLambertian: return cosine / std::numbers::pi;
-    case Scattering::kUniform: return 0.5 / std::numbers::pi;
-    case Scattering::kInSphere: return 2 * cosine * cosine * cosine / std::numbers::pi;
+    case Scattering::kLambertian:
+      return cosine / std::numbers::pi;
+    case Scattering::kUniform:
+      return 0.5 / std::numbers::pi;
+    case Scattering::kInSphere:
+      return 2 * cosine * cosine * cosine / std::numbers::pi;
   }
   return 0;
 }
@@ -38,18 +43,24 @@ inline double ScatteringDensity(Scattering scattering, double cosine) {
 /// E[cos] of that density, 2 pi int_0^1 density(c) c dc: 2/3, 1/2, 4/5.
 inline double MeanCosine(Scattering scattering) {
   switch (scattering) {
-    case Scattering::kLambertian: return 2.0 / 3;
-    case Scattering::kUniform: return 0.5;
-    case Scattering::kInSphere: return 0.8;
+    case Scattering::kLambertian:
+      return 2.0 / 3;
+    case Scattering::kUniform:
+      return 0.5;
+    case Scattering::kInSphere:
+      return 0.8;
   }
   return 0;
 }
 /// E[cos^2] of that density: 1/2, 1/3, 2/3.
 inline double MeanSquaredCosine(Scattering scattering) {
   switch (scattering) {
-    case Scattering::kLambertian: return 0.5;
-    case Scattering::kUniform: return 1.0 / 3;
-    case Scattering::kInSphere: return 2.0 / 3;
+    case Scattering::kLambertian:
+      return 0.5;
+    case Scattering::kUniform:
+      return 1.0 / 3;
+    case Scattering::kInSphere:
+      return 2.0 / 3;
   }
   return 0;
 }
@@ -59,7 +70,8 @@ inline double MeanSquaredCosine(Scattering scattering) {
 /// direction to the light, times I / r^2. Lambert: albedo/pi I cos / r^2.
 inline double PointLightOnPlane(Scattering scattering, double albedo, double intensity,
                                 double distance, double cosine) {
-  return albedo * ScatteringDensity(scattering, cosine) * intensity / (distance * distance);
+  return albedo * ScatteringDensity(scattering, cosine) * intensity /
+         (distance * distance);
 }
 
 /// Irradiance from a sphere of uniform radiance whose whole disk is above the horizon:
@@ -105,7 +117,8 @@ inline double Fresnel(double cosine, double eta) {
   if (cos_t < 0) return 1;
   const double i = std::acos(std::min(cosine, 1.0)), t = std::acos(std::min(cos_t, 1.0));
   if (i < 1e-7) return (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1));
-  const double s = std::sin(i - t) / std::sin(i + t), p = std::tan(i - t) / std::tan(i + t);
+  const double s = std::sin(i - t) / std::sin(i + t),
+               p = std::tan(i - t) / std::tan(i + t);
   return (s * s + p * p) / 2;
 }
 
@@ -119,8 +132,8 @@ inline double SlabTransmittance(double cosine, double eta) {
   const double r = Fresnel(cosine, eta);
   return (1 - r) / (1 + r);
 }
-/// Radiance seen through or in a slab after exactly k inner reflections: k = 0 the straight
-/// transmission (1-R)^2, transmitted for even k, reflected for odd: (1-R)^2 R^k.
+/// Radiance seen through or in a slab after exactly k inner reflections: k = 0 the
+/// straight transmission (1-R)^2, transmitted for even k, reflected for odd: (1-R)^2 R^k.
 inline double SlabOrder(double cosine, double eta, int k) {
   const double r = Fresnel(cosine, eta);
   return (1 - r) * (1 - r) * std::pow(r, k);
@@ -151,9 +164,9 @@ inline double DiffuseFresnel(double eta) {
 }
 
 /// Radiance of a diffuse layer of this albedo under a smooth clear coat without
-/// absorption, lit by a uniform environment of radiance 1, seen at `cosine`: reflection R,
-/// or entry (1-R), any number of bounces between bottom and coat, exit:
-/// R + (1-R) albedo (1 - R_int) / (1 - albedo R_int).
+/// absorption, lit by a uniform environment of radiance 1, seen at `cosine`: reflection
+/// R, or entry (1-R), any number of bounces between bottom and coat, exit: R + (1-R)
+/// albedo (1 - R_int) / (1 - albedo R_int).
 inline double CoatedFurnace(double albedo, double eta, double cosine) {
   const double inside = 1 - (1 - DiffuseFresnel(eta)) / (eta * eta);
   const double r = Fresnel(cosine, eta);

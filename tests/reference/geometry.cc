@@ -18,7 +18,8 @@ Geometry::Geometry(const SceneDescription& scene, TextureLookup texture)
 
 void Geometry::AddShape(const Shape& shape, const Transform& world_from_group) {
   const bool emits = shape.area_light != kNone;
-  if (!emits && scene_.materials.at(shape.material).kind == MaterialKind::kInterface) return;
+  if (!emits && scene_.materials.at(shape.material).kind == MaterialKind::kInterface)
+    return;
   const Transform world_from_object = world_from_group * shape.world_from_object;
   ++num_shapes_;
   if (shape.kind == ShapeKind::kMesh) return AddTriangles(shape, world_from_object);

@@ -1,6 +1,7 @@
-// Brute-force geometry of the reference tracer: every instance is flattened, triangles are
-// in world space, and spheres, disks and planes are intersected in their own object space
-// (an affine map keeps the ray parameter), so no record or bound of the renderer is used.
+// Brute-force geometry of the reference tracer: every instance is flattened, triangles
+// are in world space, and spheres, disks and planes are intersected in their own object
+// space (an affine map keeps the ray parameter), so no record or bound of the renderer is
+// used.
 #pragma once
 
 #include <array>
@@ -24,22 +25,22 @@ struct Primitive {
   ShapeKind kind = ShapeKind::kMesh;
   Index material = kNone;
   Index area_light = kNone;
-  int shape = 0;                          // which Shape of the scene it is part of
+  int shape = 0;  // which Shape of the scene it is part of
   FloatValue alpha{1, kNone};
-  double normal_sign = 1;                 // -1: ReverseOrientation
+  double normal_sign = 1;  // -1: ReverseOrientation
   // kMesh: one triangle.
   std::array<Vec3d, 3> p;                 // world space
   std::optional<std::array<Vec3d, 3>> n;  // world space, unit, on the outer side
   std::array<std::array<double, 2>, 3> uv = {{{0, 0}, {1, 0}, {1, 1}}};
-  Vec3d face_normal;                      // unit, on the outer side
+  Vec3d face_normal;  // unit, on the outer side
   // kSphere, kDisk, kPlane: in object space.
   Transform world_from_object, object_from_world;
   double radius = 1, inner_radius = 0, height = 0;
 };
 
 struct Ray {
-  Vec3d o, d;           // d is a unit vector
-  int from = kNone;     // primitive the origin lies on: never hit again at the origin
+  Vec3d o, d;        // d is a unit vector
+  int from = kNone;  // primitive the origin lies on: never hit again at the origin
 };
 
 struct Hit {
@@ -51,8 +52,8 @@ struct Hit {
 /// Everything about the surface at a hit.
 struct SurfacePoint {
   Vec3d p;
-  Vec3d ng, ns;    // unit, outer side; ng agrees in side with ns where ns is interpolated
-  Vec3d dpdu;      // not normalised
+  Vec3d ng, ns;  // unit, outer side; ng agrees in side with ns where ns is interpolated
+  Vec3d dpdu;    // not normalised
   double u = 0, v = 0;
 };
 

@@ -86,7 +86,8 @@ SurfacePoint DescribeQuadric(const Primitive& shape, Vec3d o) {
   SurfacePoint out;
   Vec3d normal = {0, 0, 1}, dpdu = {1, 0, 0};
   const double phi = std::atan2(o.y, o.x);
-  const double turns = phi < 0 ? phi / (2 * std::numbers::pi) + 1 : phi / (2 * std::numbers::pi);
+  const double turns =
+      phi < 0 ? phi / (2 * std::numbers::pi) + 1 : phi / (2 * std::numbers::pi);
   if (shape.kind == ShapeKind::kSphere) {
     o = Normalize(o) * shape.radius;
     normal = o / shape.radius;

@@ -134,8 +134,9 @@ std::vector<LightConnection> Lights::DeltaLights(Vec3d p) const {
     if (light.kind == LightKind::kSpot) {
       const Vec3d axis = Normalize(light.to - light.from);
       const double cosine = Dot(axis, Normalize(world.Inverse().Vector(-delta)));
-      irradiance *= SpotFalloff(cosine, std::cos(light.cone_angle * kPi / 180),
-                                std::cos((light.cone_angle - light.cone_delta) * kPi / 180));
+      irradiance *=
+          SpotFalloff(cosine, std::cos(light.cone_angle * kPi / 180),
+                      std::cos((light.cone_angle - light.cone_delta) * kPi / 180));
     }
     if (irradiance == Rgb{}) continue;
     out.push_back({delta / distance, distance, irradiance});
@@ -145,27 +146,31 @@ std::vector<LightConnection> Lights::DeltaLights(Vec3d p) const {
 
 LightConnection Lights::SampleEmitter(const Emitter& emitter, Vec3d p,
                                       Random& random) const {
-  const auto [point, normal] = SamplePoint(geometry_.primitives()[emitter.primitive], random);
+  const auto [point, normal] =
+      SamplePoint(geometry_.primitives()[emitter.primitive], random);
   const Vec3d delta = point - p;
   const double distance = Length(delta);
   LightConnection out = {delta / distance, distance, {}};
   const double cosine = -Dot(normal, out.toward);
   if (!(distance > 0) || (cosine <= 0 && !emitter.two_sided)) return out;
   // domega = cos dA / distance^2.
-  out.radiance = emitter.radiance * (std::abs(cosine) * emitter.area / (distance * distance));
+  out.radiance =
+      emitter.radiance * (std::abs(cosine) * emitter.area / (distance * distance));
   return out;
 }
 
 LightConnection Lights::SampleArea(Vec3d p, Random& random) const {
   const std::size_t count = emitters_.size() + infinite_.size();
   if (count == 0) return {};
-  const auto pick = static_cast<std::size_t>(random.Uniform() * static_cast<double>(count));
+  const auto pick =
+      static_cast<std::size_t>(random.Uniform() * static_cast<double>(count));
   LightConnection out;
   if (pick < emitters_.size()) {
     out = SampleEmitter(emitters_[pick], p, random);
   } else {
     out.toward = UniformOnSphere(random);
-    out.radiance = 4 * kPi * InfiniteRadiance(infinite_[pick - emitters_.size()], out.toward);
+    out.radiance =
+        4 * kPi * InfiniteRadiance(infinite_[pick - emitters_.size()], out.toward);
   }
   out.radiance *= static_cast<double>(count);
   return out;

@@ -50,7 +50,7 @@ class Lights {
   const Geometry& geometry_;
   EnvironmentLookup environment_;
   std::vector<Emitter> emitters_;
-  std::vector<int> emitter_of_;   // per primitive, kNone = dark
+  std::vector<int> emitter_of_;  // per primitive, kNone = dark
   std::vector<Index> infinite_;
 };
 

@@ -32,7 +32,8 @@ struct Lookup {
 };
 
 Rgb Clamp(Rgb c, double low, double high) {
-  return {std::clamp(c.x, low, high), std::clamp(c.y, low, high), std::clamp(c.z, low, high)};
+  return {std::clamp(c.x, low, high), std::clamp(c.y, low, high),
+          std::clamp(c.z, low, high)};
 }
 
 // k of an index 1 + i k with this reflectance r at normal incidence:
@@ -72,7 +73,8 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
   if (m->kind == MaterialKind::kConductor || m->kind == MaterialKind::kCoatedConductor) {
     const bool given = m->has_reflectance;
     out.eta = given ? Rgb{1, 1, 1} : look.Color(m->eta);
-    out.k = given ? AbsorptionFromReflectance(look.Color(m->reflectance)) : look.Color(m->k);
+    out.k =
+        given ? AbsorptionFromReflectance(look.Color(m->reflectance)) : look.Color(m->k);
     if (coat) {  // seen from inside the coat, the index is relative to it
       out.eta = out.eta / m->interface_eta;
       out.k = out.k / m->interface_eta;

@@ -76,7 +76,8 @@ struct Ggx {
   /// P(r < R) = R^2 / (1 + R^2), so r = sqrt(u / (1 - u)).
   Vec3d SampleNormal(Random& random) const {
     const double u = random.Uniform();
-    const double r = std::sqrt(u / (1 - u)), phi = 2 * std::numbers::pi * random.Uniform();
+    const double r = std::sqrt(u / (1 - u)),
+                 phi = 2 * std::numbers::pi * random.Uniform();
     return Normalize(Vec3d{-ax * r * std::cos(phi), -ay * r * std::sin(phi), 1});
   }
 };

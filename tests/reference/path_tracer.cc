@@ -20,8 +20,8 @@ struct Tracer {
   bool samples_lights() const {
     return options.estimator == ReferenceEstimator::kLightSampling;
   }
-  Rgb Connect(const LightConnection& light, const Ray& shadow, const LocalMaterial& material,
-              Vec3d wo, Vec3d wi) const;
+  Rgb Connect(const LightConnection& light, const Ray& shadow,
+              const LocalMaterial& material, Vec3d wo, Vec3d wi) const;
   Rgb Direct(const SurfacePoint& at, int primitive, const LocalMaterial& material,
              const Frame& frame, Vec3d wo) const;
   Rgb Trace(Ray ray) const;
@@ -115,8 +115,8 @@ ReferenceImage RenderReference(const SceneDescription& scene,
       const double fy =
           y + 0.5 + reference::SampleFilter(scene.filter, scene.filter.y_radius, random);
       const reference::Ray ray = reference::CameraRay(scene.camera, film, fx, fy, random);
-      const Rgb value = film.imaging_ratio * ReferenceRadiance(scene, geometry, lights, ray,
-                                                               options, random);
+      const Rgb value = film.imaging_ratio *
+                        ReferenceRadiance(scene, geometry, lights, ray, options, random);
       const Rgb delta = value - mean;
       mean += delta / s;
       squares += delta * (value - mean);

@@ -1,6 +1,6 @@
 // The reference tracer's own random numbers: SplitMix64 seeds xoshiro256** (Blackman and
-// Vigna, "Scrambled linear pseudorandom number generators", ACM TOMS 2021). Shares nothing
-// with the samplers of the kernels.
+// Vigna, "Scrambled linear pseudorandom number generators", ACM TOMS 2021). Shares
+// nothing with the samplers of the kernels.
 #pragma once
 
 #include <array>
@@ -43,7 +43,9 @@ class Random {
   double Uniform() { return (static_cast<double>(Bits() >> 11) + 0.5) * 0x1p-53; }
 
  private:
-  static std::uint64_t Rotate(std::uint64_t x, int k) { return (x << k) | (x >> (64 - k)); }
+  static std::uint64_t Rotate(std::uint64_t x, int k) {
+    return (x << k) | (x >> (64 - k));
+  }
   std::array<std::uint64_t, 4> s_;
 };
 

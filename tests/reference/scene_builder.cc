@@ -161,7 +161,8 @@ void SceneBuilder::AddPoint(Vec3d from, Rgb intensity) {
   scene_.lights.push_back(light);
 }
 
-void SceneBuilder::AddSpot(Vec3d from, Vec3d to, Rgb intensity, double cone, double delta) {
+void SceneBuilder::AddSpot(Vec3d from, Vec3d to, Rgb intensity, double cone,
+                           double delta) {
   AddPoint(from, intensity);
   scene_.lights.back().kind = LightKind::kSpot;
   scene_.lights.back().to = to;

@@ -73,7 +73,8 @@ SceneDescription PolygonLight(int size) {
   SceneBuilder b = PlaneFromAbove(size, 1, Scattering::kLambertian);
   const std::vector<Vec3d> c = PolygonCorners();
   // Cross(c1 - c0, c3 - c0) points down.
-  b.AddQuad(c[0], c[1] - c[0], c[3] - c[0], b.AddDiffuse(Grey(0)), b.AddEmission(Grey(3)));
+  b.AddQuad(c[0], c[1] - c[0], c[3] - c[0], b.AddDiffuse(Grey(0)),
+            b.AddEmission(Grey(3)));
   return b.Build();
 }
 
@@ -93,11 +94,12 @@ SceneDescription GlassSlab(int max_depth) {
   return b.Build();
 }
 
-SceneDescription SmallRoom(int size, int max_depth) {
+SceneDescription SmallRoom(int size, int max_depth, double h) {
   SceneBuilder b(size, size);
   b.Depth(max_depth).Perspective({0, 1, 4.4}, {0, 1, 0}, {0, 1, 0}, 36);
   const Index white = b.AddDiffuse({0.7, 0.68, 0.65});
-  const Index red = b.AddDiffuse({0.6, 0.08, 0.06}), green = b.AddDiffuse({0.1, 0.5, 0.1});
+  const Index red = b.AddDiffuse({0.6, 0.08, 0.06}),
+              green = b.AddDiffuse({0.1, 0.5, 0.1});
   b.AddQuad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, white);
   b.AddQuad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, white);
   b.AddQuad({-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, white);
@@ -105,7 +107,8 @@ SceneDescription SmallRoom(int size, int max_depth) {
   b.AddQuad({1, 0, -1}, {0, 0, 2}, {0, 2, 0}, green);
   b.AddBox({-0.7, 0, -0.6}, {-0.1, 1.1, 0}, white);
   b.AddSphere({0.4, 0.4, 0.3}, 0.4, b.AddConductor({0.2, 0.9, 1.1}, {3.9, 2.5, 2.2}));
-  b.AddQuad({-0.4, 1.98, -0.4}, {0.8, 0, 0}, {0, 0, 0.8}, white, b.AddEmission({17, 12, 6}));
+  const Rgb radiance = Rgb{17, 12, 6} * (0.16 / (h * h));
+  b.AddQuad({-h, 1.98, -h}, {2 * h, 0, 0}, {0, 0, 2 * h}, white, b.AddEmission(radiance));
   return b.Build();
 }
 
@@ -124,7 +127,8 @@ SceneDescription Plate(const Material& material, int size, int max_depth) {
 
 std::vector<Material> MaterialZoo() {
   std::vector<Material> zoo;
-  for (Scattering s : {Scattering::kLambertian, Scattering::kUniform, Scattering::kInSphere}) {
+  for (Scattering s :
+       {Scattering::kLambertian, Scattering::kUniform, Scattering::kInSphere}) {
     const char* names[] = {"lambertian", "uniform", "insphere"};
     zoo.push_back(Make(MaterialKind::kDiffuse, names[static_cast<int>(s)]));
     zoo.back().scattering = s;

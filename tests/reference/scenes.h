@@ -66,8 +66,8 @@ SceneDescription ClosedRoom(double albedo, int max_depth,
 /// The same with a box of 12 triangles.
 SceneDescription ClosedBox(double albedo, int max_depth);
 
-/// A plane z = 0 of albedo 0.5, a point light of intensity (1, 2, 3) at height 2 above the
-/// middle; orthographic view of [-2, 2]^2 from above. Film position to plane point:
+/// A plane z = 0 of albedo 0.5, a point light of intensity (1, 2, 3) at height 2 above
+/// the middle; orthographic view of [-2, 2]^2 from above. Film position to plane point:
 /// FilmPoint. Closed form: closed_form::PointLightOnPlane.
 SceneDescription PointOverPlane(Scattering scattering, int size = 16);
 /// The same plane under a sphere light of radius 0.5 and radiance 3 at (0.5, 0, 2), which
@@ -76,7 +76,8 @@ SceneDescription SphereLight(int size = 16);
 /// The same plane under the quad light PolygonCorners() of radiance 3.
 SceneDescription PolygonLight(int size = 16);
 std::vector<Vec3d> PolygonCorners();
-/// World point on z = 0 seen at film position (x, y) of a size x size image of these three.
+/// World point on z = 0 seen at film position (x, y) of a size x size image of these
+/// three.
 Vec3d FilmPoint(double x, double y, int size);
 
 /// A slab -0.25 <= z <= 0 of glass 1.5, one parallel beam of camera rays at 45 degrees,
@@ -84,8 +85,9 @@ Vec3d FilmPoint(double x, double y, int size);
 /// transmitted), given depth.
 SceneDescription GlassSlab(int max_depth);
 
-/// A small room with one quad light, a diffuse box, and a mirror or glass ball.
-SceneDescription SmallRoom(int size = 16, int max_depth = 4);
+/// A small room with one square light of this half width, a diffuse box and a metal ball.
+SceneDescription SmallRoom(int size = 16, int max_depth = 4,
+                           double light_half_width = 0.4);
 /// Plates of a material under a small and a large light, for estimator agreement.
 SceneDescription Plate(const Material& material, int size = 8, int max_depth = 3);
 

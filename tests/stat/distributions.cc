@@ -86,8 +86,8 @@ double BetaI(double a, double b, double x) {
     num = i % 2 == 0 ? m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m))
                      : -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
   });
-  const double prefix = std::exp(a * std::log(x) + b * std::log1p(-x) + std::lgamma(a + b) -
-                                 std::lgamma(a) - std::lgamma(b));
+  const double prefix = std::exp(a * std::log(x) + b * std::log1p(-x) +
+                                 std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b));
   return prefix / (a * f);
 }
 
@@ -113,7 +113,8 @@ double StudentTwoSided(double t, double nu) {
   LL_CHECK(nu > 0);
   if (std::isinf(t)) return 0;
   if (nu > 1e5) {  // the logarithms of BetaI would cancel
-    return 2 * NormalCdf(-std::abs(t) * (1 - 1 / (4 * nu)) / std::sqrt(1 + t * t / (2 * nu)));
+    return 2 *
+           NormalCdf(-std::abs(t) * (1 - 1 / (4 * nu)) / std::sqrt(1 + t * t / (2 * nu)));
   }
   // With x = nu / (nu + t^2): I_x(nu/2, 1/2). Written with 1 - x where t is small.
   const double t2 = t * t;

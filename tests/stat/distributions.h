@@ -20,8 +20,8 @@ double NormalCdf(double z);
 double NormalQuantile(double p);
 
 /// P(|T| >= |t|) of Student's t with nu > 0 degrees of freedom (need not be whole).
-/// Beyond 1e5 degrees by the normal approximation of Abramowitz and Stegun 26.7.8, with an
-/// error of order (t / nu)^2.
+/// Beyond 1e5 degrees by the normal approximation of Abramowitz and Stegun 26.7.8, with
+/// an error of order (t / nu)^2.
 double StudentTwoSided(double t, double nu);
 /// P(T <= t).
 double StudentCdf(double t, double nu);

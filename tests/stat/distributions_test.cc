@@ -12,7 +12,8 @@ TEST_CASE("the incomplete gamma function of whole a is a Poisson sum", "[stat]")
     for (double x : {0.01, 0.5, 2.0, 30.0, 41.0, 120.0, 450.0}) {
       // Q(a, x) = e^-x sum_{k<a} x^k / k!
       double sum = 0;
-      for (int k = 0; k < a; ++k) sum += std::exp(k * std::log(x) - x - std::lgamma(k + 1));
+      for (int k = 0; k < a; ++k)
+        sum += std::exp(k * std::log(x) - x - std::lgamma(k + 1));
       INFO("a = " << a << ", x = " << x);
       CHECK(GammaQ(a, x) == Approx(sum).epsilon(2e-12).margin(1e-300));
       CHECK(GammaP(a, x) + GammaQ(a, x) == Approx(1).epsilon(1e-14));
@@ -34,8 +35,9 @@ TEST_CASE("the incomplete beta function of whole a, b is a binomial sum", "[stat
         const int n = a + b - 1;
         double sum = 0;
         for (int k = a; k <= n; ++k) {
-          sum += std::exp(std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1) +
-                          k * std::log(x) + (n - k) * std::log1p(-x));
+          sum +=
+              std::exp(std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1) +
+                       k * std::log(x) + (n - k) * std::log1p(-x));
         }
         INFO("a = " << a << ", b = " << b << ", x = " << x);
         CHECK(BetaI(a, b, x) == Approx(sum).epsilon(1e-11).margin(1e-300));
@@ -63,14 +65,16 @@ TEST_CASE("Student's t has its closed forms for one and two degrees", "[stat]") 
   CHECK(StudentTwoSided(2.5, 7.3) == StudentTwoSided(-2.5, 7.3));
   CHECK(StudentCdf(-2.5, 7.3) + StudentCdf(2.5, 7.3) == Approx(1));
   for (double p : {0.9, 0.05, 1e-8}) {
-    CHECK(StudentTwoSided(StudentTwoSidedQuantile(p, 4.5), 4.5) == Approx(p).epsilon(1e-9));
+    CHECK(StudentTwoSided(StudentTwoSidedQuantile(p, 4.5), 4.5) ==
+          Approx(p).epsilon(1e-9));
   }
 }
 
 TEST_CASE("chi-square survival has its closed forms for two and four degrees", "[stat]") {
   for (double x : {0.1, 1.0, 10.0, 200.0}) {
     CHECK(ChiSquareSurvival(x, 2) == Approx(std::exp(-x / 2)).epsilon(1e-12));
-    CHECK(ChiSquareSurvival(x, 4) == Approx(std::exp(-x / 2) * (1 + x / 2)).epsilon(1e-12));
+    CHECK(ChiSquareSurvival(x, 4) ==
+          Approx(std::exp(-x / 2) * (1 + x / 2)).epsilon(1e-12));
   }
   CHECK(ChiSquareSurvival(-1, 3) == 1);
 }

@@ -11,7 +11,8 @@ namespace {
 
 // (sum V_i)^2 / sum(V_i^2 / dof_i), with the denominator given.
 double Satterthwaite(double variance, double sum_of_squares_over_dof) {
-  return sum_of_squares_over_dof > 0 ? variance * variance / sum_of_squares_over_dof : 1e9;
+  return sum_of_squares_over_dof > 0 ? variance * variance / sum_of_squares_over_dof
+                                     : 1e9;
 }
 
 }  // namespace
@@ -39,7 +40,8 @@ double WelchPValue(const MeanEstimate& a, const MeanEstimate& b, double toleranc
   if (variance == 0) return 0;
   const double quartic = (a.variance > 0 ? a.variance * a.variance / a.dof : 0) +
                          (b.variance > 0 ? b.variance * b.variance / b.dof : 0);
-  return StudentTwoSided(difference / std::sqrt(variance), Satterthwaite(variance, quartic));
+  return StudentTwoSided(difference / std::sqrt(variance),
+                         Satterthwaite(variance, quartic));
 }
 
 double SidakLevel(double family, int n) {

@@ -1,4 +1,5 @@
-// The tests are tested: false-alarm rates by simulation, planted biases that must be found.
+// The tests are tested: false-alarm rates by simulation, planted biases that must be
+// found.
 #include "tests/stat/hypothesis.h"
 
 #include <catch2/catch.hpp>
@@ -124,9 +125,9 @@ TEST_CASE("the stated detectable bias is detected with probability 0.95", "[stat
   Random random(7);
   int found = 0;
   const int trials = 200;
-  const double bias =
-      CompareMeans(SimulateImage(random, 1, 8, 128), SimulateImage(random, 1, 8, 128), {4, 1e-3})
-          .detectable_bias;
+  const double bias = CompareMeans(SimulateImage(random, 1, 8, 128),
+                                   SimulateImage(random, 1, 8, 128), {4, 1e-3})
+                          .detectable_bias;
   for (int i = 0; i < trials; ++i) {
     const ImageEstimate a = SimulateImage(random, 1, 8, 128);
     const ImageEstimate b = SimulateImage(random, 1 + bias, 8, 128);

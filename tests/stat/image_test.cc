@@ -89,8 +89,8 @@ ImageTestResult CompareMeans(const ImageEstimate& a, const ImageEstimate& b,
       if (p >= result.smallest_p) continue;
       result.smallest_p = p;
       result.worst = fmt::format(
-          "[{},{})x[{},{}) channel {}: {:.6g} vs {:.6g}, standard error {:.3g}", rects[i].x0,
-          rects[i].x1, rects[i].y0, rects[i].y1, c, ma.mean, mb.mean,
+          "[{},{})x[{},{}) channel {}: {:.6g} vs {:.6g}, standard error {:.3g}",
+          rects[i].x0, rects[i].x1, rects[i].y0, rects[i].y1, c, ma.mean, mb.mean,
           std::sqrt(ma.variance + mb.variance));
     }
   }

@@ -24,18 +24,18 @@ struct ImageEstimate {
 ImageEstimate KnownImage(int width, int height, const std::function<Rgb(int, int)>& f);
 
 struct ImageTestOptions {
-  int tile = 4;                    // pixels per side; the last tiles may be smaller
-  double false_alarm = 1e-6;       // probability, for the whole comparison
-  double relative_tolerance = 0;   // of the larger of the two means
+  int tile = 4;                   // pixels per side; the last tiles may be smaller
+  double false_alarm = 1e-6;      // probability, for the whole comparison
+  double relative_tolerance = 0;  // of the larger of the two means
   double absolute_tolerance = 0;
 };
 
 struct ImageTestResult {
   bool same = false;
-  int tests = 0;                   // tiles * 3 + 3
-  double level = 0;                // per test
+  int tests = 0;     // tiles * 3 + 3
+  double level = 0;  // per test
   double smallest_p = 1;
-  std::string worst;               // where, and what was seen there
+  std::string worst;  // where, and what was seen there
   /// p-value of the KS test that the tile p-values (green) are uniform; 1 if there are
   /// fewer than 8 noisy tiles. Not part of `same`.
   double uniformity_p = 1;
