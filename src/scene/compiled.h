@@ -155,8 +155,10 @@ struct MaterialTable {
   AlignedVector<float> alpha_x, alpha_y;    // GGX alpha of the (outer) interface
   AlignedVector<float> alpha2_x, alpha2_y;  // of the metal below a coat
   AlignedVector<float> eta;                 // relative index of the dielectric
-  AlignedVector<std::int32_t> coat;    // offset of its table in coat_transmittance, -1
-  AlignedVector<float> coat_internal;  // mean internal reflectance under the coat
+  AlignedVector<std::int32_t> coat;         // offset of its table in coat_transmittance, -1
+  AlignedVector<float> coat_internal;       // mean internal reflectance under the coat
+  AlignedVector<float> coat_thickness;      // of a coat: the medium absorbs exp(-t / cos)
+  AlignedVector<std::uint32_t> coat_depth;  // layer crossings at most (pbrt's maxdepth)
   AlignedVector<std::int32_t> color0_texture, color1_texture;
   AlignedVector<std::int32_t> alpha_x_texture, alpha_y_texture;
   AlignedVector<std::uint32_t> alpha_remap;  // 1: textured roughness goes through sqrt
