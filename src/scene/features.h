@@ -19,6 +19,7 @@ namespace lanelight {
   X(kTangents, "tangent frames (an anisotropic material)")                    \
   X(kTextures, "textured material parameters")                                \
   X(kTexturedRoughness, "textured roughness")                                 \
+  X(kTexturedColor1, "a textured second colour parameter")                    \
   X(kColor1, "a second colour parameter (conductor k, transmittance)")        \
   X(kAlpha, "alpha cut-outs")                                                 \
   X(kMix, "mix materials")                                                    \

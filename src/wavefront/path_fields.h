@@ -49,6 +49,7 @@ namespace lanelight {
   X(u32, material, ({Feature::kScatters, Feature::kAov}), "material index")               \
   /* textured material parameters */                                                      \
   X(f32, color0_r, ({Feature::kTextures}), "first colour parameter") X(f32, color0_g, ({Feature::kTextures}), "first colour parameter") X(f32, color0_b, ({Feature::kTextures}), "first colour parameter") \
+  X(f32, color1_r, ({Feature::kTexturedColor1}), "second colour parameter") X(f32, color1_g, ({Feature::kTexturedColor1}), "second colour parameter") X(f32, color1_b, ({Feature::kTexturedColor1}), "second colour parameter") \
   X(f32, alpha_x, ({Feature::kTexturedRoughness}), "GGX alpha along the tangent") X(f32, alpha_y, ({Feature::kTexturedRoughness}), "GGX alpha across it") \
   /* sample points of the bounce */                                                       \
   X(f32, u_lobe,   ({Feature::kScatters}), "choice of lobe")                              \
@@ -127,6 +128,7 @@ inline const FieldSet kNormal = {Field::ng_x, Field::ng_y, Field::ng_z,
 inline const FieldSet kTangent = {Field::tg_x, Field::tg_y, Field::tg_z};
 inline const FieldSet kUv = {Field::uv_u, Field::uv_v};
 inline const FieldSet kParameters = {Field::color0_r, Field::color0_g, Field::color0_b,
+                                     Field::color1_r, Field::color1_g, Field::color1_b,
                                      Field::alpha_x, Field::alpha_y};
 inline const FieldSet kBouncePoints = {
     Field::u_lobe,    Field::u_bsdf_0,  Field::u_bsdf_1,  Field::u_select,
