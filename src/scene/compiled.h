@@ -237,6 +237,7 @@ struct CompiledScene {
   Film film;
   Sampler sampler;
   Integrator integrator;
+  std::vector<Note> notes;  // what compiling left out, such as degenerate triangles
 };
 
 }  // namespace lanelight
