@@ -260,6 +260,7 @@ struct CompiledScene {
   Film film;
   Sampler sampler;
   Integrator integrator;
+  std::vector<Note> notes;  // what compiling left out, such as degenerate triangles
 };
 
 }  // namespace lanelight
