@@ -5,7 +5,6 @@
 #include <numbers>
 #include <vector>
 
-#include "src/core/alias_table.h"
 #include "src/core/error.h"
 #include "src/image/octahedral.h"
 #include "src/scene/texture_table.h"
@@ -93,20 +92,40 @@ void StoreRotation(const Light& light, Environment& environment) {
   }
 }
 
+// Running sums of `weights`, normalised, as `size + 1` floats that start at 0 and end at 1.
+// Without any weight the distribution is uniform.
+void StoreCdf(const double* weights, std::size_t size, float* cdf) {
+  double total = 0;
+  for (std::size_t i = 0; i < size; ++i) total += weights[i];
+  double sum = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    cdf[i] = static_cast<float>(total > 0 ? sum / total : double(i) / double(size));
+    sum += weights[i];
+  }
+  cdf[size] = 1;
+}
+
+// The probabilities are those of the rounded sums, which is what the kernel samples.
 void StoreDistribution(Environment& environment) {
-  std::vector<double> luminance(environment.rgb.size() / 3);
+  const auto size = static_cast<std::size_t>(environment.size);
+  std::vector<double> luminance(size * size), rows(size);
   for (std::size_t i = 0; i < luminance.size(); ++i) {
     luminance[i] = TexelLuminance(environment.rgb, i);
+    rows[i / size] += luminance[i];
   }
-  const double brightest = *std::max_element(luminance.begin(), luminance.end());
-  if (!(brightest > 0)) return;
-  // Texels that emit at all keep a probability that a float can hold: 1e-30 of the
-  // brightest adds no error that could be seen.
-  for (double& l : luminance) l = l > 0 ? std::max(l, brightest * 1e-30) : 0;
-  AliasTable table = BuildAliasTable(luminance);
-  environment.alias_q = std::move(table.q);
-  environment.alias = std::move(table.alias);
-  environment.probability = std::move(table.probability);
+  environment.row_cdf.resize(size + 1);
+  environment.column_cdf.resize((size + 1) * size);
+  environment.probability.resize(size * size);
+  StoreCdf(rows.data(), size, environment.row_cdf.data());
+  for (std::size_t y = 0; y < size; ++y) {
+    float* columns = environment.column_cdf.data() + y * (size + 1);
+    StoreCdf(luminance.data() + y * size, size, columns);
+    const double row = double(environment.row_cdf[y + 1]) - double(environment.row_cdf[y]);
+    for (std::size_t x = 0; x < size; ++x) {
+      const double column = double(columns[x + 1]) - double(columns[x]);
+      environment.probability[y * size + x] = static_cast<float>(row * column);
+    }
+  }
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
     features.Add(Feature::kTextures);
     features.Add(Feature::kUv);
   }
+  if (m.color1_texture[i] >= 0) features.Add(Feature::kTexturedColor1);
   // A mix weight is looked up by the mix stage itself.
   if (kind == ShadeKind::kMix && m.alpha_x_texture[i] >= 0) features.Add(Feature::kUv);
 }
@@ -123,13 +124,13 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
   if (!g.instances.empty()) features.Add(Feature::kInstances);
   if (!g.normals.empty()) features.Add(Feature::kVertexNormals);
   AddLights(scene.lights, features);
-  if (scene.integrator.max_depth > 0) features.Add(Feature::kScatters);
-  if (scene.integrator.max_depth > 1) features.Add(Feature::kRoulette);
   if (features.HasAny({Feature::kAreaLights, Feature::kInfiniteLights}) &&
-      features.Has(Feature::kScatters) && HasNonSpecular(scene.materials)) {
+      HasNonSpecular(scene.materials)) {
     features.Add(Feature::kMis);
   }
   if (scene.camera.lens_radius > 0) features.Add(Feature::kLens);
+  if (scene.camera.kind == CameraKind::kOrthographic) features.Add(Feature::kOrthographic);
+  if (!scene.filter.is_box) features.Add(Feature::kFiltered);
   if (HasNegative(scene.filter.x_sign) || HasNegative(scene.filter.y_sign)) {
     features.Add(Feature::kSignedFilter);
   }

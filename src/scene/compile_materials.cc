@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "src/core/check.h"
@@ -27,12 +28,14 @@ struct Row {
   FloatValue alpha_x, alpha_y;
   double alpha2_x = 0, alpha2_y = 0, eta = 1;
   std::int32_t coat = -1;  // index of the coat, not yet an offset
+  double coat_thickness = 0;
+  std::uint32_t coat_depth = 0;
   bool remap = false;
   std::int32_t mix[2] = {-1, -1};
   std::string name;
 };
 
-using Coat = std::pair<double, double>;  // alpha, eta
+using Coat = std::tuple<double, double, double>;  // alpha, eta, thickness
 
 class Builder {
  public:
@@ -159,7 +162,9 @@ void Builder::CoatOf(const Material& m, Row& row) {
                            : std::sqrt(std::max(row.alpha_x.constant, kMinAlpha) *
                                        std::max(row.alpha_y.constant, kMinAlpha));
   const auto next = static_cast<std::int32_t>(coats_.size());
-  row.coat = coats_.try_emplace({alpha, m.interface_eta}, next).first->second;
+  row.coat = coats_.try_emplace({alpha, m.interface_eta, m.thickness}, next).first->second;
+  row.coat_thickness = m.thickness;
+  row.coat_depth = static_cast<std::uint32_t>(m.coat_max_depth);
 }
 
 Row Builder::MakeRow(const Material& m) {
@@ -286,6 +291,8 @@ void AddRow(const Row& row, CompiledMaterials& out) {
   add(t.eta, row.eta);
   t.coat.push_back(row.coat < 0 ? -1 : row.coat * kCoatTableSize);
   t.coat_internal.push_back(0);
+  add(t.coat_thickness, row.coat_thickness);
+  t.coat_depth.push_back(row.coat_depth);
   t.color0_texture.push_back(row.color0.texture);
   t.color1_texture.push_back(row.color1.texture);
   t.alpha_x_texture.push_back(row.alpha_x.texture);
@@ -306,7 +313,7 @@ void AddCoats(const std::map<Coat, std::int32_t>& coats, MaterialTable& table) {
   for (const auto& [coat, at] : coats) list[static_cast<std::size_t>(at)] = coat;
   std::vector<CoatTable> tables(list.size());
   ParallelFor(list.size(), [&](std::size_t i) {
-    tables[i] = ComputeCoatTable(list[i].first, list[i].second);
+    tables[i] = std::apply(ComputeCoatTable, list[i]);
   });
   for (const CoatTable& t : tables) {
     table.coat_transmittance.insert(table.coat_transmittance.end(),
@@ -316,7 +323,7 @@ void AddCoats(const std::map<Coat, std::int32_t>& coats, MaterialTable& table) {
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (table.coat[i] < 0) continue;
     const auto at = static_cast<std::size_t>(table.coat[i] / kCoatTableSize);
-    table.coat_internal[i] = tables[at].internal_reflectance;
+    table.coat_internal[i] = tables[at].internal;
   }
 }
 

@@ -23,6 +23,8 @@ std::vector<Stage> RegisteredStages() {
 // What the scene has, as changed by the options of this render.
 FeatureSet FeaturesOf(const CompiledScene& scene, const PlanOptions& options) {
   FeatureSet f = scene.features;
+  f.Remove(Feature::kScatters);
+  f.Remove(Feature::kRoulette);
   if (options.max_depth > 0) f.Add(Feature::kScatters);
   if (options.max_depth > 1) f.Add(Feature::kRoulette);
   if (options.max_depth == 0) {
