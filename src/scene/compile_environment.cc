@@ -113,6 +113,7 @@ void StoreDistribution(Environment& environment) {
     luminance[i] = TexelLuminance(environment.rgb, i);
     rows[i / size] += luminance[i];
   }
+  if (std::all_of(rows.begin(), rows.end(), [](double l) { return !(l > 0); })) return;
   environment.row_cdf.resize(size + 1);
   environment.column_cdf.resize((size + 1) * size);
   environment.probability.resize(size * size);
