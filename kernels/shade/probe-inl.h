@@ -39,7 +39,7 @@ void ProbeSample(const BsdfBatch& batch) {
   const DF df;
   const MaterialSource source = TableSource(*batch.materials);
   for (std::uint32_t i = 0; i < batch.n; i += hn::Lanes(df)) {
-    typename Bsdf::Params material = Bsdf::Load(ProbeInputs(source, batch, i));
+    const typename Bsdf::Params material = Bsdf::Load(ProbeInputs(source, batch, i));
     const V3 u = Load3(batch.u, i);
     const BsdfSample s = Bsdf::Sample(material, Load3(batch.wo, i), {u.x, u.y, u.z});
     Store3(s.wi, batch.wi, i);
@@ -54,7 +54,7 @@ void ProbeEval(const BsdfBatch& batch) {
   const DF df;
   const MaterialSource source = TableSource(*batch.materials);
   for (std::uint32_t i = 0; i < batch.n; i += hn::Lanes(df)) {
-    typename Bsdf::Params material = Bsdf::Load(ProbeInputs(source, batch, i));
+    const typename Bsdf::Params material = Bsdf::Load(ProbeInputs(source, batch, i));
     const BsdfValue v = Bsdf::Eval(material, Load3(batch.wo, i), Load3(batch.wi, i));
     Store3(v.f_cos, batch.value, i);
     hn::StoreU(v.pdf, df, batch.pdf + i);

@@ -103,8 +103,8 @@ struct Shader {
   }
 
   /// Next-event estimation: what the sampled light would add if nothing is in between.
-  HWY_INLINE void SampleLight(typename Bsdf::Params& material, const Frame& frame, V3 wo,
-                              V3 beta, VI slots, MF valid) {
+  HWY_INLINE void SampleLight(const typename Bsdf::Params& material, const Frame& frame,
+                              V3 wo, V3 beta, VI slots, MF valid) {
     const PathColumns& path = wave.path;
     const V3 light = Gather3(path.ls_r, path.ls_g, path.ls_b, slots);
     const V3 wi = frame.ToLocal(Gather3(path.ls_x, path.ls_y, path.ls_z, slots));
@@ -118,8 +118,8 @@ struct Shader {
   }
 
   /// Scatters the path: new ray, throughput and density; returns the paths that go on.
-  HWY_INLINE MF Bounce(typename Bsdf::Params& material, const Frame& frame, V3 wo, V3 ng,
-                       V3 beta, VI slots) {
+  HWY_INLINE MF Bounce(const typename Bsdf::Params& material, const Frame& frame, V3 wo,
+                       V3 ng, V3 beta, VI slots) {
     const PathColumns& path = wave.path;
     const BsdfPoints u = {Gather(path.u_lobe, slots), Gather(path.u_bsdf_0, slots),
                           Gather(path.u_bsdf_1, slots)};
@@ -153,7 +153,7 @@ struct Shader {
     const Frame frame = ShadingFrame(ng, slots);
     const V3 wo = frame.ToLocal(-Gather3(path.d_x, path.d_y, path.d_z, slots));
     const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
-    typename Bsdf::Params material = Bsdf::Load(Inputs(slots));
+    const typename Bsdf::Params material = Bsdf::Load(Inputs(slots));
     if constexpr (kLighting != Lighting::kNone && !Bsdf::kSpecular) {
       SampleLight(material, frame, wo, beta, slots, valid);
     }

@@ -116,7 +116,7 @@ CoatTable ComputeCoatTable(double alpha, double eta, double thickness) {
     const double mu = (i + 0.5) / nodes;
     sum += 2 * mu * Crossing(thickness, mu) * At(inside, mu, 32, 24).reflected;
   }
-  table.internal = static_cast<float>(sum / nodes);
+  table.internal_reflectance = static_cast<float>(sum / nodes);
   return table;
 }
 

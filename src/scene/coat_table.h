@@ -14,7 +14,7 @@ struct CoatTable {
   std::array<float, kCoatTableSize> transmittance{};
   /// Fraction of the light leaving the base (cosine-distributed) that the interface sends
   /// back to the base.
-  float internal = 0;
+  float internal_reflectance = 0;
 };
 
 /// Fluxes of a GGX interface of roughness `alpha` (below 1e-3: smooth; anisotropic
