@@ -3,12 +3,14 @@
 // a stage, and probe-inl.h into batch entries for tests.
 //
 //   struct XBsdf {
-//     static constexpr bool kSpecular;     only delta directions: no Eval, no light
-//     samples static constexpr bool kAnisotropic;  the tangent matters static constexpr
-//     bool kRefracts;     Sample fills eta_scale static constexpr bool kStochastic; Load
-//     fills Params::random struct Params; static Params Load(const MaterialInputs&);
-//     static BsdfValue Eval(const Params&, V3 wo, V3 wi);
-//     static BsdfSample Sample(const Params&, V3 wo, const BsdfPoints&);
+//     static constexpr bool kSpecular;     // only delta directions: no Eval, no light samples
+//     static constexpr bool kAnisotropic;  // the tangent matters
+//     static constexpr bool kRefracts;     // Sample fills eta_scale
+//     static constexpr bool kStochastic;   // Load fills Params::random
+//     struct Params;
+//     static Params Load(const MaterialInputs&);
+//     static BsdfValue Eval(Params&, V3 wo, V3 wi);
+//     static BsdfSample Sample(Params&, V3 wo, const BsdfPoints&);
 //   };
 // wo and wi are unit and point away from the surface; wo.z is never 0.
 #if defined(LANELIGHT_SHADE_BSDF_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -12,7 +12,7 @@ inline Stage MakeShadeStage(const char* name, const char* meaning, ShadeKind kin
   const FieldSet points = {Field::u_lobe, Field::u_bsdf_0, Field::u_bsdf_1};
   const FieldSet identity = {Field::pixel, Field::sample, Field::depth, Field::material};
   const FieldSet direction = {Field::d_x, Field::d_y, Field::d_z};
-  const FieldSet history = {Field::bsdf_pdf, Field::eta_scale, Field::depth};
+  const FieldSet history = {Field::bsdf_pdf, Field::eta_scale, Field::depth, Field::t};
   return {name,
           meaning,
           ShadeQueue(kind),
