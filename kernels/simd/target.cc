@@ -77,6 +77,11 @@ int CurrentLanes() {
   return HWY_DYNAMIC_DISPATCH(LanesOfTarget)();
 }
 
+std::string HighwayVersion() {
+  return std::to_string(HWY_MAJOR) + "." + std::to_string(HWY_MINOR) + "." +
+         std::to_string(HWY_PATCH);
+}
+
 }  // namespace lanelight
 
 #endif  // HWY_ONCE

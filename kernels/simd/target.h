@@ -19,4 +19,7 @@ std::string CurrentTarget();
 /// 4-byte lanes of a full vector on that target.
 int CurrentLanes();
 
+/// Version of the Highway headers, e.g. "1.0.3".
+std::string HighwayVersion();
+
 }  // namespace lanelight

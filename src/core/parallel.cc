@@ -5,6 +5,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/version.h>
 
 #include <thread>
 
@@ -42,5 +43,7 @@ void ParallelForRange(std::size_t n, std::size_t grain,
 void ParallelInvoke(const std::function<void()>& a, const std::function<void()>& b) {
   tbb::parallel_invoke(a, b);
 }
+
+std::string TbbVersion() { return TBB_runtime_version(); }
 
 }  // namespace lanelight

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace lanelight {
 
@@ -36,5 +37,8 @@ void ParallelForRange(std::size_t n, std::size_t grain,
 
 /// Runs both, in parallel if a thread is free.
 void ParallelInvoke(const std::function<void()>& a, const std::function<void()>& b);
+
+/// Version of the oneTBB library at run time, e.g. "2021.8".
+std::string TbbVersion();
 
 }  // namespace lanelight

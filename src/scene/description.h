@@ -55,7 +55,7 @@ struct Texture {
   Encoding encoding = Encoding::kSrgb;  // of 8-bit files
   double gamma = 2.2;                   // for Encoding::kGamma
   double scale = 1;
-  bool invert = false;        // 1 - value, after decoding, before scale (as pbrt)
+  bool invert = false;        // 1 - scale * value, negative results cut at 0 (as pbrt)
   bool bilinear = true;       // false: nearest
 };
 

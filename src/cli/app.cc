@@ -1,0 +1,146 @@
+#include "src/cli/app.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <numeric>
+
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
+#include "src/core/check.h"
+#include "src/core/error.h"
+
+namespace lanelight {
+namespace {
+
+constexpr const char* kDescription =
+    "Lanelight renders pbrt-v4 scenes with a SIMD wavefront path tracer and says how "
+    "far\n"
+    "the image is from the converged one.";
+constexpr const char* kFooter =
+    "\nExamples:\n"
+    "  lanelight render scenes/cornell-box.pbrt -o box.exr --png --spp 256\n"
+    "  lanelight plan scenes/glass.pbrt\n"
+    "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
+    "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
+    "samples, 4 compare: over the limit.";
+
+int EditDistance(const std::string& a, const std::string& b) {
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i) + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const int replaced = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::vector<std::string> SubcommandNames(const CLI::App& root) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : root.get_subcommands(nullptr)) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+// CLI11 treats an unknown first word as an unexpected argument; naming the commands
+// helps.
+bool ReportUnknownCommand(const CLI::App& root, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return false;
+  const auto names = SubcommandNames(root);
+  const std::string word = argv[1];
+  if (std::find(names.begin(), names.end(), word) != names.end()) return false;
+  const std::string nearest = NearestName(word, names);
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  PrintError("error: unknown command '" + word + "'; commands are " + list +
+             (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+  return true;
+}
+
+// "did you mean --resolution?" for the first flag that no command knows.
+void SuggestFlag(const CLI::App& root, int argc, const char* const* argv) {
+  const auto commands = root.get_subcommands();
+  if (commands.empty()) return;
+  std::vector<std::string> known;
+  for (const CLI::Option* option : commands.front()->get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (int i = 2; i < argc; ++i) {
+    std::string word = argv[i];
+    word.resize(std::min(word.size(), word.find('=')));
+    if (word.rfind("--", 0) != 0 || word.size() < 4) continue;
+    if (std::find(known.begin(), known.end(), word) != known.end()) continue;
+    const std::string nearest = NearestName(word, known);
+    if (!nearest.empty()) PrintError("Did you mean " + nearest + "?");
+    return;
+  }
+}
+
+int Parse(CLI::App& root, int argc, const char* const* argv, int& exit_code) {
+  try {
+    root.parse(argc, argv);
+    return FlushOutput() ? exit_code : static_cast<int>(kExitBadInput);
+  } catch (const CLI::ParseError& error) {
+    const bool asked = error.get_exit_code() == 0;  // --help, --version
+    root.exit(error, StandardOutput(), StandardError());
+    if (asked) return FlushOutput() ? kExitGood : kExitBadInput;
+    SuggestFlag(root, argc, argv);
+    return kExitUsage;
+  }
+}
+
+}  // namespace
+
+std::string NearestName(const std::string& word, const std::vector<std::string>& known) {
+  std::string best;
+  int best_distance = static_cast<int>(word.size()) / 3 + 2;
+  for (const std::string& name : known) {
+    const int distance = EditDistance(word, name);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = name;
+    }
+  }
+  return best;
+}
+
+int RunCommandLine(int argc, const char* const* argv) {
+  // A reader that goes away must not kill a render: writes fail with EPIPE instead.
+  std::signal(SIGPIPE, SIG_IGN);
+  int exit_code = kExitGood;
+  CLI::App root(kDescription, "lanelight");
+  root.footer(kFooter);
+  root.set_version_flag("--version", "lanelight " LANELIGHT_VERSION);
+  root.require_subcommand(1);
+  AddRenderCommand(root, exit_code);
+  AddPlanCommand(root, exit_code);
+  AddInfoCommand(root, exit_code);
+  AddCompareCommand(root, exit_code);
+  if (argc < 2) {
+    PrintError(root.help());
+    return kExitUsage;
+  }
+  if (ReportUnknownCommand(root, argc, argv)) return kExitUsage;
+  try {
+    return Parse(root, argc, argv, exit_code);
+  } catch (const InputError& error) {
+    PrintError(error.what());
+  } catch (const CheckFailure& error) {
+    PrintError(std::string("internal error, please report: ") + error.what());
+  } catch (const std::bad_alloc&) {
+    PrintError("error: out of memory");
+  } catch (const std::exception& error) {
+    PrintError(std::string("error: ") + error.what());
+  }
+  FlushOutput();
+  return kExitBadInput;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,40 @@
+#include "src/cli/console.h"
+
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+
+namespace lanelight {
+namespace {
+
+// The first reason for which a write failed; the stream itself does not keep it.
+int failure = 0;
+
+void Note() {
+  if (!std::cout.good() && failure == 0) failure = errno ? errno : EIO;
+}
+
+}  // namespace
+
+std::ostream& StandardOutput() { return std::cout; }
+std::ostream& StandardError() { return std::cerr; }
+
+void Print(const std::string& text) {
+  errno = 0;
+  std::cout << text;
+  Note();
+}
+
+void PrintError(const std::string& line) { std::cerr << line << '\n' << std::flush; }
+
+bool FlushOutput() {
+  errno = 0;
+  std::cout.flush();
+  Note();
+  if (failure == 0 || failure == EPIPE) return true;
+  PrintError(std::string("error: cannot write to standard output: ") +
+             std::strerror(failure));
+  return false;
+}
+
+}  // namespace lanelight

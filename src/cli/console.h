@@ -1,0 +1,22 @@
+// Standard output and error. A reader that has gone away (`lanelight info | head -1`) is
+// not an error; a full disk behind standard output is.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+namespace lanelight {
+
+std::ostream& StandardOutput();
+std::ostream& StandardError();
+
+/// Writes text to standard output.
+void Print(const std::string& text);
+/// Writes a line to standard error.
+void PrintError(const std::string& line);
+
+/// Flushes standard output. False, with a message, if something could not be written for
+/// another reason than a closed pipe.
+bool FlushOutput();
+
+}  // namespace lanelight

@@ -1,0 +1,14 @@
+// What `lanelight` returns to the shell (README, "Exit codes").
+#pragma once
+
+namespace lanelight {
+
+enum ExitCode : int {
+  kExitGood = 0,
+  kExitBadInput = 1,        // a file cannot be read, understood or written
+  kExitUsage = 2,           // wrong flags
+  kExitInvalidSamples = 3,  // the image was written, but some samples were not numbers
+  kExitOverLimit = 4,       // compare: the error exceeds --max-relmse
+};
+
+}  // namespace lanelight

@@ -1,0 +1,75 @@
+// `lanelight info`: what this build uses on this machine.
+#include <CLI/Version.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "kernels/simd/target.h"
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/core/parallel.h"
+#include "src/render/memory.h"
+#include "src/render/report.h"
+
+namespace lanelight {
+namespace {
+
+struct InfoOptions {
+  std::string target;
+  int threads = 0;
+  bool json = false;
+};
+
+std::vector<std::pair<std::string, std::string>> Versions() {
+  auto versions = LibraryVersions();
+  versions.emplace_back("cli11", CLI11_VERSION);
+  return versions;
+}
+
+std::string Text() {
+  std::string available;
+  for (const std::string& name : AvailableTargets()) {
+    available += (available.empty() ? "" : ", ") + name;
+  }
+  std::string text =
+      fmt::format("{:<14} {}\n", "target", CurrentTarget()) +
+      fmt::format("{:<14} {}\n", "lanes", CurrentLanes()) +
+      fmt::format("{:<14} {}\n", "available", available) +
+      fmt::format("{:<14} {}\n", "threads", MaxThreads()) +
+      fmt::format("{:<14} {:.1f} GiB\n", "memory", double(PhysicalMemory()) / (1 << 30));
+  for (const auto& [name, version] : Versions()) {
+    text += fmt::format("{:<14} {}\n", name, version);
+  }
+  return text;
+}
+
+std::string JsonText() {
+  nlohmann::json out = {{"schema", kReportSchema},
+                        {"target", TargetJson()},
+                        {"threads", MaxThreads()},
+                        {"memory", PhysicalMemory()}};
+  for (const auto& [name, version] : Versions()) out["versions"][name] = version;
+  return out.dump(2) + "\n";
+}
+
+}  // namespace
+
+void AddInfoCommand(CLI::App& root, int&) {
+  CLI::App* command = root.add_subcommand(
+      "info", "Print the SIMD target, threads, and versions of the libraries in use");
+  auto options = std::make_shared<InfoOptions>();
+  command->add_option("--target", options->target, "Show this SIMD target instead")
+      ->check(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))
+      ->type_name("NAME");
+  command->add_option("--threads", options->threads, "Threads; 0 = all cores")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->type_name("T");
+  command->add_flag("--json", options->json, "Print JSON");
+  command->footer("\nExample:\n  lanelight info --target AVX2");
+  command->callback([options] {
+    ForceTarget(options->target);
+    const ThreadLimit threads(options->threads);
+    Print(options->json ? JsonText() : Text());
+  });
+}
+
+}  // namespace lanelight

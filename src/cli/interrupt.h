@@ -1,0 +1,20 @@
+// Ctrl-C during a render: the first one asks for a stop, the second one ends the program.
+#pragma once
+
+#include <atomic>
+
+namespace lanelight {
+
+/// While it lives, the first SIGINT or SIGTERM sets stop() and prints a message; the next
+/// one has its ordinary effect. At most one at a time.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  const std::atomic<bool>& stop() const;
+};
+
+}  // namespace lanelight

@@ -1,0 +1,108 @@
+// `lanelight plan SCENE`: what a render of this scene would run and hold, and what not.
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "kernels/simd/target.h"
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/cli/scene_options.h"
+#include "src/core/parallel.h"
+#include "src/render/job.h"
+#include "src/render/report.h"
+
+namespace lanelight {
+namespace {
+
+struct PlanCommandOptions {
+  SceneOptions scene;
+  bool json = false;
+};
+
+std::string Features(const FeatureSet& features) {
+  std::string text;
+  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+    const auto feature = static_cast<Feature>(i);
+    if (!features.Has(feature)) continue;
+    text += fmt::format("  {:<22} {}\n", FeatureName(feature), FeatureMeaning(feature));
+  }
+  return text;
+}
+
+std::string Stages(const Plan& plan) {
+  std::string text = fmt::format("stages ({}), in order:\n", plan.stages.size());
+  for (const PlannedStage& s : plan.stages) {
+    text += fmt::format("  {:<22} {}\n", s.stage.name, s.stage.meaning);
+  }
+  text += fmt::format("\nstages left out ({}):\n", plan.omitted.size());
+  for (const OmittedStage& s : plan.omitted) {
+    text += fmt::format("  {:<22} {}\n", s.stage.name, s.reason);
+  }
+  return text;
+}
+
+// "needed by: vertex normals, ...": any one of them makes the column live.
+std::string NeededBy(Field field) {
+  std::string text;
+  const FeatureSet needs = FieldFeatures(field);
+  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+    const auto feature = static_cast<Feature>(i);
+    if (!needs.Has(feature)) continue;
+    text += std::string(text.empty() ? "no " : ", no ") + FeatureMeaning(feature);
+  }
+  return text;
+}
+
+std::string Fields(const Plan& plan) {
+  std::string text = fmt::format("fields ({}), {} bytes per path:\n",
+                                 plan.live_fields.size(), plan.bytes_per_path);
+  for (Field f : plan.live_fields) {
+    text +=
+        fmt::format("  {:<22} {:<4} {}\n", FieldName(f), FieldType(f), FieldMeaning(f));
+  }
+  text += fmt::format("\nfields left out ({}):\n", plan.absent_fields.size());
+  for (Field f : plan.absent_fields) {
+    text += fmt::format("  {:<22} {}\n", FieldName(f), NeededBy(f));
+  }
+  return text;
+}
+
+std::string Text(const Job& job, const std::string& scene) {
+  const Plan& plan = job.plan;
+  return fmt::format("plan of {}\n\n", scene) +
+         fmt::format("target     {} ({} lanes)\n", CurrentTarget(), CurrentLanes()) +
+         fmt::format("wavefront  {} paths x {} bytes = {:.0f} KiB per thread\n",
+                     plan.wavefront, plan.bytes_per_path,
+                     double(plan.wavefront) * double(plan.bytes_per_path) / 1024) +
+         fmt::format("max depth  {}\nsampler    {}\n\n", plan.options.max_depth,
+                     SamplerName(plan.options.sampler)) +
+         "the scene and options have:\n" + Features(plan.features) + "\n" + Stages(plan) +
+         "\n" + Fields(plan);
+}
+
+std::string JsonText(const Job& job, const std::string& scene) {
+  nlohmann::json out = {{"schema", kReportSchema},
+                        {"scene", scene},
+                        {"target", TargetJson()},
+                        {"plan", ToJson(job.plan)}};
+  return out.dump(2) + "\n";
+}
+
+}  // namespace
+
+void AddPlanCommand(CLI::App& root, int&) {
+  CLI::App* command = root.add_subcommand(
+      "plan", "Print the stages and fields that a scene gets, and what it is spared");
+  auto options = std::make_shared<PlanCommandOptions>();
+  AddSceneOptions(*command, options->scene);
+  command->add_flag("--json", options->json, "Print JSON");
+  command->footer("\nExample:\n  lanelight plan scenes/glass.pbrt --max-depth 1");
+  command->callback([options] {
+    const SceneOptions& scene = options->scene;
+    ForceTarget(scene.target);
+    const ThreadLimit threads(scene.threads);
+    const Job job = PrepareJob(scene.scene, scene.settings);
+    Print(options->json ? JsonText(job, scene.scene) : Text(job, scene.scene));
+  });
+}
+
+}  // namespace lanelight

@@ -1,0 +1,46 @@
+// How far a render is: one line redrawn on a terminal, a plain line every tenth
+// otherwise.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+
+#include "src/wavefront/run.h"
+
+namespace lanelight {
+
+enum class ProgressStyle { kNone, kLines, kBar };
+
+/// kBar if standard error is a terminal, else kLines; kNone if `quiet`.
+ProgressStyle ChooseProgressStyle(bool quiet);
+
+/// Three digits and the prefix of a unit: "512 ", "12.3 k", "1.24 G".
+std::string CountText(double value);
+/// "850 ms", "12.3 s", "4 min 05 s", "2 h 07 min".
+std::string DurationText(double seconds);
+
+class ProgressPrinter {
+ public:
+  explicit ProgressPrinter(ProgressStyle style) : style_(style) {}
+  /// Prints if it is time to; may be called from any thread.
+  void Update(const Progress& progress);
+  /// Ends the line of the bar.
+  void Finish();
+
+  /// The text of a line without its bar, e.g. " 42 %  5.1 Msamples/s  3.2 s left".
+  static std::string Describe(const Progress& progress);
+  /// The bar in front of it, `width` cells wide.
+  static std::string Bar(double fraction, int width);
+
+ private:
+  void Draw(const Progress& progress);
+
+  ProgressStyle style_;
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point last_draw_{};
+  int last_tenth_ = 0;
+  bool drawn_ = false;
+};
+
+}  // namespace lanelight

@@ -1,0 +1,125 @@
+#include "src/cli/scene_options.h"
+
+#include <charconv>
+#include <map>
+#include <vector>
+
+#include "kernels/simd/target.h"
+#include "src/image/image.h"
+
+namespace lanelight {
+namespace {
+
+// Integers separated by `separator`; empty if the text is anything else.
+std::vector<int> ParseInts(const std::string& text, char separator) {
+  std::vector<int> values;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (true) {
+    int value = 0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc()) return {};
+    values.push_back(value);
+    if (next == end) return values;
+    if (*next != separator) return {};
+    at = next + 1;
+  }
+}
+
+void SetResolution(RenderSettings& settings, const std::string& text) {
+  const std::vector<int> v = ParseInts(text, 'x');
+  if (v.size() != 2 || v[0] < 1 || v[1] < 1 || v[0] > kMaxImageSide ||
+      v[1] > kMaxImageSide) {
+    throw CLI::ValidationError(
+        "--resolution",
+        fmt::format("'{}' is not WIDTHxHEIGHT with sides of 1 to {} pixels, "
+                    "e.g. 640x480",
+                    text, kMaxImageSide));
+  }
+  settings.resolution = {v[0], v[1]};
+}
+
+void SetCrop(RenderSettings& settings, const std::string& text) {
+  const std::vector<int> v = ParseInts(text, ',');
+  if (v.size() != 4 || v[0] < 0 || v[1] < 0 || v[2] <= v[0] || v[3] <= v[1]) {
+    throw CLI::ValidationError(
+        "--crop", "'" + text + "' is not x0,y0,x1,y1 in pixels with x0 < x1 and y0 < y1");
+  }
+  settings.crop = {v[0], v[1], v[2], v[3]};
+}
+
+void AddImageOptions(CLI::App& command, RenderSettings& s) {
+  command
+      .add_option_function<std::string>(
+          "--resolution", [&s](const std::string& text) { SetResolution(s, text); },
+          "Size of the image in pixels")
+      ->type_name("WxH");
+  command
+      .add_option_function<std::string>(
+          "--crop", [&s](const std::string& text) { SetCrop(s, text); },
+          "Render these pixels only; x1 and y1 are exclusive")
+      ->type_name("x0,y0,x1,y1");
+  command.add_flag("--aov", s.aov, "Write albedo, normal and depth of the first hit too");
+}
+
+// A flag whose value is one of a few names.
+template <class T>
+void AddNameOption(CLI::App& command, const std::string& flag, std::optional<T>& value,
+                   std::map<std::string, T> names, const std::string& meaning) {
+  std::string list;
+  for (const auto& [name, unused] : names) list += (list.empty() ? "" : ", ") + name;
+  command
+      .add_option_function<std::string>(
+          flag,
+          [&value, names, flag, list](const std::string& text) {
+            const auto found = names.find(text);
+            if (found == names.end()) {
+              throw CLI::ValidationError(flag, "'" + text + "' is not one of " + list);
+            }
+            value = found->second;
+          },
+          meaning + ": " + list)
+      ->type_name("NAME");
+}
+
+void AddTransportOptions(CLI::App& command, RenderSettings& s) {
+  command.add_option("--max-depth", s.max_depth, "Most scattering events of a path")
+      ->check(CLI::Range(0, kMaxDepth).description(""))
+      ->type_name("D");
+  AddNameOption<SamplerKind>(
+      command, "--sampler", s.sampler,
+      {{"independent", SamplerKind::kIndependent}, {"sobol", SamplerKind::kSobol}},
+      "Sample points");
+  AddNameOption<Scattering>(command, "--scattering", s.scattering,
+                            {{"lambertian", Scattering::kLambertian},
+                             {"uniform", Scattering::kUniform},
+                             {"insphere", Scattering::kInSphere}},
+                            "Model of all diffuse materials");
+}
+
+}  // namespace
+
+void AddSceneOptions(CLI::App& command, SceneOptions& options) {
+  RenderSettings& s = options.settings;
+  command.add_option("SCENE", options.scene, "Scene file in the text format of pbrt-v4")
+      ->required()
+      ->type_name("");
+  AddImageOptions(command, s);
+  AddTransportOptions(command, s);
+  command
+      .add_option("--wavefront", s.wavefront,
+                  "Paths in flight per thread; 0 = fit the cache")
+      ->check(CLI::Range(0u, kMaxWavefront).description(""))
+      ->type_name("N");
+  command.add_option("--threads", options.threads, "Threads; 0 = all cores")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->type_name("T");
+  command.add_option("--target", options.target, "SIMD target (see `lanelight info`)")
+      ->check(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))
+      ->type_name("NAME");
+  command.add_flag(
+      "--skip-unsupported", s.skip_unsupported,
+      "Leave out what cannot be rendered (media) instead of refusing the scene");
+}
+
+}  // namespace lanelight

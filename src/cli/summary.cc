@@ -1,0 +1,91 @@
+#include "src/cli/summary.h"
+
+#include "kernels/simd/target.h"
+#include "src/cli/progress.h"
+#include "src/core/parallel.h"
+
+namespace lanelight {
+namespace {
+
+// A count that stands alone.
+std::string Total(double value) {
+  std::string text = CountText(value);
+  if (text.back() == ' ') text.pop_back();
+  return text;
+}
+
+std::string Row(const std::string& label, const std::string& text) {
+  return fmt::format("{:<10} {}\n", label, text);
+}
+
+std::string IntervalText(const Interval& v, bool has_interval) {
+  if (!has_interval) return fmt::format("{:.4g}", v.value);
+  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", v.value, v.low, v.high);
+}
+
+std::string HealthText(const Health& h) {
+  if (h.Total() == 0) return "all samples valid";
+  return fmt::format("{} INVALID samples set to zero: {} NaN, {} infinite, {} negative",
+                     h.Total(), h.nan, h.infinite, h.negative);
+}
+
+std::string SpeedRows(const RunResult& r) {
+  const double seconds = r.seconds > 0 ? r.seconds : 1e-9;
+  const double closest = double(r.rays_closest), shadow = double(r.rays_shadow);
+  return Row("samples",
+             fmt::format("{} in {}: {}samples/s{}", Total(double(r.samples)),
+                         DurationText(r.seconds), CountText(double(r.samples) / seconds),
+                         r.stopped_early ? " (stopped early)" : "")) +
+         Row("rays", fmt::format("{} ({} closest hit, {} shadow): {}rays/s",
+                                 Total(closest + shadow), Total(closest), Total(shadow),
+                                 CountText((closest + shadow) / seconds)));
+}
+
+}  // namespace
+
+std::string ErrorText(const ErrorEstimate& e) {
+  if (!e.available) return "unknown: needs two groups of samples per pixel";
+  return fmt::format("RMSE {}, relative MSE {}{}", IntervalText(e.rmse, e.has_interval),
+                     IntervalText(e.relmse, e.has_interval),
+                     e.has_interval ? " (estimate, 95 % interval)" : " (estimate)");
+}
+
+std::string StageTable(const RunResult& result) {
+  double total = 0;
+  for (const StageProfile& s : result.stages) total += s.seconds;
+  std::string text =
+      fmt::format("{:<24}{:>9}{:>10}{:>8}{:>10}{:>8}{:>9}\n", "stage", "calls", "items",
+                  "lanes", "seconds", "share", "ns/item");
+  for (const StageProfile& s : result.stages) {
+    text +=
+        fmt::format("{:<24}{:>9}{:>10}{:>6.1f} %{:>10.3f}{:>6.1f} %{:>9.2f}\n", s.name,
+                    Total(double(s.calls)), Total(double(s.items)), 100 * s.Occupancy(),
+                    s.seconds, total > 0 ? 100 * s.seconds / total : 0,
+                    s.items ? 1e9 * s.seconds / double(s.items) : 0);
+  }
+  return text +
+         fmt::format("{:<24}{:>37.3f}  seconds of all threads together\n", "", total);
+}
+
+std::string SummaryText(const RenderReport& report, const Job& job) {
+  const RunResult& r = report.result;
+  std::string text =
+      Row("image", fmt::format("{} ({}x{} pixels, {:.4g} samples each)", report.exr,
+                               job.window.width(), job.window.height(),
+                               double(r.samples) / double(job.window.pixels())));
+  if (!report.png.empty()) text += Row("png", report.png);
+  text += SpeedRows(r);
+  text += Row("error", ErrorText(report.error));
+  text += Row("health", HealthText(r.health));
+  text += Row("time",
+              fmt::format("load {}, build {}, render {}, write {}",
+                          DurationText(job.load_seconds), DurationText(job.build_seconds),
+                          DurationText(r.seconds), DurationText(report.write_seconds)));
+  text += Row("machine",
+              fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes",
+                          CurrentTarget(), CurrentLanes(), MaxThreads(),
+                          job.plan.wavefront, job.plan.bytes_per_path));
+  return text + "\n" + StageTable(r);
+}
+
+}  // namespace lanelight

@@ -1,0 +1,19 @@
+// What `lanelight render` prints at the end.
+#pragma once
+
+#include <string>
+
+#include "src/render/report.h"
+
+namespace lanelight {
+
+/// Output paths, speed, estimated error, health, times, and the cost of each stage.
+std::string SummaryText(const RenderReport& report, const Job& job);
+
+/// One row per stage: calls, items, lane occupancy, thread seconds, share, ns per item.
+std::string StageTable(const RunResult& result);
+
+/// "RMSE 0.0123 [0.0120, 0.0126], relative MSE ..." or why there is no estimate.
+std::string ErrorText(const ErrorEstimate& error);
+
+}  // namespace lanelight

@@ -1,0 +1,80 @@
+#include "src/render/job.h"
+
+#include <chrono>
+#include <utility>
+
+#include "src/core/parallel.h"
+#include "src/render/memory.h"
+#include "src/scene/compile.h"
+#include "src/scene/parse.h"
+
+namespace lanelight {
+namespace {
+
+class Stopwatch {
+ public:
+  double Lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> lap = now - std::exchange(last_, now);
+    return lap.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+// Compiled geometry has its own copy; what reports still need is names and places.
+void ReleaseMeshes(SceneDescription& description) {
+  for (Shape& shape : description.shapes) shape.mesh.reset();
+  for (ObjectDefinition& object : description.objects) {
+    for (Shape& shape : object.shapes) shape.mesh.reset();
+  }
+}
+
+}  // namespace
+
+Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
+  Job job;
+  Stopwatch watch;
+  ParseOptions parse;
+  parse.skip_unsupported = settings.skip_unsupported;
+  ParallelInvoke([&] { job.description = ParseScene(scene_path, parse); },
+                 [&] { job.scene_hash = HashSceneFiles(scene_path); });
+  ApplySettings(settings, job.description);
+  job.window = CropWindow(job.description.film);
+  CheckFilmFits(job.window, settings.aov, PhysicalMemory());
+  job.load_seconds = watch.Lap();
+
+  job.scene = CompileScene(job.description, CompileOptionsOf(settings));
+  ReleaseMeshes(job.description);
+  job.plan = MakePlan(job.scene, PlanOptionsOf(settings, job.description));
+  job.build_seconds = watch.Lap();
+
+  job.seconds = settings.seconds.value_or(0);
+  if (!settings.seconds) {
+    job.spp =
+        settings.spp.value_or(static_cast<std::uint64_t>(job.description.sampler.spp));
+  }
+  job.seed = job.description.sampler.seed;
+  job.group_size = GroupSize(job.description.sampler.kind, job.spp);
+  return job;
+}
+
+FilmAccumulator MakeFilm(const Job& job) {
+  return FilmAccumulator(job.window.x0, job.window.y0, job.window.width(),
+                         job.window.height(), job.group_size, job.plan.options.aov);
+}
+
+RunResult RunJob(const Job& job, FilmAccumulator& film,
+                 std::function<void(const Progress&)> on_progress,
+                 const std::atomic<bool>* stop) {
+  RunOptions options;
+  options.spp = job.spp;
+  options.seconds = job.seconds;
+  options.seed = job.seed;
+  options.on_progress = std::move(on_progress);
+  options.stop = stop;
+  return Run(job.scene, job.plan, options, film);
+}
+
+}  // namespace lanelight

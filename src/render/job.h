@@ -1,0 +1,47 @@
+// From a scene file to a scene and a plan that can be run, with the time each step took.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "src/render/settings.h"
+#include "src/scene/compiled.h"
+#include "src/scene/description.h"
+#include "src/wavefront/plan.h"
+#include "src/wavefront/run.h"
+
+namespace lanelight {
+
+/// A scene ready to render.
+struct Job {
+  SceneDescription description;  // overrides applied; meshes released after compiling
+  CompiledScene scene;
+  Plan plan;
+  PixelWindow window;
+  std::uint64_t spp = 0;  // 0: until `seconds` have passed
+  double seconds = 0;     // time budget; 0 = none
+  std::uint64_t seed = 0;
+  std::uint32_t group_size = 1;  // see GroupSize()
+  std::uint64_t scene_hash = 0;  // see HashSceneFiles()
+  double load_seconds = 0;       // reading and parsing
+  double build_seconds = 0;      // compiling: acceleration structure, lights, textures
+};
+
+/// Parses, applies the overrides, checks that the film fits into memory, compiles, plans.
+/// Throws InputError.
+Job PrepareJob(const std::string& scene_path, const RenderSettings& settings);
+
+/// An empty film of the job's size.
+FilmAccumulator MakeFilm(const Job& job);
+
+/// Runs the job's plan. `stop` and `on_progress` as in RunOptions.
+RunResult RunJob(const Job& job, FilmAccumulator& film,
+                 std::function<void(const Progress&)> on_progress = {},
+                 const std::atomic<bool>* stop = nullptr);
+
+/// 64-bit hash (FNV-1a over 8-byte words) of the scene file and, recursively, of every
+/// file that a quoted string in it names: included scenes, meshes, images. Missing files
+/// are left out; the parser reports them.
+std::uint64_t HashSceneFiles(const std::string& scene_path);
+
+}  // namespace lanelight

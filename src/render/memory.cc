@@ -1,0 +1,52 @@
+#include "src/render/memory.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include "src/core/error.h"
+#include "src/image/accumulator.h"
+
+namespace lanelight {
+namespace {
+
+// Per pixel and colour channel the accumulator keeps four sums, and two counts per pixel
+// (src/image/accumulator.h); the output holds R, G, B, three variances and the count.
+constexpr std::uint64_t kSumsPerPixel = (4 * kColorPlanes + 2) * sizeof(double);
+constexpr std::uint64_t kPlanesPerPixel = (2 * kColorPlanes + 1) * sizeof(float);
+constexpr std::uint64_t kAovPerPixel = kAovPlanes * (sizeof(double) + sizeof(float));
+
+}  // namespace
+
+std::uint64_t FilmBytes(const PixelWindow& window, bool aov) {
+  // The planes exist twice for a moment: as planes, and packed into the file's bytes.
+  const std::uint64_t per_pixel =
+      kSumsPerPixel + 2 * kPlanesPerPixel + (aov ? 2 * kAovPerPixel : 0);
+  return window.pixels() * per_pixel;
+}
+
+std::uint64_t PhysicalMemory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  std::uint64_t bytes = pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) *
+                                                    static_cast<std::uint64_t>(page)
+                                              : ~std::uint64_t{0};
+  std::uint64_t limit = 0;
+  std::ifstream group("/sys/fs/cgroup/memory.max");  // "max" where there is no limit
+  if (group >> limit && limit > 0) bytes = std::min(bytes, limit);
+  return bytes;
+}
+
+void CheckFilmFits(const PixelWindow& window, bool aov, std::uint64_t memory) {
+  const std::uint64_t need = FilmBytes(window, aov);
+  if (need <= memory) return;
+  constexpr double kGiB = 1 << 30;
+  throw InputError(
+      fmt::format("an image of {}x{} pixels needs {:.1f} GiB of memory, this "
+                  "machine has {:.1f} GiB; lower --resolution or render parts "
+                  "with --crop",
+                  window.width(), window.height(), need / kGiB, memory / kGiB));
+}
+
+}  // namespace lanelight

@@ -1,0 +1,20 @@
+// Whether a render fits into this machine's memory, before anything is allocated.
+#pragma once
+
+#include <cstdint>
+
+#include "src/render/settings.h"
+
+namespace lanelight {
+
+/// Bytes that the film and the planes of the output file take. Independent of the number
+/// of samples.
+std::uint64_t FilmBytes(const PixelWindow& window, bool aov);
+
+/// Memory of the machine, or of the control group it limits this process to.
+std::uint64_t PhysicalMemory();
+
+/// Throws InputError with both numbers if the film does not fit.
+void CheckFilmFits(const PixelWindow& window, bool aov, std::uint64_t memory);
+
+}  // namespace lanelight

@@ -1,0 +1,33 @@
+// The film as an image file, with its variance and its history.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/image/accumulator.h"
+#include "src/image/exr.h"
+#include "src/image/image.h"
+#include "src/render/job.h"
+
+namespace lanelight {
+
+/// Channels of the output file: R, G, B; variance.R/G/B (of the pixel mean; NaN where
+/// fewer than two groups of samples are complete); samples; with auxiliary planes
+/// albedo.R/G/B, normal.X/Y/Z and depth.Z in units of the scene file (`scale` is
+/// CompiledScene::scale).
+std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale);
+
+/// Data window, and the attributes seed, spp, renderTime, strategy, version, sceneHash.
+ExrOptions OutputOptions(const Job& job, const RunResult& result, bool half);
+
+/// R, G, B of the film, for the PNG.
+Image FilmImage(const FilmAccumulator& film);
+
+/// Throws InputError unless a file can be created at `path`: its directory exists and is
+/// writable, and what exists there is a regular file. Leaves nothing behind.
+void CheckWritable(const std::string& path);
+
+/// Where a result goes that could not be written to `path`: the temporary directory.
+std::string FallbackPath(const std::string& path);
+
+}  // namespace lanelight

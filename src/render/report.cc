@@ -1,0 +1,143 @@
+#include "src/render/report.h"
+
+#include "kernels/simd/target.h"
+#include "src/core/parallel.h"
+
+namespace lanelight {
+namespace {
+
+using Json = nlohmann::json;
+
+Json IntervalJson(const Interval& v, bool has_interval) {
+  Json out = {{"value", v.value}};
+  if (has_interval) {
+    out["low"] = v.low;
+    out["high"] = v.high;
+  } else {
+    out["low"] = out["high"] = nullptr;
+  }
+  return out;
+}
+
+Json StageJson(const StageProfile& s, double total) {
+  return {{"name", s.name},
+          {"calls", s.calls},
+          {"items", s.items},
+          {"occupancy", s.Occupancy()},
+          {"seconds", s.seconds},
+          {"share", total > 0 ? s.seconds / total : 0},
+          {"ns_per_item", s.items ? 1e9 * s.seconds / double(s.items) : 0},
+          {"bytes_moved", s.bytes_per_item * double(s.items)}};
+}
+
+Json ProfileJson(const std::vector<StageProfile>& stages) {
+  double total = 0;
+  for (const StageProfile& s : stages) total += s.seconds;
+  Json out = Json::array();
+  for (const StageProfile& s : stages) out.push_back(StageJson(s, total));
+  return out;
+}
+
+Json SettingsJson(const Job& job, bool half) {
+  const Film& film = job.description.film;
+  const PixelWindow& w = job.window;
+  return {{"resolution", {film.width, film.height}},
+          {"crop", {w.x0, w.y0, w.x1, w.y1}},
+          {"spp", job.spp ? Json(job.spp) : Json(nullptr)},
+          {"time_budget", job.seconds > 0 ? Json(job.seconds) : Json(nullptr)},
+          {"group_size", job.group_size},
+          {"max_depth", job.plan.options.max_depth},
+          {"seed", job.seed},
+          {"sampler", SamplerName(job.plan.options.sampler)},
+          {"aov", job.plan.options.aov},
+          {"depth", half ? "half" : "float"},
+          {"threads", MaxThreads()}};
+}
+
+Json NotesJson(const SceneDescription& description) {
+  Json out = Json::array();
+  for (const Note& note : description.notes) {
+    out.push_back({{"where", note.where.ToString()}, {"message", note.message}});
+  }
+  return out;
+}
+
+}  // namespace
+
+Json ToJson(const Plan& plan) {
+  Json stages = Json::array(), omitted = Json::array(), live = Json::array(),
+       absent = Json::array(), features = Json::array();
+  for (const PlannedStage& s : plan.stages) {
+    stages.push_back({{"name", s.stage.name}, {"meaning", s.stage.meaning}});
+  }
+  for (const OmittedStage& s : plan.omitted) {
+    omitted.push_back({{"name", s.stage.name}, {"reason", s.reason}});
+  }
+  for (Field f : plan.live_fields) live.push_back(FieldName(f));
+  for (Field f : plan.absent_fields) absent.push_back(FieldName(f));
+  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+    const auto feature = static_cast<Feature>(i);
+    if (plan.features.Has(feature)) features.push_back(FeatureName(feature));
+  }
+  return {{"stages", stages},
+          {"omitted_stages", omitted},
+          {"fields", live},
+          {"absent_fields", absent},
+          {"features", features},
+          {"bytes_per_path", plan.bytes_per_path},
+          {"wavefront", plan.wavefront}};
+}
+
+Json ToJson(const ErrorEstimate& e) {
+  if (!e.available) return nullptr;
+  return {{"rmse", IntervalJson(e.rmse, e.has_interval)},
+          {"relmse", IntervalJson(e.relmse, e.has_interval)},
+          {"confidence", 0.95},
+          {"pixels", e.pixels},
+          {"tiles", e.tiles},
+          {"tile_side", e.tile}};
+}
+
+Json TargetJson() {
+  return {{"name", CurrentTarget()},
+          {"lanes", CurrentLanes()},
+          {"available", AvailableTargets()}};
+}
+
+Json ToJson(const RenderReport& report, const Job& job) {
+  const RunResult& r = report.result;
+  const double seconds = r.seconds > 0 ? r.seconds : 1e-9;
+  const std::uint64_t rays = r.rays_closest + r.rays_shadow;
+  Json versions = Json::object();
+  for (const auto& [name, version] : LibraryVersions()) versions[name] = version;
+  return {
+      {"schema", kReportSchema},
+      {"scene", report.scene},
+      {"scene_hash", fmt::format("{:016x}", job.scene_hash)},
+      {"output",
+       {{"exr", report.exr}, {"png", report.png.empty() ? Json() : Json(report.png)}}},
+      {"seconds",
+       {{"load", job.load_seconds},
+        {"build", job.build_seconds},
+        {"render", r.seconds},
+        {"write", report.write_seconds}}},
+      {"samples", r.samples},
+      {"samples_per_second", double(r.samples) / seconds},
+      {"rays", {{"closest", r.rays_closest}, {"shadow", r.rays_shadow}, {"total", rays}}},
+      {"rays_per_second", double(rays) / seconds},
+      {"stopped_early", r.stopped_early},
+      {"error", ToJson(report.error)},
+      {"health",
+       {{"nan", r.health.nan},
+        {"infinite", r.health.infinite},
+        {"negative", r.health.negative}}},
+      {"plan", ToJson(job.plan)},
+      {"stages", ProfileJson(r.stages)},
+      {"wavefront_bytes", r.wavefront_bytes},
+      {"settings", SettingsJson(job, report.half)},
+      {"target", TargetJson()},
+      {"notes", NotesJson(job.description)},
+      {"versions", versions}};
+}
+
+}  // namespace lanelight

@@ -1,0 +1,36 @@
+// Everything about a render or a plan that a script may want, as JSON. The schema is
+// documented in README.md ("JSON report"); kReportSchema changes when a member changes
+// its meaning or goes away, not when one is added.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/render/job.h"
+#include "src/study/estimate.h"
+
+namespace lanelight {
+
+inline constexpr int kReportSchema = 1;
+
+struct RenderReport {
+  std::string scene, exr, png;  // png empty: not written
+  RunResult result;
+  ErrorEstimate error;
+  double write_seconds = 0;
+  bool half = false;
+};
+
+nlohmann::json ToJson(const Plan& plan);
+nlohmann::json ToJson(const ErrorEstimate& error);
+nlohmann::json ToJson(const RenderReport& report, const Job& job);
+
+/// Name and version of the libraries in use, and of the compiler.
+std::vector<std::pair<std::string, std::string>> LibraryVersions();
+
+/// Name, lanes and alternatives of the SIMD target in use.
+nlohmann::json TargetJson();
+
+}  // namespace lanelight

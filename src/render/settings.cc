@@ -1,0 +1,148 @@
+#include "src/render/settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/core/check.h"
+#include "src/core/error.h"
+#include "src/image/image.h"
+
+namespace lanelight {
+namespace {
+
+// A scene's own crop window, carried over to another resolution.
+void ScaleCrop(Film& film, int width, int height) {
+  const double sx = double(width) / film.width, sy = double(height) / film.height;
+  film.crop[0] = static_cast<int>(std::ceil(film.crop[0] * sx));
+  film.crop[1] = static_cast<int>(std::ceil(film.crop[1] * sx));
+  film.crop[2] = static_cast<int>(std::ceil(film.crop[2] * sy));
+  film.crop[3] = static_cast<int>(std::ceil(film.crop[3] * sy));
+}
+
+void CheckSize(const Film& film) {
+  if (film.width < 1 || film.height < 1 || film.width > kMaxImageSide ||
+      film.height > kMaxImageSide) {
+    throw InputError(
+        fmt::format("resolution {}x{} is not supported: each side must be 1 to {}",
+                    film.width, film.height, kMaxImageSide));
+  }
+}
+
+void CheckCrop(const Film& film) {
+  const PixelWindow w = CropWindow(film);
+  if (w.x0 < 0 || w.y0 < 0 || w.x1 > film.width || w.y1 > film.height || w.x0 >= w.x1 ||
+      w.y0 >= w.y1) {
+    throw InputError(
+        fmt::format("crop window {},{},{},{} is empty or leaves the image of {}x{} "
+                    "pixels; x0,y0,x1,y1 "
+                    "are pixels, x1 and y1 exclusive",
+                    w.x0, w.y0, w.x1, w.y1, film.width, film.height));
+  }
+}
+
+void CheckSpp(std::int64_t spp) {
+  if (spp >= 1 && static_cast<std::uint64_t>(spp) <= kMaxSpp) return;
+  throw InputError(
+      fmt::format("{} samples per pixel are not supported: 1 to {}", spp, kMaxSpp));
+}
+
+void CheckSppSetting(std::uint64_t spp) {
+  constexpr auto kMost = std::uint64_t(std::numeric_limits<std::int64_t>::max());
+  CheckSpp(static_cast<std::int64_t>(std::min(spp, kMost)));
+}
+
+void ApplyFilm(const RenderSettings& settings, Film& film) {
+  CheckSize(film);
+  if (settings.resolution) {
+    const auto [width, height] = *settings.resolution;
+    ScaleCrop(film, width, height);
+    film.width = width;
+    film.height = height;
+    CheckSize(film);
+  }
+  if (settings.crop) {
+    const auto [x0, y0, x1, y1] = *settings.crop;
+    const int bounds[4] = {x0, x1, y0, y1};
+    std::copy(bounds, bounds + 4, film.crop);
+    // All zero would mean the whole image.
+    if (x0 == 0 && y0 == 0 && x1 == 0 && y1 == 0) film.crop[1] = film.crop[3] = -1;
+  }
+  CheckCrop(film);
+}
+
+}  // namespace
+
+void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
+  ApplyFilm(settings, scene.film);
+  if (settings.spp) CheckSppSetting(*settings.spp);
+  if (!settings.spp && !settings.seconds) CheckSpp(scene.sampler.spp);
+  if (settings.seconds && !(*settings.seconds > 0 && *settings.seconds <= 1e9)) {
+    throw InputError(
+        fmt::format("a time budget of {} s is not supported: above 0, at most "
+                    "1e9 seconds",
+                    *settings.seconds));
+  }
+  if (settings.max_depth) scene.integrator.max_depth = *settings.max_depth;
+  const int depth = scene.integrator.max_depth;
+  if (depth < 0 || depth > kMaxDepth) {
+    throw InputError(
+        fmt::format("maximum depth {} is not supported: 0 to {}", depth, kMaxDepth));
+  }
+  if (settings.wavefront > kMaxWavefront) {
+    throw InputError(fmt::format("a wavefront of {} paths is not supported: 1 to {}",
+                                 settings.wavefront, kMaxWavefront));
+  }
+  if (settings.sampler) scene.sampler.kind = *settings.sampler;
+  if (settings.seed) scene.sampler.seed = *settings.seed;
+}
+
+PixelWindow CropWindow(const Film& film) {
+  const int* c = film.crop;
+  if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0)
+    return {0, 0, film.width, film.height};
+  return {c[0], c[2], c[1], c[3]};
+}
+
+CompileOptions CompileOptionsOf(const RenderSettings& settings) {
+  CompileOptions options;
+  options.scattering = settings.scattering;
+  return options;
+}
+
+PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene) {
+  PlanOptions options;
+  options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
+  options.sampler = scene.sampler.kind;
+  options.aov = settings.aov;
+  options.wavefront = settings.wavefront;
+  return options;
+}
+
+std::uint32_t GroupSize(SamplerKind sampler, std::uint64_t spp) {
+  constexpr std::uint32_t kUnplanned = 16, kLargest = 1u << 16;
+  if (sampler == SamplerKind::kIndependent) return 1;
+  if (spp == 0) return kUnplanned;
+  std::uint32_t size = 1;
+  while (size < kLargest && std::uint64_t{size} * 2 * 8 <= spp) size *= 2;
+  return size;
+}
+
+const char* SamplerName(SamplerKind kind) {
+  return kind == SamplerKind::kIndependent ? "independent" : "sobol";
+}
+
+const char* ScatteringName(Scattering model) {
+  switch (model) {
+    case Scattering::kLambertian:
+      return "lambertian";
+    case Scattering::kUniform:
+      return "uniform";
+    case Scattering::kInSphere:
+      return "insphere";
+  }
+  LL_CHECK(false);
+  return "";
+}
+
+}  // namespace lanelight

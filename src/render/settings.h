@@ -1,0 +1,64 @@
+// What a render is asked to do beyond what the scene file says, and the limits of both.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "src/scene/compile.h"
+#include "src/scene/description.h"
+#include "src/wavefront/plan.h"
+
+namespace lanelight {
+
+/// Overrides of the scene file; what is empty stays as the scene says.
+struct RenderSettings {
+  std::optional<std::uint64_t> spp;
+  std::optional<double> seconds;  // time budget instead of samples
+  std::optional<std::array<int, 2>> resolution;
+  std::optional<std::array<int, 4>> crop;  // x0, y0, x1, y1 in pixels, end exclusive
+  std::optional<int> max_depth;
+  std::optional<std::uint64_t> seed;
+  std::optional<SamplerKind> sampler;
+  std::optional<Scattering> scattering;
+  std::uint32_t wavefront = 0;  // paths; 0 = chosen by the plan
+  bool aov = false;
+  bool skip_unsupported = false;
+};
+
+/// Sample indices are 32-bit, so this many samples per pixel at most.
+inline constexpr std::uint64_t kMaxSpp = std::uint64_t{1} << 31;
+inline constexpr std::uint32_t kMaxWavefront = 1u << 20;
+inline constexpr int kMaxDepth = 1 << 20;
+
+/// The pixels [x0, x1) x [y0, y1) that are rendered.
+struct PixelWindow {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  std::uint64_t pixels() const {
+    return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height());
+  }
+};
+
+/// Puts the overrides into the description. A crop window of the scene is scaled along
+/// with a new resolution. Throws InputError for sizes, windows, depths and sample counts
+/// that are out of range, wherever they come from.
+void ApplySettings(const RenderSettings& settings, SceneDescription& scene);
+
+/// The window of a film; the whole image if it has no crop.
+PixelWindow CropWindow(const Film& film);
+
+CompileOptions CompileOptionsOf(const RenderSettings& settings);
+PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene);
+
+/// Samples that share one randomisation and count as one observation: 1 for independent
+/// samples; for Sobol' points the largest power of two that leaves at least 8 groups
+/// (`spp` 0, a time budget: 16).
+std::uint32_t GroupSize(SamplerKind sampler, std::uint64_t spp);
+
+const char* SamplerName(SamplerKind kind);
+const char* ScatteringName(Scattering model);
+
+}  // namespace lanelight
