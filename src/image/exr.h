@@ -11,15 +11,15 @@ namespace lanelight {
 
 /// One channel to write: width * height values, row 0 at the top.
 struct ExrPlane {
-  std::string name;            // e.g. "R", "variance.R", "samples"
+  std::string name;  // e.g. "R", "variance.R", "samples"
   std::vector<float> values;
-  bool always_float = false;   // 32 bit even in a half file (sample counts)
+  bool always_float = false;  // 32 bit even in a half file (sample counts)
 };
 
 /// Where the pixels lie in the full image, and how they are stored.
 struct ExrOptions {
-  bool half = false;           // finite values beyond +-65504 saturate there
-  int x0 = 0, y0 = 0;          // data window origin
+  bool half = false;                    // finite values beyond +-65504 saturate there
+  int x0 = 0, y0 = 0;                   // data window origin
   int full_width = 0, full_height = 0;  // display window; 0: the data's own size
   std::map<std::string, ImageAttribute> attributes;
 };
@@ -32,8 +32,8 @@ void WriteExr(const std::string& path, int width, int height,
 /// Reads all channels as float, "R","G","B","A" first, the others by name.
 Image ReadExr(const std::string& path);
 
-/// Reads the named channels in this order; a missing one is an InputError that lists those
-/// of the file.
+/// Reads the named channels in this order; a missing one is an InputError that lists
+/// those of the file.
 Image ReadExr(const std::string& path, const std::vector<std::string>& channels);
 
 }  // namespace lanelight

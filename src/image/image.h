@@ -1,5 +1,5 @@
-// Images in memory, and readers for every format that scenes and comparisons use. Row 0 is
-// the top row. Errors are InputErrors that begin with the path.
+// Images in memory, and readers for every format that scenes and comparisons use. Row 0
+// is the top row. Errors are InputErrors that begin with the path.
 #pragma once
 
 #include <cstddef>

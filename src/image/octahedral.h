@@ -1,7 +1,8 @@
 // Equal-area octahedral map between the unit square and the sphere, in the orientation of
 // pbrt-v4: Clarberg 2008, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD". The
-// centre of the square is +z, the corners are -z. Every region of the square covers a share
-// of the sphere equal to its area: density over solid angle = density over the square / 4 pi.
+// centre of the square is +z, the corners are -z. Every region of the square covers a
+// share of the sphere equal to its area: density over solid angle = density over the
+// square / 4 pi.
 #pragma once
 
 #include <array>
@@ -24,8 +25,8 @@ inline Vec3d OctahedralToDirection(double u, double v) {
       (ring == 0 ? 1 : (abs_b - abs_a) / ring + 1) * (std::numbers::pi / 4);
   const double z = std::copysign(1 - ring * ring, inside);
   const double radius = ring * std::sqrt(std::max(0.0, 2 - ring * ring));
-  return {radius * std::copysign(std::cos(phi), a), radius * std::copysign(std::sin(phi), b),
-          z};
+  return {radius * std::copysign(std::cos(phi), a),
+          radius * std::copysign(std::sin(phi), b), z};
 }
 
 /// The point of [0, 1]^2 of a unit direction: inverse of OctahedralToDirection.

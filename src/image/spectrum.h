@@ -1,10 +1,10 @@
 // Spectra to linear sRGB, once, while a scene is read: what pbrt-v4's spectral rendering
 // would show on an `rgb` film with the XYZ sensor.
 //
-// Colour matching functions: the CIE 1931 observer in the analytic fit of Wyman, Sloan and
-// Shirley 2013 ("Simple Analytic Approximations to the CIE XYZ Color Matching Functions",
-// JCGT 2(2), equation 4). Each sRGB channel is rescaled by the fit's own response to D65,
-// so that D65 is exactly (1, 1, 1) and a grey reflectance stays grey.
+// Colour matching functions: the CIE 1931 observer in the analytic fit of Wyman, Sloan
+// and Shirley 2013 ("Simple Analytic Approximations to the CIE XYZ Color Matching
+// Functions", JCGT 2(2), equation 4). Each sRGB channel is rescaled by the fit's own
+// response to D65, so that D65 is exactly (1, 1, 1) and a grey reflectance stays grey.
 #pragma once
 
 #include <string>
@@ -18,16 +18,17 @@ namespace lanelight {
 /// kAlbedo: a reflectance; the colour it shows under D65, clamped to [0, 1].
 /// kUnbounded: an index of refraction or the like; the same without the upper clamp.
 /// kIlluminant: emission; its colour, scaled to luminance Y = 1.
+/// Colours outside the sRGB gamut have their negative channels cut to 0 (before the
+/// scaling), because light cannot be negative.
 enum class SpectrumUse { kAlbedo, kUnbounded, kIlluminant };
 
 /// Colour of a black body, linear sRGB with Y = 1. `kelvin` must be positive and finite
-/// (LL_CHECK; the parser refuses other values first). Channels outside the sRGB gamut are
-/// negative, e.g. blue below about 1900 K.
+/// (LL_CHECK; the parser refuses other values first).
 Rgb RgbFromBlackbody(double kelvin);
 
-/// Piecewise linear spectrum through the samples, zero outside them (as pbrt). Wavelengths
-/// in nm, strictly increasing; at least one sample, equal counts, all finite, else
-/// InputError. An illuminant without light in 360..830 nm is an InputError as well.
+/// Piecewise linear spectrum through the samples, zero outside them (as pbrt).
+/// Wavelengths in nm, strictly increasing; at least one sample, equal counts, all finite,
+/// else InputError. An illuminant without light in 360..830 nm is an InputError as well.
 Rgb RgbFromSamples(const std::vector<double>& wavelengths_nm,
                    const std::vector<double>& values, SpectrumUse use);
 
@@ -56,14 +57,14 @@ ComplexIor ComplexIorFromSamples(const std::vector<double>& eta_nm,
                                  const std::vector<double>& k_nm,
                                  const std::vector<double>& k);
 
-/// Index of refraction at 587.6 nm (the d line) of "glass-BK7", "glass-BAF10",
+/// Catalogue index of refraction at 587.6 nm (the d line) of "glass-BK7", "glass-BAF10",
 /// "glass-FK51A", "glass-LASF9", "glass-F5" (Schott SF5), "glass-F10" (SF10), "glass-F11"
-/// (SF11), by their Sellmeier equations. False if the name is unknown.
+/// (SF11). False if the name is unknown.
 bool NamedGlassEta(const std::string& name, double* eta);
 
 /// Converts a linear colour of a pbrt colour space ("srgb", "dci-p3", "rec2020",
 /// "aces2065-1") to linear sRGB; throws InputError that lists the names otherwise.
-/// The white of the space becomes (1, 1, 1), as pbrt treats rgb values.
+/// The white of the space becomes (1, 1, 1); negative channels (outside sRGB) become 0.
 Rgb ToSrgb(const std::string& color_space, Rgb color);
 
 }  // namespace lanelight

@@ -1,7 +1,7 @@
-// Textures as the kernels read them. A texture is a short program: its nodes in an order in
-// which every operand is computed before it is used, each node once, so that evaluation is
-// a loop without recursion and a node shared by two others costs once. Children that are
-// constant are folded into their parents.
+// Textures as the kernels read them. A texture is a short program: its nodes in an order
+// in which every operand is computed before it is used, each node once, so that
+// evaluation is a loop without recursion and a node shared by two others costs once.
+// Children that are constant are folded into their parents.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace lanelight {
 inline constexpr int kMaxTextureNodes = 32;
 
 /// 8-bit images keep their bytes: one 32-bit word per texel, R in the low byte, and a
-/// decode table of 256 entries; float images have three floats per texel. Row 0 is the top.
-/// Images of float textures hold the one value of a texel three times.
+/// decode table of 256 entries; float images have three floats per texel. Row 0 is the
+/// top. Images of float textures hold the one value of a texel three times.
 struct TextureImage {
   std::int32_t width = 0, height = 0;
   AlignedVector<std::uint32_t> rgba8;  // width * height, or empty
@@ -35,7 +35,7 @@ struct TextureNode {
   std::int32_t image = -1;                 // kImage: index into TextureTable::images
   WrapMode wrap = WrapMode::kRepeat;
   bool bilinear = true;
-  bool invert = false;                     // max(0, 1 - scale * texel)
+  bool invert = false;  // max(0, 1 - scale * texel)
   float scale = 1;
 };
 
@@ -47,18 +47,18 @@ struct TextureProgram {
 struct TextureTable {
   std::vector<TextureProgram> programs;  // one per texture of the description
   std::vector<TextureNode> nodes;
-  std::vector<TextureImage> images;      // each file once per use
-  AlignedVector<float> decode;           // 256 linear values per encoding in use
+  std::vector<TextureImage> images;  // each file once per use
+  AlignedVector<float> decode;       // 256 linear values per encoding in use
   std::size_t size() const { return programs.size(); }
   /// Bytes held, for reports.
   std::size_t Bytes() const;
 };
 
 /// Compiles the textures of a description; index i stays index i. Loads each image file
-/// once, in parallel. Semantics are those of pbrt-v4 (scale before invert, negative results
-/// cut at 0, a float texture reads alpha if there is any below 1, else the mean of colour),
-/// without its mip levels: level 0 is sampled. Throws InputError naming the texture's place
-/// and the file.
+/// once, in parallel. Semantics are those of pbrt-v4 (scale before invert, negative
+/// results cut at 0, a float texture reads alpha if there is any below 1, else the mean
+/// of colour), without its mip levels: level 0 is sampled. Throws InputError naming the
+/// texture's place and the file.
 TextureTable CompileTextures(const std::vector<Texture>& textures);
 
 /// Decoded value of byte `b` (0..255) for an encoding.

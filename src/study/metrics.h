@@ -19,9 +19,9 @@ struct CompareOptions {
   int tile = 16;  // pixels per side of the tiles of the tile measures
 };
 
-/// Distribution of z = (test - reference) / sqrt(variance of test + variance of reference)
-/// over pixels and channels: standard normal if noise alone separates the images and the
-/// variances are right.
+/// Distribution of z = (test - reference) / sqrt(variance of test + variance of
+/// reference) over pixels and channels: standard normal if noise alone separates the
+/// images and the variances are right.
 struct ZScores {
   bool available = false;        // at least one image carries variances
   std::uint64_t count = 0;       // samples with a z-score
@@ -30,7 +30,7 @@ struct ZScores {
   std::uint64_t invalid = 0;     // variance negative or not finite
   double mean = 0, standard_deviation = 0;
   double beyond_2 = 0, beyond_3 = 0;  // shares of |z| > 2 (normal: 0.0455), > 3 (0.0027)
-  double ks_distance = 0;             // Kolmogorov-Smirnov distance to the standard normal
+  double ks_distance = 0;  // Kolmogorov-Smirnov distance to the standard normal
 };
 
 /// Sums run over pixels and the colour channels R, G, B (or Y), leaving out samples that
@@ -46,9 +46,9 @@ struct CompareResult {
   double mape = 0;            // mean of |a-b| / (|b| + epsilon); 1 = 100 %
   double psnr = 0;            // dB, peak = largest reference value; infinite if equal
   std::vector<double> mean_test, mean_reference;  // per channel
-  std::vector<double> mean_ratio;  // test / reference; 1 if both are 0
-  double tile_relmse_median = 0;   // of (mean a - mean b)^2 / ((mean b)^2 + epsilon)
-  double tile_relmse_max = 0;      // over tiles and channels
+  std::vector<double> mean_ratio;                 // test / reference; 1 if both are 0
+  double tile_relmse_median = 0;  // of (mean a - mean b)^2 / ((mean b)^2 + epsilon)
+  double tile_relmse_max = 0;     // over tiles and channels
   ZScores z;
 };
 

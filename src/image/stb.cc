@@ -1,0 +1,156 @@
+#include "src/image/stb.h"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wsign-compare"
+#define STBI_NO_STDIO
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_ONLY_TGA
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_BMP
+#define STBI_ONLY_HDR
+#include <stb/stb_image.h>
+#define STBI_WRITE_NO_STDIO
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include "src/core/check.h"
+#include "src/core/error.h"
+#include "src/image/atomic_file.h"
+
+namespace lanelight {
+namespace {
+
+// The file as stb reads it. stb itself takes the end of a file for zeros, so that a
+// truncated image would look like a good one; here every read past the end is noticed.
+class Source {
+ public:
+  explicit Source(const std::string& content) : content_(content) {}
+
+  static const stbi_io_callbacks* Callbacks() {
+    static const stbi_io_callbacks callbacks = {&Source::Read, &Source::Skip,
+                                                &Source::End};
+    return &callbacks;
+  }
+  void Rewind() {
+    at_ = 0;
+    look_ahead_ = nullptr;
+    overrun_ = false;
+  }
+  bool overrun() const { return overrun_; }
+
+ private:
+  static int Read(void* self, char* data, int size) {
+    return static_cast<Source*>(self)->Take(data, size);
+  }
+  static void Skip(void* self, int n) {
+    Source* source = static_cast<Source*>(self);
+    const long long to = static_cast<long long>(source->at_) + n;  // n < 0 steps back
+    const long long end = static_cast<long long>(source->content_.size());
+    source->overrun_ |= to > end;
+    source->at_ = static_cast<std::size_t>(std::clamp(to, 0LL, end));
+  }
+  static int End(void* self) {
+    const Source* source = static_cast<const Source*>(self);
+    return source->at_ >= source->content_.size();
+  }
+  // The first read fills stb's look-ahead buffer, and so do the later ones into the same
+  // place: those may come short at the end of the file, but not empty. The others want
+  // exactly what they ask for.
+  int Take(char* data, int size) {
+    if (look_ahead_ == nullptr) look_ahead_ = data;
+    const std::size_t n =
+        std::min(static_cast<std::size_t>(std::max(size, 0)), content_.size() - at_);
+    overrun_ |= n < static_cast<std::size_t>(size) && (n == 0 || data != look_ahead_);
+    std::memcpy(data, content_.data() + at_, n);
+    at_ += n;
+    return static_cast<int>(n);
+  }
+
+  const std::string& content_;
+  std::size_t at_ = 0;
+  const char* look_ahead_ = nullptr;
+  bool overrun_ = false;
+};
+
+struct FreeStb {
+  void operator()(void* p) const { stbi_image_free(p); }
+};
+
+std::vector<std::string> NamesOf(int channels) {
+  switch (channels) {
+    case 1:
+      return {"Y"};
+    case 2:
+      return {"Y", "A"};
+    case 3:
+      return {"R", "G", "B"};
+    default:
+      return {"R", "G", "B", "A"};
+  }
+}
+
+[[noreturn]] void FailDecode(const std::string& path) {
+  const char* reason = stbi_failure_reason();
+  throw InputError(path +
+                   ": cannot decode the image: " + (reason ? reason : "unknown type"));
+}
+
+// Size and channels, checked before anything is allocated.
+Image ReadHeader(const std::string& path, Source& source) {
+  Image image;
+  if (!stbi_info_from_callbacks(Source::Callbacks(), &source, &image.width, &image.height,
+                                &image.channels)) {
+    FailDecode(path);
+  }
+  CheckImageSize(path, image.width, image.height);
+  source.Rewind();
+  return image;
+}
+
+// Decodes with `load` into the vector `pixels` of the image.
+template <class T, class Load>
+Image Decode(const std::string& path, Load load, AlignedVector<T> Image::*pixels) {
+  const std::string content = ReadWholeFile(path);
+  Source source(content);
+  Image image = ReadHeader(path, source);
+  const std::unique_ptr<T, FreeStb> data(load(Source::Callbacks(), &source, &image.width,
+                                              &image.height, &image.channels, 0));
+  if (!data) FailDecode(path);
+  if (source.overrun()) throw InputError(path + ": the image file is truncated");
+  image.names = NamesOf(image.channels);
+  (image.*pixels).assign(data.get(), data.get() + image.Offset(0, image.height, 0));
+  return image;
+}
+
+}  // namespace
+
+Image ReadBytes(const std::string& path) {
+  return Decode<std::uint8_t>(path, &stbi_load_from_callbacks, &Image::bytes);
+}
+
+Image ReadHdr(const std::string& path) {
+  return Decode<float>(path, &stbi_loadf_from_callbacks, &Image::pixels);
+}
+
+std::string EncodePng(int width, int height, const std::vector<std::uint8_t>& rgb) {
+  LL_CHECK_EQ(rgb.size(), static_cast<std::size_t>(width) * height * 3);
+  std::string file;
+  const auto append = [](void* to, void* data, int size) {
+    static_cast<std::string*>(to)->append(static_cast<const char*>(data), size);
+  };
+  const int stride = 3 * width;
+  LL_CHECK(stbi_write_png_to_func(append, &file, width, height, 3, rgb.data(), stride));
+  return file;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,84 @@
+// A failed write leaves the old file and no rubbish.
+#include "src/image/atomic_file.h"
+
+#include <sys/resource.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+
+#include "src/core/error.h"
+#include "tests/image/temporary_folder.h"
+
+namespace lanelight {
+namespace {
+
+// Makes every file longer than `bytes` fail to write, as a full disk would.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    previous_handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &previous_);
+    rlimit limit = previous_;
+    limit.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &previous_);
+    std::signal(SIGXFSZ, previous_handler_);
+  }
+
+ private:
+  rlimit previous_;
+  void (*previous_handler_)(int);
+};
+
+}  // namespace
+
+TEST_CASE("a file is replaced as a whole", "[image][file]") {
+  const TemporaryFolder folder;
+  const std::string path = folder.File("a");
+  WriteFileAtomically(path, "first");
+  CHECK(ReadWholeFile(path) == "first");
+  WriteFileAtomically(path, std::string(300000, 'x'));
+  CHECK(ReadWholeFile(path) == std::string(300000, 'x'));
+  WriteFileAtomically(path, "");
+  CHECK(ReadWholeFile(path).empty());
+  CHECK(folder.Count() == 1);
+}
+
+TEST_CASE("a write that fails keeps the old file and removes its own", "[image][file]") {
+  const TemporaryFolder folder;
+  const std::string path = folder.Write("a", "old");
+  {
+    const FileSizeLimit limit(1000);
+    CHECK_THROWS_WITH(WriteFileAtomically(path, std::string(5000, 'x')),
+                      Catch::Contains(path) && Catch::Contains("File too large"));
+  }
+  CHECK(ReadWholeFile(path) == "old");
+  CHECK(folder.Count() == 1);
+}
+
+TEST_CASE("unwritable places are input errors with the reason", "[image][file]") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(WriteFileAtomically(folder.File("no/a"), "x"),
+                    Catch::Contains("No such file or directory"));
+  CHECK_THROWS_AS(WriteFileAtomically(folder.File(""), "x"), InputError);
+  std::filesystem::create_directory(folder.File("directory"));
+  CHECK_THROWS_WITH(WriteFileAtomically(folder.File("directory"), "x"),
+                    Catch::Contains("directory"));
+  CHECK(folder.Count() == 1);
+  CHECK_THROWS_WITH(ReadWholeFile(folder.File("absent")),
+                    Catch::Contains("absent") && Catch::Contains("No such file"));
+  CHECK_THROWS_WITH(ReadWholeFile(folder.File("directory")),
+                    Catch::Contains("Is a directory"));
+}
+
+TEST_CASE("devices are written, not replaced", "[image][file]") {
+  WriteFileAtomically("/dev/null", "gone");
+  CHECK(std::filesystem::is_character_file("/dev/null"));
+  CHECK_THROWS_WITH(WriteFileAtomically("/dev/full", "x"),
+                    Catch::Contains("No space left on device"));
+  CHECK(std::filesystem::is_character_file("/dev/full"));
+}
+
+}  // namespace lanelight
