@@ -3,14 +3,14 @@
 // a stage, and probe-inl.h into batch entries for tests.
 //
 //   struct XBsdf {
-//     static constexpr bool kSpecular;     // only delta directions: no Eval, no light samples
-//     static constexpr bool kAnisotropic;  // the tangent matters
-//     static constexpr bool kRefracts;     // Sample fills eta_scale
-//     static constexpr bool kStochastic;   // Load fills Params::random
+//     kSpecular     only delta directions: no Eval, no light samples
+//     kAnisotropic  the tangent matters
+//     kRefracts     Sample fills eta_scale
+//     kStochastic   Load receives random numbers   (all four: static constexpr bool)
 //     struct Params;
 //     static Params Load(const MaterialInputs&);
-//     static BsdfValue Eval(Params&, V3 wo, V3 wi);
-//     static BsdfSample Sample(Params&, V3 wo, const BsdfPoints&);
+//     static BsdfValue Eval(const Params&, V3 wo, V3 wi);
+//     static BsdfSample Sample(const Params&, V3 wo, const BsdfPoints&);
 //   };
 // wo and wi are unit and point away from the surface; wo.z is never 0.
 #if defined(LANELIGHT_SHADE_BSDF_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -22,6 +22,15 @@
 
 #include "kernels/shade/random-inl.h"
 #include "kernels/simd/math-inl.h"
+
+// Eval and Sample are part of six kernels each. Inlining them there pays where a vector
+// is a register; in the emulation it only costs the compiler half a minute per material.
+#undef LANELIGHT_BSDF_CALL
+#if HWY_TARGET == HWY_EMU128
+#define LANELIGHT_BSDF_CALL HWY_NOINLINE
+#else
+#define LANELIGHT_BSDF_CALL HWY_INLINE
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

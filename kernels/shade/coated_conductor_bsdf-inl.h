@@ -63,7 +63,7 @@ struct CoatedConductorBsdf {
   /// The proxy q (see above), both directions on the upper side: the coat's reflection,
   /// the metal's as seen through it (refraction widens slopes by eta, a rough coat adds
   /// its own), and a tenth of a cosine lobe so that it never vanishes.
-  HWY_INLINE static VF Proxy(const Params& p, V3 wo, V3 wi) {
+  LANELIGHT_BSDF_CALL static VF Proxy(const Params& p, V3 wo, V3 wi) {
     const V3 m = Normalize(wo + wi);
     const auto widened = [&](VF metal, VF coat) HWY_ATTR {
       const VF through = hn::Mul(metal, p.coat.eta);
@@ -87,7 +87,7 @@ struct CoatedConductorBsdf {
   /// One estimate of f |cos wi| by a walk from wo that is connected to wi at every
   /// possible vertex: at the metal through a refraction sampled from wi, at the coat by
   /// evaluating the refraction towards wi; the power heuristic joins the two.
-  HWY_INLINE static BsdfValue Eval(const Params& p, V3 wo_any, V3 wi_any) {
+  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& p, V3 wo_any, V3 wi_any) {
     const V3 wo = {wo_any.x, wo_any.y, hn::Abs(wo_any.z)};
     const V3 wi = {wi_any.x, wi_any.y, hn::Abs(wi_any.z)};
     const MF same = SameSide(wo_any, wi_any);
@@ -96,7 +96,7 @@ struct CoatedConductorBsdf {
     return {IfThenElseZero(same, f_cos), hn::IfThenElseZero(same, Proxy(p, wo, wi))};
   }
 
-  HWY_INLINE static V3 Connections(const Params& p, V3 wo, V3 wi) {
+  LANELIGHT_BSDF_CALL static V3 Connections(const Params& p, V3 wo, V3 wi) {
     const VF one = Splat(1.0f);
     V3 sum = Splat3(0, 0, 0);
     VF u[4];
@@ -137,8 +137,8 @@ struct CoatedConductorBsdf {
     return sum;
   }
 
-  HWY_INLINE static BsdfSample Sample(const Params& p, V3 wo_any,
-                                      const BsdfPoints& points) {
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& p, V3 wo_any,
+                                               const BsdfPoints& points) {
     const V3 wo = {wo_any.x, wo_any.y, hn::Abs(wo_any.z)};
     const LayerEvent first =
         p.coat.Sample<Outcome::kEither>(wo, points.lobe, points.u0, points.u1, true);

@@ -85,7 +85,7 @@ struct CoatedDiffuseSmoothBsdf {
     return hn::Mul(hn::Sub(Splat(1.0f), at.reflectance), Exp(hn::Neg(slant)));
   }
 
-  HWY_INLINE static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const VF cos_i = hn::Abs(wi.z);
     const Interface at_o = DielectricInterface(hn::Abs(wo.z), m.base.eta);
     const VF to = Transmittance(m, at_o);
@@ -97,7 +97,8 @@ struct CoatedDiffuseSmoothBsdf {
             hn::IfThenElseZero(same, pdf)};
   }
 
-  HWY_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+                                               const BsdfPoints& u) {
     const VF one = Splat(1.0f), tiny = Splat(1e-30f);
     const Interface at_o = DielectricInterface(hn::Abs(wo.z), m.base.eta);
     const VF to = Transmittance(m, at_o);
@@ -146,7 +147,7 @@ struct CoatedDiffuseRoughBsdf {
   }
 
   /// Both directions on the upper side; n = their half vector.
-  HWY_INLINE static BsdfValue EvalUpper(const Params& m, V3 wo, V3 wi, V3 n) {
+  LANELIGHT_BSDF_CALL static BsdfValue EvalUpper(const Params& m, V3 wo, V3 wi, V3 n) {
     const VF half = Splat(0.5f), one = Splat(1.0f);
     const VF to = Transmittance(m, wo.z), ti = Transmittance(m, wi.z);
     const VF coat = m.base.CoatProbability(hn::Sub(one, to), to);
@@ -162,14 +163,15 @@ struct CoatedDiffuseRoughBsdf {
             hn::MulAdd(coat, hn::Sub(coat_pdf, base_pdf), base_pdf)};
   }
 
-  HWY_INLINE static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const V3 wo_up = {wo.x, wo.y, hn::Abs(wo.z)}, wi_up = {wi.x, wi.y, hn::Abs(wi.z)};
     const BsdfValue value = EvalUpper(m, wo_up, wi_up, Normalize(wo_up + wi_up));
     const MF same = SameSide(wo, wi);
     return {IfThenElseZero(same, value.f_cos), hn::IfThenElseZero(same, value.pdf)};
   }
 
-  HWY_INLINE static BsdfSample Sample(const Params& m, V3 wo_any, const BsdfPoints& u) {
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo_any,
+                                               const BsdfPoints& u) {
     const VF zero = hn::Zero(DF()), one = Splat(1.0f);
     const V3 wo = {wo_any.x, wo_any.y, hn::Abs(wo_any.z)};
     const VF to = Transmittance(m, wo.z);

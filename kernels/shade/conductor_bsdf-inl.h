@@ -26,7 +26,8 @@ struct ConductorSmoothBsdf {
   HWY_INLINE static Params Load(const MaterialInputs& in) {
     return {in.Color0(), in.Color1()};
   }
-  HWY_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints&) {
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+                                               const BsdfPoints&) {
     return {{hn::Neg(wo.x), hn::Neg(wo.y), wo.z},
             FresnelConductor(hn::Abs(wo.z), m.eta, m.k),
             hn::Zero(DF()),
@@ -51,7 +52,7 @@ struct ConductorRoughBsdf {
     return {in.Color0(), in.Color1(), Ggx::FromAlpha(in.AlphaX(), in.AlphaY())};
   }
 
-  HWY_INLINE static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const VF zo = hn::Abs(wo.z), zi = hn::Abs(wi.z);
     const V3 n = Normalize(wo + wi);
     const VF d = m.ggx.D(n);
@@ -63,7 +64,8 @@ struct ConductorRoughBsdf {
     return {IfThenElseZero(reflects, Mul(f, shape)), hn::IfThenElseZero(reflects, pdf)};
   }
 
-  HWY_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+                                               const BsdfPoints& u) {
     const V3 up = {wo.x, wo.y, hn::Abs(wo.z)};
     const V3 n = m.ggx.SampleVisible(up, u.u0, u.u1);
     const VF cosine = hn::Clamp(Dot(up, n), hn::Zero(DF()), Splat(1.0f));

@@ -33,7 +33,8 @@ struct DielectricSmoothBsdf {
     return {in.Float(in.source.table->eta)};
   }
 
-  HWY_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+                                               const BsdfPoints& u) {
     const VF eta = RelativeIndex(m.eta, wo), one = Splat(1.0f);
     const Interface at = DielectricInterface(hn::Abs(wo.z), eta);
     const MF reflect = hn::Lt(u.lobe, at.reflectance);
@@ -60,7 +61,8 @@ struct ThinDielectricBsdf {
     return {in.Float(in.source.table->eta)};
   }
 
-  HWY_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+                                               const BsdfPoints& u) {
     const VF r = DielectricInterface(hn::Abs(wo.z), m.eta).reflectance;
     const VF total = hn::Div(hn::Add(r, r), hn::Add(Splat(1.0f), r));
     const MF reflect = hn::Lt(u.lobe, total);
@@ -98,7 +100,7 @@ struct DielectricRoughBsdf {
     return hn::Div(hn::Add(d, d), hn::Add(zo, so));
   }
 
-  HWY_INLINE static BsdfValue Eval(const Params& m, V3 wo_any, V3 wi_any) {
+  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo_any, V3 wi_any) {
     const VF zero = hn::Zero(DF()), side = hn::CopySign(Splat(1.0f), wo_any.z);
     const V3 wo = Mul(wo_any, side), wi = Mul(wi_any, side);
     const VF eta = RelativeIndex(m.eta, wo_any), zi = hn::Abs(wi.z);
@@ -122,7 +124,8 @@ struct DielectricRoughBsdf {
     return {Grey(hn::Mul(hn::Mul(pdf, scale), MaskingRatio(wo.z, so, zi, si))), pdf};
   }
 
-  HWY_INLINE static BsdfSample Sample(const Params& m, V3 wo_any, const BsdfPoints& u) {
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo_any,
+                                               const BsdfPoints& u) {
     const VF zero = hn::Zero(DF()), one = Splat(1.0f), side = hn::CopySign(one, wo_any.z);
     const V3 wo = Mul(wo_any, side);
     const VF eta = RelativeIndex(m.eta, wo_any);

@@ -27,12 +27,13 @@ struct DiffuseModel {
   };
   HWY_INLINE static Params Load(const MaterialInputs& in) { return {in.Reflectance()}; }
 
-  HWY_INLINE static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const VF pdf = hn::IfThenElseZero(SameSide(wo, wi), Hemisphere::Pdf(hn::Abs(wi.z)));
     return {Mul(m.albedo, pdf), pdf};
   }
 
-  HWY_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+                                               const BsdfPoints& u) {
     const V3 up = Hemisphere::Sample(u.u0, u.u1);
     return {ToSideOf(wo, up), m.albedo, Hemisphere::Pdf(up.z), Splat(1.0f)};
   }

@@ -33,7 +33,7 @@ struct DiffuseTransmissionBsdf {
     return {r, t, hn::Div(pr, hn::Max(sum, Splat(1e-30f)))};
   }
 
-  HWY_INLINE static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const MF same = SameSide(wo, wi);
     const VF lambert = PdfCosineHemisphere(hn::Abs(wi.z));
     const VF choice = hn::IfThenElse(same, m.reflect, hn::Sub(Splat(1.0f), m.reflect));
@@ -41,7 +41,8 @@ struct DiffuseTransmissionBsdf {
             hn::Mul(choice, lambert)};
   }
 
-  HWY_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+                                               const BsdfPoints& u) {
     const MF reflect = hn::Lt(u.lobe, m.reflect);
     const V3 up = SampleCosineHemisphere(u.u0, u.u1);
     const VF choice = hn::IfThenElse(reflect, m.reflect, hn::Sub(Splat(1.0f), m.reflect));
