@@ -19,9 +19,7 @@ struct Map34 {
   V3 move;    // translation
 
   HWY_INLINE V3 Vector(V3 v) const {
-    return {lanelight::HWY_NAMESPACE::Dot(row[0], v),
-            lanelight::HWY_NAMESPACE::Dot(row[1], v),
-            lanelight::HWY_NAMESPACE::Dot(row[2], v)};
+    return {Dot(row[0], v), Dot(row[1], v), Dot(row[2], v)};
   }
   /// Transposed linear part: maps normals when the map is the inverse.
   HWY_INLINE V3 Transposed(V3 n) const {
@@ -75,8 +73,7 @@ HWY_INLINE VF MappingError(const InstanceMaps& maps, V3 p_object, V3 n) {
   const V3 in_object = maps.object_from_scene.Bound(reach);
   const Map34& s = maps.scene_from_object;
   const Map34 abs_s{{Abs(s.row[0]), Abs(s.row[1]), Abs(s.row[2])}, s.move};
-  return hn::Mul(Splat(12 * 0x1p-24f),
-                 lanelight::HWY_NAMESPACE::Dot(Abs(n), abs_s.Vector(in_object)));
+  return hn::Mul(Splat(12 * 0x1p-24f), Dot(Abs(n), abs_s.Vector(in_object)));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -60,8 +60,7 @@ HWY_INLINE V3 VertexNormal(const Geometry& geometry, const TriangleLanes& tri, V
   const V3 n = MulAdd(GatherRecord3(normals, 9, 0, tri.prim), tri.b0,
                       MulAdd(GatherRecord3(normals, 9, 3, tri.prim), tri.b1,
                              Mul(GatherRecord3(normals, 9, 6, tri.prim), tri.b2)));
-  return IfThenElse(hn::Gt(lanelight::HWY_NAMESPACE::Dot(n, n), Splat(0x1p-40f)), n,
-                    face);
+  return IfThenElse(hn::Gt(Dot(n, n), Splat(0x1p-40f)), n, face);
 }
 
 struct UvLanes {
@@ -84,7 +83,7 @@ HWY_INLINE V3 Tangent(const UvLanes& uv, V3 e1, V3 e2, V3 face) {
                      DifferenceOfProducts(dv2, e1.y, dv1, e2.y),
                      DifferenceOfProducts(dv2, e1.z, dv1, e2.z)};
   const V3 tangent = Mul(scaled, hn::Div(Splat(1.0f), det));
-  const VF length2 = lanelight::HWY_NAMESPACE::Dot(tangent, tangent);
+  const VF length2 = Dot(tangent, tangent);
   const MF good = hn::And(hn::Gt(length2, hn::Zero(DF())), hn::Lt(length2, Splat(1e30f)));
   return IfThenElse(good, tangent, FrameFromNormal(face).s);
 }
@@ -122,7 +121,7 @@ HWY_INLINE void SurfaceBatch(const Wave& wave, VI slots) {
     ns = Normalize(ns);
     Scatter3(ns, path.ns_x, path.ns_y, path.ns_z, slots);
     // The geometric normal takes the side of the shading normal, as in pbrt.
-    const MF apart = hn::Lt(lanelight::HWY_NAMESPACE::Dot(ns, ng), hn::Zero(DF()));
+    const MF apart = hn::Lt(Dot(ns, ng), hn::Zero(DF()));
     ng = IfThenElse(apart, -ng, ng);
   }
   Scatter3(p, path.p_x, path.p_y, path.p_z, slots);

@@ -1,9 +1,9 @@
 // Closest and any hits on triangles against brute force in double precision.
 #include <catch2/catch.hpp>
 
-#include "kernels/intersect/stages.h"
 #include "kernels/simd/target.h"
 #include "tests/intersect/brute_force.h"
+#include "tests/intersect/trace.h"
 
 namespace lanelight {
 namespace {
@@ -11,41 +11,9 @@ namespace {
 using brute::Random;
 using brute::ToDouble;
 
-const FeatureSet kFeatures = {Feature::kTriangles};
-
-struct KernelHit {
-  float t;
-  std::uint32_t prim;
-  float b1, b2;
-  friend bool operator==(const KernelHit&, const KernelHit&) = default;
-};
-
-std::vector<KernelHit> Trace(const CompiledScene& scene, const std::vector<TestRay>& rays,
-                             const FeatureSet& features = kFeatures) {
-  WaveFixture fixture(scene, static_cast<std::uint32_t>(rays.size()));
-  fixture.SetRays(rays);
-  fixture.Run(IntersectTrianglesStage(), features);
-  std::vector<KernelHit> hits;
-  const PathColumns& p = fixture.wave.path;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (std::isinf(p.t[i])) {
-      hits.push_back({p.t[i], 0, 0, 0});
-    } else {
-      hits.push_back({p.t[i], p.prim[i], p.b1[i], p.b2[i]});
-    }
-  }
-  return hits;
-}
-
-// Slots that stay in the queue.
-std::vector<std::uint32_t> Unoccluded(const CompiledScene& scene,
-                                      const std::vector<TestRay>& rays,
-                                      const FeatureSet& features = kFeatures) {
-  WaveFixture fixture(scene, static_cast<std::uint32_t>(rays.size()));
-  fixture.SetShadowRays(rays);
-  fixture.Run(ShadowTrianglesStage(), features);
-  const Queue& queue = fixture.wave.queue(QueueId::kShadow);
-  return {queue.items, queue.items + queue.size};
+std::vector<KernelHit> Trace(const CompiledScene& scene,
+                             const std::vector<TestRay>& rays) {
+  return TraceClosest(scene, rays, {IntersectTrianglesStage()});
 }
 
 std::vector<TestRay> RandomRays(Random& random, int n, float size) {
@@ -116,7 +84,7 @@ TEST_CASE("any-hit keeps exactly the rays without a nearer hit", "[intersect]") 
         }
         if (std::isinf(hits[i].t) || i % 3 != 1) expected.push_back(i);
       }
-      CHECK(Unoccluded(scene, rays) == expected);
+      CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage()}) == expected);
     }
   }
   ForceTarget("");
