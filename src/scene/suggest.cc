@@ -38,6 +38,12 @@ std::string NearestName(std::string_view found, const std::vector<std::string>& 
   std::string nearest;
   for (const std::string& name : known) {
     const int distance = EditDistance(found, name);
+    // Part of a name, such as "lambert", is meant however long the rest is.
+    const bool is_part = found.size() >= 3 && name.find(found) != name.npos;
+    if (is_part && best > 1) {
+      best = 1;
+      nearest = name;
+    }
     // A distance as long as the name itself says only that both are short.
     if (distance >= best || distance >= static_cast<int>(name.size())) continue;
     best = distance;
