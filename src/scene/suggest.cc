@@ -33,7 +33,8 @@ int EditDistance(std::string_view a, std::string_view b) {
 
 std::string NearestName(std::string_view found, const std::vector<std::string>& known) {
   if (found.size() > kLongestComparedName) return "";
-  const int limit = std::max(2, static_cast<int>(found.size()) / 3);
+  const int length = static_cast<int>(found.size());
+  const int limit = length < 3 ? 1 : std::max(2, length / 3);
   int best = limit + 1;
   std::string nearest;
   for (const std::string& name : known) {
