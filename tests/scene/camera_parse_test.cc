@@ -46,7 +46,8 @@ TEST_CASE("film size, crop and ignored sensor", "[parse]") {
   const SceneDescription scene = ParseOptionsBlock(R"(
     Film "rgb" "integer xresolution" 101 "integer yresolution" 50
       "string filename" "out.exr" "float cropwindow" [ 0.25 0.5 0 1 ]
-      "bool savefp16" false "string sensor" "canon_eos_100d" "float maxcomponentvalue" 10)");
+      "bool savefp16" false "string sensor" "canon_eos_100d"
+      "float maxcomponentvalue" 10)");
   CHECK(scene.film.width == 101);
   CHECK(scene.film.filename == "out.exr");
   CHECK(scene.film.crop[0] == 26);  // ceil(25.25)

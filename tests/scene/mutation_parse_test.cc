@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 const char kScene[] = R"(LookAt 0 1 5  0 0 0  0 1 0
 Camera "perspective" "float fov" 45 "float screenwindow" [ -1 1 -1 1 ]
-Film "rgb" "integer xresolution" 64 "integer yresolution" 32 "float cropwindow" [ 0 1 0 1 ]
+Film "rgb" "integer xresolution" 64 "integer yresolution" 32
+  "float cropwindow" [ 0 1 0 1 ]
 Sampler "zsobol" "integer pixelsamples" 4
 PixelFilter "mitchell" "float B" 0.3
 Integrator "volpath" "integer maxdepth" 3
@@ -38,9 +39,11 @@ AreaLightSource "diffuse" "rgb L" [ 1 2 3 ] "bool twosided" true
 Shape "sphere" "float radius" 2
 AttributeEnd
 ObjectBegin "o" Attribute "shape" "float radius" 3 Shape "disk" Shape "plane" ObjectEnd
-TransformBegin Transform [ 1 0 0 0 0 1 0 0 0 0 1 0 1 2 3 1 ] ObjectInstance "o" TransformEnd
+TransformBegin Transform [ 1 0 0 0 0 1 0 0 0 0 1 0 1 2 3 1 ]
+ObjectInstance "o" TransformEnd
 Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 0 ] "integer indices" [ 0 1 2 ]
-Shape "bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 0 ] "point2 uv" [ 0 0 1 0 0 1 1 1 ]
+Shape "bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 0 ]
+  "point2 uv" [ 0 0 1 0 0 1 1 1 ]
 CoordinateSystem "s" CoordSysTransform "s" ReverseOrientation
 )";
 const char kAsciiPly[] =
