@@ -1,4 +1,10 @@
 // pbrt-v4 text scenes (with Include, Import and PLY meshes) to SceneDescription.
+//
+// Follows pbrt-v4 in meaning and defaults. Differences: names must be defined before they
+// are used; what would change the image and is not supported is an InputError (or, with
+// skip_unsupported, a note); what cannot change the image, or only by design, is a note
+// in SceneDescription::notes. Extensions: Shape "plane", "string scattering" of Material
+// "diffuse".
 #pragma once
 
 #include <functional>
@@ -11,10 +17,12 @@ namespace lanelight {
 
 struct ParseOptions {
   bool skip_unsupported = false;  // media and the like become notes instead of errors
+  bool allow_files = true;  // false: Include, Import, meshes and spectra files are errors
 };
 
 /// Parses the file and everything it includes; meshes are read in parallel.
 /// Throws InputError: place, what was found, what is supported, the nearest known name.
+/// Image files are not opened here; their paths are resolved.
 SceneDescription ParseScene(const std::string& path, const ParseOptions& options = {});
 
 /// Parses text as if it stood in a file called `name` inside `directory`.
