@@ -7,7 +7,59 @@
 
 namespace lanelight {
 
-#define LANELIGHT_STAGES(X)
+#define LANELIGHT_STAGES(X)   \
+  X(Generate)                 \
+  X(IndependentCamera)        \
+  X(SobolCamera)              \
+  X(Camera)                   \
+  X(IntersectTriangles)       \
+  X(IntersectSpheres)         \
+  X(IntersectDisks)           \
+  X(IntersectPlanes)          \
+  X(Split)                    \
+  X(Escape)                   \
+  X(EmissionTriangle)         \
+  X(EmissionSphere)           \
+  X(EmissionDisk)             \
+  X(Limit)                    \
+  X(SurfaceTriangle)          \
+  X(SurfaceSphere)            \
+  X(SurfaceDisk)              \
+  X(SurfacePlane)             \
+  X(Mix)                      \
+  X(Texture)                  \
+  X(Aov)                      \
+  X(IndependentBounce)        \
+  X(SobolBounce)              \
+  X(Route)                    \
+  X(SelectLight)              \
+  X(SampleTriangleLight)      \
+  X(SampleSphereLight)        \
+  X(SampleDiskLight)          \
+  X(SamplePointLight)         \
+  X(SampleSpotLight)          \
+  X(SampleDistantLight)       \
+  X(SampleInfiniteConstant)   \
+  X(SampleInfiniteImage)      \
+  X(ShadeDiffuse)             \
+  X(ShadeDiffuseUniform)      \
+  X(ShadeDiffuseInSphere)     \
+  X(ShadeConductorSmooth)     \
+  X(ShadeConductorRough)      \
+  X(ShadeDielectricSmooth)    \
+  X(ShadeDielectricRough)     \
+  X(ShadeThinDielectric)      \
+  X(ShadeCoatedDiffuseSmooth) \
+  X(ShadeCoatedDiffuseRough)  \
+  X(ShadeCoatedConductor)     \
+  X(ShadeDiffuseTransmission) \
+  X(ShadowTriangles)          \
+  X(ShadowSpheres)            \
+  X(ShadowDisks)              \
+  X(ShadowPlanes)             \
+  X(Connect)                  \
+  X(ThroughputRoulette)       \
+  X(Accumulate)
 
 #define X(name) Stage name##Stage();
 LANELIGHT_STAGES(X)

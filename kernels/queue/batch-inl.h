@@ -32,6 +32,13 @@ HWY_INLINE void PadTail(const Queue& queue) {
   hn::StoreU(hn::Set(du, queue.items[queue.size - 1]), du, queue.items + queue.size);
 }
 
+/// Adds one pass over the queue to the occupancy of the running stage.
+HWY_INLINE void CountBatches(Wave& wave, const Queue& queue) {
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DF()));
+  wave.lanes.items += queue.size;
+  wave.lanes.vectors += (queue.size + lanes - 1) / lanes;
+}
+
 /// Calls body(VI slots, MF valid) for each vector of the queue. `valid` marks the lanes
 /// before the end (only pushes to other queues and counts need it). Counts occupancy.
 template <class Body>
@@ -44,8 +51,7 @@ HWY_INLINE void ForEachBatch(Wave& wave, const Queue& queue, Body&& body) {
     const VI slots = hn::LoadU(di, reinterpret_cast<const int32_t*>(queue.items) + i);
     body(slots, hn::FirstN(df, queue.size - i));
   }
-  wave.lanes.items += queue.size;
-  wave.lanes.vectors += (queue.size + lanes - 1) / lanes;
+  CountBatches(wave, queue);
 }
 
 /// Appends the slots under `mask` to `queue`.

@@ -32,8 +32,8 @@ struct PrimitiveRanges {
 struct TriangleRecord {
   float p[3][3];
   std::uint32_t material;
-  std::int32_t light;      // index into LightTable::lights, -1 = not emitting
-  std::uint32_t flags;     // kAlphaTested: bit 0
+  std::int32_t light;   // index into LightTable::lights, -1 = not emitting
+  std::uint32_t flags;  // kAlphaTested: bit 0
 };
 static_assert(sizeof(TriangleRecord) == 48);
 inline constexpr std::uint32_t kAlphaTested = 1;
@@ -46,8 +46,9 @@ struct SphereRecord {
   std::int32_t light;
   std::uint32_t flags;
   float normal_sign;
-  float x_axis[3], z_axis[3];  // object axes in scene space, unit, for uv; y = cross(z, x)*
-  float y_sign;                // *times y_sign (mirrored transforms)
+  float x_axis[3],
+      z_axis[3];  // object axes in scene space, unit, for uv; y = cross(z, x)*
+  float y_sign;   // *times y_sign (mirrored transforms)
   std::uint32_t pad;
 };
 static_assert(sizeof(SphereRecord) == 64);
@@ -56,9 +57,9 @@ static_assert(sizeof(SphereRecord) == 64);
 struct DiskRecord {
   float center[3];
   float radius;
-  float normal[3];         // unit, on the emitting side
+  float normal[3];  // unit, on the emitting side
   float inner_radius;
-  float u_axis[3];         // unit, object x; v axis = v_sign * cross(normal, u_axis)
+  float u_axis[3];  // unit, object x; v axis = v_sign * cross(normal, u_axis)
   std::uint32_t material;
   std::int32_t light;
   std::uint32_t flags;
@@ -67,13 +68,13 @@ struct DiskRecord {
 };
 static_assert(sizeof(DiskRecord) == 64);
 
-/// Infinite plane record: 16 words. uv = (dot(p - point, u_axis), dot(p - point, v_axis)),
-/// axes scaled so that uv are object-space x and y.
+/// Infinite plane record: 16 words. uv = (dot(p - point, u_axis), dot(p - point,
+/// v_axis)), axes scaled so that uv are object-space x and y.
 struct PlaneRecord {
   float point[3];
   std::uint32_t material;
   float normal[3];
-  std::int32_t light;      // always -1: an infinite plane cannot emit
+  std::int32_t light;  // always -1: an infinite plane cannot emit
   float u_axis[3];
   std::uint32_t flags;
   float v_axis[3];
@@ -90,9 +91,10 @@ struct InstanceRecord {
 struct Geometry {
   PrimitiveRanges ranges;
   AlignedVector<TriangleRecord> triangles;
-  AlignedVector<float> normals;  // 9 per triangle (3 vertices); empty without kVertexNormals.
-                                 // Unit; triangles without normals hold their face normal.
-  AlignedVector<float> uvs;      // 6 per triangle; empty without kUv and kTangents
+  AlignedVector<float>
+      normals;               // 9 per triangle (3 vertices); empty without kVertexNormals.
+                             // Unit; triangles without normals hold their face normal.
+  AlignedVector<float> uvs;  // 6 per triangle; empty without kUv and kTangents
   AlignedVector<SphereRecord> spheres;
   AlignedVector<DiskRecord> disks;
   AlignedVector<PlaneRecord> planes;
@@ -109,11 +111,12 @@ struct Geometry {
 
 // ---- Materials --------------------------------------------------------------------
 /// The shading kernels, one queue each.
-#define LANELIGHT_SHADE_KINDS(X)                                             \
-  X(kDiffuse) X(kDiffuseUniform) X(kDiffuseInSphere) X(kConductorSmooth)     \
-  X(kConductorRough) X(kDielectricSmooth) X(kDielectricRough) X(kThinDielectric) \
-  X(kCoatedDiffuseSmooth) X(kCoatedDiffuseRough) X(kCoatedConductor)         \
-  X(kDiffuseTransmission)
+#define LANELIGHT_SHADE_KINDS(X)                                                \
+  X(kDiffuse)                                                                   \
+  X(kDiffuseUniform) X(kDiffuseInSphere) X(kConductorSmooth) X(kConductorRough) \
+      X(kDielectricSmooth) X(kDielectricRough) X(kThinDielectric)               \
+          X(kCoatedDiffuseSmooth) X(kCoatedDiffuseRough) X(kCoatedConductor)    \
+              X(kDiffuseTransmission)
 
 enum class ShadeKind : std::uint32_t {
 #define X(name) name,
@@ -123,6 +126,16 @@ enum class ShadeKind : std::uint32_t {
   kMix = kCount  // resolved by the route stage, has no kernel
 };
 inline constexpr int kNumShadeKinds = static_cast<int>(ShadeKind::kCount);
+
+/// The feature that says that a scene has this kind.
+constexpr Feature ShadeFeature(ShadeKind kind) {
+  constexpr Feature kFeatures[] = {
+#define X(name) Feature::name,
+      LANELIGHT_SHADE_KINDS(X)
+#undef X
+  };
+  return kFeatures[static_cast<int>(kind)];
+}
 
 /// Transmittance of a (rough) dielectric coat seen from outside, tabulated over
 /// mu = |cos theta| at (i / (kCoatTableSize - 1)); see src/scene/coat_table.h.
@@ -144,35 +157,44 @@ struct MaterialTable {
   AlignedVector<float> eta;                 // relative index of the dielectric
   AlignedVector<std::int32_t> coat;         // offset of its table in coat_transmittance, -1
   AlignedVector<float> coat_internal;       // mean internal reflectance under the coat
+  AlignedVector<float> coat_thickness;      // of a coat: the medium absorbs exp(-t / cos)
+  AlignedVector<std::uint32_t> coat_depth;  // layer crossings at most (pbrt's maxdepth)
   AlignedVector<std::int32_t> color0_texture, color1_texture;
   AlignedVector<std::int32_t> alpha_x_texture, alpha_y_texture;
   AlignedVector<std::uint32_t> alpha_remap;  // 1: textured roughness goes through sqrt
   AlignedVector<std::int32_t> mix0, mix1;
-  AlignedVector<float> coat_transmittance;   // kCoatTableSize per distinct coat
+  AlignedVector<float> coat_transmittance;  // kCoatTableSize per distinct coat
   std::vector<std::string> names;
   std::size_t size() const { return kind.size(); }
 };
 
 // ---- Lights -----------------------------------------------------------------------
 enum class LightShape : std::uint32_t {
-  kTriangle, kSphere, kDisk, kPoint, kSpot, kDistant, kInfiniteConstant, kInfiniteImage
+  kTriangle,
+  kSphere,
+  kDisk,
+  kPoint,
+  kSpot,
+  kDistant,
+  kInfiniteConstant,
+  kInfiniteImage
 };
 
 /// Light record: 20 words.
 struct LightRecord {
-  std::uint32_t shape;      // LightShape
-  std::uint32_t two_sided;  // 0 or 1
-  float pmf;                // probability of being selected
-  float area;               // scene units; 0 for lights without area
-  float radiance[3];        // radiance; point/spot: intensity in scene units (W/sr times
-                            // scale^2); distant: irradiance on a facing surface
-  std::uint32_t primitive;  // id of the emitting primitive
-  float position[3];        // point, spot
-  std::int32_t environment; // index into LightTable::environments, or -1
-  float direction[3];       // spot: axis, pointing away from the light; distant: unit,
-                            // pointing TOWARD the light
-  std::int32_t instance;    // of the emitting primitive, -1 (emitters in instances are
-                            // copied into the world at compile)
+  std::uint32_t shape;       // LightShape
+  std::uint32_t two_sided;   // 0 or 1
+  float pmf;                 // probability of being selected
+  float area;                // scene units; 0 for lights without area
+  float radiance[3];         // radiance; point/spot: intensity in scene units (W/sr times
+                             // scale^2); distant: irradiance on a facing surface
+  std::uint32_t primitive;   // id of the emitting primitive
+  float position[3];         // point, spot
+  std::int32_t environment;  // index into LightTable::environments, or -1
+  float direction[3];        // spot: axis, pointing away from the light; distant: unit,
+                             // pointing TOWARD the light
+  std::int32_t instance;     // of the emitting primitive, -1 (emitters in instances are
+                             // copied into the world at compile)
   float cos_total, cos_falloff;  // spot
   float pad[2];
 };
@@ -180,19 +202,20 @@ static_assert(sizeof(LightRecord) == 80);
 
 /// Environment image: size x size equal-area octahedral map (Clarberg 2008; pbrt-v4).
 /// Texel probabilities are proportional to luminance; pdf_sa = p * size^2 / (4 pi).
-/// Looked up without interpolation, as pbrt does.
+/// Looked up without interpolation, as pbrt does. Sampled by inverting the cumulative
+/// distributions of row and column, which keeps the stratification of the sample points.
 struct Environment {
   std::int32_t size = 0;
-  AlignedVector<float> rgb;         // 3 per texel, scaled
-  AlignedVector<float> alias_q;     // Walker-Vose alias table over texels
-  AlignedVector<std::uint32_t> alias;
+  AlignedVector<float> rgb;          // 3 per texel, row by row, scaled
+  AlignedVector<float> row_cdf;      // size + 1
+  AlignedVector<float> column_cdf;   // size + 1 per row
   AlignedVector<float> probability;  // per texel, sums to 1
   float light_from_scene[9];         // rotation, row-major
 };
 
 struct LightTable {
   AlignedVector<LightRecord> lights;
-  AlignedVector<float> alias_q;      // Walker-Vose table over lights: with u*n = i + f,
+  AlignedVector<float> alias_q;        // Walker-Vose table over lights: with u*n = i + f,
   AlignedVector<std::uint32_t> alias;  // pick i if f < alias_q[i], else alias[i]
   std::vector<Environment> environments;
   std::vector<std::uint32_t> infinite;  // indices of lights that escaped rays see
@@ -214,16 +237,16 @@ struct CompiledCamera {
 struct CompiledFilter {
   static constexpr int kSize = 64;
   float x_radius = 0.5f, y_radius = 0.5f;
-  bool is_box = true;                       // then the tables are unused
-  AlignedVector<float> x_cdf, y_cdf;        // kSize + 1 entries each, of |f|
-  AlignedVector<float> x_sign, y_sign;      // kSize entries, +-1
-  float weight = 1;                         // integral |f| / integral f over both axes
+  bool is_box = true;                   // then the tables are unused
+  AlignedVector<float> x_cdf, y_cdf;    // kSize + 1 entries each, of |f|
+  AlignedVector<float> x_sign, y_sign;  // kSize entries, +-1
+  float weight = 1;                     // integral |f| / integral f over both axes
 };
 
 struct CompiledScene {
-  Vec3d center;        // world position of the scene origin
-  double scale = 1;    // power of two, scene units per world unit
-  FeatureSet features; // what the scene contains (options may add or remove more)
+  Vec3d center;         // world position of the scene origin
+  double scale = 1;     // power of two, scene units per world unit
+  FeatureSet features;  // what the scene contains (options may add or remove more)
   Geometry geometry;
   Accel accel;
   MaterialTable materials;
@@ -237,6 +260,7 @@ struct CompiledScene {
   Film film;
   Sampler sampler;
   Integrator integrator;
+  std::vector<Note> notes;  // what compiling left out, such as degenerate triangles
 };
 
 }  // namespace lanelight

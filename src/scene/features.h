@@ -8,52 +8,56 @@
 namespace lanelight {
 
 // X(bit name, what it means when set)
-#define LANELIGHT_FEATURES(X)                                              \
-  X(kTriangles, "triangle meshes")                                         \
-  X(kSpheres, "spheres")                                                   \
-  X(kDisks, "disks")                                                       \
-  X(kPlanes, "infinite planes")                                            \
-  X(kInstances, "object instances")                                        \
-  X(kVertexNormals, "interpolated vertex normals")                         \
-  X(kUv, "surface coordinates (a texture is looked up)")                   \
-  X(kTangents, "tangent frames (an anisotropic material)")                 \
-  X(kTextures, "textured material parameters")                             \
-  X(kTexturedRoughness, "textured roughness")                              \
-  X(kTexturedColor1, "a textured second colour parameter")                 \
-  X(kColor1, "a second colour parameter (conductor k, transmittance)")     \
-  X(kAlpha, "alpha cut-outs")                                              \
-  X(kMix, "mix materials")                                                 \
-  X(kDiffuse, "Lambertian diffuse material")                               \
-  X(kDiffuseUniform, "uniform-scattering diffuse material")                \
-  X(kDiffuseInSphere, "in-sphere diffuse material")                        \
-  X(kConductorSmooth, "smooth conductor")                                  \
-  X(kConductorRough, "rough conductor")                                    \
-  X(kDielectricSmooth, "smooth dielectric")                                \
-  X(kDielectricRough, "rough dielectric")                                  \
-  X(kThinDielectric, "thin dielectric")                                    \
-  X(kCoatedDiffuseSmooth, "smooth coated diffuse")                         \
-  X(kCoatedDiffuseRough, "rough coated diffuse")                           \
-  X(kCoatedConductor, "coated conductor")                                  \
-  X(kDiffuseTransmission, "diffuse transmission")                          \
-  X(kRefraction, "a refracting interface (roulette must know eta)")        \
-  X(kLights, "at least one light that can be sampled")                     \
-  X(kManyLights, "more than one light")                                    \
-  X(kTriangleLights, "emitting triangles")                                 \
-  X(kSphereLights, "emitting spheres")                                     \
-  X(kDiskLights, "emitting disks")                                         \
-  X(kPointLights, "point lights")                                          \
-  X(kSpotLights, "spot lights")                                            \
-  X(kDistantLights, "distant lights")                                      \
-  X(kInfiniteConstant, "constant environment")                             \
-  X(kInfiniteImage, "environment image")                                   \
-  X(kAreaLights, "emitting shapes")                                        \
-  X(kInfiniteLights, "an environment")                                     \
+#define LANELIGHT_FEATURES(X)                                                 \
+  X(kTriangles, "triangle meshes")                                            \
+  X(kSpheres, "spheres")                                                      \
+  X(kDisks, "disks")                                                          \
+  X(kPlanes, "infinite planes")                                               \
+  X(kInstances, "object instances")                                           \
+  X(kVertexNormals, "interpolated vertex normals")                            \
+  X(kUv, "surface coordinates (a texture is looked up)")                      \
+  X(kTangents, "tangent frames (an anisotropic material)")                    \
+  X(kTextures, "textured material parameters")                                \
+  X(kTexturedRoughness, "textured roughness")                                 \
+  X(kTexturedColor1, "a textured second colour parameter")                    \
+  X(kColor1, "a second colour parameter (conductor k, transmittance)")        \
+  X(kAlpha, "alpha cut-outs")                                                 \
+  X(kMix, "mix materials")                                                    \
+  X(kDiffuse, "Lambertian diffuse material")                                  \
+  X(kDiffuseUniform, "uniform-scattering diffuse material")                   \
+  X(kDiffuseInSphere, "in-sphere diffuse material")                           \
+  X(kConductorSmooth, "smooth conductor")                                     \
+  X(kConductorRough, "rough conductor")                                       \
+  X(kDielectricSmooth, "smooth dielectric")                                   \
+  X(kDielectricRough, "rough dielectric")                                     \
+  X(kThinDielectric, "thin dielectric")                                       \
+  X(kCoatedDiffuseSmooth, "smooth coated diffuse")                            \
+  X(kCoatedDiffuseRough, "rough coated diffuse")                              \
+  X(kCoatedConductor, "coated conductor")                                     \
+  X(kDiffuseTransmission, "diffuse transmission")                             \
+  X(kRefraction, "a refracting interface (roulette must know eta)")           \
+  X(kLights, "at least one light that can be sampled")                        \
+  X(kManyLights, "more than one light")                                       \
+  X(kTriangleLights, "emitting triangles")                                    \
+  X(kSphereLights, "emitting spheres")                                        \
+  X(kDiskLights, "emitting disks")                                            \
+  X(kPointLights, "point lights")                                             \
+  X(kSpotLights, "spot lights")                                               \
+  X(kDistantLights, "distant lights")                                         \
+  X(kInfiniteConstant, "constant environment")                                \
+  X(kInfiniteImage, "environment image")                                      \
+  X(kAreaLights, "emitting shapes")                                           \
+  X(kInfiniteLights, "an environment")                                        \
   X(kMis, "a light that BSDF sampling can hit: multiple importance sampling") \
-  X(kScatters, "paths of more than zero bounces (maximum depth > 0)")      \
-  X(kRoulette, "Russian roulette (maximum depth > 1)")                     \
-  X(kLens, "a thin lens")                                                  \
-  X(kSignedFilter, "a pixel filter with negative lobes")                   \
-  X(kAov, "auxiliary output (--aov)")
+  X(kScatters, "paths of more than zero bounces (maximum depth > 0)")         \
+  X(kRoulette, "Russian roulette (maximum depth > 1)")                        \
+  X(kLens, "a thin lens")                                                     \
+  X(kOrthographic, "an orthographic camera")                                  \
+  X(kFiltered, "a pixel filter other than the box")                           \
+  X(kSignedFilter, "a pixel filter with negative lobes")                      \
+  X(kAov, "auxiliary output (--aov)")                                         \
+  X(kIndependentPoints, "points=independent")                                 \
+  X(kSobolPoints, "points=sobol")
 
 enum class Feature : std::uint8_t {
 #define X(name, meaning) name,
@@ -77,7 +81,9 @@ class FeatureSet {
   friend constexpr bool operator==(const FeatureSet&, const FeatureSet&) = default;
 
  private:
-  static constexpr std::uint64_t Bit(Feature f) { return std::uint64_t{1} << static_cast<int>(f); }
+  static constexpr std::uint64_t Bit(Feature f) {
+    return std::uint64_t{1} << static_cast<int>(f);
+  }
   std::uint64_t bits_ = 0;
 };
 static_assert(static_cast<int>(Feature::kCount) <= 64);

@@ -47,7 +47,6 @@ namespace lanelight {
   X(f32, tg_x, ({Feature::kTangents}), "dp/du, not normalised") X(f32, tg_y, ({Feature::kTangents}), "dp/du") X(f32, tg_z, ({Feature::kTangents}), "dp/du") \
   X(f32, uv_u, ({Feature::kUv}), "surface coordinate") X(f32, uv_v, ({Feature::kUv}), "surface coordinate") \
   X(u32, material, ({Feature::kScatters, Feature::kAov}), "material index")               \
-  X(i32, light,    ({Feature::kAreaLights}), "light index of the hit primitive, -1 = none") \
   /* textured material parameters */                                                      \
   X(f32, color0_r, ({Feature::kTextures}), "first colour parameter") X(f32, color0_g, ({Feature::kTextures}), "first colour parameter") X(f32, color0_b, ({Feature::kTextures}), "first colour parameter") \
   X(f32, color1_r, ({Feature::kTexturedColor1}), "second colour parameter") X(f32, color1_g, ({Feature::kTexturedColor1}), "second colour parameter") X(f32, color1_b, ({Feature::kTexturedColor1}), "second colour parameter") \
@@ -59,7 +58,7 @@ namespace lanelight {
   X(f32, u_light_0, ({Feature::kLights}), "point on the light") X(f32, u_light_1, ({Feature::kLights}), "point on the light") \
   X(f32, u_roulette, ({Feature::kRoulette}), "survival")                                  \
   /* light sample */                                                                      \
-  X(u32, ls_light, ({Feature::kLights}), "selected light")                                \
+  X(u32, ls_light, ({Feature::kManyLights}), "selected light")                                \
   X(f32, ls_x, ({Feature::kLights}), "unit direction to the light") X(f32, ls_y, ({Feature::kLights}), "direction to the light") X(f32, ls_z, ({Feature::kLights}), "direction to the light") \
   X(f32, ls_distance, ({Feature::kLights}), "length of the shadow ray, already short of the light") \
   X(f32, ls_r, ({Feature::kLights}), "radiance / pdf of the light sample (selection included); 0 = no light") X(f32, ls_g, ({Feature::kLights}), "radiance / pdf") X(f32, ls_b, ({Feature::kLights}), "radiance / pdf") \
@@ -131,12 +130,15 @@ inline const FieldSet kUv = {Field::uv_u, Field::uv_v};
 inline const FieldSet kParameters = {Field::color0_r, Field::color0_g, Field::color0_b,
                                      Field::color1_r, Field::color1_g, Field::color1_b,
                                      Field::alpha_x, Field::alpha_y};
-inline const FieldSet kBouncePoints = {Field::u_lobe,    Field::u_bsdf_0,  Field::u_bsdf_1,
-                                       Field::u_select,  Field::u_light_0, Field::u_light_1,
-                                       Field::u_roulette};
-inline const FieldSet kLightSample = {Field::ls_x, Field::ls_y, Field::ls_z,
-                                      Field::ls_distance, Field::ls_r, Field::ls_g,
-                                      Field::ls_b, Field::ls_pdf};
+inline const FieldSet kBouncePoints = {
+    Field::u_lobe,    Field::u_bsdf_0,  Field::u_bsdf_1,  Field::u_select,
+    Field::u_light_0, Field::u_light_1, Field::u_roulette};
+inline const FieldSet kLightSample = {Field::ls_x,        Field::ls_y,  Field::ls_z,
+                                      Field::ls_distance, Field::ls_r,  Field::ls_g,
+                                      Field::ls_b,        Field::ls_pdf};
+inline const FieldSet kAov = {
+    Field::aov_albedo_r, Field::aov_albedo_g, Field::aov_albedo_b, Field::aov_n_x,
+    Field::aov_n_y,      Field::aov_n_z,      Field::aov_depth};
 inline const FieldSet kShadow = {Field::sh_r, Field::sh_g, Field::sh_b};
 }  // namespace fields
 

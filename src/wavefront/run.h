@@ -14,25 +14,25 @@
 namespace lanelight {
 
 struct Progress {
-  double fraction = 0;           // of the planned samples, or of the time budget
-  double seconds = 0;            // since the start of rendering
+  double fraction = 0;  // of the planned samples, or of the time budget
+  double seconds = 0;   // since the start of rendering
   std::uint64_t samples = 0;
 };
 
 struct RunOptions {
-  std::uint64_t spp = 0;         // samples per pixel; 0: until `seconds` or stop
-  double seconds = 0;            // time budget; 0 = none
+  std::uint64_t spp = 0;  // samples per pixel; 0: until `seconds` or stop
+  double seconds = 0;     // time budget; 0 = none
   std::uint64_t seed = 0;
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
   const std::atomic<bool>* stop = nullptr;           // finish the samples in flight
-  bool profile = true;           // time every stage call
+  bool profile = true;                               // time every stage call
 };
 
 struct StageProfile {
   std::string name;
   std::uint64_t calls = 0, items = 0, lane_slots = 0;  // lane_slots = vectors * lanes
   double seconds = 0;
-  double bytes_per_item = 0;     // columns read + written
+  double bytes_per_item = 0;  // columns read + written
   /// items / lane_slots in [0, 1]
   double Occupancy() const { return lane_slots ? double(items) / double(lane_slots) : 0; }
 };
@@ -49,11 +49,17 @@ struct RunResult {
   Health health;
   std::vector<StageProfile> stages;  // in execution order
   bool stopped_early = false;
-  std::size_t wavefront_bytes = 0;   // all wavefronts and sample buffers together
+  std::size_t wavefront_bytes = 0;  // all wavefronts and sample buffers together
 };
 
 /// Renders into `film` (its size must match the crop window of the scene).
 RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
+
+/// Samples that share one randomisation: 1 for independent samples; for low-discrepancy
+/// points the largest power of two of which at least four fit into `spp`, so that the
+/// error can be estimated from the scatter of independent randomisations. spp = 0:
+/// unknown.
+std::uint32_t GroupSize(SamplerKind sampler, std::uint64_t spp);
 
 }  // namespace lanelight

@@ -12,16 +12,17 @@ namespace lanelight {
 // Queues hold path slots. One writer stage appends, one or more readers consume; the
 // driver (src/wavefront/run.cc) clears them.
 // X(name, meaning)
-#define LANELIGHT_QUEUES(X)                                                    \
-  X(kFree, "slots without a path")                                             \
-  X(kCamera, "paths that need a camera ray")                                   \
-  X(kActive, "paths with a ray to intersect")                                  \
-  X(kMiss, "paths whose ray left the scene")                                   \
-  X(kHit, "paths whose ray hit something")                                     \
-  X(kSurface, "hits that will scatter")                                        \
-  X(kShadow, "paths with a shadow ray in ls_* carrying sh_*")                  \
-  X(kScattered, "paths with a new ray after shading")                          \
-  X(kDone, "paths whose radiance is complete")                                 \
+#define LANELIGHT_QUEUES(X)                                   \
+  X(kFree, "slots without a path")                            \
+  X(kCamera, "paths that need a camera ray")                  \
+  X(kActive, "paths with a ray to intersect")                 \
+  X(kMiss, "paths whose ray left the scene")                  \
+  X(kHit, "paths whose ray hit something")                    \
+  X(kSurface, "hits that will scatter")                       \
+  X(kLit, "surfaces that connect to a light")                 \
+  X(kShadow, "paths with a shadow ray in ls_* carrying sh_*") \
+  X(kScattered, "paths with a new ray after shading")         \
+  X(kDone, "paths whose radiance is complete")                \
   X(kScratch, "filtered sub-queue, valid inside one stage call")
 
 enum class QueueId : std::uint8_t {
@@ -47,11 +48,11 @@ struct Queue {
 /// Constants of a render.
 struct RunParameters {
   std::uint32_t seed = 0;
-  std::uint32_t width = 0, height = 0;      // full image
-  std::uint32_t spp = 0;                    // planned samples per pixel
-  std::uint32_t group_size = 1;             // samples that share one randomisation
+  std::uint32_t width = 0, height = 0;  // full image
+  std::uint32_t spp = 0;                // planned samples per pixel
+  std::uint32_t group_shift = 0;        // 2^group_shift samples share a randomisation
   std::uint32_t max_depth = 5;
-  std::uint32_t roulette_depth = 1;         // first depth with roulette, as in pbrt
+  float exposure = 1;  // factor from radiance to film
   FeatureSet features;
 };
 
@@ -61,18 +62,29 @@ struct LaneCounters {
   std::uint64_t vectors = 0;  // vector iterations
 };
 
-/// Samples still to be started by this task: pixels [x0,x1) x [y0,y1), samples
-/// [s0, s1), enumerated sample-major within a pixel; `next` counts those started.
+/// Samples of this task: every pixel of the tile, sample indices [first_sample,
+/// first_sample + samples). Started pixel by pixel within one sample index, so that
+/// neighbouring lanes hold neighbouring pixels.
 struct TileWork {
-  std::uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0, s0 = 0, s1 = 0;
-  std::uint32_t next = 0, total = 0;
+  const std::uint32_t* pixels = nullptr;  // y * width + x, in the order to start them
+  std::uint32_t num_pixels = 0;
+  std::uint32_t first_sample = 0, samples = 0;
+  std::uint32_t next_pixel = 0, next_sample = 0;  // cursor; done when == samples
+
+  bool Done() const { return next_sample == samples; }
 };
 
 /// Where finished samples go: plane-major buffer of the task's tile,
-/// plane p of sample `output` is at samples[p * stride + output].
+/// plane p of sample `output` is at samples[p * stride + output]. A pixel's samples are
+/// consecutive.
 struct SampleBuffer {
   float* samples = nullptr;
-  std::uint32_t stride = 0;
+  std::uint32_t stride = 0;  // samples of one plane
+};
+
+/// Samples that were not finite or negative, replaced by zero.
+struct BadSamples {
+  std::uint64_t nan = 0, infinite = 0, negative = 0;
 };
 
 struct Wave {
@@ -84,6 +96,7 @@ struct Wave {
   TileWork work;
   SampleBuffer buffer;
   LaneCounters lanes;
+  BadSamples bad;
   std::uint64_t rays_closest = 0, rays_shadow = 0;
 
   Queue& queue(QueueId id) { return queues[static_cast<int>(id)]; }

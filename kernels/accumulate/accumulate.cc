@@ -1,0 +1,110 @@
+// Finished paths: checks the sample, writes it to the task's buffer, frees the slot.
+// A sample that is not finite, or negative though the filter is positive, is counted by
+// kind and written as zero: nothing bad reaches the film, and nothing is hidden.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/accumulate/accumulate.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+struct Checked {
+  V3 value;
+  MF bad;
+};
+
+template <bool kSigned>
+HWY_INLINE Checked Check(BadSamples& counts, V3 v, MF valid) {
+  const DF df;
+  const auto any = [](MF x, MF y, MF z) HWY_ATTR { return hn::Or(x, hn::Or(y, z)); };
+  const MF nan = any(hn::IsNaN(v.x), hn::IsNaN(v.y), hn::IsNaN(v.z));
+  const MF infinite =
+      hn::AndNot(nan, any(hn::IsInf(v.x), hn::IsInf(v.y), hn::IsInf(v.z)));
+  MF bad = hn::Or(nan, infinite);
+  if constexpr (!kSigned) {
+    const VF zero = hn::Zero(df);
+    const MF negative =
+        hn::AndNot(bad, any(hn::Lt(v.x, zero), hn::Lt(v.y, zero), hn::Lt(v.z, zero)));
+    counts.negative += hn::CountTrue(df, hn::And(negative, valid));
+    bad = hn::Or(bad, negative);
+  }
+  counts.nan += hn::CountTrue(df, hn::And(nan, valid));
+  counts.infinite += hn::CountTrue(df, hn::And(infinite, valid));
+  const V3 zero = Splat3(0, 0, 0);
+  return {IfThenElse(bad, zero, v), bad};
+}
+
+template <bool kSigned, bool kAov>
+void Accumulate(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const SampleBuffer& buffer = wave.buffer;
+  const VF exposure = Splat(wave.run->exposure);
+  const auto plane = [&](int i) {
+    return buffer.samples + i * std::size_t{buffer.stride};
+  };
+  ForEachBatch(wave, wave.queue(QueueId::kDone), [&](VI slots, MF valid) HWY_ATTR {
+    const VI output = Gather(p.output, slots);
+    V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
+    if constexpr (kSigned) sample = Mul(sample, Gather(p.weight, slots));
+    const Checked checked = Check<kSigned>(wave.bad, sample, valid);
+    Scatter3(checked.value, plane(0), plane(1), plane(2), output);
+    if constexpr (kAov) {
+      const float* columns[] = {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
+                                p.aov_n_y,      p.aov_n_z,      p.aov_depth};
+      for (int i = 0; i < 7; ++i)
+        Scatter(Gather(columns[i], slots), plane(3 + i), output);
+    }
+    Push(wave.queue(QueueId::kFree), slots, valid);
+  });
+}
+
+void AccumulatePlain(Wave& wave) { Accumulate<false, false>(wave); }
+void AccumulateSigned(Wave& wave) { Accumulate<true, false>(wave); }
+void AccumulateAov(Wave& wave) { Accumulate<false, true>(wave); }
+void AccumulateSignedAov(Wave& wave) { Accumulate<true, true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(AccumulatePlain);
+HWY_EXPORT(AccumulateSigned);
+HWY_EXPORT(AccumulateAov);
+HWY_EXPORT(AccumulateSignedAov);
+
+namespace {
+
+StageFn ResolveAccumulate(const FeatureSet& features) {
+  if (features.Has(Feature::kSignedFilter)) {
+    return features.Has(Feature::kAov) ? HWY_DYNAMIC_DISPATCH(AccumulateSignedAov)
+                                       : HWY_DYNAMIC_DISPATCH(AccumulateSigned);
+  }
+  return features.Has(Feature::kAov) ? HWY_DYNAMIC_DISPATCH(AccumulateAov)
+                                     : HWY_DYNAMIC_DISPATCH(AccumulatePlain);
+}
+
+}  // namespace
+
+Stage AccumulateStage() {
+  return {"accumulate",
+          "checks finished samples and frees their slots",
+          QueueId::kDone,
+          {},
+          fields::kRadiance | fields::kAov | FieldSet{Field::output, Field::weight},
+          {},
+          ResolveAccumulate};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,108 @@
+// Auxiliary output of the first hit: albedo, shading normal, distance. A miss leaves the
+// zeros that the camera stage wrote.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/accumulate/aov.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/filter-inl.h"
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// Reflectance of a material seen head-on: color0 for the diffuse kinds, normal-incidence
+// Fresnel ((eta-1)^2 + k^2) / ((eta+1)^2 + k^2) for metals, white for clear interfaces.
+HWY_INLINE V3 AlbedoOf(const MaterialTable& m, VI kind, VI material, V3 color0) {
+  const DI di;
+  const auto is = [&](ShadeKind k) HWY_ATTR {
+    return hn::RebindMask(DF(), hn::Eq(kind, hn::Set(di, static_cast<int32_t>(k))));
+  };
+  const V3 k = Gather3(m.color1_r.data(), m.color1_g.data(), m.color1_b.data(), material);
+  const auto fresnel = [](VF n, VF kk) HWY_ATTR {
+    const VF k2 = hn::Mul(kk, kk);
+    const VF a = hn::Sub(n, Splat(1.0f)), b = hn::Add(n, Splat(1.0f));
+    return hn::Div(hn::MulAdd(a, a, k2), hn::MulAdd(b, b, k2));
+  };
+  const V3 metal = {fresnel(color0.x, k.x), fresnel(color0.y, k.y),
+                    fresnel(color0.z, k.z)};
+  const MF is_metal =
+      hn::Or(is(ShadeKind::kConductorSmooth),
+             hn::Or(is(ShadeKind::kConductorRough), is(ShadeKind::kCoatedConductor)));
+  const MF is_clear =
+      hn::Or(is(ShadeKind::kDielectricSmooth),
+             hn::Or(is(ShadeKind::kDielectricRough), is(ShadeKind::kThinDielectric)));
+  return IfThenElse(is_clear, Splat3(1, 1, 1), IfThenElse(is_metal, metal, color0));
+}
+
+template <bool kTextures, bool kNormals>
+void Aov(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const MaterialTable& m = wave.scene->materials;
+  const Queue& first =
+      FilterQueue(wave, wave.queue(QueueId::kSurface), [&](VI slots) HWY_ATTR {
+        return hn::RebindMask(DF(), hn::Eq(Gather(p.depth, slots), hn::Zero(DI())));
+      });
+  ForEachBatch(wave, first, [&](VI slots, MF) HWY_ATTR {
+    const VI material = Gather(p.material, slots);
+    const V3 color0 = kTextures ? Gather3(p.color0_r, p.color0_g, p.color0_b, slots)
+                                : Gather3(m.color0_r.data(), m.color0_g.data(),
+                                          m.color0_b.data(), material);
+    Scatter3(AlbedoOf(m, Gather(m.kind.data(), material), material, color0),
+             p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, slots);
+    const V3 n = kNormals ? Gather3(p.ns_x, p.ns_y, p.ns_z, slots)
+                          : Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
+    Scatter3(n, p.aov_n_x, p.aov_n_y, p.aov_n_z, slots);
+    Scatter(Gather(p.t, slots), p.aov_depth, slots);
+  });
+}
+
+void AovPlain(Wave& wave) { Aov<false, false>(wave); }
+void AovNormals(Wave& wave) { Aov<false, true>(wave); }
+void AovTextures(Wave& wave) { Aov<true, false>(wave); }
+void AovTexturesNormals(Wave& wave) { Aov<true, true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(AovPlain);
+HWY_EXPORT(AovNormals);
+HWY_EXPORT(AovTextures);
+HWY_EXPORT(AovTexturesNormals);
+
+namespace {
+
+StageFn ResolveAov(const FeatureSet& features) {
+  if (features.Has(Feature::kTextures)) {
+    return features.Has(Feature::kVertexNormals)
+               ? HWY_DYNAMIC_DISPATCH(AovTexturesNormals)
+               : HWY_DYNAMIC_DISPATCH(AovTextures);
+  }
+  return features.Has(Feature::kVertexNormals) ? HWY_DYNAMIC_DISPATCH(AovNormals)
+                                               : HWY_DYNAMIC_DISPATCH(AovPlain);
+}
+
+}  // namespace
+
+Stage AovStage() {
+  return {"aov",
+          "albedo, normal and depth of the first hit",
+          QueueId::kSurface,
+          {Feature::kAov},
+          fields::kNormal | fields::kParameters |
+              FieldSet{Field::depth, Field::t, Field::material},
+          fields::kAov,
+          ResolveAov};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

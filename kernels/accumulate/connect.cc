@@ -1,0 +1,46 @@
+// Adds the radiance of unoccluded shadow rays. A path has at most one per bounce.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/accumulate/connect.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+void Connect(Wave& wave) {
+  const PathColumns& p = wave.path;
+  ForEachBatch(wave, wave.queue(QueueId::kShadow), [&](VI slots, MF) HWY_ATTR {
+    const V3 sum =
+        Gather3(p.l_r, p.l_g, p.l_b, slots) + Gather3(p.sh_r, p.sh_g, p.sh_b, slots);
+    Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(Connect);
+
+Stage ConnectStage() {
+  return {"connect",
+          "adds the light of unoccluded shadow rays",
+          QueueId::kShadow,
+          {Feature::kLights, Feature::kScatters},
+          fields::kRadiance | fields::kShadow,
+          fields::kRadiance,
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Connect); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

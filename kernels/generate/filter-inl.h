@@ -1,0 +1,40 @@
+// Importance sampling of a separable pixel filter from a tabulated CDF of |f| per axis.
+#if defined(LANELIGHT_GENERATE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_GENERATE_FILTER_INL_H_
+#undef LANELIGHT_GENERATE_FILTER_INL_H_
+#else
+#define LANELIGHT_GENERATE_FILTER_INL_H_
+#endif
+
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Offset in [-radius, radius) distributed like the piecewise-constant |f|, and the sign
+/// of f there. Monotone in u, so it keeps the stratification of the sample points.
+HWY_INLINE VF SampleFilterAxis(const float* cdf, const float* signs, float radius, VF u,
+                               VF* sign) {
+  const DI di;
+  VI bin = hn::Zero(di);
+  for (int step = CompiledFilter::kSize / 2; step > 0; step /= 2) {
+    const VI next = hn::Add(bin, hn::Set(di, step));
+    const auto right = hn::RebindMask(di, hn::Le(Gather(cdf, next), u));
+    bin = hn::IfThenElse(right, next, bin);
+  }
+  const VF low = Gather(cdf, bin), high = Gather(cdf + 1, bin);
+  const VF width = hn::Sub(high, low);
+  const VF inside = hn::IfThenElse(hn::Gt(width, Splat(0)),
+                                   hn::Div(hn::Sub(u, low), width), Splat(0.5f));
+  *sign = Gather(signs, bin);
+  const VF position = hn::Add(hn::ConvertTo(DF(), bin), inside);
+  const float bin_width = 2 * radius / CompiledFilter::kSize;
+  return hn::MulAdd(position, Splat(bin_width), Splat(-radius));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,124 @@
+// Environment images: the equal-area octahedral map, look-up and sampling by texel.
+#if defined(LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_
+#undef LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_
+#else
+#define LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_
+#endif
+
+#include "kernels/lights/light-inl.h"
+#include "kernels/simd/math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Unit direction of a point of the square [0,1]^2 (Clarberg 2008, "Fast Equal-Area
+/// Mapping of the (Hemi)Sphere using SIMD"; orientation as in pbrt-v4).
+HWY_INLINE V3 OctahedralDirection(VF s, VF t) {
+  const VF one = Splat(1.0f);
+  const VF u = hn::MulSub(Splat(2.0f), s, one), v = hn::MulSub(Splat(2.0f), t, one);
+  const VF au = hn::Abs(u), av = hn::Abs(v);
+  const VF signed_distance = hn::Sub(one, hn::Add(au, av));
+  const VF r = hn::Sub(one, hn::Abs(signed_distance));
+  // Turns of the azimuth within its quadrant; any value at the pole r = 0.
+  const VF ratio =
+      hn::IfThenElse(hn::Gt(r, Splat(0)), hn::Div(hn::Sub(av, au), r), Splat(0));
+  const VF turns = hn::MulAdd(ratio, Splat(0.125f), Splat(0.125f));
+  const auto [sine, cosine] = SinCos2Pi(turns);
+  const VF radius = hn::Mul(r, hn::Sqrt(hn::NegMulAdd(r, r, Splat(2.0f))));
+  return {hn::CopySign(hn::Mul(cosine, radius), u),
+          hn::CopySign(hn::Mul(sine, radius), v),
+          hn::CopySign(hn::NegMulAdd(r, r, one), signed_distance)};
+}
+
+/// Inverse of OctahedralDirection.
+HWY_INLINE void OctahedralSquare(V3 d, VF* s, VF* t) {
+  const VF one = Splat(1.0f), half = Splat(0.5f);
+  const VF r = hn::Sqrt(hn::Max(hn::Sub(one, hn::Abs(d.z)), Splat(0)));
+  const VF phi = hn::Mul(Atan2(hn::Abs(d.y), hn::Abs(d.x)), Splat(0.636619772367581343f));
+  VF v = hn::Mul(phi, r);
+  VF u = hn::Sub(r, v);
+  const MF below = hn::Lt(d.z, Splat(0));
+  const VF folded_u = hn::Sub(one, v), folded_v = hn::Sub(one, u);
+  u = hn::CopySign(hn::IfThenElse(below, folded_u, u), d.x);
+  v = hn::CopySign(hn::IfThenElse(below, folded_v, v), d.y);
+  *s = hn::MulAdd(u, half, half);
+  *t = hn::MulAdd(v, half, half);
+}
+
+struct EnvironmentSample {
+  V3 direction, radiance;
+  VF pdf_sa;  // of choosing this direction, light selection not included
+};
+
+HWY_INLINE void TexelValues(const Environment& e, VI row, VI column,
+                            EnvironmentSample* out) {
+  const DI di;
+  const float inv_four_pi = 0.0795774715459476679f;
+  const VI texel = hn::Add(hn::Mul(row, hn::Set(di, e.size)), column);
+  out->radiance = GatherRecord3(e.rgb.data(), 3, 0, texel);
+  const float texels = static_cast<float>(e.size) * static_cast<float>(e.size);
+  out->pdf_sa = hn::Mul(Gather(e.probability.data(), texel), Splat(texels * inv_four_pi));
+}
+
+/// Radiance and density of scene direction d.
+HWY_INLINE EnvironmentSample LookUpEnvironment(const Environment& e, V3 d) {
+  const DI di;
+  const float* m = e.light_from_scene;
+  const V3 local = {Dot(Splat3(m[0], m[1], m[2]), d), Dot(Splat3(m[3], m[4], m[5]), d),
+                    Dot(Splat3(m[6], m[7], m[8]), d)};
+  VF s, t;
+  OctahedralSquare(local, &s, &t);
+  const VF size = Splat(static_cast<float>(e.size));
+  const VI zero = hn::Zero(di), last = hn::Set(di, e.size - 1);
+  const auto texel = [&](VF x) HWY_ATTR {
+    return hn::Min(hn::Max(hn::ConvertTo(di, hn::Mul(x, size)), zero), last);
+  };
+  EnvironmentSample out;
+  out.direction = d;
+  TexelValues(e, texel(t), texel(s), &out);
+  return out;
+}
+
+/// Largest i in [0, size) with cdf[base + i] <= u, and u's position inside that step.
+HWY_INLINE VI InvertCdf(const float* cdf, VI base, int32_t size, VF u, VF* inside) {
+  const DI di;
+  VI low = hn::Zero(di);
+  for (int32_t n = size; n > 1; n -= n / 2) {
+    const VI step = hn::Set(di, n / 2);
+    const VI probe = hn::Add(low, step);
+    const auto right = hn::RebindMask(di, hn::Le(Gather(cdf, hn::Add(base, probe)), u));
+    low = hn::IfThenElse(right, probe, low);
+  }
+  const VF a = Gather(cdf, hn::Add(base, low)), b = Gather(cdf + 1, hn::Add(base, low));
+  const VF width = hn::Sub(b, a);
+  *inside =
+      hn::IfThenElse(hn::Gt(width, Splat(0)), hn::Div(hn::Sub(u, a), width), Splat(0.5f));
+  return low;
+}
+
+/// Direction with density proportional to the luminance of its texel.
+HWY_INLINE EnvironmentSample SampleEnvironment(const Environment& e, VF u0, VF u1) {
+  const DI di;
+  VF inside_row, inside_column;
+  const VI row = InvertCdf(e.row_cdf.data(), hn::Zero(di), e.size, u1, &inside_row);
+  const VI base = hn::Mul(row, hn::Set(di, e.size + 1));
+  const VI column = InvertCdf(e.column_cdf.data(), base, e.size, u0, &inside_column);
+  const VF inv_size = Splat(1.0f / static_cast<float>(e.size));
+  const VF s = hn::Mul(hn::Add(hn::ConvertTo(DF(), column), inside_column), inv_size);
+  const VF t = hn::Mul(hn::Add(hn::ConvertTo(DF(), row), inside_row), inv_size);
+  const V3 w = OctahedralDirection(s, t);
+  const float* m = e.light_from_scene;  // orthonormal: the transpose is the inverse
+  EnvironmentSample out;
+  out.direction = {Dot(Splat3(m[0], m[3], m[6]), w), Dot(Splat3(m[1], m[4], m[7]), w),
+                   Dot(Splat3(m[2], m[5], m[8]), w)};
+  TexelValues(e, row, column, &out);
+  return out;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,73 @@
+// Rays that left the scene see every environment; the path ends.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/lights/escape.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/lights/environment-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+template <bool kMis>
+void Escape(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const LightTable& table = wave.scene->lights;
+  const float inv_four_pi = 0.0795774715459476679f;
+  ForEachBatch(wave, wave.queue(QueueId::kMiss), [&](VI slots, MF) HWY_ATTR {
+    const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+    V3 sum = Splat3(0, 0, 0);
+    for (uint32_t index : table.infinite) {
+      const LightRecord& light = table.lights[index];
+      V3 radiance = Splat3(light.radiance[0], light.radiance[1], light.radiance[2]);
+      VF pdf = Splat(inv_four_pi);
+      if (light.environment >= 0) {
+        const EnvironmentSample s = LookUpEnvironment(
+            table.environments[static_cast<uint32_t>(light.environment)], d);
+        radiance = s.radiance;
+        pdf = s.pdf_sa;
+      }
+      if constexpr (kMis) {
+        radiance = Mul(radiance, EmissionWeight(Gather(p.bsdf_pdf, slots),
+                                                hn::Mul(pdf, Splat(light.pmf))));
+      }
+      sum = sum + radiance;
+    }
+    AddRadiance(p, slots, sum);
+  });
+}
+
+void EscapeMis(Wave& wave) { Escape<true>(wave); }
+void EscapePlain(Wave& wave) { Escape<false>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(EscapeMis);
+HWY_EXPORT(EscapePlain);
+
+Stage EscapeStage() {
+  return {
+      "escape",
+      "adds the environment to rays that left the scene",
+      QueueId::kMiss,
+      {Feature::kInfiniteLights},
+      fields::kRay | fields::kThroughput | fields::kRadiance | FieldSet{Field::bsdf_pdf},
+      fields::kRadiance,
+      [](const FeatureSet& features) -> StageFn {
+        return features.Has(Feature::kMis) ? HWY_DYNAMIC_DISPATCH(EscapeMis)
+                                           : HWY_DYNAMIC_DISPATCH(EscapePlain);
+      }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

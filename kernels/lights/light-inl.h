@@ -1,0 +1,131 @@
+// What the light kernels share: records, the loop over one shape of light, the columns of
+// a light sample, multiple importance sampling weights.
+#if defined(LANELIGHT_LIGHTS_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_LIGHTS_LIGHT_INL_H_
+#undef LANELIGHT_LIGHTS_LIGHT_INL_H_
+#else
+#define LANELIGHT_LIGHTS_LIGHT_INL_H_
+#endif
+
+#include <cstddef>
+
+#include "kernels/queue/filter-inl.h"
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Words of LightRecord, gathered for one light per lane.
+struct Lights {
+  const float* words;
+  VI at;
+
+  HWY_INLINE Lights(const CompiledScene& scene, VI light)
+      : words(reinterpret_cast<const float*>(scene.lights.lights.data())),
+        at(hn::Mul(light, hn::Set(DI(), sizeof(LightRecord) / 4))) {}
+  HWY_INLINE VF F(std::size_t byte_offset) const {
+    return Gather(words + byte_offset / 4, at);
+  }
+  HWY_INLINE VI I(std::size_t byte_offset) const {
+    return Gather(reinterpret_cast<const int32_t*>(words) + byte_offset / 4, at);
+  }
+  HWY_INLINE V3 F3(std::size_t byte_offset) const {
+    return {F(byte_offset), F(byte_offset + 4), F(byte_offset + 8)};
+  }
+  HWY_INLINE V3 Radiance() const { return F3(offsetof(LightRecord, radiance)); }
+  HWY_INLINE VF Pmf() const { return F(offsetof(LightRecord, pmf)); }
+  HWY_INLINE VF Area() const { return F(offsetof(LightRecord, area)); }
+  HWY_INLINE VI Primitive() const { return I(offsetof(LightRecord, primitive)); }
+  HWY_INLINE MF TwoSided() const {
+    return hn::RebindMask(DF(),
+                          hn::Ne(I(offsetof(LightRecord, two_sided)), hn::Zero(DI())));
+  }
+};
+
+/// Calls body(slots, light) for the paths of kLit whose selected light has this shape.
+/// With a single light there is nothing to select and nothing to filter.
+template <bool kMany, class Body>
+HWY_INLINE void ForEachLit(Wave& wave, LightShape shape, Body&& body) {
+  if constexpr (!kMany) {
+    ForEachBatch(wave, wave.queue(QueueId::kLit),
+                 [&](VI slots, MF) HWY_ATTR { body(slots, hn::Zero(DI())); });
+  } else {
+    const uint32_t* selected = wave.path.ls_light;
+    const VI wanted = hn::Set(DI(), static_cast<int32_t>(shape));
+    const Queue& mine =
+        FilterQueue(wave, wave.queue(QueueId::kLit), [&](VI slots) HWY_ATTR {
+          const Lights light(*wave.scene, Gather(selected, slots));
+          return hn::RebindMask(DF(),
+                                hn::Eq(light.I(offsetof(LightRecord, shape)), wanted));
+        });
+    ForEachBatch(wave, mine,
+                 [&](VI slots, MF) HWY_ATTR { body(slots, Gather(selected, slots)); });
+  }
+}
+
+/// Stores a light sample. `radiance_over_pdf` is zeroed, and with it the connection,
+/// where `usable` is false.
+HWY_INLINE void StoreLightSample(const PathColumns& p, VI slots, V3 direction,
+                                 VF distance, V3 radiance_over_pdf, VF pdf_sa,
+                                 MF usable) {
+  Scatter3(direction, p.ls_x, p.ls_y, p.ls_z, slots);
+  Scatter(distance, p.ls_distance, slots);
+  Scatter3(IfThenElseZero(usable, radiance_over_pdf), p.ls_r, p.ls_g, p.ls_b, slots);
+  Scatter(pdf_sa, p.ls_pdf, slots);
+}
+
+HWY_INLINE VF SumAbs(V3 v) {
+  return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z)));
+}
+
+/// Light sample at point q with unit normal n of a surface light, chosen with density
+/// pdf_area (selection included). The shadow ray ends a little in front of the light, by
+/// a bound on the rounding of both end points (about 8 ulp of their coordinates) and the
+/// offset of its origin, so that the light does not shadow itself.
+HWY_INLINE void StoreSurfaceSample(const PathColumns& p, VI slots, V3 q, V3 n,
+                                   VF pdf_area, V3 radiance, MF two_sided) {
+  const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
+  const VF clearance = hn::MulAdd(Splat(1e-6f), hn::Add(SumAbs(from), SumAbs(q)),
+                                  hn::Mul(Splat(2.0f), Gather(p.p_error, slots)));
+  const VF side = hn::CopySign(clearance, Dot(n, from - q));
+  const V3 to_light = MulAdd(n, side, q) - from;
+  const VF distance2 = Dot(to_light, to_light);
+  const VF distance = hn::Sqrt(distance2);
+  const V3 direction = Mul(to_light, hn::Div(Splat(1.0f), distance));
+  const VF cos_light = hn::Neg(Dot(n, direction));
+  const MF facing = hn::Or(hn::Gt(cos_light, Splat(0)), two_sided);
+  const VF pdf_sa = hn::Div(hn::Mul(pdf_area, distance2), hn::Abs(cos_light));
+  const MF usable =
+      hn::And(facing, hn::And(hn::Gt(pdf_sa, Splat(0)), hn::Lt(pdf_sa, Splat(1e30f))));
+  StoreLightSample(p, slots, direction, distance,
+                   Mul(radiance, hn::Div(Splat(1.0f), pdf_sa)), pdf_sa, usable);
+}
+
+/// Power heuristic with exponent two (Veach and Guibas 1995) for the strategy of density
+/// `mine` against `other`, in a form that cannot overflow. mine > 0.
+HWY_INLINE VF PowerHeuristic(VF mine, VF other) {
+  const VF ratio = hn::Div(other, mine);
+  return hn::Div(Splat(1.0f), hn::MulAdd(ratio, ratio, Splat(1.0f)));
+}
+
+/// Weight of emission met by a BSDF-sampled ray: 1 after the camera or a specular event
+/// (bsdf_pdf = 0), where no light sample could have found it.
+HWY_INLINE VF EmissionWeight(VF bsdf_pdf, VF light_pdf) {
+  const MF specular = hn::Eq(bsdf_pdf, Splat(0));
+  const VF safe = hn::IfThenElse(specular, Splat(1.0f), bsdf_pdf);
+  return hn::IfThenElse(specular, Splat(1.0f), PowerHeuristic(safe, light_pdf));
+}
+
+/// Adds weight * beta * radiance to the path.
+HWY_INLINE void AddRadiance(const PathColumns& p, VI slots, V3 radiance) {
+  const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
+  const V3 sum = Gather3(p.l_r, p.l_g, p.l_b, slots) + Mul(beta, radiance);
+  Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

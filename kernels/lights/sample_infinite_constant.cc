@@ -1,0 +1,61 @@
+// Light samples of a constant environment: uniform over the sphere of directions.
+//   density     pdf_sa = pmf / (4 pi)
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/lights/sample_infinite_constant.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/lights/light-inl.h"
+#include "kernels/simd/math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+template <bool kMany>
+void SampleInfiniteConstant(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const float inv_four_pi = 0.0795774715459476679f;
+  ForEachLit<kMany>(
+      wave, LightShape::kInfiniteConstant, [&](VI slots, VI index) HWY_ATTR {
+        const Lights light(*wave.scene, index);
+        const VF z = hn::NegMulAdd(Splat(2.0f), Gather(p.u_light_0, slots), Splat(1.0f));
+        const VF ring = hn::Sqrt(hn::Max(hn::NegMulAdd(z, z, Splat(1.0f)), Splat(0)));
+        const auto [sine, cosine] = SinCos2Pi(Gather(p.u_light_1, slots));
+        const VF pdf = hn::Mul(light.Pmf(), Splat(inv_four_pi));
+        StoreLightSample(p, slots, {hn::Mul(ring, cosine), hn::Mul(ring, sine), z},
+                         Splat(std::numeric_limits<float>::infinity()),
+                         Mul(light.Radiance(), hn::Div(Splat(1.0f), pdf)), pdf,
+                         hn::Gt(pdf, Splat(0)));
+      });
+}
+
+void SampleInfiniteConstantOne(Wave& wave) { SampleInfiniteConstant<false>(wave); }
+void SampleInfiniteConstantMany(Wave& wave) { SampleInfiniteConstant<true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/lights/light_stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(SampleInfiniteConstantOne);
+HWY_EXPORT(SampleInfiniteConstantMany);
+
+Stage SampleInfiniteConstantStage() {
+  return SampleLightStage("light_infinite_constant", "samples constant environments",
+                          Feature::kInfiniteConstant,
+                          [](const FeatureSet& features) -> StageFn {
+                            return features.Has(Feature::kManyLights)
+                                       ? HWY_DYNAMIC_DISPATCH(SampleInfiniteConstantMany)
+                                       : HWY_DYNAMIC_DISPATCH(SampleInfiniteConstantOne);
+                          });
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

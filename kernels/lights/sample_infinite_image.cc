@@ -1,0 +1,75 @@
+// Light samples of environment images: a texel with probability proportional to its
+// luminance, then uniform inside it (the map has equal area everywhere).
+//   density     pdf_sa = pmf * P(texel) * size^2 / (4 pi)
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/lights/sample_infinite_image.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/lights/environment-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+template <bool kMany>
+void SampleInfiniteImage(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const CompiledScene& scene = *wave.scene;
+  for (std::size_t e = 0; e < scene.lights.environments.size(); ++e) {
+    const Environment& environment = scene.lights.environments[e];
+    ForEachLit<kMany>(wave, LightShape::kInfiniteImage, [&](VI slots, VI index) HWY_ATTR {
+      const Lights light(scene, index);
+      const MF mine =
+          hn::RebindMask(DF(), hn::Eq(light.I(offsetof(LightRecord, environment)),
+                                      hn::Set(DI(), static_cast<int32_t>(e))));
+      if (hn::AllFalse(DF(), mine)) return;
+      const EnvironmentSample s = SampleEnvironment(
+          environment, Gather(p.u_light_0, slots), Gather(p.u_light_1, slots));
+      const VF pdf = hn::Mul(light.Pmf(), s.pdf_sa);
+      const V3 value = Mul(s.radiance, hn::Div(Splat(1.0f), pdf));
+      const V3 usable = IfThenElseZero(hn::Gt(pdf, Splat(0)), value);
+      const auto keep = [&](VF v, float* column) HWY_ATTR {
+        Scatter(hn::IfThenElse(mine, v, Gather(column, slots)), column, slots);
+      };
+      keep(s.direction.x, p.ls_x);
+      keep(s.direction.y, p.ls_y);
+      keep(s.direction.z, p.ls_z);
+      keep(Splat(std::numeric_limits<float>::infinity()), p.ls_distance);
+      keep(usable.x, p.ls_r);
+      keep(usable.y, p.ls_g);
+      keep(usable.z, p.ls_b);
+      keep(pdf, p.ls_pdf);
+    });
+  }
+}
+
+void SampleInfiniteImageOne(Wave& wave) { SampleInfiniteImage<false>(wave); }
+void SampleInfiniteImageMany(Wave& wave) { SampleInfiniteImage<true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/lights/light_stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(SampleInfiniteImageOne);
+HWY_EXPORT(SampleInfiniteImageMany);
+
+Stage SampleInfiniteImageStage() {
+  return SampleLightStage("light_infinite_image", "samples environment images",
+                          Feature::kInfiniteImage,
+                          [](const FeatureSet& features) -> StageFn {
+                            return features.Has(Feature::kManyLights)
+                                       ? HWY_DYNAMIC_DISPATCH(SampleInfiniteImageMany)
+                                       : HWY_DYNAMIC_DISPATCH(SampleInfiniteImageOne);
+                          });
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,113 @@
+// Light samples on emitting spheres: uniform over the cone of directions that the sphere
+// fills; from inside, uniform over its area.
+//   density     outside pdf_sa = pmf / (2 pi (1 - cos_max)); inside pdf_area = pmf / area
+//   source      Shirley, Wang and Zimmerman 1996, "Monte Carlo Techniques for Direct
+//               Lighting Calculations"; 1 - cos_max in a form exact for tiny spheres
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/lights/sample_sphere.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/lights/geometry-inl.h"
+#include "kernels/simd/math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// Distance along unit direction w (from outside) to the near side of the sphere at
+// relative centre c: with the closest approach h = c - (c.w) w, t = c.w - sqrt(r^2 -
+// h^2).
+HWY_INLINE VF NearDistance(V3 c, V3 w, VF radius) {
+  const VF along = Dot(c, w);
+  const V3 h = c - Mul(w, along);
+  const VF half2 =
+      hn::NegMulAdd(hn::Sqrt(Dot(h, h)), hn::Sqrt(Dot(h, h)), hn::Mul(radius, radius));
+  return hn::Sub(along, hn::Sqrt(hn::Max(half2, Splat(0))));
+}
+
+template <bool kMany>
+void SampleSphereLight(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const float two_pi = 6.28318530717958648f;
+  ForEachLit<kMany>(wave, LightShape::kSphere, [&](VI slots, VI index) HWY_ATTR {
+    const Lights light(*wave.scene, index);
+    const LightSphere sphere(*wave.scene, light.Primitive());
+    const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
+    const VF u0 = Gather(p.u_light_0, slots), u1 = Gather(p.u_light_1, slots);
+    const V3 to_center = sphere.center - from;
+    const VF d2 = Dot(to_center, to_center);
+    const MF outside = OutsideSphere(sphere.radius, d2);
+    const auto [sine, cosine] = SinCos2Pi(u1);
+
+    // Inside: area sampling. Computed for all lanes; the other side overwrites below.
+    const VF z = hn::NegMulAdd(Splat(2.0f), u0, Splat(1.0f));
+    const VF ring = hn::Sqrt(hn::Max(hn::NegMulAdd(z, z, Splat(1.0f)), Splat(0)));
+    const V3 n = {hn::Mul(ring, cosine), hn::Mul(ring, sine), z};
+    const V3 normal = Mul(n, sphere.normal_sign);
+    if (!hn::AllTrue(DF(), outside)) {
+      StoreSurfaceSample(p, slots, MulAdd(n, sphere.radius, sphere.center), normal,
+                         hn::Div(light.Pmf(), light.Area()), light.Radiance(),
+                         light.TwoSided());
+    }
+    // Outside: cone sampling, kept where it applies.
+    const VF cap = OneMinusCosCone(sphere.radius, d2);
+    const VF one_minus_cos = hn::Mul(u0, cap);
+    const VF sin_theta =
+        hn::Sqrt(hn::Mul(one_minus_cos, hn::Sub(Splat(2.0f), one_minus_cos)));
+    const Frame frame = FrameFromNormal(Normalize(to_center));
+    const V3 w = frame.FromLocal({hn::Mul(sin_theta, cosine), hn::Mul(sin_theta, sine),
+                                  hn::Sub(Splat(1.0f), one_minus_cos)});
+    const VF pdf = hn::Div(light.Pmf(), hn::Mul(Splat(two_pi), cap));
+    const VF near = NearDistance(to_center, w, sphere.radius);
+    const VF distance =
+        hn::Max(hn::Sub(near, hn::MulAdd(Splat(2e-6f),
+                                         hn::Add(SumAbs(from), SumAbs(sphere.center)),
+                                         hn::Mul(Splat(2.0f), Gather(p.p_error, slots)))),
+                hn::Mul(near, Splat(0.5f)));
+    const MF facing = hn::Or(hn::Gt(sphere.normal_sign, Splat(0)), light.TwoSided());
+    const V3 radiance =
+        IfThenElseZero(facing, Mul(light.Radiance(), hn::Div(Splat(1.0f), pdf)));
+    const auto keep = [&](VF value, float* column) HWY_ATTR {
+      Scatter(hn::IfThenElse(outside, value, Gather(column, slots)), column, slots);
+    };
+    keep(w.x, p.ls_x);
+    keep(w.y, p.ls_y);
+    keep(w.z, p.ls_z);
+    keep(distance, p.ls_distance);
+    keep(radiance.x, p.ls_r);
+    keep(radiance.y, p.ls_g);
+    keep(radiance.z, p.ls_b);
+    keep(pdf, p.ls_pdf);
+  });
+}
+
+void SampleSphereLightOne(Wave& wave) { SampleSphereLight<false>(wave); }
+void SampleSphereLightMany(Wave& wave) { SampleSphereLight<true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/lights/light_stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(SampleSphereLightOne);
+HWY_EXPORT(SampleSphereLightMany);
+
+Stage SampleSphereLightStage() {
+  return SampleLightStage("light_sphere", "samples emitting spheres",
+                          Feature::kSphereLights,
+                          [](const FeatureSet& features) -> StageFn {
+                            return features.Has(Feature::kManyLights)
+                                       ? HWY_DYNAMIC_DISPATCH(SampleSphereLightMany)
+                                       : HWY_DYNAMIC_DISPATCH(SampleSphereLightOne);
+                          });
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

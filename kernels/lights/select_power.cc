@@ -1,0 +1,55 @@
+// light-selection by the table of the scene (power, or uniform): Walker's alias method.
+//   density     pmf of the light record
+//   source      Walker 1977; Vose 1991
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/lights/select_power.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+void SelectLight(Wave& wave) {
+  const DI di;
+  const LightTable& table = wave.scene->lights;
+  const VF count = Splat(static_cast<float>(table.lights.size()));
+  const VI last = hn::Set(di, static_cast<int32_t>(table.lights.size()) - 1);
+  ForEachBatch(wave, wave.queue(QueueId::kLit), [&](VI slots, MF) HWY_ATTR {
+    const VF scaled = hn::Mul(Gather(wave.path.u_select, slots), count);
+    const VI bin = hn::Min(hn::ConvertTo(di, scaled), last);
+    const VF fraction = hn::Sub(scaled, hn::ConvertTo(DF(), bin));
+    const auto keep =
+        hn::RebindMask(di, hn::Lt(fraction, Gather(table.alias_q.data(), bin)));
+    Scatter(hn::IfThenElse(keep, bin, Gather(table.alias.data(), bin)),
+            wave.path.ls_light, slots);
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(SelectLight);
+
+Stage SelectLightStage() {
+  return {"light_select",
+          "chooses a light by its power",
+          QueueId::kLit,
+          {Feature::kManyLights, Feature::kScatters},
+          {Field::u_select},
+          {Field::ls_light},
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(SelectLight); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

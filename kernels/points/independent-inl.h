@@ -1,0 +1,31 @@
+// points=independent: every coordinate is an independent uniform number.
+//   estimator   mean of N independent samples; variance sigma^2 / N
+//   unbiased    always
+//   cost        one PCG-4D hash per point
+#if defined(LANELIGHT_POINTS_INDEPENDENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_POINTS_INDEPENDENT_INL_H_
+#undef LANELIGHT_POINTS_INDEPENDENT_INL_H_
+#else
+#define LANELIGHT_POINTS_INDEPENDENT_INL_H_
+#endif
+
+#include "kernels/simd/rng-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+struct IndependentPoints {
+  static HWY_INLINE void Point(const RunParameters& run, VU pixel, VU sample, VU key,
+                               VF* u0, VF* u1) {
+    const U4 r = Pcg4d({pixel, sample, key, SplatU(run.seed)});
+    *u0 = ToUnit(r.x);
+    *u1 = ToUnit(r.y);
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,64 @@
+// points=sobol: Owen-scrambled Sobol' points, padded from two-dimensional nets.
+//   estimator   mean of one randomised (0,2)-sequence per dimension pair; for smooth
+//               integrands the variance of a power-of-two prefix falls like N^-3
+//               (Owen 1997), never worse than a constant times sigma^2 / N
+//   unbiased    each scrambled point is uniform; N need not be a power of two (then only
+//               the rate is lost)
+//   dependence  the samples of one group share one randomisation: one observation
+//   cost        four bit reversals, four hashes and the Pascal-matrix product per point
+// Sources: Burley 2020, "Practical Hash-based Owen Scrambling"; Laine and Karras 2011
+// (the hash, here with the constants found by Vegdahl 2021); Joe and Kuo direction
+// numbers of dimension 2 form Pascal's triangle mod 2.
+#if defined(LANELIGHT_POINTS_SOBOL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_POINTS_SOBOL_INL_H_
+#undef LANELIGHT_POINTS_SOBOL_INL_H_
+#else
+#define LANELIGHT_POINTS_SOBOL_INL_H_
+#endif
+
+#include "kernels/simd/rng-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// Random nested (Owen) permutation of bit-reversed numbers: bit i of the result depends
+// on the bits below i only.
+HWY_INLINE VU LaineKarras(VU x, VU seed) {
+  x = hn::Xor(x, hn::Mul(x, SplatU(0x3d20adeau)));
+  x = hn::Add(x, seed);
+  x = hn::Mul(x, hn::Or(hn::ShiftRight<16>(seed), SplatU(1)));
+  x = hn::Xor(x, hn::Mul(x, SplatU(0x05526c56u)));
+  return hn::Xor(x, hn::Mul(x, SplatU(0x53a22864u)));
+}
+
+// Bit-reversed second Sobol' coordinate of index i: y_j = xor over k of C(k, j) i_k, and
+// by Lucas C(k, j) is odd iff j is a submask of k, so one xor-shift per bit of the
+// positions does the product with Pascal's triangle.
+HWY_INLINE VU ReversedSobol1(VU i) {
+  i = hn::Xor(i, hn::ShiftRight<16>(i));
+  i = hn::Xor(i, hn::And(hn::ShiftRight<8>(i), SplatU(0x00ff00ffu)));
+  i = hn::Xor(i, hn::And(hn::ShiftRight<4>(i), SplatU(0x0f0f0f0fu)));
+  i = hn::Xor(i, hn::And(hn::ShiftRight<2>(i), SplatU(0x33333333u)));
+  return hn::Xor(i, hn::And(hn::ShiftRight<1>(i), SplatU(0x55555555u)));
+}
+
+struct SobolPoints {
+  static HWY_INLINE void Point(const RunParameters& run, VU pixel, VU sample, VU key,
+                               VF* u0, VF* u1) {
+    // A group of 2^group_shift samples shares one randomisation, seeded by its index.
+    const int shift = static_cast<int>(run.group_shift);
+    const VU group = hn::ShiftRightSame(sample, shift);
+    const VU index = hn::Sub(sample, hn::ShiftLeftSame(group, shift));
+    const U4 h = Pcg4d({pixel, group, key, SplatU(run.seed)});
+    const VU shuffled = ReverseBits32(LaineKarras(ReverseBits32(index), h.x));
+    *u0 = ToUnit(ReverseBits32(LaineKarras(shuffled, h.y)));
+    *u1 = ToUnit(ReverseBits32(LaineKarras(ReversedSobol1(shuffled), h.z)));
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

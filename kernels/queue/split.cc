@@ -1,0 +1,48 @@
+// Sorts intersected paths into those that hit something and those that left the scene.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/queue/split.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+void Split(Wave& wave) {
+  const Queue& active = wave.queue(QueueId::kActive);
+  wave.rays_closest += active.size;
+  ForEachBatch(wave, active, [&](VI slots, MF valid) HWY_ATTR {
+    const MF hit =
+        hn::Lt(Gather(wave.path.t, slots), Splat(std::numeric_limits<float>::infinity()));
+    Push(wave.queue(QueueId::kHit), slots, hn::And(valid, hit));
+    Push(wave.queue(QueueId::kMiss), slots, hn::AndNot(hit, valid));
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(Split);
+
+Stage SplitStage() {
+  return {"split",
+          "sorts paths into hits and misses",
+          QueueId::kActive,
+          {},
+          {Field::t},
+          {},
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Split); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,197 @@
+// The skeleton of every shading stage: light sample, then the next ray. A material policy
+// (bsdf-inl.h) fills in the physics.
+#if defined(LANELIGHT_SHADE_SHADE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_SHADE_SHADE_INL_H_
+#undef LANELIGHT_SHADE_SHADE_INL_H_
+#else
+#define LANELIGHT_SHADE_SHADE_INL_H_
+#endif
+
+#include <limits>
+
+#include "kernels/shade/bsdf-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// What a scene needs of a shading stage besides its material: three kinds of lighting and
+// whether there are vertex normals, six kernels per material. Where parameters and
+// tangents come from is loop-invariant and read through pointers resolved once per call.
+enum class Lighting {
+  kNone,   // nothing can be sampled
+  kDelta,  // only lights that a scattered ray cannot hit: full weight
+  kMis     // multiple importance sampling, and the bsdf_pdf column is live
+};
+
+/// Weight of a light sample against BSDF sampling by the power heuristic (Veach 1997,
+/// exponent 2): pl^2 / (pl^2 + pb^2), as a ratio that neither overflows nor divides zero
+/// by zero. Delta lights (light_pdf = 0) have weight 1.
+HWY_INLINE VF LightWeight(VF light_pdf, VF bsdf_pdf) {
+  const VF one = Splat(1.0f);
+  const MF delta = hn::Eq(light_pdf, hn::Zero(DF()));
+  const VF ratio = hn::Div(bsdf_pdf, hn::IfThenElse(delta, one, light_pdf));
+  return hn::IfThenElse(delta, one, hn::Div(one, hn::MulAdd(ratio, ratio, one)));
+}
+
+/// Shading frame around n with the first axis along the surface tangent; where the
+/// tangent is missing or along n, any frame.
+HWY_INLINE Frame FrameFromTangent(V3 n, V3 tangent) {
+  const Frame any = FrameFromNormal(n);
+  const V3 flat = MulAdd(n, hn::Neg(Dot(n, tangent)), tangent);
+  const VF length2 = Dot(flat, flat);
+  const MF usable =
+      hn::And(hn::Gt(length2, hn::Mul(Splat(1e-10f), Dot(tangent, tangent))),
+              hn::Lt(length2, Splat(std::numeric_limits<float>::infinity())));
+  const V3 s = IfThenElse(usable, Mul(flat, Rsqrt(length2)), any.s);
+  return {s, IfThenElse(usable, Cross(n, s), any.t), n};
+}
+
+HWY_INLINE MF IsPositiveFinite(VF v) {
+  return hn::And(hn::Gt(v, hn::Zero(DF())),
+                 hn::Lt(v, Splat(std::numeric_limits<float>::infinity())));
+}
+/// True if no component is NaN, infinite or negative and one is positive.
+HWY_INLINE MF CarriesLight(V3 c) {
+  return hn::And(IsPositiveFinite(hn::Add(c.x, hn::Add(c.y, c.z))),
+                 hn::Ge(hn::Min(c.x, hn::Min(c.y, c.z)), hn::Zero(DF())));
+}
+
+template <class Bsdf, Lighting kLighting, bool kNormals>
+struct Shader {
+  Wave& wave;
+  MaterialSource source;
+
+  HWY_INLINE explicit Shader(Wave& w) : wave(w), source(TableSource(w.scene->materials)) {
+    const PathColumns& path = w.path;
+    source.color_by_path = path.color0_r != nullptr;
+    source.alpha_by_path = path.alpha_x != nullptr;
+    if (source.color_by_path) {
+      source.color0_r = path.color0_r;
+      source.color0_g = path.color0_g;
+      source.color0_b = path.color0_b;
+    }
+    if (source.alpha_by_path) {
+      source.alpha_x = path.alpha_x;
+      source.alpha_y = path.alpha_y;
+    }
+  }
+
+  HWY_INLINE Frame ShadingFrame(V3 ng, VI slots) const {
+    const PathColumns& path = wave.path;
+    V3 n = ng;
+    if constexpr (kNormals) n = Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
+    if constexpr (Bsdf::kAnisotropic) {
+      if (path.tg_x != nullptr) {
+        return FrameFromTangent(n, Gather3(path.tg_x, path.tg_y, path.tg_z, slots));
+      }
+    }
+    return FrameFromNormal(n);
+  }
+
+  HWY_INLINE MaterialInputs Inputs(VI slots) const {
+    const PathColumns& path = wave.path;
+    MaterialInputs in{source, slots, Gather(path.material, slots), {}};
+    if constexpr (Bsdf::kStochastic) {
+      const DU du;
+      in.random = {hn::BitCast(du, Gather(path.pixel, slots)),
+                   hn::BitCast(du, Gather(path.sample, slots)),
+                   hn::BitCast(du, Gather(path.depth, slots)),
+                   hn::Set(du, wave.run->seed)};
+    }
+    return in;
+  }
+
+  /// Next-event estimation: what the sampled light would add if nothing is in between.
+  HWY_INLINE void SampleLight(const typename Bsdf::Params& material, const Frame& frame,
+                              V3 wo, V3 beta, VI slots, MF valid) {
+    const PathColumns& path = wave.path;
+    const V3 light = Gather3(path.ls_r, path.ls_g, path.ls_b, slots);
+    const V3 wi = frame.ToLocal(Gather3(path.ls_x, path.ls_y, path.ls_z, slots));
+    const BsdfValue value = Bsdf::Eval(material, wo, wi);
+    V3 carried = Mul(Mul(beta, value.f_cos), light);
+    if constexpr (kLighting == Lighting::kMis) {
+      carried = Mul(carried, LightWeight(Gather(path.ls_pdf, slots), value.pdf));
+    }
+    Scatter3(carried, path.sh_r, path.sh_g, path.sh_b, slots);
+    Push(wave.queue(QueueId::kShadow), slots, hn::And(valid, CarriesLight(carried)));
+  }
+
+  /// Scatters the path: new ray, throughput and density; returns the paths that go on.
+  HWY_INLINE MF Bounce(const typename Bsdf::Params& material, const Frame& frame, V3 wo,
+                       V3 ng, V3 beta, VI slots) {
+    const PathColumns& path = wave.path;
+    const BsdfPoints u = {Gather(path.u_lobe, slots), Gather(path.u_bsdf_0, slots),
+                          Gather(path.u_bsdf_1, slots)};
+    const BsdfSample sample = Bsdf::Sample(material, wo, u);
+    const V3 d = Normalize(frame.FromLocal(sample.wi));
+    const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
+    const V3 o = OffsetOrigin(p, ng, Gather(path.p_error, slots), d);
+    // A tangential wo has no defined side; pbrt absorbs it as well.
+    MF alive = hn::And(CarriesLight(sample.weight), hn::Ne(wo.z, hn::Zero(DF())));
+    if constexpr (kLighting == Lighting::kMis) {
+      alive =
+          hn::And(alive, hn::Lt(sample.pdf, Splat(std::numeric_limits<float>::max())));
+      Scatter(sample.pdf, path.bsdf_pdf, slots);
+    }
+    const V3 carried = IfThenElseZero(alive, Mul(beta, sample.weight));
+    Scatter3(o, path.o_x, path.o_y, path.o_z, slots);
+    Scatter3(d, path.d_x, path.d_y, path.d_z, slots);
+    Scatter3(carried, path.beta_r, path.beta_g, path.beta_b, slots);
+    Scatter(Splat(std::numeric_limits<float>::infinity()), path.t, slots);
+    if constexpr (Bsdf::kRefracts) {
+      Scatter(hn::Mul(Gather(path.eta_scale, slots), sample.eta_scale), path.eta_scale,
+              slots);
+    }
+    const VI depth = Gather(path.depth, slots);
+    Scatter(hn::Add(depth, hn::Set(DI(), 1)), path.depth, slots);
+    return hn::And(alive, CarriesLight(carried));
+  }
+
+  HWY_INLINE void operator()(VI slots, MF valid) {
+    const PathColumns& path = wave.path;
+    const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+    const Frame frame = ShadingFrame(ng, slots);
+    const V3 wo = frame.ToLocal(-Gather3(path.d_x, path.d_y, path.d_z, slots));
+    const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
+    const typename Bsdf::Params material = Bsdf::Load(Inputs(slots));
+    if constexpr (kLighting != Lighting::kNone && !Bsdf::kSpecular) {
+      SampleLight(material, frame, wo, beta, slots, valid);
+    }
+    const MF alive = Bounce(material, frame, wo, ng, beta, slots);
+    Push(wave.queue(QueueId::kScattered), slots, hn::And(valid, alive));
+    Push(wave.queue(QueueId::kDone), slots, hn::AndNot(alive, valid));
+  }
+};
+
+template <class Bsdf, ShadeKind kKind, Lighting kLighting, bool kNormals>
+void ShadeKernel(Wave& wave) {
+  Shader<Bsdf, kLighting, kNormals> shader(wave);
+  ForEachBatch(wave, wave.queue(ShadeQueue(kKind)),
+               [&](VI slots, MF valid) HWY_ATTR { shader(slots, valid); });
+}
+
+template <class Bsdf, ShadeKind kKind, Lighting kLighting>
+StageFn ResolveNormals(const FeatureSet& features) {
+  return features.Has(Feature::kVertexNormals)
+             ? ShadeKernel<Bsdf, kKind, kLighting, true>
+             : ShadeKernel<Bsdf, kKind, kLighting, false>;
+}
+
+/// The kernel of this target for the features of a scene.
+template <class Bsdf, ShadeKind kKind>
+StageFn ResolveShade(const FeatureSet& features) {
+  if (features.Has(Feature::kMis)) {
+    return ResolveNormals<Bsdf, kKind, Lighting::kMis>(features);
+  }
+  if (features.Has(Feature::kLights) && !Bsdf::kSpecular) {
+    return ResolveNormals<Bsdf, kKind, Lighting::kDelta>(features);
+  }
+  return ResolveNormals<Bsdf, kKind, Lighting::kNone>(features);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,26 @@
+// The declaration that all shading stages share.
+#pragma once
+
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+/// A shading stage of `kind`, present if the scene has `feature`.
+inline Stage MakeShadeStage(const char* name, const char* meaning, ShadeKind kind,
+                            Feature feature, StageFn (*resolve)(const FeatureSet&)) {
+  using namespace fields;
+  const FieldSet points = {Field::u_lobe, Field::u_bsdf_0, Field::u_bsdf_1};
+  const FieldSet identity = {Field::pixel, Field::sample, Field::depth, Field::material};
+  const FieldSet direction = {Field::d_x, Field::d_y, Field::d_z};
+  const FieldSet history = {Field::bsdf_pdf, Field::eta_scale, Field::depth, Field::t};
+  return {name,
+          meaning,
+          ShadeQueue(kind),
+          {feature, Feature::kScatters},
+          identity | direction | kThroughput | kPoint | kNormal | kTangent | kParameters |
+              points | kLightSample | FieldSet{Field::eta_scale},
+          kRay | kThroughput | kShadow | history,
+          resolve};
+}
+
+}  // namespace lanelight

@@ -1,0 +1,64 @@
+// Counter-based random numbers: four 32-bit words from four 32-bit words, so that every
+// number is a pure function of (seed, pixel, sample, dimension).
+#if defined(LANELIGHT_SIMD_RNG_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_SIMD_RNG_INL_H_
+#undef LANELIGHT_SIMD_RNG_INL_H_
+#else
+#define LANELIGHT_SIMD_RNG_INL_H_
+#endif
+
+#include "kernels/queue/batch-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+struct U4 {
+  VU x, y, z, w;
+};
+
+HWY_INLINE VU SplatU(uint32_t v) { return hn::Set(DU(), v); }
+HWY_INLINE VU AsUnsigned(VI v) { return hn::BitCast(DU(), v); }
+
+/// PCG-4D (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering"): a permutation
+/// of 128-bit words; passes the statistical tests named in the paper.
+HWY_INLINE U4 Pcg4d(U4 v) {
+  const VU a = SplatU(1664525u), c = SplatU(1013904223u);
+  const auto step = [&](VU s) HWY_ATTR { return hn::Add(hn::Mul(s, a), c); };
+  const auto mix = [](U4 s) HWY_ATTR {
+    s.x = hn::Add(s.x, hn::Mul(s.y, s.w));
+    s.y = hn::Add(s.y, hn::Mul(s.z, s.x));
+    s.z = hn::Add(s.z, hn::Mul(s.x, s.y));
+    s.w = hn::Add(s.w, hn::Mul(s.y, s.z));
+    return s;
+  };
+  const auto fold = [](VU s) HWY_ATTR { return hn::Xor(s, hn::ShiftRight<16>(s)); };
+  v = mix({step(v.x), step(v.y), step(v.z), step(v.w)});
+  return mix({fold(v.x), fold(v.y), fold(v.z), fold(v.w)});
+}
+
+/// Uniform in [0, 1): the top 24 bits, exact in float.
+HWY_INLINE VF ToUnit(VU bits) {
+  const VI top = hn::BitCast(DI(), hn::ShiftRight<8>(bits));
+  return hn::Mul(hn::ConvertTo(DF(), top), hn::Set(DF(), 0x1p-24f));
+}
+
+HWY_INLINE VU ReverseBits32(VU v) {
+  const auto swap = [](VU s, auto shift, uint32_t mask) HWY_ATTR {
+    constexpr int kShift = decltype(shift)::value;
+    const VU m = SplatU(mask);
+    return hn::Or(hn::And(hn::ShiftRight<kShift>(s), m),
+                  hn::ShiftLeft<kShift>(hn::And(s, m)));
+  };
+  v = swap(v, std::integral_constant<int, 1>(), 0x55555555u);
+  v = swap(v, std::integral_constant<int, 2>(), 0x33333333u);
+  v = swap(v, std::integral_constant<int, 4>(), 0x0f0f0f0fu);
+  v = swap(v, std::integral_constant<int, 8>(), 0x00ff00ffu);
+  return hn::RotateRight<16>(v);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,72 @@
+// Directions on the hemisphere around +z. Densities are with respect to solid angle. No
+// sampler returns a direction with z = 0, where the density of two of them vanishes.
+#if defined(LANELIGHT_WARP_HEMISPHERE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_WARP_HEMISPHERE_INL_H_
+#undef LANELIGHT_WARP_HEMISPHERE_INL_H_
+#else
+#define LANELIGHT_WARP_HEMISPHERE_INL_H_
+#endif
+
+#include "kernels/warp/disk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Density cos / pi: a uniform point of the disk, lifted (Malley's method). u in [0,1]^2.
+HWY_INLINE V3 SampleCosineHemisphere(VF u0, VF u1) {
+  const V2 p = SampleDisk(u0, u1);
+  const VF z2 = hn::NegMulAdd(p.x, p.x, hn::NegMulAdd(p.y, p.y, Splat(1.0f)));
+  // Half the spacing of the disk's edge in [0,1) points of 24 bits.
+  return {p.x, p.y, hn::Sqrt(hn::Max(z2, Splat(0x1p-24f)))};
+}
+HWY_INLINE VF PdfCosineHemisphere(VF cos_theta) {
+  return hn::Mul(cos_theta, Splat(kInvPi));
+}
+HWY_INLINE V2 InvertCosineHemisphere(V3 w) { return InvertDisk({w.x, w.y}); }
+
+/// Direction of height z and azimuth 2 pi u1, given sin^2 of its polar angle.
+HWY_INLINE V3 FromHeight(VF z, VF sin2, VF u1) {
+  const SinCosPair phi = SinCos2Pi(u1);
+  const VF r = SafeSqrt(sin2);
+  return {hn::Mul(r, phi.cos), hn::Mul(r, phi.sin), z};
+}
+
+/// Azimuth of w as a fraction of a turn, in [0, 1].
+HWY_INLINE VF TurnOf(V3 w) {
+  const VF turn = hn::Mul(Atan2(w.y, w.x), Splat(0.5f * kInvPi));
+  return hn::IfThenElse(hn::Lt(turn, hn::Zero(DF())), hn::Add(turn, Splat(1.0f)), turn);
+}
+
+/// Density 1 / (2 pi): heights of a sphere's zone are uniform (Archimedes). u in [0,1)^2.
+HWY_INLINE V3 SampleUniformHemisphere(VF u0, VF u1) {
+  return FromHeight(hn::Sub(Splat(1.0f), u0), hn::Mul(u0, hn::Sub(Splat(2.0f), u0)), u1);
+}
+HWY_INLINE VF PdfUniformHemisphere() { return Splat(0.5f * kInvPi); }
+HWY_INLINE V2 InvertUniformHemisphere(V3 w) {
+  return {hn::Sub(Splat(1.0f), w.z), TurnOf(w)};
+}
+
+/// Density 2 cos^3 / pi: the direction of "normal + uniform point of the unit ball".
+/// Seen from the foot of the normal the ball has radius 1 and centre +z, so it fills the
+/// ray at polar angle theta from 0 to 2 cos; the volume per solid angle is
+/// integral r^2 dr = 8 cos^3 / 3, and divided by the ball's 4 pi / 3 that is 2 cos^3 /
+/// pi. In the height the distribution function is z^4. u in [0,1)^2.
+HWY_INLINE V3 SampleInSphere(VF u0, VF u1) {
+  const VF z2 = hn::Sqrt(hn::Sub(Splat(1.0f), u0));
+  // 1 - z2 without cancellation: 1 - sqrt(1 - u) = u / (1 + sqrt(1 - u)).
+  const VF sin2 = hn::Div(u0, hn::Add(Splat(1.0f), z2));
+  return FromHeight(hn::Sqrt(z2), sin2, u1);
+}
+HWY_INLINE VF PdfInSphere(VF cos_theta) {
+  return hn::Mul(Splat(2.0f * kInvPi), hn::Mul(cos_theta, Sqr(cos_theta)));
+}
+HWY_INLINE V2 InvertInSphere(V3 w) {
+  return {hn::NegMulAdd(Sqr(w.z), Sqr(w.z), Splat(1.0f)), TurnOf(w)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

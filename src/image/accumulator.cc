@@ -1,0 +1,73 @@
+#include "src/image/accumulator.h"
+
+#include "src/core/check.h"
+
+namespace lanelight {
+
+FilmAccumulator::FilmAccumulator(int x0, int y0, int width, int height,
+                                 std::uint32_t group_size, bool aov)
+    : x0_(x0), y0_(y0), width_(width), height_(height), group_size_(group_size) {
+  LL_CHECK_GT(width, 0);
+  LL_CHECK_GT(height, 0);
+  LL_CHECK_GT(group_size, 0u);
+  const std::size_t pixels =
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  pixels_.resize(pixels);
+  if (aov) aov_.resize(pixels * kAovPlanes);
+}
+
+void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
+                                 std::uint32_t count) {
+  const std::size_t index = static_cast<std::size_t>(y - y0_) * width_ + (x - x0_);
+  Pixel& p = pixels_[index];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    ++p.samples;
+    const bool closes_group = p.samples % group_size_ == 0;
+    for (int c = 0; c < kColorPlanes; ++c) {
+      const double value = planes[c][i];
+      p.sum[c] += value;
+      p.group[c] += value;
+      if (!closes_group) continue;
+      const double mean = p.group[c] / group_size_;
+      p.squares[c] += mean * mean;
+      p.group_total[c] += mean;
+      p.group[c] = 0;
+    }
+    if (closes_group) ++p.groups;
+    for (int a = 0; a < kAovPlanes && !aov_.empty(); ++a) {
+      aov_[index * kAovPlanes + a] += planes[kColorPlanes + a][i];
+    }
+  }
+}
+
+Rgb FilmAccumulator::Mean(int x, int y) const {
+  const Pixel& p = pixel(x, y);
+  if (p.samples == 0) return {};
+  return Rgb{p.sum[0], p.sum[1], p.sum[2]} / static_cast<double>(p.samples);
+}
+
+Rgb FilmAccumulator::Variance(int x, int y) const {
+  const Pixel& p = pixel(x, y);
+  if (p.groups < 2) return {};
+  const double n = static_cast<double>(p.groups);
+  // Sample variance of the group means, over n for the variance of their mean, and scaled
+  // down by the share of samples that incomplete groups add.
+  const double share = n * group_size_ / static_cast<double>(p.samples);
+  Rgb variance;
+  for (int c = 0; c < 3; ++c) {
+    const double mean = p.group_total[c] / n;
+    const double scatter = std::max(0.0, p.squares[c] / n - mean * mean) * n / (n - 1);
+    variance[c] = scatter / n * share;
+  }
+  return variance;
+}
+
+double FilmAccumulator::Aov(int x, int y, int plane) const {
+  const Pixel& p = pixel(x, y);
+  LL_CHECK(has_aov());
+  if (p.samples == 0) return 0;
+  const std::size_t index = static_cast<std::size_t>(y - y0_) * width_ + (x - x0_);
+  return aov_[index * kAovPlanes + plane] / static_cast<double>(p.samples);
+}
+
+}  // namespace lanelight

@@ -1,0 +1,19 @@
+// Lights: one record per emitting primitive and per light of the file, the table to pick
+// one, and the light index of every emitting primitive.
+#pragma once
+
+#include "src/scene/compile.h"
+#include "src/scene/compile_geometry.h"
+#include "src/scene/compile_placement.h"
+#include "src/scene/compiled.h"
+#include "src/scene/description.h"
+
+namespace lanelight {
+
+/// Sets the `light` of emitting records in `geometry` too. Lights without power get no
+/// record. Throws InputError at the directive for images and transforms that cannot be
+/// used.
+LightTable CompileLights(const SceneDescription& description, const Placement& placement,
+                         const CompileOptions& options, CompiledGeometry& geometry);
+
+}  // namespace lanelight

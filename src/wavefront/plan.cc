@@ -1,0 +1,107 @@
+#include "src/wavefront/plan.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "kernels/simd/target.h"
+#include "kernels/stages.h"
+#include "src/core/check.h"
+
+namespace lanelight {
+
+namespace {
+
+std::vector<Stage> RegisteredStages() {
+  return {
+#define X(name) name##Stage(),
+      LANELIGHT_STAGES(X)
+#undef X
+  };
+}
+
+// What the scene has, as changed by the options of this render.
+FeatureSet FeaturesOf(const CompiledScene& scene, const PlanOptions& options) {
+  FeatureSet f = scene.features;
+  f.Remove(Feature::kScatters);
+  f.Remove(Feature::kRoulette);
+  if (options.max_depth > 0) f.Add(Feature::kScatters);
+  if (options.max_depth > 1) f.Add(Feature::kRoulette);
+  if (options.max_depth == 0) {
+    // Only emission seen directly is left: nothing is shaded and no light is sampled.
+    f.Remove(Feature::kLights);
+    f.Remove(Feature::kManyLights);
+    f.Remove(Feature::kMis);
+    f.Remove(Feature::kRefraction);
+    if (!options.aov) {
+      for (Feature surface :
+           {Feature::kTextures, Feature::kUv, Feature::kTangents, Feature::kVertexNormals,
+            Feature::kTexturedRoughness, Feature::kMix}) {
+        f.Remove(surface);
+      }
+    }
+  }
+  if (options.aov) f.Add(Feature::kAov);
+  f.Add(options.sampler == SamplerKind::kSobol ? Feature::kSobolPoints
+                                               : Feature::kIndependentPoints);
+  return f;
+}
+
+std::string ReasonToOmit(const Stage& stage, const FeatureSet& features) {
+  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+    const Feature f = static_cast<Feature>(i);
+    if (stage.needs.Has(f) && !features.Has(f))
+      return std::string("no ") + FeatureMeaning(f);
+  }
+  return "";
+}
+
+void CheckReadsAreWritten(const Plan& plan) {
+  FieldSet written;
+  for (const PlannedStage& planned : plan.stages) {
+    for (Field field : plan.live_fields) {
+      if (!planned.stage.reads.Has(field) || written.Has(field)) continue;
+      // A stage may update what it also writes only if somebody initialised it.
+      FailCheck(__FILE__, __LINE__, "every column read has been written",
+                std::string(planned.stage.name) + " reads " + FieldName(field));
+    }
+    written = written | planned.stage.writes;
+  }
+}
+
+// Paths whose live columns and queues fill about half of one core's second-level cache,
+// leaving the rest to the scene: the stages stream the columns once per bounce.
+std::uint32_t WavefrontForCache(std::size_t bytes_per_path) {
+  const long level2 = sysconf(_SC_LEVEL2_CACHE_SIZE);
+  const double cache = level2 > 0 ? static_cast<double>(level2) : 1024.0 * 1024.0;
+  const double paths = 0.5 * cache / static_cast<double>(bytes_per_path);
+  return static_cast<std::uint32_t>(std::clamp(paths, 256.0, 8192.0)) / 64 * 64;
+}
+
+}  // namespace
+
+Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
+  Plan plan;
+  plan.options = options;
+  plan.features = FeaturesOf(scene, options);
+  for (const Stage& stage : RegisteredStages()) {
+    if (plan.features.HasAll(stage.needs)) {
+      plan.stages.push_back({stage, stage.resolve(plan.features)});
+    } else {
+      plan.omitted.push_back({stage, ReasonToOmit(stage, plan.features)});
+    }
+  }
+  for (std::size_t i = 0; i < kNumFields; ++i) {
+    const Field field = static_cast<Field>(i);
+    const FeatureSet needed_by = FieldFeatures(field);
+    const bool live = needed_by.empty() || plan.features.HasAny(needed_by);
+    (live ? plan.live_fields : plan.absent_fields).push_back(field);
+  }
+  CheckReadsAreWritten(plan);
+  plan.bytes_per_path = plan.live_fields.size() * sizeof(float);
+  plan.wavefront =
+      options.wavefront > 0 ? options.wavefront : WavefrontForCache(plan.bytes_per_path);
+  return plan;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,259 @@
+#include "src/wavefront/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <mutex>
+
+#include "kernels/simd/target.h"
+#include "src/core/check.h"
+#include "src/core/parallel.h"
+#include "src/wavefront/drive.h"
+#include "src/wavefront/tiles.h"
+
+namespace lanelight {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double Since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Samples of one finished task, until they are merged in order.
+struct TaskSamples {
+  AlignedVector<float> values;
+  std::uint32_t count = 0;  // samples per pixel; 0 = not run
+};
+
+// What a thread keeps between tasks.
+struct Workspace {
+  Workspace(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
+            bool profile)
+      : wavefront(scene, plan, run), counters(profile ? plan.stages.size() : 0) {}
+  Wavefront wavefront;
+  std::vector<StageCounters> counters;
+  std::vector<std::uint32_t> pixels;
+  TaskSamples samples;
+};
+
+class Runner {
+ public:
+  Runner(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
+         FilmAccumulator& film)
+      : scene_(scene), plan_(plan), options_(options), film_(film) {
+    run_ = Parameters();
+    const PixelRect pixels = RenderedPixels(scene.film);
+    partition_ = MakePartition(pixels, options.spp > 0 ? options.spp : kOpenEndedSpp);
+    planes_ = kColorPlanes + (film.has_aov() ? kAovPlanes : 0);
+    workspaces_.resize(static_cast<std::size_t>(MaxThreads()) + 1);
+    pixel_count_ = std::uint64_t(pixels.width()) * pixels.height();
+  }
+
+  RunResult Run() {
+    start_ = Clock::now();
+    std::uint64_t done = 0;  // samples per pixel started in complete rounds
+    const std::uint64_t limit = options_.spp > 0 ? options_.spp : std::uint64_t{1} << 31;
+    while (done < limit && !Stopped()) {
+      const std::uint64_t chunks_left =
+          (limit - done + partition_.samples - 1) / partition_.samples;
+      const std::uint64_t chunks = std::min(chunks_left, ChunksPerRound());
+      RunRound(done, limit, static_cast<std::uint32_t>(chunks));
+      done += chunks * partition_.samples;
+    }
+    return Result(done < limit && options_.spp > 0);
+  }
+
+ private:
+  // Without a sample count the partition assumes many samples.
+  static constexpr std::uint64_t kOpenEndedSpp = 32;
+
+  RunParameters Parameters() const {
+    RunParameters run;
+    run.seed = static_cast<std::uint32_t>(options_.seed ^ (options_.seed >> 32));
+    run.width = static_cast<std::uint32_t>(scene_.film.width);
+    run.height = static_cast<std::uint32_t>(scene_.film.height);
+    run.spp = static_cast<std::uint32_t>(options_.spp);
+    while ((1u << run.group_shift) < film_.group_size()) ++run.group_shift;
+    LL_CHECK_EQ(1u << run.group_shift, film_.group_size());
+    run.max_depth = plan_.options.max_depth;
+    run.exposure = static_cast<float>(scene_.film.imaging_ratio);
+    run.features = plan_.features;
+    return run;
+  }
+
+  bool Stopped() const {
+    if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed))
+      return true;
+    // The first task of every tile always runs: an image with unsampled pixels is no
+    // image.
+    return options_.seconds > 0 && samples_ >= pixel_count_ &&
+           Since(start_) >= options_.seconds;
+  }
+
+  // Several sample ranges of the same tile run at once only where there are too few tiles
+  // for the threads; they are merged in order, so the image does not depend on it.
+  std::uint64_t ChunksPerRound() const {
+    const std::uint64_t wanted = 8 * static_cast<std::uint64_t>(MaxThreads());
+    return std::max<std::uint64_t>(1, wanted / partition_.tiles.size());
+  }
+
+  void RunRound(std::uint64_t first_sample, std::uint64_t limit, std::uint32_t chunks) {
+    if (chunks > 1) return RunRoundInChunks(first_sample, limit, chunks);
+    ParallelFor(partition_.tiles.size(), [&](std::size_t tile) {
+      if (Stopped()) return;
+      TaskSamples& out = ThreadWorkspace().samples;
+      RunTask(partition_.tiles[tile], first_sample, limit, out);
+      Merge(partition_.tiles[tile], out);
+    });
+  }
+
+  void RunRoundInChunks(std::uint64_t first_sample, std::uint64_t limit,
+                        std::uint32_t chunks) {
+    const std::size_t tiles = partition_.tiles.size();
+    if (buffers_.size() < tiles * chunks) buffers_.resize(tiles * chunks);
+    ParallelFor(tiles * chunks, [&](std::size_t task) {
+      TaskSamples& out = buffers_[task];
+      out.count = 0;
+      if (Stopped()) return;
+      RunTask(partition_.tiles[task / chunks],
+              first_sample + task % chunks * partition_.samples, limit, out);
+    });
+    ParallelFor(tiles, [&](std::size_t tile) {
+      // Stops at the first range that did not run: later ones would leave a gap.
+      for (std::uint32_t c = 0; c < chunks && buffers_[tile * chunks + c].count > 0;
+           ++c) {
+        Merge(partition_.tiles[tile], buffers_[tile * chunks + c]);
+      }
+    });
+  }
+
+  Workspace& ThreadWorkspace() {
+    const std::size_t thread = static_cast<std::size_t>(ThreadIndex());
+    LL_CHECK_LT(thread, workspaces_.size());
+    if (!workspaces_[thread]) {
+      workspaces_[thread] =
+          std::make_unique<Workspace>(scene_, plan_, run_, options_.profile);
+    }
+    return *workspaces_[thread];
+  }
+
+  void RunTask(const PixelRect& tile, std::uint64_t first_sample, std::uint64_t limit,
+               TaskSamples& out) {
+    Workspace& space = ThreadWorkspace();
+    out.count = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(partition_.samples, limit - first_sample));
+    TilePixels(tile, scene_.film.width, &space.pixels);
+    TileWork work;
+    work.pixels = space.pixels.data();
+    work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
+    work.first_sample = static_cast<std::uint32_t>(first_sample);
+    work.samples = out.count;
+    const std::uint32_t stride = work.num_pixels * out.count;
+    if (out.values.size() < std::size_t{stride} * planes_) {
+      out.values.resize(std::size_t{stride} * planes_);
+    }
+    Drive(space.wavefront, plan_, work, {out.values.data(), stride}, space.counters);
+    samples_ += stride;
+    ReportProgress();
+  }
+
+  void Merge(const PixelRect& tile, const TaskSamples& task) {
+    std::vector<std::uint32_t> pixels;
+    TilePixels(tile, scene_.film.width, &pixels);
+    const std::size_t stride = pixels.size() * task.count;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const float* planes[kColorPlanes + kAovPlanes];
+      for (int p = 0; p < planes_; ++p)
+        planes[p] = task.values.data() + p * stride + i * task.count;
+      film_.AddSamples(static_cast<int>(pixels[i] % run_.width),
+                       static_cast<int>(pixels[i] / run_.width), planes, task.count);
+    }
+  }
+
+  void ReportProgress() {
+    if (!options_.on_progress) return;
+    std::unique_lock lock(progress_mutex_, std::try_to_lock);
+    if (!lock || Since(last_report_) < 0.1) return;
+    last_report_ = Clock::now();
+    Progress progress;
+    progress.seconds = Since(start_);
+    progress.samples = samples_;
+    const double by_samples =
+        options_.spp > 0 ? double(samples_) / (double(pixel_count_) * options_.spp) : 0;
+    const double by_time = options_.seconds > 0 ? progress.seconds / options_.seconds : 0;
+    progress.fraction = std::min(1.0, std::max(by_samples, by_time));
+    options_.on_progress(progress);
+  }
+
+  RunResult Result(bool stopped_early) {
+    RunResult result;
+    result.seconds = Since(start_);
+    result.samples = samples_;
+    result.stopped_early = stopped_early;
+    for (const PlannedStage& planned : plan_.stages) {
+      StageProfile profile;
+      profile.name = planned.stage.name;
+      for (Field f : plan_.live_fields) {
+        profile.bytes_per_item +=
+            4.0 * (planned.stage.reads.Has(f) + planned.stage.writes.Has(f));
+      }
+      result.stages.push_back(profile);
+    }
+    for (const auto& space : workspaces_) {
+      if (!space) continue;
+      const Wave& wave = space->wavefront.wave();
+      result.rays_closest += wave.rays_closest;
+      result.rays_shadow += wave.rays_shadow;
+      result.health.nan += wave.bad.nan;
+      result.health.infinite += wave.bad.infinite;
+      result.health.negative += wave.bad.negative;
+      result.wavefront_bytes += space->wavefront.bytes();
+      for (std::size_t i = 0; i < space->counters.size(); ++i) {
+        const StageCounters& c = space->counters[i];
+        result.stages[i].calls += c.calls;
+        result.stages[i].items += c.items;
+        result.stages[i].lane_slots +=
+            c.lane_slots * static_cast<std::uint64_t>(CurrentLanes());
+        result.stages[i].seconds += static_cast<double>(c.nanoseconds) * 1e-9;
+      }
+    }
+    for (const TaskSamples& buffer : buffers_) {
+      result.wavefront_bytes += buffer.values.size() * sizeof(float);
+    }
+    return result;
+  }
+
+  const CompiledScene& scene_;
+  const Plan& plan_;
+  const RunOptions& options_;
+  FilmAccumulator& film_;
+  RunParameters run_;
+  TilePartition partition_;
+  int planes_ = kColorPlanes;
+  std::uint64_t pixel_count_ = 0;
+  std::vector<std::unique_ptr<Workspace>> workspaces_;
+  std::vector<TaskSamples> buffers_;
+  std::atomic<std::uint64_t> samples_{0};
+  Clock::time_point start_, last_report_;
+  std::mutex progress_mutex_;
+};
+
+}  // namespace
+
+RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
+              FilmAccumulator& film) {
+  LL_CHECK(options.spp > 0 || options.seconds > 0 || options.stop != nullptr);
+  return Runner(scene, plan, options, film).Run();
+}
+
+std::uint32_t GroupSize(SamplerKind sampler, std::uint64_t spp) {
+  if (sampler == SamplerKind::kIndependent) return 1;
+  const std::uint64_t target = spp > 0 ? spp / 4 : 64;
+  std::uint32_t size = 1;
+  while (size * 2ull <= target && size < (1u << 20)) size *= 2;
+  return size;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,36 @@
+// How a render is cut into tasks: (tile x sample range), independent of the number of
+// threads, so that the sums of a pixel always run in the same order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/scene/description.h"
+
+namespace lanelight {
+
+struct PixelRect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+};
+
+/// The pixels that the film asks for: its crop window, or all.
+PixelRect RenderedPixels(const Film& film);
+
+struct TilePartition {
+  int side = 16;               // pixels
+  std::uint32_t samples = 32;  // per task
+  std::vector<PixelRect> tiles;
+};
+
+/// Tasks of about 8192 samples: enough to amortise the drain of a wavefront at the end,
+/// few enough that the sample buffer stays in the cache and threads stay busy.
+TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp);
+
+/// Pixel indices (y * image_width + x) of a tile in 4x4 blocks, so that a vector of lanes
+/// starts with neighbouring rays.
+void TilePixels(const PixelRect& tile, int image_width,
+                std::vector<std::uint32_t>* pixels);
+
+}  // namespace lanelight

@@ -1,0 +1,75 @@
+#include "src/wavefront/wavefront.h"
+
+#include <algorithm>
+
+#include "src/core/check.h"
+
+namespace lanelight {
+
+namespace {
+
+constexpr std::size_t kLanesPerLine = kCacheLine / sizeof(std::uint32_t);
+
+// Lanes from one column to the next: padded by a full vector, on whole cache lines, and
+// an odd number of lines, so that strides never are multiples of 2 KiB (loads and stores
+// whose addresses agree in the low 12 bits block each other).
+std::size_t ColumnStride(std::uint32_t capacity) {
+  const std::size_t lines = (capacity + kLanesPerLine - 1) / kLanesPerLine + 1;
+  return (lines | 1) * kLanesPerLine;
+}
+
+#ifndef NDEBUG
+// A pattern that is a NaN as a float and an absurd index as an integer: a stage that
+// reads what nobody wrote shows up at once.
+constexpr std::uint32_t kPoison = 0x7fdeadffu;
+#endif
+
+template <typename T>
+void Place(T*& column, Field field, const Plan& plan, std::uint32_t*& next,
+           std::size_t stride) {
+  const auto& live = plan.live_fields;
+  if (std::find(live.begin(), live.end(), field) == live.end()) {
+    column = nullptr;
+    return;
+  }
+  column = reinterpret_cast<T*>(next);
+  next += stride;
+}
+
+}  // namespace
+
+Wavefront::Wavefront(const CompiledScene& scene, const Plan& plan,
+                     const RunParameters& run) {
+  LL_CHECK_GT(plan.wavefront, 0u);
+  const std::size_t stride = ColumnStride(plan.wavefront);
+  const std::size_t columns = plan.live_fields.size() + kNumQueues;
+#ifdef NDEBUG
+  memory_.resize(stride * columns);
+#else
+  memory_.assign(stride * columns, kPoison);
+#endif
+  std::uint32_t* next = memory_.data();
+#define X(type, name, features, meaning) \
+  Place(wave_.path.name, Field::name, plan, next, stride);
+  LANELIGHT_PATH_FIELDS(X)
+#undef X
+  for (Queue& queue : wave_.queues) {
+    queue.items = next;
+    next += stride;
+  }
+  wave_.scene = &scene;
+  wave_.run = &run;
+  wave_.capacity = plan.wavefront;
+  Reset();
+}
+
+void Wavefront::Reset() {
+  for (Queue& queue : wave_.queues) queue.size = 0;
+  Queue& free = wave_.queue(QueueId::kFree);
+  // The generate stage takes slots from the end: slot 0 first.
+  for (std::uint32_t i = 0; i < wave_.capacity; ++i)
+    free.items[i] = wave_.capacity - 1 - i;
+  free.size = wave_.capacity;
+}
+
+}  // namespace lanelight

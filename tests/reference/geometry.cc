@@ -1,0 +1,115 @@
+#include "tests/reference/geometry.h"
+
+#include <utility>
+
+#include "src/core/check.h"
+
+namespace lanelight::reference {
+
+Geometry::Geometry(const SceneDescription& scene, TextureLookup texture)
+    : scene_(scene), texture_(std::move(texture)) {
+  for (const Shape& shape : scene.shapes) AddShape(shape, Transform());
+  for (const Instance& instance : scene.instances) {
+    for (const Shape& shape : scene.objects.at(instance.object).shapes) {
+      AddShape(shape, instance.world_from_object);
+    }
+  }
+}
+
+void Geometry::AddShape(const Shape& shape, const Transform& world_from_group) {
+  const bool emits = shape.area_light != kNone;
+  if (!emits && scene_.materials.at(shape.material).kind == MaterialKind::kInterface)
+    return;
+  const Transform world_from_object = world_from_group * shape.world_from_object;
+  ++num_shapes_;
+  if (shape.kind == ShapeKind::kMesh) return AddTriangles(shape, world_from_object);
+  LL_CHECK(!(emits && shape.kind == ShapeKind::kPlane));
+  Primitive out;
+  out.kind = shape.kind;
+  out.material = shape.material;
+  out.area_light = shape.area_light;
+  out.shape = num_shapes_ - 1;
+  out.alpha = shape.alpha;
+  out.normal_sign = shape.reverse_orientation ? -1 : 1;
+  out.world_from_object = world_from_object;
+  out.object_from_world = world_from_object.Inverse();
+  out.radius = shape.radius;
+  out.inner_radius = shape.inner_radius;
+  out.height = shape.height;
+  primitives_.push_back(out);
+}
+
+void Geometry::AddTriangles(const Shape& shape, const Transform& world_from_object) {
+  const TriangleMesh& mesh = *shape.mesh;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    Primitive out;
+    out.material = shape.material;
+    out.area_light = shape.area_light;
+    out.shape = num_shapes_ - 1;
+    out.alpha = shape.alpha;
+    out.normal_sign = shape.reverse_orientation ? -1 : 1;
+    std::array<Vec3d, 3> normals;
+    std::array<Vec3d, 3> object;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t index = mesh.indices[i + k];
+      object[k] = mesh.positions.at(index);
+      out.p[k] = world_from_object.Point(object[k]);
+      if (!mesh.uvs.empty()) out.uv[k] = mesh.uvs.at(index);
+      if (!mesh.normals.empty()) {
+        normals[k] =
+            out.normal_sign * Normalize(world_from_object.Normal(mesh.normals.at(index)));
+      }
+    }
+    // The outer side is that of the object-space normal, also under a mirroring map.
+    const Vec3d face = Cross(object[1] - object[0], object[2] - object[0]);
+    out.face_normal = out.normal_sign * Normalize(world_from_object.Normal(face));
+    if (!mesh.normals.empty()) out.n = normals;
+    primitives_.push_back(out);
+  }
+}
+
+bool Geometry::AlphaAccepts(const Ray& ray, const Hit& hit, Random& random) const {
+  const FloatValue& alpha = primitives_[hit.primitive].alpha;
+  double value = alpha.constant;
+  if (alpha.texture != kNone) {
+    LL_CHECK(texture_ != nullptr);
+    const SurfacePoint at = Describe(ray, hit);
+    value = texture_(alpha.texture, at.u, at.v).x;
+  }
+  return value >= 1 || random.Uniform() < value;
+}
+
+void Geometry::TestPrimitive(const Ray& ray, int index, double t_max, Random& random,
+                             Hit& nearest) const {
+  Hit hits[2];
+  const int count = IntersectPrimitive(primitives_[index], ray, ray.from == index, hits);
+  for (int i = 0; i < count; ++i) {
+    hits[i].primitive = index;
+    if (hits[i].t >= std::min(nearest.t, t_max)) return;
+    if (AlphaAccepts(ray, hits[i], random)) {
+      nearest = hits[i];
+      return;
+    }
+  }
+}
+
+Hit Geometry::Intersect(const Ray& ray, double t_max, Random& random) const {
+  Hit nearest;
+  for (int i = 0; i < static_cast<int>(primitives_.size()); ++i) {
+    TestPrimitive(ray, i, t_max, random, nearest);
+  }
+  return nearest;
+}
+
+bool Geometry::Visible(const Ray& ray, double t_max, Random& random) const {
+  for (int i = 0; i < static_cast<int>(primitives_.size()); ++i) {
+    const Material& material = scene_.materials.at(primitives_[i].material);
+    if (material.kind == MaterialKind::kInterface) continue;
+    Hit hit;
+    TestPrimitive(ray, i, t_max, random, hit);
+    if (hit.primitive != kNone) return false;
+  }
+  return true;
+}
+
+}  // namespace lanelight::reference

@@ -1,0 +1,91 @@
+// Brute-force geometry of the reference tracer: every instance is flattened, triangles
+// are in world space, and spheres, disks and planes are intersected in their own object
+// space (an affine map keeps the ray parameter), so no record or bound of the renderer is
+// used.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "src/scene/description.h"
+#include "tests/reference/random.h"
+
+namespace lanelight::reference {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Value of texture `index` at surface coordinates (u, v).
+using TextureLookup = std::function<Rgb(Index index, double u, double v)>;
+
+/// One triangle, sphere, disk or plane, in the world.
+struct Primitive {
+  ShapeKind kind = ShapeKind::kMesh;
+  Index material = kNone;
+  Index area_light = kNone;
+  int shape = 0;  // which Shape of the scene it is part of
+  FloatValue alpha{1, kNone};
+  double normal_sign = 1;  // -1: ReverseOrientation
+  // kMesh: one triangle.
+  std::array<Vec3d, 3> p;                 // world space
+  std::optional<std::array<Vec3d, 3>> n;  // world space, unit, on the outer side
+  std::array<std::array<double, 2>, 3> uv = {{{0, 0}, {1, 0}, {1, 1}}};
+  Vec3d face_normal;  // unit, on the outer side
+  // kSphere, kDisk, kPlane: in object space.
+  Transform world_from_object, object_from_world;
+  double radius = 1, inner_radius = 0, height = 0;
+};
+
+struct Ray {
+  Vec3d o, d;        // d is a unit vector
+  int from = kNone;  // primitive the origin lies on: never hit again at the origin
+};
+
+struct Hit {
+  double t = kInfinity;
+  int primitive = kNone;
+  double b1 = 0, b2 = 0;  // kMesh: barycentric weights of vertices 1 and 2
+};
+
+/// Everything about the surface at a hit.
+struct SurfacePoint {
+  Vec3d p;
+  Vec3d ng, ns;  // unit, outer side; ng agrees in side with ns where ns is interpolated
+  Vec3d dpdu;    // not normalised
+  double u = 0, v = 0;
+};
+
+class Geometry {
+ public:
+  /// Flattens shapes and instances. Surfaces whose material is `interface` and that do
+  /// not emit are dropped: they do nothing.
+  Geometry(const SceneDescription& scene, TextureLookup texture);
+
+  const std::vector<Primitive>& primitives() const { return primitives_; }
+  /// Nearest hit in (0, t_max). Surfaces with alpha < 1 are hit with that probability.
+  Hit Intersect(const Ray& ray, double t_max, Random& random) const;
+  /// True if nothing but non-scattering surfaces lies in (0, t_max).
+  bool Visible(const Ray& ray, double t_max, Random& random) const;
+  SurfacePoint Describe(const Ray& ray, const Hit& hit) const;
+
+ private:
+  void AddShape(const Shape& shape, const Transform& world_from_group);
+  void AddTriangles(const Shape& shape, const Transform& world_from_object);
+  bool AlphaAccepts(const Ray& ray, const Hit& hit, Random& random) const;
+  void TestPrimitive(const Ray& ray, int index, double t_max, Random& random,
+                     Hit& nearest) const;
+
+  const SceneDescription& scene_;
+  TextureLookup texture_;
+  std::vector<Primitive> primitives_;
+  int num_shapes_ = 0;
+};
+
+/// Ray parameters at which the ray meets a primitive, in increasing order, all > 0.
+/// At most two; `hits` of a triangle carry barycentric weights.
+int IntersectPrimitive(const Primitive& primitive, const Ray& ray, bool origin_on_it,
+                       Hit hits[2]);
+
+}  // namespace lanelight::reference

@@ -1,0 +1,60 @@
+// Lights of the reference tracer: what a surface emits, what the environment sends, and
+// two ways to gather light at a point (delta lights exactly, all others by area).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "tests/reference/geometry.h"
+
+namespace lanelight::reference {
+
+/// Radiance of the environment image of light `light` from the unit direction `toward`,
+/// in light space.
+using EnvironmentLookup = std::function<Rgb(Index light, Vec3d toward)>;
+
+/// A sampled or exact connection: `radiance` is radiance over density per solid angle
+/// (delta lights: irradiance on a surface facing the light).
+struct LightConnection {
+  Vec3d toward;
+  double distance = kInfinity;
+  Rgb radiance;
+};
+
+class Lights {
+ public:
+  Lights(const SceneDescription& scene, const Geometry& geometry,
+         EnvironmentLookup environment);
+
+  /// Radiance that the primitive emits at `at` towards `toward` (unit).
+  Rgb Emitted(int primitive, const SurfacePoint& at, Vec3d toward) const;
+  /// Radiance of all environments from direction `toward`.
+  Rgb Environment(Vec3d toward) const;
+  /// One connection per point, spot and distant light, dark ones left out.
+  std::vector<LightConnection> DeltaLights(Vec3d p) const;
+  /// A random point, uniform by area, on a random emitter, or a uniform direction to a
+  /// random environment. `radiance` is zero if there is none or it faces away.
+  LightConnection SampleArea(Vec3d p, Random& random) const;
+
+ private:
+  struct Emitter {
+    int primitive = kNone;
+    double area = 0;
+    Rgb radiance;
+    bool two_sided = false;
+  };
+  LightConnection SampleEmitter(const Emitter& emitter, Vec3d p, Random& random) const;
+  Rgb InfiniteRadiance(Index light, Vec3d toward) const;
+
+  const SceneDescription& scene_;
+  const Geometry& geometry_;
+  EnvironmentLookup environment_;
+  std::vector<Emitter> emitters_;
+  std::vector<int> emitter_of_;  // per primitive, kNone = dark
+  std::vector<Index> infinite_;
+};
+
+/// World-space area. Throws CheckFailure for a plane or a non-uniformly scaled shape.
+double PrimitiveArea(const Primitive& primitive);
+
+}  // namespace lanelight::reference

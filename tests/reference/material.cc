@@ -1,0 +1,86 @@
+#include "tests/reference/material.h"
+
+#include "src/core/check.h"
+
+namespace lanelight::reference {
+namespace {
+
+struct Lookup {
+  const SurfacePoint& at;
+  const TextureLookup& texture;
+
+  Rgb Color(const ColorValue& value) const {
+    if (value.texture == kNone) return value.constant;
+    LL_CHECK(texture != nullptr);
+    return texture(value.texture, at.u, at.v);
+  }
+  double Float(const FloatValue& value) const {
+    return Color({{value.constant, 0, 0}, value.texture}).x;
+  }
+  double Alpha(const FloatValue& roughness, bool remap) const {
+    const double r = Float(roughness);
+    return remap ? std::sqrt(r) : r;
+  }
+  Ggx Distribution(const FloatValue& u, const FloatValue& v, bool remap) const {
+    Ggx ggx = {Alpha(u, remap), Alpha(v, remap)};
+    if (!ggx.smooth()) {
+      ggx.ax = std::max(ggx.ax, 1e-4);
+      ggx.ay = std::max(ggx.ay, 1e-4);
+    }
+    return ggx;
+  }
+};
+
+Rgb Clamp(Rgb c, double low, double high) {
+  return {std::clamp(c.x, low, high), std::clamp(c.y, low, high),
+          std::clamp(c.z, low, high)};
+}
+
+// k of an index 1 + i k with this reflectance r at normal incidence:
+// r = k^2 / (4 + k^2), so k = 2 sqrt(r / (1 - r)).
+Rgb AbsorptionFromReflectance(Rgb r) {
+  r = Clamp(r, 0, 0.9999);
+  const auto k = [](double v) { return 2 * std::sqrt(v / (1 - v)); };
+  return {k(r.x), k(r.y), k(r.z)};
+}
+
+}  // namespace
+
+LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
+                               const SurfacePoint& at, const TextureLookup& texture,
+                               Random& random) {
+  const Lookup look = {at, texture};
+  const Material* m = &scene.materials.at(index);
+  while (m->kind == MaterialKind::kMix) {
+    const bool second = random.Uniform() < look.Float(m->mix_amount);
+    m = &scene.materials.at(m->mix[second ? 1 : 0]);
+    LL_CHECK(m->kind != MaterialKind::kInterface);
+  }
+  const bool coat = m->kind == MaterialKind::kCoatedDiffuse ||
+                    m->kind == MaterialKind::kCoatedConductor;
+  LL_CHECK(!coat || m->coat_albedo == Rgb{});
+  LocalMaterial out;
+  out.kind = m->kind;
+  out.scattering = m->scattering;
+  out.reflectance = Clamp(look.Color(m->reflectance), 0, 1);
+  out.transmittance = Clamp(look.Color(m->transmittance), 0, 1);
+  out.index = m->interface_eta;
+  out.interface = look.Distribution(m->uroughness, m->vroughness, m->remap_roughness);
+  out.metal = look.Distribution(m->conductor_uroughness, m->conductor_vroughness,
+                                m->remap_roughness);
+  out.thickness = m->thickness;
+  out.coat_max_depth = m->coat_max_depth;
+  if (m->kind == MaterialKind::kConductor || m->kind == MaterialKind::kCoatedConductor) {
+    const bool given = m->has_reflectance;
+    out.eta = given ? Rgb{1, 1, 1} : look.Color(m->eta);
+    out.k =
+        given ? AbsorptionFromReflectance(look.Color(m->reflectance)) : look.Color(m->k);
+    if (coat) {  // seen from inside the coat, the index is relative to it
+      out.eta = out.eta / m->interface_eta;
+      out.k = out.k / m->interface_eta;
+    }
+  }
+  return out;
+}
+
+}  // namespace lanelight::reference

@@ -1,0 +1,14 @@
+// Material of the scene description to LocalMaterial: mixes resolved, textures looked up.
+#pragma once
+
+#include "tests/reference/bsdf.h"
+#include "tests/reference/geometry.h"
+
+namespace lanelight::reference {
+
+/// The material at a surface point. A mix is resolved at random with its weight.
+LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index material,
+                               const SurfacePoint& at, const TextureLookup& texture,
+                               Random& random);
+
+}  // namespace lanelight::reference

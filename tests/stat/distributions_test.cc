@@ -1,0 +1,93 @@
+// Distribution functions against closed forms and their own identities.
+#include "tests/stat/distributions.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace lanelight::stat {
+
+TEST_CASE("the incomplete gamma function of whole a is a Poisson sum", "[stat]") {
+  for (int a : {1, 2, 5, 40, 99, 101, 400}) {
+    for (double x : {0.01, 0.5, 2.0, 30.0, 41.0, 120.0, 450.0}) {
+      // Q(a, x) = e^-x sum_{k<a} x^k / k!
+      double sum = 0;
+      for (int k = 0; k < a; ++k)
+        sum += std::exp(k * std::log(x) - x - std::lgamma(k + 1));
+      INFO("a = " << a << ", x = " << x);
+      CHECK(GammaQ(a, x) == Approx(sum).epsilon(2e-12).margin(1e-300));
+      CHECK(GammaP(a, x) + GammaQ(a, x) == Approx(1).epsilon(1e-14));
+    }
+  }
+  for (double x : {0.1, 1.0, 6.0}) {
+    CHECK(GammaP(0.5, x) == Approx(std::erf(std::sqrt(x))).epsilon(1e-13));
+  }
+  // Continuity where the prefix switches to Stirling's series.
+  CHECK(GammaQ(100, 103) == Approx(GammaQ(std::nextafter(100, 0), 103)).epsilon(1e-11));
+  CHECK(GammaQ(1e4, 1e4) == Approx(0.49867).epsilon(1e-4));  // 1/2 - 1/(3 sqrt(2 pi a))
+}
+
+TEST_CASE("the incomplete beta function of whole a, b is a binomial sum", "[stat]") {
+  for (int a : {1, 3, 20, 150}) {
+    for (int b : {1, 2, 17, 150}) {
+      for (double x : {0.02, 0.3, 0.5, 0.77, 0.99}) {
+        // I_x(a, b) = P(at least a successes in a + b - 1 trials)
+        const int n = a + b - 1;
+        double sum = 0;
+        for (int k = a; k <= n; ++k) {
+          sum +=
+              std::exp(std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1) +
+                       k * std::log(x) + (n - k) * std::log1p(-x));
+        }
+        INFO("a = " << a << ", b = " << b << ", x = " << x);
+        CHECK(BetaI(a, b, x) == Approx(sum).epsilon(1e-11).margin(1e-300));
+      }
+    }
+  }
+  CHECK(BetaI(0.5, 0.5, 0.25) == Approx(1.0 / 3).epsilon(1e-12));  // arcsine law
+}
+
+TEST_CASE("normal quantiles invert the distribution function", "[stat]") {
+  for (double p : {1e-12, 1e-6, 0.025, 0.3, 0.5, 0.9, 0.999}) {
+    CHECK(NormalCdf(NormalQuantile(p)) == Approx(p).epsilon(1e-12));
+  }
+  CHECK(NormalQuantile(0.975) == Approx(1.959963984540054).epsilon(1e-13));
+}
+
+TEST_CASE("Student's t has its closed forms for one and two degrees", "[stat]") {
+  for (double t : {0.0, 1e-3, 0.5, 1.0, 3.0, 50.0, 1e4}) {
+    CHECK(StudentTwoSided(t, 1) ==
+          Approx(2 / std::numbers::pi * std::atan2(1.0, t)).epsilon(1e-11));
+    const double s = std::sqrt(2 + t * t);
+    CHECK(StudentTwoSided(t, 2) == Approx(2 / (s * (s + t))).epsilon(1e-11));
+  }
+  CHECK(StudentTwoSided(1.7, 1e9) == Approx(2 * NormalCdf(-1.7)).epsilon(1e-7));
+  CHECK(StudentTwoSided(2.5, 7.3) == StudentTwoSided(-2.5, 7.3));
+  CHECK(StudentCdf(-2.5, 7.3) + StudentCdf(2.5, 7.3) == Approx(1));
+  for (double p : {0.9, 0.05, 1e-8}) {
+    CHECK(StudentTwoSided(StudentTwoSidedQuantile(p, 4.5), 4.5) ==
+          Approx(p).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("chi-square survival has its closed forms for two and four degrees", "[stat]") {
+  for (double x : {0.1, 1.0, 10.0, 200.0}) {
+    CHECK(ChiSquareSurvival(x, 2) == Approx(std::exp(-x / 2)).epsilon(1e-12));
+    CHECK(ChiSquareSurvival(x, 4) ==
+          Approx(std::exp(-x / 2) * (1 + x / 2)).epsilon(1e-12));
+  }
+  CHECK(ChiSquareSurvival(-1, 3) == 1);
+}
+
+TEST_CASE("Kolmogorov's distribution agrees with tabulated critical values", "[stat]") {
+  // Exact values: n = 1: P(D >= d) = 2 (1 - d) for d >= 1/2; critical values at n = 20
+  // and 100 (Miller 1956), and the asymptotic 1.3581 and 1.6276.
+  CHECK(KolmogorovSurvival(0.29408, 20) == Approx(0.05).margin(0.003));
+  CHECK(KolmogorovSurvival(0.35241, 20) == Approx(0.01).margin(0.001));
+  CHECK(KolmogorovSurvival(0.13403, 100) == Approx(0.05).margin(0.001));
+  CHECK(KolmogorovSurvival(1.3581e-3, 1000000) == Approx(0.05).margin(1e-4));
+  CHECK(KolmogorovSurvival(1.6276e-3, 1000000) == Approx(0.01).margin(1e-4));
+  CHECK(KolmogorovSurvival(0.001, 10) == 1);
+}
+
+}  // namespace lanelight::stat

@@ -1,0 +1,31 @@
+// Hypothesis tests on means and p-values.
+#pragma once
+
+#include <vector>
+
+namespace lanelight::stat {
+
+/// A sample mean with the estimated variance of that mean and the degrees of freedom of
+/// the estimate (independent observations - 1). Known values: variance 0.
+struct MeanEstimate {
+  double mean = 0;
+  double variance = 0;
+  double dof = 0;
+};
+
+/// Mean of independent estimates; degrees of freedom by Welch and Satterthwaite.
+MeanEstimate Average(const std::vector<MeanEstimate>& estimates);
+
+/// Welch's t-test of equal means: two-sided p-value. `tolerance` >= 0: differences up to
+/// it count as none (the test is then conservative). With both variances zero: 1 if the
+/// difference is within the tolerance, else 0.
+double WelchPValue(const MeanEstimate& a, const MeanEstimate& b, double tolerance = 0);
+
+/// Sidak: per-test level so that n independent tests together raise a false alarm with
+/// probability `family`. Conservative for positively dependent tests.
+double SidakLevel(double family, int n);
+
+/// p-value of the Kolmogorov-Smirnov test that `values` are uniform on [0, 1].
+double KsUniformPValue(std::vector<double> values);
+
+}  // namespace lanelight::stat
