@@ -167,8 +167,10 @@ struct Shader {
 template <class Bsdf, ShadeKind kKind, Lighting kLighting, bool kNormals>
 void ShadeKernel(Wave& wave) {
   Shader<Bsdf, kLighting, kNormals> shader(wave);
+  const uint32_t shadow_rays = wave.queue(QueueId::kShadow).size;
   ForEachBatch(wave, wave.queue(ShadeQueue(kKind)),
                [&](VI slots, MF valid) HWY_ATTR { shader(slots, valid); });
+  wave.rays_shadow += wave.queue(QueueId::kShadow).size - shadow_rays;
 }
 
 template <class Bsdf, ShadeKind kKind, Lighting kLighting>

@@ -1,8 +1,117 @@
-// Acceleration structure over the triangles, spheres and disks of a scene.
+// Acceleration structures over the triangles, spheres and disks of a scene, as the
+// kernels in kernels/intersect/ read them. Built once by BuildAccel.
+//
+// Which structure a shape set gets (figures: one core with AVX-512, bench/intersect):
+//   triangles, at most kFewTriangles   no tree: 16 rays at a time against each triangle.
+//   triangles, more                    8-wide BVH, leaves of up to 8 triangles in SoA
+//   object instances                   one BVH per object and one over the instances
+//   spheres, disks, at most kFewRound  no tree: 16 rays against each record
+//   spheres, disks, more               8-wide BVH, leaves of up to 8 shapes in SoA
+//   planes                             never a tree: they are infinite
+// The hit reported never depends on the structure: see kernels/intersect/triangle-inl.h.
 #pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/core/aligned.h"
+#include "src/core/vec.h"
 
 namespace lanelight {
 
-struct Accel {};
+struct Geometry;  // src/scene/compiled.h, which includes this file
+
+/// Children of a node, and shapes of a leaf.
+inline constexpr int kBvhWidth = 8;
+/// Child references: with this bit a leaf (the rest is the index of its block, or of an
+/// instance in the top level), without it the index of a node.
+inline constexpr std::uint32_t kLeafBit = 0x80000000u;
+/// The reference of a tree without shapes, and of unused children.
+inline constexpr std::uint32_t kEmptyRef = 0xffffffffu;
+/// Entries that a traversal stack needs at most; BuildAccel checks it.
+inline constexpr int kTraversalStack = 512;
+
+inline constexpr std::uint32_t kFewTriangles = 64;
+inline constexpr std::uint32_t kFewRound = 16;
+/// `inst` of a hit on a triangle of the world, and of any sphere, disk or plane.
+inline constexpr std::uint32_t kWorldInstance = 0xffffffffu;
+
+/// Inner node: bounds of 8 children in SoA. Unused children have inverted infinite bounds
+/// and are never hit.
+struct alignas(64) WideNode {
+  float bounds[3][2][kBvhWidth];  // [axis][0 = lower, 1 = upper][child]
+  std::uint32_t child[kBvhWidth];
+  std::uint32_t pad[kBvhWidth];
+};
+static_assert(sizeof(WideNode) == 256);
+
+/// Leaf of up to 8 triangles, ascending by id. Unused lanes hold a point (never hit).
+struct alignas(64) TriangleBlock {
+  float v[3][3][kBvhWidth];  // [vertex][axis][lane]
+  std::uint32_t prim[kBvhWidth];
+};
+static_assert(sizeof(TriangleBlock) == 320);
+
+/// Leaf of up to 8 spheres, ascending by id. Unused lanes have radius -1 (never hit).
+struct alignas(64) SphereBlock {
+  float center[3][kBvhWidth];
+  float radius[kBvhWidth];
+  std::uint32_t prim[kBvhWidth];
+};
+
+/// Leaf of up to 8 disks, ascending by id. Unused lanes have radius -1 (never hit).
+struct alignas(64) DiskBlock {
+  float center[3][kBvhWidth];
+  float normal[3][kBvhWidth];
+  float radius[kBvhWidth], inner_radius[kBvhWidth];
+  std::uint32_t prim[kBvhWidth];
+};
+
+/// One tree. `reach` is the largest |coordinate| of its bounds, from which the traversal
+/// derives how far boxes must be grown to be conservative (kernels/intersect/bvh-inl.h).
+struct Bvh {
+  std::uint32_t root = kEmptyRef;
+  float reach = 0;
+  float slack = 0;  // growth per unit of (reach + |origin|)
+  int depth = 0;    // nodes on the longest path
+};
+
+/// Triangles with their distinct vertices, for testing many rays against each.
+struct FewTriangles {
+  struct Triangle {
+    std::uint32_t vertex[3];  // indices of vertices
+    std::uint32_t prim;
+  };
+  AlignedVector<Vec3f> vertices;
+  std::vector<Triangle> triangles;
+  float reach = 0;
+};
+
+struct Accel {
+  AlignedVector<WideNode> nodes;  // of all trees
+
+  FewTriangles few;  // used instead of groups[0] if it has triangles
+  AlignedVector<TriangleBlock> triangle_blocks;
+  std::vector<Bvh> groups;  // as Geometry::groups
+  Bvh top;                  // over instances; leaf references hold instance indices
+
+  Bvh spheres, disks;  // empty if few: then the kernels loop over the records
+  AlignedVector<SphereBlock> sphere_blocks;
+  AlignedVector<DiskBlock> disk_blocks;
+
+  /// Bytes of everything above.
+  std::size_t Bytes() const;
+};
+
+/// How to build; the defaults are what rendering uses. The others serve tests and bench.
+struct AccelOptions {
+  std::uint32_t few_triangles = kFewTriangles;
+  std::uint32_t few_round = kFewRound;
+};
+
+/// Builds everything that `geometry` needs. The result does not depend on the number of
+/// threads. Shapes with a non-finite coordinate are left out (they cannot be hit).
+Accel BuildAccel(const Geometry& geometry, const AccelOptions& options);
+Accel BuildAccel(const Geometry& geometry);
 
 }  // namespace lanelight

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <iostream>
 #include <numeric>
+#include <sstream>
 
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
@@ -89,8 +91,11 @@ int Parse(CLI::App& root, int argc, const char* const* argv, int& exit_code) {
     return FlushOutput() ? exit_code : static_cast<int>(kExitBadInput);
   } catch (const CLI::ParseError& error) {
     const bool asked = error.get_exit_code() == 0;  // --help, --version
-    root.exit(error, StandardOutput(), StandardError());
+    std::ostringstream out, err;
+    root.exit(error, out, err);
+    Print(out.str());
     if (asked) return FlushOutput() ? kExitGood : kExitBadInput;
+    std::cerr << err.str();
     SuggestFlag(root, argc, argv);
     return kExitUsage;
   }

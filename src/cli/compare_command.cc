@@ -1,5 +1,4 @@
 // `lanelight compare A B`: how far image A is from image B.
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -7,6 +6,7 @@
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/validators.h"
 #include "src/core/error.h"
 #include "src/render/report.h"
 #include "src/study/metrics.h"
@@ -108,7 +108,7 @@ void AddCompareCommand(CLI::App& root, int& exit_code) {
   command
       ->add_option("--max-relmse", options->max_relmse,
                    "Exit with 4 if the relative MSE exceeds this, or a value is invalid")
-      ->check(CLI::Range(0.0, std::numeric_limits<double>::max()).description(""))
+      ->check(FiniteRange(0, 1e30))
       ->type_name("X");
   command->add_flag("--json", options->json, "Print JSON");
   command->footer(

@@ -16,16 +16,19 @@ void Note() {
 
 }  // namespace
 
-std::ostream& StandardOutput() { return std::cout; }
-std::ostream& StandardError() { return std::cerr; }
-
 void Print(const std::string& text) {
   errno = 0;
   std::cout << text;
   Note();
 }
 
-void PrintError(const std::string& line) { std::cerr << line << '\n' << std::flush; }
+void PrintError(const std::string& line) {
+  // Standard error flushes standard output first; a failure of that is not to be missed.
+  errno = 0;
+  std::cout.flush();
+  Note();
+  std::cerr << line << '\n' << std::flush;
+}
 
 bool FlushOutput() {
   errno = 0;

@@ -2,13 +2,9 @@
 // not an error; a full disk behind standard output is.
 #pragma once
 
-#include <iosfwd>
 #include <string>
 
 namespace lanelight {
-
-std::ostream& StandardOutput();
-std::ostream& StandardError();
 
 /// Writes text to standard output.
 void Print(const std::string& text);

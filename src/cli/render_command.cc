@@ -12,6 +12,7 @@
 #include "src/cli/progress.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/summary.h"
+#include "src/cli/validators.h"
 #include "src/core/error.h"
 #include "src/core/parallel.h"
 #include "src/image/atomic_file.h"
@@ -171,7 +172,7 @@ CLI::Option* AddOutputOptions(CLI::App& command, RenderCommandOptions& options) 
                          ->expected(0, 1)
                          ->type_name("[FILE]");
   command.add_option("--exposure", options.exposure, "Exposure of the PNG in stops")
-      ->check(CLI::Range(-100.0, 100.0).description(""))
+      ->check(FiniteRange(-100, 100))
       ->type_name("EV");
   command
       .add_option("--json", options.json, "Write a report for scripts ('-': print it)")
@@ -185,7 +186,7 @@ void AddAmountOptions(CLI::App& command, RenderSettings& settings) {
                          ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
                          ->type_name("N");
   command.add_option("--time", settings.seconds, "Render for this many seconds instead")
-      ->check(CLI::Range(1e-3, 1e9).description(""))
+      ->check(FiniteRange(1e-3, 1e9))
       ->type_name("SECONDS")
       ->excludes(spp);
   command.add_option("--seed", settings.seed, "Seed of the random numbers")

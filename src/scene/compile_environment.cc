@@ -92,8 +92,8 @@ void StoreRotation(const Light& light, Environment& environment) {
   }
 }
 
-// Running sums of `weights`, normalised, as `size + 1` floats that start at 0 and end at 1.
-// Without any weight the distribution is uniform.
+// Running sums of `weights`, normalised, as `size + 1` floats that start at 0 and end
+// at 1. Without any weight the distribution is uniform.
 void StoreCdf(const double* weights, std::size_t size, float* cdf) {
   double total = 0;
   for (std::size_t i = 0; i < size; ++i) total += weights[i];
@@ -121,7 +121,8 @@ void StoreDistribution(Environment& environment) {
   for (std::size_t y = 0; y < size; ++y) {
     float* columns = environment.column_cdf.data() + y * (size + 1);
     StoreCdf(luminance.data() + y * size, size, columns);
-    const double row = double(environment.row_cdf[y + 1]) - double(environment.row_cdf[y]);
+    const double row =
+        double(environment.row_cdf[y + 1]) - double(environment.row_cdf[y]);
     for (std::size_t x = 0; x < size; ++x) {
       const double column = double(columns[x + 1]) - double(columns[x]);
       environment.probability[y * size + x] = static_cast<float>(row * column);

@@ -129,7 +129,8 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
     features.Add(Feature::kMis);
   }
   if (scene.camera.lens_radius > 0) features.Add(Feature::kLens);
-  if (scene.camera.kind == CameraKind::kOrthographic) features.Add(Feature::kOrthographic);
+  if (scene.camera.kind == CameraKind::kOrthographic)
+    features.Add(Feature::kOrthographic);
   if (!scene.filter.is_box) features.Add(Feature::kFiltered);
   if (HasNegative(scene.filter.x_sign) || HasNegative(scene.filter.y_sign)) {
     features.Add(Feature::kSignedFilter);

@@ -162,7 +162,8 @@ void Builder::CoatOf(const Material& m, Row& row) {
                            : std::sqrt(std::max(row.alpha_x.constant, kMinAlpha) *
                                        std::max(row.alpha_y.constant, kMinAlpha));
   const auto next = static_cast<std::int32_t>(coats_.size());
-  row.coat = coats_.try_emplace({alpha, m.interface_eta, m.thickness}, next).first->second;
+  row.coat =
+      coats_.try_emplace({alpha, m.interface_eta, m.thickness}, next).first->second;
   row.coat_thickness = m.thickness;
   row.coat_depth = static_cast<std::uint32_t>(m.coat_max_depth);
 }
@@ -312,9 +313,8 @@ void AddCoats(const std::map<Coat, std::int32_t>& coats, MaterialTable& table) {
   std::vector<Coat> list(coats.size());
   for (const auto& [coat, at] : coats) list[static_cast<std::size_t>(at)] = coat;
   std::vector<CoatTable> tables(list.size());
-  ParallelFor(list.size(), [&](std::size_t i) {
-    tables[i] = std::apply(ComputeCoatTable, list[i]);
-  });
+  ParallelFor(list.size(),
+              [&](std::size_t i) { tables[i] = std::apply(ComputeCoatTable, list[i]); });
   for (const CoatTable& t : tables) {
     table.coat_transmittance.insert(table.coat_transmittance.end(),
                                     std::begin(t.transmittance),
@@ -323,7 +323,7 @@ void AddCoats(const std::map<Coat, std::int32_t>& coats, MaterialTable& table) {
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (table.coat[i] < 0) continue;
     const auto at = static_cast<std::size_t>(table.coat[i] / kCoatTableSize);
-    table.coat_internal[i] = tables[at].internal;
+    table.coat_internal[i] = tables[at].internal_reflectance;
   }
 }
 

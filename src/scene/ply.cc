@@ -76,10 +76,15 @@ class BodyReader {
 
   std::uint64_t ReadCount(const PlyProperty& list) {
     const double count = reader_.Read(list.count_type);
-    if (!(count >= 0) || count != std::floor(count) ||
-        count > static_cast<double>(reader_.Left(PlySize(list.type)))) {
-      reader_.Fail(fmt::format("{} is no possible length of the PLY list {}", count,
-                               Quoted(list.name)));
+    if (!(count >= 0) || count != std::floor(count)) {
+      reader_.Fail(
+          fmt::format("{} is no length of the PLY list {}", count, Quoted(list.name)));
+    }
+    if (count > static_cast<double>(reader_.Left(PlySize(list.type)))) {
+      reader_.Fail(
+          fmt::format("the PLY list {} has {} values, more than the rest of the "
+                      "file holds",
+                      Quoted(list.name), count));
     }
     return static_cast<std::uint64_t>(count);
   }

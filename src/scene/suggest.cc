@@ -33,11 +33,18 @@ int EditDistance(std::string_view a, std::string_view b) {
 
 std::string NearestName(std::string_view found, const std::vector<std::string>& known) {
   if (found.size() > kLongestComparedName) return "";
-  const int limit = std::max(2, static_cast<int>(found.size()) / 3);
+  const int length = static_cast<int>(found.size());
+  const int limit = length < 3 ? 1 : std::max(2, length / 3);
   int best = limit + 1;
   std::string nearest;
   for (const std::string& name : known) {
     const int distance = EditDistance(found, name);
+    // Part of a name, such as "lambert", is meant however long the rest is.
+    const bool is_part = found.size() >= 3 && name.find(found) != name.npos;
+    if (is_part && best > 1) {
+      best = 1;
+      nearest = name;
+    }
     // A distance as long as the name itself says only that both are short.
     if (distance >= best || distance >= static_cast<int>(name.size())) continue;
     best = distance;

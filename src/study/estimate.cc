@@ -84,9 +84,11 @@ double StudentQuantile975(std::uint64_t degrees) {
   if (degrees <= 4) return kSmall[degrees - 1];
   // Cornish-Fisher expansion about the normal quantile (Abramowitz and Stegun 26.7.5).
   const double z = 1.959963985, v = static_cast<double>(degrees);
-  const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
-  return z + (z3 + z) / (4 * v) + (5 * z5 + 16 * z3 + 3 * z) / (96 * v * v) +
-         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * v * v * v);
+  const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z, z9 = z7 * z * z;
+  const double v2 = v * v;
+  return z + (z3 + z) / (4 * v) + (5 * z5 + 16 * z3 + 3 * z) / (96 * v2) +
+         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * v2 * v) +
+         (79 * z9 + 776 * z7 + 1482 * z5 - 1920 * z3 - 945 * z) / (92160 * v2 * v2);
 }
 
 ErrorEstimate EstimateError(int width, int height,

@@ -40,6 +40,11 @@ struct PixelEstimate {
 /// the RMSE is the square root of that of its square. Pixels are independent, so tile
 /// means are close to normal unless rare bright samples dominate; then the true error is
 /// likely above the interval, because what has not been sampled yet cannot be seen.
+///
+/// The relative error divides by the estimated mean, which biases it pixel by pixel: a
+/// relative bias of +3 g for symmetric noise and of -g for exponential noise, with
+/// g = variance / mean^2 (second-order expansion). It is not corrected, since its sign
+/// depends on the skewness, which the film does not record.
 ErrorEstimate EstimateError(const FilmAccumulator& film);
 
 /// The same for any source of pixels, x in [0, width), y in [0, height).

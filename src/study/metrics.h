@@ -34,7 +34,8 @@ struct ZScores {
 };
 
 /// Sums run over pixels and the colour channels R, G, B (or Y), leaving out samples that
-/// are not finite in either image.
+/// are not finite in either image. Without any finite sample the means are NaN: write a
+/// limit as !(relmse <= limit).
 struct CompareResult {
   int width = 0, height = 0;
   std::vector<std::string> channels;

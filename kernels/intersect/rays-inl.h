@@ -1,0 +1,113 @@
+// How intersect stages read rays from the path columns and write hits or the surviving
+// shadow rays back.
+#if defined(LANELIGHT_INTERSECT_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_RAYS_INL_H_
+#undef LANELIGHT_INTERSECT_RAYS_INL_H_
+#else
+#define LANELIGHT_INTERSECT_RAYS_INL_H_
+#endif
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// One vector of rays. `t_max` is the distance to beat (closest hit: a candidate at t_max
+/// still wins with a smaller id) or the exclusive end (shadow).
+struct Rays {
+  V3 o, d;
+  VF t_max;
+};
+
+/// The same rays one by one.
+struct RayArrays {
+  HWY_ALIGN float o[3][hn::MaxLanes(DF())];
+  HWY_ALIGN float d[3][hn::MaxLanes(DF())];
+  HWY_ALIGN float t_max[hn::MaxLanes(DF())];
+  HWY_ALIGN uint32_t slot[hn::MaxLanes(DF())];
+
+  HWY_INLINE RayArrays(const Rays& rays, VI slots) {
+    const DF df;
+    hn::Store(rays.o.x, df, o[0]);
+    hn::Store(rays.o.y, df, o[1]);
+    hn::Store(rays.o.z, df, o[2]);
+    hn::Store(rays.d.x, df, d[0]);
+    hn::Store(rays.d.y, df, d[1]);
+    hn::Store(rays.d.z, df, d[2]);
+    hn::Store(rays.t_max, df, t_max);
+    hn::Store(hn::BitCast(DU(), slots), DU(), slot);
+  }
+};
+
+/// The extension rays of a batch (queue kActive).
+HWY_INLINE Rays LoadRays(const PathColumns& path, VI slots) {
+  return {Gather3(path.o_x, path.o_y, path.o_z, slots),
+          Gather3(path.d_x, path.d_y, path.d_z, slots), Gather(path.t, slots)};
+}
+
+/// The shadow rays of a batch (queue kShadow).
+HWY_INLINE Rays LoadShadowRays(const PathColumns& path, VI slots) {
+  const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
+  const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+  const V3 d = Gather3(path.ls_x, path.ls_y, path.ls_z, slots);
+  return {OffsetOrigin(p, ng, Gather(path.p_error, slots), d), d,
+          Gather(path.ls_distance, slots)};
+}
+
+/// Best hit so far, one lane per ray.
+struct Hits {
+  VF t;
+  VI prim;
+  VF b1, b2;
+};
+
+/// Writes the lanes of `closer`; the others keep what they have.
+template <bool kInstances>
+HWY_INLINE void StoreRoundHits(const PathColumns& path, VI slots, MF closer, VF t,
+                               VI prim) {
+  const DI di;
+  const auto mask = hn::RebindMask(di, closer);
+  Scatter(hn::IfThenElse(closer, t, Gather(path.t, slots)), path.t, slots);
+  Scatter(hn::IfThenElse(mask, prim, Gather(path.prim, slots)), path.prim, slots);
+  if constexpr (kInstances) {
+    Scatter(hn::IfThenElse(mask, hn::Set(di, -1), Gather(path.inst, slots)), path.inst,
+            slots);
+  }
+}
+
+/// Lanes where (t, prim) is nearer than the best, or as near with a smaller id.
+HWY_INLINE MF IsCloser(VF t, VI prim, VF best_t, VI best_prim) {
+  const DF df;
+  const MF smaller = hn::RebindMask(df, hn::Lt(prim, best_prim));
+  return hn::Or(hn::Lt(t, best_t), hn::And(hn::Eq(t, best_t), smaller));
+}
+
+/// Calls occluded(rays, slots, valid) -> MF for each vector of shadow rays and keeps only
+/// the others in the queue, in order. Storing at or before the place just read is safe:
+/// a compressed store touches one vector, all of which has been read.
+template <class Occluded>
+HWY_INLINE void RemoveOccluded(Wave& wave, Occluded&& occluded) {
+  const Queue all = wave.queue(QueueId::kShadow);
+  Queue& kept = wave.queue(QueueId::kShadow);
+  kept.size = 0;
+  ForEachBatch(wave, all, [&](VI slots, MF valid) HWY_ATTR {
+    const MF blocked = occluded(LoadShadowRays(wave.path, slots), slots, valid);
+    Push(kept, slots, hn::AndNot(blocked, valid));
+  });
+}
+
+/// Mask of a full vector from bits.
+HWY_INLINE MF MaskFromBits(uint32_t bits) {
+  const DU du;
+  const VU lane_bit = hn::Shl(hn::Set(du, 1), hn::Iota(du, 0));
+  return hn::RebindMask(DF(), hn::Ne(hn::And(lane_bit, hn::Set(du, bits)), hn::Zero(du)));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

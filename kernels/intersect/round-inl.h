@@ -1,0 +1,183 @@
+// Tests of spheres, disks and planes, for any arrangement of lanes (many rays against one
+// shape, or one ray against many shapes), with the same arithmetic in both.
+//
+// A shape offers up to two candidates, near and far, since a cut-out may drop the near
+// one. Where the origin lies within rounding error of the shape the sign of the distance
+// is decided in double precision, so surface points need only be moved by the rounding of
+// their own coordinates.
+#if defined(LANELIGHT_INTERSECT_ROUND_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_ROUND_INL_H_
+#undef LANELIGHT_INTERSECT_ROUND_INL_H_
+#else
+#define LANELIGHT_INTERSECT_ROUND_INL_H_
+#endif
+
+#include <cfloat>
+
+#include "kernels/intersect/rays-inl.h"
+#include "kernels/intersect/triangle-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class V>
+struct RayLanes {
+  P3<V> o, d;
+};
+
+template <class V>
+HWY_INLINE V Dot(P3<V> a, P3<V> b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+template <class V>
+HWY_INLINE P3<V> Sub(P3<V> a, P3<V> b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+/// a + b * s
+template <class V>
+HWY_INLINE P3<V> AddScaled(P3<V> a, P3<V> b, V s) {
+  return {hn::MulAdd(b.x, s, a.x), hn::MulAdd(b.y, s, a.y), hn::MulAdd(b.z, s, a.z)};
+}
+
+/// Distances at which a shape is met, where `near` and `far` say so; t_near <= t_far.
+template <class V, class M>
+struct Candidates {
+  M near, far;
+  V t_near, t_far;
+};
+
+/// x of the lanes of `mask` replaced by exact(lane), a float.
+template <class D, class V, class M, class Exact>
+HWY_INLINE V ReplaceLanes(D d, V x, M mask, Exact&& exact) {
+  HWY_ALIGN float lanes[hn::MaxLanes(d)];
+  hn::Store(x, d, lanes);
+  for (uint32_t bits = MaskBits(d, mask); bits != 0; bits &= bits - 1) {
+    const int i = __builtin_ctz(bits);
+    lanes[i] = exact(i);
+  }
+  return hn::Load(d, lanes);
+}
+
+/// One component of lanes, for the exact tests.
+template <class D, class V>
+HWY_INLINE double LaneOf(D d, V v, int lane) {
+  HWY_ALIGN float lanes[hn::MaxLanes(d)];
+  hn::Store(v, d, lanes);
+  return lanes[lane];
+}
+
+template <class V>
+struct SphereLanes {
+  P3<V> center;
+  V radius;
+};
+
+/// Roots of |o + t d - center| = radius without cancellation: the discriminant from the
+/// point of closest approach (Haines, Günther and Akenine-Möller 2019, "Precision
+/// Improvements for Ray/Sphere Intersection"), the roots as c / q and q / a. Their
+/// positions are within 8u (|coordinates| + |o|) of the sphere, u = 2^-24.
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+HWY_INLINE Candidates<V, M> TestShape(D df, const SphereLanes<V>& s,
+                                      const RayLanes<V>& ray) {
+  const V zero = hn::Zero(df);
+  const P3<V> f = Sub(ray.o, s.center);
+  const V a = Dot(ray.d, ray.d), b = hn::Neg(Dot(f, ray.d));
+  const V r2 = hn::Mul(s.radius, s.radius), f2 = Dot(f, f);
+  const P3<V> closest = AddScaled(f, ray.d, hn::Div(b, a));
+  const V discriminant = hn::Sub(r2, Dot(closest, closest));
+  Candidates<V, M> hit;
+  const M meets = hn::And(hn::Ge(discriminant, zero), hn::Gt(s.radius, zero));
+  hit.near = hit.far = meets;
+  hit.t_near = hit.t_far = zero;
+  if (hn::AllFalse(df, meets)) return hit;
+  V c = hn::Sub(f2, r2);
+  const M doubtful = hn::And(
+      meets, hn::Le(hn::Abs(c), hn::Mul(hn::Add(f2, r2), hn::Set(df, 16 * 0x1p-24f))));
+  if (HWY_UNLIKELY(!hn::AllFalse(df, doubtful))) {
+    c = ReplaceLanes(df, c, doubtful, [&](int i) HWY_ATTR {
+      const double x = LaneOf(df, ray.o.x, i) - LaneOf(df, s.center.x, i);
+      const double y = LaneOf(df, ray.o.y, i) - LaneOf(df, s.center.y, i);
+      const double z = LaneOf(df, ray.o.z, i) - LaneOf(df, s.center.z, i);
+      const double r = LaneOf(df, s.radius, i);
+      return static_cast<float>(x * x + y * y + z * z - r * r);
+    });
+  }
+  const V root = hn::Sqrt(hn::Mul(a, discriminant));
+  const V q = hn::Add(b, hn::CopySign(root, b));
+  const V t0 = hn::Div(c, q), t1 = hn::Div(q, a);
+  hit.t_near = hn::Min(t0, t1);
+  hit.t_far = hn::Max(t0, t1);
+  // A ray that touches at its closest point may divide by zero: such roots do not count.
+  const V largest = hn::Set(df, FLT_MAX);
+  hit.near =
+      hn::And(meets, hn::And(hn::Gt(hit.t_near, zero), hn::Le(hit.t_near, largest)));
+  hit.far = hn::And(meets, hn::And(hn::Gt(hit.t_far, zero), hn::Le(hit.t_far, largest)));
+  return hit;
+}
+
+/// Distance to the plane through `point` with normal n; the sign is that of the exact
+/// value for the given n. Infinite or NaN for a ray along the plane.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V PlaneDistance(D df, P3<V> point, P3<V> n, const RayLanes<V>& ray) {
+  const P3<V> f = Sub(point, ray.o);
+  V height = Dot(n, f);
+  const P3<V> abs_n = {hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)};
+  const P3<V> abs_f = {hn::Abs(f.x), hn::Abs(f.y), hn::Abs(f.z)};
+  const auto doubtful =
+      hn::Le(hn::Abs(height), hn::Mul(Dot(abs_n, abs_f), hn::Set(df, 8 * 0x1p-24f)));
+  if (HWY_UNLIKELY(!hn::AllFalse(df, doubtful))) {
+    height = ReplaceLanes(df, height, doubtful, [&](int i) HWY_ATTR {
+      const double x = LaneOf(df, point.x, i) - LaneOf(df, ray.o.x, i);
+      const double y = LaneOf(df, point.y, i) - LaneOf(df, ray.o.y, i);
+      const double z = LaneOf(df, point.z, i) - LaneOf(df, ray.o.z, i);
+      return static_cast<float>(x * LaneOf(df, n.x, i) + y * LaneOf(df, n.y, i) +
+                                z * LaneOf(df, n.z, i));
+    });
+  }
+  return hn::Div(height, Dot(n, ray.d));
+}
+
+template <class V>
+struct DiskLanes {
+  P3<V> center, normal;
+  V radius, inner_radius;
+};
+
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+HWY_INLINE Candidates<V, M> TestShape(D df, const DiskLanes<V>& s,
+                                      const RayLanes<V>& ray) {
+  Candidates<V, M> hit;
+  hit.t_near = hit.t_far = PlaneDistance(df, s.center, s.normal, ray);
+  const P3<V> p = AddScaled(Sub(ray.o, s.center), ray.d, hit.t_near);
+  const V distance2 = Dot(p, p);
+  hit.near =
+      hn::And(hn::And(hn::Gt(hit.t_near, hn::Zero(df)), hn::Gt(s.radius, hn::Zero(df))),
+              hn::And(hn::Le(distance2, hn::Mul(s.radius, s.radius)),
+                      hn::Ge(distance2, hn::Mul(s.inner_radius, s.inner_radius))));
+  hit.far = hn::FirstN(df, 0);
+  return hit;
+}
+
+template <class V>
+struct PlaneLanes {
+  P3<V> point, normal;
+};
+
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+HWY_INLINE Candidates<V, M> TestShape(D df, const PlaneLanes<V>& s,
+                                      const RayLanes<V>& ray) {
+  Candidates<V, M> hit;
+  hit.t_near = hit.t_far = PlaneDistance(df, s.point, s.normal, ray);
+  hit.near =
+      hn::And(hn::Gt(hit.t_near, hn::Zero(df)), hn::Le(hit.t_near, hn::Set(df, FLT_MAX)));
+  hit.far = hn::FirstN(df, 0);
+  return hit;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,62 @@
+// Shadow rays against triangles.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/intersect/shadow_triangles.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/intersect/few-inl.h"
+#include "kernels/intersect/single-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+template <bool kAlpha, bool kInstances>
+void ShadowTriangles(Wave& wave) {
+  if (!kInstances && !wave.scene->accel.few.triangles.empty()) {
+    ShadowFew<kAlpha>(wave);
+  } else {
+    ShadowSingle<kAlpha, kInstances>(wave);
+  }
+}
+
+void ShadowWorld(Wave& wave) { ShadowTriangles<false, false>(wave); }
+void ShadowWorldAlpha(Wave& wave) { ShadowTriangles<true, false>(wave); }
+void ShadowInstanced(Wave& wave) { ShadowTriangles<false, true>(wave); }
+void ShadowInstancedAlpha(Wave& wave) { ShadowTriangles<true, true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/intersect/stages.h"
+
+namespace lanelight {
+HWY_EXPORT(ShadowWorld);
+HWY_EXPORT(ShadowWorldAlpha);
+HWY_EXPORT(ShadowInstanced);
+HWY_EXPORT(ShadowInstancedAlpha);
+
+Stage ShadowTrianglesStage() {
+  return {.name = "shadow_triangles",
+          .meaning = "drop shadow rays blocked by triangles",
+          .input = QueueId::kShadow,
+          .needs = {Feature::kTriangles, Feature::kLights},
+          .reads = ShadowRayFields(),
+          .writes = {},
+          .resolve = [](const FeatureSet& features) -> StageFn {
+            const bool alpha = features.Has(Feature::kAlpha);
+            if (features.Has(Feature::kInstances)) {
+              return alpha ? HWY_DYNAMIC_DISPATCH(ShadowInstancedAlpha)
+                           : HWY_DYNAMIC_DISPATCH(ShadowInstanced);
+            }
+            return alpha ? HWY_DYNAMIC_DISPATCH(ShadowWorldAlpha)
+                         : HWY_DYNAMIC_DISPATCH(ShadowWorld);
+          }};
+}
+
+}  // namespace lanelight
+#endif

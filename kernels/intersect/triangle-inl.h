@@ -1,0 +1,186 @@
+// The triangle test, for any arrangement of lanes (many rays against one triangle, or one
+// ray against many triangles), with the same arithmetic in both, so that the distance
+// reported for a (ray, triangle) pair is one number whatever the traversal.
+//
+// Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection": vertices are taken
+// relative to the origin, axes are permuted so that |d_z| is largest, and sheared so that
+// the ray is the z axis. Each vertex is transformed without reference to its triangle,
+// so neighbours see the same 2D points, and a ray passes between two triangles only if
+// an edge function has the wrong sign. Here edge functions always have the sign of the
+// exact a*b - c*d (below), so there is no special case for zero. The signs hold unless
+// a product underflows, i.e. unless the ray passes within about 1e-19 of a vertex.
+//
+// Error bounds, u = 2^-24. R bounds |coordinates| of the vertices plus |o|.
+//   relative vertices     u |A|
+//   sheared A.x, A.y      7u R       (difference, S, product, sum)
+//   edge functions        3u relative to their exact value on the sheared points
+//   t = sum(U_i z_i) / sum(U_i)  12u R |Sz|: the U_i have one sign, so t is a mean of the
+//                         z_i and nothing cancels but the z_i themselves
+// Hence o + t d lies within 20u R of the triangle: what the boxes must be grown by.
+#if defined(LANELIGHT_INTERSECT_TRIANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_TRIANGLE_INL_H_
+#undef LANELIGHT_INTERSECT_TRIANGLE_INL_H_
+#else
+#define LANELIGHT_INTERSECT_TRIANGLE_INL_H_
+#endif
+
+#include <cfloat>
+
+#include "hwy/highway.h"
+#include "kernels/intersect/recheck.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Bits of a mask of at most 16 lanes.
+template <class D, class M>
+HWY_INLINE uint32_t MaskBits(D d, M mask) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return hn::MaxLanes(d) > 8 ? bytes[0] | (uint32_t{bytes[1]} << 8) : bytes[0];
+}
+
+/// Points in the permuted axes of a ray: x, y across it, z along it.
+template <class V>
+struct P3 {
+  V x, y, z;
+};
+
+/// A ray prepared for the triangle test.
+template <class V>
+struct Shear {
+  P3<V> o;    // origin, permuted
+  P3<V> s;    // d.x / d.z, d.y / d.z, 1 / d.z, permuted
+  V abs_dz;   // |d.z|
+  V t_scale;  // |t det| above this has the right sign
+};
+
+/// The bound `t_scale` for coordinates up to `reach` (vertices plus origin). From the
+/// errors above, the error of t det is below 170 u m_z (m_x + z) (m_y + z), with m the
+/// largest |coordinates| of the sheared vertices, z = m_z |d.z|; m_x, m_y <= 2 R,
+/// m_z <= R |Sz|: below 2^-13 R^3 |Sz|.
+HWY_INLINE float SignBound(float reach, float abs_dz) {
+  return 0x1p-13f * reach * reach * reach / abs_dz;
+}
+
+/// Vertex relative to the ray, sheared.
+template <class D, class V>
+HWY_INLINE P3<V> ShearVertex(D, const Shear<V>& ray, P3<V> v) {
+  const V x = hn::Sub(v.x, ray.o.x), y = hn::Sub(v.y, ray.o.y), z = hn::Sub(v.z, ray.o.z);
+  return {hn::NegMulAdd(ray.s.x, z, x), hn::NegMulAdd(ray.s.y, z, y),
+          hn::Mul(ray.s.z, z)};
+}
+
+/// a*b - c*e with the sign of the exact value and a relative error below 3u: with fused
+/// multiply-add by Kahan's method (error below 1.5 ulp: Jeannerod, Louvet and Muller
+/// 2013), without it in double precision, where both products are exact.
+template <class D, class V>
+HWY_INLINE V EdgeFunction(D d, V a, V b, V c, V e) {
+#if HWY_NATIVE_FMA
+  (void)d;
+  const V ce = hn::Mul(c, e);
+  return hn::Add(hn::MulSub(a, b, ce), hn::NegMulAdd(c, e, ce));
+#else
+  const hn::Half<D> dh;
+  const hn::RebindToFloat<hn::RepartitionToWide<hn::RebindToUnsigned<D> > > dd;
+  const auto wide = [&](auto p, auto q, auto r, auto s) HWY_ATTR {
+    const auto pq = hn::Mul(hn::PromoteTo(dd, p), hn::PromoteTo(dd, q));
+    const auto rs = hn::Mul(hn::PromoteTo(dd, r), hn::PromoteTo(dd, s));
+    return hn::DemoteTo(dh, hn::Sub(pq, rs));
+  };
+  return hn::Combine(d,
+                     wide(hn::UpperHalf(dh, a), hn::UpperHalf(dh, b),
+                          hn::UpperHalf(dh, c), hn::UpperHalf(dh, e)),
+                     wide(hn::LowerHalf(dh, a), hn::LowerHalf(dh, b),
+                          hn::LowerHalf(dh, c), hn::LowerHalf(dh, e)));
+#endif
+}
+
+/// Lanes that hit in (0, t_max], their distance, and the barycentric weights of vertices
+/// 1 and 2 times det.
+template <class V, class M>
+struct TriangleHits {
+  M mask;
+  V t, v, w, det;
+};
+
+template <class V>
+HWY_INLINE V Min3(V a, V b, V c) {
+  return hn::Min(a, hn::Min(b, c));
+}
+template <class V>
+HWY_INLINE V Max3(V a, V b, V c) {
+  return hn::Max(a, hn::Max(b, c));
+}
+
+/// Lanes of `mask` whose t is so close to zero that its sign may be wrong.
+template <class D, class V, class M>
+HWY_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
+                          const P3<V>& c, V t_det, M mask) {
+  // The z of vertices have exact signs; if they agree so does the sign of t.
+  const V zero = hn::Zero(d);
+  const M straddles =
+      hn::And(hn::Le(Min3(a.z, b.z, c.z), zero), hn::Ge(Max3(a.z, b.z, c.z), zero));
+  const V mx = Max3(hn::Abs(a.x), hn::Abs(b.x), hn::Abs(c.x));
+  const V my = Max3(hn::Abs(a.y), hn::Abs(b.y), hn::Abs(c.y));
+  const V mz = Max3(hn::Abs(a.z), hn::Abs(b.z), hn::Abs(c.z));
+  const V z = hn::Mul(mz, ray.abs_dz);
+  const V bound = hn::Mul(hn::Mul(hn::Set(d, 170 * 0x1p-24f), mz),
+                          hn::Mul(hn::Add(mx, z), hn::Add(my, z)));
+  return hn::And(mask, hn::And(straddles, hn::Le(hn::Abs(t_det), bound)));
+}
+
+/// Tests the sheared triangle (a, b, c). `is_ahead(lane)` decides the sign of t of one
+/// lane exactly (PlaneIsAhead); it is called for rays that start on the triangle.
+/// `t_max` only prunes: candidates with t = t_max are reported.
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
+HWY_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const P3<V>& a,
+                                           const P3<V>& b, const P3<V>& c, V t_max,
+                                           IsAhead&& is_ahead) {
+  const V zero = hn::Zero(d);
+  TriangleHits<V, M> hit;
+  const V u = EdgeFunction(d, c.x, b.y, c.y, b.x);
+  hit.v = EdgeFunction(d, a.x, c.y, a.y, c.x);
+  hit.w = EdgeFunction(d, b.x, a.y, b.y, a.x);
+  hit.det = hn::Add(u, hn::Add(hit.v, hit.w));
+  const V abs_det = hn::Abs(hit.det);
+  hit.mask = hn::And(
+      hn::Or(hn::Ge(Min3(u, hit.v, hit.w), zero), hn::Le(Max3(u, hit.v, hit.w), zero)),
+      hn::Gt(abs_det, zero));
+  hit.t = zero;
+  if (HWY_LIKELY(hn::AllFalse(d, hit.mask))) return hit;
+  const V t_det = hn::MulAdd(u, a.z, hn::MulAdd(hit.v, b.z, hn::Mul(hit.w, c.z)));
+  // |t_det| with the sign of t. The factor covers the rounding of product and quotient.
+  const V signed_t = hn::Xor(t_det, hn::And(hit.det, hn::Set(d, -0.0f)));
+  const V limit = hn::Mul(hn::Mul(t_max, abs_det), hn::Set(d, 1 + 0x1p-21f));
+  hit.mask = hn::And(hit.mask, hn::Le(signed_t, limit));
+  hit.mask = hn::And(hit.mask, hn::Ge(signed_t, hn::Neg(ray.t_scale)));
+  if (hn::AllFalse(d, hit.mask)) return hit;
+  hit.t = hn::Div(t_det, hit.det);
+  const M ahead = hn::And(hit.mask, hn::Gt(hit.t, zero));
+  const M near = hn::And(hit.mask, hn::Le(hn::Abs(t_det), ray.t_scale));
+  hit.mask = ahead;
+  // A hit that is ahead only by the exact test below keeps the least positive distance.
+  hit.t = hn::Max(hit.t, hn::Set(d, FLT_MIN));
+  if (HWY_LIKELY(hn::AllFalse(d, near))) return hit;
+  const M doubtful = DoubtfulSign(d, ray, a, b, c, t_det, near);
+  uint32_t bits = MaskBits(d, doubtful), accepted = 0;
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    if (is_ahead(lane)) accepted |= 1u << lane;
+  }
+  const hn::RebindToUnsigned<D> du;
+  const auto lane_bit = hn::Shl(hn::Set(du, 1), hn::Iota(du, 0));
+  const M kept =
+      hn::RebindMask(d, hn::Ne(hn::And(lane_bit, hn::Set(du, accepted)), hn::Zero(du)));
+  hit.mask = hn::Or(hn::AndNot(doubtful, ahead), kept);
+  return hit;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,96 @@
+// The surface at hits on disks.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/surface/disk.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/surface/store-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <bool kNormals, bool kTangents, bool kUv>
+HWY_INLINE void DiskBatch(const Wave& wave, VI slots) {
+  const PathColumns& path = wave.path;
+  const Geometry& geometry = wave.scene->geometry;
+  const DI di;
+  const DiskRecord* records = geometry.disks.data();
+  const auto first = static_cast<int32_t>(geometry.ranges.disks);
+  const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
+  const VI at = hn::Mul(index, hn::Set(di, 16));
+  const V3 center = GatherRecord3(records, 16, 0, index);
+  const V3 n = GatherRecord3(records, 16, 4, index);
+  const VF radius = Gather(&records->radius, at);
+  const D3 lower = ProjectToPlane<false>(RayPoint<false>(path, slots), center, n);
+  const D3 upper = ProjectToPlane<true>(RayPoint<true>(path, slots), center, n);
+  SurfaceLanes surface{.p = FromHalves(lower, upper),
+                       .n = n,
+                       .error = Splat(0),
+                       .material = Gather(&records->material, at)};
+  surface.error = RoundingError(surface.p, n, radius);
+  StoreSurface<kNormals>(path, slots, surface);
+  if constexpr (kTangents || kUv) {
+    const V3 u_axis = GatherRecord3(records, 16, 8, index);
+    const V3 v_axis = Mul(Cross(n, u_axis), Gather(&records->v_sign, at));
+    const V3 rel = surface.p - center;
+    const VF x = Dot(rel, u_axis);
+    const VF y = Dot(rel, v_axis);
+    if constexpr (kUv) {
+      const VF distance = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
+      const VF width = hn::Sub(radius, Gather(&records->inner_radius, at));
+      const VF v = hn::Div(hn::Sub(radius, distance), width);
+      Scatter(TurnFraction(y, x), path.uv_u, slots);
+      // A ring of width zero has no v; a comparison with NaN or inf fails.
+      Scatter(hn::IfThenElseZero(hn::Lt(hn::Abs(v), Splat(2.0f)), v), path.uv_v, slots);
+    }
+    if constexpr (kTangents) {
+      const V3 around = MulAdd(v_axis, x, Mul(u_axis, hn::Neg(y)));
+      const V3 tangent = Mul(around, Splat(2 * std::numbers::pi_v<float>));
+      Scatter3(TangentOr(tangent, n), path.tg_x, path.tg_y, path.tg_z, slots);
+    }
+  }
+}
+
+template <bool kNormals, bool kTangents, bool kUv>
+struct SurfaceDisk {
+  static void Run(Wave& wave) {
+    const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
+    const Queue hits = FilterQueue(wave, ranges.disks, ranges.planes);
+    ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
+      DiskBatch<kNormals, kTangents, kUv>(wave, slots);
+    });
+  }
+};
+
+StageFn ChooseSurfaceDisk(const FeatureSet& features) {
+  return ChooseVariant<SurfaceDisk>(features);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/surface/stages.h"
+
+namespace lanelight {
+HWY_EXPORT(ChooseSurfaceDisk);
+
+Stage SurfaceDiskStage() {
+  return {.name = "surface_disk",
+          .meaning = "point, normals and material of hits on disks",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kDisks, Feature::kScatters},
+          .reads = fields::kRay | FieldSet{Field::t, Field::prim},
+          .writes = SurfaceFields(),
+          .resolve = [](const FeatureSet& features) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(ChooseSurfaceDisk)(features);
+          }};
+}
+
+}  // namespace lanelight
+#endif

@@ -1,0 +1,91 @@
+// The surface at hits on planes.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/surface/plane.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/surface/store-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <bool kNormals, bool kTangents, bool kUv>
+HWY_INLINE void PlaneBatch(const Wave& wave, VI slots) {
+  const PathColumns& path = wave.path;
+  const Geometry& geometry = wave.scene->geometry;
+  const DI di;
+  const PlaneRecord* records = geometry.planes.data();
+  const auto first = static_cast<int32_t>(geometry.ranges.planes);
+  const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
+  const VI at = hn::Mul(index, hn::Set(di, 16));
+  const V3 point = GatherRecord3(records, 16, 0, index);
+  const V3 n = GatherRecord3(records, 16, 4, index);
+  const D3 lower = ProjectToPlane<false>(RayPoint<false>(path, slots), point, n);
+  const D3 upper = ProjectToPlane<true>(RayPoint<true>(path, slots), point, n);
+  SurfaceLanes surface{.p = FromHalves(lower, upper),
+                       .n = n,
+                       .error = Splat(0),
+                       .material = Gather(&records->material, at)};
+  const V3 rel = surface.p - point;
+  surface.error = RoundingError(surface.p, n, MaxComponent(Abs(rel)));
+  StoreSurface<kNormals>(path, slots, surface);
+  if constexpr (kTangents || kUv) {
+    const V3 u_axis = GatherRecord3(records, 16, 8, index);
+    const V3 v_axis = GatherRecord3(records, 16, 12, index);
+    if constexpr (kUv) {
+      Scatter(Dot(rel, u_axis), path.uv_u, slots);
+      Scatter(Dot(rel, v_axis), path.uv_v, slots);
+    }
+    if constexpr (kTangents) {
+      // In the plane, across v, and one unit of u long.
+      const V3 across = Cross(v_axis, n);
+      const VF length = Dot(across, u_axis);
+      const V3 tangent = Mul(across, hn::Div(Splat(1.0f), length));
+      Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
+    }
+  }
+}
+
+template <bool kNormals, bool kTangents, bool kUv>
+struct SurfacePlane {
+  static void Run(Wave& wave) {
+    const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
+    const Queue hits = FilterQueue(wave, ranges.planes, ranges.end);
+    ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
+      PlaneBatch<kNormals, kTangents, kUv>(wave, slots);
+    });
+  }
+};
+
+StageFn ChooseSurfacePlane(const FeatureSet& features) {
+  return ChooseVariant<SurfacePlane>(features);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/surface/stages.h"
+
+namespace lanelight {
+HWY_EXPORT(ChooseSurfacePlane);
+
+Stage SurfacePlaneStage() {
+  return {.name = "surface_plane",
+          .meaning = "point, normals and material of hits on planes",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kPlanes, Feature::kScatters},
+          .reads = fields::kRay | FieldSet{Field::t, Field::prim},
+          .writes = SurfaceFields(),
+          .resolve = [](const FeatureSet& features) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(ChooseSurfacePlane)(features);
+          }};
+}
+
+}  // namespace lanelight
+#endif

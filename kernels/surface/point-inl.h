@@ -1,0 +1,74 @@
+// Surface points in double precision, rounded once, and how far off they may be.
+//
+// Intersection decides the side of a surface that an origin lies on exactly
+// (kernels/intersect/recheck.h), so a point needs to move only as far as roundings can
+// have put it on the wrong side. With u = 2^-24:
+//   p is rounded once:              u sum |n_i p_i| along n
+//   p + n p_error is rounded twice: 2u sum |n_i p_i| (product and sum without fma)
+// Their sum is 3u; RoundingError gives 4u, plus a part of the shape's size that covers
+// the double-precision roundings (2^-50 of it) where p is near the origin.
+#if defined(LANELIGHT_SURFACE_POINT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_SURFACE_POINT_INL_H_
+#undef LANELIGHT_SURFACE_POINT_INL_H_
+#else
+#define LANELIGHT_SURFACE_POINT_INL_H_
+#endif
+
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Half a vector of floats, as doubles.
+using DHalf = hn::Half<DF>;
+using DD = hn::Rebind<double, DHalf>;
+using VD = hn::Vec<DD>;
+
+struct D3 {
+  VD x, y, z;
+};
+
+HWY_INLINE VD LowerDouble(VF v) { return hn::PromoteTo(DD(), hn::LowerHalf(DHalf(), v)); }
+HWY_INLINE VD UpperDouble(VF v) { return hn::PromoteTo(DD(), hn::UpperHalf(DHalf(), v)); }
+template <bool kUpper>
+HWY_INLINE VD HalfOf(VF v) {
+  if constexpr (kUpper) return UpperDouble(v);
+  return LowerDouble(v);
+}
+template <bool kUpper>
+HWY_INLINE D3 HalfOf(V3 v) {
+  return {HalfOf<kUpper>(v.x), HalfOf<kUpper>(v.y), HalfOf<kUpper>(v.z)};
+}
+HWY_INLINE VF FromHalves(VD lower, VD upper) {
+  const DHalf dh;
+  return hn::Combine(DF(), hn::DemoteTo(dh, upper), hn::DemoteTo(dh, lower));
+}
+HWY_INLINE V3 FromHalves(D3 lower, D3 upper) {
+  return {FromHalves(lower.x, upper.x), FromHalves(lower.y, upper.y),
+          FromHalves(lower.z, upper.z)};
+}
+HWY_INLINE VD Dot(D3 a, D3 b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+HWY_INLINE D3 Minus(D3 a, D3 b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+/// a * s + b
+HWY_INLINE D3 MulAdd(D3 a, VD s, D3 b) {
+  return {hn::MulAdd(a.x, s, b.x), hn::MulAdd(a.y, s, b.y), hn::MulAdd(a.z, s, b.z)};
+}
+
+HWY_INLINE V3 Abs(V3 v) { return {hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)}; }
+
+/// See above. `size` bounds |p - reference points of the shape|.
+HWY_INLINE VF RoundingError(V3 p, V3 n, VF size) {
+  return hn::MulAdd(Splat(0x1p-22f), Dot(Abs(p), Abs(n)), hn::Mul(Splat(0x1p-48f), size));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,111 @@
+// The surface at hits on spheres.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/surface/sphere.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/surface/store-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+struct SphereHits {
+  V3 center;
+  VF radius;
+};
+
+// The hit moved radially onto the sphere, and the unit vector from the centre.
+template <bool kUpper>
+HWY_INLINE void Reproject(const SphereHits& s, D3 hit, D3& p, D3& outward) {
+  const D3 center = HalfOf<kUpper>(s.center), rel = Minus(hit, center);
+  const VD inverse = hn::Div(hn::Set(DD(), 1.0), hn::Sqrt(Dot(rel, rel)));
+  outward = {hn::Mul(rel.x, inverse), hn::Mul(rel.y, inverse), hn::Mul(rel.z, inverse)};
+  p = MulAdd(outward, HalfOf<kUpper>(s.radius), center);
+}
+
+template <bool kNormals, bool kTangents, bool kUv>
+HWY_INLINE void SphereBatch(const Wave& wave, VI slots) {
+  const PathColumns& path = wave.path;
+  const Geometry& geometry = wave.scene->geometry;
+  const DI di;
+  const SphereRecord* records = geometry.spheres.data();
+  const auto first = static_cast<int32_t>(geometry.ranges.spheres);
+  const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
+  const VI at = hn::Mul(index, hn::Set(di, 16));
+  const SphereHits s{GatherRecord3(records, 16, 0, index), Gather(&records->radius, at)};
+  D3 p[2], outward[2];
+  Reproject<false>(s, RayPoint<false>(path, slots), p[0], outward[0]);
+  Reproject<true>(s, RayPoint<true>(path, slots), p[1], outward[1]);
+  const V3 out = FromHalves(outward[0], outward[1]);
+  SurfaceLanes surface{.p = FromHalves(p[0], p[1]),
+                       .n = Mul(out, Gather(&records->normal_sign, at)),
+                       .error = Splat(0),
+                       .material = Gather(&records->material, at)};
+  surface.error = RoundingError(surface.p, out, s.radius);
+  StoreSurface<kNormals>(path, slots, surface);
+  if constexpr (kTangents || kUv) {
+    const V3 x_axis = GatherRecord3(records, 16, 8, index);
+    const V3 z_axis = GatherRecord3(records, 16, 11, index);
+    const V3 y_axis = Mul(Cross(z_axis, x_axis), Gather(&records->y_sign, at));
+    const VF x = Dot(out, x_axis);
+    const VF y = Dot(out, y_axis);
+    if constexpr (kUv) {
+      // v = 1 - theta / pi, theta from the pole z; half a turn of (z, across).
+      const VF z = Dot(out, z_axis);
+      const VF across = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
+      const VF theta = TurnFraction(across, z);
+      Scatter(TurnFraction(y, x), path.uv_u, slots);
+      Scatter(hn::NegMulAdd(Splat(2.0f), theta, Splat(1.0f)), path.uv_v, slots);
+    }
+    if constexpr (kTangents) {
+      const V3 around = MulAdd(y_axis, x, Mul(x_axis, hn::Neg(y)));
+      const VF scale = hn::Mul(s.radius, Splat(2 * std::numbers::pi_v<float>));
+      Scatter3(TangentOr(Mul(around, scale), out), path.tg_x, path.tg_y, path.tg_z,
+               slots);
+    }
+  }
+}
+
+template <bool kNormals, bool kTangents, bool kUv>
+struct SurfaceSphere {
+  static void Run(Wave& wave) {
+    const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
+    const Queue hits = FilterQueue(wave, ranges.spheres, ranges.disks);
+    ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
+      SphereBatch<kNormals, kTangents, kUv>(wave, slots);
+    });
+  }
+};
+
+StageFn ChooseSurfaceSphere(const FeatureSet& features) {
+  return ChooseVariant<SurfaceSphere>(features);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/surface/stages.h"
+
+namespace lanelight {
+HWY_EXPORT(ChooseSurfaceSphere);
+
+Stage SurfaceSphereStage() {
+  return {.name = "surface_sphere",
+          .meaning = "point, normals and material of hits on spheres",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kSpheres, Feature::kScatters},
+          .reads = fields::kRay | FieldSet{Field::t, Field::prim},
+          .writes = SurfaceFields(),
+          .resolve = [](const FeatureSet& features) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(ChooseSurfaceSphere)(features);
+          }};
+}
+
+}  // namespace lanelight
+#endif

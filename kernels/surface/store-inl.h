@@ -1,0 +1,92 @@
+// What the surface kernels of spheres, disks and planes have in common.
+#if defined(LANELIGHT_SURFACE_STORE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_SURFACE_STORE_INL_H_
+#undef LANELIGHT_SURFACE_STORE_INL_H_
+#else
+#define LANELIGHT_SURFACE_STORE_INL_H_
+#endif
+
+#include <numbers>
+
+#include "hwy/contrib/math/math-inl.h"
+#include "kernels/surface/filter-inl.h"
+#include "kernels/surface/point-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The surface at a vector of hits.
+struct SurfaceLanes {
+  V3 p, n;
+  VF error;
+  VI material;
+};
+
+/// Point o + t d of a vector of hits.
+template <bool kUpper>
+HWY_INLINE D3 RayPoint(const PathColumns& path, VI slots) {
+  const V3 o = Gather3(path.o_x, path.o_y, path.o_z, slots);
+  const V3 d = Gather3(path.d_x, path.d_y, path.d_z, slots);
+  return MulAdd(HalfOf<kUpper>(d), HalfOf<kUpper>(Gather(path.t, slots)),
+                HalfOf<kUpper>(o));
+}
+
+/// Foot of the perpendicular from `p` to the plane through `point` with normal n.
+template <bool kUpper>
+HWY_INLINE D3 ProjectToPlane(D3 p, V3 point, V3 n) {
+  const D3 nd = HalfOf<kUpper>(n), rel = Minus(p, HalfOf<kUpper>(point));
+  return MulAdd(nd, hn::Neg(hn::Div(Dot(nd, rel), Dot(nd, nd))), p);
+}
+
+/// Writes what every hit has; these shapes have no shading normal of their own.
+template <bool kNormals>
+HWY_INLINE void StoreSurface(const PathColumns& path, VI slots, const SurfaceLanes& s) {
+  Scatter3(s.p, path.p_x, path.p_y, path.p_z, slots);
+  Scatter(s.error, path.p_error, slots);
+  Scatter3(s.n, path.ng_x, path.ng_y, path.ng_z, slots);
+  if constexpr (kNormals) Scatter3(s.n, path.ns_x, path.ns_y, path.ns_z, slots);
+  Scatter(s.material, path.material, slots);
+}
+
+/// Angle of (x, y) in [0, 2 pi], as a fraction of the circle; absolute error below 1e-6.
+HWY_INLINE VF TurnFraction(VF y, VF x) {
+  const DF df;
+  const VF ay = hn::Abs(y), ax = hn::Abs(x);
+  const VF high = hn::Max(ax, ay);
+  const VF ratio = hn::Div(hn::Min(ax, ay), hn::Max(high, Splat(0x1p-126f)));
+  const VF eighth = hn::Mul(hn::Atan(df, ratio), Splat(0.5f / std::numbers::pi_v<float>));
+  const VF quarter =
+      hn::IfThenElse(hn::Gt(ay, ax), hn::Sub(Splat(0.25f), eighth), eighth);
+  const VF half =
+      hn::IfThenElse(hn::Lt(x, hn::Zero(df)), hn::Sub(Splat(0.5f), quarter), quarter);
+  return hn::IfThenElse(hn::Lt(y, hn::Zero(df)), hn::Sub(Splat(1.0f), half), half);
+}
+
+/// `tangent`, or any direction across n where it vanishes (at the centre, at a pole).
+HWY_INLINE V3 TangentOr(V3 tangent, V3 n) {
+  const VF length2 = Dot(tangent, tangent);
+  return IfThenElse(hn::Gt(length2, hn::Zero(DF())), tangent, FrameFromNormal(n).s);
+}
+
+/// The variant of a kernel for the features; `Kernel` is a template over whether vertex
+/// normals, tangents and surface coordinates are wanted.
+template <template <bool, bool, bool> class Kernel, bool... kChosen>
+StageFn ChooseVariant(const FeatureSet& features) {
+  constexpr Feature kOrder[] = {Feature::kVertexNormals, Feature::kTangents,
+                                Feature::kUv};
+  if constexpr (sizeof...(kChosen) == 3) {
+    return Kernel<kChosen...>::Run;
+  } else {
+    return features.Has(kOrder[sizeof...(kChosen)])
+               ? ChooseVariant<Kernel, kChosen..., true>(features)
+               : ChooseVariant<Kernel, kChosen..., false>(features);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,196 @@
+// The surface at hits on triangles.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/surface/triangle.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/surface/filter-inl.h"
+#include "kernels/surface/instance-inl.h"
+#include "kernels/surface/point-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// A vector of hits: vertices in the space of the triangle, barycentric weights.
+struct TriangleLanes {
+  VI prim;
+  V3 v0, v1, v2;
+  VF b0, b1, b2;
+};
+
+HWY_INLINE TriangleLanes LoadTriangles(const Wave& wave, VI slots) {
+  const PathColumns& path = wave.path;
+  const TriangleRecord* records = wave.scene->geometry.triangles.data();
+  TriangleLanes tri;
+  tri.prim = Gather(path.prim, slots);
+  tri.v0 = GatherRecord3(records, 12, 0, tri.prim);
+  tri.v1 = GatherRecord3(records, 12, 3, tri.prim);
+  tri.v2 = GatherRecord3(records, 12, 6, tri.prim);
+  tri.b1 = Gather(path.b1, slots);
+  tri.b2 = Gather(path.b2, slots);
+  tri.b0 = hn::Sub(hn::Sub(Splat(1.0f), tri.b1), tri.b2);
+  return tri;
+}
+
+// v0 + b1 (v1 - v0) + b2 (v2 - v0), on the plane of the vertices within 2^-50 of its
+// size.
+template <bool kUpper>
+HWY_INLINE D3 Interpolate(const TriangleLanes& tri) {
+  const D3 v0 = HalfOf<kUpper>(tri.v0);
+  const D3 e1 = Minus(HalfOf<kUpper>(tri.v1), v0), e2 = Minus(HalfOf<kUpper>(tri.v2), v0);
+  return MulAdd(e1, HalfOf<kUpper>(tri.b1), MulAdd(e2, HalfOf<kUpper>(tri.b2), v0));
+}
+
+// Unit cross(v1 - v0, v2 - v0). Edges are scaled first: the product of tiny ones would
+// underflow.
+HWY_INLINE V3 FaceNormal(V3 e1, V3 e2) {
+  const VF one = Splat(1.0f);
+  return Normalize(Cross(Mul(e1, hn::Div(one, MaxComponent(Abs(e1)))),
+                         Mul(e2, hn::Div(one, MaxComponent(Abs(e2))))));
+}
+
+// Interpolated vertex normal, unit, in the space of the triangle; `face` where the
+// normals cancel.
+HWY_INLINE V3 VertexNormal(const Geometry& geometry, const TriangleLanes& tri, V3 face) {
+  const float* normals = geometry.normals.data();
+  const V3 n = MulAdd(GatherRecord3(normals, 9, 0, tri.prim), tri.b0,
+                      MulAdd(GatherRecord3(normals, 9, 3, tri.prim), tri.b1,
+                             Mul(GatherRecord3(normals, 9, 6, tri.prim), tri.b2)));
+  return IfThenElse(hn::Gt(Dot(n, n), Splat(0x1p-40f)), n, face);
+}
+
+struct UvLanes {
+  VF u[3], v[3];
+};
+HWY_INLINE UvLanes LoadUvs(const Geometry& geometry, VI prim) {
+  const VI at = hn::Mul(prim, hn::Set(DI(), 6));
+  const float* uvs = geometry.uvs.data();
+  return {{Gather(uvs, at), Gather(uvs + 2, at), Gather(uvs + 4, at)},
+          {Gather(uvs + 1, at), Gather(uvs + 3, at), Gather(uvs + 5, at)}};
+}
+
+// dp/du in the space of the triangle: solves e_i = du_i dp/du + dv_i dp/dv. Where the
+// coordinates are degenerate, any direction across the face normal.
+HWY_INLINE V3 Tangent(const UvLanes& uv, V3 e1, V3 e2, V3 face) {
+  const VF du1 = hn::Sub(uv.u[1], uv.u[0]), dv1 = hn::Sub(uv.v[1], uv.v[0]);
+  const VF du2 = hn::Sub(uv.u[2], uv.u[0]), dv2 = hn::Sub(uv.v[2], uv.v[0]);
+  const VF det = DifferenceOfProducts(du1, dv2, dv1, du2);
+  const V3 scaled = {DifferenceOfProducts(dv2, e1.x, dv1, e2.x),
+                     DifferenceOfProducts(dv2, e1.y, dv1, e2.y),
+                     DifferenceOfProducts(dv2, e1.z, dv1, e2.z)};
+  const V3 tangent = Mul(scaled, hn::Div(Splat(1.0f), det));
+  const VF length2 = Dot(tangent, tangent);
+  const MF good = hn::And(hn::Gt(length2, hn::Zero(DF())), hn::Lt(length2, Splat(1e30f)));
+  return IfThenElse(good, tangent, FrameFromNormal(face).s);
+}
+
+// Largest |coordinate| of the edges.
+HWY_INLINE VF SizeOf(V3 e1, V3 e2) {
+  return hn::Max(MaxComponent(Abs(e1)), MaxComponent(Abs(e2)));
+}
+
+template <bool kNormals, bool kTangents, bool kUv, bool kInstances>
+HWY_INLINE void SurfaceBatch(const Wave& wave, VI slots) {
+  const PathColumns& path = wave.path;
+  const Geometry& geometry = wave.scene->geometry;
+  const TriangleLanes tri = LoadTriangles(wave, slots);
+  const V3 e1 = tri.v1 - tri.v0, e2 = tri.v2 - tri.v0;
+  const V3 face = FaceNormal(e1, e2);
+  InstanceMaps maps;
+  V3 p, ng = face;
+  VF error;
+  if constexpr (kInstances) {
+    maps = GatherMaps(geometry.instances, Gather(path.inst, slots));
+    const D3 lower = Interpolate<false>(tri), upper = Interpolate<true>(tri);
+    p = FromHalves(MapPoint<false>(maps.scene_from_object, lower),
+                   MapPoint<true>(maps.scene_from_object, upper));
+    ng = Normalize(maps.object_from_scene.Transposed(face));
+    error = hn::Add(RoundingError(p, ng, hn::Zero(DF())),
+                    MappingError(maps, FromHalves(lower, upper), ng));
+  } else {
+    p = FromHalves(Interpolate<false>(tri), Interpolate<true>(tri));
+    error = RoundingError(p, ng, SizeOf(e1, e2));
+  }
+  if constexpr (kNormals) {
+    V3 ns = VertexNormal(geometry, tri, face);
+    if constexpr (kInstances) ns = maps.object_from_scene.Transposed(ns);
+    ns = Normalize(ns);
+    Scatter3(ns, path.ns_x, path.ns_y, path.ns_z, slots);
+    // The geometric normal takes the side of the shading normal, as in pbrt.
+    const MF apart = hn::Lt(Dot(ns, ng), hn::Zero(DF()));
+    ng = IfThenElse(apart, -ng, ng);
+  }
+  Scatter3(p, path.p_x, path.p_y, path.p_z, slots);
+  Scatter(error, path.p_error, slots);
+  Scatter3(ng, path.ng_x, path.ng_y, path.ng_z, slots);
+  const uint32_t* words = &geometry.triangles[0].material;
+  const VI at = hn::Mul(tri.prim, hn::Set(DI(), 12));
+  Scatter(Gather(words, at), path.material, slots);
+  if constexpr (kUv || kTangents) {
+    const UvLanes uv = LoadUvs(geometry, tri.prim);
+    if constexpr (kUv) {
+      const auto mix = [&](const VF* c) HWY_ATTR {
+        return hn::MulAdd(c[0], tri.b0, hn::MulAdd(c[1], tri.b1, hn::Mul(c[2], tri.b2)));
+      };
+      Scatter(mix(uv.u), path.uv_u, slots);
+      Scatter(mix(uv.v), path.uv_v, slots);
+    }
+    if constexpr (kTangents) {
+      V3 tangent = Tangent(uv, e1, e2, face);
+      if constexpr (kInstances) tangent = maps.scene_from_object.Vector(tangent);
+      Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
+    }
+  }
+}
+
+template <bool kNormals, bool kTangents, bool kUv, bool kInstances>
+void SurfaceTriangle(Wave& wave) {
+  const Queue hits = FilterQueue(wave, 0, wave.scene->geometry.ranges.spheres);
+  ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
+    SurfaceBatch<kNormals, kTangents, kUv, kInstances>(wave, slots);
+  });
+}
+
+// Picks the template variant, one feature at a time.
+template <bool... kChosen>
+StageFn Choose(const FeatureSet& features) {
+  constexpr Feature kOrder[] = {Feature::kVertexNormals, Feature::kTangents, Feature::kUv,
+                                Feature::kInstances};
+  if constexpr (sizeof...(kChosen) == 4) {
+    return SurfaceTriangle<kChosen...>;
+  } else {
+    return features.Has(kOrder[sizeof...(kChosen)]) ? Choose<kChosen..., true>(features)
+                                                    : Choose<kChosen..., false>(features);
+  }
+}
+
+StageFn ChooseSurfaceTriangle(const FeatureSet& features) { return Choose<>(features); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/surface/stages.h"
+
+namespace lanelight {
+HWY_EXPORT(ChooseSurfaceTriangle);
+
+Stage SurfaceTriangleStage() {
+  return {.name = "surface_triangle",
+          .meaning = "point, normals and material of hits on triangles",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kTriangles, Feature::kScatters},
+          .reads = {Field::prim, Field::b1, Field::b2, Field::inst},
+          .writes = SurfaceFields(),
+          .resolve = [](const FeatureSet& features) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(ChooseSurfaceTriangle)(features);
+          }};
+}
+
+}  // namespace lanelight
+#endif

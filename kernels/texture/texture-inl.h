@@ -1,0 +1,211 @@
+// Textures at surface coordinates. The lanes of a vector may need different textures:
+// each distinct one is evaluated for the whole vector, under a mask, so that its program
+// runs without a branch per lane. Indices are clamped to the image whatever uv are, NaN
+// and infinity included.
+#if defined(LANELIGHT_TEXTURE_TEXTURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_TEXTURE_TEXTURE_INL_H_
+#undef LANELIGHT_TEXTURE_TEXTURE_INL_H_
+#else
+#define LANELIGHT_TEXTURE_TEXTURE_INL_H_
+#endif
+
+#include "kernels/simd/vec3-inl.h"
+#include "src/scene/texture_table.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Two neighbouring texels along one axis: indices before wrapping, weight of the second.
+struct TexelPair {
+  VI i0, i1;
+  VF weight;
+};
+
+HWY_INLINE VF Fraction(VF x) { return hn::Sub(x, hn::Floor(x)); }
+
+HWY_INLINE VI ClampIndex(VI i, int32_t size) {
+  const DI di;
+  return hn::Min(hn::Max(i, hn::Zero(di)), hn::Set(di, size - 1));
+}
+
+/// The texels around coordinate s of an axis with `size` texels, whose centres are at
+/// (i + 0.5) / size; `flip` counts from the other end (1 - s). Nearest lookups have
+/// weight 0 and use i0.
+HWY_INLINE TexelPair FindTexels(VF s, bool flip, int32_t size, const TextureNode& node) {
+  const DI di;
+  const VF n = Splat(static_cast<float>(size)), one = Splat(1.0f);
+  VF x;
+  if (node.wrap == WrapMode::kRepeat) {
+    // Flipping after the fraction is taken loses nothing when s is large.
+    const VF f = Fraction(s);
+    x = hn::Mul(flip ? hn::Sub(one, f) : f, n);  // [0, n]
+  } else {
+    if (flip) s = hn::Sub(one, s);
+    if (node.wrap == WrapMode::kOctahedralSphere) {
+      x = hn::Mul(hn::Min(hn::Max(s, Splat(0.0f)), one), n);
+    } else {
+      // Far outside all is the same; this keeps the conversion to integers in range.
+      x = hn::Min(hn::Max(hn::Mul(s, n), Splat(-2.0f)), hn::Add(n, Splat(2.0f)));
+    }
+  }
+  if (node.bilinear) x = hn::Sub(x, Splat(0.5f));
+  const VF low = hn::Floor(x);
+  const VI i0 = hn::ConvertTo(di, low);
+  return {i0, hn::Add(i0, hn::Set(di, 1)), node.bilinear ? hn::Sub(x, low) : Splat(0.0f)};
+}
+
+/// Texel index of column i, row j after wrapping; clears `inside` where the wrap mode
+/// makes the texel black. The octahedral map continues across an edge of the square with
+/// the texels of the same edge, mirrored about its middle.
+HWY_INLINE VI WrappedIndex(const TextureImage& image, WrapMode wrap, VI i, VI j,
+                           MF& inside) {
+  const DI di;
+  const DF df;
+  const VI w = hn::Set(di, image.width), h = hn::Set(di, image.height);
+  const VI zero = hn::Zero(di), one = hn::Set(di, 1);
+  if (wrap == WrapMode::kRepeat) {
+    // i is in [-1, w]
+    i = hn::IfThenElse(hn::Lt(i, zero), hn::Add(i, w), i);
+    i = hn::IfThenElse(hn::Lt(i, w), i, hn::Sub(i, w));
+    j = hn::IfThenElse(hn::Lt(j, zero), hn::Add(j, h), j);
+    j = hn::IfThenElse(hn::Lt(j, h), j, hn::Sub(j, h));
+  } else if (wrap == WrapMode::kBlack) {
+    const auto in_columns = hn::AndNot(hn::Lt(i, zero), hn::Lt(i, w));
+    const auto in_rows = hn::AndNot(hn::Lt(j, zero), hn::Lt(j, h));
+    inside = hn::And(inside, hn::RebindMask(df, hn::And(in_columns, in_rows)));
+  } else if (wrap == WrapMode::kOctahedralSphere) {
+    const VI last_i = hn::Sub(w, one), last_j = hn::Sub(h, one);
+    const auto out_i = hn::Or(hn::Lt(i, zero), hn::Gt(i, last_i));
+    j = hn::IfThenElse(out_i, hn::Sub(last_j, j), j);
+    i = ClampIndex(i, image.width);
+    const auto out_j = hn::Or(hn::Lt(j, zero), hn::Gt(j, last_j));
+    i = hn::IfThenElse(out_j, hn::Sub(last_i, i), i);
+  }
+  i = ClampIndex(i, image.width);
+  j = ClampIndex(j, image.height);
+  return hn::Add(hn::Mul(j, w), i);
+}
+
+/// Decoded colour of texels.
+HWY_INLINE V3 LoadTexels(const TextureTable& table, const TextureImage& image, VI index) {
+  const DI di;
+  if (image.rgba8.empty()) {
+    return GatherRecord3(image.rgb.data(), 3, 0, index);
+  }
+  const float* decode = table.decode.data() + image.decode;
+  const VI word = Gather(image.rgba8.data(), index);
+  const VI byte = hn::Set(di, 255);
+  return {Gather(decode, hn::And(word, byte)),
+          Gather(decode, hn::And(hn::ShiftRight<8>(word), byte)),
+          Gather(decode, hn::And(hn::ShiftRight<16>(word), byte))};
+}
+
+HWY_INLINE V3 Texel(const TextureTable& table, const TextureNode& node, VI i, VI j) {
+  const DF df;
+  const TextureImage& image = table.images[node.image];
+  MF inside = hn::FirstN(df, hn::Lanes(df));
+  const V3 color = LoadTexels(table, image, WrappedIndex(image, node.wrap, i, j, inside));
+  return node.wrap == WrapMode::kBlack ? IfThenElseZero(inside, color) : color;
+}
+
+/// a + (b - a) * t, exact at t = 0 and t = 1.
+HWY_INLINE V3 Lerp(V3 a, V3 b, VF t) {
+  return Mul(a, hn::Sub(Splat(1.0f), t)) + Mul(b, t);
+}
+
+HWY_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node, VF s, VF t) {
+  const TextureImage& image = table.images[node.image];
+  const TexelPair x = FindTexels(s, false, image.width, node);
+  const TexelPair y = FindTexels(t, true, image.height, node);
+  V3 color = Texel(table, node, x.i0, y.i0);
+  if (node.bilinear) {
+    const V3 top = Lerp(color, Texel(table, node, x.i1, y.i0), x.weight);
+    const V3 bottom =
+        Lerp(Texel(table, node, x.i0, y.i1), Texel(table, node, x.i1, y.i1), x.weight);
+    color = Lerp(top, bottom, y.weight);
+  }
+  color = Mul(color, Splat(node.scale));
+  if (node.invert) color = Splat3(1, 1, 1) - color;
+  const VF zero = Splat(0.0f);
+  return {hn::Max(color.x, zero), hn::Max(color.y, zero), hn::Max(color.z, zero)};
+}
+
+/// Lanes whose cell (floor(s), floor(t)) shows the first colour: even sum.
+HWY_INLINE MF EvenCell(VF s, VF t) {
+  // Parity without integers, so that it holds for every float: the sum of the parities is
+  // 0, 1 or 2.
+  const VF half = Splat(0.5f), two = Splat(2.0f);
+  const VF cell_s = hn::Floor(s), cell_t = hn::Floor(t);
+  const VF odd_s = hn::NegMulAdd(two, hn::Floor(hn::Mul(cell_s, half)), cell_s);
+  const VF odd_t = hn::NegMulAdd(two, hn::Floor(hn::Mul(cell_t, half)), cell_t);
+  return hn::Eq(odd_s, odd_t);
+}
+
+/// Value of one texture at (u, v) in every lane. Errors against real arithmetic come from
+/// rounding s = u * su + du to float: up to |s| * 6e-8 of a repeat, times the slope.
+inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture, VF u,
+                                   VF v) {
+  const TextureProgram program = table.programs[texture];
+  V3 value[kMaxTextureNodes];
+  for (int32_t i = 0; i < program.count; ++i) {
+    const TextureNode& node = table.nodes[program.begin + i];
+    const auto operand = [&](int slot) HWY_ATTR -> V3 {
+      const float* c = node.constant[slot];
+      return node.operand[slot] >= 0 ? value[node.operand[slot]]
+                                     : Splat3(c[0], c[1], c[2]);
+    };
+    const VF s = hn::MulAdd(u, Splat(node.su), Splat(node.du));
+    const VF t = hn::MulAdd(v, Splat(node.sv), Splat(node.dv));
+    switch (node.kind) {
+      case TextureKind::kConstant:
+        value[i] = operand(0);
+        break;
+      case TextureKind::kScale:
+        value[i] = Mul(operand(0), operand(2).x);
+        break;
+      case TextureKind::kMix:
+        value[i] = Lerp(operand(0), operand(1), operand(2).x);
+        break;
+      case TextureKind::kCheckerboard:
+        value[i] = IfThenElse(EvenCell(s, t), operand(0), operand(1));
+        break;
+      case TextureKind::kImage:
+        value[i] = EvalImage(table, node, s, t);
+        break;
+    }
+  }
+  return value[program.count - 1];
+}
+
+/// Values of the lanes' own textures; lanes whose id is negative keep `constant`.
+HWY_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v, V3 constant) {
+  const DF df;
+  const DI di;
+  auto pending = hn::Gt(ids, hn::Set(di, -1));
+  while (!hn::AllFalse(di, pending)) {
+    const int32_t id = hn::ExtractLane(ids, hn::FindFirstTrue(di, pending));
+    const auto same = hn::Eq(ids, hn::Set(di, id));
+    constant =
+        IfThenElse(hn::RebindMask(df, same), EvalTexture(table, id, u, v), constant);
+    pending = hn::AndNot(same, pending);
+  }
+  return constant;
+}
+
+/// Alpha of the lanes' cut-outs, where their id is not negative, else `constant`.
+HWY_INLINE VF EvalAlpha(const TextureTable& table, VI ids, VF u, VF v, VF constant) {
+  return EvalTextures(table, ids, u, v, {constant, constant, constant}).x;
+}
+
+/// Alpha of a single hit, for kernels that hold one ray.
+HWY_INLINE float EvalAlphaAt(const TextureTable& table, int32_t id, float u, float v,
+                             float constant) {
+  return id < 0 ? constant : hn::GetLane(EvalTexture(table, id, Splat(u), Splat(v)).x);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,127 @@
+// The texture stage: material parameters of every surface hit, from the material's
+// constants or its textures.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/texture/texture.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/texture/texture-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// What bounds a colour parameter from above: reflectances end at 1, indices do not.
+HWY_INLINE VF ColorLimit(const MaterialTable& materials, VI material) {
+  const DI di;
+  const DF df;
+  const VI kind = Gather(materials.kind.data(), material);
+  const auto is = [&](ShadeKind k) HWY_ATTR {
+    return hn::Eq(kind, hn::Set(di, static_cast<int32_t>(k)));
+  };
+  const auto index_of_refraction =
+      hn::Or(is(ShadeKind::kConductorSmooth),
+             hn::Or(is(ShadeKind::kConductorRough), is(ShadeKind::kCoatedConductor)));
+  return hn::IfThenElse(hn::RebindMask(df, index_of_refraction), Splat(3e38f),
+                        Splat(1.0f));
+}
+
+HWY_INLINE V3 ClampColor(V3 c, VF limit) {
+  const VF zero = Splat(0.0f);
+  return {hn::Min(hn::Max(c.x, zero), limit), hn::Min(hn::Max(c.y, zero), limit),
+          hn::Min(hn::Max(c.z, zero), limit)};
+}
+
+// GGX alpha: the constant, or from the texture as the material asks. pbrt's floor of
+// 1e-4.
+HWY_INLINE VF Alpha(const CompiledScene& scene, VI material, VF u, VF v,
+                    const AlignedVector<float>& constants,
+                    const AlignedVector<int32_t>& textures) {
+  const DI di;
+  const VI id = Gather(textures.data(), material);
+  const VF constant = Gather(constants.data(), material);
+  const auto textured = hn::Gt(id, hn::Set(di, -1));
+  if (hn::AllFalse(di, textured)) return constant;
+  const VF roughness =
+      hn::Max(EvalAlpha(scene.textures, id, u, v, constant), Splat(0.0f));
+  const VI remap = Gather(scene.materials.alpha_remap.data(), material);
+  const auto remapped = hn::RebindMask(DF(), hn::Ne(remap, hn::Zero(di)));
+  const VF alpha = hn::IfThenElse(remapped, hn::Sqrt(roughness), roughness);
+  return hn::IfThenElse(hn::RebindMask(DF(), textured), hn::Max(alpha, Splat(1e-4f)),
+                        constant);
+}
+
+template <bool kRoughness, bool kColor1>
+HWY_INLINE void Textures(Wave& wave) {
+  const CompiledScene& scene = *wave.scene;
+  const MaterialTable& m = scene.materials;
+  PathColumns& path = wave.path;
+  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](VI slots, MF) HWY_ATTR {
+    const VI material = Gather(path.material, slots);
+    const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
+    const VF limit = ColorLimit(m, material);
+    const V3 color0 = EvalTextures(
+        scene.textures, Gather(m.color0_texture.data(), material), u, v,
+        Gather3(m.color0_r.data(), m.color0_g.data(), m.color0_b.data(), material));
+    Scatter3(ClampColor(color0, limit), path.color0_r, path.color0_g, path.color0_b,
+             slots);
+    if constexpr (kColor1) {
+      const V3 color1 = EvalTextures(
+          scene.textures, Gather(m.color1_texture.data(), material), u, v,
+          Gather3(m.color1_r.data(), m.color1_g.data(), m.color1_b.data(), material));
+      Scatter3(ClampColor(color1, limit), path.color1_r, path.color1_g, path.color1_b,
+               slots);
+    }
+    if constexpr (kRoughness) {
+      Scatter(Alpha(scene, material, u, v, m.alpha_x, m.alpha_x_texture), path.alpha_x,
+              slots);
+      Scatter(Alpha(scene, material, u, v, m.alpha_y, m.alpha_y_texture), path.alpha_y,
+              slots);
+    }
+  });
+}
+
+void TexturesColor(Wave& wave) { Textures<false, false>(wave); }
+void TexturesRoughness(Wave& wave) { Textures<true, false>(wave); }
+void TexturesColor1(Wave& wave) { Textures<false, true>(wave); }
+void TexturesAll(Wave& wave) { Textures<true, true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include "src/core/check.h"
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(TexturesColor);
+HWY_EXPORT(TexturesRoughness);
+HWY_EXPORT(TexturesColor1);
+HWY_EXPORT(TexturesAll);
+
+Stage TextureStage() {
+  return {"texture",
+          "textured material parameters of surface hits",
+          QueueId::kSurface,
+          {Feature::kTextures},
+          FieldSet{Field::material} | fields::kUv,
+          fields::kParameters,
+          [](const FeatureSet& features) -> StageFn {
+            LL_CHECK(features.Has(Feature::kUv));
+            const bool roughness = features.Has(Feature::kTexturedRoughness);
+            const bool color1 = features.Has(Feature::kTexturedColor1);
+            if (roughness && color1) return HWY_DYNAMIC_DISPATCH(TexturesAll);
+            if (roughness) return HWY_DYNAMIC_DISPATCH(TexturesRoughness);
+            if (color1) return HWY_DYNAMIC_DISPATCH(TexturesColor1);
+            return HWY_DYNAMIC_DISPATCH(TexturesColor);
+          }};
+}
+
+}  // namespace lanelight
+
+#endif  // HWY_ONCE

@@ -1,0 +1,54 @@
+// Binned SAH construction of a binary tree over boxes, collapsed to wide nodes.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "src/accel/accel.h"
+
+namespace lanelight {
+
+struct AccelBox {
+  Vec3f lo{INFINITY, INFINITY, INFINITY}, hi{-INFINITY, -INFINITY, -INFINITY};
+
+  void Extend(Vec3f p) {
+    lo = Min(lo, p);
+    hi = Max(hi, p);
+  }
+  void Extend(const AccelBox& b) {
+    lo = Min(lo, b.lo);
+    hi = Max(hi, b.hi);
+  }
+  /// Half the surface area; 0 for an empty box.
+  float HalfArea() const {
+    const Vec3f e = hi - lo;
+    return e.x >= 0 ? e.x * e.y + e.y * e.z + e.z * e.x : 0.0f;
+  }
+};
+
+/// A shape to sort into the tree.
+struct BuildItem {
+  AccelBox box;
+  std::uint32_t id = 0;
+  /// Twice the centre of the box.
+  Vec3f Center2() const { return box.lo + box.hi; }
+};
+
+/// Shapes of one leaf: items[begin, end) after the build.
+struct LeafRange {
+  std::uint32_t begin = 0, end = 0;
+};
+
+struct BuiltTree {
+  Bvh bvh;                        // leaf references index `leaves`
+  std::vector<LeafRange> leaves;  // in the order of the tree
+};
+
+/// Sorts `items` into a tree whose leaves hold at most `leaf_size` shapes (1 to 8) and
+/// appends its nodes to `nodes`. With `leaf_size` 1 leaf references are item ids
+/// themselves. Runs in parallel; the result does not depend on the number of threads.
+BuiltTree BuildTree(std::vector<BuildItem>& items, std::uint32_t leaf_size,
+                    AlignedVector<WideNode>& nodes);
+
+}  // namespace lanelight

@@ -1,0 +1,101 @@
+// `lanelight plan` says what a scene gets and what it is spared; `compare` sets exit
+// codes.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "src/cli/exit_codes.h"
+#include "src/image/exr.h"
+#include "tests/cli/process.h"
+
+namespace lanelight {
+namespace {
+
+using Catch::Contains;
+
+bool Has(const nlohmann::json& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string WriteFlat(const std::string& path, float value, float variance) {
+  std::vector<ExrPlane> planes;
+  for (const char* name : {"R", "G", "B"}) {
+    planes.push_back({name, std::vector<float>(16 * 16, value), false});
+    planes.push_back(
+        {std::string("variance.") + name, std::vector<float>(16 * 16, variance), true});
+  }
+  WriteExr(path, 16, 16, planes);
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("plan prints what runs, what does not, and why", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory);
+  const ProcessResult r = RunLanelight({"plan", scene});
+  INFO(r.err);
+  REQUIRE(r.exit_code == kExitGood);
+  CHECK_THAT(r.out, Contains("bytes per path") && Contains("stages left out") &&
+                        Contains("fields left out") && Contains("wavefront"));
+  CHECK_THAT(r.out, Contains("no triangle"));
+}
+
+TEST_CASE("the plan of a sphere under a point light has only what it needs", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory);
+  const ProcessResult r = RunLanelight({"plan", scene, "--json"});
+  REQUIRE(r.exit_code == kExitGood);
+  const auto plan = nlohmann::json::parse(r.out).at("plan");
+  CHECK(Has(plan.at("features"), "Spheres"));
+  CHECK(Has(plan.at("features"), "PointLights"));
+  CHECK_FALSE(Has(plan.at("features"), "Triangles"));
+  CHECK_FALSE(Has(plan.at("features"), "Mis"));
+  CHECK(Has(plan.at("fields"), "o_x"));
+  CHECK(Has(plan.at("absent_fields"), "b1"));
+  CHECK(Has(plan.at("absent_fields"), "uv_u"));
+  CHECK(plan.at("bytes_per_path") == 4 * plan.at("fields").size());
+  CHECK(plan.at("wavefront") > 0);
+  CHECK_FALSE(plan.at("omitted_stages").empty());
+  for (const auto& stage : plan.at("omitted_stages")) CHECK(stage.at("reason") != "");
+}
+
+TEST_CASE("depth and auxiliary output change the plan", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory);
+  const auto features = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"plan", scene, "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProcessResult r = RunLanelight(arguments);
+    INFO(r.err);
+    return nlohmann::json::parse(r.out).at("plan").at("features");
+  };
+  CHECK(Has(features({}), "Roulette"));
+  CHECK_FALSE(Has(features({"--max-depth", "1"}), "Roulette"));
+  CHECK_FALSE(Has(features({}), "Aov"));
+  CHECK(Has(features({"--aov"}), "Aov"));
+}
+
+TEST_CASE("compare measures and judges", "[cli]") {
+  TempDirectory directory;
+  const std::string a = WriteFlat(directory / "a.exr", 1, 0.01f);
+  const std::string b = WriteFlat(directory / "b.exr", 1.1f, 0.01f);
+  const ProcessResult same = RunLanelight({"compare", a, a, "--max-relmse", "0"});
+  CHECK(same.exit_code == kExitGood);
+  CHECK_THAT(same.out, Contains("RMSE           0\n"));
+  const ProcessResult far = RunLanelight({"compare", a, b, "--max-relmse", "0.001"});
+  CHECK(far.exit_code == kExitOverLimit);
+  CHECK_THAT(far.err, Contains("over the limit"));
+  CHECK(RunLanelight({"compare", a, b}).exit_code == kExitGood);
+
+  const auto json = nlohmann::json::parse(RunLanelight({"compare", a, b, "--json"}).out);
+  CHECK(json.at("mse").get<double>() == Approx(0.01).epsilon(1e-4));
+  CHECK(json.at("z").at("mean").get<double>() ==
+        Approx(-0.1 / std::sqrt(0.02)).epsilon(1e-3));
+  const auto exact =
+      nlohmann::json::parse(RunLanelight({"compare", a, b, "--json", "--reference"}).out);
+  CHECK(exact.at("z").at("mean").get<double>() == Approx(-1).epsilon(1e-3));
+}
+
+}  // namespace lanelight

@@ -1,0 +1,120 @@
+// Flags, help, exit codes and standard streams of the program.
+#include <catch2/catch.hpp>
+
+#include "src/cli/exit_codes.h"
+#include "tests/cli/process.h"
+
+namespace lanelight {
+
+using Catch::Contains;
+
+TEST_CASE("help and version go to standard output and succeed", "[cli]") {
+  const ProcessResult version = RunLanelight({"--version"});
+  CHECK(version.exit_code == kExitGood);
+  CHECK_THAT(version.out, Contains("lanelight "));
+  const ProcessResult help = RunLanelight({"--help"});
+  CHECK(help.exit_code == kExitGood);
+  CHECK_THAT(help.out, Contains("Examples:") && Contains("Exit codes:"));
+  for (const char* command : {"render", "plan", "info", "compare"}) {
+    CHECK_THAT(help.out, Contains(command));
+    const ProcessResult detail = RunLanelight({command, "--help"});
+    CHECK(detail.exit_code == kExitGood);
+    CHECK_THAT(detail.out, Contains("Example"));
+    CHECK(detail.err.empty());
+  }
+}
+
+TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
+  struct Case {
+    std::vector<std::string> arguments;
+    const char* message;
+  };
+  const Case cases[] = {
+      {{}, "Usage"},
+      {{"rendr", "x.pbrt"}, "did you mean 'render'?"},
+      {{"frobnicate"}, "commands are render, plan, info, compare"},
+      {{"render"}, "required"},
+      {{"render", "x.pbrt"}, "--output is required"},
+      {{"render", "x.pbrt", "-o", "x.png"}, "does not end in .exr"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--resoluton", "3x3"},
+       "Did you mean --resolution?"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--resolution", "3x"}, "WIDTHxHEIGHT"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--resolution", "0x3"}, "WIDTHxHEIGHT"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--resolution", "99999999999x3"},
+       "WIDTHxHEIGHT"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--crop", "4,4,2,8"}, "x0 < x1"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--spp", "0"}, "--spp"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--spp", "-4"}, "--spp"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--spp", "4294967296"}, "--spp"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--spp", "4", "--time", "2"}, "excludes"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--time", "nan"}, "--time"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--max-depth", "-1"}, "--max-depth"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--threads", "-1"}, "--threads"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--target", "AVX9000"}, "EMU128"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--sampler", "halton"}, "independent, sobol"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--scattering", "cosine"}, "insphere"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--depth", "double"}, "half"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--png", "x.jpg"}, "does not end in .png"},
+      {{"compare", "a.exr"}, "required"},
+      {{"compare", "a.exr", "b.exr", "--max-relmse", "-1"}, "--max-relmse"},
+  };
+  for (const Case& c : cases) {
+    const ProcessResult r = RunLanelight(c.arguments);
+    INFO(c.message);
+    CHECK(r.exit_code == kExitUsage);
+    CHECK_THAT(r.err, Contains(c.message));
+    CHECK(r.out.empty());
+  }
+}
+
+TEST_CASE("info prints the target, threads and libraries", "[cli]") {
+  const ProcessResult r = RunLanelight({"info", "--threads", "1"});
+  CHECK(r.exit_code == kExitGood);
+  for (const char* word : {"target", "lanes", "EMU128", "threads", "highway", "onetbb",
+                           "openexr", "fmt", "nlohmann_json", "cli11"}) {
+    CHECK_THAT(r.out, Contains(word));
+  }
+  const ProcessResult forced = RunLanelight({"info", "--target", "emu128"});
+  CHECK_THAT(forced.out,
+             Contains("target         EMU128") && Contains("lanes          4"));
+}
+
+TEST_CASE("a reader that goes away is no error", "[cli]") {
+  ProcessOptions closed;
+  closed.close_stdout_reader = true;
+  const ProcessResult r = RunLanelight({"info"}, closed);
+  CHECK(r.signal == 0);
+  CHECK(r.exit_code == kExitGood);
+  CHECK(r.err.empty());
+}
+
+TEST_CASE("a full disk behind standard output is an error", "[cli]") {
+  ProcessOptions full;
+  full.stdout_path = "/dev/full";
+  for (const char* argument : {"info", "--help", "--version"}) {
+    const ProcessResult r = RunLanelight({argument}, full);
+    CHECK(r.exit_code == kExitBadInput);
+    CHECK_THAT(r.err, Contains("No space left on device"));
+  }
+}
+
+TEST_CASE("bad input exits with 1 and names the file", "[cli]") {
+  TempDirectory directory;
+  const std::string out = directory / "out.exr";
+  const ProcessResult missing =
+      RunLanelight({"render", directory / "no.pbrt", "-o", out});
+  CHECK(missing.exit_code == kExitBadInput);
+  CHECK_THAT(missing.err, Contains("no.pbrt"));
+  const std::string broken =
+      WriteText(directory / "broken.pbrt", "WorldBegin\nShpe \"disk\"\n");
+  const ProcessResult parse = RunLanelight({"render", broken, "-o", out});
+  CHECK(parse.exit_code == kExitBadInput);
+  CHECK_THAT(parse.err, Contains("broken.pbrt:2:") && Contains("Shape"));
+  CHECK(RunLanelight({"plan", broken}).exit_code == kExitBadInput);
+  const ProcessResult compare = RunLanelight({"compare", out, out});
+  CHECK(compare.exit_code == kExitBadInput);
+  CHECK_THAT(compare.err, Contains("out.exr"));
+  CHECK(directory.Files() == std::vector<std::string>{"broken.pbrt"});
+}
+
+}  // namespace lanelight

@@ -1,0 +1,59 @@
+# One fuzz target per file of tests/fuzz, with libFuzzer and the address and undefined
+# behaviour sanitizers; needs clang and its run-time libraries. Only what reads input is
+# compiled again for it. Seeds are taken from tests/fuzz/corpus/<target>, scenes and
+# tests/broken.
+set(LANELIGHT_FUZZ_SECONDS 20 CACHE STRING "Seconds that ctest fuzzes each target")
+file(GLOB FUZZ_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/*.cc)
+if(NOT FUZZ_SOURCES)
+  return()
+endif()
+
+include(CheckCXXSourceCompiles)
+set(CMAKE_REQUIRED_FLAGS "-fsanitize=fuzzer,address,undefined")
+check_cxx_source_compiles(
+  "extern \"C\" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }"
+  LANELIGHT_HAS_FUZZER)
+unset(CMAKE_REQUIRED_FLAGS)
+if(NOT LANELIGHT_HAS_FUZZER)
+  message(STATUS "No fuzz targets: ${CMAKE_CXX_COMPILER_ID} has no -fsanitize=fuzzer here")
+  return()
+endif()
+
+# A static library, so that only what the targets use is linked.
+file(GLOB FUZZ_LIBRARY_SOURCES CONFIGURE_DEPENDS
+  ${CMAKE_SOURCE_DIR}/src/core/*.cc ${CMAKE_SOURCE_DIR}/src/scene/*.cc
+  ${CMAKE_SOURCE_DIR}/src/image/*.cc)
+list(FILTER FUZZ_LIBRARY_SOURCES EXCLUDE REGEX "src/scene/compile[^/]*\\.cc$")
+set(FUZZ_FLAGS -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all)
+add_library(lanelight_fuzz_lib STATIC EXCLUDE_FROM_ALL ${FUZZ_LIBRARY_SOURCES})
+target_compile_options(lanelight_fuzz_lib PRIVATE ${FUZZ_FLAGS}
+  -fsanitize=fuzzer-no-link,address,undefined)
+target_compile_definitions(lanelight_fuzz_lib PUBLIC LANELIGHT_VERSION="${PROJECT_VERSION}")
+target_link_libraries(lanelight_fuzz_lib PUBLIC lanelight_options hwy::hwy TBB::tbb
+  OpenEXR::OpenEXR fmt::fmt nlohmann_json::nlohmann_json FastFloat::fast_float
+  PkgConfig::STB)
+
+add_custom_target(lanelight_fuzz)
+foreach(file ${FUZZ_SOURCES})
+  get_filename_component(name ${file} NAME_WE)
+  add_executable(${name} EXCLUDE_FROM_ALL ${file})
+  target_compile_options(${name} PRIVATE ${FUZZ_FLAGS}
+    -fsanitize=fuzzer,address,undefined)
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer,address,undefined)
+  target_compile_definitions(${name} PRIVATE LANELIGHT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE lanelight_fuzz_lib)
+  add_dependencies(lanelight_fuzz ${name})
+  set(corpus ${CMAKE_BINARY_DIR}/corpus/${name})
+  file(MAKE_DIRECTORY ${corpus})
+  set(seeds ${corpus})
+  foreach(folder ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name}
+                 ${CMAKE_CURRENT_SOURCE_DIR}/broken ${CMAKE_SOURCE_DIR}/scenes)
+    if(EXISTS ${folder})
+      list(APPEND seeds ${folder})
+    endif()
+  endforeach()
+  add_test(NAME fuzz/${name} COMMAND ${name} -max_total_time=${LANELIGHT_FUZZ_SECONDS}
+    -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 ${seeds}
+    WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
+  set_tests_properties(fuzz/${name} PROPERTIES LABELS fuzz TIMEOUT 300)
+endforeach()

@@ -1,0 +1,109 @@
+// Closest and any hits on triangles against brute force in double precision.
+#include <catch2/catch.hpp>
+
+#include "kernels/simd/target.h"
+#include "tests/intersect/brute_force.h"
+#include "tests/intersect/trace.h"
+
+namespace lanelight {
+namespace {
+
+using brute::Random;
+using brute::ToDouble;
+
+std::vector<KernelHit> Trace(const CompiledScene& scene,
+                             const std::vector<TestRay>& rays) {
+  return TraceClosest(scene, rays, {IntersectTrianglesStage()});
+}
+
+std::vector<TestRay> RandomRays(Random& random, int n, float size) {
+  std::vector<TestRay> rays;
+  for (int i = 0; i < n; ++i) rays.push_back({random.Point(size), random.Direction()});
+  return rays;
+}
+
+// Rays whose nearest hit is not within `margin` of an edge of any triangle, compared with
+// the kernel.
+void CompareWithBruteForce(const CompiledScene& scene, const std::vector<TestRay>& rays,
+                           double margin, double t_tolerance) {
+  const auto hits = Trace(scene, rays);
+  int compared = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Vec3d o = ToDouble(rays[i].o), d = ToDouble(rays[i].d);
+    bool clear = true;
+    for (const TriangleRecord& tri : scene.geometry.triangles) {
+      const auto hit = brute::Solve(tri, o, d);
+      clear = clear && (!hit || std::abs(hit->inside) > margin);
+    }
+    if (!clear) continue;
+    const brute::Hit truth = brute::Closest(scene.geometry.triangles, o, d);
+    CAPTURE(i, truth.prim, truth.t, hits[i].prim, hits[i].t, truth.inside);
+    ++compared;
+    REQUIRE(std::isinf(truth.t) == std::isinf(hits[i].t));
+    if (std::isinf(truth.t)) continue;
+    REQUIRE(hits[i].prim == truth.prim);
+    REQUIRE(std::abs(hits[i].t - truth.t) <= t_tolerance);
+    REQUIRE(std::abs(hits[i].b1 - truth.b1) <= margin);
+    REQUIRE(std::abs(hits[i].b2 - truth.b2) <= margin);
+  }
+  CHECK(compared > static_cast<int>(rays.size()) / 2);
+}
+
+}  // namespace
+
+TEST_CASE("closest triangle hits agree with brute force", "[intersect]") {
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    CAPTURE(target);
+    Random random(7);
+    for (int n : {1, 2, 36, 64, 65, 700}) {
+      CAPTURE(n);
+      const CompiledScene scene = MakeScene(brute::Soup(random, n, 1, 0.6f));
+      CompareWithBruteForce(scene, RandomRays(random, 500, 2), 1e-5, 1e-5);
+    }
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("any-hit keeps exactly the rays without a nearer hit", "[intersect]") {
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    CAPTURE(target);
+    Random random(8);
+    for (int n : {36, 300}) {
+      const CompiledScene scene = MakeScene(brute::Soup(random, n, 1, 0.4f));
+      std::vector<TestRay> rays = RandomRays(random, 1000, 1);
+      const auto hits = Trace(scene, rays);
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        // Ends before, exactly at, and beyond the nearest hit; the end is exclusive.
+        if (!std::isinf(hits[i].t)) {
+          rays[i].t_max = i % 3 == 0   ? hits[i].t
+                          : i % 3 == 1 ? std::nextafter(hits[i].t, 1e30f)
+                                       : 0.5f * hits[i].t;
+        }
+        if (std::isinf(hits[i].t) || i % 3 != 1) expected.push_back(i);
+      }
+      CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage()}) == expected);
+    }
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("the tree and the plain loop report the same bits", "[intersect]") {
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    CAPTURE(target);
+    Random random(9);
+    for (float edge : {0.02f, 0.5f, 2.0f}) {
+      const Geometry geometry = brute::Soup(random, 64, 1, edge);
+      const auto rays = RandomRays(random, 2000, 1.5f);
+      const auto plain = Trace(MakeScene(geometry), rays);
+      const auto tree = Trace(MakeScene(geometry, {.few_triangles = 0}), rays);
+      CHECK(plain == tree);
+    }
+  }
+  ForceTarget("");
+}
+
+}  // namespace lanelight

@@ -1,0 +1,148 @@
+// The scalar twin of kernels/texture: recursion, double precision, its own formulas.
+#pragma once
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "src/image/image.h"
+#include "src/scene/description.h"
+
+namespace lanelight::reference {
+
+/// Textures of a description with their images.
+class Textures {
+ public:
+  explicit Textures(const std::vector<Texture>& textures) : textures_(textures) {
+    for (const Texture& t : textures) {
+      if (t.kind == TextureKind::kImage && !images_.count(t.path)) {
+        images_[t.path] = ReadImage(t.path);
+      }
+    }
+  }
+
+  /// Value of a texture at surface coordinates (u, v).
+  Rgb Eval(Index index, double u, double v) const {
+    const Texture& t = textures_[index];
+    switch (t.kind) {
+      case TextureKind::kConstant:
+        return t.value;
+      case TextureKind::kScale:
+        return Child(t.tex1, u, v) * Child(t.amount, u, v);
+      case TextureKind::kMix: {
+        const double a = Child(t.amount, u, v);
+        return (1 - a) * Child(t.tex1, u, v) + a * Child(t.tex2, u, v);
+      }
+      case TextureKind::kCheckerboard: {
+        const double cells = std::floor(S(t, u)) + std::floor(T(t, v));
+        return std::fmod(std::abs(cells), 2) == 0 ? Child(t.tex1, u, v)
+                                                  : Child(t.tex2, u, v);
+      }
+      case TextureKind::kImage:
+        return EvalImage(t, S(t, u), T(t, v));
+    }
+    return {};
+  }
+
+ private:
+  static double S(const Texture& t, double u) { return t.mapping.su * u + t.mapping.du; }
+  static double T(const Texture& t, double v) { return t.mapping.sv * v + t.mapping.dv; }
+  Rgb Child(const ColorValue& c, double u, double v) const {
+    return c.texture == kNone ? c.constant : Eval(c.texture, u, v);
+  }
+  double Child(const FloatValue& f, double u, double v) const {
+    return f.texture == kNone ? f.constant : Eval(f.texture, u, v).x;
+  }
+
+  // The image is a grid of samples at texel centres; row 0 is at the top, where v = 1.
+  Rgb EvalImage(const Texture& t, double s, double v) const {
+    const Image& image = images_.at(t.path);
+    double x = s, y = 1 - v;
+    if (t.wrap == WrapMode::kOctahedralSphere) {
+      x = std::min(std::max(x, 0.0), 1.0);
+      y = std::min(std::max(y, 0.0), 1.0);
+    }
+    x *= image.width, y *= image.height;
+    Rgb sum;
+    if (t.bilinear) {
+      // Tent weights of the four nearest centres.
+      for (int dy = 0; dy < 2; ++dy) {
+        for (int dx = 0; dx < 2; ++dx) {
+          const double cx = std::floor(x - 0.5) + dx, cy = std::floor(y - 0.5) + dy;
+          const double weight =
+              (1 - std::abs(x - (cx + 0.5))) * (1 - std::abs(y - (cy + 0.5)));
+          sum += weight * Sample(t, image, cx, cy);
+        }
+      }
+    } else {
+      sum = Sample(t, image, std::floor(x), std::floor(y));
+    }
+    for (int c = 0; c < 3; ++c) {
+      sum[c] *= t.scale;
+      if (t.invert) sum[c] = 1 - sum[c];
+      if (sum[c] < 0) sum[c] = 0;
+    }
+    return sum;
+  }
+
+  static double Modulo(double a, double n) { return a - n * std::floor(a / n); }
+
+  // The sample in column cx, row cy of the plane tiled, extended or mirrored with the
+  // image.
+  Rgb Sample(const Texture& t, const Image& image, double cx, double cy) const {
+    const double w = image.width, h = image.height;
+    switch (t.wrap) {
+      case WrapMode::kRepeat:
+        cx = Modulo(cx, w), cy = Modulo(cy, h);
+        break;
+      case WrapMode::kClamp:
+        break;
+      case WrapMode::kBlack:
+        if (cx < 0 || cx >= w || cy < 0 || cy >= h) return {};
+        break;
+      case WrapMode::kOctahedralSphere:
+        // Crossing an edge leads back in at the mirror image of the crossing point.
+        if (cx < 0 || cx >= w) cx = cx < 0 ? -1 - cx : 2 * w - 1 - cx, cy = h - 1 - cy;
+        if (cy < 0 || cy >= h) cy = cy < 0 ? -1 - cy : 2 * h - 1 - cy, cx = w - 1 - cx;
+        break;
+    }
+    const int i = static_cast<int>(std::min(std::max(cx, 0.0), w - 1));
+    const int j = static_cast<int>(std::min(std::max(cy, 0.0), h - 1));
+    return Pixel(t, image, i, j);
+  }
+
+  double Channel(const Texture& t, const Image& image, int i, int j, int c) const {
+    if (!image.is_bytes()) return image.At(i, j, c);
+    const double e = image.bytes[image.Offset(i, j, c)] / 255.0;
+    if (t.encoding == Encoding::kLinear) return e;
+    if (t.encoding == Encoding::kGamma) return std::pow(e, t.gamma);
+    return e <= 0.04045 ? e / 12.92 : std::pow((e + 0.055) / 1.055, 2.4);
+  }
+
+  Rgb Pixel(const Texture& t, const Image& image, int i, int j) const {
+    const auto channel = [&](int c) { return Channel(t, image, i, j, c); };
+    if (image.channels < 3) return Rgb{1, 1, 1} * channel(0);
+    const Rgb rgb{channel(0), channel(1), channel(2)};
+    if (!t.is_float) return rgb;
+    bool has_alpha = false;
+    for (int y = 0; image.channels == 4 && y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        has_alpha |= image.is_bytes() ? image.bytes[image.Offset(x, y, 3)] != 255
+                                      : image.At(x, y, 3) != 1;
+      }
+    }
+    return Rgb{1, 1, 1} * (has_alpha ? channel(3) : (rgb.x + rgb.y + rgb.z) / 3);
+  }
+
+  const std::vector<Texture>& textures_;
+  std::map<std::string, Image> images_;
+};
+
+/// Value of texture `index` at (u, v); loads the images each time.
+inline Rgb EvalTexture(const std::vector<Texture>& textures, Index index, double u,
+                       double v) {
+  return Textures(textures).Eval(index, u, v);
+}
+
+}  // namespace lanelight::reference

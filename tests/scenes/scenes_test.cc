@@ -1,0 +1,122 @@
+// Our own scenes say what they are for, load without a note of anything unused, and
+// compile; scenes/generate writes what the parser reads.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "src/scene/compile.h"
+#include "src/scene/parse.h"
+
+namespace lanelight {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> OwnScenes() {
+  const fs::path root = fs::path(LANELIGHT_SOURCE_DIR) / "scenes";
+  std::vector<fs::path> scenes;
+  for (const fs::path& folder : {root, root / "stiff"}) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.path().extension() == ".pbrt") scenes.push_back(entry.path());
+    }
+  }
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+std::string ReadText(const fs::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("own scenes: the header states purpose, needs and closed form", "[scenes]") {
+  const auto scenes = OwnScenes();
+  CHECK(scenes.size() >= 18);
+  for (const fs::path& path : scenes) {
+    const std::string text = ReadText(path);
+    INFO(path);
+    for (const char* word : {"# Purpose: ", "# Needs: ", "# Closed form: "}) {
+      CHECK(text.find(word) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("own scenes: all parse and compile", "[scenes]") {
+  for (const fs::path& path : OwnScenes()) {
+    INFO(path);
+    SceneDescription scene;
+    REQUIRE_NOTHROW(scene = ParseScene(path.string()));
+    for (const Note& note : scene.notes) {
+      INFO(note.where.ToString() << ": " << note.message);
+      CHECK(false);
+    }
+    CHECK(scene.film.width <= 512);
+    CHECK(scene.film.height <= 512);
+    CHECK(scene.sampler.spp == 64);
+    CHECK(scene.sampler.kind == SamplerKind::kSobol);
+    REQUIRE_NOTHROW(CompileScene(scene));
+  }
+}
+
+TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
+  const fs::path root = fs::path(LANELIGHT_SOURCE_DIR) / "scenes";
+  const auto features = [&](const char* name) {
+    return CompileScene(ParseScene((root / name).string())).features;
+  };
+  const FeatureSet paper = features("paper.pbrt");
+  CHECK(paper.HasAll({Feature::kPlanes, Feature::kSpheres, Feature::kPointLights,
+                      Feature::kConductorSmooth, Feature::kDielectricSmooth}));
+  CHECK_FALSE(paper.HasAny({Feature::kTriangles, Feature::kMis, Feature::kManyLights}));
+  CHECK(features("furnace.pbrt")
+            .HasAll({Feature::kDiffuseUniform, Feature::kDiffuseInSphere,
+                     Feature::kThinDielectric, Feature::kDiffuseTransmission}));
+  CHECK(features("closed-room.pbrt")
+            .HasAll({Feature::kSphereLights, Feature::kTriangleLights,
+                     Feature::kDiskLights}));
+  CHECK(features("instances.pbrt").Has(Feature::kInstances));
+  CHECK(
+      features("sun-sky.pbrt")
+          .HasAll({Feature::kDistantLights, Feature::kInfiniteConstant, Feature::kLens}));
+  CHECK(
+      features("many-lights.pbrt").HasAll({Feature::kSpotLights, Feature::kManyLights}));
+  CHECK(features("glass.pbrt").HasAll({Feature::kDielectricRough, Feature::kTextures}));
+  CHECK(features("stiff/roughness-1e-4.pbrt")
+            .HasAll({Feature::kConductorRough, Feature::kConductorSmooth}));
+}
+
+TEST_CASE("own scenes: generated meshes can be read", "[scenes]") {
+  if (std::system("python3 --version > /dev/null 2>&1") != 0) {
+    WARN("skipped: no python3");
+    return;
+  }
+  const fs::path folder = fs::temp_directory_path() / "lanelight_generate_test";
+  fs::remove_all(folder);
+  const std::string script =
+      std::string("python3 ") + LANELIGHT_SOURCE_DIR + "/scenes/generate ";
+  REQUIRE(
+      std::system((script + "all --size 300 --out " + folder.string() + " > /dev/null")
+                      .c_str()) == 0);
+  for (const char* name : {"terrain", "soup", "flake", "needles", "stadium"}) {
+    const SceneDescription scene = ParseScene((folder / name).string() + ".pbrt");
+    INFO(name);
+    REQUIRE(scene.shapes.size() == 1);
+    CHECK(scene.shapes[0].mesh->indices.size() >= 3 * 288);
+    REQUIRE_NOTHROW(CompileScene(scene));
+  }
+  // The same arguments give the same bytes; bad ones a usage error.
+  const std::string first = ReadText(folder / "soup.ply");
+  REQUIRE(
+      std::system((script + "soup --size 300 --out " + folder.string() + " > /dev/null")
+                      .c_str()) == 0);
+  CHECK(ReadText(folder / "soup.ply") == first);
+  CHECK(std::system((script + "soup --size 2 2> /dev/null").c_str()) != 0);
+  fs::remove_all(folder);
+}
+
+}  // namespace lanelight

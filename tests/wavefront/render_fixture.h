@@ -1,0 +1,72 @@
+// Renders a scene text in one call, for tests.
+#pragma once
+
+#include <string>
+
+#include "src/core/parallel.h"
+#include "src/scene/compile.h"
+#include "src/scene/parse.h"
+#include "src/wavefront/run.h"
+
+namespace lanelight {
+
+struct TestRender {
+  std::uint64_t spp = 16;
+  std::uint64_t seed = 1;
+  int threads = 2;
+  std::uint32_t wavefront = 0;
+  SamplerKind sampler = SamplerKind::kIndependent;
+  bool aov = false;
+  CompileOptions compile;
+};
+
+struct Rendered {
+  FilmAccumulator film;
+  RunResult result;
+  Plan plan;
+};
+
+inline Rendered RenderDescription(const SceneDescription& description, const TestRender& t) {
+  const ThreadLimit limit(t.threads);
+  const CompiledScene scene = CompileScene(description, t.compile);
+  PlanOptions plan_options;
+  plan_options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
+  plan_options.sampler = t.sampler;
+  plan_options.aov = t.aov;
+  plan_options.wavefront = t.wavefront;
+  const Plan plan = MakePlan(scene, plan_options);
+  Rendered out{FilmAccumulator(0, 0, scene.film.width, scene.film.height,
+                               GroupSize(t.sampler, t.spp), t.aov),
+               {},
+               plan};
+  RunOptions options;
+  options.spp = t.spp;
+  options.seed = t.seed;
+  out.result = Run(scene, plan, options, out.film);
+  return out;
+}
+
+inline Rendered RenderText(const std::string& text, const TestRender& t = {}) {
+  return RenderDescription(ParseSceneText(text, "test.pbrt", "."), t);
+}
+
+/// Mean over the pixels of the image.
+inline Rgb ImageMean(const FilmAccumulator& film) {
+  Rgb sum;
+  for (int y = 0; y < film.height(); ++y) {
+    for (int x = 0; x < film.width(); ++x) sum += film.Mean(x, y);
+  }
+  return sum / (double(film.width()) * film.height());
+}
+
+/// Standard error of ImageMean per channel, from the films' own variances.
+inline Rgb ImageStandardError(const FilmAccumulator& film) {
+  Rgb sum;
+  for (int y = 0; y < film.height(); ++y) {
+    for (int x = 0; x < film.width(); ++x) sum += film.Variance(x, y);
+  }
+  const double n = double(film.width()) * film.height();
+  return {std::sqrt(sum.x) / n, std::sqrt(sum.y) / n, std::sqrt(sum.z) / n};
+}
+
+}  // namespace lanelight
