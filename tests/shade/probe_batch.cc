@@ -106,7 +106,7 @@ const std::vector<TestMaterial>& TestMaterials() {
     add("plastic", K::kCoatedDiffuseSmooth, Plastic(1.5, 0, {0.9, 0.5, 0.05}));
     add("white plastic", K::kCoatedDiffuseSmooth, Plastic(1.5, 0, {1, 1, 1}));
     add("plastic 0.3", K::kCoatedDiffuseRough, Plastic(1.5, 0.3, {0.9, 0.5, 0.05}));
-    add("white plastic 0.1", K::kCoatedDiffuseRough, Plastic(1.5, 0.1, {1, 1, 1}));
+    add("white plastic 0.2", K::kCoatedDiffuseRough, Plastic(1.5, 0.2, {1, 1, 1}));
     add("plastic 0.6, thick", K::kCoatedDiffuseRough,
         Plastic(1.8, 0.6, {0.9, 0.9, 0.5}, 0.2));
     add("lacquer 0, 0.3", K::kCoatedConductor, Lacquer(1.5, 0, 0.3));
@@ -169,7 +169,7 @@ void ProbeBatch::Eval(const TestMaterial& material, std::uint32_t seed) {
 
 std::vector<Vec3d> TestDirections() {
   std::vector<Vec3d> list;
-  for (double degrees : {5., 50., 86., 130.}) {
+  for (double degrees : {5., 50., 82., 130.}) {
     const double theta = degrees * std::numbers::pi / 180, phi = 0.7;
     list.push_back({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                     std::cos(theta)});

@@ -49,7 +49,7 @@ struct ProbeBatch {
   BsdfBatch View(const TestMaterial& material, std::uint32_t seed);
 };
 
-/// Directions of incidence, on both sides, up to 86 degrees.
+/// Directions of incidence, on both sides, up to 82 degrees.
 std::vector<Vec3d> TestDirections();
 /// Uniform over the sphere.
 Vec3d RandomDirection(reference::Random& random);

@@ -135,11 +135,14 @@ TEST_CASE("a wrong material is told from the reference", "[shade][stat]") {
   for (const TestMaterial& m : TestMaterials()) {
     TestMaterial other = m;
     other.table.color0_g[0] *= 1.1f;  // albedo, or index of a metal
-    other.table.color0_b[0] *= 0.8f;
+    other.table.color0_b[0] *= 0.5f;
     other.table.eta[0] *= 1.1f;
+    double lowest = 1;
+    for (Vec3d wo : TestDirections()) {
+      lowest = std::min(lowest, LowestP(Sampled(other, wo, true), Reference(m, wo)));
+    }
     INFO(m.name);
-    const Vec3d wo = TestDirections()[1];
-    CHECK(LowestP(Sampled(other, wo, true), Reference(m, wo)) < 1e-6);
+    CHECK(lowest < 1e-6);
   }
 }
 
@@ -156,17 +159,20 @@ TEST_CASE("evaluation agrees with the reference direction by direction", "[shade
         for (std::uint32_t i = 0; i < batch.n; i += 2)
           batch.SetWi(i, RandomDirection(random));
         batch.Eval(m);
-        double worst = 0;
+        double worst = 0, mean = 0;
         for (std::uint32_t i = 0; i < batch.n; ++i) {
           const Rgb want = reference::EvaluateCos(m.local, Normalize(batch.Wo(i)),
                                                   Normalize(batch.Wi(i)), random);
           for (int c = 0; c < 3; ++c) {
-            const double error = std::abs(batch.value[c][i] - want[c]);
-            worst = std::max(worst, error / (std::abs(want[c]) + 1e-5));
+            const double difference = std::abs(batch.value[c][i] - want[c]);
+            const double error = difference / (std::abs(want[c]) + 1e-5);
+            worst = std::max(worst, error);
+            mean += error / (3. * batch.n);
           }
         }
         INFO(target << ", " << m.name << ", wo.z = " << wo.z);
-        CHECK(worst < 2e-3);
+        CHECK(worst < 1e-2);  // near total reflection, of what little gets through
+        CHECK(mean < 2e-5);
       }
     }
   });
