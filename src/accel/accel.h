@@ -36,8 +36,8 @@ inline constexpr std::uint32_t kFewRound = 16;
 /// Rays of a vector are traced together if their directions (unit length) agree in sign
 /// and differ by at most this per axis, and their origins by at most kPacketExtent times
 /// the reach of the scene.
-inline constexpr float kPacketSpread = 0.3f;
-inline constexpr float kPacketExtent = 0.1f;
+inline constexpr float kPacketSpread = 0.8f;
+inline constexpr float kPacketExtent = 0.3f;
 /// `inst` of a hit on a triangle of the world, and of any sphere, disk or plane.
 inline constexpr std::uint32_t kWorldInstance = 0xffffffffu;
 
