@@ -15,9 +15,13 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 /// Uniform numbers in [0, 1) with 24 bits, a pure function of the four key words and of
-/// how many were drawn before. Each hash (Pcg4d) gives four numbers. The counter advances with every
-/// call of Next4, whichever lanes need it, so lanes never influence each other.
+/// how many were drawn before. Each hash (Pcg4d) gives four numbers. The counter advances
+/// with every call of Next4, whichever lanes need it, so lanes never influence each
+/// other.
 struct LaneRandom {
+  /// Combined with the seed, keeps these numbers apart from the sample points.
+  static constexpr std::uint32_t kStream = 0x7feb352du;
+
   VU pixel, sample, depth, seed;
 
   HWY_INLINE void Next4(VF out[4]) {
