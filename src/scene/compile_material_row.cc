@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/core/parallel.h"
+#include "src/scene/coat_color.h"
 #include "src/scene/coat_table.h"
 
 namespace lanelight {
@@ -52,6 +53,25 @@ void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out) {
   }
 }
 
+namespace {
+
+// The base below a coat acts on light as a spectrum; see coat_color.h. Textured colours
+// stay as they are.
+void SetBaseColor(MaterialTable& table, std::size_t i) {
+  const auto kind = static_cast<ShadeKind>(table.kind[i]);
+  const bool diffuse_base =
+      kind == ShadeKind::kCoatedDiffuseSmooth || kind == ShadeKind::kCoatedDiffuseRough;
+  if (!diffuse_base || table.color0_texture[i] >= 0) return;
+  const Rgb base = EffectiveCoatBase(
+      {table.color0_r[i], table.color0_g[i], table.color0_b[i]}, table.coat_internal[i],
+      static_cast<int>((table.coat_depth[i] + 1) / 2));
+  table.color0_r[i] = static_cast<float>(base.x);
+  table.color0_g[i] = static_cast<float>(base.y);
+  table.color0_b[i] = static_cast<float>(base.z);
+}
+
+}  // namespace
+
 void AddCoatTables(const std::map<Coat, std::int32_t>& coats, MaterialTable& table) {
   std::vector<Coat> list(coats.size());
   for (const auto& [coat, at] : coats) list[static_cast<std::size_t>(at)] = coat;
@@ -67,6 +87,7 @@ void AddCoatTables(const std::map<Coat, std::int32_t>& coats, MaterialTable& tab
     if (table.coat[i] < 0) continue;
     const auto at = static_cast<std::size_t>(table.coat[i] / kCoatTableSize);
     table.coat_internal[i] = tables[at].internal_reflectance;
+    SetBaseColor(table, i);
   }
 }
 
