@@ -27,7 +27,7 @@ struct SharedScene {
 constexpr SharedScene kScenes[] = {
     {"cornell-box", true, false},      {"veach-mis", false, true},
     {"veach-bidir", false, true},      {"veach-ajar", true, true},
-    {"coffee", true, false},           {"material-testball", false, false},
+    {"coffee", false, false},           {"material-testball", false, false},
     {"spaceship", false, false},       {"dining-room", false, true}};
 
 std::filesystem::path SharedFolder() {
