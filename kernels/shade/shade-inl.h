@@ -97,7 +97,7 @@ struct Shader {
       in.random = {hn::BitCast(du, Gather(path.pixel, slots)),
                    hn::BitCast(du, Gather(path.sample, slots)),
                    hn::BitCast(du, Gather(path.depth, slots)),
-                   hn::Set(du, wave.run->seed)};
+                   hn::Set(du, wave.run->seed ^ LaneRandom::kStream)};
     }
     return in;
   }

@@ -4,7 +4,6 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
-#include <numeric>
 #include <sstream>
 
 #include "src/cli/commands.h"
@@ -12,6 +11,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/scene/suggest.h"
 
 namespace lanelight {
 namespace {
@@ -27,21 +27,6 @@ constexpr const char* kFooter =
     "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
     "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
     "samples, 4 compare: over the limit.";
-
-int EditDistance(const std::string& a, const std::string& b) {
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    int diagonal = row[0];
-    row[0] = static_cast<int>(i) + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const int replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 std::vector<std::string> SubcommandNames(const CLI::App& root) {
   std::vector<std::string> names;
@@ -102,19 +87,6 @@ int Parse(CLI::App& root, int argc, const char* const* argv, int& exit_code) {
 }
 
 }  // namespace
-
-std::string NearestName(const std::string& word, const std::vector<std::string>& known) {
-  std::string best;
-  int best_distance = static_cast<int>(word.size()) / 3 + 2;
-  for (const std::string& name : known) {
-    const int distance = EditDistance(word, name);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = name;
-    }
-  }
-  return best;
-}
 
 int RunCommandLine(int argc, const char* const* argv) {
   // A reader that goes away must not kill a render: writes fail with EPIPE instead.

@@ -127,6 +127,7 @@ int Render(const RenderCommandOptions& options) {
   report.half = options.depth == "half";
   report.result = RunJob(
       job, film, [&](const Progress& p) { progress.Update(p); }, &interrupt.stop());
+  report.result.stopped_early |= interrupt.stop().load();
   progress.Finish();
   report.error = EstimateError(film);
 
