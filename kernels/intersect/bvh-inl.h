@@ -113,11 +113,11 @@ HWY_INLINE uint32_t PushChildren(const WideNode& node, uint32_t bits, const floa
   return static_cast<uint32_t>(best);
 }
 
-/// Visits the leaves that the ray meets before `t_max`, roughly nearest first. `leaf` may
-/// lower t_max; it returns true to end the traversal.
-template <class Leaf>
+/// Visits the leaves that the ray (a SlabRay, or a Frustum) meets before `t_max`, roughly
+/// nearest first. `leaf` may lower t_max; it returns true to end the traversal.
+template <class Ray, class Leaf>
 HWY_INLINE void Traverse(const WideNode* HWY_RESTRICT nodes, uint32_t root,
-                         const SlabRay& ray, const float& t_max, Leaf&& leaf) {
+                         const Ray& ray, const float& t_max, Leaf&& leaf) {
   if (root == kEmptyRef) return;
   uint64_t stack[kTraversalStack];
   uint64_t* top = stack;

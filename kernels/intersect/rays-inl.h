@@ -57,13 +57,6 @@ HWY_INLINE Rays LoadShadowRays(const PathColumns& path, VI slots) {
           Gather(path.ls_distance, slots)};
 }
 
-/// Best hit so far, one lane per ray.
-struct Hits {
-  VF t;
-  VI prim;
-  VF b1, b2;
-};
-
 /// Writes the lanes of `closer`; the others keep what they have.
 template <bool kInstances>
 HWY_INLINE void StoreRoundHits(const PathColumns& path, VI slots, MF closer, VF t,
@@ -97,13 +90,6 @@ HWY_INLINE void RemoveOccluded(Wave& wave, Occluded&& occluded) {
     const MF blocked = occluded(LoadShadowRays(wave.path, slots), slots, valid);
     Push(kept, slots, hn::AndNot(blocked, valid));
   });
-}
-
-/// Mask of a full vector from bits.
-HWY_INLINE MF MaskFromBits(uint32_t bits) {
-  const DU du;
-  const VU lane_bit = hn::Shl(hn::Set(du, 1), hn::Iota(du, 0));
-  return hn::RebindMask(DF(), hn::Ne(hn::And(lane_bit, hn::Set(du, bits)), hn::Zero(du)));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -48,26 +48,6 @@ struct Candidates {
   V t_near, t_far;
 };
 
-/// x of the lanes of `mask` replaced by exact(lane), a float.
-template <class D, class V, class M, class Exact>
-HWY_INLINE V ReplaceLanes(D d, V x, M mask, Exact&& exact) {
-  HWY_ALIGN float lanes[hn::MaxLanes(d)];
-  hn::Store(x, d, lanes);
-  for (uint32_t bits = MaskBits(d, mask); bits != 0; bits &= bits - 1) {
-    const int i = __builtin_ctz(bits);
-    lanes[i] = exact(i);
-  }
-  return hn::Load(d, lanes);
-}
-
-/// One component of lanes, for the exact tests.
-template <class D, class V>
-HWY_INLINE double LaneOf(D d, V v, int lane) {
-  HWY_ALIGN float lanes[hn::MaxLanes(d)];
-  hn::Store(v, d, lanes);
-  return lanes[lane];
-}
-
 template <class V>
 struct SphereLanes {
   P3<V> center;
@@ -93,16 +73,18 @@ HWY_INLINE Candidates<V, M> TestShape(D df, const SphereLanes<V>& s,
   hit.t_near = hit.t_far = zero;
   if (hn::AllFalse(df, meets)) return hit;
   V c = hn::Sub(f2, r2);
-  const M doubtful = hn::And(
-      meets, hn::Le(hn::Abs(c), hn::Mul(hn::Add(f2, r2), hn::Set(df, 16 * 0x1p-24f))));
+  const M doubtful =
+      hn::And(meets, hn::Le(hn::Abs(c), hn::Mul(hn::Add(f2, r2), hn::Set(df, 0x1p-10f))));
   if (HWY_UNLIKELY(!hn::AllFalse(df, doubtful))) {
-    c = ReplaceLanes(df, c, doubtful, [&](int i) HWY_ATTR {
-      const double x = LaneOf(df, ray.o.x, i) - LaneOf(df, s.center.x, i);
-      const double y = LaneOf(df, ray.o.y, i) - LaneOf(df, s.center.y, i);
-      const double z = LaneOf(df, ray.o.z, i) - LaneOf(df, s.center.z, i);
-      const double r = LaneOf(df, s.radius, i);
-      return static_cast<float>(x * x + y * y + z * z - r * r);
-    });
+    const auto power = [](auto, auto ox, auto oy, auto oz, auto cx, auto cy, auto cz,
+                          auto r) HWY_ATTR {
+      const auto x = hn::Sub(ox, cx), y = hn::Sub(oy, cy), z = hn::Sub(oz, cz);
+      const auto sum = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+      return hn::Sub(sum, hn::Mul(r, r));
+    };
+    const V exact = InDouble(df, power, ray.o.x, ray.o.y, ray.o.z, s.center.x, s.center.y,
+                             s.center.z, s.radius);
+    c = hn::IfThenElse(doubtful, exact, c);
   }
   const V root = hn::Sqrt(hn::Mul(a, discriminant));
   const V q = hn::Add(b, hn::CopySign(root, b));
@@ -126,15 +108,16 @@ HWY_INLINE V PlaneDistance(D df, P3<V> point, P3<V> n, const RayLanes<V>& ray) {
   const P3<V> abs_n = {hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)};
   const P3<V> abs_f = {hn::Abs(f.x), hn::Abs(f.y), hn::Abs(f.z)};
   const auto doubtful =
-      hn::Le(hn::Abs(height), hn::Mul(Dot(abs_n, abs_f), hn::Set(df, 8 * 0x1p-24f)));
+      hn::Le(hn::Abs(height), hn::Mul(Dot(abs_n, abs_f), hn::Set(df, 0x1p-10f)));
   if (HWY_UNLIKELY(!hn::AllFalse(df, doubtful))) {
-    height = ReplaceLanes(df, height, doubtful, [&](int i) HWY_ATTR {
-      const double x = LaneOf(df, point.x, i) - LaneOf(df, ray.o.x, i);
-      const double y = LaneOf(df, point.y, i) - LaneOf(df, ray.o.y, i);
-      const double z = LaneOf(df, point.z, i) - LaneOf(df, ray.o.z, i);
-      return static_cast<float>(x * LaneOf(df, n.x, i) + y * LaneOf(df, n.y, i) +
-                                z * LaneOf(df, n.z, i));
-    });
+    const auto dot = [](auto, auto px, auto py, auto pz, auto ox, auto oy, auto oz,
+                        auto nx, auto ny, auto nz) HWY_ATTR {
+      return hn::Add(hn::Add(hn::Mul(nx, hn::Sub(px, ox)), hn::Mul(ny, hn::Sub(py, oy))),
+                     hn::Mul(nz, hn::Sub(pz, oz)));
+    };
+    const V exact = InDouble(df, dot, point.x, point.y, point.z, ray.o.x, ray.o.y,
+                             ray.o.z, n.x, n.y, n.z);
+    height = hn::IfThenElse(doubtful, exact, height);
   }
   return hn::Div(height, Dot(n, ray.d));
 }

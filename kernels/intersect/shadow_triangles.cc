@@ -7,19 +7,28 @@
 #include "hwy/highway.h"
 
 #include "kernels/intersect/few-inl.h"
+#include "kernels/intersect/packet-inl.h"
 #include "kernels/intersect/single-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
+// As in triangles.cc.
 template <bool kAlpha, bool kInstances>
 void ShadowTriangles(Wave& wave) {
-  if (!kInstances && !wave.scene->accel.few.triangles.empty()) {
-    ShadowFew<kAlpha>(wave);
-  } else {
-    ShadowSingle<kAlpha, kInstances>(wave);
-  }
+  const CompiledScene& scene = *wave.scene;
+  RemoveOccluded(wave, [&](const Rays& rays, VI slots, MF valid) HWY_ATTR {
+    if constexpr (!kInstances) {
+      PacketBounds bounds;
+      if (bounds.Compute(rays) && bounds.IsNarrow(scene.accel.groups[0].reach)) {
+        return BlockedPacket<kAlpha>(scene, rays, bounds);
+      }
+      if (!scene.accel.few.triangles.empty()) return BlockedFew<kAlpha>(scene, rays);
+    }
+    const int count = static_cast<int>(hn::CountTrue(DF(), valid));
+    return BlockedSingle<kAlpha, kInstances>(scene, rays, slots, count);
+  });
 }
 
 void ShadowWorld(Wave& wave) { ShadowTriangles<false, false>(wave); }

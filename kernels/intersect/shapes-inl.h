@@ -113,7 +113,7 @@ HWY_INLINE void CutOutShape(const CompiledScene& scene, const Rays& rays, uint32
       const float d[3] = {ray.d[0][i], ray.d[1][i], ray.d[2][i]};
       if (ShapePassesAlpha<Shape>(scene, o, d, index, t[i], far)) pass |= 1u << i;
     }
-    return MaskFromBits(pass);
+    return MaskOf(DF(), pass);
   };
   hit.near = kept(hit.near, hit.t_near, false);
   hit.far = kept(hit.far, hit.t_far, true);
@@ -253,7 +253,7 @@ HWY_INLINE void ShadowTree(Wave& wave) {
       TraceShapes<Shape, true, kAlpha>(*wave.scene, o, d, hit);
       blocked |= uint32_t{hit.found} << i;
     }
-    return MaskFromBits(blocked);
+    return MaskOf(DF(), blocked);
   });
 }
 

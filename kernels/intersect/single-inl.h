@@ -74,16 +74,30 @@ class GroupQuery {
             P3<V8>{hn::Load(d8, block.v[k][x_] + i), hn::Load(d8, block.v[k][y_] + i),
                    hn::Load(d8, block.v[k][z_] + i)});
       };
-      const auto is_ahead = [&](int lane) HWY_ATTR {
-        const auto& p = ray_.scene->geometry.triangles[block.prim[i + lane]].p;
-        return PlaneIsAhead(o_, d_, p[0], p[1], p[2]);
-      };
+      const auto is_ahead = [&](M8 lanes) HWY_ATTR { return Ahead(block, i, lanes); };
       const TriangleHits<V8, M8> hit = TestTriangle(
           d8, shear_, vertex(0), vertex(1), vertex(2), hn::Set(d8, hit_.t), is_ahead);
       const uint32_t bits = MaskBits(d8, hit.mask);
       if (bits != 0 && Consider(block.prim + i, hit, bits)) return true;
     }
     return false;
+  }
+
+  // Lanes of the block from `first` whose plane lies ahead, among `lanes`.
+  HWY_NOINLINE M8 Ahead(const TriangleBlock& block, int first, M8 lanes) const {
+    const D8 d8;
+    uint32_t ahead = 0;
+    for (uint32_t bits = MaskBits(d8, lanes); bits != 0; bits &= bits - 1) {
+      const int lane = std::countr_zero(bits);
+      float p[3][3];
+      for (int k = 0; k < 3; ++k) {
+        for (int a = 0; a < 3; ++a) p[k][a] = block.v[k][a][first + lane];
+      }
+      double n[3];
+      ExactNormal(p[0], p[1], p[2], n);
+      if (PlaneIsAhead(o_, d_, n, p[0])) ahead |= 1u << lane;
+    }
+    return MaskOf(d8, ahead);
   }
 
   HWY_INLINE bool Consider(const uint32_t* prim, const TriangleHits<V8, M8>& hit,
@@ -156,46 +170,42 @@ HWY_INLINE void TraceTriangles(const OneRay& ray, OneHit& hit) {
   }
 }
 
+/// Closest hits of a batch, ray by ray; hits are written to the columns.
 template <bool kAlpha, bool kInstances>
-HWY_INLINE void IntersectSingle(Wave& wave) {
+HWY_INLINE void ClosestSingle(const Wave& wave, const Rays& batch, VI slots, int count) {
   const PathColumns& path = wave.path;
-  const Queue& queue = wave.queue(QueueId::kActive);
-  ForEachBatch(wave, queue, [&](VI slots, MF valid) HWY_ATTR {
-    const RayArrays rays(LoadRays(path, slots), slots);
-    const int count = static_cast<int>(hn::CountTrue(DF(), valid));
-    for (int i = 0; i < count; ++i) {
-      const uint32_t slot = rays.slot[i];
-      const OneRay ray{wave.scene,
-                       {rays.o[0][i], rays.o[1][i], rays.o[2][i]},
-                       {rays.d[0][i], rays.d[1][i], rays.d[2][i]}};
-      OneHit hit{rays.t_max[i], path.prim[slot], 0, 0, kWorldInstance};
-      TraceTriangles<false, kAlpha, kInstances>(ray, hit);
-      if (!hit.found) continue;
-      path.t[slot] = hit.t;
-      path.prim[slot] = hit.prim;
-      path.b1[slot] = hit.b1;
-      path.b2[slot] = hit.b2;
-      if constexpr (kInstances) path.inst[slot] = hit.inst;
-    }
-  });
+  const RayArrays rays(batch, slots);
+  for (int i = 0; i < count; ++i) {
+    const uint32_t slot = rays.slot[i];
+    const OneRay ray{wave.scene,
+                     {rays.o[0][i], rays.o[1][i], rays.o[2][i]},
+                     {rays.d[0][i], rays.d[1][i], rays.d[2][i]}};
+    OneHit hit{rays.t_max[i], path.prim[slot], 0, 0, kWorldInstance};
+    TraceTriangles<false, kAlpha, kInstances>(ray, hit);
+    if (!hit.found) continue;
+    path.t[slot] = hit.t;
+    path.prim[slot] = hit.prim;
+    path.b1[slot] = hit.b1;
+    path.b2[slot] = hit.b2;
+    if constexpr (kInstances) path.inst[slot] = hit.inst;
+  }
 }
 
+/// Which rays of a batch are blocked.
 template <bool kAlpha, bool kInstances>
-HWY_INLINE void ShadowSingle(Wave& wave) {
-  RemoveOccluded(wave, [&](const Rays& batch, VI slots, MF valid) HWY_ATTR {
-    const RayArrays rays(batch, slots);
-    const int count = static_cast<int>(hn::CountTrue(DF(), valid));
-    uint32_t blocked = 0;
-    for (int i = 0; i < count; ++i) {
-      const OneRay ray{wave.scene,
-                       {rays.o[0][i], rays.o[1][i], rays.o[2][i]},
-                       {rays.d[0][i], rays.d[1][i], rays.d[2][i]}};
-      OneHit hit{rays.t_max[i], 0, 0, 0, kWorldInstance};
-      TraceTriangles<true, kAlpha, kInstances>(ray, hit);
-      blocked |= uint32_t{hit.found} << i;
-    }
-    return MaskFromBits(blocked);
-  });
+HWY_INLINE MF BlockedSingle(const CompiledScene& scene, const Rays& batch, VI slots,
+                            int count) {
+  const RayArrays rays(batch, slots);
+  uint32_t blocked = 0;
+  for (int i = 0; i < count; ++i) {
+    const OneRay ray{&scene,
+                     {rays.o[0][i], rays.o[1][i], rays.o[2][i]},
+                     {rays.d[0][i], rays.d[1][i], rays.d[2][i]}};
+    OneHit hit{rays.t_max[i], 0, 0, 0, kWorldInstance};
+    TraceTriangles<true, kAlpha, kInstances>(ray, hit);
+    blocked |= uint32_t{hit.found} << i;
+  }
+  return MaskOf(DF(), blocked);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -27,6 +27,7 @@
 #include <cfloat>
 
 #include "hwy/highway.h"
+#include "kernels/intersect/double-inl.h"
 #include "kernels/intersect/recheck.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -40,6 +41,14 @@ HWY_INLINE uint32_t MaskBits(D d, M mask) {
   uint8_t bytes[8] = {};
   hn::StoreMaskBits(d, mask, bytes);
   return hn::MaxLanes(d) > 8 ? bytes[0] | (uint32_t{bytes[1]} << 8) : bytes[0];
+}
+
+/// Mask of at most 16 lanes from bits.
+template <class D>
+HWY_INLINE hn::Mask<D> MaskOf(D d, uint32_t bits) {
+  const hn::RebindToUnsigned<D> du;
+  const auto lane_bit = hn::Shl(hn::Set(du, 1), hn::Iota(du, 0));
+  return hn::RebindMask(d, hn::Ne(hn::And(lane_bit, hn::Set(du, bits)), hn::Zero(du)));
 }
 
 /// Points in the permuted axes of a ray: x, y across it, z along it.
@@ -83,18 +92,11 @@ HWY_INLINE V EdgeFunction(D d, V a, V b, V c, V e) {
   const V ce = hn::Mul(c, e);
   return hn::Add(hn::MulSub(a, b, ce), hn::NegMulAdd(c, e, ce));
 #else
-  const hn::Half<D> dh;
-  const hn::RebindToFloat<hn::RepartitionToWide<hn::RebindToUnsigned<D> > > dd;
-  const auto wide = [&](auto p, auto q, auto r, auto s) HWY_ATTR {
-    const auto pq = hn::Mul(hn::PromoteTo(dd, p), hn::PromoteTo(dd, q));
-    const auto rs = hn::Mul(hn::PromoteTo(dd, r), hn::PromoteTo(dd, s));
-    return hn::DemoteTo(dh, hn::Sub(pq, rs));
-  };
-  return hn::Combine(d,
-                     wide(hn::UpperHalf(dh, a), hn::UpperHalf(dh, b),
-                          hn::UpperHalf(dh, c), hn::UpperHalf(dh, e)),
-                     wide(hn::LowerHalf(dh, a), hn::LowerHalf(dh, b),
-                          hn::LowerHalf(dh, c), hn::LowerHalf(dh, e)));
+  return InDouble(
+      d,
+      [](auto, auto p, auto q, auto r, auto s)
+          HWY_ATTR { return hn::Sub(hn::Mul(p, q), hn::Mul(r, s)); },
+      a, b, c, e);
 #endif
 }
 
@@ -132,8 +134,8 @@ HWY_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>&
   return hn::And(mask, hn::And(straddles, hn::Le(hn::Abs(t_det), bound)));
 }
 
-/// Tests the sheared triangle (a, b, c). `is_ahead(lane)` decides the sign of t of one
-/// lane exactly (PlaneIsAhead); it is called for rays that start on the triangle.
+/// Tests the sheared triangle (a, b, c). `is_ahead(mask)` decides the sign of t of some
+/// lanes exactly (PlaneIsAhead); it is called for rays that start on the triangle.
 /// `t_max` only prunes: candidates with t = t_max are reported.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
 HWY_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const P3<V>& a,
@@ -166,16 +168,8 @@ HWY_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const P3<V>
   hit.t = hn::Max(hit.t, hn::Set(d, FLT_MIN));
   if (HWY_LIKELY(hn::AllFalse(d, near))) return hit;
   const M doubtful = DoubtfulSign(d, ray, a, b, c, t_det, near);
-  uint32_t bits = MaskBits(d, doubtful), accepted = 0;
-  for (; bits != 0; bits &= bits - 1) {
-    const int lane = __builtin_ctz(bits);
-    if (is_ahead(lane)) accepted |= 1u << lane;
-  }
-  const hn::RebindToUnsigned<D> du;
-  const auto lane_bit = hn::Shl(hn::Set(du, 1), hn::Iota(du, 0));
-  const M kept =
-      hn::RebindMask(d, hn::Ne(hn::And(lane_bit, hn::Set(du, accepted)), hn::Zero(du)));
-  hit.mask = hn::Or(hn::AndNot(doubtful, ahead), kept);
+  if (hn::AllFalse(d, doubtful)) return hit;
+  hit.mask = hn::Or(hn::AndNot(doubtful, ahead), hn::And(doubtful, is_ahead(doubtful)));
   return hit;
 }
 

@@ -7,19 +7,30 @@
 #include "hwy/highway.h"
 
 #include "kernels/intersect/few-inl.h"
+#include "kernels/intersect/packet-inl.h"
 #include "kernels/intersect/single-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
+// World triangles, batch by batch: a packet if the rays are coherent, else the plain loop
+// if there are few triangles, else ray by ray. Instances are traced ray by ray.
 template <bool kAlpha, bool kInstances>
 void IntersectTriangles(Wave& wave) {
-  if (!kInstances && !wave.scene->accel.few.triangles.empty()) {
-    IntersectFew<kAlpha>(wave);
-  } else {
-    IntersectSingle<kAlpha, kInstances>(wave);
-  }
+  const Accel& accel = wave.scene->accel;
+  ForEachBatch(wave, wave.queue(QueueId::kActive), [&](VI slots, MF valid) HWY_ATTR {
+    const Rays rays = LoadRays(wave.path, slots);
+    if constexpr (!kInstances) {
+      PacketBounds bounds;
+      if (bounds.Compute(rays) && bounds.IsNarrow(accel.groups[0].reach)) {
+        return ClosestPacket<kAlpha>(wave, rays, bounds, slots);
+      }
+      if (!accel.few.triangles.empty()) return ClosestFew<kAlpha>(wave, rays, slots);
+    }
+    const int count = static_cast<int>(hn::CountTrue(DF(), valid));
+    ClosestSingle<kAlpha, kInstances>(wave, rays, slots, count);
+  });
 }
 
 void TrianglesWorld(Wave& wave) { IntersectTriangles<false, false>(wave); }

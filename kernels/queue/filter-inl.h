@@ -29,16 +29,19 @@ HWY_INLINE const Queue& FilterQueue(Wave& wave, const Queue& queue,
   return scratch;
 }
 
-/// Filters primitives with ids in [begin, end).
+/// The slots of `queue` whose primitive id lies in [begin, end); the queue itself if the
+/// scene has no other primitives.
 HWY_INLINE const Queue& FilterPrimitives(Wave& wave, const Queue& queue, uint32_t begin,
                                          uint32_t end) {
+  if (begin == 0 && end == wave.scene->geometry.ranges.end) return queue;
   const uint32_t* prims = wave.path.prim;
-  // Highway 1.0 compares integers with Lt and Gt only.
-  const VI before = hn::Set(DI(), static_cast<int32_t>(begin) - 1);
-  const VI after = hn::Set(DI(), static_cast<int32_t>(end));
   return FilterQueue(wave, queue, [&](VI slots) HWY_ATTR {
-    const VI prim = Gather(prims, slots);
-    return hn::RebindMask(DF(), hn::And(hn::Gt(prim, before), hn::Lt(prim, after)));
+    const DU du;
+    const VU prim = hn::BitCast(du, Gather(prims, slots));
+    // One comparison: prim - begin wraps around below begin.
+    const auto inside =
+        hn::Lt(hn::Sub(prim, hn::Set(du, begin)), hn::Set(du, end - begin));
+    return hn::RebindMask(DF(), inside);
   });
 }
 

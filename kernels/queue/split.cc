@@ -12,6 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
+template <bool kEnvironment>
 void Split(Wave& wave) {
   const Queue& active = wave.queue(QueueId::kActive);
   wave.rays_closest += active.size;
@@ -19,9 +20,15 @@ void Split(Wave& wave) {
     const MF hit =
         hn::Lt(Gather(wave.path.t, slots), Splat(std::numeric_limits<float>::infinity()));
     Push(wave.queue(QueueId::kHit), slots, hn::And(valid, hit));
-    Push(wave.queue(QueueId::kMiss), slots, hn::AndNot(hit, valid));
+    const MF miss = hn::AndNot(hit, valid);
+    if constexpr (kEnvironment) Push(wave.queue(QueueId::kMiss), slots, miss);
+    // A path ends here whether or not the escape stage still adds to it.
+    Push(wave.queue(QueueId::kDone), slots, miss);
   });
 }
+
+void SplitOpen(Wave& wave) { Split<true>(wave); }
+void SplitClosed(Wave& wave) { Split<false>(wave); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -32,7 +39,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(Split);
+HWY_EXPORT(SplitOpen);
+HWY_EXPORT(SplitClosed);
 
 Stage SplitStage() {
   return {"split",
@@ -41,7 +49,10 @@ Stage SplitStage() {
           {},
           {Field::t},
           {},
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Split); }};
+          [](const FeatureSet& features) -> StageFn {
+            return features.Has(Feature::kInfiniteLights) ? HWY_DYNAMIC_DISPATCH(SplitOpen)
+                                                          : HWY_DYNAMIC_DISPATCH(SplitClosed);
+          }};
 }
 
 }  // namespace lanelight

@@ -54,7 +54,7 @@ struct Layer {
   }
 };
 
-/// Which outcomes SampleCoat may choose.
+/// Which outcomes CoatLayer::Sample may choose.
 enum class Outcome { kReflect, kTransmit, kEither };
 
 struct CoatLayer {

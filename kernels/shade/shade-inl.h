@@ -97,7 +97,7 @@ struct Shader {
       in.random = {hn::BitCast(du, Gather(path.pixel, slots)),
                    hn::BitCast(du, Gather(path.sample, slots)),
                    hn::BitCast(du, Gather(path.depth, slots)),
-                   hn::Set(du, wave.run->seed)};
+                   hn::Set(du, wave.run->seed ^ LaneRandom::kStream)};
     }
     return in;
   }
@@ -167,8 +167,10 @@ struct Shader {
 template <class Bsdf, ShadeKind kKind, Lighting kLighting, bool kNormals>
 void ShadeKernel(Wave& wave) {
   Shader<Bsdf, kLighting, kNormals> shader(wave);
+  const uint32_t shadow_rays = wave.queue(QueueId::kShadow).size;
   ForEachBatch(wave, wave.queue(ShadeQueue(kKind)),
                [&](VI slots, MF valid) HWY_ATTR { shader(slots, valid); });
+  wave.rays_shadow += wave.queue(QueueId::kShadow).size - shadow_rays;
 }
 
 template <class Bsdf, ShadeKind kKind, Lighting kLighting>

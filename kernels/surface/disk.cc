@@ -59,7 +59,8 @@ template <bool kNormals, bool kTangents, bool kUv>
 struct SurfaceDisk {
   static void Run(Wave& wave) {
     const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
-    const Queue hits = FilterQueue(wave, ranges.disks, ranges.planes);
+    const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
+                                         ranges.disks, ranges.planes);
     ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
       DiskBatch<kNormals, kTangents, kUv>(wave, slots);
     });

@@ -74,7 +74,8 @@ template <bool kNormals, bool kTangents, bool kUv>
 struct SurfaceSphere {
   static void Run(Wave& wave) {
     const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
-    const Queue hits = FilterQueue(wave, ranges.spheres, ranges.disks);
+    const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
+                                         ranges.spheres, ranges.disks);
     ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
       SphereBatch<kNormals, kTangents, kUv>(wave, slots);
     });

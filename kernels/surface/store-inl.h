@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "hwy/contrib/math/math-inl.h"
-#include "kernels/surface/filter-inl.h"
+#include "kernels/queue/filter-inl.h"
 #include "kernels/surface/point-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -6,7 +6,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "kernels/surface/filter-inl.h"
+#include "kernels/queue/filter-inl.h"
 #include "kernels/surface/instance-inl.h"
 #include "kernels/surface/point-inl.h"
 
@@ -149,7 +149,8 @@ HWY_INLINE void SurfaceBatch(const Wave& wave, VI slots) {
 
 template <bool kNormals, bool kTangents, bool kUv, bool kInstances>
 void SurfaceTriangle(Wave& wave) {
-  const Queue hits = FilterQueue(wave, 0, wave.scene->geometry.ranges.spheres);
+  const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface), 0,
+                                       wave.scene->geometry.ranges.spheres);
   ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
     SurfaceBatch<kNormals, kTangents, kUv, kInstances>(wave, slots);
   });

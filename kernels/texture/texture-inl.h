@@ -51,7 +51,8 @@ HWY_INLINE TexelPair FindTexels(VF s, bool flip, int32_t size, const TextureNode
   }
   if (node.bilinear) x = hn::Sub(x, Splat(0.5f));
   const VF low = hn::Floor(x);
-  const VI i0 = hn::ConvertTo(di, low);
+  // NaN has no integer; the weight keeps it, so that the result shows it.
+  const VI i0 = hn::ConvertTo(di, hn::IfThenElseZero(hn::Eq(low, low), low));
   return {i0, hn::Add(i0, hn::Set(di, 1)), node.bilinear ? hn::Sub(x, low) : Splat(0.0f)};
 }
 

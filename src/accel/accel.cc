@@ -218,11 +218,7 @@ void BuildTriangles(const Geometry& geometry, const AccelOptions& options, Accel
     const bool few = boxes.empty() && geometry.instances.empty() &&
                      group.end - group.begin <= options.few_triangles;
     boxes.emplace_back();
-    if (few) {
-      accel.few = MakeFew(geometry, group);
-      accel.groups.emplace_back();
-      continue;
-    }
+    if (few) accel.few = MakeFew(geometry, group);
     auto items = ItemsOf(geometry.triangles, group.begin, group.end, group.begin);
     for (const BuildItem& item : items) boxes.back().Extend(item.box);
     accel.groups.push_back(BuildShapes(std::move(items), geometry.triangles, 0,

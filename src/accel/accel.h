@@ -33,6 +33,11 @@ inline constexpr int kTraversalStack = 512;
 
 inline constexpr std::uint32_t kFewTriangles = 64;
 inline constexpr std::uint32_t kFewRound = 16;
+/// Rays of a vector are traced together if their directions (unit length) agree in sign
+/// and differ by at most this per axis, and their origins by at most kPacketExtent times
+/// the reach of the scene.
+inline constexpr float kPacketSpread = 0.8f;
+inline constexpr float kPacketExtent = 0.3f;
 /// `inst` of a hit on a triangle of the world, and of any sphere, disk or plane.
 inline constexpr std::uint32_t kWorldInstance = 0xffffffffu;
 
@@ -90,7 +95,7 @@ struct FewTriangles {
 struct Accel {
   AlignedVector<WideNode> nodes;  // of all trees
 
-  FewTriangles few;  // used instead of groups[0] if it has triangles
+  FewTriangles few;  // for incoherent rays, used instead of groups[0] if not empty
   AlignedVector<TriangleBlock> triangle_blocks;
   std::vector<Bvh> groups;  // as Geometry::groups
   Bvh top;                  // over instances; leaf references hold instance indices

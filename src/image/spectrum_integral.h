@@ -15,8 +15,8 @@ using Spectrum = std::function<double(double wavelength_nm)>;
 /// CIE daylight of the given chromaticity, relative, zero outside 380..780 nm (CIE
 /// 15:2004).
 Spectrum Daylight(double x, double y);
-/// The standard illuminant D65, by the daylight locus at 6504 K. (The rounded chromaticity
-/// of the sRGB white would change the blue end by half a percent.)
+/// The standard illuminant D65, by the daylight locus at 6504 K. (The rounded
+/// chromaticity of the sRGB white would change the blue end by half a percent.)
 Spectrum DaylightD65();
 
 /// Linear interpolation in evenly spaced samples. Outside: the end value if `extend`, or

@@ -119,15 +119,6 @@ PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription
   return options;
 }
 
-std::uint32_t GroupSize(SamplerKind sampler, std::uint64_t spp) {
-  constexpr std::uint32_t kUnplanned = 16, kLargest = 1u << 16;
-  if (sampler == SamplerKind::kIndependent) return 1;
-  if (spp == 0) return kUnplanned;
-  std::uint32_t size = 1;
-  while (size < kLargest && std::uint64_t{size} * 2 * 8 <= spp) size *= 2;
-  return size;
-}
-
 const char* SamplerName(SamplerKind kind) {
   return kind == SamplerKind::kIndependent ? "independent" : "sobol";
 }

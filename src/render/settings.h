@@ -53,11 +53,6 @@ PixelWindow CropWindow(const Film& film);
 CompileOptions CompileOptionsOf(const RenderSettings& settings);
 PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene);
 
-/// Samples that share one randomisation and count as one observation: 1 for independent
-/// samples; for Sobol' points the largest power of two that leaves at least 8 groups
-/// (`spp` 0, a time budget: 16).
-std::uint32_t GroupSize(SamplerKind sampler, std::uint64_t spp);
-
 const char* SamplerName(SamplerKind kind);
 const char* ScatteringName(Scattering model);
 

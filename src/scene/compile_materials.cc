@@ -3,39 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "src/core/check.h"
-#include "src/core/parallel.h"
-#include "src/scene/coat_table.h"
+#include "src/scene/compile_material_row.h"
 #include "src/scene/compile_textures.h"
 
 namespace lanelight {
 namespace {
 
-// pbrt-v4: below the first a microfacet surface is a smooth one; the second is the floor
-// of alpha on a rough one (an anisotropic surface may be smooth along one axis only).
+// pbrt-v4: below this a microfacet surface is a smooth one.
 constexpr double kSmoothAlpha = 1e-3;
-constexpr double kMinAlpha = 1e-4;
 // Reflectance of a metal that is given as a colour: k of 1 would be infinite.
 constexpr double kMaxMetalReflectance = 0.9999;
-
-// One row of MaterialTable.
-struct Row {
-  ShadeKind kind = ShadeKind::kDiffuse;
-  ColorValue color0, color1;
-  FloatValue alpha_x, alpha_y;
-  double alpha2_x = 0, alpha2_y = 0, eta = 1;
-  std::int32_t coat = -1;  // index of the coat, not yet an offset
-  double coat_thickness = 0;
-  std::uint32_t coat_depth = 0;
-  bool remap = false;
-  std::int32_t mix[2] = {-1, -1};
-  std::string name;
-};
-
-using Coat = std::tuple<double, double, double>;  // alpha, eta, thickness
 
 class Builder {
  public:
@@ -46,27 +26,27 @@ class Builder {
   CompiledMaterials Finish();
 
  private:
-  Row MakeRow(const Material& m);
-  void Diffuse(const Material& m, Row& row);
-  void Metal(const Material& m, double eta_above, Row& row);
-  void Interface(const Material& m, Row& row);
-  void CoatOf(const Material& m, Row& row);
+  MaterialRow MakeRow(const Material& m);
+  void Diffuse(const Material& m, MaterialRow& row);
+  void Metal(const Material& m, double eta_above, MaterialRow& row);
+  void Interface(const Material& m, MaterialRow& row);
+  void CoatOf(const Material& m, MaterialRow& row);
   std::int32_t Mix(const Material& m);
-  std::int32_t Push(Row row);
+  std::int32_t Push(MaterialRow row);
   ColorValue Color(const ColorValue& v) const { return FoldConstant(d_.textures, v); }
   ColorValue Reflectance(const ColorValue& v) const;
 
   const SceneDescription& d_;
   const CompileOptions& options_;
   std::vector<std::int32_t> index_;
-  std::vector<Row> rows_;
+  std::vector<MaterialRow> rows_;
   std::map<Coat, std::int32_t> coats_;
 };
 
 bool IsTextured(const ColorValue& v) { return v.texture != kNone; }
 bool IsTextured(const FloatValue& v) { return v.texture != kNone; }
 
-bool IsSmooth(const Row& row) {
+bool IsSmooth(const MaterialRow& row) {
   return !IsTextured(row.alpha_x) && !IsTextured(row.alpha_y) &&
          std::max(row.alpha_x.constant, row.alpha_y.constant) < kSmoothAlpha;
 }
@@ -88,7 +68,7 @@ ColorValue Builder::Reflectance(const ColorValue& v) const {
   return color;
 }
 
-void Builder::Diffuse(const Material& m, Row& row) {
+void Builder::Diffuse(const Material& m, MaterialRow& row) {
   switch (options_.scattering.value_or(m.scattering)) {
     case Scattering::kLambertian:
       row.kind = ShadeKind::kDiffuse;
@@ -104,7 +84,7 @@ void Builder::Diffuse(const Material& m, Row& row) {
 }
 
 // Index and extinction relative to `eta_above`.
-void Builder::Metal(const Material& m, double eta_above, Row& row) {
+void Builder::Metal(const Material& m, double eta_above, MaterialRow& row) {
   if (m.has_reflectance) {
     const ColorValue reflectance = Color(m.reflectance);
     if (IsTextured(reflectance)) {
@@ -133,7 +113,7 @@ FloatValue Alpha(const std::vector<Texture>& textures, const FloatValue& v, bool
   return alpha;
 }
 
-void Builder::Interface(const Material& m, Row& row) {
+void Builder::Interface(const Material& m, MaterialRow& row) {
   row.alpha_x = Alpha(d_.textures, m.uroughness, m.remap_roughness);
   row.alpha_y = Alpha(d_.textures, m.vroughness, m.remap_roughness);
   row.remap = m.remap_roughness;
@@ -146,7 +126,7 @@ void CheckEta(const Material& m) {
       m, fmt::format("index of refraction {}; it must be positive", m.interface_eta));
 }
 
-void Builder::CoatOf(const Material& m, Row& row) {
+void Builder::CoatOf(const Material& m, MaterialRow& row) {
   CheckEta(m);
   if (m.coat_albedo != Rgb{}) {
     Unsupported(m, fmt::format("a scattering medium inside the coat (albedo {} {} {}) is "
@@ -168,8 +148,8 @@ void Builder::CoatOf(const Material& m, Row& row) {
   row.coat_depth = static_cast<std::uint32_t>(m.coat_max_depth);
 }
 
-Row Builder::MakeRow(const Material& m) {
-  Row row;
+MaterialRow Builder::MakeRow(const Material& m) {
+  MaterialRow row;
   switch (m.kind) {
     case MaterialKind::kDiffuse:
       Diffuse(m, row);
@@ -238,7 +218,7 @@ std::int32_t Builder::Mix(const Material& m) {
                   "cut-out use the shape's \"alpha\" parameter");
     }
   }
-  Row row;
+  MaterialRow row;
   row.kind = ShadeKind::kMix;
   row.name = m.name;
   row.alpha_x = FoldConstant(d_.textures, m.mix_amount);
@@ -251,7 +231,7 @@ std::int32_t Builder::Mix(const Material& m) {
   return Push(std::move(row));
 }
 
-std::int32_t Builder::Push(Row row) {
+std::int32_t Builder::Push(MaterialRow row) {
   rows_.push_back(std::move(row));
   return static_cast<std::int32_t>(rows_.size()) - 1;
 }
@@ -263,75 +243,16 @@ std::int32_t Builder::Add(Index material) {
   if (index >= 0) return index;
   const Material& m = d_.materials[static_cast<std::size_t>(material)];
   if (m.kind == MaterialKind::kMix) return index = Mix(m);
-  Row row = MakeRow(m);
+  MaterialRow row = MakeRow(m);
   row.name = m.name;
   return index = Push(std::move(row));
-}
-
-float RoughAlpha(const Row& row, double alpha) {
-  if (row.kind == ShadeKind::kMix) return static_cast<float>(alpha);
-  return static_cast<float>(std::max(alpha, kMinAlpha));
-}
-
-void AddRow(const Row& row, CompiledMaterials& out) {
-  MaterialTable& t = out.table;
-  const auto add = [](auto& column, double v) {
-    column.push_back(static_cast<float>(v));
-  };
-  t.kind.push_back(static_cast<std::uint32_t>(row.kind));
-  add(t.color0_r, row.color0.constant.x);
-  add(t.color0_g, row.color0.constant.y);
-  add(t.color0_b, row.color0.constant.z);
-  add(t.color1_r, row.color1.constant.x);
-  add(t.color1_g, row.color1.constant.y);
-  add(t.color1_b, row.color1.constant.z);
-  t.alpha_x.push_back(RoughAlpha(row, row.alpha_x.constant));
-  t.alpha_y.push_back(RoughAlpha(row, row.alpha_y.constant));
-  t.alpha2_x.push_back(RoughAlpha(row, row.alpha2_x));
-  t.alpha2_y.push_back(RoughAlpha(row, row.alpha2_y));
-  add(t.eta, row.eta);
-  t.coat.push_back(row.coat < 0 ? -1 : row.coat * kCoatTableSize);
-  t.coat_internal.push_back(0);
-  add(t.coat_thickness, row.coat_thickness);
-  t.coat_depth.push_back(row.coat_depth);
-  t.color0_texture.push_back(row.color0.texture);
-  t.color1_texture.push_back(row.color1.texture);
-  t.alpha_x_texture.push_back(row.alpha_x.texture);
-  t.alpha_y_texture.push_back(row.alpha_y.texture);
-  t.alpha_remap.push_back(row.remap ? 1 : 0);
-  t.mix0.push_back(row.mix[0]);
-  t.mix1.push_back(row.mix[1]);
-  t.names.push_back(row.name);
-  for (Index texture : {row.color0.texture, row.color1.texture, row.alpha_x.texture,
-                        row.alpha_y.texture}) {
-    if (texture != kNone) out.textures.push_back(texture);
-  }
-}
-
-// Coats that are equal share a table.
-void AddCoats(const std::map<Coat, std::int32_t>& coats, MaterialTable& table) {
-  std::vector<Coat> list(coats.size());
-  for (const auto& [coat, at] : coats) list[static_cast<std::size_t>(at)] = coat;
-  std::vector<CoatTable> tables(list.size());
-  ParallelFor(list.size(),
-              [&](std::size_t i) { tables[i] = std::apply(ComputeCoatTable, list[i]); });
-  for (const CoatTable& t : tables) {
-    table.coat_transmittance.insert(table.coat_transmittance.end(),
-                                    std::begin(t.transmittance),
-                                    std::end(t.transmittance));
-  }
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    if (table.coat[i] < 0) continue;
-    const auto at = static_cast<std::size_t>(table.coat[i] / kCoatTableSize);
-    table.coat_internal[i] = tables[at].internal_reflectance;
-  }
 }
 
 CompiledMaterials Builder::Finish() {
   CompiledMaterials out;
   out.index = index_;
-  for (const Row& row : rows_) AddRow(row, out);
-  AddCoats(coats_, out.table);
+  for (const MaterialRow& row : rows_) AddMaterialRow(row, out);
+  AddCoatTables(coats_, out.table);
   return out;
 }
 

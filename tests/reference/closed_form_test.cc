@@ -82,7 +82,7 @@ TEST_CASE("reference: closed rooms of albedo 0.5, 0.9 and 0.99", "[reference]") 
                                       kRounding));
       CheckSame(CompareWithClosedForm(ClosedBox(albedo, depth), a, Constant(series),
                                       kRounding));
-      const auto b = Options(ReferenceEstimator::kLightSampling, depth > 3 ? 50 : 2000);
+      const auto b = Options(ReferenceEstimator::kLightSampling, depth > 3 ? 10 : 400);
       CheckSame(CompareWithClosedForm(ClosedRoom(albedo, depth), b, Constant(series),
                                       kRounding));
       CheckSame(CompareWithClosedForm(ClosedBox(albedo, depth), b, Constant(series),

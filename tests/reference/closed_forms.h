@@ -166,11 +166,13 @@ inline double DiffuseFresnel(double eta) {
 /// Radiance of a diffuse layer of this albedo under a smooth clear coat without
 /// absorption, lit by a uniform environment of radiance 1, seen at `cosine`: reflection
 /// R, or entry (1-R), any number of bounces between bottom and coat, exit: R + (1-R)
-/// albedo (1 - R_int) / (1 - albedo R_int).
-inline double CoatedFurnace(double albedo, double eta, double cosine) {
+/// albedo (1 - R_int) / (1 - albedo R_int). With at most `bounces` off the bottom the
+/// geometric series stops: times 1 - (albedo R_int)^bounces.
+inline double CoatedFurnace(double albedo, double eta, double cosine,
+                            double bounces = 1e9) {
   const double inside = 1 - (1 - DiffuseFresnel(eta)) / (eta * eta);
-  const double r = Fresnel(cosine, eta);
-  return r + (1 - r) * albedo * (1 - inside) / (1 - albedo * inside);
+  const double r = Fresnel(cosine, eta), q = albedo * inside;
+  return r + (1 - r) * albedo * (1 - inside) * (1 - std::pow(q, bounces)) / (1 - q);
 }
 
 }  // namespace lanelight::closed_form

@@ -159,20 +159,16 @@ LightConnection Lights::SampleEmitter(const Emitter& emitter, Vec3d p,
   return out;
 }
 
-LightConnection Lights::SampleArea(Vec3d p, Random& random) const {
-  const std::size_t count = emitters_.size() + infinite_.size();
-  if (count == 0) return {};
-  const auto pick =
-      static_cast<std::size_t>(random.Uniform() * static_cast<double>(count));
-  LightConnection out;
-  if (pick < emitters_.size()) {
-    out = SampleEmitter(emitters_[pick], p, random);
-  } else {
-    out.toward = UniformOnSphere(random);
-    out.radiance =
-        4 * kPi * InfiniteRadiance(infinite_[pick - emitters_.size()], out.toward);
+std::vector<LightConnection> Lights::AreaLights(Vec3d p, Random& random) const {
+  std::vector<LightConnection> out;
+  for (const Emitter& emitter : emitters_) {
+    const LightConnection sample = SampleEmitter(emitter, p, random);
+    if (!(sample.radiance == Rgb{})) out.push_back(sample);
   }
-  out.radiance *= static_cast<double>(count);
+  for (Index index : infinite_) {
+    const Vec3d toward = UniformOnSphere(random);
+    out.push_back({toward, kInfinity, 4 * kPi * InfiniteRadiance(index, toward)});
+  }
   return out;
 }
 

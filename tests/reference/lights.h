@@ -32,9 +32,9 @@ class Lights {
   Rgb Environment(Vec3d toward) const;
   /// One connection per point, spot and distant light, dark ones left out.
   std::vector<LightConnection> DeltaLights(Vec3d p) const;
-  /// A random point, uniform by area, on a random emitter, or a uniform direction to a
-  /// random environment. `radiance` is zero if there is none or it faces away.
-  LightConnection SampleArea(Vec3d p, Random& random) const;
+  /// One random point, uniform by area, on every emitter, and one uniform direction to
+  /// every environment; points that face away are left out.
+  std::vector<LightConnection> AreaLights(Vec3d p, Random& random) const;
 
  private:
   struct Emitter {

@@ -45,7 +45,9 @@ Rgb Tracer::Direct(const SurfacePoint& at, int primitive, const LocalMaterial& m
     sum += Connect(light, shadow, material, wo, frame.ToLocal(light.toward));
   };
   for (const LightConnection& light : lights.DeltaLights(at.p)) add(light);
-  if (samples_lights()) add(lights.SampleArea(at.p, random));
+  if (samples_lights()) {
+    for (const LightConnection& light : lights.AreaLights(at.p, random)) add(light);
+  }
   return sum;
 }
 

@@ -22,8 +22,9 @@ enum class ReferenceEstimator {
   /// Directions come from the material alone; point, spot and distant lights, which no
   /// direction can hit, are connected to directly.
   kMaterialSampling,
-  /// Each vertex connects to the delta lights and to one point on one light, uniform by
-  /// area; emission met on the way counts only at depth 0 and after specular events.
+  /// Each vertex connects to the delta lights and to one point, uniform by area, on each
+  /// other light; emission met on the way counts only at depth 0 and after specular
+  /// events.
   kLightSampling
 };
 

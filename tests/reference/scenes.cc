@@ -119,9 +119,9 @@ SceneDescription Plate(const Material& material, int size, int max_depth) {
   b.AddDisk({0, 0, 0}, {0, 0, 1}, 1.2, body);
   b.AddPlane({0, 0, -0.5}, {0, 0, 1}, b.AddDiffuse({0.6, 0.4, 0.3}));
   b.AddSphere({0.3, 1.4, 1.3}, 0.6, black, b.AddEmission({2, 3, 4}));
-  b.AddQuad({-1.5, 0.5, 1}, {0, 0.6, 0}, {0.6, 0, 0}, black, b.AddEmission({5, 3, 1}));
+  b.AddQuad({-2, 0, 1.2}, {0, 1.5, 0}, {1.5, 0, 0}, black, b.AddEmission({3, 2, 1}));
   b.AddPoint({-0.5, -0.5, 1.5}, {0.5, 0.5, 0.4});
-  b.AddEnvironment({0.1, 0.12, 0.15});
+  b.AddEnvironment({0.4, 0.5, 0.6});
   return b.Build();
 }
 

@@ -53,6 +53,8 @@ TEST_CASE("own scenes: all parse and compile", "[scenes]") {
     SceneDescription scene;
     REQUIRE_NOTHROW(scene = ParseScene(path.string()));
     for (const Note& note : scene.notes) {
+      // Wanted by pbrt, so that its images can be compared with ours.
+      if (note.message.find("savefp16") != std::string::npos) continue;
       INFO(note.where.ToString() << ": " << note.message);
       CHECK(false);
     }

@@ -3,35 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "src/core/check.h"
+#include "tests/stat/distributions.h"
 
-namespace lanelight {
-namespace {
-
-// Lower regularised incomplete gamma function by its power series; for x < a + 1.
-double GammaSeries(double a, double x) {
-  double term = 1 / a, sum = term;
-  for (double n = a + 1; term > sum * 1e-17; n += 1) sum += term *= x / n;
-  return sum * std::exp(a * std::log(x) - x - std::lgamma(a));
-}
-
-// Upper one by the continued fraction 1/(x+1-a- 1(1-a)/(x+3-a- 2(2-a)/(x+5-a- ...))),
-// evaluated from the tail; for x >= a + 1.
-double GammaFraction(double a, double x) {
-  double tail = 0;
-  for (int n = 2000; n >= 1; --n) tail = n * (n - a) / (x + 2 * n + 1 - a - tail);
-  return std::exp(a * std::log(x) - x - std::lgamma(a)) / (x + 1 - a - tail);
-}
-
-}  // namespace
-
-double ChiSquareTail(double x, double degrees) {
-  if (x <= 0) return 1;
-  const double a = degrees / 2, y = x / 2;
-  return y < a + 1 ? 1 - GammaSeries(a, y) : GammaFraction(a, y);
-}
+namespace lanelight::stat {
 
 ChiSquareResult ChiSquareTest(const std::vector<double>& observed,
                               const std::vector<double>& expected) {
@@ -65,12 +41,8 @@ ChiSquareResult ChiSquareTest(const std::vector<double>& observed,
     result.statistic += difference * difference / c.expected;
   }
   result.degrees = static_cast<int>(cells.size()) - 1;
-  if (result.degrees > 0) result.p = ChiSquareTail(result.statistic, result.degrees);
+  if (result.degrees > 0) result.p = ChiSquareSurvival(result.statistic, result.degrees);
   return result;
 }
 
-double SidakLevel(double family, int tests) {
-  return -std::expm1(std::log1p(-family) / tests);
-}
-
-}  // namespace lanelight
+}  // namespace lanelight::stat

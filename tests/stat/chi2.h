@@ -1,13 +1,10 @@
 // Chi-square goodness of fit, for tests of sampling routines. Seeds are fixed and never
-// tuned; a family of tests shares one false-alarm budget (Sidak).
+// tuned; a family of tests shares one false-alarm budget (SidakLevel).
 #pragma once
 
 #include <vector>
 
-namespace lanelight {
-
-/// Probability that a chi-square variable with `degrees` degrees of freedom exceeds `x`.
-double ChiSquareTail(double x, double degrees);
+namespace lanelight::stat {
 
 struct ChiSquareResult {
   double statistic = 0;
@@ -21,8 +18,4 @@ struct ChiSquareResult {
 ChiSquareResult ChiSquareTest(const std::vector<double>& observed,
                               const std::vector<double>& expected);
 
-/// Per-test level at which `tests` independent tests together have false-alarm
-/// probability `family`.
-double SidakLevel(double family, int tests);
-
-}  // namespace lanelight
+}  // namespace lanelight::stat

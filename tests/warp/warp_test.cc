@@ -86,6 +86,7 @@ HWY_AFTER_NAMESPACE();
 
 #include "kernels/simd/target.h"
 #include "tests/stat/chi2.h"
+#include "tests/stat/hypothesis.h"
 
 namespace lanelight {
 
@@ -170,7 +171,7 @@ double PValue(WarpId id, WarpId density) {
     expected[(i / kFine / kSub) * kCells + i % kFine / kSub] +=
         kCount * Density(density, a, b) / (double(kFine) * kFine);
   }
-  return ChiSquareTest(observed, expected).p;
+  return stat::ChiSquareTest(observed, expected).p;
 }
 
 }  // namespace
@@ -178,7 +179,7 @@ double PValue(WarpId id, WarpId density) {
 TEST_CASE("warps follow their densities", "[warp][stat]") {
   const auto targets = AvailableTargets();
   const double level =
-      SidakLevel(1e-3, static_cast<int>(targets.size() * std::size(kWarps)));
+      stat::SidakLevel(1e-3, static_cast<int>(targets.size() * std::size(kWarps)));
   for (const std::string& target : targets) {
     ForceTarget(target);
     for (WarpId id : kWarps) {

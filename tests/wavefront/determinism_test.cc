@@ -90,7 +90,7 @@ TEST_CASE("all SIMD targets give statistically the same image", "[determinism]")
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     TestRender t;
-    t.spp = 64;
+    t.spp = 256;
     t.seed = 10 + means.size();  // independent images, so that the errors add
     const Rendered r = RenderText(kScene, t);
     CHECK(r.result.health.Total() == 0);

@@ -1,0 +1,30 @@
+// A step of a float kernel done in double precision, half a vector at a time.
+#if defined(LANELIGHT_INTERSECT_DOUBLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_DOUBLE_INL_H_
+#undef LANELIGHT_INTERSECT_DOUBLE_INL_H_
+#else
+#define LANELIGHT_INTERSECT_DOUBLE_INL_H_
+#endif
+
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// fn(tag of doubles, v...) of the promoted lanes, rounded to float once.
+template <class D, class Fn, class... V>
+HWY_INLINE hn::Vec<D> InDouble(D d, Fn&& fn, V... v) {
+  const hn::Half<D> dh;
+  const hn::Rebind<double, hn::Half<D>> dd;
+  const auto upper = fn(dd, hn::PromoteTo(dd, hn::UpperHalf(dh, v))...);
+  const auto lower = fn(dd, hn::PromoteTo(dd, hn::LowerHalf(dh, v))...);
+  return hn::Combine(d, hn::DemoteTo(dh, upper), hn::DemoteTo(dh, lower));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,141 @@
+// Many rays, one per lane, against one triangle: what the kernels for small scenes and
+// for coherent rays share.
+#if defined(LANELIGHT_INTERSECT_MANY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_MANY_INL_H_
+#undef LANELIGHT_INTERSECT_MANY_INL_H_
+#else
+#define LANELIGHT_INTERSECT_MANY_INL_H_
+#endif
+
+#include "kernels/intersect/alpha-inl.h"
+#include "kernels/intersect/double-inl.h"
+#include "kernels/intersect/rays-inl.h"
+#include "kernels/intersect/triangle-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Lane-wise choice of the axis along which the direction is largest: x unless |y| is
+/// larger, z if |z| is larger than both (as LargestAxis for one ray).
+struct AxisOrder {
+  MF y, z;
+
+  HWY_INLINE explicit AxisOrder(V3 d) {
+    const VF ax = hn::Abs(d.x), ay = hn::Abs(d.y), az = hn::Abs(d.z);
+    y = hn::Gt(ay, ax);
+    z = hn::Gt(az, hn::Max(ax, ay));
+  }
+  /// Cyclic permutation that brings the largest axis last.
+  HWY_INLINE P3<VF> Permute(V3 v) const {
+    return {hn::IfThenElse(z, v.x, hn::IfThenElse(y, v.z, v.y)),
+            hn::IfThenElse(z, v.y, hn::IfThenElse(y, v.x, v.z)),
+            hn::IfThenElse(z, v.z, hn::IfThenElse(y, v.y, v.x))};
+  }
+};
+
+template <class Order>
+HWY_INLINE Shear<VF> MakeShear(const Order& order, const Rays& rays, float reach) {
+  Shear<VF> shear;
+  shear.o = order.Permute(rays.o);
+  const P3<VF> d = order.Permute(rays.d);
+  shear.s = {hn::Div(d.x, d.z), hn::Div(d.y, d.z), hn::Div(Splat(1.0f), d.z)};
+  shear.abs_dz = hn::Abs(d.z);
+  const VF r =
+      hn::Add(Splat(reach),
+              MaxComponent({hn::Abs(rays.o.x), hn::Abs(rays.o.y), hn::Abs(rays.o.z)}));
+  shear.t_scale =
+      hn::Div(hn::Mul(hn::Mul(hn::Mul(Splat(0x1p-13f), r), r), r), shear.abs_dz);
+  return shear;
+}
+
+/// Lanes whose ray has the plane of triangle (v0, v1, v2) ahead: PlaneIsAhead for many
+/// rays, with the same order of operations.
+inline HWY_NOINLINE MF AheadOf(const Rays& rays, const float v0[3], const float v1[3],
+                        const float v2[3]) {
+  const DF df;
+  double n[3];
+  ExactNormal(v0, v1, v2, n);
+  const auto side = [&](auto dd, auto ox, auto oy, auto oz, auto dx, auto dy,
+                        auto dz) HWY_ATTR {
+    const auto nx = hn::Set(dd, n[0]), ny = hn::Set(dd, n[1]), nz = hn::Set(dd, n[2]);
+    const auto zero = hn::Zero(dd), one = hn::Set(dd, 1.0);
+    const auto sign = [&](auto x, auto y, auto z) HWY_ATTR {
+      const auto sum = hn::Add(hn::Add(hn::Mul(nx, x), hn::Mul(ny, y)), hn::Mul(nz, z));
+      return hn::IfThenElse(hn::Gt(sum, zero), one,
+                            hn::IfThenElse(hn::Lt(sum, zero), hn::Neg(one), zero));
+    };
+    const auto distance = sign(hn::Sub(hn::Set(dd, double{v0[0]}), ox),
+                               hn::Sub(hn::Set(dd, double{v0[1]}), oy),
+                               hn::Sub(hn::Set(dd, double{v0[2]}), oz));
+    return hn::Mul(distance, sign(dx, dy, dz));
+  };
+  const VF same =
+      InDouble(df, side, rays.o.x, rays.o.y, rays.o.z, rays.d.x, rays.d.y, rays.d.z);
+  return hn::Gt(same, hn::Zero(df));
+}
+
+/// Clears the lanes of `mask` whose candidate hit on `prim` is cut out.
+HWY_INLINE MF CutOut(const CompiledScene& scene, const Rays& rays, uint32_t prim,
+                     const TriangleHits<VF, MF>& hit, MF mask) {
+  const DF df;
+  if (!(scene.geometry.triangles[prim].flags & kAlphaTested)) return mask;
+  const RayArrays ray(rays, hn::Zero(DI()));
+  HWY_ALIGN float b1[hn::MaxLanes(DF())], b2[hn::MaxLanes(DF())];
+  hn::Store(hn::Div(hit.v, hit.det), df, b1);
+  hn::Store(hn::Div(hit.w, hit.det), df, b2);
+  uint32_t kept = 0;
+  for (uint32_t bits = MaskBits(df, mask); bits != 0; bits &= bits - 1) {
+    const int i = std::countr_zero(bits);
+    const float o[3] = {ray.o[0][i], ray.o[1][i], ray.o[2][i]};
+    const float d[3] = {ray.d[0][i], ray.d[1][i], ray.d[2][i]};
+    if (TrianglePassesAlpha(scene, o, d, prim, b1[i], b2[i])) kept |= 1u << i;
+  }
+  return MaskOf(df, kept);
+}
+
+/// The closest hits of a vector of rays so far.
+class ManyClosest {
+ public:
+  HWY_INLINE ManyClosest(const PathColumns& path, const Rays& rays, VI slots)
+      : t_(rays.t_max),
+        v_(hn::Zero(DF())),
+        w_(v_),
+        det_(Splat(1.0f)),
+        prim_(Gather(path.prim, slots)),
+        any_(hn::FirstN(DF(), 0)) {}
+
+  HWY_INLINE VF t() const { return t_; }
+  /// Takes over the lanes of `mask` where the hit on `id` is closer; true if there are.
+  HWY_INLINE bool Offer(const TriangleHits<VF, MF>& hit, MF mask, uint32_t id) {
+    const DI di;
+    const VI prim = hn::Set(di, static_cast<int32_t>(id));
+    const MF closer = hn::And(mask, IsCloser(hit.t, prim, t_, prim_));
+    any_ = hn::Or(any_, closer);
+    t_ = hn::IfThenElse(closer, hit.t, t_);
+    prim_ = hn::IfThenElse(hn::RebindMask(di, closer), prim, prim_);
+    v_ = hn::IfThenElse(closer, hit.v, v_);
+    w_ = hn::IfThenElse(closer, hit.w, w_);
+    det_ = hn::IfThenElse(closer, hit.det, det_);
+    return !hn::AllFalse(DF(), closer);
+  }
+  HWY_INLINE void Store(const PathColumns& path, VI slots) const {
+    Scatter(t_, path.t, slots);
+    Scatter(prim_, path.prim, slots);
+    const VF b1 = hn::Div(v_, det_), b2 = hn::Div(w_, det_);
+    Scatter(hn::IfThenElse(any_, b1, Gather(path.b1, slots)), path.b1, slots);
+    Scatter(hn::IfThenElse(any_, b2, Gather(path.b2, slots)), path.b2, slots);
+  }
+
+ private:
+  VF t_, v_, w_, det_;
+  VI prim_;
+  MF any_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

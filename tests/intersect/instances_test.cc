@@ -1,0 +1,189 @@
+// Instances: the same hits as the flattened scene, ties, nested trees of every size.
+#include <catch2/catch.hpp>
+
+#include "kernels/simd/target.h"
+#include "kernels/surface/stages.h"
+#include "src/core/transform.h"
+#include "tests/intersect/brute_force.h"
+#include "tests/intersect/trace.h"
+
+namespace lanelight {
+namespace {
+
+using brute::Random;
+using brute::ToDouble;
+
+const FeatureSet kInstanced = {Feature::kTriangles, Feature::kInstances,
+                               Feature::kScatters};
+
+InstanceRecord MakeInstance(const Transform& scene_from_object) {
+  InstanceRecord record;
+  const Transform inverse = scene_from_object.Inverse();
+  for (int i = 0; i < 12; ++i) {
+    record.scene_from_object[i] = static_cast<float>(scene_from_object(i / 4, i % 4));
+    record.object_from_scene[i] = static_cast<float>(inverse(i / 4, i % 4));
+  }
+  return record;
+}
+
+struct Pair {
+  Geometry instanced, flat;
+  std::vector<std::uint32_t> prim, inst;  // of each triangle of `flat`
+};
+
+// A world soup and two object definitions of different size, placed several times with
+// rotation, uneven scale, mirroring and translation.
+Pair MakePair(Random& random, int instances) {
+  Pair pair;
+  Geometry& g = pair.instanced;
+  g = brute::Soup(random, 5, 2, 0.5f);
+  g.groups = {{0, 5}};
+  for (const int n : {3, 200}) {
+    const Geometry object = brute::Soup(random, n, 0.5f, 0.2f);
+    const auto begin = static_cast<std::uint32_t>(g.triangles.size());
+    g.triangles.insert(g.triangles.end(), object.triangles.begin(),
+                       object.triangles.end());
+    g.groups.push_back({begin, static_cast<std::uint32_t>(g.triangles.size())});
+  }
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    pair.flat.triangles.push_back(g.triangles[i]);
+    pair.prim.push_back(i);
+    pair.inst.push_back(kWorldInstance);
+  }
+  for (int i = 0; i < instances; ++i) {
+    const Vec3d scale = {random(0.3f, 2), random(0.3f, 2), i % 3 ? random(0.3f, 2) : -1};
+    const Transform t = Transform::Translate(ToDouble(random.Point(2))) *
+                        Transform::Rotate(random(0, 360), ToDouble(random.Direction())) *
+                        Transform::Scale(scale);
+    g.instances.push_back(MakeInstance(t));
+    g.instance_group.push_back(1 + i % 2);
+    const Geometry::TriangleGroup group = g.groups[1 + i % 2];
+    for (std::uint32_t id = group.begin; id < group.end; ++id) {
+      TriangleRecord tri = g.triangles[id];
+      for (auto& p : tri.p) {
+        const Vec3d q = t.Point({p[0], p[1], p[2]});
+        for (int a = 0; a < 3; ++a) p[a] = static_cast<float>(q[a]);
+      }
+      pair.flat.triangles.push_back(tri);
+      pair.prim.push_back(id);
+      pair.inst.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return pair;
+}
+
+}  // namespace
+
+TEST_CASE("instances give the hits of the flattened scene", "[intersect]") {
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    CAPTURE(target);
+    Random random(41);
+    for (const int instances : {1, 9, 40}) {
+      const Pair pair = MakePair(random, instances);
+      const CompiledScene instanced = MakeScene(pair.instanced),
+                          flat = MakeScene(pair.flat);
+      std::vector<TestRay> rays;
+      for (int i = 0; i < 800; ++i) rays.push_back({random.Point(2), random.Direction()});
+      const std::vector<Stage> stages = {IntersectTrianglesStage()};
+      const auto a = TraceClosest(instanced, rays, stages, kInstanced);
+      const auto b = TraceClosest(flat, rays, stages);
+      int differ = 0, hits = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        hits += !std::isinf(b[i].t);
+        if (std::isinf(a[i].t) != std::isinf(b[i].t)) {
+          ++differ;  // a ray along an edge may fall on either side after rounding
+          continue;
+        }
+        if (std::isinf(a[i].t)) continue;
+        const bool same =
+            a[i].prim == pair.prim[b[i].prim] && a[i].inst == pair.inst[b[i].prim];
+        differ += !same;
+        if (!same) continue;
+        CAPTURE(i, a[i].prim, a[i].inst);
+        REQUIRE(std::abs(a[i].t - b[i].t) < 1e-4);
+        REQUIRE(std::abs(a[i].b1 - b[i].b1) < 1e-3);
+      }
+      CHECK(hits > 3 * instances);
+      CHECK(differ <= 1);
+      // Any hit agrees with closest hit.
+      std::vector<std::uint32_t> open;
+      for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        rays[i].t_max = 1.5f;
+        if (!(a[i].t < rays[i].t_max)) open.push_back(i);
+      }
+      CHECK(Unoccluded(instanced, rays, {ShadowTrianglesStage()}, kInstanced) == open);
+    }
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("surfaces of instances lie on the flattened triangles", "[surface]") {
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    CAPTURE(target);
+    Random random(42);
+    const Pair pair = MakePair(random, 12);
+    const CompiledScene scene = MakeScene(pair.instanced);
+    std::vector<TestRay> rays;
+    for (int i = 0; i < 800; ++i) rays.push_back({random.Point(2), random.Direction()});
+    WaveFixture f(scene, 800);
+    f.SetRays(rays);
+    f.Run(IntersectTrianglesStage(), kInstanced);
+    Queue& queue = f.wave.queue(QueueId::kSurface);
+    const PathColumns& p = f.wave.path;
+    for (std::uint32_t i = 0; i < 800; ++i) {
+      if (!std::isinf(p.t[i])) queue.items[queue.size++] = i;
+    }
+    f.Run(SurfaceTriangleStage(), kInstanced);
+    Queue& shadow = f.wave.queue(QueueId::kShadow);
+    for (std::uint32_t k = 0; k < queue.size; ++k) {
+      const std::uint32_t i = queue.items[k];
+      const std::uint32_t none = kWorldInstance;
+      std::size_t at = 0;
+      while (pair.prim[at] != p.prim[i] || pair.inst[at] != p.inst[i]) ++at;
+      const TriangleRecord& tri = pair.flat.triangles[at];
+      const auto vertex = [&](int v) {
+        return Vec3d{tri.p[v][0], tri.p[v][1], tri.p[v][2]};
+      };
+      const Vec3d n = Normalize(Cross(vertex(1) - vertex(0), vertex(2) - vertex(0)));
+      // A mirrored instance keeps the side of the object's normal, as in pbrt.
+      const bool mirrored = p.inst[i] != none && p.inst[i] % 3 == 0;
+      REQUIRE(Length(n * (mirrored ? -1.0 : 1.0) - ToDouble(f.Ng(i))) < 1e-4);
+      REQUIRE(std::abs(Dot(n, ToDouble(f.P(i)) - vertex(0))) < 2e-6);
+      const Vec3d on_ray = ToDouble(rays[i].o) + double{p.t[i]} * ToDouble(rays[i].d);
+      REQUIRE(Length(on_ray - ToDouble(f.P(i))) < 1e-4);
+      // Leaving the surface does not meet it within a short way.
+      const Vec3f d = random.Direction();
+      if (std::abs(Dot(d, f.Ng(i))) < 1e-3f) continue;
+      p.ls_x[i] = d.x, p.ls_y[i] = d.y, p.ls_z[i] = d.z, p.ls_distance[i] = 1e-5f;
+      shadow.items[shadow.size++] = i;
+    }
+    const std::uint32_t before = shadow.size;
+    REQUIRE(before > 100);
+    f.Run(ShadowTrianglesStage(), kInstanced);
+    CHECK(shadow.size == before);
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("coincident instances tie to the smaller index", "[intersect]") {
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    CAPTURE(target);
+    Geometry g;
+    g.triangles = {MakeTriangle({-1, -1, 1}, {1, -1, 1}, {0, 1, 1})};
+    g.groups = {{0, 0}, {0, 1}};
+    for (int i = 0; i < 20; ++i) {
+      g.instances.push_back(MakeInstance(Transform()));
+      g.instance_group.push_back(1);
+    }
+    const auto hits = TraceClosest(MakeScene(g), {{{0, 0, 0}, {0, 0, 1}}},
+                                   {IntersectTrianglesStage()}, kInstanced);
+    CHECK(hits[0].t == 1);
+    CHECK(hits[0].inst == 0);
+  }
+  ForceTarget("");
+}
+
+}  // namespace lanelight

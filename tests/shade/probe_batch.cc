@@ -1,0 +1,186 @@
+#include "tests/shade/probe_batch.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "src/scene/coat_table.h"
+
+namespace lanelight::test {
+namespace {
+
+using reference::LocalMaterial;
+
+LocalMaterial Diffuse(MaterialKind kind, Scattering scattering) {
+  LocalMaterial m;
+  m.kind = kind;
+  m.scattering = scattering;
+  m.reflectance = {0.8, 0.5, 0.1};
+  m.transmittance = {0.1, 0.3, 0.2};
+  return m;
+}
+LocalMaterial Metal(double ax, double ay) {
+  LocalMaterial m;
+  m.kind = MaterialKind::kConductor;
+  m.eta = {0.2, 0.92, 1.1};
+  m.k = {3.9, 2.45, 2.14};
+  m.interface = {ax, ay};
+  return m;
+}
+LocalMaterial Glass(MaterialKind kind, double index, double ax, double ay) {
+  LocalMaterial m;
+  m.kind = kind;
+  m.index = index;
+  m.interface = {ax, ay};
+  return m;
+}
+LocalMaterial Plastic(double index, double alpha, Rgb rho, double thickness = 0.01) {
+  LocalMaterial m = Glass(MaterialKind::kCoatedDiffuse, index, alpha, alpha);
+  m.reflectance = rho;
+  m.thickness = thickness;
+  return m;
+}
+LocalMaterial Lacquer(double index, double coat, double metal) {
+  LocalMaterial m = Metal(coat, coat);
+  m.kind = MaterialKind::kCoatedConductor;
+  m.index = index;
+  m.metal = {metal, metal};
+  m.thickness = 0.01;
+  return m;
+}
+
+}  // namespace
+
+TestMaterial MakeTestMaterial(const std::string& name, ShadeKind kind,
+                              const LocalMaterial& m) {
+  TestMaterial out{name, kind, m, {}};
+  MaterialTable& t = out.table;
+  const bool metal =
+      m.kind == MaterialKind::kConductor || m.kind == MaterialKind::kCoatedConductor;
+  const Rgb color0 = metal ? m.eta : m.reflectance,
+            color1 = metal ? m.k : m.transmittance;
+  const auto add = [](AlignedVector<float>& column, double v) {
+    column.push_back(static_cast<float>(v));
+  };
+  t.kind.push_back(static_cast<std::uint32_t>(kind));
+  add(t.color0_r, color0.x), add(t.color0_g, color0.y), add(t.color0_b, color0.z);
+  add(t.color1_r, color1.x), add(t.color1_g, color1.y), add(t.color1_b, color1.z);
+  add(t.alpha_x, m.interface.ax), add(t.alpha_y, m.interface.ay);
+  add(t.alpha2_x, m.metal.ax), add(t.alpha2_y, m.metal.ay);
+  add(t.eta, m.index);
+  t.coat.push_back(0);
+  t.coat_internal.push_back(0);
+  if (m.kind == MaterialKind::kCoatedDiffuse) {
+    const double alpha = std::sqrt(m.interface.ax * m.interface.ay);
+    const CoatTable coat = ComputeCoatTable(alpha, m.index, m.thickness);
+    for (float v : coat.transmittance) add(t.coat_transmittance, v);
+    t.coat_internal[0] = coat.internal_reflectance;
+  }
+  add(t.coat_thickness, m.thickness);
+  t.coat_depth.push_back(static_cast<std::uint32_t>(m.coat_max_depth));
+  return out;
+}
+
+const std::vector<TestMaterial>& TestMaterials() {
+  using K = ShadeKind;
+  static const std::vector<TestMaterial> materials = [] {
+    std::vector<TestMaterial> list;
+    const auto add = [&](const char* name, K kind, const LocalMaterial& m) {
+      list.push_back(MakeTestMaterial(name, kind, m));
+    };
+    const MaterialKind diffuse = MaterialKind::kDiffuse;
+    const MaterialKind glass = MaterialKind::kDielectric;
+    add("diffuse", K::kDiffuse, Diffuse(diffuse, Scattering::kLambertian));
+    add("uniform", K::kDiffuseUniform, Diffuse(diffuse, Scattering::kUniform));
+    add("insphere", K::kDiffuseInSphere, Diffuse(diffuse, Scattering::kInSphere));
+    add("diffuse transmission", K::kDiffuseTransmission,
+        Diffuse(MaterialKind::kDiffuseTransmission, Scattering::kLambertian));
+    add("mirror", K::kConductorSmooth, Metal(0, 0));
+    add("metal 0.3", K::kConductorRough, Metal(0.3, 0.3));
+    add("metal 0.5 x 0.15", K::kConductorRough, Metal(0.5, 0.15));
+    add("glass", K::kDielectricSmooth, Glass(glass, 1.5, 0, 0));
+    add("glass 0.67", K::kDielectricSmooth, Glass(glass, 0.67, 0, 0));
+    add("frosted 0.3", K::kDielectricRough, Glass(glass, 1.5, 0.3, 0.3));
+    add("frosted 0.4 x 0.2", K::kDielectricRough, Glass(glass, 1.33, 0.4, 0.2));
+    add("frosted 0.67", K::kDielectricRough, Glass(glass, 0.67, 0.5, 0.5));
+    add("thin", K::kThinDielectric, Glass(MaterialKind::kThinDielectric, 1.5, 0, 0));
+    add("plastic", K::kCoatedDiffuseSmooth, Plastic(1.5, 0, {0.9, 0.5, 0.05}));
+    add("white plastic", K::kCoatedDiffuseSmooth, Plastic(1.5, 0, {1, 1, 1}));
+    add("plastic 0.3", K::kCoatedDiffuseRough, Plastic(1.5, 0.3, {0.9, 0.5, 0.05}));
+    add("white plastic 0.2", K::kCoatedDiffuseRough, Plastic(1.5, 0.2, {1, 1, 1}));
+    add("plastic 0.6, thick", K::kCoatedDiffuseRough,
+        Plastic(1.8, 0.6, {0.9, 0.9, 0.5}, 0.2));
+    add("lacquer 0, 0.3", K::kCoatedConductor, Lacquer(1.5, 0, 0.3));
+    add("lacquer 0.3, 0", K::kCoatedConductor, Lacquer(1.5, 0.3, 0));
+    add("lacquer 0.2, 0.3", K::kCoatedConductor, Lacquer(1.5, 0.2, 0.3));
+    add("lacquer 0, 0", K::kCoatedConductor, Lacquer(1.5, 0, 0));
+    return list;
+  }();
+  return materials;
+}
+
+bool IsSpecular(ShadeKind kind) { return GetBsdfProbe(kind).eval == nullptr; }
+
+ProbeBatch::ProbeBatch(std::uint32_t count) : n(count) {
+  const std::size_t size = (count + kProbePadding - 1) / kProbePadding * kProbePadding;
+  for (int c = 0; c < 3; ++c) {
+    wo[c].assign(size, c == 2 ? 1.f : 0.f);
+    wi[c].assign(size, c == 2 ? 1.f : 0.f);
+    u[c].assign(size, 0.5f);
+    value[c].assign(size, 0.f);
+  }
+  pdf.assign(size, 0.f);
+  eta_scale.assign(size, 1.f);
+}
+
+void ProbeBatch::SetWo(Vec3d w) {
+  for (int c = 0; c < 3; ++c) wo[c].assign(wo[c].size(), static_cast<float>(w[c]));
+}
+void ProbeBatch::RandomPoints(std::uint64_t seed) {
+  reference::Random random(seed);
+  for (auto& column : u) {  // 24 bits, as the samplers give
+    for (float& v : column) v = static_cast<float>(random.Bits() >> 40) * 0x1p-24f;
+  }
+}
+void ProbeBatch::SetWi(std::uint32_t i, Vec3d w) {
+  for (int c = 0; c < 3; ++c) wi[c][i] = static_cast<float>(w[c]);
+}
+
+BsdfBatch ProbeBatch::View(const TestMaterial& material, std::uint32_t seed) {
+  BsdfBatch batch;
+  batch.materials = &material.table;
+  batch.n = n;
+  batch.seed = seed;
+  for (int c = 0; c < 3; ++c) {
+    batch.wo[c] = wo[c].data();
+    batch.u[c] = u[c].data();
+    batch.wi[c] = wi[c].data();
+    batch.value[c] = value[c].data();
+  }
+  batch.pdf = pdf.data();
+  batch.eta_scale = eta_scale.data();
+  return batch;
+}
+void ProbeBatch::Sample(const TestMaterial& material, std::uint32_t seed) {
+  GetBsdfProbe(material.kind).sample(View(material, seed));
+}
+void ProbeBatch::Eval(const TestMaterial& material, std::uint32_t seed) {
+  GetBsdfProbe(material.kind).eval(View(material, seed));
+}
+
+std::vector<Vec3d> TestDirections() {
+  std::vector<Vec3d> list;
+  for (double degrees : {5., 50., 82., 130.}) {
+    const double theta = degrees * std::numbers::pi / 180, phi = 0.7;
+    list.push_back({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                    std::cos(theta)});
+  }
+  return list;
+}
+
+Vec3d RandomDirection(reference::Random& random) {
+  const double z = 2 * random.Uniform() - 1;
+  const double phi = 2 * std::numbers::pi * random.Uniform(), r = std::sqrt(1 - z * z);
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+}  // namespace lanelight::test

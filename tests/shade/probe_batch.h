@@ -1,0 +1,67 @@
+// Materials for tests of the shading kernels: the same one as a row of a MaterialTable
+// and as a LocalMaterial of the scalar reference, and batches that run the probes on it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernels/shade/probe.h"
+#include "kernels/simd/target.h"
+#include "tests/reference/bsdf.h"
+
+namespace lanelight::test {
+
+struct TestMaterial {
+  std::string name;
+  ShadeKind kind;
+  reference::LocalMaterial local;
+  MaterialTable table;  // one row
+};
+
+/// `local` as a row of a table.
+TestMaterial MakeTestMaterial(const std::string& name, ShadeKind kind,
+                              const reference::LocalMaterial& local);
+
+/// At least one of each kind, smooth and rough, isotropic and not.
+const std::vector<TestMaterial>& TestMaterials();
+
+bool IsSpecular(ShadeKind kind);
+
+/// Directions and results of n evaluations.
+struct ProbeBatch {
+  std::uint32_t n;
+  std::vector<float> wo[3], u[3], wi[3], value[3], pdf, eta_scale;
+
+  explicit ProbeBatch(std::uint32_t count);
+  void SetWo(Vec3d w);  // for all
+  void RandomPoints(std::uint64_t seed);
+  void SetWi(std::uint32_t i, Vec3d w);
+  Vec3d Wo(std::uint32_t i) const { return {wo[0][i], wo[1][i], wo[2][i]}; }
+  Vec3d Wi(std::uint32_t i) const { return {wi[0][i], wi[1][i], wi[2][i]}; }
+  Rgb Value(std::uint32_t i) const { return {value[0][i], value[1][i], value[2][i]}; }
+
+  /// Run the probes of the current target.
+  void Sample(const TestMaterial& material, std::uint32_t seed = 0);
+  void Eval(const TestMaterial& material, std::uint32_t seed = 0);
+
+ private:
+  BsdfBatch View(const TestMaterial& material, std::uint32_t seed);
+};
+
+/// Directions of incidence, on both sides, up to 82 degrees.
+std::vector<Vec3d> TestDirections();
+/// Uniform over the sphere.
+Vec3d RandomDirection(reference::Random& random);
+
+/// Calls body(name) with each available target forced, then restores the best one.
+template <class Body>
+void ForEachTarget(Body body) {
+  for (const std::string& name : AvailableTargets()) {
+    ForceTarget(name);
+    body(name);
+  }
+  ForceTarget("");
+}
+
+}  // namespace lanelight::test

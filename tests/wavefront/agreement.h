@@ -1,0 +1,48 @@
+// Compares the wavefront with the scalar reference and with closed forms.
+#pragma once
+
+#include "tests/reference/compare.h"
+#include "tests/reference/scenes.h"
+#include "tests/wavefront/render_fixture.h"
+
+namespace lanelight::test {
+
+/// Single precision: relative error of converged means that is rounding, not bias.
+inline constexpr double kFloatTolerance = 1e-4;
+
+inline stat::ImageEstimate Estimate(const Rendered& render) {
+  const FilmAccumulator& film = render.film;
+  stat::ImageEstimate out = {film.width(), film.height(), 0, {}, {}};
+  for (int y = 0; y < film.height(); ++y) {
+    for (int x = 0; x < film.width(); ++x) {
+      out.mean.push_back(film.Mean(film.x0() + x, film.y0() + y));
+      out.variance.push_back(film.Variance(film.x0() + x, film.y0() + y));
+    }
+  }
+  out.observations =
+      static_cast<double>(film.Samples(film.x0(), film.y0())) / film.group_size();
+  return out;
+}
+
+/// Renders with the independent sampler, and requires that no sample was bad.
+inline stat::ImageEstimate RenderWavefront(const SceneDescription& scene,
+                                           std::uint64_t spp) {
+  TestRender options;
+  options.spp = spp;
+  const Rendered render = RenderDescription(scene, options);
+  CHECK(render.result.health.Total() == 0);
+  return Estimate(render);
+}
+
+/// Wavefront against reference. `tolerance` is relative, on top of the noise.
+inline stat::ImageTestResult CompareWithReference(const SceneDescription& scene,
+                                                  std::uint64_t wavefront_spp,
+                                                  int reference_spp,
+                                                  double tolerance = kFloatTolerance) {
+  const auto options = Options(ReferenceEstimator::kLightSampling, reference_spp);
+  return stat::CompareMeans(RenderWavefront(scene, wavefront_spp),
+                            Estimate(RenderReference(scene, options)),
+                            {4, 1e-6, tolerance, 1e-7});
+}
+
+}  // namespace lanelight::test
