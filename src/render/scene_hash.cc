@@ -46,13 +46,18 @@ bool ReadFile(const fs::path& path, std::string* content) {
   return !in.bad();
 }
 
-// Quoted strings that could be file names: they have an extension.
+// Quoted strings that could be file names: on one line, with an extension.
 std::vector<std::string_view> QuotedNames(std::string_view text) {
   constexpr std::size_t kLongest = 1024;
   std::vector<std::string_view> names;
   for (std::size_t at = text.find('"'); at != text.npos; at = text.find('"', at)) {
     const std::size_t end = text.find('"', at + 1);
     if (end == text.npos) break;
+    const std::size_t newline = text.find('\n', at);
+    if (newline < end) {  // a lonely quote, in a comment
+      at = newline;
+      continue;
+    }
     const std::string_view name = text.substr(at + 1, end - at - 1);
     if (name.size() < kLongest && name.find('.') != name.npos) names.push_back(name);
     at = end + 1;

@@ -1,0 +1,84 @@
+// Overrides of a scene and the limits of what is asked for.
+#include "src/render/settings.h"
+
+#include <catch2/catch.hpp>
+
+#include "src/core/error.h"
+#include "src/render/memory.h"
+
+namespace lanelight {
+
+using Catch::Contains;
+
+TEST_CASE("a crop of the scene is scaled with the resolution", "[render]") {
+  SceneDescription scene;
+  scene.film.width = 100;
+  scene.film.height = 50;
+  const int crop[4] = {10, 60, 5, 25};  // x0 x1 y0 y1
+  std::copy(crop, crop + 4, scene.film.crop);
+  RenderSettings settings;
+  settings.resolution = {200, 25};
+  ApplySettings(settings, scene);
+  const PixelWindow w = CropWindow(scene.film);
+  CHECK(w.x0 == 20);
+  CHECK(w.x1 == 120);
+  CHECK(w.y0 == 3);
+  CHECK(w.y1 == 13);
+  settings.crop = {1, 2, 3, 4};
+  ApplySettings(settings, scene);
+  CHECK(CropWindow(scene.film).x1 == 3);
+  CHECK(CropWindow(scene.film).pixels() == 4);
+}
+
+TEST_CASE("without a crop the window is the whole image", "[render]") {
+  SceneDescription scene;
+  ApplySettings({}, scene);
+  CHECK(CropWindow(scene.film).width() == scene.film.width);
+  CHECK(CropWindow(scene.film).height() == scene.film.height);
+}
+
+TEST_CASE("settings out of range are refused", "[render]") {
+  const auto refused = [](auto&& change, const char* message) {
+    RenderSettings settings;
+    SceneDescription scene;
+    change(settings, scene);
+    CHECK_THROWS_WITH(ApplySettings(settings, scene), Contains(message));
+  };
+  refused([](auto& s, auto&) { s.spp = 0; }, "samples per pixel");
+  refused([](auto& s, auto&) { s.spp = kMaxSpp + 1; }, "2147483649");
+  refused([](auto& s, auto&) { s.spp = ~std::uint64_t{0}; }, "samples per pixel");
+  refused([](auto&, auto& d) { d.sampler.spp = -1; }, "-1 samples per pixel");
+  refused([](auto& s, auto&) { s.seconds = 0; }, "time budget");
+  refused([](auto& s, auto&) { s.resolution = {0, 10}; }, "resolution 0x10");
+  refused([](auto& s, auto&) { s.resolution = {10, 70000}; }, "resolution 10x70000");
+  refused([](auto&, auto& d) { d.film.width = -3; }, "resolution -3x");
+  refused([](auto& s, auto&) { s.crop = {0, 0, 0, 0}; }, "crop window");
+  refused([](auto& s, auto&) { s.crop = {0, 0, 5000, 10}; }, "leaves the image");
+  refused([](auto& s, auto&) { s.crop = {-1, 0, 5, 10}; }, "crop window");
+  refused([](auto& s, auto&) { s.max_depth = -1; }, "maximum depth");
+  refused([](auto& s, auto&) { s.wavefront = kMaxWavefront + 1; }, "wavefront");
+}
+
+TEST_CASE("groups are powers of two and leave at least eight per pixel", "[render]") {
+  CHECK(GroupSize(SamplerKind::kIndependent, 4096) == 1);
+  for (std::uint64_t spp : {1, 7, 8, 15, 16, 64, 100, 1000, 1 << 20}) {
+    const std::uint32_t size = GroupSize(SamplerKind::kSobol, spp);
+    CHECK((size & (size - 1)) == 0);
+    CHECK((size == 1 || spp / size >= 8));
+    CHECK((2 * size > (1u << 16) || spp / (2 * size) < 8));
+  }
+  CHECK(GroupSize(SamplerKind::kSobol, 0) == 16);
+}
+
+TEST_CASE("a film beyond the memory is refused with both numbers", "[render]") {
+  const PixelWindow window = {0, 0, 1 << 15, 1 << 15};
+  CHECK(FilmBytes(window, true) > FilmBytes(window, false));
+  CHECK(FilmBytes(window, false) > window.pixels() * 100);
+  const std::uint64_t gib = std::uint64_t{1} << 30;
+  CHECK_NOTHROW(CheckFilmFits(window, false, 1000 * gib));
+  CHECK_THROWS_WITH(CheckFilmFits(window, false, 16 * gib),
+                    Contains("32768x32768") && Contains("16.0 GiB"));
+  CHECK(PhysicalMemory() > gib / 4);
+}
+
+}  // namespace lanelight
