@@ -51,6 +51,8 @@ struct ProbeBatch {
 
 /// Directions of incidence, on both sides, up to 82 degrees.
 std::vector<Vec3d> TestDirections();
+/// The same, but only one for the emulation: it runs the same code, thirty times slower.
+std::vector<Vec3d> TestDirections(const std::string& target);
 /// Uniform over the sphere.
 Vec3d RandomDirection(reference::Random& random);
 

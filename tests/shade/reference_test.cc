@@ -110,6 +110,7 @@ TEST_CASE("samples agree with the reference in the mean", "[shade][stat]") {
   ForEachTarget([&](const std::string& target) {
     for (std::size_t i = 0; i < TestMaterials().size(); ++i) {
       for (std::size_t d = 0; d < TestDirections().size(); ++d) {
+        if (target == "EMU128" && d != 1) continue;  // the slowest, and the same code
         const TestMaterial& m = TestMaterials()[i];
         INFO(target << ", " << m.name << ", wo.z = " << TestDirections()[d].z);
         CHECK(LowestP(Sampled(m, TestDirections()[d], true), reference[i][d]) > Level());
