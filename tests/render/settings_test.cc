@@ -59,17 +59,6 @@ TEST_CASE("settings out of range are refused", "[render]") {
   refused([](auto& s, auto&) { s.wavefront = kMaxWavefront + 1; }, "wavefront");
 }
 
-TEST_CASE("groups are powers of two and leave at least eight per pixel", "[render]") {
-  CHECK(GroupSize(SamplerKind::kIndependent, 4096) == 1);
-  for (std::uint64_t spp : {1, 7, 8, 15, 16, 64, 100, 1000, 1 << 20}) {
-    const std::uint32_t size = GroupSize(SamplerKind::kSobol, spp);
-    CHECK((size & (size - 1)) == 0);
-    CHECK((size == 1 || spp / size >= 8));
-    CHECK((2 * size > (1u << 16) || spp / (2 * size) < 8));
-  }
-  CHECK(GroupSize(SamplerKind::kSobol, 0) == 16);
-}
-
 TEST_CASE("a film beyond the memory is refused with both numbers", "[render]") {
   const PixelWindow window = {0, 0, 1 << 15, 1 << 15};
   CHECK(FilmBytes(window, true) > FilmBytes(window, false));
