@@ -9,8 +9,7 @@
 
 #include <bit>
 
-#include "hwy/highway.h"
-#include "src/core/check.h"
+#include "kernels/texture/texture-inl.h"
 #include "src/scene/compiled.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,9 +18,8 @@ namespace HWY_NAMESPACE {
 
 /// Opacity of primitive `prim` at (u, v), in [0, 1]; outside values mean the nearest end.
 inline float AlphaAt(const CompiledScene& scene, uint32_t prim, float u, float v) {
-  (void)u, (void)v;
-  LL_CHECK_LT(scene.alpha_texture[prim], 0);
-  return scene.alpha_constant[prim];
+  return EvalAlphaAt(scene.textures, scene.alpha_texture[prim], u, v,
+                     scene.alpha_constant[prim]);
 }
 
 /// Uniform number in [0, 1) from the bits of a ray and a primitive: the same ray makes

@@ -5,6 +5,7 @@
 
 #include "src/core/error.h"
 #include "src/render/memory.h"
+#include "src/wavefront/run.h"
 
 namespace lanelight {
 
@@ -57,6 +58,17 @@ TEST_CASE("settings out of range are refused", "[render]") {
   refused([](auto& s, auto&) { s.crop = {-1, 0, 5, 10}; }, "crop window");
   refused([](auto& s, auto&) { s.max_depth = -1; }, "maximum depth");
   refused([](auto& s, auto&) { s.wavefront = kMaxWavefront + 1; }, "wavefront");
+}
+
+TEST_CASE("groups are powers of two and leave at least four per pixel", "[render]") {
+  CHECK(GroupSize(SamplerKind::kIndependent, 4096) == 1);
+  for (std::uint64_t spp : {1, 7, 8, 15, 16, 64, 100, 1000, 1 << 20}) {
+    const std::uint32_t size = GroupSize(SamplerKind::kSobol, spp);
+    CHECK((size & (size - 1)) == 0);
+    CHECK((size == 1 || spp / size >= 4));
+    CHECK((2 * size > (1u << 20) || spp / (2 * size) < 4));
+  }
+  CHECK(GroupSize(SamplerKind::kSobol, 0) == 64);
 }
 
 TEST_CASE("a film beyond the memory is refused with both numbers", "[render]") {

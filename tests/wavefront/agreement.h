@@ -3,6 +3,7 @@
 
 #include "tests/reference/compare.h"
 #include "tests/reference/scenes.h"
+#include "tests/reference/texture.h"
 #include "tests/wavefront/render_fixture.h"
 
 namespace lanelight::test {
@@ -39,7 +40,11 @@ inline stat::ImageTestResult CompareWithReference(const SceneDescription& scene,
                                                   std::uint64_t wavefront_spp,
                                                   int reference_spp,
                                                   double tolerance = kFloatTolerance) {
-  const auto options = Options(ReferenceEstimator::kLightSampling, reference_spp);
+  const reference::Textures textures(scene.textures);
+  auto options = Options(ReferenceEstimator::kLightSampling, reference_spp);
+  options.texture = [&](Index index, double u, double v) {
+    return textures.Eval(index, u, v);
+  };
   return stat::CompareMeans(RenderWavefront(scene, wavefront_spp),
                             Estimate(RenderReference(scene, options)),
                             {4, 1e-6, tolerance, 1e-7});

@@ -85,6 +85,39 @@ SceneDescription ShadedDome() {
   return b.Build();
 }
 
+// Chequered colour, roughness and alpha on a quad, a ball and the ground.
+SceneDescription TexturedScene() {
+  SceneBuilder b(8, 8);
+  b.Depth(3).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 36);
+  Texture colors;
+  colors.kind = TextureKind::kCheckerboard;
+  colors.tex1.constant = {0.8, 0.3, 0.1};
+  colors.tex2.constant = {0.1, 0.4, 0.7};
+  colors.mapping = {3, 2, 0.2, 0.1};
+  Texture floats = colors;
+  floats.is_float = true;
+  floats.tex1.constant = Grey(0.2);
+  floats.tex2.constant = Grey(0.6);
+  Texture holes = floats;
+  holes.tex1.constant = Grey(0);
+  holes.tex2.constant = Grey(1);
+  b.scene().textures = {colors, floats, holes};
+  Material painted, brushed;
+  painted.reflectance.texture = 0;
+  brushed.kind = MaterialKind::kConductor;
+  brushed.eta.constant = {0.2, 0.9, 1.1};
+  brushed.k.constant = {3.9, 2.5, 2.2};
+  brushed.uroughness.texture = brushed.vroughness.texture = 1;
+  brushed.remap_roughness = false;
+  const Index paint = b.AddMaterial(painted);
+  b.AddPlane({0, 0, 0}, {0, 0, 1}, paint);
+  b.AddSphere({0.6, 0, 0.6}, 0.6, b.AddMaterial(brushed));
+  b.AddQuad({-1.4, -0.3, 0.3}, {1, 0, 0.4}, {0, 1, 0.2}, paint).alpha.texture = 2;
+  b.AddSphere({0, -1, 3}, 0.6, b.AddDiffuse(Grey(0)), b.AddEmission({4, 4, 3}));
+  b.AddEnvironment({0.4, 0.45, 0.5});
+  return b.Build();
+}
+
 void CheckAgreement(const SceneDescription& scene, std::uint64_t spp, int reference_spp,
                     double power) {
   const auto result = CompareWithReference(scene, spp, reference_spp);
@@ -129,6 +162,10 @@ TEST_CASE("wavefront agrees on instances", "[agreement]") {
 
 TEST_CASE("wavefront agrees on interpolated normals", "[agreement]") {
   CheckAgreement(ShadedDome(), 8192, 2000, 0.05);
+}
+
+TEST_CASE("wavefront agrees on textured colour, roughness and alpha", "[agreement]") {
+  CheckAgreement(TexturedScene(), 8192, 2000, 0.05);
 }
 
 TEST_CASE("wavefront agrees with the reference on every target", "[agreement]") {
