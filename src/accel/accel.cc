@@ -239,6 +239,7 @@ Accel BuildAccel(const Geometry& geometry) {
 }
 
 Accel BuildAccel(const Geometry& geometry, const AccelOptions& options) {
+  LL_CHECK_LE(options.few_triangles, kFewTriangles);  // kernels size their scratch by it
   Accel accel;
   BuildTriangles(geometry, options, accel);
   const auto spheres = static_cast<std::uint32_t>(geometry.spheres.size());
