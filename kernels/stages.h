@@ -11,6 +11,7 @@ namespace lanelight {
   X(Generate)                 \
   X(IndependentCamera)        \
   X(SobolCamera)              \
+  X(AntitheticCamera)         \
   X(Camera)                   \
   X(IntersectTriangles)       \
   X(IntersectSpheres)         \
@@ -18,6 +19,7 @@ namespace lanelight {
   X(IntersectPlanes)          \
   X(Split)                    \
   X(Escape)                   \
+  X(HitLightTree)             \
   X(EmissionTriangle)         \
   X(EmissionSphere)           \
   X(EmissionDisk)             \
@@ -31,8 +33,10 @@ namespace lanelight {
   X(Aov)                      \
   X(IndependentBounce)        \
   X(SobolBounce)              \
+  X(AntitheticBounce)         \
   X(Route)                    \
   X(SelectLight)              \
+  X(SelectLightTree)          \
   X(SampleTriangleLight)      \
   X(SampleSphereLight)        \
   X(SampleDiskLight)          \
@@ -58,7 +62,9 @@ namespace lanelight {
   X(ShadowDisks)              \
   X(ShadowPlanes)             \
   X(Connect)                  \
+  X(ConstantRoulette)         \
   X(ThroughputRoulette)       \
+  X(LuminanceRoulette)        \
   X(Accumulate)
 
 #define X(name) Stage name##Stage();

@@ -51,7 +51,7 @@ void Accumulate(Wave& wave) {
   ForEachBatch(wave, wave.queue(QueueId::kDone), [&](VI slots, MF valid) HWY_ATTR {
     const VI output = Gather(p.output, slots);
     V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
-    if constexpr (kSigned) sample = Mul(sample, Gather(p.weight, slots));
+    if (p.weight != nullptr) sample = Mul(sample, Gather(p.weight, slots));
     const Checked checked = Check<kSigned>(wave.bad, sample, valid);
     Scatter3(checked.value, plane(0), plane(1), plane(2), output);
     if constexpr (kAov) {
@@ -86,7 +86,7 @@ HWY_EXPORT(AccumulateSignedAov);
 namespace {
 
 StageFn ResolveAccumulate(const FeatureSet& features) {
-  if (features.Has(Feature::kSignedFilter)) {
+  if (features.HasAny({Feature::kSignedFilter, Feature::kControl})) {
     return features.Has(Feature::kAov) ? HWY_DYNAMIC_DISPATCH(AccumulateSignedAov)
                                        : HWY_DYNAMIC_DISPATCH(AccumulateSigned);
   }

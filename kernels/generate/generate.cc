@@ -20,16 +20,19 @@ void Generate(Wave& wave) {
   Queue& camera = wave.queue(QueueId::kCamera);
   TileWork& work = wave.work;
   uint32_t taken = 0;
-  while (taken < free.size && !work.Done()) {
-    const uint32_t slot = free.items[free.size - 1 - taken++];
-    wave.path.pixel[slot] = work.pixels[work.next_pixel];
-    wave.path.sample[slot] = work.first_sample + work.next_sample;
-    wave.path.output[slot] = work.next_pixel * work.samples + work.next_sample;
-    wave.path.depth[slot] = 0;
-    camera.items[camera.size++] = slot;
+  while (taken + work.together <= free.size && !work.Done()) {
+    const uint32_t end = HWY_MIN(work.next_sample + work.together, work.samples);
+    for (uint32_t sample = work.next_sample; sample < end; ++sample) {
+      const uint32_t slot = free.items[free.size - 1 - taken++];
+      wave.path.pixel[slot] = work.pixels[work.next_pixel];
+      wave.path.sample[slot] = work.first_sample + sample;
+      wave.path.output[slot] = work.next_pixel * work.samples + sample;
+      wave.path.depth[slot] = 0;
+      camera.items[camera.size++] = slot;
+    }
     if (++work.next_pixel == work.num_pixels) {
       work.next_pixel = 0;
-      ++work.next_sample;
+      work.next_sample += work.together;
     }
   }
   free.size -= taken;

@@ -42,9 +42,9 @@ void EmissionDisk(Wave& wave) {
     VF weight = Splat(1.0f);
     if constexpr (kMis) {
       const VF t = Gather(p.t, slots);
-      const VF pdf = hn::Div(hn::Mul(hn::Mul(light.Pmf(), t), t),
+      const VF pdf = hn::Div(hn::Mul(hn::Mul(light.Pmf(p, slots), t), t),
                              hn::Mul(light.Area(), hn::Abs(cosine)));
-      weight = EmissionWeight(Gather(p.bsdf_pdf, slots), pdf);
+      weight = EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots), pdf);
     }
     AddRadiance(p, slots, IfThenElseZero(facing, Mul(light.Radiance(), weight)));
   });

@@ -48,12 +48,13 @@ void EmissionSphere(Wave& wave) {
     if constexpr (kMis) {
       const V3 to_center = sphere.center - o;
       const VF d2 = Dot(to_center, to_center);
-      const VF cone = hn::Div(light.Pmf(), hn::Mul(Splat(6.28318530717958648f),
-                                                   OneMinusCosCone(sphere.radius, d2)));
-      const VF area = hn::Div(hn::Mul(hn::Mul(light.Pmf(), t), t),
+      const VF cone = hn::Div(
+          light.Pmf(p, slots),
+          hn::Mul(Splat(6.28318530717958648f), OneMinusCosCone(sphere.radius, d2)));
+      const VF area = hn::Div(hn::Mul(hn::Mul(light.Pmf(p, slots), t), t),
                               hn::Mul(light.Area(), hn::Abs(cosine)));
       weight =
-          EmissionWeight(Gather(p.bsdf_pdf, slots),
+          EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
                          hn::IfThenElse(OutsideSphere(sphere.radius, d2), cone, area));
     }
     AddRadiance(p, slots, IfThenElseZero(facing, Mul(light.Radiance(), weight)));

@@ -31,7 +31,7 @@ void Escape(Wave& wave) {
         pdf = s.pdf_sa;
       }
       if constexpr (kMis) {
-        radiance = Mul(radiance, EmissionWeight(Gather(p.bsdf_pdf, slots),
+        radiance = Mul(radiance, EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
                                                 hn::Mul(pdf, Splat(light.pmf))));
       }
       sum = sum + radiance;

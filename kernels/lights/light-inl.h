@@ -1,5 +1,5 @@
 // What the light kernels share: records, the loop over one shape of light, the columns of
-// a light sample, multiple importance sampling weights.
+// a light sample.
 #if defined(LANELIGHT_LIGHTS_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_LIGHTS_LIGHT_INL_H_
 #undef LANELIGHT_LIGHTS_LIGHT_INL_H_
@@ -9,6 +9,7 @@
 
 #include <cstddef>
 
+#include "kernels/directions/heuristic-inl.h"
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
@@ -34,7 +35,12 @@ struct Lights {
     return {F(byte_offset), F(byte_offset + 4), F(byte_offset + 8)};
   }
   HWY_INLINE V3 Radiance() const { return F3(offsetof(LightRecord, radiance)); }
-  HWY_INLINE VF Pmf() const { return F(offsetof(LightRecord, pmf)); }
+  /// Probability of selecting this light: of its record, or where it depends on the place
+  /// (a tree), of the path.
+  HWY_INLINE VF Pmf(const PathColumns& p, VI slots) const {
+    if (p.light_pmf != nullptr) return Gather(p.light_pmf, slots);
+    return F(offsetof(LightRecord, pmf));
+  }
   HWY_INLINE VF Area() const { return F(offsetof(LightRecord, area)); }
   HWY_INLINE VI Primitive() const { return I(offsetof(LightRecord, primitive)); }
   HWY_INLINE MF TwoSided() const {
@@ -100,21 +106,6 @@ HWY_INLINE void StoreSurfaceSample(const PathColumns& p, VI slots, V3 q, V3 n,
       hn::And(facing, hn::And(hn::Gt(pdf_sa, Splat(0)), hn::Lt(pdf_sa, Splat(1e30f))));
   StoreLightSample(p, slots, direction, distance,
                    Mul(radiance, hn::Div(Splat(1.0f), pdf_sa)), pdf_sa, usable);
-}
-
-/// Power heuristic with exponent two (Veach and Guibas 1995) for the strategy of density
-/// `mine` against `other`, in a form that cannot overflow. mine > 0.
-HWY_INLINE VF PowerHeuristic(VF mine, VF other) {
-  const VF ratio = hn::Div(other, mine);
-  return hn::Div(Splat(1.0f), hn::MulAdd(ratio, ratio, Splat(1.0f)));
-}
-
-/// Weight of emission met by a BSDF-sampled ray: 1 after the camera or a specular event
-/// (bsdf_pdf = 0), where no light sample could have found it.
-HWY_INLINE VF EmissionWeight(VF bsdf_pdf, VF light_pdf) {
-  const MF specular = hn::Eq(bsdf_pdf, Splat(0));
-  const VF safe = hn::IfThenElse(specular, Splat(1.0f), bsdf_pdf);
-  return hn::IfThenElse(specular, Splat(1.0f), PowerHeuristic(safe, light_pdf));
 }
 
 /// Adds weight * beta * radiance to the path.

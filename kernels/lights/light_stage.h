@@ -5,17 +5,27 @@
 
 namespace lanelight {
 
+/// Lights that a ray can hit are sampled only if the strategy wants it.
+inline constexpr bool IsHittable(Feature shape) {
+  return shape != Feature::kPointLights && shape != Feature::kSpotLights &&
+         shape != Feature::kDistantLights;
+}
+
 inline Stage SampleLightStage(const char* name, const char* meaning, Feature shape,
                               StageFn (*resolve)(const FeatureSet&)) {
+  FeatureSet needs = {shape, Feature::kLights, Feature::kScatters};
+  if (IsHittable(shape)) needs.Add(Feature::kSampledHittableLights);
   return {name,
           meaning,
           QueueId::kLit,
-          {shape, Feature::kLights, Feature::kScatters},
-          fields::kPoint | FieldSet{Field::u_light_0, Field::u_light_1, Field::ls_light},
+          needs,
+          fields::kPoint | FieldSet{Field::u_light_0, Field::u_light_1, Field::ls_light,
+                                    Field::light_pmf},
           fields::kLightSample,
           resolve};
 }
 
+/// Reads light_pmf too where a tree selects lights and light_hit_tree has written it.
 inline Stage EmissionStage(const char* name, const char* meaning, Feature shape,
                            StageFn (*resolve)(const FeatureSet&)) {
   return {name,

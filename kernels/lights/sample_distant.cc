@@ -19,8 +19,8 @@ void SampleDistantLight(Wave& wave) {
     const Lights light(*wave.scene, index);
     StoreLightSample(p, slots, light.F3(offsetof(LightRecord, direction)),
                      Splat(std::numeric_limits<float>::infinity()),
-                     Mul(light.Radiance(), hn::Div(Splat(1.0f), light.Pmf())), Splat(0),
-                     hn::Gt(light.Pmf(), Splat(0)));
+                     Mul(light.Radiance(), hn::Div(Splat(1.0f), light.Pmf(p, slots))),
+                     Splat(0), hn::Gt(light.Pmf(p, slots), Splat(0)));
   });
 }
 

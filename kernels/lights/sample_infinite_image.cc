@@ -28,7 +28,7 @@ void SampleInfiniteImage(Wave& wave) {
       if (hn::AllFalse(DF(), mine)) return;
       const EnvironmentSample s = SampleEnvironment(
           environment, Gather(p.u_light_0, slots), Gather(p.u_light_1, slots));
-      const VF pdf = hn::Mul(light.Pmf(), s.pdf_sa);
+      const VF pdf = hn::Mul(light.Pmf(p, slots), s.pdf_sa);
       const V3 value = Mul(s.radiance, hn::Div(Splat(1.0f), pdf));
       const V3 usable = IfThenElseZero(hn::Gt(pdf, Splat(0)), value);
       const auto keep = [&](VF v, float* column) HWY_ATTR {

@@ -49,7 +49,7 @@ void SampleSphereLight(Wave& wave) {
     const V3 normal = Mul(n, sphere.normal_sign);
     if (!hn::AllTrue(DF(), outside)) {
       StoreSurfaceSample(p, slots, MulAdd(n, sphere.radius, sphere.center), normal,
-                         hn::Div(light.Pmf(), light.Area()), light.Radiance(),
+                         hn::Div(light.Pmf(p, slots), light.Area()), light.Radiance(),
                          light.TwoSided());
     }
     // Outside: cone sampling, kept where it applies.
@@ -60,7 +60,7 @@ void SampleSphereLight(Wave& wave) {
     const Frame frame = FrameFromNormal(Normalize(to_center));
     const V3 w = frame.FromLocal({hn::Mul(sin_theta, cosine), hn::Mul(sin_theta, sine),
                                   hn::Sub(Splat(1.0f), one_minus_cos)});
-    const VF pdf = hn::Div(light.Pmf(), hn::Mul(Splat(two_pi), cap));
+    const VF pdf = hn::Div(light.Pmf(p, slots), hn::Mul(Splat(two_pi), cap));
     const VF near = NearDistance(to_center, w, sphere.radius);
     const VF distance =
         hn::Max(hn::Sub(near, hn::MulAdd(Splat(2e-6f),

@@ -24,8 +24,9 @@ void SampleTriangleLight(Wave& wave) {
     const VF b1 = hn::Sub(Splat(1.0f), root);
     const VF b2 = hn::Mul(root, Gather(p.u_light_1, slots));
     const V3 q = MulAdd(triangle.e1, b1, MulAdd(triangle.e2, b2, triangle.p0));
-    StoreSurfaceSample(p, slots, q, triangle.n, hn::Div(light.Pmf(), light.Area()),
-                       light.Radiance(), light.TwoSided());
+    StoreSurfaceSample(p, slots, q, triangle.n,
+                       hn::Div(light.Pmf(p, slots), light.Area()), light.Radiance(),
+                       light.TwoSided());
   });
 }
 

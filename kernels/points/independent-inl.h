@@ -9,16 +9,19 @@
 #define LANELIGHT_POINTS_INDEPENDENT_INL_H_
 #endif
 
-#include "kernels/simd/rng-inl.h"
+#include "kernels/points/group-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
 struct IndependentPoints {
-  static HWY_INLINE void Point(const RunParameters& run, VU pixel, VU sample, VU key,
-                               VF* u0, VF* u1) {
-    const U4 r = Pcg4d({pixel, sample, key, SplatU(run.seed)});
+  static HWY_INLINE GroupIndex Group(const PointsParameters&, VU sample) {
+    return {sample, hn::Zero(DU())};
+  }
+  static HWY_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at, VU key,
+                               VU seed, VF* u0, VF* u1) {
+    const U4 r = Pcg4d({pixel, at.group, key, seed});
     *u0 = ToUnit(r.x);
     *u1 = ToUnit(r.y);
   }

@@ -15,21 +15,19 @@ namespace HWY_NAMESPACE {
 
 template <class Policy>
 void ProbePolicy(const PointsQuery& q, float* u0, float* u1) {
-  RunParameters run;
-  run.seed = q.seed;
-  run.group_shift = q.group_shift;
+  const PointsParameters points = MakePointsParameters(q.points, q.group_size);
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DF()));
   for (uint32_t i = 0; i < q.count; i += lanes) {
+    const GroupIndex at = Policy::Group(points, hn::Iota(DU(), q.first_sample + i));
     VF a, b;
-    Policy::Point(run, SplatU(q.pixel), hn::Iota(DU(), q.first_sample + i), SplatU(q.key),
-                  &a, &b);
+    Policy::Point(points, SplatU(q.pixel), at, SplatU(q.key), SplatU(q.seed), &a, &b);
     hn::StoreU(a, DF(), u0 + i);
     hn::StoreU(b, DF(), u1 + i);
   }
 }
 
 void Probe(const PointsQuery& q, float* u0, float* u1) {
-  if (q.policy == PointsPolicy::kSobol) {
+  if (q.points == Points::kSobol) {
     ProbePolicy<SobolPoints>(q, u0, u1);
   } else {
     ProbePolicy<IndependentPoints>(q, u0, u1);

@@ -3,15 +3,13 @@
 
 #include <cstdint>
 
-#include "src/wavefront/dimensions.h"
+#include "src/strategy/run_parameters.h"
 
 namespace lanelight {
 
-enum class PointsPolicy { kIndependent, kSobol };
-
 struct PointsQuery {
-  PointsPolicy policy = PointsPolicy::kSobol;
-  std::uint32_t seed = 0, pixel = 0, group_shift = 0, key = 0;
+  Points points = Points::kSobol;
+  std::uint32_t seed = 0, pixel = 0, group_size = 1, key = 0;
   std::uint32_t first_sample = 0, count = 0;
 };
 

@@ -16,7 +16,7 @@
 #define LANELIGHT_POINTS_SOBOL_INL_H_
 #endif
 
-#include "kernels/simd/rng-inl.h"
+#include "kernels/points/group-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -44,14 +44,13 @@ HWY_INLINE VU ReversedSobol1(VU i) {
 }
 
 struct SobolPoints {
-  static HWY_INLINE void Point(const RunParameters& run, VU pixel, VU sample, VU key,
-                               VF* u0, VF* u1) {
-    // A group of 2^group_shift samples shares one randomisation, seeded by its index.
-    const int shift = static_cast<int>(run.group_shift);
-    const VU group = hn::ShiftRightSame(sample, shift);
-    const VU index = hn::Sub(sample, hn::ShiftLeftSame(group, shift));
-    const U4 h = Pcg4d({pixel, group, key, SplatU(run.seed)});
-    const VU shuffled = ReverseBits32(LaineKarras(ReverseBits32(index), h.x));
+  static HWY_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
+    return GroupByShift(points, sample);
+  }
+  static HWY_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at, VU key,
+                               VU seed, VF* u0, VF* u1) {
+    const U4 h = Pcg4d({pixel, at.group, key, seed});
+    const VU shuffled = ReverseBits32(LaineKarras(ReverseBits32(at.index), h.x));
     *u0 = ToUnit(ReverseBits32(LaineKarras(shuffled, h.y)));
     *u1 = ToUnit(ReverseBits32(LaineKarras(ReversedSobol1(shuffled), h.z)));
   }

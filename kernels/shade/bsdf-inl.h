@@ -6,7 +6,9 @@
 //     kSpecular     only delta directions: no Eval, no light samples
 //     kAnisotropic  the tangent matters
 //     kRefracts     Sample fills eta_scale
-//     kStochastic   Load receives random numbers   (all four: static constexpr bool)
+//     kStochastic   Load receives random numbers
+//     kHasDelta     delta directions besides others (Sample then returns density 0)
+//     kTransmits    not all directions are on wo's side  (all: static constexpr bool)
 //     struct Params;
 //     static Params Load(const MaterialInputs&);
 //     static BsdfValue Eval(const Params&, V3 wo, V3 wi);

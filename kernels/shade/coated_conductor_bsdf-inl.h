@@ -27,6 +27,8 @@ struct CoatedConductorBsdf {
   static constexpr bool kAnisotropic = true;
   static constexpr bool kRefracts = false;
   static constexpr bool kStochastic = true;
+  static constexpr bool kHasDelta = true;
+  static constexpr bool kTransmits = false;
   struct Params {
     CoatLayer coat;
     MetalLayer metal;

@@ -73,6 +73,8 @@ struct CoatedDiffuseSmoothBsdf {
   static constexpr bool kAnisotropic = false;
   static constexpr bool kRefracts = false;
   static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = true;
+  static constexpr bool kTransmits = false;
   struct Params {
     CoatedBase base;
     VF thickness;
@@ -124,6 +126,8 @@ struct CoatedDiffuseRoughBsdf {
   static constexpr bool kAnisotropic = true;
   static constexpr bool kRefracts = false;
   static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = false;
+  static constexpr bool kTransmits = false;
   struct Params {
     CoatedBase base;
     Ggx ggx;

@@ -20,6 +20,8 @@ struct ConductorSmoothBsdf {
   static constexpr bool kAnisotropic = false;
   static constexpr bool kRefracts = false;
   static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = false;
+  static constexpr bool kTransmits = false;
   struct Params {
     V3 eta, k;
   };
@@ -44,6 +46,8 @@ struct ConductorRoughBsdf {
   static constexpr bool kAnisotropic = true;
   static constexpr bool kRefracts = false;
   static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = false;
+  static constexpr bool kTransmits = false;
   struct Params {
     V3 eta, k;
     Ggx ggx;

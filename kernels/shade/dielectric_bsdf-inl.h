@@ -26,6 +26,8 @@ struct DielectricSmoothBsdf {
   static constexpr bool kAnisotropic = false;
   static constexpr bool kRefracts = true;
   static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = false;
+  static constexpr bool kTransmits = false;
   struct Params {
     VF eta;
   };
@@ -54,6 +56,8 @@ struct ThinDielectricBsdf {
   static constexpr bool kAnisotropic = false;
   static constexpr bool kRefracts = false;
   static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = false;
+  static constexpr bool kTransmits = false;
   struct Params {
     VF eta;
   };
@@ -84,6 +88,8 @@ struct DielectricRoughBsdf {
   static constexpr bool kAnisotropic = true;
   static constexpr bool kRefracts = true;
   static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = false;
+  static constexpr bool kTransmits = true;
   static constexpr float kNearlyMatched = 1e-3f;
   struct Params {
     VF eta;

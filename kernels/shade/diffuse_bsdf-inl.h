@@ -22,6 +22,8 @@ struct DiffuseModel {
   static constexpr bool kAnisotropic = false;
   static constexpr bool kRefracts = false;
   static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = false;
+  static constexpr bool kTransmits = false;
   struct Params {
     V3 albedo;
   };

@@ -22,6 +22,8 @@ struct DiffuseTransmissionBsdf {
   static constexpr bool kAnisotropic = false;
   static constexpr bool kRefracts = false;
   static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = false;
+  static constexpr bool kTransmits = true;
   struct Params {
     V3 reflectance, transmittance;
     VF reflect;  // probability of reflection

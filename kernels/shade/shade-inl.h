@@ -9,30 +9,22 @@
 
 #include <limits>
 
-#include "kernels/shade/bsdf-inl.h"
+#include "kernels/directions/heuristic-inl.h"
+#include "kernels/directions/uniform-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-// What a scene needs of a shading stage besides its material: three kinds of lighting and
-// whether there are vertex normals, six kernels per material. Where parameters and
-// tangents come from is loop-invariant and read through pointers resolved once per call.
+// What a strategy needs of a shading stage besides its material: four kernels per
+// material. Where normals, tangents and parameters come from is loop-invariant and read
+// through pointers that are the same for every path.
 enum class Lighting {
-  kNone,   // nothing can be sampled
-  kDelta,  // only lights that a scattered ray cannot hit: full weight
-  kMis     // multiple importance sampling, and the bsdf_pdf column is live
+  kNone,    // nothing can be sampled
+  kDelta,   // light samples count in full, scattered rays know no light samples
+  kMis,     // both are weighted, and the bsdf_pdf column is live
+  kUniform  // directions=uniform; light samples, if any, as in kDelta
 };
-
-/// Weight of a light sample against BSDF sampling by the power heuristic (Veach 1997,
-/// exponent 2): pl^2 / (pl^2 + pb^2), as a ratio that neither overflows nor divides zero
-/// by zero. Delta lights (light_pdf = 0) have weight 1.
-HWY_INLINE VF LightWeight(VF light_pdf, VF bsdf_pdf) {
-  const VF one = Splat(1.0f);
-  const MF delta = hn::Eq(light_pdf, hn::Zero(DF()));
-  const VF ratio = hn::Div(bsdf_pdf, hn::IfThenElse(delta, one, light_pdf));
-  return hn::IfThenElse(delta, one, hn::Div(one, hn::MulAdd(ratio, ratio, one)));
-}
 
 /// Shading frame around n with the first axis along the surface tangent; where the
 /// tangent is missing or along n, any frame.
@@ -57,7 +49,7 @@ HWY_INLINE MF CarriesLight(V3 c) {
                  hn::Ge(hn::Min(c.x, hn::Min(c.y, c.z)), hn::Zero(DF())));
 }
 
-template <class Bsdf, Lighting kLighting, bool kNormals>
+template <class Bsdf, Lighting kLighting>
 struct Shader {
   Wave& wave;
   MaterialSource source;
@@ -80,7 +72,7 @@ struct Shader {
   HWY_INLINE Frame ShadingFrame(V3 ng, VI slots) const {
     const PathColumns& path = wave.path;
     V3 n = ng;
-    if constexpr (kNormals) n = Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
+    if (path.ns_x != nullptr) n = Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
     if constexpr (Bsdf::kAnisotropic) {
       if (path.tg_x != nullptr) {
         return FrameFromTangent(n, Gather3(path.tg_x, path.tg_y, path.tg_z, slots));
@@ -111,10 +103,20 @@ struct Shader {
     const BsdfValue value = Bsdf::Eval(material, wo, wi);
     V3 carried = Mul(Mul(beta, value.f_cos), light);
     if constexpr (kLighting == Lighting::kMis) {
-      carried = Mul(carried, LightWeight(Gather(path.ls_pdf, slots), value.pdf));
+      carried = Mul(carried, LightSampleWeight(wave.run->mis, Gather(path.ls_pdf, slots),
+                                               value.pdf));
     }
     Scatter3(carried, path.sh_r, path.sh_g, path.sh_b, slots);
     Push(wave.queue(QueueId::kShadow), slots, hn::And(valid, CarriesLight(carried)));
+  }
+
+  HWY_INLINE static BsdfSample Scattered(const typename Bsdf::Params& material, V3 wo,
+                                         const BsdfPoints& u) {
+    if constexpr (kLighting == Lighting::kUniform) {
+      return SampleUniformDirection<Bsdf>(material, wo, u);
+    } else {
+      return Bsdf::Sample(material, wo, u);
+    }
   }
 
   /// Scatters the path: new ray, throughput and density; returns the paths that go on.
@@ -123,7 +125,7 @@ struct Shader {
     const PathColumns& path = wave.path;
     const BsdfPoints u = {Gather(path.u_lobe, slots), Gather(path.u_bsdf_0, slots),
                           Gather(path.u_bsdf_1, slots)};
-    const BsdfSample sample = Bsdf::Sample(material, wo, u);
+    const BsdfSample sample = Scattered(material, wo, u);
     const V3 d = Normalize(frame.FromLocal(sample.wi));
     const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
     const V3 o = OffsetOrigin(p, ng, Gather(path.p_error, slots), d);
@@ -156,7 +158,9 @@ struct Shader {
     const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
     const typename Bsdf::Params material = Bsdf::Load(Inputs(slots));
     if constexpr (kLighting != Lighting::kNone && !Bsdf::kSpecular) {
-      SampleLight(material, frame, wo, beta, slots, valid);
+      if (kLighting != Lighting::kUniform || path.sh_r != nullptr) {
+        SampleLight(material, frame, wo, beta, slots, valid);
+      }
     }
     const MF alive = Bounce(material, frame, wo, ng, beta, slots);
     Push(wave.queue(QueueId::kScattered), slots, hn::And(valid, alive));
@@ -164,32 +168,28 @@ struct Shader {
   }
 };
 
-template <class Bsdf, ShadeKind kKind, Lighting kLighting, bool kNormals>
+template <class Bsdf, ShadeKind kKind, Lighting kLighting>
 void ShadeKernel(Wave& wave) {
-  Shader<Bsdf, kLighting, kNormals> shader(wave);
+  Shader<Bsdf, kLighting> shader(wave);
   const uint32_t shadow_rays = wave.queue(QueueId::kShadow).size;
   ForEachBatch(wave, wave.queue(ShadeQueue(kKind)),
                [&](VI slots, MF valid) HWY_ATTR { shader(slots, valid); });
   wave.rays_shadow += wave.queue(QueueId::kShadow).size - shadow_rays;
 }
 
-template <class Bsdf, ShadeKind kKind, Lighting kLighting>
-StageFn ResolveNormals(const FeatureSet& features) {
-  return features.Has(Feature::kVertexNormals)
-             ? ShadeKernel<Bsdf, kKind, kLighting, true>
-             : ShadeKernel<Bsdf, kKind, kLighting, false>;
-}
-
 /// The kernel of this target for the features of a scene.
 template <class Bsdf, ShadeKind kKind>
 StageFn ResolveShade(const FeatureSet& features) {
-  if (features.Has(Feature::kMis)) {
-    return ResolveNormals<Bsdf, kKind, Lighting::kMis>(features);
+  if (features.Has(Feature::kMis)) return ShadeKernel<Bsdf, kKind, Lighting::kMis>;
+  if constexpr (!Bsdf::kSpecular) {
+    if (features.Has(Feature::kUniformDirections)) {
+      return ShadeKernel<Bsdf, kKind, Lighting::kUniform>;
+    }
+    if (features.Has(Feature::kLights)) {
+      return ShadeKernel<Bsdf, kKind, Lighting::kDelta>;
+    }
   }
-  if (features.Has(Feature::kLights) && !Bsdf::kSpecular) {
-    return ResolveNormals<Bsdf, kKind, Lighting::kDelta>(features);
-  }
-  return ResolveNormals<Bsdf, kKind, Lighting::kNone>(features);
+  return ShadeKernel<Bsdf, kKind, Lighting::kNone>;
 }
 
 }  // namespace HWY_NAMESPACE

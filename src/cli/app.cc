@@ -24,6 +24,7 @@ constexpr const char* kFooter =
     "\nExamples:\n"
     "  lanelight render scenes/cornell-box.pbrt -o box.exr --png --spp 256\n"
     "  lanelight plan scenes/glass.pbrt\n"
+    "  lanelight strategies\n"
     "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
     "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
     "samples, 4 compare: over the limit.";
@@ -99,6 +100,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   AddRenderCommand(root, exit_code);
   AddPlanCommand(root, exit_code);
   AddInfoCommand(root, exit_code);
+  AddStrategiesCommand(root, exit_code);
   AddCompareCommand(root, exit_code);
   if (argc < 2) {
     PrintError(root.help());

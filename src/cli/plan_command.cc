@@ -73,8 +73,9 @@ std::string Text(const Job& job, const std::string& scene) {
          fmt::format("wavefront  {} paths x {} bytes = {:.0f} KiB per thread\n",
                      plan.wavefront, plan.bytes_per_path,
                      double(plan.wavefront) * double(plan.bytes_per_path) / 1024) +
-         fmt::format("max depth  {}\nsampler    {}\n\n", plan.options.max_depth,
-                     SamplerName(plan.options.sampler)) +
+         fmt::format("max depth  {}\nstrategy   {}\npoints     {}\n\n",
+                     plan.options.max_depth, ToText(job.scene.strategy),
+                     PointsText(job.scene.strategy, job.spp)) +
          "the scene and options have:\n" + Features(plan.features) + "\n" + Stages(plan) +
          "\n" + Fields(plan);
 }

@@ -86,10 +86,15 @@ void AddTransportOptions(CLI::App& command, RenderSettings& s) {
   command.add_option("--max-depth", s.max_depth, "Most scattering events of a path")
       ->check(CLI::Range(0, kMaxDepth).description(""))
       ->type_name("D");
-  AddNameOption<SamplerKind>(
-      command, "--sampler", s.sampler,
-      {{"independent", SamplerKind::kIndependent}, {"sobol", SamplerKind::kSobol}},
-      "Sample points");
+  std::map<std::string, Points> samplers;
+  for (int i = 0; i <= static_cast<int>(Points::kLattice); ++i) {
+    samplers[Name(static_cast<Points>(i))] = static_cast<Points>(i);
+  }
+  command
+      .add_option("--strategy", s.strategy,
+                  "How to sample: key=value,... (see `lanelight strategies`)")
+      ->type_name("TEXT");
+  AddNameOption<Points>(command, "--sampler", s.points, samplers, "Sample points");
   AddNameOption<Scattering>(command, "--scattering", s.scattering,
                             {{"lambertian", Scattering::kLambertian},
                              {"uniform", Scattering::kUniform},

@@ -56,7 +56,7 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
         settings.spp.value_or(static_cast<std::uint64_t>(job.description.sampler.spp));
   }
   job.seed = job.description.sampler.seed;
-  job.group_size = GroupSize(job.description.sampler.kind, job.spp);
+  job.group_size = GroupSize(job.scene.strategy, job.spp);
   return job;
 }
 

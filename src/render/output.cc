@@ -86,8 +86,7 @@ ExrOptions OutputOptions(const Job& job, const RunResult& result, bool half) {
   options.attributes["seed"] = std::to_string(job.seed);
   options.attributes["spp"] = spp;
   options.attributes["renderTime"] = result.seconds;
-  options.attributes["strategy"] =
-      std::string("path, points ") + SamplerName(job.plan.options.sampler);
+  options.attributes["strategy"] = "path, " + ToText(job.scene.strategy);
   options.attributes["version"] = std::string("lanelight " LANELIGHT_VERSION);
   options.attributes["sceneHash"] = fmt::format("{:016x}", job.scene_hash);
   return options;

@@ -48,7 +48,9 @@ Json SettingsJson(const Job& job, bool half) {
           {"group_size", job.group_size},
           {"max_depth", job.plan.options.max_depth},
           {"seed", job.seed},
-          {"sampler", SamplerName(job.plan.options.sampler)},
+          {"sampler", Name(job.scene.strategy.points)},
+          {"strategy", ToText(job.scene.strategy)},
+          {"points", PointsText(job.scene.strategy, job.spp)},
           {"aov", job.plan.options.aov},
           {"depth", half ? "half" : "float"},
           {"threads", MaxThreads()}};

@@ -93,7 +93,10 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
     throw InputError(fmt::format("a wavefront of {} paths is not supported: 1 to {}",
                                  settings.wavefront, kMaxWavefront));
   }
-  if (settings.sampler) scene.sampler.kind = *settings.sampler;
+  if (settings.points) scene.strategy.points = *settings.points;
+  ApplyStrategy(settings.strategy,
+                {std::make_shared<const std::string>("--strategy"), 0, 0},
+                scene.strategy);
   if (settings.seed) scene.sampler.seed = *settings.seed;
 }
 
@@ -113,14 +116,9 @@ CompileOptions CompileOptionsOf(const RenderSettings& settings) {
 PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene) {
   PlanOptions options;
   options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
-  options.sampler = scene.sampler.kind;
   options.aov = settings.aov;
   options.wavefront = settings.wavefront;
   return options;
-}
-
-const char* SamplerName(SamplerKind kind) {
-  return kind == SamplerKind::kIndependent ? "independent" : "sobol";
 }
 
 const char* ScatteringName(Scattering model) {

@@ -20,7 +20,8 @@ struct RenderSettings {
   std::optional<std::array<int, 4>> crop;  // x0, y0, x1, y1 in pixels, end exclusive
   std::optional<int> max_depth;
   std::optional<std::uint64_t> seed;
-  std::optional<SamplerKind> sampler;
+  std::optional<Points> points;
+  std::string strategy;  // changes to the scene's strategy, see ApplyStrategy
   std::optional<Scattering> scattering;
   std::uint32_t wavefront = 0;  // paths; 0 = chosen by the plan
   bool aov = false;
@@ -53,7 +54,6 @@ PixelWindow CropWindow(const Film& film);
 CompileOptions CompileOptionsOf(const RenderSettings& settings);
 PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene);
 
-const char* SamplerName(SamplerKind kind);
 const char* ScatteringName(Scattering model);
 
 }  // namespace lanelight

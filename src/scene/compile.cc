@@ -14,6 +14,7 @@
 #include "src/scene/compile_placement.h"
 #include "src/scene/compile_quadrics.h"
 #include "src/scene/compile_textures.h"
+#include "src/strategy/use_strategy.h"
 
 namespace lanelight {
 namespace {
@@ -131,7 +132,7 @@ CompiledScene CompileScene(const SceneDescription& description,
       },
       [&] { compiled = CompileGeometry(placement, materials.index, geometry_options); });
 
-  scene.lights = CompileLights(description, placement, options, compiled);
+  scene.lights = CompileLights(description, placement, compiled);
   MakeAlpha(placement, compiled, scene);
   NoteDropped(placement.meshes, compiled.meshes, scene.notes);
   for (std::size_t o = 0; o < placement.objects.size(); ++o) {
@@ -141,6 +142,7 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.geometry = std::move(compiled.geometry);
   scene.features = SceneFeatures(scene);
   scene.accel = BuildAccel(scene.geometry);
+  UseStrategy(description.strategy, scene);
   return scene;
 }
 

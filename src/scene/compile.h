@@ -10,7 +10,6 @@ namespace lanelight {
 
 struct CompileOptions {
   std::optional<Scattering> scattering;  // overrides every diffuse material
-  bool power_light_selection = true;     // false: uniform
 };
 
 /// Throws InputError if the scene cannot be rendered (a missing image, a shape that the

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "src/core/alias_table.h"
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/scene/compile_environment.h"
@@ -37,7 +36,7 @@ class LightCompiler {
         compiled_(geometry),
         radius_(placement.bounds.HalfDiagonal() * placement.frame.scale) {}
 
-  LightTable Finish(bool by_power);
+  LightTable Finish();
 
  private:
   std::int32_t Push(LightRecord record, double power);
@@ -269,30 +268,19 @@ void ApplyFloor(std::vector<double>& weights) {
   for (double& w : weights) w = std::max(w, 1.02 * least * sum);
 }
 
-LightTable LightCompiler::Finish(bool by_power) {
+LightTable LightCompiler::Finish() {
   AddShapes();
   for (const Light& light : d_.lights) AddLight(light);
-  if (table_.lights.empty()) return std::move(table_);
-  if (by_power) {
-    ApplyFloor(power_);
-  } else {
-    std::fill(power_.begin(), power_.end(), 1.0);
-  }
-  AliasTable table = BuildAliasTable(power_);
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    table_.lights[i].pmf = table.probability[i];
-  }
-  table_.alias_q = std::move(table.q);
-  table_.alias = std::move(table.alias);
+  if (!table_.lights.empty()) ApplyFloor(power_);
+  table_.power = std::move(power_);
   return std::move(table_);
 }
 
 }  // namespace
 
 LightTable CompileLights(const SceneDescription& description, const Placement& placement,
-                         const CompileOptions& options, CompiledGeometry& geometry) {
-  return LightCompiler(description, placement, geometry)
-      .Finish(options.power_light_selection);
+                         CompiledGeometry& geometry) {
+  return LightCompiler(description, placement, geometry).Finish();
 }
 
 }  // namespace lanelight

@@ -11,9 +11,9 @@
 namespace lanelight {
 
 /// Sets the `light` of emitting records in `geometry` too. Lights without power get no
-/// record. Throws InputError at the directive for images and transforms that cannot be
-/// used.
+/// record. Probabilities are left to UseStrategy (src/strategy/use_strategy.h). Throws
+/// InputError at the directive for images and transforms that cannot be used.
 LightTable CompileLights(const SceneDescription& description, const Placement& placement,
-                         const CompileOptions& options, CompiledGeometry& geometry);
+                         CompiledGeometry& geometry);
 
 }  // namespace lanelight

@@ -111,12 +111,12 @@ struct Geometry {
 
 // ---- Materials --------------------------------------------------------------------
 /// The shading kernels, one queue each.
-#define LANELIGHT_SHADE_KINDS(X)                                                \
-  X(kDiffuse)                                                                   \
-  X(kDiffuseUniform) X(kDiffuseInSphere) X(kConductorSmooth) X(kConductorRough) \
-      X(kDielectricSmooth) X(kDielectricRough) X(kThinDielectric)               \
-          X(kCoatedDiffuseSmooth) X(kCoatedDiffuseRough) X(kCoatedConductor)    \
-              X(kDiffuseTransmission)
+#define LANELIGHT_SHADE_KINDS(X)                                                  \
+  X(kDiffuse)                                                                     \
+  X(kDiffuseUniform)                                                              \
+  X(kDiffuseInSphere) X(kConductorSmooth) X(kConductorRough) X(kDielectricSmooth) \
+      X(kDielectricRough) X(kThinDielectric) X(kCoatedDiffuseSmooth)              \
+          X(kCoatedDiffuseRough) X(kCoatedConductor) X(kDiffuseTransmission)
 
 enum class ShadeKind : std::uint32_t {
 #define X(name) name,
@@ -155,9 +155,9 @@ struct MaterialTable {
   AlignedVector<float> alpha_x, alpha_y;    // GGX alpha of the (outer) interface
   AlignedVector<float> alpha2_x, alpha2_y;  // of the metal below a coat
   AlignedVector<float> eta;                 // relative index of the dielectric
-  AlignedVector<std::int32_t> coat;         // offset of its table in coat_transmittance, -1
-  AlignedVector<float> coat_internal;       // mean internal reflectance under the coat
-  AlignedVector<float> coat_thickness;      // of a coat: the medium absorbs exp(-t / cos)
+  AlignedVector<std::int32_t> coat;     // offset of its table in coat_transmittance, -1
+  AlignedVector<float> coat_internal;   // mean internal reflectance under the coat
+  AlignedVector<float> coat_thickness;  // of a coat: the medium absorbs exp(-t / cos)
   AlignedVector<std::uint32_t> coat_depth;  // layer crossings at most (pbrt's maxdepth)
   AlignedVector<std::int32_t> color0_texture, color1_texture;
   AlignedVector<std::int32_t> alpha_x_texture, alpha_y_texture;
@@ -213,12 +213,37 @@ struct Environment {
   float light_from_scene[9];         // rotation, row-major
 };
 
+/// Node of a tree of lights, 16 words. The two children of an inner node are neighbours.
+/// Light leaves `axis` within acos(cos_axis), and from there within a right angle.
+struct LightNode {
+  float low[3];
+  std::int32_t child;  // first of two children; ~light for a leaf
+  float high[3];
+  float power;  // of all lights below
+  float axis[3];
+  float cos_axis;  // half angle of the normals' cone; -1 = all directions
+  std::int32_t parent;
+  std::uint32_t pad[3];
+};
+static_assert(sizeof(LightNode) == 64);
+
+/// Tree over the lights that have a place (not environments and distant lights, of which
+/// each is selected with `pmf_far`).
+struct LightTree {
+  AlignedVector<LightNode> nodes;              // root first; empty = no light has a place
+  AlignedVector<std::int32_t> primitive_leaf;  // leaf of each primitive; -1 = dark
+  AlignedVector<std::uint32_t> far;            // lights without a place
+  float pmf_far = 0;                           // of each of those
+};
+
 struct LightTable {
   AlignedVector<LightRecord> lights;
+  std::vector<double> power;           // of each light, raised to a least share
   AlignedVector<float> alias_q;        // Walker-Vose table over lights: with u*n = i + f,
   AlignedVector<std::uint32_t> alias;  // pick i if f < alias_q[i], else alias[i]
   std::vector<Environment> environments;
   std::vector<std::uint32_t> infinite;  // indices of lights that escaped rays see
+  LightTree tree;                       // light-selection=tree only
 };
 
 // ---- Camera -----------------------------------------------------------------------
@@ -260,6 +285,7 @@ struct CompiledScene {
   Film film;
   Sampler sampler;
   Integrator integrator;
+  Strategy strategy;        // what UseStrategy has prepared the light tables for
   std::vector<Note> notes;  // what compiling left out, such as degenerate triangles
 };
 

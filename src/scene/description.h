@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "src/strategy/strategy.h"
 #include "src/core/error.h"
 #include "src/core/transform.h"
 #include "src/core/vec.h"
@@ -46,17 +47,17 @@ struct Texture {
   std::string name;
   SourceLocation where;
   bool is_float = false;
-  Rgb value;                  // kConstant
-  ColorValue tex1, tex2;      // kScale uses tex1; kMix and kCheckerboard use both
-  FloatValue amount;          // kScale: factor; kMix: weight of tex2
-  UvMapping mapping;          // kCheckerboard, kImage
-  std::string path;           // kImage: resolved path
+  Rgb value;              // kConstant
+  ColorValue tex1, tex2;  // kScale uses tex1; kMix and kCheckerboard use both
+  FloatValue amount;      // kScale: factor; kMix: weight of tex2
+  UvMapping mapping;      // kCheckerboard, kImage
+  std::string path;       // kImage: resolved path
   WrapMode wrap = WrapMode::kRepeat;
   Encoding encoding = Encoding::kSrgb;  // of 8-bit files
   double gamma = 2.2;                   // for Encoding::kGamma
   double scale = 1;
-  bool invert = false;        // 1 - scale * value, negative results cut at 0 (as pbrt)
-  bool bilinear = true;       // false: nearest
+  bool invert = false;   // 1 - scale * value, negative results cut at 0 (as pbrt)
+  bool bilinear = true;  // false: nearest
 };
 
 /// Diffuse scattering models of the founding paper (README, "Diffuse models").
@@ -66,8 +67,15 @@ struct Texture {
 enum class Scattering { kLambertian, kUniform, kInSphere };
 
 enum class MaterialKind {
-  kDiffuse, kConductor, kDielectric, kThinDielectric, kCoatedDiffuse, kCoatedConductor,
-  kDiffuseTransmission, kMix, kInterface
+  kDiffuse,
+  kConductor,
+  kDielectric,
+  kThinDielectric,
+  kCoatedDiffuse,
+  kCoatedConductor,
+  kDiffuseTransmission,
+  kMix,
+  kInterface
 };
 
 /// Roughness values are what the file says; alpha = remap ? sqrt(roughness) : roughness.
@@ -76,21 +84,22 @@ struct Material {
   std::string name;
   SourceLocation where;
   Scattering scattering = Scattering::kLambertian;
-  ColorValue reflectance{{0.5, 0.5, 0.5}, kNone};  // diffuse, coateddiffuse, diffusetransmission
+  ColorValue reflectance{{0.5, 0.5, 0.5},
+                         kNone};  // diffuse, coateddiffuse, diffusetransmission
   ColorValue transmittance{{0.25, 0.25, 0.25}, kNone};  // diffusetransmission
-  ColorValue eta, k;       // conductor (also below a coat)
+  ColorValue eta, k;                                    // conductor (also below a coat)
   bool has_reflectance = false;  // conductor given by `reflectance`: normal-incidence
                                  // reflectance; eta = 1, k = 2 sqrt(r / (1 - r))
   double interface_eta = 1.5;    // dielectric, thindielectric, coats
   FloatValue uroughness, vroughness;                      // of the (outer) interface
   FloatValue conductor_uroughness, conductor_vroughness;  // coatedconductor
   bool remap_roughness = true;
-  double thickness = 0.01;       // coats
+  double thickness = 0.01;  // coats
   double coat_g = 0;
-  Rgb coat_albedo;               // coats: scattering albedo of the medium between
+  Rgb coat_albedo;  // coats: scattering albedo of the medium between
   int coat_max_depth = 10, coat_samples = 1;
   Index mix[2] = {kNone, kNone};
-  FloatValue mix_amount{0.5, kNone};                      // weight of mix[1]
+  FloatValue mix_amount{0.5, kNone};  // weight of mix[1]
 };
 
 /// Object-space triangles. Normals and uvs are per vertex, or empty.
@@ -106,15 +115,15 @@ enum class ShapeKind { kMesh, kSphere, kDisk, kPlane };
 struct Shape {
   ShapeKind kind = ShapeKind::kMesh;
   SourceLocation where;
-  Transform world_from_object;   // inside an object definition: object_from_shape
+  Transform world_from_object;  // inside an object definition: object_from_shape
   bool reverse_orientation = false;
-  Index material = kNone;        // always set by the parser
+  Index material = kNone;  // always set by the parser
   Index area_light = kNone;
   FloatValue alpha{1, kNone};
   std::shared_ptr<const TriangleMesh> mesh;  // kMesh (bilinear patches become meshes)
-  double radius = 1;             // kSphere, kDisk
-  double inner_radius = 0;       // kDisk
-  double height = 0;             // kDisk: object-space z; normal +z
+  double radius = 1;                         // kSphere, kDisk
+  double inner_radius = 0;                   // kDisk
+  double height = 0;                         // kDisk: object-space z; normal +z
   // kPlane: infinite, through the object-space origin, normal +z, uv = (x, y).
 };
 
@@ -147,11 +156,12 @@ struct Light {
   LightKind kind = LightKind::kPoint;
   SourceLocation where;
   Transform world_from_light;
-  Rgb emission;          // kPoint, kSpot: W/sr. kDistant: irradiance on a facing surface.
-                         // kInfinite without image: radiance.
-  Vec3d from, to{0, 0, 1};  // light space. kPoint: from. kSpot: from, to. kDistant: from-to
+  Rgb emission;  // kPoint, kSpot: W/sr. kDistant: irradiance on a facing surface.
+                 // kInfinite without image: radiance.
+  Vec3d from,
+      to{0, 0, 1};  // light space. kPoint: from. kSpot: from, to. kDistant: from-to
   double cone_angle = 30, cone_delta = 5;  // kSpot, degrees
-  std::string image_path;   // kInfinite: equal-area octahedral map, square
+  std::string image_path;                  // kInfinite: equal-area octahedral map, square
   double image_scale = 1;
   double illuminance = -1;  // kInfinite: if > 0, rescale to this illuminance on +z
 };
@@ -163,7 +173,7 @@ struct Camera {
   Transform world_from_camera;  // camera looks along +z, x right, y up
   double fov = 90;              // degrees, of the shorter image axis
   double lens_radius = 0, focal_distance = 1e6;
-  double frame_aspect = 0;      // 0: from the resolution
+  double frame_aspect = 0;                 // 0: from the resolution
   double screen_window[4] = {0, 0, 0, 0};  // x0 x1 y0 y1; all 0: from the aspect
 };
 
@@ -178,20 +188,20 @@ struct Filter {
 
 struct Film {
   int width = 1280, height = 720;
-  int crop[4] = {0, 0, 0, 0};     // pixel bounds x0 x1 y0 y1; all 0: whole image
+  int crop[4] = {0, 0, 0, 0};  // pixel bounds x0 x1 y0 y1; all 0: whole image
   std::string filename = "lanelight.exr";
-  double imaging_ratio = 1;       // exposure time * ISO / 100
+  double imaging_ratio = 1;  // exposure time * ISO / 100
 };
 
-enum class SamplerKind { kIndependent, kSobol };
 struct Sampler {
-  SamplerKind kind = SamplerKind::kSobol;
   int spp = 16;
   std::uint64_t seed = 0;
 };
 
 struct Integrator {
-  int max_depth = 5;      // scattering events at most, as in pbrt
+  int max_depth = 5;     // scattering events at most, as in pbrt
+  std::string strategy;  // changes to the strategy (src/strategy/strategy.h)
+  SourceLocation strategy_where;
 };
 
 /// Something that was read and deliberately not used.
@@ -207,11 +217,12 @@ struct SceneDescription {
   Filter filter;
   Sampler sampler;
   Integrator integrator;
+  Strategy strategy;                // of Sampler and Integrator together
   std::vector<Texture> textures;    // a texture refers only to earlier ones
   std::vector<Material> materials;  // a mix refers only to earlier ones
   std::vector<AreaLight> area_lights;
   std::vector<Light> lights;
-  std::vector<Shape> shapes;        // world space
+  std::vector<Shape> shapes;  // world space
   std::vector<ObjectDefinition> objects;
   std::vector<Instance> instances;
   std::vector<Note> notes;

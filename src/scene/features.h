@@ -50,14 +50,36 @@ namespace lanelight {
   X(kInfiniteLights, "an environment")                                        \
   X(kMis, "a light that BSDF sampling can hit: multiple importance sampling") \
   X(kScatters, "paths of more than zero bounces (maximum depth > 0)")         \
-  X(kRoulette, "Russian roulette (maximum depth > 1)")                        \
   X(kLens, "a thin lens")                                                     \
   X(kOrthographic, "an orthographic camera")                                  \
   X(kFiltered, "a pixel filter other than the box")                           \
   X(kSignedFilter, "a pixel filter with negative lobes")                      \
   X(kAov, "auxiliary output (--aov)")                                         \
   X(kIndependentPoints, "points=independent")                                 \
-  X(kSobolPoints, "points=sobol")
+  X(kStratifiedPoints, "points=stratified")                                   \
+  X(kCmjPoints, "points=cmj")                                                 \
+  X(kPmj02Points, "points=pmj02")                                             \
+  X(kSobolPoints, "points=sobol")                                             \
+  X(kHaltonPoints, "points=halton")                                           \
+  X(kLatticePoints, "points=lattice")                                         \
+  X(kSampledHittableLights, "light samples of lights that rays can hit")      \
+  X(kUniformDirections, "directions=uniform")                                 \
+  X(kAntithetic, "pairs=antithetic")                                          \
+  X(kLightTable, "several lights, chosen by a table")                         \
+  X(kLightTree, "light-selection=tree")                                       \
+  X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")        \
+  X(kConstantRoulette, "roulette=constant")                                   \
+  X(kThroughputRoulette, "roulette=throughput")                               \
+  X(kLuminanceRoulette, "roulette=luminance")                                 \
+  X(kSplitting, "paths that split (roulette=adjoint, efficiency)")            \
+  X(kAdjointRoulette, "roulette=adjoint")                                     \
+  X(kEfficiencyRoulette, "roulette=efficiency")                               \
+  X(kPilot, "a pilot pass that records what paths find")                      \
+  X(kControl, "a control variate (samples may be negative)")                  \
+  X(kAnalyticControl, "control=analytic")                                     \
+  X(kAmbientControl, "control=ambient")                                       \
+  X(kRegressionControl, "control=regression")                                 \
+  X(kControlDifference, "a control variate with an estimated coefficient")
 
 enum class Feature : std::uint8_t {
 #define X(name, meaning) name,
@@ -72,21 +94,30 @@ class FeatureSet {
   constexpr FeatureSet(std::initializer_list<Feature> features) {
     for (Feature f : features) Add(f);
   }
-  constexpr void Add(Feature f) { bits_ |= Bit(f); }
-  constexpr void Remove(Feature f) { bits_ &= ~Bit(f); }
-  constexpr bool Has(Feature f) const { return (bits_ & Bit(f)) != 0; }
-  constexpr bool HasAll(FeatureSet other) const { return (other.bits_ & ~bits_) == 0; }
-  constexpr bool HasAny(FeatureSet other) const { return (other.bits_ & bits_) != 0; }
-  constexpr bool empty() const { return bits_ == 0; }
+  constexpr void Add(Feature f) { Word(f) |= Bit(f); }
+  constexpr void Remove(Feature f) { Word(f) &= ~Bit(f); }
+  constexpr bool Has(Feature f) const {
+    return ((static_cast<int>(f) < 64 ? low_ : high_) & Bit(f)) != 0;
+  }
+  constexpr bool HasAll(FeatureSet o) const {
+    return (o.low_ & ~low_) == 0 && (o.high_ & ~high_) == 0;
+  }
+  constexpr bool HasAny(FeatureSet o) const {
+    return (o.low_ & low_) != 0 || (o.high_ & high_) != 0;
+  }
+  constexpr bool empty() const { return low_ == 0 && high_ == 0; }
   friend constexpr bool operator==(const FeatureSet&, const FeatureSet&) = default;
 
  private:
   static constexpr std::uint64_t Bit(Feature f) {
-    return std::uint64_t{1} << static_cast<int>(f);
+    return std::uint64_t{1} << (static_cast<int>(f) % 64);
   }
-  std::uint64_t bits_ = 0;
+  constexpr std::uint64_t& Word(Feature f) {
+    return static_cast<int>(f) < 64 ? low_ : high_;
+  }
+  std::uint64_t low_ = 0, high_ = 0;
 };
-static_assert(static_cast<int>(Feature::kCount) <= 64);
+static_assert(static_cast<int>(Feature::kCount) <= 128);
 
 /// Identifier without the leading k, e.g. "ConductorRough".
 const char* FeatureName(Feature f);

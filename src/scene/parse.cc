@@ -24,6 +24,8 @@ SceneDescription Finish(ParseState& state, const SourceLocation& end) {
     throw InputError(end, "the file ends without WorldBegin, so it describes no scene");
   }
   state.scene.film.imaging_ratio = state.exposure_seconds * state.iso / 100;
+  const Integrator& integrator = state.scene.integrator;
+  ApplyStrategy(integrator.strategy, integrator.strategy_where, state.scene.strategy);
   LoadMeshes(state);
   return std::move(state.scene);
 }

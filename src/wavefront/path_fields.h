@@ -30,6 +30,8 @@ namespace lanelight {
   X(f32, l_r, ({}), "radiance gathered so far") X(f32, l_g, ({}), "radiance gathered so far") X(f32, l_b, ({}), "radiance gathered so far") \
   X(f32, bsdf_pdf, ({Feature::kMis}), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
   X(f32, eta_scale, ({Feature::kRefraction}), "product of eta^2 of refractions, undone by roulette") \
+  X(u32, branch, ({Feature::kSplitting}), "which copy of its sample the path is, 0 = the first") \
+  X(u32, budget, ({Feature::kSplitting}), "copies that the path may still become, itself included") \
   /* film sample points */                                                                \
   X(f32, u_film_0, ({}), "position in the pixel") X(f32, u_film_1, ({}), "position in the pixel") \
   X(f32, u_lens_0, ({Feature::kLens}), "position on the lens") X(f32, u_lens_1, ({Feature::kLens}), "position on the lens") \
@@ -63,8 +65,17 @@ namespace lanelight {
   X(f32, ls_distance, ({Feature::kLights}), "length of the shadow ray, already short of the light") \
   X(f32, ls_r, ({Feature::kLights}), "radiance / pdf of the light sample (selection included); 0 = no light") X(f32, ls_g, ({Feature::kLights}), "radiance / pdf") X(f32, ls_b, ({Feature::kLights}), "radiance / pdf") \
   X(f32, ls_pdf, ({Feature::kLights}), "pdf_sa of that direction, selection included; 0 = delta light") \
+  X(f32, light_pmf, ({Feature::kLightTree}), "probability of selecting the light that was hit, then of the one selected") \
   /* shadow ray */                                                                        \
   X(f32, sh_r, ({Feature::kLights}), "radiance the shadow ray carries if unoccluded") X(f32, sh_g, ({Feature::kLights}), "shadow radiance") X(f32, sh_b, ({Feature::kLights}), "shadow radiance") \
+  /* control variates */                                                                  \
+  X(f32, k_r, ({Feature::kControlDifference}), "sum over the path of throughput (h - E[h])") X(f32, k_g, ({Feature::kControlDifference}), "control difference") X(f32, k_b, ({Feature::kControlDifference}), "control difference") \
+  X(f32, first_0, ({Feature::kRegressionControl}), "u_bsdf_0 of the first bounce; -1 = none") X(f32, first_1, ({Feature::kRegressionControl}), "u_bsdf_1 of the first bounce") \
+  X(f32, first_2, ({Feature::kRegressionControl}), "u_light_0 of the first bounce; -1 = none") X(f32, first_3, ({Feature::kRegressionControl}), "u_light_1 of the first bounce") \
+  /* pilot pass: the first vertices of a path */                                          \
+  X(u32, cell_0, ({Feature::kPilot}), "cache cell of vertex 0; 0xffffffff = none") X(u32, cell_1, ({Feature::kPilot}), "cache cell of vertex 1") X(u32, cell_2, ({Feature::kPilot}), "cache cell of vertex 2") X(u32, cell_3, ({Feature::kPilot}), "cache cell of vertex 3") \
+  X(f32, at_0, ({Feature::kPilot}), "luminance of the throughput there") X(f32, at_1, ({Feature::kPilot}), "throughput at vertex 1") X(f32, at_2, ({Feature::kPilot}), "throughput at vertex 2") X(f32, at_3, ({Feature::kPilot}), "throughput at vertex 3") \
+  X(f32, got_0, ({Feature::kPilot}), "luminance gathered before it") X(f32, got_1, ({Feature::kPilot}), "gathered before vertex 1") X(f32, got_2, ({Feature::kPilot}), "gathered before vertex 2") X(f32, got_3, ({Feature::kPilot}), "gathered before vertex 3") \
   /* auxiliary output: first hit */                                                       \
   X(f32, aov_albedo_r, ({Feature::kAov}), "albedo") X(f32, aov_albedo_g, ({Feature::kAov}), "albedo") X(f32, aov_albedo_b, ({Feature::kAov}), "albedo") \
   X(f32, aov_n_x, ({Feature::kAov}), "shading normal") X(f32, aov_n_y, ({Feature::kAov}), "shading normal") X(f32, aov_n_z, ({Feature::kAov}), "shading normal") \
@@ -129,7 +140,7 @@ inline const FieldSet kTangent = {Field::tg_x, Field::tg_y, Field::tg_z};
 inline const FieldSet kUv = {Field::uv_u, Field::uv_v};
 inline const FieldSet kParameters = {Field::color0_r, Field::color0_g, Field::color0_b,
                                      Field::color1_r, Field::color1_g, Field::color1_b,
-                                     Field::alpha_x, Field::alpha_y};
+                                     Field::alpha_x,  Field::alpha_y};
 inline const FieldSet kBouncePoints = {
     Field::u_lobe,    Field::u_bsdf_0,  Field::u_bsdf_1,  Field::u_select,
     Field::u_light_0, Field::u_light_1, Field::u_roulette};
@@ -140,6 +151,13 @@ inline const FieldSet kAov = {
     Field::aov_albedo_r, Field::aov_albedo_g, Field::aov_albedo_b, Field::aov_n_x,
     Field::aov_n_y,      Field::aov_n_z,      Field::aov_depth};
 inline const FieldSet kShadow = {Field::sh_r, Field::sh_g, Field::sh_b};
+inline const FieldSet kControl = {Field::k_r, Field::k_g, Field::k_b};
+inline const FieldSet kFirstBounce = {Field::first_0, Field::first_1, Field::first_2,
+                                      Field::first_3};
+inline const FieldSet kVertices = {Field::cell_0, Field::cell_1, Field::cell_2,
+                                   Field::cell_3, Field::at_0,   Field::at_1,
+                                   Field::at_2,   Field::at_3,   Field::got_0,
+                                   Field::got_1,  Field::got_2,  Field::got_3};
 }  // namespace fields
 
 }  // namespace lanelight

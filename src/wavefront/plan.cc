@@ -7,6 +7,7 @@
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
 #include "src/core/check.h"
+#include "src/wavefront/plan_features.h"
 
 namespace lanelight {
 
@@ -18,33 +19,6 @@ std::vector<Stage> RegisteredStages() {
       LANELIGHT_STAGES(X)
 #undef X
   };
-}
-
-// What the scene has, as changed by the options of this render.
-FeatureSet FeaturesOf(const CompiledScene& scene, const PlanOptions& options) {
-  FeatureSet f = scene.features;
-  f.Remove(Feature::kScatters);
-  f.Remove(Feature::kRoulette);
-  if (options.max_depth > 0) f.Add(Feature::kScatters);
-  if (options.max_depth > 1) f.Add(Feature::kRoulette);
-  if (options.max_depth == 0) {
-    // Only emission seen directly is left: nothing is shaded and no light is sampled.
-    f.Remove(Feature::kLights);
-    f.Remove(Feature::kManyLights);
-    f.Remove(Feature::kMis);
-    f.Remove(Feature::kRefraction);
-    if (!options.aov) {
-      for (Feature surface :
-           {Feature::kTextures, Feature::kUv, Feature::kTangents, Feature::kVertexNormals,
-            Feature::kTexturedRoughness, Feature::kMix}) {
-        f.Remove(surface);
-      }
-    }
-  }
-  if (options.aov) f.Add(Feature::kAov);
-  f.Add(options.sampler == SamplerKind::kSobol ? Feature::kSobolPoints
-                                               : Feature::kIndependentPoints);
-  return f;
 }
 
 std::string ReasonToOmit(const Stage& stage, const FeatureSet& features) {
@@ -83,7 +57,8 @@ std::uint32_t WavefrontForCache(std::size_t bytes_per_path) {
 Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
   Plan plan;
   plan.options = options;
-  plan.features = FeaturesOf(scene, options);
+  plan.features = PlanFeatures(scene, options);
+  plan.notes = CheckStrategy(scene, options);
   for (const Stage& stage : RegisteredStages()) {
     if (plan.features.HasAll(stage.needs)) {
       plan.stages.push_back({stage, stage.resolve(plan.features)});

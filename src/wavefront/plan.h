@@ -13,7 +13,6 @@ namespace lanelight {
 
 struct PlanOptions {
   std::uint32_t max_depth = 5;
-  SamplerKind sampler = SamplerKind::kSobol;
   bool aov = false;
   std::uint32_t wavefront = 0;  // paths; 0 = sized so that the live columns fit in L2
 };
@@ -33,11 +32,14 @@ struct Plan {
   std::vector<OmittedStage> omitted;
   std::vector<Field> live_fields, absent_fields;
   std::size_t bytes_per_path = 0;
-  std::uint32_t wavefront = 0;       // paths per wavefront
+  std::uint32_t wavefront = 0;     // paths per wavefront
+  std::vector<std::string> notes;  // choices of the strategy that do nothing here
   PlanOptions options;
 };
 
-/// Throws CheckFailure if a stage would read a live column that no earlier stage writes.
+/// The plan of the scene's strategy. Throws InputError for a strategy that cannot work on
+/// this scene, CheckFailure if a stage would read a live column that no earlier stage
+/// writes.
 Plan MakePlan(const CompiledScene& scene, const PlanOptions& options);
 
 }  // namespace lanelight

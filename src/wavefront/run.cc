@@ -8,6 +8,7 @@
 #include "kernels/simd/target.h"
 #include "src/core/check.h"
 #include "src/core/parallel.h"
+#include "src/strategy/tables.h"
 #include "src/wavefront/drive.h"
 #include "src/wavefront/tiles.h"
 
@@ -42,10 +43,17 @@ class Runner {
  public:
   Runner(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
          FilmAccumulator& film)
-      : scene_(scene), plan_(plan), options_(options), film_(film) {
+      : scene_(scene),
+        plan_(plan),
+        options_(options),
+        film_(film),
+        tables_(MakeStrategyTables(scene)) {
     run_ = Parameters();
     const PixelRect pixels = RenderedPixels(scene.film);
     partition_ = MakePartition(pixels, options.spp > 0 ? options.spp : kOpenEndedSpp);
+    // A pair must not straddle two tasks.
+    if (scene.strategy.pairs == Pairs::kAntithetic)
+      partition_.samples += partition_.samples & 1;
     planes_ = kColorPlanes + (film.has_aov() ? kAovPlanes : 0);
     workspaces_.resize(static_cast<std::size_t>(MaxThreads()) + 1);
     pixel_count_ = std::uint64_t(pixels.width()) * pixels.height();
@@ -75,8 +83,14 @@ class Runner {
     run.width = static_cast<std::uint32_t>(scene_.film.width);
     run.height = static_cast<std::uint32_t>(scene_.film.height);
     run.spp = static_cast<std::uint32_t>(options_.spp);
-    while ((1u << run.group_shift) < film_.group_size()) ++run.group_shift;
-    LL_CHECK_EQ(1u << run.group_shift, film_.group_size());
+    const Strategy& strategy = scene_.strategy;
+    run.points = MakePointsParameters(
+        strategy.points, film_.group_size() / (strategy.pairs != Pairs::kNone ? 2 : 1));
+    run.pairs = MakePairParameters(strategy);
+    run.mis = MakeMisParameters(strategy);
+    run.roulette = MakeRouletteParameters(strategy);
+    run.control_coefficient = static_cast<float>(strategy.coefficient.value_or(1));
+    run.tables = &tables_;
     run.max_depth = plan_.options.max_depth;
     run.exposure = static_cast<float>(scene_.film.imaging_ratio);
     run.features = plan_.features;
@@ -150,6 +164,7 @@ class Runner {
     work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
     work.first_sample = static_cast<std::uint32_t>(first_sample);
     work.samples = out.count;
+    work.together = scene_.strategy.pairs == Pairs::kAntithetic ? 2 : 1;
     const std::uint32_t stride = work.num_pixels * out.count;
     if (out.values.size() < std::size_t{stride} * planes_) {
       out.values.resize(std::size_t{stride} * planes_);
@@ -229,6 +244,7 @@ class Runner {
   const Plan& plan_;
   const RunOptions& options_;
   FilmAccumulator& film_;
+  const StrategyTables tables_;
   RunParameters run_;
   TilePartition partition_;
   int planes_ = kColorPlanes;
@@ -246,14 +262,6 @@ RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& op
               FilmAccumulator& film) {
   LL_CHECK(options.spp > 0 || options.seconds > 0 || options.stop != nullptr);
   return Runner(scene, plan, options, film).Run();
-}
-
-std::uint32_t GroupSize(SamplerKind sampler, std::uint64_t spp) {
-  if (sampler == SamplerKind::kIndependent) return 1;
-  const std::uint64_t target = spp > 0 ? spp / 4 : 64;
-  std::uint32_t size = 1;
-  while (size * 2ull <= target && size < (1u << 20)) size *= 2;
-  return size;
 }
 
 }  // namespace lanelight

@@ -56,10 +56,4 @@ struct RunResult {
 RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 
-/// Samples that share one randomisation: 1 for independent samples; for low-discrepancy
-/// points the largest power of two of which at least four fit into `spp`, so that the
-/// error can be estimated from the scatter of independent randomisations. spp = 0:
-/// unknown.
-std::uint32_t GroupSize(SamplerKind sampler, std::uint64_t spp);
-
 }  // namespace lanelight

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "src/scene/compiled.h"
+#include "src/strategy/run_parameters.h"
 #include "src/wavefront/path_fields.h"
 
 namespace lanelight {
@@ -45,15 +46,20 @@ struct Queue {
   std::uint32_t size = 0;
 };
 
-/// Constants of a render.
+/// Constants of a render. What the strategy sets: src/strategy/run_parameters.h.
 struct RunParameters {
   std::uint32_t seed = 0;
   std::uint32_t width = 0, height = 0;  // full image
   std::uint32_t spp = 0;                // planned samples per pixel
-  std::uint32_t group_shift = 0;        // 2^group_shift samples share a randomisation
   std::uint32_t max_depth = 5;
   float exposure = 1;  // factor from radiance to film
   FeatureSet features;
+  PointsParameters points;
+  PairParameters pairs;
+  MisParameters mis;
+  RouletteParameters roulette;
+  float control_coefficient = 1;
+  const StrategyTables* tables = nullptr;
 };
 
 /// Occupancy of the stage that is running; kernels count through the batch loop.
@@ -69,9 +75,10 @@ struct TileWork {
   const std::uint32_t* pixels = nullptr;  // y * width + x, in the order to start them
   std::uint32_t num_pixels = 0;
   std::uint32_t first_sample = 0, samples = 0;
-  std::uint32_t next_pixel = 0, next_sample = 0;  // cursor; done when == samples
+  std::uint32_t together = 1;  // samples of a pixel in adjacent slots: 2 for pairs
+  std::uint32_t next_pixel = 0, next_sample = 0;  // cursor; done when >= samples
 
-  bool Done() const { return next_sample == samples; }
+  bool Done() const { return next_sample >= samples; }
 };
 
 /// Where finished samples go: plane-major buffer of the task's tile,

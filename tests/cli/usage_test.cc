@@ -51,7 +51,7 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
       {{"render", "x.pbrt", "-o", "x.exr", "--max-depth", "-1"}, "--max-depth"},
       {{"render", "x.pbrt", "-o", "x.exr", "--threads", "-1"}, "--threads"},
       {{"render", "x.pbrt", "-o", "x.exr", "--target", "AVX9000"}, "EMU128"},
-      {{"render", "x.pbrt", "-o", "x.exr", "--sampler", "halton"}, "independent, sobol"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--sampler", "zalton"}, "independent, lattice"},
       {{"render", "x.pbrt", "-o", "x.exr", "--scattering", "cosine"}, "insphere"},
       {{"render", "x.pbrt", "-o", "x.exr", "--depth", "double"}, "half"},
       {{"render", "x.pbrt", "-o", "x.exr", "--png", "x.jpg"}, "does not end in .png"},

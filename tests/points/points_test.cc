@@ -11,12 +11,12 @@
 namespace lanelight {
 namespace {
 
-struct Points {
+struct Drawn {
   std::vector<float> u0, u1;
 };
 
-Points Draw(PointsQuery q) {
-  Points p{std::vector<float>(q.count + 16), std::vector<float>(q.count + 16)};
+Drawn Draw(PointsQuery q) {
+  Drawn p{std::vector<float>(q.count + 16), std::vector<float>(q.count + 16)};
   ProbePoints(q, p.u0.data(), p.u1.data());
   p.u0.resize(q.count);
   p.u1.resize(q.count);
@@ -24,7 +24,7 @@ Points Draw(PointsQuery q) {
 }
 
 // True if each cell of an a x b grid over the unit square holds exactly one point.
-bool OnePerCell(const Points& p, std::size_t first, int a, int b) {
+bool OnePerCell(const Drawn& p, std::size_t first, int a, int b) {
   std::vector<int> cells(static_cast<std::size_t>(a * b));
   for (int i = 0; i < a * b; ++i) {
     const int x = static_cast<int>(p.u0[first + static_cast<std::size_t>(i)] * float(a));
@@ -60,7 +60,7 @@ TEST_CASE("sobol: every aligned power-of-two block is a (0, m, 2)-net", "[points
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     for (std::uint32_t pixel : {0u, 1u, 77777u}) {
-      const Points p = Draw({PointsPolicy::kSobol, 7, pixel, 8, 3, 0, 256});
+      const Drawn p = Draw({Points::kSobol, 7, pixel, 8, 3, 0, 256});
       for (int m = 0; m <= 8; ++m) {
         for (std::size_t first = 0; first < 256; first += std::size_t{1} << m) {
           for (int k = 0; k <= m; ++k)
@@ -73,7 +73,7 @@ TEST_CASE("sobol: every aligned power-of-two block is a (0, m, 2)-net", "[points
 }
 
 TEST_CASE("sobol: groups are different randomisations", "[points]") {
-  const Points p = Draw({PointsPolicy::kSobol, 1, 5, 4, 0, 0, 64});
+  const Drawn p = Draw({Points::kSobol, 1, 5, 4, 0, 0, 64});
   for (std::size_t group = 0; group < 4; ++group) CHECK(OnePerCell(p, group * 16, 4, 4));
   // Independently scrambled nets do not continue each other.
   CHECK_FALSE(OnePerCell(p, 0, 8, 8));
@@ -81,15 +81,15 @@ TEST_CASE("sobol: groups are different randomisations", "[points]") {
 
 TEST_CASE("points: different keys, pixels and seeds are uncorrelated", "[points]") {
   const std::uint32_t n = 4096;
-  for (PointsPolicy policy : {PointsPolicy::kIndependent, PointsPolicy::kSobol}) {
+  for (PointsPolicy policy : {Points::kIndependent, Points::kSobol}) {
     const PointsQuery base = {policy, 3, 10, 0, 20, 0, n};
     PointsQuery key = base, pixel = base, seed = base;
     key.key = 21;
     pixel.pixel = 11;
     seed.seed = 4;
-    const Points a = Draw(base);
+    const Drawn a = Draw(base);
     for (const PointsQuery& q : {key, pixel, seed}) {
-      const Points b = Draw(q);
+      const Drawn b = Draw(q);
       double covariance = 0;
       for (std::size_t i = 0; i < n; ++i) covariance += (a.u0[i] - 0.5) * (b.u0[i] - 0.5);
       // Standard deviation of the sum is sqrt(n) / 12; 5 of them: one false alarm in
@@ -101,11 +101,11 @@ TEST_CASE("points: different keys, pixels and seeds are uncorrelated", "[points]
 
 TEST_CASE("points: in [0, 1), uniform, and equal on all targets", "[points]") {
   const std::uint32_t n = 1 << 16;
-  for (PointsPolicy policy : {PointsPolicy::kIndependent, PointsPolicy::kSobol}) {
+  for (PointsPolicy policy : {Points::kIndependent, Points::kSobol}) {
     Points first;
     for (const std::string& target : AvailableTargets()) {
       ForceTarget(target);
-      const Points p = Draw({policy, 9, 123, 0, 4, 0, n});
+      const Drawn p = Draw({policy, 9, 123, 0, 4, 0, n});
       if (first.u0.empty()) first = p;
       CHECK(p.u0 == first.u0);
       CHECK(p.u1 == first.u1);
@@ -126,7 +126,7 @@ TEST_CASE("points: in [0, 1), uniform, and equal on all targets", "[points]") {
 }
 
 TEST_CASE("independent points equal the scalar PCG-4D", "[points]") {
-  const Points p = Draw({PointsPolicy::kIndependent, 42, 1000, 0, 17, 5, 100});
+  const Drawn p = Draw({Points::kIndependent, 42, 1000, 0, 17, 5, 100});
   for (std::uint32_t i = 0; i < 100; ++i) {
     const Lcg h(1000, 5 + i, 17, 42);
     CHECK(p.u0[i] == float(h.v[0] >> 8) * 0x1p-24f);

@@ -61,14 +61,14 @@ TEST_CASE("settings out of range are refused", "[render]") {
 }
 
 TEST_CASE("groups are powers of two and leave at least four per pixel", "[render]") {
-  CHECK(GroupSize(SamplerKind::kIndependent, 4096) == 1);
+  CHECK(PointsGroupSize(Points::kIndependent, 4096) == 1);
   for (std::uint64_t spp : {1, 7, 8, 15, 16, 64, 100, 1000, 1 << 20}) {
-    const std::uint32_t size = GroupSize(SamplerKind::kSobol, spp);
+    const std::uint32_t size = PointsGroupSize(Points::kSobol, spp);
     CHECK((size & (size - 1)) == 0);
     CHECK((size == 1 || spp / size >= 4));
     CHECK((2 * size > (1u << 20) || spp / (2 * size) < 4));
   }
-  CHECK(GroupSize(SamplerKind::kSobol, 0) == 64);
+  CHECK(PointsGroupSize(Points::kSobol, 0) == 64);
 }
 
 TEST_CASE("a film beyond the memory is refused with both numbers", "[render]") {

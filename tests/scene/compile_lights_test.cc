@@ -221,9 +221,8 @@ TEST_CASE("compile: selection follows power, with a floor", "[scene][compile]") 
   for (std::size_t i = 0; i < 4; ++i) {
     CHECK(TablePmf(table, i) == Approx(table.lights[i].pmf).epsilon(1e-7));
   }
-  CompileOptions uniform;
-  uniform.power_light_selection = false;
-  for (const LightRecord& light : CompileScene(d, uniform).lights.lights) {
+  d.strategy.light_selection = LightSelection::kUniform;
+  for (const LightRecord& light : CompileScene(d).lights.lights) {
     CHECK(light.pmf == 0.25f);
   }
 }

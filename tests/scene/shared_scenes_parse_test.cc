@@ -48,7 +48,7 @@ TEST_CASE("the shared scenes parse", "[parse]") {
       if (std::string(name) != "reference.pbrt") continue;
       CHECK(scene.integrator.max_depth == 16);
       CHECK(scene.filter.kind == FilterKind::kBox);
-      CHECK(scene.sampler.kind == SamplerKind::kIndependent);
+      CHECK(scene.strategy.points == Points::kIndependent);
       CHECK(scene.sampler.spp == 64);
       CHECK(std::max(scene.film.width, scene.film.height) == 256);
     }

@@ -61,7 +61,7 @@ TEST_CASE("own scenes: all parse and compile", "[scenes]") {
     CHECK(scene.film.width <= 512);
     CHECK(scene.film.height <= 512);
     CHECK(scene.sampler.spp == 64);
-    CHECK(scene.sampler.kind == SamplerKind::kSobol);
+    CHECK(scene.strategy.points == Points::kSobol);
     REQUIRE_NOTHROW(CompileScene(scene));
   }
 }

@@ -62,7 +62,7 @@ bool Identical(const FilmAccumulator& a, const FilmAccumulator& b) {
 }  // namespace
 
 TEST_CASE("images are bit-identical for any threads and wavefront size", "[determinism]") {
-  for (SamplerKind sampler : {SamplerKind::kIndependent, SamplerKind::kSobol}) {
+  for (Points sampler : {Points::kIndependent, Points::kSobol}) {
     TestRender base;
     base.sampler = sampler;
     base.spp = 12;

@@ -25,7 +25,6 @@ Plan PlanOf(const std::string& world, std::uint32_t max_depth = 5) {
       CompileScene(ParseSceneText(kHead + "WorldBegin\n" + world, "test.pbrt", "."));
   PlanOptions options;
   options.max_depth = max_depth;
-  options.sampler = SamplerKind::kIndependent;
   return MakePlan(scene, options);
 }
 

@@ -6,6 +6,7 @@
 #include "src/core/parallel.h"
 #include "src/scene/compile.h"
 #include "src/scene/parse.h"
+#include "src/strategy/use_strategy.h"
 #include "src/wavefront/run.h"
 
 namespace lanelight {
@@ -15,7 +16,8 @@ struct TestRender {
   std::uint64_t seed = 1;
   int threads = 2;
   std::uint32_t wavefront = 0;
-  SamplerKind sampler = SamplerKind::kIndependent;
+  Points sampler = Points::kIndependent;
+  std::string strategy;  // on top of the scene's and `sampler`
   bool aov = false;
   CompileOptions compile;
 };
@@ -26,17 +28,21 @@ struct Rendered {
   Plan plan;
 };
 
-inline Rendered RenderDescription(const SceneDescription& description, const TestRender& t) {
+inline Rendered RenderDescription(const SceneDescription& description,
+                                  const TestRender& t) {
   const ThreadLimit limit(t.threads);
-  const CompiledScene scene = CompileScene(description, t.compile);
+  CompiledScene scene = CompileScene(description, t.compile);
+  Strategy strategy = scene.strategy;
+  strategy.points = t.sampler;
+  ApplyStrategy(t.strategy, {}, strategy);
+  UseStrategy(strategy, scene);
   PlanOptions plan_options;
   plan_options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
-  plan_options.sampler = t.sampler;
   plan_options.aov = t.aov;
   plan_options.wavefront = t.wavefront;
   const Plan plan = MakePlan(scene, plan_options);
   Rendered out{FilmAccumulator(0, 0, scene.film.width, scene.film.height,
-                               GroupSize(t.sampler, t.spp), t.aov),
+                               GroupSize(scene.strategy, t.spp), t.aov),
                {},
                plan};
   RunOptions options;

@@ -1,10 +1,14 @@
-// light-selection by the table of the scene (power, or uniform): Walker's alias method.
-//   density     pmf of the light record
+// light-selection=power, uniform: by the table of the scene (Walker's alias method).
+//   estimator   f(light) / pmf(light), pmf of the light record
+//   unbiased    every light has pmf > 0
+//   variance    zero only if every light's contribution is in proportion to its pmf: no
+//               notion of distance, so poor for many small lights
+//   cost        two gathers
 //   source      Walker 1977; Vose 1991
 #include "kernels/targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/select_power.cc"
+#define HWY_TARGET_INCLUDE "kernels/lights/select_table.cc"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
@@ -42,10 +46,10 @@ namespace lanelight {
 HWY_EXPORT(SelectLight);
 
 Stage SelectLightStage() {
-  return {"light_select",
-          "chooses a light by its power",
+  return {"light_select_table",
+          "chooses a light by the table",
           QueueId::kLit,
-          {Feature::kManyLights, Feature::kScatters},
+          {Feature::kLights, Feature::kLightTable, Feature::kScatters},
           {Field::u_select},
           {Field::ls_light},
           [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(SelectLight); }};

@@ -1,0 +1,55 @@
+// directions=mis, light: how much of the light along a direction is left to each of two
+// techniques that can find it.
+//   estimator   sum over techniques of w_i f / p_i, w_i >= 0, sum w_i = 1
+//   unbiased    as long as the weights sum to 1 wherever f > 0 and each technique finds
+//               what its weight is not 0 for; directions=light gives light samples all
+//   variance    power heuristic (exponent 2): at most about the better technique's, plus
+//               a term that falls with the number of samples; balance heuristic: no
+//               other heuristic is better by more than (1/min n_i - 1/sum n_i) I^2
+//   cost        one division
+//   source      Veach and Guibas 1995, "Optimally Combining Sampling Techniques"
+#if defined(LANELIGHT_DIRECTIONS_HEURISTIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_DIRECTIONS_HEURISTIC_INL_H_
+#undef LANELIGHT_DIRECTIONS_HEURISTIC_INL_H_
+#else
+#define LANELIGHT_DIRECTIONS_HEURISTIC_INL_H_
+#endif
+
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Weight of the technique of density `mine` > 0 against `other`, in a form that neither
+/// overflows nor divides zero by zero. Which heuristic: see MisParameters.
+HWY_INLINE VF HeuristicWeight(const MisParameters& mis, VF mine, VF other) {
+  const VF ratio = hn::Min(hn::Div(other, mine), Splat(1e18f));
+  const VF rest = hn::MulAdd(Splat(mis.square), ratio, Splat(mis.linear));
+  return hn::Div(Splat(1.0f), hn::MulAdd(ratio, rest, Splat(1.0f)));
+}
+
+/// Weight of a light sample whose direction scattering has density bsdf_pdf. Delta lights
+/// (light_pdf = 0), which scattering cannot find, have weight 1.
+HWY_INLINE VF LightSampleWeight(const MisParameters& mis, VF light_pdf, VF bsdf_pdf) {
+  const VF one = Splat(1.0f);
+  const MF delta = hn::Eq(light_pdf, hn::Zero(DF()));
+  const VF weight = HeuristicWeight(mis, hn::IfThenElse(delta, one, light_pdf), bsdf_pdf);
+  return hn::IfThenElse(delta, one, weight);
+}
+
+/// Weight of emission met by a scattered ray: 1 after the camera or a specular event
+/// (bsdf_pdf = 0), where no light sample could have found it.
+HWY_INLINE VF EmissionWeight(const MisParameters& mis, VF bsdf_pdf, VF light_pdf) {
+  const VF one = Splat(1.0f);
+  const MF specular = hn::Eq(bsdf_pdf, hn::Zero(DF()));
+  const VF weight =
+      HeuristicWeight(mis, hn::IfThenElse(specular, one, bsdf_pdf), light_pdf);
+  return hn::IfThenElse(specular, one, hn::Mul(Splat(mis.hits), weight));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,75 @@
+// With light-selection=tree: the probability with which the tree would have selected the
+// light that a ray has hit, for multiple importance sampling. The way up from its leaf.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/lights/hit_tree.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/lights/tree-inl.h"
+#include "kernels/queue/filter-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE VF ClimbingProbability(const LightTree& tree, VI node, V3 p) {
+  const DI di;
+  const DF df;
+  VF pmf = Splat(1.0f - tree.pmf_far * static_cast<float>(tree.far.size()));
+  for (;;) {
+    const auto inner = hn::Gt(node, hn::Zero(di));  // the root is 0
+    if (hn::AllFalse(di, inner)) return pmf;
+    const VI parent = LightNodes(tree, node).I(offsetof(LightNode, parent));
+    const VI first =
+        hn::IfThenElseZero(inner, LightNodes(tree, parent).I(offsetof(LightNode, child)));
+    const ChildProbabilities go = ProbabilitiesOf(tree, first, p);
+    const MF is_first = hn::RebindMask(df, hn::Eq(node, first));
+    const VF chosen = hn::IfThenElse(is_first, go.first, go.second);
+    pmf = hn::IfThenElse(hn::RebindMask(df, inner), hn::Mul(pmf, chosen), pmf);
+    node = hn::IfThenElse(inner, parent, node);
+  }
+}
+
+void HitLightTree(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const LightTree& tree = wave.scene->lights.tree;
+  const int32_t* nodes = tree.primitive_leaf.data();
+  const Queue& mine =
+      FilterQueue(wave, wave.queue(QueueId::kHit), [&](VI slots) HWY_ATTR {
+        const VI leaf = Gather(nodes, Gather(p.prim, slots));
+        return hn::RebindMask(DF(), hn::Gt(leaf, hn::Set(DI(), -1)));
+      });
+  ForEachBatch(wave, mine, [&](VI slots, MF) HWY_ATTR {
+    // The origin of the ray is the point that was lit, but for rounding.
+    const V3 from = Gather3(p.o_x, p.o_y, p.o_z, slots);
+    Scatter(ClimbingProbability(tree, Gather(nodes, Gather(p.prim, slots)), from),
+            p.light_pmf, slots);
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(HitLightTree);
+
+Stage HitLightTreeStage() {
+  return {
+      "light_hit_tree",
+      "probability of having selected the light that was hit",
+      QueueId::kHit,
+      {Feature::kLights, Feature::kLightTree, Feature::kMis},
+      fields::kRay | FieldSet{Field::prim},
+      {Field::light_pmf},
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(HitLightTree); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,133 @@
+// pairs=antithetic: samples 2k and 2k+1 of a pixel share their random numbers; here the
+// second one's are reflected. Before, the points stages have given both the same numbers
+// (PointSample in kernels/points/fill-inl.h) and generate has put them in adjacent slots.
+//   estimator   1/(2N) sum (f(u) + f(u')): u' = 1 - u per coordinate, for azimuths u +
+//   1/2.
+//               Numbers that are not paired are independent in the two samples
+//   unbiased    u' is as uniform as u
+//   variance    (1 + rho) sigma^2 / (2N) for N pairs, rho the correlation of f(u) and
+//               f(u'): 0 if f is linear in the reflected numbers (with equal others), a
+//               gain where f is monotonic in them, a loss where it is symmetric about the
+//               middle (at worst twice the variance)
+//   dependence  a pair is one observation
+//   cost        a few instructions per number; half of the hashes could be spared
+//   source      Hammersley and Morton 1956; the paper's equation 6
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/pairs/antithetic.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// 1 - u on the grid of 24 bits that sample points live on: a permutation of the grid, so
+// exactly as uniform, and never 1.
+HWY_INLINE VF Reflected(VF u) { return hn::Sub(Splat(1.0f - 0x1p-24f), u); }
+// u + 1/2, modulo 1.
+HWY_INLINE VF HalfTurned(VF u) {
+  const VF half = Splat(0.5f);
+  return hn::Add(u, hn::IfThenElse(hn::Lt(u, half), half, Splat(-0.5f)));
+}
+
+enum class Reflection { kReflect, kTurn };
+
+// Reflects one column for the odd samples of the queue.
+template <Reflection kHow>
+HWY_INLINE void ReflectColumn(Wave& wave, const Queue& queue, float* column) {
+  if (column == nullptr) return;
+  const DI di;
+  const PathColumns& p = wave.path;
+  const VI one = hn::Set(di, 1);
+  // Pairs hold at every depth or at the first bounce only (MakePairParameters).
+  const bool first_only = wave.run->pairs.depths == 1;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DF()));
+  for (uint32_t i = 0; i < queue.size; i += lanes) {
+    const VI slots = hn::LoadU(di, reinterpret_cast<const int32_t*>(queue.items) + i);
+    auto odd = hn::Eq(hn::And(Gather(p.sample, slots), one), one);
+    if (first_only) odd = hn::And(odd, hn::Eq(Gather(p.depth, slots), hn::Zero(di)));
+    const MF reflect = hn::RebindMask(DF(), odd);
+    const VF u = Gather(column, slots);
+    const VF other = kHow == Reflection::kTurn ? HalfTurned(u) : Reflected(u);
+    Scatter(hn::IfThenElse(reflect, other, u), column, slots);
+  }
+}
+
+HWY_INLINE void ReflectPoint(Wave& wave, const Queue& queue, Dimension d, float* u0,
+                             float* u1) {
+  if (!wave.run->pairs.Has(d)) return;
+  ReflectColumn<Reflection::kReflect>(wave, queue, u0);
+  ReflectColumn<Reflection::kReflect>(wave, queue, u1);
+}
+
+void AntitheticCamera(Wave& wave) {
+  const Queue& queue = wave.queue(QueueId::kCamera);
+  const PathColumns& p = wave.path;
+  PadTail(queue);
+  ReflectPoint(wave, queue, Dimension::kFilm, p.u_film_0, p.u_film_1);
+  // Both coordinates of the concentric map reflected: the opposite point of the lens.
+  ReflectPoint(wave, queue, Dimension::kLens, p.u_lens_0, p.u_lens_1);
+  CountBatches(wave, queue);
+}
+
+void AntitheticBounce(Wave& wave) {
+  const Queue& queue = wave.queue(QueueId::kSurface);
+  const PathColumns& p = wave.path;
+  PadTail(queue);
+  // u_bsdf_1 is the azimuth of the lobes of visible normals and of uniform directions; in
+  // the concentric map of the cosine lobe a half turn of it is a quarter turn or a
+  // mirror.
+  if (wave.run->pairs.Has(Dimension::kBsdf)) {
+    ReflectColumn<Reflection::kReflect>(wave, queue, p.u_bsdf_0);
+    ReflectColumn<Reflection::kTurn>(wave, queue, p.u_bsdf_1);
+  }
+  ReflectPoint(wave, queue, Dimension::kLobe, p.u_lobe, nullptr);
+  ReflectPoint(wave, queue, Dimension::kSelect, p.u_select, nullptr);
+  ReflectPoint(wave, queue, Dimension::kLight, p.u_light_0, p.u_light_1);
+  ReflectPoint(wave, queue, Dimension::kRoulette, p.u_roulette, nullptr);
+  CountBatches(wave, queue);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(AntitheticCamera);
+HWY_EXPORT(AntitheticBounce);
+
+Stage AntitheticCameraStage() {
+  const FieldSet points = {Field::u_film_0, Field::u_film_1, Field::u_lens_0,
+                           Field::u_lens_1};
+  return {"antithetic_camera",
+          "reflects film and lens points of odd samples",
+          QueueId::kCamera,
+          {Feature::kAntithetic},
+          points | FieldSet{Field::sample, Field::depth},
+          points,
+          [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(AntitheticCamera);
+          }};
+}
+Stage AntitheticBounceStage() {
+  return {"antithetic_bounce",
+          "reflects the points of a bounce of odd samples",
+          QueueId::kSurface,
+          {Feature::kAntithetic, Feature::kScatters},
+          fields::kBouncePoints | FieldSet{Field::sample, Field::depth},
+          fields::kBouncePoints,
+          [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(AntitheticBounce);
+          }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

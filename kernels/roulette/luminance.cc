@@ -1,0 +1,55 @@
+// roulette=luminance: a path survives with probability s = min(1, max(floor, luminance of
+// its throughput)), the factor eta^2 of refractions undone.
+//   estimator   survive-inl.h
+//   unbiased    s >= floor or above 0
+//   variance    spends less than `throughput` on saturated paths that the eye hardly
+//   sees;
+//               the floor of 0.05 keeps the weight of dark blue survivors bounded
+//   from        the second scattering event on (luminance:FLOOR:FIRST)
+//   cost        one division and a compaction
+//   source      Arvo and Kirk 1990, "Particle Transport and Image Synthesis"
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/roulette/luminance.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/roulette/survive-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+struct LuminanceSurvival {
+  static HWY_INLINE VF Survival(const Wave& wave, VI slots, V3 beta) {
+    const VF y = hn::MulAdd(
+        beta.x, Splat(0.212671f),
+        hn::MulAdd(beta.y, Splat(0.715160f), hn::Mul(beta.z, Splat(0.072169f))));
+    return hn::Max(WithoutRefraction(wave.path, slots, y),
+                   Splat(HWY_MAX(wave.run->roulette.floor, 1e-6f)));
+  }
+};
+
+void LuminanceRoulette(Wave& wave) { PlayRoulette<LuminanceSurvival>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/roulette/roulette_stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(LuminanceRoulette);
+
+Stage LuminanceRouletteStage() {
+  return RouletteStage("roulette_luminance", "Russian roulette on the luminance",
+                       Feature::kLuminanceRoulette, [](const FeatureSet&) -> StageFn {
+                         return HWY_DYNAMIC_DISPATCH(LuminanceRoulette);
+                       });
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

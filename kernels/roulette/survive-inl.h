@@ -1,0 +1,56 @@
+// The decision that the roulettes on scattered rays share. A policy is a struct with
+//   static VF Survival(const Wave&, VI slots, V3 beta)
+// giving a probability above 0 (values of 1 and more: always survives).
+//   estimator   survivor / s, zero otherwise: E = s (x / s) = x (the paper's equation 8,
+//               with s = 1 - q)
+//   unbiased    s > 0 wherever the path can still carry light
+//   variance    grows by E[x^2] (1/s - 1) per decision; pays when what it saves in time
+//   is
+//               more than that
+#if defined(LANELIGHT_ROULETTE_SURVIVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_ROULETTE_SURVIVE_INL_H_
+#undef LANELIGHT_ROULETTE_SURVIVE_INL_H_
+#else
+#define LANELIGHT_ROULETTE_SURVIVE_INL_H_
+#endif
+
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+template <class Policy>
+HWY_INLINE void PlayRoulette(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const VI before = hn::Set(DI(), static_cast<int32_t>(wave.run->roulette.first) - 1);
+  Queue& queue = wave.queue(QueueId::kScattered);
+  Queue survivors = {queue.items, 0};  // compacts in place: writes never pass reads
+  ForEachBatch(wave, queue, [&](VI slots, MF valid) HWY_ATTR {
+    const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
+    VF s = Policy::Survival(wave, slots, beta);
+    const MF eligible =
+        hn::And(hn::Lt(s, Splat(1.0f)),
+                hn::RebindMask(DF(), hn::Gt(Gather(p.depth, slots), before)));
+    s = hn::IfThenElse(eligible, s, Splat(1.0f));
+    const MF survives = hn::Lt(Gather(p.u_roulette, slots), s);
+    const V3 scaled = Mul(beta, hn::Div(Splat(1.0f), s));
+    const V3 kept = IfThenElse(hn::And(survives, eligible), scaled, beta);
+    Scatter3(kept, p.beta_r, p.beta_g, p.beta_b, slots);
+    Push(survivors, slots, hn::And(valid, survives));
+    Push(wave.queue(QueueId::kDone), slots, hn::AndNot(survives, valid));
+  });
+  queue.size = survivors.size;
+}
+
+/// The factor eta^2 of refractions undone: radiance is spread by leaving a denser medium
+/// and gathered again, which says nothing of the path's worth.
+HWY_INLINE VF WithoutRefraction(const PathColumns& p, VI slots, VF s) {
+  return p.eta_scale != nullptr ? hn::Mul(s, Gather(p.eta_scale, slots)) : s;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

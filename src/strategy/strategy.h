@@ -1,0 +1,84 @@
+// A strategy: one choice per axis, each orthogonal to the others. The choices and their
+// meaning: choices.h. Text form: `key=value,...`, optionally after the name of a preset.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/core/error.h"
+#include "src/strategy/choices.h"
+
+namespace lanelight {
+
+enum class Heuristic : std::uint8_t { kPower, kBalance };
+
+struct Strategy {
+  Directions directions = Directions::kMis;
+  Heuristic heuristic = Heuristic::kPower;  // of kMis
+  Points points = Points::kSobol;
+  Pairs pairs = Pairs::kNone;
+  Paired paired = Paired::kAll;  // of kAntithetic
+  Control control = Control::kNone;
+  /// Coefficient c of f - c (h - E[h]); empty: estimated per pixel (`c=optimal`). The
+  /// paper's equation 7 writes f + c (h - E[h]): its coefficient is minus this one.
+  std::optional<double> coefficient;
+  Roulette roulette = Roulette::kThroughput;
+  double termination = 0.25;           // of kConstant: probability of ending, in (0, 1)
+  std::optional<double> floor;         // of kThroughput, kLuminance: least survival
+  std::optional<std::uint32_t> first;  // first scattering event with roulette
+  LightSelection light_selection = LightSelection::kPower;
+
+  friend bool operator==(const Strategy&, const Strategy&) = default;
+
+  /// Least survival probability of the roulette on throughput or luminance.
+  double Floor() const {
+    return floor.value_or(roulette == Roulette::kLuminance ? 0.05 : 0);
+  }
+  /// First scattering event (from 1) after which roulette is played.
+  std::uint32_t First() const {
+    return first.value_or(roulette == Roulette::kConstant ? 1 : 2);
+  }
+  /// Scattered rays may hit any light and count in full: no light that can be hit is
+  /// sampled. (Lights that nothing can hit always are.)
+  bool SamplesHittableLights() const {
+    return directions == Directions::kLight || directions == Directions::kMis;
+  }
+  bool Splits() const {
+    return roulette == Roulette::kAdjoint || roulette == Roulette::kEfficiency;
+  }
+};
+
+/// Changes `strategy` as the text says and leaves the rest. A preset, which can only come
+/// first, replaces all of it. Throws InputError at `where` with the word that is not
+/// understood, what would be, and the nearest known name. An empty text changes nothing.
+void ApplyStrategy(std::string_view text, const SourceLocation& where,
+                   Strategy& strategy);
+
+/// Complete text form, which ApplyStrategy reads back: "directions=mis:power,points=...".
+std::string ToText(const Strategy& strategy);
+
+/// One row of `lanelight strategies`.
+struct ChoiceInfo {
+  const char *axis, *name, *arguments, *meaning, *formula, *source;
+};
+/// All choices, grouped by axis.
+std::span<const ChoiceInfo> AllChoices();
+
+struct PresetInfo {
+  const char *name, *changes, *meaning;
+};
+/// The figures of the founding paper: each changes one thing of paper-plain.
+std::span<const PresetInfo> AllPresets();
+
+const char* Name(Directions choice);
+const char* Name(Points choice);
+const char* Name(Pairs choice);
+const char* Name(Control choice);
+const char* Name(Roulette choice);
+const char* Name(LightSelection choice);
+const char* Name(Paired choice);
+
+}  // namespace lanelight

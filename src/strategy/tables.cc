@@ -1,0 +1,7 @@
+#include "src/strategy/tables.h"
+
+namespace lanelight {
+
+StrategyTables MakeStrategyTables(const CompiledScene&) { return {}; }
+
+}  // namespace lanelight

@@ -1,0 +1,14 @@
+// Tables that some strategies need, built once per render and read by kernels.
+#pragma once
+
+#include "src/core/aligned.h"
+#include "src/scene/compiled.h"
+
+namespace lanelight {
+
+struct StrategyTables {};
+
+/// What the strategy of the scene needs, and nothing else.
+StrategyTables MakeStrategyTables(const CompiledScene& scene);
+
+}  // namespace lanelight

@@ -1,0 +1,175 @@
+#include "src/wavefront/plan_features.h"
+
+#include "src/core/check.h"
+#include "src/core/error.h"
+
+namespace lanelight {
+namespace {
+
+// Only emission seen directly is left: nothing is shaded and no light is sampled.
+void RemoveScattering(const PlanOptions& options, FeatureSet& f) {
+  for (Feature lighting : {Feature::kScatters, Feature::kLights, Feature::kManyLights,
+                           Feature::kMis, Feature::kRefraction}) {
+    f.Remove(lighting);
+  }
+  if (options.aov) return;
+  for (Feature surface :
+       {Feature::kTextures, Feature::kUv, Feature::kTangents, Feature::kVertexNormals,
+        Feature::kTexturedRoughness, Feature::kMix}) {
+    f.Remove(surface);
+  }
+}
+
+bool HasDeltaLights(const FeatureSet& f) {
+  return f.HasAny({Feature::kPointLights, Feature::kSpotLights, Feature::kDistantLights});
+}
+
+void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
+  if (strategy.directions == Directions::kUniform) f.Add(Feature::kUniformDirections);
+  if (strategy.SamplesHittableLights()) {
+    f.Add(Feature::kSampledHittableLights);
+  } else {
+    // Scattered rays count in full, so they carry no density; what is left to sample are
+    // the lights that no ray can hit.
+    f.Remove(Feature::kMis);
+    if (!HasDeltaLights(f)) {
+      f.Remove(Feature::kLights);
+      f.Remove(Feature::kManyLights);
+    }
+  }
+  if (!f.Has(Feature::kManyLights)) return;
+  f.Add(strategy.light_selection == LightSelection::kTree ? Feature::kLightTree
+                                                          : Feature::kLightTable);
+}
+
+Feature FeatureOf(Points points) {
+  constexpr Feature kFeatures[] = {
+      Feature::kIndependentPoints, Feature::kStratifiedPoints, Feature::kCmjPoints,
+      Feature::kPmj02Points,       Feature::kSobolPoints,      Feature::kHaltonPoints,
+      Feature::kLatticePoints};
+  return kFeatures[static_cast<int>(points)];
+}
+
+void AddRoulette(const Strategy& strategy, std::uint32_t max_depth, FeatureSet& f) {
+  f.Remove(Feature::kRoulette);
+  if (max_depth <= 1) return;
+  switch (strategy.roulette) {
+    case Roulette::kNone:
+      return;
+    case Roulette::kConstant:
+      f.Add(Feature::kConstantRoulette);
+      break;
+    case Roulette::kThroughput:
+      f.Add(Feature::kThroughputRoulette);
+      break;
+    case Roulette::kLuminance:
+      f.Add(Feature::kLuminanceRoulette);
+      break;
+    case Roulette::kAdjoint:
+      f.Add(Feature::kAdjointRoulette);
+      break;
+    case Roulette::kEfficiency:
+      f.Add(Feature::kEfficiencyRoulette);
+      break;
+  }
+  f.Add(strategy.Splits() ? Feature::kSplitting : Feature::kRoulette);
+}
+
+void AddControl(const Strategy& strategy, FeatureSet& f) {
+  if (strategy.control == Control::kNone || !f.Has(Feature::kScatters)) return;
+  f.Add(Feature::kControl);
+  if (strategy.control == Control::kRegression) {
+    f.Add(Feature::kRegressionControl);
+    return;
+  }
+  f.Add(strategy.control == Control::kAnalytic ? Feature::kAnalyticControl
+                                               : Feature::kAmbientControl);
+  if (!strategy.coefficient) f.Add(Feature::kControlDifference);
+}
+
+[[noreturn]] void Refuse(const std::string& message) {
+  throw InputError("strategy: " + message);
+}
+
+void CheckControl(const Strategy& s, const CompiledScene& scene,
+                  const PlanOptions& options) {
+  if (s.control == Control::kNone) return;
+  const FeatureSet& f = scene.features;
+  const std::string name = std::string("control=") + Name(s.control);
+  if (options.max_depth == 0) Refuse(name + " needs a maximum depth of at least 1");
+  if (s.control == Control::kRegression) return;
+  if (!f.HasAny({Feature::kDiffuse, Feature::kDiffuseTransmission})) {
+    Refuse(name +
+           " works on Lambertian surfaces, and this scene has none; control=regression "
+           "works on any");
+  }
+  if (s.control == Control::kAmbient && !f.Has(Feature::kInfiniteLights)) {
+    Refuse("control=ambient needs an environment, and this scene has none" +
+           std::string(f.Has(Feature::kAreaLights)
+                           ? "; control=analytic is for its area lights"
+                           : "; control=regression needs no light of a kind"));
+  }
+  if (s.control != Control::kAnalytic) return;
+  if (!f.Has(Feature::kAreaLights)) {
+    Refuse("control=analytic needs emitting shapes, and this scene has none" +
+           std::string(f.Has(Feature::kInfiniteLights)
+                           ? "; control=ambient is for its environment"
+                           : "; control=regression needs no light of a kind"));
+  }
+  if (!s.SamplesHittableLights()) {
+    Refuse(std::string("control=analytic needs samples of the area lights: "
+                       "directions=light or mis, not ") +
+           Name(s.directions));
+  }
+}
+
+}  // namespace
+
+FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) {
+  const Strategy& strategy = scene.strategy;
+  FeatureSet f = scene.features;
+  f.Add(Feature::kScatters);
+  if (options.max_depth == 0) RemoveScattering(options, f);
+  if (options.max_depth > 0) AddLightSampling(strategy, f);
+  if (options.aov) f.Add(Feature::kAov);
+  f.Add(FeatureOf(strategy.points));
+  if (strategy.pairs == Pairs::kAntithetic) f.Add(Feature::kAntithetic);
+  AddRoulette(strategy, options.max_depth, f);
+  AddControl(strategy, f);
+  return f;
+}
+
+std::vector<std::string> CheckStrategy(const CompiledScene& scene,
+                                       const PlanOptions& options) {
+  const Strategy& s = scene.strategy;
+  const FeatureSet& f = scene.features;
+  CheckControl(s, scene, options);
+  std::vector<std::string> notes;
+  if (s.light_selection != LightSelection::kPower && !f.Has(Feature::kManyLights)) {
+    notes.push_back(std::string("light-selection=") + Name(s.light_selection) +
+                    " has no effect: there are no two lights to choose from");
+  }
+  if (s.directions == Directions::kLight && !f.Has(Feature::kLights)) {
+    notes.push_back(
+        "directions=light: there is no light to sample, only what the camera "
+        "sees itself or in mirrors");
+  }
+  if (s.roulette != Roulette::kThroughput && s.roulette != Roulette::kNone &&
+      options.max_depth <= 1) {
+    notes.push_back(std::string("roulette=") + Name(s.roulette) +
+                    " has no effect: paths end after one scattering event");
+  }
+  if (s.pairs == Pairs::kAntithetic && s.paired == Paired::kLight &&
+      !PlanFeatures(scene, options).Has(Feature::kLights)) {
+    notes.push_back("pairs=antithetic:light has no effect: no light is sampled");
+  }
+  if (s.control == Control::kRegression && s.points != Points::kIndependent) {
+    notes.push_back(std::string("control=regression gains little with points=") +
+                    Name(s.points) +
+                    ", which integrate polynomials well already: its place is "
+                    "points=independent");
+  }
+  return notes;
+}
+
+}  // namespace lanelight
