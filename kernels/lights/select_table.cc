@@ -49,7 +49,7 @@ Stage SelectLightStage() {
   return {"light_select_table",
           "chooses a light by the table",
           QueueId::kLit,
-          {Feature::kLights, Feature::kLightTable, Feature::kScatters},
+          {Feature::kManyLights, Feature::kLightTable, Feature::kScatters},
           {Field::u_select},
           {Field::ls_light},
           [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(SelectLight); }};

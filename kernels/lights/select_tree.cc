@@ -90,7 +90,7 @@ Stage SelectLightTreeStage() {
       "light_select_tree",
       "chooses a light by descending the tree",
       QueueId::kLit,
-      {Feature::kLights, Feature::kLightTree, Feature::kScatters},
+      {Feature::kManyLights, Feature::kLightTree, Feature::kScatters},
       fields::kPoint | FieldSet{Field::u_select},
       {Field::ls_light, Field::light_pmf},
       [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(SelectLightTree); }};

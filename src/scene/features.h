@@ -65,7 +65,7 @@ namespace lanelight {
   X(kSampledHittableLights, "light samples of lights that rays can hit")      \
   X(kUniformDirections, "directions=uniform")                                 \
   X(kAntithetic, "pairs=antithetic")                                          \
-  X(kLightTable, "several lights, chosen by a table")                         \
+  X(kLightTable, "light-selection=power or uniform")                          \
   X(kLightTree, "light-selection=tree")                                       \
   X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")        \
   X(kConstantRoulette, "roulette=constant")                                   \

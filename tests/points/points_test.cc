@@ -60,7 +60,7 @@ TEST_CASE("sobol: every aligned power-of-two block is a (0, m, 2)-net", "[points
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     for (std::uint32_t pixel : {0u, 1u, 77777u}) {
-      const Drawn p = Draw({Points::kSobol, 7, pixel, 8, 3, 0, 256});
+      const Drawn p = Draw({Points::kSobol, 7, pixel, 256, 3, 0, 256});
       for (int m = 0; m <= 8; ++m) {
         for (std::size_t first = 0; first < 256; first += std::size_t{1} << m) {
           for (int k = 0; k <= m; ++k)
@@ -73,7 +73,7 @@ TEST_CASE("sobol: every aligned power-of-two block is a (0, m, 2)-net", "[points
 }
 
 TEST_CASE("sobol: groups are different randomisations", "[points]") {
-  const Drawn p = Draw({Points::kSobol, 1, 5, 4, 0, 0, 64});
+  const Drawn p = Draw({Points::kSobol, 1, 5, 16, 0, 0, 64});
   for (std::size_t group = 0; group < 4; ++group) CHECK(OnePerCell(p, group * 16, 4, 4));
   // Independently scrambled nets do not continue each other.
   CHECK_FALSE(OnePerCell(p, 0, 8, 8));
@@ -81,8 +81,8 @@ TEST_CASE("sobol: groups are different randomisations", "[points]") {
 
 TEST_CASE("points: different keys, pixels and seeds are uncorrelated", "[points]") {
   const std::uint32_t n = 4096;
-  for (PointsPolicy policy : {Points::kIndependent, Points::kSobol}) {
-    const PointsQuery base = {policy, 3, 10, 0, 20, 0, n};
+  for (Points policy : {Points::kIndependent, Points::kSobol}) {
+    const PointsQuery base = {policy, 3, 10, 1, 20, 0, n};
     PointsQuery key = base, pixel = base, seed = base;
     key.key = 21;
     pixel.pixel = 11;
@@ -101,11 +101,11 @@ TEST_CASE("points: different keys, pixels and seeds are uncorrelated", "[points]
 
 TEST_CASE("points: in [0, 1), uniform, and equal on all targets", "[points]") {
   const std::uint32_t n = 1 << 16;
-  for (PointsPolicy policy : {Points::kIndependent, Points::kSobol}) {
-    Points first;
+  for (Points policy : {Points::kIndependent, Points::kSobol}) {
+    Drawn first;
     for (const std::string& target : AvailableTargets()) {
       ForceTarget(target);
-      const Drawn p = Draw({policy, 9, 123, 0, 4, 0, n});
+      const Drawn p = Draw({policy, 9, 123, 1, 4, 0, n});
       if (first.u0.empty()) first = p;
       CHECK(p.u0 == first.u0);
       CHECK(p.u1 == first.u1);
@@ -126,7 +126,7 @@ TEST_CASE("points: in [0, 1), uniform, and equal on all targets", "[points]") {
 }
 
 TEST_CASE("independent points equal the scalar PCG-4D", "[points]") {
-  const Drawn p = Draw({Points::kIndependent, 42, 1000, 0, 17, 5, 100});
+  const Drawn p = Draw({Points::kIndependent, 42, 1000, 1, 17, 5, 100});
   for (std::uint32_t i = 0; i < 100; ++i) {
     const Lcg h(1000, 5 + i, 17, 42);
     CHECK(p.u0[i] == float(h.v[0] >> 8) * 0x1p-24f);

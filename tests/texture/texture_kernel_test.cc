@@ -51,7 +51,7 @@ HWY_EXPORT(AlphaPoint);
 
 namespace {
 
-struct Points {
+struct DrawnPoints {
   std::vector<std::int32_t> ids;
   std::vector<float> u, v;
   std::size_t size() const { return u.size(); }
@@ -63,7 +63,7 @@ struct Points {
   }
 };
 
-std::vector<float> Eval(const TextureTable& table, Points points) {
+std::vector<float> Eval(const TextureTable& table, DrawnPoints points) {
   points.Pad();
   std::vector<float> rgb(3 * points.size());
   HWY_DYNAMIC_DISPATCH(EvalPoints)
@@ -95,7 +95,7 @@ void CompareAll(const std::vector<Texture>& textures, std::uint32_t seed) {
   const TextureTable table = CompileTextures(textures);
   const reference::Textures twin(textures);
   std::mt19937 random(seed);
-  Points points;
+  DrawnPoints points;
   for (float u : Coordinates(random)) {
     const auto id = static_cast<std::int32_t>(random() % (textures.size() + 1)) - 1;
     const std::vector<float> vs = Coordinates(random);
@@ -234,7 +234,7 @@ TEST_CASE("combined textures: checkerboard, mix, scale, nested and shared", "[te
   // points away from the edges of eighths.
   const reference::Textures twin(textures);
   std::mt19937 random(3);
-  Points points;
+  DrawnPoints points;
   for (int i = 0; i < 2000; ++i) {
     const auto at = [&] { return (static_cast<int>(random() % 400) - 200 + 0.37f) / 8; };
     points.Add(static_cast<std::int32_t>(random() % textures.size()), at(), at());
@@ -259,7 +259,7 @@ TEST_CASE("checkerboard parity holds for negative and huge cells", "[texture]") 
   t.tex1 = {{1, 1, 1}, kNone};
   t.tex2 = {{0, 0, 0}, kNone};
   const TextureTable table = CompileTextures({t});
-  Points points;
+  DrawnPoints points;
   const std::vector<std::pair<float, int>> cells = {
       {0.5f, 0}, {1.5f, 1},    {-0.5f, 1},   {-1.5f, 0},    {2, 0},     {-1, 1},
       {-2, 0},   {8388607, 1}, {8388606, 0}, {16777216, 0}, {3e30f, 0}, {-3e30f, 0}};
@@ -289,7 +289,7 @@ TEST_CASE("coordinates that are no numbers stay inside the image", "[texture]") 
     textures.back().wrap = static_cast<WrapMode>(w);
   }
   const TextureTable table = CompileTextures(textures);
-  Points points;
+  DrawnPoints points;
   for (float u : {nan, inf, -inf, 3e38f, -3e38f, 0.5f}) {
     for (float v : {nan, inf, -inf, 3e38f, -3e38f, 0.5f}) {
       for (int id = 0; id < 4; ++id) points.Add(id, u, v);

@@ -100,9 +100,9 @@ constexpr WarpId kWarps[] = {
     WarpId::kDisk,   WarpId::kCosine, WarpId::kUniformHemisphere, WarpId::kInSphere,
     WarpId::kSphere, WarpId::kCone,   WarpId::kTriangle};
 
-struct Points {
+struct DrawnPoints {
   std::vector<float> u0, u1, x, y, z, pdf, back0, back1;
-  explicit Points(WarpId id) {
+  explicit DrawnPoints(WarpId id) {
     for (auto* v : {&u0, &u1, &x, &y, &z, &pdf, &back0, &back1}) v->resize(kCount);
     std::mt19937_64 engine(11);
     for (int i = 0; i < kCount; ++i) {
@@ -156,7 +156,7 @@ double Density(WarpId id, double a, double b) {
 }
 
 double PValue(WarpId id, WarpId density) {
-  const Points p(id);
+  const DrawnPoints p(id);
   constexpr int kCells = 12, kSub = 40;
   std::vector<double> observed(kCells * kCells, 0), expected(kCells * kCells, 0);
   for (int i = 0; i < kCount; ++i) {
@@ -197,7 +197,7 @@ TEST_CASE("warps invert, and their densities are the stated ones", "[warp]") {
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     for (WarpId id : kWarps) {
-      const Points p(id);
+      const DrawnPoints p(id);
       double worst = 0, density = 0, length = 0;
       for (int i = 0; i < kCount; ++i) {
         // Near the square's image of a point (disk centre, pole) or a seam of the angle
@@ -263,7 +263,7 @@ TEST_CASE("mean cosines of the diffuse models", "[warp]") {
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     for (const auto& m : models) {
-      const Points p(m.id);
+      const DrawnPoints p(m.id);
       double sum = 0;
       float lowest = 1;
       for (float z : p.z) {

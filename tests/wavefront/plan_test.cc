@@ -13,7 +13,8 @@ namespace lanelight {
 namespace {
 
 const std::string kHead =
-    "Camera \"perspective\"\nFilm \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" "
+    "Camera \"perspective\"\nFilm \"rgb\" \"integer xresolution\" 16 \"integer "
+    "yresolution\" "
     "16\nPixelFilter \"box\" \"float xradius\" 0.5 \"float yradius\" 0.5\n";
 const std::string kTriangle =
     "Shape \"trianglemesh\" \"point3 P\" [ -9 -9 5  9 -9 5  0 9 5 ] "
@@ -21,8 +22,10 @@ const std::string kTriangle =
 const std::string kPointLight = "LightSource \"point\" \"rgb I\" [ 1 1 1 ]\n";
 
 Plan PlanOf(const std::string& world, std::uint32_t max_depth = 5) {
-  const CompiledScene scene =
-      CompileScene(ParseSceneText(kHead + "WorldBegin\n" + world, "test.pbrt", "."));
+  SceneDescription description =
+      ParseSceneText(kHead + "WorldBegin\n" + world, "test.pbrt", ".");
+  description.strategy.points = Points::kIndependent;
+  const CompiledScene scene = CompileScene(description);
   PlanOptions options;
   options.max_depth = max_depth;
   return MakePlan(scene, options);
@@ -56,10 +59,11 @@ TEST_CASE("plan: a triangle under a point light gets the minimum", "[plan]") {
                               "shade_diffuse", "shadow_triangles", "connect",
                               "roulette_throughput", "accumulate"});
   CHECK(Reason(plan, "intersect_spheres") == "no spheres");
-  CHECK(Reason(plan, "light_select") == "no more than one light");
-  for (Field absent : {Field::inst, Field::uv_u, Field::ns_x, Field::tg_x, Field::bsdf_pdf,
-                       Field::u_select, Field::ls_light, Field::eta_scale, Field::color0_r,
-                       Field::u_lens_0, Field::weight, Field::aov_depth}) {
+  CHECK(Reason(plan, "light_select_table") == "no more than one light");
+  for (Field absent :
+       {Field::inst, Field::uv_u, Field::ns_x, Field::tg_x, Field::bsdf_pdf,
+        Field::u_select, Field::ls_light, Field::eta_scale, Field::color0_r,
+        Field::u_lens_0, Field::weight, Field::aov_depth}) {
     INFO(FieldName(absent));
     CHECK_FALSE(IsLive(plan, absent));
   }
@@ -74,7 +78,7 @@ TEST_CASE("plan: an absent column has no memory", "[plan]") {
   Wavefront wavefront(scene, plan, run);
   const PathColumns& path = wavefront.wave().path;
   std::size_t allocated = 0;
-#define X(type, name, features, meaning)                  \
+#define X(type, name, features, meaning)                      \
   CHECK((path.name != nullptr) == IsLive(plan, Field::name)); \
   allocated += path.name != nullptr;
   LANELIGHT_PATH_FIELDS(X)
@@ -87,7 +91,7 @@ TEST_CASE("plan: an absent column has no memory", "[plan]") {
 TEST_CASE("plan: each thing a scene adds brings its stages and columns", "[plan]") {
   const std::string base = kPointLight + kTriangle;
   CHECK(StageNames(PlanOf(base + "Shape \"sphere\"")).count("intersect_spheres"));
-  CHECK(StageNames(PlanOf(base + kPointLight)).count("light_select"));
+  CHECK(StageNames(PlanOf(base + kPointLight)).count("light_select_table"));
   const Plan area = PlanOf(base + "AreaLightSource \"diffuse\"\n" + kTriangle);
   CHECK(StageNames(area).count("emission_triangle"));
   CHECK(IsLive(area, Field::bsdf_pdf));
@@ -110,7 +114,8 @@ TEST_CASE("plan: small depths need neither roulette nor shading", "[plan]") {
 
 TEST_CASE("plan: stages that are left out are never called", "[plan]") {
   TestRender options;
-  const Rendered r = RenderText(kHead + "WorldBegin\n" + kPointLight + kTriangle, options);
+  const Rendered r =
+      RenderText(kHead + "WorldBegin\n" + kPointLight + kTriangle, options);
   CHECK(r.result.stages.size() == r.plan.stages.size());
   for (const StageProfile& stage : r.result.stages) {
     INFO(stage.name);

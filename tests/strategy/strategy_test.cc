@@ -1,0 +1,130 @@
+// The text form of strategies: every choice, presets, errors with a place and the nearest
+// name.
+#include "src/strategy/strategy.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "src/scene/parse.h"
+
+namespace lanelight {
+namespace {
+
+using Catch::Matchers::Contains;
+
+const SourceLocation kWhere = {std::make_shared<const std::string>("--strategy"), 0, 0};
+
+Strategy Parse(const std::string& text, Strategy strategy = {}) {
+  ApplyStrategy(text, kWhere, strategy);
+  return strategy;
+}
+
+std::string ErrorOf(const std::string& text) {
+  try {
+    Parse(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("every listed choice can be chosen, and reads back", "[strategy]") {
+  std::set<std::string> seen;
+  for (const ChoiceInfo& c : AllChoices()) {
+    const std::string text = std::string(c.axis) + "=" + c.name;
+    INFO(text);
+    CHECK(seen.insert(text).second);
+    CHECK(std::string(c.meaning).size() > 10);
+    CHECK(std::string(c.formula).size() > 0);
+    const Strategy strategy = Parse(text);
+    CHECK_THAT(ToText(strategy), Contains(text));
+    CHECK(Parse(ToText(strategy), Parse("paper-uniform")) == strategy);
+  }
+  CHECK(seen.size() == 26);
+}
+
+TEST_CASE("arguments are read, and kept by the text form", "[strategy]") {
+  for (const char* text :
+       {"directions=mis:balance", "pairs=antithetic:first-bounce", "c=0.5",
+        "control=analytic,c=-1", "roulette=constant:0.4:3", "roulette=throughput:0.1",
+        "roulette=luminance:0.2:5", "roulette=throughput:0:1"}) {
+    INFO(text);
+    Strategy expected = Parse(text);
+    if (expected.control == Control::kNone) expected.coefficient.reset();
+    CHECK(Parse(ToText(expected), Parse("paper-roulette")) == expected);
+  }
+  CHECK(Parse("roulette=constant:0.4:3").termination == 0.4);
+  CHECK(Parse("roulette=constant:0.4:3").First() == 3);
+  CHECK(Parse("roulette=constant").First() == 1);
+  CHECK(Parse("roulette=throughput").First() == 2);
+  CHECK(Parse("roulette=luminance").Floor() == 0.05);
+  CHECK_FALSE(Parse("c=0.5,c=optimal").coefficient.has_value());
+}
+
+TEST_CASE("each preset changes one thing of paper-plain, and can be refined",
+          "[strategy]") {
+  const Strategy plain = Parse("paper-plain");
+  CHECK(plain.points == Points::kIndependent);
+  CHECK(plain.roulette == Roulette::kNone);
+  for (const PresetInfo& preset : AllPresets()) {
+    const Strategy s = Parse(preset.name);
+    const int changed = (s.directions != plain.directions) + (s.points != plain.points) +
+                        (s.pairs != plain.pairs) + (s.control != plain.control) +
+                        (s.roulette != plain.roulette) +
+                        (s.light_selection != plain.light_selection);
+    INFO(preset.name);
+    CHECK(changed == (preset.name == std::string("paper-plain") ? 0 : 1));
+    Strategy refined = s;
+    refined.points = Points::kHalton;
+    CHECK(Parse(std::string(preset.name) + ",points=halton") == refined);
+  }
+}
+
+TEST_CASE("what is not understood is named, with what would be", "[strategy]") {
+  const std::pair<const char*, const char*> cases[] = {
+      {"points=sobl", "did you mean \"sobol\"?"},
+      {"point=sobol", "unknown key \"point\"; did you mean \"points\"?"},
+      {"paper-roulete", "did you mean \"paper-roulette\"?"},
+      {"points=sobol,paper-plain", "must come first"},
+      {"points=sobol,", "empty item"},
+      {",points=sobol", "empty item"},
+      {"directions=bsdf:power", "takes no argument"},
+      {"directions=mis:cubic", "\"power\", \"balance\""},
+      {"pairs=none:all", "takes no argument"},
+      {"roulette=constant:1", "is not a number from 0.001 to 0.999"},
+      {"roulette=constant:x", "is not a number"},
+      {"roulette=constant:0.5:1.5", "must be whole"},
+      {"roulette=constant:0.5:1:2", "at most 2 arguments"},
+      {"roulette=adjoint:3", "takes no argument"},
+      {"c=best", "is not a number"},
+      {"c=nan", "is not a number"},
+      {"points=", "unknown value of \"points\" \"\""},
+  };
+  for (const auto& [text, message] : cases) {
+    INFO(text);
+    CHECK_THAT(ErrorOf(text), Contains(message));
+    CHECK_THAT(ErrorOf(text), Contains("--strategy"));
+  }
+}
+
+TEST_CASE("a scene file can say its strategy", "[strategy]") {
+  const auto parse = [](const std::string& options) {
+    return ParseSceneText(options + "\nWorldBegin\n", "s.pbrt", ".");
+  };
+  const SceneDescription scene = parse(
+      "Integrator \"path\" \"string strategy\" \"directions=light,roulette=none\"\n"
+      "Sampler \"halton\"");
+  CHECK(scene.strategy.directions == Directions::kLight);
+  CHECK(scene.strategy.roulette == Roulette::kNone);
+  CHECK(scene.strategy.points == Points::kHalton);  // whatever the order
+  CHECK(parse("Integrator \"path\" \"string lightsampler\" \"bvh\"")
+            .strategy.light_selection == LightSelection::kTree);
+  CHECK_THROWS_WITH(parse("Integrator \"path\"\n \"string strategy\" \"points=sobl\""),
+                    Contains("s.pbrt:1:") && Contains("did you mean"));
+  CHECK_THROWS_WITH(parse("Integrator \"path\" \"string lightsampler\" \"tree\""),
+                    Contains("light sampler"));
+}
+
+}  // namespace lanelight
