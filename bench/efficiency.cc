@@ -1,0 +1,137 @@
+#include "bench/efficiency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace lanelight {
+namespace {
+
+Estimate Interval(double value, std::vector<double> resampled) {
+  std::sort(resampled.begin(), resampled.end());
+  const auto at = [&](double q) {
+    return resampled[static_cast<std::size_t>(q * double(resampled.size() - 1))];
+  };
+  return {value, at(0.025), at(0.975)};
+}
+
+double Mean(const std::vector<double>& v) {
+  double sum = 0;
+  for (double x : v) sum += x;
+  return sum / double(v.size());
+}
+
+std::vector<double> ImageMeans(const Repetitions& r) {
+  std::vector<double> means;
+  for (const auto& image : r.images) {
+    double sum = 0;
+    for (const Rgb& c : image) sum += Luminance(c);
+    means.push_back(sum / double(image.size()));
+  }
+  return means;
+}
+
+double SampleVariance(const std::vector<double>& v) {
+  const double mean = Mean(v);
+  double sum = 0;
+  for (double x : v) sum += (x - mean) * (x - mean);
+  return sum / double(v.size() - 1);
+}
+
+// Two-sided p-value of Student's t by numerical integration of its density.
+double StudentP(double t, double dof) {
+  const double log_norm = std::lgamma((dof + 1) / 2) - std::lgamma(dof / 2) -
+                          0.5 * std::log(dof * 3.14159265358979324);
+  const int steps = 4000;
+  const double end = std::min(std::abs(t), 200.0);
+  double inside = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double x = (i + 0.5) * end / steps;
+    inside += std::exp(log_norm - (dof + 1) / 2 * std::log1p(x * x / dof));
+  }
+  return std::max(0.0, 1 - 2 * inside * end / steps);
+}
+
+double WelchP(const std::vector<double>& a, const std::vector<double>& b) {
+  const double va = SampleVariance(a) / double(a.size());
+  const double vb = SampleVariance(b) / double(b.size());
+  if (!(va + vb > 0)) return 1;
+  const double dof = (va + vb) * (va + vb) /
+                     (va * va / double(a.size() - 1) + vb * vb / double(b.size() - 1));
+  return StudentP((Mean(a) - Mean(b)) / std::sqrt(va + vb), dof);
+}
+
+std::vector<double> Resample(const std::vector<double>& v, std::mt19937& random) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < v.size(); ++i) out.push_back(v[random() % v.size()]);
+  return out;
+}
+
+}  // namespace
+
+double Median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+std::vector<double> PixelScales(const std::vector<Repetitions>& all) {
+  std::vector<double> mean;
+  double count = 0, total = 0;
+  for (const Repetitions& r : all) {
+    for (const auto& image : r.images) {
+      mean.resize(image.size());
+      for (std::size_t i = 0; i < image.size(); ++i) mean[i] += Luminance(image[i]);
+      ++count;
+    }
+  }
+  for (double& m : mean) total += m /= count;
+  // Black pixels would make any noise infinite: 1 % of the mean image is the least.
+  const double least = 0.01 * total / double(mean.size());
+  for (double& m : mean) m = std::max(m, least) * std::max(m, least);
+  return mean;
+}
+
+std::vector<double> RelativeErrors(const Repetitions& r,
+                                   const std::vector<double>& scales) {
+  const double n = double(r.images.size());
+  std::vector<double> sum(scales.size());
+  for (const auto& image : r.images) {
+    for (std::size_t i = 0; i < image.size(); ++i) sum[i] += Luminance(image[i]);
+  }
+  std::vector<double> errors;
+  for (const auto& image : r.images) {
+    double error = 0;
+    for (std::size_t i = 0; i < image.size(); ++i) {
+      const double d = Luminance(image[i]) - sum[i] / n;
+      error += d * d / scales[i];
+    }
+    errors.push_back(error / double(image.size()) * n / (n - 1));
+  }
+  return errors;
+}
+
+Comparison Compare(const Repetitions& r, const Repetitions& baseline,
+                   const std::vector<double>& scales) {
+  const std::vector<double> error = RelativeErrors(r, scales);
+  const std::vector<double> base_error = RelativeErrors(baseline, scales);
+  std::mt19937 random(1);
+  std::vector<double> variance, seconds, efficiency;
+  for (int i = 0; i < 2000; ++i) {
+    variance.push_back(Mean(Resample(error, random)) /
+                       Mean(Resample(base_error, random)));
+    seconds.push_back(Median(Resample(r.seconds, random)) /
+                      Median(Resample(baseline.seconds, random)));
+    efficiency.push_back(1 / (variance.back() * seconds.back()));
+  }
+  Comparison c;
+  const double v = Mean(error) / Mean(base_error);
+  const double s = Median(r.seconds) / Median(baseline.seconds);
+  c.variance = Interval(v, variance);
+  c.seconds = Interval(s, seconds);
+  c.efficiency = Interval(1 / (v * s), efficiency);
+  c.same_mean_p = WelchP(ImageMeans(r), ImageMeans(baseline));
+  return c;
+}
+
+}  // namespace lanelight
