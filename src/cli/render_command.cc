@@ -118,6 +118,9 @@ int Render(const RenderCommandOptions& options) {
   CheckOutputs(options);
   const Job job = PrepareJob(options.scene.scene, options.scene.settings);
   if (!options.quiet) PrintNotes(job.description);
+  if (!options.quiet) {
+    for (const std::string& note : job.plan.notes) PrintError("note: " + note);
+  }
 
   FilmAccumulator film = MakeFilm(job);
   ProgressPrinter progress(ChooseProgressStyle(options.quiet));

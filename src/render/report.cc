@@ -56,10 +56,13 @@ Json SettingsJson(const Job& job, bool half) {
           {"threads", MaxThreads()}};
 }
 
-Json NotesJson(const SceneDescription& description) {
+Json NotesJson(const Job& job) {
   Json out = Json::array();
-  for (const Note& note : description.notes) {
+  for (const Note& note : job.description.notes) {
     out.push_back({{"where", note.where.ToString()}, {"message", note.message}});
+  }
+  for (const std::string& note : job.plan.notes) {
+    out.push_back({{"where", "strategy"}, {"message", note}});
   }
   return out;
 }
@@ -138,7 +141,7 @@ Json ToJson(const RenderReport& report, const Job& job) {
       {"wavefront_bytes", r.wavefront_bytes},
       {"settings", SettingsJson(job, report.half)},
       {"target", TargetJson()},
-      {"notes", NotesJson(job.description)},
+      {"notes", NotesJson(job)},
       {"versions", versions}};
 }
 
