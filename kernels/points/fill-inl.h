@@ -23,94 +23,113 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-/// Sample index that the numbers of a dimension come from: the two samples of an
-/// antithetic pair share it in the dimensions that the strategy pairs.
-HWY_INLINE VU PointSample(const PairParameters& pairs, Dimension dimension, VU sample,
-                          VU depth) {
-  if (!pairs.Has(dimension)) return sample;
-  const VU shared = hn::ShiftRight<1>(sample);
-  if (pairs.depths == 0xffffffffu) return shared;
-  const DI di;
-  const auto paired =
-      hn::Lt(hn::BitCast(di, depth), hn::Set(di, static_cast<int32_t>(pairs.depths)));
-  return hn::IfThenElse(hn::RebindMask(DU(), paired), shared, sample);
-}
-
-/// Copies of a path that has split (`branch` > 0) draw from dimensions of their own.
-HWY_INLINE VU KeyOf(const PathColumns& p, Dimension dimension, VU depth, VI slots) {
-  const VU key = hn::Add(hn::Mul(depth, SplatU(static_cast<uint32_t>(Dimension::kCount))),
-                         SplatU(static_cast<uint32_t>(dimension)));
-  if (p.branch == nullptr) return key;
-  return hn::Xor(key, hn::ShiftLeft<24>(AsUnsigned(Gather(p.branch, slots))));
-}
-
 template <class Policy>
 concept HasNumber = requires(const PointsParameters& points, VU v, GroupIndex at) {
   Policy::Number(points, v, at, v, v);
 };
 
-/// One dimension of every path in the queue; a scalar one leaves out1 alone.
-template <class Policy, bool kScalar = false>
-HWY_INLINE void FillDimension(Wave& wave, const Queue& queue, Dimension dimension,
-                              float* out0, float* out1) {
-  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DF()));
-  const PathColumns& p = wave.path;
-  const RunParameters& run = *wave.run;
-  const VU seed = SplatU(run.seed);
-  for (uint32_t i = 0; i < queue.size; i += lanes) {
-    const VI slots = hn::LoadU(DI(), reinterpret_cast<const int32_t*>(queue.items) + i);
-    const VU pixel = AsUnsigned(Gather(p.pixel, slots));
-    const VU depth = AsUnsigned(Gather(p.depth, slots));
-    const VU sample =
-        PointSample(run.pairs, dimension, AsUnsigned(Gather(p.sample, slots)), depth);
-    const VU key = KeyOf(p, dimension, depth, slots);
-    const GroupIndex at = Policy::Group(run.points, sample);
-    VF u0, u1;
-    if constexpr (kScalar && HasNumber<Policy>) {
-      u0 = Policy::Number(run.points, pixel, at, key, seed);
-    } else {
-      Policy::Point(run.points, pixel, at, key, seed, &u0, &u1);
+/// Who draws: one batch of paths.
+struct Drawer {
+  VI slots;
+  VU pixel, sample, depth, key;  // key: of dimension 0 at this depth and branch
+};
+
+/// Pairs and splitting change which numbers a path draws; without them none of their
+/// instructions are executed.
+template <bool kPlain>
+HWY_INLINE Drawer MakeDrawer(const PathColumns& p, VI slots) {
+  const VU depth = AsUnsigned(Gather(p.depth, slots));
+  VU key = hn::Mul(depth, SplatU(static_cast<uint32_t>(Dimension::kCount)));
+  if constexpr (!kPlain) {
+    // Copies of a path that has split draw from dimensions of their own.
+    if (p.branch != nullptr) {
+      key = hn::Add(key, hn::ShiftLeft<24>(AsUnsigned(Gather(p.branch, slots))));
     }
-    Scatter(u0, out0, slots);
-    if constexpr (!kScalar) Scatter(u1, out1, slots);
   }
+  return {slots, AsUnsigned(Gather(p.pixel, slots)), AsUnsigned(Gather(p.sample, slots)),
+          depth, key};
 }
 
-template <class Policy>
-HWY_INLINE void FillNumber(Wave& wave, const Queue& queue, Dimension dimension,
-                           float* out) {
-  FillDimension<Policy, true>(wave, queue, dimension, out, nullptr);
+/// Sample index that the numbers of a dimension come from: the two samples of an
+/// antithetic pair share it in the dimensions that the strategy pairs.
+HWY_INLINE VU PairedSample(const PairParameters& pairs, Dimension dimension,
+                           const Drawer& drawer) {
+  if (!pairs.Has(dimension)) return drawer.sample;
+  const VU shared = hn::ShiftRight<1>(drawer.sample);
+  if (pairs.depths == 0xffffffffu) return shared;
+  const DI di;
+  const auto paired = hn::Lt(hn::BitCast(di, drawer.depth),
+                             hn::Set(di, static_cast<int32_t>(pairs.depths)));
+  return hn::IfThenElse(hn::RebindMask(DU(), paired), shared, drawer.sample);
+}
+
+/// One dimension of one batch; a scalar one leaves out1 alone.
+template <class Policy, bool kPlain, bool kScalar>
+HWY_INLINE void Draw(const RunParameters& run, const Drawer& drawer, Dimension dimension,
+                     float* out0, float* out1) {
+  const VU key = hn::Add(drawer.key, SplatU(static_cast<uint32_t>(dimension)));
+  const VU sample = kPlain ? drawer.sample : PairedSample(run.pairs, dimension, drawer);
+  const GroupIndex at = Policy::Group(run.points, sample);
+  const VU seed = SplatU(run.seed);
+  VF u0, u1;
+  if constexpr (kScalar && HasNumber<Policy>) {
+    u0 = Policy::Number(run.points, drawer.pixel, at, key, seed);
+  } else {
+    Policy::Point(run.points, drawer.pixel, at, key, seed, &u0, &u1);
+  }
+  Scatter(u0, out0, drawer.slots);
+  if constexpr (!kScalar) Scatter(u1, out1, drawer.slots);
+}
+
+template <class Policy, bool kPlain>
+HWY_INLINE void FillCameraBatches(Wave& wave) {
+  const PathColumns p = wave.path;
+  const RunParameters run = *wave.run;
+  ForEachBatch(wave, wave.queue(QueueId::kCamera), [&](VI slots, MF) HWY_ATTR {
+    const Drawer drawer = MakeDrawer<kPlain>(p, slots);
+    Draw<Policy, kPlain, false>(run, drawer, Dimension::kFilm, p.u_film_0, p.u_film_1);
+    if (p.u_lens_0 != nullptr) {
+      Draw<Policy, kPlain, false>(run, drawer, Dimension::kLens, p.u_lens_0, p.u_lens_1);
+    }
+  });
+}
+
+template <class Policy, bool kPlain>
+HWY_INLINE void FillBounceBatches(Wave& wave) {
+  const PathColumns p = wave.path;
+  const RunParameters run = *wave.run;
+  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](VI slots, MF) HWY_ATTR {
+    const Drawer drawer = MakeDrawer<kPlain>(p, slots);
+    Draw<Policy, kPlain, false>(run, drawer, Dimension::kBsdf, p.u_bsdf_0, p.u_bsdf_1);
+    Draw<Policy, kPlain, true>(run, drawer, Dimension::kLobe, p.u_lobe, nullptr);
+    if (p.u_light_0 != nullptr) {
+      Draw<Policy, kPlain, false>(run, drawer, Dimension::kLight, p.u_light_0,
+                                  p.u_light_1);
+    }
+    if (p.u_select != nullptr) {
+      Draw<Policy, kPlain, true>(run, drawer, Dimension::kSelect, p.u_select, nullptr);
+    }
+    if (p.u_roulette != nullptr) {
+      Draw<Policy, kPlain, true>(run, drawer, Dimension::kRoulette, p.u_roulette,
+                                 nullptr);
+    }
+  });
+}
+
+HWY_INLINE bool DrawsPlainly(const Wave& wave) {
+  return wave.run->pairs.dimensions == 0 && wave.path.branch == nullptr;
 }
 
 template <class Policy>
 HWY_INLINE void FillCamera(Wave& wave) {
-  const Queue& queue = wave.queue(QueueId::kCamera);
-  PadTail(queue);
-  const PathColumns& p = wave.path;
-  FillDimension<Policy>(wave, queue, Dimension::kFilm, p.u_film_0, p.u_film_1);
-  if (p.u_lens_0 != nullptr) {
-    FillDimension<Policy>(wave, queue, Dimension::kLens, p.u_lens_0, p.u_lens_1);
-  }
-  CountBatches(wave, queue);
+  DrawsPlainly(wave) ? FillCameraBatches<Policy, true>(wave)
+                     : FillCameraBatches<Policy, false>(wave);
 }
 
 template <class Policy>
 HWY_INLINE void FillBounce(Wave& wave) {
-  const Queue& queue = wave.queue(QueueId::kSurface);
-  PadTail(queue);
-  const PathColumns& p = wave.path;
-  FillDimension<Policy>(wave, queue, Dimension::kBsdf, p.u_bsdf_0, p.u_bsdf_1);
-  FillNumber<Policy>(wave, queue, Dimension::kLobe, p.u_lobe);
-  if (p.u_light_0 != nullptr) {
-    FillDimension<Policy>(wave, queue, Dimension::kLight, p.u_light_0, p.u_light_1);
-  }
-  if (p.u_select != nullptr) {
-    FillNumber<Policy>(wave, queue, Dimension::kSelect, p.u_select);
-  }
-  if (p.u_roulette != nullptr) {
-    FillNumber<Policy>(wave, queue, Dimension::kRoulette, p.u_roulette);
-  }
-  CountBatches(wave, queue);
+  DrawsPlainly(wave) ? FillBounceBatches<Policy, true>(wave)
+                     : FillBounceBatches<Policy, false>(wave);
 }
 
 }  // namespace HWY_NAMESPACE
