@@ -1,5 +1,15 @@
 // The skeleton of every shading stage: light sample, then the next ray. A material policy
 // (bsdf-inl.h) fills in the physics.
+//
+// directions=bsdf is what the policies' Sample does: importance sampling of the material.
+//   estimator   f(wo, wi) |cos| / p(wi), p close to proportional to f |cos|
+//   density     cosine for Lambert, visible normals for GGX (Heitz 2018), lobes chosen by
+//               their reflectance; each *_bsdf-inl.h states its own
+//   unbiased    p > 0 wherever f > 0; light of any kind that a ray can hit counts in full
+//   variance    that of the arriving light alone where p ~ f cos exactly (Lambert: none
+//               under even light); unbounded as lights get small
+//   cost        nothing beyond the next ray; no shadow rays but to delta lights
+//   source      the paper's section 3.5.2
 #if defined(LANELIGHT_SHADE_SHADE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_SHADE_SHADE_INL_H_
 #undef LANELIGHT_SHADE_SHADE_INL_H_

@@ -66,6 +66,12 @@ std::string Fields(const Plan& plan) {
   return text;
 }
 
+std::string Notes(const Plan& plan) {
+  std::string text;
+  for (const std::string& note : plan.notes) text += "note: " + note + "\n";
+  return text.empty() ? text : text + "\n";
+}
+
 std::string Text(const Job& job, const std::string& scene) {
   const Plan& plan = job.plan;
   return fmt::format("plan of {}\n\n", scene) +
@@ -76,8 +82,8 @@ std::string Text(const Job& job, const std::string& scene) {
          fmt::format("max depth  {}\nstrategy   {}\npoints     {}\n\n",
                      plan.options.max_depth, ToText(job.scene.strategy),
                      PointsText(job.scene.strategy, job.spp)) +
-         "the scene and options have:\n" + Features(plan.features) + "\n" + Stages(plan) +
-         "\n" + Fields(plan);
+         Notes(plan) + "the scene and options have:\n" + Features(plan.features) + "\n" +
+         Stages(plan) + "\n" + Fields(plan);
 }
 
 std::string JsonText(const Job& job, const std::string& scene) {

@@ -82,6 +82,18 @@ void AddNameOption(CLI::App& command, const std::string& flag, std::optional<T>&
       ->type_name("NAME");
 }
 
+// What is wrong with a strategy's text, or nothing.
+std::string StrategyProblem(std::string& text) {
+  try {
+    Strategy strategy;
+    ApplyStrategy(text, {}, strategy);
+    return "";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    return message.substr(message.find("strategy "));
+  }
+}
+
 void AddTransportOptions(CLI::App& command, RenderSettings& s) {
   command.add_option("--max-depth", s.max_depth, "Most scattering events of a path")
       ->check(CLI::Range(0, kMaxDepth).description(""))
@@ -93,6 +105,7 @@ void AddTransportOptions(CLI::App& command, RenderSettings& s) {
   command
       .add_option("--strategy", s.strategy,
                   "How to sample: key=value,... (see `lanelight strategies`)")
+      ->check(CLI::Validator(StrategyProblem, ""))
       ->type_name("TEXT");
   AddNameOption<Points>(command, "--sampler", s.points, samplers, "Sample points");
   AddNameOption<Scattering>(command, "--scattering", s.scattering,

@@ -74,6 +74,8 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
                                job.window.width(), job.window.height(),
                                double(r.samples) / double(job.window.pixels())));
   if (!report.png.empty()) text += Row("png", report.png);
+  text += Row("strategy", ToText(job.scene.strategy));
+  text += Row("points", PointsText(job.scene.strategy, job.spp));
   text += SpeedRows(r);
   text += Row("error", ErrorText(report.error));
   text += Row("health", HealthText(r.health));
