@@ -10,7 +10,12 @@ namespace lanelight {
 #define LANELIGHT_STAGES(X)   \
   X(Generate)                 \
   X(IndependentCamera)        \
+  X(StratifiedCamera)         \
+  X(CmjCamera)                \
+  X(Pmj02Camera)              \
   X(SobolCamera)              \
+  X(HaltonCamera)             \
+  X(LatticeCamera)            \
   X(AntitheticCamera)         \
   X(Camera)                   \
   X(IntersectTriangles)       \
@@ -32,7 +37,12 @@ namespace lanelight {
   X(Texture)                  \
   X(Aov)                      \
   X(IndependentBounce)        \
+  X(StratifiedBounce)         \
+  X(CmjBounce)                \
+  X(Pmj02Bounce)              \
   X(SobolBounce)              \
+  X(HaltonBounce)             \
+  X(LatticeBounce)            \
   X(AntitheticBounce)         \
   X(Route)                    \
   X(SelectLight)              \

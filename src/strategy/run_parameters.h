@@ -2,11 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "src/strategy/strategy.h"
 #include "src/wavefront/dimensions.h"
 
 namespace lanelight {
+
+/// `count` equal parts of a whole, and what places a number in one of them.
+struct Strata {
+  std::uint32_t count = 1;
+  std::uint32_t bits = 0;  // least b with 2^b >= count
+  // floor((2^64 - 1) / count) = whole 2^32 + part
+  std::uint32_t whole = 0xffffffffu, part = 0xffffffffu;
+};
 
 /// Sample points. `group_size` consecutive samples of a pixel share one randomisation.
 struct PointsParameters {
@@ -15,9 +24,13 @@ struct PointsParameters {
   // sample / group_size = (sample * group_magic) >> group_magic_shift, for sample < 2^31
   // (Granlund and Montgomery 1994).
   std::uint32_t group_magic = 0, group_magic_shift = 0;
-  std::uint32_t strata_x = 1, strata_y = 1;  // strata_x * strata_y = group_size
-  std::uint32_t lattice_generator = 1;
+  Strata strata;         // group_size strata of one dimension
+  Strata columns, rows;  // of two: columns * rows = group_size (stratified, cmj)
+  Strata base3;          // 3^base3_digits (halton)
   std::uint32_t base3_digits = 0;  // least d with 3^d >= group_size
+  // floor(2^64 z / group_size) = lattice_whole 2^32 + lattice_part (lattice)
+  std::uint32_t lattice_whole = 0, lattice_part = 0;
+  const std::uint32_t* pmj02 = nullptr;  // table of pmj02.h (pmj02)
 };
 
 /// Antithetic pairs: bit d set = dimension d (src/wavefront/dimensions.h) is shared by
@@ -48,13 +61,17 @@ struct RouletteParameters {
 /// Tables that some strategies need (src/strategy/tables.h).
 struct StrategyTables;
 
+/// group_size: a power of two for sobol and pmj02, at most MostGroupSize(points).
 PointsParameters MakePointsParameters(Points points, std::uint32_t group_size);
 PairParameters MakePairParameters(const Strategy& strategy);
 MisParameters MakeMisParameters(const Strategy& strategy);
 RouletteParameters MakeRouletteParameters(const Strategy& strategy);
 
+/// Largest group of a sampler.
+std::uint32_t MostGroupSize(Points points);
+
 /// Samples that share one randomisation of the sample points: 1 for independent points;
-/// otherwise the largest size that the sampler has of which at least four fit into `spp`,
+/// otherwise the best size that the sampler has of which at least four fit into `spp`,
 /// so that the error can be estimated from the scatter of independent randomisations.
 /// spp = 0: unknown. Samples that are left over start a further, incomplete group: they
 /// are unbiased, and lose only the stratification.

@@ -1,41 +1,176 @@
-// Sample points: net structure of Sobol' points, independence across keys and groups,
-// uniformity, and equality over SIMD targets (golden by cross-check with a scalar twin).
-#include "kernels/points/probe.h"
-
+// Sample points of every sampler: uniform in two dimensions and in one, on the grid that
+// antithetic reflection relies on, equal on all SIMD targets, and independent of those of
+// other keys, groups, pixels and seeds.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <vector>
 
 #include "kernels/simd/target.h"
+#include "tests/points/draw.h"
+#include "tests/stat/chi2.h"
+#include "tests/stat/distributions.h"
+#include "tests/stat/hypothesis.h"
 
-namespace lanelight {
+namespace lanelight::test {
 namespace {
 
-struct Drawn {
-  std::vector<float> u0, u1;
-};
+constexpr std::uint32_t kPixels = 1 << 15;
+constexpr double kFamily = 1e-6;
 
-Drawn Draw(PointsQuery q) {
-  Drawn p{std::vector<float>(q.count + 16), std::vector<float>(q.count + 16)};
-  ProbePoints(q, p.u0.data(), p.u1.data());
-  p.u0.resize(q.count);
-  p.u1.resize(q.count);
-  return p;
+std::uint32_t SizeOf(Points points) {
+  if (points == Points::kIndependent) return 1;
+  const bool binary = points == Points::kSobol || points == Points::kPmj02;
+  return binary ? 16 : 18;
 }
 
-// True if each cell of an a x b grid over the unit square holds exactly one point.
-bool OnePerCell(const Drawn& p, std::size_t first, int a, int b) {
-  std::vector<int> cells(static_cast<std::size_t>(a * b));
-  for (int i = 0; i < a * b; ++i) {
-    const int x = static_cast<int>(p.u0[first + static_cast<std::size_t>(i)] * float(a));
-    const int y = static_cast<int>(p.u1[first + static_cast<std::size_t>(i)] * float(b));
-    ++cells[static_cast<std::size_t>(y * a + x)];
+// p-value of the hypothesis that (a, b) are uniform over the unit square.
+double UniformP(const std::vector<float>& a, const std::vector<float>& b) {
+  constexpr std::size_t kSide = 16;
+  std::vector<double> cells(kSide * kSide);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ++cells[static_cast<std::size_t>(a[i] * kSide) * kSide +
+            static_cast<std::size_t>(b[i] * kSide)];
   }
-  for (int n : cells) {
-    if (n != 1) return false;
-  }
-  return true;
+  const double expected = double(a.size()) / double(cells.size());
+  return stat::ChiSquareTest(cells, std::vector<double>(cells.size(), expected)).p;
 }
+
+double KsP(const std::vector<float>& u) {
+  return stat::KsUniformPValue(std::vector<double>(u.begin(), u.end()));
+}
+
+// One sample of many pixels.
+PointsQuery Across(Points points, std::uint32_t sample) {
+  return {points, 3, 10, SizeOf(points), 20, sample, 1, kPixels};
+}
+
+// p-value of the hypothesis that two products have no correlation over pixels.
+double CorrelationP(const std::vector<double>& a, const std::vector<double>& b) {
+  double sa = 0, sb = 0, sab = 0, saa = 0, sbb = 0;
+  const double n = double(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sa += a[i];
+    sb += b[i];
+    sab += a[i] * b[i];
+    saa += a[i] * a[i];
+    sbb += b[i] * b[i];
+  }
+  const double r =
+      (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
+  return 2 * stat::NormalCdf(-std::abs(r) * std::sqrt(n));
+}
+
+// For each pixel, the product of the centred first coordinates of samples 0 and `other`:
+// what the order and the strata of the two have in common.
+std::vector<double> Products(const PointsQuery& q, std::uint32_t other) {
+  PointsQuery second = q;
+  second.first_sample = other;
+  const Drawn a = Draw(q), b = Draw(second);
+  std::vector<double> products(a.u0.size());
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    products[i] = (a.u0[i] - 0.5) * (b.u0[i] - 0.5);
+  }
+  return products;
+}
+
+}  // namespace
+
+TEST_CASE("points: equal on all targets, on the grid of 2^-24, below 1", "[points]") {
+  for (Points points : kAllPoints) {
+    for (std::uint32_t size : {1u, SizeOf(points), MostGroupSize(points)}) {
+      const PointsQuery query = {points, 9, 123, size, 4, (1u << 31) - 3000, 2999};
+      Drawn first;
+      std::vector<float> numbers;
+      for (const std::string& target : AvailableTargets()) {
+        ForceTarget(target);
+        const Drawn p = Draw(query);
+        const std::vector<float> n = DrawNumbers(query);
+        if (first.u0.empty()) first = p, numbers = n;
+        REQUIRE(p.u0 == first.u0);
+        REQUIRE(p.u1 == first.u1);
+        REQUIRE(n == numbers);
+      }
+      ForceTarget("");
+      for (const auto& column : {first.u0, first.u1, numbers}) {
+        for (float u : column) {
+          REQUIRE(u >= 0);
+          REQUIRE(u < 1);
+          REQUIRE(u * 0x1p24f == std::floor(u * 0x1p24f));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("points: every sample of a group is uniform over pixels", "[points]") {
+  const double level = stat::SidakLevel(kFamily, 7 * 3 * 5);
+  for (Points points : kAllPoints) {
+    for (std::uint32_t sample : {0u, 1u, 13u}) {
+      INFO(Name(points) << ", sample " << sample);
+      const Drawn p = Draw(Across(points, sample));
+      CHECK(UniformP(p.u0, p.u1) > level);
+      CHECK(KsP(p.u0) > level);
+      CHECK(KsP(p.u1) > level);
+      const std::vector<float> u = DrawNumbers(Across(points, sample));
+      CHECK(KsP(u) > level);
+      CHECK(UniformP(u, p.u1) > level);
+    }
+  }
+}
+
+TEST_CASE("points: other keys, groups, pixels and seeds are independent", "[points]") {
+  const double level = stat::SidakLevel(kFamily, 7 * 4 * 3);
+  for (Points points : kAllPoints) {
+    const PointsQuery base = Across(points, 2);
+    PointsQuery key = base, group = base, pixel = base, seed = base;
+    key.key = 21;
+    group.first_sample += SizeOf(points);
+    pixel.pixel += 1;
+    seed.seed = 4;
+    const Drawn a = Draw(base);
+    for (const PointsQuery& q : {key, group, pixel, seed}) {
+      INFO(Name(points));
+      const Drawn b = Draw(q);
+      CHECK(UniformP(a.u0, b.u0) > level);
+      CHECK(UniformP(a.u1, b.u0) > level);
+      CHECK(UniformP(a.u1, b.u1) > level);
+    }
+  }
+}
+
+TEST_CASE("points: the orders of samples of two keys are independent", "[points]") {
+  const double level = stat::SidakLevel(kFamily, 7 * 3);
+  for (Points points : kAllPoints) {
+    for (std::uint32_t other : {1u, 5u, 15u}) {
+      PointsQuery q = Across(points, 0), key = q;
+      key.key = 21;
+      INFO(Name(points) << ", samples 0 and " << other);
+      CHECK(CorrelationP(Products(q, other), Products(key, other)) > level);
+    }
+  }
+}
+
+TEST_CASE("planted: shared orders and a missing corner are rejected", "[points]") {
+  const double level = stat::SidakLevel(kFamily, 105);
+  // Strata in the same order in two dimensions, independently jittered within.
+  const PointsQuery q = Across(Points::kStratified, 0);
+  PointsQuery jitter = Across(Points::kIndependent, 0);
+  jitter.key = 99;
+  const std::vector<double> products = Products(q, 5);
+  std::vector<double> shared = Products(jitter, 5);
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    shared[i] = products[i] + 0.2 * shared[i];
+  }
+  CHECK(CorrelationP(products, shared) < level);
+  const Drawn p = Draw(q);
+  CHECK(UniformP(p.u0, p.u0) < level);
+  // Numbers that leave out the last hundredth, as strata of a wrong width would.
+  std::vector<float> narrow = p.u0;
+  for (float& u : narrow) u *= 0.96f;
+  CHECK(KsP(narrow) < level);
+  CHECK(UniformP(narrow, p.u1) < level);
+}
+
+namespace {
 
 struct Lcg {  // PCG-4D, scalar, written from the paper's equations
   std::uint32_t v[4];
@@ -56,75 +191,6 @@ struct Lcg {  // PCG-4D, scalar, written from the paper's equations
 
 }  // namespace
 
-TEST_CASE("sobol: every aligned power-of-two block is a (0, m, 2)-net", "[points]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (std::uint32_t pixel : {0u, 1u, 77777u}) {
-      const Drawn p = Draw({Points::kSobol, 7, pixel, 256, 3, 0, 256});
-      for (int m = 0; m <= 8; ++m) {
-        for (std::size_t first = 0; first < 256; first += std::size_t{1} << m) {
-          for (int k = 0; k <= m; ++k)
-            REQUIRE(OnePerCell(p, first, 1 << k, 1 << (m - k)));
-        }
-      }
-    }
-  }
-  ForceTarget("");
-}
-
-TEST_CASE("sobol: groups are different randomisations", "[points]") {
-  const Drawn p = Draw({Points::kSobol, 1, 5, 16, 0, 0, 64});
-  for (std::size_t group = 0; group < 4; ++group) CHECK(OnePerCell(p, group * 16, 4, 4));
-  // Independently scrambled nets do not continue each other.
-  CHECK_FALSE(OnePerCell(p, 0, 8, 8));
-}
-
-TEST_CASE("points: different keys, pixels and seeds are uncorrelated", "[points]") {
-  const std::uint32_t n = 4096;
-  for (Points policy : {Points::kIndependent, Points::kSobol}) {
-    const PointsQuery base = {policy, 3, 10, 1, 20, 0, n};
-    PointsQuery key = base, pixel = base, seed = base;
-    key.key = 21;
-    pixel.pixel = 11;
-    seed.seed = 4;
-    const Drawn a = Draw(base);
-    for (const PointsQuery& q : {key, pixel, seed}) {
-      const Drawn b = Draw(q);
-      double covariance = 0;
-      for (std::size_t i = 0; i < n; ++i) covariance += (a.u0[i] - 0.5) * (b.u0[i] - 0.5);
-      // Standard deviation of the sum is sqrt(n) / 12; 5 of them: one false alarm in
-      // 10^6.
-      CHECK(std::abs(covariance) < 5 * std::sqrt(double(n)) / 12);
-    }
-  }
-}
-
-TEST_CASE("points: in [0, 1), uniform, and equal on all targets", "[points]") {
-  const std::uint32_t n = 1 << 16;
-  for (Points policy : {Points::kIndependent, Points::kSobol}) {
-    Drawn first;
-    for (const std::string& target : AvailableTargets()) {
-      ForceTarget(target);
-      const Drawn p = Draw({policy, 9, 123, 1, 4, 0, n});
-      if (first.u0.empty()) first = p;
-      CHECK(p.u0 == first.u0);
-      CHECK(p.u1 == first.u1);
-    }
-    ForceTarget("");
-    double chi2 = 0;
-    std::vector<double> cells(256);
-    for (std::size_t i = 0; i < n; ++i) {
-      REQUIRE(first.u0[i] >= 0);
-      REQUIRE(first.u0[i] < 1);
-      ++cells[static_cast<std::size_t>(first.u0[i] * 16) * 16 +
-              static_cast<std::size_t>(first.u1[i] * 16)];
-    }
-    for (double c : cells) chi2 += (c - n / 256.0) * (c - n / 256.0) / (n / 256.0);
-    // 255 degrees of freedom: mean 255, standard deviation 22.6.
-    CHECK(chi2 < 255 + 6 * 22.6);
-  }
-}
-
 TEST_CASE("independent points equal the scalar PCG-4D", "[points]") {
   const Drawn p = Draw({Points::kIndependent, 42, 1000, 1, 17, 5, 100});
   for (std::uint32_t i = 0; i < 100; ++i) {
@@ -134,4 +200,27 @@ TEST_CASE("independent points equal the scalar PCG-4D", "[points]") {
   }
 }
 
-}  // namespace lanelight
+TEST_CASE("samples are divided into groups of any size exactly", "[points]") {
+  constexpr std::uint32_t kCount = 40, kEnd = 1u << 31;
+  std::vector<std::uint32_t> group(kCount + 16), index(kCount + 16);
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    for (std::uint32_t size = 1; size <= 1u << 20; size += size < 5000 ? 1 : 9973) {
+      // Where the quotient steps, near the end, and at the start.
+      const std::uint32_t step = kEnd / 3 / size * size;
+      for (std::uint32_t first :
+           {0u, step > 20 ? step - 20 : 0, kEnd - kCount,
+            kEnd / size * size > 20 + kCount ? kEnd / size * size - 20 - kCount : 0u}) {
+        ProbeGroups(size, first, kCount, group.data(), index.data());
+        for (std::uint32_t i = 0; i < kCount; ++i) {
+          if (group[i] != (first + i) / size || index[i] != (first + i) % size) {
+            FAIL(size << " at " << first + i);
+          }
+        }
+      }
+    }
+  }
+  ForceTarget("");
+}
+
+}  // namespace lanelight::test

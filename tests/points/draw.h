@@ -1,0 +1,35 @@
+// Draws sample points for tests.
+#pragma once
+
+#include <vector>
+
+#include "kernels/points/probe.h"
+
+namespace lanelight::test {
+
+inline constexpr Points kAllPoints[] = {
+    Points::kIndependent, Points::kStratified, Points::kCmj,    Points::kPmj02,
+    Points::kSobol,       Points::kHalton,     Points::kLattice};
+
+struct Drawn {
+  std::vector<float> u0, u1;
+};
+
+inline Drawn Draw(const PointsQuery& q) {
+  const std::size_t size = std::size_t{q.count} * q.pixels;
+  Drawn p{std::vector<float>(size + 16), std::vector<float>(size + 16)};
+  ProbePoints(q, p.u0.data(), p.u1.data());
+  p.u0.resize(size);
+  p.u1.resize(size);
+  return p;
+}
+
+inline std::vector<float> DrawNumbers(const PointsQuery& q) {
+  const std::size_t size = std::size_t{q.count} * q.pixels;
+  std::vector<float> u(size + 16);
+  ProbeNumbers(q, u.data());
+  u.resize(size);
+  return u;
+}
+
+}  // namespace lanelight::test
