@@ -36,7 +36,7 @@ namespace lanelight {
   X(kCoatedConductor, "coated conductor")                                     \
   X(kDiffuseTransmission, "diffuse transmission")                             \
   X(kRefraction, "a refracting interface (roulette must know eta)")           \
-  X(kLights, "at least one light that can be sampled")                        \
+  X(kLights, "light that is sampled")                                         \
   X(kManyLights, "more than one light")                                       \
   X(kTriangleLights, "emitting triangles")                                    \
   X(kSphereLights, "emitting spheres")                                        \

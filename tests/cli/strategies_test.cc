@@ -56,7 +56,7 @@ TEST_CASE("--strategy is used, reported, and changes the plan", "[cli]") {
              Contains("directions=bsdf,points=stratified,pairs=antithetic:pixel"));
   CHECK_THAT(report.at("plan").at("stages").dump(), Contains("antithetic_camera"));
   CHECK_THAT(report.at("plan").at("omitted_stages").dump(),
-             Contains("no light samples of lights that rays can hit"));
+             Contains("no light that is sampled"));
 }
 
 TEST_CASE("a strategy that the scene cannot have is refused with what would do",
