@@ -13,6 +13,7 @@ namespace lanelight {
   X(SobolCamera)              \
   X(AntitheticCamera)         \
   X(Camera)                   \
+  X(RecordStart)              \
   X(IntersectTriangles)       \
   X(IntersectSpheres)         \
   X(IntersectDisks)           \
@@ -31,6 +32,9 @@ namespace lanelight {
   X(Mix)                      \
   X(Texture)                  \
   X(Aov)                      \
+  X(RecordVertex)             \
+  X(AdjointRoulette)          \
+  X(EfficiencyRoulette)       \
   X(IndependentBounce)        \
   X(SobolBounce)              \
   X(AntitheticBounce)         \
@@ -65,6 +69,7 @@ namespace lanelight {
   X(ConstantRoulette)         \
   X(ThroughputRoulette)       \
   X(LuminanceRoulette)        \
+  X(RecordPath)               \
   X(Accumulate)
 
 #define X(name) Stage name##Stage();

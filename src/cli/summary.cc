@@ -75,6 +75,10 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
                                double(r.samples) / double(job.window.pixels())));
   if (!report.png.empty()) text += Row("png", report.png);
   text += SpeedRows(r);
+  if (!r.pilot_note.empty()) {
+    text += Row("pilot",
+                fmt::format("{}: {}", DurationText(r.pilot_seconds), r.pilot_note));
+  }
   text += Row("error", ErrorText(report.error));
   text += Row("health", HealthText(r.health));
   text += Row("time",
