@@ -66,6 +66,7 @@ namespace lanelight {
   X(ShadowDisks)              \
   X(ShadowPlanes)             \
   X(Connect)                  \
+  X(RecordDecision)           \
   X(ConstantRoulette)         \
   X(ThroughputRoulette)       \
   X(LuminanceRoulette)        \

@@ -58,7 +58,7 @@ HWY_INLINE VF WeightInImage(const Wave& wave, VI slots, V3 beta) {
 HWY_INLINE VF ThroughputFactor(const PathColumns& p, VI slots, V3 beta) {
   VF s = MaxComponent(beta);
   if (p.eta_scale != nullptr) s = hn::Mul(s, Gather(p.eta_scale, slots));
-  const auto late = hn::Gt(Gather(p.depth, slots), hn::Set(DI(), 1));
+  const auto late = hn::Gt(Gather(p.depth, slots), hn::Set(DI(), kThroughputFirst - 1));
   return hn::IfThenElse(hn::RebindMask(DF(), late), hn::Min(s, Splat(1.0f)), Splat(1.0f));
 }
 

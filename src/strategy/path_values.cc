@@ -34,7 +34,7 @@ std::uint32_t CoarseCell(const CellGrid& fine, const CellGrid& coarse,
 }
 
 struct CellMeans {
-  double value = 0, square = 0, rays = 1;
+  double value = 0, square = 0, cost = 1;
   bool known = false;
 };
 
@@ -45,7 +45,7 @@ CellMeans Blend(const CellSums& s, const CellMeans& prior) {
     return (sum + borrowed * before) / (s.count + borrowed);
   };
   return {mean(s.value, prior.value), mean(s.square, prior.square),
-          mean(s.rays, prior.rays), true};
+          mean(s.cost, prior.cost), true};
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ void SetCellValues(const std::vector<CellSums>& sums, bool efficiency,
   for (std::uint32_t i = 0; i < sums.size(); ++i) {
     CellSums& to = coarse_sums[CoarseCell(fine, coarse, i)];
     to.count += sums[i].count, to.value += sums[i].value;
-    to.square += sums[i].square, to.rays += sums[i].rays;
+    to.square += sums[i].square, to.cost += sums[i].cost;
   }
   values.survive.assign(sums.size(), -1.0f);
   if (efficiency) values.split.assign(sums.size(), 0.0f);
@@ -91,7 +91,7 @@ void SetCellValues(const std::vector<CellSums>& sums, bool efficiency,
       values.survive[i] = static_cast<float>(m.value);
       continue;
     }
-    const double cost = std::max(m.rays, 1.0);
+    const double cost = std::max(m.cost, 1.0);
     const double variance = std::max(0.0, m.square - m.value * m.value);
     values.survive[i] = static_cast<float>(std::sqrt(m.square / cost));
     values.split[i] = static_cast<float>(std::sqrt(variance / cost));
@@ -170,12 +170,15 @@ double ImageGuess::Brightness(std::uint32_t pixel) const {
   return sum;
 }
 
-AlignedVector<float> ImageGuess::Inverse() const {
+AlignedVector<float> ImageGuess::Inverse(bool faithful) const {
+  const double epsilon = faithful ? Mean() * Mean() / 400 : epsilon_;
   AlignedVector<float> inverse(std::size_t{width_} * height_ * 3);
-  for (std::uint32_t i = 0; i < width_ * height_; ++i) {
+  for (std::uint32_t i = 0; i < width_ * height_ && !black(); ++i) {
     for (int c = 0; c < 3; ++c) {
+      const double color = Tile(i).color[c];
+      const double weight = 1 / std::sqrt(3 * (color * color + epsilon));
       inverse[std::size_t{i} * 3 + static_cast<std::size_t>(c)] =
-          static_cast<float>(std::sqrt(ErrorWeight(i, c) / 3) / (3 * double{Channel(c)}));
+          static_cast<float>(weight / (3 * double{Channel(c)}));
     }
   }
   return inverse;

@@ -20,6 +20,9 @@ inline constexpr std::uint32_t kMostCopies = 8;
 /// Vertices of a path that a pilot pass records.
 inline constexpr int kPilotVertices = 4;
 
+/// First scattering event after which roulette=throughput is played, by default.
+inline constexpr std::int32_t kThroughputFirst = 2;
+
 inline constexpr std::uint32_t kNoCell = 0xffffffffu;
 
 /// Cells of a box, times the six dominant directions of the normal.
@@ -36,13 +39,13 @@ struct CellGrid {
 CellGrid MakeCellGrid(Vec3f low, Vec3f high, std::uint64_t vertices);
 
 /// Sums over the recorded vertices of a cell: of the estimates of the brightness that a
-/// unit of throughput gathers from there on, of their squares, of the rays to come.
+/// unit of throughput gathers from there on, of their squares, of the cost to come.
 struct CellSums {
-  double count = 0, value = 0, square = 0, rays = 0;
+  double count = 0, value = 0, square = 0, cost = 0;
 
-  void Add(double estimate, double rays_to_come) {
+  void Add(double estimate, double cost_to_come) {
     count += 1, value += estimate, square += estimate * estimate;
-    rays += rays_to_come;
+    cost += cost_to_come;
   }
 };
 
@@ -85,8 +88,9 @@ class ImageGuess {
   double Brightness(std::uint32_t pixel) const;
   /// Per pixel and channel: mean_c / mean / sqrt(3 (I_c^2 + epsilon)), so that the sum of
   /// the squares of beta_c times it, times the variance of a brightness, is the relative
-  /// variance that it brings, if its colour is like the image's.
-  AlignedVector<float> Inverse() const;
+  /// variance that it brings, if its colour is like the image's. `faithful`: with an
+  /// epsilon that is negligible in all but the darkest pixels.
+  AlignedVector<float> Inverse(bool faithful) const;
 
  private:
   static constexpr std::uint32_t kTile = 8;

@@ -15,7 +15,7 @@ namespace lanelight {
 namespace {
 
 constexpr std::uint32_t kPixelsPerTask = 1024;
-constexpr int kRecordPlanes = 3 * kPilotVertices + 2;
+constexpr int kRecordPlanes = 3 * kPilotVertices + 5;
 
 PilotRecord ReadRecord(const float* values, std::size_t stride, std::size_t i) {
   PilotRecord record;
@@ -32,6 +32,7 @@ PilotRecord ReadRecord(const float* values, std::size_t stride, std::size_t i) {
   }
   record.end = next();
   record.depth = next();
+  for (float& risk : record.risk) risk = next();
   return record;
 }
 
@@ -55,7 +56,8 @@ class Pass {
     ParallelFor(tasks, [&](std::size_t task) { RunTask(task * kPixelsPerTask); });
     for (const auto& wavefront : wavefronts_) {
       if (!wavefront) continue;
-      samples_.rays += wavefront->wave().rays_closest + wavefront->wave().rays_shadow;
+      samples_.rays_closest += wavefront->wave().rays_closest;
+      samples_.rays_shadow += wavefront->wave().rays_shadow;
     }
     return std::move(samples_);
   }

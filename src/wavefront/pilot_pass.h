@@ -20,14 +20,27 @@ struct PilotRecord {
   };
   Vertex vertices[kPilotVertices];
   float end, depth;
+  float risk[3];
+
+  /// What roulette on the throughput would add to the square of `end`, on average; zero
+  /// where rounding could have made it.
+  double Risk() const {
+    const double square = double{end} * end * risk[0];
+    const double added = square - 2.0 * end * risk[1] + risk[2];
+    return added > 1e-5 * square ? added : 0;
+  }
 };
 
 struct PilotSamples {
   std::vector<Vec3f> colors;         // kPilotSpp per pixel
   std::vector<PilotRecord> records;  // as many, if recorded
-  std::uint64_t rays = 0;
+  std::uint64_t rays_closest = 0, rays_shadow = 0;
 
-  double RaysPerSample() const { return double(rays) / double(colors.size()); }
+  /// Of a sample, in rays that find the closest hit and lead to shading there; one that
+  /// only asks for a hit takes about half the time.
+  double Cost() const {
+    return (double(rays_closest) + 0.5 * double(rays_shadow)) / double(colors.size());
+  }
 };
 
 /// About `count` pixels of the rendered window, spread evenly.
