@@ -18,6 +18,7 @@ namespace lanelight {
   X(LatticeCamera)            \
   X(AntitheticCamera)         \
   X(Camera)                   \
+  X(RecordStart)              \
   X(IntersectTriangles)       \
   X(IntersectSpheres)         \
   X(IntersectDisks)           \
@@ -36,6 +37,9 @@ namespace lanelight {
   X(Mix)                      \
   X(Texture)                  \
   X(Aov)                      \
+  X(RecordVertex)             \
+  X(AdjointRoulette)          \
+  X(EfficiencyRoulette)       \
   X(IndependentBounce)        \
   X(StratifiedBounce)         \
   X(CmjBounce)                \
@@ -72,9 +76,11 @@ namespace lanelight {
   X(ShadowDisks)              \
   X(ShadowPlanes)             \
   X(Connect)                  \
+  X(RecordDecision)           \
   X(ConstantRoulette)         \
   X(ThroughputRoulette)       \
   X(LuminanceRoulette)        \
+  X(RecordPath)               \
   X(Accumulate)
 
 #define X(name) Stage name##Stage();

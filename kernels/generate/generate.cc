@@ -8,6 +8,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/queue/batch-inl.h"
+#include "src/strategy/path_values.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -15,12 +16,23 @@ namespace HWY_NAMESPACE {
 
 // Scalar on purpose: consecutive slots of the free list are arbitrary, and three stores
 // per path are below 1 % of its cost.
-void Generate(Wave& wave) {
+//
+// Where paths split, as many are started as keep the live paths below a share of
+// 1 / kMostCopies of the slots: none of them ever has a budget above kMostCopies, so a
+// split always finds free slots.
+template <bool kSplitting>
+HWY_INLINE void Start(Wave& wave) {
   Queue& free = wave.queue(QueueId::kFree);
   Queue& camera = wave.queue(QueueId::kCamera);
   TileWork& work = wave.work;
+  uint32_t most = free.size;
+  if constexpr (kSplitting) {
+    const uint32_t share = wave.capacity / kMostCopies;
+    const uint32_t live = wave.queue(QueueId::kActive).size;
+    most = live < share ? share - live : 0;
+  }
   uint32_t taken = 0;
-  while (taken + work.together <= free.size && !work.Done()) {
+  while (taken + work.together <= most && !work.Done()) {
     const uint32_t end = HWY_MIN(work.next_sample + work.together, work.samples);
     for (uint32_t sample = work.next_sample; sample < end; ++sample) {
       const uint32_t slot = free.items[free.size - 1 - taken++];
@@ -28,6 +40,11 @@ void Generate(Wave& wave) {
       wave.path.sample[slot] = work.first_sample + sample;
       wave.path.output[slot] = work.next_pixel * work.samples + sample;
       wave.path.depth[slot] = 0;
+      if constexpr (kSplitting) {
+        wave.path.output[slot] *= kMostCopies;
+        wave.path.branch[slot] = 0;
+        wave.path.budget[slot] = kMostCopies;
+      }
       camera.items[camera.size++] = slot;
     }
     if (++work.next_pixel == work.num_pixels) {
@@ -39,6 +56,9 @@ void Generate(Wave& wave) {
   CountBatches(wave, camera);
 }
 
+void Generate(Wave& wave) { Start<false>(wave); }
+void GenerateSplitting(Wave& wave) { Start<true>(wave); }
+
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
 HWY_AFTER_NAMESPACE();
@@ -49,6 +69,7 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(Generate);
+HWY_EXPORT(GenerateSplitting);
 
 Stage GenerateStage() {
   return {"generate",
@@ -56,8 +77,13 @@ Stage GenerateStage() {
           QueueId::kFree,
           {},
           {},
-          {Field::pixel, Field::sample, Field::output, Field::depth},
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Generate); }};
+          {Field::pixel, Field::sample, Field::output, Field::depth, Field::branch,
+           Field::budget},
+          [](const FeatureSet& features) -> StageFn {
+            return features.Has(Feature::kSplitting)
+                       ? HWY_DYNAMIC_DISPATCH(GenerateSplitting)
+                       : HWY_DYNAMIC_DISPATCH(Generate);
+          }};
 }
 
 }  // namespace lanelight

@@ -35,6 +35,10 @@ void Mix(Wave& wave) {
     VI material = Gather(wave.path.material, slots);
     VU key = hn::Add(hn::Mul(AsUnsigned(Gather(wave.path.depth, slots)), count),
                      SplatU(static_cast<uint32_t>(Dimension::kMix)));
+    if (wave.path.branch != nullptr) {
+      key = hn::Xor(key,
+                    hn::ShiftLeft<28>(AsUnsigned(Gather(wave.path.branch, slots))));
+    }
     for (uint32_t round = 0;; ++round) {
       const auto is_mix = hn::Eq(Gather(m.kind.data(), material), mix_kind);
       if (hn::AllFalse(di, is_mix)) break;
@@ -64,7 +68,7 @@ HWY_EXPORT(Mix);
 
 Stage MixStage() {
   return {"mix", "chooses one material of a mix", QueueId::kSurface, {Feature::kMix, Feature::kScatters},
-          FieldSet{Field::pixel, Field::sample, Field::depth, Field::material} | fields::kUv,
+          FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch, Field::material} | fields::kUv,
           {Field::material},
           [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Mix); }};
 }

@@ -100,6 +100,10 @@ struct Shader {
                    hn::BitCast(du, Gather(path.sample, slots)),
                    hn::BitCast(du, Gather(path.depth, slots)),
                    hn::Set(du, wave.run->seed ^ LaneRandom::kStream)};
+      if (path.branch != nullptr) {
+        const VU branch = hn::BitCast(du, Gather(path.branch, slots));
+        in.random.seed = hn::Xor(in.random.seed, hn::ShiftLeft<24>(branch));
+      }
     }
     return in;
   }

@@ -3,10 +3,13 @@
 
 #include "src/core/aligned.h"
 #include "src/scene/compiled.h"
+#include "src/strategy/path_values.h"
 
 namespace lanelight {
 
-struct StrategyTables {};
+struct StrategyTables {
+  PathValues path_values;  // adjoint, efficiency: set by the pilot passes
+};
 
 /// What the strategy of the scene needs, and nothing else.
 StrategyTables MakeStrategyTables(const CompiledScene& scene);

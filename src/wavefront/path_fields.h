@@ -76,6 +76,7 @@ namespace lanelight {
   X(u32, cell_0, ({Feature::kPilot}), "cache cell of vertex 0; 0xffffffff = none") X(u32, cell_1, ({Feature::kPilot}), "cache cell of vertex 1") X(u32, cell_2, ({Feature::kPilot}), "cache cell of vertex 2") X(u32, cell_3, ({Feature::kPilot}), "cache cell of vertex 3") \
   X(f32, at_0, ({Feature::kPilot}), "luminance of the throughput there") X(f32, at_1, ({Feature::kPilot}), "throughput at vertex 1") X(f32, at_2, ({Feature::kPilot}), "throughput at vertex 2") X(f32, at_3, ({Feature::kPilot}), "throughput at vertex 3") \
   X(f32, got_0, ({Feature::kPilot}), "luminance gathered before it") X(f32, got_1, ({Feature::kPilot}), "gathered before vertex 1") X(f32, got_2, ({Feature::kPilot}), "gathered before vertex 2") X(f32, got_3, ({Feature::kPilot}), "gathered before vertex 3") \
+  X(f32, risk_0, ({Feature::kPilot}), "second moments that roulette would add (kernels/roulette/record.cc)") X(f32, risk_1, ({Feature::kPilot}), "second moments, linear part") X(f32, risk_2, ({Feature::kPilot}), "second moments, constant part") \
   /* auxiliary output: first hit */                                                       \
   X(f32, aov_albedo_r, ({Feature::kAov}), "albedo") X(f32, aov_albedo_g, ({Feature::kAov}), "albedo") X(f32, aov_albedo_b, ({Feature::kAov}), "albedo") \
   X(f32, aov_n_x, ({Feature::kAov}), "shading normal") X(f32, aov_n_y, ({Feature::kAov}), "shading normal") X(f32, aov_n_z, ({Feature::kAov}), "shading normal") \
@@ -158,6 +159,7 @@ inline const FieldSet kVertices = {Field::cell_0, Field::cell_1, Field::cell_2,
                                    Field::cell_3, Field::at_0,   Field::at_1,
                                    Field::at_2,   Field::at_3,   Field::got_0,
                                    Field::got_1,  Field::got_2,  Field::got_3};
+inline const FieldSet kRisk = {Field::risk_0, Field::risk_1, Field::risk_2};
 }  // namespace fields
 
 }  // namespace lanelight

@@ -7,6 +7,7 @@
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
 #include "src/core/check.h"
+#include "src/strategy/path_values.h"
 #include "src/wavefront/plan_features.h"
 
 namespace lanelight {
@@ -74,8 +75,15 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
   }
   CheckReadsAreWritten(plan);
   plan.bytes_per_path = plan.live_fields.size() * sizeof(float);
-  plan.wavefront =
-      options.wavefront > 0 ? options.wavefront : WavefrontForCache(plan.bytes_per_path);
+  // New samples start only while the live paths fit (kernels/generate/generate.cc), and
+  // slots are taken from the top of a stack, so most of the room for copies is seldom
+  // touched: the cache is to hold twice the paths.
+  const std::size_t copies = plan.features.Has(Feature::kSplitting) ? 2 : 1;
+  plan.wavefront = options.wavefront > 0
+                       ? options.wavefront
+                       : WavefrontForCache(plan.bytes_per_path * copies);
+  plan.slots =
+      plan.wavefront * (plan.features.Has(Feature::kSplitting) ? kMostCopies : 1);
   return plan;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,16 @@
 
 namespace lanelight {
 
+/// Pilot passes prepare the roulettes that split (src/wavefront/pilot.h): independent
+/// points, no pairs, no control variate.
+enum class PilotPass : std::uint8_t { kNone, kMeasure, kRecord };
+
 struct PlanOptions {
   std::uint32_t max_depth = 5;
   bool aov = false;
   std::uint32_t wavefront = 0;  // paths; 0 = sized so that the live columns fit in L2
+  PilotPass pilot = PilotPass::kNone;
+  std::optional<Roulette> roulette;  // instead of the strategy's
 };
 
 struct PlannedStage {
@@ -33,6 +40,7 @@ struct Plan {
   std::vector<Field> live_fields, absent_fields;
   std::size_t bytes_per_path = 0;
   std::uint32_t wavefront = 0;     // paths per wavefront
+  std::uint32_t slots = 0;         // room in it: more where paths split
   std::vector<std::string> notes;  // choices of the strategy that do nothing here
   PlanOptions options;
 };

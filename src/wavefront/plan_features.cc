@@ -126,7 +126,7 @@ void CheckControl(const Strategy& s, const CompiledScene& scene,
 }  // namespace
 
 FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) {
-  const Strategy& strategy = scene.strategy;
+  const Strategy strategy = PlannedStrategy(scene, options);
   FeatureSet f = scene.features;
   f.Add(Feature::kScatters);
   if (options.max_depth == 0) RemoveScattering(options, f);
@@ -136,7 +136,18 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
   if (strategy.pairs == Pairs::kAntithetic) f.Add(Feature::kAntithetic);
   AddRoulette(strategy, options.max_depth, f);
   AddControl(strategy, f);
+  if (options.pilot == PilotPass::kRecord) f.Add(Feature::kPilot);
   return f;
+}
+
+Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options) {
+  Strategy strategy = scene.strategy;
+  if (options.roulette) strategy.roulette = *options.roulette;
+  if (options.pilot == PilotPass::kNone) return strategy;
+  strategy.points = Points::kIndependent;
+  strategy.pairs = Pairs::kNone;
+  strategy.control = Control::kNone;
+  return strategy;
 }
 
 std::vector<std::string> CheckStrategy(const CompiledScene& scene,

@@ -10,6 +10,8 @@
 #include "src/core/parallel.h"
 #include "src/strategy/tables.h"
 #include "src/wavefront/drive.h"
+#include "src/wavefront/pilot.h"
+#include "src/wavefront/pilot_pass.h"
 #include "src/wavefront/tiles.h"
 
 namespace lanelight {
@@ -61,6 +63,7 @@ class Runner {
 
   RunResult Run() {
     start_ = Clock::now();
+    if (plan_.features.Has(Feature::kSplitting)) PreparePaths();
     std::uint64_t done = 0;  // samples per pixel started in complete rounds
     const std::uint64_t limit = options_.spp > 0 ? options_.spp : std::uint64_t{1} << 31;
     while (done < limit && !Stopped()) {
@@ -74,6 +77,23 @@ class Runner {
   }
 
  private:
+  // Pilot passes; the image may then be rendered with a simpler roulette.
+  void PreparePaths() {
+    PilotOptions options;
+    options.planned_samples =
+        pixel_count_ * (options_.spp > 0 ? options_.spp : kOpenEndedSpp);
+    options.keep_roulette = options_.keep_roulette;
+    options.stop = options_.stop;
+    pilot_ = RunPilot(scene_, plan_, run_, options, tables_);
+    if (pilot_.roulette != scene_.strategy.roulette) {
+      PlanOptions simpler = plan_.options;
+      simpler.roulette = pilot_.roulette;
+      plan_ = MakePlan(scene_, simpler);
+      run_ = Parameters();
+    }
+    pilot_seconds_ = Since(start_);
+  }
+
   // Without a sample count the partition assumes many samples.
   static constexpr std::uint64_t kOpenEndedSpp = 32;
 
@@ -166,10 +186,14 @@ class Runner {
     work.samples = out.count;
     work.together = scene_.strategy.pairs == Pairs::kAntithetic ? 2 : 1;
     const std::uint32_t stride = work.num_pixels * out.count;
-    if (out.values.size() < std::size_t{stride} * planes_) {
-      out.values.resize(std::size_t{stride} * planes_);
-    }
-    Drive(space.wavefront, plan_, work, {out.values.data(), stride}, space.counters);
+    const bool splits = plan_.features.Has(Feature::kSplitting);
+    const std::uint32_t rows = stride * (splits ? kMostCopies : 1);
+    const std::size_t size = std::size_t{rows} * static_cast<std::size_t>(planes_);
+    if (out.values.size() < size) out.values.resize(size);
+    // A sample that has not split leaves the rows of its further copies alone.
+    if (splits) std::fill_n(out.values.begin(), std::size_t{rows} * kColorPlanes, 0.0f);
+    Drive(space.wavefront, plan_, work, {out.values.data(), rows}, space.counters);
+    if (splits) FoldCopies(out.values.data(), rows, planes_);
     samples_ += stride;
     ReportProgress();
   }
@@ -207,6 +231,11 @@ class Runner {
     result.seconds = Since(start_);
     result.samples = samples_;
     result.stopped_early = stopped_early;
+    result.pilot_seconds = pilot_seconds_;
+    result.pilot_samples = pilot_.samples;
+    result.pilot_rays = pilot_.rays;
+    result.pilot_note = pilot_.note;
+    result.roulette = plan_.options.roulette.value_or(scene_.strategy.roulette);
     for (const PlannedStage& planned : plan_.stages) {
       StageProfile profile;
       profile.name = planned.stage.name;
@@ -241,12 +270,14 @@ class Runner {
   }
 
   const CompiledScene& scene_;
-  const Plan& plan_;
+  Plan plan_;
   const RunOptions& options_;
   FilmAccumulator& film_;
-  const StrategyTables tables_;
+  StrategyTables tables_;
   RunParameters run_;
   TilePartition partition_;
+  PilotOutcome pilot_;
+  double pilot_seconds_ = 0;
   int planes_ = kColorPlanes;
   std::uint64_t pixel_count_ = 0;
   std::vector<std::unique_ptr<Workspace>> workspaces_;

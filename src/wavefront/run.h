@@ -26,6 +26,8 @@ struct RunOptions {
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
   const std::atomic<bool>* stop = nullptr;           // finish the samples in flight
   bool profile = true;                               // time every stage call
+  /// roulette=efficiency keeps its rule even where the pilot passes prefer another.
+  bool keep_roulette = false;
 };
 
 struct StageProfile {
@@ -50,6 +52,12 @@ struct RunResult {
   std::vector<StageProfile> stages;  // in execution order
   bool stopped_early = false;
   std::size_t wavefront_bytes = 0;  // all wavefronts and sample buffers together
+  // Pilot passes (roulette=adjoint, efficiency); their time is part of `seconds`, their
+  // samples and rays are not part of those above.
+  double pilot_seconds = 0;
+  std::uint64_t pilot_samples = 0, pilot_rays = 0;
+  std::string pilot_note;                     // empty: there was none
+  Roulette roulette = Roulette::kThroughput;  // that the image was rendered with
 };
 
 /// Renders into `film` (its size must match the crop window of the scene).

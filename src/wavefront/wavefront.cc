@@ -40,8 +40,8 @@ void Place(T*& column, Field field, const Plan& plan, std::uint32_t*& next,
 
 Wavefront::Wavefront(const CompiledScene& scene, const Plan& plan,
                      const RunParameters& run) {
-  LL_CHECK_GT(plan.wavefront, 0u);
-  const std::size_t stride = ColumnStride(plan.wavefront);
+  LL_CHECK_GT(plan.slots, 0u);
+  const std::size_t stride = ColumnStride(plan.slots);
   const std::size_t columns = plan.live_fields.size() + kNumQueues;
 #ifdef NDEBUG
   memory_.resize(stride * columns);
@@ -59,7 +59,7 @@ Wavefront::Wavefront(const CompiledScene& scene, const Plan& plan,
   }
   wave_.scene = &scene;
   wave_.run = &run;
-  wave_.capacity = plan.wavefront;
+  wave_.capacity = plan.slots;
   Reset();
 }
 

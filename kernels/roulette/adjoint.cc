@@ -1,0 +1,62 @@
+// roulette=adjoint: keeps the expected contribution nu of every path near that of its
+// pixel, by roulette below a window around it and by splitting above.
+//   nu          |beta / I(pixel)| Psi(cell), with Psi the brightness that a unit of
+//               throughput is expected to gather from this vertex on (a coarse cache over
+//               space and orientation), I the brightness of the pixel, both from a pilot
+//               pass (src/wavefront/pilot.h), and || the root mean square over channels
+//   estimator   r = nu outside of [1/3, 5/3], else 1; window-inl.h
+//   unbiased    for any Psi and I: they only steer r; the pilot's samples are not used
+//   variance    paths into the dark end early, paths into the light are split; pays where
+//               Psi varies much along paths (light behind a door), loses its pilot pass
+//               and the noise of Psi where all paths are alike
+//   no data     cells that no pilot path met: roulette on the throughput
+//   cost        two gathers of tables and a hash per vertex; the pilot pass
+//   source      Vorba and Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting
+//               in Light Transport Simulation"
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/roulette/adjoint.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/roulette/window-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+struct AdjointWindow {
+  static HWY_INLINE VF Factor(const Wave& wave, VI slots, V3 beta) {
+    const PathValues& values = wave.run->tables->path_values;
+    const VF psi = Gather(values.survive.data(), CellOf(values.grid, wave.path, slots));
+    const VF nu = hn::Mul(WeightInImage(wave, slots, beta), psi);
+    const MF inside = hn::And(hn::Ge(nu, Splat(1.0f / 3)), hn::Le(nu, Splat(5.0f / 3)));
+    const VF r = hn::IfThenElse(inside, Splat(1.0f), nu);
+    const MF known = hn::Ge(psi, hn::Zero(DF()));
+    return hn::IfThenElse(known, r, ThroughputFactor(wave.path, slots, beta));
+  }
+};
+
+void AdjointRoulette(Wave& wave) { PlayWindow<AdjointWindow>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/roulette/window_stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(AdjointRoulette);
+
+Stage AdjointRouletteStage() {
+  return WindowStage(
+      "roulette_adjoint", "roulette and splitting on the expected contribution",
+      Feature::kAdjointRoulette,
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(AdjointRoulette); });
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

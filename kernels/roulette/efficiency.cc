@@ -1,0 +1,70 @@
+// roulette=efficiency: the factors that maximise 1 / (variance x cost) of the image, as a
+// fixed point of the variance and cost that they bring about themselves.
+//   split       s = |beta / I| sqrt(V / C) sqrt(C_I / V_I): V variance of what a unit of
+//               throughput gathers from here on, C its cost in rays (a coarse cache over
+//               space and orientation); I brightness of the pixel, || the root mean
+//               square over channels; V_I relative variance and C_I cost of a camera
+//               path, the same for all pixels
+//   roulette    t: the same with the second moment for the variance (what is lost with
+//               the path is its mean as well)
+//   estimator   r = s if s > 1, t if t < 1, else 1; window-inl.h. (s <= t, so at most one
+//               of them holds)
+//   unbiased    for any values: they only steer r; the pilot's samples are not used
+//   variance    splits where the variance comes from and is cheap to reduce, ends paths
+//               whose share of it does not pay for their rays. C_I / V_I is iterated in
+//               short pilot passes (src/wavefront/pilot.h)
+//   fallback    the last passes compare with no roulette and with roulette on the
+//               throughput; the best of the three renders the image
+//   cost        three gathers of tables and a hash per vertex; the pilot passes
+//   source      Rath, Grittmann, Herholz, Weier and Slusallek 2022, "EARS: Efficiency-
+//               Aware Russian Roulette and Splitting"
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/roulette/efficiency.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/roulette/window-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+struct EfficiencyWindow {
+  static HWY_INLINE VF Factor(const Wave& wave, VI slots, V3 beta) {
+    const PathValues& values = wave.run->tables->path_values;
+    const VI cell = CellOf(values.grid, wave.path, slots);
+    const VF weight = hn::Mul(WeightInImage(wave, slots, beta), Splat(values.scale));
+    const VF survive = Gather(values.survive.data(), cell);
+    const VF s = hn::Mul(weight, Gather(values.split.data(), cell));
+    const VF t = hn::Mul(weight, survive);
+    const VF one = Splat(1.0f);
+    const VF r = hn::IfThenElse(hn::Gt(s, one), s, hn::Min(t, one));
+    const MF known = hn::Ge(survive, hn::Zero(DF()));
+    return hn::IfThenElse(known, r, ThroughputFactor(wave.path, slots, beta));
+  }
+};
+
+void EfficiencyRoulette(Wave& wave) { PlayWindow<EfficiencyWindow>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/roulette/window_stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(EfficiencyRoulette);
+
+Stage EfficiencyRouletteStage() {
+  return WindowStage("roulette_efficiency", "roulette and splitting for efficiency",
+                     Feature::kEfficiencyRoulette, [](const FeatureSet&) -> StageFn {
+                       return HWY_DYNAMIC_DISPATCH(EfficiencyRoulette);
+                     });
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

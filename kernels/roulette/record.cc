@@ -1,0 +1,179 @@
+// A pilot pass: records what paths find from their first vertices on. For vertex i:
+//   estimate    (Y(l at the end) - Y(l before i)) / Y(beta at i): brightness gathered
+//   from
+//               there on per unit of throughput; expectation: the adjoint Psi there.
+//               Y weighs the channels as PathValues::channel says
+//   cost        events from there on: depth at the end - i
+// And for paths that have not played roulette, what roulette on the throughput would add
+// to the second moment: a decision of survival s multiplies the square of what comes
+// after it (T) by 1/s, so with W the product of 1/s of the decisions before
+//   E[x^2] = L^2 + sum over decisions of W (1/s - 1) T^2,  T = Y(l at the end) - g,
+// g gathered before. Survivors have W times the throughput of these paths. The sums of a
+// = W (1/s - 1), of a g and of a g^2 are kept (W is one plus the first of them). So the
+// two variances are compared on the same paths, and no rare survivor is missed.
+//
+// The stages keep cell, Y(beta) and Y(l) in columns and write them behind the colour of
+// the finished path; src/wavefront/pilot.cc adds them up in the order of the samples, so
+// that the sums depend on no order of execution.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/roulette/record.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/roulette/cell-inl.h"
+#include "src/strategy/tables.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+struct VertexColumns {
+  uint32_t* cell[kPilotVertices];
+  float *at[kPilotVertices], *got[kPilotVertices];
+
+  explicit VertexColumns(const PathColumns& p)
+      : cell{p.cell_0, p.cell_1, p.cell_2, p.cell_3},
+        at{p.at_0, p.at_1, p.at_2, p.at_3},
+        got{p.got_0, p.got_1, p.got_2, p.got_3} {}
+};
+
+void RecordStart(Wave& wave) {
+  const VertexColumns v(wave.path);
+  const Queue& queue = wave.queue(QueueId::kCamera);
+  for (uint32_t i = 0; i < queue.size; ++i) {
+    for (int k = 0; k < kPilotVertices; ++k) {
+      v.cell[k][queue.items[i]] = kNoCell;
+      v.at[k][queue.items[i]] = v.got[k][queue.items[i]] = 0;
+    }
+    for (float* risk : {wave.path.risk_0, wave.path.risk_1, wave.path.risk_2}) {
+      risk[queue.items[i]] = 0;
+    }
+  }
+  CountBatches(wave, queue);
+}
+
+void RecordDecision(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const PathValues& values = wave.run->tables->path_values;
+  const VI before = hn::Set(DI(), kThroughputFirst - 1);
+  ForEachBatch(wave, wave.queue(QueueId::kScattered), [&](VI slots, MF) HWY_ATTR {
+    const VF one = Splat(1.0f), risk = Gather(p.risk_0, slots);
+    const VF weight = hn::Add(one, risk);
+    // The throughput that a survivor of the decisions before would have.
+    VF s = hn::Mul(MaxComponent(Gather3(p.beta_r, p.beta_g, p.beta_b, slots)), weight);
+    if (p.eta_scale != nullptr) s = hn::Mul(s, Gather(p.eta_scale, slots));
+    const MF late = hn::RebindMask(DF(), hn::Gt(Gather(p.depth, slots), before));
+    s = hn::Min(hn::IfThenElse(late, s, one), one);
+    const VF g = Brightness(values, Gather3(p.l_r, p.l_g, p.l_b, slots));
+    const VF a = hn::Mul(weight, hn::Sub(hn::Div(one, s), one));
+    const VF ag = hn::Mul(a, g);
+    Scatter(hn::Add(risk, a), p.risk_0, slots);
+    Scatter(hn::Add(Gather(p.risk_1, slots), ag), p.risk_1, slots);
+    Scatter(hn::MulAdd(ag, g, Gather(p.risk_2, slots)), p.risk_2, slots);
+  });
+}
+
+void RecordVertex(Wave& wave) {
+  const DI di;
+  const PathColumns& p = wave.path;
+  const VertexColumns v(p);
+  const PathValues& values = wave.run->tables->path_values;
+  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](VI slots, MF) HWY_ATTR {
+    const VI depth = Gather(p.depth, slots);
+    const VI cell = CellOf(values.grid, p, slots);
+    const VF at = Brightness(values, Gather3(p.beta_r, p.beta_g, p.beta_b, slots));
+    const VF got = Brightness(values, Gather3(p.l_r, p.l_g, p.l_b, slots));
+    for (int k = 0; k < kPilotVertices; ++k) {
+      const auto here = hn::Eq(depth, hn::Set(di, k));
+      const MF mine = hn::RebindMask(DF(), here);
+      Scatter(hn::IfThenElse(here, cell, Gather(v.cell[k], slots)), v.cell[k], slots);
+      Scatter(hn::IfThenElse(mine, at, Gather(v.at[k], slots)), v.at[k], slots);
+      Scatter(hn::IfThenElse(mine, got, Gather(v.got[k], slots)), v.got[k], slots);
+    }
+  });
+}
+
+// Planes behind the three of the colour: cell, at, got of each vertex; Y(l); depth; the
+// three sums of the risk.
+void RecordPath(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const VertexColumns v(p);
+  const PathValues& values = wave.run->tables->path_values;
+  ForEachBatch(wave, wave.queue(QueueId::kDone), [&](VI slots, MF) HWY_ATTR {
+    const VI output = Gather(p.output, slots);
+    float* plane = wave.buffer.samples + 3 * std::size_t{wave.buffer.stride};
+    const auto store = [&](VF value) HWY_ATTR {
+      Scatter(value, plane, output);
+      plane += wave.buffer.stride;
+    };
+    for (int k = 0; k < kPilotVertices; ++k) {
+      store(hn::BitCast(DF(), Gather(v.cell[k], slots)));
+      store(Gather(v.at[k], slots));
+      store(Gather(v.got[k], slots));
+    }
+    store(Brightness(values, Gather3(p.l_r, p.l_g, p.l_b, slots)));
+    store(hn::ConvertTo(DF(), Gather(p.depth, slots)));
+    for (const float* risk : {p.risk_0, p.risk_1, p.risk_2}) store(Gather(risk, slots));
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(RecordStart);
+HWY_EXPORT(RecordVertex);
+HWY_EXPORT(RecordDecision);
+HWY_EXPORT(RecordPath);
+
+Stage RecordStartStage() {
+  return {"record_start",
+          "empties the record of a pilot path",
+          QueueId::kCamera,
+          {Feature::kPilot},
+          {},
+          fields::kVertices | fields::kRisk,
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(RecordStart); }};
+}
+Stage RecordVertexStage() {
+  return {
+      "record_vertex",
+      "records a vertex of a pilot path",
+      QueueId::kSurface,
+      {Feature::kPilot, Feature::kScatters},
+      fields::kThroughput | fields::kRadiance | fields::kRay | fields::kPoint |
+          fields::kNormal | fields::kVertices | FieldSet{Field::depth},
+      fields::kVertices,
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(RecordVertex); }};
+}
+Stage RecordDecisionStage() {
+  return {
+      "record_decision",
+      "what roulette would add to the second moment of a pilot path",
+      QueueId::kScattered,
+      {Feature::kPilot, Feature::kScatters},
+      fields::kThroughput | fields::kRadiance | fields::kRisk |
+          FieldSet{Field::depth, Field::eta_scale},
+      fields::kRisk,
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(RecordDecision); }};
+}
+Stage RecordPathStage() {
+  return {"record_path",
+          "writes the record of a finished pilot path",
+          QueueId::kDone,
+          {Feature::kPilot},
+          fields::kVertices | fields::kRisk | fields::kRadiance |
+              FieldSet{Field::output, Field::depth},
+          {},
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(RecordPath); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,174 @@
+// Roulette and splitting at a surface, before the numbers of the bounce are drawn and
+// before it is shaded: every copy has the same hit, takes its own light sample and goes
+// its own way. A policy is a struct with
+//   static VF Factor(const Wave&, VI slots, V3 beta)
+// giving the expected number of copies r >= 0.
+//   estimator   k = floor(r + u) copies of weight 1/r: E = sum of k (x_i / r) = x, since
+//               E[k] = r and the copies are distributed alike
+//   unbiased    r > 0: it is kept in [kLeast, budget], and at the camera's own hit in
+//               [1, budget], so that what a pixel shows first is never lost
+//   variance    roulette adds E[x^2] (1/r - 1); splitting divides the variance of what
+//               follows by r. Survivors weigh at most 1 / kLeast times their parent
+//   cost        a hash and a compaction per vertex; copying the live columns per copy
+//   bound       a camera sample starts with a budget of kMostCopies, which its copies
+//               divide between them: copy c of k takes the names
+//               [branch + c b / k, branch + (c + 1) b / k) of its parent's b. So the
+//               result does not depend on how many slots happen to be free, names are
+//               unique, and live paths never need more than kMostCopies slots per sample
+#if defined(LANELIGHT_ROULETTE_WINDOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_ROULETTE_WINDOW_INL_H_
+#undef LANELIGHT_ROULETTE_WINDOW_INL_H_
+#else
+#define LANELIGHT_ROULETTE_WINDOW_INL_H_
+#endif
+
+#include "kernels/points/fill-inl.h"
+#include "kernels/roulette/cell-inl.h"
+#include "src/core/check.h"
+#include "src/strategy/tables.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// The smallest r.
+inline constexpr float kLeast = 0.05f;
+
+/// Uniform number of the decision.
+HWY_INLINE VF DecisionNumber(const Wave& wave, VI slots) {
+  const PathColumns& p = wave.path;
+  const VU depth = AsUnsigned(Gather(p.depth, slots));
+  return ToUnit(
+      Pcg4d({AsUnsigned(Gather(p.pixel, slots)), AsUnsigned(Gather(p.sample, slots)),
+             KeyOf(p, Dimension::kRoulette, depth, slots), SplatU(wave.run->seed)})
+          .x);
+}
+
+/// What a unit of brightness gathered from here on would weigh in the image: the root
+/// mean square over the channels of throughput over brightness of the pixel.
+HWY_INLINE VF WeightInImage(const Wave& wave, VI slots, V3 beta) {
+  const float* inverse = wave.run->tables->path_values.inverse_pixel.data();
+  const VI at = hn::Mul(Gather(wave.path.pixel, slots), hn::Set(DI(), 3));
+  const V3 relative = Mul(beta, Gather3(inverse, inverse + 1, inverse + 2, at));
+  return hn::Sqrt(Dot(relative, relative));
+}
+
+/// Expected copies where the cache knows nothing: throughput roulette from the second
+/// event on.
+HWY_INLINE VF ThroughputFactor(const PathColumns& p, VI slots, V3 beta) {
+  VF s = MaxComponent(beta);
+  if (p.eta_scale != nullptr) s = hn::Mul(s, Gather(p.eta_scale, slots));
+  const auto late = hn::Gt(Gather(p.depth, slots), hn::Set(DI(), kThroughputFirst - 1));
+  return hn::IfThenElse(hn::RebindMask(DF(), late), hn::Min(s, Splat(1.0f)), Splat(1.0f));
+}
+
+/// Columns that a copy takes over: all but those of the ray that has found this surface
+/// and those of which every bounce writes what it reads.
+struct CopiedColumns {
+  uint32_t* columns[kNumFields];
+  uint32_t count = 0;
+
+  explicit CopiedColumns(const PathColumns& p) {
+    static const FieldSet kOwn =
+        fields::kBouncePoints | fields::kLightSample | fields::kShadow | fields::kHit |
+        fields::kRadiance | fields::kControl |
+        FieldSet{Field::o_x,      Field::o_y,      Field::o_z,     Field::u_film_0,
+                 Field::u_film_1, Field::u_lens_0, Field::u_lens_1};
+#define X(type, name, features, meaning)                    \
+  if (p.name != nullptr && !kOwn.Has(Field::name)) {        \
+    columns[count++] = reinterpret_cast<uint32_t*>(p.name); \
+  }
+    LANELIGHT_PATH_FIELDS(X)
+#undef X
+  }
+};
+
+/// The new slots take over their parents' columns. They have gathered nothing yet: the
+/// sample is the sum of its copies.
+HWY_INLINE void CopyPaths(const PathColumns& p, const uint32_t* parents,
+                          const uint32_t* slots, uint32_t n) {
+  const CopiedColumns copied(p);
+  for (uint32_t c = 0; c < copied.count; ++c) {
+    uint32_t* column = copied.columns[c];
+    for (uint32_t i = 0; i < n; ++i) column[slots[i]] = column[parents[i]];
+  }
+  for (float* column : {p.l_r, p.l_g, p.l_b, p.k_r, p.k_g, p.k_b}) {
+    if (column == nullptr) continue;
+    for (uint32_t i = 0; i < n; ++i) column[slots[i]] = 0;
+  }
+}
+
+/// Divides the budget of a parent among its k copies: its own share, and those of the new
+/// slots.
+HWY_INLINE void ShareBudget(const PathColumns& p, uint32_t parent, const uint32_t* slots,
+                            uint32_t k) {
+  const uint32_t budget = p.budget[parent];
+  LL_DCHECK(k <= budget);
+  for (uint32_t c = 1; c < k; ++c) {
+    const uint32_t slot = slots[c - 1], begin = c * budget / k;
+    p.branch[slot] += begin;
+    p.output[slot] += begin;
+    p.budget[slot] = (c + 1) * budget / k - begin;
+  }
+  p.budget[parent] = budget / k;
+}
+
+/// Makes copies[i] paths of the i-th of the queue, appending the new ones. The queue of
+/// shadow rays, empty so far, lends its room for the parents' slots.
+HWY_INLINE void SplitPaths(Wave& wave, Queue& queue, const uint32_t* copies) {
+  Queue& free = wave.queue(QueueId::kFree);
+  uint32_t* parents = wave.queue(QueueId::kShadow).items;
+  const uint32_t before = queue.size;
+  const uint32_t* slots = queue.items + before;
+  uint32_t n = 0;
+  for (uint32_t i = 0; i < before; ++i) {
+    for (uint32_t c = 1; c < copies[i]; ++c) {
+      LL_DCHECK(free.size > 0);
+      parents[n++] = queue.items[i];
+      queue.items[queue.size++] = free.items[--free.size];
+    }
+  }
+  CopyPaths(wave.path, parents, slots, n);
+  for (uint32_t i = 0; i < n;) {
+    uint32_t k = 1;
+    while (i + k - 1 < n && parents[i + k - 1] == parents[i]) ++k;
+    ShareBudget(wave.path, parents[i], slots + i, k);
+    i += k - 1;
+  }
+}
+
+template <class Policy>
+HWY_INLINE void PlayWindow(Wave& wave) {
+  const DI di;
+  const PathColumns& p = wave.path;
+  Queue& queue = wave.queue(QueueId::kSurface);
+  Queue survivors = {queue.items, 0};  // compacts in place: writes never pass reads
+  Queue copies = {wave.queue(QueueId::kScratch).items, 0};
+  bool splits = false;
+  ForEachBatch(wave, queue, [&](VI slots, MF valid) HWY_ATTR {
+    const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
+    const MF first = hn::RebindMask(DF(), hn::Eq(Gather(p.depth, slots), hn::Zero(di)));
+    const VF least = hn::IfThenElse(first, Splat(1.0f), Splat(kLeast));
+    const VF most = hn::ConvertTo(DF(), Gather(p.budget, slots));
+    const VF wanted = Policy::Factor(wave, slots, beta);
+    // Also catches what is not a number.
+    const VF r = hn::IfThenElse(hn::Gt(wanted, least), hn::Min(wanted, most), least);
+    const VF whole = hn::Floor(r);
+    const MF more = hn::Lt(DecisionNumber(wave, slots), hn::Sub(r, whole));
+    const VF k = hn::Add(whole, hn::IfThenElseZero(more, Splat(1.0f)));
+    const MF survives = hn::Gt(k, hn::Zero(DF()));
+    Scatter3(Mul(beta, hn::Div(Splat(1.0f), r)), p.beta_r, p.beta_g, p.beta_b, slots);
+    splits |= !hn::AllFalse(DF(), hn::Gt(k, Splat(1.0f)));
+    Push(copies, hn::ConvertTo(di, k), hn::And(valid, survives));
+    Push(survivors, slots, hn::And(valid, survives));
+    Push(wave.queue(QueueId::kDone), slots, hn::AndNot(survives, valid));
+  });
+  queue.size = survivors.size;
+  if (splits) SplitPaths(wave, queue, copies.items);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,59 @@
+// One pilot pass: a few samples of some pixels, kept in memory as they are.
+#pragma once
+
+#include <vector>
+
+#include "src/strategy/path_values.h"
+#include "src/wavefront/plan.h"
+#include "src/wavefront/wave.h"
+
+namespace lanelight {
+
+/// Samples per pixel of a pass: four, so that it shows the variance within a pixel.
+inline constexpr std::uint32_t kPilotSpp = 4;
+
+/// What a recording pass knows of a sample (kernels/roulette/record.cc).
+struct PilotRecord {
+  struct Vertex {
+    std::uint32_t cell;
+    float at, got;
+  };
+  Vertex vertices[kPilotVertices];
+  float end, depth;
+  float risk[3];
+
+  /// What roulette on the throughput would add to the square of `end`, on average; zero
+  /// where rounding could have made it.
+  double Risk() const {
+    const double square = double{end} * end * risk[0];
+    const double added = square - 2.0 * end * risk[1] + risk[2];
+    return added > 1e-5 * square ? added : 0;
+  }
+};
+
+struct PilotSamples {
+  std::vector<Vec3f> colors;         // kPilotSpp per pixel
+  std::vector<PilotRecord> records;  // as many, if recorded
+  std::uint64_t rays_closest = 0, rays_shadow = 0;
+
+  /// Of a sample, in rays that find the closest hit and lead to shading there; one that
+  /// only asks for a hit takes about half the time.
+  double Cost() const {
+    return (double(rays_closest) + 0.5 * double(rays_shadow)) / double(colors.size());
+  }
+};
+
+/// About `count` pixels of the rendered window, spread evenly.
+std::vector<std::uint32_t> PilotPixels(const CompiledScene& scene, std::uint64_t count);
+
+/// Renders kPilotSpp samples of each of the pixels.
+PilotSamples RunPilotPass(const CompiledScene& scene, const PlanOptions& options,
+                          const RunParameters& run,
+                          const std::vector<std::uint32_t>& pixels);
+
+/// Adds up the copies of each sample, in place and in their order: rows
+/// sample * kMostCopies + copy of a plane of `rows` become rows `sample` of a plane of
+/// rows / kMostCopies. Colours are summed, the planes behind them are the first copy's.
+void FoldCopies(float* values, std::uint32_t rows, int planes);
+
+}  // namespace lanelight
