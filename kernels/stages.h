@@ -34,6 +34,7 @@ namespace lanelight {
   X(IndependentBounce)        \
   X(SobolBounce)              \
   X(AntitheticBounce)         \
+  X(FirstBounce)              \
   X(Route)                    \
   X(SelectLight)              \
   X(SelectLightTree)          \
@@ -45,6 +46,10 @@ namespace lanelight {
   X(SampleDistantLight)       \
   X(SampleInfiniteConstant)   \
   X(SampleInfiniteImage)      \
+  X(AnalyticDiffuse)          \
+  X(AnalyticTransmission)     \
+  X(AmbientDiffuse)           \
+  X(AmbientTransmission)      \
   X(ShadeDiffuse)             \
   X(ShadeDiffuseUniform)      \
   X(ShadeDiffuseInSphere)     \
@@ -62,6 +67,7 @@ namespace lanelight {
   X(ShadowDisks)              \
   X(ShadowPlanes)             \
   X(Connect)                  \
+  X(AmbientScattered)         \
   X(ConstantRoulette)         \
   X(ThroughputRoulette)       \
   X(LuminanceRoulette)        \

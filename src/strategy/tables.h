@@ -3,10 +3,13 @@
 
 #include "src/core/aligned.h"
 #include "src/scene/compiled.h"
+#include "src/strategy/ambient.h"
 
 namespace lanelight {
 
-struct StrategyTables {};
+struct StrategyTables {
+  std::vector<AmbientLight> ambient;  // control=ambient
+};
 
 /// What the strategy of the scene needs, and nothing else.
 StrategyTables MakeStrategyTables(const CompiledScene& scene);

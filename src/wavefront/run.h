@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct RunResult {
   Health health;
   std::vector<StageProfile> stages;  // in execution order
   bool stopped_early = false;
+  std::optional<ControlReport> control;  // of control variates that are fitted
   std::size_t wavefront_bytes = 0;  // all wavefronts and sample buffers together
 };
 
