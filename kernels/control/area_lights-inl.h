@@ -9,6 +9,7 @@
 
 #include "kernels/control/irradiance-inl.h"
 #include "kernels/lights/geometry-inl.h"
+#include "kernels/simd/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -55,11 +56,14 @@ HWY_INLINE MF TriangleLightAt(const CompiledScene& scene, const LightRecord& lig
   const V3 e1 = corner(1) - corner(0), e2 = corner(2) - corner(0);
   const D3 c0 = SplatD3(record.p[0]), c1 = SplatD3(record.p[1]);
   const D3 e01 = Minus(c1, c0), e12 = Minus(SplatD3(record.p[2]), c1);
+  const float size = hn::GetLane(hn::Add(SumAbs(e1), SumAbs(e2)));
+  const V3 facing = Normalize(Cross(e1, e2));
+  const MF clear = ClearOfPlane(p, p_error, corner(0), facing, size, light);
+  if (hn::AllFalse(DF(), clear)) return clear;
   *out = InHalves<kBelow>(p, n, [&](D3 at, D3 normal) HWY_ATTR {
     return TriangleIrradiance({Minus(c0, at), e01, e12}, normal);
   });
-  const float size = hn::GetLane(hn::Add(SumAbs(e1), SumAbs(e2)));
-  return ClearOfPlane(p, p_error, corner(0), Normalize(Cross(e1, e2)), size, light);
+  return clear;
 }
 
 /// From inside (as the sampler of spheres sees it) a sphere takes no part.

@@ -33,9 +33,9 @@ std::string HealthText(const Health& h) {
 std::string ControlRow(const RunResult& r, const Strategy& strategy) {
   if (strategy.control == Control::kNone) return "";
   const double c = r.control ? r.control->coefficient : strategy.coefficient.value_or(1);
-  std::string text = fmt::format("{}, {}c = {:.4g} (in the paper's sign {:.4g})",
-                                 Name(strategy.control),
-                                 strategy.coefficient ? "" : "mean ", c, -c);
+  std::string text =
+      fmt::format("{}, {}c = {:.4g} (in the paper's sign {:.4g})", Name(strategy.control),
+                  strategy.coefficient ? "" : "mean ", c, -c);
   if (r.control) {
     text += fmt::format(", correlation reached {:.4f}", r.control->correlation);
   }

@@ -21,6 +21,10 @@ void FilmAccumulator::UseControl() {
   control_.emplace(width_, height_);
 }
 
+void FilmAccumulator::FitControl() {
+  if (control_) control_->Fit();
+}
+
 std::optional<ControlReport> FilmAccumulator::Control() const {
   if (!control_) return std::nullopt;
   return control_->Report();

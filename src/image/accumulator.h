@@ -31,8 +31,9 @@ class FilmAccumulator {
 
   /// From here on (before any sample), samples have three further planes after all
   /// others: the difference h - E[h] of a control variate whose coefficient the film
-  /// fits. Mean and Variance then are those of the corrected samples.
+  /// fits. After FitControl, Mean and Variance are those of the corrected samples.
   void UseControl();
+  void FitControl();
   /// What the control variate achieved; empty without UseControl.
   std::optional<ControlReport> Control() const;
 

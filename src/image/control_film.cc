@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/core/parallel.h"
+
 namespace lanelight {
 namespace {
 
@@ -19,18 +21,33 @@ void ControlScatter::Add(const ControlSums& sums) {
   square += sums.ff;
 }
 
+void ControlScatter::Add(const ControlScatter& other) {
+  freedom += other.freedom;
+  ff += other.ff;
+  fd += other.fd;
+  dd += other.dd;
+  square += other.square;
+}
+
 double ControlScatter::Correlation() const {
   const double scale = std::sqrt(ff * dd);
   return scale > 0 ? fd / scale : 0;
 }
 
-double FitCoefficient(const ControlScatter& own, const ControlScatter& around) {
-  const double weight =
-      around.freedom > 0 ? std::min(1.0, kNeighbourFreedom / around.freedom) : 0;
-  const double dd = own.dd + weight * around.dd;
-  const double square = own.square + weight * around.square;
+double FitCoefficient(const ControlScatter& own, const ControlScatter& window) {
+  const double around = window.freedom - own.freedom;
+  const double weight = around > 0 ? std::min(1.0, kNeighbourFreedom / around) : 0;
+  const auto mix = [&](double of_own, double of_window) {
+    return (1 - weight) * of_own + weight * of_window;
+  };
+  const double dd = mix(own.dd, window.dd), fd = mix(own.fd, window.fd);
+  const double square = mix(own.square, window.square);
   if (!(dd > kLeastSpread * kLeastSpread * square)) return 0;
-  const double c = (own.fd + weight * around.fd) / dd;
+  const double explained = fd * fd / dd;  // r^2 ff
+  const double noise =
+      (mix(own.ff, window.ff) - explained) / mix(own.freedom, window.freedom);
+  if (!(explained > noise)) return 0;
+  const double c = fd / dd * std::min(1.0, 1 - noise / explained);
   return std::isfinite(c) ? std::clamp(c, -kMostCoefficient, kMostCoefficient) : 0;
 }
 
@@ -48,18 +65,35 @@ void ControlFilm::CloseGroup(std::size_t pixel, const double* means, std::uint32
   ++p.groups;
 }
 
-double ControlFilm::Coefficient(std::size_t pixel, int half, int channel) const {
-  ControlScatter own, around;
-  const int x = static_cast<int>(pixel) % width_, y = static_cast<int>(pixel) / width_;
-  for (int ny = std::max(0, y - 1); ny <= std::min(height_ - 1, y + 1); ++ny) {
-    for (int nx = std::max(0, x - 1); nx <= std::min(width_ - 1, x + 1); ++nx) {
-      const std::size_t i =
-          static_cast<std::size_t>(ny) * static_cast<std::size_t>(width_) +
-          static_cast<std::size_t>(nx);
-      (i == pixel ? own : around).Add(pixels_[i].halves[half][channel]);
+void ControlFilm::FitRow(int y) {
+  const int y0 = std::max(0, y - kReach), y1 = std::min(height_, y + kReach + 1);
+  std::vector<ControlScatter> columns(static_cast<std::size_t>(width_));
+  for (int half = 0; half < 2; ++half) {
+    for (int c = 0; c < 3; ++c) {
+      for (int x = 0; x < width_; ++x) {
+        ControlScatter& column = columns[static_cast<std::size_t>(x)];
+        column = {};
+        for (int ny = y0; ny < y1; ++ny) {
+          column.Add(pixels_[Index(x, ny)].halves[half][c]);
+        }
+      }
+      for (int x = 0; x < width_; ++x) {
+        ControlScatter own, window;
+        own.Add(pixels_[Index(x, y)].halves[half][c]);
+        const int x1 = std::min(width_, x + kReach + 1);
+        for (int nx = std::max(0, x - kReach); nx < x1; ++nx) {
+          window.Add(columns[static_cast<std::size_t>(nx)]);
+        }
+        pixels_[Index(x, y)].coefficients[half][c] =
+            static_cast<float>(FitCoefficient(own, window));
+      }
     }
   }
-  return FitCoefficient(own, around);
+}
+
+void ControlFilm::Fit() {
+  ParallelFor(static_cast<std::size_t>(height_),
+              [&](std::size_t y) { FitRow(static_cast<int>(y)); });
 }
 
 Rgb ControlFilm::Correction(std::size_t pixel, std::uint32_t size) const {
@@ -69,7 +103,7 @@ Rgb ControlFilm::Correction(std::size_t pixel, std::uint32_t size) const {
     for (int half = 0; half < 2; ++half) {
       // An incomplete group belongs to the half that it would be in.
       const double open = half == static_cast<int>(p.groups % 2) ? p.open[c] : 0;
-      sum[c] += Coefficient(pixel, 1 - half, c) * (p.halves[half][c].d * size + open);
+      sum[c] += p.coefficients[1 - half][c] * (p.halves[half][c].d * size + open);
     }
   }
   return sum;
@@ -82,7 +116,7 @@ Rgb ControlFilm::ResidualSquares(std::size_t pixel) const {
     double sum = 0, squares = 0, n = 0;
     for (int half = 0; half < 2; ++half) {
       const ControlSums& s = p.halves[half][c];
-      const double k = Coefficient(pixel, 1 - half, c);
+      const double k = p.coefficients[1 - half][c];
       sum += s.f - k * s.d;
       squares += s.ff - 2 * k * s.fd + k * k * s.dd;
       n += s.n;
@@ -95,11 +129,11 @@ Rgb ControlFilm::ResidualSquares(std::size_t pixel) const {
 ControlReport ControlFilm::Report() const {
   ControlScatter total;
   double coefficients = 0;
-  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+  for (const Pixel& p : pixels_) {
     for (int half = 0; half < 2; ++half) {
       for (int c = 0; c < 3; ++c) {
-        total.Add(pixels_[i].halves[half][c]);
-        coefficients += Coefficient(i, half, c);
+        total.Add(p.halves[half][c]);
+        coefficients += p.coefficients[half][c];
       }
     }
   }

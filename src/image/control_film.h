@@ -36,16 +36,19 @@ struct ControlScatter {
   double ff = 0, fd = 0, dd = 0;
   double square = 0;  // sum of f^2: the scale of f
   void Add(const ControlSums& sums);
+  void Add(const ControlScatter& other);
   double Correlation() const;
 };
 
-/// Coefficient that makes f - c D vary least over the observations of `own`; `around`,
-/// of neighbouring pixels, weighs in with at most kNeighbourFreedom degrees of freedom,
-/// so that few observations give no wild values. 0 where D does not vary, save for
+/// Coefficient that makes f - c D vary least over the observations of `own`. `window`, of
+/// these and of neighbouring pixels, weighs in: the neighbours with kNeighbourFreedom
+/// degrees of freedom at most, so that few observations give no wild values. With r the
+/// correlation and n the degrees of freedom, shrunk by max(0, 1 - (1 - r^2) / (n r^2)):
+/// what a fit to noise would gain is lost to others. 0 where D does not vary, save for
 /// rounding (a standard deviation of 1e-5 of f). Limited to +-kMostCoefficient, which no
 /// useful h needs: without it the coefficient of few samples has no finite mean.
-double FitCoefficient(const ControlScatter& own, const ControlScatter& around = {});
-inline constexpr double kNeighbourFreedom = 8;
+double FitCoefficient(const ControlScatter& own, const ControlScatter& window);
+inline constexpr double kNeighbourFreedom = 24;
 inline constexpr double kMostCoefficient = 4;
 
 /// What control variates achieved over an image.
@@ -68,6 +71,9 @@ class ControlFilm {
   /// alternate between the halves.
   void CloseGroup(std::size_t pixel, const double* means, std::uint32_t size);
 
+  /// Fits the coefficients to all samples so far; before, they are 0.
+  void Fit();
+
   /// To subtract from the sum of f over all samples; groups hold `size` samples.
   Rgb Correction(std::size_t pixel, std::uint32_t size) const;
   /// Scatter of the corrected group means about their mean: sum of squares.
@@ -75,13 +81,18 @@ class ControlFilm {
   ControlReport Report() const;
 
  private:
+  static constexpr int kReach = 2;  // window: 5 x 5 pixels
   struct Pixel {
     ControlSums halves[2][3];
     double open[3] = {};
+    float coefficients[2][3] = {};  // fitted to this half, for the other one
     std::uint64_t groups = 0;
   };
-  // From this half of the pixel and its neighbours.
-  double Coefficient(std::size_t pixel, int half, int channel) const;
+  void FitRow(int y);
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
 
   int width_, height_;
   std::vector<Pixel> pixels_;

@@ -230,6 +230,7 @@ class Runner {
     result.seconds = Since(start_);
     result.samples = samples_;
     result.stopped_early = stopped_early;
+    film_.FitControl();
     result.control = regression_ ? regression_->Report() : film_.Control();
     for (const PlannedStage& planned : plan_.stages) {
       StageProfile profile;
