@@ -48,6 +48,7 @@ namespace lanelight {
   X(HaltonBounce)             \
   X(LatticeBounce)            \
   X(AntitheticBounce)         \
+  X(FirstBounce)              \
   X(Route)                    \
   X(SelectLight)              \
   X(SelectLightTree)          \
@@ -59,6 +60,10 @@ namespace lanelight {
   X(SampleDistantLight)       \
   X(SampleInfiniteConstant)   \
   X(SampleInfiniteImage)      \
+  X(AnalyticDiffuse)          \
+  X(AnalyticTransmission)     \
+  X(AmbientDiffuse)           \
+  X(AmbientTransmission)      \
   X(ShadeDiffuse)             \
   X(ShadeDiffuseUniform)      \
   X(ShadeDiffuseInSphere)     \
@@ -76,6 +81,7 @@ namespace lanelight {
   X(ShadowDisks)              \
   X(ShadowPlanes)             \
   X(Connect)                  \
+  X(AmbientScattered)         \
   X(RecordDecision)           \
   X(ConstantRoulette)         \
   X(ThroughputRoulette)       \

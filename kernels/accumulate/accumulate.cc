@@ -40,6 +40,35 @@ HWY_INLINE Checked Check(BadSamples& counts, V3 v, MF valid) {
   return {IfThenElse(bad, zero, v), bad};
 }
 
+// What a control variate with fitted coefficients needs of a sample, as planes after all
+// others. A bad sample is dropped as a whole.
+struct ControlPlanes {
+  const PathColumns& p;
+  const SampleBuffer& buffer;
+  int next;
+
+  HWY_INLINE float* Next() {
+    return buffer.samples + next++ * std::size_t{buffer.stride};
+  }
+
+  /// Makes a sample bad whose control difference is.
+  HWY_INLINE static V3 Poison(V3 sample, V3 difference) {
+    const VF sum = hn::Add(difference.x, hn::Add(difference.y, difference.z));
+    sample.x = hn::IfThenElse(hn::IsFinite(sum), sample.x, hn::NaN(DF()));
+    return sample;
+  }
+  HWY_INLINE void StoreDifference(V3 difference, MF bad, VI output) {
+    float *r = Next(), *g = Next(), *b = Next();
+    Scatter3(IfThenElse(bad, Splat3(0, 0, 0), difference), r, g, b, output);
+  }
+  HWY_INLINE void StorePoints(VI slots, VI output) {
+    for (const float* column :
+         {p.first_0, p.first_1, p.first_2, p.first_3, p.u_film_0, p.u_film_1}) {
+      Scatter(Gather(column, slots), Next(), output);
+    }
+  }
+};
+
 template <bool kSigned, bool kAov>
 void Accumulate(Wave& wave) {
   const PathColumns& p = wave.path;
@@ -52,6 +81,12 @@ void Accumulate(Wave& wave) {
     const VI output = Gather(p.output, slots);
     V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
     if (p.weight != nullptr) sample = Mul(sample, Gather(p.weight, slots));
+    V3 difference = Splat3(0, 0, 0);
+    if (kSigned && p.k_r != nullptr) {
+      difference = Mul(Gather3(p.k_r, p.k_g, p.k_b, slots), exposure);
+      if (p.weight != nullptr) difference = Mul(difference, Gather(p.weight, slots));
+      sample = ControlPlanes::Poison(sample, difference);
+    }
     const Checked checked = Check<kSigned>(wave.bad, sample, valid);
     Scatter3(checked.value, plane(0), plane(1), plane(2), output);
     if constexpr (kAov) {
@@ -59,6 +94,11 @@ void Accumulate(Wave& wave) {
                                 p.aov_n_y,      p.aov_n_z,      p.aov_depth};
       for (int i = 0; i < 7; ++i)
         Scatter(Gather(columns[i], slots), plane(3 + i), output);
+    }
+    if constexpr (kSigned) {
+      ControlPlanes control = {p, buffer, kAov ? 10 : 3};
+      if (p.k_r != nullptr) control.StoreDifference(difference, checked.bad, output);
+      if (p.first_0 != nullptr) control.StorePoints(slots, output);
     }
     Push(wave.queue(QueueId::kFree), slots, valid);
   });
@@ -101,7 +141,8 @@ Stage AccumulateStage() {
           "checks finished samples and frees their slots",
           QueueId::kDone,
           {},
-          fields::kRadiance | fields::kAov | FieldSet{Field::output, Field::weight},
+          fields::kRadiance | fields::kAov | fields::kControl | fields::kFirstBounce |
+              FieldSet{Field::output, Field::weight, Field::u_film_0, Field::u_film_1},
           {},
           ResolveAccumulate};
 }

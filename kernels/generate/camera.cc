@@ -38,6 +38,10 @@ HWY_INLINE void InitialisePaths(const PathColumns& p, const Queue& queue) {
                         p.aov_n_y, p.aov_n_z, p.aov_depth}) {
     Fill(queue, column, 0.0f);
   }
+  for (float* column : {p.k_r, p.k_g, p.k_b}) Fill(queue, column, 0.0f);
+  for (float* column : {p.first_0, p.first_1, p.first_2, p.first_3}) {
+    Fill(queue, column, -1.0f);
+  }
 }
 
 // Film position in pixels: pixel centre plus a point distributed like |filter|.
@@ -159,6 +163,7 @@ Stage CameraStage() {
       {},
       {Field::pixel, Field::u_film_0, Field::u_film_1, Field::u_lens_0, Field::u_lens_1},
       fields::kRay | fields::kThroughput | fields::kRadiance | fields::kAov |
+          fields::kControl | fields::kFirstBounce |
           FieldSet{Field::depth, Field::bsdf_pdf, Field::eta_scale, Field::t,
                    Field::weight},
       ResolveCamera};

@@ -28,6 +28,17 @@ concept HasNumber = requires(const PointsParameters& points, VU v, GroupIndex at
   Policy::Number(points, v, at, v, v);
 };
 
+/// Key of dimension 0 at a depth. Copies of a path that has split draw from dimensions of
+/// their own.
+HWY_INLINE VU FirstKey(const PathColumns& p, VU depth, VI slots) {
+  const VU key = hn::Mul(depth, SplatU(static_cast<uint32_t>(Dimension::kCount)));
+  if (p.branch == nullptr) return key;
+  return hn::Add(key, hn::ShiftLeft<24>(AsUnsigned(Gather(p.branch, slots))));
+}
+HWY_INLINE VU KeyOf(const PathColumns& p, Dimension dimension, VU depth, VI slots) {
+  return hn::Add(FirstKey(p, depth, slots), SplatU(static_cast<uint32_t>(dimension)));
+}
+
 /// Who draws: one batch of paths.
 struct Drawer {
   VI slots;
@@ -39,13 +50,8 @@ struct Drawer {
 template <bool kPlain>
 HWY_INLINE Drawer MakeDrawer(const PathColumns& p, VI slots) {
   const VU depth = AsUnsigned(Gather(p.depth, slots));
-  VU key = hn::Mul(depth, SplatU(static_cast<uint32_t>(Dimension::kCount)));
-  if constexpr (!kPlain) {
-    // Copies of a path that has split draw from dimensions of their own.
-    if (p.branch != nullptr) {
-      key = hn::Add(key, hn::ShiftLeft<24>(AsUnsigned(Gather(p.branch, slots))));
-    }
-  }
+  const VU key = kPlain ? hn::Mul(depth, SplatU(static_cast<uint32_t>(Dimension::kCount)))
+                        : FirstKey(p, depth, slots);
   return {slots, AsUnsigned(Gather(p.pixel, slots)), AsUnsigned(Gather(p.sample, slots)),
           depth, key};
 }

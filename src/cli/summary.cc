@@ -29,6 +29,19 @@ std::string HealthText(const Health& h) {
                      h.Total(), h.nan, h.infinite, h.negative);
 }
 
+// The summary's row on a control variate; empty without one.
+std::string ControlRow(const RunResult& r, const Strategy& strategy) {
+  if (strategy.control == Control::kNone) return "";
+  const double c = r.control ? r.control->coefficient : strategy.coefficient.value_or(1);
+  std::string text =
+      fmt::format("{}, {}c = {:.4g} (in the paper's sign {:.4g})", Name(strategy.control),
+                  strategy.coefficient ? "" : "mean ", c, -c);
+  if (r.control) {
+    text += fmt::format(", correlation reached {:.4f}", r.control->correlation);
+  }
+  return Row("control", text);
+}
+
 std::string SpeedRows(const RunResult& r) {
   const double seconds = r.seconds > 0 ? r.seconds : 1e-9;
   const double closest = double(r.rays_closest), shadow = double(r.rays_shadow);
@@ -82,6 +95,7 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
                 fmt::format("{}: {}", DurationText(r.pilot_seconds), r.pilot_note));
   }
   text += Row("error", ErrorText(report.error));
+  text += ControlRow(r, job.scene.strategy);
   text += Row("health", HealthText(r.health));
   text += Row("time",
               fmt::format("load {}, build {}, render {}, write {}",

@@ -16,24 +16,47 @@ FilmAccumulator::FilmAccumulator(int x0, int y0, int width, int height,
   if (aov) aov_.resize(pixels * kAovPlanes);
 }
 
+void FilmAccumulator::UseControl() {
+  for (const Pixel& p : pixels_) LL_CHECK_EQ(p.samples, std::uint64_t{0});
+  control_.emplace(width_, height_);
+}
+
+void FilmAccumulator::FitControl() {
+  if (control_) control_->Fit();
+}
+
+std::optional<ControlReport> FilmAccumulator::Control() const {
+  if (!control_) return std::nullopt;
+  return control_->Report();
+}
+
 void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
                                  std::uint32_t count) {
-  const std::size_t index = static_cast<std::size_t>(y - y0_) * width_ + (x - x0_);
+  const std::size_t index = Index(x, y);
+  const int first_difference = kColorPlanes + (aov_.empty() ? 0 : kAovPlanes);
   Pixel& p = pixels_[index];
   for (std::uint32_t i = 0; i < count; ++i) {
     ++p.samples;
     const bool closes_group = p.samples % group_size_ == 0;
+    double means[kColorPlanes];
     for (int c = 0; c < kColorPlanes; ++c) {
       const double value = planes[c][i];
       p.sum[c] += value;
       p.group[c] += value;
+      if (control_) {
+        control_->AddDifference(index, c, planes[first_difference + c][i]);
+      }
       if (!closes_group) continue;
       const double mean = p.group[c] / group_size_;
       p.squares[c] += mean * mean;
       p.group_total[c] += mean;
       p.group[c] = 0;
+      means[c] = mean;
     }
-    if (closes_group) ++p.groups;
+    if (closes_group) {
+      ++p.groups;
+      if (control_) control_->CloseGroup(index, means, group_size_);
+    }
     for (int a = 0; a < kAovPlanes && !aov_.empty(); ++a) {
       aov_[index * kAovPlanes + a] += planes[kColorPlanes + a][i];
     }
@@ -43,7 +66,9 @@ void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
 Rgb FilmAccumulator::Mean(int x, int y) const {
   const Pixel& p = pixel(x, y);
   if (p.samples == 0) return {};
-  return Rgb{p.sum[0], p.sum[1], p.sum[2]} / static_cast<double>(p.samples);
+  Rgb sum = {p.sum[0], p.sum[1], p.sum[2]};
+  if (control_) sum = sum - control_->Correction(Index(x, y), group_size_);
+  return sum / static_cast<double>(p.samples);
 }
 
 Rgb FilmAccumulator::Variance(int x, int y) const {
@@ -53,6 +78,7 @@ Rgb FilmAccumulator::Variance(int x, int y) const {
   // Sample variance of the group means, over n for the variance of their mean, and scaled
   // down by the share of samples that incomplete groups add.
   const double share = n * group_size_ / static_cast<double>(p.samples);
+  if (control_) return control_->ResidualSquares(Index(x, y)) * (share / (n * (n - 1)));
   Rgb variance;
   for (int c = 0; c < 3; ++c) {
     const double mean = p.group_total[c] / n;
@@ -66,7 +92,7 @@ double FilmAccumulator::Aov(int x, int y, int plane) const {
   const Pixel& p = pixel(x, y);
   LL_CHECK(has_aov());
   if (p.samples == 0) return 0;
-  const std::size_t index = static_cast<std::size_t>(y - y0_) * width_ + (x - x0_);
+  const std::size_t index = Index(x, y);
   return aov_[index * kAovPlanes + plane] / static_cast<double>(p.samples);
 }
 

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "src/core/vec.h"
+#include "src/image/control_film.h"
 
 namespace lanelight {
 
@@ -26,6 +28,14 @@ class FilmAccumulator {
   int height() const { return height_; }
   std::uint32_t group_size() const { return group_size_; }
   bool has_aov() const { return !aov_.empty(); }
+
+  /// From here on (before any sample), samples have three further planes after all
+  /// others: the difference h - E[h] of a control variate whose coefficient the film
+  /// fits. After FitControl, Mean and Variance are those of the corrected samples.
+  void UseControl();
+  void FitControl();
+  /// What the control variate achieved; empty without UseControl.
+  std::optional<ControlReport> Control() const;
 
   /// Adds `count` consecutive samples of one pixel; planes[p][i * step] is plane p of the
   /// i-th. Must be called with the samples of a pixel in order. Safe for different pixels
@@ -47,14 +57,16 @@ class FilmAccumulator {
     double sum[3] = {}, group[3] = {}, squares[3] = {}, group_total[3] = {};
     std::uint64_t samples = 0, groups = 0;
   };
-  const Pixel& pixel(int x, int y) const {
-    return pixels_[static_cast<std::size_t>(y - y0_) * width_ + (x - x0_)];
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y - y0_) * width_ + (x - x0_);
   }
+  const Pixel& pixel(int x, int y) const { return pixels_[Index(x, y)]; }
 
   int x0_, y0_, width_, height_;
   std::uint32_t group_size_;
   std::vector<Pixel> pixels_;
   std::vector<double> aov_;  // kAovPlanes sums per pixel
+  std::optional<ControlFilm> control_;
 };
 
 }  // namespace lanelight

@@ -42,7 +42,7 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
                  [&] { job.scene_hash = HashSceneFiles(scene_path); });
   ApplySettings(settings, job.description);
   job.window = CropWindow(job.description.film);
-  CheckFilmFits(job.window, settings.aov, PhysicalMemory());
+  CheckFilmFits(job.window, settings.aov, job.description.strategy, PhysicalMemory());
   job.load_seconds = watch.Lap();
 
   job.scene = CompileScene(job.description, CompileOptionsOf(settings));

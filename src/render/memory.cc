@@ -8,6 +8,7 @@
 
 #include "src/core/error.h"
 #include "src/image/accumulator.h"
+#include "src/image/regression_film.h"
 
 namespace lanelight {
 namespace {
@@ -18,12 +19,20 @@ constexpr std::uint64_t kSumsPerPixel = (4 * kColorPlanes + 2) * sizeof(double);
 constexpr std::uint64_t kPlanesPerPixel = (2 * kColorPlanes + 1) * sizeof(float);
 constexpr std::uint64_t kAovPerPixel = kAovPlanes * (sizeof(double) + sizeof(float));
 
+// Sums from which the coefficients of control variates are fitted.
+std::uint64_t ControlPerPixel(const Strategy& strategy) {
+  if (strategy.control == Control::kNone) return 0;
+  if (strategy.control == Control::kRegression) return RegressionFilm::BytesPerPixel();
+  return strategy.coefficient ? 0 : ControlFilm::BytesPerPixel();
+}
+
 }  // namespace
 
-std::uint64_t FilmBytes(const PixelWindow& window, bool aov) {
+std::uint64_t FilmBytes(const PixelWindow& window, bool aov, const Strategy& strategy) {
   // The planes exist twice for a moment: as planes, and packed into the file's bytes.
-  const std::uint64_t per_pixel =
-      kSumsPerPixel + 2 * kPlanesPerPixel + (aov ? 2 * kAovPerPixel : 0);
+  const std::uint64_t per_pixel = kSumsPerPixel + 2 * kPlanesPerPixel +
+                                  (aov ? 2 * kAovPerPixel : 0) +
+                                  ControlPerPixel(strategy);
   return window.pixels() * per_pixel;
 }
 
@@ -38,8 +47,9 @@ std::uint64_t PhysicalMemory() {
   return bytes;
 }
 
-void CheckFilmFits(const PixelWindow& window, bool aov, std::uint64_t memory) {
-  const std::uint64_t need = FilmBytes(window, aov);
+void CheckFilmFits(const PixelWindow& window, bool aov, const Strategy& strategy,
+                   std::uint64_t memory) {
+  const std::uint64_t need = FilmBytes(window, aov, strategy);
   if (need <= memory) return;
   constexpr double kGiB = 1 << 30;
   throw InputError(

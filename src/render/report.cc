@@ -38,6 +38,13 @@ Json ProfileJson(const std::vector<StageProfile>& stages) {
   return out;
 }
 
+Json ControlJson(const std::optional<ControlReport>& control) {
+  if (!control) return nullptr;
+  return {{"coefficient", control->coefficient},
+          {"paper_coefficient", -control->coefficient},
+          {"correlation", control->correlation}};
+}
+
 Json SettingsJson(const Job& job, bool half) {
   const Film& film = job.description.film;
   const PixelWindow& w = job.window;
@@ -138,6 +145,7 @@ Json ToJson(const RenderReport& report, const Job& job) {
       {"rays_per_second", double(rays) / seconds},
       {"stopped_early", r.stopped_early},
       {"error", ToJson(report.error)},
+      {"control", ControlJson(r.control)},
       {"health",
        {{"nan", r.health.nan},
         {"infinite", r.health.infinite},

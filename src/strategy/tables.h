@@ -3,12 +3,14 @@
 
 #include "src/core/aligned.h"
 #include "src/scene/compiled.h"
+#include "src/strategy/ambient.h"
 #include "src/strategy/path_values.h"
 
 namespace lanelight {
 
 struct StrategyTables {
-  PathValues path_values;  // adjoint, efficiency: set by the pilot passes
+  PathValues path_values;             // adjoint, efficiency: set by the pilot passes
+  std::vector<AmbientLight> ambient;  // control=ambient
 };
 
 /// What the strategy of the scene needs, and nothing else.

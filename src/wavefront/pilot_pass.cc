@@ -7,6 +7,7 @@
 #include "src/core/check.h"
 #include "src/core/parallel.h"
 #include "src/strategy/tables.h"
+#include "src/wavefront/copies.h"
 #include "src/wavefront/drive.h"
 #include "src/wavefront/plan_features.h"
 #include "src/wavefront/tiles.h"
@@ -88,7 +89,7 @@ class Pass {
     std::vector<float> values(std::size_t{rows} * static_cast<std::size_t>(planes));
     std::vector<StageCounters> untimed;
     Drive(*wavefront, plan_, work, {values.data(), rows}, untimed);
-    if (copies_ > 1) FoldCopies(values.data(), rows, planes);
+    if (copies_ > 1) FoldCopies(values.data(), rows, planes, kColorPlanes);
     for (std::size_t i = 0; i < count; ++i) {
       samples_.colors[first * kPilotSpp + i] = {values[i], values[count + i],
                                                 values[2 * count + i]};
@@ -130,22 +131,6 @@ PilotSamples RunPilotPass(const CompiledScene& scene, const PlanOptions& options
                           const RunParameters& run,
                           const std::vector<std::uint32_t>& pixels) {
   return Pass(scene, options, run, pixels).Run();
-}
-
-void FoldCopies(float* values, std::uint32_t rows, int planes) {
-  const std::size_t samples = rows / kMostCopies;
-  LL_CHECK_EQ(samples * kMostCopies, rows);
-  for (int p = 0; p < planes; ++p) {
-    const float* from = values + static_cast<std::size_t>(p) * rows;
-    float* to = values + static_cast<std::size_t>(p) * samples;
-    for (std::size_t i = 0; i < samples; ++i) {
-      float sum = from[i * kMostCopies];
-      for (std::uint32_t c = 1; c < kMostCopies && p < kColorPlanes; ++c) {
-        sum += from[i * kMostCopies + c];
-      }
-      to[i] = sum;
-    }
-  }
 }
 
 }  // namespace lanelight

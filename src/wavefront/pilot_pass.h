@@ -51,9 +51,4 @@ PilotSamples RunPilotPass(const CompiledScene& scene, const PlanOptions& options
                           const RunParameters& run,
                           const std::vector<std::uint32_t>& pixels);
 
-/// Adds up the copies of each sample, in place and in their order: rows
-/// sample * kMostCopies + copy of a plane of `rows` become rows `sample` of a plane of
-/// rows / kMostCopies. Colours are summed, the planes behind them are the first copy's.
-void FoldCopies(float* values, std::uint32_t rows, int planes);
-
 }  // namespace lanelight

@@ -2,6 +2,7 @@
 
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/strategy/ambient.h"
 
 namespace lanelight {
 namespace {
@@ -91,6 +92,20 @@ void AddControl(const Strategy& strategy, FeatureSet& f) {
   throw InputError("strategy: " + message);
 }
 
+// Light samples alone must find every direction of at least one environment.
+void CheckAmbient(const Strategy& s, const CompiledScene& scene) {
+  if (s.directions != Directions::kLight) return;
+  for (std::uint32_t index : scene.lights.infinite) {
+    const std::int32_t e = scene.lights.lights[index].environment;
+    if (e < 0) return;
+    if (SamplesEveryDirection(scene.lights.environments[static_cast<std::size_t>(e)]))
+      return;
+  }
+  Refuse(
+      "control=ambient with directions=light needs an environment that light samples "
+      "find all of; this one has black or very dark directions: use directions=mis");
+}
+
 void CheckControl(const Strategy& s, const CompiledScene& scene,
                   const PlanOptions& options) {
   if (s.control == Control::kNone) return;
@@ -109,6 +124,7 @@ void CheckControl(const Strategy& s, const CompiledScene& scene,
                            ? "; control=analytic is for its area lights"
                            : "; control=regression needs no light of a kind"));
   }
+  if (s.control == Control::kAmbient) CheckAmbient(s, scene);
   if (s.control != Control::kAnalytic) return;
   if (!f.Has(Feature::kAreaLights)) {
     Refuse("control=analytic needs emitting shapes, and this scene has none" +

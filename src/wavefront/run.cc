@@ -8,7 +8,9 @@
 #include "kernels/simd/target.h"
 #include "src/core/check.h"
 #include "src/core/parallel.h"
+#include "src/image/regression_film.h"
 #include "src/strategy/tables.h"
+#include "src/wavefront/copies.h"
 #include "src/wavefront/drive.h"
 #include "src/wavefront/pilot.h"
 #include "src/wavefront/pilot_pass.h"
@@ -57,6 +59,7 @@ class Runner {
     if (scene.strategy.pairs == Pairs::kAntithetic)
       partition_.samples += partition_.samples & 1;
     planes_ = kColorPlanes + (film.has_aov() ? kAovPlanes : 0);
+    UseControl();
     workspaces_.resize(static_cast<std::size_t>(MaxThreads()) + 1);
     pixel_count_ = std::uint64_t(pixels.width()) * pixels.height();
   }
@@ -96,6 +99,8 @@ class Runner {
 
   // Without a sample count the partition assumes many samples.
   static constexpr std::uint64_t kOpenEndedSpp = 32;
+  static constexpr int kMostPlanes =
+      kColorPlanes + kAovPlanes + kColorPlanes + RegressionFilm::kPlanes;
 
   RunParameters Parameters() const {
     RunParameters run;
@@ -115,6 +120,20 @@ class Runner {
     run.exposure = static_cast<float>(scene_.film.imaging_ratio);
     run.features = plan_.features;
     return run;
+  }
+
+  // Control variates whose coefficients come from the samples take further planes.
+  void UseControl() {
+    if (plan_.features.Has(Feature::kControlDifference)) {
+      film_.UseControl();
+      difference_plane_ = planes_;
+      planes_ += kColorPlanes;
+    }
+    if (!plan_.features.Has(Feature::kRegressionControl)) return;
+    regression_.emplace(film_.x0(), film_.y0(), film_.width(), film_.height(),
+                        film_.group_size(), scene_.strategy.coefficient.value_or(1));
+    numbers_plane_ = planes_;
+    planes_ += RegressionFilm::kPlanes;
   }
 
   bool Stopped() const {
@@ -191,19 +210,25 @@ class Runner {
     const std::size_t size = std::size_t{rows} * static_cast<std::size_t>(planes_);
     if (out.values.size() < size) out.values.resize(size);
     // A sample that has not split leaves the rows of its further copies alone.
-    if (splits) std::fill_n(out.values.begin(), std::size_t{rows} * kColorPlanes, 0.0f);
+    if (splits) std::fill_n(out.values.begin(), size, 0.0f);
     Drive(space.wavefront, plan_, work, {out.values.data(), rows}, space.counters);
-    if (splits) FoldCopies(out.values.data(), rows, planes_);
+    if (splits) FoldCopies(out.values.data(), rows, planes_, difference_plane_);
     samples_ += stride;
     ReportProgress();
   }
 
-  void Merge(const PixelRect& tile, const TaskSamples& task) {
+  void Merge(const PixelRect& tile, TaskSamples& task) {
     std::vector<std::uint32_t> pixels;
     TilePixels(tile, scene_.film.width, &pixels);
     const std::size_t stride = pixels.size() * task.count;
+    if (regression_) {
+      const auto num_pixels = static_cast<std::uint32_t>(pixels.size());
+      regression_->Correct({tile.x0, tile.y0, tile.x1, tile.y1, pixels.data(), num_pixels,
+                            run_.width, task.values.data(), task.count},
+                           numbers_plane_);
+    }
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      const float* planes[kColorPlanes + kAovPlanes];
+      const float* planes[kMostPlanes];
       for (int p = 0; p < planes_; ++p)
         planes[p] = task.values.data() + p * stride + i * task.count;
       film_.AddSamples(static_cast<int>(pixels[i] % run_.width),
@@ -236,6 +261,8 @@ class Runner {
     result.pilot_rays = pilot_.rays;
     result.pilot_note = pilot_.note;
     result.roulette = plan_.options.roulette.value_or(scene_.strategy.roulette);
+    film_.FitControl();
+    result.control = regression_ ? regression_->Report() : film_.Control();
     for (const PlannedStage& planned : plan_.stages) {
       StageProfile profile;
       profile.name = planned.stage.name;
@@ -279,6 +306,9 @@ class Runner {
   PilotOutcome pilot_;
   double pilot_seconds_ = 0;
   int planes_ = kColorPlanes;
+  int difference_plane_ = 0;  // of c=optimal, if there are such planes
+  std::optional<RegressionFilm> regression_;
+  int numbers_plane_ = 0;
   std::uint64_t pixel_count_ = 0;
   std::vector<std::unique_ptr<Workspace>> workspaces_;
   std::vector<TaskSamples> buffers_;

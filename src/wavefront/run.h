@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,8 @@ struct RunResult {
   Health health;
   std::vector<StageProfile> stages;  // in execution order
   bool stopped_early = false;
-  std::size_t wavefront_bytes = 0;  // all wavefronts and sample buffers together
+  std::optional<ControlReport> control;  // of control variates that are fitted
+  std::size_t wavefront_bytes = 0;       // all wavefronts and sample buffers together
   // Pilot passes (roulette=adjoint, efficiency); their time is part of `seconds`, their
   // samples and rays are not part of those above.
   double pilot_seconds = 0;

@@ -9,10 +9,10 @@
 namespace lanelight {
 
 struct Stage {
-  const char* name;    // also the profile row
-  const char* meaning; // one line
-  QueueId input;       // skipped when empty
-  FeatureSet needs;    // all of these, or the stage is absent
+  const char* name;     // also the profile row
+  const char* meaning;  // one line
+  QueueId input;        // skipped when empty
+  FeatureSet needs;     // all of these, or the stage is absent
   FieldSet reads, writes;
   /// Kernel for these features on the chosen target; the features select among the
   /// stage's few template variants.

@@ -76,8 +76,8 @@ TEST_CASE("a film beyond the memory is refused with both numbers", "[render]") {
   CHECK(FilmBytes(window, true) > FilmBytes(window, false));
   CHECK(FilmBytes(window, false) > window.pixels() * 100);
   const std::uint64_t gib = std::uint64_t{1} << 30;
-  CHECK_NOTHROW(CheckFilmFits(window, false, 1000 * gib));
-  CHECK_THROWS_WITH(CheckFilmFits(window, false, 16 * gib),
+  CHECK_NOTHROW(CheckFilmFits(window, false, {}, 1000 * gib));
+  CHECK_THROWS_WITH(CheckFilmFits(window, false, {}, 16 * gib),
                     Contains("32768x32768") && Contains("16.0 GiB"));
   CHECK(PhysicalMemory() > gib / 4);
 }

@@ -1,0 +1,40 @@
+// Environments as control=ambient sees them (src/strategy/ambient.h).
+#if defined(LANELIGHT_CONTROL_AMBIENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_CONTROL_AMBIENT_INL_H_
+#undef LANELIGHT_CONTROL_AMBIENT_INL_H_
+#else
+#define LANELIGHT_CONTROL_AMBIENT_INL_H_
+#endif
+
+#include "kernels/simd/vec3-inl.h"
+#include "src/strategy/ambient.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Three quadratics, one per channel, at unit direction d.
+HWY_INLINE V3 EvalQuadratics(const Quadratic* q, V3 d) {
+  const VF monomials[] = {d.x,
+                          d.y,
+                          d.z,
+                          hn::Mul(d.x, d.y),
+                          hn::Mul(d.y, d.z),
+                          hn::Mul(d.z, d.x),
+                          hn::Mul(d.z, d.z),
+                          hn::Mul(hn::Sub(d.x, d.y), hn::Add(d.x, d.y))};
+  VF out[3];
+  for (int channel = 0; channel < 3; ++channel) {
+    const float* c = q[channel].c;
+    VF sum = Splat(c[0]);
+    for (int i = 0; i < 8; ++i) sum = hn::MulAdd(Splat(c[i + 1]), monomials[i], sum);
+    out[channel] = sum;
+  }
+  return {out[0], out[1], out[2]};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,95 @@
+// The part of control=ambient that scattered rays estimate (ambient.cc): before roulette,
+// which would only add noise to h, and which the expectation knows nothing of.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/control/ambient_scattered.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/control/ambient-inl.h"
+#include "kernels/control/apply-inl.h"
+#include "kernels/lights/environment-inl.h"
+#include "src/strategy/tables.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// Paths that have just left a surface that the control variate works on.
+HWY_INLINE const Queue& FromDiffuse(Wave& wave) {
+  const MaterialTable& m = wave.scene->materials;
+  return FilterQueue(wave, wave.queue(QueueId::kScattered), [&](VI slots) HWY_ATTR {
+    const VI kind = Gather(m.kind.data(), Gather(wave.path.material, slots));
+    const auto is = [&](ShadeKind k) HWY_ATTR {
+      return hn::Eq(kind, hn::Set(DI(), static_cast<int32_t>(k)));
+    };
+    return hn::RebindMask(
+        DF(), hn::Or(is(ShadeKind::kDiffuse), is(ShadeKind::kDiffuseTransmission)));
+  });
+}
+
+template <bool kMis>
+HWY_INLINE VF ScatteredWeight(const Wave& wave, const LightRecord& light, V3 d,
+                              VI slots) {
+  if constexpr (!kMis) return Splat(1.0f);
+  const LightTable& table = wave.scene->lights;
+  VF pdf = Splat(0.0795774715459476679f);  // 1 / (4 pi)
+  if (light.environment >= 0) {
+    const auto index = static_cast<std::size_t>(light.environment);
+    pdf = LookUpEnvironment(table.environments[index], d).pdf_sa;
+  }
+  return EmissionWeight(wave.run->mis, Gather(wave.path.bsdf_pdf, slots),
+                        hn::Mul(pdf, Splat(light.pmf)));
+}
+
+template <bool kMis>
+void AmbientScattered(Wave& wave) {
+  if (kMis && wave.run->mis.hits == 0) return;  // directions=light
+  const PathColumns& path = wave.path;
+  ForEachBatch(wave, FromDiffuse(wave), [&](VI slots, MF) HWY_ATTR {
+    const V3 d = Gather3(path.d_x, path.d_y, path.d_z, slots);
+    V3 sum = Splat3(0, 0, 0);
+    for (const AmbientLight& ambient : wave.run->tables->ambient) {
+      const LightRecord& light = wave.scene->lights.lights[ambient.light];
+      sum = MulAdd(EvalQuadratics(ambient.radiance, d),
+                   ScatteredWeight<kMis>(wave, light, d, slots), sum);
+    }
+    const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
+    ApplyControl(wave, slots, Mul(beta, sum));
+  });
+}
+
+void AmbientScatteredMis(Wave& wave) { AmbientScattered<true>(wave); }
+void AmbientScatteredPlain(Wave& wave) { AmbientScattered<false>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/wavefront/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(AmbientScatteredMis);
+HWY_EXPORT(AmbientScatteredPlain);
+
+Stage AmbientScatteredStage() {
+  using namespace fields;
+  return {"control_ambient_scattered",
+          "the environment that scattered rays would see",
+          QueueId::kScattered,
+          {Feature::kAmbientControl, Feature::kScatters},
+          kRay | kThroughput | kRadiance | kControl |
+              FieldSet{Field::material, Field::bsdf_pdf},
+          kRadiance | kControl,
+          [](const FeatureSet& features) -> StageFn {
+            return features.Has(Feature::kMis)
+                       ? HWY_DYNAMIC_DISPATCH(AmbientScatteredMis)
+                       : HWY_DYNAMIC_DISPATCH(AmbientScatteredPlain);
+          }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,101 @@
+// Estimated coefficients of control variates: per pixel and channel, cross-fitted between
+// two halves of the samples.
+//
+//   estimator   1/n (sum over half A of (f - c_B D) + sum over half B of (f - c_A D)),
+//               D = h - E[h], c_X = Cov(f, D) / Var(D) from the groups of half X
+//   unbiased    c_B is a function of samples that are independent of half A, so that
+//               E[c_B D_A] = E[c_B] E[D_A] = 0. With c from the samples it multiplies,
+//               E[c D] is of order (skewness) / n
+//   variance    (1 - rho^2) (1 + O(1 / n)) of that without control
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/core/vec.h"
+
+namespace lanelight {
+
+/// Sums over observations of f and D.
+struct ControlSums {
+  double n = 0, f = 0, d = 0, ff = 0, fd = 0, dd = 0;
+  void Add(double value, double difference) {
+    n += 1;
+    f += value;
+    d += difference;
+    ff += value * value;
+    fd += value * difference;
+    dd += difference * difference;
+  }
+};
+
+/// Sums of squares and products about the means, which those of different pixels may be
+/// added to.
+struct ControlScatter {
+  double freedom = 0;  // observations less one per mean
+  double ff = 0, fd = 0, dd = 0;
+  double square = 0;  // sum of f^2: the scale of f
+  void Add(const ControlSums& sums);
+  void Add(const ControlScatter& other);
+  double Correlation() const;
+};
+
+/// Coefficient that makes f - c D vary least over the observations of `own`. `window`, of
+/// these and of neighbouring pixels, weighs in: the neighbours with kNeighbourFreedom
+/// degrees of freedom at most, so that few observations give no wild values. With r the
+/// correlation and n the degrees of freedom, shrunk by max(0, 1 - (1 - r^2) / (n r^2)):
+/// what a fit to noise would gain is lost to others. 0 where D does not vary, save for
+/// rounding (a standard deviation of 1e-5 of f). Limited to +-kMostCoefficient, which no
+/// useful h needs: without it the coefficient of few samples has no finite mean.
+double FitCoefficient(const ControlScatter& own, const ControlScatter& window);
+inline constexpr double kNeighbourFreedom = 24;
+inline constexpr double kMostCoefficient = 4;
+
+/// What control variates achieved over an image.
+struct ControlReport {
+  double coefficient = 0;  // mean; the paper's equation 7 has the opposite sign
+  double correlation = 0;  // of f and D, over the variance of all pixels and channels
+};
+
+/// Sums of one film, by pixel index y * width + x.
+class ControlFilm {
+ public:
+  ControlFilm(int width, int height);
+  static std::size_t BytesPerPixel() { return sizeof(Pixel); }
+
+  /// Adds one sample's difference to the open group.
+  void AddDifference(std::size_t pixel, int channel, double difference) {
+    pixels_[pixel].open[channel] += difference;
+  }
+  /// Closes the open group of `size` samples; `means`: of f, per channel. Groups
+  /// alternate between the halves.
+  void CloseGroup(std::size_t pixel, const double* means, std::uint32_t size);
+
+  /// Fits the coefficients to all samples so far; before, they are 0.
+  void Fit();
+
+  /// To subtract from the sum of f over all samples; groups hold `size` samples.
+  Rgb Correction(std::size_t pixel, std::uint32_t size) const;
+  /// Scatter of the corrected group means about their mean: sum of squares.
+  Rgb ResidualSquares(std::size_t pixel) const;
+  ControlReport Report() const;
+
+ private:
+  static constexpr int kReach = 2;  // window: 5 x 5 pixels
+  struct Pixel {
+    ControlSums halves[2][3];
+    double open[3] = {};
+    float coefficients[2][3] = {};  // fitted to this half, for the other one
+    std::uint64_t groups = 0;
+  };
+  void FitRow(int y);
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
+  int width_, height_;
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace lanelight

@@ -1,0 +1,158 @@
+// Coefficients fitted to one half of the samples and used on the other: unbiased with few
+// samples of skewed distributions, where fitting to all of them is not.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "src/image/accumulator.h"
+#include "tests/control/control_scenes.h"
+#include "tests/reference/closed_forms.h"
+
+namespace lanelight::test {
+namespace {
+
+// D exponential less its mean 1, f its square: mean 2, E[f D^2] far from E[f] E[D^2].
+struct Skewed {
+  std::mt19937 engine;
+  explicit Skewed(unsigned seed) : engine(seed) {}
+  void Draw(float* f, float* d) {
+    const double x = std::exponential_distribution<double>(1)(engine);
+    *f = static_cast<float>(x * x);
+    *d = static_cast<float>(x - 1);
+  }
+};
+constexpr double kMean = 2;
+
+// How far the mean over many estimates is from the truth, in standard errors.
+struct Score {
+  double n = 0, sum = 0, squares = 0;
+  void Add(double v) {
+    n += 1;
+    sum += v;
+    squares += v * v;
+  }
+  double Z(double truth) const {
+    const double mean = sum / n, variance = (squares / n - mean * mean) / (n - 1);
+    return (mean - truth) / std::sqrt(variance);
+  }
+};
+
+struct Scores {
+  Score cross, same;
+  double variance = 0;  // mean of what the film says
+};
+
+// Pixels of `spp` samples in groups of `group`; fitted by the film, and by the twin that
+// uses the samples which the coefficient multiplies.
+Scores Simulate(int side, std::uint32_t spp, std::uint32_t group, unsigned seed) {
+  Skewed model(seed);
+  FilmAccumulator film(0, 0, side, side, group, false);
+  film.UseControl();
+  Scores out;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      std::vector<float> f(spp), d(spp);
+      ControlSums sums;
+      for (std::uint32_t i = 0; i < spp; ++i) {
+        model.Draw(&f[i], &d[i]);
+        sums.Add(double(f[i]), double(d[i]));
+      }
+      const float* planes[] = {f.data(), f.data(), f.data(),
+                               d.data(), d.data(), d.data()};
+      film.AddSamples(x, y, planes, spp);
+      ControlScatter all;
+      all.Add(sums);
+      out.same.Add((sums.f - FitCoefficient(all, all) * sums.d) / sums.n);
+    }
+  }
+  film.FitControl();
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      out.cross.Add(film.Mean(x, y).x);
+      out.variance += film.Variance(x, y).x / (side * side);
+    }
+  }
+  return out;
+}
+
+// Two-sided 1e-6 is 4.9 standard errors; the family of these tests shares it.
+constexpr double kReject = 5.5;
+
+}  // namespace
+
+TEST_CASE("cross-fitted coefficients are unbiased, others are not", "[control]") {
+  for (std::uint32_t spp : {8u, 11u, 16u}) {
+    const Scores s = Simulate(160, spp, 1, spp);
+    INFO(spp << " samples: " << s.cross.Z(kMean) << " " << s.same.Z(kMean));
+    CHECK(std::abs(s.cross.Z(kMean)) < kReject);
+    CHECK(std::abs(s.same.Z(kMean)) > 2 * kReject);
+  }
+}
+
+TEST_CASE("cross-fitting by groups, with an incomplete one", "[control]") {
+  const Scores s = Simulate(160, 26, 4, 3);
+  CHECK(std::abs(s.cross.Z(kMean)) < kReject);
+}
+
+TEST_CASE("cross-fitting alone in a pixel", "[control]") {
+  Score cross;
+  for (unsigned seed = 0; seed < 4000; ++seed) {
+    Scores one = Simulate(1, 12, 1, 1000 + seed);
+    cross.Add(one.cross.sum);
+  }
+  CHECK(std::abs(cross.Z(kMean)) < kReject);
+}
+
+TEST_CASE("the film's variance is that of the corrected mean", "[control]") {
+  const Scores s = Simulate(128, 64, 1, 5);
+  const double n = s.cross.n, mean = s.cross.sum / n;
+  const double seen = s.cross.squares / n - mean * mean;
+  CHECK(s.variance == Approx(seen).epsilon(0.1));
+  // Cov(x^2, x) / Var(x) = 4 and r^2 = 16 / 20: four fifths of the variance 20 / 64 go.
+  CHECK(seen < 0.35 * 20 / 64);
+}
+
+TEST_CASE("coefficients of differences that do not vary are zero", "[control]") {
+  ControlSums sums;
+  for (double f : {1.0, 3.0, 2.0, 7.0}) sums.Add(f, 0);
+  ControlScatter scatter;
+  scatter.Add(sums);
+  CHECK(FitCoefficient(scatter, scatter) == 0);
+  CHECK(scatter.Correlation() == 0);
+  CHECK(FitCoefficient({}, {}) == 0);
+  ControlSums rounding;  // follows f, but is no more than its last digits
+  for (double f : {1.0, 3.0, 2.0, 7.0}) rounding.Add(f, 1e-7 * f);
+  ControlScatter tiny;
+  tiny.Add(rounding);
+  CHECK(FitCoefficient(tiny, tiny) == 0);
+  ControlSums linear;
+  for (double d : {-1.0, 0.5, 0.25, 2.0}) linear.Add(4 + 0.75 * d, d);
+  ControlScatter fit;
+  fit.Add(linear);
+  CHECK(FitCoefficient(fit, fit) == Approx(0.75));
+  CHECK(fit.Correlation() == Approx(1));
+}
+
+TEST_CASE("optimal control with few samples has the closed form's mean", "[control]") {
+  const int size = 48;
+  const std::vector<Vec3d> corners = PolygonCorners();
+  const auto exact = stat::KnownImage(size, size, [&](int x, int y) {
+    double sum = 0;
+    for (int k = 0; k < 4; ++k) {
+      const Vec3d p = FilmPoint(x + (k % 2 + 0.5) / 2, y + (k / 2 + 0.5) / 2, size);
+      sum += closed_form::PolygonIrradiance(3, corners, p, {0, 0, 1}) / 4;
+    }
+    return Grey(0.5 / std::numbers::pi * sum);
+  });
+  for (const char* strategy :
+       {"control=analytic", "control=analytic,directions=light",
+        "control=analytic,points=sobol", "control=analytic,pairs=antithetic"}) {
+    const Rendered render = RenderWith(PolygonLight(size), strategy, 16);
+    const auto result =
+        stat::CompareMeans(Estimate(render), exact, {12, 1e-6, 5e-4, 1e-6});
+    INFO(strategy << ": " << result.ToString());
+    CHECK(result.same);
+    CHECK(result.detectable_bias < 0.01);
+  }
+}
+
+}  // namespace lanelight::test
