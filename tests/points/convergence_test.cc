@@ -5,6 +5,7 @@
 // periodic ones; -3/4 for all of them at an edge. Halton groups that are not 2^a 3^b, and
 // these up to a constant: -1. Correlated multi-jittered points: -3/4, or -3/2 for sums of
 // functions of one variable.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -34,11 +35,19 @@ const Integrand kPeriodic = {
 const Integrand kDisk = {[](double x, double y) { return x * x + y * y < 0.6 ? 1 : 0; },
                          0.6 * pi / 4};
 
+enum class Plant { kNone, kRepeatedIndex };
+
 // Root mean square error over pixels of the mean of N points of one group.
-double Rmse(Points points, std::uint32_t n, const Integrand& integrand) {
+double Rmse(Points points, std::uint32_t n, const Integrand& integrand,
+            Plant plant = Plant::kNone) {
   constexpr std::uint32_t kPixels = 256;
   const std::uint32_t group = points == Points::kIndependent ? 1 : n;
-  const Drawn p = Draw({points, 5, 1000, group, 7, 0, n, kPixels});
+  Drawn p = Draw({points, 5, 1000, group, 7, 0, n, kPixels});
+  if (plant == Plant::kRepeatedIndex) {
+    for (std::vector<float>* u : {&p.u0, &p.u1}) {
+      std::copy_n(u->begin(), kPixels, u->end() - kPixels);
+    }
+  }
   double sum = 0;
   for (std::size_t pixel = 0; pixel < kPixels; ++pixel) {
     double mean = 0;
@@ -51,12 +60,12 @@ double Rmse(Points points, std::uint32_t n, const Integrand& integrand) {
   return std::sqrt(sum / kPixels);
 }
 
-double Slope(Points points, const Integrand& integrand) {
+double Slope(Points points, const Integrand& integrand, Plant plant = Plant::kNone) {
   const std::uint32_t last = points == Points::kPmj02 ? kPmj02Points : 4096;
   std::vector<double> n, rmse;
   for (std::uint32_t i = 4; i <= last; i *= 4) {
     n.push_back(i);
-    rmse.push_back(Rmse(points, i, integrand));
+    rmse.push_back(Rmse(points, i, integrand, plant));
   }
   return LogSlope(n, rmse);
 }
@@ -113,6 +122,14 @@ TEST_CASE("edges bring all stratified points near N^-3/4", "[points]") {
     INFO(Name(points));
     CHECK(Slope(points, kDisk) == Approx(-0.75).margin(0.08));
   }
+}
+
+TEST_CASE("planted: one repeated index costs the order", "[points]") {
+  for (Points points : {Points::kSobol, Points::kPmj02}) {
+    CHECK(Slope(points, kSum, Plant::kRepeatedIndex) > -1.3);
+    CHECK(Slope(points, kProduct, Plant::kRepeatedIndex) > -1.3);
+  }
+  CHECK(Slope(Points::kCmj, kSum, Plant::kRepeatedIndex) > -1.3);
 }
 
 }  // namespace lanelight::test
