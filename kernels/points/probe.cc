@@ -39,8 +39,8 @@ HWY_INLINE void ForEachPoint(const PointsQuery& q, Body&& body) {
 }
 
 template <class Policy>
-void ProbePolicy(const PointsQuery& q, float* u0, float* u1) {
-  const PointsParameters points = MakePointsParameters(q.points, q.group_size);
+void ProbePolicy(const PointsQuery& q, const PointsParameters& points, float* u0,
+                 float* u1) {
   ForEachPoint(q, [&](std::size_t i, VU pixel, VU sample) HWY_ATTR {
     const GroupIndex at = Policy::Group(points, sample);
     VF a, b;
@@ -74,11 +74,11 @@ void ProbePolicyNumbers(const PointsQuery& q, float* u) {
   X(kHalton, HaltonPoints)           \
   X(kLattice, LatticePoints)
 
-void Probe(const PointsQuery& q, float* u0, float* u1) {
+void Probe(const PointsQuery& q, const PointsParameters& points, float* u0, float* u1) {
   switch (q.points) {
 #define X(enumerator, Policy) \
   case Points::enumerator:    \
-    return ProbePolicy<Policy>(q, u0, u1);
+    return ProbePolicy<Policy>(q, points, u0, u1);
     LANELIGHT_POLICIES(X)
 #undef X
   }
@@ -132,7 +132,12 @@ HWY_EXPORT(ProbeDivided);
 HWY_EXPORT(ProbePermuted);
 
 void ProbePoints(const PointsQuery& query, float* u0, float* u1) {
-  HWY_DYNAMIC_DISPATCH(Probe)(query, u0, u1);
+  ProbePoints(query, MakePointsParameters(query.points, query.group_size), u0, u1);
+}
+
+void ProbePoints(const PointsQuery& query, const PointsParameters& parameters, float* u0,
+                 float* u1) {
+  HWY_DYNAMIC_DISPATCH(Probe)(query, parameters, u0, u1);
 }
 
 void ProbeNumbers(const PointsQuery& query, float* u) {

@@ -17,6 +17,10 @@ struct PointsQuery {
 /// Writes `count` points of each pixel: those of the first sample for all pixels, of the
 /// second, and so on. u0 and u1 need room for a full vector more.
 void ProbePoints(const PointsQuery& query, float* u0, float* u1);
+/// The same with parameters made before: MakePointsParameters(query.points,
+/// query.group_size).
+void ProbePoints(const PointsQuery& query, const PointsParameters& parameters, float* u0,
+                 float* u1);
 
 /// The same for a scalar dimension.
 void ProbeNumbers(const PointsQuery& query, float* u);

@@ -1,7 +1,5 @@
 #include "src/strategy/run_parameters.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -12,14 +10,6 @@
 
 namespace lanelight {
 namespace {
-
-std::uint32_t LargestPowerOfTwo(std::uint64_t limit) {
-  std::uint32_t size = 1;
-  while (size * 2ull <= limit) size *= 2;
-  return size;
-}
-
-constexpr std::uint32_t kMostGroup = 1u << 20;
 
 Strata MakeStrata(std::uint32_t count) {
   Strata strata;
@@ -51,25 +41,6 @@ void SetBase3(PointsParameters& p) {
   std::uint32_t power = 1;
   for (; power < p.group_size; power *= 3) ++p.base3_digits;
   p.base3 = MakeStrata(power);
-}
-
-// The errors of the points in either base end with the blocks 2^a and 3^b that the group
-// consists of: n times the RMSE is about e = 2^(-a/2) + 3^(-b/2), n = 2^a 3^b, and a
-// constant for other n. Least variance e^2 / n of the groups that make up a pixel.
-std::uint32_t HaltonSize(std::uint64_t limit) {
-  std::uint32_t best = 1;
-  double least = 4;
-  double error3 = 1;
-  for (std::uint64_t power3 = 1; power3 <= limit; power3 *= 3, error3 /= std::sqrt(3.0)) {
-    double error2 = 1;
-    for (std::uint64_t n = power3; n <= limit; n *= 2, error2 /= std::sqrt(2.0)) {
-      const double variance = (error2 + error3) * (error2 + error3) / double(n);
-      if (variance >= least) continue;
-      least = variance;
-      best = static_cast<std::uint32_t>(n);
-    }
-  }
-  return best;
 }
 
 // Division of numbers below 2^31 by a multiplication: with l = ceil(log2 d),
@@ -134,85 +105,6 @@ MisParameters MakeMisParameters(const Strategy& strategy) {
 RouletteParameters MakeRouletteParameters(const Strategy& strategy) {
   return {static_cast<float>(strategy.termination), static_cast<float>(strategy.Floor()),
           strategy.First()};
-}
-
-std::uint32_t MostGroupSize(Points points) {
-  if (points == Points::kIndependent) return 1;
-  return points == Points::kPmj02 ? kPmj02Points : kMostGroup;
-}
-
-std::uint32_t PointsGroupSize(Points points, std::uint64_t spp) {
-  const std::uint64_t wanted =
-      std::clamp<std::uint64_t>(spp > 0 ? spp / 4 : 64, 1, MostGroupSize(points));
-  switch (points) {
-    case Points::kIndependent:
-      return 1;
-    case Points::kSobol:
-    case Points::kPmj02:
-      return LargestPowerOfTwo(wanted);
-    case Points::kHalton:
-      return HaltonSize(wanted);
-    case Points::kLattice:
-      return static_cast<std::uint32_t>(wanted);
-    case Points::kStratified:
-    case Points::kCmj: {
-      // floor(sqrt(n)) columns of as many strata as fit: near-square, and all of n but
-      // less than one row.
-      const auto columns = static_cast<std::uint64_t>(std::sqrt(double(wanted)));
-      return static_cast<std::uint32_t>(columns * (wanted / columns));
-    }
-  }
-  return 1;
-}
-
-std::uint32_t GroupSize(const Strategy& strategy, std::uint64_t spp) {
-  const bool pairs = strategy.pairs == Pairs::kAntithetic;
-  const std::uint64_t share =
-      pairs && spp > 0 ? std::max<std::uint64_t>(spp / 2, 1) : spp;
-  return PointsGroupSize(strategy.points, share) * (pairs ? 2 : 1);
-}
-
-namespace {
-
-// What the group size costs against one net of all samples.
-std::string LossText(const Strategy& strategy, std::uint64_t spp, std::uint32_t own) {
-  const std::uint32_t pairs = strategy.pairs == Pairs::kAntithetic ? 2 : 1;
-  std::string text;
-  if (own == 1) {
-    return fmt::format(", not stratified (that takes {} samples): as independent",
-                       8 * pairs);
-  }
-  if (own == MostGroupSize(strategy.points)) {
-    text += fmt::format(", {} being the most that are stratified together", own);
-  }
-  if (spp % (own * pairs) != 0) {
-    text += fmt::format(", {} left over in an incomplete one, less well stratified",
-                        spp % (own * pairs));
-  }
-  return text;
-}
-
-}  // namespace
-
-std::string PointsText(const Strategy& strategy, std::uint64_t spp) {
-  const bool pairs = strategy.pairs == Pairs::kAntithetic;
-  const std::uint32_t size = GroupSize(strategy, spp);
-  const std::uint32_t own = size / (pairs ? 2 : 1);
-  std::string text = Name(strategy.points);
-  if (strategy.points != Points::kIndependent) {
-    if (spp == 0) {
-      text += fmt::format(", randomisations of {} samples", size);
-    } else if (own > 1) {
-      text += fmt::format(", {} randomisations of {} samples", spp / size, size);
-    }
-    const PointsParameters p = MakePointsParameters(strategy.points, own);
-    if (p.columns.count * p.rows.count > 1) {
-      text += fmt::format(" in {}x{} strata", p.columns.count, p.rows.count);
-    }
-    if (spp > 0) text += LossText(strategy, spp, own);
-  }
-  if (pairs) text += fmt::format(", antithetic pairs ({})", Name(strategy.paired));
-  return text;
 }
 
 }  // namespace lanelight

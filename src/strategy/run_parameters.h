@@ -74,7 +74,7 @@ std::uint32_t MostGroupSize(Points points);
 /// otherwise the best size that the sampler has of which at least four fit into `spp`,
 /// so that the error can be estimated from the scatter of independent randomisations.
 /// spp = 0: unknown. Samples that are left over start a further, incomplete group: they
-/// are unbiased, and lose only the stratification.
+/// are unbiased, and lose only the stratification. (This and the next two: groups.cc.)
 std::uint32_t PointsGroupSize(Points points, std::uint64_t spp);
 
 /// Samples that depend on each other, one observation of the film: the points' group, or

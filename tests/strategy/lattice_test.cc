@@ -39,12 +39,12 @@ TEST_CASE("lattice generators are coprime to the size", "[points]") {
 TEST_CASE("Fibonacci lattices are found, up to equivalent ones", "[points]") {
   for (auto [n, z] : {std::pair{55u, 34u}, {89u, 55u}, {233u, 144u}, {987u, 610u}}) {
     CHECK(LatticeError(n, LatticeGenerator(n)) <= LatticeError(n, z));
-    CHECK(P2(n, LatticeGenerator(n)) <= 1.02 * P2(n, z));
+    CHECK(P2(n, LatticeGenerator(n)) <= 1.1 * P2(n, z));
   }
 }
 
-TEST_CASE("the generator's P_2 is within a quarter of the best of all", "[points]") {
-  for (std::uint32_t n : {16, 30, 64, 100, 128, 210, 256}) {
+TEST_CASE("the generator's P_2 is within a tenth of the best of all", "[points]") {
+  for (std::uint32_t n : {16, 30, 64, 100, 128, 210, 256, 500, 720}) {
     double best = 1e9, worst = 0;
     for (std::uint32_t z = 1; z < n; ++z) {
       if (std::gcd(n, z) != 1) continue;
@@ -52,8 +52,8 @@ TEST_CASE("the generator's P_2 is within a quarter of the best of all", "[points
       worst = std::max(worst, P2(n, z));
     }
     INFO(n << ": best " << best << ", ours " << P2(n, LatticeGenerator(n)));
-    CHECK(P2(n, LatticeGenerator(n)) < 1.25 * best);
-    CHECK(worst > 1.5 * best);  // z = 1 is far off: the check can fail
+    CHECK(P2(n, LatticeGenerator(n)) < 1.1 * best);
+    CHECK(worst > 1.5 * best);  // the check can fail
   }
 }
 

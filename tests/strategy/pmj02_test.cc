@@ -46,9 +46,9 @@ TEST_CASE("other sizes and seeds give nets too, and different ones", "[points]")
     std::vector<std::uint32_t> points(2 * 64);
     MakePmj02(seed, points);
     for (std::uint32_t k = 0; k <= 6; ++k) REQUIRE(IsNet(points, k));
-    // The two leading digits of the first eight points.
+    // The four leading digits of the first eight points.
     std::vector<std::uint32_t> digits;
-    for (std::size_t i = 0; i < 16; ++i) digits.push_back(points[i] >> 30);
+    for (std::size_t i = 0; i < 16; ++i) digits.push_back(points[i] >> 28);
     leading.insert(digits);
   }
   CHECK(leading.size() > 60);
