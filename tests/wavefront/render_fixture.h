@@ -19,6 +19,7 @@ struct TestRender {
   Points sampler = Points::kIndependent;
   std::string strategy;  // on top of the scene's and `sampler`
   bool aov = false;
+  bool keep_roulette = false;  // RunOptions
   CompileOptions compile;
 };
 
@@ -48,6 +49,7 @@ inline Rendered RenderDescription(const SceneDescription& description,
   RunOptions options;
   options.spp = t.spp;
   options.seed = t.seed;
+  options.keep_roulette = t.keep_roulette;
   out.result = Run(scene, plan, options, out.film);
   return out;
 }
