@@ -3,17 +3,18 @@
 //   estimator   f - c sum_j b_j phi_j(u): phi_j are Legendre polynomials on [0, 1],
 //               orthonormal: degrees 1 and 2 in each of the numbers of the first bounce's
 //               direction and light point, degree 1 in the position in the pixel; b by
-//               least squares (src/image/regression_film.h). Here: the numbers are kept
-//               aside
+//               least squares (src/image/regression_film.h). Here the numbers are kept
 //   unbiased    E[phi_j] = 0 whatever came before in the path, and b depends on groups of
 //               samples that came earlier and are independent of the one it corrects
 //               (a martingale); c may be any number, and 1 is the optimum, as the fit is
 //   variance    f's share that is additive and quadratic in these numbers goes away:
 //               (1 - R^2) of the variance. Stratified and low-discrepancy points
-//               integrate that share already: nothing is left to gain there
-//   cost        three multiply-adds per function and sample, and the fit of 10 functions
-//               to 25 pixels whenever the samples have grown by a quarter; 344 bytes per
-//               pixel
+//               integrate that share already: nothing is left to gain there. Rare bright
+//               samples inflate the deviation that scales the fit: it may lose by some
+//               percent where they are all of the variance
+//   cost        per sample seven multiply-adds per function, and a fit (a window of 5 x 5
+//               pixels, as sums of rows and columns) whenever the samples have grown by a
+//               quarter, or at first by 8; 344 bytes per pixel
 //   source      Salaun et al. 2022, "Regression-based Monte Carlo Integration"
 #include "kernels/targets.h"
 

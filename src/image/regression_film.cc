@@ -1,6 +1,7 @@
 #include "src/image/regression_film.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lanelight {
@@ -8,18 +9,37 @@ namespace {
 
 constexpr std::uint32_t kLeastBlock = 8;
 
-// Sums of a neighbourhood, each pixel about its own mean.
-struct Moments {
-  double samples = 0;
-  double variance[3] = {};  // times samples
-  double products[3][RegressionFilm::kFunctions] = {};
-};
+// For each channel and function: n times its correlation with f.
+using Correlations = std::array<float, 3 * RegressionFilm::kFunctions>;
 
-// Positive-part shrinkage of a mean whose variance is variance / n.
-double Shrunk(double mean, double variance, double n) {
-  const double square = n * mean * mean;
-  if (!(square > variance) || !std::isfinite(square)) return 0;
-  return mean * (1 - variance / square);
+// Sums of a line of values, `stride` apart, over windows of 2 kReach + 1.
+void SumWindows(const Correlations* in, Correlations* out, int length, int stride) {
+  for (int i = 0; i < length; ++i) {
+    Correlations sum = {};
+    const int end = std::min(length, i + RegressionFilm::kReach + 1);
+    for (int k = std::max(0, i - RegressionFilm::kReach); k < end; ++k) {
+      for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += in[k * stride][j];
+    }
+    out[i * stride] = sum;
+  }
+}
+
+// Pixels of such a window.
+int WindowSize(int i, int length) {
+  return std::min(length, i + RegressionFilm::kReach + 1) -
+         std::max(0, i - RegressionFilm::kReach);
+}
+
+// Positive-part shrinkage of a correlation estimated from n samples, whose variance is
+// 1 / n if there is none.
+double Shrunk(double r, double n) {
+  const double signal = n * r * r;
+  return signal > 1 && std::isfinite(signal) ? r * (1 - 1 / signal) : 0;
+}
+
+double Deviation(double sum, double squares, double n) {
+  const double mean = sum / n;
+  return std::sqrt(std::max(0.0, squares / n - mean * mean));
 }
 
 }  // namespace
@@ -54,40 +74,48 @@ std::uint32_t RegressionFilm::NextFit(std::uint32_t samples) const {
   return samples + std::max(1u, samples / 4 / block_) * block_;
 }
 
-void RegressionFilm::FitPixel(const SampleBlock& block, int x, int y,
-                              std::uint32_t next_fit) {
-  Moments m;
-  for (int ny = std::max(block.y0, y - kReach); ny < std::min(block.y1, y + kReach + 1);
-       ++ny) {
-    for (int nx = std::max(block.x0, x - kReach); nx < std::min(block.x1, x + kReach + 1);
-         ++nx) {
-      const Pixel& p = At(nx, ny);
-      const double n = p.samples;
-      m.samples += n;
-      for (int c = 0; c < 3; ++c) {
-        const double mean = p.f[c] / n;
-        m.variance[c] += std::max(0.0, p.ff[c] - mean * p.f[c]);
-        for (int j = 0; j < kFunctions; ++j) {
-          m.products[c][j] += double(p.products[c][j]) - mean * double(p.phi[j]);
-        }
-      }
-    }
-  }
-  Pixel& p = At(x, y);
-  p.next_fit = next_fit;
+void RegressionFilm::Correlate(const Pixel& p, float* out) {
+  const double n = p.samples;
   for (int c = 0; c < 3; ++c) {
-    const double variance = m.variance[c] / m.samples;
+    const double mean = p.f[c] / n, deviation = Deviation(p.f[c], p.ff[c], n);
     for (int j = 0; j < kFunctions; ++j) {
-      p.b[c][j] =
-          static_cast<float>(Shrunk(m.products[c][j] / m.samples, variance, m.samples));
+      const double sum = double(p.products[c][j]) - mean * double(p.phi[j]);
+      *out++ = deviation > 0 ? static_cast<float>(sum / deviation) : 0;
     }
   }
 }
 
 void RegressionFilm::Fit(const SampleBlock& block) {
+  const int width = block.x1 - block.x0, height = block.y1 - block.y0;
+  std::vector<Correlations> sums(static_cast<std::size_t>(width) *
+                                 static_cast<std::size_t>(height));
+  std::vector<Correlations> rows(sums.size());
+  const auto index = [&](int x, int y) {
+    return static_cast<std::size_t>(y * width + x);
+  };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      Correlate(At(block.x0 + x, block.y0 + y), sums[index(x, y)].data());
+    }
+    SumWindows(&sums[index(0, y)], &rows[index(0, y)], width, 1);
+  }
+  for (int x = 0; x < width; ++x) {
+    SumWindows(&rows[index(x, 0)], &sums[index(x, 0)], height, width);
+  }
   const std::uint32_t next = NextFit(At(block.x0, block.y0).next_fit);
-  for (int y = block.y0; y < block.y1; ++y) {
-    for (int x = block.x0; x < block.x1; ++x) FitPixel(block, x, y, next);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      Pixel& p = At(block.x0 + x, block.y0 + y);
+      p.next_fit = next;
+      const double n = double(p.samples) * WindowSize(x, width) * WindowSize(y, height);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double deviation = Deviation(p.f[c], p.ff[c], p.samples);
+        for (std::size_t j = 0; j < kFunctions; ++j) {
+          const double sum = double(sums[index(x, y)][c * kFunctions + j]);
+          p.b[c][j] = static_cast<float>(Shrunk(sum / n, n) * deviation);
+        }
+      }
+    }
   }
 }
 

@@ -3,10 +3,12 @@
 // are subtracted from later samples.
 //
 // Functions phi_j, orthonormal over uniform numbers: P1 and P2 of four numbers, P1 of the
-// two coordinates in the pixel. Least squares then is b_j = mean((f - mean f) phi_j),
-// shrunk by max(0, 1 - s^2 / (n b_j^2)), s^2 / n being the variance of b_j if f were
-// noise. Coefficients change only between groups of samples, and only depend on groups
-// that were complete before: E[b phi | what came before] = b E[phi] = 0.
+// two coordinates in the pixel. Least squares then is b_j = s r_j, s the deviation of f
+// and r_j = mean((f - mean f) phi_j) / s its correlation with phi_j. The correlation is
+// averaged over the neighbourhood and shrunk by max(0, 1 - 1 / (n r_j^2)); the deviation
+// is the pixel's own. (Averaging b_j would spread a bright pixel's noise to its dark
+// neighbours.) Coefficients change only between groups of samples, and only depend on
+// groups that were complete before: E[b phi | what came before] = b E[phi] = 0.
 #pragma once
 
 #include <cstdint>
@@ -62,7 +64,7 @@ class RegressionFilm {
                    static_cast<std::size_t>(x - x0_)];
   }
   void Fit(const SampleBlock& block);
-  void FitPixel(const SampleBlock& block, int x, int y, std::uint32_t next_fit);
+  static void Correlate(const Pixel& p, float* out);
   void CorrectPixel(const SampleBlock& block, int first_plane, std::uint32_t pixel,
                     std::uint32_t begin, std::uint32_t end);
   std::uint32_t NextFit(std::uint32_t samples) const;

@@ -75,6 +75,15 @@ TEST_CASE("a film beyond the memory is refused with both numbers", "[render]") {
   const PixelWindow window = {0, 0, 1 << 15, 1 << 15};
   CHECK(FilmBytes(window, true) > FilmBytes(window, false));
   CHECK(FilmBytes(window, false) > window.pixels() * 100);
+  Strategy control;
+  control.control = Control::kRegression;
+  CHECK(FilmBytes(window, false, control) >
+        FilmBytes(window, false) + window.pixels() * 300);
+  control.control = Control::kAnalytic;
+  CHECK(FilmBytes(window, false, control) >
+        FilmBytes(window, false) + window.pixels() * 200);
+  control.coefficient = 1;  // applied by the kernel: nothing to fit
+  CHECK(FilmBytes(window, false, control) == FilmBytes(window, false));
   const std::uint64_t gib = std::uint64_t{1} << 30;
   CHECK_NOTHROW(CheckFilmFits(window, false, {}, 1000 * gib));
   CHECK_THROWS_WITH(CheckFilmFits(window, false, {}, 16 * gib),
