@@ -1,0 +1,259 @@
+// Every strategy, and every two choices of different axes together, render the same image
+// as the scalar reference or the closed form, on scenes that are hard for some of them.
+//
+// Combinations come from a covering array. A choice that the scene refuses (a control
+// variate without its lights) is left out of the combination there, and the refusal is
+// checked. All comparisons of this file share one false-alarm budget; planted errors of
+// 1 % must be found.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/reference/closed_forms.h"
+#include "tests/stat/hypothesis.h"
+#include "tests/strategy/covering.h"
+#include "tests/wavefront/agreement.h"
+
+namespace lanelight::test {
+namespace {
+
+constexpr double kFalseAlarm = 1e-4;  // for all comparisons of a test case together
+
+const std::vector<Axis>& Axes() {
+  static const std::vector<Axis> kAxes = {
+      {"directions", {"uniform", "bsdf", "light", "mis:power", "mis:balance"}},
+      {"points",
+       {"independent", "stratified", "cmj", "pmj02", "sobol", "halton", "lattice"}},
+      {"pairs",
+       {"none", "antithetic:all", "antithetic:pixel", "antithetic:light",
+        "antithetic:bsdf", "antithetic:first-bounce"}},
+      {"control",
+       {"none", "analytic,c=1", "analytic,c=optimal", "ambient,c=1", "ambient,c=optimal",
+        "regression,c=1"}},
+      {"roulette",
+       {"none", "constant:0.2", "throughput:0.1:1", "luminance", "adjoint",
+        "efficiency"}},
+      {"light-selection", {"uniform", "power", "tree"}}};
+  return kAxes;
+}
+
+const std::vector<Combination>& Combinations() {
+  static const std::vector<Combination> kCombinations = CoverPairs(Axes(), 60);
+  return kCombinations;
+}
+
+// A small emitter that scattered rays rarely hit.
+SceneDescription TinyLight() { return SmallRoom(8, 3, 0.12); }
+
+// A ceiling that is all light: light samples lie mostly at grazing angles.
+SceneDescription LargeLight() { return SmallRoom(8, 3, 0.95); }
+
+SceneDescription GlossyPlates() {
+  Material metal;
+  metal.kind = MaterialKind::kConductor;
+  metal.eta.constant = {0.2, 0.9, 1.1};
+  metal.k.constant = {3.9, 2.5, 2.2};
+  metal.uroughness.constant = metal.vroughness.constant = 0.15;
+  metal.remap_roughness = false;
+  SceneDescription scene = Plate(metal, 8, 3);
+  return scene;
+}
+
+// A sky with a sun of its own and one that is a small, far, bright sphere.
+SceneDescription SkyAndSun() {
+  SceneBuilder b(8, 8);
+  b.Depth(3).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 36);
+  const Index ground = b.AddDiffuse({0.5, 0.4, 0.3});
+  Material leaf;
+  leaf.kind = MaterialKind::kDiffuseTransmission;
+  leaf.reflectance.constant = {0.4, 0.3, 0.2};
+  leaf.transmittance.constant = {0.2, 0.3, 0.5};
+  Material plastic;
+  plastic.kind = MaterialKind::kCoatedDiffuse;
+  plastic.reflectance.constant = {0.2, 0.4, 0.8};
+  plastic.uroughness.constant = plastic.vroughness.constant = 0;
+  b.AddPlane({0, 0, 0}, {0, 0, 1}, ground);
+  b.AddQuad({-1, -0.5, 0.9}, {1, 0, 0.1}, {0, 1, 0}, b.AddMaterial(leaf));
+  b.AddSphere({0.6, 0, 0.5}, 0.5, b.AddMaterial(plastic));
+  b.AddSphere({4, 3, 8}, 1.5, ground, b.AddEmission({12, 11, 9}));
+  b.AddDistant({-1, -1, 2}, {0.5, 0.5, 0.6});
+  b.AddEnvironment({0.4, 0.5, 0.7});
+  return b.Build();
+}
+
+// Lights of every shape that has a place, for the selection of lights.
+SceneDescription ManyLights() {
+  SceneBuilder b(8, 8);
+  b.Depth(2).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 36);
+  const Index ground = b.AddDiffuse({0.5, 0.4, 0.3}), dark = b.AddDiffuse(Grey(0));
+  b.AddPlane({0, 0, 0}, {0, 0, 1}, ground);
+  for (int i = 0; i < 6; ++i) {
+    const double x = 0.6 * i - 1.5;
+    b.AddSphere({x, 1, 0.8}, 0.15, dark, b.AddEmission({4.0 + i, 3, 2}));
+    b.AddDisk({x, 0.2, 1.2}, {0.2 * i - 0.5, 0, -1}, 0.15, dark,
+              b.AddEmission({3, 5, 2.0 + i}, i % 2 == 0));
+    b.AddQuad({x, -0.8, 1}, {0, 0.2, 0}, {0.2, 0, 0.05 * i}, dark,
+              b.AddEmission({6, 6, 6}));
+  }
+  b.AddPoint({0, 0, 2}, {0.3, 0.3, 0.3});
+  b.AddSpot({1, 0, 2}, {0, 0, 0}, {2, 2, 2}, 30, 10);
+  return b.Build();
+}
+
+struct HardScene {
+  const char* name;
+  SceneDescription scene;
+  int tile;  // pixels per side that together see enough of rare events
+};
+
+std::vector<HardScene> HardScenes() {
+  return {{"tiny light", TinyLight(), 8},
+          {"large light", LargeLight(), 4},
+          {"glossy plates", GlossyPlates(), 8},
+          {"sky and sun", SkyAndSun(), 4},
+          {"many lights", ManyLights(), 8}};
+}
+
+bool Accepts(const SceneDescription& scene, const std::string& strategy) {
+  SceneDescription copy = scene;
+  ApplyStrategy(strategy, {}, copy.strategy);
+  PlanOptions options;
+  options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
+  try {
+    MakePlan(CompileScene(copy), options);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+// The combination as this scene takes it: without the control that it refuses.
+std::string FitTo(const SceneDescription& scene, const Combination& combination) {
+  const std::string whole = StrategyOf(Axes(), combination);
+  if (Accepts(scene, whole)) return whole;
+  Combination rest = combination;
+  rest[3] = 0;
+  CHECK(combination[3] != 0);  // nothing but a control variate is ever refused
+  return StrategyOf(Axes(), rest);
+}
+
+stat::ImageEstimate RenderWith(const SceneDescription& scene, const std::string& strategy,
+                               std::uint64_t spp, std::uint64_t seed) {
+  TestRender options;
+  options.spp = spp;
+  options.seed = seed;
+  options.strategy = strategy;
+  const Rendered render = RenderDescription(scene, options);
+  CHECK(render.result.health.Total() == 0);
+  return Estimate(render);
+}
+
+// Renders every combination and compares it with `truth`.
+void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth,
+              std::uint64_t spp) {
+  const auto& combinations = Combinations();
+  std::vector<double> uniformity;
+  double worst_power = 0;
+  for (std::size_t i = 0; i < combinations.size(); ++i) {
+    const std::string strategy = FitTo(hard.scene, combinations[i]);
+    const stat::ImageEstimate image = RenderWith(hard.scene, strategy, spp, i + 1);
+    const stat::ImageTestResult result = stat::CompareMeans(
+        image, truth,
+        {hard.tile, stat::SidakLevel(kFalseAlarm, int(5 * combinations.size())),
+         kFloatTolerance, 1e-7});
+    INFO(hard.name << ", " << strategy << ": " << result.ToString());
+    CHECK(result.same);
+    uniformity.push_back(result.uniformity_p);
+    worst_power = std::max(worst_power, result.detectable_bias);
+  }
+  INFO(hard.name << ": the least sensitive comparison finds a bias of "
+                 << 100 * worst_power << " %");
+  const double least = *std::min_element(uniformity.begin(), uniformity.end());
+  CHECK(least > stat::SidakLevel(kFalseAlarm, int(uniformity.size())));
+}
+
+stat::ImageEstimate Reference(const SceneDescription& scene, int samples) {
+  return Estimate(
+      RenderReference(scene, Options(ReferenceEstimator::kLightSampling, samples)));
+}
+
+}  // namespace
+
+TEST_CASE("the combinations cover every pair of choices", "[strategy]") {
+  CHECK(Combinations().size() >= 60);
+  CHECK(CountUncoveredPairs(Axes(), Combinations()) == 0);
+  std::vector<Combination> fewer = Combinations();
+  fewer.resize(20);
+  CHECK(CountUncoveredPairs(Axes(), fewer) > 0);
+}
+
+TEST_CASE("every combination renders the reference image", "[strategy]") {
+  for (const HardScene& hard : HardScenes()) {
+    CheckAll(hard, Reference(hard.scene, 16384), 1024);
+  }
+}
+
+TEST_CASE("every combination renders the reference image, at length",
+          "[strategy][slow]") {
+  for (const HardScene& hard : HardScenes()) {
+    CheckAll(hard, Reference(hard.scene, 262144), 16384);
+  }
+}
+
+TEST_CASE("every combination fills the closed room as the closed form says",
+          "[strategy]") {
+  const double albedo = 0.9;
+  const int depth = 8;
+  const HardScene room = {"closed room", ClosedBox(albedo, depth), 4};
+  const double value = closed_form::ClosedRoom(1, albedo, depth);
+  const int size = room.scene.film.width;
+  CheckAll(room,
+           stat::KnownImage(size, room.scene.film.height,
+                            [&](int, int) { return Grey(value); }),
+           256);
+}
+
+TEST_CASE("a bias of 1 % is found", "[strategy]") {
+  // A reference whose emission is 1 % too strong stands for any error of that size: a
+  // density, a cosine or a 1 / (1 - q) that is off by 1 %.
+  const SceneDescription scene = LargeLight();
+  SceneDescription brighter = scene;
+  for (AreaLight& light : brighter.area_lights) light.scale *= 1.01;
+  const std::string strategy = "directions=mis,points=independent";
+  const stat::ImageEstimate image = RenderWith(scene, strategy, 65536, 1);
+  const stat::ImageEstimate truth = RenderWith(scene, strategy, 65536, 2);
+  const stat::ImageEstimate planted = RenderWith(brighter, strategy, 65536, 2);
+  const stat::ImageTestOptions options = {8, 1e-6, kFloatTolerance, 1e-7};
+  CHECK(stat::CompareMeans(image, truth, options).same);
+  CHECK(stat::CompareMeans(image, truth, options).detectable_bias < 0.01);
+  CHECK_FALSE(stat::CompareMeans(image, planted, options).same);
+}
+
+TEST_CASE("a probability of selecting a light that is 1 % wrong is found", "[strategy]") {
+  const SceneDescription scene = PolygonLight(8);
+  CompiledScene compiled = CompileScene(scene);
+  Strategy strategy;
+  ApplyStrategy("directions=light,points=independent", {}, strategy);
+  UseStrategy(strategy, compiled);
+  PlanOptions plan_options;
+  plan_options.max_depth = 1;
+  const auto render = [&](std::uint64_t seed) {
+    const ThreadLimit limit(2);
+    Rendered out{
+        FilmAccumulator(0, 0, 8, 8, 1, false), {}, MakePlan(compiled, plan_options)};
+    RunOptions run;
+    run.spp = 8192;
+    run.seed = seed;
+    out.result = Run(compiled, out.plan, run, out.film);
+    return Estimate(out);
+  };
+  const stat::ImageEstimate good = render(1), again = render(2);
+  for (LightRecord& light : compiled.lights.lights) light.pmf *= 0.99f;
+  const stat::ImageEstimate wrong = render(2);
+  const stat::ImageTestOptions options = {8, 1e-6, kFloatTolerance, 1e-7};
+  CHECK(stat::CompareMeans(good, again, options).same);
+  CHECK(stat::CompareMeans(good, again, options).detectable_bias < 0.01);
+  CHECK_FALSE(stat::CompareMeans(good, wrong, options).same);
+}
+
+}  // namespace lanelight::test
