@@ -33,7 +33,7 @@ struct Batch {
   Points points;
   PointsParameters parameters;
   std::vector<float> u0 = std::vector<float>(kPoints + 16), u1 = u0;
-  std::vector<double> seconds;
+  std::vector<double> seconds = {};
 
   void Run(std::uint32_t call) {
     const PointsQuery query = {points,         1,

@@ -61,8 +61,11 @@ bool Identical(const FilmAccumulator& a, const FilmAccumulator& b) {
 
 }  // namespace
 
-TEST_CASE("images are bit-identical for any threads and wavefront size", "[determinism]") {
-  for (Points sampler : {Points::kIndependent, Points::kSobol}) {
+TEST_CASE("images are bit-identical for any threads and wavefront size",
+          "[determinism]") {
+  for (Points sampler :
+       {Points::kIndependent, Points::kStratified, Points::kCmj, Points::kPmj02,
+        Points::kSobol, Points::kHalton, Points::kLattice}) {
     TestRender base;
     base.sampler = sampler;
     base.spp = 12;
