@@ -61,9 +61,16 @@ double WelchP(const std::vector<double>& a, const std::vector<double>& b) {
   return StudentP((Mean(a) - Mean(b)) / std::sqrt(va + vb), dof);
 }
 
-std::vector<double> Resample(const std::vector<double>& v, std::mt19937& random) {
+// Repetition r of every strategy has the same seed, so that strategies that use the same
+// random numbers share their luck: both are resampled together.
+std::vector<std::size_t> ResampledIndices(std::size_t n, std::mt19937& random) {
+  std::vector<std::size_t> indices(n);
+  for (std::size_t& i : indices) i = random() % n;
+  return indices;
+}
+std::vector<double> At(const std::vector<double>& v, const std::vector<std::size_t>& at) {
   std::vector<double> out;
-  for (std::size_t i = 0; i < v.size(); ++i) out.push_back(v[random() % v.size()]);
+  for (std::size_t i : at) out.push_back(v[i]);
   return out;
 }
 
@@ -118,10 +125,9 @@ Comparison Compare(const Repetitions& r, const Repetitions& baseline,
   std::mt19937 random(1);
   std::vector<double> variance, seconds, efficiency;
   for (int i = 0; i < 2000; ++i) {
-    variance.push_back(Mean(Resample(error, random)) /
-                       Mean(Resample(base_error, random)));
-    seconds.push_back(Median(Resample(r.seconds, random)) /
-                      Median(Resample(baseline.seconds, random)));
+    const auto at = ResampledIndices(error.size(), random);
+    variance.push_back(Mean(At(error, at)) / Mean(At(base_error, at)));
+    seconds.push_back(Median(At(r.seconds, at)) / Median(At(baseline.seconds, at)));
     efficiency.push_back(1 / (variance.back() * seconds.back()));
   }
   Comparison c;
