@@ -9,9 +9,8 @@
 //               (a martingale); c may be any number, and 1 is the optimum, as the fit is
 //   variance    f's share that is additive and quadratic in these numbers goes away:
 //               (1 - R^2) of the variance. Stratified and low-discrepancy points
-//               integrate that share already: nothing is left to gain there. Rare bright
-//               samples inflate the deviation that scales the fit: it may lose by some
-//               percent where they are all of the variance
+//               integrate that share already: nothing is left to gain there, nor
+//               where rare bright samples are most of the variance
 //   cost        per sample seven multiply-adds per function, and a fit (a window of 5 x 5
 //               pixels, as sums of rows and columns) whenever the samples have grown by a
 //               quarter, or at first by 8; 344 bytes per pixel

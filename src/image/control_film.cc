@@ -9,6 +9,7 @@ namespace lanelight {
 namespace {
 
 constexpr double kLeastSpread = 1e-5;  // standard deviation of D relative to f
+constexpr double kCaution = 2;         // see FitCoefficient
 
 }  // namespace
 
@@ -45,7 +46,7 @@ double FitCoefficient(const ControlScatter& own, const ControlScatter& window) {
   if (!(dd > kLeastSpread * kLeastSpread * square)) return 0;
   const double explained = fd * fd / dd;  // r^2 ff
   const double noise =
-      (mix(own.ff, window.ff) - explained) / mix(own.freedom, window.freedom);
+      kCaution * (mix(own.ff, window.ff) - explained) / mix(own.freedom, window.freedom);
   if (!(explained > noise)) return 0;
   const double c = fd / dd * std::min(1.0, 1 - noise / explained);
   return std::isfinite(c) ? std::clamp(c, -kMostCoefficient, kMostCoefficient) : 0;

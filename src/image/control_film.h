@@ -43,7 +43,7 @@ struct ControlScatter {
 /// Coefficient that makes f - c D vary least over the observations of `own`. `window`, of
 /// these and of neighbouring pixels, weighs in: the neighbours with kNeighbourFreedom
 /// degrees of freedom at most, so that few observations give no wild values. With r the
-/// correlation and n the degrees of freedom, shrunk by max(0, 1 - (1 - r^2) / (n r^2)):
+/// correlation and n the degrees of freedom, shrunk by max(0, 1 - 2 (1 - r^2) / (n r^2)):
 /// what a fit to noise would gain is lost to others. 0 where D does not vary, save for
 /// rounding (a standard deviation of 1e-5 of f). Limited to +-kMostCoefficient, which no
 /// useful h needs: without it the coefficient of few samples has no finite mean.

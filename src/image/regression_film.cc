@@ -9,8 +9,12 @@ namespace {
 
 constexpr std::uint32_t kLeastBlock = 8;
 
-// For each channel and function: n times its correlation with f.
-using Correlations = std::array<float, 3 * RegressionFilm::kFunctions>;
+// For each channel: n times the correlations of f with the functions, and f's deviation.
+constexpr int kPerChannel = RegressionFilm::kFunctions + 1;
+using Correlations = std::array<float, 3 * kPerChannel>;
+// A deviation above this multiple of its neighbourhood's comes from rare bright samples,
+// which no polynomial explains.
+constexpr double kMostDeviation = 2;
 
 // Sums of a line of values, `stride` apart, over windows of 2 kReach + 1.
 void SumWindows(const Correlations* in, Correlations* out, int length, int stride) {
@@ -82,6 +86,7 @@ void RegressionFilm::Correlate(const Pixel& p, float* out) {
       const double sum = double(p.products[c][j]) - mean * double(p.phi[j]);
       *out++ = deviation > 0 ? static_cast<float>(sum / deviation) : 0;
     }
+    *out++ = static_cast<float>(deviation);
   }
 }
 
@@ -107,14 +112,20 @@ void RegressionFilm::Fit(const SampleBlock& block) {
     for (int x = 0; x < width; ++x) {
       Pixel& p = At(block.x0 + x, block.y0 + y);
       p.next_fit = next;
-      const double n = double(p.samples) * WindowSize(x, width) * WindowSize(y, height);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double deviation = Deviation(p.f[c], p.ff[c], p.samples);
-        for (std::size_t j = 0; j < kFunctions; ++j) {
-          const double sum = double(sums[index(x, y)][c * kFunctions + j]);
-          p.b[c][j] = static_cast<float>(Shrunk(sum / n, n) * deviation);
-        }
-      }
+      const int window = WindowSize(x, width) * WindowSize(y, height);
+      SetCoefficients(p, sums[index(x, y)].data(), window);
+    }
+  }
+}
+
+void RegressionFilm::SetCoefficients(Pixel& p, const float* sums, int window) {
+  const double n = double(p.samples) * window;
+  for (int c = 0; c < 3; ++c, sums += kPerChannel) {
+    const double mean_deviation = double(sums[kFunctions]) / window;
+    const double deviation =
+        std::min(Deviation(p.f[c], p.ff[c], p.samples), kMostDeviation * mean_deviation);
+    for (int j = 0; j < kFunctions; ++j) {
+      p.b[c][j] = static_cast<float>(Shrunk(double(sums[j]) / n, n) * deviation);
     }
   }
 }

@@ -6,9 +6,10 @@
 // two coordinates in the pixel. Least squares then is b_j = s r_j, s the deviation of f
 // and r_j = mean((f - mean f) phi_j) / s its correlation with phi_j. The correlation is
 // averaged over the neighbourhood and shrunk by max(0, 1 - 1 / (n r_j^2)); the deviation
-// is the pixel's own. (Averaging b_j would spread a bright pixel's noise to its dark
-// neighbours.) Coefficients change only between groups of samples, and only depend on
-// groups that were complete before: E[b phi | what came before] = b E[phi] = 0.
+// is the pixel's own, but at most twice the neighbourhood's. (Averaging b_j would spread
+// a bright pixel's noise to its dark neighbours.) Coefficients change only between groups
+// of samples, and only depend on groups that were complete before: E[b phi | what came
+// before] = b E[phi] = 0.
 #pragma once
 
 #include <cstdint>
@@ -65,6 +66,7 @@ class RegressionFilm {
   }
   void Fit(const SampleBlock& block);
   static void Correlate(const Pixel& p, float* out);
+  static void SetCoefficients(Pixel& p, const float* sums, int window);
   void CorrectPixel(const SampleBlock& block, int first_plane, std::uint32_t pixel,
                     std::uint32_t begin, std::uint32_t end);
   std::uint32_t NextFit(std::uint32_t samples) const;

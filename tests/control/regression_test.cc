@@ -1,13 +1,13 @@
 // control=regression: the fit removes the share of f that is quadratic in the numbers of
 // the first bounce, from later samples only, so that the mean stays.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
+#include <vector>
 
 #include "src/image/regression_film.h"
-#include "tests/control/control_scenes.h"
-#include "tests/reference/closed_forms.h"
 
-namespace lanelight::test {
+namespace lanelight {
 namespace {
 
 constexpr int kFirst = 3;  // plane of the numbers, after the colours
@@ -203,52 +203,4 @@ TEST_CASE("regression: how samples are cut into tasks does not matter", "[contro
   }
 }
 
-TEST_CASE("regression: renders of smooth light", "[control]") {
-  const int size = 32;
-  const std::vector<Vec3d> corners = PolygonCorners();
-  const auto exact = stat::KnownImage(size, size, [&](int x, int y) {
-    double sum = 0;
-    for (int k = 0; k < 4; ++k) {
-      const Vec3d p = FilmPoint(x + (k % 2 + 0.5) / 2, y + (k / 2 + 0.5) / 2, size);
-      sum += closed_form::PolygonIrradiance(3, corners, p, {0, 0, 1}) / 4;
-    }
-    return Grey(0.5 / std::numbers::pi * sum);
-  });
-  const SceneDescription scene = PolygonLight(size);
-  const Rendered plain = RenderWith(scene, "directions=light", 128);
-  const Rendered fitted = RenderWith(scene, "directions=light,control=regression", 128);
-  INFO(MeanVariance(plain) << " " << MeanVariance(fitted));
-  CHECK(MeanVariance(fitted) < 0.65 * MeanVariance(plain));
-  const auto result = stat::CompareMeans(Estimate(fitted), exact, {8, 1e-6, 5e-4, 1e-6});
-  INFO(result.ToString());
-  CHECK(result.same);
-}
-
-TEST_CASE("regression: few samples, many images of a room", "[control]") {
-  const SceneDescription scene = SmallRoom(8);
-  const Rendered plain = RenderWith(scene, "", 2048, 99);
-  for (const char* strategy :
-       {"control=regression", "control=regression,points=sobol,pairs=antithetic"}) {
-    stat::ImageEstimate sum;
-    constexpr int kImages = 24;
-    for (std::uint64_t seed = 0; seed < kImages; ++seed) {
-      const stat::ImageEstimate one = Estimate(RenderWith(scene, strategy, 24, seed));
-      if (seed == 0) sum = stat::KnownImage(8, 8, [](int, int) { return Rgb(); });
-      sum.observations += one.observations;
-      for (std::size_t i = 0; i < one.mean.size(); ++i) {
-        sum.mean[i] += one.mean[i] / kImages;
-        sum.variance[i] += one.variance[i] / (double(kImages) * kImages);
-      }
-    }
-    const auto result =
-        stat::CompareMeans(sum, Estimate(plain), {8, 1e-6, kFloatTolerance, 1e-7});
-    INFO(strategy << ": " << result.ToString());
-    CHECK(result.same);
-  }
-}
-
-TEST_CASE("regression: images do not depend on threads and wavefront", "[control]") {
-  CheckDeterminism(SmallRoom(20), "control=regression", 40);
-}
-
-}  // namespace lanelight::test
+}  // namespace lanelight
