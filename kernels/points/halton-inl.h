@@ -6,8 +6,8 @@
 //               chosen by a hash of the digits before it. Digits beyond the group's size
 //               are random. The order of the group's points is a random permutation
 //   unbiased    each scrambled point is uniform, for any n
-//   variance    near N^-2 for smooth f; the groups are of 2^a 3^b points (PointsGroupSize),
-//               which measured a tenth of the variance of sizes between at a thousand
+//   variance    near N^-2 for smooth f; groups of 2^a 3^b points, which PointsGroupSize
+//               prefers, measured a tenth of the variance of others at a thousand
 //   dependence  the samples of one group share one randomisation: one observation
 //   cost        a hash, a permutation and log3(n) steps of twenty instructions per point
 // Sources: Halton 1964; Owen 2017, "A randomized Halton algorithm in R".

@@ -1,9 +1,9 @@
 // Random permutations of [0, n), one per key, without tables: swap-or-not rounds. Round r
 // pairs each x with K_r - x modulo n, and swaps the two or not, as a hash of the larger
 // says.
-//   uniform   tests/points/permute_test.cc bounds what twelve rounds leave on images,
+//   uniform   tests/points/permute_test.cc bounds what ten rounds leave on images,
 //             pairs and, for few elements, whole permutations
-//   cost      twelve rounds of three multiplications and twelve cheap instructions,
+//   cost      ten rounds of three multiplications and twelve cheap instructions,
 //             whatever n
 // Source: Hoang, Morris and Rogaway 2012, "An Enciphering Scheme Based on a Card
 // Shuffle".
@@ -28,7 +28,7 @@ HWY_INLINE VU SwapOrNot(VU x, VU key, Pair&& pair) {
   VU other = hn::Mul(hn::Xor(key, hn::ShiftRight<15>(key)), SplatU(0xd23f38fbu));
   other = hn::Xor(other, hn::ShiftRight<14>(other));
   VU round = key;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 10; ++i) {
     round = hn::Add(hn::Mul(round, SplatU(0x9e3e7241u)), SplatU(0x938ab4c9u));
     const VU partner = pair(x, hn::Xor(round, other));
     const VU larger = hn::Max(x, partner);
