@@ -60,9 +60,9 @@ namespace lanelight {
   X(kLuminance, "luminance", "[:FLOOR[:FIRST]]", "survives with the luminance of the throughput", \
     "f / s or 0, s = min(1, max(FLOOR = 0.05, Y(beta))), from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
   X(kAdjoint, "adjoint", "", "weight window around the expected contribution, by roulette and splitting; pilot pass", \
-    "n = beta Psi / I copies of weight 1/n outside the window [1/3, 5/3]", "Vorba and Krivanek 2016") \
+    "n copies of weight 1/n outside the window [1/3, 5/3], n = beta Psi / I over its edge", "Vorba and Krivanek 2016") \
   X(kEfficiency, "efficiency", "", "roulette and splitting factors that maximise efficiency; pilot passes", \
-    "n = sqrt(beta^2 V / C / (V_I / C_I))", "Rath et al. 2022")
+    "n copies of weight 1/n, n = beta / I sqrt(V / C / (V_I / C_I))", "Rath et al. 2022")
 
 #define LANELIGHT_LIGHT_SELECTIONS(X)                                                     \
   X(kUniform, "uniform", "", "every light alike", "p = 1 / n", "")                        \

@@ -12,6 +12,9 @@ namespace {
 constexpr std::int32_t kCoarse = 4;
 // Records of the coarser cell that count as much as the finer cell's own.
 constexpr double kBorrowed = 8;
+// Of the mean of all cells, what a cell is worth at least: a short pilot pass may have
+// missed what lights it.
+constexpr double kLeastValue = 0.1;
 // kRelativeEpsilon of src/study/estimate.h, which builds on this part of the library.
 constexpr double kErrorEpsilon = 0.01;
 
@@ -76,25 +79,25 @@ void SetCellValues(const std::vector<CellSums>& sums, bool efficiency,
   LL_CHECK_EQ(sums.size(), fine.cells());
   const CellGrid coarse = Coarser(fine);
   std::vector<CellSums> coarse_sums(coarse.cells());
+  CellSums all;
   for (std::uint32_t i = 0; i < sums.size(); ++i) {
-    CellSums& to = coarse_sums[CoarseCell(fine, coarse, i)];
-    to.count += sums[i].count, to.value += sums[i].value;
-    to.square += sums[i].square, to.cost += sums[i].cost;
+    coarse_sums[CoarseCell(fine, coarse, i)].Add(sums[i]);
+    all.Add(sums[i]);
   }
+  const auto survival = [efficiency](const CellMeans& m) {
+    return efficiency ? std::sqrt(m.square / std::max(m.cost, 1.0)) : m.value;
+  };
+  const double least = kLeastValue * survival(Blend(all, {}));
   values.survive.assign(sums.size(), -1.0f);
   if (efficiency) values.split.assign(sums.size(), 0.0f);
   for (std::uint32_t i = 0; i < sums.size(); ++i) {
     const CellMeans around = Blend(coarse_sums[CoarseCell(fine, coarse, i)], {});
     const CellMeans m = Blend(sums[i], around);
     if (!m.known) continue;
-    if (!efficiency) {
-      values.survive[i] = static_cast<float>(m.value);
-      continue;
-    }
-    const double cost = std::max(m.cost, 1.0);
+    values.survive[i] = static_cast<float>(std::max(survival(m), least));
+    if (!efficiency) continue;
     const double variance = std::max(0.0, m.square - m.value * m.value);
-    values.survive[i] = static_cast<float>(std::sqrt(m.square / cost));
-    values.split[i] = static_cast<float>(std::sqrt(variance / cost));
+    values.split[i] = static_cast<float>(std::sqrt(variance / std::max(m.cost, 1.0)));
   }
 }
 

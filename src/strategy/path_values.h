@@ -47,6 +47,9 @@ struct CellSums {
     count += 1, value += estimate, square += estimate * estimate;
     cost += cost_to_come;
   }
+  void Add(const CellSums& o) {
+    count += o.count, value += o.value, square += o.square, cost += o.cost;
+  }
 };
 
 /// Read by the kernels. A cell of which nothing is known has a negative `survive`.
@@ -64,7 +67,8 @@ struct PathValues {
 };
 
 /// Sets values.survive (and .split, if `efficiency`) from the sums of values.grid. Cells
-/// with few records borrow from the coarser cell around them.
+/// with few records borrow from the coarser cell around them; what is worth less than a
+/// tenth of the mean counts as that much: a short pilot pass may have missed its light.
 void SetCellValues(const std::vector<CellSums>& sums, bool efficiency,
                    PathValues& values);
 

@@ -4,9 +4,9 @@
 //   efficiency  the same; then the fixed point of variance and cost by passes with
 //               splitting, and a comparison of the strategy with no roulette and with
 //               roulette on the throughput, all with the same pixels and random numbers
-// They take at most a tenth of the planned samples for adjoint, six percent for
-// efficiency, and stop growing at 240 000 paths. Results do not depend on the number of
-// threads: sums run in the order of the samples, costs are counted in rays.
+// They take about 4 percent of the planned samples and stop growing at 240 000 paths.
+// Results do not depend on the number of threads: sums run in the order of the samples,
+// costs are counted in rays.
 #pragma once
 
 #include <string>

@@ -15,7 +15,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::uint32_t kPixelsPerTask = 1024;
+constexpr std::uint32_t kSamplesPerTask = 4096;
 constexpr int kRecordPlanes = 3 * kPilotVertices + 5;
 
 PilotRecord ReadRecord(const float* values, std::size_t stride, std::size_t i) {
@@ -40,21 +40,22 @@ PilotRecord ReadRecord(const float* values, std::size_t stride, std::size_t i) {
 class Pass {
  public:
   Pass(const CompiledScene& scene, const PlanOptions& options, const RunParameters& run,
-       const std::vector<std::uint32_t>& pixels)
+       const PilotWork& work)
       : scene_(scene),
         plan_(MakePlan(scene, options)),
-        run_(Parameters(scene, plan_, run)),
-        pixels_(pixels),
+        run_(Parameters(scene, plan_, run, work.spp)),
+        work_(work),
         copies_(plan_.features.Has(Feature::kSplitting) ? kMostCopies : 1),
         records_(options.pilot == PilotPass::kRecord) {
     wavefronts_.resize(static_cast<std::size_t>(MaxThreads()) + 1);
-    samples_.colors.resize(pixels.size() * kPilotSpp);
+    samples_.colors.resize(work.samples());
     if (records_) samples_.records.resize(samples_.colors.size());
   }
 
   PilotSamples Run() {
-    const std::size_t tasks = (pixels_.size() + kPixelsPerTask - 1) / kPixelsPerTask;
-    ParallelFor(tasks, [&](std::size_t task) { RunTask(task * kPixelsPerTask); });
+    const std::size_t pixels = std::max<std::size_t>(kSamplesPerTask / work_.spp, 1);
+    const std::size_t tasks = (work_.pixels.size() + pixels - 1) / pixels;
+    ParallelFor(tasks, [&](std::size_t task) { RunTask(task * pixels, pixels); });
     for (const auto& wavefront : wavefronts_) {
       if (!wavefront) continue;
       samples_.rays_closest += wavefront->wave().rays_closest;
@@ -65,10 +66,10 @@ class Pass {
 
  private:
   static RunParameters Parameters(const CompiledScene& scene, const Plan& plan,
-                                  RunParameters run) {
+                                  RunParameters run, std::uint32_t spp) {
     const Strategy strategy = PlannedStrategy(scene, plan.options);
     run.seed ^= 0x5bd1e995u;  // apart from the image's
-    run.spp = kPilotSpp;
+    run.spp = spp;
     run.points = MakePointsParameters(strategy.points, 1);
     run.pairs = MakePairParameters(strategy);
     run.roulette = MakeRouletteParameters(strategy);
@@ -76,32 +77,32 @@ class Pass {
     return run;
   }
 
-  void RunTask(std::size_t first) {
+  void RunTask(std::size_t first, std::size_t pixels) {
     auto& wavefront = wavefronts_[static_cast<std::size_t>(ThreadIndex())];
     if (!wavefront) wavefront = std::make_unique<Wavefront>(scene_, plan_, run_);
     TileWork work;
-    work.pixels = pixels_.data() + first;
-    work.num_pixels = static_cast<std::uint32_t>(
-        std::min<std::size_t>(kPixelsPerTask, pixels_.size() - first));
-    work.samples = kPilotSpp;
-    const std::uint32_t count = work.num_pixels * kPilotSpp, rows = count * copies_;
+    work.pixels = work_.pixels.data() + first;
+    work.num_pixels =
+        static_cast<std::uint32_t>(std::min(pixels, work_.pixels.size() - first));
+    work.samples = work_.spp;
+    const std::uint32_t count = work.num_pixels * work_.spp, rows = count * copies_;
     const int planes = kColorPlanes + (records_ ? kRecordPlanes : 0);
     std::vector<float> values(std::size_t{rows} * static_cast<std::size_t>(planes));
     std::vector<StageCounters> untimed;
     Drive(*wavefront, plan_, work, {values.data(), rows}, untimed);
     if (copies_ > 1) FoldCopies(values.data(), rows, planes, kColorPlanes);
     for (std::size_t i = 0; i < count; ++i) {
-      samples_.colors[first * kPilotSpp + i] = {values[i], values[count + i],
+      samples_.colors[first * work_.spp + i] = {values[i], values[count + i],
                                                 values[2 * count + i]};
       if (!records_) continue;
-      samples_.records[first * kPilotSpp + i] = ReadRecord(values.data(), count, i);
+      samples_.records[first * work_.spp + i] = ReadRecord(values.data(), count, i);
     }
   }
 
   const CompiledScene& scene_;
   const Plan plan_;
   const RunParameters run_;
-  const std::vector<std::uint32_t>& pixels_;
+  const PilotWork& work_;
   const std::uint32_t copies_;
   const bool records_;
   std::vector<std::unique_ptr<Wavefront>> wavefronts_;
@@ -110,27 +111,42 @@ class Pass {
 
 }  // namespace
 
-std::vector<std::uint32_t> PilotPixels(const CompiledScene& scene, std::uint64_t count) {
+PilotWork MakePilotWork(const CompiledScene& scene, std::uint64_t samples) {
   std::vector<std::uint32_t> all;
   // Blocks of neighbours first, so that an even choice of them is even in both axes.
   TilePixels(RenderedPixels(scene.film), scene.film.width, &all);
-  if (count >= all.size()) return all;
-  std::vector<std::uint32_t> pixels;
+  const std::uint64_t count = std::max<std::uint64_t>(samples / PilotWork::kLeastSpp, 1);
+  if (count >= all.size()) {
+    const std::uint64_t spp = std::max<std::uint64_t>(samples / all.size(), 4);
+    return {std::move(all), static_cast<std::uint32_t>(spp)};
+  }
+  PilotWork work;
   std::uint64_t jitter = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
     // One pixel of each of `count` equal stretches, at a place of its own in each.
     const std::uint64_t begin = i * all.size() / count;
     const std::uint64_t end = (i + 1) * all.size() / count;
     jitter = jitter * 6364136223846793005u + 1442695040888963407u;
-    pixels.push_back(all[begin + (jitter >> 33) % (end - begin)]);
+    work.pixels.push_back(all[begin + (jitter >> 33) % (end - begin)]);
   }
-  return pixels;
+  return work;
+}
+
+PilotWork FewOf(const PilotWork& work) {
+  // At least 16 pixels, if there are as many.
+  const std::size_t step = std::clamp<std::size_t>(work.pixels.size() / 16, 1, 16);
+  PilotWork few;
+  few.spp =
+      std::max(work.spp * static_cast<std::uint32_t>(step) / 16, PilotWork::kLeastSpp);
+  for (std::size_t i = 0; i < work.pixels.size(); i += step) {
+    few.pixels.push_back(work.pixels[i]);
+  }
+  return few;
 }
 
 PilotSamples RunPilotPass(const CompiledScene& scene, const PlanOptions& options,
-                          const RunParameters& run,
-                          const std::vector<std::uint32_t>& pixels) {
-  return Pass(scene, options, run, pixels).Run();
+                          const RunParameters& run, const PilotWork& work) {
+  return Pass(scene, options, run, work).Run();
 }
 
 }  // namespace lanelight

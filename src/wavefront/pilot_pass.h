@@ -9,8 +9,15 @@
 
 namespace lanelight {
 
-/// Samples per pixel of a pass: four, so that it shows the variance within a pixel.
-inline constexpr std::uint32_t kPilotSpp = 4;
+/// Pixels of a pass, and samples of each: at least four, so that it shows the
+/// variance within a pixel.
+struct PilotWork {
+  static constexpr std::uint32_t kLeastSpp = 4;
+  std::vector<std::uint32_t> pixels;  // y * width + x
+  std::uint32_t spp = kLeastSpp;
+
+  std::size_t samples() const { return pixels.size() * spp; }
+};
 
 /// What a recording pass knows of a sample (kernels/roulette/record.cc).
 struct PilotRecord {
@@ -32,7 +39,7 @@ struct PilotRecord {
 };
 
 struct PilotSamples {
-  std::vector<Vec3f> colors;         // kPilotSpp per pixel
+  std::vector<Vec3f> colors;         // of a pixel one after the other
   std::vector<PilotRecord> records;  // as many, if recorded
   std::uint64_t rays_closest = 0, rays_shadow = 0;
 
@@ -43,12 +50,13 @@ struct PilotSamples {
   }
 };
 
-/// About `count` pixels of the rendered window, spread evenly.
-std::vector<std::uint32_t> PilotPixels(const CompiledScene& scene, std::uint64_t count);
+/// About `samples` samples (at least four): spread evenly over the rendered window.
+PilotWork MakePilotWork(const CompiledScene& scene, std::uint64_t samples);
 
-/// Renders kPilotSpp samples of each of the pixels.
+/// About a sixteenth of it.
+PilotWork FewOf(const PilotWork& work);
+
 PilotSamples RunPilotPass(const CompiledScene& scene, const PlanOptions& options,
-                          const RunParameters& run,
-                          const std::vector<std::uint32_t>& pixels);
+                          const RunParameters& run, const PilotWork& work);
 
 }  // namespace lanelight

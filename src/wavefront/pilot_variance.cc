@@ -1,0 +1,72 @@
+#include "src/wavefront/pilot_variance.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace lanelight {
+namespace {
+
+// How many of n pixels, sorted by what they add, count: all but the worst thousandth.
+// Single bright samples would decide alone.
+std::size_t Kept(std::size_t n) { return n - std::min(n / 16, (n + 999) / 1000); }
+
+// What a pixel adds without roulette, and what roulette adds to it.
+struct Part {
+  double variance, added;
+  bool operator<(const Part& o) const { return variance + added < o.variance + o.added; }
+};
+
+Part PartOf(const PilotRecord* records, std::uint32_t spp) {
+  double sum = 0, squares = 0, risk = 0;
+  for (std::uint32_t k = 0; k < spp; ++k) {
+    const PilotRecord& r = records[k];
+    sum += r.end, squares += double{r.end} * r.end, risk += r.Risk();
+  }
+  return {std::max(0.0, squares - sum * sum / spp) / (spp - 1), risk / spp};
+}
+
+}  // namespace
+
+std::vector<double> RelativeVariances(const PilotSamples& samples, const PilotWork& work,
+                                      const ImageGuess& image) {
+  std::vector<double> variances(work.pixels.size());
+  for (std::size_t i = 0; i < variances.size(); ++i) {
+    Vec3d sum, squares;
+    for (std::uint32_t k = 0; k < work.spp; ++k) {
+      const Vec3f& v = samples.colors[i * work.spp + k];
+      const Vec3d d{v.x, v.y, v.z};
+      sum += d;
+      squares += {d.x * d.x, d.y * d.y, d.z * d.z};
+    }
+    for (int c = 0; c < 3; ++c) {
+      const double scatter = std::max(0.0, squares[c] - sum[c] * sum[c] / work.spp);
+      variances[i] += scatter / (work.spp - 1) * image.ErrorWeight(work.pixels[i], c) / 3;
+    }
+  }
+  return variances;
+}
+
+double RobustMean(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  values.resize(Kept(values.size()));
+  return std::accumulate(values.begin(), values.end(), 0.0) /
+         static_cast<double>(values.size());
+}
+
+double RouletteVarianceRatio(const PilotSamples& samples, const PilotWork& work,
+                             const ImageGuess& image) {
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < work.pixels.size(); ++i) {
+    double weight = 0;
+    for (int c = 0; c < 3; ++c) weight += image.ErrorWeight(work.pixels[i], c);
+    const Part part = PartOf(samples.records.data() + i * work.spp, work.spp);
+    parts.push_back({part.variance * weight, part.added * weight});
+  }
+  std::sort(parts.begin(), parts.end());
+  parts.resize(Kept(parts.size()));
+  double variance = 0, added = 0;
+  for (const Part& p : parts) variance += p.variance, added += p.added;
+  return added > 0 ? 1 + added / std::max(variance, 1e-9 * added) : 1;
+}
+
+}  // namespace lanelight
