@@ -107,8 +107,8 @@ class Parser {
   [[noreturn]] void Unknown(std::string_view kind, std::string_view found,
                             const std::vector<std::string>& known) const {
     const std::string nearest = NearestName(found, known);
-    Fail(fmt::format("unknown {} {}{}; supported: {}", kind, Quoted(found),
-                     nearest.empty() ? "" : "; did you mean " + Quoted(nearest) + "?",
+    Fail(fmt::format("unknown {} {}; {}supported: {}", kind, Quoted(found),
+                     nearest.empty() ? "" : "did you mean " + Quoted(nearest) + "? ",
                      QuotedList(known)));
   }
 
