@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "src/core/check.h"
 #include "src/wavefront/pilot_pass.h"

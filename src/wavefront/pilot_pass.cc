@@ -37,6 +37,9 @@ PilotRecord ReadRecord(const float* values, std::size_t stride, std::size_t i) {
   return record;
 }
 
+// Pixels that are chosen together: a block of TilePixels, if there are enough of them.
+std::uint64_t RunLength(std::uint64_t pixels) { return pixels >= 512 ? 16 : 1; }
+
 class Pass {
  public:
   Pass(const CompiledScene& scene, const PlanOptions& options, const RunParameters& run,
@@ -120,26 +123,30 @@ PilotWork MakePilotWork(const CompiledScene& scene, std::uint64_t samples) {
     const std::uint64_t spp = std::max<std::uint64_t>(samples / all.size(), 4);
     return {std::move(all), static_cast<std::uint32_t>(spp)};
   }
+  // Whole blocks, if there are enough: rays of neighbours are traced together.
+  const std::uint64_t run = RunLength(count), runs = count / run;
   PilotWork work;
   std::uint64_t jitter = 0;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    // One pixel of each of `count` equal stretches, at a place of its own in each.
-    const std::uint64_t begin = i * all.size() / count;
-    const std::uint64_t end = (i + 1) * all.size() / count;
+  for (std::uint64_t i = 0; i < runs; ++i) {
+    // One of each of equal stretches, at a place of its own in each.
+    const std::uint64_t begin = i * (all.size() / run) / runs;
+    const std::uint64_t end = (i + 1) * (all.size() / run) / runs;
     jitter = jitter * 6364136223846793005u + 1442695040888963407u;
-    work.pixels.push_back(all[begin + (jitter >> 33) % (end - begin)]);
+    const std::uint64_t at = (begin + (jitter >> 33) % (end - begin)) * run;
+    for (std::uint64_t k = 0; k < run; ++k) work.pixels.push_back(all[at + k]);
   }
   return work;
 }
 
 PilotWork FewOf(const PilotWork& work) {
-  // At least 16 pixels, if there are as many.
-  const std::size_t step = std::clamp<std::size_t>(work.pixels.size() / 16, 1, 16);
+  // At least 16 pixels or blocks, if there are as many.
+  const std::size_t run = RunLength(work.pixels.size());
+  const std::size_t step = std::clamp<std::size_t>(work.pixels.size() / run / 16, 1, 16);
   PilotWork few;
   few.spp =
       std::max(work.spp * static_cast<std::uint32_t>(step) / 16, PilotWork::kLeastSpp);
-  for (std::size_t i = 0; i < work.pixels.size(); i += step) {
-    few.pixels.push_back(work.pixels[i]);
+  for (std::size_t i = 0; i < work.pixels.size(); ++i) {
+    if (i / run % step == 0) few.pixels.push_back(work.pixels[i]);
   }
   return few;
 }

@@ -82,6 +82,10 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
   plan.wavefront = options.wavefront > 0
                        ? options.wavefront
                        : WavefrontForCache(plan.bytes_per_path * copies);
+  // A pair starts together.
+  if (plan.features.Has(Feature::kAntithetic)) {
+    plan.wavefront = std::max(plan.wavefront, 2u);
+  }
   plan.slots =
       plan.wavefront * (plan.features.Has(Feature::kSplitting) ? kMostCopies : 1);
   return plan;

@@ -3,13 +3,29 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
+#include <vector>
 
 #include "src/core/aligned.h"
 #include "src/wavefront/plan.h"
 #include "src/wavefront/wave.h"
 
 namespace lanelight {
+
+/// Leaves memory as it is: the room for copies of paths that split is mostly never
+/// touched, and need not be cleared.
+template <typename T>
+struct UntouchedAllocator : AlignedAllocator<T> {
+  template <typename U>
+  struct rebind {
+    using other = UntouchedAllocator<U>;
+  };
+  template <typename U>
+  void construct(U*) {}
+  template <typename U>
+  void construct(U* p, const U& value) {
+    *p = value;
+  }
+};
 
 class Wavefront {
  public:
@@ -22,7 +38,7 @@ class Wavefront {
   void Reset();
 
  private:
-  AlignedVector<std::uint32_t> memory_;
+  std::vector<std::uint32_t, UntouchedAllocator<std::uint32_t>> memory_;
   Wave wave_;
 };
 
