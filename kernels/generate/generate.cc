@@ -15,8 +15,40 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 // Scalar on purpose: consecutive slots of the free list are arbitrary, and three stores
-// per path are below 1 % of its cost.
-//
+// per path are below 1 % of its cost. Returns the slots taken, at most `most`.
+template <bool kSplitting, uint32_t kTogether>
+HWY_INLINE uint32_t StartSamples(Wave& wave, uint32_t most) {
+  const PathColumns p = wave.path;
+  const Queue free = wave.queue(QueueId::kFree);
+  Queue& camera = wave.queue(QueueId::kCamera);
+  TileWork work = wave.work;
+  uint32_t* const started = camera.items + camera.size;
+  uint32_t taken = 0;
+  while (taken + kTogether <= most && !work.Done()) {
+    const uint32_t end = HWY_MIN(work.next_sample + kTogether, work.samples);
+    for (uint32_t sample = work.next_sample; sample < end; ++sample) {
+      const uint32_t slot = free.items[free.size - 1 - taken];
+      p.pixel[slot] = work.pixels[work.next_pixel];
+      p.sample[slot] = work.first_sample + sample;
+      p.output[slot] = work.next_pixel * work.samples + sample;
+      p.depth[slot] = 0;
+      if constexpr (kSplitting) {
+        p.output[slot] *= kMostCopies;
+        p.branch[slot] = 0;
+        p.budget[slot] = kMostCopies;
+      }
+      started[taken++] = slot;
+    }
+    if (++work.next_pixel == work.num_pixels) {
+      work.next_pixel = 0;
+      work.next_sample += kTogether;
+    }
+  }
+  camera.size += taken;
+  wave.work = work;
+  return taken;
+}
+
 // Where paths split, as many are started as keep the live paths below a share of
 // 1 / kMostCopies of the slots: none of them ever has a budget above kMostCopies, so a
 // split always finds free slots.
@@ -24,34 +56,15 @@ template <bool kSplitting>
 HWY_INLINE void Start(Wave& wave) {
   Queue& free = wave.queue(QueueId::kFree);
   Queue& camera = wave.queue(QueueId::kCamera);
-  TileWork& work = wave.work;
+  const TileWork& work = wave.work;
   uint32_t most = free.size;
   if constexpr (kSplitting) {
     const uint32_t share = wave.capacity / kMostCopies;
     const uint32_t live = wave.queue(QueueId::kActive).size;
     most = live < share ? share - live : 0;
   }
-  uint32_t taken = 0;
-  while (taken + work.together <= most && !work.Done()) {
-    const uint32_t end = HWY_MIN(work.next_sample + work.together, work.samples);
-    for (uint32_t sample = work.next_sample; sample < end; ++sample) {
-      const uint32_t slot = free.items[free.size - 1 - taken++];
-      wave.path.pixel[slot] = work.pixels[work.next_pixel];
-      wave.path.sample[slot] = work.first_sample + sample;
-      wave.path.output[slot] = work.next_pixel * work.samples + sample;
-      wave.path.depth[slot] = 0;
-      if constexpr (kSplitting) {
-        wave.path.output[slot] *= kMostCopies;
-        wave.path.branch[slot] = 0;
-        wave.path.budget[slot] = kMostCopies;
-      }
-      camera.items[camera.size++] = slot;
-    }
-    if (++work.next_pixel == work.num_pixels) {
-      work.next_pixel = 0;
-      work.next_sample += work.together;
-    }
-  }
+  const uint32_t taken = work.together == 1 ? StartSamples<kSplitting, 1>(wave, most)
+                                            : StartSamples<kSplitting, 2>(wave, most);
   free.size -= taken;
   CountBatches(wave, camera);
 }

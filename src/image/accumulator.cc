@@ -33,17 +33,30 @@ std::optional<ControlReport> FilmAccumulator::Control() const {
 void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
                                  std::uint32_t count) {
   const std::size_t index = Index(x, y);
-  const int first_difference = kColorPlanes + (aov_.empty() ? 0 : kAovPlanes);
+  control_ ? AddColors<true>(index, planes, count)
+           : AddColors<false>(index, planes, count);
+  for (int a = 0; a < kAovPlanes && !aov_.empty(); ++a) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      aov_[index * kAovPlanes + a] += planes[kColorPlanes + a][i];
+    }
+  }
+}
+
+template <bool kControl>
+void FilmAccumulator::AddColors(std::size_t index, const float* const* planes,
+                                std::uint32_t count) {
+  [[maybe_unused]] const int first_difference =
+      kColorPlanes + (aov_.empty() ? 0 : kAovPlanes);
   Pixel& p = pixels_[index];
+  std::uint32_t in_group = static_cast<std::uint32_t>(p.samples % group_size_);
   for (std::uint32_t i = 0; i < count; ++i) {
-    ++p.samples;
-    const bool closes_group = p.samples % group_size_ == 0;
+    const bool closes_group = ++in_group == group_size_;
     double means[kColorPlanes];
     for (int c = 0; c < kColorPlanes; ++c) {
       const double value = planes[c][i];
       p.sum[c] += value;
       p.group[c] += value;
-      if (control_) {
+      if constexpr (kControl) {
         control_->AddDifference(index, c, planes[first_difference + c][i]);
       }
       if (!closes_group) continue;
@@ -53,14 +66,12 @@ void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
       p.group[c] = 0;
       means[c] = mean;
     }
-    if (closes_group) {
-      ++p.groups;
-      if (control_) control_->CloseGroup(index, means, group_size_);
-    }
-    for (int a = 0; a < kAovPlanes && !aov_.empty(); ++a) {
-      aov_[index * kAovPlanes + a] += planes[kColorPlanes + a][i];
-    }
+    if (!closes_group) continue;
+    in_group = 0;
+    ++p.groups;
+    if constexpr (kControl) control_->CloseGroup(index, means, group_size_);
   }
+  p.samples += count;
 }
 
 Rgb FilmAccumulator::Mean(int x, int y) const {

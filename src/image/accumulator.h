@@ -20,7 +20,8 @@ class FilmAccumulator {
  public:
   /// A film of the pixels [x0, x0+width) x [y0, y0+height) of the full image.
   /// Samples `k*group_size ... (k+1)*group_size - 1` of a pixel form one group.
-  FilmAccumulator(int x0, int y0, int width, int height, std::uint32_t group_size, bool aov);
+  FilmAccumulator(int x0, int y0, int width, int height, std::uint32_t group_size,
+                  bool aov);
 
   int x0() const { return x0_; }
   int y0() const { return y0_; }
@@ -45,14 +46,17 @@ class FilmAccumulator {
   std::uint64_t Samples(int x, int y) const { return pixel(x, y).samples; }
   /// Mean of all samples; zero without samples.
   Rgb Mean(int x, int y) const;
-  /// Estimated variance of Mean() per channel, from the scatter of complete groups; NaN-free:
-  /// zero where fewer than two groups are complete (see HasVariance).
+  /// Estimated variance of Mean() per channel, from the scatter of complete groups;
+  /// NaN-free: zero where fewer than two groups are complete (see HasVariance).
   Rgb Variance(int x, int y) const;
   bool HasVariance(int x, int y) const { return pixel(x, y).groups >= 2; }
   /// Mean of an auxiliary plane.
   double Aov(int x, int y, int plane) const;
 
  private:
+  template <bool kControl>
+  void AddColors(std::size_t index, const float* const* planes, std::uint32_t count);
+
   struct Pixel {
     double sum[3] = {}, group[3] = {}, squares[3] = {}, group_total[3] = {};
     std::uint64_t samples = 0, groups = 0;
