@@ -16,16 +16,17 @@ namespace HWY_NAMESPACE {
 
 // Scalar on purpose: consecutive slots of the free list are arbitrary, and three stores
 // per path are below 1 % of its cost. Returns the slots taken, at most `most`.
-template <bool kSplitting, uint32_t kTogether>
+template <bool kSplitting>
 HWY_INLINE uint32_t StartSamples(Wave& wave, uint32_t most) {
   const PathColumns p = wave.path;
   const Queue free = wave.queue(QueueId::kFree);
   Queue& camera = wave.queue(QueueId::kCamera);
   TileWork work = wave.work;
+  const uint32_t together = work.together;
   uint32_t* const started = camera.items + camera.size;
   uint32_t taken = 0;
-  while (taken + kTogether <= most && !work.Done()) {
-    const uint32_t end = HWY_MIN(work.next_sample + kTogether, work.samples);
+  while (taken + together <= most && !work.Done()) {
+    const uint32_t end = HWY_MIN(work.next_sample + together, work.samples);
     for (uint32_t sample = work.next_sample; sample < end; ++sample) {
       const uint32_t slot = free.items[free.size - 1 - taken];
       p.pixel[slot] = work.pixels[work.next_pixel];
@@ -41,7 +42,7 @@ HWY_INLINE uint32_t StartSamples(Wave& wave, uint32_t most) {
     }
     if (++work.next_pixel == work.num_pixels) {
       work.next_pixel = 0;
-      work.next_sample += kTogether;
+      work.next_sample += together;
     }
   }
   camera.size += taken;
@@ -56,15 +57,13 @@ template <bool kSplitting>
 HWY_INLINE void Start(Wave& wave) {
   Queue& free = wave.queue(QueueId::kFree);
   Queue& camera = wave.queue(QueueId::kCamera);
-  const TileWork& work = wave.work;
   uint32_t most = free.size;
   if constexpr (kSplitting) {
     const uint32_t share = wave.capacity / kMostCopies;
     const uint32_t live = wave.queue(QueueId::kActive).size;
     most = live < share ? share - live : 0;
   }
-  const uint32_t taken = work.together == 1 ? StartSamples<kSplitting, 1>(wave, most)
-                                            : StartSamples<kSplitting, 2>(wave, most);
+  const uint32_t taken = StartSamples<kSplitting>(wave, most);
   free.size -= taken;
   CountBatches(wave, camera);
 }

@@ -99,6 +99,9 @@ class Runner {
 
   // Without a sample count the partition assumes many samples.
   static constexpr std::uint64_t kOpenEndedSpp = 32;
+  // Samples of a pixel in adjacent slots: their rays share more of the scene than those
+  // of neighbouring pixels.
+  static constexpr std::uint32_t kSamplesTogether = 16;
   static constexpr int kMostPlanes =
       kColorPlanes + kAovPlanes + kColorPlanes + RegressionFilm::kPlanes;
 
@@ -203,7 +206,8 @@ class Runner {
     work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
     work.first_sample = static_cast<std::uint32_t>(first_sample);
     work.samples = out.count;
-    work.together = scene_.strategy.pairs == Pairs::kAntithetic ? 2 : 1;
+    work.together = std::min(kSamplesTogether, plan_.wavefront);
+    if (scene_.strategy.pairs == Pairs::kAntithetic) work.together &= ~1u;
     const std::uint32_t stride = work.num_pixels * out.count;
     const bool splits = plan_.features.Has(Feature::kSplitting);
     const std::uint32_t rows = stride * (splits ? kMostCopies : 1);

@@ -75,7 +75,7 @@ struct TileWork {
   const std::uint32_t* pixels = nullptr;  // y * width + x, in the order to start them
   std::uint32_t num_pixels = 0;
   std::uint32_t first_sample = 0, samples = 0;
-  std::uint32_t together = 1;  // samples of a pixel in adjacent slots: 2 for pairs
+  std::uint32_t together = 1;  // samples of a pixel in adjacent slots; even for pairs
   std::uint32_t next_pixel = 0, next_sample = 0;  // cursor; done when >= samples
 
   bool Done() const { return next_sample >= samples; }
