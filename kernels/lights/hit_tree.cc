@@ -65,7 +65,7 @@ Stage HitLightTreeStage() {
       "light_hit_tree",
       "probability of having selected the light that was hit",
       QueueId::kHit,
-      {Feature::kLights, Feature::kLightTree, Feature::kMis},
+      {Feature::kAreaLights, Feature::kLightTree, Feature::kMis},
       fields::kRay | FieldSet{Field::prim},
       {Field::light_pmf},
       [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(HitLightTree); }};

@@ -229,9 +229,9 @@ LightTree BuildLightTree(const Geometry& geometry, std::span<const LightRecord> 
   // The tree as a whole counts like one light without a place, as in pbrt-v4.
   const std::size_t choices = tree.far.size() + (leaves.empty() ? 0 : 1);
   tree.pmf_far = choices > 0 ? 1.0f / static_cast<float>(choices) : 0;
+  tree.primitive_leaf.assign(geometry.ranges.end, -1);
   if (leaves.empty()) return tree;
   Builder(std::move(leaves), tree).Build();
-  tree.primitive_leaf.assign(geometry.ranges.end, -1);
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     if (tree.nodes[i].child >= 0) continue;
     const std::uint32_t primitive =

@@ -12,6 +12,7 @@
 #include "src/scene/compile.h"
 #include "src/strategy/use_strategy.h"
 #include "tests/reference/scenes.h"
+#include "tests/wavefront/render_fixture.h"
 #include "tests/wavefront/wave_fixture.h"
 
 namespace lanelight::test {
@@ -155,6 +156,23 @@ TEST_CASE("light tree: near and facing lights are preferred", "[strategy]") {
     nearest += p.ls_light[i] == static_cast<std::uint32_t>(sphere.light);
   // Alike, it would get a third (beside two lights without a place) of 1 in 42.
   CHECK(nearest > 4 * 2048 / (3 * 42));
+}
+
+TEST_CASE("light tree: lights without a place need no tree", "[strategy]") {
+  SceneBuilder b(4, 4);
+  b.Depth(2).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 36);
+  b.AddPlane({0, 0, 0}, {0, 0, 1}, b.AddDiffuse(Grey(0.5)));
+  b.AddSphere({0, 0, 0.5}, 0.5, b.AddDiffuse(Grey(0.5)));
+  b.AddDistant({0, 1, 2}, {0.4, 0.4, 0.4});
+  b.AddEnvironment({0.3, 0.4, 0.5});
+  const auto mean = [&](const std::string& selection) {
+    TestRender options;
+    options.spp = 4096;
+    options.strategy = "light-selection=" + selection;
+    return ImageMean(RenderDescription(b.Build(), options).film);
+  };
+  const Rgb tree = mean("tree"), uniform = mean("uniform");
+  CHECK(tree.y == Approx(uniform.y).epsilon(0.01));
 }
 
 }  // namespace lanelight::test
