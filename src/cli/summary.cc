@@ -35,7 +35,7 @@ std::string ControlRow(const RunResult& r, const Strategy& strategy) {
   const double c = r.control ? r.control->coefficient : strategy.coefficient.value_or(1);
   std::string text =
       fmt::format("{}, {}c = {:.4g} (in the paper's sign {:.4g})", Name(strategy.control),
-                  strategy.coefficient ? "" : "mean ", c, -c);
+                  strategy.coefficient ? "" : "mean ", c, 0 - c);
   if (r.control) {
     text += fmt::format(", correlation reached {:.4f}", r.control->correlation);
   }
