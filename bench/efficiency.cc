@@ -100,7 +100,7 @@ std::vector<double> PixelScales(const std::vector<Repetitions>& all) {
 }
 
 std::vector<double> RelativeErrors(const Repetitions& r,
-                                   const std::vector<double>& scales) {
+                                   const std::vector<double>& scales, double trimmed) {
   const double n = double(r.images.size());
   std::vector<double> sum(scales.size());
   for (const auto& image : r.images) {
@@ -108,34 +108,43 @@ std::vector<double> RelativeErrors(const Repetitions& r,
   }
   std::vector<double> errors;
   for (const auto& image : r.images) {
-    double error = 0;
+    std::vector<double> pixels;
     for (std::size_t i = 0; i < image.size(); ++i) {
       const double d = Luminance(image[i]) - sum[i] / n;
-      error += d * d / scales[i];
+      pixels.push_back(d * d / scales[i]);
     }
-    errors.push_back(error / double(image.size()) * n / (n - 1));
+    std::sort(pixels.begin(), pixels.end());
+    pixels.resize(pixels.size() -
+                  static_cast<std::size_t>(trimmed * double(pixels.size())));
+    errors.push_back(Mean(pixels) * n / (n - 1));
   }
   return errors;
 }
 
 Comparison Compare(const Repetitions& r, const Repetitions& baseline,
                    const std::vector<double>& scales) {
-  const std::vector<double> error = RelativeErrors(r, scales);
-  const std::vector<double> base_error = RelativeErrors(baseline, scales);
+  const auto all = RelativeErrors(r, scales, 0);
+  const auto base_all = RelativeErrors(baseline, scales, 0);
+  const auto most = RelativeErrors(r, scales, kTrimmed);
+  const auto base_most = RelativeErrors(baseline, scales, kTrimmed);
   std::mt19937 random(1);
-  std::vector<double> variance, seconds, efficiency;
+  std::vector<double> variance, trimmed, seconds, efficiency, trimmed_efficiency;
   for (int i = 0; i < 2000; ++i) {
-    const auto at = ResampledIndices(error.size(), random);
-    variance.push_back(Mean(At(error, at)) / Mean(At(base_error, at)));
+    const auto at = ResampledIndices(all.size(), random);
+    variance.push_back(Mean(At(all, at)) / Mean(At(base_all, at)));
+    trimmed.push_back(Mean(At(most, at)) / Mean(At(base_most, at)));
     seconds.push_back(Median(At(r.seconds, at)) / Median(At(baseline.seconds, at)));
     efficiency.push_back(1 / (variance.back() * seconds.back()));
+    trimmed_efficiency.push_back(1 / (trimmed.back() * seconds.back()));
   }
   Comparison c;
-  const double v = Mean(error) / Mean(base_error);
+  const double v = Mean(all) / Mean(base_all), t = Mean(most) / Mean(base_most);
   const double s = Median(r.seconds) / Median(baseline.seconds);
   c.variance = Interval(v, variance);
+  c.trimmed_variance = Interval(t, trimmed);
   c.seconds = Interval(s, seconds);
   c.efficiency = Interval(1 / (v * s), efficiency);
+  c.trimmed_efficiency = Interval(1 / (t * s), trimmed_efficiency);
   c.same_mean_p = WelchP(ImageMeans(r), ImageMeans(baseline));
   return c;
 }

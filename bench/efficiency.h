@@ -21,6 +21,8 @@ struct Repetitions {
   std::string refused;        // not empty: why the scene does not take the strategy
 };
 
+inline constexpr double kTrimmed = 0.01;
+
 struct Estimate {
   double value = 0, low = 0, high = 0;  // 95 % interval
 };
@@ -29,6 +31,10 @@ struct Estimate {
 /// better.
 struct Comparison {
   Estimate variance, seconds, efficiency;
+  /// Without the worst kTrimmed of the pixels of each render: where rare bright samples
+  /// carry most of the variance, a few repetitions do not measure it, and no interval
+  /// holds; this part of it is measured well.
+  Estimate trimmed_variance, trimmed_efficiency;
   /// p-value of equal image means (Welch over the repetitions).
   double same_mean_p = 1;
 };
@@ -37,9 +43,10 @@ struct Comparison {
 std::vector<double> PixelScales(const std::vector<Repetitions>& all);
 
 /// Mean over pixels of the squared error of each repetition against the mean of the
-/// others, corrected to the variance of one render, relative to `scales`.
+/// others, corrected to the variance of one render, relative to `scales`; the largest
+/// errors, a share of `trimmed`, left out.
 std::vector<double> RelativeErrors(const Repetitions& r,
-                                   const std::vector<double>& scales);
+                                   const std::vector<double>& scales, double trimmed);
 
 Comparison Compare(const Repetitions& r, const Repetitions& baseline,
                    const std::vector<double>& scales);

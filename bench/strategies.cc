@@ -157,12 +157,13 @@ void PrintRow(const Repetitions& r, const Comparison& c, const BenchOptions& opt
   const auto text = [](const Estimate& e) {
     return fmt::format("{:.3g} [{:.3g}, {:.3g}]", e.value, e.low, e.high);
   };
-  const char* row = options.markdown
-                        ? "| {} | {} | {} | {} | {:.2f} | {:.1f} % | {} | {} |\n"
-                        : "{:<72} {:>22} {:>22} {:>22} {:>6.2f} {:>6.1f} % {:>5} {}\n";
-  fmt::print(fmt::runtime(row), r.strategy, text(c.variance), text(c.seconds),
-             text(c.efficiency), 1e-6 * samples / Median(r.seconds), 100 * r.occupancy,
-             r.bytes_per_path,
+  const char* row =
+      options.markdown
+          ? "| {} | {} | {} | {} | {} | {} | {:.2f} | {:.1f} % | {} | {} |\n"
+          : "{:<66} {:>20} {:>20} {:>18} {:>20} {:>20} {:>5.2f} {:>5.1f} % {:>4} {}\n";
+  fmt::print(fmt::runtime(row), r.strategy, text(c.variance), text(c.trimmed_variance),
+             text(c.seconds), text(c.efficiency), text(c.trimmed_efficiency),
+             1e-6 * samples / Median(r.seconds), 100 * r.occupancy, r.bytes_per_path,
              r.invalid > 0          ? fmt::format("{} INVALID SAMPLES", r.invalid)
              : c.same_mean_p < 1e-5 ? "DIFFERENT MEAN"
                                     : "");
@@ -175,13 +176,17 @@ bool PrintScene(const std::string& path, const std::vector<Repetitions>& all,
   bool good = true;
   fmt::print("\n{}: {} spp, {} repetitions, {} thread(s); relative to the first row\n",
              path, options.spp, options.repeats, options.threads);
+  fmt::print("\"trimmed\": without the worst {} % of the pixels of each render\n\n",
+             100 * kTrimmed);
   if (options.markdown) {
     fmt::print(
-        "| strategy | variance | time | efficiency | Ms/s | lanes | bytes/path | |\n"
-        "|---|---|---|---|---|---|---|---|\n");
+        "| strategy | variance | trimmed variance | time | efficiency | trimmed "
+        "efficiency | Ms/s | lanes | bytes/path | |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n");
   } else {
-    fmt::print("{:<72} {:>22} {:>22} {:>22} {:>6} {:>8} {:>5}\n", "strategy", "variance",
-               "time", "efficiency", "Ms/s", "lanes", "B");
+    fmt::print("{:<66} {:>20} {:>20} {:>18} {:>20} {:>20} {:>5} {:>7} {:>4}\n",
+               "strategy", "variance", "trimmed variance", "time", "efficiency",
+               "trimmed efficiency", "Ms/s", "lanes", "B");
   }
   for (const Repetitions& r : all) {
     if (!r.refused.empty()) {
