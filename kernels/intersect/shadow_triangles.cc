@@ -15,9 +15,9 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 // Shadow rays go as packets only through scenes of at most so many triangles: a ray by
-// itself stops at its first blocker, a packet only when all its rays have one. Above this,
-// packets cost 6.4 times as much per ray on coffee and 1.8 times on dining-room (medians of
-// three interleaved renders).
+// itself stops at its first blocker, a packet only when all its rays have one. Above
+// this, packets cost 6.4 times as much per ray on coffee and 1.8 times on dining-room
+// (medians of three interleaved renders).
 constexpr std::size_t kPacketTriangles = 2048;
 
 // As in triangles.cc.
@@ -28,7 +28,8 @@ void ShadowTriangles(Wave& wave) {
   RemoveOccluded(wave, [&](const Rays& rays, VI slots, MF valid) HWY_ATTR {
     if constexpr (!kInstances) {
       PacketBounds bounds;
-      if (packets && bounds.Compute(rays) && bounds.IsNarrow(scene.accel.groups[0].reach)) {
+      if (packets && bounds.Compute(rays) &&
+          bounds.IsNarrow(scene.accel.groups[0].reach)) {
         return BlockedPacket<kAlpha>(scene, rays, bounds);
       }
       if (!scene.accel.few.triangles.empty()) return BlockedFew<kAlpha>(scene, rays);

@@ -19,8 +19,8 @@ namespace HWY_NAMESPACE {
 
 // Distance along unit direction w (from outside) to the near side of the sphere at
 // relative centre c: with the closest approach h = c - (c.w) w, t = c.w - sqrt(r^2 -
-// h^2). Rounded down: h^2 is off by up to about 8 ulp of r |c|, which near the silhouette,
-// where the root is steep, would put t behind the sphere's own surface.
+// h^2). Rounded down: h^2 is off by up to about 8 ulp of r |c|, which near the
+// silhouette, where the root is steep, would put t behind the sphere's own surface.
 HWY_INLINE VF NearDistance(V3 c, V3 w, VF radius) {
   const VF along = Dot(c, w);
   const V3 h = c - Mul(w, along);

@@ -23,7 +23,8 @@ HWY_INLINE VF MixAmount(const Wave& wave, VI slots, VI material) {
   const VF constant = Gather(m.alpha_x.data(), material);
   if (wave.path.uv_u == nullptr) return constant;
   return EvalAlpha(wave.scene->textures, Gather(m.alpha_x_texture.data(), material),
-                   Gather(wave.path.uv_u, slots), Gather(wave.path.uv_v, slots), constant);
+                   Gather(wave.path.uv_u, slots), Gather(wave.path.uv_v, slots),
+                   constant);
 }
 
 void Mix(Wave& wave) {
@@ -36,8 +37,7 @@ void Mix(Wave& wave) {
     VU key = hn::Add(hn::Mul(AsUnsigned(Gather(wave.path.depth, slots)), count),
                      SplatU(static_cast<uint32_t>(Dimension::kMix)));
     if (wave.path.branch != nullptr) {
-      key = hn::Xor(key,
-                    hn::ShiftLeft<28>(AsUnsigned(Gather(wave.path.branch, slots))));
+      key = hn::Xor(key, hn::ShiftLeft<28>(AsUnsigned(Gather(wave.path.branch, slots))));
     }
     for (uint32_t round = 0;; ++round) {
       const auto is_mix = hn::Eq(Gather(m.kind.data(), material), mix_kind);
@@ -67,8 +67,13 @@ namespace lanelight {
 HWY_EXPORT(Mix);
 
 Stage MixStage() {
-  return {"mix", "chooses one material of a mix", QueueId::kSurface, {Feature::kMix, Feature::kScatters},
-          FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch, Field::material} | fields::kUv,
+  return {"mix",
+          "chooses one material of a mix",
+          QueueId::kSurface,
+          {Feature::kMix, Feature::kScatters},
+          FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
+                   Field::material} |
+              fields::kUv,
           {Field::material},
           [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Mix); }};
 }

@@ -50,8 +50,9 @@ Stage SplitStage() {
           {Field::t},
           {},
           [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kInfiniteLights) ? HWY_DYNAMIC_DISPATCH(SplitOpen)
-                                                          : HWY_DYNAMIC_DISPATCH(SplitClosed);
+            return features.Has(Feature::kInfiniteLights)
+                       ? HWY_DYNAMIC_DISPATCH(SplitOpen)
+                       : HWY_DYNAMIC_DISPATCH(SplitClosed);
           }};
 }
 

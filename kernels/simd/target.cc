@@ -12,7 +12,8 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 int LanesOfTarget() {
-  return static_cast<int>(hwy::HWY_NAMESPACE::Lanes(hwy::HWY_NAMESPACE::ScalableTag<float>()));
+  return static_cast<int>(
+      hwy::HWY_NAMESPACE::Lanes(hwy::HWY_NAMESPACE::ScalableTag<float>()));
 }
 
 }  // namespace HWY_NAMESPACE
@@ -56,8 +57,10 @@ void ForceTarget(const std::string& name) {
   }
   if (forced == 0 && !name.empty()) {
     std::string legal;
-    for (const std::string& t : AvailableTargets()) legal += (legal.empty() ? "" : ", ") + t;
-    throw InputError("unknown SIMD target '" + name + "'; this machine can run: " + legal);
+    for (const std::string& t : AvailableTargets())
+      legal += (legal.empty() ? "" : ", ") + t;
+    throw InputError("unknown SIMD target '" + name +
+                     "'; this machine can run: " + legal);
   }
   hwy::SetSupportedTargetsForTest(forced);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());

@@ -91,8 +91,8 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
   text += Row("points", PointsText(job.scene.strategy, job.spp));
   text += SpeedRows(r);
   if (!r.pilot_note.empty()) {
-    text += Row("pilot",
-                fmt::format("{}: {}", DurationText(r.pilot_seconds), r.pilot_note));
+    text +=
+        Row("pilot", fmt::format("{}: {}", DurationText(r.pilot_seconds), r.pilot_note));
   }
   text += Row("error", ErrorText(report.error));
   text += ControlRow(r, job.scene.strategy);

@@ -18,9 +18,9 @@ struct ThreadLimit::Impl {
 };
 
 ThreadLimit::ThreadLimit(int threads)
-    : impl_(std::make_unique<Impl>(threads > 0
-                                       ? static_cast<std::size_t>(threads)
-                                       : std::max(1u, std::thread::hardware_concurrency()))) {}
+    : impl_(std::make_unique<Impl>(
+          threads > 0 ? static_cast<std::size_t>(threads)
+                      : std::max(1u, std::thread::hardware_concurrency()))) {}
 ThreadLimit::~ThreadLimit() = default;
 
 int MaxThreads() {

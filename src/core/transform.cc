@@ -6,8 +6,7 @@
 
 namespace lanelight {
 
-Transform::Transform()
-    : m_{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}} {}
+Transform::Transform() : m_{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}} {}
 
 Transform Transform::Translate(Vec3d d) {
   return Transform({{{1, 0, 0, d.x}, {0, 1, 0, d.y}, {0, 0, 1, d.z}, {0, 0, 0, 1}}});
@@ -21,10 +20,11 @@ Transform Transform::Rotate(double degrees, Vec3d axis) {
   const Vec3d a = Normalize(axis);
   const double radians = degrees * (std::numbers::pi / 180);
   const double s = std::sin(radians), c = std::cos(radians), t = 1 - c;
-  return Transform({{{a.x * a.x * t + c, a.x * a.y * t - a.z * s, a.x * a.z * t + a.y * s, 0},
-                     {a.x * a.y * t + a.z * s, a.y * a.y * t + c, a.y * a.z * t - a.x * s, 0},
-                     {a.x * a.z * t - a.y * s, a.y * a.z * t + a.x * s, a.z * a.z * t + c, 0},
-                     {0, 0, 0, 1}}});
+  return Transform(
+      {{{a.x * a.x * t + c, a.x * a.y * t - a.z * s, a.x * a.z * t + a.y * s, 0},
+        {a.x * a.y * t + a.z * s, a.y * a.y * t + c, a.y * a.z * t - a.x * s, 0},
+        {a.x * a.z * t - a.y * s, a.y * a.z * t + a.x * s, a.z * a.z * t + c, 0},
+        {0, 0, 0, 1}}});
 }
 
 Transform Transform::LookAt(Vec3d eye, Vec3d look, Vec3d up) {
@@ -66,7 +66,9 @@ Vec3d Transform::Point(Vec3d p) const {
 }
 
 Vec3d Transform::Vector(Vec3d v) const {
-  const auto row = [&](int i) { return m_[i][0] * v.x + m_[i][1] * v.y + m_[i][2] * v.z; };
+  const auto row = [&](int i) {
+    return m_[i][0] * v.x + m_[i][1] * v.y + m_[i][2] * v.z;
+  };
   return {row(0), row(1), row(2)};
 }
 
@@ -146,7 +148,8 @@ double Transform::UniformScale() const {
   const Vec3d c0 = Vector({1, 0, 0}), c1 = Vector({0, 1, 0}), c2 = Vector({0, 0, 1});
   const double s = Length(c0);
   const double tolerance = 1e-5 * s;
-  const bool same = std::abs(Length(c1) - s) <= tolerance && std::abs(Length(c2) - s) <= tolerance;
+  const bool same =
+      std::abs(Length(c1) - s) <= tolerance && std::abs(Length(c2) - s) <= tolerance;
   const bool orthogonal = std::abs(Dot(c0, c1)) <= tolerance * s &&
                           std::abs(Dot(c1, c2)) <= tolerance * s &&
                           std::abs(Dot(c2, c0)) <= tolerance * s;

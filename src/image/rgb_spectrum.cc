@@ -25,7 +25,8 @@ double Error(Rgb a, Rgb b) { return Dot(a - b, a - b); }
 // Solves the 3x3 system m x = b by Cramer's rule; rows of m are vectors.
 Vec3d Solve(const std::array<Vec3d, 3>& m, Vec3d b) {
   const double det = Dot(m[0], Cross(m[1], m[2]));
-  const Vec3d x = Cross(m[1], m[2]) * b.x + Cross(m[2], m[0]) * b.y + Cross(m[0], m[1]) * b.z;
+  const Vec3d x =
+      Cross(m[1], m[2]) * b.x + Cross(m[2], m[0]) * b.y + Cross(m[0], m[1]) * b.z;
   return x / det;
 }
 
@@ -73,7 +74,8 @@ Spectrum ReflectanceOfRgb(Rgb rgb) {
   // on the flat parts of the sigmoid.
   const Rgb grey = {0.5, 0.5, 0.5};
   Coefficients c = {0, 0, 0};
-  for (double share : {0.25, 0.5, 0.75, 0.9, 1.0}) c = Fit(grey + (rgb - grey) * share, c);
+  for (double share : {0.25, 0.5, 0.75, 0.9, 1.0})
+    c = Fit(grey + (rgb - grey) * share, c);
   return [c](double nm) { return Evaluate(c, nm); };
 }
 

@@ -36,8 +36,8 @@ Rgb EffectiveCoatBase(Rgb rgb, double internal, int bounces) {
     // What the fit misses of the colour is taken as a factor, so that a response that is
     // linear gives back the colour itself.
     const double miss = fitted[c] > 0.01 ? rgb[c] / fitted[c] : 1;
-    const double wanted = fitted[c] > 0.01 ? response[c] * miss
-                                           : CoatedResponse(rgb[c], internal, bounces);
+    const double wanted =
+        fitted[c] > 0.01 ? response[c] * miss : CoatedResponse(rgb[c], internal, bounces);
     effective[c] = InvertResponse(std::max(wanted, 0.0), internal, bounces);
   }
   return effective;

@@ -12,8 +12,8 @@
 namespace lanelight {
 namespace {
 
-// Vertex normals this close to the face normal are face normals: files hold six digits, of
-// which the sides of thin slabs lose two or three.
+// Vertex normals this close to the face normal are face normals: files hold six digits,
+// of which the sides of thin slabs lose two or three.
 constexpr double kSameNormal = 5e-4;
 constexpr std::size_t kGrain = 4096;
 

@@ -118,7 +118,8 @@ TEST_CASE("a crop equals that part of the whole image", "[cli]") {
   REQUIRE(b.height == 16);
   int different = 0;
   for (int y = 0; y < b.height; ++y) {
-    for (int x = 0; x < b.width; ++x) different += b.At(x, y, 0) != a.At(x + 10, y + 4, 0);
+    for (int x = 0; x < b.width; ++x)
+      different += b.At(x, y, 0) != a.At(x + 10, y + 4, 0);
   }
   CHECK(different == 0);
   const ProcessResult outside =

@@ -2,9 +2,9 @@
 // means per channel, and the distribution of differences over tiles.
 //
 // Tolerance. pbrt carries spectra, we carry RGB. For grey and weakly coloured materials
-// the two agree; in saturated interreflection they differ by the shape of the spectra that
-// pbrt makes up for RGB reflectances. Scenes marked `saturated` therefore hold 3 % in
-// luminance and 10 % per channel, the others 3 % in each. On top of that come four
+// the two agree; in saturated interreflection they differ by the shape of the spectra
+// that pbrt makes up for RGB reflectances. Scenes marked `saturated` therefore hold 3 %
+// in luminance and 10 % per channel, the others 3 % in each. On top of that come four
 // standard errors: ours from the film, the reference's from its two halves.
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -25,10 +25,10 @@ struct SharedScene {
 };
 
 constexpr SharedScene kScenes[] = {
-    {"cornell-box", true, false},      {"veach-mis", false, true},
-    {"veach-bidir", false, true},      {"veach-ajar", true, true},
-    {"coffee", false, false},           {"material-testball", false, false},
-    {"spaceship", false, false},       {"dining-room", false, true}};
+    {"cornell-box", true, false}, {"veach-mis", false, true},
+    {"veach-bidir", false, true}, {"veach-ajar", true, true},
+    {"coffee", false, false},     {"material-testball", false, false},
+    {"spaceship", false, false},  {"dining-room", false, true}};
 
 std::filesystem::path SharedFolder() {
   if (const char* folder = std::getenv("LANELIGHT_SCENES")) return folder;
@@ -52,7 +52,8 @@ Rgb PixelOf(const Image& image, int x, int y) {
   return {image.At(x, y, 0), image.At(x, y, 1), image.At(x, y, 2)};
 }
 
-Comparison Compare(const FilmAccumulator& film, const Image& a, const Image& b, double factor) {
+Comparison Compare(const FilmAccumulator& film, const Image& a, const Image& b,
+                   double factor) {
   Comparison out;
   for (int ty = 0; ty < film.height(); ty += kTile) {
     for (int tx = 0; tx < film.width(); tx += kTile) {
@@ -118,7 +119,8 @@ double UnexplainedTiles(const Comparison& c, const SharedScene& scene) {
   int bad = 0;
   for (const Tile& t : c.tiles) {
     const double reference = Luminance((t.a + t.b) / 2.0);
-    const double sigma = std::sqrt(Luminance(t.variance)) + std::abs(Luminance(t.a - t.b));
+    const double sigma =
+        std::sqrt(Luminance(t.variance)) + std::abs(Luminance(t.a - t.b));
     bad += std::abs(Luminance(t.ours) - reference) > tolerance * reference + 4 * sigma;
   }
   return double(bad) / double(c.tiles.size());
