@@ -6,16 +6,12 @@
 
 #include "src/core/vec.h"
 #include "src/image/accumulator.h"
+#include "src/stat/interval.h"
 
 namespace lanelight {
 
 /// Added to the squared mean in the relative error, as in src/study/metrics.h.
 inline constexpr double kRelativeEpsilon = 0.01;
-
-/// An estimate with a 95 % confidence interval.
-struct Interval {
-  double value = 0, low = 0, high = 0;
-};
 
 /// Estimates of what `lanelight compare` would measure against the converged image.
 struct ErrorEstimate {

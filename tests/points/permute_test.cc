@@ -8,7 +8,7 @@
 #include "kernels/points/probe.h"
 #include "kernels/simd/target.h"
 #include "tests/stat/chi2.h"
-#include "tests/stat/hypothesis.h"
+#include "src/stat/hypothesis.h"
 
 namespace lanelight::test {
 namespace {

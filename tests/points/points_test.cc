@@ -7,8 +7,8 @@
 #include "kernels/simd/target.h"
 #include "tests/points/draw.h"
 #include "tests/stat/chi2.h"
-#include "tests/stat/distributions.h"
-#include "tests/stat/hypothesis.h"
+#include "src/stat/distributions.h"
+#include "src/stat/hypothesis.h"
 
 namespace lanelight::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "tests/reference/closed_forms.h"
 #include "tests/reference/material.h"
 #include "tests/reference/scenes.h"
-#include "tests/stat/hypothesis.h"
+#include "src/stat/hypothesis.h"
 
 namespace lanelight::reference {
 namespace {

@@ -13,7 +13,7 @@
 #include <random>
 
 #include "tests/reference/closed_forms.h"
-#include "tests/stat/hypothesis.h"
+#include "src/stat/hypothesis.h"
 #include "tests/wavefront/agreement.h"
 
 namespace lanelight::test {

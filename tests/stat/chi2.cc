@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "src/core/check.h"
-#include "tests/stat/distributions.h"
+#include "src/stat/distributions.h"
 
 namespace lanelight::stat {
 

@@ -1,5 +1,5 @@
 // Distribution functions against closed forms and their own identities.
-#include "tests/stat/distributions.h"
+#include "src/stat/distributions.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,12 +1,12 @@
 // The tests are tested: false-alarm rates by simulation, planted biases that must be
 // found.
-#include "tests/stat/hypothesis.h"
+#include "src/stat/hypothesis.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/reference/random.h"
-#include "tests/stat/distributions.h"
+#include "src/stat/distributions.h"
 #include "tests/stat/image_test.h"
 
 namespace lanelight::stat {

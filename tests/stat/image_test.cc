@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "src/core/check.h"
-#include "tests/stat/distributions.h"
-#include "tests/stat/hypothesis.h"
+#include "src/stat/distributions.h"
+#include "src/stat/hypothesis.h"
 
 namespace lanelight::stat {
 namespace {

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/stages.h"
-#include "tests/stat/distributions.h"
+#include "src/stat/distributions.h"
 #include "tests/wavefront/agreement.h"
 #include "tests/wavefront/wave_fixture.h"
 

@@ -10,7 +10,7 @@
 #include <cstdlib>
 
 #include "tests/reference/closed_forms.h"
-#include "tests/stat/hypothesis.h"
+#include "src/stat/hypothesis.h"
 #include "tests/strategy/covering.h"
 #include "tests/wavefront/agreement.h"
 

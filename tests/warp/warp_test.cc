@@ -86,7 +86,7 @@ HWY_AFTER_NAMESPACE();
 
 #include "kernels/simd/target.h"
 #include "tests/stat/chi2.h"
-#include "tests/stat/hypothesis.h"
+#include "src/stat/hypothesis.h"
 
 namespace lanelight {
 

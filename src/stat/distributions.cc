@@ -1,4 +1,4 @@
-#include "tests/stat/distributions.h"
+#include "src/stat/distributions.h"
 
 #include <cmath>
 #include <limits>

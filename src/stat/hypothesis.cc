@@ -1,10 +1,10 @@
-#include "tests/stat/hypothesis.h"
+#include "src/stat/hypothesis.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "src/core/check.h"
-#include "tests/stat/distributions.h"
+#include "src/stat/distributions.h"
 
 namespace lanelight::stat {
 namespace {

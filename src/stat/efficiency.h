@@ -1,0 +1,39 @@
+// Which strategy gives the least error for the time: ratios of efficiency 1 / (error x
+// seconds) with intervals, and a ranking that claims no more than these.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "src/stat/interval.h"
+
+namespace lanelight::stat {
+
+/// One repetition of a render: its mean squared error and what it cost.
+struct Cost {
+  double error = 0, seconds = 0;
+};
+
+/// Efficiency of `other` relative to `baseline`, each 1 / (mean error x mean seconds).
+/// Repetition i of both ran with the same seed, so pairs are resampled. The interval is
+/// the studentised bootstrap (Efron and Tibshirani 1993, "An Introduction to the
+/// Bootstrap", chapter 12) of the logarithm, which holds for few repetitions where the
+/// percentile bootstrap is too short; deterministic (fixed seed). Without bounds for
+/// fewer than three pairs. An error of zero in either makes the ratio 0, infinite, or, in
+/// both, that of the seconds; then without bounds.
+Interval EfficiencyRatio(std::span<const Cost> baseline, std::span<const Cost> other,
+                         double confidence);
+
+/// Ranks that a strategy may have: 1 is the most efficient. `best` = 1 + how many are
+/// certainly better, `worst` = n - how many are certainly worse. Strategies whose ranges
+/// overlap may still differ; equal ranges are not distinguishable.
+struct RankRange {
+  int best = 1, worst = 1;
+};
+
+/// Ranks of all strategies, each with the same number of repetitions. All pairwise claims
+/// hold together with probability `confidence` (Sidak). Ranks are independent of order.
+std::vector<RankRange> RankByEfficiency(const std::vector<std::vector<Cost>>& strategies,
+                                        double confidence);
+
+}  // namespace lanelight::stat
