@@ -44,6 +44,60 @@ double GammaPrefix(double a, double x) {
          std::exp(a * (std::log1p(d) - d) - stirling);
 }
 
+// What Stirling's series adds to (a - 1/2) log a - a + log(2 pi) / 2, a >= 10.
+double StirlingTail(double a) {
+  const double r = 1 / (a * a);
+  return (1 / 12.0 - r * (1 / 360.0 - r * (1 / 1260.0 - r / 1680))) / a;
+}
+
+// x^a y^b / B(a, b), y = 1 - x. The logarithms of the gamma functions are huge beside
+// what remains of them where a or b is large; Stirling's series takes that out.
+double BetaPrefix(double a, double b, double x, double y) {
+  constexpr double kLarge = 20;
+  if (a > kLarge && b < a) return BetaPrefix(b, a, y, x);  // b is the larger, if large
+  if (b <= kLarge) {
+    return std::exp(a * std::log(x) + b * std::log(y) + std::lgamma(a + b) -
+                    std::lgamma(a) - std::lgamma(b));
+  }
+  const double sum = a + b, log_y = y > 0.5 ? std::log1p(-x) : std::log(y);
+  if (a <= kLarge) {
+    // log(Gamma(a + b) / Gamma(b))
+    const double ratio = a * std::log(sum) + (b - 0.5) * std::log1p(a / b) - a +
+                         StirlingTail(sum) - StirlingTail(b);
+    return std::exp(a * std::log(x) + b * log_y + ratio - std::lgamma(a));
+  }
+  // With x = a (1 + d) / (a + b), what remains of the powers is a (log1p(d) - d), and
+  // the same for y: the two linear terms cancel.
+  const double dx = (x * b - y * a) / a, dy = (y * a - x * b) / b;
+  return std::sqrt(a * (b / sum) / (2 * std::numbers::pi)) *
+         std::exp(a * (std::log1p(dx) - dx) + b * (std::log1p(dy) - dy) +
+                  StirlingTail(sum) - StirlingTail(a) - StirlingTail(b));
+}
+
+// I_x(a, b) by its continued fraction, for x up to about the mean.
+double BetaFraction(double a, double b, double x, double y) {
+  const double f = Lentz(1, [&](int i, double& num, double& den) {
+    const double m = i / 2;
+    den = 1;
+    num = i % 2 == 0 ? m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m))
+                     : -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
+  });
+  return BetaPrefix(a, b, x, y) / (a * f);
+}
+
+// The u in [low, high] where the falling function `above` turns from true to false.
+template <typename Above>
+double Bisect(double low, double high, Above above) {
+  for (int i = 0; i < 200 && high - low > 1e-13 * std::max(1e-3, std::abs(low)); ++i) {
+    const double middle = low + (high - low) / 2;
+    (above(middle) ? low : high) = middle;
+  }
+  return low + (high - low) / 2;
+}
+
+// Quantiles of positive variables are sought as logarithms, over nearly all of double.
+constexpr double kLogRange = 700;
+
 double GammaSeries(double a, double x) {
   double term = 1 / a, sum = term;
   for (int i = 1; i < kMaxTerms && term > sum * kEpsilon; ++i) {
@@ -75,20 +129,15 @@ double GammaQ(double a, double x) {
   return x < a + 1 ? 1 - GammaSeries(a, x) : GammaFraction(a, x);
 }
 
-double BetaI(double a, double b, double x) {
+double BetaI(double a, double b, double x) { return BetaI(a, b, x, 1 - x); }
+
+double BetaI(double a, double b, double x, double y) {
   LL_CHECK(a > 0 && b > 0 && x >= 0 && x <= 1);
-  if (x == 0 || x == 1) return x;
+  if (x == 0) return 0;
+  if (y == 0) return 1;
   // The fraction converges fast below the mean; above it, use the symmetry.
-  if (x > (a + 1) / (a + b + 2)) return 1 - BetaI(b, a, 1 - x);
-  const double f = Lentz(1, [&](int i, double& num, double& den) {
-    const double m = i / 2;
-    den = 1;
-    num = i % 2 == 0 ? m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m))
-                     : -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
-  });
-  const double prefix = std::exp(a * std::log(x) + b * std::log1p(-x) +
-                                 std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b));
-  return prefix / (a * f);
+  if (x > (a + 1) / (a + b + 2)) return 1 - BetaFraction(b, a, y, x);
+  return BetaFraction(a, b, x, y);
 }
 
 double NormalCdf(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; }
@@ -140,6 +189,35 @@ double StudentTwoSidedQuantile(double p, double nu) {
 
 double ChiSquareSurvival(double x, double nu) {
   return x <= 0 ? 1 : GammaQ(nu / 2, x / 2);
+}
+
+double ChiSquareQuantile(double p, double nu) {
+  LL_CHECK(p > 0 && p < 1 && nu > 0);
+  if (nu > 1e4) {
+    const double v = 2 / (9 * nu);
+    const double root = 1 - v + NormalQuantile(p) * std::sqrt(v);
+    return nu * root * root * root;
+  }
+  const double a = nu / 2;
+  // The smaller of the two tails is the one known to full relative precision.
+  return 2 * std::exp(Bisect(-kLogRange, std::log(a) + 10, [&](double u) {
+           const double x = std::exp(u);
+           return p < 0.5 ? GammaP(a, x) < p : GammaQ(a, x) > 1 - p;
+         }));
+}
+
+double FQuantile(double p, double d1, double d2) {
+  LL_CHECK(p > 0 && p < 1 && d1 > 0 && d2 > 0);
+  // With u = log(d1 f / d2): x = 1 / (1 + e^-u), and 1 - x without cancellation.
+  const double u = Bisect(-kLogRange, kLogRange, [&](double v) {
+    const double x = 1 / (1 + std::exp(-v)), y = 1 / (1 + std::exp(v));
+    return p < 0.5 ? BetaI(d1 / 2, d2 / 2, x, y) < p
+                   : BetaI(d2 / 2, d1 / 2, y, x) > 1 - p;
+  });
+  if (std::abs(u) > kLogRange - 1) {
+    return u < 0 ? 0 : std::numeric_limits<double>::infinity();
+  }
+  return std::exp(u) * (d2 / d1);
 }
 
 double KolmogorovSurvival(double d, int n) {

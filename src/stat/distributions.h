@@ -13,6 +13,8 @@ double GammaQ(double a, double x);
 /// Regularised incomplete beta function I_x(a, b), a, b > 0, 0 <= x <= 1. Relative error
 /// below 1e-11 for a, b <= 1e4. Continued fraction A&S 26.5.8, by Lentz's method.
 double BetaI(double a, double b, double x);
+/// The same for x close to 1, where `y` = 1 - x is known without cancellation.
+double BetaI(double a, double b, double x, double y);
 
 /// P(Z <= z) of the standard normal, and its inverse for 0 < p < 1 (relative error 1e-13;
 /// both tails).
@@ -30,6 +32,15 @@ double StudentTwoSidedQuantile(double p, double nu);
 
 /// P(X >= x) of chi-square with nu degrees of freedom.
 double ChiSquareSurvival(double x, double nu);
+/// The x with P(X <= x) = p, 0 < p < 1, nu > 0 (relative error 1e-10). Beyond 1e4 degrees
+/// by Wilson and Hilferty's (1931) cube, within 1e-5 relative for 1e-9 < p < 1 - 1e-9.
+double ChiSquareQuantile(double p, double nu);
+
+/// The f with P(F <= f) = p of Snedecor's F with d1 and d2 degrees of freedom, 0.1 to 1e9
+/// each, 0 < p < 1. Relative error 1e-9 up to 1e4 degrees, 1e-7 beyond. From I_x(d1/2,
+/// d2/2) (A&S 26.6.2) by bisection on log f. Infinite or 0 where f leaves the range of
+/// double.
+double FQuantile(double p, double d1, double d2);
 
 /// P(D_n >= d) of the two-sided Kolmogorov-Smirnov statistic of n samples. Kolmogorov's
 /// series with Stephens' (1970) correction sqrt(n) + 0.12 + 0.11 / sqrt(n): within 0.01

@@ -79,6 +79,64 @@ TEST_CASE("chi-square survival has its closed forms for two and four degrees", "
   CHECK(ChiSquareSurvival(-1, 3) == 1);
 }
 
+TEST_CASE("chi-square quantiles invert the distribution function", "[stat]") {
+  for (double nu : {0.1, 1.0, 2.0, 7.5, 300.0, 1e4}) {
+    for (double p : {1e-6, 0.025, 0.5, 0.975, 1 - 1e-6}) {
+      INFO("nu = " << nu << ", p = " << p);
+      const double x = ChiSquareQuantile(p, nu);
+      if (p < 0.5) CHECK(GammaP(nu / 2, x / 2) == Approx(p).epsilon(1e-8));
+      if (p >= 0.5) CHECK(GammaQ(nu / 2, x / 2) == Approx(1 - p).epsilon(1e-8));
+    }
+  }
+  // Tables: 3.841459 (A&S 26.8). Continuity where the approximation takes over.
+  CHECK(ChiSquareQuantile(0.95, 1) == Approx(3.841458820694124).epsilon(1e-10));
+  for (double p : {1e-9, 0.05, 0.999}) {
+    const double below = ChiSquareQuantile(p, 1e4) / 1e4;
+    CHECK(ChiSquareQuantile(p, 1.0000001e4) / 1e4 == Approx(below).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("F quantiles have their closed forms", "[stat]") {
+  for (double p : {1e-9, 0.001, 0.05, 0.5, 0.9, 0.999, 1 - 1e-9}) {
+    INFO("p = " << p);
+    // Two and two: P(F <= f) = f / (1 + f). One and nu: the square of Student's t.
+    CHECK(FQuantile(p, 2, 2) == Approx(p / (1 - p)).epsilon(1e-7));
+    for (double nu : {1.0, 2.5, 30.0, 5000.0}) {
+      const double t = StudentTwoSidedQuantile(1 - p, nu);
+      CHECK(FQuantile(p, 1, nu) == Approx(t * t).epsilon(1e-6));
+    }
+    // Two and d: f = d/2 ((1 - p)^(-2/d) - 1).
+    for (double d : {0.1, 3.0, 1e3, 1e7, 1e9}) {
+      const double f = d / 2 * std::expm1(-2 / d * std::log1p(-p));
+      if (std::isfinite(f)) CHECK(FQuantile(p, 2, d) == Approx(f).epsilon(1e-7));
+      if (std::isfinite(f)) CHECK(1 / FQuantile(1 - p, d, 2) == Approx(f).epsilon(1e-6));
+    }
+    // Infinitely many below: chi-square.
+    for (double d : {0.1, 4.0, 100.0}) {
+      CHECK(FQuantile(p, d, 1e9) ==
+            Approx(ChiSquareQuantile(p, d) / d).epsilon(1e-6).margin(1e-300));
+    }
+  }
+}
+
+TEST_CASE("F quantiles hold from a tenth to a milliard degrees", "[stat]") {
+  // Exchanging the degrees inverts; large degrees tend to exp(2 z sqrt(1/2d1 + 1/2d2)).
+  for (double d1 : {0.1, 1.0, 40.0, 1e5, 1e9}) {
+    for (double d2 : {0.1, 7.0, 2e4, 1e9}) {
+      for (double p : {0.025, 0.999}) {
+        INFO("d1 = " << d1 << ", d2 = " << d2 << ", p = " << p);
+        const double f = FQuantile(p, d1, d2);
+        CHECK(f * FQuantile(1 - p, d2, d1) == Approx(1).epsilon(1e-6));
+        if (d1 < 1e5 || d2 < 2e4) continue;
+        const double z = NormalQuantile(p);
+        const double fisher = 2 * z * std::sqrt(0.5 / d1 + 0.5 / d2);
+        CHECK(std::log(f) == Approx(fisher).epsilon(0.02));
+      }
+    }
+  }
+  CHECK(FQuantile(0.95, 5, 10) == Approx(3.3258345).epsilon(1e-7));  // A&S table 26.9
+}
+
 TEST_CASE("Kolmogorov's distribution agrees with tabulated critical values", "[stat]") {
   // Exact values: n = 1: P(D >= d) = 2 (1 - d) for d >= 1/2; critical values at n = 20
   // and 100 (Miller 1956), and the asymptotic 1.3581 and 1.6276.
