@@ -32,10 +32,12 @@ struct TargetCost {
 
 /// Interpolates log error linearly over log samples, and log seconds over log samples,
 /// between the levels on both sides; beyond them continues with the least-squares slope,
-/// by at most a factor `reach` in samples. The intervals are from resampling whole
-/// repetitions (percentile bootstrap, deterministic). Empty if the target is out of
-/// reach, the fitted error does not fall, or there are fewer than two usable levels (one
-/// if it is met exactly).
+/// by at most a factor `reach` in samples. A curve that crosses the target more than once
+/// counts from where it stays below. The intervals are of the logarithms, by HalfWidth()
+/// (src/stat/bootstrap.h) over whole repetitions, those that all levels have; without
+/// bounds if these are fewer than two. Levels with a mean error that is not positive are
+/// left out. Empty if the target is out of reach, the fitted error does not fall, or
+/// there are fewer than two usable levels (one if it is met exactly).
 std::optional<TargetCost> CostToTarget(std::span<const Level> levels, double target,
                                        double confidence, double reach = 1000);
 
