@@ -17,7 +17,6 @@
 #include "src/core/error.h"
 #include "src/core/parallel.h"
 #include "src/render/job.h"
-#include "src/strategy/use_strategy.h"
 
 namespace lanelight {
 namespace {
@@ -105,9 +104,7 @@ void SetStrategy(Job& job, const std::string& text) {
   Strategy strategy;
   ApplyStrategy(text, {std::make_shared<const std::string>("--strategies"), 0, 0},
                 strategy);
-  UseStrategy(strategy, job.scene);
-  job.plan = MakePlan(job.scene, job.plan.options);
-  job.group_size = GroupSize(strategy, job.spp);
+  SetStrategy(job, strategy);
 }
 
 void RenderOnce(Job& job, std::uint64_t seed, Repetitions& r) {

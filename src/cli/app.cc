@@ -26,6 +26,7 @@ constexpr const char* kFooter =
     "  lanelight plan scenes/glass.pbrt\n"
     "  lanelight strategies\n"
     "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
+    "  lanelight study scenes/cornell-box.pbrt --out box-study\n"
     "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
     "samples, 4 compare: over the limit.";
 
@@ -102,6 +103,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   AddInfoCommand(root, exit_code);
   AddStrategiesCommand(root, exit_code);
   AddCompareCommand(root, exit_code);
+  AddStudyCommand(root, exit_code);
   if (argc < 2) {
     PrintError(root.help());
     return kExitUsage;

@@ -12,5 +12,6 @@ void AddPlanCommand(CLI::App& root, int& exit_code);
 void AddInfoCommand(CLI::App& root, int& exit_code);
 void AddStrategiesCommand(CLI::App& root, int& exit_code);
 void AddCompareCommand(CLI::App& root, int& exit_code);
+void AddStudyCommand(CLI::App& root, int& exit_code);
 
 }  // namespace lanelight

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 
 namespace lanelight {
 namespace {
@@ -11,24 +12,25 @@ namespace {
 std::atomic<bool> stop_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free);  // set by a signal handler
 
+const char* message = nullptr;  // set before the handler
+std::size_t message_size = 0;
+
 constexpr int kSignals[] = {SIGINT, SIGTERM};
 
 // Only calls that are safe in a signal handler.
 void OnSignal(int) {
-  static constexpr char kMessage[] =
-      "\nstopping: finishing the samples in flight, then writing the image "
-      "(once more to abort)\n";
   const int saved = errno;
   stop_requested.store(true);
   for (int s : kSignals) signal(s, SIG_DFL);
-  [[maybe_unused]] const ssize_t written =
-      write(STDERR_FILENO, kMessage, sizeof(kMessage) - 1);
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message, message_size);
   errno = saved;
 }
 
 }  // namespace
 
-InterruptGuard::InterruptGuard() {
+InterruptGuard::InterruptGuard(const char* text) {
+  message = text;
+  message_size = std::strlen(text);
   stop_requested.store(false);
   struct sigaction action = {};
   action.sa_handler = OnSignal;

@@ -9,7 +9,10 @@ namespace lanelight {
 /// one has its ordinary effect. At most one at a time.
 class InterruptGuard {
  public:
-  InterruptGuard();
+  /// `message`, a literal, says what happens now.
+  explicit InterruptGuard(const char* message =
+                              "\nstopping: finishing the samples in flight, then writing "
+                              "the image (once more to abort)\n");
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;

@@ -34,6 +34,11 @@ void WriteError(const std::string& text) {
 
 }  // namespace
 
+void RedrawLine(const std::string& text) {
+  const auto room = static_cast<std::size_t>(std::max(TerminalColumns() - 1, 20));
+  WriteError("\r\x1b[K" + text.substr(0, std::min(text.size(), room)));
+}
+
 ProgressStyle ChooseProgressStyle(bool quiet) {
   if (quiet) return ProgressStyle::kNone;
   const char* terminal = std::getenv("TERM");

@@ -15,6 +15,9 @@ enum class ProgressStyle { kNone, kLines, kBar };
 /// kBar if standard error is a terminal, else kLines; kNone if `quiet`.
 ProgressStyle ChooseProgressStyle(bool quiet);
 
+/// Replaces the line of the terminal that the cursor is in, cut off at its width.
+void RedrawLine(const std::string& text);
+
 /// Three digits and the prefix of a unit: "512 ", "12.3 k", "1.24 G".
 std::string CountText(double value);
 /// "850 ms", "12.3 s", "4 min 05 s", "2 h 07 min".

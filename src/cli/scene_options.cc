@@ -48,7 +48,9 @@ void SetCrop(RenderSettings& settings, const std::string& text) {
   settings.crop = {v[0], v[1], v[2], v[3]};
 }
 
-void AddImageOptions(CLI::App& command, RenderSettings& s) {
+}  // namespace
+
+void AddWindowOptions(CLI::App& command, RenderSettings& s) {
   command
       .add_option_function<std::string>(
           "--resolution", [&s](const std::string& text) { SetResolution(s, text); },
@@ -59,8 +61,9 @@ void AddImageOptions(CLI::App& command, RenderSettings& s) {
           "--crop", [&s](const std::string& text) { SetCrop(s, text); },
           "Render these pixels only; x1 and y1 are exclusive")
       ->type_name("x0,y0,x1,y1");
-  command.add_flag("--aov", s.aov, "Write albedo, normal and depth of the first hit too");
 }
+
+namespace {
 
 // A flag whose value is one of a few names.
 template <class T>
@@ -94,10 +97,7 @@ std::string StrategyProblem(std::string& text) {
   }
 }
 
-void AddTransportOptions(CLI::App& command, RenderSettings& s) {
-  command.add_option("--max-depth", s.max_depth, "Most scattering events of a path")
-      ->check(CLI::Range(0, kMaxDepth).description(""))
-      ->type_name("D");
+void AddStrategyOptions(CLI::App& command, RenderSettings& s) {
   std::map<std::string, Points> samplers;
   for (int i = 0; i <= static_cast<int>(Points::kLattice); ++i) {
     samplers[Name(static_cast<Points>(i))] = static_cast<Points>(i);
@@ -108,6 +108,14 @@ void AddTransportOptions(CLI::App& command, RenderSettings& s) {
       ->check(CLI::Validator(StrategyProblem, ""))
       ->type_name("TEXT");
   AddNameOption<Points>(command, "--sampler", s.points, samplers, "Sample points");
+}
+
+}  // namespace
+
+void AddTransportOptions(CLI::App& command, RenderSettings& s) {
+  command.add_option("--max-depth", s.max_depth, "Most scattering events of a path")
+      ->check(CLI::Range(0, kMaxDepth).description(""))
+      ->type_name("D");
   AddNameOption<Scattering>(command, "--scattering", s.scattering,
                             {{"lambertian", Scattering::kLambertian},
                              {"uniform", Scattering::kUniform},
@@ -115,17 +123,9 @@ void AddTransportOptions(CLI::App& command, RenderSettings& s) {
                             "Model of all diffuse materials");
 }
 
-}  // namespace
-
-void AddSceneOptions(CLI::App& command, SceneOptions& options) {
-  RenderSettings& s = options.settings;
-  command.add_option("SCENE", options.scene, "Scene file in the text format of pbrt-v4")
-      ->required()
-      ->type_name("");
-  AddImageOptions(command, s);
-  AddTransportOptions(command, s);
+void AddExecutionOptions(CLI::App& command, SceneOptions& options) {
   command
-      .add_option("--wavefront", s.wavefront,
+      .add_option("--wavefront", options.settings.wavefront,
                   "Paths in flight per thread; 0 = fit the cache")
       ->check(CLI::Range(0u, kMaxWavefront).description(""))
       ->type_name("N");
@@ -136,8 +136,20 @@ void AddSceneOptions(CLI::App& command, SceneOptions& options) {
       ->check(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))
       ->type_name("NAME");
   command.add_flag(
-      "--skip-unsupported", s.skip_unsupported,
+      "--skip-unsupported", options.settings.skip_unsupported,
       "Leave out what cannot be rendered (media) instead of refusing the scene");
+}
+
+void AddSceneOptions(CLI::App& command, SceneOptions& options) {
+  RenderSettings& s = options.settings;
+  command.add_option("SCENE", options.scene, "Scene file in the text format of pbrt-v4")
+      ->required()
+      ->type_name("");
+  AddWindowOptions(command, s);
+  command.add_flag("--aov", s.aov, "Write albedo, normal and depth of the first hit too");
+  AddStrategyOptions(command, s);
+  AddTransportOptions(command, s);
+  AddExecutionOptions(command, options);
 }
 
 }  // namespace lanelight

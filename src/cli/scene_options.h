@@ -1,4 +1,4 @@
-// The flags that `render` and `plan` share: which scene, and what overrides it.
+// The flags that several commands share: which scene, and what overrides it.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,7 +15,12 @@ struct SceneOptions {
   std::string target;  // empty: the best available
 };
 
-/// Declares the flags on `command`; `options` must outlive parsing.
+/// Declare flags on `command`; what they are stored in must outlive parsing.
+void AddWindowOptions(CLI::App& command, RenderSettings& settings);
+void AddTransportOptions(CLI::App& command, RenderSettings& settings);
+void AddExecutionOptions(CLI::App& command, SceneOptions& options);
+
+/// These, the scene itself, the strategy and --aov.
 void AddSceneOptions(CLI::App& command, SceneOptions& options);
 
 }  // namespace lanelight

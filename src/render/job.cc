@@ -7,6 +7,7 @@
 #include "src/render/memory.h"
 #include "src/scene/compile.h"
 #include "src/scene/parse.h"
+#include "src/strategy/use_strategy.h"
 
 namespace lanelight {
 namespace {
@@ -58,6 +59,12 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   job.seed = job.description.sampler.seed;
   job.group_size = GroupSize(job.scene.strategy, job.spp);
   return job;
+}
+
+void SetStrategy(Job& job, const Strategy& strategy) {
+  UseStrategy(strategy, job.scene);
+  job.plan = MakePlan(job.scene, job.plan.options);
+  job.group_size = GroupSize(strategy, job.spp);
 }
 
 FilmAccumulator MakeFilm(const Job& job) {

@@ -31,6 +31,10 @@ struct Job {
 /// Throws InputError.
 Job PrepareJob(const std::string& scene_path, const RenderSettings& settings);
 
+/// Switches the job to another strategy without compiling the scene again. Throws
+/// InputError if the scene does not take it; then the job is to be given another.
+void SetStrategy(Job& job, const Strategy& strategy);
+
 /// An empty film of the job's size.
 FilmAccumulator MakeFilm(const Job& job);
 

@@ -1,0 +1,150 @@
+// `lanelight study SCENE... --out DIR`: which strategy gives the least error for the
+// time.
+#include <memory>
+
+#include "kernels/simd/target.h"
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
+#include "src/cli/interrupt.h"
+#include "src/cli/scene_options.h"
+#include "src/cli/study_progress.h"
+#include "src/cli/study_summary.h"
+#include "src/cli/validators.h"
+#include "src/core/parallel.h"
+#include "src/study/study.h"
+
+namespace lanelight {
+namespace {
+
+struct StudyCommandOptions {
+  StudyOptions study;
+  SceneOptions machine;  // threads, target; its settings go to `study`
+  std::string strategies;
+  bool quiet = false;
+};
+
+void CheckCombination(const StudyOptions& study) {
+  if (study.scenes.size() > 1 && !study.references.empty()) {
+    throw CLI::ValidationError("--reference", "goes with one scene only");
+  }
+}
+
+int RunStudyCommand(StudyCommandOptions& options) {
+  CheckCombination(options.study);
+  ForceTarget(options.machine.target);
+  const ThreadLimit threads(options.machine.threads);
+  options.study.settings = options.machine.settings;
+  options.study.strategies = SplitStrategies(options.strategies);
+
+  StudyProgressPrinter progress(ChooseProgressStyle(options.quiet));
+  const InterruptGuard interrupt(
+      "\nstopping: the report will be of what is finished; --resume goes on (once more "
+      "to "
+      "abort)\n");
+  StudyHooks hooks;
+  hooks.on_progress = [&](const StudyProgress& p) { progress.Update(p); };
+  hooks.on_problem = [&](const std::string& text) { progress.Say(text); };
+  hooks.stop = &interrupt.stop();
+  const std::vector<SceneStudy> studies = Study(options.study, hooks);
+  progress.Finish();
+
+  bool good = true;
+  for (const SceneStudy& study : studies) {
+    if (!options.quiet) Print(StudySummary(study, options.study));
+    good &= study.runs.error.empty();
+    for (const StrategyRuns& s : study.runs.strategies) {
+      good &= s.status != RunStatus::kFailed;
+    }
+  }
+  if (!options.quiet) {
+    Print(fmt::format("\n{0}/report.html, {0}/study.json, {0}/study.csv\n",
+                      options.study.out));
+  }
+  return good ? kExitGood : kExitBadInput;
+}
+
+void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
+  StudyOptions& s = options.study;
+  CLI::Option* list =
+      command
+          .add_option("--strategies", options.strategies,
+                      "'A;B;...': presets, key=value,... or 'default'; the first is the "
+                      "baseline. Without: the paper's presets and the default")
+          ->type_name("LIST");
+  command
+      .add_flag("--all", s.all_strategies, "Every choice of every key, and the presets")
+      ->excludes(list);
+  CLI::Option* spp =
+      command
+          .add_option("--spp", s.spp,
+                      "Samples per pixel, e.g. 1,4,16,64; without: powers of two up to "
+                      "what the baseline renders in a second")
+          ->delimiter(',')
+          ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
+          ->type_name("N,...");
+  command
+      .add_option("--budget", s.budget,
+                  "Equal time: each strategy renders up to so many samples as it can in "
+                  "this time")
+      ->check(FiniteRange(1e-3, 1e6))
+      ->type_name("SECONDS")
+      ->excludes(spp);
+  command
+      .add_option("--repetitions", s.repetitions,
+                  "Independent renders of each; without: enough for the confidence")
+      ->check(CLI::Range(1, 10000).description(""))
+      ->type_name("R");
+  command.add_option("--confidence", s.confidence, "Of all intervals; without: 0.95")
+      ->check(FiniteRange(0.5, 0.9999))
+      ->type_name("C");
+  command
+      .add_option("--reference", s.references,
+                  "Converged image; several independent ones measure their own noise. "
+                  "Without: rendered")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
+  command
+      .add_option("--target-relmse", s.target_relmse,
+                  "Measure the time to this relative MSE; without: what the baseline "
+                  "reaches")
+      ->check(FiniteRange(1e-30, 1e30))
+      ->type_name("X");
+}
+
+}  // namespace
+
+void AddStudyCommand(CLI::App& root, int& exit_code) {
+  CLI::App* command = root.add_subcommand(
+      "study", "Measure which strategy gives the least error for the time");
+  auto options = std::make_shared<StudyCommandOptions>();
+  command->add_option("SCENE", options->study.scenes, "Scene files")
+      ->required()
+      ->type_name("...");
+  command->add_option("--out", options->study.out, "Directory for report and data")
+      ->required()
+      ->type_name("DIR");
+  AddMeasureOptions(*command, *options);
+  command->add_flag("--resume", options->study.resume,
+                    "Continue the study in DIR; what is finished is not done again");
+  AddWindowOptions(*command, options->machine.settings);
+  AddTransportOptions(*command, options->machine.settings);
+  command
+      ->add_option("--seed", options->machine.settings.seed, "Seed of the random numbers")
+      ->type_name("S");
+  AddExecutionOptions(*command, options->machine);
+  command->add_flag("--quiet", options->quiet, "Print errors only");
+  command->footer(
+      "\nWrites DIR/report.html, study.json, study.csv (docs/study.md) and EXR images.\n"
+      "Ctrl-C reports what is finished; --resume goes on from there.\n"
+      "\nExamples:\n"
+      "  lanelight study box.pbrt --out box --resolution 200x200\n"
+      "  lanelight study a.pbrt b.pbrt --out ab --strategies 'default;points=pmj02' "
+      "--spp "
+      "4,16,64\n"
+      "  lanelight study a.pbrt --out a --all --budget 2 --reference a1.exr --reference "
+      "a2.exr");
+  command->callback([options, &exit_code] { exit_code = RunStudyCommand(*options); });
+}
+
+}  // namespace lanelight

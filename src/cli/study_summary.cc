@@ -1,0 +1,93 @@
+#include "src/cli/study_summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/cli/progress.h"
+
+namespace lanelight {
+namespace {
+
+constexpr std::size_t kColumns = 90, kLongestName = 44;
+
+std::string Known(double v, const char* format) {
+  return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "-";
+}
+
+std::string Range(const Interval& v) {
+  if (!v.HasBounds()) return Known(v.value, "{:.3g}");
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", v.value, v.low, v.high);
+}
+
+std::string RankText(const stat::RankRange& rank) {
+  return rank.best == rank.worst ? fmt::format("{}", rank.best)
+                                 : fmt::format("{}-{}", rank.best, rank.worst);
+}
+
+std::string TargetText(const std::optional<stat::TargetCost>& target) {
+  if (!target) return "-";
+  return DurationText(target->seconds.value) + (target->extrapolated ? "*" : "");
+}
+
+std::string Short(const std::string& name) {
+  return name.size() <= kLongestName ? name : name.substr(0, kLongestName - 3) + "...";
+}
+
+std::string Row(const StrategyRuns& runs, const StrategyAnalysis& s) {
+  const LevelAnalysis& level = s.AtLevel();
+  return fmt::format(
+      "{:>5}  {:<44} {:>6} {:>25} {:>31} {:>9} {:>23} {:>10}{}\n", RankText(s.rank),
+      Short(runs.named.name), level.spp, Range(*s.efficiency), Range(level.relmse),
+      Known(level.cpu_seconds.value, "{:.4g}"), s.order ? Range(*s.order) : "-",
+      TargetText(s.to_target), s.heavy_tailed ? "  heavy tail" : "");
+}
+
+// Breaks lines between words.
+std::string Wrap(const std::string& text) {
+  std::string out, line;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (!line.empty() && line.size() + 1 + word.size() > kColumns) {
+      out += line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+    begin = end + 1;
+  }
+  return out + line + "\n";
+}
+
+}  // namespace
+
+std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
+  const SceneRuns& runs = study.runs;
+  const SceneAnalysis& analysis = study.analysis;
+  std::string text = fmt::format("\n{}: ", runs.name);
+  if (!runs.error.empty()) return text + runs.error + "\n";
+  text +=
+      fmt::format("{}x{} pixels, {} repetitions, {:g} % intervals, reference {}\n\n",
+                  runs.window.width(), runs.window.height(), options.Repetitions(),
+                  100 * options.confidence,
+                  runs.reference.rendered() ? fmt::format("of {} spp", runs.reference.spp)
+                                            : runs.reference.files.front());
+  text += fmt::format("{:>5}  {:<44} {:>6} {:>25} {:>31} {:>9} {:>23} {:>10}\n", "rank",
+                      "strategy", "spp", "efficiency", "relative MSE", "cpu s", "order",
+                      "to target");
+  for (std::size_t i : analysis.ranking) {
+    text += Row(runs.strategies[i], analysis.strategies[i]);
+  }
+  for (const StrategyRuns& s : runs.strategies) {
+    if (s.status == RunStatus::kOk) continue;
+    text += fmt::format("{:>5}  {:<44} {}: {}\n", "-", Short(s.named.name),
+                        Name(s.status), s.message);
+  }
+  return text +
+         fmt::format(
+             "\nto target: processor time to a relative MSE of {:.3g}; * "
+             "extrapolated\n\n",
+             analysis.target_relmse) +
+         Wrap(analysis.verdict);
+}
+
+}  // namespace lanelight

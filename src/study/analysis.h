@@ -1,0 +1,99 @@
+// What the renders of a study say, with intervals. The members are documented in
+// docs/study.md under the same names.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/report/page.h"
+#include "src/stat/convergence.h"
+#include "src/stat/efficiency.h"
+#include "src/stat/interval.h"
+#include "src/study/runs.h"
+
+namespace lanelight {
+
+/// How often the renders' own error estimates held.
+struct SelfCheck {
+  Interval relmse;  // mean of the estimates
+  std::uint64_t inside = 0, total = 0;
+};
+
+struct LevelAnalysis {
+  std::uint64_t spp = 0;
+  std::size_t repetitions = 0;
+  Interval rmse, relmse, relmse_trimmed, mape, variance, bias2, bias;
+  Interval cpu_seconds, wall_seconds;
+  std::optional<double> bias_p;
+  Rgb mean;
+  double worst_share = 0, rays_per_sample = 0, path_length = 0;
+  double reference_share = 0;
+  std::uint64_t invalid = 0;
+  SelfCheck self;
+
+  bool ReferenceLimited() const { return reference_share > 0.5; }
+};
+
+/// Test of equal means by tile.
+struct TileTest {
+  int side = 0, columns = 0, rows = 0;
+  std::vector<double> z;            // signed, normal if the means are equal
+  std::vector<std::size_t> failed;  // by Holm's correction over the tiles
+  double level = 0;                 // of all tiles together
+};
+
+struct StrategyAnalysis {
+  std::vector<LevelAnalysis> levels;
+  std::vector<stat::Level> costs;  // relative MSE and processor seconds by level
+  std::size_t at = 0;              // index of the level that comparisons are at
+  std::optional<Interval> order;   // of the RMSE
+  std::optional<stat::TargetCost> to_target;
+  std::optional<Interval> efficiency;
+  stat::RankRange rank;
+  bool heavy_tailed = false;
+  std::vector<StageProfile> stages;
+  std::optional<TileTest> tiles;
+  std::string mean, one, variance, bias;  // names of images; empty: none
+
+  bool HasRuns() const { return !levels.empty(); }
+  const LevelAnalysis& AtLevel() const { return levels[at]; }
+};
+
+struct SceneAnalysis {
+  std::vector<StrategyAnalysis> strategies;  // as SceneRuns::strategies
+  std::vector<std::size_t> ranking;          // with runs, most efficient first
+  std::size_t baseline = 0;
+  double target_relmse = 0;
+  SelfCheck calibration;
+  std::size_t bias_tests = 0;
+  std::vector<std::size_t> biased;  // strategies whose whole image differs, by Holm
+  double bias_level = 0;
+  std::string verdict;
+  std::string reference_image;  // name
+  std::vector<std::string> diffuse_images;
+};
+
+/// Share of the relative MSE in the worst kWorstShare of the pixels above which a
+/// strategy counts as heavy-tailed: a few pixels then decide the mean.
+inline constexpr double kHeavyTail = 0.3;
+
+/// Probability that a scene's tests of bias, or those of the tiles of one strategy, raise
+/// any false alarm.
+inline constexpr double kBiasLevel = 1e-3;
+
+/// Relative differences of means up to this are rounding of pixels to float.
+inline constexpr double kFloatRounding = 1e-6;
+
+/// Analyses a scene, reading its cells from the disk, and collects the images.
+SceneAnalysis AnalyseScene(const SceneRuns& runs, const StudyOptions& options,
+                           std::vector<ReportImage>& images);
+
+/// The parts of it.
+LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
+                           std::uint64_t spp, double confidence);
+TileTest TestTiles(const Moments& moments, const Reference& reference, double level);
+std::string Verdict(const SceneRuns& runs, const SceneAnalysis& analysis);
+
+}  // namespace lanelight

@@ -1,0 +1,46 @@
+// The finished renders of a study on disk, so that a study can be continued. One file for
+// each strategy and sample count of a scene, written anew, whole or not at all, after
+// each of its repetitions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/study/measurement.h"
+#include "src/study/moments.h"
+#include "src/wavefront/run.h"
+
+namespace lanelight {
+
+/// The repetitions of one strategy at one sample count.
+struct Cells {
+  std::vector<Measurement> repetitions;
+  std::vector<StageProfile> stages;  // sums over the repetitions
+  Moments moments;
+  std::vector<Rgb> first;  // image of the first repetition, float precision
+};
+
+class CellStore {
+ public:
+  /// `folder` is made if needed. Files of images of another number of pixels are errors.
+  CellStore(std::string folder, std::size_t pixels);
+
+  /// What there is of a strategy (complete text form) at a sample count; empty if
+  /// nothing. Throws InputError for a file that is not what this program writes.
+  Cells Load(const std::string& strategy, std::uint64_t spp) const;
+  void Save(const std::string& strategy, std::uint64_t spp, const Cells& cells) const;
+
+  const std::string& folder() const { return folder_; }
+
+ private:
+  std::string Path(const std::string& strategy, std::uint64_t spp) const;
+
+  std::string folder_;
+  std::size_t pixels_;
+};
+
+/// Adds the profile of one more render.
+void AddStages(const std::vector<StageProfile>& more, std::vector<StageProfile>& sum);
+
+}  // namespace lanelight

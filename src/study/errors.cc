@@ -1,0 +1,77 @@
+#include "src/study/errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/core/check.h"
+#include "src/study/estimate.h"
+
+namespace lanelight {
+namespace {
+
+// Relative squared error of a pixel, and the part of it that the reference explains.
+struct PixelError {
+  double raw = 0, own = 0;
+};
+
+double SumRaw(const PixelError* begin, const PixelError* end) {
+  double sum = 0;
+  for (const PixelError* p = begin; p != end; ++p) sum += p->raw;
+  return sum;
+}
+
+std::size_t Count(double share, std::size_t pixels) {
+  return std::max<std::size_t>(1, std::size_t(std::lround(share * double(pixels))));
+}
+
+void MeasureRelative(std::vector<PixelError> errors, Measurement& m) {
+  const std::size_t n = errors.size();
+  double own = 0;
+  for (const PixelError& e : errors) own += e.own;
+  const double raw = SumRaw(errors.data(), errors.data() + n);
+  m.raw_relmse = raw / double(n);
+  m.relmse = (raw - own) / double(n);
+
+  const auto worse = [](const PixelError& a, const PixelError& b) {
+    return a.raw > b.raw;
+  };
+  const std::size_t worst = Count(kWorstShare, n), trimmed = Count(kTrimmedShare, n);
+  std::nth_element(errors.begin(), errors.begin() + trimmed - 1, errors.end(), worse);
+  std::nth_element(errors.begin(), errors.begin() + worst - 1, errors.begin() + trimmed,
+                   worse);
+  m.worst_share = raw > 0 ? SumRaw(errors.data(), errors.data() + worst) / raw : 0;
+  double kept = 0;
+  for (std::size_t i = trimmed; i < n; ++i) kept += errors[i].raw - errors[i].own;
+  m.relmse_trimmed = n > trimmed ? kept / double(n - trimmed) : m.relmse;
+}
+
+}  // namespace
+
+void MeasureErrors(const std::vector<Rgb>& image, const Reference& reference,
+                   Measurement& m) {
+  LL_CHECK_EQ(image.size(), reference.mean.size());
+  std::vector<PixelError> errors(image.size());
+  double squares = 0, own = 0, percentage = 0;
+  Rgb sum;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const Rgb r = reference.mean[i], d = image[i] - r, weight = reference.Weight(i);
+    const Rgb variance = reference.Variance(i);
+    squares += Dot(d, d) / 3;
+    own += (variance.x + variance.y + variance.z) / 3;
+    for (int c = 0; c < 3; ++c) {
+      percentage += std::abs(d[c]) / (std::abs(r[c]) + kRelativeEpsilon) / 3;
+    }
+    errors[i] = {Dot(d * d, weight) / 3, Dot(variance, weight) / 3};
+    sum += image[i];
+  }
+  const double n = double(image.size());
+  m.mse = (squares - own) / n;
+  m.rmse = m.mse >= 0 ? std::sqrt(m.mse) : std::numeric_limits<double>::quiet_NaN();
+  m.mape = percentage / n;
+  m.mean_r = sum.x / n;
+  m.mean_g = sum.y / n;
+  m.mean_b = sum.z / n;
+  MeasureRelative(std::move(errors), m);
+}
+
+}  // namespace lanelight

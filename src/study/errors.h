@@ -1,0 +1,16 @@
+// Errors of one image against a reference.
+#pragma once
+
+#include <vector>
+
+#include "src/study/measurement.h"
+#include "src/study/reference.h"
+
+namespace lanelight {
+
+/// Fills in the errors and means of `m`. Squared errors are less the reference's own;
+/// the MAPE is not, since absolute errors do not add up.
+void MeasureErrors(const std::vector<Rgb>& image, const Reference& reference,
+                   Measurement& m);
+
+}  // namespace lanelight

@@ -1,0 +1,165 @@
+// Errors of one strategy at one sample count, over its repetitions.
+#include <algorithm>
+#include <cmath>
+
+#include "src/stat/distributions.h"
+#include "src/stat/hypothesis.h"
+#include "src/study/analysis.h"
+
+namespace lanelight {
+namespace {
+
+template <class Get>
+std::vector<double> Collect(const std::vector<Measurement>& all, Get&& get) {
+  std::vector<double> values;
+  for (const Measurement& m : all) values.push_back(static_cast<double>(get(m)));
+  return values;
+}
+
+double Mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (double v : values) sum += v;
+  return sum / double(values.size());
+}
+
+// Root of a mean square and of its bounds; NaN where they are negative (all of it is
+// the reference's error).
+Interval Root(const Interval& square) {
+  return {std::sqrt(square.value), std::sqrt(std::max(square.low, 0.0)),
+          std::sqrt(square.high)};
+}
+
+// A relative squared error of the mean image that its noise and that of the reference do
+// not explain. With d the difference of a pixel, t^2 its variance and b the bias,
+// Var(d^2 - t^2) = 2 t^4 + 4 b^2 t^2 for normal means; pixels are independent, the
+// channels of one are taken as fully dependent.
+Interval SquaredBias(const Moments& moments, const Reference& reference,
+                     double confidence) {
+  double sum = 0, variance = 0;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const Rgb d = moments.Mean(i) - reference.mean[i];
+    const Rgb noise =
+        moments.Variance(i) / double(moments.count()) + reference.Variance(i);
+    const Rgb weight = reference.Weight(i);
+    double deviation = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double square = d[c] * d[c] - noise[c];
+      sum += weight[c] * square / 3;
+      deviation +=
+          weight[c] / 3 *
+          std::sqrt(2 * noise[c] * noise[c] + 4 * std::max(square, 0.0) * noise[c]);
+    }
+    variance += deviation * deviation;
+  }
+  const double n = double(moments.size());
+  const double half =
+      stat::NormalQuantile(0.5 + confidence / 2) * std::sqrt(variance) / n;
+  return {sum / n, sum / n - half, sum / n + half};
+}
+
+// Mean over pixels and channels of the reference, and the variance of that mean; the
+// channels of a pixel are taken as fully dependent.
+stat::MeanEstimate ReferenceMean(const Reference& reference) {
+  stat::MeanEstimate out;
+  const double n = double(reference.mean.size());
+  for (std::size_t i = 0; i < reference.mean.size(); ++i) {
+    const Rgb& m = reference.mean[i];
+    const Rgb v = reference.Variance(i);
+    out.mean += (m.x + m.y + m.z) / 3 / n;
+    const double deviation = (std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z)) / 3;
+    out.variance += deviation * deviation / (n * n);
+  }
+  out.dof = 1e6;  // many samples of many pixels
+  return out;
+}
+
+void TestMean(const std::vector<Measurement>& all, const Reference& reference,
+              double confidence, LevelAnalysis& level) {
+  const auto means =
+      Collect(all, [](const Measurement& m) { return m.MeanOfChannels(); });
+  const stat::MeanEstimate known = ReferenceMean(reference);
+  const double scale = known.mean != 0 ? std::abs(known.mean) : 1;
+  const double bias = (Mean(means) - known.mean) / scale;
+  level.bias = WithoutBounds(bias);
+  if (means.size() < 2) return;
+  stat::MeanEstimate own = {Mean(means), 0, double(means.size()) - 1};
+  for (double m : means) {
+    own.variance += (m - own.mean) * (m - own.mean) / own.dof / double(means.size());
+  }
+  level.bias_p = stat::WelchPValue(own, known, kFloatRounding * scale);
+  const stat::MeanEstimate both = stat::Average({own, known});
+  const double deviation = std::sqrt(own.variance + known.variance);
+  const double half =
+      stat::StudentTwoSidedQuantile(1 - confidence, std::max(own.dof, both.dof)) *
+      deviation / scale;
+  level.bias = {bias, bias - half, bias + half};
+}
+
+SelfCheck CheckSelf(const std::vector<Measurement>& all, double confidence) {
+  SelfCheck self;
+  std::vector<double> estimates;
+  for (const Measurement& m : all) {
+    if (std::isfinite(m.self_relmse)) estimates.push_back(m.self_relmse);
+    if (!m.HasSelf()) continue;
+    ++self.total;
+    self.inside += m.SelfHolds();
+  }
+  self.relmse = stat::MeanInterval(estimates, confidence);
+  return self;
+}
+
+void CountRays(const std::vector<Measurement>& all, LevelAnalysis& level) {
+  double samples = 0, closest = 0, shadow = 0;
+  for (const Measurement& m : all) {
+    samples += double(m.samples);
+    closest += double(m.rays_closest);
+    shadow += double(m.rays_shadow);
+    level.invalid += m.invalid;
+    level.mean += Rgb{m.mean_r, m.mean_g, m.mean_b} / double(all.size());
+  }
+  if (samples == 0) return;
+  level.rays_per_sample = (closest + shadow) / samples;
+  level.path_length = closest / samples;
+}
+
+}  // namespace
+
+LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
+                           std::uint64_t spp, double confidence) {
+  const std::vector<Measurement>& all = cells.repetitions;
+  const auto interval = [&](auto get) {
+    return stat::MeanInterval(Collect(all, get), confidence);
+  };
+  LevelAnalysis level;
+  level.spp = spp;
+  level.repetitions = all.size();
+  level.rmse = Root(interval([](const Measurement& m) { return m.mse; }));
+  level.relmse = interval([](const Measurement& m) { return m.relmse; });
+  level.relmse_trimmed = interval([](const Measurement& m) { return m.relmse_trimmed; });
+  level.mape = interval([](const Measurement& m) { return m.mape; });
+  level.worst_share =
+      Mean(Collect(all, [](const Measurement& m) { return m.worst_share; }));
+  const double raw =
+      Mean(Collect(all, [](const Measurement& m) { return m.raw_relmse; }));
+  level.reference_share = raw > 0 ? (raw - level.relmse.value) / raw : 0;
+  level.cpu_seconds = stat::MedianInterval(
+      Collect(all, [](const Measurement& m) { return m.cpu_seconds; }), confidence);
+  level.wall_seconds = stat::MedianInterval(
+      Collect(all, [](const Measurement& m) { return m.wall_seconds; }), confidence);
+  CountRays(all, level);
+  TestMean(all, reference, confidence, level);
+  level.self = CheckSelf(all, confidence);
+  if (all.size() < 2) {
+    level.variance = level.bias2 = WithoutBounds(std::nan(""));
+    return level;
+  }
+  level.bias2 = SquaredBias(cells.moments, reference, confidence);
+  // The mean error is the sum of both, exactly; its interval is that of the variance.
+  level.variance = level.relmse;
+  for (double* v : {&level.variance.value, &level.variance.low, &level.variance.high}) {
+    *v -= level.bias2.value;
+  }
+  return level;
+}
+
+}  // namespace lanelight

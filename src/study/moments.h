@@ -1,0 +1,45 @@
+// Sums over the repetitions of a render, pixel by pixel: their mean, and the variance
+// between them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/core/vec.h"
+
+namespace lanelight {
+
+class Moments {
+ public:
+  explicit Moments(std::size_t pixels = 0) : pixels_(pixels) {}
+
+  void Add(const std::vector<Rgb>& image);
+
+  std::size_t size() const { return pixels_.size(); }
+  std::uint64_t count() const { return count_; }
+  Rgb Mean(std::size_t pixel) const;
+  /// Variance of one render; zero for fewer than two.
+  Rgb Variance(std::size_t pixel) const;
+  /// Of the mean of the three channels.
+  double GreyMean(std::size_t pixel) const;
+  double GreyVariance(std::size_t pixel) const;
+
+  /// The sums as bytes of this machine, and back (of the same number of pixels).
+  std::string Save() const;
+  void Load(std::string_view bytes, std::uint64_t count);
+
+ private:
+  static constexpr int kPlanes = 4;  // red, green, blue, their mean
+  struct Pixel {
+    std::array<double, kPlanes> sum{}, squares{};
+  };
+  double PlaneVariance(const Pixel& pixel, int plane) const;
+
+  std::vector<Pixel> pixels_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace lanelight

@@ -1,0 +1,53 @@
+// What a study is asked for.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/render/settings.h"
+#include "src/study/cell_store.h"
+
+namespace lanelight {
+
+inline constexpr double kDefaultStudySeconds =
+    1;  // of the largest render of the baseline
+
+struct StudyOptions {
+  std::vector<std::string> scenes;
+  RenderSettings settings;              // what `render` takes too; no spp, no seconds
+  std::vector<std::string> strategies;  // empty: the paper's presets and the default
+  bool all_strategies = false;          // every choice of every axis
+  std::vector<std::uint64_t> spp;       // empty: powers of two up to a budget
+  std::optional<double> budget;         // seconds of the largest render of each strategy
+  std::optional<int> repetitions;       // empty: see Repetitions()
+  double confidence = 0.95;             // of all intervals
+  std::vector<std::string> references;  // files; empty: rendered
+  std::optional<double> target_relmse;  // empty: what the baseline reaches
+  std::string out;                      // directory
+  bool resume = false;
+
+  /// The number that was asked for; else, for a confidence of 1 - a, 2 + ceil(log2(2 /
+  /// a)): two more than where a sign test can be that sure. 8 for 95 %, 10 for 99 %.
+  int Repetitions() const;
+};
+
+/// A strategy under its name on the command line; "default" is the scene's own.
+struct NamedStrategy {
+  std::string name;
+  Strategy strategy;
+};
+
+/// The strategies of a study on a scene whose own strategy is `base`: no two are the
+/// same. Throws InputError for a text that is not understood.
+std::vector<NamedStrategy> StudyStrategies(const StudyOptions& options,
+                                           const Strategy& base);
+
+/// "A;B;C" without empty items.
+std::vector<std::string> SplitStrategies(const std::string& list);
+
+/// Number of the figure of the founding paper that a preset makes (2 to 7), or 0.
+int PaperFigure(const std::string& name);
+
+}  // namespace lanelight

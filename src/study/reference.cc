@@ -1,0 +1,190 @@
+#include "src/study/reference.h"
+
+#include <cmath>
+
+#include "src/core/check.h"
+#include "src/core/error.h"
+#include "src/image/exr.h"
+#include "src/image/image.h"
+#include "src/study/colors.h"
+#include "src/study/estimate.h"
+
+namespace lanelight {
+namespace {
+
+// Index of the three colour channels with this prefix; Y stands for all three.
+bool FindColor(const Image& image, const std::string& prefix, int (&channels)[3]) {
+  const char* names[3] = {"R", "G", "B"};
+  bool found = true;
+  for (int c = 0; c < 3; ++c) {
+    channels[c] = image.FindChannel(prefix + names[c]);
+    found &= channels[c] >= 0;
+  }
+  if (found) return true;
+  channels[0] = channels[1] = channels[2] = image.FindChannel(prefix + "Y");
+  return channels[0] >= 0;
+}
+
+double Value(const Image& image, int x, int y, int channel) {
+  if (!image.is_bytes()) return image.At(x, y, channel);
+  return SrgbToLinear(image.bytes[image.Offset(x, y, channel)] / 255.0);
+}
+
+// The window of the image in one set of channels; `offset`: of the window in the image.
+std::vector<Rgb> Cut(const Image& image, const int (&channels)[3], int x0, int y0,
+                     const PixelWindow& window) {
+  std::vector<Rgb> pixels;
+  pixels.reserve(window.pixels());
+  for (int y = y0; y < y0 + window.height(); ++y) {
+    for (int x = x0; x < x0 + window.width(); ++x) {
+      Rgb value;
+      for (int c = 0; c < 3; ++c) value[c] = Value(image, x, y, channels[c]);
+      pixels.push_back(value);
+    }
+  }
+  return pixels;
+}
+
+void CheckFinite(const std::string& path, const std::vector<Rgb>& pixels) {
+  std::size_t bad = 0;
+  for (const Rgb& p : pixels) {
+    bad += !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+  }
+  if (bad == 0) return;
+  throw InputError(
+      fmt::format("reference '{}': {} of {} pixels are not finite numbers; "
+                  "errors against it would mean nothing",
+                  path, bad, pixels.size()));
+}
+
+struct Piece {
+  std::vector<Rgb> mean, variance;
+};
+
+Piece ReadPiece(const std::string& path, const PixelWindow& window, int full_width,
+                int full_height) {
+  const Image image = ReadImage(path);
+  int color[3], variance[3];
+  if (!FindColor(image, "", color)) {
+    throw InputError("reference '" + path + "' has neither R, G, B nor Y");
+  }
+  const bool whole = image.width == full_width && image.height == full_height;
+  if (!whole && (image.width != window.width() || image.height != window.height())) {
+    throw InputError(
+        fmt::format("reference '{}' has {}x{} pixels and the render {}x{}; give a "
+                    "reference of that size, or --resolution {}x{}",
+                    path, image.width, image.height, window.width(), window.height(),
+                    image.width, image.height));
+  }
+  const int x0 = whole ? window.x0 : 0, y0 = whole ? window.y0 : 0;
+  Piece piece = {Cut(image, color, x0, y0, window), {}};
+  CheckFinite(path, piece.mean);
+  if (FindColor(image, "variance.", variance)) {
+    piece.variance = Cut(image, variance, x0, y0, window);
+    for (const Rgb& v : piece.variance) {
+      if (v.x >= 0 && v.y >= 0 && v.z >= 0 && std::isfinite(v.x + v.y + v.z)) continue;
+      piece.variance.clear();
+      break;
+    }
+  }
+  return piece;
+}
+
+// Mean of the pieces, and the variance of that mean from their scatter.
+void Combine(const std::vector<Piece>& pieces, Reference& reference) {
+  const double n = double(pieces.size());
+  reference.mean.assign(pieces[0].mean.size(), Rgb{});
+  reference.variance.assign(pieces[0].mean.size(), Rgb{});
+  for (std::size_t i = 0; i < reference.mean.size(); ++i) {
+    for (const Piece& piece : pieces) reference.mean[i] += piece.mean[i] / n;
+    for (const Piece& piece : pieces) {
+      const Rgb d = piece.mean[i] - reference.mean[i];
+      reference.variance[i] += d * d / (n * (n - 1));
+    }
+  }
+}
+
+Rgb AsFloat(const Rgb& v) { return VecCast<double>(VecCast<float>(v)); }
+
+}  // namespace
+
+Rgb Reference::Weight(std::size_t pixel) const {
+  Rgb weight;
+  for (int c = 0; c < 3; ++c) {
+    weight[c] = 1 / (mean[pixel][c] * mean[pixel][c] + kRelativeEpsilon);
+  }
+  return weight;
+}
+
+double Reference::OwnMse() const {
+  double sum = 0;
+  for (const Rgb& v : variance) sum += (v.x + v.y + v.z) / 3;
+  return sum / double(mean.size());
+}
+
+double Reference::OwnRelMse() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < variance.size(); ++i) {
+    sum += Dot(variance[i], Weight(i)) / 3;
+  }
+  return sum / double(mean.size());
+}
+
+Reference ReadReference(const std::vector<std::string>& files, const PixelWindow& window,
+                        int full_width, int full_height) {
+  LL_CHECK(!files.empty());
+  Reference reference;
+  reference.width = window.width();
+  reference.height = window.height();
+  reference.files = files;
+  std::vector<Piece> pieces;
+  for (const std::string& file : files) {
+    pieces.push_back(ReadPiece(file, window, full_width, full_height));
+  }
+  if (pieces.size() > 1) {
+    Combine(pieces, reference);
+    return reference;
+  }
+  reference.mean = std::move(pieces[0].mean);
+  reference.variance = std::move(pieces[0].variance);
+  if (!reference.has_variance()) {
+    reference.note =
+        "the reference file does not say how noisy it is, and is taken as exact: its own "
+        "error counts as error of every strategy, and as bias (give two independent "
+        "renders with --reference A --reference B to have it measured)";
+  }
+  return reference;
+}
+
+Reference RenderReference(Job& job, std::uint64_t spp, std::uint64_t seed,
+                          const std::function<void(const Progress&)>& on_progress,
+                          const std::atomic<bool>* stop) {
+  Strategy strategy;
+  strategy.points = Points::kIndependent;
+  job.spp = spp;
+  job.seconds = 0;
+  job.seed = seed;
+  SetStrategy(job, strategy);
+  FilmAccumulator film = MakeFilm(job);
+  const RunResult result = RunJob(job, film, on_progress, stop);
+  Reference reference;
+  reference.width = film.width();
+  reference.height = film.height();
+  reference.strategy = ToText(strategy);
+  reference.spp = spp;
+  reference.seconds = result.seconds;
+  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
+    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
+      reference.mean.push_back(AsFloat(film.Mean(x, y)));
+      reference.variance.push_back(AsFloat(film.Variance(x, y)));
+    }
+  }
+  return reference;
+}
+
+void WriteReference(const std::string& path, const Reference& reference) {
+  WriteColors(path, reference.width, reference.height,
+              {{"", &reference.mean}, {"variance.", &reference.variance}});
+}
+
+}  // namespace lanelight

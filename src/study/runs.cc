@@ -1,0 +1,89 @@
+#include "src/study/runs.h"
+
+#include <filesystem>
+#include <set>
+
+#include "src/core/error.h"
+#include "src/study/scene_runner.h"
+
+namespace lanelight {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The file's name without its ending; its folder's name where that says nothing.
+std::string SceneName(const std::string& path) {
+  const fs::path file(path);
+  const std::string stem = file.stem().string();
+  const std::string folder = fs::absolute(file).parent_path().filename().string();
+  const bool generic = stem == "reference" || stem == "scene" || stem == "scene-v4";
+  return generic && !folder.empty() ? folder : stem;
+}
+
+std::vector<SceneRuns> NamedScenes(const StudyOptions& options) {
+  std::vector<SceneRuns> scenes;
+  std::set<std::string> names;
+  for (const std::string& path : options.scenes) {
+    SceneRuns scene;
+    scene.path = path;
+    const std::string name = SceneName(path);
+    scene.name = name;
+    for (int i = 2; !names.insert(scene.name).second; ++i) {
+      scene.name = fmt::format("{}-{}", name, i);
+    }
+    scene.folder = options.out + "/" + scene.name;
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
+void CheckFolder(const StudyOptions& options) {
+  std::error_code error;
+  if (fs::exists(options.out, error) && !fs::is_directory(options.out, error)) {
+    throw InputError("'" + options.out + "' is not a directory");
+  }
+  if (!options.resume && fs::is_directory(options.out, error) &&
+      !fs::is_empty(options.out, error)) {
+    throw InputError("'" + options.out +
+                     "' is not empty: continue the study that is there with --resume, or "
+                     "give another directory");
+  }
+  fs::create_directories(options.out, error);
+  if (error) throw InputError("cannot make '" + options.out + "': " + error.message());
+}
+
+}  // namespace
+
+const char* Name(RunStatus status) {
+  switch (status) {
+    case RunStatus::kOk:
+      return "ok";
+    case RunStatus::kRefused:
+      return "refused";
+    case RunStatus::kFailed:
+      return "failed";
+    case RunStatus::kSkipped:
+      return "skipped";
+  }
+  return "";
+}
+
+std::vector<SceneRuns> RunStudy(const StudyOptions& options, const StudyHooks& hooks) {
+  CheckFolder(options);
+  std::vector<SceneRuns> scenes = NamedScenes(options);
+  StudyClock clock(scenes.size());
+  for (SceneRuns& scene : scenes) {
+    try {
+      SceneRunner(options, hooks, clock, scene).Run();
+    } catch (const OtherStudy&) {
+      throw;
+    } catch (const std::exception& error) {
+      scene.error = error.what();
+      if (hooks.on_problem) hooks.on_problem(error.what());
+    }
+    clock.FinishScene();
+  }
+  return scenes;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,175 @@
+#include "src/study/scene_runner.h"
+
+#include <ctime>
+#include <filesystem>
+
+#include "kernels/simd/target.h"
+#include "src/study/colors.h"
+#include "src/study/errors.h"
+#include "src/study/estimate.h"
+#include "src/study/schedule.h"
+
+namespace lanelight {
+namespace {
+
+// Of the whole process: unlike the wall clock it does not count other programs.
+double CpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+
+void Describe(const RunResult& result, const ErrorEstimate& self, Measurement& m) {
+  m.samples = result.samples;
+  m.wall_seconds = result.seconds;
+  m.pilot_seconds = result.pilot_seconds;
+  m.rays_closest = result.rays_closest;
+  m.rays_shadow = result.rays_shadow;
+  m.invalid = result.health.Total();
+  if (!self.available) return;
+  m.self_relmse = self.relmse.value;
+  if (!self.has_interval) return;
+  m.self_low = self.relmse.low;
+  m.self_high = self.relmse.high;
+}
+
+}  // namespace
+
+SceneRunner::SceneRunner(const StudyOptions& options, const StudyHooks& hooks,
+                         StudyClock& clock, SceneRuns& scene)
+    : options_(options), hooks_(hooks), clock_(clock), scene_(scene) {}
+
+void SceneRunner::Run() {
+  Prepare();
+  CheckStrategies();
+  CheckState();
+  FindCounts();
+  PlanWork();
+  FindReference();
+  if (!Stopped()) RunCells();
+  if (!Stopped()) RunDiffuseModels();
+  scene_.interrupted = Stopped();
+}
+
+void SceneRunner::Prepare() {
+  Report("reading and building");
+  RenderSettings settings = options_.settings;
+  settings.spp = 1;
+  job_ = PrepareJob(scene_.path, settings);
+  scene_.hash = fmt::format("{:016x}", job_.scene_hash);
+  scene_.full_width = job_.description.film.width;
+  scene_.full_height = job_.description.film.height;
+  scene_.window = job_.window;
+  scene_.load_seconds = job_.load_seconds;
+  scene_.build_seconds = job_.build_seconds;
+  for (const Note& note : job_.description.notes) {
+    scene_.notes.push_back(note.where.ToString() + ": " + note.message);
+  }
+  store_ = std::make_unique<CellStore>(scene_.folder + "/cells", job_.window.pixels());
+}
+
+void SceneRunner::CheckStrategies() {
+  for (NamedStrategy& named : StudyStrategies(options_, job_.description.strategy)) {
+    StrategyRuns runs;
+    runs.named = std::move(named);
+    try {
+      SetStrategy(job_, runs.named.strategy);
+      for (const std::string& note : job_.plan.notes) {
+        runs.message += (runs.message.empty() ? "" : "; ") + note;
+      }
+    } catch (const InputError& error) {
+      runs.status = RunStatus::kRefused;
+      runs.message = error.what();
+    }
+    scene_.strategies.push_back(std::move(runs));
+  }
+}
+
+std::uint64_t SceneRunner::Seed(int repetition) const {
+  return job_.description.sampler.seed + 1 + static_cast<std::uint64_t>(repetition);
+}
+
+std::uint64_t SceneRunner::MostSamples() const {
+  std::uint64_t most = 1;
+  for (const StrategyRuns& runs : scene_.strategies) {
+    if (!runs.counts.empty()) most = std::max(most, runs.counts.back());
+  }
+  return most;
+}
+
+double SceneRunner::Work(std::uint64_t spp) const {
+  // Starting a render costs about as much as a few thousand samples.
+  return double(spp) * double(job_.window.pixels()) + 5000;
+}
+
+bool SceneRunner::Stopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
+
+void SceneRunner::Report(const std::string& what) {
+  if (!hooks_.on_progress) return;
+  hooks_.on_progress(
+      {scene_.name, what, clock_.Fraction(), clock_.Seconds(), clock_.SecondsLeft()});
+}
+
+void SceneRunner::RunCells() {
+  std::vector<std::uint64_t> counts;
+  for (const StrategyRuns& runs : scene_.strategies) {
+    counts.insert(counts.end(), runs.counts.begin(), runs.counts.end());
+  }
+  std::sort(counts.begin(), counts.end());
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+  for (int repetition = 0; repetition < options_.Repetitions(); ++repetition) {
+    for (std::uint64_t spp : counts) {
+      for (StrategyRuns& runs : scene_.strategies) {
+        if (!std::binary_search(runs.counts.begin(), runs.counts.end(), spp)) continue;
+        if (runs.status != RunStatus::kOk) continue;
+        if (!RunCell(runs, spp, repetition)) return;
+      }
+    }
+  }
+}
+
+// False: stopped.
+bool SceneRunner::RunCell(StrategyRuns& runs, std::uint64_t spp, int repetition) {
+  Cells cells = store_->Load(runs.Text(), spp);
+  const int done = static_cast<int>(cells.repetitions.size());
+  if (done > repetition) return true;
+  const std::string cell =
+      fmt::format("{}, {} spp, repetition {}", runs.named.name, spp, repetition + 1);
+  Report(cell);
+  try {
+    cells.repetitions.push_back(Render(runs, spp, repetition, cells));
+    if (Stopped()) return false;
+    store_->Save(runs.Text(), spp, cells);
+  } catch (const std::bad_alloc&) {
+    runs.message = cell + ": out of memory";
+    runs.status = RunStatus::kFailed;
+  } catch (const std::exception& error) {
+    runs.message = cell + ": " + error.what();
+    runs.status = RunStatus::kFailed;
+  }
+  if (runs.status == RunStatus::kFailed && hooks_.on_problem) {
+    hooks_.on_problem(scene_.name + ": " + runs.message);
+  }
+  clock_.Worked(Work(spp));
+  return true;
+}
+
+Measurement SceneRunner::Render(const StrategyRuns& runs, std::uint64_t spp,
+                                int repetition, Cells& cells) {
+  job_.spp = spp;
+  job_.seconds = 0;
+  job_.seed = Seed(repetition);
+  SetStrategy(job_, runs.named.strategy);
+  FilmAccumulator film = MakeFilm(job_);
+  const double start = CpuSeconds();
+  const RunResult result = RunJob(job_, film, {}, hooks_.stop);
+  Measurement m;
+  m.seed = job_.seed;
+  m.cpu_seconds = CpuSeconds() - start;
+  if (Stopped()) return m;
+  Describe(result, EstimateError(film), m);
+  const std::vector<Rgb> image = FilmColors(film);
+  MeasureErrors(image, scene_.reference, m);
+  cells.moments.Add(image);
+  AddStages(result.stages, cells.stages);
+  if (repetition == 0) cells.first = image;
+  return m;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,28 @@
+#include "src/study/study.h"
+
+#include <chrono>
+
+#include "src/image/atomic_file.h"
+
+namespace lanelight {
+
+std::vector<SceneStudy> Study(const StudyOptions& options, const StudyHooks& hooks) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<SceneStudy> studies;
+  std::vector<ReportImage> images;
+  for (SceneRuns& runs : RunStudy(options, hooks)) {
+    SceneStudy study = {std::move(runs), {}};
+    if (study.runs.error.empty()) {
+      study.analysis = AnalyseScene(study.runs, options, images);
+    }
+    studies.push_back(std::move(study));
+  }
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  const nlohmann::json json = StudyJson(studies, options, taken.count());
+  WriteFileAtomically(options.out + "/study.json", json.dump(2) + "\n");
+  WriteFileAtomically(options.out + "/study.csv", StudyCsv(studies));
+  WriteFileAtomically(options.out + "/report.html", ReportPage(json, images));
+  return studies;
+}
+
+}  // namespace lanelight

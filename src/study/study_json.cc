@@ -1,0 +1,245 @@
+#include "src/study/study_json.h"
+
+#include <cmath>
+
+#include "src/core/parallel.h"
+#include "src/render/report.h"
+
+namespace lanelight {
+namespace {
+
+using Json = nlohmann::json;
+
+Json Number(double v) { return std::isfinite(v) ? Json(v) : Json(); }
+
+Json Range(const Interval& v) {
+  return {{"value", Number(v.value)}, {"low", Number(v.low)}, {"high", Number(v.high)}};
+}
+
+Json Range(const std::optional<Interval>& v) { return v ? Range(*v) : Json(); }
+
+Json Text(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+Json Color(const Rgb& c) { return {Number(c.x), Number(c.y), Number(c.z)}; }
+
+template <class T>
+Json Optional(const std::optional<T>& v) {
+  return v ? Json(*v) : Json();
+}
+
+Json SelfJson(const SelfCheck& self) {
+  if (self.total == 0) return nullptr;
+  return {{"relmse", Range(self.relmse)}, {"inside", self.inside}, {"total", self.total}};
+}
+
+Json LevelJson(const LevelAnalysis& l) {
+  return {{"spp", l.spp},
+          {"repetitions", l.repetitions},
+          {"rmse", Range(l.rmse)},
+          {"relmse", Range(l.relmse)},
+          {"relmse_trimmed", Range(l.relmse_trimmed)},
+          {"mape", Range(l.mape)},
+          {"worst_share", Number(l.worst_share)},
+          {"variance", Range(l.variance)},
+          {"bias2", Range(l.bias2)},
+          {"mean", Color(l.mean)},
+          {"bias", Range(l.bias)},
+          {"bias_p", l.bias_p ? Number(*l.bias_p) : Json()},
+          {"cpu_seconds", Range(l.cpu_seconds)},
+          {"wall_seconds", Range(l.wall_seconds)},
+          {"rays_per_sample", Number(l.rays_per_sample)},
+          {"path_length", Number(l.path_length)},
+          {"reference_share", Number(l.reference_share)},
+          {"reference_limited", l.ReferenceLimited()},
+          {"invalid", l.invalid},
+          {"self", SelfJson(l.self)}};
+}
+
+Json StagesJson(const std::vector<StageProfile>& stages) {
+  double total = 0;
+  for (const StageProfile& s : stages) total += s.seconds;
+  Json out = Json::array();
+  for (const StageProfile& s : stages) {
+    out.push_back({{"name", s.name},
+                   {"seconds", s.seconds},
+                   {"share", total > 0 ? s.seconds / total : 0},
+                   {"ns_per_item", s.items ? 1e9 * s.seconds / double(s.items) : 0},
+                   {"items", s.items},
+                   {"occupancy", s.Occupancy()}});
+  }
+  return out;
+}
+
+Json TilesJson(const std::optional<TileTest>& tiles) {
+  if (!tiles) return nullptr;
+  Json z = Json::array();
+  for (double v : tiles->z) z.push_back(Number(v));
+  return {{"side", tiles->side},     {"columns", tiles->columns},
+          {"rows", tiles->rows},     {"z", z},
+          {"failed", tiles->failed}, {"level", tiles->level}};
+}
+
+Json TargetJson(const std::optional<stat::TargetCost>& target) {
+  if (!target) return nullptr;
+  return {{"spp", Range(target->samples)},
+          {"seconds", Range(target->seconds)},
+          {"extrapolated", target->extrapolated}};
+}
+
+Json StrategyJson(const StrategyRuns& runs, const StrategyAnalysis& s) {
+  const int figure = PaperFigure(runs.named.name);
+  Json out = {{"name", runs.named.name},
+              {"text", runs.Text()},
+              {"status", Name(runs.status)},
+              {"message", Text(runs.message)},
+              {"figure", figure > 0 ? Json(figure) : Json()},
+              {"levels", Json::array()},
+              {"order", Range(s.order)},
+              {"to_target", TargetJson(s.to_target)},
+              {"efficiency", Range(s.efficiency)},
+              {"at_spp", s.HasRuns() ? Json(s.AtLevel().spp) : Json()},
+              {"rank", s.HasRuns() ? Json({s.rank.best, s.rank.worst}) : Json()},
+              {"heavy_tailed", s.heavy_tailed},
+              {"stages", StagesJson(s.stages)},
+              {"images",
+               {{"mean", Text(s.mean)},
+                {"one", Text(s.one)},
+                {"variance", Text(s.variance)},
+                {"bias", Text(s.bias)}}},
+              {"tiles", TilesJson(s.tiles)}};
+  for (const LevelAnalysis& level : s.levels) out["levels"].push_back(LevelJson(level));
+  if (runs.status == RunStatus::kOk && !s.HasRuns()) {
+    out["status"] = Name(RunStatus::kSkipped);
+  }
+  return out;
+}
+
+Json ReferenceJson(const SceneRuns& runs, const SceneAnalysis& analysis) {
+  const Reference& r = runs.reference;
+  if (r.mean.empty()) return nullptr;
+  return {{"source", r.rendered() ? "rendered" : "file"},
+          {"files", r.files},
+          {"strategy", Text(r.strategy)},
+          {"spp", r.rendered() ? Json(r.spp) : Json()},
+          {"relmse", r.has_variance() ? Number(r.OwnRelMse()) : Json()},
+          {"rmse", r.has_variance() ? Number(std::sqrt(r.OwnMse())) : Json()},
+          {"independent", r.has_variance()},
+          {"note", Text(r.note)},
+          {"image", Text(analysis.reference_image)}};
+}
+
+Json CalibrationJson(const SelfCheck& self, double confidence) {
+  if (self.total == 0) return nullptr;
+  return {{"inside", self.inside},
+          {"total", self.total},
+          {"share", Range(stat::ProportionInterval(self.inside, self.total, confidence))},
+          {"stated", 0.95}};
+}
+
+Json DiffuseJson(const SceneRuns& runs, const SceneAnalysis& analysis) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < runs.diffuse.size(); ++i) {
+    const DiffuseModel& model = runs.diffuse[i];
+    Rgb mean;
+    for (const Rgb& c : model.image) mean += c / double(model.image.size());
+    out.push_back({{"model", model.name},
+                   {"meaning", model.meaning},
+                   {"image", analysis.diffuse_images[i]},
+                   {"mean", Color(mean)}});
+  }
+  return out;
+}
+
+Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
+  const SceneRuns& runs = study.runs;
+  const SceneAnalysis& analysis = study.analysis;
+  Json out = {{"name", runs.name}, {"path", runs.path}, {"error", Text(runs.error)}};
+  if (!runs.error.empty()) return out;
+  const PixelWindow& w = runs.window;
+  out["hash"] = runs.hash;
+  out["resolution"] = {runs.full_width, runs.full_height};
+  out["crop"] = {w.x0, w.y0, w.x1, w.y1};
+  out["seconds"] = {{"load", runs.load_seconds},
+                    {"build", runs.build_seconds},
+                    {"reference", runs.reference.seconds}};
+  out["notes"] = runs.notes;
+  out["reference"] = ReferenceJson(runs, analysis);
+  out["baseline"] = analysis.baseline;
+  out["counts"] = options.spp;
+  out["target_relmse"] = Number(analysis.target_relmse);
+  out["strategies"] = Json::array();
+  for (std::size_t i = 0; i < analysis.strategies.size(); ++i) {
+    out["strategies"].push_back(StrategyJson(runs.strategies[i], analysis.strategies[i]));
+  }
+  out["ranking"] = analysis.ranking;
+  out["calibration"] = CalibrationJson(analysis.calibration, options.confidence);
+  out["bias"] = {{"tests", analysis.bias_tests},
+                 {"failed", analysis.biased},
+                 {"level", analysis.bias_level}};
+  out["verdict"] = analysis.verdict;
+  out["diffuse"] = DiffuseJson(runs, analysis);
+  out["interrupted"] = runs.interrupted;
+  return out;
+}
+
+Json SettingsJson(const StudyOptions& options) {
+  const RenderSettings& s = options.settings;
+  return {{"confidence", options.confidence},
+          {"repetitions", options.Repetitions()},
+          {"seed", Optional(s.seed)},
+          {"threads", MaxThreads()},
+          {"max_depth", Optional(s.max_depth)},
+          {"resolution", Optional(s.resolution)},
+          {"crop", Optional(s.crop)},
+          {"spp", options.spp.empty() ? Json() : Json(options.spp)},
+          {"budget", Optional(options.budget)},
+          {"target_relmse", Optional(options.target_relmse)}};
+}
+
+std::string Quoted(const std::string& text) {
+  std::string out = "\"";
+  for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+nlohmann::json StudyJson(const std::vector<SceneStudy>& scenes,
+                         const StudyOptions& options, double seconds) {
+  Json versions = Json::object();
+  for (const auto& [name, version] : LibraryVersions()) versions[name] = version;
+  Json out = {
+      {"schema", kStudySchema},
+      {"kind", "lanelight-study"},
+      {"settings", SettingsJson(options)},
+      {"machine",
+       {{"target", TargetJson()}, {"threads", MaxThreads()}, {"versions", versions}}},
+      {"seconds", seconds},
+      {"scenes", Json::array()}};
+  for (const SceneStudy& scene : scenes) {
+    out["scenes"].push_back(SceneJson(scene, options));
+  }
+  return out;
+}
+
+std::string StudyCsv(const std::vector<SceneStudy>& scenes) {
+  std::string text = "scene,strategy,spp,repetition," + CsvHeader() + ",inside\n";
+  for (const SceneStudy& scene : scenes) {
+    if (!scene.runs.error.empty()) continue;
+    const CellStore store(scene.runs.folder + "/cells", scene.runs.window.pixels());
+    for (const StrategyRuns& runs : scene.runs.strategies) {
+      for (std::uint64_t spp : runs.counts) {
+        const Cells cells = store.Load(runs.Text(), spp);
+        for (std::size_t r = 0; r < cells.repetitions.size(); ++r) {
+          const Measurement& m = cells.repetitions[r];
+          text += fmt::format("{},{},{},{},{},{}\n", Quoted(scene.runs.name),
+                              Quoted(runs.named.name), spp, r + 1, CsvRow(m),
+                              m.HasSelf() ? m.SelfHolds() ? "1" : "0" : "");
+        }
+      }
+    }
+  }
+  return text;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,66 @@
+// Where an image differs from the reference by more than noise.
+#include <algorithm>
+#include <cmath>
+
+#include "src/stat/distributions.h"
+#include "src/stat/hypothesis.h"
+#include "src/stat/multiple.h"
+#include "src/study/analysis.h"
+
+namespace lanelight {
+namespace {
+
+constexpr int kTiles = 192;  // about
+constexpr int kLeastSide = 4;
+
+int TileSide(const Reference& r) {
+  const double pixels = double(r.width) * r.height;
+  return std::max(kLeastSide, static_cast<int>(std::ceil(std::sqrt(pixels / kTiles))));
+}
+
+struct TileMeans {
+  std::vector<stat::MeanEstimate> image, reference;
+
+  void Add(const Moments& moments, const Reference& r, std::size_t pixel) {
+    const double n = double(moments.count());
+    image.push_back({moments.GreyMean(pixel), moments.GreyVariance(pixel) / n, n - 1});
+    const Rgb m = r.mean[pixel], v = r.Variance(pixel);
+    const double deviation = (std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z)) / 3;
+    reference.push_back({(m.x + m.y + m.z) / 3, deviation * deviation, 1e3});
+  }
+};
+
+}  // namespace
+
+// Pixels are independent, so the mean of a tile varies by what its pixels do, with more
+// degrees of freedom than its own repetitions have (Welch and Satterthwaite).
+TileTest TestTiles(const Moments& moments, const Reference& reference, double level) {
+  TileTest test;
+  test.level = level;
+  test.side = TileSide(reference);
+  test.columns = (reference.width + test.side - 1) / test.side;
+  test.rows = (reference.height + test.side - 1) / test.side;
+  std::vector<TileMeans> tiles(static_cast<std::size_t>(test.columns) * test.rows);
+  for (int y = 0; y < reference.height; ++y) {
+    for (int x = 0; x < reference.width; ++x) {
+      const std::size_t tile =
+          static_cast<std::size_t>(y / test.side) * test.columns + x / test.side;
+      tiles[tile].Add(moments, reference,
+                      static_cast<std::size_t>(y) * reference.width + x);
+    }
+  }
+  std::vector<double> p;
+  for (const TileMeans& tile : tiles) {
+    const stat::MeanEstimate a = stat::Average(tile.image);
+    const stat::MeanEstimate b = stat::Average(tile.reference);
+    p.push_back(stat::WelchPValue(a, b, kFloatRounding * std::abs(b.mean)));
+    // The z-score of the same p-value; 9 and beyond are all the same to a reader.
+    const double tail = std::clamp(p.back() / 2, 1e-19, 0.5);
+    const double z = tail < 0.5 ? -stat::NormalQuantile(tail) : 0;
+    test.z.push_back(a.mean < b.mean ? -z : z);
+  }
+  test.failed = stat::HolmRejections(p, level);
+  return test;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,151 @@
+// A study of one scene in a paragraph.
+#include <cmath>
+
+#include "src/study/analysis.h"
+
+namespace lanelight {
+namespace {
+
+std::string Numbers(const Interval& v) {
+  if (!v.HasBounds()) return fmt::format("{:.3g}", v.value);
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", v.value, v.low, v.high);
+}
+
+class Writer {
+ public:
+  Writer(const SceneRuns& runs, const SceneAnalysis& analysis)
+      : runs_(runs), analysis_(analysis) {}
+
+  std::string Text() {
+    if (analysis_.ranking.empty()) return "No strategy has finished a render.";
+    Winner();
+    Target();
+    Order();
+    Warnings();
+    return text_;
+  }
+
+ private:
+  const std::string& NameOf(std::size_t i) const {
+    return runs_.strategies[i].named.name;
+  }
+  const StrategyAnalysis& Of(std::size_t i) const { return analysis_.strategies[i]; }
+  void Say(const std::string& sentence) {
+    text_ += (text_.empty() ? "" : " ") + sentence;
+  }
+
+  std::string List(const std::vector<std::size_t>& indices) const {
+    std::string list;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+      list += k == 0 ? "" : k + 1 == indices.size() ? " and " : ", ";
+      list += NameOf(indices[k]);
+    }
+    return list;
+  }
+
+  void Winner() {
+    const std::size_t best = analysis_.ranking.front();
+    const Interval& gain = *Of(best).efficiency;
+    if (!std::isfinite(gain.value) || Of(best).AtLevel().relmse.value <= 0) {
+      return Say("No error is left to compare: the strategies reach the reference.");
+    }
+    std::vector<std::size_t> first;
+    for (std::size_t i : analysis_.ranking) {
+      if (Of(i).rank.best == 1) first.push_back(i);
+    }
+    const std::size_t repetitions = Of(best).AtLevel().repetitions;
+    if (repetitions < 3) {
+      return Say(fmt::format(
+          "{} has the least error for the time here, {} times the efficiency of {}; {} "
+          "repetition{} cannot say how sure that is.",
+          NameOf(best), Numbers(gain), NameOf(analysis_.baseline), repetitions,
+          repetitions == 1 ? "" : "s"));
+    }
+    if (first.size() == 1) {
+      Say(fmt::format("{} gives the least error for the time", NameOf(best)));
+    } else {
+      Say(
+          fmt::format("{} give the least error for the time and are not distinguishable "
+                      "from each other as first; {} is ahead in these renders",
+                      List(first), NameOf(best)));
+    }
+    text_ += best == analysis_.baseline
+                 ? " and is the baseline."
+                 : fmt::format(", with {} times the efficiency of {}.", Numbers(gain),
+                               NameOf(analysis_.baseline));
+  }
+
+  void Target() {
+    const std::size_t best = analysis_.ranking.front();
+    const auto& mine = Of(best).to_target;
+    const auto& base = Of(analysis_.baseline).to_target;
+    if (!mine || !base || best == analysis_.baseline) return;
+    Say(
+        fmt::format("To a relative MSE of {:.3g} it takes {:.3g} s of processor time and "
+                    "{:.3g} spp{}, {} {:.3g} s and {:.3g} spp{}.",
+                    analysis_.target_relmse, mine->seconds.value, mine->samples.value,
+                    mine->extrapolated ? " (extrapolated)" : "",
+                    NameOf(analysis_.baseline), base->seconds.value, base->samples.value,
+                    base->extrapolated ? " (extrapolated)" : ""));
+  }
+
+  void Order() {
+    const auto& order = Of(analysis_.ranking.front()).order;
+    if (!order) return;
+    Say(fmt::format(
+        "Its RMSE falls with the number of samples to the power {}{}.", Numbers(*order),
+        order->HasBounds() && order->high < -0.5 ? ", faster than independent samples"
+                                                 : ""));
+  }
+
+  void Warnings() {
+    const auto share = analysis_.calibration;
+    if (share.total > 0) {
+      Say(
+          fmt::format("The renders' own 95 % error intervals held in {:.1f} % of {} "
+                      "renders.",
+                      100 * double(share.inside) / double(share.total), share.total));
+    }
+    std::vector<std::size_t> heavy, failed;
+    for (std::size_t i = 0; i < analysis_.strategies.size(); ++i) {
+      if (Of(i).heavy_tailed) heavy.push_back(i);
+      if (runs_.strategies[i].status == RunStatus::kFailed) failed.push_back(i);
+    }
+    if (!heavy.empty()) {
+      Say(fmt::format(
+          "Rare bright samples carry most of the error of {}: intervals there "
+          "may not hold.",
+          List(heavy)));
+    }
+    if (!analysis_.biased.empty()) {
+      Say(fmt::format(
+          "The mean image of {} differs from the reference by more than noise "
+          "(level {:g} for all tests together).",
+          List(analysis_.biased), analysis_.bias_level));
+    } else if (analysis_.bias_tests > 0) {
+      Say(
+          fmt::format("No mean image differs from the reference by more than noise ({} "
+                      "tests).",
+                      analysis_.bias_tests));
+    }
+    if (!failed.empty()) Say("Failed: " + List(failed) + ".");
+    if (Of(analysis_.ranking.front()).AtLevel().ReferenceLimited()) {
+      Say("The reference is too noisy for the smallest errors: more than half of what "
+          "was "
+          "measured there is its own.");
+    }
+    if (runs_.interrupted) Say("The study was interrupted; --resume continues it.");
+  }
+
+  const SceneRuns& runs_;
+  const SceneAnalysis& analysis_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string Verdict(const SceneRuns& runs, const SceneAnalysis& analysis) {
+  return Writer(runs, analysis).Text();
+}
+
+}  // namespace lanelight
