@@ -60,6 +60,7 @@ std::string CountText(double value) {
 
 std::string DurationText(double seconds) {
   if (!(seconds >= 0) || seconds > 1e9) return "unknown";
+  if (seconds > 0 && seconds < 0.00995) return fmt::format("{:.2g} ms", 1e3 * seconds);
   if (seconds < 1) return fmt::format("{:.0f} ms", 1e3 * seconds);
   if (seconds < 60) return fmt::format("{:.1f} s", seconds);
   const long whole = std::lround(seconds);

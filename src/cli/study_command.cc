@@ -11,6 +11,7 @@
 #include "src/cli/study_progress.h"
 #include "src/cli/study_summary.h"
 #include "src/cli/validators.h"
+#include "src/core/error.h"
 #include "src/core/parallel.h"
 #include "src/study/study.h"
 
@@ -28,14 +29,20 @@ void CheckCombination(const StudyOptions& study) {
   if (study.scenes.size() > 1 && !study.references.empty()) {
     throw CLI::ValidationError("--reference", "goes with one scene only");
   }
+  try {
+    StudyStrategies(study, {});
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    throw CLI::ValidationError("--strategies", message.substr(message.find("strategy ")));
+  }
 }
 
 int RunStudyCommand(StudyCommandOptions& options) {
+  options.study.strategies = SplitStrategies(options.strategies);
   CheckCombination(options.study);
   ForceTarget(options.machine.target);
   const ThreadLimit threads(options.machine.threads);
   options.study.settings = options.machine.settings;
-  options.study.strategies = SplitStrategies(options.strategies);
 
   StudyProgressPrinter progress(ChooseProgressStyle(options.quiet));
   const InterruptGuard interrupt(

@@ -8,7 +8,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::size_t kColumns = 90, kLongestName = 44;
+constexpr std::size_t kColumns = 90, kLongestName = 36;
 
 std::string Known(double v, const char* format) {
   return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "-";
@@ -17,6 +17,17 @@ std::string Known(double v, const char* format) {
 std::string Range(const Interval& v) {
   if (!v.HasBounds()) return Known(v.value, "{:.3g}");
   return fmt::format("{:.3g} [{:.3g}, {:.3g}]", v.value, v.low, v.high);
+}
+
+// For intervals about their middle.
+std::string PlusMinus(const Interval& v) {
+  if (!v.HasBounds()) return Known(v.value, "{:.3g}");
+  return fmt::format("{:.2f} ±{:.2f}", v.value, v.high - v.value);
+}
+
+std::string Percent(const Interval& v) {
+  if (!v.HasBounds() || !(v.value > 0)) return Known(v.value, "{:.3g}");
+  return fmt::format("{:.3g} ±{:.0f} %", v.value, 100 * (v.high - v.value) / v.value);
 }
 
 std::string RankText(const stat::RankRange& rank) {
@@ -33,13 +44,15 @@ std::string Short(const std::string& name) {
   return name.size() <= kLongestName ? name : name.substr(0, kLongestName - 3) + "...";
 }
 
+constexpr const char* kRow = "{:>5}  {:<36} {:>6} {:>20} {:>16} {:>9} {:>12} {:>10}{}\n";
+
 std::string Row(const StrategyRuns& runs, const StrategyAnalysis& s) {
   const LevelAnalysis& level = s.AtLevel();
-  return fmt::format(
-      "{:>5}  {:<44} {:>6} {:>25} {:>31} {:>9} {:>23} {:>10}{}\n", RankText(s.rank),
-      Short(runs.named.name), level.spp, Range(*s.efficiency), Range(level.relmse),
-      Known(level.cpu_seconds.value, "{:.4g}"), s.order ? Range(*s.order) : "-",
-      TargetText(s.to_target), s.heavy_tailed ? "  heavy tail" : "");
+  return fmt::format(fmt::runtime(kRow), RankText(s.rank), Short(runs.named.name),
+                     level.spp, Range(*s.efficiency), Percent(level.relmse),
+                     DurationText(level.cpu_seconds.value),
+                     s.order ? PlusMinus(*s.order) : "-", TargetText(s.to_target),
+                     s.heavy_tailed ? "  heavy tail" : "");
 }
 
 // Breaks lines between words.
@@ -71,15 +84,14 @@ std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
                   100 * options.confidence,
                   runs.reference.rendered() ? fmt::format("of {} spp", runs.reference.spp)
                                             : runs.reference.files.front());
-  text += fmt::format("{:>5}  {:<44} {:>6} {:>25} {:>31} {:>9} {:>23} {:>10}\n", "rank",
-                      "strategy", "spp", "efficiency", "relative MSE", "cpu s", "order",
-                      "to target");
+  text += fmt::format(fmt::runtime(kRow), "rank", "strategy", "spp", "efficiency",
+                      "relative MSE", "cpu", "order", "to target", "");
   for (std::size_t i : analysis.ranking) {
     text += Row(runs.strategies[i], analysis.strategies[i]);
   }
   for (const StrategyRuns& s : runs.strategies) {
     if (s.status == RunStatus::kOk) continue;
-    text += fmt::format("{:>5}  {:<44} {}: {}\n", "-", Short(s.named.name),
+    text += fmt::format("{:>5}  {:<36} {}: {}\n", "-", Short(s.named.name),
                         Name(s.status), s.message);
   }
   return text +

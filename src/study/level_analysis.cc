@@ -22,6 +22,13 @@ double Mean(const std::vector<double>& values) {
   return sum / double(values.size());
 }
 
+// A squared error is not negative, whatever its t interval says. (Its estimate may be,
+// where the reference's own error was subtracted.)
+Interval NotNegative(Interval v) {
+  if (v.value >= 0 && v.low < 0) v.low = 0;
+  return v;
+}
+
 // Root of a mean square and of its bounds; NaN where they are negative (all of it is
 // the reference's error).
 Interval Root(const Interval& square) {
@@ -73,25 +80,35 @@ stat::MeanEstimate ReferenceMean(const Reference& reference) {
   return out;
 }
 
-void TestMean(const std::vector<Measurement>& all, const Reference& reference,
-              double confidence, LevelAnalysis& level) {
-  const auto means =
-      Collect(all, [](const Measurement& m) { return m.MeanOfChannels(); });
-  const stat::MeanEstimate known = ReferenceMean(reference);
-  const double scale = known.mean != 0 ? std::abs(known.mean) : 1;
-  const double bias = (Mean(means) - known.mean) / scale;
-  level.bias = WithoutBounds(bias);
-  if (means.size() < 2) return;
-  stat::MeanEstimate own = {Mean(means), 0, double(means.size()) - 1};
-  for (double m : means) {
-    own.variance += (m - own.mean) * (m - own.mean) / own.dof / double(means.size());
+// Mean over the pixels of all repetitions. Pixels are independent, so the variance of the
+// mean is the sum of theirs, known with many more degrees of freedom than from the means
+// of a few repetitions.
+stat::MeanEstimate ImageMean(const Moments& moments) {
+  std::vector<stat::MeanEstimate> pixels;
+  const double n = double(moments.count());
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    pixels.push_back({moments.GreyMean(i), moments.GreyVariance(i) / n, n - 1});
   }
+  return stat::Average(pixels);
+}
+
+void TestMean(const Moments& moments, const Reference& reference, double confidence,
+              LevelAnalysis& level) {
+  const stat::MeanEstimate known = ReferenceMean(reference), own = ImageMean(moments);
+  const double scale = known.mean != 0 ? std::abs(known.mean) : 1;
+  const double bias = (own.mean - known.mean) / scale;
+  level.bias = WithoutBounds(bias);
+  if (moments.count() < 2) return;
   level.bias_p = stat::WelchPValue(own, known, kFloatRounding * scale);
-  const stat::MeanEstimate both = stat::Average({own, known});
-  const double deviation = std::sqrt(own.variance + known.variance);
+  const double variance = own.variance + known.variance;
+  if (variance == 0) {
+    level.bias = {bias, bias, bias};
+    return;
+  }
+  // Average() halves both: the degrees of freedom are those of their difference too.
+  const double dof = stat::Average({own, known}).dof;
   const double half =
-      stat::StudentTwoSidedQuantile(1 - confidence, std::max(own.dof, both.dof)) *
-      deviation / scale;
+      stat::StudentTwoSidedQuantile(1 - confidence, dof) * std::sqrt(variance) / scale;
   level.bias = {bias, bias - half, bias + half};
 }
 
@@ -128,7 +145,7 @@ LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
                            std::uint64_t spp, double confidence) {
   const std::vector<Measurement>& all = cells.repetitions;
   const auto interval = [&](auto get) {
-    return stat::MeanInterval(Collect(all, get), confidence);
+    return NotNegative(stat::MeanInterval(Collect(all, get), confidence));
   };
   LevelAnalysis level;
   level.spp = spp;
@@ -147,7 +164,7 @@ LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
   level.wall_seconds = stat::MedianInterval(
       Collect(all, [](const Measurement& m) { return m.wall_seconds; }), confidence);
   CountRays(all, level);
-  TestMean(all, reference, confidence, level);
+  TestMean(cells.moments, reference, confidence, level);
   level.self = CheckSelf(all, confidence);
   if (all.size() < 2) {
     level.variance = level.bias2 = WithoutBounds(std::nan(""));
@@ -159,6 +176,7 @@ LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
   for (double* v : {&level.variance.value, &level.variance.low, &level.variance.high}) {
     *v -= level.bias2.value;
   }
+  level.variance = NotNegative(level.variance);
   return level;
 }
 

@@ -79,7 +79,7 @@ std::vector<SceneRuns> RunStudy(const StudyOptions& options, const StudyHooks& h
       throw;
     } catch (const std::exception& error) {
       scene.error = error.what();
-      if (hooks.on_problem) hooks.on_problem(error.what());
+      if (hooks.on_problem && scenes.size() > 1) hooks.on_problem(error.what());
     }
     clock.FinishScene();
   }

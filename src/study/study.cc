@@ -1,6 +1,8 @@
 #include "src/study/study.h"
 
+#include <algorithm>
 #include <chrono>
+#include <stdexcept>
 
 #include "src/image/atomic_file.h"
 
@@ -16,6 +18,10 @@ std::vector<SceneStudy> Study(const StudyOptions& options, const StudyHooks& hoo
       study.analysis = AnalyseScene(study.runs, options, images);
     }
     studies.push_back(std::move(study));
+  }
+  const auto failed = [](const SceneStudy& study) { return !study.runs.error.empty(); };
+  if (std::all_of(studies.begin(), studies.end(), failed)) {
+    throw std::runtime_error(studies.front().runs.error);
   }
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   const nlohmann::json json = StudyJson(studies, options, taken.count());

@@ -1,0 +1,135 @@
+// What a study keeps on disk, and references from files.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "src/core/error.h"
+#include "src/study/colors.h"
+#include "src/study/study_images.h"
+#include "tests/image/temporary_folder.h"
+#include "tests/study/simulated.h"
+
+namespace lanelight {
+namespace {
+
+using Catch::Contains;
+using reference::Random;
+
+Cells SomeCells(int repetitions) {
+  Random random(2);
+  const Reference r = NoisyReference(4, 3, 0.1, random);
+  Cells cells = Simulate(r, repetitions, 0.1, random);
+  for (Rgb& c : cells.first) c = VecCast<double>(VecCast<float>(c));
+  StageProfile stage;
+  stage.name = "generate";
+  stage.items = 12;
+  stage.seconds = 0.25;
+  AddStages({stage}, cells.stages);
+  AddStages({stage}, cells.stages);
+  return cells;
+}
+
+}  // namespace
+
+TEST_CASE("finished renders come back from the disk as they were", "[study]") {
+  const TemporaryFolder folder;
+  const CellStore store(folder.File("cells"), 12);
+  const Cells cells = SomeCells(3);
+  CHECK(store.Load("a strategy", 16).repetitions.empty());
+  store.Save("a strategy", 16, cells);
+  const Cells back = store.Load("a strategy", 16);
+  REQUIRE(back.repetitions.size() == 3);
+  CHECK(CsvRow(back.repetitions[2]) == CsvRow(cells.repetitions[2]));
+  CHECK(back.moments.Save() == cells.moments.Save());
+  CHECK(back.moments.count() == 3);
+  CHECK(back.first == cells.first);
+  REQUIRE(back.stages.size() == 1);
+  CHECK(back.stages[0].seconds == 0.5);
+  CHECK(back.stages[0].items == 24);
+  CHECK(store.Load("a strategy", 32).repetitions.empty());
+  CHECK(store.Load("another", 16).repetitions.empty());
+}
+
+TEST_CASE("damaged files of finished renders are refused by name", "[study]") {
+  const TemporaryFolder folder;
+  const CellStore store(folder.File("cells"), 12);
+  store.Save("s", 4, SomeCells(2));
+  const std::string path =
+      std::filesystem::directory_iterator(folder.File("cells"))->path().string();
+  SECTION("cut off") { std::filesystem::resize_file(path, 600); }
+  SECTION("cut off in the header") { std::filesystem::resize_file(path, 20); }
+  SECTION("empty") { std::filesystem::resize_file(path, 0); }
+  SECTION("something else") { std::ofstream(path) << "hello\nworld"; }
+  SECTION("of an image of another size") {
+    const CellStore other(folder.File("cells"), 13);
+    CHECK_THROWS_WITH(other.Load("s", 4), Contains(path) && Contains("size"));
+    return;
+  }
+  CHECK_THROWS_WITH(store.Load("s", 4), Contains(path) && Contains("remove it"));
+}
+
+TEST_CASE("references are read for the window that is rendered", "[study]") {
+  const TemporaryFolder folder;
+  const std::vector<Rgb> image = Truth(4 * 3);
+  const std::string path = folder.File("r.exr");
+  WriteColors(path, 4, 3, {{"", &image}});
+  SECTION("whole") {
+    const Reference r = ReadReference({path}, {0, 0, 4, 3}, 4, 3);
+    CHECK(r.mean[5].y == Approx(image[5].y));
+    CHECK_FALSE(r.has_variance());
+    CHECK_FALSE(r.note.empty());
+    CHECK(r.OwnRelMse() == 0);
+  }
+  SECTION("a crop of the whole") {
+    const Reference r = ReadReference({path}, {1, 1, 3, 3}, 4, 3);
+    REQUIRE(r.mean.size() == 4);
+    CHECK(r.mean[0].x == Approx(image[1 * 4 + 1].x));
+    CHECK(r.mean[3].x == Approx(image[2 * 4 + 2].x));
+  }
+  SECTION("the crop alone") {
+    CHECK(ReadReference({path}, {10, 10, 14, 13}, 64, 64).mean.size() == 12);
+  }
+  SECTION("of another size") {
+    CHECK_THROWS_WITH(ReadReference({path}, {0, 0, 5, 3}, 5, 3),
+                      Contains(path) && Contains("4x3") && Contains("5x3"));
+  }
+  SECTION("not finite") {
+    std::vector<Rgb> bad = image;
+    bad[7].z = std::nan("");
+    WriteColors(path, 4, 3, {{"", &bad}});
+    CHECK_THROWS_WITH(ReadReference({path}, {0, 0, 4, 3}, 4, 3),
+                      Contains("1 of 12 pixels"));
+  }
+  SECTION("without colour") {
+    WriteColors(path, 4, 3, {{"normal.", &image}});
+    CHECK_THROWS_WITH(ReadReference({path}, {0, 0, 4, 3}, 4, 3),
+                      Contains("neither R, G, B nor Y"));
+  }
+  SECTION("with its variance") {
+    const std::vector<Rgb> variance(12, Rgb{0.01, 0.02, 0.03});
+    WriteColors(path, 4, 3, {{"", &image}, {"variance.", &variance}});
+    const Reference r = ReadReference({path}, {0, 0, 4, 3}, 4, 3);
+    CHECK(r.Variance(3).z == Approx(0.03));
+    CHECK(r.OwnMse() == Approx(0.02));
+  }
+  SECTION("two of them measure their noise") {
+    const std::string second = folder.File("b.exr");
+    std::vector<Rgb> other = image;
+    other[2] += Rgb{0.2, 0, 0};
+    WriteColors(second, 4, 3, {{"", &other}});
+    const Reference r = ReadReference({path, second}, {0, 0, 4, 3}, 4, 3);
+    CHECK(r.mean[2].x == Approx(image[2].x + 0.1));
+    CHECK(r.Variance(2).x == Approx(0.01));  // (0.2 / 2)^2
+    CHECK(r.Variance(3).x == 0);
+  }
+}
+
+TEST_CASE("names of files come from names of strategies", "[study]") {
+  CHECK(Slug("paper-plain") == "paper-plain");
+  CHECK(Slug("points=sobol,pairs=antithetic:all") == "points-sobol-pairs-antithetic-all");
+  CHECK(Slug("../../etc") == "etc");
+  CHECK(Slug("=") == "strategy");
+  CHECK(Slug(std::string(200, 'x')).size() <= 60);
+}
+
+}  // namespace lanelight

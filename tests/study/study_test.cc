@@ -1,0 +1,257 @@
+// Studies from start to end, on a scene of a few pixels.
+#include "src/study/study.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "src/core/error.h"
+#include "src/study/colors.h"
+#include "tests/image/temporary_folder.h"
+
+namespace lanelight {
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+constexpr const char* kScene = R"(
+LookAt 0 0 -4  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 12 "integer yresolution" 8 "string filename" "x.exr"
+WorldBegin
+LightSource "infinite" "rgb L" [0.5 0.6 0.8]
+Material "diffuse" "rgb reflectance" [0.7 0.5 0.3]
+Shape "sphere" "float radius" 1
+AttributeBegin
+  Translate 0 2.5 0
+  AreaLightSource "diffuse" "rgb L" [6 6 6]
+  Shape "sphere" "float radius" 0.4
+AttributeEnd
+)";
+
+StudyOptions TinyStudy(const TemporaryFolder& folder, const std::string& out) {
+  StudyOptions options;
+  options.scenes = {folder.Write("tiny.pbrt", kScene)};
+  options.strategies = {"paper-plain", "default", "points=pmj02"};
+  options.spp = {1, 4, 16};
+  options.repetitions = 3;
+  options.out = folder.File(out);
+  return options;
+}
+
+Json ReadJson(const std::string& path) {
+  std::ifstream in(path);
+  return Json::parse(in);
+}
+
+// Seconds, and what is computed from them.
+void RemoveTimings(Json& json) {
+  for (const char* name : {"seconds", "cpu_seconds", "wall_seconds", "efficiency", "rank",
+                           "ranking", "to_target", "verdict", "ns_per_item", "share"}) {
+    if (json.is_object()) json.erase(name);
+  }
+  if (json.is_structured()) {
+    for (Json& child : json) RemoveTimings(child);
+  }
+}
+
+void CheckNumbers(const Json& json) {
+  if (json.is_number_float()) CHECK(std::isfinite(json.get<double>()));
+  if (json.is_string()) CHECK_THAT(json.get<std::string>(), !Contains("nan"));
+  if (json.is_structured()) {
+    for (const Json& child : json) CheckNumbers(child);
+  }
+}
+
+int Lines(const std::string& path) {
+  std::ifstream in(path);
+  int lines = 0;
+  for (std::string line; std::getline(in, line);) ++lines;
+  return lines;
+}
+
+}  // namespace
+
+TEST_CASE("a study writes numbers, rows, images and a report", "[study]") {
+  const TemporaryFolder folder;
+  const StudyOptions options = TinyStudy(folder, "out");
+  const auto studies = Study(options, {});
+  REQUIRE(studies.size() == 1);
+  REQUIRE(studies[0].runs.error.empty());
+  const Json json = ReadJson(options.out + "/study.json");
+  CHECK(json["schema"] == 1);
+  CheckNumbers(json);
+  const Json& scene = json["scenes"][0];
+  REQUIRE(scene["strategies"].size() == 3);
+  CHECK(scene["name"] == "tiny");
+  CHECK(scene["reference"]["source"] == "rendered");
+  CHECK(scene["reference"]["relmse"].get<double>() > 0);
+  CHECK(scene["ranking"].size() == 3);
+  CHECK(scene["bias"]["failed"].empty());
+  CHECK(scene["diffuse"].size() == 3);
+  for (const Json& strategy : scene["strategies"]) {
+    INFO(strategy["name"]);
+    CHECK(strategy["status"] == "ok");
+    CHECK(strategy["at_spp"] == 16);
+    REQUIRE(strategy["levels"].size() == 3);
+    CHECK(strategy["levels"][2]["repetitions"] == 3);
+    CHECK(strategy["levels"][2]["relmse"]["value"].get<double>() <
+          strategy["levels"][0]["relmse"]["value"].get<double>());
+    CHECK(strategy["order"]["value"].get<double>() < -0.3);
+    for (const char* image : {"mean", "one", "variance", "bias"}) {
+      const std::string name = strategy["images"][image];
+      CHECK(std::filesystem::exists(options.out + "/" + name + ".exr"));
+    }
+  }
+  CHECK(Lines(options.out + "/study.csv") == 1 + 3 * 3 * 3);
+  CHECK(std::filesystem::file_size(options.out + "/report.html") > 0);
+}
+
+TEST_CASE("a continued study is the same, up to timings", "[study]") {
+  const TemporaryFolder folder;
+  Study(TinyStudy(folder, "whole"), {});
+  Json whole = ReadJson(folder.File("whole") + "/study.json");
+  RemoveTimings(whole);
+
+  for (int stop_after : {1, 6, 13, 22, 29}) {
+    INFO(stop_after);
+    const std::string name = "part" + std::to_string(stop_after);
+    StudyOptions options = TinyStudy(folder, name);
+    std::atomic<bool> stop = false;
+    int steps = 0;
+    StudyHooks hooks;
+    hooks.stop = &stop;
+    hooks.on_progress = [&](const StudyProgress&) { stop = ++steps >= stop_after; };
+    Study(options, hooks);
+    const Json part = ReadJson(options.out + "/study.json");
+    CheckNumbers(part);
+    CHECK(part["scenes"][0]["interrupted"] == true);
+
+    options.resume = true;
+    int cells = 0;
+    hooks.stop = nullptr;
+    hooks.on_progress = [&](const StudyProgress& p) {
+      cells += p.what.find("repetition") != std::string::npos;
+    };
+    Study(options, hooks);
+    CHECK(cells <= 27);
+    if (stop_after >= 13) CHECK(cells < 27);  // nothing finished is done again
+    Json resumed = ReadJson(options.out + "/study.json");
+    RemoveTimings(resumed);
+    CHECK(resumed == whole);
+  }
+}
+
+TEST_CASE("a study can be extended, and not mixed with another", "[study]") {
+  const TemporaryFolder folder;
+  StudyOptions options = TinyStudy(folder, "out");
+  options.repetitions = 1;
+  Study(options, {});
+  CHECK_THROWS_WITH(Study(options, {}), Contains("--resume"));
+  options.resume = true;
+  options.repetitions = 2;
+  options.strategies.push_back("points=halton");
+  const auto studies = Study(options, {});
+  REQUIRE(studies[0].analysis.strategies.size() == 4);
+  CHECK(studies[0].analysis.strategies[3].AtLevel().repetitions == 2);
+  options.settings.max_depth = 2;
+  CHECK_THROWS_WITH(Study(options, {}), Contains("max_depth"));
+}
+
+TEST_CASE("what a scene does not take is reported, and the rest goes on", "[study]") {
+  const TemporaryFolder folder;
+  StudyOptions options = TinyStudy(folder, "out");
+  options.scenes.push_back(folder.File("missing.pbrt"));
+  options.scenes.push_back(
+      folder.Write("dark.pbrt",
+                   "Film \"rgb\" \"integer xresolution\" 4 \"integer "
+                   "yresolution\" 4\nWorldBegin\nShape \"sphere\"\n"));
+  options.strategies = {"control=ambient,c=1", "default", "control=analytic"};
+  options.spp = {1, 4};
+  options.repetitions = 2;
+  const auto studies = Study(options, {});
+  const Json json = ReadJson(options.out + "/study.json");
+  CheckNumbers(json);
+  CHECK_THAT(json["scenes"][1]["error"].get<std::string>(), Contains("missing.pbrt"));
+  // A scene without light is black: no error, nothing to rank, no division by zero.
+  const Json& dark = json["scenes"][2];
+  CHECK(dark["error"].is_null());
+  CHECK(dark["strategies"][0]["status"] == "refused");
+  CHECK_FALSE(dark["strategies"][0]["message"].get<std::string>().empty());
+  CHECK(dark["strategies"][1]["levels"][0]["relmse"]["value"] == 0);
+  CHECK_THAT(dark["verdict"].get<std::string>(), Contains("No error is left"));
+}
+
+TEST_CASE("errors against a given reference", "[study]") {
+  const TemporaryFolder folder;
+  StudyOptions options = TinyStudy(folder, "first");
+  Study(options, {});
+  options.references = {folder.File("first") + "/tiny/reference.exr"};
+  options.out = folder.File("second");
+  const auto studies = Study(options, {});
+  const Json json = ReadJson(options.out + "/study.json");
+  CHECK(json["scenes"][0]["reference"]["source"] == "file");
+  CHECK(json["scenes"][0]["reference"]["independent"] == true);
+  const Json first = ReadJson(folder.File("first") + "/study.json");
+  CHECK(json["scenes"][0]["strategies"][1]["levels"][2]["relmse"] ==
+        first["scenes"][0]["strategies"][1]["levels"][2]["relmse"]);
+  CHECK_FALSE(std::filesystem::exists(options.out + "/tiny/cells/reference.exr"));
+}
+
+TEST_CASE("a wrong reference shows as bias of every strategy", "[study]") {
+  const TemporaryFolder folder;
+  StudyOptions options = TinyStudy(folder, "first");
+  const auto right = Study(options, {});
+  std::vector<Rgb> wrong = right[0].runs.reference.mean;
+  for (Rgb& c : wrong) c *= 1.2;
+  WriteColors(folder.File("wrong.exr"), 12, 8, {{"", &wrong}});
+  options.references = {folder.File("wrong.exr")};
+  options.out = folder.File("second");
+  const auto studies = Study(options, {});
+  CHECK(studies[0].analysis.biased.size() == 3);
+  CHECK_THAT(studies[0].analysis.verdict, Contains("differs from the reference"));
+}
+
+TEST_CASE("sample counts", "[study]") {
+  StudyOptions options;
+  options.confidence = 0.95;
+  CHECK(options.Repetitions() == 8);
+  options.confidence = 0.99;
+  CHECK(options.Repetitions() == 10);
+  options.repetitions = 1;
+  CHECK(options.Repetitions() == 1);
+
+  SECTION("a budget in seconds gives powers of two and a last count") {
+    const TemporaryFolder folder;
+    StudyOptions budget = TinyStudy(folder, "out");
+    budget.spp.clear();
+    budget.budget = 0.01;
+    budget.repetitions = 2;
+    const auto studies = Study(budget, {});
+    for (const StrategyRuns& runs : studies[0].runs.strategies) {
+      REQUIRE(runs.counts.size() >= 2);
+      CHECK(runs.counts[0] == 1);
+      CHECK(runs.counts[1] == 2);
+      CHECK(std::is_sorted(runs.counts.begin(), runs.counts.end()));
+    }
+  }
+}
+
+TEST_CASE("lists of strategies", "[study]") {
+  CHECK(SplitStrategies(" a=b ;; c ;") == std::vector<std::string>{"a=b", "c"});
+  StudyOptions options;
+  CHECK(StudyStrategies(options, {}).size() == 8);
+  options.all_strategies = true;
+  const auto all = StudyStrategies(options, {});
+  CHECK(all.size() > 20);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(all[i].strategy == all[j].strategy);
+  }
+  CHECK(PaperFigure("paper-uniform") == 2);
+  CHECK(PaperFigure("paper-roulette") == 7);
+  CHECK(PaperFigure("default") == 0);
+}
+
+}  // namespace lanelight
