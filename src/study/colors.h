@@ -12,6 +12,9 @@ namespace lanelight {
 /// The means of all pixels of a film.
 std::vector<Rgb> FilmColors(const FilmAccumulator& film);
 
+/// As it comes back from a file.
+inline Rgb RoundToFloat(const Rgb& c) { return VecCast<double>(VecCast<float>(c)); }
+
 /// Channels R, G, B with a prefix before their names.
 struct ColorLayer {
   std::string prefix;

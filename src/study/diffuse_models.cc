@@ -48,6 +48,7 @@ void SceneRunner::RunDiffuseModels() {
     RunJob(job, film, {}, hooks_.stop);
     if (Stopped()) return;
     diffuse.image = FilmColors(film);
+    for (Rgb& c : diffuse.image) c = RoundToFloat(c);
     WriteColors(path, film.width(), film.height(), {{"", &diffuse.image}});
     scene_.diffuse.push_back(std::move(diffuse));
   }

@@ -104,8 +104,6 @@ void Combine(const std::vector<Piece>& pieces, Reference& reference) {
   }
 }
 
-Rgb AsFloat(const Rgb& v) { return VecCast<double>(VecCast<float>(v)); }
-
 }  // namespace
 
 Rgb Reference::Weight(std::size_t pixel) const {
@@ -175,8 +173,8 @@ Reference RenderReference(Job& job, std::uint64_t spp, std::uint64_t seed,
   reference.seconds = result.seconds;
   for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
     for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
-      reference.mean.push_back(AsFloat(film.Mean(x, y)));
-      reference.variance.push_back(AsFloat(film.Variance(x, y)));
+      reference.mean.push_back(RoundToFloat(film.Mean(x, y)));
+      reference.variance.push_back(RoundToFloat(film.Variance(x, y)));
     }
   }
   return reference;

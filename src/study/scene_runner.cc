@@ -61,6 +61,11 @@ void SceneRunner::Prepare() {
   for (const Note& note : job_.description.notes) {
     scene_.notes.push_back(note.where.ToString() + ": " + note.message);
   }
+  // Before anything is written: a wrong file leaves nothing behind.
+  if (!options_.references.empty()) {
+    scene_.reference = ReadReference(options_.references, job_.window, scene_.full_width,
+                                     scene_.full_height);
+  }
   store_ = std::make_unique<CellStore>(scene_.folder + "/cells", job_.window.pixels());
 }
 

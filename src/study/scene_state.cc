@@ -110,11 +110,7 @@ void SceneRunner::PlanWork() {
 }
 
 void SceneRunner::FindReference() {
-  if (!options_.references.empty()) {
-    scene_.reference = ReadReference(options_.references, job_.window, scene_.full_width,
-                                     scene_.full_height);
-    return;
-  }
+  if (!options_.references.empty()) return;  // read already
   const std::string path = scene_.folder + "/reference.exr";
   if (state_.contains("reference")) {
     const nlohmann::json& had = state_["reference"];

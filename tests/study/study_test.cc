@@ -140,7 +140,8 @@ TEST_CASE("a continued study is the same, up to timings", "[study]") {
     if (stop_after >= 13) CHECK(cells < 27);  // nothing finished is done again
     Json resumed = ReadJson(options.out + "/study.json");
     RemoveTimings(resumed);
-    CHECK(resumed == whole);
+    INFO(Json::diff(whole, resumed).dump(1));
+    CHECK((resumed == whole));
   }
 }
 
