@@ -1,0 +1,129 @@
+"use strict";
+// The ranking: efficiency and everything that it rests on, one row for each strategy.
+
+function rankingSection(view) {
+  const baseline = view.baseline ? view.baseline.name : null;
+  return section("ranking", "Ranking",
+    el("p", { class: "lead" }, "Efficiency is 1 / (relative MSE × seconds of processor time)",
+       baseline ? [", relative to ", el("b", {}, baseline)] : null,
+       ": at twice the efficiency, the same image takes half the time. Small print: " +
+       `${confidenceText() ? `${confidenceText()} ` : ""}confidence intervals. ` +
+       "A rank range such as 2–4 says that the order within it could be chance."),
+    rankingTable(view));
+}
+
+function rankingTable(view) {
+  const scale = whiskerScale(view.ranked.map((s) => s.efficiency), true, [1]);
+  const notRun = view.strategies.filter((s) => !view.ran.includes(s));
+  const columns = rankingColumns(view, scale);
+  return sortableTable({
+    caption: "Ranking of the strategies by efficiency",
+    columns,
+    rows: view.ranked,
+    fixed: notRun.map((s) => notRunRow(s, columns.length)),
+    sortedBy: "rank",
+    rowClass: (s) => s.rank && s.rank[0] === 1 ? "best" : null,
+  });
+}
+
+function notRunRow(strategy, count) {
+  return el("tr", { class: "not-run" }, el("td", {}, UNKNOWN),
+    el("th", { scope: "row", class: "text" }, strategyLabel(strategy)),
+    el("td", { class: "text", colspan: count - 2 },
+       el("span", { class: "why" }, whyMissing(strategy))));
+}
+
+function rankText(rank) {
+  if (!rank) return UNKNOWN;
+  return rank[0] === rank[1] ? String(rank[0]) : `${rank[0]}–${rank[1]}`;
+}
+
+// The strategies whose rank ranges overlap that of s.
+function rivals(view, s) {
+  if (!s.rank) return [];
+  return view.ranked.filter((o) => o !== s && o.rank && o.rank[0] <= s.rank[1] &&
+                                   s.rank[0] <= o.rank[1]);
+}
+
+function rankCell(view, s) {
+  const others = rivals(view, s);
+  return el("span", { title: others.length
+                        ? `Not distinguishable from ${others.map((o) => o.name).join(", ")}`
+                        : null },
+            twoLines({ value: rankText(s.rank), bounds: "" },
+                     others.length > 0 ? "not distinguishable" : null));
+}
+
+// A column of an interval of the level that the ranking is of.
+function levelColumn(key, title, unit, hint, texts = intervalTexts) {
+  return { key, title, unit, hint,
+           cell: (s) => twoLines(texts(s.level && s.level[key])),
+           sort: (s) => s.level ? valueOf(s.level[key]) : null };
+}
+
+function levelNumber(key, title, hint, format) {
+  return { key, title, hint, cell: (s) => format(s.level ? s.level[key] : null),
+           sort: (s) => s.level && known(s.level[key]) ? s.level[key] : null };
+}
+
+function targetColumn(view, key, title, texts) {
+  const target = view.scene.target_relmse;
+  return { key: `target-${key}`, title, unit: known(target) ? `to ${fmt(target, 2)}` : null,
+           hint: "To reach the target's relative MSE; extrapolated where no render got there",
+           cell: (s) => s.to_target
+             ? twoLines(texts(s.to_target[key]), s.to_target.extrapolated ? "extrapolated" : null)
+             : UNKNOWN,
+           sort: (s) => s.to_target ? valueOf(s.to_target[key]) : null };
+}
+
+function efficiencyColumns(scale) {
+  return [
+    { key: "efficiency", title: "Efficiency", unit: "relative", descendingFirst: true,
+      cell: (s) => twoLines(intervalTexts(s.efficiency)), sort: (s) => valueOf(s.efficiency) },
+    { key: "whisker", title: "", text: true, axis: scale && whiskerAxis(scale, {}),
+      cell: (s) => whisker(s.efficiency, scale, { style: s.style, marks: [1],
+                                                  label: `Efficiency of ${s.name}` }) },
+  ];
+}
+
+function coverageTexts(self) {
+  if (!self || !known(self.total) || self.total === 0) return { value: UNKNOWN, bounds: "" };
+  return { value: fmtPercent(self.inside / self.total, 2),
+           bounds: `${self.inside} of ${self.total}` };
+}
+
+function rankingColumns(view, scale) {
+  const spp = new Set(view.ran.map((s) => s.at_spp).filter(known));
+  const at = spp.size === 1 ? `at ${fmtCount([...spp][0])} spp` : "at the largest count";
+  const integer = (interval) => intervalTexts(interval);
+  return [
+    { key: "rank", title: "Rank", text: true, cell: (s) => rankCell(view, s),
+      sort: (s) => view.ranked.indexOf(s) },
+    { key: "name", title: "Strategy", text: true, rowHead: true,
+      cell: (s) => [strategyLabel(s), s.text && s.text !== s.name &&
+                    el("span", { class: "full-text" }, s.text)],
+      sort: (s) => s.name },
+    ...efficiencyColumns(scale),
+    levelColumn("relmse", "Relative MSE", at, "Squared error over squared reference + 0.01"),
+    levelColumn("relmse_trimmed", "Trimmed", "without worst 1 %",
+                "Relative MSE without the worst 1 % of the pixels"),
+    levelColumn("cpu_seconds", "Time", "processor", "Median of one render", secondsTexts),
+    { key: "order", title: "Order", unit: "of convergence",
+      hint: "Slope of log RMSE over log samples; −0.5 for independent samples",
+      cell: (s) => twoLines(intervalTexts(s.order)), sort: (s) => valueOf(s.order) },
+    targetColumn(view, "spp", "Samples", integer),
+    targetColumn(view, "seconds", "Time", secondsTexts),
+    levelColumn("bias", "Bias", "of the mean", "Mean of the image against the reference",
+                (interval) => percentTexts(interval, true)),
+    levelNumber("bias_p", "p", "Welch's test that the means are equal", fmtP),
+    levelColumn("variance", "Variance", "of rel. MSE"),
+    levelColumn("bias2", "Bias²", "of rel. MSE", "Can be negative by chance"),
+    { key: "self", title: "Coverage", unit: "self-estimate",
+      hint: "How often the interval that a render states of itself held its true error",
+      cell: (s) => twoLines(coverageTexts(s.level && s.level.self)),
+      sort: (s) => s.level && s.level.self && s.level.self.total
+        ? s.level.self.inside / s.level.self.total : null },
+    levelNumber("rays_per_sample", "Rays", "of all kinds, per sample", fmt),
+    levelNumber("path_length", "Path", "Scattering rays per sample", fmt),
+  ];
+}
