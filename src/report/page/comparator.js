@@ -153,7 +153,11 @@ function makePane(comparison, show, repaint, hover) {
   retitle();
   const frame = el("div", { class: "pane-frame" }, canvas,
                    show === "split" && splitHandle(comparison, canvas, repaint));
-  return { canvas, show, retitle, flip, node: el("div", { class: "pane-box" }, title, frame) };
+  // No higher than most of the window.
+  const box = el("div", { class: "pane-box",
+                          style: { "max-width": `calc(78vh * ${width / height})` } },
+                 title, frame);
+  return { canvas, show, retitle, flip, node: box };
 }
 
 // The divider, for pointer and keyboard.
@@ -206,7 +210,7 @@ function comparatorSection(view) {
     repaint();
   };
   comparison.box = el("div", { class: "comparator" },
-    comparatorControls(comparison, rebuild), stage, readout, comparatorScale(comparison));
+    comparatorControls(comparison, rebuild), stage, readout);
   hover(null);
   rebuild();
   keepPainted(comparison, stage, repaint);

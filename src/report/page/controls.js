@@ -59,7 +59,7 @@ function comparatorControls(comparison, rebuild) {
         comparison.changed.set("mode");
       }),
       flipButton(comparison), zoomButtons(comparison)),
-    toneControls(comparison.view));
+    appendAll(toneControls(comparison.view), [comparatorScale(comparison)]));
 }
 
 function flipButton(comparison) {
@@ -125,11 +125,11 @@ function comparatorScale(comparison) {
     const { curve, exposure } = comparison.view.tone.value;
     box.replaceChildren();
     if (comparison.mode === "difference") {
-      const range = 2 ** -exposure;
-      box.append(rampLegend(DIVERGING_TABLE, [`${fmtSignedPercent(-range)} A darker`, "0",
-                                              `A brighter ${fmtSignedPercent(range)}`]));
+      const range = fmtShortPercent(Number((2 ** -exposure).toPrecision(2)));
+      box.append(rampLegend(DIVERGING_TABLE, [`${MINUS}${range}: A darker`, "0",
+                                              `A brighter: +${range}`]));
     } else if (curve === "false") {
-      const at = (stops) => fmt(2 ** (stops - exposure), 2);
+      const at = (stops) => fmtShort(2 ** (stops - exposure), 2);
       box.append(rampLegend(SEQUENTIAL_TABLE, [at(-FALSE_STOPS), `${at(0)} luminance`,
                                                at(FALSE_STOPS)]));
     }

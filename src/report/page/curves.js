@@ -22,23 +22,25 @@ function curvePoint(level, measure, xOf) {
   return { x, y, low, high, level, hollow: Boolean(level.reference_limited) };
 }
 
-// Lines of constant order from the upper left, as log RMSE over log x.
+// Short lines of constant order where curves that fall leave room: at the upper right.
 function drawSlopes(u, power) {
   const { x, y } = u.scales;
-  const x0 = x.min * 1.35, y0 = y.max / 1.5;
+  const x0 = x.min ** 0.42 * x.max ** 0.58, y0 = y.max ** 0.94 * y.min ** 0.06;
+  const lowest = y.max ** 0.45 * y.min ** 0.55;
+  const dash = 4 * devicePixelRatio;
   u.ctx.strokeStyle = u.ctx.fillStyle = theme.color("--faint");
   u.ctx.lineWidth = devicePixelRatio;
   u.ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
   u.ctx.textAlign = "right";
-  u.ctx.setLineDash([4 * devicePixelRatio, 4 * devicePixelRatio]);
   for (const [order, text] of [[0.5, "slope −½"], [1, "slope −1"]]) {
     const yAt = (v) => y0 * (v / x0) ** (-order * power);
-    const end = Math.min(x.max, x0 * (y0 / y.min) ** (1 / (order * power)));
+    const end = Math.min(x.max / 1.03, x0 * (y0 / lowest) ** (1 / (order * power)));
+    u.ctx.setLineDash([dash, dash]);
     u.ctx.beginPath();
     u.ctx.moveTo(u.valToPos(x0, "x", true), u.valToPos(y0, "y", true));
     u.ctx.lineTo(u.valToPos(end, "x", true), u.valToPos(yAt(end), "y", true));
     u.ctx.stroke();
-    labelSlope(u, text, x0 * (end / x0) ** 0.97, yAt);
+    labelSlope(u, text, end, yAt);
   }
   u.ctx.setLineDash([]);
 }
@@ -65,7 +67,7 @@ function drawTarget(u, target) {
   u.ctx.stroke();
   u.ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
   u.ctx.textAlign = "left";
-  u.ctx.fillText(`target ${fmt(target, 2)}`, left + 6 * devicePixelRatio,
+  u.ctx.fillText(`target ${fmtShort(target)}`, left + 6 * devicePixelRatio,
                  y - 5 * devicePixelRatio);
 }
 
@@ -107,13 +109,16 @@ function strategyLegend(view) {
     button.setAttribute("aria-pressed", String(shown.has(view.ran[i].index))));
   view.shown.listen(show);
   show(view.shown.value);
-  const all = () => view.shown.set(new Set(view.ran.map((s) => s.index)));
   return el("div", { class: "legend", role: "group", "aria-label": "Strategies shown" },
-    buttons,
-    el("span", { class: "legend-all" },
-      el("button", { type: "button", class: "link", "data-show": "all", onclick: all }, "all"),
-      el("button", { type: "button", class: "link", "data-show": "none",
-                     onclick: () => view.shown.set(new Set()) }, "none")));
+            buttons);
+}
+
+function showAllButtons(view) {
+  const button = (name, shown) => el("button", {
+    type: "button", class: "button", "data-show": name,
+    onclick: () => view.shown.set(new Set(shown.map((s) => s.index))) }, `Show ${name}`);
+  return el("div", { class: "choices", role: "group", "aria-label": "Strategies" },
+            button("all", view.ran), button("none", []));
 }
 
 function plotFigure(name, title) {
@@ -138,7 +143,8 @@ function curvesSection(view) {
   whenVisible(view, time.figure, () => draw("relmse"));
   const choices = Object.entries(MEASURES).map(([key, { label }]) => [key, label]);
   return section("curves", "Error against time and samples",
-    el("div", { class: "toolbar" }, choiceButtons("Measure", choices, "relmse", draw)),
+    el("div", { class: "toolbar" }, choiceButtons("Measure", choices, "relmse", draw),
+       showAllButtons(view)),
     strategyLegend(view),
     el("div", { class: "plots" }, time.figure, samples.figure),
     el("p", { class: "hint" }, "Lower and further left is better. Bands are confidence " +

@@ -87,8 +87,11 @@ function strategyFigure(view, number, strategy, inset, compare) {
     return figureBox(number, title, missingPicture(why), [strategy.name, ". ", meaning]);
   }
   const main = tonedPicture(view, image, `${strategy.name}, one repetition`, { frame: inset });
-  const body = el("div", { class: "with-insets" }, main,
-                  inset && insetColumn(view, strategy, image, inset));
+  const insets = inset ? insetColumn(view, strategy, image, inset) : null;
+  // Widths that make the square insets together as high as the image.
+  const parts = insets ? insets.childElementCount : 1;
+  main.style.flexGrow = parts * image.width / image.height;
+  const body = el("div", { class: "with-insets" }, main, insets);
   return figureBox(number, title, body,
                    figureCaption(view, strategy, meaning, compare));
 }
@@ -129,7 +132,7 @@ function orderFigure(view) {
     return figureBox(8, "Convergence rate",
                      missingPicture("An order needs at least two sample counts."), null);
   }
-  const axis = { width: 360, format: (x) => fmt(x, 2), most: 6 };
+  const axis = { width: 360, format: fmtShort, most: 6 };
   const body = el("div", { class: "orders" },
     el("div", {}), el("div", {}, whiskerAxis(scale, axis)), el("div", {}),
     rows.map((s) => [el("div", { class: "order-name" }, strategyLabel(s)),

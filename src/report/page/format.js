@@ -47,6 +47,12 @@ function fmt(x, digits = 3) {
   return typographic(`${factor} × ${powerOfTen(exponent)}`);
 }
 
+// Without the zeros that say nothing: what somebody chose, not what was measured.
+function fmtShort(x, digits = 3) {
+  const text = fmt(x, digits);
+  return /^[^×]*\.[0-9]+$/.test(text) ? text.replace(/\.?0+$/, "") : text;
+}
+
 function fmtSigned(x, digits = 3) {
   return known(x) && x > 0 ? `+${fmt(x, digits)}` : fmt(x, digits);
 }
@@ -63,6 +69,10 @@ function fmtPercent(x, digits = 3) {
   const percent = x * 100;
   const places = Math.abs(percent) >= 99.95 ? 0 : Math.min(2, decimals(percent || 1, digits));
   return `${typographic(percent.toFixed(places))} %`;
+}
+
+function fmtShortPercent(x) {
+  return known(x) ? `${fmtShort(x * 100)} %` : UNKNOWN;
 }
 
 function fmtSignedPercent(x, digits = 2) {
@@ -98,15 +108,13 @@ function fmtSeconds(seconds, digits = 3) {
 function intervalTexts(interval, scale = 1, suffix = "", signed = false) {
   const x = valueOf(interval);
   if (x === null) return { value: UNKNOWN, bounds: "" };
-  const largest = hasBounds(interval)
-    ? Math.max(Math.abs(x), Math.abs(interval.high), Math.abs(interval.low)) : Math.abs(x);
   let factor = scale, unit = suffix;
-  if (!plainRange(x / scale) && x !== 0 && suffix === "") {
-    const exponent = exponentOf(largest / scale);
-    factor = scale * 10 ** exponent;
+  if (scale === 1 && suffix === "" && !plainRange(x)) {
+    const exponent = exponentOf(x);
+    factor = 10 ** exponent;
     unit = ` × ${powerOfTen(exponent)}`;
   }
-  const places = decimals(x / factor || largest / factor || 1, 3);
+  const places = decimals(x / factor || (interval.high || 1) / factor, 3);
   const text = (y) => typographic((y / factor).toFixed(places));
   const sign = signed && x > 0 ? "+" : "";
   const bounds = hasBounds(interval)
@@ -119,6 +127,25 @@ function secondsTexts(interval) {
   if (x === null) return { value: UNKNOWN, bounds: "" };
   const [factor, name] = timeUnit(x || 1);
   return intervalTexts(interval, factor, ` ${name}`);
+}
+
+// A factor that suits all of a column's values: {scale, unit}; null where they differ so
+// much that each needs its own.
+function commonScale(values) {
+  const sizes = values.filter((x) => known(x) && x !== 0).map(Math.abs).sort((a, b) => a - b);
+  if (sizes.length === 0 || sizes[sizes.length - 1] > 1e4 * sizes[0]) return null;
+  const middle = sizes[sizes.length >> 1];
+  if (sizes[0] >= 0.01 && middle < 1e4) return { scale: 1, unit: "" };
+  const exponent = exponentOf(middle);
+  return { scale: 10 ** exponent, unit: `× ${powerOfTen(exponent)}` };
+}
+
+// The same for seconds.
+function commonTime(values) {
+  const sizes = values.filter((x) => known(x) && x > 0).sort((a, b) => a - b);
+  if (sizes.length === 0 || sizes[sizes.length - 1] > 1e3 * sizes[0]) return null;
+  const [scale, unit] = timeUnit(sizes[sizes.length >> 1]);
+  return { scale, unit };
 }
 
 function percentTexts(interval, signed = false) {

@@ -27,7 +27,7 @@ function binaryTicks(min, max, most) {
 
 function errorTick(x) {
   const exponent = exponentOf(x);
-  if (x >= 0.01 && x < 1000) return String(Number(x.toPrecision(1)));
+  if (x >= 0.00099 && x < 1000) return String(Number(x.toPrecision(1)));
   const factor = Math.round(x / 10 ** exponent);
   return factor === 1 ? powerOfTen(exponent) : `${factor}×${powerOfTen(exponent)}`;
 }

@@ -96,6 +96,12 @@ function plotHooks(view, options) {
   };
 }
 
+// uPlot asks for a range both to show all and when the reader zooms.
+function isZoomed(u, min, max) {
+  const xs = u.data[0];
+  return known(min) && (min !== xs[0] || max !== xs[xs.length - 1]) && xs.length > 1;
+}
+
 function plotOptions(view, options, size) {
   const ranges = () => shownRanges(view, options.lines);
   const both = () => {
@@ -109,7 +115,10 @@ function plotOptions(view, options, size) {
     cursor: { points: { show: false }, drag: { x: true, y: true, uni: 20 } },
     focus: { alpha: 0.18 },
     scales: {
-      x: { time: false, distr: 3, range: () => options.square ? both() : ranges().x },
+      x: { time: false, distr: 3, range: (u, min, max) => {
+        if (isZoomed(u, min, max)) return [min, max];
+        return options.square ? both() : ranges().x;
+      } },
       y: { distr: 3, range: () => options.square ? both() : ranges().y },
     },
     axes: [options.xAxis, options.yAxis].map((axis, i) =>

@@ -51,8 +51,8 @@ function imageMap(view, { title, key, table, signed, valueAt }) {
       height: image.height, makePixels: () => rampPixels(image.width, image.height, table,
         (i) => toShare(at(image, i))) });
   };
-  const ends = signed ? [fmtSignedPercent(-top), "0", fmtSignedPercent(top)]
-                      : ["0", "", fmtPercent(top, 2)];
+  const ends = signed ? [`${MINUS}${fmtShortPercent(top)}`, "0", `+${fmtShortPercent(top)}`]
+                      : ["0", "", fmtShortPercent(top)];
   return { title, legend: rampLegend(table, ends), cell };
 }
 
@@ -70,8 +70,8 @@ function tileMap(view) {
     return tilePicture(view, s, reference);
   };
   return { title: "Equality by tile",
-           legend: rampLegend(DIVERGING_TABLE, [`z ${fmtSigned(-TILE_TOP)}`, "0",
-                                                fmtSigned(TILE_TOP)]), cell };
+           legend: rampLegend(DIVERGING_TABLE, [`z ${MINUS}${TILE_TOP}`, "0",
+                                                `+${TILE_TOP}`]), cell };
 }
 
 function tilePicture(view, s, reference) {

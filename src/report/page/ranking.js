@@ -27,7 +27,8 @@ function rankingTable(view) {
 }
 
 function notRunRow(strategy, count) {
-  return el("tr", { class: "not-run" }, el("td", {}, UNKNOWN),
+  return el("tr", { class: "not-run" },
+    el("td", { class: "text" }, UNKNOWN),
     el("th", { scope: "row", class: "text" }, strategyLabel(strategy)),
     el("td", { class: "text", colspan: count - 2 },
        el("span", { class: "why" }, whyMissing(strategy))));
@@ -54,11 +55,16 @@ function rankCell(view, s) {
                      others.length > 0 ? "not distinguishable" : null));
 }
 
-// A column of an interval of the level that the ranking is of.
-function levelColumn(key, title, unit, hint, texts = intervalTexts) {
-  return { key, title, unit, hint,
-           cell: (s) => twoLines(texts(s.level && s.level[key])),
-           sort: (s) => s.level ? valueOf(s.level[key]) : null };
+// A column of an interval of the level that the ranking is of. common: the values' common
+// scale, which then stands in the header; null for each its own.
+function levelColumn(view, key, title, unit, hint, { scaled = commonScale,
+                                                    texts = intervalTexts } = {}) {
+  const intervalOf = (s) => s.level && s.level[key];
+  const common = scaled && scaled(view.ranked.map((s) => valueOf(intervalOf(s))));
+  const cell = (s) => common ? intervalTexts(intervalOf(s), common.scale)
+                             : texts(intervalOf(s));
+  return { key, title, hint, unit: [unit, common && common.unit].filter(Boolean).join(", "),
+           cell: (s) => twoLines(cell(s)), sort: (s) => valueOf(intervalOf(s)) };
 }
 
 function levelNumber(key, title, hint, format) {
@@ -68,7 +74,7 @@ function levelNumber(key, title, hint, format) {
 
 function targetColumn(view, key, title, texts) {
   const target = view.scene.target_relmse;
-  return { key: `target-${key}`, title, unit: known(target) ? `to ${fmt(target, 2)}` : null,
+  return { key: `target-${key}`, title, unit: known(target) ? `to ${fmtShort(target)}` : null,
            hint: "To reach the target's relative MSE; extrapolated where no render got there",
            cell: (s) => s.to_target
              ? twoLines(texts(s.to_target[key]), s.to_target.extrapolated ? "extrapolated" : null)
@@ -80,8 +86,8 @@ function efficiencyColumns(scale) {
   return [
     { key: "efficiency", title: "Efficiency", unit: "relative", descendingFirst: true,
       cell: (s) => twoLines(intervalTexts(s.efficiency)), sort: (s) => valueOf(s.efficiency) },
-    { key: "whisker", title: "", text: true, axis: scale && whiskerAxis(scale, {}),
-      cell: (s) => whisker(s.efficiency, scale, { style: s.style, marks: [1],
+    { key: "whisker", title: "", text: true, axis: scale && whiskerAxis(scale, { width: 190 }),
+      cell: (s) => whisker(s.efficiency, scale, { style: s.style, marks: [1], width: 190,
                                                   label: `Efficiency of ${s.name}` }) },
   ];
 }
@@ -95,7 +101,13 @@ function coverageTexts(self) {
 function rankingColumns(view, scale) {
   const spp = new Set(view.ran.map((s) => s.at_spp).filter(known));
   const at = spp.size === 1 ? `at ${fmtCount([...spp][0])} spp` : "at the largest count";
-  const integer = (interval) => intervalTexts(interval);
+  const wholeTexts = (interval) => {
+    const x = valueOf(interval);
+    return x !== null && x >= 100 && x < 1e9
+      ? { value: fmtCount(x), bounds: hasBounds(interval)
+          ? `[${fmtCount(interval.low)}, ${fmtCount(interval.high)}]` : "" }
+      : intervalTexts(interval);
+  };
   return [
     { key: "rank", title: "Rank", text: true, cell: (s) => rankCell(view, s),
       sort: (s) => view.ranked.indexOf(s) },
@@ -104,20 +116,23 @@ function rankingColumns(view, scale) {
                     el("span", { class: "full-text" }, s.text)],
       sort: (s) => s.name },
     ...efficiencyColumns(scale),
-    levelColumn("relmse", "Relative MSE", at, "Squared error over squared reference + 0.01"),
-    levelColumn("relmse_trimmed", "Trimmed", "without worst 1 %",
+    levelColumn(view, "relmse", "Relative MSE", at,
+                "Squared error over squared reference + 0.01"),
+    levelColumn(view, "relmse_trimmed", "Trimmed", null,
                 "Relative MSE without the worst 1 % of the pixels"),
-    levelColumn("cpu_seconds", "Time", "processor", "Median of one render", secondsTexts),
+    levelColumn(view, "cpu_seconds", "Time", "processor", "Median of one render",
+                { scaled: commonTime, texts: secondsTexts }),
     { key: "order", title: "Order", unit: "of convergence",
       hint: "Slope of log RMSE over log samples; −0.5 for independent samples",
       cell: (s) => twoLines(intervalTexts(s.order)), sort: (s) => valueOf(s.order) },
-    targetColumn(view, "spp", "Samples", integer),
+    targetColumn(view, "spp", "Samples", wholeTexts),
     targetColumn(view, "seconds", "Time", secondsTexts),
-    levelColumn("bias", "Bias", "of the mean", "Mean of the image against the reference",
-                (interval) => percentTexts(interval, true)),
+    levelColumn(view, "bias", "Bias", "of the mean", "Mean of the image against the reference",
+                { scaled: null, texts: (interval) => percentTexts(interval, true) }),
     levelNumber("bias_p", "p", "Welch's test that the means are equal", fmtP),
-    levelColumn("variance", "Variance", "of rel. MSE"),
-    levelColumn("bias2", "Bias²", "of rel. MSE", "Can be negative by chance"),
+    levelColumn(view, "variance", "Variance", null, "Part of the relative MSE"),
+    levelColumn(view, "bias2", "Bias²", null,
+                "Part of the relative MSE; can be negative by chance"),
     { key: "self", title: "Coverage", unit: "self-estimate",
       hint: "How often the interval that a render states of itself held its true error",
       cell: (s) => twoLines(coverageTexts(s.level && s.level.self)),

@@ -104,7 +104,7 @@ function warningTexts(view) {
   }
   if (scene.bias && scene.bias.failed > 0) {
     out.push(["Bias", `${scene.bias.failed} of ${scene.bias.tests} strategies differ from ` +
-                      `the reference in the mean (Holm, level ${fmt(scene.bias.level)}).`]);
+                      `the reference in the mean (Holm, level ${fmtShort(scene.bias.level)}).`]);
   }
   if (scene.reference && scene.reference.note) out.push(["Reference", scene.reference.note]);
   return out;

@@ -59,5 +59,5 @@ function drawThemed(view, draw) {
 
 function confidenceText() {
   const confidence = study.settings ? study.settings.confidence : null;
-  return known(confidence) ? fmtPercent(confidence) : null;
+  return known(confidence) ? fmtShortPercent(confidence) : null;
 }

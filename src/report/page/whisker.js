@@ -73,7 +73,7 @@ function whisker(interval, scale, { style, width = 150, height = 26, marks = [],
 }
 
 // The axis above or below a column of whiskers.
-function whiskerAxis(scale, { width = 150, format = (x) => fmt(x, 2), most = 5 }) {
+function whiskerAxis(scale, { width = 150, format = fmtShort, most = 5 }) {
   const pad = 6;
   const at = (v) => pad + whiskerX(scale, v, width - 2 * pad);
   return svg("svg", { class: "whisker-axis", width, height: 22, viewBox: `0 0 ${width} 22`,
