@@ -32,6 +32,7 @@ function drawSlopes(u, power) {
   u.ctx.lineWidth = devicePixelRatio;
   u.ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
   u.ctx.textAlign = "right";
+  u.ctx.textBaseline = "bottom";
   for (const [order, text] of [[0.5, "slope −½"], [1, "slope −1"]]) {
     const yAt = (v) => y0 * (v / x0) ** (-order * power);
     const end = Math.min(x.max / 1.03, x0 * (y0 / lowest) ** (1 / (order * power)));
@@ -51,7 +52,7 @@ function labelSlope(u, text, x, yAt) {
   u.ctx.save();
   u.ctx.translate(px, py);
   u.ctx.rotate(Math.atan2(py - py0, px - px0));
-  u.ctx.fillText(text, 0, -5 * devicePixelRatio);
+  u.ctx.fillText(text, 0, -2 * devicePixelRatio);
   u.ctx.restore();
 }
 
@@ -67,8 +68,9 @@ function drawTarget(u, target) {
   u.ctx.stroke();
   u.ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
   u.ctx.textAlign = "left";
+  u.ctx.textBaseline = "bottom";
   u.ctx.fillText(`target ${fmtShort(target)}`, left + 6 * devicePixelRatio,
-                 y - 5 * devicePixelRatio);
+                 y - 2 * devicePixelRatio);
 }
 
 function describePoint(measure, line, { level }) {

@@ -40,7 +40,7 @@ function picture(view, { label, width, height, makePixels, crop = null, frame = 
 
 // White within black, so that it shows on anything.
 function strokeFrame(context, { x, y, width, height }, ratio) {
-  const unit = devicePixelRatio;
+  const unit = Math.min(devicePixelRatio, width * ratio / 14);
   for (const [color, line] of [["#000", 4 * unit], ["#fff", 2 * unit]]) {
     context.strokeStyle = color;
     context.lineWidth = line;

@@ -48,7 +48,7 @@ function rivals(view, s) {
 
 function rankCell(view, s) {
   const others = rivals(view, s);
-  return el("span", { title: others.length
+  return el("span", { class: "rank", title: others.length
                         ? `Not distinguishable from ${others.map((o) => o.name).join(", ")}`
                         : null },
             twoLines({ value: rankText(s.rank), bounds: "" },
