@@ -11,16 +11,16 @@ namespace lanelight {
 /// An image that the page can show: linear values, `channels` interleaved, row 0 at the
 /// top. Size: width * height * channels.
 struct ReportImage {
-  std::string name;  // what `study` calls it; unique
+  std::string name;                         // what `study` calls it; unique
   int width = 0, height = 0, channels = 3;  // channels: 1 or 3
   std::vector<float> values;
 };
 
-/// The complete page. `study` is laid out as docs/study.md says; its texts may be anything
-/// (invalid UTF-8 is replaced). An image that it names and `images` lacks is shown as
-/// missing. The page needs no network and no other file, its content security policy
-/// forbids both, and equal arguments give equal bytes. Images take 2 bytes per value, and a
-/// third more by base64.
+/// The complete page. `study` is laid out as docs/study.md says; its texts may be
+/// anything (invalid UTF-8 is replaced). An image that it names and `images` lacks is
+/// shown as missing. The page needs no network and no other file, its content security
+/// policy forbids both, and equal arguments give equal bytes. Images take 2 bytes per
+/// value, and a third more by base64.
 std::string ReportPage(const nlohmann::json& study,
                        const std::vector<ReportImage>& images);
 

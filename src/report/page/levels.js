@@ -1,0 +1,45 @@
+"use strict";
+// All numbers of the study, one collapsed table for each strategy.
+
+const LEVEL_COLUMNS = [
+  ["Samples", (l) => fmtCount(l.spp)],
+  ["Repetitions", (l) => fmtCount(l.repetitions)],
+  ["Relative MSE", (l) => twoLines(intervalTexts(l.relmse))],
+  ["Trimmed", (l) => twoLines(intervalTexts(l.relmse_trimmed))],
+  ["RMSE", (l) => twoLines(intervalTexts(l.rmse))],
+  ["MAPE", (l) => twoLines(percentTexts(l.mape))],
+  ["Processor time", (l) => twoLines(secondsTexts(l.cpu_seconds))],
+  ["Wall time", (l) => twoLines(secondsTexts(l.wall_seconds))],
+  ["Bias", (l) => twoLines(percentTexts(l.bias, true))],
+  ["p", (l) => fmtP(l.bias_p)],
+  ["Variance", (l) => twoLines(intervalTexts(l.variance))],
+  ["Bias²", (l) => twoLines(intervalTexts(l.bias2))],
+  ["Mean", (l) => (l.mean || []).map((x) => fmt(x, 4)).join("  ") || UNKNOWN],
+  ["Worst 0.1 %", (l) => fmtPercent(l.worst_share)],
+  ["Self-estimate", (l) => l.self ? twoLines(intervalTexts(l.self.relmse)) : UNKNOWN],
+  ["Held", (l) => l.self && known(l.self.total) ? `${l.self.inside} of ${l.self.total}`
+                                                : UNKNOWN],
+  ["Rays / sample", (l) => fmt(l.rays_per_sample)],
+  ["Path length", (l) => fmt(l.path_length)],
+  ["Reference's share", (l) => fmtPercent(l.reference_share)],
+  ["Invalid", (l) => fmtCount(l.invalid)],
+];
+
+function levelsDetails(strategy) {
+  const levels = strategy.levels || [];
+  return el("details", { class: "levels" },
+    el("summary", {}, strategyLabel(strategy),
+       el("span", { class: "bounds" }, levels.length === 0 ? whyMissing(strategy)
+          : `${levels.length} sample ${levels.length === 1 ? "count" : "counts"}`)),
+    strategy.text && el("p", { class: "full-text" }, strategy.text),
+    strategy.message && el("p", {}, strategy.message),
+    levels.length > 0 && plainTable(`All numbers of ${strategy.name}`,
+      LEVEL_COLUMNS.map(([title]) => title),
+      levels.map((level) => LEVEL_COLUMNS.map(([, cell]) => cell(level)))));
+}
+
+function levelsSection(view) {
+  return section("data", "All numbers",
+    el("p", { class: "lead" }, "The same as in study.json; single repetitions are in study.csv."),
+    view.strategies.map(levelsDetails));
+}

@@ -1,0 +1,100 @@
+"use strict";
+// Shows one scene at a time. The address ends in #scene or #scene/section.
+
+const SECTIONS = [["ranking", "Ranking"], ["curves", "Curves"], ["calibration", "Calibration"],
+                  ["compare", "Images"], ["figures", "Figures"], ["maps", "Maps"],
+                  ["stages", "Time"], ["data", "Numbers"], ["reading", "Reading"]];
+
+let current = { view: null, index: -1 };
+
+function sceneHash(scene, part) {
+  return `#${encodeURIComponent(scene.name)}${part ? `/${part}` : ""}`;
+}
+
+// {index, part} of the address; the first scene where it names none.
+function parseHash() {
+  const [name, part] = location.hash.slice(1).split("/");
+  let wanted = "";
+  try {
+    wanted = decodeURIComponent(name);
+  } catch {
+    // An address that somebody mangled: the first scene.
+  }
+  const index = study.scenes.findIndex((scene) => scene.name === wanted);
+  return { index: Math.max(0, index), part };
+}
+
+function fillNavigation(scene) {
+  document.getElementById("scenes").replaceChildren(...(study.scenes.length < 2 ? [] :
+    study.scenes.map((other) => el("a", {
+      href: sceneHash(other), class: "tab", "aria-current": other === scene ? "page" : null,
+    }, other.name))));
+  document.getElementById("sections").replaceChildren(...(scene.error ? [] :
+    SECTIONS.map(([id, title]) => el("a", { href: sceneHash(scene, id) }, title))));
+}
+
+function errorScene(scene) {
+  return [el("section", { "aria-labelledby": "summary-title" },
+    el("h1", { id: "summary-title" }, scene.name),
+    el("div", { class: "warnings", role: "note" },
+      el("h3", {}, "This scene could not be studied"), el("p", {}, scene.error)),
+    scene.path && el("p", { class: "full-text" }, scene.path))];
+}
+
+function sceneSections(view) {
+  const comparator = comparatorSection(view);
+  const compare = (a, b) => {
+    view.compare.set({ a, b });
+    comparator.scrollIntoView();
+  };
+  return [summarySection(view), rankingSection(view), curvesSection(view),
+          calibrationSection(view), comparator, figuresSection(view, compare),
+          mapsSection(view), stagesSection(view), levelsSection(view), glossarySection()];
+}
+
+function showScene(index) {
+  if (current.view) current.view.close();
+  const scene = study.scenes[index];
+  const view = makeView(scene);
+  current = { view, index };
+  document.title = `${scene.name} – Lanelight study`;
+  fillNavigation(scene);
+  tip.hide();
+  const content = document.getElementById("content");
+  content.replaceChildren(...(scene.error ? errorScene(scene) : sceneSections(view)));
+  content.dataset.scene = scene.name;
+}
+
+function followHash() {
+  const { index, part } = parseHash();
+  const changed = index !== current.index;
+  if (changed) showScene(index);
+  const target = part && document.getElementById(part);
+  if (target) target.scrollIntoView();
+  else if (changed) scrollTo(0, 0);
+}
+
+function footerText() {
+  const versions = study.machine ? versionsText(study.machine.versions) : null;
+  return `Written by lanelight study${versions ? ` (${versions})` : ""}. This page holds all ` +
+         "its numbers and images and needs no network. Plots: uPlot, MIT licence.";
+}
+
+function start() {
+  theme.bindButton(document.getElementById("theme"));
+  document.getElementById("skip").addEventListener("click", (event) => {
+    event.preventDefault();  // the address belongs to the scenes
+    document.getElementById("content").focus();
+  });
+  document.getElementById("bottom").textContent = footerText();
+  if (!study.scenes || study.scenes.length === 0) {
+    document.getElementById("content").replaceChildren(
+      el("p", { class: "wait" }, "This study has no scenes."));
+    return;
+  }
+  addEventListener("hashchange", followHash);
+  addEventListener("scroll", tip.hide, { passive: true });
+  followHash();
+}
+
+start();

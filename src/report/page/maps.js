@@ -1,0 +1,126 @@
+"use strict";
+// Where in the image each strategy errs: noise, bias, and tiles that fail the test.
+
+function relativeDeviation(variance, reference, i) {
+  let sum = 0;
+  for (let c = 0; c < 3; ++c) {
+    const base = reference ? channelAt(reference, i, c) : 1;
+    sum += Math.max(0, channelAt(variance, i, c)) / (base * base + 0.01);
+  }
+  return Math.sqrt(sum / 3);
+}
+
+function relativeBias(bias, reference, i) {
+  const base = reference ? channelMean(reference, i) : 1;
+  return channelMean(bias, i) / Math.sqrt(base * base + 0.01);
+}
+
+// A round number that most of |values| stay below, for a colour scale: one in fifty of
+// the pixels of each image is looked at.
+function scaleTop(images, valueAt) {
+  const values = [];
+  for (const image of images) {
+    const count = image.width * image.height;
+    const step = Math.max(1, Math.floor(count / 4000));
+    for (let i = 0; i < count; i += step) {
+      const x = Math.abs(valueAt(image, i));
+      if (Number.isFinite(x)) values.push(x);
+    }
+  }
+  values.sort((a, b) => a - b);
+  const top = values[Math.floor(values.length * 0.98)] || 0;
+  return top > 0 ? niceStep(top) : 1;
+}
+
+function sameSize(image, reference) {
+  return reference && reference.width === image.width && reference.height === image.height
+    ? reference : null;
+}
+
+// One kind of map for all strategies: {title, legend, cell(strategy)}.
+function imageMap(view, { title, key, table, signed, valueAt }) {
+  const reference = findImage(view.scene.reference && view.scene.reference.image);
+  const imageOf = (s) => findImage(s.images && s.images[key]);
+  const at = (image, i) => valueAt(image, sameSize(image, reference), i);
+  const top = scaleTop(view.ran.map(imageOf).filter(Boolean), at);
+  const toShare = signed ? (x) => 0.5 + 0.5 * x / top : (x) => x / top;
+  const cell = (s) => {
+    const image = imageOf(s);
+    if (!image) return missingPicture(noMapText(s));
+    return picture(view, { label: `${title} of ${s.name}`, width: image.width,
+      height: image.height, makePixels: () => rampPixels(image.width, image.height, table,
+        (i) => toShare(at(image, i))) });
+  };
+  const ends = signed ? [`${MINUS}${fmtShortPercent(top)}`, "0", `+${fmtShortPercent(top)}`]
+                      : ["0", "", fmtShortPercent(top)];
+  return { title, legend: rampLegend(table, ends), cell };
+}
+
+function noMapText(strategy) {
+  return strategy.level && strategy.level.repetitions < 2
+    ? "Needs two repetitions." : "This image is not in the report.";
+}
+
+const TILE_TOP = 5;  // |z| at the ends of the colour scale
+
+function tileMap(view) {
+  const reference = findImage(view.scene.reference && view.scene.reference.image);
+  const cell = (s) => {
+    if (!s.tiles) return missingPicture("Needs two repetitions.");
+    return tilePicture(view, s, reference);
+  };
+  return { title: "Equality by tile",
+           legend: rampLegend(DIVERGING_TABLE, [`z ${MINUS}${TILE_TOP}`, "0",
+                                                `+${TILE_TOP}`]), cell };
+}
+
+function tilePicture(view, s, reference) {
+  const { columns, rows, z, side } = s.tiles;
+  const failed = new Set(s.tiles.failed || []);
+  // As large as the images, so that the maps lie side by side; the last tiles may be cut.
+  const width = reference ? reference.width : columns * side;
+  const height = reference ? reference.height : rows * side;
+  const zAt = (i) => {
+    const column = Math.min(columns - 1, Math.floor((i % width) / side));
+    const row = Math.min(rows - 1, Math.floor(i / width / side));
+    const value = z[row] ? z[row][column] : null;
+    return known(value) ? value : 0;
+  };
+  const overlay = (context, ratio) => {
+    for (const index of failed) {
+      const x = (index % columns) * side, y = Math.floor(index / columns) * side;
+      strokeFrame(context, { x, y, width: Math.min(side, width - x),
+                             height: Math.min(side, height - y) }, ratio);
+    }
+  };
+  return el("div", {},
+    picture(view, { label: `Equality test of ${s.name} by tile, ${failed.size} failed`,
+                    width, height, overlay,
+                    makePixels: () => rampPixels(width, height, DIVERGING_TABLE,
+                                                 (i) => 0.5 + 0.5 * zAt(i) / TILE_TOP) }),
+    el("div", { class: "inset-name" }, failed.size === 0 ? "no tile fails"
+       : `${failed.size} of ${columns * rows} tiles fail`));
+}
+
+function mapsSection(view) {
+  const maps = [
+    imageMap(view, { title: "Relative deviation", key: "variance", table: SEQUENTIAL_TABLE,
+                     signed: false, valueAt: relativeDeviation }),
+    imageMap(view, { title: "Bias", key: "bias", table: DIVERGING_TABLE, signed: true,
+                     valueAt: relativeBias }),
+    tileMap(view),
+  ];
+  const rows = view.ranked.map((s) => el("div", { class: "map-row", role: "group",
+                                                  "aria-label": s.name },
+    el("h3", { class: "map-name" }, strategyLabel(s)),
+    maps.map((map) => el("div", { class: "map-cell" }, map.cell(s)))));
+  return section("maps", "Maps",
+    el("p", { class: "lead" }, "Standard deviation of one render and bias of the mean of all " +
+       "repetitions, both relative to the reference and on one scale for all strategies; and " +
+       "the test that a tile's mean equals the reference's, with failed tiles outlined."),
+    el("div", { class: "maps" },
+      el("div", { class: "map-row map-head" }, el("div", { class: "map-name" }),
+        maps.map((map) => el("div", { class: "map-cell" }, el("div", { class: "map-title" },
+                                                               map.title), map.legend))),
+      rows));
+}

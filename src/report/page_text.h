@@ -1,0 +1,12 @@
+// The fixed parts of the report's page, around its data. Their definitions are made from
+// src/report/page/ by embed_page.py when the library is built.
+#pragma once
+
+#include <string>
+
+namespace lanelight {
+
+std::string PageHead();  // from the doctype to where the data goes
+std::string PageTail();  // the scripts, to the end of the document
+
+}  // namespace lanelight

@@ -1,0 +1,136 @@
+"""A headless Chromium with one report in it, and what the checks ask of it."""
+
+import pathlib
+import shutil
+import sys
+
+SKIPPED = 77  # what CTest takes for "skipped"
+
+FLAGS = [
+    "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+    "--hide-scrollbars", "--disable-dev-shm-usage", "--force-device-scale-factor=1",
+]
+
+PLOT_INK = """
+  const c = arguments[0], copy = document.createElement('canvas');
+  copy.width = c.width, copy.height = c.height;
+  const context = copy.getContext('2d', {willReadFrequently: true});
+  context.drawImage(c, 0, 0);
+  const d = context.getImageData(0, 0, c.width, c.height).data;
+  let ink = 0, coloured = 0, hash = 0;
+  for (let i = 0; i < d.length; i += 4) {
+    if (d[i + 3] > 40) ++ink;
+    if (d[i + 3] > 120 && Math.max(d[i], d[i + 1], d[i + 2]) -
+        Math.min(d[i], d[i + 1], d[i + 2]) > 60) ++coloured;
+    hash = (Math.imul(hash, 31) + d[i] * 7 + d[i + 1] * 3 + d[i + 2] + d[i + 3]) | 0;
+  }
+  return {ink, coloured, hash, pixels: d.length / 4};
+"""
+
+
+def skip(reason):
+    print(f"skipped: {reason}")
+    sys.exit(SKIPPED)
+
+
+def start():
+    """A driver, or the end of the process with SKIPPED where there is none."""
+    try:
+        from selenium import webdriver
+        from selenium.webdriver.chrome.service import Service
+    except ImportError:
+        skip("python3-selenium is not installed")
+    chromium = shutil.which("chromium")
+    driver_path = shutil.which("chromedriver")
+    if not chromium or not driver_path:
+        skip("chromium or chromium-driver is not installed")
+    options = webdriver.ChromeOptions()
+    options.binary_location = chromium
+    for flag in FLAGS:
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    return webdriver.Chrome(service=Service(driver_path), options=options)
+
+
+class Page:
+    """The open report. `find` and `all` take CSS selectors."""
+
+    def __init__(self, driver, path, folder):
+        self.driver = driver
+        self.url = pathlib.Path(path).resolve().as_uri()
+        self.folder = pathlib.Path(folder)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self.messages = []
+        self.resize(1280, 900)
+
+    def resize(self, width, height, mobile=False):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": width, "height": height, "deviceScaleFactor": 2 if mobile else 1,
+            "mobile": mobile})
+
+    def prefer(self, scheme):
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+            "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+
+    def open(self, fragment=""):
+        self.driver.get("about:blank")
+        self.driver.get(self.url + fragment)
+        self.settle()
+
+    def js(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def find(self, selector):
+        return self.js("return document.querySelector(arguments[0])", selector)
+
+    def all(self, selector):
+        return self.js("return [...document.querySelectorAll(arguments[0])]", selector)
+
+    def settle(self, frames=4):
+        """Waits until the page has drawn that many times."""
+        self.driver.execute_async_script(
+            "const done = arguments[1]; let left = arguments[0];"
+            "const step = () => left-- > 0 ? requestAnimationFrame(step) : done();"
+            "setTimeout(step, 60);", frames)
+
+    def show(self, selector):
+        self.js("document.querySelector(arguments[0]).scrollIntoView({behavior: 'instant'})",
+                selector)
+        self.settle()
+
+    def scroll_through(self):
+        """Everything that draws itself when it comes near the screen, does."""
+        self.js("document.documentElement.style.scrollBehavior = 'auto'")
+        height = self.js("return document.documentElement.scrollHeight")
+        for y in range(0, height, 600):
+            self.js("scrollTo(0, arguments[0])", y)
+            self.settle(2)
+        self.js("scrollTo(0, 0)")
+        self.settle()
+
+    def click(self, selector):
+        self.js("document.querySelector(arguments[0]).click()", selector)
+        self.settle()
+
+    def ink(self, canvas):
+        return self.js(PLOT_INK, canvas)
+
+    def console(self):
+        """Messages since the page was opened first, that are not mere information."""
+        self.messages += [entry for entry in self.driver.get_log("browser")
+                          if entry["level"] != "INFO"]
+        return [entry["message"] for entry in self.messages]
+
+    def screenshot(self, name, selector=None):
+        clip = {}
+        if selector:
+            box = self.js("const b = document.querySelector(arguments[0])"
+                          ".getBoundingClientRect(); return [b.x + scrollX, b.y + scrollY,"
+                          "b.width, b.height]", selector)
+            clip = {"clip": {"x": max(0, box[0] - 12), "y": max(0, box[1] - 8),
+                             "width": box[2] + 24, "height": box[3] + 16, "scale": 1}}
+        image = self.driver.execute_cdp_cmd("Page.captureScreenshot", {
+            "format": "png", "captureBeyondViewport": bool(selector), **clip})
+        import base64
+        (self.folder / f"{name}.png").write_bytes(base64.b64decode(image["data"]))
