@@ -8,7 +8,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::size_t kColumns = 90, kLongestName = 36;
+constexpr std::size_t kColumns = 90, kLongestName = 30;
 
 std::string Known(double v, const char* format) {
   return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "-";
@@ -44,13 +44,14 @@ std::string Short(const std::string& name) {
   return name.size() <= kLongestName ? name : name.substr(0, kLongestName - 3) + "...";
 }
 
-constexpr const char* kRow = "{:>5}  {:<36} {:>6} {:>20} {:>16} {:>9} {:>12} {:>10}{}\n";
+constexpr const char* kRow =
+    "{:>5}  {:<30} {:>5} {:>20} {:>20} {:>14} {:>8} {:>12} {:>10}{}\n";
 
 std::string Row(const StrategyRuns& runs, const StrategyAnalysis& s) {
   const LevelAnalysis& level = s.AtLevel();
   return fmt::format(fmt::runtime(kRow), RankText(s.rank), Short(runs.named.name),
-                     level.spp, Range(*s.efficiency), Percent(level.relmse),
-                     DurationText(level.cpu_seconds.value),
+                     level.spp, Range(*s.efficiency), Range(*s.efficiency_trimmed),
+                     Percent(level.relmse), DurationText(level.cpu_seconds.value),
                      s.order ? PlusMinus(*s.order) : "-", TargetText(s.to_target),
                      s.heavy_tailed ? "  heavy tail" : "");
 }
@@ -85,13 +86,13 @@ std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
                   runs.reference.rendered() ? fmt::format("of {} spp", runs.reference.spp)
                                             : runs.reference.files.front());
   text += fmt::format(fmt::runtime(kRow), "rank", "strategy", "spp", "efficiency",
-                      "relative MSE", "cpu", "order", "to target", "");
+                      "trimmed", "relative MSE", "cpu", "order", "to target", "");
   for (std::size_t i : analysis.ranking) {
     text += Row(runs.strategies[i], analysis.strategies[i]);
   }
   for (const StrategyRuns& s : runs.strategies) {
     if (s.status == RunStatus::kOk) continue;
-    text += fmt::format("{:>5}  {:<36} {}: {}\n", "-", Short(s.named.name),
+    text += fmt::format("{:>5}  {:<30} {}: {}\n", "-", Short(s.named.name),
                         Name(s.status), s.message);
   }
   return text +

@@ -65,6 +65,9 @@ class SceneAnalyser {
       FitRmseOrder(strategy);
       const Cells cells = store_.Load(runs.Text(), strategy.AtLevel().spp);
       strategy.stages = cells.stages;
+      for (const Measurement& m : cells.repetitions) {
+        strategy.trimmed.push_back({std::max(0.0, m.relmse_trimmed), m.cpu_seconds});
+      }
       if (cells.repetitions.size() >= 2) {
         strategy.tiles = TestTiles(cells.moments, runs_.reference, kBiasLevel);
       }
@@ -92,6 +95,12 @@ class SceneAnalyser {
       costs.push_back({std::max(0.0, level.error[r]), level.seconds[r]});
     }
     return costs;
+  }
+
+  Interval Relative(std::span<const stat::Cost> baseline,
+                    std::span<const stat::Cost> other, bool same) const {
+    if (same) return {1, 1, 1};
+    return stat::EfficiencyRatio(baseline, other, options_.confidence);
   }
 
   // All strategies with runs, by the repetitions that all of them have.

@@ -46,11 +46,13 @@ struct TileTest {
 
 struct StrategyAnalysis {
   std::vector<LevelAnalysis> levels;
-  std::vector<stat::Level> costs;  // relative MSE and processor seconds by level
-  std::size_t at = 0;              // index of the level that comparisons are at
-  std::optional<Interval> order;   // of the RMSE
+  std::vector<stat::Level> costs;   // relative MSE and processor seconds by level
+  std::vector<stat::Cost> trimmed;  // trimmed relative MSE, at the level `at`
+  std::size_t at = 0;               // index of the level that comparisons are at
+  std::optional<Interval> order;    // of the RMSE
   std::optional<stat::TargetCost> to_target;
   std::optional<Interval> efficiency;
+  std::optional<Interval> efficiency_trimmed;  // of Measurement::relmse_trimmed
   stat::RankRange rank;
   bool heavy_tailed = false;
   std::vector<StageProfile> stages;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "kernels/simd/target.h"
 #include "src/core/parallel.h"
 #include "src/render/report.h"
 
@@ -97,6 +98,7 @@ Json StrategyJson(const StrategyRuns& runs, const StrategyAnalysis& s) {
               {"order", Range(s.order)},
               {"to_target", TargetJson(s.to_target)},
               {"efficiency", Range(s.efficiency)},
+              {"efficiency_trimmed", Range(s.efficiency_trimmed)},
               {"at_spp", s.HasRuns() ? Json(s.AtLevel().spp) : Json()},
               {"rank", s.HasRuns() ? Json({s.rank.best, s.rank.worst}) : Json()},
               {"heavy_tailed", s.heavy_tailed},
@@ -213,7 +215,7 @@ nlohmann::json StudyJson(const std::vector<SceneStudy>& scenes,
       {"kind", "lanelight-study"},
       {"settings", SettingsJson(options)},
       {"machine",
-       {{"target", TargetJson()}, {"threads", MaxThreads()}, {"versions", versions}}},
+       {{"target", CurrentTarget()}, {"threads", MaxThreads()}, {"versions", versions}}},
       {"seconds", seconds},
       {"scenes", Json::array()}};
   for (const SceneStudy& scene : scenes) {
