@@ -121,10 +121,15 @@ class SceneAnalyser {
     for (std::size_t k = 0; k < costs.size(); ++k) {
       StrategyAnalysis& strategy = out_.strategies[out_.ranking[k]];
       strategy.rank = ranks[k];
-      strategy.efficiency =
-          k == 0 ? Interval{1, 1, 1}
-                 : stat::EfficiencyRatio(costs.front(), costs[k], options_.confidence);
+      strategy.efficiency = Relative(costs.front(), costs[k], k == 0);
+      strategy.efficiency_trimmed =
+          Relative(std::span(out_.strategies[out_.baseline].trimmed).first(repetitions),
+                   std::span(strategy.trimmed).first(repetitions), k == 0);
     }
+    SortRanking();
+  }
+
+  void SortRanking() {
     std::sort(out_.ranking.begin(), out_.ranking.end(),
               [&](std::size_t a, std::size_t b) {
                 const double ea = out_.strategies[a].efficiency->value;

@@ -39,8 +39,9 @@ Json ReadJson(const std::string& path) {
 }
 
 void RemoveTimings(Json& json) {
-  for (const char* name : {"seconds", "cpu_seconds", "wall_seconds", "efficiency", "rank",
-                           "ranking", "to_target", "verdict", "ns_per_item", "share"}) {
+  for (const char* name :
+       {"seconds", "cpu_seconds", "wall_seconds", "efficiency", "efficiency_trimmed",
+        "rank", "ranking", "to_target", "verdict", "ns_per_item", "share"}) {
     if (json.is_object()) json.erase(name);
   }
   if (json.is_structured()) {

@@ -48,8 +48,9 @@ Json ReadJson(const std::string& path) {
 
 // Seconds, and what is computed from them.
 void RemoveTimings(Json& json) {
-  for (const char* name : {"seconds", "cpu_seconds", "wall_seconds", "efficiency", "rank",
-                           "ranking", "to_target", "verdict", "ns_per_item", "share"}) {
+  for (const char* name :
+       {"seconds", "cpu_seconds", "wall_seconds", "efficiency", "efficiency_trimmed",
+        "rank", "ranking", "to_target", "verdict", "ns_per_item", "share"}) {
     if (json.is_object()) json.erase(name);
   }
   if (json.is_structured()) {
@@ -100,6 +101,10 @@ TEST_CASE("a study writes numbers, rows, images and a report", "[study]") {
     CHECK(strategy["levels"][2]["relmse"]["value"].get<double>() <
           strategy["levels"][0]["relmse"]["value"].get<double>());
     CHECK(strategy["order"]["value"].get<double>() < -0.3);
+    for (const char* efficiency : {"efficiency", "efficiency_trimmed"}) {
+      CHECK(strategy[efficiency]["value"].get<double>() > 0.01);
+      CHECK(strategy[efficiency]["value"].get<double>() < 100);
+    }
     for (const char* image : {"mean", "one", "variance", "bias"}) {
       const std::string name = strategy["images"][image];
       CHECK(std::filesystem::exists(options.out + "/" + name + ".exr"));
