@@ -1,4 +1,5 @@
 // A study of one scene in a paragraph.
+#include <algorithm>
 #include <cmath>
 
 #include "src/study/analysis.h"
@@ -96,6 +97,19 @@ class Writer {
         "Its RMSE falls with the number of samples to the power {}{}.", Numbers(*order),
         order->HasBounds() && order->high < -0.5 ? ", faster than independent samples"
                                                  : ""));
+  }
+
+  void TrimmedWinner() {
+    const auto better = [&](std::size_t a, std::size_t b) {
+      return Of(a).efficiency_trimmed->value < Of(b).efficiency_trimmed->value;
+    };
+    const std::size_t best =
+        *std::max_element(analysis_.ranking.begin(), analysis_.ranking.end(), better);
+    if (best == analysis_.baseline) return;
+    Say(fmt::format(
+        "Without the worst 1 % of the pixels {} is the most efficient, {} times "
+        "{}.",
+        NameOf(best), Numbers(*Of(best).efficiency_trimmed), NameOf(analysis_.baseline)));
   }
 
   void Warnings() {
