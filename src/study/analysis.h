@@ -75,6 +75,7 @@ struct SceneAnalysis {
   std::string verdict;
   std::string reference_image;  // name
   std::vector<std::string> diffuse_images;
+  int report_scale = 1;  // the report's images are smaller by this factor
 };
 
 /// Share of the relative MSE in the worst kWorstShare of the pixels above which a

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "src/image/atomic_file.h"
+#include "src/study/study_images.h"
 
 namespace lanelight {
 
@@ -23,6 +24,8 @@ std::vector<SceneStudy> Study(const StudyOptions& options, const StudyHooks& hoo
   if (std::all_of(studies.begin(), studies.end(), failed)) {
     throw std::runtime_error(studies.front().runs.error);
   }
+  const int scale = ShrinkImages(images, kReportValues);
+  for (SceneStudy& study : studies) study.analysis.report_scale = scale;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   const nlohmann::json json = StudyJson(studies, options, taken.count());
   WriteFileAtomically(options.out + "/study.json", json.dump(2) + "\n");

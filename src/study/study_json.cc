@@ -74,7 +74,13 @@ Json StagesJson(const std::vector<StageProfile>& stages) {
 Json TilesJson(const std::optional<TileTest>& tiles) {
   if (!tiles) return nullptr;
   Json z = Json::array();
-  for (double v : tiles->z) z.push_back(Number(v));
+  for (int row = 0; row < tiles->rows; ++row) {
+    z.push_back(Json::array());
+    for (int column = 0; column < tiles->columns; ++column) {
+      const std::size_t i = static_cast<std::size_t>(row) * tiles->columns + column;
+      z.back().push_back(Number(tiles->z[i]));
+    }
+  }
   return {{"side", tiles->side},     {"columns", tiles->columns},
           {"rows", tiles->rows},     {"z", z},
           {"failed", tiles->failed}, {"level", tiles->level}};
@@ -181,6 +187,7 @@ Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
   out["verdict"] = analysis.verdict;
   out["diffuse"] = DiffuseJson(runs, analysis);
   out["interrupted"] = runs.interrupted;
+  out["report_scale"] = analysis.report_scale;
   return out;
 }
 

@@ -124,6 +124,16 @@ TEST_CASE("references are read for the window that is rendered", "[study]") {
   }
 }
 
+TEST_CASE("images of a large study are shrunk for the report", "[study]") {
+  std::vector<ReportImage> images = {{"a", 3, 2, 1, {1, 2, 6, 3, 4, 8}}};
+  CHECK(ShrinkImages(images, 6) == 1);
+  CHECK(images[0].values.size() == 6);
+  CHECK(ShrinkImages(images, 5) == 2);
+  CHECK(images[0].width == 2);
+  CHECK(images[0].height == 1);
+  CHECK(images[0].values == std::vector<float>{2.5f, 7.0f});
+}
+
 TEST_CASE("names of files come from names of strategies", "[study]") {
   CHECK(Slug("paper-plain") == "paper-plain");
   CHECK(Slug("points=sobol,pairs=antithetic:all") == "points-sobol-pairs-antithetic-all");
