@@ -66,7 +66,8 @@ function calibrationPlot(view, host, ratio) {
   const x = { label: "true relative MSE", ticks: decadeTicks, format: errorTick };
   const y = { ...x, label: ratio ? "estimated / true" : "estimated by the render itself" };
   return logPlot(view, host, {
-    lines: calibrationLines(view, ratio), square: !ratio, describe: describeCalibration,
+    lines: calibrationLines(view, ratio), square: !ratio, include: ratio ? [1] : [],
+    describe: describeCalibration,
     guides: (u) => drawTruth(u, ratio), xAxis: x, yAxis: y,
     label: "Relative MSE that renders estimate of themselves against the true one",
   });
@@ -83,8 +84,8 @@ function calibrationSection(view) {
     end = calibrationPlot(view, host, kind === "ratio");
   };
   whenVisible(view, figure, () => draw("values"));
-  figure.prepend(choiceButtons("Scale", [["values", "Values"], ["ratio", "Ratio"]], "values",
-                               draw));
+  figure.firstChild.append(choiceButtons(
+    "Scale", [["values", "Values"], ["ratio", "Ratio"]], "values", draw));
   return section("calibration", title, el("div", { class: "calibration" }, figure,
     el("div", { class: "calibration-text" }, number,
       el("p", { class: "hint" }, "On the line the estimate is right; below it, the render " +

@@ -48,7 +48,7 @@ function drawSlopes(u, power) {
 
 function labelSlope(u, text, x, yAt) {
   const px = u.valToPos(x, "x", true), py = u.valToPos(yAt(x), "y", true);
-  const px0 = u.valToPos(x / 1.1, "x", true), py0 = u.valToPos(yAt(x / 1.1), "y", true);
+  const px0 = u.valToPos(x / 20, "x", true), py0 = u.valToPos(yAt(x / 20), "y", true);
   u.ctx.save();
   u.ctx.translate(px, py);
   u.ctx.rotate(Math.atan2(py - py0, px - px0));
@@ -130,6 +130,10 @@ function plotFigure(name, title) {
 }
 
 function curvesSection(view) {
+  const title = "Error against time and samples";
+  if (curveLines(view, "relmse", (level) => level.spp).length === 0) {
+    return section("curves", title, el("p", {}, "No strategy has an error to draw."));
+  }
   const time = plotFigure("seconds", "Error against time");
   const samples = plotFigure("spp", "Error against samples");
   let plots = [];
@@ -144,7 +148,7 @@ function curvesSection(view) {
   };
   whenVisible(view, time.figure, () => draw("relmse"));
   const choices = Object.entries(MEASURES).map(([key, { label }]) => [key, label]);
-  return section("curves", "Error against time and samples",
+  return section("curves", title,
     el("div", { class: "toolbar" }, choiceButtons("Measure", choices, "relmse", draw),
        showAllButtons(view)),
     strategyLegend(view),

@@ -77,10 +77,6 @@ function windowError(image, reference, x0, y0, side) {
 // The strategy's image with a magnified part, beside that of the baseline and reference.
 function strategyFigure(view, number, strategy, inset, compare) {
   const [title, meaning] = FIGURE_TITLES[number];
-  if (!strategy) {
-    return figureBox(number, title, missingPicture("No strategy of this study is this figure."),
-                     meaning);
-  }
   const image = findImage(strategy.images && strategy.images.one);
   if (!image) {
     const why = statusWord(strategy) ? whyMissing(strategy) : "This image is not in the report.";
@@ -145,8 +141,14 @@ function orderFigure(view) {
 
 function figuresSection(view, compare) {
   const inset = insetWindow(view);
-  const figures = [2, 3, 4, 5, 6, 7].map((number) => strategyFigure(
-    view, number, view.strategies.find((s) => s.figure === number), inset, compare));
+  const numbers = Object.keys(FIGURE_TITLES).map(Number);
+  const ofFigure = (number) => view.strategies.find((s) => s.figure === number);
+  const figures = numbers.filter(ofFigure).map((number) =>
+    strategyFigure(view, number, ofFigure(number), inset, compare));
+  const absent = numbers.filter((number) => !ofFigure(number));
   return section("figures", "The paper's figures on this scene",
-    diffuseFigure(view), el("div", { class: "paper-grid" }, figures), orderFigure(view));
+    diffuseFigure(view), el("div", { class: "paper-grid" }, figures), orderFigure(view),
+    absent.length > 0 && el("p", { class: "hint" }, "Not among the strategies of this study: ",
+      absent.map((number) => `figure ${number} (${FIGURE_TITLES[number][0].toLowerCase()})`)
+        .join(", "), "."));
 }

@@ -11,8 +11,12 @@ function logRange(values, room = 1.25) {
   return [low, high];
 }
 
-// Ticks at 1, 2, 5 times powers of ten where there is room, else at fewer.
+// Ticks at 1, 2, 5 times powers of ten where there is room, else at fewer; evenly spaced
+// ones within a short range.
 function decadeTicks(min, max, most) {
+  if (max / min < 5) {
+    return whiskerTicks({ from: min, to: max, log: false }, Math.max(3, Math.min(6, most)));
+  }
   return whiskerTicks({ from: min, to: max, log: true }, Math.max(2, most));
 }
 
@@ -27,8 +31,8 @@ function binaryTicks(min, max, most) {
 
 function errorTick(x) {
   const exponent = exponentOf(x);
-  if (x >= 0.00099 && x < 1000) return String(Number(x.toPrecision(1)));
-  const factor = Math.round(x / 10 ** exponent);
+  if (x >= 0.00099 && x < 1000) return String(Number(x.toPrecision(2)));
+  const factor = Number((x / 10 ** exponent).toPrecision(2));
   return factor === 1 ? powerOfTen(exponent) : `${factor}×${powerOfTen(exponent)}`;
 }
 

@@ -2,7 +2,8 @@
 // One log-log plot: lines with markers and confidence bands, guides, hover values. uPlot
 // keeps axes, scales, lines, zoom and toggling; the rest is drawn in its hooks.
 //
-// options: {lines, xAxis, yAxis, label, guides(u) -> void, describe(line, point), square}
+// options: {lines, xAxis, yAxis, label, guides(u), describe(line, point), square: one range
+// for both axes, include: values that the y axis must hold}
 // line: {index, name, style, points: [{x, y, low, high, hollow}]}, x ascending.
 
 function alignedData(lines) {
@@ -16,13 +17,15 @@ function alignedData(lines) {
 }
 
 // Values that the y axis should hold: bounds only as far as a factor 8 below the value.
-function shownRanges(view, lines) {
+function shownRanges(view, options) {
+  const { lines } = options;
   const points = lines.filter((line) => view.shown.value.has(line.index))
     .flatMap((line) => line.points);
   const all = points.length > 0 ? points : lines.flatMap((line) => line.points);
   return {
     x: logRange(all.map((p) => p.x), 1.35),
-    y: logRange(all.flatMap((p) => [p.y, p.high, p.low && Math.max(p.low, p.y / 8)])),
+    y: logRange(all.flatMap((p) => [p.y, p.high, p.low && Math.max(p.low, p.y / 8)])
+      .concat(options.include || [])),
   };
 }
 
@@ -103,7 +106,7 @@ function isZoomed(u, min, max) {
 }
 
 function plotOptions(view, options, size) {
-  const ranges = () => shownRanges(view, options.lines);
+  const ranges = () => shownRanges(view, options);
   const both = () => {
     const { x, y } = ranges();
     return [Math.min(x[0], y[0]), Math.max(x[1], y[1])];

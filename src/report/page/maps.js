@@ -103,6 +103,7 @@ function tilePicture(view, s, reference) {
 }
 
 function mapsSection(view) {
+  if (view.ran.length === 0) return section("maps", "Maps", el("p", {}, "No strategy ran."));
   const maps = [
     imageMap(view, { title: "Relative deviation", key: "variance", table: SEQUENTIAL_TABLE,
                      signed: false, valueAt: relativeDeviation }),

@@ -41,7 +41,9 @@ function stageBar(strategy, names) {
       class: index < COLOR_COUNT ? `bar-part on-s${index}` : "bar-part", role: "listitem",
       tabindex: share >= SMALL_STAGE ? 0 : null, "aria-label": text,
       style: { width: `${share * 100}%`, "background-color": stageColor(index) },
-    }, share > 0.07 ? el("span", { "aria-hidden": "true" }, fmtPercent(stage.share, 2)) : null),
+    }, share > 0.06 && el("span", { "aria-hidden": "true",
+                                    class: share < 0.12 ? "narrow" : null },
+                          fmtPercent(stage.share, 2))),
     () => stageTip(strategy, stage));
   }));
 }

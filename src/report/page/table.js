@@ -32,7 +32,8 @@ function sortableTable({ columns, rows, fixed = [], caption, sortedBy, rowClass 
 
 function headerCell(column, headers, choose) {
   const title = [column.title, column.unit && el("span", { class: "unit" }, column.unit)];
-  const header = el("th", { scope: "col", class: column.text ? "text" : null,
+  const kind = [column.text && "text", column.rowHead && "row-head"].filter(Boolean);
+  const header = el("th", { scope: "col", class: kind.join(" ") || null,
                             title: column.hint });
   if (column.sort) {
     header.append(appendAll(el("button", { type: "button", "data-key": column.key,
