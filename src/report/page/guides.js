@@ -37,7 +37,7 @@ function labelSlope(u, text, x, yAt) {
   u.ctx.save();
   u.ctx.translate(px, py);
   u.ctx.rotate(Math.atan2(py - py0, px - px0));
-  u.ctx.fillText(text, 0, -2 * devicePixelRatio);
+  u.ctx.fillText(text, -4 * devicePixelRatio, -5 * devicePixelRatio);
   u.ctx.restore();
 }
 
