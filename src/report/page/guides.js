@@ -14,8 +14,8 @@ function drawSlopes(u, power) {
   u.ctx.textAlign = "right";
   u.ctx.textBaseline = "bottom";
   for (const [order, text] of [
-    [0.5, "slope −½"],
-    [1, "slope −1"],
+    [0.5, "RMSE slope −½"],
+    [1, "RMSE slope −1"],
   ]) {
     const yAt = (v) => y0 * (v / x0) ** (-order * power);
     const end = Math.min(x.max / 1.03, x0 * (y0 / lowest) ** (1 / (order * power)));
