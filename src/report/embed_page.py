@@ -2,8 +2,8 @@
 """Turns the report's page into one C++ file: embed_page.py PAGE_DIR OUTPUT.cc
 
 Reads PAGE_DIR/index.html, replaces every <link rel="stylesheet"> and <script src> by the
-file that it names, puts the hashes of the inlined scripts into the content security policy,
-and cuts the result at the line <!-- data -->. Standard library only.
+file that it names, puts the hashes of what is inlined into the content security policy, and
+cuts the result at the line <!-- data -->. Standard library only.
 """
 
 import base64

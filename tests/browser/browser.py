@@ -1,5 +1,6 @@
 """A headless Chromium with one report in it, and what the checks ask of it."""
 
+import base64
 import pathlib
 import shutil
 import sys
@@ -84,6 +85,10 @@ class Page:
     def find(self, selector):
         return self.js("return document.querySelector(arguments[0])", selector)
 
+    def text(self):
+        """What can be seen, without what is folded away."""
+        return self.js("return document.body.innerText")
+
     def all(self, selector):
         return self.js("return [...document.querySelectorAll(arguments[0])]", selector)
 
@@ -95,8 +100,8 @@ class Page:
             "setTimeout(step, 60);", frames)
 
     def show(self, selector):
-        self.js("document.querySelector(arguments[0]).scrollIntoView({behavior: 'instant'})",
-                selector)
+        self.js("document.querySelector(arguments[0])"
+                ".scrollIntoView({behavior: 'instant'})", selector)
         self.settle()
 
     def scroll_through(self):
@@ -126,11 +131,10 @@ class Page:
         clip = {}
         if selector:
             box = self.js("const b = document.querySelector(arguments[0])"
-                          ".getBoundingClientRect(); return [b.x + scrollX, b.y + scrollY,"
-                          "b.width, b.height]", selector)
+                          ".getBoundingClientRect(); return [b.x + scrollX,"
+                          "b.y + scrollY, b.width, b.height]", selector)
             clip = {"clip": {"x": max(0, box[0] - 12), "y": max(0, box[1] - 8),
                              "width": box[2] + 24, "height": box[3] + 16, "scale": 1}}
         image = self.driver.execute_cdp_cmd("Page.captureScreenshot", {
             "format": "png", "captureBeyondViewport": bool(selector), **clip})
-        import base64
         (self.folder / f"{name}.png").write_bytes(base64.b64decode(image["data"]))

@@ -156,7 +156,7 @@ TEST_CASE("The page names no place in the network", "[report]") {
   std::string page = ReportPage(Json::object(), {});
   // uPlot's licence comment, and the name space of SVG, which nobody fetches.
   for (const std::string& known : {"/*! https://github.com/leeoniya/uPlot (v1.6.32) */",
-                                  "http://www.w3.org/2000/svg"}) {
+                                   "http://www.w3.org/2000/svg"}) {
     const std::size_t at = page.find(known);
     REQUIRE(at != std::string::npos);
     page.erase(at, known.size());

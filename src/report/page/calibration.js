@@ -2,27 +2,40 @@
 // What renders say of their own error against what it is.
 
 function calibrationLines(view, ratio) {
-  return view.ran.map((s) => ({
-    index: s.index, name: s.name, style: s.style,
-    points: (s.levels || []).map((level) => calibrationPoint(level, ratio)).filter(Boolean)
-      .sort((a, b) => a.x - b.x),
-  })).filter((line) => line.points.length > 0);
+  return view.ran
+    .map((s) => ({
+      index: s.index,
+      name: s.name,
+      style: s.style,
+      points: (s.levels || [])
+        .map((level) => calibrationPoint(level, ratio))
+        .filter(Boolean)
+        .sort((a, b) => a.x - b.x),
+    }))
+    .filter((line) => line.points.length > 0);
 }
 
 function calibrationPoint(level, ratio) {
   const estimate = level.self && level.self.relmse;
-  const x = valueOf(level.relmse), y = valueOf(estimate);
+  const x = valueOf(level.relmse),
+    y = valueOf(estimate);
   if (!known(x) || x <= 0 || !known(y) || y <= 0) return null;
   const unit = ratio ? x : 1;
-  const scaled = (bound) => known(bound) ? bound / unit : null;
-  return { x, y: y / unit, low: scaled(estimate.low), high: scaled(estimate.high), level,
-           hollow: Boolean(level.reference_limited) };
+  const scaled = (bound) => (known(bound) ? bound / unit : null);
+  return {
+    x,
+    y: y / unit,
+    low: scaled(estimate.low),
+    high: scaled(estimate.high),
+    level,
+    hollow: Boolean(level.reference_limited),
+  };
 }
 
 // Where the estimate is right.
 function drawTruth(u, ratio) {
   const { min, max } = u.scales.x;
-  const yAt = (x) => ratio ? 1 : x;
+  const yAt = (x) => (ratio ? 1 : x);
   u.ctx.strokeStyle = theme.color("--muted");
   u.ctx.lineWidth = 1.5 * devicePixelRatio;
   u.ctx.beginPath();
@@ -32,42 +45,69 @@ function drawTruth(u, ratio) {
 }
 
 function describeCalibration(line, { level }) {
-  return [el("b", {}, line.name), el("div", {}, `${fmtCount(level.spp)} spp`),
-          el("div", {}, `true ${joined(intervalTexts(level.relmse))}`),
-          el("div", {}, `estimated ${joined(intervalTexts(level.self.relmse))}`),
-          el("div", {}, `interval held in ${level.self.inside} of ${level.self.total} renders`)];
+  return [
+    el("b", {}, line.name),
+    el("div", {}, `${fmtCount(level.spp)} spp`),
+    el("div", {}, `true ${joined(intervalTexts(level.relmse))}`),
+    el("div", {}, `estimated ${joined(intervalTexts(level.self.relmse))}`),
+    el("div", {}, `interval held in ${level.self.inside} of ${level.self.total} renders`),
+  ];
 }
 
 function calibrationNumber(calibration) {
   if (!calibration || !known(valueOf(calibration.share))) {
     return el("p", {}, "No render had an estimate of its own error.");
   }
-  const stated = known(calibration.stated) ? fmtShortPercent(calibration.stated) : UNKNOWN;
+  const stated = known(calibration.stated)
+    ? fmtShortPercent(calibration.stated)
+    : UNKNOWN;
   const { value, bounds } = percentTexts(calibration.share);
-  return el("div", { class: "big-number" },
+  return el(
+    "div",
+    { class: "big-number" },
     el("div", { class: "number" }, value),
     bounds && el("div", { class: "bounds" }, bounds),
-    el("p", {}, `of ${fmtCount(calibration.total)} renders stated an interval that holds ` +
-                `their true relative MSE (${fmtCount(calibration.inside)} renders). ` +
-                `Stated confidence: ${stated}.`),
-    whiskerRow(calibration));
+    el(
+      "p",
+      {},
+      `of ${fmtCount(calibration.total)} renders stated an interval that holds ` +
+        `their true relative MSE (${fmtCount(calibration.inside)} renders). ` +
+        `Stated confidence: ${stated}.`,
+    ),
+    whiskerRow(calibration),
+  );
 }
 
 function whiskerRow(calibration) {
-  const scale = whiskerScale([calibration.share], false,
-                             [calibration.stated, 1].filter(known));
+  const scale = whiskerScale(
+    [calibration.share],
+    false,
+    [calibration.stated, 1].filter(known),
+  );
   const options = { width: 220, format: fmtShortPercent, most: 4 };
   const marks = known(calibration.stated) ? [calibration.stated] : [];
-  return el("div", { class: "axis-block" }, whiskerAxis(scale, options),
-            whisker(calibration.share, scale, { width: 220, marks, label: "Coverage" }));
+  return el(
+    "div",
+    { class: "axis-block" },
+    whiskerAxis(scale, options),
+    whisker(calibration.share, scale, { width: 220, marks, label: "Coverage" }),
+  );
 }
 
 function calibrationPlot(view, host, ratio) {
   const x = { label: "true relative MSE", ticks: decadeTicks, format: errorTick };
-  const y = { ...x, label: ratio ? "estimated / true" : "estimated by the render itself" };
+  const y = {
+    ...x,
+    label: ratio ? "estimated / true" : "estimated by the render itself",
+  };
   return logPlot(view, host, {
-    lines: calibrationLines(view, ratio), square: !ratio, describe: describeCalibration,
-    guides: (u) => drawTruth(u, ratio), xAxis: x, yAxis: y,
+    lines: calibrationLines(view, ratio),
+    square: !ratio,
+    include: ratio ? [1] : [],
+    describe: describeCalibration,
+    guides: (u) => drawTruth(u, ratio),
+    xAxis: x,
+    yAxis: y,
     label: "Relative MSE that renders estimate of themselves against the true one",
   });
 }
@@ -75,7 +115,8 @@ function calibrationPlot(view, host, ratio) {
 function calibrationSection(view) {
   const title = "Does a render know its own error?";
   const number = calibrationNumber(view.scene.calibration);
-  if (calibrationLines(view, false).length === 0) return section("calibration", title, number);
+  if (calibrationLines(view, false).length === 0)
+    return section("calibration", title, number);
   const { host, figure } = plotFigure("calibration", "Estimated against true error");
   let end = () => {};
   const draw = (kind) => {
@@ -83,10 +124,35 @@ function calibrationSection(view) {
     end = calibrationPlot(view, host, kind === "ratio");
   };
   whenVisible(view, figure, () => draw("values"));
-  figure.prepend(choiceButtons("Scale", [["values", "Values"], ["ratio", "Ratio"]], "values",
-                               draw));
-  return section("calibration", title, el("div", { class: "calibration" }, figure,
-    el("div", { class: "calibration-text" }, number,
-      el("p", { class: "hint" }, "On the line the estimate is right; below it, the render " +
-        "thinks itself better than it is. The strategies shown are those chosen above."))));
+  figure.firstChild.append(
+    choiceButtons(
+      "Scale",
+      [
+        ["values", "Values"],
+        ["ratio", "Ratio"],
+      ],
+      "values",
+      draw,
+    ),
+  );
+  return section(
+    "calibration",
+    title,
+    el(
+      "div",
+      { class: "calibration" },
+      figure,
+      el(
+        "div",
+        { class: "calibration-text" },
+        number,
+        el(
+          "p",
+          { class: "hint" },
+          "On the line the estimate is right; below it, the render " +
+            "thinks itself better than it is. The strategies shown are those chosen above.",
+        ),
+      ),
+    ),
+  );
 }

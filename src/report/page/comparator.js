@@ -19,19 +19,21 @@ function imageChoices(view) {
 function makeComparison(view, choices) {
   const there = choices.filter((choice) => choice.there);
   const reference = there[0];
-  const first = there.find((choice) => choice !== reference && choice.group !== "") || reference;
+  const first =
+    there.find((choice) => choice !== reference && choice.group !== "") || reference;
   const sized = findImage(first.name);
   return {
-    view, choices,
+    view,
+    choices,
     names: { a: first.name, b: reference.name },
     mode: "side",
     split: 0.5,
     flipped: false,
     size: { width: sized.width, height: sized.height },
     place: { zoom: 1, x: sized.width / 2, y: sized.height / 2 },
-    sources: new Map(),  // toned canvases, by image and role
+    sources: new Map(), // toned canvases, by image and role
     panes: [],
-    changed: makeSignal(null),  // the part that changed
+    changed: makeSignal(null), // the part that changed
   };
 }
 
@@ -42,17 +44,24 @@ function labelOf(comparison, slot) {
 
 // The toned image of slot "a" or "b", or "difference"; null where it cannot be had.
 function comparisonSource(comparison, slot) {
-  const a = findImage(comparison.names.a), b = findImage(comparison.names.b);
+  const a = findImage(comparison.names.a),
+    b = findImage(comparison.names.b);
   const tone = comparison.view.tone.value;
-  const key = slot === "difference" ? `${comparison.names.a}\n${comparison.names.b}`
-                                    : comparison.names[slot];
+  const key =
+    slot === "difference"
+      ? `${comparison.names.a}\n${comparison.names.b}`
+      : comparison.names[slot];
   if (!comparison.sources.has(key)) {
     let pixels = null;
     if (slot === "difference") {
       if (a && b && a.width === b.width && a.height === b.height) {
         const range = 2 ** -tone.exposure;
-        pixels = rampPixels(a.width, a.height, DIVERGING_TABLE,
-                            (i) => 0.5 + 0.5 * relativeDifference(a, b, i) / range);
+        pixels = rampPixels(
+          a.width,
+          a.height,
+          DIVERGING_TABLE,
+          (i) => 0.5 + (0.5 * relativeDifference(a, b, i)) / range,
+        );
       }
     } else {
       const image = slot === "a" ? a : b;
@@ -67,7 +76,11 @@ function comparatorSection(view) {
   const choices = imageChoices(view);
   const title = "Compare images";
   if (!choices.some((choice) => choice.there)) {
-    return section("compare", title, missingPicture("This report holds no images of the scene."));
+    return section(
+      "compare",
+      title,
+      missingPicture("This report holds no images of the scene."),
+    );
   }
   const comparison = makeComparison(view, choices);
   const stage = el("div", { class: "stage", "data-mode": comparison.mode });
@@ -80,19 +93,33 @@ function comparatorSection(view) {
   const hover = (point) => showPixel(comparison, readout, point);
   const rebuild = () => {
     comparison.panes = PANES[comparison.mode].map((show) =>
-      makePane(comparison, show, repaint, hover));
+      makePane(comparison, show, repaint, hover),
+    );
     stage.dataset.mode = comparison.mode;
     stage.replaceChildren(...comparison.panes.map((pane) => pane.node));
     repaint();
   };
-  comparison.box = el("div", { class: "comparator" },
-    comparatorControls(comparison, rebuild), stage, readout);
+  comparison.box = el(
+    "div",
+    { class: "comparator" },
+    comparatorControls(comparison, rebuild),
+    stage,
+    readout,
+  );
   hover(null);
   rebuild();
   keepPainted(comparison, stage, repaint);
-  return section("compare", title, comparison.box,
-    el("p", { class: "hint" }, "Scroll or pinch to zoom, drag to move; with the keyboard, " +
-       "arrows, + and −, 0 for all of it. Both images always show the same part."));
+  return section(
+    "compare",
+    title,
+    comparison.box,
+    el(
+      "p",
+      { class: "hint" },
+      "Scroll or pinch to zoom, drag to move; with the keyboard, " +
+        "arrows, + and −, 0 for all of it. Both images always show the same part.",
+    ),
+  );
 }
 
 function keepPainted(comparison, stage, repaint) {

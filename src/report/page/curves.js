@@ -8,76 +8,38 @@ const MEASURES = {
 };
 
 function curveLines(view, measure, xOf) {
-  return view.ran.map((s) => ({
-    index: s.index, name: s.name, style: s.style,
-    points: (s.levels || []).map((level) => curvePoint(level, measure, xOf))
-      .filter(Boolean).sort((a, b) => a.x - b.x),
-  })).filter((line) => line.points.length > 0);
+  return view.ran
+    .map((s) => ({
+      index: s.index,
+      name: s.name,
+      style: s.style,
+      points: (s.levels || [])
+        .map((level) => curvePoint(level, measure, xOf))
+        .filter(Boolean)
+        .sort((a, b) => a.x - b.x),
+    }))
+    .filter((line) => line.points.length > 0);
 }
 
 function curvePoint(level, measure, xOf) {
-  const x = xOf(level), y = valueOf(level[measure]);
+  const x = xOf(level),
+    y = valueOf(level[measure]);
   if (!known(x) || x <= 0 || !known(y) || y <= 0) return null;
   const { low, high } = level[measure];
   return { x, y, low, high, level, hollow: Boolean(level.reference_limited) };
 }
 
-// Short lines of constant order where curves that fall leave room: at the upper right.
-function drawSlopes(u, power) {
-  const { x, y } = u.scales;
-  const x0 = x.min ** 0.42 * x.max ** 0.58, y0 = y.max ** 0.94 * y.min ** 0.06;
-  const lowest = y.max ** 0.45 * y.min ** 0.55;
-  const dash = 4 * devicePixelRatio;
-  u.ctx.strokeStyle = u.ctx.fillStyle = theme.color("--faint");
-  u.ctx.lineWidth = devicePixelRatio;
-  u.ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
-  u.ctx.textAlign = "right";
-  u.ctx.textBaseline = "bottom";
-  for (const [order, text] of [[0.5, "slope −½"], [1, "slope −1"]]) {
-    const yAt = (v) => y0 * (v / x0) ** (-order * power);
-    const end = Math.min(x.max / 1.03, x0 * (y0 / lowest) ** (1 / (order * power)));
-    u.ctx.setLineDash([dash, dash]);
-    u.ctx.beginPath();
-    u.ctx.moveTo(u.valToPos(x0, "x", true), u.valToPos(y0, "y", true));
-    u.ctx.lineTo(u.valToPos(end, "x", true), u.valToPos(yAt(end), "y", true));
-    u.ctx.stroke();
-    labelSlope(u, text, end, yAt);
-  }
-  u.ctx.setLineDash([]);
-}
-
-function labelSlope(u, text, x, yAt) {
-  const px = u.valToPos(x, "x", true), py = u.valToPos(yAt(x), "y", true);
-  const px0 = u.valToPos(x / 1.1, "x", true), py0 = u.valToPos(yAt(x / 1.1), "y", true);
-  u.ctx.save();
-  u.ctx.translate(px, py);
-  u.ctx.rotate(Math.atan2(py - py0, px - px0));
-  u.ctx.fillText(text, 0, -2 * devicePixelRatio);
-  u.ctx.restore();
-}
-
-function drawTarget(u, target) {
-  if (!known(target) || target <= u.scales.y.min || target >= u.scales.y.max) return;
-  const y = u.valToPos(target, "y", true);
-  const { left, width } = u.bbox;
-  u.ctx.strokeStyle = u.ctx.fillStyle = theme.color("--target");
-  u.ctx.lineWidth = 1.5 * devicePixelRatio;
-  u.ctx.beginPath();
-  u.ctx.moveTo(left, y);
-  u.ctx.lineTo(left + width, y);
-  u.ctx.stroke();
-  u.ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
-  u.ctx.textAlign = "left";
-  u.ctx.textBaseline = "bottom";
-  u.ctx.fillText(`target ${fmtShort(target)}`, left + 6 * devicePixelRatio,
-                 y - 2 * devicePixelRatio);
-}
-
 function describePoint(measure, line, { level }) {
-  return [el("b", {}, line.name),
-          el("div", {}, `${fmtCount(level.spp)} spp, ${fmtSeconds(valueOf(level.cpu_seconds))}`),
-          el("div", {}, `${MEASURES[measure].label} ${joined(intervalTexts(level[measure]))}`),
-          level.reference_limited && el("div", {}, "limited by the reference's own error")];
+  return [
+    el("b", {}, line.name),
+    el(
+      "div",
+      {},
+      `${fmtCount(level.spp)} spp, ${fmtSeconds(valueOf(level.cpu_seconds))}`,
+    ),
+    el("div", {}, `${MEASURES[measure].label} ${joined(intervalTexts(level[measure]))}`),
+    level.reference_limited && el("div", {}, "limited by the reference's own error"),
+  ];
 }
 
 function curvePlot(view, host, measure, xAxis, xOf) {
@@ -96,61 +58,107 @@ function curvePlot(view, host, measure, xAxis, xOf) {
 }
 
 function strategyLegend(view) {
-  const buttons = view.ran.map((s) => el("button", {
-    type: "button", class: "button legend-item", "data-strategy": s.index,
-    onclick: () => {
-      const shown = new Set(view.shown.value);
-      if (!shown.delete(s.index)) shown.add(s.index);
-      view.shown.set(shown);
-    },
-    ondblclick: () => view.shown.set(new Set([s.index])),
-    onpointerenter: () => view.focus.set(s.index),
-    onpointerleave: () => view.focus.set(null),
-  }, strategyLabel(s)));
-  const show = (shown) => buttons.forEach((button, i) =>
-    button.setAttribute("aria-pressed", String(shown.has(view.ran[i].index))));
+  const buttons = view.ran.map((s) =>
+    el(
+      "button",
+      {
+        type: "button",
+        class: "button legend-item",
+        "data-strategy": s.index,
+        onclick: () => {
+          const shown = new Set(view.shown.value);
+          if (!shown.delete(s.index)) shown.add(s.index);
+          view.shown.set(shown);
+        },
+        ondblclick: () => view.shown.set(new Set([s.index])),
+        onpointerenter: () => view.focus.set(s.index),
+        onpointerleave: () => view.focus.set(null),
+      },
+      strategyLabel(s),
+    ),
+  );
+  const show = (shown) =>
+    buttons.forEach((button, i) =>
+      button.setAttribute("aria-pressed", String(shown.has(view.ran[i].index))),
+    );
   view.shown.listen(show);
   show(view.shown.value);
-  return el("div", { class: "legend", role: "group", "aria-label": "Strategies shown" },
-            buttons);
+  return el(
+    "div",
+    { class: "legend", role: "group", "aria-label": "Strategies shown" },
+    buttons,
+  );
 }
 
 function showAllButtons(view) {
-  const button = (name, shown) => el("button", {
-    type: "button", class: "button", "data-show": name,
-    onclick: () => view.shown.set(new Set(shown.map((s) => s.index))) }, `Show ${name}`);
-  return el("div", { class: "choices", role: "group", "aria-label": "Strategies" },
-            button("all", view.ran), button("none", []));
+  const button = (name, shown) =>
+    el(
+      "button",
+      {
+        type: "button",
+        class: "button",
+        "data-show": name,
+        onclick: () => view.shown.set(new Set(shown.map((s) => s.index))),
+      },
+      `Show ${name}`,
+    );
+  return el(
+    "div",
+    { class: "choices", role: "group", "aria-label": "Strategies" },
+    button("all", view.ran),
+    button("none", []),
+  );
 }
 
 function plotFigure(name, title) {
   const host = el("div", { class: "plot", "data-plot": name });
-  return { host, figure: el("figure", { class: "plot-figure" },
-                            el("figcaption", {}, title), host) };
+  return {
+    host,
+    figure: el("figure", { class: "plot-figure" }, el("figcaption", {}, title), host),
+  };
 }
 
 function curvesSection(view) {
+  const title = "Error against time and samples";
+  if (curveLines(view, "relmse", (level) => level.spp).length === 0) {
+    return section("curves", title, el("p", {}, "No strategy has an error to draw."));
+  }
   const time = plotFigure("seconds", "Error against time");
   const samples = plotFigure("spp", "Error against samples");
   let plots = [];
   const draw = (measure) => {
     plots.forEach((end) => end());
-    const seconds = { label: "processor time of one render", ticks: decadeTicks,
-                      format: secondsTick };
+    const seconds = {
+      label: "processor time of one render",
+      ticks: decadeTicks,
+      format: secondsTick,
+    };
     const counts = { label: "samples per pixel", ticks: binaryTicks, format: fmtCount };
     plots = [
       curvePlot(view, time.host, measure, seconds, (level) => valueOf(level.cpu_seconds)),
-      curvePlot(view, samples.host, measure, counts, (level) => level.spp)];
+      curvePlot(view, samples.host, measure, counts, (level) => level.spp),
+    ];
   };
   whenVisible(view, time.figure, () => draw("relmse"));
   const choices = Object.entries(MEASURES).map(([key, { label }]) => [key, label]);
-  return section("curves", "Error against time and samples",
-    el("div", { class: "toolbar" }, choiceButtons("Measure", choices, "relmse", draw),
-       showAllButtons(view)),
+  return section(
+    "curves",
+    title,
+    el(
+      "div",
+      { class: "toolbar" },
+      choiceButtons("Measure", choices, "relmse", draw),
+      showAllButtons(view),
+    ),
     strategyLegend(view),
     el("div", { class: "plots" }, time.figure, samples.figure),
-    el("p", { class: "hint" }, "Lower and further left is better. Bands are confidence " +
-       "intervals; hollow markers are limited by the reference's own error. Point at a marker " +
-       "for its values, drag to zoom, double-click to see all again; double-click a strategy " +
-       "to see it alone."));
+    el(
+      "p",
+      { class: "hint" },
+      "Lower and further left is better. Bands are confidence " +
+        "intervals; hollow markers are limited by the reference's own error. Point at a marker " +
+        "for its values, drag to zoom, double-click to see all again; double-click a strategy " +
+        "to see it alone.",
+    ),
+  );
 }

@@ -18,7 +18,7 @@ function setAttributes(node, attributes) {
 function appendAll(node, children) {
   for (const child of children.flat(Infinity)) {
     if (child === null || child === undefined || child === false) continue;
-    node.append(child);  // strings become text nodes
+    node.append(child); // strings become text nodes
   }
   return node;
 }
@@ -37,16 +37,33 @@ function svg(tag, attributes = {}, ...children) {
 
 // A part of the page with a heading that the navigation can point to.
 function section(id, title, ...children) {
-  return el("section", { id, "aria-labelledby": `${id}-title` },
-            el("h2", { id: `${id}-title` }, title), children);
+  return el(
+    "section",
+    { id, "aria-labelledby": `${id}-title` },
+    el("h2", { id: `${id}-title` }, title),
+    children,
+  );
 }
 
 // Buttons of which exactly one is pressed. options: [[value, label], ...].
 function choiceButtons(label, options, value, onChoose) {
   const buttons = options.map(([key, text]) =>
-    el("button", { type: "button", class: "button", "data-value": key,
-                   "aria-pressed": String(key === value) }, text));
-  const group = el("div", { class: "choices", role: "group", "aria-label": label }, buttons);
+    el(
+      "button",
+      {
+        type: "button",
+        class: "button",
+        "data-value": key,
+        "aria-pressed": String(key === value),
+      },
+      text,
+    ),
+  );
+  const group = el(
+    "div",
+    { class: "choices", role: "group", "aria-label": label },
+    buttons,
+  );
   group.addEventListener("click", (event) => {
     const chosen = event.target.closest("button");
     if (!chosen) return;
@@ -68,8 +85,11 @@ function whenVisible(view, node, draw) {
     draw();
   };
   const observer = new IntersectionObserver(
-    (entries) => { if (entries.some((entry) => entry.isIntersecting)) once(); },
-    { rootMargin: "400px" });
+    (entries) => {
+      if (entries.some((entry) => entry.isIntersecting)) once();
+    },
+    { rootMargin: "400px" },
+  );
   observer.observe(node);
   addEventListener("beforeprint", once, { signal: view.signal });
   view.signal.addEventListener("abort", () => observer.disconnect());
@@ -96,7 +116,8 @@ const tip = {
 // A note for the pointer and for the keyboard's focus.
 function withTip(node, content) {
   node.addEventListener("pointermove", (event) =>
-    tip.show(content(), event.clientX, event.clientY));
+    tip.show(content(), event.clientX, event.clientY),
+  );
   node.addEventListener("pointerleave", tip.hide);
   node.addEventListener("focus", () => {
     const box = node.getBoundingClientRect();

@@ -67,7 +67,8 @@ function fmtCount(x) {
 function fmtPercent(x, digits = 3) {
   if (!known(x)) return UNKNOWN;
   const percent = x * 100;
-  const places = Math.abs(percent) >= 99.95 ? 0 : Math.min(2, decimals(percent || 1, digits));
+  const places =
+    Math.abs(percent) >= 99.95 ? 0 : Math.min(2, decimals(percent || 1, digits));
   return `${typographic(percent.toFixed(places))} %`;
 }
 
@@ -84,8 +85,14 @@ function fmtP(p) {
   return p < 0.001 ? "< 0.001" : p.toFixed(p < 0.1 ? 3 : 2);
 }
 
-const TIME_UNITS = [[1e-6, "µs"], [1e-3, "ms"], [1, "s"], [60, "min"], [3600, "h"],
-                    [86400, "days"]];
+const TIME_UNITS = [
+  [1e-6, "µs"],
+  [1e-3, "ms"],
+  [1, "s"],
+  [60, "min"],
+  [3600, "h"],
+  [86400, "days"],
+];
 
 // [factor, name] of the unit in which `seconds` reads best.
 function timeUnit(seconds) {
@@ -108,7 +115,8 @@ function fmtSeconds(seconds, digits = 3) {
 function intervalTexts(interval, scale = 1, suffix = "", signed = false) {
   const x = valueOf(interval);
   if (x === null) return { value: UNKNOWN, bounds: "" };
-  let factor = scale, unit = suffix;
+  let factor = scale,
+    unit = suffix;
   if (scale === 1 && suffix === "" && !plainRange(x)) {
     const exponent = exponentOf(x);
     factor = 10 ** exponent;
@@ -118,7 +126,8 @@ function intervalTexts(interval, scale = 1, suffix = "", signed = false) {
   const text = (y) => typographic((y / factor).toFixed(places));
   const sign = signed && x > 0 ? "+" : "";
   const bounds = hasBounds(interval)
-    ? `[${text(interval.low)}, ${text(interval.high)}]` : "";
+    ? `[${text(interval.low)}, ${text(interval.high)}]`
+    : "";
   return { value: `${sign}${text(x)}${unit}`, bounds };
 }
 
@@ -132,7 +141,10 @@ function secondsTexts(interval) {
 // A factor that suits all of a column's values: {scale, unit}; null where they differ so
 // much that each needs its own.
 function commonScale(values) {
-  const sizes = values.filter((x) => known(x) && x !== 0).map(Math.abs).sort((a, b) => a - b);
+  const sizes = values
+    .filter((x) => known(x) && x !== 0)
+    .map(Math.abs)
+    .sort((a, b) => a - b);
   if (sizes.length === 0 || sizes[sizes.length - 1] > 1e4 * sizes[0]) return null;
   const middle = sizes[sizes.length >> 1];
   if (sizes[0] >= 0.01 && middle < 1e4) return { scale: 1, unit: "" };

@@ -16,9 +16,12 @@ const LEVEL_COLUMNS = [
   ["Bias²", (l) => twoLines(intervalTexts(l.bias2))],
   ["Mean", (l) => (l.mean || []).map((x) => fmt(x, 4)).join("  ") || UNKNOWN],
   ["Worst 0.1 %", (l) => fmtPercent(l.worst_share)],
-  ["Self-estimate", (l) => l.self ? twoLines(intervalTexts(l.self.relmse)) : UNKNOWN],
-  ["Held", (l) => l.self && known(l.self.total) ? `${l.self.inside} of ${l.self.total}`
-                                                : UNKNOWN],
+  ["Self-estimate", (l) => (l.self ? twoLines(intervalTexts(l.self.relmse)) : UNKNOWN)],
+  [
+    "Held",
+    (l) =>
+      l.self && known(l.self.total) ? `${l.self.inside} of ${l.self.total}` : UNKNOWN,
+  ],
   ["Rays / sample", (l) => fmt(l.rays_per_sample)],
   ["Path length", (l) => fmt(l.path_length)],
   ["Reference's share", (l) => fmtPercent(l.reference_share)],
@@ -27,19 +30,41 @@ const LEVEL_COLUMNS = [
 
 function levelsDetails(strategy) {
   const levels = strategy.levels || [];
-  return el("details", { class: "levels" },
-    el("summary", {}, strategyLabel(strategy),
-       el("span", { class: "bounds" }, levels.length === 0 ? whyMissing(strategy)
-          : `${levels.length} sample ${levels.length === 1 ? "count" : "counts"}`)),
+  return el(
+    "details",
+    { class: "levels" },
+    el(
+      "summary",
+      {},
+      strategyLabel(strategy),
+      el(
+        "span",
+        { class: "bounds" },
+        levels.length === 0
+          ? whyMissing(strategy)
+          : `${levels.length} sample ${levels.length === 1 ? "count" : "counts"}`,
+      ),
+    ),
     strategy.text && el("p", { class: "full-text" }, strategy.text),
     strategy.message && el("p", {}, strategy.message),
-    levels.length > 0 && plainTable(`All numbers of ${strategy.name}`,
-      LEVEL_COLUMNS.map(([title]) => title),
-      levels.map((level) => LEVEL_COLUMNS.map(([, cell]) => cell(level)))));
+    levels.length > 0 &&
+      plainTable(
+        `All numbers of ${strategy.name}`,
+        LEVEL_COLUMNS.map(([title]) => title),
+        levels.map((level) => LEVEL_COLUMNS.map(([, cell]) => cell(level))),
+      ),
+  );
 }
 
 function levelsSection(view) {
-  return section("data", "All numbers",
-    el("p", { class: "lead" }, "The same as in study.json; single repetitions are in study.csv."),
-    view.strategies.map(levelsDetails));
+  return section(
+    "data",
+    "All numbers",
+    el(
+      "p",
+      { class: "lead" },
+      "The same as in study.json; single repetitions are in study.csv.",
+    ),
+    view.strategies.map(levelsDetails),
+  );
 }

@@ -2,7 +2,8 @@
 // One log-log plot: lines with markers and confidence bands, guides, hover values. uPlot
 // keeps axes, scales, lines, zoom and toggling; the rest is drawn in its hooks.
 //
-// options: {lines, xAxis, yAxis, label, guides(u) -> void, describe(line, point), square}
+// options: {lines, xAxis, yAxis, label, guides(u), describe(line, point), square: one range
+// for both axes, include: values that the y axis must hold}
 // line: {index, name, style, points: [{x, y, low, high, hollow}]}, x ascending.
 
 function alignedData(lines) {
@@ -10,89 +11,28 @@ function alignedData(lines) {
   xs.sort((a, b) => a - b);
   const columns = lines.map((line) => {
     const at = new Map(line.points.map((p) => [p.x, p.y]));
-    return xs.map((x) => at.has(x) ? at.get(x) : null);
+    return xs.map((x) => (at.has(x) ? at.get(x) : null));
   });
   return [xs.length > 0 ? xs : [1], ...columns];
 }
 
 // Values that the y axis should hold: bounds only as far as a factor 8 below the value.
-function shownRanges(view, lines) {
-  const points = lines.filter((line) => view.shown.value.has(line.index))
+function shownRanges(view, options) {
+  const { lines } = options;
+  const points = lines
+    .filter((line) => view.shown.value.has(line.index))
     .flatMap((line) => line.points);
   const all = points.length > 0 ? points : lines.flatMap((line) => line.points);
   return {
-    x: logRange(all.map((p) => p.x), 1.35),
-    y: logRange(all.flatMap((p) => [p.y, p.high, p.low && Math.max(p.low, p.y / 8)])),
-  };
-}
-
-function fadeFor(view, line) {
-  return view.focus.value === null || view.focus.value === line.index ? 1 : 0.18;
-}
-
-function shownLines(view, lines) {
-  return lines.filter((line) => view.shown.value.has(line.index));
-}
-
-function clipToPlot(u) {
-  const { left, top, width, height } = u.bbox;
-  u.ctx.beginPath();
-  u.ctx.rect(left, top, width, height);
-  u.ctx.clip();
-}
-
-// The area between the bounds, or whiskers where there is a single point.
-function drawBand(u, line, alpha) {
-  const points = line.points.filter((p) => known(p.low) && known(p.high) && p.high > 0);
-  if (points.length === 0) return;
-  const x = (p) => u.valToPos(p.x, "x", true);
-  const floor = u.scales.y.min / 1e3;
-  const y = (v) => u.valToPos(Math.max(v, floor), "y", true);
-  u.ctx.globalAlpha = alpha * (points.length === 1 ? 0.8 : 0.16);
-  u.ctx.beginPath();
-  if (points.length === 1) {
-    u.ctx.lineWidth = 2 * devicePixelRatio;
-    u.ctx.strokeStyle = theme.color(line.style.variable);
-    u.ctx.moveTo(x(points[0]), y(points[0].low));
-    u.ctx.lineTo(x(points[0]), y(points[0].high));
-    u.ctx.stroke();
-    return;
-  }
-  u.ctx.fillStyle = theme.color(line.style.variable);
-  points.forEach((p) => u.ctx.lineTo(x(p), y(p.high)));
-  [...points].reverse().forEach((p) => u.ctx.lineTo(x(p), y(p.low)));
-  u.ctx.fill();
-}
-
-function drawMarkers(u, line, alpha) {
-  u.ctx.globalAlpha = alpha;
-  u.ctx.lineWidth = 1.6 * devicePixelRatio;
-  u.ctx.strokeStyle = theme.color(line.style.variable);
-  for (const p of line.points) {
-    const x = u.valToPos(p.x, "x", true), y = u.valToPos(p.y, "y", true);
-    const path = new Path2D(markerPath(line.style.marker, x, y, 4 * devicePixelRatio));
-    u.ctx.fillStyle = p.hollow ? theme.color("--panel") : u.ctx.strokeStyle;
-    u.ctx.fill(path);
-    u.ctx.stroke(path);
-  }
-}
-
-function plotHooks(view, options) {
-  const each = (u, draw) => {
-    u.ctx.save();
-    clipToPlot(u);
-    for (const line of shownLines(view, options.lines)) draw(u, line, fadeFor(view, line));
-    u.ctx.restore();
-  };
-  return {
-    drawAxes: [(u) => {
-      u.ctx.save();
-      clipToPlot(u);
-      if (options.guides) options.guides(u);
-      u.ctx.restore();
-      each(u, drawBand);
-    }],
-    draw: [(u) => each(u, drawMarkers)],
+    x: logRange(
+      all.map((p) => p.x),
+      1.35,
+    ),
+    y: logRange(
+      all
+        .flatMap((p) => [p.y, p.high, p.low && Math.max(p.low, p.y / 8)])
+        .concat(options.include || []),
+    ),
   };
 }
 
@@ -103,7 +43,7 @@ function isZoomed(u, min, max) {
 }
 
 function plotOptions(view, options, size) {
-  const ranges = () => shownRanges(view, options.lines);
+  const ranges = () => shownRanges(view, options);
   const both = () => {
     const { x, y } = ranges();
     return [Math.min(x[0], y[0]), Math.max(x[1], y[1])];
@@ -115,19 +55,32 @@ function plotOptions(view, options, size) {
     cursor: { points: { show: false }, drag: { x: true, y: true, uni: 20 } },
     focus: { alpha: 0.18 },
     scales: {
-      x: { time: false, distr: 3, range: (u, min, max) => {
-        if (isZoomed(u, min, max)) return [min, max];
-        return options.square ? both() : ranges().x;
-      } },
-      y: { distr: 3, range: () => options.square ? both() : ranges().y },
+      x: {
+        time: false,
+        distr: 3,
+        range: (u, min, max) => {
+          if (isZoomed(u, min, max)) return [min, max];
+          return options.square ? both() : ranges().x;
+        },
+      },
+      y: { distr: 3, range: () => (options.square ? both() : ranges().y) },
     },
     axes: [options.xAxis, options.yAxis].map((axis, i) =>
-      logAxis({ space: i === 0 ? 62 : 34, size: i === 0 ? 30 : 58, ...axis })),
-    series: [{}, ...options.lines.map((line) => ({
-      label: line.name, width: 2, spanGaps: true, points: { show: false },
-      stroke: () => theme.color(line.style.variable), dash: line.style.dash,
-      alpha: 1, show: view.shown.value.has(line.index),
-    }))],
+      logAxis({ space: i === 0 ? 62 : 34, size: i === 0 ? 30 : 58, ...axis }),
+    ),
+    series: [
+      {},
+      ...options.lines.map((line) => ({
+        label: line.name,
+        width: 2,
+        spanGaps: true,
+        points: { show: false },
+        stroke: () => theme.color(line.style.variable),
+        dash: line.style.dash,
+        alpha: 1,
+        show: view.shown.value.has(line.index),
+      })),
+    ],
     hooks: plotHooks(view, options),
   };
 }
@@ -137,8 +90,10 @@ function nearestPoint(u, lines) {
   let best = { distance: 40 };
   for (const line of lines) {
     for (const point of line.points) {
-      const distance = Math.hypot(u.valToPos(point.x, "x") - u.cursor.left,
-                                  u.valToPos(point.y, "y") - u.cursor.top);
+      const distance = Math.hypot(
+        u.valToPos(point.x, "x") - u.cursor.left,
+        u.valToPos(point.y, "y") - u.cursor.top,
+      );
       if (distance < best.distance) best = { distance, line, point };
     }
   }
@@ -146,11 +101,15 @@ function nearestPoint(u, lines) {
 }
 
 function bindHover(view, u, options) {
-  u.over.addEventListener("mousemove", (event) => {
-    const near = nearestPoint(u, shownLines(view, options.lines));
-    if (!near) return tip.hide();
-    tip.show(options.describe(near.line, near.point), event.clientX, event.clientY);
-  }, { signal: view.signal });
+  u.over.addEventListener(
+    "mousemove",
+    (event) => {
+      const near = nearestPoint(u, shownLines(view, options.lines));
+      if (!near) return tip.hide();
+      tip.show(options.describe(near.line, near.point), event.clientX, event.clientY);
+    },
+    { signal: view.signal },
+  );
   u.over.addEventListener("mouseleave", tip.hide, { signal: view.signal });
 }
 
@@ -158,7 +117,11 @@ function bindHover(view, u, options) {
 // function that ends the plot.
 function logPlot(view, host, options) {
   const size = () => ({ width: host.clientWidth, height: host.clientHeight });
-  const u = new uPlot(plotOptions(view, options, size()), alignedData(options.lines), host);
+  const u = new uPlot(
+    plotOptions(view, options, size()),
+    alignedData(options.lines),
+    host,
+  );
   host.plot = u;
   u.root.querySelector("canvas").setAttribute("role", "img");
   u.root.querySelector("canvas").setAttribute("aria-label", options.label);
@@ -166,9 +129,12 @@ function logPlot(view, host, options) {
   let alive = true;
   view.shown.listen((shown) => {
     if (!alive) return;
-    u.batch(() => options.lines.forEach((line, i) =>
-      u.setSeries(i + 1, { show: shown.has(line.index) })));
-    u.setData(u.data);  // new ranges
+    u.batch(() =>
+      options.lines.forEach((line, i) =>
+        u.setSeries(i + 1, { show: shown.has(line.index) }),
+      ),
+    );
+    u.setData(u.data); // new ranges
   });
   view.focus.listen((index) => {
     if (!alive) return;

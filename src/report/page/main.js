@@ -1,9 +1,17 @@
 "use strict";
 // Shows one scene at a time. The address ends in #scene or #scene/section.
 
-const SECTIONS = [["ranking", "Ranking"], ["curves", "Curves"], ["calibration", "Calibration"],
-                  ["compare", "Images"], ["figures", "Figures"], ["maps", "Maps"],
-                  ["stages", "Time"], ["data", "Numbers"], ["reading", "Reading"]];
+const SECTIONS = [
+  ["ranking", "Ranking"],
+  ["curves", "Curves"],
+  ["calibration", "Calibration"],
+  ["compare", "Images"],
+  ["figures", "Figures"],
+  ["maps", "Maps"],
+  ["stages", "Time"],
+  ["data", "Numbers"],
+  ["reading", "Reading"],
+];
 
 let current = { view: null, index: -1 };
 
@@ -25,20 +33,45 @@ function parseHash() {
 }
 
 function fillNavigation(scene) {
-  document.getElementById("scenes").replaceChildren(...(study.scenes.length < 2 ? [] :
-    study.scenes.map((other) => el("a", {
-      href: sceneHash(other), class: "tab", "aria-current": other === scene ? "page" : null,
-    }, other.name))));
-  document.getElementById("sections").replaceChildren(...(scene.error ? [] :
-    SECTIONS.map(([id, title]) => el("a", { href: sceneHash(scene, id) }, title))));
+  document.getElementById("scenes").replaceChildren(
+    ...(study.scenes.length < 2
+      ? []
+      : study.scenes.map((other) =>
+          el(
+            "a",
+            {
+              href: sceneHash(other),
+              class: "tab",
+              "aria-current": other === scene ? "page" : null,
+            },
+            other.name,
+          ),
+        )),
+  );
+  document
+    .getElementById("sections")
+    .replaceChildren(
+      ...(scene.error
+        ? []
+        : SECTIONS.map(([id, title]) => el("a", { href: sceneHash(scene, id) }, title))),
+    );
 }
 
 function errorScene(scene) {
-  return [el("section", { "aria-labelledby": "summary-title" },
-    el("h1", { id: "summary-title" }, scene.name),
-    el("div", { class: "warnings", role: "note" },
-      el("h3", {}, "This scene could not be studied"), el("p", {}, scene.error)),
-    scene.path && el("p", { class: "full-text" }, scene.path))];
+  return [
+    el(
+      "section",
+      { "aria-labelledby": "summary-title" },
+      el("h1", { id: "summary-title" }, scene.name),
+      el(
+        "div",
+        { class: "warnings", role: "note" },
+        el("h3", {}, "This scene could not be studied"),
+        el("p", {}, scene.error),
+      ),
+      scene.path && el("p", { class: "full-text" }, scene.path),
+    ),
+  ];
 }
 
 function sceneSections(view) {
@@ -47,9 +80,18 @@ function sceneSections(view) {
     view.compare.set({ a, b });
     comparator.scrollIntoView();
   };
-  return [summarySection(view), rankingSection(view), curvesSection(view),
-          calibrationSection(view), comparator, figuresSection(view, compare),
-          mapsSection(view), stagesSection(view), levelsSection(view), glossarySection()];
+  return [
+    summarySection(view),
+    rankingSection(view),
+    curvesSection(view),
+    calibrationSection(view),
+    comparator,
+    figuresSection(view, compare),
+    mapsSection(view),
+    stagesSection(view),
+    levelsSection(view),
+    glossarySection(),
+  ];
 }
 
 function showScene(index) {
@@ -76,20 +118,23 @@ function followHash() {
 
 function footerText() {
   const versions = study.machine ? versionsText(study.machine.versions) : null;
-  return `Written by lanelight study${versions ? ` (${versions})` : ""}. This page holds all ` +
-         "its numbers and images and needs no network. Plots: uPlot, MIT licence.";
+  return (
+    `Written by lanelight study${versions ? ` (${versions})` : ""}. This page holds all ` +
+    "its numbers and images and needs no network. Plots: uPlot, MIT licence."
+  );
 }
 
 function start() {
   theme.bindButton(document.getElementById("theme"));
   document.getElementById("skip").addEventListener("click", (event) => {
-    event.preventDefault();  // the address belongs to the scenes
+    event.preventDefault(); // the address belongs to the scenes
     document.getElementById("content").focus();
   });
   document.getElementById("bottom").textContent = footerText();
   if (!study.scenes || study.scenes.length === 0) {
-    document.getElementById("content").replaceChildren(
-      el("p", { class: "wait" }, "This study has no scenes."));
+    document
+      .getElementById("content")
+      .replaceChildren(el("p", { class: "wait" }, "This study has no scenes."));
     return;
   }
   addEventListener("hashchange", followHash);

@@ -34,7 +34,8 @@ function scaleTop(images, valueAt) {
 
 function sameSize(image, reference) {
   return reference && reference.width === image.width && reference.height === image.height
-    ? reference : null;
+    ? reference
+    : null;
 }
 
 // One kind of map for all strategies: {title, legend, cell(strategy)}.
@@ -43,25 +44,31 @@ function imageMap(view, { title, key, table, signed, valueAt }) {
   const imageOf = (s) => findImage(s.images && s.images[key]);
   const at = (image, i) => valueAt(image, sameSize(image, reference), i);
   const top = scaleTop(view.ran.map(imageOf).filter(Boolean), at);
-  const toShare = signed ? (x) => 0.5 + 0.5 * x / top : (x) => x / top;
+  const toShare = signed ? (x) => 0.5 + (0.5 * x) / top : (x) => x / top;
   const cell = (s) => {
     const image = imageOf(s);
     if (!image) return missingPicture(noMapText(s));
-    return picture(view, { label: `${title} of ${s.name}`, width: image.width,
-      height: image.height, makePixels: () => rampPixels(image.width, image.height, table,
-        (i) => toShare(at(image, i))) });
+    return picture(view, {
+      label: `${title} of ${s.name}`,
+      width: image.width,
+      height: image.height,
+      makePixels: () =>
+        rampPixels(image.width, image.height, table, (i) => toShare(at(image, i))),
+    });
   };
-  const ends = signed ? [`${MINUS}${fmtShortPercent(top)}`, "0", `+${fmtShortPercent(top)}`]
-                      : ["0", "", fmtShortPercent(top)];
+  const ends = signed
+    ? [`${MINUS}${fmtShortPercent(top)}`, "0", `+${fmtShortPercent(top)}`]
+    : ["0", "", fmtShortPercent(top)];
   return { title, legend: rampLegend(table, ends), cell };
 }
 
 function noMapText(strategy) {
   return strategy.level && strategy.level.repetitions < 2
-    ? "Needs two repetitions." : "This image is not in the report.";
+    ? "Needs two repetitions."
+    : "This image is not in the report.";
 }
 
-const TILE_TOP = 5;  // |z| at the ends of the colour scale
+const TILE_TOP = 5; // |z| at the ends of the colour scale
 
 function tileMap(view) {
   const reference = findImage(view.scene.reference && view.scene.reference.image);
@@ -69,9 +76,11 @@ function tileMap(view) {
     if (!s.tiles) return missingPicture("Needs two repetitions.");
     return tilePicture(view, s, reference);
   };
-  return { title: "Equality by tile",
-           legend: rampLegend(DIVERGING_TABLE, [`z ${MINUS}${TILE_TOP}`, "0",
-                                                `+${TILE_TOP}`]), cell };
+  return {
+    title: "Equality by tile",
+    legend: rampLegend(DIVERGING_TABLE, [`z ${MINUS}${TILE_TOP}`, "0", `+${TILE_TOP}`]),
+    cell,
+  };
 }
 
 function tilePicture(view, s, reference) {
@@ -88,39 +97,96 @@ function tilePicture(view, s, reference) {
   };
   const overlay = (context, ratio) => {
     for (const index of failed) {
-      const x = (index % columns) * side, y = Math.floor(index / columns) * side;
-      strokeFrame(context, { x, y, width: Math.min(side, width - x),
-                             height: Math.min(side, height - y) }, ratio);
+      const x = (index % columns) * side,
+        y = Math.floor(index / columns) * side;
+      strokeFrame(
+        context,
+        { x, y, width: Math.min(side, width - x), height: Math.min(side, height - y) },
+        ratio,
+      );
     }
   };
-  return el("div", {},
-    picture(view, { label: `Equality test of ${s.name} by tile, ${failed.size} failed`,
-                    width, height, overlay,
-                    makePixels: () => rampPixels(width, height, DIVERGING_TABLE,
-                                                 (i) => 0.5 + 0.5 * zAt(i) / TILE_TOP) }),
-    el("div", { class: "inset-name" }, failed.size === 0 ? "no tile fails"
-       : `${failed.size} of ${columns * rows} tiles fail`));
+  return el(
+    "div",
+    {},
+    picture(view, {
+      label: `Equality test of ${s.name} by tile, ${failed.size} failed`,
+      width,
+      height,
+      overlay,
+      makePixels: () =>
+        rampPixels(
+          width,
+          height,
+          DIVERGING_TABLE,
+          (i) => 0.5 + (0.5 * zAt(i)) / TILE_TOP,
+        ),
+    }),
+    el(
+      "div",
+      { class: "inset-name" },
+      failed.size === 0
+        ? "no tile fails"
+        : `${failed.size} of ${columns * rows} tiles fail`,
+    ),
+  );
 }
 
 function mapsSection(view) {
+  if (view.ran.length === 0)
+    return section("maps", "Maps", el("p", {}, "No strategy ran."));
   const maps = [
-    imageMap(view, { title: "Relative deviation", key: "variance", table: SEQUENTIAL_TABLE,
-                     signed: false, valueAt: relativeDeviation }),
-    imageMap(view, { title: "Bias", key: "bias", table: DIVERGING_TABLE, signed: true,
-                     valueAt: relativeBias }),
+    imageMap(view, {
+      title: "Relative deviation",
+      key: "variance",
+      table: SEQUENTIAL_TABLE,
+      signed: false,
+      valueAt: relativeDeviation,
+    }),
+    imageMap(view, {
+      title: "Bias",
+      key: "bias",
+      table: DIVERGING_TABLE,
+      signed: true,
+      valueAt: relativeBias,
+    }),
     tileMap(view),
   ];
-  const rows = view.ranked.map((s) => el("div", { class: "map-row", role: "group",
-                                                  "aria-label": s.name },
-    el("h3", { class: "map-name" }, strategyLabel(s)),
-    maps.map((map) => el("div", { class: "map-cell" }, map.cell(s)))));
-  return section("maps", "Maps",
-    el("p", { class: "lead" }, "Standard deviation of one render and bias of the mean of all " +
-       "repetitions, both relative to the reference and on one scale for all strategies; and " +
-       "the test that a tile's mean equals the reference's, with failed tiles outlined."),
-    el("div", { class: "maps" },
-      el("div", { class: "map-row map-head" }, el("div", { class: "map-name" }),
-        maps.map((map) => el("div", { class: "map-cell" }, el("div", { class: "map-title" },
-                                                               map.title), map.legend))),
-      rows));
+  const rows = view.ranked.map((s) =>
+    el(
+      "div",
+      { class: "map-row", role: "group", "aria-label": s.name },
+      el("h3", { class: "map-name" }, strategyLabel(s)),
+      maps.map((map) => el("div", { class: "map-cell" }, map.cell(s))),
+    ),
+  );
+  return section(
+    "maps",
+    "Maps",
+    el(
+      "p",
+      { class: "lead" },
+      "Standard deviation of one render and bias of the mean of all " +
+        "repetitions, both relative to the reference and on one scale for all strategies; and " +
+        "the test that a tile's mean equals the reference's, with failed tiles outlined.",
+    ),
+    el(
+      "div",
+      { class: "maps" },
+      el(
+        "div",
+        { class: "map-row map-head" },
+        el("div", { class: "map-name" }),
+        maps.map((map) =>
+          el(
+            "div",
+            { class: "map-cell" },
+            el("div", { class: "map-title" }, map.title),
+            map.legend,
+          ),
+        ),
+      ),
+      rows,
+    ),
+  );
 }

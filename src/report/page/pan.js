@@ -18,8 +18,10 @@ function paneScale(pane, size, place) {
 function imagePoint(pane, size, place, clientX, clientY) {
   const box = pane.getBoundingClientRect();
   const scale = paneScale(pane, size, place);
-  return { x: place.x + (clientX - box.left - box.width / 2) / scale,
-           y: place.y + (clientY - box.top - box.height / 2) / scale };
+  return {
+    x: place.x + (clientX - box.left - box.width / 2) / scale,
+    y: place.y + (clientY - box.top - box.height / 2) / scale,
+  };
 }
 
 function clampPlace(pane, size, place) {
@@ -29,8 +31,11 @@ function clampPlace(pane, size, place) {
     const half = Math.min(extent / 2, available / scale / 2);
     return Math.max(half, Math.min(extent - half, centre));
   };
-  return { zoom, x: clampAxis(place.x, size.width, pane.clientWidth),
-           y: clampAxis(place.y, size.height, pane.clientHeight) };
+  return {
+    zoom,
+    x: clampAxis(place.x, size.width, pane.clientWidth),
+    y: clampAxis(place.y, size.height, pane.clientHeight),
+  };
 }
 
 // The place after zooming by `factor` about a point of the pane, which stays where it is.
@@ -38,7 +43,11 @@ function zoomAbout(pane, size, place, factor, clientX, clientY) {
   const before = imagePoint(pane, size, place, clientX, clientY);
   const zoomed = { ...place, zoom: Math.max(1, Math.min(MAX_ZOOM, place.zoom * factor)) };
   const after = imagePoint(pane, size, zoomed, clientX, clientY);
-  return { zoom: zoomed.zoom, x: place.x + before.x - after.x, y: place.y + before.y - after.y };
+  return {
+    zoom: zoomed.zoom,
+    x: place.x + before.x - after.x,
+    y: place.y + before.y - after.y,
+  };
 }
 
 // handlers: {size(), place(), move(place), hover(point or null), key(name) -> bool}.
@@ -49,19 +58,30 @@ function bindPane(view, pane, handlers) {
 }
 
 let lastScroll = -1e9;
-addEventListener("scroll", () => { lastScroll = performance.now(); }, { passive: true });
+addEventListener(
+  "scroll",
+  () => {
+    lastScroll = performance.now();
+  },
+  { passive: true },
+);
 
 // A wheel that is scrolling the page goes on doing so over an image, and one that cannot
 // zoom out further scrolls: the image is no trap.
 function bindWheel(pane, { size, place, move }) {
-  pane.addEventListener("wheel", (event) => {
-    const scrolling = performance.now() - lastScroll < 350;
-    if (!event.ctrlKey && (scrolling || (event.deltaY > 0 && place().zoom <= 1))) return;
-    event.preventDefault();
-    const step = event.deltaMode === 1 ? event.deltaY * 30 : event.deltaY;
-    const factor = 2 ** Math.max(-1, Math.min(1, -step / 250));
-    move(zoomAbout(pane, size(), place(), factor, event.clientX, event.clientY));
-  }, { passive: false });
+  pane.addEventListener(
+    "wheel",
+    (event) => {
+      const scrolling = performance.now() - lastScroll < 350;
+      if (!event.ctrlKey && (scrolling || (event.deltaY > 0 && place().zoom <= 1)))
+        return;
+      event.preventDefault();
+      const step = event.deltaMode === 1 ? event.deltaY * 30 : event.deltaY;
+      const factor = 2 ** Math.max(-1, Math.min(1, -step / 250));
+      move(zoomAbout(pane, size(), place(), factor, event.clientX, event.clientY));
+    },
+    { passive: false },
+  );
 }
 
 // One pointer drags, two pinch.
@@ -88,13 +108,20 @@ function bindPointers(pane, { size, place, move, hover }) {
 function dragged(pane, size, place, before, after) {
   const middle = (points) => ({
     x: points.reduce((sum, p) => sum + p.x, 0) / points.length,
-    y: points.reduce((sum, p) => sum + p.y, 0) / points.length });
-  const spread = (points) => points.length < 2 ? 1
-    : Math.max(8, Math.hypot(points[0].x - points[1].x, points[0].y - points[1].y));
-  const from = middle(before), to = middle(after);
+    y: points.reduce((sum, p) => sum + p.y, 0) / points.length,
+  });
+  const spread = (points) =>
+    points.length < 2
+      ? 1
+      : Math.max(8, Math.hypot(points[0].x - points[1].x, points[0].y - points[1].y));
+  const from = middle(before),
+    to = middle(after);
   const scale = paneScale(pane, size, place);
-  const moved = { ...place, x: place.x - (to.x - from.x) / scale,
-                  y: place.y - (to.y - from.y) / scale };
+  const moved = {
+    ...place,
+    x: place.x - (to.x - from.x) / scale,
+    y: place.y - (to.y - from.y) / scale,
+  };
   return zoomAbout(pane, size, moved, spread(after) / spread(before), to.x, to.y);
 }
 
@@ -104,10 +131,15 @@ function bindKeys(pane, { size, place, move, key }) {
     const step = 40 / paneScale(pane, size(), place());
     const p = place();
     const moves = {
-      ArrowLeft: { x: p.x - step }, ArrowRight: { x: p.x + step },
-      ArrowUp: { y: p.y - step }, ArrowDown: { y: p.y + step },
-      "+": { zoom: p.zoom * 1.5 }, "=": { zoom: p.zoom * 1.5 }, "-": { zoom: p.zoom / 1.5 },
-      0: { zoom: 1 }, Home: { zoom: 1 },
+      ArrowLeft: { x: p.x - step },
+      ArrowRight: { x: p.x + step },
+      ArrowUp: { y: p.y - step },
+      ArrowDown: { y: p.y + step },
+      "+": { zoom: p.zoom * 1.5 },
+      "=": { zoom: p.zoom * 1.5 },
+      "-": { zoom: p.zoom / 1.5 },
+      0: { zoom: 1 },
+      Home: { zoom: 1 },
     };
     if (moves[event.key]) {
       move({ ...p, ...moves[event.key] });

@@ -12,14 +12,22 @@ function paintPane(comparison, canvas, source, [from, to] = [0, 1]) {
   if (source) {
     context.imageSmoothingEnabled = scale < 1;
     context.imageSmoothingQuality = "high";
-    context.drawImage(source, canvas.width / 2 - comparison.place.x * scale,
-                      canvas.height / 2 - comparison.place.y * scale,
-                      source.width * scale, source.height * scale);
+    context.drawImage(
+      source,
+      canvas.width / 2 - comparison.place.x * scale,
+      canvas.height / 2 - comparison.place.y * scale,
+      source.width * scale,
+      source.height * scale,
+    );
   } else {
     context.fillStyle = theme.color("--muted");
     context.font = `${14 * devicePixelRatio}px system-ui, sans-serif`;
     context.textAlign = "center";
-    context.fillText("This image is not in the report.", canvas.width / 2, canvas.height / 2);
+    context.fillText(
+      "This image is not in the report.",
+      canvas.width / 2,
+      canvas.height / 2,
+    );
   }
   context.restore();
 }
@@ -38,8 +46,14 @@ function paintAll(comparison) {
     comparison.place = clampPlace(canvas, comparison.size, comparison.place);
     fitBacking(canvas);
     if (show === "split") {
-      paintPane(comparison, canvas, comparisonSource(comparison, "a"), [0, comparison.split]);
-      paintPane(comparison, canvas, comparisonSource(comparison, "b"), [comparison.split, 1]);
+      paintPane(comparison, canvas, comparisonSource(comparison, "a"), [
+        0,
+        comparison.split,
+      ]);
+      paintPane(comparison, canvas, comparisonSource(comparison, "b"), [
+        comparison.split,
+        1,
+      ]);
     } else {
       const slot = show === "flip" ? (comparison.flipped ? "b" : "a") : show;
       paintPane(comparison, canvas, comparisonSource(comparison, slot));
@@ -48,25 +62,42 @@ function paintAll(comparison) {
   if (comparison.box) comparison.box.dataset.zoom = comparison.place.zoom.toFixed(4);
 }
 
-const PANES = { side: ["a", "b"], slider: ["split"], flip: ["flip"],
-                difference: ["difference"] };
+const PANES = {
+  side: ["a", "b"],
+  slider: ["split"],
+  flip: ["flip"],
+  difference: ["difference"],
+};
 
 function paneTitle(comparison, show) {
-  const a = `A  ${labelOf(comparison, "a")}`, b = `B  ${labelOf(comparison, "b")}`;
-  return { a, b, split: `${a}  |  ${b}`, flip: comparison.flipped ? b : a,
-           difference: "(A − B) / √(B² + 0.01)" }[show];
+  const a = `A  ${labelOf(comparison, "a")}`,
+    b = `B  ${labelOf(comparison, "b")}`;
+  return {
+    a,
+    b,
+    split: `${a}  |  ${b}`,
+    flip: comparison.flipped ? b : a,
+    difference: "(A − B) / √(B² + 0.01)",
+  }[show];
 }
 
 // A pane: the canvas below a line that says what it shows.
 function makePane(comparison, show, repaint, hover) {
   const { width, height } = comparison.size;
-  const canvas = el("canvas", { class: "pane", tabindex: 0, "data-pane": show, role: "img",
-                                style: { "aspect-ratio": `${width} / ${height}` } });
+  const canvas = el("canvas", {
+    class: "pane",
+    tabindex: 0,
+    "data-pane": show,
+    role: "img",
+    style: { "aspect-ratio": `${width} / ${height}` },
+  });
   const title = el("div", { class: "pane-title" });
   const retitle = () => {
     title.textContent = paneTitle(comparison, show);
-    canvas.setAttribute("aria-label", `${title.textContent}. Arrow keys move, plus and ` +
-                                      "minus zoom, 0 shows all.");
+    canvas.setAttribute(
+      "aria-label",
+      `${title.textContent}. Arrow keys move, plus and ` + "minus zoom, 0 shows all.",
+    );
   };
   const flip = () => {
     comparison.flipped = !comparison.flipped;
@@ -89,27 +120,41 @@ function makePane(comparison, show, repaint, hover) {
   });
   if (show === "flip") canvas.addEventListener("dblclick", flip);
   retitle();
-  const frame = el("div", { class: "pane-frame" }, canvas,
-                   show === "split" && splitHandle(comparison, canvas, repaint));
+  const frame = el(
+    "div",
+    { class: "pane-frame" },
+    canvas,
+    show === "split" && splitHandle(comparison, canvas, repaint),
+  );
   // No higher than most of the window.
-  const box = el("div", { class: "pane-box",
-                          style: { "max-width": `calc(78vh * ${width / height})` } },
-                 title, frame);
+  const box = el(
+    "div",
+    { class: "pane-box", style: { "max-width": `calc(78vh * ${width / height})` } },
+    title,
+    frame,
+  );
   return { canvas, show, retitle, flip, node: box };
 }
 
 // The divider, for pointer and keyboard.
 function splitHandle(comparison, canvas, repaint) {
-  const handle = el("div", { class: "split", role: "slider", tabindex: 0,
-                             "aria-label": "Share of image A", "aria-valuemin": 0,
-                             "aria-valuemax": 100 });
+  const handle = el("div", {
+    class: "split",
+    role: "slider",
+    tabindex: 0,
+    "aria-label": "Share of image A",
+    "aria-valuemin": 0,
+    "aria-valuemax": 100,
+  });
   const set = (share) => {
     comparison.split = Math.max(0, Math.min(1, share));
     handle.style.left = `${comparison.split * 100}%`;
     handle.setAttribute("aria-valuenow", Math.round(comparison.split * 100));
     repaint();
   };
-  handle.addEventListener("pointerdown", (event) => handle.setPointerCapture(event.pointerId));
+  handle.addEventListener("pointerdown", (event) =>
+    handle.setPointerCapture(event.pointerId),
+  );
   handle.addEventListener("pointermove", (event) => {
     if (!handle.hasPointerCapture(event.pointerId)) return;
     const box = canvas.getBoundingClientRect();

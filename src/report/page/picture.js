@@ -11,23 +11,48 @@ function sourceCanvas(pixels) {
 
 // A picture that fills its place's width. makePixels() returns ImageData; crop: {x, y,
 // width, height} in pixels or null; frame: the same, outlined.
-function picture(view, { label, width, height, makePixels, crop = null, frame = null,
-                         overlay = null, redrawOn = null }) {
+function picture(
+  view,
+  {
+    label,
+    width,
+    height,
+    makePixels,
+    crop = null,
+    frame = null,
+    overlay = null,
+    redrawOn = null,
+  },
+) {
   const shown = crop || { x: 0, y: 0, width, height };
-  const canvas = el("canvas", { role: "img", "aria-label": label, class: "picture",
-                                width: shown.width, height: shown.height,
-                                style: { "aspect-ratio": `${shown.width} / ${shown.height}` } });
+  const canvas = el("canvas", {
+    role: "img",
+    "aria-label": label,
+    class: "picture",
+    width: shown.width,
+    height: shown.height,
+    style: { "aspect-ratio": `${shown.width} / ${shown.height}` },
+  });
   if (crop) canvas.classList.add("crop");
   const draw = () => {
     const source = sourceCanvas(makePixels());
     const box = canvas.getBoundingClientRect();
-    const ratio = Math.max(1, box.width * devicePixelRatio / shown.width);
+    const ratio = Math.max(1, (box.width * devicePixelRatio) / shown.width);
     canvas.width = Math.round(shown.width * ratio);
     canvas.height = Math.round(shown.height * ratio);
     const context = canvas.getContext("2d");
     context.imageSmoothingEnabled = false;
-    context.drawImage(source, shown.x, shown.y, shown.width, shown.height,
-                      0, 0, canvas.width, canvas.height);
+    context.drawImage(
+      source,
+      shown.x,
+      shown.y,
+      shown.width,
+      shown.height,
+      0,
+      0,
+      canvas.width,
+      canvas.height,
+    );
     if (frame) strokeFrame(context, frame, ratio);
     if (overlay) overlay(context, canvas.width / shown.width);
   };
@@ -40,8 +65,11 @@ function picture(view, { label, width, height, makePixels, crop = null, frame = 
 
 // White within black, so that it shows on anything.
 function strokeFrame(context, { x, y, width, height }, ratio) {
-  const unit = Math.min(devicePixelRatio, width * ratio / 14);
-  for (const [color, line] of [["#000", 4 * unit], ["#fff", 2 * unit]]) {
+  const unit = Math.min(devicePixelRatio, (width * ratio) / 14);
+  for (const [color, line] of [
+    ["#000", 4 * unit],
+    ["#fff", 2 * unit],
+  ]) {
     context.strokeStyle = color;
     context.lineWidth = line;
     context.strokeRect(x * ratio, y * ratio, width * ratio, height * ratio);
@@ -67,10 +95,23 @@ function missingPicture(text) {
 
 // A colour ramp with texts below its two ends and its middle.
 function rampLegend(table, [low, middle, high]) {
-  const canvas = el("canvas", { width: 256, height: 1, class: "ramp", "aria-hidden": "true" });
+  const canvas = el("canvas", {
+    width: 256,
+    height: 1,
+    class: "ramp",
+    "aria-hidden": "true",
+  });
   const pixels = new ImageData(256, 1);
   for (let i = 0; i < 256; ++i) putRamp(pixels.data, 4 * i, table, i / 255);
   canvas.getContext("2d").putImageData(pixels, 0, 0);
-  return el("div", { class: "ramp-legend" }, canvas,
-    el("div", { class: "ramp-texts" }, [low, middle, high].map((t) => el("span", {}, t))));
+  return el(
+    "div",
+    { class: "ramp-legend" },
+    canvas,
+    el(
+      "div",
+      { class: "ramp-texts" },
+      [low, middle, high].map((t) => el("span", {}, t)),
+    ),
+  );
 }

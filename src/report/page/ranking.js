@@ -3,17 +3,28 @@
 
 function rankingSection(view) {
   const baseline = view.baseline ? view.baseline.name : null;
-  return section("ranking", "Ranking",
-    el("p", { class: "lead" }, "Efficiency is 1 / (relative MSE × seconds of processor time)",
-       baseline ? [", relative to ", el("b", {}, baseline)] : null,
-       ": at twice the efficiency, the same image takes half the time. Small print: " +
-       `${confidenceText() ? `${confidenceText()} ` : ""}confidence intervals. ` +
-       "A rank range such as 2–4 says that the order within it could be chance."),
-    rankingTable(view));
+  return section(
+    "ranking",
+    "Ranking",
+    el(
+      "p",
+      { class: "lead" },
+      "Efficiency is 1 / (relative MSE × seconds of processor time)",
+      baseline ? [", relative to ", el("b", {}, baseline)] : null,
+      ": at twice the efficiency, the same image takes half the time. Small print: " +
+        `${confidenceText() ? `${confidenceText()} ` : ""}confidence intervals. ` +
+        "A rank range such as 2–4 says that the order within it could be chance.",
+    ),
+    rankingTable(view),
+  );
 }
 
 function rankingTable(view) {
-  const scale = whiskerScale(view.ranked.map((s) => s.efficiency), true, [1]);
+  const scale = whiskerScale(
+    view.ranked.map((s) => s.efficiency),
+    true,
+    [1],
+  );
   const notRun = view.strategies.filter((s) => !view.ran.includes(s));
   const columns = rankingColumns(view, scale);
   return sortableTable({
@@ -22,16 +33,22 @@ function rankingTable(view) {
     rows: view.ranked,
     fixed: notRun.map((s) => notRunRow(s, columns.length)),
     sortedBy: "rank",
-    rowClass: (s) => s.rank && s.rank[0] === 1 ? "best" : null,
+    rowClass: (s) => (s.rank && s.rank[0] === 1 ? "best" : null),
   });
 }
 
 function notRunRow(strategy, count) {
-  return el("tr", { class: "not-run" },
+  return el(
+    "tr",
+    { class: "not-run" },
     el("td", { class: "text" }, UNKNOWN),
     el("th", { scope: "row", class: "text" }, strategyLabel(strategy)),
-    el("td", { class: "text", colspan: count - 2 },
-       el("span", { class: "why" }, whyMissing(strategy))));
+    el(
+      "td",
+      { class: "text", colspan: count - 2 },
+      el("span", { class: "why" }, whyMissing(strategy)),
+    ),
+  );
 }
 
 function rankText(rank) {
@@ -42,103 +59,24 @@ function rankText(rank) {
 // The strategies whose rank ranges overlap that of s.
 function rivals(view, s) {
   if (!s.rank) return [];
-  return view.ranked.filter((o) => o !== s && o.rank && o.rank[0] <= s.rank[1] &&
-                                   s.rank[0] <= o.rank[1]);
+  return view.ranked.filter(
+    (o) => o !== s && o.rank && o.rank[0] <= s.rank[1] && s.rank[0] <= o.rank[1],
+  );
 }
 
 function rankCell(view, s) {
   const others = rivals(view, s);
-  return el("span", { class: "rank", title: others.length
-                        ? `Not distinguishable from ${others.map((o) => o.name).join(", ")}`
-                        : null },
-            twoLines({ value: rankText(s.rank), bounds: "" },
-                     others.length > 0 ? "not distinguishable" : null));
-}
-
-// A column of an interval of the level that the ranking is of. common: the values' common
-// scale, which then stands in the header; null for each its own.
-function levelColumn(view, key, title, unit, hint, { scaled = commonScale,
-                                                    texts = intervalTexts } = {}) {
-  const intervalOf = (s) => s.level && s.level[key];
-  const common = scaled && scaled(view.ranked.map((s) => valueOf(intervalOf(s))));
-  const cell = (s) => common ? intervalTexts(intervalOf(s), common.scale)
-                             : texts(intervalOf(s));
-  return { key, title, hint, unit: [unit, common && common.unit].filter(Boolean).join(", "),
-           cell: (s) => twoLines(cell(s)), sort: (s) => valueOf(intervalOf(s)) };
-}
-
-function levelNumber(key, title, hint, format) {
-  return { key, title, hint, cell: (s) => format(s.level ? s.level[key] : null),
-           sort: (s) => s.level && known(s.level[key]) ? s.level[key] : null };
-}
-
-function targetColumn(view, key, title, texts) {
-  const target = view.scene.target_relmse;
-  return { key: `target-${key}`, title, unit: known(target) ? `to ${fmtShort(target)}` : null,
-           hint: "To reach the target's relative MSE; extrapolated where no render got there",
-           cell: (s) => s.to_target
-             ? twoLines(texts(s.to_target[key]), s.to_target.extrapolated ? "extrapolated" : null)
-             : UNKNOWN,
-           sort: (s) => s.to_target ? valueOf(s.to_target[key]) : null };
-}
-
-function efficiencyColumns(scale) {
-  return [
-    { key: "efficiency", title: "Efficiency", unit: "relative", descendingFirst: true,
-      cell: (s) => twoLines(intervalTexts(s.efficiency)), sort: (s) => valueOf(s.efficiency) },
-    { key: "whisker", title: "", text: true, axis: scale && whiskerAxis(scale, { width: 190 }),
-      cell: (s) => whisker(s.efficiency, scale, { style: s.style, marks: [1], width: 190,
-                                                  label: `Efficiency of ${s.name}` }) },
-  ];
-}
-
-function coverageTexts(self) {
-  if (!self || !known(self.total) || self.total === 0) return { value: UNKNOWN, bounds: "" };
-  return { value: fmtPercent(self.inside / self.total, 2),
-           bounds: `${self.inside} of ${self.total}` };
-}
-
-function rankingColumns(view, scale) {
-  const spp = new Set(view.ran.map((s) => s.at_spp).filter(known));
-  const at = spp.size === 1 ? `at ${fmtCount([...spp][0])} spp` : "at the largest count";
-  const wholeTexts = (interval) => {
-    const x = valueOf(interval);
-    return x !== null && x >= 100 && x < 1e9
-      ? { value: fmtCount(x), bounds: hasBounds(interval)
-          ? `[${fmtCount(interval.low)}, ${fmtCount(interval.high)}]` : "" }
-      : intervalTexts(interval);
-  };
-  return [
-    { key: "rank", title: "Rank", text: true, cell: (s) => rankCell(view, s),
-      sort: (s) => view.ranked.indexOf(s) },
-    { key: "name", title: "Strategy", text: true, rowHead: true,
-      cell: (s) => [strategyLabel(s), s.text && s.text !== s.name &&
-                    el("span", { class: "full-text" }, s.text)],
-      sort: (s) => s.name },
-    ...efficiencyColumns(scale),
-    levelColumn(view, "relmse", "Relative MSE", at,
-                "Squared error over squared reference + 0.01"),
-    levelColumn(view, "relmse_trimmed", "Trimmed", null,
-                "Relative MSE without the worst 1 % of the pixels"),
-    levelColumn(view, "cpu_seconds", "Time", "processor", "Median of one render",
-                { scaled: commonTime, texts: secondsTexts }),
-    { key: "order", title: "Order", unit: "of convergence",
-      hint: "Slope of log RMSE over log samples; −0.5 for independent samples",
-      cell: (s) => twoLines(intervalTexts(s.order)), sort: (s) => valueOf(s.order) },
-    targetColumn(view, "spp", "Samples", wholeTexts),
-    targetColumn(view, "seconds", "Time", secondsTexts),
-    levelColumn(view, "bias", "Bias", "of the mean", "Mean of the image against the reference",
-                { scaled: null, texts: (interval) => percentTexts(interval, true) }),
-    levelNumber("bias_p", "p", "Welch's test that the means are equal", fmtP),
-    levelColumn(view, "variance", "Variance", null, "Part of the relative MSE"),
-    levelColumn(view, "bias2", "Bias²", null,
-                "Part of the relative MSE; can be negative by chance"),
-    { key: "self", title: "Coverage", unit: "self-estimate",
-      hint: "How often the interval that a render states of itself held its true error",
-      cell: (s) => twoLines(coverageTexts(s.level && s.level.self)),
-      sort: (s) => s.level && s.level.self && s.level.self.total
-        ? s.level.self.inside / s.level.self.total : null },
-    levelNumber("rays_per_sample", "Rays", "of all kinds, per sample", fmt),
-    levelNumber("path_length", "Path", "Scattering rays per sample", fmt),
-  ];
+  return el(
+    "span",
+    {
+      class: "rank",
+      title: others.length
+        ? `Not distinguishable from ${others.map((o) => o.name).join(", ")}`
+        : null,
+    },
+    twoLines(
+      { value: rankText(s.rank), bounds: "" },
+      others.length > 0 ? "not distinguishable" : null,
+    ),
+  );
 }

@@ -20,44 +20,81 @@ function stageColor(index) {
 
 function stageTip(strategy, stage) {
   const line = (name, text) => text !== UNKNOWN && el("div", {}, `${name} ${text}`);
-  return [el("b", {}, `${stage.name}: ${fmtPercent(stage.share)}`),
-          el("div", {}, strategy.name), line("time", fmtSeconds(stage.seconds)),
-          line("per item", known(stage.ns_per_item) ? `${fmt(stage.ns_per_item)} ns` : UNKNOWN),
-          line("items", fmtCount(stage.items)),
-          line("lanes full", fmtPercent(stage.occupancy))];
+  return [
+    el("b", {}, `${stage.name}: ${fmtPercent(stage.share)}`),
+    el("div", {}, strategy.name),
+    line("time", fmtSeconds(stage.seconds)),
+    line("per item", known(stage.ns_per_item) ? `${fmt(stage.ns_per_item)} ns` : UNKNOWN),
+    line("items", fmtCount(stage.items)),
+    line("lanes full", fmtPercent(stage.occupancy)),
+  ];
 }
 
 function stageBar(strategy, names) {
-  const stages = (strategy.stages || []).filter((stage) => known(stage.share) && stage.share > 0);
-  if (stages.length === 0) return el("div", { class: "bar empty" }, "No stages recorded.");
+  const stages = (strategy.stages || []).filter(
+    (stage) => known(stage.share) && stage.share > 0,
+  );
+  if (stages.length === 0)
+    return el("div", { class: "bar empty" }, "No stages recorded.");
   const rank = new Map(names.map((name, i) => [name, i]));
   stages.sort((a, b) => rank.get(a.name) - rank.get(b.name));
-  const total = Math.max(1, stages.reduce((sum, stage) => sum + stage.share, 0));
-  return el("div", { class: "bar", role: "list" }, stages.map((stage) => {
-    const share = stage.share / total;
-    const index = rank.get(stage.name);
-    const text = `${stage.name} ${fmtPercent(stage.share)}`;
-    return withTip(el("div", {
-      class: index < COLOR_COUNT ? `bar-part on-s${index}` : "bar-part", role: "listitem",
-      tabindex: share >= SMALL_STAGE ? 0 : null, "aria-label": text,
-      style: { width: `${share * 100}%`, "background-color": stageColor(index) },
-    }, share > 0.07 ? el("span", { "aria-hidden": "true" }, fmtPercent(stage.share, 2)) : null),
-    () => stageTip(strategy, stage));
-  }));
+  const total = Math.max(
+    1,
+    stages.reduce((sum, stage) => sum + stage.share, 0),
+  );
+  return el(
+    "div",
+    { class: "bar", role: "list" },
+    stages.map((stage) => {
+      const share = stage.share / total;
+      const index = rank.get(stage.name);
+      const text = `${stage.name} ${fmtPercent(stage.share)}`;
+      return withTip(
+        el(
+          "div",
+          {
+            class: index < COLOR_COUNT ? `bar-part on-s${index}` : "bar-part",
+            role: "listitem",
+            tabindex: share >= SMALL_STAGE ? 0 : null,
+            "aria-label": text,
+            style: { width: `${share * 100}%`, "background-color": stageColor(index) },
+          },
+          share > 0.06 &&
+            el(
+              "span",
+              { "aria-hidden": "true", class: share < 0.12 ? "narrow" : null },
+              fmtPercent(stage.share, 2),
+            ),
+        ),
+        () => stageTip(strategy, stage),
+      );
+    }),
+  );
 }
 
 function stageSeconds(strategy) {
   const stages = strategy.stages || [];
-  return stages.reduce((sum, stage) => sum + (known(stage.seconds) ? stage.seconds : 0), 0);
+  return stages.reduce(
+    (sum, stage) => sum + (known(stage.seconds) ? stage.seconds : 0),
+    0,
+  );
 }
 
 function stageLegend(names) {
   const rest = names.length > COLOR_COUNT;
-  const entry = (text, index) => el("li", {},
-    el("span", { class: "patch", style: { "background-color": stageColor(index) } }), text);
-  return el("ul", { class: "stage-legend" },
+  const entry = (text, index) =>
+    el(
+      "li",
+      {},
+      el("span", { class: "patch", style: { "background-color": stageColor(index) } }),
+      text,
+    );
+  return el(
+    "ul",
+    { class: "stage-legend" },
     names.slice(0, COLOR_COUNT).map(entry),
-    rest ? entry(`other (${names.slice(COLOR_COUNT).join(", ")})`, COLOR_COUNT) : null);
+    rest ? entry(`other (${names.slice(COLOR_COUNT).join(", ")})`, COLOR_COUNT) : null,
+  );
 }
 
 function stagesTable(view, names) {
@@ -65,25 +102,55 @@ function stagesTable(view, names) {
     const stage = (s.stages || []).find((candidate) => candidate.name === name);
     return stage ? fmtPercent(stage.share) : UNKNOWN;
   };
-  return el("details", {}, el("summary", {}, "The same as a table"),
-    plainTable("Share of each stage in the time of each strategy",
+  return el(
+    "details",
+    {},
+    el("summary", {}, "The same as a table"),
+    plainTable(
+      "Share of each stage in the time of each strategy",
       ["Strategy", "All stages", ...names],
-      view.ranked.map((s) => [s.name, fmtSeconds(stageSeconds(s)),
-                              ...names.map((name) => shareOf(s, name))])));
+      view.ranked.map((s) => [
+        s.name,
+        fmtSeconds(stageSeconds(s)),
+        ...names.map((name) => shareOf(s, name)),
+      ]),
+    ),
+  );
 }
 
 function stagesSection(view) {
   const names = stageNames(view);
   if (names.length === 0) {
-    return section("stages", "Where the time went",
-                   el("p", {}, "No stage times were recorded."));
+    return section(
+      "stages",
+      "Where the time went",
+      el("p", {}, "No stage times were recorded."),
+    );
   }
-  const rows = view.ranked.map((s) => el("div", { class: "stage-row" },
-    el("div", { class: "stage-name" }, strategyLabel(s),
-       el("span", { class: "bounds" }, fmtSeconds(stageSeconds(s)))),
-    stageBar(s, names)));
-  return section("stages", "Where the time went",
-    el("p", { class: "lead" }, "Share of each stage in the processor time, at the largest " +
-       "count, all repetitions together."),
-    stageLegend(names), el("div", { class: "stage-rows" }, rows), stagesTable(view, names));
+  const rows = view.ranked.map((s) =>
+    el(
+      "div",
+      { class: "stage-row" },
+      el(
+        "div",
+        { class: "stage-name" },
+        strategyLabel(s),
+        el("span", { class: "bounds" }, fmtSeconds(stageSeconds(s))),
+      ),
+      stageBar(s, names),
+    ),
+  );
+  return section(
+    "stages",
+    "Where the time went",
+    el(
+      "p",
+      { class: "lead" },
+      "Share of each stage in the processor time, at the largest " +
+        "count, all repetitions together.",
+    ),
+    stageLegend(names),
+    el("div", { class: "stage-rows" }, rows),
+    stagesTable(view, names),
+  );
 }

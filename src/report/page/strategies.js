@@ -1,6 +1,6 @@
 "use strict";
-// How a strategy looks wherever it appears: colour, dash and marker, so that the colour is
-// never the only clue. The colours themselves are in base.css, one set for each theme.
+// How a strategy looks wherever it appears: colour, dash and marker, so that the colour
+// is never the only clue. The colours themselves are in base.css, one set for each theme.
 
 const COLOR_COUNT = 8;
 const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
@@ -16,12 +16,13 @@ function strategyStyle(index) {
 }
 
 function markerPath(marker, x, y, r) {
+  const d = r * 1.3;
   const paths = {
     circle: `M${x - r} ${y}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0z`,
     square: `M${x - r} ${y - r}h${2 * r}v${2 * r}h${-2 * r}z`,
     triangle: `M${x} ${y - r * 1.2}L${x + r * 1.15} ${y + r * 0.9}H${x - r * 1.15}z`,
     down: `M${x} ${y + r * 1.2}L${x + r * 1.15} ${y - r * 0.9}H${x - r * 1.15}z`,
-    diamond: `M${x} ${y - r * 1.3}L${x + r * 1.3} ${y}L${x} ${y + r * 1.3}L${x - r * 1.3} ${y}z`,
+    diamond: `M${x} ${y - d}l${d} ${d}l${-d} ${d}l${-d} ${-d}z`,
     cross: `M${x - r} ${y - r}L${x + r} ${y + r}M${x + r} ${y - r}L${x - r} ${y + r}`,
     plus: `M${x - r * 1.2} ${y}H${x + r * 1.2}M${x} ${y - r * 1.2}V${y + r * 1.2}`,
   };
@@ -31,18 +32,39 @@ function markerPath(marker, x, y, r) {
 // A piece of the strategy's line with its marker.
 function swatch(style) {
   const color = `var(${style.variable})`;
-  return svg("svg", { class: "swatch", viewBox: "0 0 34 12", width: 34, height: 12,
-                      "aria-hidden": "true" },
-    svg("line", { x1: 1, y1: 6, x2: 33, y2: 6, "stroke-width": 2,
-                  "stroke-dasharray": style.dash.join(" ") || null,
-                  style: { stroke: color } }),
-    svg("path", { d: markerPath(style.marker, 17, 6, 4), "stroke-width": 1.8,
-                  style: { stroke: color, fill: color } }));
+  return svg(
+    "svg",
+    {
+      class: "swatch",
+      viewBox: "0 0 34 12",
+      width: 34,
+      height: 12,
+      "aria-hidden": "true",
+    },
+    svg("line", {
+      x1: 1,
+      y1: 6,
+      x2: 33,
+      y2: 6,
+      "stroke-width": 2,
+      "stroke-dasharray": style.dash.join(" ") || null,
+      style: { stroke: color },
+    }),
+    svg("path", {
+      d: markerPath(style.marker, 17, 6, 4),
+      "stroke-width": 1.8,
+      style: { stroke: color, fill: color },
+    }),
+  );
 }
 
 function strategyLabel(strategy) {
-  return el("span", { class: "strategy" }, swatch(strategy.style),
-            el("span", { class: "strategy-name" }, strategy.name));
+  return el(
+    "span",
+    { class: "strategy" },
+    swatch(strategy.style),
+    el("span", { class: "strategy-name" }, strategy.name),
+  );
 }
 
 const STATUS_WORDS = { refused: "refused", failed: "failed", skipped: "not finished" };
@@ -54,5 +76,6 @@ function statusWord(strategy) {
 function whyMissing(strategy) {
   const word = statusWord(strategy);
   if (!word) return strategy.message || "There is no result.";
-  return `${word[0].toUpperCase()}${word.slice(1)}: ${strategy.message || "no reason given"}`;
+  const reason = strategy.message || "no reason given";
+  return `${word[0].toUpperCase()}${word.slice(1)}: ${reason}`;
 }

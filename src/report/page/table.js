@@ -10,33 +10,62 @@ function sortableTable({ columns, rows, fixed = [], caption, sortedBy, rowClass 
   const fill = () => {
     const column = columns.find((c) => c.key === state.key);
     const ordered = column ? sortRows(rows, column.sort, state.descending) : rows;
-    body.replaceChildren(...ordered.map((row) => tableRow(row, columns, rowClass)), ...fixed);
+    body.replaceChildren(
+      ...ordered.map((row) => tableRow(row, columns, rowClass)),
+      ...fixed,
+    );
     for (const [key, header] of headers) {
       const mine = key === state.key;
-      header.setAttribute("aria-sort",
-                          mine ? (state.descending ? "descending" : "ascending") : "none");
+      header.setAttribute(
+        "aria-sort",
+        mine ? (state.descending ? "descending" : "ascending") : "none",
+      );
     }
   };
   const choose = (column) => {
-    state.descending = state.key === column.key ? !state.descending
-                                                : Boolean(column.descendingFirst);
+    state.descending =
+      state.key === column.key ? !state.descending : Boolean(column.descendingFirst);
     state.key = column.key;
     fill();
   };
-  const head = el("tr", {}, columns.map((c) => headerCell(c, headers, choose)));
+  const head = el(
+    "tr",
+    {},
+    columns.map((c) => headerCell(c, headers, choose)),
+  );
   fill();
-  return el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
-    el("table", { class: "data" }, el("caption", { class: "hidden" }, caption),
-       el("thead", {}, head), body));
+  return el(
+    "div",
+    { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
+    el(
+      "table",
+      { class: "data" },
+      el("caption", { class: "hidden" }, caption),
+      el("thead", {}, head),
+      body,
+    ),
+  );
 }
 
 function headerCell(column, headers, choose) {
   const title = [column.title, column.unit && el("span", { class: "unit" }, column.unit)];
-  const header = el("th", { scope: "col", class: column.text ? "text" : null,
-                            title: column.hint });
+  const kind = [column.text && "text", column.rowHead && "row-head"].filter(Boolean);
+  const header = el("th", {
+    scope: "col",
+    class: kind.join(" ") || null,
+    title: column.hint,
+  });
   if (column.sort) {
-    header.append(appendAll(el("button", { type: "button", "data-key": column.key,
-                                           onclick: () => choose(column) }), title));
+    header.append(
+      appendAll(
+        el("button", {
+          type: "button",
+          "data-key": column.key,
+          onclick: () => choose(column),
+        }),
+        title,
+      ),
+    );
     headers.set(column.key, header);
   } else {
     appendAll(header, title);
@@ -46,39 +75,79 @@ function headerCell(column, headers, choose) {
 }
 
 function tableRow(row, columns, rowClass) {
-  return el("tr", { class: rowClass ? rowClass(row) : null }, columns.map((column) =>
-    column.rowHead
-      ? el("th", { scope: "row", class: "text" }, column.cell(row))
-      : el("td", { class: column.text ? "text" : null }, column.cell(row))));
+  return el(
+    "tr",
+    { class: rowClass ? rowClass(row) : null },
+    columns.map((column) =>
+      column.rowHead
+        ? el("th", { scope: "row", class: "text" }, column.cell(row))
+        : el("td", { class: column.text ? "text" : null }, column.cell(row)),
+    ),
+  );
 }
 
 // What is not known goes to the end in either direction.
 function sortRows(rows, key, descending) {
   const sign = descending ? -1 : 1;
   const compare = (a, b) => {
-    const x = key(a), y = key(b);
-    const missingX = x === null || x === undefined, missingY = y === null || y === undefined;
+    const x = key(a),
+      y = key(b);
+    const missingX = x === null || x === undefined,
+      missingY = y === null || y === undefined;
     if (missingX || missingY) return Number(missingX) - Number(missingY);
     if (typeof x === "string") return sign * x.localeCompare(y);
     return sign * (x - y);
   };
-  return rows.map((row, i) => [row, i])
-    .sort((a, b) => compare(a[0], b[0]) || a[1] - b[1]).map(([row]) => row);
+  return rows
+    .map((row, i) => [row, i])
+    .sort((a, b) => compare(a[0], b[0]) || a[1] - b[1])
+    .map(([row]) => row);
 }
 
 // The value with its bounds below in small print.
 function twoLines({ value, bounds }, note) {
-  return [el("span", { class: "value" }, value),
-          (bounds || note) && el("span", { class: "bounds" },
-                                 [bounds, note].filter(Boolean).join(" "))];
+  return [
+    el("span", { class: "value" }, value),
+    (bounds || note) &&
+      el("span", { class: "bounds" }, [bounds, note].filter(Boolean).join(" ")),
+  ];
 }
 
 // A plain table of texts. head: titles; rows: arrays of cells, the first names the row.
 function plainTable(caption, head, rows) {
-  return el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
-    el("table", { class: "data" }, el("caption", { class: "hidden" }, caption),
-      el("thead", {}, el("tr", {}, head.map((title, i) =>
-        el("th", { scope: "col", class: i === 0 ? "text" : null }, title)))),
-      el("tbody", {}, rows.map((cells) => el("tr", {}, cells.map((cell, i) =>
-        i === 0 ? el("th", { scope: "row", class: "text" }, cell) : el("td", {}, cell)))))));
+  return el(
+    "div",
+    { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
+    el(
+      "table",
+      { class: "data" },
+      el("caption", { class: "hidden" }, caption),
+      el(
+        "thead",
+        {},
+        el(
+          "tr",
+          {},
+          head.map((title, i) =>
+            el("th", { scope: "col", class: i === 0 ? "text" : null }, title),
+          ),
+        ),
+      ),
+      el(
+        "tbody",
+        {},
+        rows.map((cells) =>
+          el(
+            "tr",
+            {},
+            cells.map((cell, i) =>
+              i === 0
+                ? el("th", { scope: "row", class: "text" }, cell)
+                : el("td", {}, cell),
+            ),
+          ),
+        ),
+      ),
+    ),
+  );
 }

@@ -16,20 +16,34 @@ const TONE_CURVES = {
   false: { label: "False colour", curve: null },
 };
 
-const FALSE_STOPS = 6;  // false colour spans 2^-6 to 2^6 around the exposure
+const FALSE_STOPS = 6; // false colour spans 2^-6 to 2^6 around the exposure
 
 // Colours at equal steps, sRGB bytes.
-const SEQUENTIAL = [[10, 8, 38], [58, 18, 102], [128, 32, 118], [190, 52, 92],
-                    [232, 96, 52], [248, 164, 40], [252, 252, 176]];
-const DIVERGING = [[16, 64, 138], [62, 132, 196], [158, 202, 228], [246, 246, 243],
-                   [248, 188, 144], [220, 104, 62], [142, 22, 34]];
+const SEQUENTIAL = [
+  [10, 8, 38],
+  [58, 18, 102],
+  [128, 32, 118],
+  [190, 52, 92],
+  [232, 96, 52],
+  [248, 164, 40],
+  [252, 252, 176],
+];
+const DIVERGING = [
+  [16, 64, 138],
+  [62, 132, 196],
+  [158, 202, 228],
+  [246, 246, 243],
+  [248, 188, 144],
+  [220, 104, 62],
+  [142, 22, 34],
+];
 const INVALID = [255, 0, 200];
 
 // Bytes of a ramp with 256 entries.
 function rampTable(anchors) {
   const table = new Uint8ClampedArray(256 * 3);
   for (let i = 0; i < 256; ++i) {
-    const at = i / 255 * (anchors.length - 1);
+    const at = (i / 255) * (anchors.length - 1);
     const k = Math.min(anchors.length - 2, Math.floor(at));
     for (let c = 0; c < 3; ++c) {
       table[3 * i + c] = anchors[k][c] + (at - k) * (anchors[k + 1][c] - anchors[k][c]);
@@ -54,7 +68,8 @@ function toneTable({ curve, exposure }) {
   const table = new Uint8ClampedArray(65536);
   const gain = 2 ** exposure;
   const apply = TONE_CURVES[curve].curve;
-  for (let bits = 0; bits < 32768; ++bits) {  // negative values stay 0
+  for (let bits = 0; bits < 32768; ++bits) {
+    // negative values stay 0
     const x = HALF_VALUES[bits] * gain;
     if (Number.isFinite(x)) table[bits] = 255 * encodeSrgb(apply(x));
   }
@@ -70,8 +85,11 @@ function cachedToneTable(tone) {
 }
 
 function luminanceAt(image, i) {
-  return 0.2126 * channelAt(image, i, 0) + 0.7152 * channelAt(image, i, 1) +
-         0.0722 * channelAt(image, i, 2);
+  return (
+    0.2126 * channelAt(image, i, 0) +
+    0.7152 * channelAt(image, i, 1) +
+    0.0722 * channelAt(image, i, 2)
+  );
 }
 
 function isNanBits(bits) {
@@ -116,7 +134,8 @@ function rampPixels(width, height, table, valueOfPixel) {
 }
 
 function channelMean(image, i) {
-  return image.channels === 1 ? channelAt(image, i, 0)
+  return image.channels === 1
+    ? channelAt(image, i, 0)
     : (channelAt(image, i, 0) + channelAt(image, i, 1) + channelAt(image, i, 2)) / 3;
 }
 

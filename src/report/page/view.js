@@ -27,7 +27,10 @@ function levelOf(strategy) {
 function makeView(scene) {
   const abort = new AbortController();
   const strategies = (scene.strategies || []).map((strategy, index) => ({
-    ...strategy, index, style: strategyStyle(index), level: levelOf(strategy),
+    ...strategy,
+    index,
+    style: strategyStyle(index),
+    level: levelOf(strategy),
   }));
   const ran = strategies.filter((s) => s.status === "ok" || (s.levels || []).length > 0);
   return {
@@ -36,18 +39,18 @@ function makeView(scene) {
     ran,
     ranked: rankOrder(scene, ran),
     baseline: strategies[scene.baseline] || null,
-    shown: makeSignal(new Set(ran.map((s) => s.index))),  // in the plots
-    focus: makeSignal(null),                              // index of a strategy, or null
-    compare: makeSignal(null),  // {a, b}: names that the comparator is asked to show
+    shown: makeSignal(new Set(ran.map((s) => s.index))), // in the plots
+    focus: makeSignal(null), // index of a strategy, or null
+    compare: makeSignal(null), // {a, b}: names that the comparator is asked to show
     tone: makeSignal({ curve: "srgb", exposure: 0 }),
-    signal: abort.signal,  // aborted when another scene is shown
+    signal: abort.signal, // aborted when another scene is shown
     close: () => abort.abort(),
   };
 }
 
 function rankOrder(scene, ran) {
   const place = new Map((scene.ranking || []).map((index, i) => [index, i]));
-  const order = (s) => place.has(s.index) ? place.get(s.index) : 1e6 + s.index;
+  const order = (s) => (place.has(s.index) ? place.get(s.index) : 1e6 + s.index);
   return [...ran].sort((a, b) => order(a) - order(b));
 }
 
