@@ -1,0 +1,229 @@
+#include "src/study/halving.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "src/core/check.h"
+
+namespace lanelight {
+namespace {
+
+using stat::Cost;
+
+class Halving {
+ public:
+  Halving(const std::vector<double>& margins, const MeasureRound& measure,
+          const HalvingOptions& options)
+      : margins_(margins),
+        measure_(measure),
+        options_(options),
+        records_(margins.size()) {
+    LL_CHECK(!margins.empty());
+    result_.candidates.resize(margins.size());
+    for (std::size_t i = 0; i < margins.size(); ++i) alive_.push_back(i);
+  }
+
+  HalvingResult Run() {
+    if (margins_.size() > 1 && WarmUp() && AdmitCandidates()) {
+      while (alive_.size() > 1 && Round()) Drop();
+    }
+    Choose();
+    return result_;
+  }
+
+ private:
+  struct Record {
+    std::vector<Cost> all, robust;
+  };
+
+  double Left() const { return options_.seconds - result_.seconds; }
+
+  // The first windows fill caches and show what a window takes; they do not count.
+  bool WarmUp() {
+    double elapsed = 0;
+    const bool good = !measure_({0}, 2, elapsed).empty();
+    result_.seconds += elapsed;
+    result_.interrupted |= !good;
+    window_seconds_ = elapsed / 2;
+    return good;
+  }
+
+  static int RoundsFor(std::size_t candidates) {
+    return std::max(1, static_cast<int>(std::bit_width(candidates - 1)));
+  }
+
+  std::size_t WindowsFor(std::size_t candidates) const {
+    const double each = Left() / RoundsFor(candidates) / static_cast<double>(candidates);
+    const double windows = each / std::max(window_seconds_, 1e-9);
+    return static_cast<std::size_t>(
+        std::clamp(windows, 0.0, static_cast<double>(options_.most_windows)));
+  }
+
+  // As many, from the front, as can each have the least number of windows.
+  bool AdmitCandidates() {
+    while (alive_.size() > 1 && WindowsFor(alive_.size()) < options_.least_windows) {
+      result_.candidates[alive_.back()].reason = "the pilot's time did not reach it";
+      alive_.pop_back();
+    }
+    return alive_.size() > 1;
+  }
+
+  bool Round() {
+    const std::size_t windows = WindowsFor(alive_.size());
+    if (windows < options_.least_windows) return false;
+    double elapsed = 0;
+    const std::vector<WindowErrors> measured = measure_(alive_, windows, elapsed);
+    result_.seconds += elapsed;
+    result_.interrupted |= measured.empty();
+    if (measured.empty()) return false;
+    LL_CHECK_EQ(measured.size(), alive_.size());
+    window_seconds_ = elapsed / static_cast<double>(windows * alive_.size());
+    for (std::size_t i = 0; i < alive_.size(); ++i) Add(alive_[i], measured[i]);
+    for (std::size_t i : alive_) Compare(i);
+    return true;
+  }
+
+  void Add(std::size_t candidate, const WindowErrors& errors) {
+    Record& record = records_[candidate];
+    const double seconds = errors.seconds / static_cast<double>(errors.all.size());
+    for (double e : errors.all) record.all.push_back({e, seconds});
+    for (double e : errors.robust) record.robust.push_back({e, seconds});
+  }
+
+  void Compare(std::size_t candidate) {
+    CandidateOutcome& out = result_.candidates[candidate];
+    out.rounds += 1;
+    out.windows = records_[candidate].all.size();
+    out.efficiency = Ratio(0, candidate, options_.choose_confidence);
+    out.with_all_pixels =
+        stat::EfficiencyRatio(records_[0].all, records_[candidate].all, 0.5).value;
+  }
+
+  Interval Ratio(std::size_t baseline, std::size_t other, double confidence) const {
+    return stat::EfficiencyRatio(records_[baseline].robust, records_[other].robust,
+                                 confidence);
+  }
+
+  double Score(std::size_t candidate) const {
+    return result_.candidates[candidate].Score();
+  }
+
+  // What is certainly worse than the best, and the lower half; never candidate 0.
+  void Drop() {
+    std::sort(alive_.begin(), alive_.end(), [&](std::size_t a, std::size_t b) {
+      return Score(a) != Score(b) ? Score(a) > Score(b) : a < b;
+    });
+    const std::size_t best = alive_.front(), half = (alive_.size() + 1) / 2;
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < alive_.size(); ++i) {
+      const std::size_t candidate = alive_[i];
+      CandidateOutcome& out = result_.candidates[candidate];
+      if (candidate == 0 || candidate == best) {
+        kept.push_back(candidate);
+      } else if (Ratio(best, candidate, options_.drop_confidence).high < 1) {
+        out.status = CandidateStatus::kWorse;
+      } else if (i >= half) {
+        out.status = CandidateStatus::kHalved;
+      } else {
+        kept.push_back(candidate);
+      }
+    }
+    // The default alone is left, or certainly worse than the only other one.
+    const bool settled = kept.size() == 2 && best != 0 &&
+                         Ratio(best, 0, options_.drop_confidence).high < 1;
+    for (std::size_t candidate : kept) {
+      result_.candidates[candidate].status = CandidateStatus::kKept;
+    }
+    std::sort(kept.begin(), kept.end());
+    alive_ =
+        settled || (best == 0 && CertainlyBest()) ? std::vector<std::size_t>{0} : kept;
+  }
+
+  // No other that is left can be better than the default by more than a little.
+  bool CertainlyBest() const {
+    constexpr double kLittle = 1.03;
+    return std::none_of(result_.candidates.begin() + 1, result_.candidates.end(),
+                        [&](const CandidateOutcome& c) {
+                          return c.status == CandidateStatus::kKept &&
+                                 !(c.efficiency.high < kLittle);
+                        });
+  }
+
+  bool IsBetter(std::size_t candidate) const {
+    const CandidateOutcome& c = result_.candidates[candidate];
+    return c.status == CandidateStatus::kKept && c.efficiency.low > 1 &&
+           c.Score() > 1 + margins_[candidate];
+  }
+
+  void Choose() {
+    for (std::size_t i = 1; i < margins_.size(); ++i) {
+      if (IsBetter(i) && (result_.chosen == 0 || Score(i) > Score(result_.chosen))) {
+        result_.chosen = i;
+      }
+    }
+    result_.candidates[result_.chosen].status = CandidateStatus::kChosen;
+    for (std::size_t i = 0; i < margins_.size(); ++i) Explain(i);
+  }
+
+  void Explain(std::size_t candidate) {
+    CandidateOutcome& c = result_.candidates[candidate];
+    const std::string after =
+        fmt::format("after {} round{}", c.rounds, c.rounds == 1 ? "" : "s");
+    if (c.status == CandidateStatus::kWorse) {
+      c.reason = "certainly less efficient than the best " + after;
+    } else if (c.status == CandidateStatus::kHalved) {
+      c.reason = "in the less efficient half " + after;
+    } else if (c.status == CandidateStatus::kChosen && candidate > 0) {
+      c.reason = "certainly more efficient than the default, " + after;
+    } else if (c.status == CandidateStatus::kChosen) {
+      c.reason = "no other is certainly more efficient";
+    } else if (c.status == CandidateStatus::kKept && candidate == 0) {
+      c.reason = "the default; another is certainly more efficient";
+    } else if (c.status == CandidateStatus::kKept) {
+      c.reason = IsBetter(candidate) ? "better than the default, but not the best"
+                                     : "not certainly better than the default";
+    }
+  }
+
+  const std::vector<double>& margins_;
+  const MeasureRound& measure_;
+  const HalvingOptions& options_;
+  std::vector<Record> records_;
+  std::vector<std::size_t> alive_;
+  double window_seconds_ = 0;
+  HalvingResult result_;
+};
+
+}  // namespace
+
+const char* Name(CandidateStatus status) {
+  switch (status) {
+    case CandidateStatus::kChosen:
+      return "chosen";
+    case CandidateStatus::kKept:
+      return "kept";
+    case CandidateStatus::kWorse:
+      return "worse";
+    case CandidateStatus::kHalved:
+      return "halved";
+    case CandidateStatus::kSkipped:
+      return "skipped";
+    case CandidateStatus::kRefused:
+      return "refused";
+  }
+  return "";
+}
+
+double CandidateOutcome::Score() const {
+  return std::min(efficiency.value, with_all_pixels);
+}
+
+HalvingResult Halve(const std::vector<double>& margins, const MeasureRound& measure,
+                    const HalvingOptions& options) {
+  return Halving(margins, measure, options).Run();
+}
+
+}  // namespace lanelight
