@@ -1,5 +1,7 @@
 #include "src/study/advise_candidates.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "src/strategy/use_strategy.h"
@@ -12,12 +14,15 @@ namespace {
 // both is never much worse than either (Veach and Guibas 1995), one alone can be.
 constexpr double kRareSamples = 0.15;
 
+// A quad is two lights; a tree over so few finds no more than their power says.
+constexpr std::size_t kFewLights = 4;
+
 constexpr CandidateInfo kCandidates[] = {
     {"roulette=none", "pays where paths are short or end late on bright lights", 0},
     {"roulette=adjoint", "pays where little of the scene carries the light", 0.03},
-    {"roulette=luminance", "shorter paths; pays where deep paths matter little", 0},
     {"directions=bsdf", "no shadow rays; pays under large, even lights", kRareSamples},
     {"light-selection=tree", "pays with many lights, each near a part of the scene", 0},
+    {"roulette=luminance", "shorter paths; pays where deep paths matter little", 0},
     {"points=pmj02", "as sobol, and cheaper on some machines", 0},
     {"directions=light", "no weights; pays for small lights and rough surfaces",
      kRareSamples},
@@ -29,8 +34,9 @@ constexpr CandidateInfo kCandidates[] = {
 std::string Refusal(const Strategy& strategy, const PlanOptions& options,
                     CompiledScene& scene) {
   if (strategy.light_selection == LightSelection::kTree &&
-      scene.lights.lights.size() < 2) {
-    return "fewer than two lights: nothing to select";
+      scene.lights.lights.size() < kFewLights) {
+    return fmt::format("with {} lights there is little to select",
+                       scene.lights.lights.size());
   }
   try {
     UseStrategy(strategy, scene);

@@ -7,11 +7,40 @@
 #include <cmath>
 
 #include "src/core/check.h"
+#include "src/stat/hypothesis.h"
 
 namespace lanelight {
 namespace {
 
 using stat::Cost;
+
+constexpr int kWarmUpWindows = 2;
+
+// Means of at most 16 blocks of consecutive windows. Consecutive windows cover the image,
+// so that what is shown in them scatters less from block to block; and means of many are
+// nearer to normal, and quicker to resample.
+std::vector<Cost> Blocks(const std::vector<Cost>& windows) {
+  const std::size_t n = windows.size(), count = std::min<std::size_t>(n, 16);
+  std::vector<Cost> blocks(count);
+  std::vector<double> sizes(count);
+  for (std::size_t i = 0; i < n; ++i) sizes[i * count / n] += 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t block = i * count / n;
+    blocks[block].error += windows[i].error / sizes[block];
+    blocks[block].seconds += windows[i].seconds / sizes[block];
+  }
+  return blocks;
+}
+
+// Error times seconds.
+double Product(const std::vector<Cost>& windows) {
+  double error = 0, seconds = 0;
+  for (const Cost& c : windows) {
+    error += c.error;
+    seconds += c.seconds;
+  }
+  return error * seconds;
+}
 
 class Halving {
  public:
@@ -41,30 +70,37 @@ class Halving {
 
   double Left() const { return options_.seconds - result_.seconds; }
 
-  // The first windows fill caches and show what a window takes; they do not count.
+  // The first windows fill caches; the next show what a window takes. They do not count.
   bool WarmUp() {
-    double elapsed = 0;
-    const bool good = !measure_({0}, 2, elapsed).empty();
-    result_.seconds += elapsed;
-    result_.interrupted |= !good;
-    window_seconds_ = elapsed / 2;
-    return good;
+    for (int i = 0; i < 2; ++i) {
+      double elapsed = 0;
+      result_.interrupted = measure_({0}, kWarmUpWindows, elapsed).empty();
+      if (result_.interrupted) return false;
+      result_.seconds += elapsed;
+      window_seconds_ = std::max(elapsed / kWarmUpWindows, 1e-9);
+    }
+    return true;
   }
 
   static int RoundsFor(std::size_t candidates) {
     return std::max(1, static_cast<int>(std::bit_width(candidates - 1)));
   }
 
+  // An equal share for each round to come; at least what a candidate needs, as long as a
+  // round of that leaves as much again.
   std::size_t WindowsFor(std::size_t candidates) const {
-    const double each = Left() / RoundsFor(candidates) / static_cast<double>(candidates);
-    const double windows = each / std::max(window_seconds_, 1e-9);
+    const double affordable =
+        std::max(0.0, Left()) / (window_seconds_ * static_cast<double>(candidates));
+    const double share = affordable / RoundsFor(candidates);
+    const double least = static_cast<double>(options_.least_windows);
+    if (share < least && affordable < 2 * least) return 0;
     return static_cast<std::size_t>(
-        std::clamp(windows, 0.0, static_cast<double>(options_.most_windows)));
+        std::clamp(share, least, static_cast<double>(options_.most_windows)));
   }
 
   // As many, from the front, as can each have the least number of windows.
   bool AdmitCandidates() {
-    while (alive_.size() > 1 && WindowsFor(alive_.size()) < options_.least_windows) {
+    while (alive_.size() > 1 && WindowsFor(alive_.size()) == 0) {
       result_.candidates[alive_.back()].reason = "the pilot's time did not reach it";
       alive_.pop_back();
     }
@@ -73,7 +109,7 @@ class Halving {
 
   bool Round() {
     const std::size_t windows = WindowsFor(alive_.size());
-    if (windows < options_.least_windows) return false;
+    if (windows == 0) return false;
     double elapsed = 0;
     const std::vector<WindowErrors> measured = measure_(alive_, windows, elapsed);
     result_.seconds += elapsed;
@@ -98,13 +134,13 @@ class Halving {
     out.rounds += 1;
     out.windows = records_[candidate].all.size();
     out.efficiency = Ratio(0, candidate, options_.choose_confidence);
-    out.with_all_pixels =
-        stat::EfficiencyRatio(records_[0].all, records_[candidate].all, 0.5).value;
+    out.with_all_pixels = Product(records_[0].all) / Product(records_[candidate].all);
+    if (std::isnan(out.with_all_pixels)) out.with_all_pixels = 1;  // no error in either
   }
 
   Interval Ratio(std::size_t baseline, std::size_t other, double confidence) const {
-    return stat::EfficiencyRatio(records_[baseline].robust, records_[other].robust,
-                                 confidence);
+    return stat::EfficiencyRatio(Blocks(records_[baseline].robust),
+                                 Blocks(records_[other].robust), confidence);
   }
 
   double Score(std::size_t candidate) const {
@@ -116,6 +152,8 @@ class Halving {
     std::sort(alive_.begin(), alive_.end(), [&](std::size_t a, std::size_t b) {
       return Score(a) != Score(b) ? Score(a) > Score(b) : a < b;
     });
+    const double sure = 1 - stat::SidakLevel(1 - options_.drop_confidence,
+                                             std::max(1, int(alive_.size()) - 1));
     const std::size_t best = alive_.front(), half = (alive_.size() + 1) / 2;
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < alive_.size(); ++i) {
@@ -123,7 +161,7 @@ class Halving {
       CandidateOutcome& out = result_.candidates[candidate];
       if (candidate == 0 || candidate == best) {
         kept.push_back(candidate);
-      } else if (Ratio(best, candidate, options_.drop_confidence).high < 1) {
+      } else if (Ratio(best, candidate, sure).high < 1) {
         out.status = CandidateStatus::kWorse;
       } else if (i >= half) {
         out.status = CandidateStatus::kHalved;
@@ -132,8 +170,7 @@ class Halving {
       }
     }
     // The default alone is left, or certainly worse than the only other one.
-    const bool settled = kept.size() == 2 && best != 0 &&
-                         Ratio(best, 0, options_.drop_confidence).high < 1;
+    const bool settled = kept.size() == 2 && best != 0 && Ratio(best, 0, sure).high < 1;
     for (std::size_t candidate : kept) {
       result_.candidates[candidate].status = CandidateStatus::kKept;
     }

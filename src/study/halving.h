@@ -28,9 +28,10 @@ using MeasureRound = std::function<std::vector<WindowErrors>(
 struct HalvingOptions {
   double seconds = 0;  // budget for all rounds
   /// Fewer windows say nothing of a candidate: rather leave candidates out.
-  std::size_t least_windows = 6;
+  std::size_t least_windows = 8;
   std::size_t most_windows = 256;  // in a round
-  double drop_confidence = 0.95;   // that a candidate is worse than the best
+  /// That a candidate is worse than the best, for all claims of a round together.
+  double drop_confidence = 0.95;
   /// That the chosen one is better than candidate 0, two-sided. Lower: a wrong change
   /// costs no more than a missed one.
   double choose_confidence = 0.8;
