@@ -25,9 +25,8 @@ struct AdvisedCandidate {
 };
 
 struct Advice {
-  /// The renderer's default first, then the scene's own strategy if that is another, then
-  /// changes of one axis of the default, then combinations of changes that were better
-  /// alone.
+  /// The renderer's default first, then changes of one axis of it, among them the scene's
+  /// own strategy, then combinations of changes that were better alone.
   std::vector<AdvisedCandidate> candidates;
   Strategy chosen;
   std::string why;           // one sentence

@@ -17,6 +17,9 @@ constexpr double kRareSamples = 0.15;
 // A quad is two lights; a tree over so few finds no more than their power says.
 constexpr std::size_t kFewLights = 4;
 
+// After the changes that gain most where they gain: a short pilot reaches these only.
+constexpr std::ptrdiff_t kPlaceOfOwn = 3;
+
 constexpr CandidateInfo kCandidates[] = {
     {"roulette=none", "pays where paths are short or end late on bright lights", 0},
     {"roulette=adjoint", "pays where little of the scene carries the light", 0.03},
@@ -66,19 +69,19 @@ Strategy Changed(const Strategy& strategy, const std::string& changes) {
 std::vector<Candidate> CandidatesFor(CompiledScene& scene, const PlanOptions& options) {
   const Strategy own = scene.strategy, usual;
   std::vector<Candidate> out = {{usual, "", "the renderer's default", 0, ""}};
-  if (own != usual) {
-    out.push_back({own, ToText(own), kOwnStrategy, 0, ""});
-  }
   for (const CandidateInfo& info : kCandidates) {
     const Strategy changed = Changed(usual, info.changes);
     if (changed == own) continue;
     out.push_back({changed, info.changes, info.reason, info.margin, ""});
   }
+  if (own != usual) {
+    out.insert(out.begin() + kPlaceOfOwn, {own, ToText(own), kOwnStrategy, 0, ""});
+  }
   for (Candidate& candidate : out) {
     candidate.refused = Refusal(candidate.strategy, options, scene);
   }
   // A comparison needs its first.
-  if (!out.front().refused.empty()) std::swap(out[0], out[1]);
+  if (!out.front().refused.empty()) std::swap(out[0], out[kPlaceOfOwn]);
   UseStrategy(own, scene);
   return out;
 }

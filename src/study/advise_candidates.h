@@ -36,9 +36,9 @@ struct Candidate {
   std::string refused;  // why the scene does not take it; empty if it does
 };
 
-/// The renderer's default first, then the scene's own strategy if that is another, then
-/// the list. `options`: of the plans that are tried. `scene` ends with its own strategy.
-/// (If the scene refused the default, its own would be first.)
+/// The renderer's default first, then the list, and the scene's own strategy within it if
+/// that is another. `options`: of the plans that are tried. `scene` ends with its own
+/// strategy. (If the scene refused the default, its own would be first.)
 std::vector<Candidate> CandidatesFor(CompiledScene& scene, const PlanOptions& options);
 
 /// The axis of a change: "roulette" of "roulette=none".

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include "src/core/check.h"
 #include "src/stat/hypothesis.h"
@@ -19,7 +20,7 @@ constexpr int kWarmUpWindows = 2;
 // Means of at most 16 blocks of consecutive windows. Consecutive windows cover the image,
 // so that what is shown in them scatters less from block to block; and means of many are
 // nearer to normal, and quicker to resample.
-std::vector<Cost> Blocks(const std::vector<Cost>& windows) {
+std::vector<Cost> Blocks(std::span<const Cost> windows) {
   const std::size_t n = windows.size(), count = std::min<std::size_t>(n, 16);
   std::vector<Cost> blocks(count);
   std::vector<double> sizes(count);
@@ -33,7 +34,7 @@ std::vector<Cost> Blocks(const std::vector<Cost>& windows) {
 }
 
 // Error times seconds.
-double Product(const std::vector<Cost>& windows) {
+double Product(std::span<const Cost> windows) {
   double error = 0, seconds = 0;
   for (const Cost& c : windows) {
     error += c.error;
@@ -52,12 +53,17 @@ class Halving {
         records_(margins.size()) {
     LL_CHECK(!margins.empty());
     result_.candidates.resize(margins.size());
-    for (std::size_t i = 0; i < margins.size(); ++i) alive_.push_back(i);
+    for (std::size_t i = 1; i < margins.size(); ++i) waiting_.push_back(i);
   }
 
   HalvingResult Run() {
-    if (margins_.size() > 1 && WarmUp() && AdmitCandidates()) {
-      while (alive_.size() > 1 && Round()) Drop();
+    if (!waiting_.empty() && WarmUp()) {
+      while (!result_.interrupted && Admit()) {
+        while (alive_.size() > 1 && Round()) Drop();
+      }
+    }
+    for (std::size_t i : waiting_) {
+      result_.candidates[i].reason = "the pilot's time did not reach it";
     }
     Choose();
     return result_;
@@ -65,6 +71,7 @@ class Halving {
 
  private:
   struct Record {
+    std::size_t first = 0;  // candidate 0 had so many windows before
     std::vector<Cost> all, robust;
   };
 
@@ -98,16 +105,33 @@ class Halving {
         std::clamp(share, least, static_cast<double>(options_.most_windows)));
   }
 
-  // As many, from the front, as can each have the least number of windows.
-  bool AdmitCandidates() {
-    while (alive_.size() > 1 && WindowsFor(alive_.size()) == 0) {
-      result_.candidates[alive_.back()].reason = "the pilot's time did not reach it";
-      alive_.pop_back();
+  // Candidate 0 and, from the front, as many of those that wait as can each have the
+  // least number of windows.
+  bool Admit() {
+    std::size_t count = waiting_.size();
+    while (count > 0 && WindowsFor(count + 1) == 0) --count;
+    const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(count);
+    alive_.assign(waiting_.begin(), end);
+    waiting_.erase(waiting_.begin(), end);
+    for (std::size_t i : alive_) records_[i].first = records_[0].all.size();
+    alive_.insert(alive_.begin(), 0);
+    return count > 0;
+  }
+
+  // The worst ones go while there is no time for another round of all.
+  void MakeRoom() {
+    while (alive_.size() > 2 && WindowsFor(alive_.size()) == 0) {
+      const auto worst = std::min_element(
+          alive_.begin() + 1, alive_.end(),
+          [&](std::size_t a, std::size_t b) { return Score(a) < Score(b); });
+      if (result_.candidates[*worst].rounds == 0) return;
+      result_.candidates[*worst].status = CandidateStatus::kHalved;
+      alive_.erase(worst);
     }
-    return alive_.size() > 1;
   }
 
   bool Round() {
+    MakeRoom();
     const std::size_t windows = WindowsFor(alive_.size());
     if (windows == 0) return false;
     double elapsed = 0;
@@ -134,13 +158,21 @@ class Halving {
     out.rounds += 1;
     out.windows = records_[candidate].all.size();
     out.efficiency = Ratio(0, candidate, options_.choose_confidence);
-    out.with_all_pixels = Product(records_[0].all) / Product(records_[candidate].all);
+    const Record& own = records_[candidate];
+    out.with_all_pixels = Product(Since(records_[0].all, own.first)) / Product(own.all);
     if (std::isnan(out.with_all_pixels)) out.with_all_pixels = 1;  // no error in either
   }
 
+  static std::span<const Cost> Since(const std::vector<Cost>& costs, std::size_t first) {
+    return std::span(costs).subspan(first);
+  }
+
+  // On the windows that both had: candidate 0, or one that came at the same time.
   Interval Ratio(std::size_t baseline, std::size_t other, double confidence) const {
-    return stat::EfficiencyRatio(Blocks(records_[baseline].robust),
-                                 Blocks(records_[other].robust), confidence);
+    const Record &a = records_[baseline], &b = records_[other];
+    const std::size_t first = std::max(a.first, b.first);
+    return stat::EfficiencyRatio(Blocks(Since(a.robust, first - a.first)),
+                                 Blocks(Since(b.robust, first - b.first)), confidence);
   }
 
   double Score(std::size_t candidate) const {
@@ -229,7 +261,7 @@ class Halving {
   const MeasureRound& measure_;
   const HalvingOptions& options_;
   std::vector<Record> records_;
-  std::vector<std::size_t> alive_;
+  std::vector<std::size_t> waiting_, alive_;
   double window_seconds_ = 0;
   HalvingResult result_;
 };

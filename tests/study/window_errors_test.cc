@@ -95,8 +95,8 @@ TEST_CASE("candidates that a scene refuses say why", "[study]") {
   CHECK(job.scene.strategy == own);
   CHECK(candidates[0].strategy == Strategy());
   CHECK(candidates[0].changes.empty());
-  CHECK(candidates[1].strategy == own);
-  CHECK(Changed({}, candidates[1].changes) == own);
+  CHECK(candidates[3].strategy == own);
+  CHECK(Changed({}, candidates[3].changes) == own);
   int refused = 0;
   for (const Candidate& c : candidates) {
     refused += !c.refused.empty();
