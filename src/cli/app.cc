@@ -23,6 +23,7 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "\nExamples:\n"
     "  lanelight render scenes/cornell-box.pbrt -o box.exr --png --spp 256\n"
+    "  lanelight advise scenes/cornell-box.pbrt --time 60 -o box.exr\n"
     "  lanelight plan scenes/glass.pbrt\n"
     "  lanelight strategies\n"
     "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
@@ -99,6 +100,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   root.set_version_flag("--version", "lanelight " LANELIGHT_VERSION);
   root.require_subcommand(1);
   AddRenderCommand(root, exit_code);
+  AddAdviseCommand(root, exit_code);
   AddPlanCommand(root, exit_code);
   AddInfoCommand(root, exit_code);
   AddStrategiesCommand(root, exit_code);

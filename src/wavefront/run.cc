@@ -54,14 +54,14 @@ class Runner {
         tables_(MakeStrategyTables(scene)) {
     run_ = Parameters();
     const PixelRect pixels = RenderedPixels(scene.film);
-    partition_ = MakePartition(pixels, options.spp > 0 ? options.spp : kOpenEndedSpp);
+    pixel_count_ = std::uint64_t(pixels.width()) * pixels.height();
+    UseTiles(pixels);
     // A pair must not straddle two tasks.
     if (scene.strategy.pairs == Pairs::kAntithetic)
       partition_.samples += partition_.samples & 1;
     planes_ = kColorPlanes + (film.has_aov() ? kAovPlanes : 0);
     UseControl();
     workspaces_.resize(static_cast<std::size_t>(MaxThreads()) + 1);
-    pixel_count_ = std::uint64_t(pixels.width()) * pixels.height();
   }
 
   RunResult Run() {
@@ -84,7 +84,9 @@ class Runner {
   void PreparePaths() {
     PilotOptions options;
     options.planned_samples =
-        pixel_count_ * (options_.spp > 0 ? options_.spp : kOpenEndedSpp);
+        options_.planned_samples > 0
+            ? options_.planned_samples
+            : pixel_count_ * (options_.spp > 0 ? options_.spp : kOpenEndedSpp);
     options.keep_roulette = options_.keep_roulette;
     options.stop = options_.stop;
     pilot_ = RunPilot(scene_, plan_, run_, options, tables_);
@@ -125,6 +127,31 @@ class Runner {
     return run;
   }
 
+  void UseTiles(const PixelRect& pixels) {
+    const std::uint64_t spp = options_.spp > 0 ? options_.spp : kOpenEndedSpp;
+    const std::vector<PixelRect>& windows = options_.windows;
+    if (windows.empty()) {
+      partition_ = MakePartition(pixels, spp);
+      return;
+    }
+    partition_ = MakePartition(windows.front(), spp);
+    LL_CHECK_EQ(partition_.tiles.size(), 1u);
+    partition_.tiles = windows;
+    pixel_count_ = 0;
+    for (const PixelRect& w : windows) {
+      LL_CHECK(w.width() == windows[0].width() && w.height() == windows[0].height());
+      pixel_count_ += std::uint64_t(w.width()) * w.height();
+    }
+  }
+
+  // Where the pixels of a tile lie in the film.
+  PixelRect Place(std::size_t tile) const {
+    const PixelRect& t = partition_.tiles[tile];
+    if (options_.windows.empty()) return t;
+    const int x = static_cast<int>(tile) * t.width();
+    return {x, 0, x + t.width(), t.height()};
+  }
+
   // Control variates whose coefficients come from the samples take further planes.
   void UseControl() {
     if (plan_.features.Has(Feature::kControlDifference)) {
@@ -161,7 +188,7 @@ class Runner {
       if (Stopped()) return;
       TaskSamples& out = ThreadWorkspace().samples;
       RunTask(partition_.tiles[tile], first_sample, limit, out);
-      Merge(partition_.tiles[tile], out);
+      Merge(Place(tile), out);
     });
   }
 
@@ -180,7 +207,7 @@ class Runner {
       // Stops at the first range that did not run: later ones would leave a gap.
       for (std::uint32_t c = 0; c < chunks && buffers_[tile * chunks + c].count > 0;
            ++c) {
-        Merge(partition_.tiles[tile], buffers_[tile * chunks + c]);
+        Merge(Place(tile), buffers_[tile * chunks + c]);
       }
     });
   }
@@ -222,21 +249,24 @@ class Runner {
   }
 
   void Merge(const PixelRect& tile, TaskSamples& task) {
+    // Row length behind the indices of the film's pixels.
+    const int width = options_.windows.empty() ? scene_.film.width : film_.width();
     std::vector<std::uint32_t> pixels;
-    TilePixels(tile, scene_.film.width, &pixels);
+    TilePixels(tile, width, &pixels);
     const std::size_t stride = pixels.size() * task.count;
     if (regression_) {
       const auto num_pixels = static_cast<std::uint32_t>(pixels.size());
-      regression_->Correct({tile.x0, tile.y0, tile.x1, tile.y1, pixels.data(), num_pixels,
-                            run_.width, task.values.data(), task.count},
-                           numbers_plane_);
+      regression_->Correct(
+          {tile.x0, tile.y0, tile.x1, tile.y1, pixels.data(), num_pixels,
+           static_cast<std::uint32_t>(width), task.values.data(), task.count},
+          numbers_plane_);
     }
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const float* planes[kMostPlanes];
       for (int p = 0; p < planes_; ++p)
         planes[p] = task.values.data() + p * stride + i * task.count;
-      film_.AddSamples(static_cast<int>(pixels[i] % run_.width),
-                       static_cast<int>(pixels[i] / run_.width), planes, task.count);
+      film_.AddSamples(static_cast<int>(pixels[i]) % width,
+                       static_cast<int>(pixels[i]) / width, planes, task.count);
     }
   }
 

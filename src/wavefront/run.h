@@ -11,6 +11,7 @@
 
 #include "src/image/accumulator.h"
 #include "src/wavefront/plan.h"
+#include "src/wavefront/tiles.h"
 
 namespace lanelight {
 
@@ -29,6 +30,12 @@ struct RunOptions {
   bool profile = true;                               // time every stage call
   /// roulette=efficiency keeps its rule even where the pilot passes prefer another.
   bool keep_roulette = false;
+  /// Renders these windows of the image only, all of the same width and height, up to 64.
+  /// The film is then a strip in which they lie side by side, in order, from (0, 0) on.
+  /// They have the samples that a render of the whole image gives these pixels.
+  std::vector<PixelRect> windows;
+  /// What pilot passes are sized for; 0: the samples of this run.
+  std::uint64_t planned_samples = 0;
 };
 
 struct StageProfile {
@@ -62,7 +69,8 @@ struct RunResult {
   Roulette roulette = Roulette::kThroughput;  // that the image was rendered with
 };
 
-/// Renders into `film` (its size must match the crop window of the scene).
+/// Renders into `film` (its size must match the crop window of the scene, or the strip of
+/// options.windows).
 RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 

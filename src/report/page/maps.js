@@ -84,7 +84,9 @@ function tileMap(view) {
 }
 
 function tilePicture(view, s, reference) {
-  const { columns, rows, z, side } = s.tiles;
+  const { columns, rows, z } = s.tiles;
+  // Images of a large study are smaller in the page than in the tiles' pixels.
+  const side = s.tiles.side / (view.scene.report_scale || 1);
   const failed = new Set(s.tiles.failed || []);
   // As large as the images, so that the maps lie side by side; the last tiles may be cut.
   const width = reference ? reference.width : columns * side;

@@ -1,0 +1,117 @@
+// `lanelight advise SCENE --time S`: which strategy pays on this scene, and the render
+// with it.
+#include <memory>
+
+#include "kernels/simd/target.h"
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
+#include "src/cli/interrupt.h"
+#include "src/cli/progress.h"
+#include "src/cli/render_outputs.h"
+#include "src/cli/scene_options.h"
+#include "src/cli/validators.h"
+#include "src/core/parallel.h"
+#include "src/render/report.h"
+#include "src/study/advise.h"
+#include "src/study/advise_candidates.h"
+
+namespace lanelight {
+namespace {
+
+struct AdviseCommandOptions {
+  SceneOptions scene;
+  RenderOutputs outputs;
+  double seconds = 0;
+};
+
+std::string EfficiencyText(const AdvisedCandidate& c) {
+  if (c.outcome.rounds == 0) return "";
+  const Interval& e = c.outcome.efficiency;
+  if (!e.HasBounds()) return fmt::format("{:.3g}", e.value);
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", e.value, e.low, e.high);
+}
+
+std::string AdviceText(const Advice& advice) {
+  std::string text =
+      fmt::format("{:<44} {:<22} {:<8} {}\n", "change", "efficiency", "status", "reason");
+  for (const AdvisedCandidate& c : advice.candidates) {
+    const std::string changes = c.changes.empty()           ? "(the default)"
+                                : c.meaning == kOwnStrategy ? "(the scene's own)"
+                                                            : c.changes;
+    text +=
+        fmt::format("{:<44} {:<22} {:<8} {}{}\n", changes, EfficiencyText(c),
+                    Name(c.outcome.status), c.outcome.reason,
+                    c.relative_to.empty() ? "" : " (relative to " + c.relative_to + ")");
+  }
+  return text + fmt::format("\nadvice     {}\nstrategy   {}\npilot      {}\n", advice.why,
+                            ToText(advice.chosen), DurationText(advice.pilot_seconds));
+}
+
+// The command that renders as the advice says.
+std::string RenderCommand(const AdviseCommandOptions& options, const Advice& advice) {
+  return fmt::format("lanelight render {} -o FILE.exr --time {:g} --strategy {}",
+                     options.scene.scene, options.seconds, ToText(advice.chosen));
+}
+
+int PrintAdvice(const AdviseCommandOptions& options, const Advice& advice) {
+  if (!options.outputs.quiet && options.outputs.json != "-") {
+    Print(AdviceText(advice) + "render     " + RenderCommand(options, advice) + "\n");
+  }
+  const nlohmann::json report = {{"schema", kReportSchema},
+                                 {"scene", options.scene.scene},
+                                 {"advice", ToJson(advice)}};
+  return SaveJson(options.outputs, report) ? kExitGood : kExitBadInput;
+}
+
+int RunAdvise(AdviseCommandOptions& options) {
+  ForceTarget(options.scene.target);
+  const ThreadLimit threads(options.scene.threads);
+  CheckOutputs(options.outputs, options.scene.scene);
+  options.scene.settings.seconds = options.seconds;
+  Job job = PrepareJob(options.scene.scene, options.scene.settings);
+  if (!options.outputs.quiet) PrintNotes(job);
+  const InterruptGuard interrupt;
+  AdviceOptions advise;
+  advise.seconds = options.seconds;
+  advise.stop = &interrupt.stop();
+  const Advice advice = Advise(job, advise);
+  if (options.outputs.exr.empty()) return PrintAdvice(options, advice);
+  return RenderToOutputs(options.outputs, options.scene.scene, job, interrupt.stop(),
+                         {AdviceText(advice) + "\n", {{"advice", ToJson(advice)}}});
+}
+
+}  // namespace
+
+void AddAdviseCommand(CLI::App& root, int& exit_code) {
+  CLI::App* command = root.add_subcommand(
+      "advise", "Find the strategy with the least error for the time, render with it");
+  auto options = std::make_shared<AdviseCommandOptions>();
+  command->add_option("--time", options->seconds, "Seconds for pilot and render together")
+      ->required()
+      ->check(FiniteRange(1e-3, 1e9))
+      ->type_name("SECONDS");
+  command
+      ->add_option("--seed", options->scene.settings.seed, "Seed of the random numbers")
+      ->type_name("S");
+  AddOutputOptions(*command, options->outputs, false);
+  AddSceneOptions(*command, options->scene);
+  command->footer(
+      "\nThe pilot takes about a twentieth of the time. It compares changes of the "
+      "default\n"
+      "strategy, and the scene's own (or --strategy), on small windows of the image; "
+      "what is not certainly\n"
+      "better is not advised. Without -o only the advice is printed.\n"
+      "\nExamples:\n"
+      "  lanelight advise scene.pbrt --time 60\n"
+      "  lanelight advise scene.pbrt --time 60 -o out.exr --json advice.json");
+  command->callback([options, &exit_code] {
+    if (options->outputs.exr.empty() && options->outputs.png_flag->count() > 0) {
+      throw CLI::ValidationError("--png", "needs an image: name it with -o FILE.exr");
+    }
+    ResolvePng(options->outputs);
+    exit_code = RunAdvise(*options);
+  });
+}
+
+}  // namespace lanelight

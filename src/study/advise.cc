@@ -1,0 +1,190 @@
+#include "src/study/advise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "src/core/check.h"
+#include "src/strategy/run_parameters.h"
+#include "src/strategy/use_strategy.h"
+#include "src/study/advise_candidates.h"
+#include "src/study/window_errors.h"
+
+namespace lanelight {
+namespace {
+
+// Of the pilot's time; the rest is for combinations of changes.
+constexpr double kSingleChanges = 0.7;
+// Changes that may be worth combining.
+constexpr double kPromising = 1.03;
+constexpr std::size_t kMostCombinations = 2;
+
+class Adviser {
+ public:
+  Adviser(Job& job, const AdviceOptions& options) : job_(job), options_(options) {
+    LL_CHECK(options.seconds > 0 && options.share > 0 && options.share < 1);
+  }
+
+  Advice Run() {
+    const auto start = std::chrono::steady_clock::now();
+    const double budget = options_.share * options_.seconds;
+    std::vector<Candidate> all = CandidatesFor(job_.scene, job_.plan.options);
+    const std::size_t single = Compare(all, budget * kSingleChanges, "");
+    Candidate best = all[single];
+    if (single > 0 && !advice_.interrupted) {
+      std::vector<Candidate> combined = Combinations(all, best);
+      const double left = budget - advice_.pilot_seconds;
+      if (combined.size() > 1) best = combined[Compare(combined, left, best.changes)];
+    }
+    advice_.chosen = best.strategy;
+    advice_.why = Why(best);
+    Use(best.strategy);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    advice_.pilot_seconds = taken.count();
+    job_.seconds = std::max(options_.seconds - taken.count(), 0.01 * options_.seconds);
+    return advice_;
+  }
+
+ private:
+  // Runs the pilot over those that the scene takes, the first being the default; returns
+  // the index of the best and appends all of them to the advice.
+  std::size_t Compare(const std::vector<Candidate>& all, double seconds,
+                      const std::string& relative_to) {
+    std::vector<std::size_t> taken;
+    std::vector<Strategy> strategies;
+    std::vector<double> margins;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!all[i].refused.empty()) continue;
+      taken.push_back(i);
+      strategies.push_back(all[i].strategy);
+      margins.push_back(all[i].margin);
+    }
+    HalvingOptions halving;
+    halving.seconds = seconds;
+    const HalvingResult result =
+        Halve(margins, WindowRenderer(job_, strategies, options_.stop), halving);
+    advice_.pilot_seconds += result.seconds;
+    advice_.interrupted |= result.interrupted;
+    // The first of a second comparison is in the advice already.
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      CandidateOutcome outcome;
+      outcome.status = CandidateStatus::kRefused;
+      outcome.reason = all[i].refused;
+      if (next < taken.size() && taken[next] == i) outcome = result.candidates[next++];
+      if (i == 0 && !relative_to.empty()) continue;
+      advice_.candidates.push_back({ToText(all[i].strategy), all[i].changes,
+                                    all[i].meaning, outcome, relative_to});
+    }
+    const std::size_t best = taken[result.chosen];
+    if (best > 0 && !relative_to.empty()) Demote(relative_to);
+    return best;
+  }
+
+  // The best single change gives way to a combination.
+  void Demote(const std::string& changes) {
+    for (AdvisedCandidate& c : advice_.candidates) {
+      if (c.changes != changes) continue;
+      c.outcome.status = CandidateStatus::kKept;
+      c.outcome.reason = "a combination with another change is certainly more efficient";
+    }
+  }
+
+  // The winner, and with it the changes of other axes that looked better than none.
+  std::vector<Candidate> Combinations(const std::vector<Candidate>& all,
+                                      const Candidate& winner) {
+    std::vector<std::pair<double, std::size_t>> others;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      const CandidateOutcome& outcome = advice_.candidates[i].outcome;
+      if (outcome.rounds == 0 || AxisOf(all[i].changes) == AxisOf(winner.changes)) {
+        continue;
+      }
+      const double score = outcome.Score();
+      if (score > kPromising + all[i].margin) others.emplace_back(-score, i);
+    }
+    std::sort(others.begin(), others.end());
+    if (others.size() > kMostCombinations) others.resize(kMostCombinations);
+    std::vector<Candidate> out = {winner};
+    for (const auto& [score, i] : others) {
+      Candidate both = all[i];
+      both.strategy = Changed(winner.strategy, all[i].changes);
+      both.changes = winner.changes + "," + all[i].changes;
+      out.push_back(both);
+    }
+    return out;
+  }
+
+  std::string Why(const Candidate& best) const {
+    if (advice_.interrupted) return "the pilot was interrupted";
+    const auto measured = [](const AdvisedCandidate& c) { return c.outcome.rounds > 0; };
+    if (std::none_of(advice_.candidates.begin(), advice_.candidates.end(), measured)) {
+      return "the pilot's time was too short to compare strategies: the default";
+    }
+    if (best.changes.empty()) {
+      return "no change is certainly more efficient than the default strategy";
+    }
+    for (const AdvisedCandidate& c : advice_.candidates) {
+      if (c.changes != best.changes) continue;
+      const Interval& e = c.outcome.efficiency;
+      return fmt::format("{} is {:.3g} [{:.3g}, {:.3g}] times as efficient as {} ({})",
+                         best.changes, e.value, e.low, e.high,
+                         c.relative_to.empty() ? "the default strategy" : c.relative_to,
+                         best.meaning);
+    }
+    return "";
+  }
+
+  void Use(const Strategy& strategy) {
+    UseStrategy(strategy, job_.scene);
+    job_.plan = MakePlan(job_.scene, job_.plan.options);
+    job_.spp = 0;
+    job_.group_size = GroupSize(strategy, job_.spp);
+  }
+
+  Job& job_;
+  const AdviceOptions& options_;
+  Advice advice_;
+};
+
+nlohmann::json Finite(double x) {
+  return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr);
+}
+
+}  // namespace
+
+Advice Advise(Job& job, const AdviceOptions& options) {
+  return Adviser(job, options).Run();
+}
+
+nlohmann::json ToJson(const Advice& advice) {
+  nlohmann::json candidates = nlohmann::json::array();
+  for (const AdvisedCandidate& c : advice.candidates) {
+    const Interval& e = c.outcome.efficiency;
+    nlohmann::json efficiency = nullptr;
+    if (c.outcome.rounds > 0) {
+      efficiency = {
+          {"value", Finite(e.value)}, {"low", Finite(e.low)}, {"high", Finite(e.high)}};
+    }
+    candidates.push_back({{"strategy", c.strategy},
+                          {"changes", c.changes},
+                          {"meaning", c.meaning},
+                          {"status", Name(c.outcome.status)},
+                          {"reason", c.outcome.reason},
+                          {"efficiency", efficiency},
+                          {"efficiency_all_pixels",
+                           c.outcome.rounds > 0 ? Finite(c.outcome.with_all_pixels)
+                                                : nlohmann::json(nullptr)},
+                          {"relative_to", c.relative_to},
+                          {"rounds", c.outcome.rounds},
+                          {"windows", c.outcome.windows}});
+  }
+  return {{"candidates", candidates},
+          {"chosen", ToText(advice.chosen)},
+          {"why", advice.why},
+          {"pilot_seconds", advice.pilot_seconds},
+          {"interrupted", advice.interrupted}};
+}
+
+}  // namespace lanelight

@@ -1,0 +1,89 @@
+#include "src/study/advise_candidates.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "src/strategy/use_strategy.h"
+
+namespace lanelight {
+namespace {
+
+// Samplers of directions differ most in rare bright samples: a light seen by one material
+// sample in a million, or a glossy lobe hit by one light sample in a thousand. Combining
+// both is never much worse than either (Veach and Guibas 1995), one alone can be.
+constexpr double kRareSamples = 0.15;
+
+// A quad is two lights; a tree over so few finds no more than their power says.
+constexpr std::size_t kFewLights = 4;
+
+// After the changes that gain most where they gain: a short pilot reaches these only.
+constexpr std::ptrdiff_t kPlaceOfOwn = 3;
+
+constexpr CandidateInfo kCandidates[] = {
+    {"roulette=none", "pays where paths are short or end late on bright lights", 0},
+    {"roulette=adjoint", "pays where little of the scene carries the light", 0.03},
+    {"directions=bsdf", "no shadow rays; pays under large, even lights", kRareSamples},
+    {"light-selection=tree", "pays with many lights, each near a part of the scene", 0},
+    {"roulette=luminance", "shorter paths; pays where deep paths matter little", 0},
+    {"points=pmj02", "as sobol, and cheaper on some machines", 0},
+    {"directions=light", "no weights; pays for small lights and rough surfaces",
+     kRareSamples},
+    {"control=ambient", "pays in the open, under an environment", 0},
+    {"control=analytic", "pays where little is shadowed", 0},
+};
+
+// Why the scene does not take the strategy; empty if it does.
+std::string Refusal(const Strategy& strategy, const PlanOptions& options,
+                    CompiledScene& scene) {
+  if (strategy.light_selection == LightSelection::kTree &&
+      scene.lights.lights.size() < kFewLights) {
+    return fmt::format("with {} lights there is little to select",
+                       scene.lights.lights.size());
+  }
+  try {
+    UseStrategy(strategy, scene);
+    MakePlan(scene, options);
+  } catch (const InputError& error) {
+    const std::string text = error.what(), prefix = "strategy: ";
+    const std::size_t at = text.find(prefix);
+    return at == std::string::npos ? text : text.substr(at + prefix.size());
+  }
+  return "";
+}
+
+}  // namespace
+
+std::span<const CandidateInfo> AdviseCandidates() { return kCandidates; }
+
+std::string AxisOf(const std::string& changes) {
+  return changes.substr(0, changes.find('='));
+}
+
+Strategy Changed(const Strategy& strategy, const std::string& changes) {
+  Strategy changed = strategy;
+  ApplyStrategy(changes, {std::make_shared<const std::string>("advise"), 0, 0}, changed);
+  return changed;
+}
+
+std::vector<Candidate> CandidatesFor(CompiledScene& scene, const PlanOptions& options) {
+  const Strategy own = scene.strategy, usual;
+  std::vector<Candidate> out = {{usual, "", "the renderer's default", 0, ""}};
+  for (const CandidateInfo& info : kCandidates) {
+    const Strategy changed = Changed(usual, info.changes);
+    if (changed == own) continue;
+    out.push_back({changed, info.changes, info.reason, info.margin, ""});
+  }
+  if (own != usual) {
+    out.insert(out.begin() + kPlaceOfOwn, {own, ToText(own), kOwnStrategy, 0, ""});
+  }
+  for (Candidate& candidate : out) {
+    candidate.refused = Refusal(candidate.strategy, options, scene);
+  }
+  // A comparison needs its first.
+  if (!out.front().refused.empty()) std::swap(out[0], out[kPlaceOfOwn]);
+  UseStrategy(own, scene);
+  return out;
+}
+
+}  // namespace lanelight

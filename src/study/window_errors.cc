@@ -1,0 +1,139 @@
+#include "src/study/window_errors.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include "src/strategy/run_parameters.h"
+#include "src/strategy/use_strategy.h"
+#include "src/study/estimate.h"
+
+namespace lanelight {
+namespace {
+
+constexpr int kSide = 8;
+constexpr std::uint64_t kSpp = 128;
+constexpr std::uint64_t kGroupsOfSpp = 256;  // whose group size is 64
+// Pilot passes inside a window's run, which a long render has too but hardly notices: so
+// many times the window's samples are what they take a share of.
+constexpr std::uint64_t kPlannedRuns = 12;
+// The robust error leaves out this share of the pixels of a round.
+constexpr double kTrimmed = 0.02;
+
+// Of the whole process: unlike the wall clock it does not count other programs.
+double CpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+
+// Means of windows of `size` values each, without values above `limit`.
+std::vector<double> WindowMeans(const std::vector<double>& values, std::size_t size,
+                                double limit) {
+  std::vector<double> means(values.size() / size);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] <= limit) means[i / size] += values[i] / double(size);
+  }
+  return means;
+}
+
+double Limit(std::vector<double> values) {
+  const auto at = values.begin() +
+                  static_cast<std::ptrdiff_t>((1 - kTrimmed) * double(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace
+
+WindowSequence::WindowSequence(const PixelWindow& image)
+    : image_(image),
+      side_(std::min({kSide, image.width(), image.height()})),
+      columns_(image.width() / side_),
+      rows_(image.height() / side_) {}
+
+std::vector<PixelRect> WindowSequence::Next(std::size_t count) {
+  // 1 / g and 1 / g^2 with g^3 = g + 1.
+  constexpr double kX = 0.7548776662466927, kY = 0.5698402909980532;
+  std::vector<PixelRect> windows;
+  for (std::size_t i = 0; i < count; ++i, ++index_) {
+    const double n = static_cast<double>(index_) + 0.5;
+    const int column = static_cast<int>(std::fmod(n * kX, 1.0) * columns_);
+    const int row = static_cast<int>(std::fmod(n * kY, 1.0) * rows_);
+    const int x = image_.x0 + column * side_, y = image_.y0 + row * side_;
+    windows.push_back({x, y, x + side_, y + side_});
+  }
+  return windows;
+}
+
+WindowRenderer::WindowRenderer(Job& job, std::vector<Strategy> strategies,
+                               const std::atomic<bool>* stop)
+    : job_(job),
+      strategies_(std::move(strategies)),
+      stop_(stop),
+      sequence_(job.window),
+      seed_(job.seed) {}
+
+WindowRenderer::Rendered WindowRenderer::Render(const Strategy& strategy,
+                                                const std::vector<PixelRect>& windows) {
+  UseStrategy(strategy, job_.scene);
+  PlanOptions plan_options = job_.plan.options;
+  plan_options.aov = false;
+  const Plan plan = MakePlan(job_.scene, plan_options);
+  const int side = windows.front().width(), count = static_cast<int>(windows.size());
+  FilmAccumulator film(0, 0, side * count, side, GroupSize(strategy, kGroupsOfSpp),
+                       false);
+  RunOptions options;
+  options.spp = kSpp;
+  options.seed = seed_;
+  options.stop = stop_;
+  options.profile = false;
+  options.windows = windows;
+  options.planned_samples = kPlannedRuns * kSpp * windows.size() *
+                            static_cast<std::uint64_t>(side) *
+                            static_cast<std::uint64_t>(side);
+  const double start = CpuSeconds();
+  const RunResult run = Run(job_.scene, plan, options, film);
+  Rendered out;
+  out.seconds = CpuSeconds() - start;
+  // The share of pilot passes is not the strategy's cost in a long render.
+  if (run.seconds > 0) out.seconds *= 1 - run.pilot_seconds / run.seconds;
+  for (int x = 0; x < film.width(); ++x) {
+    for (int y = 0; y < side; ++y) {
+      for (int c = 0; c < 3; ++c) {
+        out.mean.push_back(film.Mean(x, y)[c]);
+        out.variance.push_back(film.Variance(x, y)[c]);
+      }
+    }
+  }
+  return out;
+}
+
+std::vector<WindowErrors> WindowRenderer::operator()(
+    const std::vector<std::size_t>& candidates, std::size_t windows, double& elapsed) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<PixelRect> rects = sequence_.Next(windows);
+  ++seed_;
+  std::vector<Rendered> rendered;
+  for (std::size_t candidate : candidates) {
+    rendered.push_back(Render(strategies_[candidate], rects));
+    if (stop_ != nullptr && *stop_) return {};
+  }
+  std::vector<double> scale(rendered.front().mean.size());
+  for (const Rendered& r : rendered) {
+    for (std::size_t i = 0; i < scale.size(); ++i) {
+      scale[i] += r.mean[i] / double(rendered.size());
+    }
+  }
+  std::vector<WindowErrors> out;
+  for (Rendered& r : rendered) {
+    for (std::size_t i = 0; i < scale.size(); ++i) {
+      r.variance[i] /= scale[i] * scale[i] + kRelativeEpsilon;
+    }
+    const std::size_t size = scale.size() / windows;
+    out.push_back({WindowMeans(r.variance, size, INFINITY),
+                   WindowMeans(r.variance, size, Limit(r.variance)), r.seconds});
+  }
+  elapsed =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return out;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,56 @@
+// Small windows of an image, rendered with several strategies, and their errors.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "src/render/job.h"
+#include "src/study/halving.h"
+
+namespace lanelight {
+
+/// Windows of at most 8 x 8 pixels spread evenly over a window of the image: the cells of
+/// a grid, in the order of a two-dimensional additive recurrence (the golden ratio's
+/// generalisation, Roberts 2018), so that any number of consecutive ones covers it.
+class WindowSequence {
+ public:
+  explicit WindowSequence(const PixelWindow& image);
+  /// The next `count`; cells repeat once all have been given about once.
+  std::vector<PixelRect> Next(std::size_t count);
+
+ private:
+  PixelWindow image_;
+  int side_, columns_, rows_;
+  std::uint64_t index_ = 0;
+};
+
+/// Renders windows with strategies of the job's scene. A window of 8 x 8 pixels has 128
+/// samples per pixel in two randomisations of 64, as groups have that a render of any
+/// length consists of: its variance falls with their number as the render's own does.
+class WindowRenderer {
+ public:
+  /// `strategies` by index; all must be such that the scene takes them.
+  WindowRenderer(Job& job, std::vector<Strategy> strategies,
+                 const std::atomic<bool>* stop);
+
+  /// As MeasureRound asks. Errors are estimated variances relative to the squared mean
+  /// of the pixel over all candidates of the round + kRelativeEpsilon.
+  std::vector<WindowErrors> operator()(const std::vector<std::size_t>& candidates,
+                                       std::size_t windows, double& elapsed);
+
+ private:
+  struct Rendered {
+    std::vector<double> mean, variance;  // by window, pixel and channel
+    double seconds = 0;
+  };
+  Rendered Render(const Strategy& strategy, const std::vector<PixelRect>& windows);
+
+  Job& job_;
+  std::vector<Strategy> strategies_;
+  const std::atomic<bool>* stop_;
+  WindowSequence sequence_;
+  std::uint64_t seed_;
+};
+
+}  // namespace lanelight

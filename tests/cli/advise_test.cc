@@ -1,0 +1,92 @@
+// `lanelight advise` from the outside.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "src/cli/exit_codes.h"
+#include "src/image/exr.h"
+#include "src/image/image.h"
+#include "tests/cli/process.h"
+
+namespace lanelight {
+namespace {
+
+using Catch::Contains;
+
+const std::string kBox = std::string(LANELIGHT_SOURCE_DIR) + "/scenes/cornell-box.pbrt";
+
+nlohmann::json ReadJson(const std::string& path) {
+  std::ifstream in(path);
+  return nlohmann::json::parse(in);
+}
+
+const nlohmann::json& Find(const nlohmann::json& advice, const std::string& changes) {
+  for (const auto& c : advice.at("candidates")) {
+    if (c.at("changes") == changes) return c;
+  }
+  FAIL("no candidate " << changes);
+  return advice;
+}
+
+}  // namespace
+
+TEST_CASE("advise renders with what it advises and reports why", "[cli]") {
+  TempDirectory directory;
+  const std::string exr = directory / "out.exr", json = directory / "out.json";
+  const ProcessResult r = RunLanelight({"advise", kBox, "--time", "2.5", "--resolution",
+                                        "64x64", "-o", exr, "--json", json});
+  INFO(r.err);
+  REQUIRE(r.exit_code == kExitGood);
+  CHECK_THAT(r.out, Contains("roulette=none") && Contains("advice") &&
+                        Contains("relative MSE") && Contains("(the default)"));
+  const Image image = ReadExr(exr);
+  CHECK(image.width == 64);
+
+  const nlohmann::json report = ReadJson(json), advice = report.at("advice");
+  CHECK(report.at("settings").at("strategy") == advice.at("chosen"));
+  CHECK(report.at("error").at("relmse").at("value") > 0);
+  CHECK(advice.at("pilot_seconds") > 0);
+  CHECK(report.at("settings").at("time_budget").get<double>() +
+            advice.at("pilot_seconds").get<double>() ==
+        Approx(2.5).epsilon(1e-6));
+  CHECK_FALSE(advice.at("why").get<std::string>().empty());
+  CHECK(advice.at("interrupted") == false);
+  CHECK(Find(advice, "").at("strategy").get<std::string>().find("points=sobol") <
+        std::string::npos);
+  const nlohmann::json& refused = Find(advice, "control=ambient");
+  CHECK(refused.at("status") == "refused");
+  CHECK(refused.at("efficiency") == nullptr);
+  CHECK_THAT(refused.at("reason").get<std::string>(), Contains("environment"));
+  int chosen = 0;
+  for (const auto& c : advice.at("candidates")) {
+    if (c.at("status") != "chosen") continue;
+    ++chosen;
+    CHECK(c.at("strategy") == advice.at("chosen"));
+  }
+  CHECK(chosen == 1);
+}
+
+TEST_CASE("advise without an image prints the command that renders", "[cli]") {
+  const ProcessResult r =
+      RunLanelight({"advise", kBox, "--time", "0.5", "--resolution", "32x32"});
+  INFO(r.err);
+  REQUIRE(r.exit_code == kExitGood);
+  CHECK_THAT(r.out, Contains("lanelight render") && Contains("--time 0.5") &&
+                        Contains("--strategy directions="));
+  const ProcessResult json = RunLanelight(
+      {"advise", kBox, "--time", "0.5", "--resolution", "32x32", "--json", "-"});
+  REQUIRE(json.exit_code == kExitGood);
+  const nlohmann::json report = nlohmann::json::parse(json.out);
+  CHECK(report.at("schema") == 1);
+  CHECK(report.at("advice").at("candidates").size() >= 8);
+}
+
+TEST_CASE("advise refuses flags that make no sense", "[cli]") {
+  CHECK(RunLanelight({"advise", kBox}).exit_code == kExitUsage);
+  CHECK(RunLanelight({"advise", kBox, "--time", "0"}).exit_code == kExitUsage);
+  const ProcessResult png = RunLanelight({"advise", kBox, "--time", "1", "--png"});
+  CHECK(png.exit_code == kExitUsage);
+  CHECK_THAT(png.err, Contains("-o FILE.exr"));
+}
+
+}  // namespace lanelight
