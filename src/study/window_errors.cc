@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <utility>
 
 #include "src/strategy/run_parameters.h"
 #include "src/strategy/use_strategy.h"
@@ -108,7 +109,6 @@ WindowRenderer::Rendered WindowRenderer::Render(const Strategy& strategy,
 
 std::vector<WindowErrors> WindowRenderer::operator()(
     const std::vector<std::size_t>& candidates, std::size_t windows, double& elapsed) {
-  const auto start = std::chrono::steady_clock::now();
   const std::vector<PixelRect> rects = sequence_.Next(windows);
   ++seed_;
   std::vector<Rendered> rendered;
@@ -131,8 +131,8 @@ std::vector<WindowErrors> WindowRenderer::operator()(
     out.push_back({WindowMeans(r.variance, size, INFINITY),
                    WindowMeans(r.variance, size, Limit(r.variance)), r.seconds});
   }
-  elapsed =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto now = std::chrono::steady_clock::now();
+  elapsed = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
   return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <vector>
 
@@ -35,7 +36,8 @@ class WindowRenderer {
                  const std::atomic<bool>* stop);
 
   /// As MeasureRound asks. Errors are estimated variances relative to the squared mean
-  /// of the pixel over all candidates of the round + kRelativeEpsilon.
+  /// of the pixel over all candidates of the round + kRelativeEpsilon. `elapsed`: wall
+  /// clock since the previous round, so that what is done with its results counts too.
   std::vector<WindowErrors> operator()(const std::vector<std::size_t>& candidates,
                                        std::size_t windows, double& elapsed);
 
@@ -51,6 +53,7 @@ class WindowRenderer {
   const std::atomic<bool>* stop_;
   WindowSequence sequence_;
   std::uint64_t seed_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace lanelight
