@@ -182,7 +182,8 @@ Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
   out["ranking"] = analysis.ranking;
   out["calibration"] = CalibrationJson(analysis.calibration, options.confidence);
   out["bias"] = {{"tests", analysis.bias_tests},
-                 {"failed", analysis.biased},
+                 {"failed", analysis.biased.size()},
+                 {"strategies", analysis.biased},
                  {"level", analysis.bias_level}};
   out["verdict"] = analysis.verdict;
   out["diffuse"] = DiffuseJson(runs, analysis);

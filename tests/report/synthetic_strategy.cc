@@ -132,6 +132,7 @@ Json BareStrategy(const std::string& name, const std::string& text,
           {"order", nullptr},
           {"to_target", nullptr},
           {"efficiency", nullptr},
+          {"efficiency_trimmed", nullptr},
           {"at_spp", nullptr},
           {"rank", nullptr},
           {"heavy_tailed", false},
@@ -150,6 +151,7 @@ Json MakeStrategy(const Recipe& recipe, const std::string& prefix,
   s["at_spp"] = counts.back();
   if (recipe.figure > 0) s["figure"] = recipe.figure;
   s["efficiency"] = Optional(3e-3 / (relmse * seconds), 0.15, repeated);
+  s["efficiency_trimmed"] = Optional(1.2, 0.1, repeated);
   s["stages"] = MakeStages(recipe, seconds * kRepetitions);
   const double noise = recipe.noise * std::pow(counts.back(), recipe.order);
   s["images"] = AddImages(recipe, prefix, noise * 2.2, seed, repeated, images);

@@ -76,6 +76,15 @@ function efficiencyColumns(scale) {
           label: `Efficiency of ${s.name}`,
         }),
     },
+    {
+      key: "efficiency-trimmed",
+      title: "Trimmed",
+      unit: "efficiency",
+      hint: "Efficiency without the worst 1 % of the pixels of each render",
+      descendingFirst: true,
+      cell: (s) => twoLines(intervalTexts(s.efficiency_trimmed)),
+      sort: (s) => valueOf(s.efficiency_trimmed),
+    },
   ];
 }
 
@@ -133,7 +142,7 @@ function rankingColumns(view, scale) {
       view,
       "relmse_trimmed",
       "Trimmed",
-      null,
+      "relative MSE",
       "Relative MSE without the worst 1 % of the pixels",
     ),
     levelColumn(view, "cpu_seconds", "Time", "processor", "Median of one render", {

@@ -147,6 +147,21 @@ function warningTexts(view) {
         `the reference in the mean (Holm, level ${fmtShort(scene.bias.level)}).`,
     ]);
   }
+  const calibration = scene.calibration;
+  if (calibration && known(calibration.share.high) &&
+      calibration.share.high < calibration.stated - 0.05) {
+    out.push([
+      "Self-estimates",
+      `held their true error in ${fmtPercent(calibration.share.value, 2)} of the renders ` +
+        `only, ${fmtPercent(calibration.stated, 2)} were stated.`,
+    ]);
+  }
+  if (scene.report_scale > 1) {
+    out.push([
+      "Images",
+      `are shown here at 1/${scene.report_scale} of their size; the EXR files are whole.`,
+    ]);
+  }
   if (scene.reference && scene.reference.note)
     out.push(["Reference", scene.reference.note]);
   return out;
