@@ -13,8 +13,8 @@
 #include "src/cli/validators.h"
 #include "src/core/parallel.h"
 #include "src/render/report.h"
-#include "src/study/advise.h"
-#include "src/study/advise_candidates.h"
+#include "src/advise/advise.h"
+#include "src/advise/candidates.h"
 
 namespace lanelight {
 namespace {

@@ -97,6 +97,13 @@ function coverageTexts(self) {
   };
 }
 
+// With places to break a line after the commas.
+function breakable(text) {
+  return text
+    .split(",")
+    .flatMap((part, i, all) => [part + (i + 1 < all.length ? "," : ""), el("wbr")]);
+}
+
 function rankingColumns(view, scale) {
   const spp = new Set(view.ran.map((s) => s.at_spp).filter(known));
   const at = spp.size === 1 ? `at ${fmtCount([...spp][0])} spp` : "at the largest count";
@@ -126,7 +133,7 @@ function rankingColumns(view, scale) {
       rowHead: true,
       cell: (s) => [
         strategyLabel(s),
-        s.text && s.text !== s.name && el("span", { class: "full-text" }, s.text),
+        s.text && s.text !== s.name && el("span", { class: "full-text" }, breakable(s.text)),
       ],
       sort: (s) => s.name,
     },

@@ -1,4 +1,4 @@
-#include "src/study/advise.h"
+#include "src/advise/advise.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,8 @@
 #include <cmath>
 
 #include "src/core/check.h"
-#include "src/strategy/run_parameters.h"
-#include "src/strategy/use_strategy.h"
-#include "src/study/advise_candidates.h"
-#include "src/study/window_errors.h"
+#include "src/advise/candidates.h"
+#include "src/advise/window_errors.h"
 
 namespace lanelight {
 namespace {
@@ -137,10 +135,8 @@ class Adviser {
   }
 
   void Use(const Strategy& strategy) {
-    UseStrategy(strategy, job_.scene);
-    job_.plan = MakePlan(job_.scene, job_.plan.options);
     job_.spp = 0;
-    job_.group_size = GroupSize(strategy, job_.spp);
+    SetStrategy(job_, strategy);
   }
 
   Job& job_;

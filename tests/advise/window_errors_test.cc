@@ -1,11 +1,11 @@
 // Windows of an image: cover it, are rendered like the whole, and their errors are its.
-#include "src/study/window_errors.h"
+#include "src/advise/window_errors.h"
 
 #include <catch2/catch.hpp>
 #include <set>
 
 #include "src/strategy/use_strategy.h"
-#include "src/study/advise_candidates.h"
+#include "src/advise/candidates.h"
 #include "src/study/estimate.h"
 
 namespace lanelight {

@@ -1,4 +1,4 @@
-#include "src/study/advise_candidates.h"
+#include "src/advise/candidates.h"
 
 #include <fmt/format.h>
 

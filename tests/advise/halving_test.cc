@@ -1,6 +1,6 @@
 // Sequential halving on simulated strategies: it finds the best, keeps the default where
 // there is nothing to gain, and says what became of the others.
-#include "src/study/halving.h"
+#include "src/advise/halving.h"
 
 #include <catch2/catch.hpp>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/render/job.h"
-#include "src/study/halving.h"
+#include "src/advise/halving.h"
 
 namespace lanelight {
 

@@ -1,4 +1,4 @@
-#include "src/study/window_errors.h"
+#include "src/advise/window_errors.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "src/study/halving.h"
+#include "src/advise/halving.h"
 
 #include <fmt/format.h>
 
