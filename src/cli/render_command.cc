@@ -112,6 +112,25 @@ bool SaveJson(const RenderCommandOptions& options, const RenderReport& report,
   return Save(path, [&](const std::string& p) { WriteFileAtomically(p, text); });
 }
 
+// Whether the image took the time that it should, and is as good as it should be.
+int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
+  const RunResult& r = report.result;
+  if (!quiet && job.seconds > 0 && r.seconds > 1.05 * job.seconds &&
+      r.samples <= 2 * job.window.pixels()) {
+    PrintError(
+        fmt::format("note: --time {}: one sample per pixel takes longer ({}); a lower "
+                    "--resolution takes less",
+                    job.seconds, DurationText(r.seconds)));
+  }
+  if (!job.target.Any() || Reached(job.target, report.error)) return kExitGood;
+  const std::string limit = r.stop_reason == StopReason::kInterrupted ? "interruption"
+                            : r.stop_reason == StopReason::kTime      ? "--time"
+                                                                      : "--spp";
+  PrintError(fmt::format("error: the target was not reached before the end by {}: {}",
+                         limit, ErrorText(report.error)));
+  return kExitTargetMissed;
+}
+
 int Render(const RenderCommandOptions& options) {
   ForceTarget(options.scene.target);
   const ThreadLimit threads(options.scene.threads);
@@ -130,7 +149,6 @@ int Render(const RenderCommandOptions& options) {
   report.half = options.depth == "half";
   report.result = RunJob(
       job, film, [&](const Progress& p) { progress.Update(p); }, &interrupt.stop());
-  report.result.stopped_early |= interrupt.stop().load();
   progress.Finish();
   report.error = EstimateError(film);
 
@@ -142,7 +160,8 @@ int Render(const RenderCommandOptions& options) {
                            report.result.health.Total()));
     return kExitInvalidSamples;
   }
-  return good ? kExitGood : kExitBadInput;
+  if (!good) return kExitBadInput;
+  return CheckAmount(report, job, options.quiet);
 }
 
 // "--png" alone names the file after the EXR. A word after it that is no PNG is most
@@ -185,16 +204,37 @@ CLI::Option* AddOutputOptions(CLI::App& command, RenderCommandOptions& options) 
   return png;
 }
 
+void AddTargetOption(CLI::App& command, const char* name, const char* meaning,
+                     std::optional<double>& target) {
+  command.add_option(name, target, meaning)
+      ->check(FiniteRange(1e-12, 1e12))
+      ->type_name("X");
+}
+
 void AddAmountOptions(CLI::App& command, RenderSettings& settings) {
-  CLI::Option* spp = command.add_option("--spp", settings.spp, "Samples per pixel")
-                         ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
-                         ->type_name("N");
+  command.add_option("--spp", settings.spp, "Samples per pixel")
+      ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
+      ->type_name("N");
   command.add_option("--time", settings.seconds, "Render for this many seconds instead")
       ->check(FiniteRange(1e-3, 1e9))
-      ->type_name("SECONDS")
-      ->excludes(spp);
+      ->type_name("SECONDS");
+  AddTargetOption(command, "--target-relmse",
+                  "Stop once the relative MSE is below X, at 95 % confidence; --spp and "
+                  "--time then are the most it may take",
+                  settings.target_relmse);
+  AddTargetOption(command, "--target-rmse", "The same for the RMSE",
+                  settings.target_rmse);
   command.add_option("--seed", settings.seed, "Seed of the random numbers")
       ->type_name("S");
+}
+
+// Without a target both would say how much to render.
+void CheckAmountOptions(const RenderSettings& settings) {
+  if (!settings.spp || !settings.seconds || HasTarget(settings)) return;
+  throw CLI::ValidationError(
+      "--time",
+      "--time excludes --spp, except as limits of --target-relmse or "
+      "--target-rmse");
 }
 
 }  // namespace
@@ -213,9 +253,11 @@ void AddRenderCommand(CLI::App& root, int& exit_code) {
       "  lanelight render scene.pbrt -o out.exr --spp 256 --png\n"
       "  lanelight render scene.pbrt -o out.exr --time 60 --resolution 640x360 --json "
       "r.json\n"
+      "  lanelight render scene.pbrt -o out.exr --target-relmse 0.001 --time 600\n"
       "  lanelight render scene.pbrt -o part.exr --crop 100,100,200,150 --aov");
   command->callback([options, png, &exit_code] {
     ResolvePng(*png, *options);
+    CheckAmountOptions(options->scene.settings);
     exit_code = Render(*options);
   });
 }
