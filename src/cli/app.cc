@@ -29,7 +29,7 @@ constexpr const char* kFooter =
     "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
     "  lanelight study scenes/cornell-box.pbrt --out box-study\n"
     "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
-    "samples, 4 compare: over the limit.";
+    "samples, 4 compare: over the limit, 5 render: the target error was not reached.";
 
 std::vector<std::string> SubcommandNames(const CLI::App& root) {
   std::vector<std::string> names;

@@ -9,6 +9,7 @@ enum ExitCode : int {
   kExitUsage = 2,           // wrong flags
   kExitInvalidSamples = 3,  // the image was written, but some samples were not numbers
   kExitOverLimit = 4,       // compare: the error exceeds --max-relmse
+  kExitTargetMissed = 5,    // render: the image was written, above the target error
 };
 
 }  // namespace lanelight

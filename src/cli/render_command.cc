@@ -27,16 +27,37 @@ int Render(const RenderCommandOptions& options) {
   return RenderToOutputs(options.outputs, options.scene.scene, job, interrupt.stop());
 }
 
+void AddTargetOption(CLI::App& command, const char* name, const char* meaning,
+                     std::optional<double>& target) {
+  command.add_option(name, target, meaning)
+      ->check(FiniteRange(1e-12, 1e12))
+      ->type_name("X");
+}
+
 void AddAmountOptions(CLI::App& command, RenderSettings& settings) {
-  CLI::Option* spp = command.add_option("--spp", settings.spp, "Samples per pixel")
-                         ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
-                         ->type_name("N");
+  command.add_option("--spp", settings.spp, "Samples per pixel")
+      ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
+      ->type_name("N");
   command.add_option("--time", settings.seconds, "Render for this many seconds instead")
       ->check(FiniteRange(1e-3, 1e9))
-      ->type_name("SECONDS")
-      ->excludes(spp);
+      ->type_name("SECONDS");
+  AddTargetOption(command, "--target-relmse",
+                  "Stop once the relative MSE is below X, at 95 % confidence; --spp and "
+                  "--time then are the most it may take",
+                  settings.target_relmse);
+  AddTargetOption(command, "--target-rmse", "The same for the RMSE",
+                  settings.target_rmse);
   command.add_option("--seed", settings.seed, "Seed of the random numbers")
       ->type_name("S");
+}
+
+// Without a target both would say how much to render.
+void CheckAmountOptions(const RenderSettings& settings) {
+  if (!settings.spp || !settings.seconds || HasTarget(settings)) return;
+  throw CLI::ValidationError(
+      "--time",
+      "--time excludes --spp, except as limits of --target-relmse or "
+      "--target-rmse");
 }
 
 }  // namespace
@@ -55,9 +76,11 @@ void AddRenderCommand(CLI::App& root, int& exit_code) {
       "  lanelight render scene.pbrt -o out.exr --spp 256 --png\n"
       "  lanelight render scene.pbrt -o out.exr --time 60 --resolution 640x360 --json "
       "r.json\n"
+      "  lanelight render scene.pbrt -o out.exr --target-relmse 0.001 --time 600\n"
       "  lanelight render scene.pbrt -o part.exr --crop 100,100,200,150 --aov");
   command->callback([options, &exit_code] {
     ResolvePng(options->outputs);
+    CheckAmountOptions(options->scene.settings);
     exit_code = Render(*options);
   });
 }

@@ -61,6 +61,25 @@ bool SaveImages(const RenderOutputs& options, const Job& job, const FilmAccumula
   return good;
 }
 
+// Whether the image took the time that it should, and is as good as it should be.
+int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
+  const RunResult& r = report.result;
+  if (!quiet && job.seconds > 0 && r.seconds > 1.05 * job.seconds &&
+      r.samples <= 2 * job.window.pixels()) {
+    PrintError(
+        fmt::format("note: --time {}: one sample per pixel takes longer ({}); a lower "
+                    "--resolution takes less",
+                    job.seconds, DurationText(r.seconds)));
+  }
+  if (!job.target.Any() || Reached(job.target, report.error)) return kExitGood;
+  const std::string limit = r.stop_reason == StopReason::kInterrupted ? "interruption"
+                            : r.stop_reason == StopReason::kTime      ? "--time"
+                                                                      : "--spp";
+  PrintError(fmt::format("error: the target was not reached before the end by {}: {}",
+                         limit, ErrorText(report.error)));
+  return kExitTargetMissed;
+}
+
 }  // namespace
 
 void AddOutputOptions(CLI::App& command, RenderOutputs& options, bool required) {
@@ -151,7 +170,6 @@ int RenderToOutputs(const RenderOutputs& options, const std::string& scene,
   report.half = options.depth == "half";
   report.result = RunJob(
       job, film, [&](const Progress& p) { progress.Update(p); }, &stop);
-  report.result.stopped_early |= stop.load();
   progress.Finish();
   report.error = EstimateError(film);
 
@@ -167,7 +185,8 @@ int RenderToOutputs(const RenderOutputs& options, const std::string& scene,
                            report.result.health.Total()));
     return kExitInvalidSamples;
   }
-  return good ? kExitGood : kExitBadInput;
+  if (!good) return kExitBadInput;
+  return CheckAmount(report, job, options.quiet);
 }
 
 }  // namespace lanelight

@@ -42,13 +42,18 @@ std::string ControlRow(const RunResult& r, const Strategy& strategy) {
   return Row("control", text);
 }
 
+const char* StopText(const RunResult& r) {
+  if (r.stop_reason == StopReason::kInterrupted) return " (stopped early)";
+  return r.stop_reason == StopReason::kTarget ? " (target reached)" : "";
+}
+
 std::string SpeedRows(const RunResult& r) {
   const double seconds = r.seconds > 0 ? r.seconds : 1e-9;
   const double closest = double(r.rays_closest), shadow = double(r.rays_shadow);
   return Row("samples",
              fmt::format("{} in {}: {}samples/s{}", Total(double(r.samples)),
                          DurationText(r.seconds), CountText(double(r.samples) / seconds),
-                         r.stopped_early ? " (stopped early)" : "")) +
+                         StopText(r))) +
          Row("rays", fmt::format("{} ({} closest hit, {} shadow): {}rays/s",
                                  Total(closest + shadow), Total(closest), Total(shadow),
                                  CountText((closest + shadow) / seconds)));
@@ -88,7 +93,7 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
                                double(r.samples) / double(job.window.pixels())));
   if (!report.png.empty()) text += Row("png", report.png);
   text += Row("strategy", ToText(job.scene.strategy));
-  text += Row("points", PointsText(job.scene.strategy, job.spp));
+  text += Row("points", PointsText(job, r));
   text += SpeedRows(r);
   if (!r.pilot_note.empty()) {
     text +=

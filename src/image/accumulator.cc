@@ -30,6 +30,20 @@ std::optional<ControlReport> FilmAccumulator::Control() const {
   return control_->Report();
 }
 
+void FilmAccumulator::Regroup(std::uint32_t group_size) {
+  if (group_size == group_size_) return;
+  for (Pixel& p : pixels_) {
+    LL_CHECK_LT(p.samples, std::uint64_t{group_size});
+    p.groups = 0;
+    for (int c = 0; c < kColorPlanes; ++c) {
+      p.group[c] = p.sum[c];
+      p.squares[c] = p.group_total[c] = 0;
+    }
+  }
+  if (control_) control_->Regroup(group_size_);
+  group_size_ = group_size;
+}
+
 void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
                                  std::uint32_t count) {
   const std::size_t index = Index(x, y);
@@ -97,6 +111,22 @@ Rgb FilmAccumulator::Variance(int x, int y) const {
     variance[c] = scatter / n * share;
   }
   return variance;
+}
+
+Rgb FilmAccumulator::OpenGroupExcess(int x, int y) const {
+  const Pixel& p = pixel(x, y);
+  const double open = static_cast<double>(p.samples % group_size_);
+  if (open == 0 || p.groups < 2) return {};
+  const double rest = open / static_cast<double>(p.samples), share = 1 - rest;
+  Rgb sum = {p.group[0], p.group[1], p.group[2]};
+  if (control_) sum = sum - control_->OpenCorrection(Index(x, y));
+  const Rgb distance = (sum / open - Mean(x, y)) / share;
+  const Rgb variance = Variance(x, y);
+  Rgb excess;
+  for (int c = 0; c < 3; ++c) {
+    excess[c] = rest * rest * distance[c] * distance[c] - rest / share * variance[c];
+  }
+  return excess;
 }
 
 double FilmAccumulator::Aov(int x, int y, int plane) const {

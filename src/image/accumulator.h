@@ -38,6 +38,10 @@ class FilmAccumulator {
   /// What the control variate achieved; empty without UseControl.
   std::optional<ControlReport> Control() const;
 
+  /// Changes the size of the groups: all samples so far, which must be fewer than that,
+  /// begin the first one. Nothing if the size is the same.
+  void Regroup(std::uint32_t group_size);
+
   /// Adds `count` consecutive samples of one pixel; planes[p][i * step] is plane p of the
   /// i-th. Must be called with the samples of a pixel in order. Safe for different pixels
   /// from different threads.
@@ -50,6 +54,14 @@ class FilmAccumulator {
   /// NaN-free: zero where fewer than two groups are complete (see HasVariance).
   Rgb Variance(int x, int y) const;
   bool HasVariance(int x, int y) const { return pixel(x, y).groups >= 2; }
+  /// Complete groups of a pixel.
+  std::uint64_t Groups(int x, int y) const { return pixel(x, y).groups; }
+  /// Estimate of the variance of Mean() less Variance(), which takes the samples of an
+  /// incomplete group for as good as those of a complete one. They are less well
+  /// stratified: the square of their distance d from the others, which make up a share s
+  /// of all samples, adds (1 - s)^2 d^2 - (1 - s) / s Variance(). Zero without an
+  /// incomplete group; unbiased, and of either sign.
+  Rgb OpenGroupExcess(int x, int y) const;
   /// Mean of an auxiliary plane.
   double Aov(int x, int y, int plane) const;
 

@@ -66,6 +66,18 @@ void ControlFilm::CloseGroup(std::size_t pixel, const double* means, std::uint32
   ++p.groups;
 }
 
+void ControlFilm::Regroup(std::uint32_t size) {
+  for (Pixel& p : pixels_) {
+    for (int c = 0; c < 3; ++c) {
+      for (auto& half : p.halves) {
+        p.open[c] += half[c].d * size;
+        half[c] = {};
+      }
+    }
+    p.groups = 0;
+  }
+}
+
 void ControlFilm::FitRow(int y) {
   const int y0 = std::max(0, y - kReach), y1 = std::min(height_, y + kReach + 1);
   std::vector<ControlScatter> columns(static_cast<std::size_t>(width_));
@@ -106,6 +118,15 @@ Rgb ControlFilm::Correction(std::size_t pixel, std::uint32_t size) const {
       const double open = half == static_cast<int>(p.groups % 2) ? p.open[c] : 0;
       sum[c] += p.coefficients[1 - half][c] * (p.halves[half][c].d * size + open);
     }
+  }
+  return sum;
+}
+
+Rgb ControlFilm::OpenCorrection(std::size_t pixel) const {
+  const Pixel& p = pixels_[pixel];
+  Rgb sum;
+  for (int c = 0; c < 3; ++c) {
+    sum[c] = p.coefficients[1 - p.groups % 2][c] * p.open[c];
   }
   return sum;
 }

@@ -71,11 +71,16 @@ class ControlFilm {
   /// alternate between the halves.
   void CloseGroup(std::size_t pixel, const double* means, std::uint32_t size);
 
+  /// Returns closed groups, of `size` samples, to the open one.
+  void Regroup(std::uint32_t size);
+
   /// Fits the coefficients to all samples so far; before, they are 0.
   void Fit();
 
   /// To subtract from the sum of f over all samples; groups hold `size` samples.
   Rgb Correction(std::size_t pixel, std::uint32_t size) const;
+  /// The part of Correction() that belongs to the incomplete group.
+  Rgb OpenCorrection(std::size_t pixel) const;
   /// Scatter of the corrected group means about their mean: sum of squares.
   Rgb ResidualSquares(std::size_t pixel) const;
   ControlReport Report() const;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "src/core/check.h"
+
 namespace lanelight {
 namespace {
 
@@ -53,10 +55,17 @@ RegressionFilm::RegressionFilm(int x0, int y0, int width, int height,
     : x0_(x0),
       y0_(y0),
       width_(width),
-      block_((kLeastBlock + group_size - 1) / group_size * group_size),
       coefficient_(coefficient),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-  for (Pixel& p : pixels_) p.next_fit = block_;
+  Regroup(group_size);
+}
+
+void RegressionFilm::Regroup(std::uint32_t group_size) {
+  block_ = (kLeastBlock + group_size - 1) / group_size * group_size;
+  for (Pixel& p : pixels_) {
+    LL_CHECK_LE(p.samples, block_);
+    p.next_fit = block_;
+  }
 }
 
 void RegressionFilm::Functions(const float* numbers, float* phi) {

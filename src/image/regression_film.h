@@ -42,6 +42,8 @@ class RegressionFilm {
   RegressionFilm(int x0, int y0, int width, int height, std::uint32_t group_size,
                  double coefficient);
   static std::size_t BytesPerPixel() { return sizeof(Pixel); }
+  /// Before the first fit: groups have another size.
+  void Regroup(std::uint32_t group_size);
 
   /// Corrects the colours in place. `first_plane`: of the kPlanes numbers. Rectangles
   /// must be the same in every call, and each be given its samples in order; safe for
@@ -72,7 +74,7 @@ class RegressionFilm {
   std::uint32_t NextFit(std::uint32_t samples) const;
 
   int x0_, y0_, width_;
-  std::uint32_t block_;  // least samples between fits: whole groups
+  std::uint32_t block_ = 1;  // least samples between fits: whole groups
   double coefficient_;
   std::vector<Pixel> pixels_;
 };

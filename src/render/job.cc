@@ -52,12 +52,12 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   job.build_seconds = watch.Lap();
 
   job.seconds = settings.seconds.value_or(0);
-  if (!settings.seconds) {
-    job.spp =
-        settings.spp.value_or(static_cast<std::uint64_t>(job.description.sampler.spp));
-  }
+  job.target = {settings.target_relmse.value_or(0), settings.target_rmse.value_or(0)};
+  const bool scene_decides = !settings.seconds && !job.target.Any();
+  job.spp = settings.spp.value_or(
+      scene_decides ? static_cast<std::uint64_t>(job.description.sampler.spp) : 0);
   job.seed = job.description.sampler.seed;
-  job.group_size = GroupSize(job.scene.strategy, job.spp);
+  job.group_size = GroupSize(job.scene.strategy, job.OpenEnded() ? 0 : job.spp);
   return job;
 }
 
@@ -81,6 +81,11 @@ RunResult RunJob(const Job& job, FilmAccumulator& film,
   options.seed = job.seed;
   options.on_progress = std::move(on_progress);
   options.stop = stop;
+  if (job.target.Any()) {
+    options.samples_needed = [&](std::uint64_t done) {
+      return SamplesNeeded(job.target, EstimateError(film), done);
+    };
+  }
   return Run(job.scene, job.plan, options, film);
 }
 

@@ -7,6 +7,7 @@
 #include "src/render/settings.h"
 #include "src/scene/compiled.h"
 #include "src/scene/description.h"
+#include "src/study/target.h"
 #include "src/wavefront/plan.h"
 #include "src/wavefront/run.h"
 
@@ -18,13 +19,17 @@ struct Job {
   CompiledScene scene;
   Plan plan;
   PixelWindow window;
-  std::uint64_t spp = 0;  // 0: until `seconds` have passed
+  std::uint64_t spp = 0;  // 0: until the time is over or the target is reached
   double seconds = 0;     // time budget; 0 = none
+  ErrorTarget target;
   std::uint64_t seed = 0;
-  std::uint32_t group_size = 1;  // see GroupSize()
+  std::uint32_t group_size = 1;  // see GroupSize(); Run chooses another if OpenEnded()
   std::uint64_t scene_hash = 0;  // see HashSceneFiles()
   double load_seconds = 0;       // reading and parsing
   double build_seconds = 0;      // compiling: acceleration structure, lights, textures
+
+  /// How many samples there will be is not known beforehand.
+  bool OpenEnded() const { return spp == 0 || seconds > 0 || target.Any(); }
 };
 
 /// Parses, applies the overrides, checks that the film fits into memory, compiles, plans.

@@ -45,19 +45,21 @@ Json ControlJson(const std::optional<ControlReport>& control) {
           {"correlation", control->correlation}};
 }
 
-Json SettingsJson(const Job& job, bool half) {
+Json SettingsJson(const Job& job, const RunResult& result, bool half) {
   const Film& film = job.description.film;
   const PixelWindow& w = job.window;
   return {{"resolution", {film.width, film.height}},
           {"crop", {w.x0, w.y0, w.x1, w.y1}},
           {"spp", job.spp ? Json(job.spp) : Json(nullptr)},
           {"time_budget", job.seconds > 0 ? Json(job.seconds) : Json(nullptr)},
-          {"group_size", job.group_size},
+          {"target_relmse", job.target.relmse > 0 ? Json(job.target.relmse) : Json()},
+          {"target_rmse", job.target.rmse > 0 ? Json(job.target.rmse) : Json()},
+          {"group_size", result.group_size},
           {"max_depth", job.plan.options.max_depth},
           {"seed", job.seed},
           {"sampler", Name(job.scene.strategy.points)},
           {"strategy", ToText(job.scene.strategy)},
-          {"points", PointsText(job.scene.strategy, job.spp)},
+          {"points", PointsText(job, result)},
           {"aov", job.plan.options.aov},
           {"depth", half ? "half" : "float"},
           {"threads", MaxThreads()}};
@@ -75,6 +77,10 @@ Json NotesJson(const Job& job) {
 }
 
 }  // namespace
+
+std::string PointsText(const Job& job, const RunResult& result) {
+  return PointsText(job.scene.strategy, job.OpenEnded() ? 0 : job.spp, result.group_size);
+}
 
 Json ToJson(const Plan& plan) {
   Json stages = Json::array(), omitted = Json::array(), live = Json::array(),
@@ -104,10 +110,9 @@ Json ToJson(const ErrorEstimate& e) {
   if (!e.available) return nullptr;
   return {{"rmse", IntervalJson(e.rmse, e.has_interval)},
           {"relmse", IntervalJson(e.relmse, e.has_interval)},
-          {"confidence", 0.95},
+          {"confidence", kEstimateConfidence},
           {"pixels", e.pixels},
-          {"tiles", e.tiles},
-          {"tile_side", e.tile}};
+          {"effective_pixels", e.effective_pixels}};
 }
 
 Json TargetJson() {
@@ -144,6 +149,8 @@ Json ToJson(const RenderReport& report, const Job& job) {
         {"roulette", Name(r.roulette)}}},
       {"rays_per_second", double(rays) / seconds},
       {"stopped_early", r.stopped_early},
+      {"stop_reason", Name(r.stop_reason)},
+      {"looks", r.looks},
       {"error", ToJson(report.error)},
       {"control", ControlJson(r.control)},
       {"health",
@@ -153,7 +160,7 @@ Json ToJson(const RenderReport& report, const Job& job) {
       {"plan", ToJson(job.plan)},
       {"stages", ProfileJson(r.stages)},
       {"wavefront_bytes", r.wavefront_bytes},
-      {"settings", SettingsJson(job, report.half)},
+      {"settings", SettingsJson(job, r, report.half)},
       {"target", TargetJson()},
       {"notes", NotesJson(job)},
       {"versions", versions}};

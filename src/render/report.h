@@ -13,7 +13,7 @@
 
 namespace lanelight {
 
-inline constexpr int kReportSchema = 1;
+inline constexpr int kReportSchema = 2;
 
 struct RenderReport {
   std::string scene, exr, png;  // png empty: not written
@@ -26,6 +26,9 @@ struct RenderReport {
 nlohmann::json ToJson(const Plan& plan);
 nlohmann::json ToJson(const ErrorEstimate& error);
 nlohmann::json ToJson(const RenderReport& report, const Job& job);
+
+/// How the sample points were grouped.
+std::string PointsText(const Job& job, const RunResult& result);
 
 /// Name and version of the libraries in use, and of the compiler.
 std::vector<std::pair<std::string, std::string>> LibraryVersions();

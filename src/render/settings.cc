@@ -52,6 +52,12 @@ void CheckSppSetting(std::uint64_t spp) {
   CheckSpp(static_cast<std::int64_t>(std::min(spp, kMost)));
 }
 
+void CheckTarget(const std::optional<double>& target) {
+  if (!target || (*target > 0 && std::isfinite(*target))) return;
+  throw InputError(
+      fmt::format("a target error of {} is not supported: finite and above 0", *target));
+}
+
 void ApplyFilm(const RenderSettings& settings, Film& film) {
   CheckSize(film);
   if (settings.resolution) {
@@ -76,7 +82,10 @@ void ApplyFilm(const RenderSettings& settings, Film& film) {
 void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
   ApplyFilm(settings, scene.film);
   if (settings.spp) CheckSppSetting(*settings.spp);
-  if (!settings.spp && !settings.seconds) CheckSpp(scene.sampler.spp);
+  CheckTarget(settings.target_relmse);
+  CheckTarget(settings.target_rmse);
+  if (!settings.spp && !settings.seconds && !HasTarget(settings))
+    CheckSpp(scene.sampler.spp);
   if (settings.seconds && !(*settings.seconds > 0 && *settings.seconds <= 1e9)) {
     throw InputError(
         fmt::format("a time budget of {} s is not supported: above 0, at most "
@@ -98,6 +107,10 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
                 {std::make_shared<const std::string>("--strategy"), 0, 0},
                 scene.strategy);
   if (settings.seed) scene.sampler.seed = *settings.seed;
+}
+
+bool HasTarget(const RenderSettings& settings) {
+  return settings.target_relmse || settings.target_rmse;
 }
 
 PixelWindow CropWindow(const Film& film) {

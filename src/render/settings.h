@@ -9,6 +9,7 @@
 #include "src/scene/compile.h"
 #include "src/scene/description.h"
 #include "src/wavefront/plan.h"
+#include "src/wavefront/run.h"
 
 namespace lanelight {
 
@@ -16,6 +17,8 @@ namespace lanelight {
 struct RenderSettings {
   std::optional<std::uint64_t> spp;
   std::optional<double> seconds;  // time budget instead of samples
+  /// Errors at which to stop; samples and seconds then are the most that it may take.
+  std::optional<double> target_relmse, target_rmse;
   std::optional<std::array<int, 2>> resolution;
   std::optional<std::array<int, 4>> crop;  // x0, y0, x1, y1 in pixels, end exclusive
   std::optional<int> max_depth;
@@ -28,8 +31,10 @@ struct RenderSettings {
   bool skip_unsupported = false;
 };
 
+bool HasTarget(const RenderSettings& settings);
+
 /// Sample indices are 32-bit, so this many samples per pixel at most.
-inline constexpr std::uint64_t kMaxSpp = std::uint64_t{1} << 31;
+inline constexpr std::uint64_t kMaxSpp = kMostSamplesPerPixel;
 inline constexpr std::uint32_t kMaxWavefront = 1u << 20;
 inline constexpr int kMaxDepth = 1 << 20;
 

@@ -120,9 +120,10 @@ std::string LossText(const Strategy& strategy, std::uint64_t spp, std::uint32_t 
 
 }  // namespace
 
-std::string PointsText(const Strategy& strategy, std::uint64_t spp) {
+std::string PointsText(const Strategy& strategy, std::uint64_t spp,
+                       std::uint32_t group_size) {
   const bool pairs = strategy.pairs == Pairs::kAntithetic;
-  const std::uint32_t size = GroupSize(strategy, spp);
+  const std::uint32_t size = group_size > 0 ? group_size : GroupSize(strategy, spp);
   const std::uint32_t own = size / (pairs ? 2 : 1);
   std::string text = Name(strategy.points);
   if (strategy.points != Points::kIndependent) {

@@ -81,7 +81,9 @@ std::uint32_t PointsGroupSize(Points points, std::uint64_t spp);
 /// two of them with antithetic pairs.
 std::uint32_t GroupSize(const Strategy& strategy, std::uint64_t spp);
 
-/// "64 groups of 8x8 strata", "16 randomisations of 4 samples", ... for reports.
-std::string PointsText(const Strategy& strategy, std::uint64_t spp);
+/// "64 groups of 8x8 strata", "16 randomisations of 4 samples", ... for reports. Groups
+/// are those of GroupSize() if `group_size` is 0.
+std::string PointsText(const Strategy& strategy, std::uint64_t spp,
+                       std::uint32_t group_size = 0);
 
 }  // namespace lanelight

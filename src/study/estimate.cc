@@ -5,125 +5,221 @@
 #include <vector>
 
 #include "src/core/check.h"
+#include "src/core/parallel.h"
+#include "src/stat/distributions.h"
 
 namespace lanelight {
 namespace {
 
-constexpr int kTile = 8;
-constexpr int kFewTiles = 16;
+constexpr int kReach = 1;  // neighbourhood: 3 x 3 pixels
 
-// Largest tile side of at most kTile that gives kFewTiles tiles, or 1.
-int ChooseTile(int width, int height) {
-  const auto tiles = [&](int side) {
-    return static_cast<std::int64_t>((width + side - 1) / side) *
-           ((height + side - 1) / side);
-  };
-  int side = kTile;
-  while (side > 1 && tiles(side) < kFewTiles) side /= 2;
-  return side;
-}
+double Weight(double mean) { return 1 / (mean * mean + kRelativeEpsilon); }
 
-// Weighted mean over tiles and its t interval. The weights are the pixels per tile, which
-// differ only at the border.
-class TileMean {
+// Sums over pixels, of shares t of the error.
+struct Shares {
+  double sum = 0, squares = 0, by_freedom = 0;
+
+  // `share`: for the sum; `steady`: the same without excess, for the rest.
+  void Add(double share, double steady, double freedom) {
+    sum += share;
+    // E[s^4] = sigma^4 (G + 1) / (G - 1) for normal groups.
+    const double square = steady * steady * freedom / (freedom + 2);
+    squares += square;
+    by_freedom += square / freedom;
+    steady_sum += steady;
+  }
+  void Add(const Shares& other) {
+    sum += other.sum;
+    squares += other.squares;
+    by_freedom += other.by_freedom;
+    steady_sum += other.steady_sum;
+  }
+  // The excess is small and unbiased; where there is little else it may win.
+  double Total() const { return sum > 0 ? sum : steady_sum; }
+  double K1() const { return squares > 0 ? SquaredSum() / squares : 1; }
+  double K2() const { return squares > 0 ? SquaredSum() / by_freedom : 1; }
+
+  double steady_sum = 0;
+
+ private:
+  // Of (sum of true shares)^2: the estimate's own variance is taken off.
+  double SquaredSum() const {
+    return std::max(squares, steady_sum * steady_sum - 2 * by_freedom);
+  }
+};
+
+struct Sums {
+  Shares square, relative;
+  double plain = 0;  // relative error, divided by the means as they are
+  std::uint64_t pixels = 0;
+
+  void Add(const PixelEstimate& p, const Rgb& prior_mean) {
+    double square = 0, square_steady = 0, relative = 0, relative_steady = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double v = p.variance[c], with_excess = v + p.excess[c];
+      const double weight = Weight(prior_mean[c]);
+      square += with_excess / 3;
+      square_steady += v / 3;
+      relative += with_excess * weight / 3;
+      relative_steady += v * weight / 3;
+      plain += v * Weight(p.mean[c]) / 3;
+    }
+    this->square.Add(square, square_steady, p.freedom);
+    this->relative.Add(relative, relative_steady, p.freedom);
+    ++pixels;
+  }
+  void Add(const Sums& other) {
+    square.Add(other.square);
+    relative.Add(other.relative);
+    plain += other.plain;
+    pixels += other.pixels;
+  }
+};
+
+// The pixels of an image, and what their neighbours say of them.
+class PixelGrid {
  public:
-  void Add(double sum, std::uint64_t pixels) {
-    if (pixels == 0) return;
-    sums_.push_back(sum);
-    pixels_.push_back(static_cast<double>(pixels));
+  PixelGrid(int width, int height, const std::function<PixelEstimate(int, int)>& pixel)
+      : width_(width), height_(height), pixels_(Count()), neighbours_(Count()) {
+    ForRows([&](int y) {
+      for (int x = 0; x < width_; ++x) pixels_[Index(x, y)] = pixel(x, y);
+    });
+    ForRows([&](int y) {
+      for (int x = 0; x < width_; ++x) neighbours_[Index(x, y)] = MeanAround(x, y);
+    });
   }
 
-  std::uint64_t tiles() const { return sums_.size(); }
-
-  Interval Estimate() const {
-    double total = 0, weight = 0;
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      total += sums_[i];
-      weight += pixels_[i];
-    }
-    const double mean = total / weight;
-    if (tiles() < 2) return {mean, mean, mean};
-    // Variance of a ratio of sums (Cochran 1977, "Sampling Techniques", equation 2.39).
-    double squares = 0;
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const double residual = sums_[i] - mean * pixels_[i];
-      squares += residual * residual;
-    }
-    const double n = static_cast<double>(tiles());
-    const double deviation = std::sqrt(squares * n / (n - 1)) / weight;
-    const double half = StudentQuantile975(tiles() - 1) * deviation;
-    return {mean, std::max(0.0, mean - half), mean + half};
+  // In the order of the rows, so that it is the same for any number of threads.
+  Sums Total() const {
+    std::vector<Sums> rows(static_cast<std::size_t>(height_));
+    ForRows([&](int y) {
+      for (int x = 0; x < width_; ++x) {
+        const PixelEstimate& p = pixels_[Index(x, y)];
+        if (p.known) rows[static_cast<std::size_t>(y)].Add(p, Shrunk(x, y));
+      }
+    });
+    Sums total;
+    for (const Sums& row : rows) total.Add(row);
+    return total;
   }
 
  private:
-  std::vector<double> sums_, pixels_;
+  std::size_t Count() const {
+    return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  }
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+  template <class Body>
+  void ForRows(const Body& body) const {
+    ParallelFor(static_cast<std::size_t>(height_),
+                [&](std::size_t y) { body(static_cast<int>(y)); });
+  }
+  // Calls body(index) for the known pixels around (x, y), itself included.
+  template <class Body>
+  void ForWindow(int x, int y, const Body& body) const {
+    const int x1 = std::min(width_ - 1, x + kReach),
+              y1 = std::min(height_ - 1, y + kReach);
+    for (int b = std::max(0, y - kReach); b <= y1; ++b) {
+      for (int a = std::max(0, x - kReach); a <= x1; ++a) {
+        if (pixels_[Index(a, b)].known) body(Index(a, b));
+      }
+    }
+  }
+
+  // Without the pixel itself; its own mean if it stands alone.
+  Rgb MeanAround(int x, int y) const {
+    const std::size_t self = Index(x, y);
+    Rgb sum;
+    double count = 0;
+    ForWindow(x, y, [&](std::size_t i) {
+      if (i == self) return;
+      sum += pixels_[i].mean;
+      ++count;
+    });
+    return count > 0 ? sum / count : pixels_[self].mean;
+  }
+
+  Rgb Shrunk(int x, int y) const {
+    const PixelEstimate& p = pixels_[Index(x, y)];
+    const Rgb& around = neighbours_[Index(x, y)];
+    Rgb spread;
+    double count = 0;
+    ForWindow(x, y, [&](std::size_t i) {
+      for (int c = 0; c < 3; ++c) {
+        const double d = pixels_[i].mean[c] - neighbours_[i][c];
+        spread[c] += d * d - pixels_[i].variance[c];
+      }
+      ++count;
+    });
+    Rgb out;
+    for (int c = 0; c < 3; ++c) {
+      const double v = p.variance[c], a = std::max(0.0, spread[c] / count);
+      out[c] = v > 0 ? (a * p.mean[c] + v * around[c]) / (a + v) : p.mean[c];
+    }
+    return out;
+  }
+
+  int width_, height_;
+  std::vector<PixelEstimate> pixels_;
+  std::vector<Rgb> neighbours_;
 };
 
 Interval SquareRoot(const Interval& v) {
   return {std::sqrt(v.value), std::sqrt(v.low), std::sqrt(v.high)};
 }
 
-struct TileSums {
-  double variance = 0, relative = 0;
-  std::uint64_t pixels = 0;
-
-  void Add(const PixelEstimate& p) {
-    for (int c = 0; c < 3; ++c) {
-      variance += p.variance[c] / 3;
-      relative += p.variance[c] / (p.mean[c] * p.mean[c] + kRelativeEpsilon) / 3;
-    }
-    ++pixels;
-  }
-};
+// What the choice of the weights may be wrong by, as a half width in log(relmse).
+double WeightDoubt(const Sums& sums) {
+  const double shrunk = sums.relative.steady_sum;
+  if (!(shrunk > 0) || !(sums.plain > 0)) return 0;
+  return kWeightDoubt * std::abs(std::log(shrunk / sums.plain));
+}
 
 }  // namespace
 
-double StudentQuantile975(std::uint64_t degrees) {
-  LL_CHECK_GE(degrees, std::uint64_t{1});
-  static constexpr double kSmall[] = {12.7062, 4.30265, 3.18245, 2.77645};
-  if (degrees <= 4) return kSmall[degrees - 1];
-  // Cornish-Fisher expansion about the normal quantile (Abramowitz and Stegun 26.7.5).
-  const double z = 1.959963985, v = static_cast<double>(degrees);
-  const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z, z9 = z7 * z * z;
-  const double v2 = v * v;
-  return z + (z3 + z) / (4 * v) + (5 * z5 + 16 * z3 + 3 * z) / (96 * v2) +
-         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * v2 * v) +
-         (79 * z9 + 776 * z7 + 1482 * z5 - 1920 * z3 - 945 * z) / (92160 * v2 * v2);
+Interval ErrorInterval(double estimate, double k1, double k2, double doubt) {
+  LL_CHECK_GE(estimate, 0.0);
+  if (estimate == 0) return {0, 0, 0};
+  constexpr double kTail = (1 - kEstimateConfidence) / 2;
+  // Beyond these bounds nothing is left to widen, and FQuantile has its range.
+  k1 = std::clamp(k1, 1.0, 1e9);
+  k2 = std::clamp(k2, 1.0, 1e9);
+  const double low = std::log(stat::FQuantile(kTail, k1, k2));
+  const double high = std::log(stat::FQuantile(1 - kTail, k1, k2));
+  // The median of F is near 1, so both logarithms have their expected sign.
+  return {estimate, estimate * std::exp(-std::hypot(std::min(low, 0.0), doubt)),
+          estimate * std::exp(std::hypot(std::max(high, 0.0), doubt))};
 }
 
 ErrorEstimate EstimateError(int width, int height,
                             const std::function<PixelEstimate(int, int)>& pixel) {
+  const Sums sums = PixelGrid(width, height, pixel).Total();
   ErrorEstimate out;
-  out.tile = ChooseTile(width, height);
-  TileMean variance, relative;
-  for (int y0 = 0; y0 < height; y0 += out.tile) {
-    for (int x0 = 0; x0 < width; x0 += out.tile) {
-      TileSums tile;
-      for (int y = y0; y < std::min(height, y0 + out.tile); ++y) {
-        for (int x = x0; x < std::min(width, x0 + out.tile); ++x) {
-          const PixelEstimate p = pixel(x, y);
-          if (p.known) tile.Add(p);
-        }
-      }
-      variance.Add(tile.variance, tile.pixels);
-      relative.Add(tile.relative, tile.pixels);
-      out.pixels += tile.pixels;
-    }
-  }
-  out.tiles = variance.tiles();
-  out.available = out.pixels > 0;
-  out.has_interval = out.tiles >= 2;
+  out.pixels = sums.pixels;
+  out.available = out.has_interval = sums.pixels > 0;
   if (!out.available) return out;
-  out.rmse = SquareRoot(variance.Estimate());
-  out.relmse = relative.Estimate();
+  const double n = static_cast<double>(sums.pixels);
+  out.effective_pixels = sums.relative.Total() > 0 ? sums.relative.K1() : n;
+  out.rmse = SquareRoot(
+      ErrorInterval(sums.square.Total() / n, sums.square.K1(), sums.square.K2()));
+  out.relmse = ErrorInterval(sums.relative.Total() / n, sums.relative.K1(),
+                             sums.relative.K2(), WeightDoubt(sums));
   return out;
 }
 
 ErrorEstimate EstimateError(const FilmAccumulator& film) {
   return EstimateError(film.width(), film.height(), [&film](int x, int y) {
     const int px = film.x0() + x, py = film.y0() + y;
-    if (!film.HasVariance(px, py)) return PixelEstimate{};
-    return PixelEstimate{true, film.Mean(px, py), film.Variance(px, py)};
+    PixelEstimate p;
+    p.known = film.HasVariance(px, py);
+    if (!p.known) return p;
+    p.mean = film.Mean(px, py);
+    p.variance = film.Variance(px, py);
+    p.excess = film.OpenGroupExcess(px, py);
+    p.freedom = static_cast<double>(film.Groups(px, py) - 1);
+    return p;
   });
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "kernels/simd/target.h"
 #include "src/core/check.h"
@@ -14,7 +16,10 @@
 #include "src/wavefront/drive.h"
 #include "src/wavefront/pilot.h"
 #include "src/wavefront/pilot_pass.h"
+#include "src/wavefront/profile.h"
+#include "src/wavefront/schedule.h"
 #include "src/wavefront/tiles.h"
+#include "src/wavefront/workspace.h"
 
 namespace lanelight {
 
@@ -26,23 +31,6 @@ double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Samples of one finished task, until they are merged in order.
-struct TaskSamples {
-  AlignedVector<float> values;
-  std::uint32_t count = 0;  // samples per pixel; 0 = not run
-};
-
-// What a thread keeps between tasks.
-struct Workspace {
-  Workspace(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
-            bool profile)
-      : wavefront(scene, plan, run), counters(profile ? plan.stages.size() : 0) {}
-  Wavefront wavefront;
-  std::vector<StageCounters> counters;
-  std::vector<std::uint32_t> pixels;
-  TaskSamples samples;
-};
-
 class Runner {
  public:
   Runner(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
@@ -52,6 +40,7 @@ class Runner {
         options_(options),
         film_(film),
         tables_(MakeStrategyTables(scene)) {
+    if (OpenEnded()) film_.Regroup(FirstGroupSize(scene.strategy));
     run_ = Parameters();
     const PixelRect pixels = RenderedPixels(scene.film);
     pixel_count_ = std::uint64_t(pixels.width()) * pixels.height();
@@ -67,16 +56,24 @@ class Runner {
   RunResult Run() {
     start_ = Clock::now();
     if (plan_.features.Has(Feature::kSplitting)) PreparePaths();
-    std::uint64_t done = 0;  // samples per pixel started in complete rounds
-    const std::uint64_t limit = options_.spp > 0 ? options_.spp : std::uint64_t{1} << 31;
-    while (done < limit && !Stopped()) {
-      const std::uint64_t chunks_left =
-          (limit - done + partition_.samples - 1) / partition_.samples;
-      const std::uint64_t chunks = std::min(chunks_left, ChunksPerRound());
-      RunRound(done, limit, static_cast<std::uint32_t>(chunks));
-      done += chunks * partition_.samples;
+    const std::uint64_t limit = options_.spp > 0 ? options_.spp : kMostSamplesPerPixel;
+    if (options_.seconds > 0) pace_.emplace(options_.seconds, PaceTasks());
+    // The first look chooses the groups, the later ones ask whether to go on.
+    std::uint64_t next_look = OpenEnded() ? FirstSamples() : limit;
+    while (done_ < limit && !Stopped() && !reached_) {
+      const Round round = NextRound();
+      const std::uint64_t end = std::min({limit, next_look, done_ + round.samples()});
+      const Clock::time_point begin = Clock::now();
+      RunRound(done_, end, round);
+      const std::uint64_t taken = end - std::exchange(done_, end);
+      if (Stopped()) break;  // perhaps within the round
+      if (pace_) pace_->Took(taken, Since(begin));
+      if (pace_ && fit_seconds_ == 0 && 2 * Since(start_) > options_.seconds) TimeFit();
+      if (done_ == next_look || (done_ == limit && options_.samples_needed)) {
+        next_look = Look(next_look);
+      }
     }
-    return Result(done < limit && options_.spp > 0);
+    return Result(limit);
   }
 
  private:
@@ -86,7 +83,7 @@ class Runner {
     options.planned_samples =
         options_.planned_samples > 0
             ? options_.planned_samples
-            : pixel_count_ * (options_.spp > 0 ? options_.spp : kOpenEndedSpp);
+            : pixel_count_ * (OpenEnded() ? kOpenEndedSpp : options_.spp);
     options.keep_roulette = options_.keep_roulette;
     options.stop = options_.stop;
     pilot_ = RunPilot(scene_, plan_, run_, options, tables_);
@@ -108,27 +105,15 @@ class Runner {
       kColorPlanes + kAovPlanes + kColorPlanes + RegressionFilm::kPlanes;
 
   RunParameters Parameters() const {
-    RunParameters run;
+    RunParameters run = MakeRunParameters(scene_, plan_, film_.group_size());
     run.seed = static_cast<std::uint32_t>(options_.seed ^ (options_.seed >> 32));
-    run.width = static_cast<std::uint32_t>(scene_.film.width);
-    run.height = static_cast<std::uint32_t>(scene_.film.height);
     run.spp = static_cast<std::uint32_t>(options_.spp);
-    const Strategy& strategy = scene_.strategy;
-    run.points = MakePointsParameters(
-        strategy.points, film_.group_size() / (strategy.pairs != Pairs::kNone ? 2 : 1));
-    run.pairs = MakePairParameters(strategy);
-    run.mis = MakeMisParameters(strategy);
-    run.roulette = MakeRouletteParameters(strategy);
-    run.control_coefficient = static_cast<float>(strategy.coefficient.value_or(1));
     run.tables = &tables_;
-    run.max_depth = plan_.options.max_depth;
-    run.exposure = static_cast<float>(scene_.film.imaging_ratio);
-    run.features = plan_.features;
     return run;
   }
 
   void UseTiles(const PixelRect& pixels) {
-    const std::uint64_t spp = options_.spp > 0 ? options_.spp : kOpenEndedSpp;
+    const std::uint64_t spp = PlannedSpp();
     const std::vector<PixelRect>& windows = options_.windows;
     if (windows.empty()) {
       partition_ = MakePartition(pixels, spp);
@@ -166,13 +151,79 @@ class Runner {
     planes_ += RegressionFilm::kPlanes;
   }
 
-  bool Stopped() const {
-    if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed))
-      return true;
-    // The first task of every tile always runs: an image with unsampled pixels is no
-    // image.
-    return options_.seconds > 0 && samples_ >= pixel_count_ &&
-           Since(start_) >= options_.seconds;
+  bool OpenEnded() const { return options_.seconds > 0 || options_.samples_needed; }
+
+  std::uint64_t PlannedSpp() const {
+    return OpenEnded() || options_.spp == 0 ? kOpenEndedSpp : options_.spp;
+  }
+
+  // Two groups show how much samples differ; a time budget only asks what they cost.
+  std::uint64_t FirstSamples() const {
+    const std::uint64_t group = FirstGroupSize(scene_.strategy);
+    return std::min<std::uint64_t>(kMostSamplesPerPixel,
+                                   options_.samples_needed ? 2 * group : group);
+  }
+
+  // Asks how many samples are needed, and returns when to ask again.
+  std::uint64_t Look(std::uint64_t look) {
+    double predicted = pace_ ? double(done_) + pace_->Reach(Since(start_)) : INFINITY;
+    double needed = INFINITY;
+    if (options_.samples_needed) {
+      film_.FitControl();
+      needed = options_.samples_needed(done_);
+      ++looks_;
+    }
+    if (done_ < look || done_ > FirstSamples()) {
+      reached_ = needed <= double(done_);
+      needed_ = needed;
+      return NextLook(done_, needed, film_.group_size());
+    }
+    // Stratification may need fewer samples than these first ones promise.
+    constexpr double kGain = 4;
+    predicted = std::min(predicted, needed / kGain);
+    if (options_.spp > 0) predicted = std::min(predicted, double(options_.spp));
+    Regroup(ChooseGroupSize(scene_.strategy, predicted, done_));
+    return options_.samples_needed ? FirstLook(film_.group_size()) : kMostSamplesPerPixel;
+  }
+
+  void Regroup(std::uint32_t group_size) {
+    if (group_size == film_.group_size()) return;
+    film_.Regroup(group_size);
+    if (regression_) regression_->Regroup(group_size);
+    run_ = Parameters();
+    // Groups are numbered anew: with the same seed the randomisation of a first small
+    // group would come again, and that of two groups must never be the same.
+    run_.seed ^= 0x9e3779b9u;
+  }
+
+  void TimeFit() {
+    const Clock::time_point begin = Clock::now();
+    film_.FitControl();
+    fit_seconds_ = Since(begin);
+  }
+
+  bool Interrupted() const {
+    return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed);
+  }
+  bool OutOfTime() const {
+    // The first round always ends: an image with unsampled pixels is no image.
+    return options_.seconds > 0 && done_ > 0 &&
+           Since(start_) >= options_.seconds - fit_seconds_;
+  }
+  bool Stopped() const { return Interrupted() || OutOfTime(); }
+
+  Pace::Tasks PaceTasks() const {
+    Pace::Tasks tasks;
+    tasks.tiles = partition_.tiles.size();
+    tasks.threads = MaxThreads();
+    tasks.most = {partition_.samples, static_cast<std::uint32_t>(ChunksPerRound())};
+    tasks.unit = scene_.strategy.pairs == Pairs::kAntithetic ? 2 : 1;
+    return tasks;
+  }
+
+  Round NextRound() const {
+    if (pace_) return pace_->Next(Since(start_));
+    return {partition_.samples, static_cast<std::uint32_t>(ChunksPerRound())};
   }
 
   // Several sample ranges of the same tile run at once only where there are too few tiles
@@ -182,8 +233,13 @@ class Runner {
     return std::max<std::uint64_t>(1, wanted / partition_.tiles.size());
   }
 
-  void RunRound(std::uint64_t first_sample, std::uint64_t limit, std::uint32_t chunks) {
-    if (chunks > 1) return RunRoundInChunks(first_sample, limit, chunks);
+  // The samples [first_sample, limit) of every pixel.
+  void RunRound(std::uint64_t first_sample, std::uint64_t limit, const Round& round) {
+    per_task_ = round.per_task;
+    const std::uint64_t chunks = (limit - first_sample + per_task_ - 1) / per_task_;
+    if (chunks > 1) {
+      return RunRoundInChunks(first_sample, limit, static_cast<std::uint32_t>(chunks));
+    }
     ParallelFor(partition_.tiles.size(), [&](std::size_t tile) {
       if (Stopped()) return;
       TaskSamples& out = ThreadWorkspace().samples;
@@ -200,8 +256,8 @@ class Runner {
       TaskSamples& out = buffers_[task];
       out.count = 0;
       if (Stopped()) return;
-      RunTask(partition_.tiles[task / chunks],
-              first_sample + task % chunks * partition_.samples, limit, out);
+      RunTask(partition_.tiles[task / chunks], first_sample + task % chunks * per_task_,
+              limit, out);
     });
     ParallelFor(tiles, [&](std::size_t tile) {
       // Stops at the first range that did not run: later ones would leave a gap.
@@ -226,7 +282,7 @@ class Runner {
                TaskSamples& out) {
     Workspace& space = ThreadWorkspace();
     out.count = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(partition_.samples, limit - first_sample));
+        std::min<std::uint64_t>(per_task_, limit - first_sample));
     TilePixels(tile, scene_.film.width, &space.pixels);
     TileWork work;
     work.pixels = space.pixels.data();
@@ -281,48 +337,37 @@ class Runner {
     const double by_samples =
         options_.spp > 0 ? double(samples_) / (double(pixel_count_) * options_.spp) : 0;
     const double by_time = options_.seconds > 0 ? progress.seconds / options_.seconds : 0;
-    progress.fraction = std::min(1.0, std::max(by_samples, by_time));
+    // Errors fall like 1 / samples, so samples are in proportion to the time it takes.
+    const double by_need = double(samples_) / (double(pixel_count_) * needed_);
+    progress.fraction = std::min(1.0, std::max({by_samples, by_time, by_need}));
     options_.on_progress(progress);
   }
 
-  RunResult Result(bool stopped_early) {
+  StopReason Reason(std::uint64_t limit) const {
+    if (reached_) return StopReason::kTarget;
+    // Only what has left samples out counts: a signal may come after the last one.
+    if (samples_ == pixel_count_ * limit) return StopReason::kSamples;
+    return Interrupted() ? StopReason::kInterrupted : StopReason::kTime;
+  }
+
+  RunResult Result(std::uint64_t limit) {
     RunResult result;
+    film_.FitControl();
     result.seconds = Since(start_);
     result.samples = samples_;
-    result.stopped_early = stopped_early;
+    result.stop_reason = Reason(limit);
+    result.stopped_early = result.stop_reason == StopReason::kInterrupted;
+    result.group_size = film_.group_size();
+    result.looks = looks_;
     result.pilot_seconds = pilot_seconds_;
     result.pilot_samples = pilot_.samples;
     result.pilot_rays = pilot_.rays;
     result.pilot_note = pilot_.note;
     result.roulette = plan_.options.roulette.value_or(scene_.strategy.roulette);
-    film_.FitControl();
     result.control = regression_ ? regression_->Report() : film_.Control();
-    for (const PlannedStage& planned : plan_.stages) {
-      StageProfile profile;
-      profile.name = planned.stage.name;
-      for (Field f : plan_.live_fields) {
-        profile.bytes_per_item +=
-            4.0 * (planned.stage.reads.Has(f) + planned.stage.writes.Has(f));
-      }
-      result.stages.push_back(profile);
-    }
+    result.stages = EmptyProfiles(plan_);
     for (const auto& space : workspaces_) {
-      if (!space) continue;
-      const Wave& wave = space->wavefront.wave();
-      result.rays_closest += wave.rays_closest;
-      result.rays_shadow += wave.rays_shadow;
-      result.health.nan += wave.bad.nan;
-      result.health.infinite += wave.bad.infinite;
-      result.health.negative += wave.bad.negative;
-      result.wavefront_bytes += space->wavefront.bytes();
-      for (std::size_t i = 0; i < space->counters.size(); ++i) {
-        const StageCounters& c = space->counters[i];
-        result.stages[i].calls += c.calls;
-        result.stages[i].items += c.items;
-        result.stages[i].lane_slots +=
-            c.lane_slots * static_cast<std::uint64_t>(CurrentLanes());
-        result.stages[i].seconds += static_cast<double>(c.nanoseconds) * 1e-9;
-      }
+      if (space) AddCounts(space->wavefront, space->counters, result);
     }
     for (const TaskSamples& buffer : buffers_) {
       result.wavefront_bytes += buffer.values.size() * sizeof(float);
@@ -344,6 +389,13 @@ class Runner {
   std::optional<RegressionFilm> regression_;
   int numbers_plane_ = 0;
   std::uint64_t pixel_count_ = 0;
+  std::optional<Pace> pace_;    // with a time budget
+  std::uint64_t done_ = 0;      // samples per pixel, of rounds
+  std::uint32_t per_task_ = 1;  // of the current round
+  double needed_ = INFINITY;    // samples per pixel, by the last look
+  bool reached_ = false;        // no more are needed
+  int looks_ = 0;
+  double fit_seconds_ = 0;  // that the last step takes
   std::vector<std::unique_ptr<Workspace>> workspaces_;
   std::vector<TaskSamples> buffers_;
   std::atomic<std::uint64_t> samples_{0};
@@ -353,9 +405,15 @@ class Runner {
 
 }  // namespace
 
+const char* Name(StopReason reason) {
+  static constexpr const char* kNames[] = {"samples", "time", "target", "interrupted"};
+  return kNames[static_cast<int>(reason)];
+}
+
 RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film) {
-  LL_CHECK(options.spp > 0 || options.seconds > 0 || options.stop != nullptr);
+  LL_CHECK(options.spp > 0 || options.seconds > 0 || options.samples_needed ||
+           options.stop != nullptr);
   return Runner(scene, plan, options, film).Run();
 }
 

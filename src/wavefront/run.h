@@ -21,9 +21,18 @@ struct Progress {
   std::uint64_t samples = 0;
 };
 
+/// Most samples per pixel: sample indices are 32-bit.
+inline constexpr std::uint64_t kMostSamplesPerPixel = std::uint64_t{1} << 31;
+
 struct RunOptions {
-  std::uint64_t spp = 0;  // samples per pixel; 0: until `seconds` or stop
-  double seconds = 0;     // time budget; 0 = none
+  std::uint64_t spp = 0;  // samples per pixel; 0: until something else ends the render
+  /// Time budget of all of Run, 0 = none. Every pixel gets a sample, however long it
+  /// takes.
+  double seconds = 0;
+  /// If set, the render looks at itself between rounds that give every pixel the same
+  /// number of samples, and ends once this returns `done` or less: how many samples per
+  /// pixel the image is estimated to need, of which `done` are in the film.
+  std::function<double(std::uint64_t done)> samples_needed;
   std::uint64_t seed = 0;
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
   const std::atomic<bool>* stop = nullptr;           // finish the samples in flight
@@ -53,12 +62,19 @@ struct Health {
   std::uint64_t Total() const { return nan + infinite + negative; }
 };
 
+enum class StopReason { kSamples, kTime, kTarget, kInterrupted };
+/// "samples", "time", "target", "interrupted".
+const char* Name(StopReason reason);
+
 struct RunResult {
   double seconds = 0;
+  StopReason stop_reason = StopReason::kSamples;
+  std::uint32_t group_size = 1;  // of the film
+  int looks = 0;                 // calls of samples_needed
   std::uint64_t samples = 0, rays_closest = 0, rays_shadow = 0;
   Health health;
-  std::vector<StageProfile> stages;  // in execution order
-  bool stopped_early = false;
+  std::vector<StageProfile> stages;      // in execution order
+  bool stopped_early = false;            // by RunOptions::stop
   std::optional<ControlReport> control;  // of control variates that are fitted
   std::size_t wavefront_bytes = 0;       // all wavefronts and sample buffers together
   // Pilot passes (roulette=adjoint, efficiency); their time is part of `seconds`, their
@@ -70,7 +86,8 @@ struct RunResult {
 };
 
 /// Renders into `film` (its size must match the crop window of the scene, or the strip of
-/// options.windows).
+/// options.windows). With a time budget or `samples_needed` the size of the film's groups
+/// is chosen here, by what the first samples say; else it is the film's.
 RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 

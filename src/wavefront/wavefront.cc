@@ -38,6 +38,24 @@ void Place(T*& column, Field field, const Plan& plan, std::uint32_t*& next,
 
 }  // namespace
 
+RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan,
+                                std::uint32_t group_size) {
+  RunParameters run;
+  run.width = static_cast<std::uint32_t>(scene.film.width);
+  run.height = static_cast<std::uint32_t>(scene.film.height);
+  const Strategy& strategy = scene.strategy;
+  run.points = MakePointsParameters(
+      strategy.points, group_size / (strategy.pairs != Pairs::kNone ? 2 : 1));
+  run.pairs = MakePairParameters(strategy);
+  run.mis = MakeMisParameters(strategy);
+  run.roulette = MakeRouletteParameters(strategy);
+  run.control_coefficient = static_cast<float>(strategy.coefficient.value_or(1));
+  run.max_depth = plan.options.max_depth;
+  run.exposure = static_cast<float>(scene.film.imaging_ratio);
+  run.features = plan.features;
+  return run;
+}
+
 Wavefront::Wavefront(const CompiledScene& scene, const Plan& plan,
                      const RunParameters& run) {
   LL_CHECK_GT(plan.slots, 0u);

@@ -27,6 +27,11 @@ struct UntouchedAllocator : AlignedAllocator<T> {
   }
 };
 
+/// The constants of a render that scene, plan and size of the groups decide; without
+/// seed, planned samples and tables.
+RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan,
+                                std::uint32_t group_size);
+
 class Wavefront {
  public:
   Wavefront(const CompiledScene& scene, const Plan& plan, const RunParameters& run);

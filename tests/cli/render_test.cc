@@ -64,12 +64,14 @@ TEST_CASE("a render writes an image, a PNG and a report", "[cli]") {
   CHECK(image.attributes.count("sceneHash") == 1);
 
   const nlohmann::json report = ReadJson(json);
-  CHECK(report.at("schema") == 1);
+  CHECK(report.at("schema") == 2);
   CHECK(report.at("samples") == 32 * 24 * 8);
   CHECK(report.at("rays").at("closest") >= 32 * 24 * 8);
   CHECK(report.at("health") ==
         nlohmann::json{{"nan", 0}, {"infinite", 0}, {"negative", 0}});
   CHECK(report.at("error").at("relmse").at("value") > 0);
+  CHECK(report.at("error").at("effective_pixels") > 0);
+  CHECK(report.at("stop_reason") == "samples");
   CHECK(report.at("seconds").at("render") > 0);
   CHECK(report.at("plan").at("stages").size() == report.at("stages").size());
   for (const auto& stage : report.at("stages")) {

@@ -1,0 +1,29 @@
+// Memory that a run keeps between tasks.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/core/aligned.h"
+#include "src/wavefront/drive.h"
+
+namespace lanelight {
+
+/// Samples of one finished task, until they are merged in order.
+struct TaskSamples {
+  AlignedVector<float> values;
+  std::uint32_t count = 0;  // samples per pixel; 0 = not run
+};
+
+/// What a thread keeps between tasks.
+struct Workspace {
+  Workspace(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
+            bool profile)
+      : wavefront(scene, plan, run), counters(profile ? plan.stages.size() : 0) {}
+  Wavefront wavefront;
+  std::vector<StageCounters> counters;
+  std::vector<std::uint32_t> pixels;
+  TaskSamples samples;
+};
+
+}  // namespace lanelight
