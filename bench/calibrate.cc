@@ -17,8 +17,10 @@
 #include "src/core/parallel.h"
 #include "src/render/job.h"
 #include "src/stat/interval.h"
-#include "src/strategy/use_strategy.h"
+#include "src/study/colors.h"
+#include "src/study/errors.h"
 #include "src/study/estimate.h"
+#include "src/study/options.h"
 
 namespace lanelight {
 namespace {
@@ -33,49 +35,6 @@ struct CalibrateOptions {
   std::vector<double> targets;
   int seeds = 100, threads = 0;
 };
-
-std::vector<std::string> SplitList(const std::string& text) {
-  std::vector<std::string> items;
-  std::size_t begin = 0;
-  while (begin <= text.size()) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
-    if (end > begin) items.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return items;
-}
-
-struct Pixel {
-  Rgb mean, variance;
-};
-
-std::vector<Pixel> Pixels(const FilmAccumulator& film) {
-  std::vector<Pixel> pixels;
-  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
-    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
-      pixels.push_back({film.Mean(x, y), film.Variance(x, y)});
-    }
-  }
-  return pixels;
-}
-
-struct TrueError {
-  double mse = 0, relmse = 0;
-};
-
-TrueError Compare(const FilmAccumulator& film, const std::vector<Pixel>& reference) {
-  TrueError error;
-  const std::vector<Pixel> pixels = Pixels(film);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      const double r = reference[i].mean[c], d = pixels[i].mean[c] - r;
-      const double square = d * d - reference[i].variance[c];
-      error.mse += square / (3 * double(pixels.size()));
-      error.relmse += square / (r * r + kRelativeEpsilon) / (3 * double(pixels.size()));
-    }
-  }
-  return error;
-}
 
 // Intervals that were checked against the truth.
 struct Coverage {
@@ -97,30 +56,27 @@ struct Coverage {
   }
   std::string Text() const {
     const Interval share = stat::ProportionInterval(inside, total, 0.95);
-    return fmt::format(
-        "{:5.1f} % [{:4.1f}, {:5.1f}] {:>4} {:>4} {:>7.3f} {:>7.3f} {:>9.3g}",
-        100 * share.value, 100 * share.low, 100 * share.high, below,
-        total - inside - below, truth / estimate, width / double(total),
-        estimate / double(total));
+    const std::string text =
+        fmt::format("{:5.1f} % [{:4.1f}, {:5.1f}] {:>4} {:>4}", 100 * share.value,
+                    100 * share.low, 100 * share.high, below, total - inside - below);
+    if (!(estimate > 0)) return text;  // of all rows together
+    return text + fmt::format(" {:>7.3f} {:>7.3f} {:>9.3g}", truth / estimate,
+                              width / double(total), estimate / double(total));
   }
 };
 
-void SetStrategy(Job& job, const std::string& text) {
+void UseStrategy(Job& job, const std::string& text, std::uint64_t spp) {
   Strategy strategy;
   ApplyStrategy(text, {std::make_shared<const std::string>("--strategies"), 0, 0},
                 strategy);
-  UseStrategy(strategy, job.scene);
-  job.plan = MakePlan(job.scene, job.plan.options);
-  job.group_size = GroupSize(strategy, job.spp);
+  job.spp = spp;
+  SetStrategy(job, strategy);
 }
 
-std::vector<Pixel> RenderReference(Job& job, std::uint64_t spp) {
-  job.spp = spp;
-  SetStrategy(job, "points=independent");
-  job.seed = kReferenceSeed;
-  FilmAccumulator film = MakeFilm(job);
-  RunJob(job, film);
-  return Pixels(film);
+Measurement TrueErrors(const FilmAccumulator& film, const Reference& reference) {
+  Measurement m;
+  MeasureErrors(FilmColors(film), reference, m);
+  return m;
 }
 
 void PrintRow(const std::string& name, const std::string& error, const Coverage& c) {
@@ -141,11 +97,12 @@ class Calibration {
     settings.resolution = {width, height};
     settings.spp = options_.reference_spp;
     Job job = PrepareJob(path, settings);
-    const std::vector<Pixel> reference = RenderReference(job, options_.reference_spp);
+    const Reference reference =
+        RenderReference(job, options_.reference_spp, kReferenceSeed, {}, nullptr);
     fmt::print("\n{}, {}\n{:<58} {:<7} {:>21} {:>4} {:>4} {:>7} {:>7} {:>9}\n", path,
                options_.resolution, "", "", "true inside", "low", "high", "ratio",
                "width", "estimate");
-    for (const std::string& strategy : SplitList(options_.strategies)) {
+    for (const std::string& strategy : SplitStrategies(options_.strategies)) {
       for (double target : options_.targets) Stop(job, strategy, target, reference);
       if (!options_.targets.empty()) continue;
       for (std::uint64_t spp : options_.spp) Row(job, strategy, spp, reference);
@@ -163,15 +120,14 @@ class Calibration {
 
  private:
   void Row(Job& job, const std::string& strategy, std::uint64_t spp,
-           const std::vector<Pixel>& reference) {
-    job.spp = spp;
-    SetStrategy(job, strategy);
+           const Reference& reference) {
+    UseStrategy(job, strategy, spp);
     Coverage relmse, rmse;
     for (int seed = 1; seed <= options_.seeds; ++seed) {
       job.seed = static_cast<std::uint64_t>(seed);
       FilmAccumulator film = MakeFilm(job);
       RunJob(job, film);
-      const TrueError truth = Compare(film, reference);
+      const Measurement truth = TrueErrors(film, reference);
       const ErrorEstimate stated = EstimateError(film);
       relmse.Add(truth.relmse, stated.relmse);
       rmse.Add(std::sqrt(std::max(0.0, truth.mse)), stated.rmse);
@@ -185,9 +141,8 @@ class Calibration {
 
   // Renders that stop by themselves.
   void Stop(Job& job, const std::string& strategy, double target,
-            const std::vector<Pixel>& reference) {
-    job.spp = 0;
-    SetStrategy(job, strategy);
+            const Reference& reference) {
+    UseStrategy(job, strategy, 0);
     job.target.relmse = target;
     std::uint64_t reached = 0;
     double error = 0, samples = 0, looks = 0;
@@ -195,7 +150,7 @@ class Calibration {
       job.seed = static_cast<std::uint64_t>(seed);
       FilmAccumulator film = MakeFilm(job);
       const RunResult result = RunJob(job, film);
-      const double truth = Compare(film, reference).relmse;
+      const double truth = TrueErrors(film, reference).relmse;
       reached += truth < target;
       error += truth / options_.seeds;
       samples += double(result.samples) / double(job.window.pixels()) / options_.seeds;

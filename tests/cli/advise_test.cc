@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/cli/exit_codes.h"
+#include "src/render/report.h"
 #include "src/image/exr.h"
 #include "src/image/image.h"
 #include "tests/cli/process.h"
@@ -77,7 +78,7 @@ TEST_CASE("advise without an image prints the command that renders", "[cli]") {
       {"advise", kBox, "--time", "0.5", "--resolution", "32x32", "--json", "-"});
   REQUIRE(json.exit_code == kExitGood);
   const nlohmann::json report = nlohmann::json::parse(json.out);
-  CHECK(report.at("schema") == 1);
+  CHECK(report.at("schema") == kReportSchema);
   CHECK(report.at("advice").at("candidates").size() >= 8);
 }
 
