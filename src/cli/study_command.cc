@@ -76,8 +76,9 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
   CLI::Option* list =
       command
           .add_option("--strategies", options.strategies,
-                      "'A;B;...': presets, key=value,... or 'default'; the first is the "
-                      "baseline. Without: the paper's presets and the default")
+                      "'A;B;...': presets, key=value,... (changes of the default), "
+                      "'default', or 'scene' (its own); the first is the baseline. "
+                      "Without: the paper's presets, 'default' and 'scene'")
           ->type_name("LIST");
   command
       .add_flag("--all", s.all_strategies, "Every choice of every key, and the presets")

@@ -10,6 +10,7 @@ namespace lanelight {
 namespace {
 
 constexpr const char* kDefaultName = "default";
+constexpr const char* kSceneName = "scene";
 
 // Presets from Figure 2 on; what they share is paper-plain.
 constexpr const char* kFigures[] = {"paper-uniform",    "paper-importance",
@@ -19,7 +20,7 @@ constexpr const char* kFigures[] = {"paper-uniform",    "paper-importance",
 std::vector<std::string> PaperStrategies() {
   std::vector<std::string> names = {"paper-plain"};
   names.insert(names.end(), std::begin(kFigures), std::end(kFigures));
-  names.push_back(kDefaultName);
+  names.insert(names.end(), {kDefaultName, kSceneName});
   return names;
 }
 
@@ -30,6 +31,7 @@ std::vector<std::string> AllStrategies() {
     names.push_back(std::string(c.axis) + "=" + c.name);
   }
   for (const PresetInfo& p : AllPresets()) names.push_back(p.name);
+  names.push_back(kSceneName);
   return names;
 }
 
@@ -41,15 +43,17 @@ int StudyOptions::Repetitions() const {
 }
 
 std::vector<NamedStrategy> StudyStrategies(const StudyOptions& options,
-                                           const Strategy& base) {
+                                           const Strategy& own) {
   const std::vector<std::string> names = options.all_strategies ? AllStrategies()
                                          : options.strategies.empty()
                                              ? PaperStrategies()
                                              : options.strategies;
   std::vector<NamedStrategy> strategies;
   for (const std::string& name : names) {
-    NamedStrategy named = {name, base};
-    if (name != kDefaultName) {
+    NamedStrategy named = {name, {}};
+    if (name == kSceneName) {
+      named.strategy = own;
+    } else if (name != kDefaultName) {
       ApplyStrategy(name, {std::make_shared<const std::string>("--strategies"), 0, 0},
                     named.strategy);
     }

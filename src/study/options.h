@@ -33,7 +33,8 @@ struct StudyOptions {
   int Repetitions() const;
 };
 
-/// A strategy under its name on the command line; "default" is the scene's own.
+/// A strategy under its name on the command line: "default" is the renderer's, "scene" the
+/// scene's own, anything else a change of the default.
 struct NamedStrategy {
   std::string name;
   Strategy strategy;

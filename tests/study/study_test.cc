@@ -248,7 +248,13 @@ TEST_CASE("sample counts", "[study]") {
 TEST_CASE("lists of strategies", "[study]") {
   CHECK(SplitStrategies(" a=b ;; c ;") == std::vector<std::string>{"a=b", "c"});
   StudyOptions options;
-  CHECK(StudyStrategies(options, {}).size() == 8);
+  CHECK(StudyStrategies(options, {}).size() == 8);  // the scene's own is the default
+  Strategy own;
+  own.points = Points::kLattice;
+  const auto named = StudyStrategies(options, own);
+  REQUIRE(named.size() == 9);
+  CHECK(named[7].strategy == Strategy{});
+  CHECK(named[8].strategy == own);
   options.all_strategies = true;
   const auto all = StudyStrategies(options, {});
   CHECK(all.size() > 20);
