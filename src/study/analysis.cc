@@ -144,6 +144,9 @@ class SceneAnalyser {
     for (std::size_t i = 0; i < out_.strategies.size(); ++i) {
       const StrategyAnalysis& strategy = out_.strategies[i];
       if (!strategy.HasRuns() || !strategy.AtLevel().bias_p) continue;
+      // Most renders miss the rarest samples, and their scatter does not show it: the
+      // mean is low without being biased.
+      if (strategy.heavy_tailed) continue;
       p.push_back(*strategy.AtLevel().bias_p);
       tested.push_back(i);
     }

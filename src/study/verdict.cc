@@ -12,6 +12,8 @@ std::string Numbers(const Interval& v) {
   return fmt::format("{:.3g} [{:.3g}, {:.3g}]", v.value, v.low, v.high);
 }
 
+constexpr std::size_t kMostNames = 4;  // that a reader takes in
+
 class Writer {
  public:
   Writer(const SceneRuns& runs, const SceneAnalysis& analysis)
@@ -64,6 +66,11 @@ class Writer {
     }
     if (first.size() == 1) {
       Say(fmt::format("{} gives the least error for the time", NameOf(best)));
+    } else if (first.size() > kMostNames) {
+      Say(
+          fmt::format("{} gives the least error for the time in these renders, but {} "
+                      "others are not certainly behind",
+                      NameOf(best), first.size() - 1));
     } else {
       Say(
           fmt::format("{} give the least error for the time and are not distinguishable "
