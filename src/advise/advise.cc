@@ -5,16 +5,22 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "src/core/check.h"
 #include "src/advise/candidates.h"
+#include "src/advise/rare_samples.h"
 #include "src/advise/window_errors.h"
 
 namespace lanelight {
 namespace {
 
-// Of the pilot's time; the rest is for combinations of changes.
-constexpr double kSingleChanges = 0.7;
+// Of the pilot's time; what these leave is for combinations of changes.
+constexpr double kSingleChanges = 0.45, kRareSamples = 0.25;
+// Against rare bright samples: guides paths to where light may come from.
+constexpr const char* kRareChange = "roulette=adjoint";
+// It must be this much better on the whole image, which a few samples measure badly.
+constexpr double kRareMargin = 1.5;
 // Changes that may be worth combining.
 constexpr double kPromising = 1.03;
 constexpr std::size_t kMostCombinations = 2;
@@ -33,9 +39,10 @@ class Adviser {
     Candidate best = all[single];
     if (single > 0 && !advice_.interrupted) {
       std::vector<Candidate> combined = Combinations(all, best);
-      const double left = budget - advice_.pilot_seconds;
+      const double left = budget * (1 - kRareSamples) - advice_.pilot_seconds;
       if (combined.size() > 1) best = combined[Compare(combined, left, best.changes)];
     }
+    LookForRareSamples(budget * kRareSamples, best);
     advice_.chosen = best.strategy;
     advice_.why = Why(best);
     Use(best.strategy);
@@ -65,6 +72,9 @@ class Adviser {
         Halve(margins, WindowRenderer(job_, strategies, options_.stop), halving);
     advice_.pilot_seconds += result.seconds;
     advice_.interrupted |= result.interrupted;
+    double windows = 0;
+    for (const CandidateOutcome& c : result.candidates) windows += double(c.windows);
+    if (windows > 0) sample_seconds_ = result.seconds / (windows * kWindowSamples);
     // The first of a second comparison is in the advice already.
     std::size_t next = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -79,6 +89,43 @@ class Adviser {
     const std::size_t best = taken[result.chosen];
     if (best > 0 && !relative_to.empty()) Demote(relative_to);
     return best;
+  }
+
+  // Renders the whole image with the best strategy and with the change that helps where
+  // rare samples carry the error; the windows cannot tell.
+  void LookForRareSamples(double seconds, Candidate& best) {
+    const Strategy changed = Changed(best.strategy, kRareChange);
+    if (advice_.interrupted || changed == best.strategy) return;
+    const auto start = std::chrono::steady_clock::now();
+    const std::uint64_t seed = job_.seed;
+    WholeImage usual, rare;
+    double taken = 0;
+    double of_round = 2 * kRareSpp * double(job_.window.pixels()) * sample_seconds_;
+    for (int round = 1; of_round > 0 && taken + of_round <= seconds; ++round) {
+      if (!AddWholeImage(job_, best.strategy, seed + 1000 + round, options_.stop,
+                         usual) ||
+          !AddWholeImage(job_, changed, seed + 1000 + round, options_.stop, rare)) {
+        advice_.interrupted = true;
+        return;
+      }
+      const std::chrono::duration<double> passed =
+          std::chrono::steady_clock::now() - start;
+      taken = passed.count();
+      of_round = taken / round;
+    }
+    advice_.rare_gain = RareGain(usual, rare);
+    if (advice_.rare_gain < kRareMargin) return;
+    for (AdvisedCandidate& c : advice_.candidates) {
+      if (c.outcome.status == CandidateStatus::kChosen) {
+        c.outcome.status = CandidateStatus::kKept;
+        c.outcome.reason = "rare bright samples carry its error";
+      }
+      if (c.changes == kRareChange) {
+        c.outcome.status = CandidateStatus::kChosen;
+        c.outcome.reason = "more efficient on the whole image";
+      }
+    }
+    best = {changed, kRareChange, "rare bright samples carry the error", 0, ""};
   }
 
   // The best single change gives way to a combination.
@@ -123,6 +170,10 @@ class Adviser {
     if (best.changes.empty()) {
       return "no change is certainly more efficient than the default strategy";
     }
+    if (advice_.rare_gain >= kRareMargin) {
+      return fmt::format("{} is about {:.2g} times as efficient on the whole image ({})",
+                         best.changes, advice_.rare_gain, best.meaning);
+    }
     for (const AdvisedCandidate& c : advice_.candidates) {
       if (c.changes != best.changes) continue;
       const Interval& e = c.outcome.efficiency;
@@ -142,6 +193,7 @@ class Adviser {
   Job& job_;
   const AdviceOptions& options_;
   Advice advice_;
+  double sample_seconds_ = 0;  // wall clock of one sample in the windows; 0: not known
 };
 
 nlohmann::json Finite(double x) {
@@ -180,6 +232,7 @@ nlohmann::json ToJson(const Advice& advice) {
           {"chosen", ToText(advice.chosen)},
           {"why", advice.why},
           {"pilot_seconds", advice.pilot_seconds},
+          {"rare_gain", Finite(advice.rare_gain)},
           {"interrupted", advice.interrupted}};
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <atomic>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -31,6 +31,9 @@ struct Advice {
   Strategy chosen;
   std::string why;           // one sentence
   double pilot_seconds = 0;  // wall clock
+  /// Efficiency of roulette=adjoint on the whole image, relative to the best strategy
+  /// without; 0 if there was no time to look.
+  double rare_gain = 0;
   bool interrupted = false;
 };
 

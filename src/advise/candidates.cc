@@ -17,6 +17,10 @@ constexpr double kRareSamples = 0.15;
 // A quad is two lights; a tree over so few finds no more than their power says.
 constexpr std::size_t kFewLights = 4;
 
+// The control variate integrates over every light at every hit: beyond this many it costs
+// more than the rest of the path, and its trial most of the pilot's time.
+constexpr std::size_t kManyLights = 16;
+
 // After the changes that gain most where they gain: a short pilot reaches these only.
 constexpr std::ptrdiff_t kPlaceOfOwn = 3;
 
@@ -39,6 +43,11 @@ std::string Refusal(const Strategy& strategy, const PlanOptions& options,
   if (strategy.light_selection == LightSelection::kTree &&
       scene.lights.lights.size() < kFewLights) {
     return fmt::format("with {} lights there is little to select",
+                       scene.lights.lights.size());
+  }
+  if (strategy.control == Control::kAnalytic &&
+      scene.lights.lights.size() > kManyLights) {
+    return fmt::format("with {} lights it costs more than it saves",
                        scene.lights.lights.size());
   }
   try {

@@ -26,6 +26,9 @@ class WindowSequence {
   std::uint64_t index_ = 0;
 };
 
+/// Samples of a window of 8 x 8 pixels.
+inline constexpr double kWindowSamples = 8 * 8 * 128;
+
 /// Renders windows with strategies of the job's scene. A window of 8 x 8 pixels has 128
 /// samples per pixel in two randomisations of 64, as groups have that a render of any
 /// length consists of: its variance falls with their number as the render's own does.

@@ -1,6 +1,7 @@
 // `lanelight advise SCENE --time S`: which strategy pays on this scene, and the render
 // with it.
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
 #include "src/cli/commands.h"

@@ -1,5 +1,7 @@
 #include "src/render/report.h"
 
+#include <nlohmann/json.hpp>
+
 #include "kernels/simd/target.h"
 #include "src/core/parallel.h"
 

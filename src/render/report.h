@@ -3,7 +3,7 @@
 // its meaning or goes away, not when one is added.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>

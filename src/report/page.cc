@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string_view>
+#include <nlohmann/json.hpp>
 
 #include "src/core/check.h"
 #include "src/report/page_text.h"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "src/render/settings.h"
-#include "src/study/cell_store.h"
 
 namespace lanelight {
 
@@ -33,8 +32,8 @@ struct StudyOptions {
   int Repetitions() const;
 };
 
-/// A strategy under its name on the command line: "default" is the renderer's, "scene" the
-/// scene's own, anything else a change of the default.
+/// A strategy under its name on the command line: "default" is the renderer's, "scene"
+/// the scene's own, anything else a change of the default.
 struct NamedStrategy {
   std::string name;
   Strategy strategy;

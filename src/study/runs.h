@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "src/study/cell_store.h"
 #include "src/study/options.h"
 #include "src/study/reference.h"
 

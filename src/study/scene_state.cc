@@ -1,6 +1,7 @@
 // What a study on one scene settles before its renders, and keeps for a continuation:
 // sample counts, the reference, the diffuse models.
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
 #include "src/image/atomic_file.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
+#include <nlohmann/json.hpp>
 
 #include "src/image/atomic_file.h"
 #include "src/study/study_images.h"

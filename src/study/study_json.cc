@@ -1,6 +1,7 @@
 #include "src/study/study_json.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
 #include "src/core/parallel.h"

@@ -1,7 +1,7 @@
 // study.json and study.csv (docs/study.md).
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

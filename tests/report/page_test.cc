@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 #include <vector>
+#include <nlohmann/json.hpp>
 
 #include "src/core/check.h"
 #include "src/report/page.h"

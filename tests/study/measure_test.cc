@@ -1,6 +1,7 @@
 // Errors of images against references, rows of measurements, sums over repetitions.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "src/study/estimate.h"
 #include "tests/study/simulated.h"

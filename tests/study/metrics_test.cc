@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
 
