@@ -16,9 +16,11 @@ namespace lanelight {
 namespace {
 
 // Of the pilot's time; what these leave is for combinations of changes.
-constexpr double kSingleChanges = 0.45, kRareSamples = 0.25;
+constexpr double kSingleChanges = 0.45, kRareSamples = 0.3;
 // Against rare bright samples: guides paths to where light may come from.
 constexpr const char* kRareChange = "roulette=adjoint";
+constexpr const char* kRareMeaning = "rare bright samples carry the error";
+constexpr std::uint64_t kRareSeed = 1000;  // the windows' seeds are below
 // It must be this much better on the whole image, which a few samples measure badly.
 constexpr double kRareMargin = 1.5;
 // Changes that may be worth combining.
@@ -42,7 +44,9 @@ class Adviser {
       const double left = budget * (1 - kRareSamples) - advice_.pilot_seconds;
       if (combined.size() > 1) best = combined[Compare(combined, left, best.changes)];
     }
-    LookForRareSamples(budget * kRareSamples, best);
+    if (!advice_.interrupted) {
+      CheckOnWholeImage(budget * kRareSamples, all.front(), best);
+    }
     advice_.chosen = best.strategy;
     advice_.why = Why(best);
     Use(best.strategy);
@@ -91,41 +95,57 @@ class Adviser {
     return best;
   }
 
-  // Renders the whole image with the best strategy and with the change that helps where
-  // rare samples carry the error; the windows cannot tell.
-  void LookForRareSamples(double seconds, Candidate& best) {
-    const Strategy changed = Changed(best.strategy, kRareChange);
-    if (advice_.interrupted || changed == best.strategy) return;
+  // Renders the whole image with the best strategy, the default, and the change that
+  // helps where rare bright samples carry the error: windows show too few of these to
+  // tell.
+  void CheckOnWholeImage(double seconds, const Candidate& usual, Candidate& best) {
+    std::vector<Candidate> others = {
+        usual, {Changed(usual.strategy, kRareChange), kRareChange, kRareMeaning, 0, ""}};
+    std::erase_if(others,
+                  [&](const Candidate& c) { return c.strategy == best.strategy; });
+    WholeImage own;
+    std::vector<WholeImage> images(others.size());
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t seed = job_.seed;
-    WholeImage usual, rare;
     double taken = 0;
-    double of_round = 2 * kRareSpp * double(job_.window.pixels()) * sample_seconds_;
+    double of_round = double(1 + others.size()) * kRareSpp *
+                      double(job_.window.pixels()) * sample_seconds_;
     for (int round = 1; of_round > 0 && taken + of_round <= seconds; ++round) {
-      if (!AddWholeImage(job_, best.strategy, seed + 1000 + round, options_.stop,
-                         usual) ||
-          !AddWholeImage(job_, changed, seed + 1000 + round, options_.stop, rare)) {
-        advice_.interrupted = true;
-        return;
+      const std::uint64_t round_seed =
+          seed + kRareSeed + static_cast<std::uint64_t>(round);
+      bool done = AddWholeImage(job_, best.strategy, round_seed, options_.stop, own);
+      for (std::size_t i = 0; i < others.size() && done; ++i) {
+        done =
+            AddWholeImage(job_, others[i].strategy, round_seed, options_.stop, images[i]);
       }
+      advice_.interrupted |= !done;
+      if (!done) return;
       const std::chrono::duration<double> passed =
           std::chrono::steady_clock::now() - start;
       taken = passed.count();
       of_round = taken / round;
     }
-    advice_.rare_gain = RareGain(usual, rare);
-    if (advice_.rare_gain < kRareMargin) return;
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      const double gain = RareGain(own, images[i]);
+      if (gain <= std::max(kRareMargin, advice_.rare_gain)) continue;
+      advice_.rare_gain = gain;
+      best = others[i];
+    }
+    if (advice_.rare_gain > 0) Replace(best);
+  }
+
+  // The windows' choice gives way to what the whole image shows.
+  void Replace(const Candidate& best) {
     for (AdvisedCandidate& c : advice_.candidates) {
       if (c.outcome.status == CandidateStatus::kChosen) {
         c.outcome.status = CandidateStatus::kKept;
-        c.outcome.reason = "rare bright samples carry its error";
+        c.outcome.reason = "rare bright samples carry its error on the whole image";
       }
-      if (c.changes == kRareChange) {
+      if (c.changes == best.changes) {
         c.outcome.status = CandidateStatus::kChosen;
         c.outcome.reason = "more efficient on the whole image";
       }
     }
-    best = {changed, kRareChange, "rare bright samples carry the error", 0, ""};
   }
 
   // The best single change gives way to a combination.
@@ -170,9 +190,12 @@ class Adviser {
     if (best.changes.empty()) {
       return "no change is certainly more efficient than the default strategy";
     }
-    if (advice_.rare_gain >= kRareMargin) {
-      return fmt::format("{} is about {:.2g} times as efficient on the whole image ({})",
-                         best.changes, advice_.rare_gain, best.meaning);
+    if (advice_.rare_gain > 0) {
+      return fmt::format(
+          "rare bright samples carry the error: on the whole image {} is about {:.2g} "
+          "times "
+          "as efficient as what is best without them",
+          best.changes.empty() ? "the default" : best.changes, advice_.rare_gain);
     }
     for (const AdvisedCandidate& c : advice_.candidates) {
       if (c.changes != best.changes) continue;

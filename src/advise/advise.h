@@ -31,8 +31,8 @@ struct Advice {
   Strategy chosen;
   std::string why;           // one sentence
   double pilot_seconds = 0;  // wall clock
-  /// Efficiency of roulette=adjoint on the whole image, relative to the best strategy
-  /// without; 0 if there was no time to look.
+  /// Efficiency of the chosen strategy on the whole image, relative to what the windows
+  /// chose; 0 unless that made it the chosen one.
   double rare_gain = 0;
   bool interrupted = false;
 };
