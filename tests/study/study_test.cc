@@ -10,6 +10,7 @@
 #include "src/core/error.h"
 #include "src/study/colors.h"
 #include "tests/image/temporary_folder.h"
+#include "tests/study/study_file.h"
 
 namespace lanelight {
 namespace {
@@ -40,23 +41,6 @@ StudyOptions TinyStudy(const TemporaryFolder& folder, const std::string& out) {
   options.repetitions = 3;
   options.out = folder.File(out);
   return options;
-}
-
-Json ReadJson(const std::string& path) {
-  std::ifstream in(path);
-  return Json::parse(in);
-}
-
-// Seconds, and what is computed from them.
-void RemoveTimings(Json& json) {
-  for (const char* name :
-       {"seconds", "cpu_seconds", "wall_seconds", "efficiency", "efficiency_trimmed",
-        "rank", "ranking", "to_target", "verdict", "ns_per_item", "share"}) {
-    if (json.is_object()) json.erase(name);
-  }
-  if (json.is_structured()) {
-    for (Json& child : json) RemoveTimings(child);
-  }
 }
 
 void CheckNumbers(const Json& json) {

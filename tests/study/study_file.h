@@ -1,0 +1,26 @@
+// study.json as tests compare it.
+#pragma once
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace lanelight {
+
+inline nlohmann::json ReadJson(const std::string& path) {
+  std::ifstream in(path);
+  return nlohmann::json::parse(in);
+}
+
+/// Removes seconds, and what is computed from them.
+inline void RemoveTimings(nlohmann::json& json) {
+  for (const char* name :
+       {"seconds", "cpu_seconds", "wall_seconds", "efficiency", "efficiency_trimmed",
+        "rank", "ranking", "to_target", "verdict", "ns_per_item", "share"}) {
+    if (json.is_object()) json.erase(name);
+  }
+  if (!json.is_structured()) return;
+  for (nlohmann::json& child : json) RemoveTimings(child);
+}
+
+}  // namespace lanelight
