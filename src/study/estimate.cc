@@ -174,7 +174,7 @@ Interval SquareRoot(const Interval& v) {
 double WeightDoubt(const Sums& sums) {
   const double shrunk = sums.relative.steady_sum;
   if (!(shrunk > 0) || !(sums.plain > 0)) return 0;
-  return kWeightDoubt * std::abs(std::log(shrunk / sums.plain));
+  return std::hypot(kWeightDoubt * std::log(shrunk / sums.plain), kLeastDoubt);
 }
 
 }  // namespace

@@ -66,6 +66,9 @@ struct PixelEstimate {
 /// is above the interval in those.
 ErrorEstimate EstimateError(const FilmAccumulator& film);
 inline constexpr double kWeightDoubt = 0.4;
+/// What the weights may be wrong by even where shrinking changes nothing: measured biases
+/// of 2 to 11 % on images of 30 000 pixels, whose F interval alone is +-2 %.
+inline constexpr double kLeastDoubt = 0.07;
 
 /// The same for any source of pixels, x in [0, width), y in [0, height), which may be
 /// asked from several threads at once.
