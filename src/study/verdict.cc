@@ -64,23 +64,30 @@ class Writer {
           NameOf(best), Numbers(gain), NameOf(analysis_.baseline), repetitions,
           repetitions == 1 ? "" : "s"));
     }
+    const std::string amount =
+        best == analysis_.baseline
+            ? "the baseline"
+            : fmt::format("{} times the efficiency of {}", Numbers(gain),
+                          NameOf(analysis_.baseline));
     if (first.size() == 1) {
-      Say(fmt::format("{} gives the least error for the time", NameOf(best)));
-    } else if (first.size() > kMostNames) {
-      Say(
-          fmt::format("{} gives the least error for the time in these renders, but {} "
-                      "others are not certainly behind",
-                      NameOf(best), first.size() - 1));
-    } else {
-      Say(
-          fmt::format("{} give the least error for the time and are not distinguishable "
-                      "from each other as first; {} is ahead in these renders",
-                      List(first), NameOf(best)));
+      return Say(fmt::format("{} gives the least error for the time: {}.", NameOf(best),
+                             amount));
     }
-    text_ += best == analysis_.baseline
-                 ? " and is the baseline."
-                 : fmt::format(", with {} times the efficiency of {}.", Numbers(gain),
-                               NameOf(analysis_.baseline));
+    Say(
+        fmt::format("{} gives the least error for the time in these renders ({}), but {} "
+                    "not certainly behind.",
+                    NameOf(best), amount, Others(first)));
+  }
+
+  // "A and B are", "27 others are".
+  std::string Others(const std::vector<std::size_t>& first) const {
+    std::vector<std::size_t> others;
+    for (std::size_t i : first) {
+      if (i != analysis_.ranking.front()) others.push_back(i);
+    }
+    if (others.size() == 1) return NameOf(others.front()) + " is";
+    if (others.size() > kMostNames) return fmt::format("{} others are", others.size());
+    return List(others) + " are";
   }
 
   void Target() {
@@ -134,9 +141,11 @@ class Writer {
     }
     if (!heavy.empty()) {
       Say(fmt::format(
-          "Rare bright samples carry most of the error of {}: intervals there "
-          "may not hold.",
-          List(heavy)));
+          "Rare bright samples carry much of the error of {}: intervals there "
+          "may not hold, and bias cannot be tested.",
+          heavy.size() > kMostNames ? fmt::format("{} strategies", heavy.size())
+                                    : List(heavy)));
+      TrimmedWinner();
     }
     if (!analysis_.biased.empty()) {
       Say(fmt::format(
@@ -145,9 +154,10 @@ class Writer {
           List(analysis_.biased), analysis_.bias_level));
     } else if (analysis_.bias_tests > 0) {
       Say(
-          fmt::format("No mean image differs from the reference by more than noise ({} "
-                      "tests).",
-                      analysis_.bias_tests));
+          fmt::format("No {}mean image differs from the reference by more than noise ({} "
+                      "test{}).",
+                      heavy.empty() ? "" : "other ", analysis_.bias_tests,
+                      analysis_.bias_tests == 1 ? "" : "s"));
     }
     if (!failed.empty()) Say("Failed: " + List(failed) + ".");
     if (Of(analysis_.ranking.front()).AtLevel().ReferenceLimited()) {

@@ -230,6 +230,38 @@ TEST_CASE("sample counts", "[study]") {
   }
 }
 
+TEST_CASE("the verdict names what rare bright samples hide", "[study]") {
+  SceneRuns runs;
+  SceneAnalysis analysis;
+  for (const char* name : {"base", "steady", "wild"}) {
+    runs.strategies.push_back({{name, {}}, RunStatus::kOk, "", {16}});
+    StrategyAnalysis s;
+    LevelAnalysis level;
+    level.repetitions = 8;
+    level.relmse = {0.1, 0.09, 0.11};
+    s.levels.push_back(level);
+    s.efficiency = s.efficiency_trimmed = Interval{1, 1, 1};
+    s.rank = {1, 3};
+    analysis.strategies.push_back(s);
+  }
+  analysis.strategies[1].efficiency = Interval{2, 1.5, 2.5};
+  analysis.strategies[2].efficiency_trimmed = Interval{4, 3.5, 4.5};
+  analysis.strategies[2].heavy_tailed = true;
+  analysis.ranking = {1, 0, 2};
+  analysis.bias_tests = 2;
+  CHECK_THAT(
+      Verdict(runs, analysis),
+      Contains("steady gives the least error for the time in these renders (2 [1.5, 2.5] "
+               "times the efficiency of base), but base and wild are not certainly") &&
+          Contains("much of the error of wild") &&
+          Contains("Without the worst 1 % of the pixels wild is the most efficient") &&
+          Contains("No other mean image differs"));
+  analysis.strategies[1].rank = {1, 1};
+  analysis.strategies[0].rank = analysis.strategies[2].rank = {2, 3};
+  CHECK_THAT(Verdict(runs, analysis),
+             Contains("steady gives the least error for the time: 2 [1.5, 2.5] times"));
+}
+
 TEST_CASE("lists of strategies", "[study]") {
   CHECK(SplitStrategies(" a=b ;; c ;") == std::vector<std::string>{"a=b", "c"});
   StudyOptions options;
