@@ -1,0 +1,74 @@
+#include "bench/intersect/agreement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/intersect/brute_force.h"
+
+namespace lanelight::bench {
+namespace {
+
+// Distances agree to this share of themselves, and of the size of the coordinates: float
+// origins and vertices are no better.
+constexpr double kDistance = 1e-4, kCoordinate = 1e-5;
+
+bool IsWrong(const CompiledScene& scene, const TestRay& r, bool shadow,
+             const BenchHit& ours) {
+  const auto truth = brute::Closest(scene.geometry.triangles, brute::ToDouble(r.o),
+                                    brute::ToDouble(r.d));
+  if (shadow) return (truth.t < r.t_max) != (ours.t == 0);
+  if (std::isinf(truth.t)) return !std::isinf(ours.t);
+  const double reach = std::max({std::abs(r.o.x), std::abs(r.o.y), std::abs(r.o.z)});
+  return !(std::abs(truth.t - ours.t) <= kDistance * truth.t + kCoordinate * reach);
+}
+
+enum class Match { kSame, kTie, kDiffer };
+
+Match Compare(const BenchHit& a, const BenchHit& b, bool shadow) {
+  if (std::isinf(a.t) != std::isinf(b.t)) return Match::kDiffer;
+  if (shadow || std::isinf(a.t) || a.prim == b.prim) return Match::kSame;
+  return std::abs(a.t - b.t) <= 1e-5f * b.t ? Match::kTie : Match::kDiffer;
+}
+
+// {differences, ties} per million rays.
+std::pair<double, double> PerMillion(const std::vector<BenchHit>& ours,
+                                     const std::vector<BenchHit>& theirs, bool shadow) {
+  double differ = 0, ties = 0;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const Match match = Compare(ours[i], theirs[i], shadow);
+    differ += match == Match::kDiffer;
+    ties += match == Match::kTie;
+  }
+  const double unit = 1e6 / static_cast<double>(ours.size());
+  return {differ * unit, ties * unit};
+}
+
+}  // namespace
+
+Agreement CheckHits(const CompiledScene& scene, const RaySet& set,
+                    const std::vector<BenchHit>& hits, Peer* peer, int wave) {
+  Agreement out;
+  // About half a second.
+  constexpr double kTests = 5e7;
+  const double most = kTests / (double(scene.geometry.triangles.size()) + 1e4);
+  const auto step = static_cast<std::size_t>(
+      std::max(1.0, std::ceil(double(set.rays.size()) / std::max(most, 10.0))));
+  for (std::size_t i = 0; i < set.rays.size(); i += step) {
+    ++out.sample;
+    out.wrong += IsWrong(scene, set.rays[i], set.shadow, hits[i]);
+  }
+  if (!peer) return out;
+  const std::vector<PeerEntry> entries = peer->Entries();
+  std::vector<BenchHit> theirs;
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    const bool robust = entries[e].name == "high robust 1";
+    if (!robust && entries[e].name != "high 1") continue;
+    peer->Trace(e, set, wave, &theirs);
+    const auto [differ, ties] = PerMillion(hits, theirs, set.shadow);
+    (robust ? out.differ_robust : out.differ) = differ;
+    (robust ? out.ties_robust : out.ties) = ties;
+  }
+  return out;
+}
+
+}  // namespace lanelight::bench

@@ -1,0 +1,33 @@
+// Embree 3 devices and scenes. Bench only.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <string>
+
+#include "bench/intersect/mesh.h"
+
+namespace lanelight::bench {
+
+/// What rtcNewDevice is asked for: `threads` building threads and the instruction set
+/// that comes nearest to our SIMD target (the best one for AVX3), and `more`.
+std::string EmbreeConfig(const std::string& target, int threads, const std::string& more);
+
+/// A scene that is not committed yet: rtcCommitScene builds it.
+RTCScene NewEmbreeScene(RTCDevice device, const Mesh& mesh, RTCBuildQuality quality,
+                        bool robust);
+
+/// Denormals off while it lives, as Embree's manual asks of threads that call it. Our
+/// own kernels run with the settings that they have in a render.
+class FlushToZero {
+ public:
+  FlushToZero();
+  ~FlushToZero();
+  FlushToZero(const FlushToZero&) = delete;
+  FlushToZero& operator=(const FlushToZero&) = delete;
+
+ private:
+  unsigned before_;
+};
+
+}  // namespace lanelight::bench
