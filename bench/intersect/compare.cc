@@ -1,6 +1,7 @@
 #include "bench/intersect/compare.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bench/intersect/agreement.h"
 
@@ -101,14 +102,17 @@ Spread SpreadOf(std::vector<double> values) {
   return {(values[(n - 1) / 2] + values[n / 2]) / 2, values.front(), values.back()};
 }
 
-SetResult Compare(const Mesh& mesh, const CompiledScene& scene, const RaySet& set,
+SetResult Compare(const Mesh& mesh, const CompiledScene& scene, const RaySet& whole,
                   Peer* peer, const CompareOptions& options) {
+  OurTracer ours(scene, options.wave);
+  const double seconds = ours.Trace(whole, nullptr);
+  const auto step = static_cast<std::size_t>(std::ceil(seconds / options.most_seconds));
+  const RaySet set = EveryWave(whole, static_cast<std::size_t>(options.wave), step);
   SetResult result;
   result.mesh = mesh.name;
   result.set = set.name;
   result.triangles = mesh.triangles.size();
   result.rays = set.rays.size();
-  OurTracer ours(scene, options.wave);
   std::vector<BenchHit> hits;
   ours.Trace(set, &hits);
   result.agreement = CheckHits(scene, set, hits, peer, options.wave);

@@ -41,13 +41,15 @@ struct SetResult {
 
 struct CompareOptions {
   int wave = 2048, repeat = 9;
+  double most_seconds = 0.25;
 };
 
 /// First every entry runs twice. Entries slower than 0.85 of the best of their class
 /// (robust or not; by the faster run) are out: they cannot be the bar, and there are
 /// dozens. The others then run `repeat` times, each time right beside a run of ours,
-/// which goes first in every second repetition: each pair gives one ratio.
-SetResult Compare(const Mesh& mesh, const CompiledScene& scene, const RaySet& set,
+/// which goes first in every second repetition: each pair gives one ratio. Of a set that
+/// takes ours longer than `most_seconds` only every n-th wave is traced.
+SetResult Compare(const Mesh& mesh, const CompiledScene& scene, const RaySet& whole,
                   Peer* peer, const CompareOptions& options);
 
 }  // namespace lanelight::bench

@@ -19,7 +19,9 @@ namespace {
 struct Options {
   std::string folder = "../shared/meshes", generated = "out/meshes";
   std::string target, embree_config, csv, json;
-  std::vector<std::string> meshes = {"bunny", "igea", "nefertiti", "igea4", "igea16"};
+  std::vector<std::string> meshes = {"bunny",  "igea",    "nefertiti", "igea4",
+                                     "igea16", "terrain", "soup",      "flake",
+                                     "sticks", "needles", "stadium"};
   std::vector<std::string> sets = kRaySets;
   CompareOptions compare;
   int size = 384;
@@ -36,6 +38,17 @@ struct Options {
   }
 };
 
+// NAME4, NAME16: subdivided once or twice.
+int Levels(const std::string& name) {
+  return name.ends_with("16") ? 2 : name.ends_with("4") ? 1 : 0;
+}
+std::string FileName(const std::string& name) {
+  return name.substr(0, name.size() - static_cast<std::size_t>(Levels(name)));
+}
+bool IsBuiltIn(const std::string& name) {
+  return name == "cornell" || name.starts_with("ball");
+}
+
 std::string FolderOf(const Options& o, const std::string& name) {
   for (const std::string& folder : {o.folder, o.generated}) {
     if (HasMesh(folder, name)) return folder;
@@ -46,14 +59,11 @@ std::string FolderOf(const Options& o, const std::string& name) {
       name, o.folder, o.generated, name, o.generated));
 }
 
-// NAME, NAME4 or NAME16 (subdivided once or twice), cornell, ballN.
 Mesh FindMesh(const Options& o, const std::string& name) {
   if (name == "cornell") return CornellBox();
-  if (name.starts_with("ball")) return Ball(std::stoi(name.substr(4)));
-  const int levels = name.ends_with("16") ? 2 : name.ends_with("4") ? 1 : 0;
-  const std::string base = name.substr(0, name.size() - static_cast<std::size_t>(levels));
-  Mesh mesh = LoadMesh(FolderOf(o, base), base);
-  for (int i = 0; i < levels; ++i) Subdivide(mesh);
+  if (IsBuiltIn(name)) return Ball(std::stoi(name.substr(4)));
+  Mesh mesh = LoadMesh(FolderOf(o, FileName(name)), FileName(name));
+  for (int i = 0; i < Levels(name); ++i) Subdivide(mesh);
   mesh.name = name;
   if (!o.open) Enclose(mesh);
   return mesh;
@@ -133,6 +143,9 @@ int Main(int argc, char** argv) {
   AddOptions(app, o);
   CLI11_PARSE(app, argc, argv);
   ForceTarget(o.target);
+  for (const std::string& name : o.meshes) {
+    if (!IsBuiltIn(name)) FolderOf(o, FileName(name));  // better now than in an hour
+  }
   const ThreadLimit one(1);
   PrintSetting(o);
   PrintSetHeader();

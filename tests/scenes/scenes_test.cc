@@ -104,12 +104,13 @@ TEST_CASE("own scenes: generated meshes can be read", "[scenes]") {
   REQUIRE(
       std::system((script + "all --size 300 --out " + folder.string() + " > /dev/null")
                       .c_str()) == 0);
-  for (const char* name : {"terrain", "soup", "flake", "needles", "stadium"}) {
+  for (const char* name : {"terrain", "soup", "flake", "needles", "sticks", "stadium"}) {
     const SceneDescription scene = ParseScene((folder / name).string() + ".pbrt");
     INFO(name);
     REQUIRE(scene.shapes.size() == 1);
     CHECK(scene.shapes[0].mesh->indices.size() >= 3 * 288);
     REQUIRE_NOTHROW(CompileScene(scene));
+    CHECK(ReadText((folder / name).string() + ".cam").starts_with("eye "));
   }
   // The same arguments give the same bytes; bad ones a usage error.
   const std::string first = ReadText(folder / "soup.ply");
