@@ -8,9 +8,23 @@
 namespace lanelight::bench {
 namespace {
 
-// Distances agree to this share of themselves, and of the size of the coordinates: float
-// origins and vertices are no better.
-constexpr double kDistance = 1e-4, kCoordinate = 1e-5;
+// Distances agree to this share of themselves, and of the coordinates relative to the
+// origin of the triangle that was hit, divided by the cosine: what float arithmetic
+// leaves of a ray at a large triangle close by.
+constexpr double kDistance = 1e-4, kCoordinate = 1e-6;
+
+double Tolerance(const TriangleRecord& hit, const TestRay& r, double t) {
+  const Vec3d o = brute::ToDouble(r.o), d = brute::ToDouble(r.d);
+  Vec3d p[3];
+  double reach = Length(o);
+  for (int k = 0; k < 3; ++k) {
+    p[k] = Vec3d{hit.p[k][0], hit.p[k][1], hit.p[k][2]} - o;
+    reach = std::max(reach, Length(p[k]));
+  }
+  const Vec3d n = Cross(p[1] - p[0], p[2] - p[0]);
+  const double cosine = std::abs(Dot(n, d)) / (Length(n) * Length(d));
+  return kDistance * t + kCoordinate * reach / cosine;
+}
 
 bool IsWrong(const CompiledScene& scene, const TestRay& r, bool shadow,
              const BenchHit& ours) {
@@ -18,8 +32,8 @@ bool IsWrong(const CompiledScene& scene, const TestRay& r, bool shadow,
                                     brute::ToDouble(r.d));
   if (shadow) return (truth.t < r.t_max) != (ours.t == 0);
   if (std::isinf(truth.t)) return !std::isinf(ours.t);
-  const double reach = std::max({std::abs(r.o.x), std::abs(r.o.y), std::abs(r.o.z)});
-  return !(std::abs(truth.t - ours.t) <= kDistance * truth.t + kCoordinate * reach);
+  const double most = Tolerance(scene.geometry.triangles[truth.prim], r, truth.t);
+  return !(std::abs(truth.t - ours.t) <= most);
 }
 
 enum class Match { kSame, kTie, kDiffer };

@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> sets = kRaySets;
   CompareOptions compare;
   int size = 384;
-  bool embree = true, open = false;
+  bool embree = true, open = false, build = false;
   int few = -1;
 
   AccelOptions Accel() const {
@@ -82,6 +82,33 @@ std::vector<SetResult> BenchMesh(const Options& o, const std::string& name) {
   return results;
 }
 
+void BenchBuild(const Options& o, const std::string& name, nlohmann::json& out) {
+  const Mesh mesh = FindMesh(o, name);
+  const CompiledScene scene = MakeScene(ToGeometry(mesh), o.Accel());
+  const std::vector<BuildResult> builds =
+      BenchBuilds(mesh, scene.geometry, CurrentTarget(), o.embree, o.compare.repeat);
+  for (const BuildResult& r : builds) PrintBuild(r);
+  std::vector<ThreadsResult> threads;
+  for (const RaySet& set : MakeRaySets(mesh, scene, o.size)) {
+    if (std::ranges::find(o.sets, set.name) == o.sets.end()) continue;
+    threads.push_back(BenchThreads(mesh, scene, set, o.compare));
+    PrintThreads(threads.back());
+  }
+  AddBuilds(builds, threads, out);
+}
+
+int MainBuild(const Options& o) {
+  fmt::print(
+      "{}; CPU seconds of one thread: median of {}; wall clock with 1 and 2 "
+      "threads: least\n",
+      CurrentTarget(), o.compare.repeat);
+  PrintBuildHeader();
+  nlohmann::json out = {{"schema", 1}, {"target", CurrentTarget()}};
+  for (const std::string& name : o.meshes) BenchBuild(o, name, out);
+  if (!o.json.empty()) std::ofstream(o.json) << out.dump(2) << '\n';
+  return 0;
+}
+
 void PrintSetting(const Options& o) {
   const std::unique_ptr<Peer> peer = o.MakePeer(CornellBox());
   fmt::print("ours: {}, {} lanes; peer: {}\n", CurrentTarget(), CurrentLanes(),
@@ -130,6 +157,8 @@ void AddOptions(CLI::App& app, Options& o) {
       ->check(CLI::Range(1, 1 << 20));
   app.add_option("--few", o.few, "largest triangle count without a tree");
   app.add_flag("--open", o.open, "leave the box around the meshes out");
+  app.add_flag("--build", o.build,
+               "builds instead of rays: time, memory, and 1 against 2 threads");
   app.add_flag("!--no-embree", o.embree, "leave Embree out");
   app.add_option("--embree-config", o.embree_config,
                  "more for rtcNewDevice, e.g. frequency_level=simd512");
@@ -146,6 +175,7 @@ int Main(int argc, char** argv) {
   for (const std::string& name : o.meshes) {
     if (!IsBuiltIn(name)) FolderOf(o, FileName(name));  // better now than in an hour
   }
+  if (o.build) return MainBuild(o);
   const ThreadLimit one(1);
   PrintSetting(o);
   PrintSetHeader();

@@ -127,11 +127,12 @@ std::vector<RaySet> MakeRaySets(const Mesh& mesh, const CompiledScene& scene, in
           {"mirror", false, std::move(mirror), {}}};
 }
 
-RaySet EveryWave(const RaySet& set, std::size_t wave, std::size_t step) {
+RaySet EveryWave(const RaySet& set, std::size_t wave, std::size_t step,
+                 std::size_t first) {
   RaySet out{set.name, set.shadow, {}, {}};
   std::size_t index = 0;
   ForEachWave(set, wave, [&](std::size_t begin, std::size_t end) {
-    if (index++ % step != 0) return;
+    if (index++ % step != first) return;
     out.rays.insert(out.rays.end(), set.rays.begin() + begin, set.rays.begin() + end);
     out.waves.push_back(end - begin);
   });

@@ -48,8 +48,9 @@ void ForEachWave(const RaySet& set, std::size_t wave, Body&& body) {
   }
 }
 
-/// Every `step`-th wave of the set.
-RaySet EveryWave(const RaySet& set, std::size_t wave, std::size_t step);
+/// The waves first, first + step, first + 2 step, ... of the set.
+RaySet EveryWave(const RaySet& set, std::size_t wave, std::size_t step,
+                 std::size_t first = 0);
 
 /// The largest wave of a set.
 std::size_t LargestWave(const RaySet& set, std::size_t wave);

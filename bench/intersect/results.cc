@@ -107,4 +107,26 @@ nlohmann::json SetsJson(const std::vector<SetResult>& results) {
   return out;
 }
 
+void AddBuilds(const std::vector<BuildResult>& builds,
+               const std::vector<ThreadsResult>& threads, nlohmann::json& out) {
+  for (const BuildResult& r : builds) {
+    out["builds"].push_back({{"mesh", r.mesh},
+                             {"build", r.name},
+                             {"triangles", r.triangles},
+                             {"cpu_seconds", r.cpu},
+                             {"wall_seconds_1", r.wall_one},
+                             {"wall_seconds_2", r.wall_two},
+                             {"bytes_per_triangle", r.bytes},
+                             {"peak_bytes_per_triangle", r.peak}});
+  }
+  for (const ThreadsResult& r : threads) {
+    out["threads"].push_back({{"mesh", r.mesh},
+                              {"set", r.set},
+                              {"mrays_1", r.one},
+                              {"scaling_2", r.scaling.median},
+                              {"least", r.scaling.low},
+                              {"largest", r.scaling.high}});
+  }
+}
+
 }  // namespace lanelight::bench

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/intersect/build.h"
 #include "bench/intersect/compare.h"
+#include "bench/intersect/threads.h"
 
 namespace lanelight::bench {
 
@@ -18,5 +20,9 @@ void WriteSetsCsv(const std::string& path, const std::string& target,
                   const std::vector<SetResult>& results);
 
 nlohmann::json SetsJson(const std::vector<SetResult>& results);
+
+/// Appends to the lists "builds" and "threads" of `out`.
+void AddBuilds(const std::vector<BuildResult>& builds,
+               const std::vector<ThreadsResult>& threads, nlohmann::json& out);
 
 }  // namespace lanelight::bench
