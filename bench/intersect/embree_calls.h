@@ -31,7 +31,6 @@ class EmbreeWave {
   void Unpack(BenchHit* hits) const;
 
  private:
-  unsigned width() const { return width_; }
   std::size_t words() const { return shadow_ ? 12 : 20; }  // per ray
   float* packet(std::size_t i) { return memory_.data() + i * words() * width_; }
 
