@@ -10,7 +10,7 @@
 #endif
 
 #include "kernels/intersect/bvh-inl.h"
-#include "kernels/intersect/many-inl.h"
+#include "kernels/intersect/packet_leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -109,110 +109,48 @@ HWY_INLINE uint32_t HitChildren(const Frustum& f, const WideNode& node, float t_
   return bits;
 }
 
-/// The order of axes of a packet whose rays have the same largest axis.
-struct CommonOrder {
-  int x, y, z;
-
-  HWY_INLINE P3<VF> Permute(V3 v) const {
-    const VF axes[3] = {v.x, v.y, v.z};
-    return {axes[x], axes[y], axes[z]};
-  }
-  HWY_INLINE P3<VF> Vertex(const float (*v)[kBvhWidth], int lane) const {
-    return {Splat(v[x][lane]), Splat(v[y][lane]), Splat(v[z][lane])};
-  }
-};
-/// The order of axes where rays differ.
-struct LaneOrder {
-  AxisOrder order;
-
-  HWY_INLINE P3<VF> Permute(V3 v) const { return order.Permute(v); }
-  HWY_INLINE P3<VF> Vertex(const float (*v)[kBvhWidth], int lane) const {
-    return order.Permute({Splat(v[0][lane]), Splat(v[1][lane]), Splat(v[2][lane])});
-  }
-};
-
-/// Calls found(hit, mask, prim) for the triangles of the leaves that the packet meets
-/// while t_max() lets it; found returns the new bound of t, negative to end.
-template <bool kAlpha, class Order, class TMax, class Found>
-HWY_INLINE void TracePacket(const CompiledScene& scene, const Rays& rays,
-                            const Frustum& frustum, const Order& order, TMax&& t_max,
-                            Found&& found) {
+/// Visits the leaves that the packet meets, until no ray wants more.
+template <bool kAny, bool kAlpha>
+HWY_INLINE void TraceFrustum(const CompiledScene& scene, const Rays& rays,
+                             const PacketBounds& bounds, PacketBest& best) {
   const DF df;
   const Bvh& bvh = scene.accel.groups[0];
-  const Shear<VF> shear = MakeShear(order, rays, bvh.reach);
-  float bound = LargestLane(t_max());
-  const auto leaf = [&](uint32_t index) HWY_ATTR {
-    const TriangleBlock& block = scene.accel.triangle_blocks[index];
-    for (int i = 0; i < kBvhWidth && block.prim[i] != kEmptyRef; ++i) {
-      const auto vertex = [&](int k) HWY_ATTR {
-        return ShearVertex(df, shear, order.Vertex(block.v[k], i));
-      };
-      const auto is_ahead = [&](MF) HWY_ATTR {
-        float p[3][3];
-        for (int k = 0; k < 3; ++k) {
-          for (int a = 0; a < 3; ++a) p[k][a] = block.v[k][a][i];
-        }
-        return AheadOf(rays, p[0], p[1], p[2]);
-      };
-      const TriangleHits<VF, MF> hit =
-          TestTriangle(df, shear, vertex(0), vertex(1), vertex(2), t_max(), is_ahead);
-      if (hn::AllFalse(df, hit.mask)) continue;
-      MF mask = hit.mask;
-      if constexpr (kAlpha) mask = CutOut(scene, rays, block.prim[i], hit, mask);
-      bound = found(hit, mask, block.prim[i], bound);
-      if (bound < 0) return true;
-    }
-    return false;
-  };
-  Traverse(scene.accel.nodes.data(), bvh.root, frustum, bound, leaf);
-}
-
-/// TracePacket with the cheaper order of axes that fits the rays.
-template <bool kAlpha, class TMax, class Found>
-HWY_INLINE void TraceAnyPacket(const CompiledScene& scene, const Rays& rays,
-                               const PacketBounds& bounds, TMax&& t_max, Found&& found) {
-  const DF df;
-  const Frustum frustum = MakeFrustum(bounds, scene.accel.groups[0]);
-  const LaneOrder lanes{AxisOrder(rays.d)};
-  const bool all_z = hn::AllTrue(df, lanes.order.z),
-             no_z = hn::AllFalse(df, lanes.order.z);
-  const bool all_y = hn::AllTrue(df, lanes.order.y),
-             no_y = hn::AllFalse(df, lanes.order.y);
-  if (all_z || (no_z && (all_y || no_y))) {
-    const int z = all_z ? 2 : all_y ? 1 : 0;
-    const CommonOrder order{(z + 1) % 3, (z + 2) % 3, z};
-    TracePacket<kAlpha>(scene, rays, frustum, order, t_max, found);
-  } else {
-    TracePacket<kAlpha>(scene, rays, frustum, lanes, t_max, found);
-  }
+  const uint32_t all = (1u << hn::Lanes(df)) - 1;
+  const AxisOrder order(rays.d);
+  PacketRays packet{rays, MakeShear(order, rays, bvh.reach), true, {}};
+  SetAxes(order, all, packet);
+  float bound = LargestLane(best.t);
+  Traverse(scene.accel.nodes.data(), bvh.root, MakeFrustum(bounds, bvh), bound,
+           [&](uint32_t leaf) HWY_ATTR {
+             TestLeafPacket<kAny, kAlpha>(scene, scene.accel.triangle_leaves[leaf],
+                                          packet, all, best);
+             bound = LargestLane(best.t);
+             return bound < 0;
+           });
 }
 
 /// Closest hits of a batch; hits are written to the columns.
 template <bool kAlpha>
-HWY_INLINE void ClosestPacket(const Wave& wave, const Rays& rays,
-                              const PacketBounds& bounds, VI slots) {
-  ManyClosest best(wave.path, rays, slots);
-  TraceAnyPacket<kAlpha>(
-      *wave.scene, rays, bounds, [&]() HWY_ATTR { return best.t(); },
-      [&](const TriangleHits<VF, MF>& hit, MF mask, uint32_t id, float bound)
-          HWY_ATTR { return best.Offer(hit, mask, id) ? LargestLane(best.t()) : bound; });
-  best.Store(wave.path, slots);
+HWY_INLINE void ClosestFrustum(const Wave& wave, const Rays& rays,
+                               const PacketBounds& bounds, VI slots) {
+  const PathColumns& path = wave.path;
+  PacketBest best = NoHits(rays.t_max, Gather(path.prim, slots));
+  TraceFrustum<false, kAlpha>(*wave.scene, rays, bounds, best);
+  const MF found = MaskOf(DF(), best.found);
+  const VF b1 = hn::Div(best.v, best.det), b2 = hn::Div(best.w, best.det);
+  Scatter(best.t, path.t, slots);
+  Scatter(best.prim, path.prim, slots);
+  Scatter(hn::IfThenElse(found, b1, Gather(path.b1, slots)), path.b1, slots);
+  Scatter(hn::IfThenElse(found, b2, Gather(path.b2, slots)), path.b2, slots);
 }
 
 /// Which rays of a batch are blocked.
 template <bool kAlpha>
-HWY_INLINE MF BlockedPacket(const CompiledScene& scene, const Rays& rays,
-                            const PacketBounds& bounds) {
-  const DF df;
-  VF t_max = rays.t_max;  // -1 where the ray is blocked already
-  TraceAnyPacket<kAlpha>(
-      scene, rays, bounds, [&]() HWY_ATTR { return t_max; },
-      [&](const TriangleHits<VF, MF>& hit, MF mask, uint32_t, float) HWY_ATTR {
-        const MF blocked = hn::And(mask, hn::Lt(hit.t, t_max));
-        t_max = hn::IfThenElse(blocked, Splat(-1.0f), t_max);
-        return LargestLane(t_max);
-      });
-  return hn::Lt(t_max, hn::Zero(df));
+HWY_INLINE MF BlockedFrustum(const CompiledScene& scene, const Rays& rays,
+                             const PacketBounds& bounds) {
+  PacketBest best = NoHits(rays.t_max, hn::Zero(DI()));
+  TraceFrustum<true, kAlpha>(scene, rays, bounds, best);
+  return MaskOf(DF(), best.found);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -9,40 +9,56 @@
 #include "kernels/intersect/few-inl.h"
 #include "kernels/intersect/packet-inl.h"
 #include "kernels/intersect/single-inl.h"
+#include "kernels/intersect/stream-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-// Shadow rays go as packets only through scenes of at most so many triangles: a ray by
-// itself stops at its first blocker, a packet only when all its rays have one. Above
-// this, packets cost 6.4 times as much per ray on coffee and 1.8 times on dining-room
-// (medians of three interleaved renders).
-constexpr std::size_t kPacketTriangles = 2048;
-
-// As in triangles.cc.
-template <bool kAlpha, bool kInstances>
-void ShadowTriangles(Wave& wave) {
+// As in triangles.cc. Rays stay in order: the queue is written behind the place where it
+// is read, at most a stream later.
+template <bool kAlpha>
+void ShadowWorldRays(Wave& wave) {
   const CompiledScene& scene = *wave.scene;
-  const bool packets = scene.geometry.triangles.size() <= kPacketTriangles;
-  RemoveOccluded(wave, [&](const Rays& rays, VI slots, MF valid) HWY_ATTR {
-    if constexpr (!kInstances) {
+  const Queue all = wave.queue(QueueId::kShadow);
+  Queue& kept = wave.queue(QueueId::kShadow);
+  kept.size = 0;
+  RayStream<true, kAlpha> stream(scene);
+  const auto flush = [&]() HWY_ATTR { stream.KeepOpen(kept); };
+  const bool few = !scene.accel.few.triangles.empty();
+  ForEachBatch(wave, all, [&](VI slots, MF valid) HWY_ATTR {
+    const Rays rays = LoadShadowRays(wave.path, slots);
+    if (few) {
       PacketBounds bounds;
-      if (packets && bounds.Compute(rays) &&
-          bounds.IsNarrow(scene.accel.groups[0].reach)) {
-        return BlockedPacket<kAlpha>(scene, rays, bounds);
-      }
-      if (!scene.accel.few.triangles.empty()) return BlockedFew<kAlpha>(scene, rays);
+      const bool narrow =
+          bounds.Compute(rays) && bounds.IsNarrow(scene.accel.groups[0].reach);
+      const MF blocked = narrow ? BlockedFrustum<kAlpha>(scene, rays, bounds)
+                                : BlockedFew<kAlpha>(scene, rays);
+      return Push(kept, slots, hn::AndNot(blocked, valid));
     }
+    if constexpr (kHasStreams) {
+      stream.Add(rays, slots, hn::Zero(DI()), valid, flush);
+    } else {
+      const int count = static_cast<int>(hn::CountTrue(DF(), valid));
+      const MF blocked = BlockedSingle<kAlpha, false>(scene, rays, slots, count);
+      Push(kept, slots, hn::AndNot(blocked, valid));
+    }
+  });
+  if (!stream.empty()) flush();
+}
+
+template <bool kAlpha>
+void ShadowInstancedRays(Wave& wave) {
+  RemoveOccluded(wave, [&](const Rays& rays, VI slots, MF valid) HWY_ATTR {
     const int count = static_cast<int>(hn::CountTrue(DF(), valid));
-    return BlockedSingle<kAlpha, kInstances>(scene, rays, slots, count);
+    return BlockedSingle<kAlpha, true>(*wave.scene, rays, slots, count);
   });
 }
 
-void ShadowWorld(Wave& wave) { ShadowTriangles<false, false>(wave); }
-void ShadowWorldAlpha(Wave& wave) { ShadowTriangles<true, false>(wave); }
-void ShadowInstanced(Wave& wave) { ShadowTriangles<false, true>(wave); }
-void ShadowInstancedAlpha(Wave& wave) { ShadowTriangles<true, true>(wave); }
+void ShadowWorld(Wave& wave) { ShadowWorldRays<false>(wave); }
+void ShadowWorldAlpha(Wave& wave) { ShadowWorldRays<true>(wave); }
+void ShadowInstanced(Wave& wave) { ShadowInstancedRays<false>(wave); }
+void ShadowInstancedAlpha(Wave& wave) { ShadowInstancedRays<true>(wave); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight

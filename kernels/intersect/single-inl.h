@@ -8,6 +8,7 @@
 
 #include "kernels/intersect/alpha-inl.h"
 #include "kernels/intersect/bvh-inl.h"
+#include "kernels/intersect/leaf-inl.h"
 #include "kernels/intersect/rays-inl.h"
 #include "kernels/intersect/triangle-inl.h"
 
@@ -45,83 +46,45 @@ class GroupQuery {
   HWY_INLINE GroupQuery(const OneRay& ray, const float o[3], const float d[3],
                         const Bvh& bvh, uint32_t inst, OneHit& hit)
       : ray_(ray), o_(o), d_(d), bvh_(bvh), inst_(inst), hit_(hit) {
-    const D8 d8;
-    z_ = LargestAxis(d);
-    x_ = z_ == 2 ? 0 : z_ + 1;
-    y_ = x_ == 2 ? 0 : x_ + 1;
-    shear_.o = {hn::Set(d8, o[x_]), hn::Set(d8, o[y_]), hn::Set(d8, o[z_])};
-    shear_.s = {hn::Set(d8, d[x_] / d[z_]), hn::Set(d8, d[y_] / d[z_]),
-                hn::Set(d8, 1 / d[z_])};
-    const float abs_dz = std::abs(d[z_]);
-    shear_.abs_dz = hn::Set(d8, abs_dz);
-    shear_.t_scale = hn::Set(d8, SignBound(bvh.reach + LargestCoordinate(o), abs_dz));
+    const uint32_t z = static_cast<uint32_t>(LargestAxis(d));
+    const uint32_t x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
+    constexpr uint32_t kRow = sizeof(TriangleLeaf::vertex[0]);
+    leaf_ray_[0] = {{o[x], o[y], o[z]},
+                    {d[x] / d[z], d[y] / d[z], 1 / d[z]},
+                    {kRow * x, kRow * y, kRow * z}};
   }
 
   HWY_INLINE void Run() {
     Traverse(ray_.scene->accel.nodes.data(), bvh_.root, MakeSlabRay(o_, d_, bvh_), hit_.t,
-             [this](uint32_t block)
-                 HWY_ATTR { return Test(ray_.scene->accel.triangle_blocks[block]); });
+             [this](uint32_t leaf)
+                 HWY_ATTR { return Test(ray_.scene->accel.triangle_leaves[leaf]); });
   }
 
  private:
   // Tests the triangles of a leaf; true if the query is over.
-  HWY_INLINE bool Test(const TriangleBlock& block) {
-    const D8 d8;
-    for (int i = 0; i < kBvhWidth; i += Lanes8()) {
-      const auto vertex = [&](int k) HWY_ATTR {
-        return ShearVertex(
-            d8, shear_,
-            P3<V8>{hn::Load(d8, block.v[k][x_] + i), hn::Load(d8, block.v[k][y_] + i),
-                   hn::Load(d8, block.v[k][z_] + i)});
-      };
-      const auto is_ahead = [&](M8 lanes) HWY_ATTR { return Ahead(block, i, lanes); };
-      const TriangleHits<V8, M8> hit = TestTriangle(
-          d8, shear_, vertex(0), vertex(1), vertex(2), hn::Set(d8, hit_.t), is_ahead);
-      const uint32_t bits = MaskBits(d8, hit.mask);
-      if (bits != 0 && Consider(block.prim + i, hit, bits)) return true;
-    }
-    return false;
-  }
-
-  // Lanes of the block from `first` whose plane lies ahead, among `lanes`.
-  HWY_NOINLINE M8 Ahead(const TriangleBlock& block, int first, M8 lanes) const {
-    const D8 d8;
-    uint32_t ahead = 0;
-    for (uint32_t bits = MaskBits(d8, lanes); bits != 0; bits &= bits - 1) {
-      const int lane = std::countr_zero(bits);
-      float p[3][3];
-      for (int k = 0; k < 3; ++k) {
-        for (int a = 0; a < 3; ++a) p[k][a] = block.v[k][a][first + lane];
-      }
-      double n[3];
-      ExactNormal(p[0], p[1], p[2], n);
-      if (PlaneIsAhead(o_, d_, n, p[0])) ahead |= 1u << lane;
-    }
-    return MaskOf(d8, ahead);
-  }
-
-  HWY_INLINE bool Consider(const uint32_t* prim, const TriangleHits<V8, M8>& hit,
-                           uint32_t bits) {
-    const D8 d8;
-    HWY_ALIGN float t[kBvhWidth], b1[kBvhWidth], b2[kBvhWidth];
-    hn::Store(hit.t, d8, t);
-    hn::Store(hn::Div(hit.v, hit.det), d8, b1);
-    hn::Store(hn::Div(hit.w, hit.det), d8, b2);
-    for (; bits != 0; bits &= bits - 1) {
+  HWY_INLINE bool Test(const TriangleLeaf& leaf) {
+    LeafWeights weights;
+    const TriangleLeaf* leaves[1] = {&leaf};
+    LeafWeights* to[1] = {&weights};
+    uint32_t hits[1];
+    TestLeaves(leaf_ray_, leaves, to, hits);
+    const auto copy_ray = [&](float o[3], float d[3]) HWY_ATTR {
+      for (int a = 0; a < 3; ++a) o[a] = o_[a], d[a] = d_[a];
+    };
+    for (uint32_t bits = hits[0]; bits != 0; bits &= bits - 1) {
       const int i = std::countr_zero(bits);
-      if (!IsCloser(t[i], prim[i])) continue;
+      float t, det;
+      if (!FinishLane(leaf, weights, i, copy_ray, t, det)) continue;
+      if (!IsCloser(t, leaf.prim[i])) continue;
+      const float b1 = weights.v[i] / det, b2 = weights.w[i] / det;
       if constexpr (kAlpha) {
-        if (!TrianglePassesAlpha(*ray_.scene, ray_.o, ray_.d, prim[i], b1[i], b2[i])) {
+        if (!TrianglePassesAlpha(*ray_.scene, ray_.o, ray_.d, leaf.prim[i], b1, b2)) {
           continue;
         }
       }
       hit_.found = true;
       if constexpr (kAny) return true;
-      hit_.t = t[i];
-      hit_.prim = prim[i];
-      hit_.b1 = b1[i];
-      hit_.b2 = b2[i];
-      hit_.inst = inst_;
+      hit_ = {t, leaf.prim[i], b1, b2, inst_, true};
     }
     return false;
   }
@@ -138,8 +101,7 @@ class GroupQuery {
   const Bvh& bvh_;
   uint32_t inst_;
   OneHit& hit_;
-  int x_, y_, z_;  // axes permuted so that |d[z_]| is largest
-  Shear<V8> shear_;
+  LeafRay leaf_ray_[1];
 };
 
 /// Ray through a 3x4 map: points with w = 1, directions with w = 0.

@@ -38,9 +38,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Bits of a mask of at most 16 lanes.
 template <class D, class M>
 HWY_INLINE uint32_t MaskBits(D d, M mask) {
+#if HWY_TARGET <= HWY_AVX3
+  (void)d;
+  return mask.raw;  // through memory (below) the store would not be forwarded to the load
+#else
   uint8_t bytes[8] = {};
   hn::StoreMaskBits(d, mask, bytes);
   return hn::MaxLanes(d) > 8 ? bytes[0] | (uint32_t{bytes[1]} << 8) : bytes[0];
+#endif
 }
 
 /// Mask of at most 16 lanes from bits.
@@ -117,60 +122,95 @@ HWY_INLINE V Max3(V a, V b, V c) {
   return hn::Max(a, hn::Max(b, c));
 }
 
+/// Lanes whose vertices lie on both sides of the origin along the ray. The z of vertices
+/// have exact signs; if they agree so does the sign of t.
+template <class D, class V>
+HWY_INLINE hn::Mask<D> Straddles(D d, const P3<V>& a, const P3<V>& b, const P3<V>& c) {
+  const V zero = hn::Zero(d);
+  return hn::And(hn::Le(Min3(a.z, b.z, c.z), zero), hn::Ge(Max3(a.z, b.z, c.z), zero));
+}
+
 /// Lanes of `mask` whose t is so close to zero that its sign may be wrong.
 template <class D, class V, class M>
 HWY_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
                           const P3<V>& c, V t_det, M mask) {
-  // The z of vertices have exact signs; if they agree so does the sign of t.
-  const V zero = hn::Zero(d);
-  const M straddles =
-      hn::And(hn::Le(Min3(a.z, b.z, c.z), zero), hn::Ge(Max3(a.z, b.z, c.z), zero));
   const V mx = Max3(hn::Abs(a.x), hn::Abs(b.x), hn::Abs(c.x));
   const V my = Max3(hn::Abs(a.y), hn::Abs(b.y), hn::Abs(c.y));
   const V mz = Max3(hn::Abs(a.z), hn::Abs(b.z), hn::Abs(c.z));
   const V z = hn::Mul(mz, ray.abs_dz);
   const V bound = hn::Mul(hn::Mul(hn::Set(d, 170 * 0x1p-24f), mz),
                           hn::Mul(hn::Add(mx, z), hn::Add(my, z)));
-  return hn::And(mask, hn::And(straddles, hn::Le(hn::Abs(t_det), bound)));
+  return hn::And(mask, hn::And(Straddles(d, a, b, c), hn::Le(hn::Abs(t_det), bound)));
 }
 
-/// Tests the sheared triangle (a, b, c). `is_ahead(mask)` decides the sign of t of some
-/// lanes exactly (PlaneIsAhead); it is called for rays that start on the triangle.
-/// `t_max` only prunes: candidates with t = t_max are reported.
+/// The part of the triangle test that is the same for all lanes: edge functions, and a
+/// first bound on the distance. `u` is the weight of vertex 0 times det.
+template <class V, class M>
+struct TriangleEdges {
+  M mask;
+  V u, v, w, det, abs_det;
+};
+
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+HWY_INLINE TriangleEdges<V, M> TestEdges(D d, const P3<V>& a, const P3<V>& b,
+                                         const P3<V>& c) {
+  const V zero = hn::Zero(d);
+  TriangleEdges<V, M> e;
+  e.u = EdgeFunction(d, c.x, b.y, c.y, b.x);
+  e.v = EdgeFunction(d, a.x, c.y, a.y, c.x);
+  e.w = EdgeFunction(d, b.x, a.y, b.y, a.x);
+  e.det = hn::Add(e.u, hn::Add(e.v, e.w));
+  e.abs_det = hn::Abs(e.det);
+  e.mask =
+      hn::And(hn::Or(hn::Ge(Min3(e.u, e.v, e.w), zero), hn::Le(Max3(e.u, e.v, e.w), zero)),
+              hn::Gt(e.abs_det, zero));
+  return e;
+}
+
+/// t det of the plane of the triangle, and in e.mask only the lanes that may hit before
+/// t_max. `t_max` only prunes: candidates with t = t_max remain.
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+HWY_INLINE V TestDistance(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
+                          const P3<V>& c, V t_max, TriangleEdges<V, M>& e) {
+  const V t_det = hn::MulAdd(e.u, a.z, hn::MulAdd(e.v, b.z, hn::Mul(e.w, c.z)));
+  // |t_det| with the sign of t. The factor covers the rounding of product and quotient.
+  const V signed_t = hn::Xor(t_det, hn::And(e.det, hn::Set(d, -0.0f)));
+  const V limit = hn::Mul(hn::Mul(t_max, e.abs_det), hn::Set(d, 1 + 0x1p-21f));
+  e.mask = hn::And(e.mask, hn::And(hn::Le(signed_t, limit),
+                                   hn::Ge(signed_t, hn::Neg(ray.t_scale))));
+  return t_det;
+}
+
+/// Distances of the lanes of e.mask, which are few, and the decision whether they lie
+/// ahead of the origin. `is_ahead(mask)` decides the sign of t of some lanes exactly
+/// (PlaneIsAhead); it is called for rays that start on the triangle.
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
+HWY_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray, const P3<V>& a,
+                                         const P3<V>& b, const P3<V>& c,
+                                         const TriangleEdges<V, M>& e, V t_det,
+                                         IsAhead&& is_ahead) {
+  TriangleHits<V, M> hit{e.mask, hn::Div(t_det, e.det), e.v, e.w, e.det};
+  const M ahead = hn::And(e.mask, hn::Gt(hit.t, hn::Zero(d)));
+  hit.mask = ahead;
+  // A hit that is ahead only by the exact test below keeps the least positive distance.
+  hit.t = hn::Max(hit.t, hn::Set(d, FLT_MIN));
+  const M doubtful = DoubtfulSign(d, ray, a, b, c, t_det, e.mask);
+  if (HWY_LIKELY(hn::AllFalse(d, doubtful))) return hit;
+  hit.mask = hn::Or(hn::AndNot(doubtful, ahead), hn::And(doubtful, is_ahead(doubtful)));
+  return hit;
+}
+
+/// Tests the sheared triangle (a, b, c), for lanes of which most miss.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
 HWY_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const P3<V>& a,
                                            const P3<V>& b, const P3<V>& c, V t_max,
                                            IsAhead&& is_ahead) {
+  TriangleEdges<V, M> e = TestEdges(d, a, b, c);
   const V zero = hn::Zero(d);
-  TriangleHits<V, M> hit;
-  const V u = EdgeFunction(d, c.x, b.y, c.y, b.x);
-  hit.v = EdgeFunction(d, a.x, c.y, a.y, c.x);
-  hit.w = EdgeFunction(d, b.x, a.y, b.y, a.x);
-  hit.det = hn::Add(u, hn::Add(hit.v, hit.w));
-  const V abs_det = hn::Abs(hit.det);
-  hit.mask = hn::And(
-      hn::Or(hn::Ge(Min3(u, hit.v, hit.w), zero), hn::Le(Max3(u, hit.v, hit.w), zero)),
-      hn::Gt(abs_det, zero));
-  hit.t = zero;
-  if (HWY_LIKELY(hn::AllFalse(d, hit.mask))) return hit;
-  const V t_det = hn::MulAdd(u, a.z, hn::MulAdd(hit.v, b.z, hn::Mul(hit.w, c.z)));
-  // |t_det| with the sign of t. The factor covers the rounding of product and quotient.
-  const V signed_t = hn::Xor(t_det, hn::And(hit.det, hn::Set(d, -0.0f)));
-  const V limit = hn::Mul(hn::Mul(t_max, abs_det), hn::Set(d, 1 + 0x1p-21f));
-  hit.mask = hn::And(hit.mask, hn::Le(signed_t, limit));
-  hit.mask = hn::And(hit.mask, hn::Ge(signed_t, hn::Neg(ray.t_scale)));
-  if (hn::AllFalse(d, hit.mask)) return hit;
-  hit.t = hn::Div(t_det, hit.det);
-  const M ahead = hn::And(hit.mask, hn::Gt(hit.t, zero));
-  const M near = hn::And(hit.mask, hn::Le(hn::Abs(t_det), ray.t_scale));
-  hit.mask = ahead;
-  // A hit that is ahead only by the exact test below keeps the least positive distance.
-  hit.t = hn::Max(hit.t, hn::Set(d, FLT_MIN));
-  if (HWY_LIKELY(hn::AllFalse(d, near))) return hit;
-  const M doubtful = DoubtfulSign(d, ray, a, b, c, t_det, near);
-  if (hn::AllFalse(d, doubtful)) return hit;
-  hit.mask = hn::Or(hn::AndNot(doubtful, ahead), hn::And(doubtful, is_ahead(doubtful)));
-  return hit;
+  if (HWY_LIKELY(hn::AllFalse(d, e.mask))) return {e.mask, zero, zero, zero, zero};
+  const V t_det = TestDistance(d, ray, a, b, c, t_max, e);
+  if (hn::AllFalse(d, e.mask)) return {e.mask, zero, zero, zero, zero};
+  return FinishHits(d, ray, a, b, c, e, t_det, is_ahead);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -9,34 +9,53 @@
 #include "kernels/intersect/few-inl.h"
 #include "kernels/intersect/packet-inl.h"
 #include "kernels/intersect/single-inl.h"
+#include "kernels/intersect/stream-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-// World triangles, batch by batch: a packet if the rays are coherent, else the plain loop
-// if there are few triangles, else ray by ray. Instances are traced ray by ray.
+// One ray at a time: instances, and targets with narrow vectors.
 template <bool kAlpha, bool kInstances>
-void IntersectTriangles(Wave& wave) {
+HWY_INLINE void ClosestSingles(const Wave& wave, const Rays& rays, VI slots, MF valid) {
+  const int count = static_cast<int>(hn::CountTrue(DF(), valid));
+  ClosestSingle<kAlpha, kInstances>(wave, rays, slots, count);
+}
+
+// World triangles, batch by batch: through a frustum if the rays are nearly the same,
+// else the plain loop if there are few triangles, else collected to a stream.
+template <bool kAlpha>
+void IntersectWorld(Wave& wave) {
   const Accel& accel = wave.scene->accel;
+  RayStream<false, kAlpha> stream(*wave.scene);
+  const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
   ForEachBatch(wave, wave.queue(QueueId::kActive), [&](VI slots, MF valid) HWY_ATTR {
     const Rays rays = LoadRays(wave.path, slots);
-    if constexpr (!kInstances) {
-      PacketBounds bounds;
-      if (bounds.Compute(rays) && bounds.IsNarrow(accel.groups[0].reach)) {
-        return ClosestPacket<kAlpha>(wave, rays, bounds, slots);
-      }
-      if (!accel.few.triangles.empty()) return ClosestFew<kAlpha>(wave, rays, slots);
+    PacketBounds bounds;
+    if (bounds.Compute(rays) && bounds.IsNarrow(accel.groups[0].reach)) {
+      return ClosestFrustum<kAlpha>(wave, rays, bounds, slots);
     }
-    const int count = static_cast<int>(hn::CountTrue(DF(), valid));
-    ClosestSingle<kAlpha, kInstances>(wave, rays, slots, count);
+    if (!accel.few.triangles.empty()) return ClosestFew<kAlpha>(wave, rays, slots);
+    if constexpr (kHasStreams) {
+      stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
+    } else {
+      ClosestSingles<kAlpha, false>(wave, rays, slots, valid);
+    }
+  });
+  if (!stream.empty()) flush();
+}
+
+template <bool kAlpha>
+void IntersectInstanced(Wave& wave) {
+  ForEachBatch(wave, wave.queue(QueueId::kActive), [&](VI slots, MF valid) HWY_ATTR {
+    ClosestSingles<kAlpha, true>(wave, LoadRays(wave.path, slots), slots, valid);
   });
 }
 
-void TrianglesWorld(Wave& wave) { IntersectTriangles<false, false>(wave); }
-void TrianglesWorldAlpha(Wave& wave) { IntersectTriangles<true, false>(wave); }
-void TrianglesInstanced(Wave& wave) { IntersectTriangles<false, true>(wave); }
-void TrianglesInstancedAlpha(Wave& wave) { IntersectTriangles<true, true>(wave); }
+void TrianglesWorld(Wave& wave) { IntersectWorld<false>(wave); }
+void TrianglesWorldAlpha(Wave& wave) { IntersectWorld<true>(wave); }
+void TrianglesInstanced(Wave& wave) { IntersectInstanced<false>(wave); }
+void TrianglesInstancedAlpha(Wave& wave) { IntersectInstanced<true>(wave); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight

@@ -64,16 +64,6 @@ std::vector<BuildItem> ItemsOf(const Records& records, std::uint32_t begin,
   return items;
 }
 
-void SetLane(TriangleBlock& block, int lane, const TriangleRecord& r) {
-  for (int k = 0; k < 3; ++k) {
-    for (int a = 0; a < 3; ++a) block.v[k][a][lane] = r.p[k][a];
-  }
-}
-void ClearLane(TriangleBlock& block, int lane) {
-  for (int k = 0; k < 3; ++k) {
-    for (int a = 0; a < 3; ++a) block.v[k][a][lane] = block.v[0][a][0];
-  }
-}
 void SetLane(SphereBlock& block, int lane, const SphereRecord& r) {
   for (int a = 0; a < 3; ++a) block.center[a][lane] = r.center[a];
   block.radius[lane] = r.radius;
@@ -99,15 +89,86 @@ void ClearLane(DiskBlock& block, int lane) {
   block.inner_radius[lane] = 0;
 }
 
+// The distinct vertices of a leaf, in order of appearance; `corner` as in TriangleLeaf.
+// False if there are more than kLeafVertices.
+class LeafVertices {
+ public:
+  bool Add(const TriangleRecord& triangle, std::uint8_t corner[3]) {
+    for (int k = 0; k < 3; ++k) {
+      const int i = Find(triangle.p[k]);
+      if (i == kLeafVertices) return false;
+      corner[k] = static_cast<std::uint8_t>(i);
+    }
+    return true;
+  }
+  int count() const { return count_; }
+  float at(int axis, int i) const { return p_[axis][i]; }
+
+ private:
+  // Vertices are the same if they compare equal: 0 and -0 give the same hits.
+  int Find(const float p[3]) {
+    for (int i = 0; i < count_; ++i) {
+      if (p_[0][i] == p[0] && p_[1][i] == p[1] && p_[2][i] == p[2]) return i;
+    }
+    if (count_ == kLeafVertices) return kLeafVertices;
+    for (int a = 0; a < 3; ++a) p_[a][count_] = p[a];
+    return count_++;
+  }
+  float p_[3][kLeafVertices];
+  int count_ = 0;
+};
+
+bool FitsLeaf(const BuildItem* items, std::uint32_t count,
+              const AlignedVector<TriangleRecord>& records) {
+  LeafVertices vertices;
+  std::uint8_t corner[3];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!vertices.Add(records[items[i].id], corner)) return false;
+  }
+  return true;
+}
+
+void FillLeaf(TriangleLeaf& leaf, const BuildItem* items, std::uint32_t count,
+              const AlignedVector<TriangleRecord>& records, std::uint32_t) {
+  LeafVertices vertices;
+  for (std::uint32_t lane = 0; lane < kLeafTriangles; ++lane) {
+    std::uint8_t corner[3] = {0, 0, 0};
+    if (lane < count) LL_CHECK(vertices.Add(records[items[lane].id], corner));
+    for (int k = 0; k < 3; ++k) leaf.corner[k][lane] = corner[k];
+    leaf.prim[lane] = lane < count ? items[lane].id : kEmptyRef;
+  }
+  for (int a = 0; a < 3; ++a) {
+    for (int i = 0; i < kLeafVertices; ++i) {
+      leaf.vertex[a][i] = vertices.at(a, i < vertices.count() ? i : 0);
+    }
+  }
+  leaf.count = count;
+  leaf.used = (1u << count) - 1;
+  leaf.vertices = static_cast<std::uint32_t>(vertices.count());
+}
+
+template <typename Block, typename Records>
+void FillLeaf(Block& block, const BuildItem* items, std::uint32_t count,
+              const Records& records, std::uint32_t first_id) {
+  for (std::uint32_t lane = 0; lane < kBvhWidth; ++lane) {
+    block.prim[lane] = lane < count ? items[lane].id : kEmptyRef;
+    if (lane < count) {
+      SetLane(block, lane, records[items[lane].id - first_id]);
+    } else {
+      ClearLane(block, lane);
+    }
+  }
+}
+
 // Builds the tree over `items` and appends its leaves to `blocks`. Record i has id
 // first_id + i.
 template <typename Records, typename Block>
 Bvh BuildShapes(std::vector<BuildItem> items, const Records& records,
-                std::uint32_t first_id, AlignedVector<WideNode>& nodes,
-                AlignedVector<Block>& blocks) {
+                std::uint32_t first_id, const LeafLimit& limit,
+                AlignedVector<WideNode>& nodes, AlignedVector<Block>& blocks) {
   const auto first_node = nodes.size();
   const auto first_block = static_cast<std::uint32_t>(blocks.size());
-  BuiltTree tree = BuildTree(items, kBvhWidth, nodes);
+  BuiltTree tree = BuildTree(items, limit, nodes);
   tree.bvh.slack = kShapeSlack;
   blocks.resize(first_block + tree.leaves.size());
   ParallelForRange(tree.leaves.size(), kGrain / 8, [&](std::size_t from, std::size_t to) {
@@ -115,16 +176,8 @@ Bvh BuildShapes(std::vector<BuildItem> items, const Records& records,
       const LeafRange leaf = tree.leaves[i];
       std::sort(items.begin() + leaf.begin, items.begin() + leaf.end,
                 [](const BuildItem& a, const BuildItem& b) { return a.id < b.id; });
-      Block& block = blocks[first_block + i];
-      for (int lane = 0; lane < kBvhWidth; ++lane) {
-        const bool used = leaf.begin + lane < leaf.end;
-        block.prim[lane] = used ? items[leaf.begin + lane].id : kEmptyRef;
-        if (used) {
-          SetLane(block, lane, records[block.prim[lane] - first_id]);
-        } else {
-          ClearLane(block, lane);
-        }
-      }
+      FillLeaf(blocks[first_block + i], &items[leaf.begin], leaf.end - leaf.begin,
+               records, first_id);
     }
   });
   // Leaf references count from this tree's first block so far.
@@ -207,13 +260,16 @@ Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
     linear = std::max(linear, to_scene * RowNorm(m));
     constant = std::max(constant, to_scene * (groups[group].reach + translation));
   }
-  Bvh top = BuildTree(items, 1, nodes).bvh;
+  Bvh top = BuildTree(items, {.items = 0, .fits = {}}, nodes).bvh;
   if (top.reach > 0) top.slack = 2 * kShapeSlack * (2 * linear + constant / top.reach);
   return top;
 }
 
 void BuildTriangles(const Geometry& geometry, const AccelOptions& options, Accel& accel) {
   std::vector<AccelBox> boxes;
+  const LeafLimit limit{kLeafTriangles, [&](const BuildItem* items, std::uint32_t count) {
+                          return FitsLeaf(items, count, geometry.triangles);
+                        }};
   for (const Geometry::TriangleGroup& group : geometry.groups) {
     const bool few = boxes.empty() && geometry.instances.empty() &&
                      group.end - group.begin <= options.few_triangles;
@@ -221,8 +277,8 @@ void BuildTriangles(const Geometry& geometry, const AccelOptions& options, Accel
     if (few) accel.few = MakeFew(geometry, group);
     auto items = ItemsOf(geometry.triangles, group.begin, group.end, group.begin);
     for (const BuildItem& item : items) boxes.back().Extend(item.box);
-    accel.groups.push_back(BuildShapes(std::move(items), geometry.triangles, 0,
-                                       accel.nodes, accel.triangle_blocks));
+    accel.groups.push_back(BuildShapes(std::move(items), geometry.triangles, 0, limit,
+                                       accel.nodes, accel.triangle_leaves));
   }
   accel.top = BuildTop(geometry, boxes, accel.groups, accel.nodes);
 }
@@ -247,20 +303,20 @@ Accel BuildAccel(const Geometry& geometry, const AccelOptions& options) {
     const std::uint32_t first = geometry.ranges.spheres;
     accel.spheres =
         BuildShapes(ItemsOf(geometry.spheres, 0, spheres, first), geometry.spheres, first,
-                    accel.nodes, accel.sphere_blocks);
+                    LeafLimit(), accel.nodes, accel.sphere_blocks);
   }
   const auto disks = static_cast<std::uint32_t>(geometry.disks.size());
   if (disks > options.few_round) {
     const std::uint32_t first = geometry.ranges.disks;
     accel.disks = BuildShapes(ItemsOf(geometry.disks, 0, disks, first), geometry.disks,
-                              first, accel.nodes, accel.disk_blocks);
+                              first, LeafLimit(), accel.nodes, accel.disk_blocks);
   }
   return accel;
 }
 
 std::size_t Accel::Bytes() const {
   return BytesOf(nodes) + BytesOf(few.vertices) + BytesOf(few.triangles) +
-         BytesOf(triangle_blocks) + BytesOf(groups) + BytesOf(sphere_blocks) +
+         BytesOf(triangle_leaves) + BytesOf(groups) + BytesOf(sphere_blocks) +
          BytesOf(disk_blocks);
 }
 

@@ -1,20 +1,22 @@
 // Acceleration structures over the triangles, spheres and disks of a scene, as the
 // kernels in kernels/intersect/ read them. Built once by BuildAccel.
 //
-// What is traced how (Mray/s on one core with AVX-512, bench/intersect.cc, on a machine
-// shared with other work, so read the ratios):
-//   triangles   8-wide BVH, leaves of up to 8 triangles in SoA
+// What is traced how:
+//   triangles   8-wide BVH, leaves of up to 16 triangles over up to 16 shared vertices
 //   instances   one BVH per object and one over the instances
 //   spheres, disks   BVH likewise; at most kFewRound: no tree, a vector of rays against
 //               each record in turn; planes always so, since they are infinite
 // A vector of rays on world triangles is traced
-//   as a packet through the BVH, if the rays are coherent (kPacketSpread): camera rays
-//     6 to 9 times as fast as ray by ray on 36 to 2000 triangles (48 against 10 on 208),
-//     1.3 times on 69 k; rays to an area light 1.5 to 2 times on up to 2000
-//   against each triangle in turn, if there are at most kFewTriangles: bounces 21 against
-//     6 to 8 ray by ray on 36 to 48 triangles; the cost is linear, the two meet near 150
-//   ray by ray through the BVH otherwise
-// The hit never depends on the way: see kernels/intersect/triangle-inl.h.
+//   through a frustum, if the rays are nearly the same (kPacketSpread): camera rays 1.3
+//     times as fast as in a stream on 69 k triangles, 1.5 times on 2000; with rays less
+//     alike a stream wins (mirror bounces 1.5 times)
+//   against each triangle in turn, if there are at most kFewTriangles: bounces 21 Mray/s
+//     against 6 to 8 ray by ray on 36 to 48 triangles; the cost is linear, the two meet
+//     near 150
+//   in a stream otherwise (kernels/intersect/stream-inl.h): the tops of the trees in
+//     vectors of rays, the rest as interleaved single rays
+// The hit never depends on the way: see kernels/intersect/triangle-inl.h. Figures:
+// `./run bench intersect`, one thread, AVX-512; see bench/README.md.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +29,9 @@ namespace lanelight {
 
 struct Geometry;  // src/scene/compiled.h, which includes this file
 
-/// Children of a node, and shapes of a leaf.
+/// Children of a node, and shapes of a leaf of spheres or disks.
 inline constexpr int kBvhWidth = 8;
+inline constexpr int kLeafTriangles = 16, kLeafVertices = 16;
 /// Child references: with this bit a leaf (the rest is the index of its block, or of an
 /// instance in the top level), without it the index of a node.
 inline constexpr std::uint32_t kLeafBit = 0x80000000u;
@@ -42,8 +45,8 @@ inline constexpr std::uint32_t kFewRound = 16;
 /// Rays of a vector are traced together if their directions (unit length) agree in sign
 /// and differ by at most this per axis, and their origins by at most kPacketExtent times
 /// the reach of the scene.
-inline constexpr float kPacketSpread = 0.8f;
-inline constexpr float kPacketExtent = 0.3f;
+inline constexpr float kPacketSpread = 0.05f;
+inline constexpr float kPacketExtent = 0.01f;
 /// `inst` of a hit on a triangle of the world, and of any sphere, disk or plane.
 inline constexpr std::uint32_t kWorldInstance = 0xffffffffu;
 
@@ -56,12 +59,18 @@ struct alignas(64) WideNode {
 };
 static_assert(sizeof(WideNode) == 256);
 
-/// Leaf of up to 8 triangles, ascending by id. Unused lanes hold a point (never hit).
-struct alignas(64) TriangleBlock {
-  float v[3][3][kBvhWidth];  // [vertex][axis][lane]
-  std::uint32_t prim[kBvhWidth];
+/// Leaf of up to 16 triangles over up to 16 distinct vertices, triangles ascending by id.
+/// A vertex is stored and transformed once however many triangles share it: scanned
+/// meshes need about 30 bytes per triangle instead of the 40 of separate corners.
+/// Unused lanes have three equal corners (never hit).
+struct alignas(64) TriangleLeaf {
+  float vertex[3][kLeafVertices];          // [axis][vertex]
+  std::uint8_t corner[3][kLeafTriangles];  // which vertex: [corner][lane]
+  std::uint32_t prim[kLeafTriangles];
+  std::uint32_t count, vertices;  // used lanes of corner and prim, and of vertex
+  std::uint32_t used;             // the first `count` bits
 };
-static_assert(sizeof(TriangleBlock) == 320);
+static_assert(sizeof(TriangleLeaf) == 320);
 
 /// Leaf of up to 8 spheres, ascending by id. Unused lanes have radius -1 (never hit).
 struct alignas(64) SphereBlock {
@@ -102,7 +111,7 @@ struct Accel {
   AlignedVector<WideNode> nodes;  // of all trees
 
   FewTriangles few;  // for incoherent rays, used instead of groups[0] if not empty
-  AlignedVector<TriangleBlock> triangle_blocks;
+  AlignedVector<TriangleLeaf> triangle_leaves;
   std::vector<Bvh> groups;  // as Geometry::groups
   Bvh top;                  // over instances; leaf references hold instance indices
 

@@ -57,8 +57,11 @@ struct Binning {
 
 class TreeBuilder {
  public:
-  TreeBuilder(std::vector<BuildItem>& items, std::uint32_t leaf_size)
-      : items_(items), leaf_size_(leaf_size), tree_(2 * items.size()) {}
+  TreeBuilder(std::vector<BuildItem>& items, const LeafLimit& limit)
+      : items_(items),
+        limit_(limit),
+        leaf_size_(std::max(1u, limit.items)),
+        tree_(2 * items.size()) {}
 
   // Fills the subtree rooted at `node` over items [begin, end). A subtree of n items has
   // at most 2n - 1 nodes, so the second child's place is known before the first is built.
@@ -74,7 +77,8 @@ class TreeBuilder {
     if (depth < kMaxSahDepth) split = FindSplit(begin, end, centers);
     if (count <= leaf_size_) {
       const float area = n.box.HalfArea();
-      if (split.axis < 0 || split.cost + kNodeCost * area >= area) return;
+      const bool pays = split.axis < 0 || split.cost + kNodeCost * area >= area;
+      if (pays && (!limit_.fits || limit_.fits(&items_[begin], count))) return;
     }
     const std::uint32_t middle = Partition(begin, end, centers, split);
     n.right = node + 2 * (middle - begin);
@@ -154,6 +158,7 @@ class TreeBuilder {
   }
 
   std::vector<BuildItem>& items_;
+  const LeafLimit& limit_;
   std::uint32_t leaf_size_;
   std::vector<BinaryNode> tree_;
 };
@@ -174,11 +179,14 @@ class Collapser {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     LL_CHECK_LT(index, kLeafBit);
     nodes_.emplace_back();
+    int slot[kBvhWidth];
+    AssignSlots(tree_[at].box, child, count, slot);
     WideNode node;
     for (int c = 0; c < kBvhWidth; ++c) {
       node.pad[c] = 0;
-      SetChild(node, c, c < count ? tree_[child[c]].box : AccelBox());
-      node.child[c] = c < count ? Emit(child[c], depth + 1) : kEmptyRef;
+      const int from = slot[c];
+      SetChild(node, c, from >= 0 ? tree_[child[from]].box : AccelBox());
+      node.child[c] = from >= 0 ? Emit(child[from], depth + 1) : kEmptyRef;
     }
     nodes_[index] = node;
     return index;
@@ -216,6 +224,38 @@ class Collapser {
     return count;
   }
 
+  // Slots such that a ray whose direction is negative in the axes given by the bits of
+  // `octant` meets the children about nearest first in the order 0 ^ octant, 1 ^ octant,
+  // ...: bit a of a slot says that its child lies towards the upper end of axis a. The
+  // pair of child and slot that gains most is fixed first (a greedy form of Ylitie,
+  // Karras and Laine 2017, section 3.2). slot[s] is the child of slot s, -1 if unused.
+  void AssignSlots(const AccelBox& box, const std::uint32_t child[kBvhWidth], int count,
+                   int slot[kBvhWidth]) const {
+    float gain[kBvhWidth][kBvhWidth];
+    const Vec3f middle = box.lo + box.hi;
+    for (int c = 0; c < count; ++c) {
+      const AccelBox& b = tree_[child[c]].box;
+      const Vec3f v = b.lo + b.hi - middle;
+      for (int s = 0; s < kBvhWidth; ++s) {
+        gain[c][s] = (s & 1 ? v.x : -v.x) + (s & 2 ? v.y : -v.y) + (s & 4 ? v.z : -v.z);
+      }
+    }
+    std::fill(slot, slot + kBvhWidth, -1);
+    std::uint32_t open = (1u << count) - 1;
+    while (open != 0) {
+      int best_c = -1, best_s = -1;
+      for (int c = 0; c < count; ++c) {
+        if (!(open >> c & 1)) continue;
+        for (int s = 0; s < kBvhWidth; ++s) {
+          if (slot[s] >= 0) continue;
+          if (best_c < 0 || gain[c][s] > gain[best_c][best_s]) best_c = c, best_s = s;
+        }
+      }
+      slot[best_s] = best_c;
+      open &= ~(1u << best_c);
+    }
+  }
+
   static void SetChild(WideNode& node, int c, const AccelBox& box) {
     for (int a = 0; a < 3; ++a) {
       node.bounds[a][0][c] = box.lo[a];
@@ -241,15 +281,14 @@ float Reach(const AccelBox& box) {
 
 }  // namespace
 
-BuiltTree BuildTree(std::vector<BuildItem>& items, std::uint32_t leaf_size,
+BuiltTree BuildTree(std::vector<BuildItem>& items, const LeafLimit& limit,
                     AlignedVector<WideNode>& nodes) {
-  LL_CHECK(leaf_size >= 1 && leaf_size <= kBvhWidth);
   BuiltTree result;
   if (items.empty()) return result;
   LL_CHECK_LT(items.size(), std::size_t{1} << 30);
-  TreeBuilder builder(items, leaf_size);
+  TreeBuilder builder(items, limit);
   builder.Build(0, 0, static_cast<std::uint32_t>(items.size()), 0);
-  Collapser collapser(builder.tree(), items, leaf_size == 1, nodes, result.leaves);
+  Collapser collapser(builder.tree(), items, limit.items == 0, nodes, result.leaves);
   result.bvh.root = collapser.Emit(0, 1);
   result.bvh.depth = collapser.depth();
   result.bvh.reach = Reach(builder.tree()[0].box);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "src/accel/accel.h"
@@ -45,10 +46,16 @@ struct BuiltTree {
   std::vector<LeafRange> leaves;  // in the order of the tree
 };
 
-/// Sorts `items` into a tree whose leaves hold at most `leaf_size` shapes (1 to 8) and
-/// appends its nodes to `nodes`. With `leaf_size` 1 leaf references are item ids
-/// themselves. Runs in parallel; the result does not depend on the number of threads.
-BuiltTree BuildTree(std::vector<BuildItem>& items, std::uint32_t leaf_size,
+/// What a leaf may hold: at most `items` shapes (0: one shape, and leaf references are
+/// item ids themselves), for which `fits` is true if it is set.
+struct LeafLimit {
+  std::uint32_t items = kBvhWidth;
+  std::function<bool(const BuildItem* items, std::uint32_t count)> fits;
+};
+
+/// Sorts `items` into a tree whose leaves keep to `limit` and appends its nodes to
+/// `nodes`. Runs in parallel; the result does not depend on the number of threads.
+BuiltTree BuildTree(std::vector<BuildItem>& items, const LeafLimit& limit,
                     AlignedVector<WideNode>& nodes);
 
 }  // namespace lanelight

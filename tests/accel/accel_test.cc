@@ -20,13 +20,14 @@ void Collect(const Accel& accel, std::uint32_t ref, Vec3f lo, Vec3f hi,
              std::multiset<std::uint32_t>& ids, int& outside) {
   if (ref == kEmptyRef) return;
   if (ref & kLeafBit) {
-    const TriangleBlock& block = accel.triangle_blocks[ref & ~kLeafBit];
-    for (int lane = 0; lane < kBvhWidth; ++lane) {
-      if (block.prim[lane] == kEmptyRef) continue;
-      ids.insert(block.prim[lane]);
+    const TriangleLeaf& leaf = accel.triangle_leaves[ref & ~kLeafBit];
+    CHECK(leaf.used == (1u << leaf.count) - 1);
+    for (std::uint32_t lane = 0; lane < leaf.count; ++lane) {
+      ids.insert(leaf.prim[lane]);
       for (int k = 0; k < 3; ++k) {
+        CHECK(leaf.corner[k][lane] < leaf.vertices);
         for (int a = 0; a < 3; ++a) {
-          const float x = block.v[k][a][lane];
+          const float x = leaf.vertex[a][leaf.corner[k][lane]];
           outside += x < lo[a] || x > hi[a];
         }
       }
@@ -106,7 +107,35 @@ TEST_CASE("the tree does not depend on the number of threads", "[accel]") {
   };
   const Accel one = build(1), two = build(2);
   CHECK(SameBytes(one.nodes, two.nodes));
-  CHECK(SameBytes(one.triangle_blocks, two.triangle_blocks));
+  CHECK(SameBytes(one.triangle_leaves, two.triangle_leaves));
+}
+
+TEST_CASE("leaves hold the corners of their triangles, shared or not", "[accel]") {
+  Random random(64);
+  Geometry strip = brute::Soup(random, 300, 1, 0.2f);  // nothing shared
+  for (int i = 0; i < 500; ++i) {                      // a strip, neighbours share two
+    const float x = 0.01f * static_cast<float>(i);
+    strip.triangles.push_back(MakeTriangle({x, 0, 0}, {x + 0.01f, 0, 0}, {x, 1, 0}));
+    strip.triangles.push_back(
+        MakeTriangle({x + 0.01f, 0, 0}, {x + 0.01f, 1, 0}, {x, 1, 0}));
+  }
+  const CompiledScene scene = MakeScene(strip, {.few_triangles = 0});
+  std::size_t triangles = 0, wrong = 0;
+  for (const TriangleLeaf& leaf : scene.accel.triangle_leaves) {
+    CHECK(leaf.vertices <= kLeafVertices);
+    triangles += leaf.count;
+    for (std::uint32_t lane = 0; lane < leaf.count; ++lane) {
+      if (lane > 0) CHECK(leaf.prim[lane - 1] < leaf.prim[lane]);
+      const TriangleRecord& record = scene.geometry.triangles[leaf.prim[lane]];
+      for (int k = 0; k < 3; ++k) {
+        for (int a = 0; a < 3; ++a) {
+          wrong += leaf.vertex[a][leaf.corner[k][lane]] != record.p[k][a];
+        }
+      }
+    }
+  }
+  CHECK(triangles == 1300);
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("small scenes share vertices", "[accel]") {

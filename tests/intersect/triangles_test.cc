@@ -1,6 +1,8 @@
 // Closest and any hits on triangles against brute force in double precision.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 #include "kernels/simd/target.h"
 #include "tests/intersect/brute_force.h"
 #include "tests/intersect/trace.h"
@@ -101,6 +103,51 @@ TEST_CASE("the tree and the plain loop report the same bits", "[intersect]") {
       const auto plain = Trace(MakeScene(geometry), rays);
       const auto tree = Trace(MakeScene(geometry, {.few_triangles = 0}), rays);
       CHECK(plain == tree);
+    }
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("a hit does not depend on the company of its ray", "[intersect]") {
+  // Rays share packets and stacks with others in the order of the queue; alone they take
+  // every step by themselves. Deep trees and heaps of overlapping triangles fill stacks.
+  Random random(10);
+  std::vector<Geometry> cases = {brute::Soup(random, 5000, 1, 0.05f),
+                                 brute::Soup(random, 1000, 1, 2.0f)};
+  Geometry line;  // exponentially spaced
+  for (int i = 0; i < 1000; ++i) {
+    const float x = std::ldexp(1.0f, -i % 120);
+    line.triangles.push_back(MakeTriangle({x, 0, 0}, {x, x, 0}, {x, 0, x}));
+  }
+  cases.push_back(line);
+  std::vector<TestRay> rays = RandomRays(random, 300, 1);
+  for (int i = 0; i < 300; ++i) {  // from one place, in a narrow beam
+    rays.push_back(
+        {{1.5f, 0.1f, 0.2f}, Normalize(Vec3f{-1, 0, 0} + 0.1f * random.Point(1))});
+  }
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    for (const Geometry& geometry : cases) {
+      const CompiledScene scene = MakeScene(geometry, {.few_triangles = 0});
+      const auto together = Trace(scene, rays);
+      const auto open = Unoccluded(scene, rays, {ShadowTrianglesStage()});
+      CAPTURE(target, geometry.triangles.size());
+      CHECK(std::count_if(together.begin(), together.end(),
+                          [](const KernelHit& hit) { return !std::isinf(hit.t); }) > 50);
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        if (std::isinf(together[i].t)) expected.push_back(i);
+      }
+      CHECK(open == expected);
+      for (const std::size_t company : {1, 5, 37}) {
+        std::vector<KernelHit> apart;
+        for (std::size_t at = 0; at < rays.size(); at += company) {
+          const std::size_t end = std::min(rays.size(), at + company);
+          const auto part = Trace(scene, {rays.begin() + at, rays.begin() + end});
+          apart.insert(apart.end(), part.begin(), part.end());
+        }
+        CHECK(apart == together);
+      }
     }
   }
   ForceTarget("");

@@ -1,0 +1,136 @@
+// A vector of rays against the triangles of a leaf: the lanes are rays.
+#if defined(LANELIGHT_INTERSECT_PACKET_LEAF_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_PACKET_LEAF_INL_H_
+#undef LANELIGHT_INTERSECT_PACKET_LEAF_INL_H_
+#else
+#define LANELIGHT_INTERSECT_PACKET_LEAF_INL_H_
+#endif
+
+#include <bit>
+
+#include "kernels/intersect/many-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The hits of a packet so far. In a shadow query t is the end of each ray, and negative
+/// once the ray is blocked.
+struct PacketBest {
+  VF t;
+  VI prim;
+  VF v, w, det;    // weights of vertices 1 and 2 times det
+  uint32_t found;  // lanes, as bits
+};
+
+HWY_INLINE PacketBest NoHits(VF t_max, VI prim) {
+  return {t_max, prim, hn::Zero(DF()), hn::Zero(DF()), Splat(1.0f), 0};
+}
+
+/// Rays of a packet prepared for leaves. `same_axes`: the order of axes is that of
+/// `row[]`, rows of TriangleLeaf::vertex, for all of them.
+struct PacketRays {
+  Rays rays;
+  Shear<VF> shear;
+  bool same_axes;
+  uint32_t row[3];
+};
+
+/// `largest[i]` is the axis of the largest |direction| of lane i < count.
+HWY_INLINE void SetAxes(const AxisOrder& order, uint32_t valid, PacketRays& packet) {
+  const uint32_t y = MaskBits(DF(), order.y) & valid, z = MaskBits(DF(), order.z) & valid;
+  packet.same_axes = z == valid || (z == 0 && (y == valid || y == 0));
+  packet.row[2] = z != 0 ? 2 : y != 0 ? 1 : 0;
+  packet.row[0] = (packet.row[2] + 1) % 3;
+  packet.row[1] = (packet.row[2] + 2) % 3;
+}
+
+/// The vertices of a leaf as each ray sees them.
+class PacketVertices {
+ public:
+  HWY_INLINE PacketVertices(const TriangleLeaf& leaf, const PacketRays& packet) {
+    const DF df;
+    if (packet.same_axes) {
+      const float *x = leaf.vertex[packet.row[0]], *y = leaf.vertex[packet.row[1]],
+                  *z = leaf.vertex[packet.row[2]];
+      for (uint32_t i = 0; i < leaf.vertices; ++i) {
+        Keep(i, ShearVertex(df, packet.shear,
+                            P3<VF>{Splat(x[i]), Splat(y[i]), Splat(z[i])}));
+      }
+      return;
+    }
+    const AxisOrder order(packet.rays.d);
+    for (uint32_t i = 0; i < leaf.vertices; ++i) {
+      const V3 p = Splat3(leaf.vertex[0][i], leaf.vertex[1][i], leaf.vertex[2][i]);
+      Keep(i, ShearVertex(df, packet.shear, order.Permute(p)));
+    }
+  }
+  HWY_INLINE P3<VF> operator[](uint32_t i) const {
+    const DF df;
+    return {hn::Load(df, p_[i][0]), hn::Load(df, p_[i][1]), hn::Load(df, p_[i][2])};
+  }
+
+ private:
+  HWY_INLINE void Keep(uint32_t i, P3<VF> p) {
+    const DF df;
+    hn::Store(p.x, df, p_[i][0]);
+    hn::Store(p.y, df, p_[i][1]);
+    hn::Store(p.z, df, p_[i][2]);
+  }
+  HWY_ALIGN float p_[kLeafVertices][3][hn::MaxLanes(DF())];
+};
+
+/// Tests the rays of `lanes` against a leaf. A first pass finds the triangles that any of
+/// their lines passes through; it has no branches, so that the tests overlap.
+template <bool kAny, bool kAlpha>
+HWY_INLINE void TestLeafPacket(const CompiledScene& scene, const TriangleLeaf& leaf,
+                               const PacketRays& packet, uint32_t lanes,
+                               PacketBest& best) {
+  const DF df;
+  const DI di;
+  const PacketVertices vertices(leaf, packet);
+  const auto corner = [&](uint32_t i, int k)
+                          HWY_ATTR { return vertices[leaf.corner[k][i]]; };
+  uint32_t passed = 0;
+  for (uint32_t i = 0; i < leaf.count; ++i) {
+    const auto edges = TestEdges(df, corner(i, 0), corner(i, 1), corner(i, 2));
+    passed |= uint32_t{(lanes & MaskBits(df, edges.mask)) != 0} << i;
+  }
+  const MF active = MaskOf(df, lanes);
+  for (; passed != 0; passed &= passed - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(passed));
+    const auto is_ahead = [&](MF) HWY_ATTR {
+      float p[3][3];
+      for (int k = 0; k < 3; ++k) {
+        for (int a = 0; a < 3; ++a) p[k][a] = leaf.vertex[a][leaf.corner[k][i]];
+      }
+      return AheadOf(packet.rays, p[0], p[1], p[2]);
+    };
+    const TriangleHits<VF, MF> hit = TestTriangle(
+        df, packet.shear, corner(i, 0), corner(i, 1), corner(i, 2), best.t, is_ahead);
+    MF mask = hn::And(hit.mask, active);
+    if (hn::AllFalse(df, mask)) continue;
+    if constexpr (kAlpha) mask = CutOut(scene, packet.rays, leaf.prim[i], hit, mask);
+    if constexpr (kAny) {
+      mask = hn::And(mask, hn::Lt(hit.t, best.t));
+      best.found |= MaskBits(df, mask);
+      best.t = hn::IfThenElse(mask, Splat(-1.0f), best.t);
+    } else {
+      const VI prim = hn::Set(di, static_cast<int32_t>(leaf.prim[i]));
+      mask = hn::And(mask, IsCloser(hit.t, prim, best.t, best.prim));
+      best.found |= MaskBits(df, mask);
+      best.t = hn::IfThenElse(mask, hit.t, best.t);
+      best.prim = hn::IfThenElse(hn::RebindMask(di, mask), prim, best.prim);
+      best.v = hn::IfThenElse(mask, hit.v, best.v);
+      best.w = hn::IfThenElse(mask, hit.w, best.w);
+      best.det = hn::IfThenElse(mask, hit.det, best.det);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

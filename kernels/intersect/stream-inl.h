@@ -1,0 +1,84 @@
+// A stream of independent rays through the triangle BVH: at the top of the tree vectors
+// of rays together (stream_packet-inl.h), below that single rays, interleaved
+// (stream_single-inl.h).
+#if defined(LANELIGHT_INTERSECT_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_STREAM_INL_H_
+#undef LANELIGHT_INTERSECT_STREAM_INL_H_
+#else
+#define LANELIGHT_INTERSECT_STREAM_INL_H_
+#endif
+
+#include "kernels/intersect/stream_packet-inl.h"
+#include "kernels/intersect/stream_single-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Whether the target has vectors for a stream: a node step needs the 8 children of a
+/// node in one vector.
+inline constexpr bool kHasStreams = hn::MaxLanes(D8()) == kBvhWidth;
+
+template <bool kAny, bool kAlpha>
+class RayStream {
+ public:
+  explicit RayStream(const CompiledScene& scene)
+      : bvh_(scene.accel.groups[0]),
+        rays_(bvh_),
+        packets_(scene, rays_),
+        singles_(scene, rays_) {}
+
+  /// Takes the valid rays of a vector, and hands the stream to done() if it is full.
+  template <class Done>
+  HWY_INLINE void Add(const Rays& rays, VI slots, VI prims, MF valid, Done&& done) {
+    rays_.Add(bvh_, rays, slots, prims,
+              static_cast<uint32_t>(hn::CountTrue(DF(), valid)));
+    if (!rays_.HasRoom()) done();
+  }
+  bool empty() const { return rays_.size == 0; }
+
+  /// Traces the rays and writes the hits to the columns.
+  HWY_INLINE void Closest(const PathColumns& path) {
+    Trace();
+    for (uint32_t r = 0; r < rays_.size; ++r) {
+      if (!rays_.found[r]) continue;
+      const int32_t slot = rays_.slot[r];
+      path.t[slot] = rays_.t[r];
+      path.prim[slot] = static_cast<uint32_t>(rays_.prim[r]);
+      path.b1[slot] = rays_.b1[r];
+      path.b2[slot] = rays_.b2[r];
+    }
+    rays_.size = 0;
+  }
+
+  /// Traces the rays and appends those that are not blocked to `kept`, in order.
+  HWY_INLINE void KeepOpen(Queue& kept) {
+    Trace();
+    for (uint32_t r = 0; r < rays_.size; ++r) {
+      kept.items[kept.size] = static_cast<uint32_t>(rays_.slot[r]);
+      kept.size += !rays_.found[r];
+    }
+    rays_.size = 0;
+  }
+
+ private:
+  HWY_INLINE void Trace() {
+    uint32_t num_live = 0;
+    for (uint32_t at = 0; at < rays_.size; at += StreamRays::kLanes) {
+      packets_.Run(at, singles_.live(), num_live);
+    }
+    singles_.Run(num_live);
+  }
+
+  const Bvh& bvh_;
+  StreamRays rays_;
+  PacketPhase<kAny, kAlpha> packets_;
+  SinglePhase<kAny, kAlpha> singles_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

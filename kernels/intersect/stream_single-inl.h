@@ -1,0 +1,258 @@
+// Second phase of a stream: single rays, interleaved. In each round every ray takes one
+// step (a node or a leaf). A ray by itself is a chain of dependent loads and of branches
+// that cannot be predicted; here a node step has no branch, steps of different rays
+// overlap in the processor, and what a ray needs next is prefetched a round before.
+#if defined(LANELIGHT_INTERSECT_STREAM_SINGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_STREAM_SINGLE_INL_H_
+#undef LANELIGHT_INTERSECT_STREAM_SINGLE_INL_H_
+#else
+#define LANELIGHT_INTERSECT_STREAM_SINGLE_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+
+#include "hwy/cache_control.h"
+#include "kernels/intersect/alpha-inl.h"
+#include "kernels/intersect/bvh-inl.h"
+#include "kernels/intersect/leaf-inl.h"
+#include "kernels/intersect/stream_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Rays that take a step together, in one straight run of instructions.
+inline constexpr uint32_t kTogether = 2;
+/// Leaves tested before their hits are taken.
+inline constexpr uint32_t kLeafBlock = 16;
+
+template <bool kAny, bool kAlpha>
+class SinglePhase {
+ public:
+  SinglePhase(const CompiledScene& scene, StreamRays& rays)
+      : scene_(scene),
+        rays_(rays),
+        base_{reinterpret_cast<const char*>(scene.accel.nodes.data()),
+              reinterpret_cast<const char*>(scene.accel.triangle_leaves.data())} {}
+
+  /// Places of the rays to trace; the packet phase appends them.
+  int32_t* live() { return live_; }
+
+  /// Traces the first `num_live` of them.
+  HWY_NOINLINE void Run(uint32_t num_live) {
+    num_live_ = num_live;
+    for (;;) {
+      Classify();
+      if (num_live_ == 0) return;
+      NodeRound();
+      LeafRound();
+    }
+  }
+
+ private:
+  static constexpr uint32_t kRoom = StreamRays::kRoom;
+
+  // Lists the rays that are at a node, and those that are at a leaf. Apart from the
+  // steps, which thus store only to places known beforehand: a store to a place that
+  // depends on the outcome of a step would hold up the loads of the steps that follow.
+  HWY_INLINE void Classify() {
+    const DI di;
+    const uint32_t n = num_live_;
+    num_live_ = num_nodes_ = num_leaves_ = 0;
+    for (uint32_t i = 0; i < n; i += hn::MaxLanes(di)) {
+      const auto valid = hn::FirstN(di, n - i);
+      const VI rays = hn::IfThenElseZero(valid, hn::LoadU(di, live_ + i));
+      const VI next = Gather(rays_.next, rays);
+      const auto live = hn::And(valid, hn::Ne(next, hn::Set(di, -1)));
+      const auto leaf = hn::And(live, hn::Lt(next, hn::Zero(di)));
+      num_nodes_ += Append(rays, hn::AndNot(leaf, live), nodes_ + num_nodes_);
+      num_leaves_ += Append(rays, leaf, leaves_ + num_leaves_);
+      num_live_ += Append(rays, live, live_ + num_live_);
+    }
+  }
+  template <class M>
+  static HWY_INLINE uint32_t Append(VI rays, M mask, int32_t* to) {
+    hn::StoreU(hn::Compress(rays, mask), DI(), to);
+    return static_cast<uint32_t>(hn::CountTrue(DI(), mask));
+  }
+
+  // Fills the last group up with its last ray, whose step is then done twice.
+  static HWY_INLINE void PadGroup(int32_t* list, uint32_t n) {
+    for (uint32_t j = 0; n > 0 && j < kTogether; ++j) list[n + j] = list[n - 1];
+  }
+  HWY_NOINLINE void NodeRound() {
+    PadGroup(nodes_, num_nodes_);
+    for (uint32_t k = 0; k < num_nodes_; k += kTogether) NodeStep(nodes_ + k);
+  }
+  HWY_NOINLINE void LeafRound() {
+    PadGroup(leaves_, num_leaves_);
+    for (uint32_t base = 0; base < num_leaves_; base += kLeafBlock) {
+      const uint32_t n = std::min(num_leaves_ - base, kLeafBlock);
+      for (uint32_t k = 0; k < n; k += kTogether) LeafStep(leaves_ + base + k, k);
+      for (uint32_t k = 0; k < n; ++k) {
+        if (bits_[k] == 0) continue;
+        HitStep(static_cast<uint32_t>(leaves_[base + k]), bits_[k], weights_[k]);
+      }
+    }
+  }
+
+  // Goes to the top of the stack if `move` is 1, stays where it is if it is 0.
+  HWY_INLINE void Pop(uint32_t r, uint32_t top, uint32_t move = 1) {
+    static constexpr std::size_t kBytes[2] = {sizeof(WideNode), sizeof(TriangleLeaf)};
+    const uint32_t ref = rays_.Refs(r)[top];
+    rays_.top[r] = top - move;
+    rays_.next[r] = move ? static_cast<int32_t>(ref) : rays_.next[r];
+    const uint32_t is_leaf = ref >> 31;
+    const char* at = base_[is_leaf] + (ref & ~kLeafBit) * kBytes[is_leaf];
+    for (int line = 0; line < 4; ++line) hwy::Prefetch(at + line * kCacheLine);
+  }
+
+  HWY_INLINE void NodeStep(const int32_t* list) {
+    const D8 d8;
+    const hn::RebindToUnsigned<D8> du;
+    const WideNode* node[kTogether];
+    uint32_t r[kTogether];
+    V8 enter[kTogether], leave[kTogether];
+    for (uint32_t j = 0; j < kTogether; ++j) {
+      r[j] = static_cast<uint32_t>(list[j]);
+      node[j] = &scene_.accel.nodes[static_cast<uint32_t>(rays_.next[r[j]])];
+      enter[j] = hn::Zero(d8);
+      leave[j] = hn::Set(d8, rays_.t[r[j]]);
+    }
+    for (int a = 0; a < 3; ++a) {
+      for (uint32_t j = 0; j < kTogether; ++j) {
+        constexpr uint32_t kUpper = kBvhWidth * sizeof(float);
+        const uint32_t lower = rays_.lower[a][r[j]];
+        const char* planes = reinterpret_cast<const char*>(node[j]->bounds[a]);
+        const V8 near = hn::Load(d8, reinterpret_cast<const float*>(planes + lower));
+        const V8 far =
+            hn::Load(d8, reinterpret_cast<const float*>(planes + (lower ^ kUpper)));
+        const V8 rcp = hn::Set(d8, rays_.rcp[a][r[j]]);
+        enter[j] =
+            hn::Max(enter[j], hn::MulAdd(near, rcp, hn::Set(d8, rays_.near[a][r[j]])));
+        leave[j] =
+            hn::Min(leave[j], hn::MulAdd(far, rcp, hn::Set(d8, rays_.far[a][r[j]])));
+      }
+    }
+    uint32_t top[kTogether];
+    for (uint32_t j = 0; j < kTogether; ++j) {
+      // Last slots first, so that the nearest child is on top of the stack.
+      const auto slot = hn::Xor(hn::Sub(hn::Set(du, kBvhWidth - 1), hn::Iota(du, 0)),
+                                hn::Set(du, rays_.octant[r[j]]));
+      const V8 entered =
+          hn::IfThenElse(hn::Le(enter[j], leave[j]), enter[j], hn::Set(d8, -1.0f));
+      const V8 entry = hn::TableLookupLanes(entered, hn::IndicesFromVec(d8, slot));
+      const auto ref = hn::TableLookupLanes(hn::Load(du, node[j]->child),
+                                            hn::IndicesFromVec(du, slot));
+      const M8 hit = hn::Ge(entry, hn::Zero(d8));
+      top[j] = rays_.top[r[j]];
+      hn::StoreU(hn::Compress(entry, hit), d8, rays_.Entries(r[j]) + top[j] + 1);
+      hn::StoreU(hn::Compress(ref, hn::RebindMask(du, hit)), du,
+                 rays_.Refs(r[j]) + top[j] + 1);
+      top[j] += static_cast<uint32_t>(hn::CountTrue(d8, hit));
+    }
+    for (uint32_t j = 0; j < kTogether; ++j) Pop(r[j], top[j]);
+  }
+
+  HWY_INLINE const TriangleLeaf& LeafOf(uint32_t r) const {
+    return scene_.accel.triangle_leaves[static_cast<uint32_t>(rays_.next[r]) & ~kLeafBit];
+  }
+
+  // Rays whose lines pass through no triangle go on; the others wait for HitStep.
+  HWY_INLINE void LeafStep(const int32_t* list, uint32_t at) {
+    LeafRay ray[kTogether];
+    const TriangleLeaf* leaf[kTogether];
+    LeafWeights* weights[kTogether];
+    uint32_t r[kTogether], bits[kTogether], top[kTogether];
+    for (uint32_t j = 0; j < kTogether; ++j) {
+      r[j] = static_cast<uint32_t>(list[j]);
+      const auto load = [&](const float(&column)[3][kRoom]) HWY_ATTR {
+        return P3<float>{column[0][r[j]], column[1][r[j]], column[2][r[j]]};
+      };
+      leaf[j] = &LeafOf(r[j]);
+      ray[j] = {load(rays_.shear_o),
+                load(rays_.shear_s),
+                {rays_.row[0][r[j]], rays_.row[1][r[j]], rays_.row[2][r[j]]}};
+      weights[j] = &weights_[at + j];
+    }
+    TestLeaves(ray, leaf, weights, bits);
+    for (uint32_t j = 0; j < kTogether; ++j) top[j] = rays_.top[r[j]];
+    for (uint32_t j = 0; j < kTogether; ++j) {
+      bits_[at + j] = bits[j];
+      Pop(r[j], top[j], bits[j] == 0);
+    }
+  }
+
+  // Takes the nearest of the triangles that the line of the ray passes through, and goes
+  // on.
+  HWY_NOINLINE void HitStep(uint32_t r, uint32_t bits, const LeafWeights& weights) {
+    const TriangleLeaf& leaf = LeafOf(r);
+    const auto copy_ray = [&](float o[3], float d[3]) HWY_ATTR {
+      for (int a = 0; a < 3; ++a) o[a] = rays_.o[a][r], d[a] = rays_.d[a][r];
+    };
+    bool closer = false;
+    for (; bits != 0; bits &= bits - 1) {
+      const int i = std::countr_zero(bits);
+      const auto prim = static_cast<int32_t>(leaf.prim[i]);
+      float t, det;
+      if (!FinishLane(leaf, weights, i, copy_ray, t, det)) continue;
+      const bool better =
+          t < rays_.t[r] || (!kAny && t == rays_.t[r] && prim < rays_.prim[r]);
+      if (!better) continue;
+      const float b1 = weights.v[i] / det, b2 = weights.w[i] / det;
+      if constexpr (kAlpha) {
+        float o[3], d[3];
+        copy_ray(o, d);
+        if (!TrianglePassesAlpha(scene_, o, d, leaf.prim[i], b1, b2)) continue;
+      }
+      rays_.found[r] = 1;
+      if constexpr (kAny) {
+        rays_.next[r] = static_cast<int32_t>(kEmptyRef);
+        return;
+      }
+      closer = true;
+      rays_.t[r] = t;
+      rays_.prim[r] = prim;
+      rays_.b1[r] = b1;
+      rays_.b2[r] = b2;
+    }
+    if (closer) CullStack(r);
+    Pop(r, rays_.top[r]);
+  }
+
+  // Drops what lies beyond the hit, so that nothing needs to be tested when it is popped.
+  HWY_INLINE void CullStack(uint32_t r) {
+    const DL dl;
+    const hn::RebindToUnsigned<DL> du;
+    uint32_t* refs = rays_.Refs(r);
+    float* entries = rays_.Entries(r);
+    const uint32_t end = rays_.top[r] + 1;
+    const VL t = hn::Set(dl, rays_.t[r]);
+    uint32_t kept = rays_.bottom[r];
+    for (uint32_t i = kept; i < end; i += LeafLanes()) {
+      const VL entry = hn::LoadU(dl, entries + i);
+      const auto ref = hn::LoadU(du, refs + i);
+      const ML keep = hn::And(hn::Le(entry, t), hn::FirstN(dl, end - i));
+      hn::StoreU(hn::Compress(entry, keep), dl, entries + kept);
+      hn::StoreU(hn::Compress(ref, hn::RebindMask(du, keep)), du, refs + kept);
+      kept += static_cast<uint32_t>(hn::CountTrue(dl, keep));
+    }
+    rays_.top[r] = kept - 1;
+  }
+
+  const CompiledScene& scene_;
+  StreamRays& rays_;
+  const char* base_[2];  // nodes and leaves
+  uint32_t num_live_ = 0, num_nodes_ = 0, num_leaves_ = 0;
+  int32_t live_[kRoom], nodes_[kRoom], leaves_[kRoom];
+  uint32_t bits_[kLeafBlock + kTogether];
+  LeafWeights weights_[kLeafBlock + kTogether];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif
