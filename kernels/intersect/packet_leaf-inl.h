@@ -46,25 +46,14 @@ HWY_INLINE void SetAxes(const AxisOrder& order, uint32_t valid, PacketRays& pack
   packet.row[1] = (packet.row[2] + 2) % 3;
 }
 
-/// The vertices of a leaf as each ray sees them.
-class PacketVertices {
+/// Three numbers for each ray and each vertex, or each triangle, of a leaf.
+class PacketColumns {
  public:
-  HWY_INLINE PacketVertices(const TriangleLeaf& leaf, const PacketRays& packet) {
+  HWY_INLINE void Keep(uint32_t i, P3<VF> p) {
     const DF df;
-    if (packet.same_axes) {
-      const float *x = leaf.vertex[packet.row[0]], *y = leaf.vertex[packet.row[1]],
-                  *z = leaf.vertex[packet.row[2]];
-      for (uint32_t i = 0; i < leaf.vertices; ++i) {
-        Keep(i, ShearVertex(df, packet.shear,
-                            P3<VF>{Splat(x[i]), Splat(y[i]), Splat(z[i])}));
-      }
-      return;
-    }
-    const AxisOrder order(packet.rays.d);
-    for (uint32_t i = 0; i < leaf.vertices; ++i) {
-      const V3 p = Splat3(leaf.vertex[0][i], leaf.vertex[1][i], leaf.vertex[2][i]);
-      Keep(i, ShearVertex(df, packet.shear, order.Permute(p)));
-    }
+    hn::Store(p.x, df, p_[i][0]);
+    hn::Store(p.y, df, p_[i][1]);
+    hn::Store(p.z, df, p_[i][2]);
   }
   HWY_INLINE P3<VF> operator[](uint32_t i) const {
     const DF df;
@@ -72,29 +61,48 @@ class PacketVertices {
   }
 
  private:
-  HWY_INLINE void Keep(uint32_t i, P3<VF> p) {
-    const DF df;
-    hn::Store(p.x, df, p_[i][0]);
-    hn::Store(p.y, df, p_[i][1]);
-    hn::Store(p.z, df, p_[i][2]);
-  }
-  HWY_ALIGN float p_[kLeafVertices][3][hn::MaxLanes(DF())];
+  HWY_ALIGN float p_[kLeafTriangles][3][hn::MaxLanes(DF())];
 };
+static_assert(kLeafVertices <= kLeafTriangles);
+
+/// The vertices of a leaf as each ray sees them.
+HWY_INLINE void ShearLeaf(const TriangleLeaf& leaf, const PacketRays& packet,
+                          PacketColumns& to) {
+  const DF df;
+  if (packet.same_axes) {
+    const float *x = leaf.vertex[packet.row[0]], *y = leaf.vertex[packet.row[1]],
+                *z = leaf.vertex[packet.row[2]];
+    for (uint32_t i = 0; i < leaf.vertices; ++i) {
+      const P3<VF> p = {Splat(x[i]), Splat(y[i]), Splat(z[i])};
+      to.Keep(i, ShearVertex(df, packet.shear, p));
+    }
+    return;
+  }
+  const AxisOrder order(packet.rays.d);
+  for (uint32_t i = 0; i < leaf.vertices; ++i) {
+    const V3 p = Splat3(leaf.vertex[0][i], leaf.vertex[1][i], leaf.vertex[2][i]);
+    to.Keep(i, ShearVertex(df, packet.shear, order.Permute(p)));
+  }
+}
 
 /// Tests the rays of `lanes` against a leaf. A first pass finds the triangles that any of
-/// their lines passes through; it has no branches, so that the tests overlap.
+/// their lines passes through; it has no branches, and what it computes is kept, so that
+/// tests overlap in both passes.
 template <bool kAny, bool kAlpha>
 HWY_INLINE void TestLeafPacket(const CompiledScene& scene, const TriangleLeaf& leaf,
                                const PacketRays& packet, uint32_t lanes,
                                PacketBest& best) {
   const DF df;
   const DI di;
-  const PacketVertices vertices(leaf, packet);
+  PacketColumns vertices;
+  ShearLeaf(leaf, packet, vertices);
   const auto corner = [&](uint32_t i, int k)
                           HWY_ATTR { return vertices[leaf.corner[k][i]]; };
+  PacketColumns weights;
   uint32_t passed = 0;
   for (uint32_t i = 0; i < leaf.count; ++i) {
     const auto edges = TestEdges(df, corner(i, 0), corner(i, 1), corner(i, 2));
+    weights.Keep(i, {edges.u, edges.v, edges.w});
     passed |= uint32_t{(lanes & MaskBits(df, edges.mask)) != 0} << i;
   }
   const MF active = MaskOf(df, lanes);
@@ -107,10 +115,14 @@ HWY_INLINE void TestLeafPacket(const CompiledScene& scene, const TriangleLeaf& l
       }
       return AheadOf(packet.rays, p[0], p[1], p[2]);
     };
-    const TriangleHits<VF, MF> hit = TestTriangle(
-        df, packet.shear, corner(i, 0), corner(i, 1), corner(i, 2), best.t, is_ahead);
-    MF mask = hn::And(hit.mask, active);
-    if (hn::AllFalse(df, mask)) continue;
+    const P3<VF> p = corner(i, 0), q = corner(i, 1), r = corner(i, 2);
+    const P3<VF> weight = weights[i];
+    const auto edges = JoinEdges(df, weight.x, weight.y, weight.z);
+    const VF t_det =
+        hn::MulAdd(edges.u, p.z, hn::MulAdd(edges.v, q.z, hn::Mul(edges.w, r.z)));
+    TriangleHits<VF, MF> hit = FinishHits(
+        df, packet.shear, p, q, r, hn::And(edges.mask, active), edges, t_det, is_ahead);
+    MF mask = hit.mask;
     if constexpr (kAlpha) mask = CutOut(scene, packet.rays, leaf.prim[i], hit, mask);
     if constexpr (kAny) {
       mask = hn::And(mask, hn::Lt(hit.t, best.t));

@@ -14,8 +14,9 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Rays in flight: enough for independent work, and their columns and stacks fit in L1.
-inline constexpr uint32_t kStreamRays = 64;
+/// Rays in flight: enough for independent work to the end of a stream; what is touched of
+/// their columns and stacks stays in L2 (measured: 64 are 2 to 5 % slower, 512 equal).
+inline constexpr uint32_t kStreamRays = 256;
 /// Subtrees that a ray can put off in the packet phase.
 inline constexpr uint32_t kDeferred = 32;
 

@@ -130,7 +130,8 @@ HWY_INLINE hn::Mask<D> Straddles(D d, const P3<V>& a, const P3<V>& b, const P3<V
   return hn::And(hn::Le(Min3(a.z, b.z, c.z), zero), hn::Ge(Max3(a.z, b.z, c.z), zero));
 }
 
-/// Lanes of `mask` whose t is so close to zero that its sign may be wrong.
+/// Lanes of `mask` (which straddle) whose t is so close to zero that its sign may be
+/// wrong.
 template <class D, class V, class M>
 HWY_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
                           const P3<V>& c, V t_det, M mask) {
@@ -140,7 +141,7 @@ HWY_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>&
   const V z = hn::Mul(mz, ray.abs_dz);
   const V bound = hn::Mul(hn::Mul(hn::Set(d, 170 * 0x1p-24f), mz),
                           hn::Mul(hn::Add(mx, z), hn::Add(my, z)));
-  return hn::And(mask, hn::And(Straddles(d, a, b, c), hn::Le(hn::Abs(t_det), bound)));
+  return hn::And(mask, hn::Le(hn::Abs(t_det), bound));
 }
 
 /// The part of the triangle test that is the same for all lanes: edge functions, and a
@@ -152,19 +153,19 @@ struct TriangleEdges {
 };
 
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+HWY_INLINE TriangleEdges<V, M> JoinEdges(D d, V u, V v, V w) {
+  const V zero = hn::Zero(d);
+  const V det = hn::Add(u, hn::Add(v, w)), abs_det = hn::Abs(det);
+  const M one_sign = hn::Or(hn::Ge(Min3(u, v, w), zero), hn::Le(Max3(u, v, w), zero));
+  return {hn::And(one_sign, hn::Gt(abs_det, zero)), u, v, w, det, abs_det};
+}
+
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 HWY_INLINE TriangleEdges<V, M> TestEdges(D d, const P3<V>& a, const P3<V>& b,
                                          const P3<V>& c) {
-  const V zero = hn::Zero(d);
-  TriangleEdges<V, M> e;
-  e.u = EdgeFunction(d, c.x, b.y, c.y, b.x);
-  e.v = EdgeFunction(d, a.x, c.y, a.y, c.x);
-  e.w = EdgeFunction(d, b.x, a.y, b.y, a.x);
-  e.det = hn::Add(e.u, hn::Add(e.v, e.w));
-  e.abs_det = hn::Abs(e.det);
-  e.mask =
-      hn::And(hn::Or(hn::Ge(Min3(e.u, e.v, e.w), zero), hn::Le(Max3(e.u, e.v, e.w), zero)),
-              hn::Gt(e.abs_det, zero));
-  return e;
+  return JoinEdges(d, EdgeFunction(d, c.x, b.y, c.y, b.x),
+                   EdgeFunction(d, a.x, c.y, a.y, c.x),
+                   EdgeFunction(d, b.x, a.y, b.y, a.x));
 }
 
 /// t det of the plane of the triangle, and in e.mask only the lanes that may hit before
@@ -176,27 +177,29 @@ HWY_INLINE V TestDistance(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>&
   // |t_det| with the sign of t. The factor covers the rounding of product and quotient.
   const V signed_t = hn::Xor(t_det, hn::And(e.det, hn::Set(d, -0.0f)));
   const V limit = hn::Mul(hn::Mul(t_max, e.abs_det), hn::Set(d, 1 + 0x1p-21f));
-  e.mask = hn::And(e.mask, hn::And(hn::Le(signed_t, limit),
-                                   hn::Ge(signed_t, hn::Neg(ray.t_scale))));
+  e.mask = hn::And(
+      e.mask, hn::And(hn::Le(signed_t, limit), hn::Ge(signed_t, hn::Neg(ray.t_scale))));
   return t_det;
 }
 
-/// Distances of the lanes of e.mask, which are few, and the decision whether they lie
-/// ahead of the origin. `is_ahead(mask)` decides the sign of t of some lanes exactly
-/// (PlaneIsAhead); it is called for rays that start on the triangle.
+/// Distances of the lanes of `mask`, and the decision whether they lie ahead of the
+/// origin. `is_ahead(mask)` decides the sign of t of some lanes exactly (PlaneIsAhead);
+/// it is called for rays that start on the triangle.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
 HWY_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray, const P3<V>& a,
-                                         const P3<V>& b, const P3<V>& c,
+                                         const P3<V>& b, const P3<V>& c, M mask,
                                          const TriangleEdges<V, M>& e, V t_det,
                                          IsAhead&& is_ahead) {
-  TriangleHits<V, M> hit{e.mask, hn::Div(t_det, e.det), e.v, e.w, e.det};
-  const M ahead = hn::And(e.mask, hn::Gt(hit.t, hn::Zero(d)));
-  hit.mask = ahead;
+  TriangleHits<V, M> hit{mask, hn::Div(t_det, e.det), e.v, e.w, e.det};
+  hit.mask = hn::And(mask, hn::Gt(hit.t, hn::Zero(d)));
   // A hit that is ahead only by the exact test below keeps the least positive distance.
   hit.t = hn::Max(hit.t, hn::Set(d, FLT_MIN));
-  const M doubtful = DoubtfulSign(d, ray, a, b, c, t_det, e.mask);
-  if (HWY_LIKELY(hn::AllFalse(d, doubtful))) return hit;
-  hit.mask = hn::Or(hn::AndNot(doubtful, ahead), hn::And(doubtful, is_ahead(doubtful)));
+  const M straddles = hn::And(mask, Straddles(d, a, b, c));
+  if (HWY_LIKELY(hn::AllFalse(d, straddles))) return hit;
+  const M doubtful = DoubtfulSign(d, ray, a, b, c, t_det, straddles);
+  if (hn::AllFalse(d, doubtful)) return hit;
+  hit.mask =
+      hn::Or(hn::AndNot(doubtful, hit.mask), hn::And(doubtful, is_ahead(doubtful)));
   return hit;
 }
 
@@ -210,7 +213,7 @@ HWY_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const P3<V>
   if (HWY_LIKELY(hn::AllFalse(d, e.mask))) return {e.mask, zero, zero, zero, zero};
   const V t_det = TestDistance(d, ray, a, b, c, t_max, e);
   if (hn::AllFalse(d, e.mask)) return {e.mask, zero, zero, zero, zero};
-  return FinishHits(d, ray, a, b, c, e, t_det, is_ahead);
+  return FinishHits(d, ray, a, b, c, e.mask, e, t_det, is_ahead);
 }
 
 }  // namespace HWY_NAMESPACE
