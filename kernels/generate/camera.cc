@@ -46,7 +46,7 @@ HWY_INLINE void InitialisePaths(const PathColumns& p, const Queue& queue) {
 
 // Film position in pixels: pixel centre plus a point distributed like |filter|.
 template <bool kBox>
-HWY_INLINE void FilmPosition(const Wave& wave, VI slots, VF* x, VF* y) {
+HWY_INLINE void FilmPosition(const Wave& wave, const StoreSlots& slots, VF* x, VF* y) {
   const CompiledFilter& filter = wave.scene->filter;
   const PathColumns& p = wave.path;
   const VI pixel = Gather(p.pixel, slots);
@@ -93,7 +93,7 @@ void Camera(Wave& wave) {
   const V3 base = splat(camera.base), dx = splat(camera.dx), dy = splat(camera.dy);
   const Frame axes = {splat(camera.right), splat(camera.up), splat(camera.forward)};
   InitialisePaths(p, queue);
-  ForEachBatch(wave, queue, [&](VI slots, MF valid) HWY_ATTR {
+  ForEachBatch(wave, queue, [&](const StoreSlots& slots, MF valid) HWY_ATTR {
     VF x, y;
     FilmPosition<kBox>(wave, slots, &x, &y);
     const V3 film = MulAdd(dx, x, MulAdd(dy, y, base));

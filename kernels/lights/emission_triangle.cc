@@ -24,14 +24,14 @@ void EmissionTriangle(Wave& wave) {
                   hn::Mul(prim, hn::Set(DI(), 12)));
   };
   const Queue& mine =
-      FilterQueue(wave, wave.queue(QueueId::kHit), [&](VI slots) HWY_ATTR {
+      FilterQueue(wave, wave.queue(QueueId::kHit), [&](const Slots& slots) HWY_ATTR {
         const VI prim = Gather(p.prim, slots);
         const auto triangle = hn::Lt(prim, end);
         const VI safe = hn::IfThenElseZero(triangle, prim);
         return hn::RebindMask(
             DF(), hn::And(triangle, hn::Gt(light_of(safe), hn::Set(DI(), -1))));
       });
-  ForEachBatch(wave, mine, [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI prim = Gather(p.prim, slots);
     const Lights light(scene, light_of(prim));
     const LightTriangle triangle(scene, prim);

@@ -34,56 +34,58 @@ template <bool kMany>
 void SampleSphereLight(Wave& wave) {
   const PathColumns& p = wave.path;
   const float two_pi = 6.28318530717958648f;
-  ForEachLit<kMany>(wave, LightShape::kSphere, [&](VI slots, VI index) HWY_ATTR {
-    const Lights light(*wave.scene, index);
-    const LightSphere sphere(*wave.scene, light.Primitive());
-    const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
-    const VF u0 = Gather(p.u_light_0, slots), u1 = Gather(p.u_light_1, slots);
-    const V3 to_center = sphere.center - from;
-    const VF d2 = Dot(to_center, to_center);
-    const MF outside = OutsideSphere(sphere.radius, d2);
-    const auto [sine, cosine] = SinCos2Pi(u1);
+  ForEachLit<kMany>(
+      wave, LightShape::kSphere, [&](const StoreSlots& slots, VI index) HWY_ATTR {
+        const Lights light(*wave.scene, index);
+        const LightSphere sphere(*wave.scene, light.Primitive());
+        const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
+        const VF u0 = Gather(p.u_light_0, slots), u1 = Gather(p.u_light_1, slots);
+        const V3 to_center = sphere.center - from;
+        const VF d2 = Dot(to_center, to_center);
+        const MF outside = OutsideSphere(sphere.radius, d2);
+        const auto [sine, cosine] = SinCos2Pi(u1);
 
-    // Inside: area sampling. Computed for all lanes; the other side overwrites below.
-    const VF z = hn::NegMulAdd(Splat(2.0f), u0, Splat(1.0f));
-    const VF ring = hn::Sqrt(hn::Max(hn::NegMulAdd(z, z, Splat(1.0f)), Splat(0)));
-    const V3 n = {hn::Mul(ring, cosine), hn::Mul(ring, sine), z};
-    const V3 normal = Mul(n, sphere.normal_sign);
-    if (!hn::AllTrue(DF(), outside)) {
-      StoreSurfaceSample(p, slots, MulAdd(n, sphere.radius, sphere.center), normal,
-                         hn::Div(light.Pmf(p, slots), light.Area()), light.Radiance(),
-                         light.TwoSided());
-    }
-    // Outside: cone sampling, kept where it applies.
-    const VF cap = OneMinusCosCone(sphere.radius, d2);
-    const VF one_minus_cos = hn::Mul(u0, cap);
-    const VF sin_theta =
-        hn::Sqrt(hn::Mul(one_minus_cos, hn::Sub(Splat(2.0f), one_minus_cos)));
-    const Frame frame = FrameFromNormal(Normalize(to_center));
-    const V3 w = frame.FromLocal({hn::Mul(sin_theta, cosine), hn::Mul(sin_theta, sine),
-                                  hn::Sub(Splat(1.0f), one_minus_cos)});
-    const VF pdf = hn::Div(light.Pmf(p, slots), hn::Mul(Splat(two_pi), cap));
-    const VF near = NearDistance(to_center, w, sphere.radius);
-    const VF distance =
-        hn::Max(hn::Sub(near, hn::MulAdd(Splat(2e-6f),
-                                         hn::Add(SumAbs(from), SumAbs(sphere.center)),
-                                         hn::Mul(Splat(2.0f), Gather(p.p_error, slots)))),
-                hn::Mul(near, Splat(0.5f)));
-    const MF facing = hn::Or(hn::Gt(sphere.normal_sign, Splat(0)), light.TwoSided());
-    const V3 radiance =
-        IfThenElseZero(facing, Mul(light.Radiance(), hn::Div(Splat(1.0f), pdf)));
-    const auto keep = [&](VF value, float* column) HWY_ATTR {
-      Scatter(hn::IfThenElse(outside, value, Gather(column, slots)), column, slots);
-    };
-    keep(w.x, p.ls_x);
-    keep(w.y, p.ls_y);
-    keep(w.z, p.ls_z);
-    keep(distance, p.ls_distance);
-    keep(radiance.x, p.ls_r);
-    keep(radiance.y, p.ls_g);
-    keep(radiance.z, p.ls_b);
-    keep(pdf, p.ls_pdf);
-  });
+        // Inside: area sampling. Computed for all lanes; the other side overwrites below.
+        const VF z = hn::NegMulAdd(Splat(2.0f), u0, Splat(1.0f));
+        const VF ring = hn::Sqrt(hn::Max(hn::NegMulAdd(z, z, Splat(1.0f)), Splat(0)));
+        const V3 n = {hn::Mul(ring, cosine), hn::Mul(ring, sine), z};
+        const V3 normal = Mul(n, sphere.normal_sign);
+        if (!hn::AllTrue(DF(), outside)) {
+          StoreSurfaceSample(p, slots, MulAdd(n, sphere.radius, sphere.center), normal,
+                             hn::Div(light.Pmf(p, slots), light.Area()), light.Radiance(),
+                             light.TwoSided());
+        }
+        // Outside: cone sampling, kept where it applies.
+        const VF cap = OneMinusCosCone(sphere.radius, d2);
+        const VF one_minus_cos = hn::Mul(u0, cap);
+        const VF sin_theta =
+            hn::Sqrt(hn::Mul(one_minus_cos, hn::Sub(Splat(2.0f), one_minus_cos)));
+        const Frame frame = FrameFromNormal(Normalize(to_center));
+        const V3 w =
+            frame.FromLocal({hn::Mul(sin_theta, cosine), hn::Mul(sin_theta, sine),
+                             hn::Sub(Splat(1.0f), one_minus_cos)});
+        const VF pdf = hn::Div(light.Pmf(p, slots), hn::Mul(Splat(two_pi), cap));
+        const VF near = NearDistance(to_center, w, sphere.radius);
+        const VF distance = hn::Max(
+            hn::Sub(near,
+                    hn::MulAdd(Splat(2e-6f), hn::Add(SumAbs(from), SumAbs(sphere.center)),
+                               hn::Mul(Splat(2.0f), Gather(p.p_error, slots)))),
+            hn::Mul(near, Splat(0.5f)));
+        const MF facing = hn::Or(hn::Gt(sphere.normal_sign, Splat(0)), light.TwoSided());
+        const V3 radiance =
+            IfThenElseZero(facing, Mul(light.Radiance(), hn::Div(Splat(1.0f), pdf)));
+        const auto keep = [&](VF value, float* column) HWY_ATTR {
+          Scatter(hn::IfThenElse(outside, value, Gather(column, slots)), column, slots);
+        };
+        keep(w.x, p.ls_x);
+        keep(w.y, p.ls_y);
+        keep(w.z, p.ls_z);
+        keep(distance, p.ls_distance);
+        keep(radiance.x, p.ls_r);
+        keep(radiance.y, p.ls_g);
+        keep(radiance.z, p.ls_b);
+        keep(pdf, p.ls_pdf);
+      });
 }
 
 void SampleSphereLightOne(Wave& wave) { SampleSphereLight<false>(wave); }

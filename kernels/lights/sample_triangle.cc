@@ -17,17 +17,18 @@ namespace HWY_NAMESPACE {
 template <bool kMany>
 void SampleTriangleLight(Wave& wave) {
   const PathColumns& p = wave.path;
-  ForEachLit<kMany>(wave, LightShape::kTriangle, [&](VI slots, VI index) HWY_ATTR {
-    const Lights light(*wave.scene, index);
-    const LightTriangle triangle(*wave.scene, light.Primitive());
-    const VF root = hn::Sqrt(Gather(p.u_light_0, slots));
-    const VF b1 = hn::Sub(Splat(1.0f), root);
-    const VF b2 = hn::Mul(root, Gather(p.u_light_1, slots));
-    const V3 q = MulAdd(triangle.e1, b1, MulAdd(triangle.e2, b2, triangle.p0));
-    StoreSurfaceSample(p, slots, q, triangle.n,
-                       hn::Div(light.Pmf(p, slots), light.Area()), light.Radiance(),
-                       light.TwoSided());
-  });
+  ForEachLit<kMany>(
+      wave, LightShape::kTriangle, [&](const StoreSlots& slots, VI index) HWY_ATTR {
+        const Lights light(*wave.scene, index);
+        const LightTriangle triangle(*wave.scene, light.Primitive());
+        const VF root = hn::Sqrt(Gather(p.u_light_0, slots));
+        const VF b1 = hn::Sub(Splat(1.0f), root);
+        const VF b2 = hn::Mul(root, Gather(p.u_light_1, slots));
+        const V3 q = MulAdd(triangle.e1, b1, MulAdd(triangle.e2, b2, triangle.p0));
+        StoreSurfaceSample(p, slots, q, triangle.n,
+                           hn::Div(light.Pmf(p, slots), light.Area()), light.Radiance(),
+                           light.TwoSided());
+      });
 }
 
 void SampleTriangleLightOne(Wave& wave) { SampleTriangleLight<false>(wave); }

@@ -80,12 +80,14 @@ HWY_INLINE MaterialSource TableSource(const MaterialTable& t) {
 /// Parameters of one batch of paths.
 struct MaterialInputs {
   const MaterialSource& source;
-  VI slot, material;
+  Slots slot;
+  VI material;
   LaneRandom random;  // only filled for kStochastic
 
   HWY_INLINE V3 Color0() const {
-    const VI at = source.color_by_path ? slot : material;
-    return Gather3(source.color0_r, source.color0_g, source.color0_b, at);
+    const MaterialSource& s = source;
+    return s.color_by_path ? Gather3(s.color0_r, s.color0_g, s.color0_b, slot)
+                           : Gather3(s.color0_r, s.color0_g, s.color0_b, material);
   }
   /// Clamped to [0, 1], as a reflectance must be (a texture may hold anything).
   HWY_INLINE V3 Reflectance() const { return Clamp01(Color0()); }
@@ -112,7 +114,7 @@ struct MaterialInputs {
 
  private:
   HWY_INLINE VF Alpha(const float* base) const {
-    return Gather(base, source.alpha_by_path ? slot : material);
+    return source.alpha_by_path ? Gather(base, slot) : Gather(base, material);
   }
 };
 

@@ -79,7 +79,7 @@ struct Shader {
     }
   }
 
-  HWY_INLINE Frame ShadingFrame(V3 ng, VI slots) const {
+  HWY_INLINE Frame ShadingFrame(V3 ng, const Slots& slots) const {
     const PathColumns& path = wave.path;
     V3 n = ng;
     if (path.ns_x != nullptr) n = Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
@@ -91,7 +91,7 @@ struct Shader {
     return FrameFromNormal(n);
   }
 
-  HWY_INLINE MaterialInputs Inputs(VI slots) const {
+  HWY_INLINE MaterialInputs Inputs(const Slots& slots) const {
     const PathColumns& path = wave.path;
     MaterialInputs in{source, slots, Gather(path.material, slots), {}};
     if constexpr (Bsdf::kStochastic) {
@@ -110,7 +110,7 @@ struct Shader {
 
   /// Next-event estimation: what the sampled light would add if nothing is in between.
   HWY_INLINE void SampleLight(const typename Bsdf::Params& material, const Frame& frame,
-                              V3 wo, V3 beta, VI slots, MF valid) {
+                              V3 wo, V3 beta, const StoreSlots& slots, MF valid) {
     const PathColumns& path = wave.path;
     const V3 light = Gather3(path.ls_r, path.ls_g, path.ls_b, slots);
     const V3 wi = frame.ToLocal(Gather3(path.ls_x, path.ls_y, path.ls_z, slots));
@@ -135,7 +135,7 @@ struct Shader {
 
   /// Scatters the path: new ray, throughput and density; returns the paths that go on.
   HWY_INLINE MF Bounce(const typename Bsdf::Params& material, const Frame& frame, V3 wo,
-                       V3 ng, V3 beta, VI slots) {
+                       V3 ng, V3 beta, const StoreSlots& slots) {
     const PathColumns& path = wave.path;
     const BsdfPoints u = {Gather(path.u_lobe, slots), Gather(path.u_bsdf_0, slots),
                           Gather(path.u_bsdf_1, slots)};
@@ -164,7 +164,7 @@ struct Shader {
     return hn::And(alive, CarriesLight(carried));
   }
 
-  HWY_INLINE void operator()(VI slots, MF valid) {
+  HWY_INLINE void operator()(const StoreSlots& slots, MF valid) {
     const PathColumns& path = wave.path;
     const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
     const Frame frame = ShadingFrame(ng, slots);
@@ -187,7 +187,7 @@ void ShadeKernel(Wave& wave) {
   Shader<Bsdf, kLighting> shader(wave);
   const uint32_t shadow_rays = wave.queue(QueueId::kShadow).size;
   ForEachBatch(wave, wave.queue(ShadeQueue(kKind)),
-               [&](VI slots, MF valid) HWY_ATTR { shader(slots, valid); });
+               [&](const StoreSlots& slots, MF valid) HWY_ATTR { shader(slots, valid); });
   wave.rays_shadow += wave.queue(QueueId::kShadow).size - shadow_rays;
 }
 

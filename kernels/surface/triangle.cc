@@ -22,7 +22,7 @@ struct TriangleLanes {
   VF b0, b1, b2;
 };
 
-HWY_INLINE TriangleLanes LoadTriangles(const Wave& wave, VI slots) {
+HWY_INLINE TriangleLanes LoadTriangles(const Wave& wave, const Slots& slots) {
   const PathColumns& path = wave.path;
   const TriangleRecord* records = wave.scene->geometry.triangles.data();
   TriangleLanes tri;
@@ -94,7 +94,7 @@ HWY_INLINE VF SizeOf(V3 e1, V3 e2) {
 }
 
 template <bool kNormals, bool kTangents, bool kUv, bool kInstances>
-HWY_INLINE void SurfaceBatch(const Wave& wave, VI slots) {
+HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
   const TriangleLanes tri = LoadTriangles(wave, slots);
@@ -151,7 +151,7 @@ template <bool kNormals, bool kTangents, bool kUv, bool kInstances>
 void SurfaceTriangle(Wave& wave) {
   const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface), 0,
                                        wave.scene->geometry.ranges.spheres);
-  ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
     SurfaceBatch<kNormals, kTangents, kUv, kInstances>(wave, slots);
   });
 }

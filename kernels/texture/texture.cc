@@ -58,29 +58,30 @@ HWY_INLINE void Textures(Wave& wave) {
   const CompiledScene& scene = *wave.scene;
   const MaterialTable& m = scene.materials;
   PathColumns& path = wave.path;
-  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](VI slots, MF) HWY_ATTR {
-    const VI material = Gather(path.material, slots);
-    const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
-    const VF limit = ColorLimit(m, material);
-    const V3 color0 = EvalTextures(
-        scene.textures, Gather(m.color0_texture.data(), material), u, v,
-        Gather3(m.color0_r.data(), m.color0_g.data(), m.color0_b.data(), material));
-    Scatter3(ClampColor(color0, limit), path.color0_r, path.color0_g, path.color0_b,
-             slots);
-    if constexpr (kColor1) {
-      const V3 color1 = EvalTextures(
-          scene.textures, Gather(m.color1_texture.data(), material), u, v,
-          Gather3(m.color1_r.data(), m.color1_g.data(), m.color1_b.data(), material));
-      Scatter3(ClampColor(color1, limit), path.color1_r, path.color1_g, path.color1_b,
-               slots);
-    }
-    if constexpr (kRoughness) {
-      Scatter(Alpha(scene, material, u, v, m.alpha_x, m.alpha_x_texture), path.alpha_x,
-              slots);
-      Scatter(Alpha(scene, material, u, v, m.alpha_y, m.alpha_y_texture), path.alpha_y,
-              slots);
-    }
-  });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const VI material = Gather(path.material, slots);
+        const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
+        const VF limit = ColorLimit(m, material);
+        const V3 color0 = EvalTextures(
+            scene.textures, Gather(m.color0_texture.data(), material), u, v,
+            Gather3(m.color0_r.data(), m.color0_g.data(), m.color0_b.data(), material));
+        Scatter3(ClampColor(color0, limit), path.color0_r, path.color0_g, path.color0_b,
+                 slots);
+        if constexpr (kColor1) {
+          const V3 color1 = EvalTextures(
+              scene.textures, Gather(m.color1_texture.data(), material), u, v,
+              Gather3(m.color1_r.data(), m.color1_g.data(), m.color1_b.data(), material));
+          Scatter3(ClampColor(color1, limit), path.color1_r, path.color1_g, path.color1_b,
+                   slots);
+        }
+        if constexpr (kRoughness) {
+          Scatter(Alpha(scene, material, u, v, m.alpha_x, m.alpha_x_texture),
+                  path.alpha_x, slots);
+          Scatter(Alpha(scene, material, u, v, m.alpha_y, m.alpha_y_texture),
+                  path.alpha_y, slots);
+        }
+      });
 }
 
 void TexturesColor(Wave& wave) { Textures<false, false>(wave); }
