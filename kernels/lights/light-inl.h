@@ -49,6 +49,22 @@ struct Lights {
   }
 };
 
+/// Primitive ids that may emit, so that most hits need no look at their record.
+struct PrimitiveSpan {
+  uint32_t first = 0, last = 0x7fffffffu;
+};
+HWY_INLINE PrimitiveSpan EmittingSpan(const LightTable& table) {
+  // Looking through many lights would cost more than it saves.
+  if (table.lights.size() > 64) return {};
+  PrimitiveSpan span = {0x7fffffffu, 0};
+  for (const LightRecord& light : table.lights) {
+    if (light.primitive == 0xffffffffu) continue;
+    span.first = HWY_MIN(span.first, light.primitive);
+    span.last = HWY_MAX(span.last, light.primitive);
+  }
+  return span;
+}
+
 /// Calls body(slots, light) for the paths of kLit whose selected light has this shape.
 /// With a single light there is nothing to select and nothing to filter.
 template <bool kMany, class Body>
