@@ -113,7 +113,9 @@ HWY_INLINE void FillBounceBatches(Wave& wave) {
         const Drawer drawer = MakeDrawer<kPlain>(p, slots);
         Draw<Policy, kPlain, false>(run, drawer, Dimension::kBsdf, p.u_bsdf_0,
                                     p.u_bsdf_1);
-        Draw<Policy, kPlain, true>(run, drawer, Dimension::kLobe, p.u_lobe, nullptr);
+        if (p.u_lobe != nullptr) {
+          Draw<Policy, kPlain, true>(run, drawer, Dimension::kLobe, p.u_lobe, nullptr);
+        }
         if (p.u_light_0 != nullptr) {
           Draw<Policy, kPlain, false>(run, drawer, Dimension::kLight, p.u_light_0,
                                       p.u_light_1);
