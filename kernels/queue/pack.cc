@@ -53,7 +53,7 @@ HWY_INLINE void CloseGaps(const CarriedColumns& carried, const uint32_t* marks,
     if (to != from || count != lanes) {
       for (uint32_t c = 0; c < carried.count; ++c) {
         uint32_t* column = carried.columns[c];
-        hn::CompressStore(hn::LoadU(du, column + from), live, du, column + to);
+        hn::StoreU(hn::Compress(hn::LoadU(du, column + from), live), du, column + to);
       }
     }
     to += count;

@@ -33,7 +33,7 @@ void Route(Wave& wave) {
     }
   }
   ForEachBatch(wave, surface, [&](const Slots& slots, MF valid) HWY_ATTR {
-    const VI kind = Gather(m.kind.data(), Gather(wave.path.material, slots));
+    const VI kind = Lookup(m.kind, Gather(wave.path.material, slots));
     MF lit = hn::FirstN(DF(), 0);
     for (int k = 0; k < num_kinds; ++k) {
       const MF mine = hn::And(

@@ -13,6 +13,9 @@
 #define LANELIGHT_QUEUE_SLOTS_INL_H_
 #endif
 
+#include <cstddef>
+#include <type_traits>
+
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -51,6 +54,26 @@ HWY_INLINE void Scatter(VI v, uint32_t* base, VI index) {
 
 /// Permutations pay where a gather has many lanes.
 inline constexpr bool kWindows = hn::MaxLanes(DF()) >= 8;
+
+/// Entries of a table of `count`, index < count: a small one fits into a register.
+HWY_INLINE VF Lookup(const float* table, std::size_t count, VI index) {
+  const DF df;
+  if (kWindows && count <= hn::Lanes(df)) {
+    const VF all = hn::MaskedLoad(hn::FirstN(df, count), df, table);
+    return hn::TableLookupLanes(all, hn::IndicesFromVec(df, index));
+  }
+  return hn::GatherIndex(df, table, index);
+}
+template <class Column>
+HWY_INLINE auto Lookup(const Column& table, VI index) {
+  const auto* entries = table.data();
+  const VF found = Lookup(reinterpret_cast<const float*>(entries), table.size(), index);
+  if constexpr (std::is_same_v<decltype(entries), const float*>) {
+    return found;
+  } else {
+    return hn::BitCast(DI(), found);
+  }
+}
 
 /// The slots of one batch. Converts to their vector.
 struct Slots {

@@ -137,10 +137,11 @@ struct Shader {
   HWY_INLINE MF Bounce(const typename Bsdf::Params& material, const Frame& frame, V3 wo,
                        V3 ng, V3 beta, const StoreSlots& slots) {
     const PathColumns& path = wave.path;
-    const BsdfPoints u = {Gather(path.u_lobe, slots), Gather(path.u_bsdf_0, slots),
-                          Gather(path.u_bsdf_1, slots)};
+    BsdfPoints u = {hn::Zero(DF()), Gather(path.u_bsdf_0, slots),
+                    Gather(path.u_bsdf_1, slots)};
+    if (path.u_lobe != nullptr) u.lobe = Gather(path.u_lobe, slots);
     const BsdfSample sample = Scattered(material, wo, u);
-    const V3 d = Normalize(frame.FromLocal(sample.wi));
+    const V3 d = Renormalize(frame.FromLocal(sample.wi));
     const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
     const V3 o = OffsetOrigin(p, ng, Gather(path.p_error, slots), d);
     // A tangential wo has no defined side; pbrt absorbs it as well.
