@@ -50,9 +50,12 @@ HWY_INLINE void ForEachBatch(Wave& wave, const Queue& queue, Body&& body) {
 /// Appends the slots under `mask` to `queue`.
 HWY_INLINE void Push(Queue& queue, VI slots, MF mask) {
   const DI di;
-  queue.size += static_cast<uint32_t>(
-      hn::CompressStore(slots, hn::RebindMask(di, mask), di,
-                        reinterpret_cast<int32_t*>(queue.items) + queue.size));
+  // Not CompressStore, whose instruction is microcoded on some processors. What is
+  // written beyond the end lies within the padding, or has been read where a queue is
+  // compacted in place.
+  const VI packed = hn::Compress(slots, hn::RebindMask(di, mask));
+  hn::StoreU(packed, di, reinterpret_cast<int32_t*>(queue.items) + queue.size);
+  queue.size += static_cast<uint32_t>(hn::CountTrue(DF(), mask));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -24,7 +24,8 @@ HWY_INLINE const Queue& FilterQueue(Wave& wave, const Queue& queue,
   PadTail(queue);
   for (uint32_t i = 0; i < queue.size; i += lanes) {
     const Slots slots(hn::LoadU(DI(), reinterpret_cast<const int32_t*>(queue.items) + i));
-    Push(scratch, slots, hn::And(predicate(slots), hn::FirstN(df, queue.size - i)));
+    const MF mine = hn::And(predicate(slots), hn::FirstN(df, queue.size - i));
+    if (!hn::AllFalse(df, mine)) Push(scratch, slots, mine);
   }
   return scratch;
 }

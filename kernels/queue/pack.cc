@@ -39,24 +39,16 @@ HWY_INLINE void Mark(const Queue& queue, uint32_t end, uint32_t* marks) {
   }
 }
 
-// Closes the gaps between marked slots in all columns, a vector of slots at a time: what
-// is written has been read, because nothing moves up.
-HWY_INLINE void CloseGaps(const CarriedColumns& carried, const uint32_t* marks,
-                          uint32_t end) {
+// Closes the gaps between marked slots in a column, a vector of slots at a time: what is
+// written has been read, because nothing moves up.
+HWY_INLINE void CloseGaps(uint32_t* column, const uint32_t* marks, uint32_t end) {
   const DU du;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
-  uint32_t to = 0;
+  uint32_t* to = column;
   for (uint32_t from = 0; from < end; from += lanes) {
     const auto live = hn::Ne(hn::LoadU(du, marks + from), hn::Zero(du));
-    const uint32_t count = static_cast<uint32_t>(hn::CountTrue(du, live));
-    if (count == 0) continue;
-    if (to != from || count != lanes) {
-      for (uint32_t c = 0; c < carried.count; ++c) {
-        uint32_t* column = carried.columns[c];
-        hn::StoreU(hn::Compress(hn::LoadU(du, column + from), live), du, column + to);
-      }
-    }
-    to += count;
+    hn::StoreU(hn::Compress(hn::LoadU(du, column + from), live), du, to);
+    to += hn::CountTrue(du, live);
   }
 }
 
@@ -69,7 +61,8 @@ void Pack(Wave& wave) {
   const uint32_t end = EndOf(live);
   uint32_t* marks = wave.queue(QueueId::kScratch).items;
   Mark(live, end, marks);
-  CloseGaps(CarriedColumns(wave.path), marks, end);
+  const CarriedColumns carried(wave.path);
+  for (uint32_t c = 0; c < carried.count; ++c) CloseGaps(carried.columns[c], marks, end);
   for (uint32_t i = 0; i < live.size; i += lanes) {
     hn::StoreU(hn::Iota(du, i), du, live.items + i);
   }
