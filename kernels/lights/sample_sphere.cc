@@ -24,8 +24,7 @@ namespace HWY_NAMESPACE {
 HWY_INLINE VF NearDistance(V3 c, V3 w, VF radius) {
   const VF along = Dot(c, w);
   const V3 h = c - Mul(w, along);
-  const VF half2 =
-      hn::NegMulAdd(hn::Sqrt(Dot(h, h)), hn::Sqrt(Dot(h, h)), hn::Mul(radius, radius));
+  const VF half2 = hn::Sub(hn::Mul(radius, radius), Dot(h, h));
   const VF rounding = hn::Mul(hn::Mul(Splat(1e-6f), radius), hn::Sqrt(Dot(c, c)));
   return hn::Sub(along, hn::Sqrt(hn::Add(hn::Max(half2, Splat(0)), rounding)));
 }

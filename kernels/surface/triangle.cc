@@ -50,12 +50,18 @@ HWY_INLINE D3 Interpolate(const TriangleLanes& tri) {
   return MulAdd(e1, HalfOf<kUpper>(tri.b1), MulAdd(e2, HalfOf<kUpper>(tri.b2), v0));
 }
 
+// v times a power of two, exactly, with a largest |component| in [1, 2).
+HWY_INLINE V3 ScaleToUnit(V3 v) {
+  const DI di;
+  const VI bits = hn::BitCast(di, MaxComponent(Abs(v)));
+  const VI exponent = hn::And(bits, hn::Set(di, 0x7f800000));
+  return Mul(v, hn::BitCast(DF(), hn::Sub(hn::Set(di, 0x7f000000), exponent)));
+}
+
 // Unit cross(v1 - v0, v2 - v0). Edges are scaled first: the product of tiny ones would
 // underflow.
 HWY_INLINE V3 FaceNormal(V3 e1, V3 e2) {
-  const VF one = Splat(1.0f);
-  return Normalize(Cross(Mul(e1, hn::Div(one, MaxComponent(Abs(e1)))),
-                         Mul(e2, hn::Div(one, MaxComponent(Abs(e2))))));
+  return Normalize(Cross(ScaleToUnit(e1), ScaleToUnit(e2)));
 }
 
 // Interpolated vertex normal, unit, in the space of the triangle; `face` where the
