@@ -87,7 +87,8 @@ namespace lanelight {
   X(ThroughputRoulette)       \
   X(LuminanceRoulette)        \
   X(RecordPath)               \
-  X(Accumulate)
+  X(Accumulate)               \
+  X(Pack)
 
 #define X(name) Stage name##Stage();
 LANELIGHT_STAGES(X)

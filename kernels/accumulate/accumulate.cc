@@ -61,7 +61,7 @@ struct ControlPlanes {
     float *r = Next(), *g = Next(), *b = Next();
     Scatter3(IfThenElse(bad, Splat3(0, 0, 0), difference), r, g, b, output);
   }
-  HWY_INLINE void StorePoints(VI slots, VI output) {
+  HWY_INLINE void StorePoints(const Slots& slots, VI output) {
     for (const float* column :
          {p.first_0, p.first_1, p.first_2, p.first_3, p.u_film_0, p.u_film_1}) {
       Scatter(Gather(column, slots), Next(), output);
@@ -77,31 +77,33 @@ void Accumulate(Wave& wave) {
   const auto plane = [&](int i) {
     return buffer.samples + i * std::size_t{buffer.stride};
   };
-  ForEachBatch(wave, wave.queue(QueueId::kDone), [&](VI slots, MF valid) HWY_ATTR {
-    const VI output = Gather(p.output, slots);
-    V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
-    if (p.weight != nullptr) sample = Mul(sample, Gather(p.weight, slots));
-    V3 difference = Splat3(0, 0, 0);
-    if (kSigned && p.k_r != nullptr) {
-      difference = Mul(Gather3(p.k_r, p.k_g, p.k_b, slots), exposure);
-      if (p.weight != nullptr) difference = Mul(difference, Gather(p.weight, slots));
-      sample = ControlPlanes::Poison(sample, difference);
-    }
-    const Checked checked = Check<kSigned>(wave.bad, sample, valid);
-    Scatter3(checked.value, plane(0), plane(1), plane(2), output);
-    if constexpr (kAov) {
-      const float* columns[] = {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
-                                p.aov_n_y,      p.aov_n_z,      p.aov_depth};
-      for (int i = 0; i < 7; ++i)
-        Scatter(Gather(columns[i], slots), plane(3 + i), output);
-    }
-    if constexpr (kSigned) {
-      ControlPlanes control = {p, buffer, kAov ? 10 : 3};
-      if (p.k_r != nullptr) control.StoreDifference(difference, checked.bad, output);
-      if (p.first_0 != nullptr) control.StorePoints(slots, output);
-    }
-    Push(wave.queue(QueueId::kFree), slots, valid);
-  });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kDone), [&](const Slots& slots, MF valid) HWY_ATTR {
+        const VI output = Gather(p.output, slots);
+        V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
+        if (p.weight != nullptr) sample = Mul(sample, Gather(p.weight, slots));
+        V3 difference = Splat3(0, 0, 0);
+        if (kSigned && p.k_r != nullptr) {
+          difference = Mul(Gather3(p.k_r, p.k_g, p.k_b, slots), exposure);
+          if (p.weight != nullptr) difference = Mul(difference, Gather(p.weight, slots));
+          sample = ControlPlanes::Poison(sample, difference);
+        }
+        const Checked checked = Check<kSigned>(wave.bad, sample, valid);
+        Scatter3(checked.value, plane(0), plane(1), plane(2), output);
+        if constexpr (kAov) {
+          const float* columns[] = {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b,
+                                    p.aov_n_x,      p.aov_n_y,      p.aov_n_z,
+                                    p.aov_depth};
+          for (int i = 0; i < 7; ++i)
+            Scatter(Gather(columns[i], slots), plane(3 + i), output);
+        }
+        if constexpr (kSigned) {
+          ControlPlanes control = {p, buffer, kAov ? 10 : 3};
+          if (p.k_r != nullptr) control.StoreDifference(difference, checked.bad, output);
+          if (p.first_0 != nullptr) control.StorePoints(slots, output);
+        }
+        Push(wave.queue(QueueId::kFree), slots, valid);
+      });
 }
 
 void AccumulatePlain(Wave& wave) { Accumulate<false, false>(wave); }

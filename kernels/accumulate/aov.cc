@@ -43,10 +43,10 @@ void Aov(Wave& wave) {
   const PathColumns& p = wave.path;
   const MaterialTable& m = wave.scene->materials;
   const Queue& first =
-      FilterQueue(wave, wave.queue(QueueId::kSurface), [&](VI slots) HWY_ATTR {
+      FilterQueue(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots) HWY_ATTR {
         return hn::RebindMask(DF(), hn::Eq(Gather(p.depth, slots), hn::Zero(DI())));
       });
-  ForEachBatch(wave, first, [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, first, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI material = Gather(p.material, slots);
     const V3 color0 = kTextures ? Gather3(p.color0_r, p.color0_g, p.color0_b, slots)
                                 : Gather3(m.color0_r.data(), m.color0_g.data(),

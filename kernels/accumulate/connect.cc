@@ -14,11 +14,12 @@ namespace HWY_NAMESPACE {
 
 void Connect(Wave& wave) {
   const PathColumns& p = wave.path;
-  ForEachBatch(wave, wave.queue(QueueId::kShadow), [&](VI slots, MF) HWY_ATTR {
-    const V3 sum =
-        Gather3(p.l_r, p.l_g, p.l_b, slots) + Gather3(p.sh_r, p.sh_g, p.sh_b, slots);
-    Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);
-  });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kShadow), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const V3 sum =
+            Gather3(p.l_r, p.l_g, p.l_b, slots) + Gather3(p.sh_r, p.sh_g, p.sh_b, slots);
+        Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);
+      });
 }
 
 }  // namespace HWY_NAMESPACE

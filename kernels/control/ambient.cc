@@ -39,7 +39,7 @@ namespace HWY_NAMESPACE {
 // (f cos) L_h / p of the light sample, weighted, if it is of an environment.
 template <class Bsdf>
 HWY_INLINE V3 SampledAmbient(const Wave& wave, const DiffuseVertex<Bsdf>& vertex,
-                             VI slots) {
+                             const Slots& slots) {
   const PathColumns& path = wave.path;
   const VI selected =
       path.ls_light != nullptr ? Gather(path.ls_light, slots) : hn::Zero(DI());
@@ -66,7 +66,7 @@ template <class Bsdf>
 HWY_INLINE void Ambient(Wave& wave, ShadeKind kind) {
   const Shader<Bsdf, Lighting::kDelta> shader(wave);
   const bool light_samples = wave.run->features.Has(Feature::kSampledHittableLights);
-  ForEachBatch(wave, wave.queue(ShadeQueue(kind)), [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(ShadeQueue(kind)), [&](const Slots& slots, MF) HWY_ATTR {
     const DiffuseVertex<Bsdf> vertex(shader, slots);
     V3 above = Splat3(0, 0, 0), below = above;
     for (const AmbientLight& light : wave.run->tables->ambient) {

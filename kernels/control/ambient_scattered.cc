@@ -19,19 +19,20 @@ namespace HWY_NAMESPACE {
 // Paths that have just left a surface that the control variate works on.
 HWY_INLINE const Queue& FromDiffuse(Wave& wave) {
   const MaterialTable& m = wave.scene->materials;
-  return FilterQueue(wave, wave.queue(QueueId::kScattered), [&](VI slots) HWY_ATTR {
-    const VI kind = Gather(m.kind.data(), Gather(wave.path.material, slots));
-    const auto is = [&](ShadeKind k) HWY_ATTR {
-      return hn::Eq(kind, hn::Set(DI(), static_cast<int32_t>(k)));
-    };
-    return hn::RebindMask(
-        DF(), hn::Or(is(ShadeKind::kDiffuse), is(ShadeKind::kDiffuseTransmission)));
-  });
+  return FilterQueue(
+      wave, wave.queue(QueueId::kScattered), [&](const Slots& slots) HWY_ATTR {
+        const VI kind = Gather(m.kind.data(), Gather(wave.path.material, slots));
+        const auto is = [&](ShadeKind k) HWY_ATTR {
+          return hn::Eq(kind, hn::Set(DI(), static_cast<int32_t>(k)));
+        };
+        return hn::RebindMask(
+            DF(), hn::Or(is(ShadeKind::kDiffuse), is(ShadeKind::kDiffuseTransmission)));
+      });
 }
 
 template <bool kMis>
 HWY_INLINE VF ScatteredWeight(const Wave& wave, const LightRecord& light, V3 d,
-                              VI slots) {
+                              const Slots& slots) {
   if constexpr (!kMis) return Splat(1.0f);
   const LightTable& table = wave.scene->lights;
   VF pdf = Splat(0.0795774715459476679f);  // 1 / (4 pi)
@@ -47,7 +48,7 @@ template <bool kMis>
 void AmbientScattered(Wave& wave) {
   if (kMis && wave.run->mis.hits == 0) return;  // directions=light
   const PathColumns& path = wave.path;
-  ForEachBatch(wave, FromDiffuse(wave), [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, FromDiffuse(wave), [&](const Slots& slots, MF) HWY_ATTR {
     const V3 d = Gather3(path.d_x, path.d_y, path.d_z, slots);
     V3 sum = Splat3(0, 0, 0);
     for (const AmbientLight& ambient : wave.run->tables->ambient) {

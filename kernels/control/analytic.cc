@@ -40,7 +40,7 @@ template <class Bsdf>
 HWY_INLINE void Analytic(Wave& wave, ShadeKind kind) {
   const PathColumns& path = wave.path;
   const Shader<Bsdf, Lighting::kDelta> shader(wave);
-  ForEachBatch(wave, wave.queue(ShadeQueue(kind)), [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(ShadeQueue(kind)), [&](const Slots& slots, MF) HWY_ATTR {
     const DiffuseVertex<Bsdf> vertex(shader, slots);
     const VI selected =
         path.ls_light != nullptr ? Gather(path.ls_light, slots) : hn::Zero(DI());

@@ -14,7 +14,7 @@ namespace HWY_NAMESPACE {
 
 /// `difference` is weighted with the throughput. A given coefficient is applied at once;
 /// an estimated one is not known yet, so that the difference travels along.
-HWY_INLINE void ApplyControl(const Wave& wave, VI slots, V3 difference) {
+HWY_INLINE void ApplyControl(const Wave& wave, const Slots& slots, V3 difference) {
   const PathColumns& p = wave.path;
   if (p.k_r != nullptr) {
     const V3 sum = Gather3(p.k_r, p.k_g, p.k_b, slots) + difference;
@@ -35,7 +35,8 @@ struct DiffuseVertex {
   typename Bsdf::Params material;
   MF usable;  // wo has a side
 
-  HWY_INLINE DiffuseVertex(const Shader<Bsdf, Lighting::kDelta>& shader, VI slots) {
+  HWY_INLINE DiffuseVertex(const Shader<Bsdf, Lighting::kDelta>& shader,
+                           const Slots& slots) {
     const PathColumns& path = shader.wave.path;
     frame = shader.ShadingFrame(Gather3(path.ng_x, path.ng_y, path.ng_z, slots), slots);
     wo = frame.ToLocal(-Gather3(path.d_x, path.d_y, path.d_z, slots));

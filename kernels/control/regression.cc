@@ -31,10 +31,10 @@ namespace HWY_NAMESPACE {
 void FirstBounce(Wave& wave) {
   const PathColumns& p = wave.path;
   const Queue& first =
-      FilterQueue(wave, wave.queue(QueueId::kSurface), [&](VI slots) HWY_ATTR {
+      FilterQueue(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots) HWY_ATTR {
         return hn::RebindMask(DF(), hn::Eq(Gather(p.depth, slots), hn::Zero(DI())));
       });
-  ForEachBatch(wave, first, [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, first, [&](const Slots& slots, MF) HWY_ATTR {
     Scatter(Gather(p.u_bsdf_0, slots), p.first_0, slots);
     Scatter(Gather(p.u_bsdf_1, slots), p.first_1, slots);
     if (p.u_light_0 == nullptr) return;

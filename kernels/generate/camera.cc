@@ -15,38 +15,37 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-// A constant into one column of every path of the queue; absent columns are skipped here,
-// once per call, so that the ray loop below has no such test.
-template <typename T>
-HWY_INLINE void Fill(const Queue& queue, T* column, T value) {
-  if (column == nullptr) return;
-  for (uint32_t i = 0; i < queue.size; ++i) column[queue.items[i]] = value;
-}
+// Constants that the columns of a new path begin with; absent columns are skipped here,
+// once per call.
+struct InitialValues {
+  static constexpr int kMost = 24;
+  float* columns[kMost];
+  float values[kMost];
+  int count = 0;
 
-HWY_INLINE void InitialisePaths(const PathColumns& p, const Queue& queue) {
-  Fill(queue, p.depth, 0u);
-  Fill(queue, p.beta_r, 1.0f);
-  Fill(queue, p.beta_g, 1.0f);
-  Fill(queue, p.beta_b, 1.0f);
-  Fill(queue, p.l_r, 0.0f);
-  Fill(queue, p.l_g, 0.0f);
-  Fill(queue, p.l_b, 0.0f);
-  Fill(queue, p.bsdf_pdf, 0.0f);
-  Fill(queue, p.eta_scale, 1.0f);
-  Fill(queue, p.t, std::numeric_limits<float>::infinity());
-  for (float* column : {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
-                        p.aov_n_y, p.aov_n_z, p.aov_depth}) {
-    Fill(queue, column, 0.0f);
+  explicit InitialValues(const PathColumns& p) {
+    for (float* column : {p.beta_r, p.beta_g, p.beta_b, p.eta_scale}) Add(column, 1.0f);
+    for (float* column :
+         {p.l_r, p.l_g, p.l_b, p.bsdf_pdf, p.k_r, p.k_g, p.k_b, p.aov_albedo_r,
+          p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x, p.aov_n_y, p.aov_n_z, p.aov_depth}) {
+      Add(column, 0.0f);
+    }
+    for (float* column : {p.first_0, p.first_1, p.first_2, p.first_3}) Add(column, -1.0f);
+    Add(p.t, std::numeric_limits<float>::infinity());
   }
-  for (float* column : {p.k_r, p.k_g, p.k_b}) Fill(queue, column, 0.0f);
-  for (float* column : {p.first_0, p.first_1, p.first_2, p.first_3}) {
-    Fill(queue, column, -1.0f);
+  void Add(float* column, float value) {
+    if (column == nullptr) return;
+    columns[count] = column;
+    values[count++] = value;
   }
-}
+  HWY_INLINE void Store(const StoreSlots& slots) const {
+    for (int i = 0; i < count; ++i) Scatter(Splat(values[i]), columns[i], slots);
+  }
+};
 
 // Film position in pixels: pixel centre plus a point distributed like |filter|.
 template <bool kBox>
-HWY_INLINE void FilmPosition(const Wave& wave, VI slots, VF* x, VF* y) {
+HWY_INLINE void FilmPosition(const Wave& wave, const StoreSlots& slots, VF* x, VF* y) {
   const CompiledFilter& filter = wave.scene->filter;
   const PathColumns& p = wave.path;
   const VI pixel = Gather(p.pixel, slots);
@@ -92,8 +91,10 @@ void Camera(Wave& wave) {
   const auto splat = [](Vec3f v) HWY_ATTR { return Splat3(v.x, v.y, v.z); };
   const V3 base = splat(camera.base), dx = splat(camera.dx), dy = splat(camera.dy);
   const Frame axes = {splat(camera.right), splat(camera.up), splat(camera.forward)};
-  InitialisePaths(p, queue);
-  ForEachBatch(wave, queue, [&](VI slots, MF valid) HWY_ATTR {
+  const InitialValues initial(p);
+  ForEachBatch(wave, queue, [&](const StoreSlots& slots, MF valid) HWY_ATTR {
+    initial.Store(slots);
+    Scatter(hn::Zero(DI()), p.depth, slots);
     VF x, y;
     FilmPosition<kBox>(wave, slots, &x, &y);
     const V3 film = MulAdd(dx, x, MulAdd(dy, y, base));

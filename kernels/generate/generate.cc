@@ -14,8 +14,25 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-// Scalar on purpose: consecutive slots of the free list are arbitrary, and three stores
-// per path are below 1 % of its cost. Returns the slots taken, at most `most`.
+// A vector of samples of one pixel, from `sample` of the task on, in the slots on top of
+// the stack of free ones; `top` is one past them.
+HWY_INLINE void StartVector(const PathColumns& p, const TileWork& work, uint32_t sample,
+                            const uint32_t* top, uint32_t* started) {
+  const DI di;
+  const DU du;
+  const VU free = hn::LoadU(du, top - hn::Lanes(du));
+  const Slots slots(hn::BitCast(di, hn::Reverse(du, free)));
+  hn::StoreU(hn::BitCast(du, slots.index), du, started);
+  const auto from = [&](uint32_t first)
+                        HWY_ATTR { return hn::BitCast(di, hn::Iota(du, first)); };
+  Scatter(hn::Set(di, static_cast<int32_t>(work.pixels[work.next_pixel])), p.pixel,
+          slots);
+  Scatter(from(work.first_sample + sample), p.sample, slots);
+  Scatter(from(work.next_pixel * work.samples + sample), p.output, slots);
+  Scatter(hn::Zero(di), p.depth, slots);
+}
+
+// Returns the slots taken, at most `most`.
 template <bool kSplitting>
 HWY_INLINE uint32_t StartSamples(Wave& wave, uint32_t most) {
   const PathColumns p = wave.path;
@@ -24,10 +41,17 @@ HWY_INLINE uint32_t StartSamples(Wave& wave, uint32_t most) {
   TileWork work = wave.work;
   const uint32_t together = work.together;
   uint32_t* const started = camera.items + camera.size;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DU()));
   uint32_t taken = 0;
   while (taken + together <= most && !work.Done()) {
     const uint32_t end = HWY_MIN(work.next_sample + together, work.samples);
-    for (uint32_t sample = work.next_sample; sample < end; ++sample) {
+    uint32_t sample = work.next_sample;
+    if constexpr (!kSplitting) {
+      for (; sample + lanes <= end; sample += lanes, taken += lanes) {
+        StartVector(p, work, sample, free.items + free.size - taken, started + taken);
+      }
+    }
+    for (; sample < end; ++sample) {
       const uint32_t slot = free.items[free.size - 1 - taken];
       p.pixel[slot] = work.pixels[work.next_pixel];
       p.sample[slot] = work.first_sample + sample;

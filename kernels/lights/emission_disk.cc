@@ -26,14 +26,14 @@ void EmissionDisk(Wave& wave) {
                   hn::Mul(index, hn::Set(DI(), 16)));
   };
   const Queue& mine =
-      FilterQueue(wave, wave.queue(QueueId::kHit), [&](VI slots) HWY_ATTR {
+      FilterQueue(wave, wave.queue(QueueId::kHit), [&](const Slots& slots) HWY_ATTR {
         const VI prim = Gather(p.prim, slots);
         const auto disk = hn::And(hn::Gt(prim, before), hn::Lt(prim, end));
         const VI safe = hn::IfThenElseZero(disk, hn::Sub(prim, begin));
         return hn::RebindMask(DF(),
                               hn::And(disk, hn::Gt(light_of(safe), hn::Set(DI(), -1))));
       });
-  ForEachBatch(wave, mine, [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI prim = Gather(p.prim, slots);
     const Lights light(scene, light_of(hn::Sub(prim, begin)));
     const LightDisk disk(scene, prim);

@@ -26,14 +26,14 @@ void EmissionSphere(Wave& wave) {
                   hn::Mul(index, hn::Set(DI(), 16)));
   };
   const Queue& mine =
-      FilterQueue(wave, wave.queue(QueueId::kHit), [&](VI slots) HWY_ATTR {
+      FilterQueue(wave, wave.queue(QueueId::kHit), [&](const Slots& slots) HWY_ATTR {
         const VI prim = Gather(p.prim, slots);
         const auto sphere = hn::And(hn::Gt(prim, before), hn::Lt(prim, end));
         const VI safe = hn::IfThenElseZero(sphere, hn::Sub(prim, begin));
         return hn::RebindMask(DF(),
                               hn::And(sphere, hn::Gt(light_of(safe), hn::Set(DI(), -1))));
       });
-  ForEachBatch(wave, mine, [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI prim = Gather(p.prim, slots);
     const Lights light(scene, light_of(hn::Sub(prim, begin)));
     const LightSphere sphere(scene, prim);

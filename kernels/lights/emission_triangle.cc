@@ -23,15 +23,20 @@ void EmissionTriangle(Wave& wave) {
     return Gather(words + offsetof(TriangleRecord, light) / 4,
                   hn::Mul(prim, hn::Set(DI(), 12)));
   };
+  const PrimitiveSpan lit = EmittingSpan(scene.lights);
+  const VI begin = hn::Set(DI(), static_cast<int32_t>(lit.first));
+  const VI last = hn::Set(DI(), static_cast<int32_t>(lit.last));
   const Queue& mine =
-      FilterQueue(wave, wave.queue(QueueId::kHit), [&](VI slots) HWY_ATTR {
+      FilterQueue(wave, wave.queue(QueueId::kHit), [&](const Slots& slots) HWY_ATTR {
         const VI prim = Gather(p.prim, slots);
-        const auto triangle = hn::Lt(prim, end);
+        const auto outside = hn::Or(hn::Lt(prim, begin), hn::Gt(prim, last));
+        const auto triangle = hn::AndNot(outside, hn::Lt(prim, end));
+        if (hn::AllFalse(DI(), triangle)) return hn::RebindMask(DF(), triangle);
         const VI safe = hn::IfThenElseZero(triangle, prim);
         return hn::RebindMask(
             DF(), hn::And(triangle, hn::Gt(light_of(safe), hn::Set(DI(), -1))));
       });
-  ForEachBatch(wave, mine, [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI prim = Gather(p.prim, slots);
     const Lights light(scene, light_of(prim));
     const LightTriangle triangle(scene, prim);

@@ -81,17 +81,31 @@ HWY_INLINE EnvironmentSample LookUpEnvironment(const Environment& e, V3 d) {
   return out;
 }
 
-/// Largest i in [0, size) with cdf[base + i] <= u, and u's position inside that step.
-HWY_INLINE VI InvertCdf(const float* cdf, VI base, int32_t size, VF u, VF* inside) {
+/// A distribution per lane: where its values and its guide begin.
+struct Distribution {
+  const float* cdf;
+  const int32_t* guide;
+  VI cdf_base, guide_base;
+};
+
+/// Largest i in [0, size) with cdf[i] <= u in [0, 1), and u's position inside that step.
+HWY_INLINE VI InvertCdf(const Distribution& d, int32_t bits, VF u, VF* inside) {
   const DI di;
-  VI low = hn::Zero(di);
-  for (int32_t n = size; n > 1; n -= n / 2) {
-    const VI step = hn::Set(di, n / 2);
-    const VI probe = hn::Add(low, step);
-    const auto right = hn::RebindMask(di, hn::Le(Gather(cdf, hn::Add(base, probe)), u));
-    low = hn::IfThenElse(right, probe, low);
+  const VI one = hn::Set(di, 1), last_part = hn::Set(di, (1 << bits) - 1);
+  const VF scaled = hn::Mul(u, Splat(static_cast<float>(1 << bits)));
+  const VI part = hn::Add(d.guide_base, hn::Min(hn::ConvertTo(di, scaled), last_part));
+  VI low = Gather(d.guide, part), high = Gather(d.guide + 1, part);
+  for (;;) {
+    const auto open = hn::Lt(low, high);
+    if (hn::AllFalse(di, open)) break;
+    const VI middle = hn::ShiftRight<1>(hn::Add(hn::Add(low, high), one));
+    const VF value = Gather(d.cdf, hn::Add(d.cdf_base, middle));
+    const auto right = hn::RebindMask(di, hn::Le(value, u));
+    low = hn::IfThenElse(right, middle, low);
+    high = hn::IfThenElse(right, high, hn::Max(low, hn::Sub(middle, one)));
   }
-  const VF a = Gather(cdf, hn::Add(base, low)), b = Gather(cdf + 1, hn::Add(base, low));
+  const VI at = hn::Add(d.cdf_base, low);
+  const VF a = Gather(d.cdf, at), b = Gather(d.cdf + 1, at);
   const VF width = hn::Sub(b, a);
   *inside =
       hn::IfThenElse(hn::Gt(width, Splat(0)), hn::Div(hn::Sub(u, a), width), Splat(0.5f));
@@ -102,9 +116,13 @@ HWY_INLINE VI InvertCdf(const float* cdf, VI base, int32_t size, VF u, VF* insid
 HWY_INLINE EnvironmentSample SampleEnvironment(const Environment& e, VF u0, VF u1) {
   const DI di;
   VF inside_row, inside_column;
-  const VI row = InvertCdf(e.row_cdf.data(), hn::Zero(di), e.size, u1, &inside_row);
-  const VI base = hn::Mul(row, hn::Set(di, e.size + 1));
-  const VI column = InvertCdf(e.column_cdf.data(), base, e.size, u0, &inside_column);
+  const VI zero = hn::Zero(di);
+  const Distribution rows = {e.row_cdf.data(), e.row_guide.data(), zero, zero};
+  const VI row = InvertCdf(rows, e.guide_bits, u1, &inside_row);
+  const Distribution columns = {e.column_cdf.data(), e.column_guide.data(),
+                                hn::Mul(row, hn::Set(di, e.size + 1)),
+                                hn::Mul(row, hn::Set(di, (1 << e.guide_bits) + 1))};
+  const VI column = InvertCdf(columns, e.guide_bits, u0, &inside_column);
   const VF inv_size = Splat(1.0f / static_cast<float>(e.size));
   const VF s = hn::Mul(hn::Add(hn::ConvertTo(DF(), column), inside_column), inv_size);
   const VF t = hn::Mul(hn::Add(hn::ConvertTo(DF(), row), inside_row), inv_size);

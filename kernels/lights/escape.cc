@@ -17,27 +17,29 @@ void Escape(Wave& wave) {
   const PathColumns& p = wave.path;
   const LightTable& table = wave.scene->lights;
   const float inv_four_pi = 0.0795774715459476679f;
-  ForEachBatch(wave, wave.queue(QueueId::kMiss), [&](VI slots, MF) HWY_ATTR {
-    const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
-    V3 sum = Splat3(0, 0, 0);
-    for (uint32_t index : table.infinite) {
-      const LightRecord& light = table.lights[index];
-      V3 radiance = Splat3(light.radiance[0], light.radiance[1], light.radiance[2]);
-      VF pdf = Splat(inv_four_pi);
-      if (light.environment >= 0) {
-        const EnvironmentSample s = LookUpEnvironment(
-            table.environments[static_cast<uint32_t>(light.environment)], d);
-        radiance = s.radiance;
-        pdf = s.pdf_sa;
-      }
-      if constexpr (kMis) {
-        radiance = Mul(radiance, EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
-                                                hn::Mul(pdf, Splat(light.pmf))));
-      }
-      sum = sum + radiance;
-    }
-    AddRadiance(p, slots, sum);
-  });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kMiss), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+        V3 sum = Splat3(0, 0, 0);
+        for (uint32_t index : table.infinite) {
+          const LightRecord& light = table.lights[index];
+          V3 radiance = Splat3(light.radiance[0], light.radiance[1], light.radiance[2]);
+          VF pdf = Splat(inv_four_pi);
+          if (light.environment >= 0) {
+            const EnvironmentSample s = LookUpEnvironment(
+                table.environments[static_cast<uint32_t>(light.environment)], d);
+            radiance = s.radiance;
+            pdf = s.pdf_sa;
+          }
+          if constexpr (kMis) {
+            radiance =
+                Mul(radiance, EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
+                                             hn::Mul(pdf, Splat(light.pmf))));
+          }
+          sum = sum + radiance;
+        }
+        AddRadiance(p, slots, sum);
+      });
 }
 
 void EscapeMis(Wave& wave) { Escape<true>(wave); }

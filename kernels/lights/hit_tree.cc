@@ -37,11 +37,11 @@ void HitLightTree(Wave& wave) {
   const LightTree& tree = wave.scene->lights.tree;
   const int32_t* nodes = tree.primitive_leaf.data();
   const Queue& mine =
-      FilterQueue(wave, wave.queue(QueueId::kHit), [&](VI slots) HWY_ATTR {
+      FilterQueue(wave, wave.queue(QueueId::kHit), [&](const Slots& slots) HWY_ATTR {
         const VI leaf = Gather(nodes, Gather(p.prim, slots));
         return hn::RebindMask(DF(), hn::Gt(leaf, hn::Set(DI(), -1)));
       });
-  ForEachBatch(wave, mine, [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, mine, [&](const Slots& slots, MF) HWY_ATTR {
     // The origin of the ray is the point that was lit, but for rounding.
     const V3 from = Gather3(p.o_x, p.o_y, p.o_z, slots);
     Scatter(ClimbingProbability(tree, Gather(nodes, Gather(p.prim, slots)), from),

@@ -37,7 +37,7 @@ struct Lights {
   HWY_INLINE V3 Radiance() const { return F3(offsetof(LightRecord, radiance)); }
   /// Probability of selecting this light: of its record, or where it depends on the place
   /// (a tree), of the path.
-  HWY_INLINE VF Pmf(const PathColumns& p, VI slots) const {
+  HWY_INLINE VF Pmf(const PathColumns& p, const Slots& slots) const {
     if (p.light_pmf != nullptr) return Gather(p.light_pmf, slots);
     return F(offsetof(LightRecord, pmf));
   }
@@ -49,32 +49,50 @@ struct Lights {
   }
 };
 
+/// Primitive ids that may emit, so that most hits need no look at their record.
+struct PrimitiveSpan {
+  uint32_t first = 0, last = 0x7fffffffu;
+};
+HWY_INLINE PrimitiveSpan EmittingSpan(const LightTable& table) {
+  // Looking through many lights would cost more than it saves.
+  if (table.lights.size() > 64) return {};
+  PrimitiveSpan span = {0x7fffffffu, 0};
+  for (const LightRecord& light : table.lights) {
+    if (light.primitive == 0xffffffffu) continue;
+    span.first = HWY_MIN(span.first, light.primitive);
+    span.last = HWY_MAX(span.last, light.primitive);
+  }
+  return span;
+}
+
 /// Calls body(slots, light) for the paths of kLit whose selected light has this shape.
 /// With a single light there is nothing to select and nothing to filter.
 template <bool kMany, class Body>
 HWY_INLINE void ForEachLit(Wave& wave, LightShape shape, Body&& body) {
   if constexpr (!kMany) {
     ForEachBatch(wave, wave.queue(QueueId::kLit),
-                 [&](VI slots, MF) HWY_ATTR { body(slots, hn::Zero(DI())); });
+                 [&](const StoreSlots& slots, MF)
+                     HWY_ATTR { body(slots, hn::Zero(DI())); });
   } else {
     const uint32_t* selected = wave.path.ls_light;
     const VI wanted = hn::Set(DI(), static_cast<int32_t>(shape));
     const Queue& mine =
-        FilterQueue(wave, wave.queue(QueueId::kLit), [&](VI slots) HWY_ATTR {
+        FilterQueue(wave, wave.queue(QueueId::kLit), [&](const Slots& slots) HWY_ATTR {
           const Lights light(*wave.scene, Gather(selected, slots));
           return hn::RebindMask(DF(),
                                 hn::Eq(light.I(offsetof(LightRecord, shape)), wanted));
         });
-    ForEachBatch(wave, mine,
-                 [&](VI slots, MF) HWY_ATTR { body(slots, Gather(selected, slots)); });
+    ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
+      body(slots, Gather(selected, slots));
+    });
   }
 }
 
 /// Stores a light sample. `radiance_over_pdf` is zeroed, and with it the connection,
 /// where `usable` is false.
-HWY_INLINE void StoreLightSample(const PathColumns& p, VI slots, V3 direction,
-                                 VF distance, V3 radiance_over_pdf, VF pdf_sa,
-                                 MF usable) {
+HWY_INLINE void StoreLightSample(const PathColumns& p, const StoreSlots& slots,
+                                 V3 direction, VF distance, V3 radiance_over_pdf,
+                                 VF pdf_sa, MF usable) {
   Scatter3(direction, p.ls_x, p.ls_y, p.ls_z, slots);
   Scatter(distance, p.ls_distance, slots);
   Scatter3(IfThenElseZero(usable, radiance_over_pdf), p.ls_r, p.ls_g, p.ls_b, slots);
@@ -89,8 +107,8 @@ HWY_INLINE VF SumAbs(V3 v) {
 /// pdf_area (selection included). The shadow ray ends a little in front of the light, by
 /// a bound on the rounding of both end points (about 8 ulp of their coordinates) and the
 /// offset of its origin, so that the light does not shadow itself.
-HWY_INLINE void StoreSurfaceSample(const PathColumns& p, VI slots, V3 q, V3 n,
-                                   VF pdf_area, V3 radiance, MF two_sided) {
+HWY_INLINE void StoreSurfaceSample(const PathColumns& p, const StoreSlots& slots, V3 q,
+                                   V3 n, VF pdf_area, V3 radiance, MF two_sided) {
   const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
   const VF clearance = hn::MulAdd(Splat(1e-6f), hn::Add(SumAbs(from), SumAbs(q)),
                                   hn::Mul(Splat(2.0f), Gather(p.p_error, slots)));
@@ -109,7 +127,7 @@ HWY_INLINE void StoreSurfaceSample(const PathColumns& p, VI slots, V3 q, V3 n,
 }
 
 /// Adds weight * beta * radiance to the path.
-HWY_INLINE void AddRadiance(const PathColumns& p, VI slots, V3 radiance) {
+HWY_INLINE void AddRadiance(const PathColumns& p, const StoreSlots& slots, V3 radiance) {
   const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
   const V3 sum = Gather3(p.l_r, p.l_g, p.l_b, slots) + Mul(beta, radiance);
   Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);

@@ -17,21 +17,23 @@ namespace HWY_NAMESPACE {
 template <bool kMany>
 void SampleDiskLight(Wave& wave) {
   const PathColumns& p = wave.path;
-  ForEachLit<kMany>(wave, LightShape::kDisk, [&](VI slots, VI index) HWY_ATTR {
-    const Lights light(*wave.scene, index);
-    const LightDisk disk(*wave.scene, light.Primitive());
-    // r^2 is uniform between the squares of the radii.
-    const VF inner2 = hn::Mul(disk.inner_radius, disk.inner_radius);
-    const VF span = hn::NegMulAdd(disk.inner_radius, disk.inner_radius,
-                                  hn::Mul(disk.radius, disk.radius));
-    const VF r = hn::Sqrt(hn::MulAdd(Gather(p.u_light_0, slots), span, inner2));
-    const auto [sine, cosine] = SinCos2Pi(Gather(p.u_light_1, slots));
-    const V3 v_axis = Cross(disk.n, disk.u_axis);
-    const V3 q = MulAdd(disk.u_axis, hn::Mul(r, cosine),
-                        MulAdd(v_axis, hn::Mul(r, sine), disk.center));
-    StoreSurfaceSample(p, slots, q, disk.n, hn::Div(light.Pmf(p, slots), light.Area()),
-                       light.Radiance(), light.TwoSided());
-  });
+  ForEachLit<kMany>(
+      wave, LightShape::kDisk, [&](const StoreSlots& slots, VI index) HWY_ATTR {
+        const Lights light(*wave.scene, index);
+        const LightDisk disk(*wave.scene, light.Primitive());
+        // r^2 is uniform between the squares of the radii.
+        const VF inner2 = hn::Mul(disk.inner_radius, disk.inner_radius);
+        const VF span = hn::NegMulAdd(disk.inner_radius, disk.inner_radius,
+                                      hn::Mul(disk.radius, disk.radius));
+        const VF r = hn::Sqrt(hn::MulAdd(Gather(p.u_light_0, slots), span, inner2));
+        const auto [sine, cosine] = SinCos2Pi(Gather(p.u_light_1, slots));
+        const V3 v_axis = Cross(disk.n, disk.u_axis);
+        const V3 q = MulAdd(disk.u_axis, hn::Mul(r, cosine),
+                            MulAdd(v_axis, hn::Mul(r, sine), disk.center));
+        StoreSurfaceSample(p, slots, q, disk.n,
+                           hn::Div(light.Pmf(p, slots), light.Area()), light.Radiance(),
+                           light.TwoSided());
+      });
 }
 
 void SampleDiskLightOne(Wave& wave) { SampleDiskLight<false>(wave); }

@@ -15,13 +15,14 @@ namespace HWY_NAMESPACE {
 template <bool kMany>
 void SampleDistantLight(Wave& wave) {
   const PathColumns& p = wave.path;
-  ForEachLit<kMany>(wave, LightShape::kDistant, [&](VI slots, VI index) HWY_ATTR {
-    const Lights light(*wave.scene, index);
-    StoreLightSample(p, slots, light.F3(offsetof(LightRecord, direction)),
-                     Splat(std::numeric_limits<float>::infinity()),
-                     Mul(light.Radiance(), hn::Div(Splat(1.0f), light.Pmf(p, slots))),
-                     Splat(0), hn::Gt(light.Pmf(p, slots), Splat(0)));
-  });
+  ForEachLit<kMany>(
+      wave, LightShape::kDistant, [&](const StoreSlots& slots, VI index) HWY_ATTR {
+        const Lights light(*wave.scene, index);
+        StoreLightSample(p, slots, light.F3(offsetof(LightRecord, direction)),
+                         Splat(std::numeric_limits<float>::infinity()),
+                         Mul(light.Radiance(), hn::Div(Splat(1.0f), light.Pmf(p, slots))),
+                         Splat(0), hn::Gt(light.Pmf(p, slots), Splat(0)));
+      });
 }
 
 void SampleDistantLightOne(Wave& wave) { SampleDistantLight<false>(wave); }

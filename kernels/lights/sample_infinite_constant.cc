@@ -19,7 +19,8 @@ void SampleInfiniteConstant(Wave& wave) {
   const PathColumns& p = wave.path;
   const float inv_four_pi = 0.0795774715459476679f;
   ForEachLit<kMany>(
-      wave, LightShape::kInfiniteConstant, [&](VI slots, VI index) HWY_ATTR {
+      wave, LightShape::kInfiniteConstant,
+      [&](const StoreSlots& slots, VI index) HWY_ATTR {
         const Lights light(*wave.scene, index);
         const VF z = hn::NegMulAdd(Splat(2.0f), Gather(p.u_light_0, slots), Splat(1.0f));
         const VF ring = hn::Sqrt(hn::Max(hn::NegMulAdd(z, z, Splat(1.0f)), Splat(0)));

@@ -15,16 +15,18 @@ namespace HWY_NAMESPACE {
 template <bool kMany>
 void SamplePointLight(Wave& wave) {
   const PathColumns& p = wave.path;
-  ForEachLit<kMany>(wave, LightShape::kPoint, [&](VI slots, VI index) HWY_ATTR {
-    const Lights light(*wave.scene, index);
-    const V3 to_light =
-        light.F3(offsetof(LightRecord, position)) - Gather3(p.p_x, p.p_y, p.p_z, slots);
-    const VF d2 = Dot(to_light, to_light);
-    const VF distance = hn::Sqrt(d2);
-    const VF factor = hn::Div(Splat(1.0f), hn::Mul(d2, light.Pmf(p, slots)));
-    StoreLightSample(p, slots, Mul(to_light, hn::Div(Splat(1.0f), distance)), distance,
-                     Mul(light.Radiance(), factor), Splat(0), hn::Gt(d2, Splat(0)));
-  });
+  ForEachLit<kMany>(
+      wave, LightShape::kPoint, [&](const StoreSlots& slots, VI index) HWY_ATTR {
+        const Lights light(*wave.scene, index);
+        const V3 to_light = light.F3(offsetof(LightRecord, position)) -
+                            Gather3(p.p_x, p.p_y, p.p_z, slots);
+        const VF d2 = Dot(to_light, to_light);
+        const VF distance = hn::Sqrt(d2);
+        const VF factor = hn::Div(Splat(1.0f), hn::Mul(d2, light.Pmf(p, slots)));
+        StoreLightSample(p, slots, Mul(to_light, hn::Div(Splat(1.0f), distance)),
+                         distance, Mul(light.Radiance(), factor), Splat(0),
+                         hn::Gt(d2, Splat(0)));
+      });
 }
 
 void SamplePointLightOne(Wave& wave) { SamplePointLight<false>(wave); }

@@ -16,27 +16,31 @@ namespace HWY_NAMESPACE {
 template <bool kMany>
 void SampleSpotLight(Wave& wave) {
   const PathColumns& p = wave.path;
-  ForEachLit<kMany>(wave, LightShape::kSpot, [&](VI slots, VI index) HWY_ATTR {
-    const Lights light(*wave.scene, index);
-    const V3 to_light =
-        light.F3(offsetof(LightRecord, position)) - Gather3(p.p_x, p.p_y, p.p_z, slots);
-    const VF d2 = Dot(to_light, to_light);
-    const VF distance = hn::Sqrt(d2);
-    const V3 direction = Mul(to_light, hn::Div(Splat(1.0f), distance));
-    const VF cosine = hn::Neg(Dot(direction, light.F3(offsetof(LightRecord, direction))));
-    const VF edge = light.F(offsetof(LightRecord, cos_total));
-    const VF width = hn::Sub(light.F(offsetof(LightRecord, cos_falloff)), edge);
-    const VF inside = hn::Sub(cosine, edge);
-    // A cone without falloff (width 0) is a step.
-    const VF x =
-        hn::IfThenElse(hn::Gt(width, Splat(0)), hn::Div(inside, width),
-                       hn::IfThenElse(hn::Gt(inside, Splat(0)), Splat(1.0f), Splat(0)));
-    const VF s = hn::Min(hn::Max(x, Splat(0)), Splat(1.0f));
-    const VF smooth = hn::Mul(hn::Mul(s, s), hn::NegMulAdd(Splat(2.0f), s, Splat(3.0f)));
-    const VF factor = hn::Div(smooth, hn::Mul(d2, light.Pmf(p, slots)));
-    StoreLightSample(p, slots, direction, distance, Mul(light.Radiance(), factor),
-                     Splat(0), hn::And(hn::Gt(d2, Splat(0)), hn::Gt(smooth, Splat(0))));
-  });
+  ForEachLit<kMany>(
+      wave, LightShape::kSpot, [&](const StoreSlots& slots, VI index) HWY_ATTR {
+        const Lights light(*wave.scene, index);
+        const V3 to_light = light.F3(offsetof(LightRecord, position)) -
+                            Gather3(p.p_x, p.p_y, p.p_z, slots);
+        const VF d2 = Dot(to_light, to_light);
+        const VF distance = hn::Sqrt(d2);
+        const V3 direction = Mul(to_light, hn::Div(Splat(1.0f), distance));
+        const VF cosine =
+            hn::Neg(Dot(direction, light.F3(offsetof(LightRecord, direction))));
+        const VF edge = light.F(offsetof(LightRecord, cos_total));
+        const VF width = hn::Sub(light.F(offsetof(LightRecord, cos_falloff)), edge);
+        const VF inside = hn::Sub(cosine, edge);
+        // A cone without falloff (width 0) is a step.
+        const VF x = hn::IfThenElse(
+            hn::Gt(width, Splat(0)), hn::Div(inside, width),
+            hn::IfThenElse(hn::Gt(inside, Splat(0)), Splat(1.0f), Splat(0)));
+        const VF s = hn::Min(hn::Max(x, Splat(0)), Splat(1.0f));
+        const VF smooth =
+            hn::Mul(hn::Mul(s, s), hn::NegMulAdd(Splat(2.0f), s, Splat(3.0f)));
+        const VF factor = hn::Div(smooth, hn::Mul(d2, light.Pmf(p, slots)));
+        StoreLightSample(p, slots, direction, distance, Mul(light.Radiance(), factor),
+                         Splat(0),
+                         hn::And(hn::Gt(d2, Splat(0)), hn::Gt(smooth, Splat(0))));
+      });
 }
 
 void SampleSpotLightOne(Wave& wave) { SampleSpotLight<false>(wave); }

@@ -23,7 +23,7 @@ void SelectLight(Wave& wave) {
   const LightTable& table = wave.scene->lights;
   const VF count = Splat(static_cast<float>(table.lights.size()));
   const VI last = hn::Set(di, static_cast<int32_t>(table.lights.size()) - 1);
-  ForEachBatch(wave, wave.queue(QueueId::kLit), [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(QueueId::kLit), [&](const Slots& slots, MF) HWY_ATTR {
     const VF scaled = hn::Mul(Gather(wave.path.u_select, slots), count);
     const VI bin = hn::Min(hn::ConvertTo(di, scaled), last);
     const VF fraction = hn::Sub(scaled, hn::ConvertTo(DF(), bin));

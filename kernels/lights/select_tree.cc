@@ -51,7 +51,7 @@ void SelectLightTree(Wave& wave) {
   const LightTree& tree = wave.scene->lights.tree;
   const int num_far = static_cast<int>(tree.far.size());
   const float share_far = tree.pmf_far * static_cast<float>(num_far);
-  ForEachBatch(wave, wave.queue(QueueId::kLit), [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(QueueId::kLit), [&](const Slots& slots, MF) HWY_ATTR {
     const VF u = Gather(p.u_select, slots);
     VI light = hn::Zero(di);
     VF pmf = Splat(tree.pmf_far);

@@ -30,25 +30,26 @@ concept HasNumber = requires(const PointsParameters& points, VU v, GroupIndex at
 
 /// Key of dimension 0 at a depth. Copies of a path that has split draw from dimensions of
 /// their own.
-HWY_INLINE VU FirstKey(const PathColumns& p, VU depth, VI slots) {
+HWY_INLINE VU FirstKey(const PathColumns& p, VU depth, const Slots& slots) {
   const VU key = hn::Mul(depth, SplatU(static_cast<uint32_t>(Dimension::kCount)));
   if (p.branch == nullptr) return key;
   return hn::Add(key, hn::ShiftLeft<24>(AsUnsigned(Gather(p.branch, slots))));
 }
-HWY_INLINE VU KeyOf(const PathColumns& p, Dimension dimension, VU depth, VI slots) {
+HWY_INLINE VU KeyOf(const PathColumns& p, Dimension dimension, VU depth,
+                    const Slots& slots) {
   return hn::Add(FirstKey(p, depth, slots), SplatU(static_cast<uint32_t>(dimension)));
 }
 
 /// Who draws: one batch of paths.
 struct Drawer {
-  VI slots;
+  const StoreSlots& slots;
   VU pixel, sample, depth, key;  // key: of dimension 0 at this depth and branch
 };
 
 /// Pairs and splitting change which numbers a path draws; without them none of their
 /// instructions are executed.
 template <bool kPlain>
-HWY_INLINE Drawer MakeDrawer(const PathColumns& p, VI slots) {
+HWY_INLINE Drawer MakeDrawer(const PathColumns& p, const StoreSlots& slots) {
   const VU depth = AsUnsigned(Gather(p.depth, slots));
   const VU key = kPlain ? hn::Mul(depth, SplatU(static_cast<uint32_t>(Dimension::kCount)))
                         : FirstKey(p, depth, slots);
@@ -91,35 +92,43 @@ template <class Policy, bool kPlain>
 HWY_INLINE void FillCameraBatches(Wave& wave) {
   const PathColumns p = wave.path;
   const RunParameters run = *wave.run;
-  ForEachBatch(wave, wave.queue(QueueId::kCamera), [&](VI slots, MF) HWY_ATTR {
-    const Drawer drawer = MakeDrawer<kPlain>(p, slots);
-    Draw<Policy, kPlain, false>(run, drawer, Dimension::kFilm, p.u_film_0, p.u_film_1);
-    if (p.u_lens_0 != nullptr) {
-      Draw<Policy, kPlain, false>(run, drawer, Dimension::kLens, p.u_lens_0, p.u_lens_1);
-    }
-  });
+  ForEachBatch(wave, wave.queue(QueueId::kCamera),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const Drawer drawer = MakeDrawer<kPlain>(p, slots);
+                 Draw<Policy, kPlain, false>(run, drawer, Dimension::kFilm, p.u_film_0,
+                                             p.u_film_1);
+                 if (p.u_lens_0 != nullptr) {
+                   Draw<Policy, kPlain, false>(run, drawer, Dimension::kLens, p.u_lens_0,
+                                               p.u_lens_1);
+                 }
+               });
 }
 
 template <class Policy, bool kPlain>
 HWY_INLINE void FillBounceBatches(Wave& wave) {
   const PathColumns p = wave.path;
   const RunParameters run = *wave.run;
-  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](VI slots, MF) HWY_ATTR {
-    const Drawer drawer = MakeDrawer<kPlain>(p, slots);
-    Draw<Policy, kPlain, false>(run, drawer, Dimension::kBsdf, p.u_bsdf_0, p.u_bsdf_1);
-    Draw<Policy, kPlain, true>(run, drawer, Dimension::kLobe, p.u_lobe, nullptr);
-    if (p.u_light_0 != nullptr) {
-      Draw<Policy, kPlain, false>(run, drawer, Dimension::kLight, p.u_light_0,
-                                  p.u_light_1);
-    }
-    if (p.u_select != nullptr) {
-      Draw<Policy, kPlain, true>(run, drawer, Dimension::kSelect, p.u_select, nullptr);
-    }
-    if (p.u_roulette != nullptr) {
-      Draw<Policy, kPlain, true>(run, drawer, Dimension::kRoulette, p.u_roulette,
-                                 nullptr);
-    }
-  });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const Drawer drawer = MakeDrawer<kPlain>(p, slots);
+        Draw<Policy, kPlain, false>(run, drawer, Dimension::kBsdf, p.u_bsdf_0,
+                                    p.u_bsdf_1);
+        if (p.u_lobe != nullptr) {
+          Draw<Policy, kPlain, true>(run, drawer, Dimension::kLobe, p.u_lobe, nullptr);
+        }
+        if (p.u_light_0 != nullptr) {
+          Draw<Policy, kPlain, false>(run, drawer, Dimension::kLight, p.u_light_0,
+                                      p.u_light_1);
+        }
+        if (p.u_select != nullptr) {
+          Draw<Policy, kPlain, true>(run, drawer, Dimension::kSelect, p.u_select,
+                                     nullptr);
+        }
+        if (p.u_roulette != nullptr) {
+          Draw<Policy, kPlain, true>(run, drawer, Dimension::kRoulette, p.u_roulette,
+                                     nullptr);
+        }
+      });
 }
 
 HWY_INLINE bool DrawsPlainly(const Wave& wave) {

@@ -7,21 +7,13 @@
 #endif
 
 #include "hwy/highway.h"
+#include "kernels/queue/slots-inl.h"
 #include "src/wavefront/wave.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// The lane types of all kernels: full vectors of 4-byte lanes.
-using DF = hn::ScalableTag<float>;
-using DU = hn::RebindToUnsigned<DF>;
-using DI = hn::RebindToSigned<DF>;
-using VF = hn::Vec<DF>;
-using VU = hn::Vec<DU>;
-using VI = hn::Vec<DI>;
-using MF = hn::Mask<DF>;
 
 /// Repeats the last slot over one vector past the end. A batch that runs past the end
 /// then recomputes that path: every store of a kernel is a function of the slot alone,
@@ -39,8 +31,9 @@ HWY_INLINE void CountBatches(Wave& wave, const Queue& queue) {
   wave.lanes.vectors += (queue.size + lanes - 1) / lanes;
 }
 
-/// Calls body(VI slots, MF valid) for each vector of the queue. `valid` marks the lanes
-/// before the end (only pushes to other queues and counts need it). Counts occupancy.
+/// Calls body(const Slots& slots, MF valid) for each vector of the queue. `valid` marks
+/// the lanes before the end (only pushes to other queues and counts need it). Counts
+/// occupancy.
 template <class Body>
 HWY_INLINE void ForEachBatch(Wave& wave, const Queue& queue, Body&& body) {
   const DF df;
@@ -49,7 +42,7 @@ HWY_INLINE void ForEachBatch(Wave& wave, const Queue& queue, Body&& body) {
   PadTail(queue);
   for (uint32_t i = 0; i < queue.size; i += lanes) {
     const VI slots = hn::LoadU(di, reinterpret_cast<const int32_t*>(queue.items) + i);
-    body(slots, hn::FirstN(df, queue.size - i));
+    body(Slots(slots), hn::FirstN(df, queue.size - i));
   }
   CountBatches(wave, queue);
 }
@@ -57,29 +50,12 @@ HWY_INLINE void ForEachBatch(Wave& wave, const Queue& queue, Body&& body) {
 /// Appends the slots under `mask` to `queue`.
 HWY_INLINE void Push(Queue& queue, VI slots, MF mask) {
   const DI di;
-  queue.size += static_cast<uint32_t>(
-      hn::CompressStore(slots, hn::RebindMask(di, mask), di,
-                        reinterpret_cast<int32_t*>(queue.items) + queue.size));
-}
-
-// Columns and tables, by lane index.
-HWY_INLINE VF Gather(const float* base, VI index) {
-  return hn::GatherIndex(DF(), base, index);
-}
-HWY_INLINE VI Gather(const int32_t* base, VI index) {
-  return hn::GatherIndex(DI(), base, index);
-}
-HWY_INLINE VI Gather(const uint32_t* base, VI index) {
-  return hn::GatherIndex(DI(), reinterpret_cast<const int32_t*>(base), index);
-}
-HWY_INLINE void Scatter(VF v, float* base, VI index) {
-  hn::ScatterIndex(v, DF(), base, index);
-}
-HWY_INLINE void Scatter(VI v, int32_t* base, VI index) {
-  hn::ScatterIndex(v, DI(), base, index);
-}
-HWY_INLINE void Scatter(VI v, uint32_t* base, VI index) {
-  hn::ScatterIndex(v, DI(), reinterpret_cast<int32_t*>(base), index);
+  // Not CompressStore, whose instruction is microcoded on some processors. What is
+  // written beyond the end lies within the padding, or has been read where a queue is
+  // compacted in place.
+  const VI packed = hn::Compress(slots, hn::RebindMask(di, mask));
+  hn::StoreU(packed, di, reinterpret_cast<int32_t*>(queue.items) + queue.size);
+  queue.size += static_cast<uint32_t>(hn::CountTrue(DF(), mask));
 }
 
 }  // namespace HWY_NAMESPACE

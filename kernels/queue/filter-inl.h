@@ -23,8 +23,9 @@ HWY_INLINE const Queue& FilterQueue(Wave& wave, const Queue& queue,
   scratch.size = 0;
   PadTail(queue);
   for (uint32_t i = 0; i < queue.size; i += lanes) {
-    const VI slots = hn::LoadU(DI(), reinterpret_cast<const int32_t*>(queue.items) + i);
-    Push(scratch, slots, hn::And(predicate(slots), hn::FirstN(df, queue.size - i)));
+    const Slots slots(hn::LoadU(DI(), reinterpret_cast<const int32_t*>(queue.items) + i));
+    const MF mine = hn::And(predicate(slots), hn::FirstN(df, queue.size - i));
+    if (!hn::AllFalse(df, mine)) Push(scratch, slots, mine);
   }
   return scratch;
 }
@@ -35,7 +36,7 @@ HWY_INLINE const Queue& FilterPrimitives(Wave& wave, const Queue& queue, uint32_
                                          uint32_t end) {
   if (begin == 0 && end == wave.scene->geometry.ranges.end) return queue;
   const uint32_t* prims = wave.path.prim;
-  return FilterQueue(wave, queue, [&](VI slots) HWY_ATTR {
+  return FilterQueue(wave, queue, [&](const Slots& slots) HWY_ATTR {
     const DU du;
     const VU prim = hn::BitCast(du, Gather(prims, slots));
     // One comparison: prim - begin wraps around below begin.

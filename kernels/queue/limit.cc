@@ -15,12 +15,13 @@ namespace HWY_NAMESPACE {
 
 void Limit(Wave& wave) {
   const VI max_depth = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
-  ForEachBatch(wave, wave.queue(QueueId::kHit), [&](VI slots, MF valid) HWY_ATTR {
-    const MF below =
-        hn::RebindMask(DF(), hn::Lt(Gather(wave.path.depth, slots), max_depth));
-    Push(wave.queue(QueueId::kSurface), slots, hn::And(valid, below));
-    Push(wave.queue(QueueId::kDone), slots, hn::AndNot(below, valid));
-  });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kHit), [&](const Slots& slots, MF valid) HWY_ATTR {
+        const MF below =
+            hn::RebindMask(DF(), hn::Lt(Gather(wave.path.depth, slots), max_depth));
+        Push(wave.queue(QueueId::kSurface), slots, hn::And(valid, below));
+        Push(wave.queue(QueueId::kDone), slots, hn::AndNot(below, valid));
+      });
 }
 
 }  // namespace HWY_NAMESPACE

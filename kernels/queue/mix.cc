@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 
 // Weight of the second material, from its texture where it has one (then the scene has
 // texture coordinates: compile sees to it).
-HWY_INLINE VF MixAmount(const Wave& wave, VI slots, VI material) {
+HWY_INLINE VF MixAmount(const Wave& wave, const Slots& slots, VI material) {
   const MaterialTable& m = wave.scene->materials;
   const VF constant = Gather(m.alpha_x.data(), material);
   if (wave.path.uv_u == nullptr) return constant;
@@ -32,7 +32,7 @@ void Mix(Wave& wave) {
   const DI di;
   const VU count = SplatU(static_cast<uint32_t>(Dimension::kCount));
   const VI mix_kind = hn::Set(di, static_cast<int32_t>(ShadeKind::kMix));
-  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots, MF) HWY_ATTR {
     VI material = Gather(wave.path.material, slots);
     VU key = hn::Add(hn::Mul(AsUnsigned(Gather(wave.path.depth, slots)), count),
                      SplatU(static_cast<uint32_t>(Dimension::kMix)));

@@ -32,15 +32,18 @@ void Route(Wave& wave) {
       kinds[num_kinds++] = static_cast<ShadeKind>(k);
     }
   }
-  ForEachBatch(wave, surface, [&](VI slots, MF valid) HWY_ATTR {
-    const VI kind = Gather(m.kind.data(), Gather(wave.path.material, slots));
+  ForEachBatch(wave, surface, [&](const Slots& slots, MF valid) HWY_ATTR {
+    const VI kind = Lookup(m.kind, Gather(wave.path.material, slots));
+    MF lit = hn::FirstN(DF(), 0);
     for (int k = 0; k < num_kinds; ++k) {
       const MF mine = hn::And(
           valid, hn::RebindMask(
                      DF(), hn::Eq(kind, hn::Set(di, static_cast<int32_t>(kinds[k])))));
       Push(wave.queue(ShadeQueue(kinds[k])), slots, mine);
-      if (kLights && !IsSpecular(kinds[k])) Push(wave.queue(QueueId::kLit), slots, mine);
+      if (!IsSpecular(kinds[k])) lit = hn::Or(lit, mine);
     }
+    // At once, so that the queue keeps the order of the slots.
+    if (kLights) Push(wave.queue(QueueId::kLit), slots, lit);
   });
 }
 

@@ -16,7 +16,7 @@ template <bool kEnvironment>
 void Split(Wave& wave) {
   const Queue& active = wave.queue(QueueId::kActive);
   wave.rays_closest += active.size;
-  ForEachBatch(wave, active, [&](VI slots, MF valid) HWY_ATTR {
+  ForEachBatch(wave, active, [&](const Slots& slots, MF valid) HWY_ATTR {
     const MF hit =
         hn::Lt(Gather(wave.path.t, slots), Splat(std::numeric_limits<float>::infinity()));
     Push(wave.queue(QueueId::kHit), slots, hn::And(valid, hit));

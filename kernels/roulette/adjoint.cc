@@ -29,7 +29,7 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 struct AdjointWindow {
-  static HWY_INLINE VF Factor(const Wave& wave, VI slots, V3 beta) {
+  static HWY_INLINE VF Factor(const Wave& wave, const Slots& slots, V3 beta) {
     const PathValues& values = wave.run->tables->path_values;
     const VF psi = Gather(values.survive.data(), CellOf(values.grid, wave.path, slots));
     const VF nu = hn::Mul(WeightInImage(wave, slots, beta), psi);

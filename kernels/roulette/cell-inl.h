@@ -28,7 +28,7 @@ HWY_INLINE VI CellAlong(const CellGrid& grid, int axis, VF p) {
 }
 
 /// Cell of the surface points of these paths, by the side that they see.
-HWY_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path, VI slots) {
+HWY_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path, const Slots& slots) {
   const DI di;
   const auto constant = [&](int32_t v) HWY_ATTR { return hn::Set(di, v); };
   const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);

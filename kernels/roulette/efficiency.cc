@@ -32,7 +32,7 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 struct EfficiencyWindow {
-  static HWY_INLINE VF Factor(const Wave& wave, VI slots, V3 beta) {
+  static HWY_INLINE VF Factor(const Wave& wave, const Slots& slots, V3 beta) {
     const PathValues& values = wave.run->tables->path_values;
     const VI cell = CellOf(values.grid, wave.path, slots);
     const VF weight = hn::Mul(WeightInImage(wave, slots, beta), Splat(values.scale));

@@ -22,7 +22,7 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 struct LuminanceSurvival {
-  static HWY_INLINE VF Survival(const Wave& wave, VI slots, V3 beta) {
+  static HWY_INLINE VF Survival(const Wave& wave, const Slots& slots, V3 beta) {
     const VF y = hn::MulAdd(
         beta.x, Splat(0.212671f),
         hn::MulAdd(beta.y, Splat(0.715160f), hn::Mul(beta.z, Splat(0.072169f))));

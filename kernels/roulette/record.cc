@@ -58,21 +58,23 @@ void RecordDecision(Wave& wave) {
   const PathColumns& p = wave.path;
   const PathValues& values = wave.run->tables->path_values;
   const VI before = hn::Set(DI(), kThroughputFirst - 1);
-  ForEachBatch(wave, wave.queue(QueueId::kScattered), [&](VI slots, MF) HWY_ATTR {
-    const VF one = Splat(1.0f), risk = Gather(p.risk_0, slots);
-    const VF weight = hn::Add(one, risk);
-    // The throughput that a survivor of the decisions before would have.
-    VF s = hn::Mul(MaxComponent(Gather3(p.beta_r, p.beta_g, p.beta_b, slots)), weight);
-    if (p.eta_scale != nullptr) s = hn::Mul(s, Gather(p.eta_scale, slots));
-    const MF late = hn::RebindMask(DF(), hn::Gt(Gather(p.depth, slots), before));
-    s = hn::Min(hn::IfThenElse(late, s, one), one);
-    const VF g = Brightness(values, Gather3(p.l_r, p.l_g, p.l_b, slots));
-    const VF a = hn::Mul(weight, hn::Sub(hn::Div(one, s), one));
-    const VF ag = hn::Mul(a, g);
-    Scatter(hn::Add(risk, a), p.risk_0, slots);
-    Scatter(hn::Add(Gather(p.risk_1, slots), ag), p.risk_1, slots);
-    Scatter(hn::MulAdd(ag, g, Gather(p.risk_2, slots)), p.risk_2, slots);
-  });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kScattered), [&](const Slots& slots, MF) HWY_ATTR {
+        const VF one = Splat(1.0f), risk = Gather(p.risk_0, slots);
+        const VF weight = hn::Add(one, risk);
+        // The throughput that a survivor of the decisions before would have.
+        VF s =
+            hn::Mul(MaxComponent(Gather3(p.beta_r, p.beta_g, p.beta_b, slots)), weight);
+        if (p.eta_scale != nullptr) s = hn::Mul(s, Gather(p.eta_scale, slots));
+        const MF late = hn::RebindMask(DF(), hn::Gt(Gather(p.depth, slots), before));
+        s = hn::Min(hn::IfThenElse(late, s, one), one);
+        const VF g = Brightness(values, Gather3(p.l_r, p.l_g, p.l_b, slots));
+        const VF a = hn::Mul(weight, hn::Sub(hn::Div(one, s), one));
+        const VF ag = hn::Mul(a, g);
+        Scatter(hn::Add(risk, a), p.risk_0, slots);
+        Scatter(hn::Add(Gather(p.risk_1, slots), ag), p.risk_1, slots);
+        Scatter(hn::MulAdd(ag, g, Gather(p.risk_2, slots)), p.risk_2, slots);
+      });
 }
 
 void RecordVertex(Wave& wave) {
@@ -80,7 +82,7 @@ void RecordVertex(Wave& wave) {
   const PathColumns& p = wave.path;
   const VertexColumns v(p);
   const PathValues& values = wave.run->tables->path_values;
-  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots, MF) HWY_ATTR {
     const VI depth = Gather(p.depth, slots);
     const VI cell = CellOf(values.grid, p, slots);
     const VF at = Brightness(values, Gather3(p.beta_r, p.beta_g, p.beta_b, slots));
@@ -101,7 +103,7 @@ void RecordPath(Wave& wave) {
   const PathColumns& p = wave.path;
   const VertexColumns v(p);
   const PathValues& values = wave.run->tables->path_values;
-  ForEachBatch(wave, wave.queue(QueueId::kDone), [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(QueueId::kDone), [&](const Slots& slots, MF) HWY_ATTR {
     const VI output = Gather(p.output, slots);
     float* plane = wave.buffer.samples + 3 * std::size_t{wave.buffer.stride};
     const auto store = [&](VF value) HWY_ATTR {

@@ -1,5 +1,5 @@
 // The decision that the roulettes on scattered rays share. A policy is a struct with
-//   static VF Survival(const Wave&, VI slots, V3 beta)
+//   static VF Survival(const Wave&, const Slots& slots, V3 beta)
 // giving a probability above 0 (values of 1 and more: always survives).
 //   estimator   survivor / s, zero otherwise: E = s (x / s) = x (the paper's equation 8,
 //               with s = 1 - q)
@@ -26,7 +26,7 @@ HWY_INLINE void PlayRoulette(Wave& wave) {
   const VI before = hn::Set(DI(), static_cast<int32_t>(wave.run->roulette.first) - 1);
   Queue& queue = wave.queue(QueueId::kScattered);
   Queue survivors = {queue.items, 0};  // compacts in place: writes never pass reads
-  ForEachBatch(wave, queue, [&](VI slots, MF valid) HWY_ATTR {
+  ForEachBatch(wave, queue, [&](const StoreSlots& slots, MF valid) HWY_ATTR {
     const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
     VF s = Policy::Survival(wave, slots, beta);
     const MF eligible =
@@ -45,7 +45,7 @@ HWY_INLINE void PlayRoulette(Wave& wave) {
 
 /// The factor eta^2 of refractions undone: radiance is spread by leaving a denser medium
 /// and gathered again, which says nothing of the path's worth.
-HWY_INLINE VF WithoutRefraction(const PathColumns& p, VI slots, VF s) {
+HWY_INLINE VF WithoutRefraction(const PathColumns& p, const Slots& slots, VF s) {
   return p.eta_scale != nullptr ? hn::Mul(s, Gather(p.eta_scale, slots)) : s;
 }
 

@@ -21,7 +21,7 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 struct ThroughputSurvival {
-  static HWY_INLINE VF Survival(const Wave& wave, VI slots, V3 beta) {
+  static HWY_INLINE VF Survival(const Wave& wave, const Slots& slots, V3 beta) {
     const VF s = WithoutRefraction(wave.path, slots, MaxComponent(beta));
     return hn::Max(s, Splat(wave.run->roulette.floor));
   }

@@ -1,7 +1,7 @@
 // Roulette and splitting at a surface, before the numbers of the bounce are drawn and
 // before it is shaded: every copy has the same hit, takes its own light sample and goes
 // its own way. A policy is a struct with
-//   static VF Factor(const Wave&, VI slots, V3 beta)
+//   static VF Factor(const Wave&, const Slots& slots, V3 beta)
 // giving the expected number of copies r >= 0.
 //   estimator   k = floor(r + u) copies of weight 1/r: E = sum of k (x_i / r) = x, since
 //               E[k] = r and the copies are distributed alike
@@ -35,7 +35,7 @@ namespace HWY_NAMESPACE {
 inline constexpr float kLeast = 0.05f;
 
 /// Uniform number of the decision.
-HWY_INLINE VF DecisionNumber(const Wave& wave, VI slots) {
+HWY_INLINE VF DecisionNumber(const Wave& wave, const Slots& slots) {
   const PathColumns& p = wave.path;
   const VU depth = AsUnsigned(Gather(p.depth, slots));
   return ToUnit(
@@ -46,7 +46,7 @@ HWY_INLINE VF DecisionNumber(const Wave& wave, VI slots) {
 
 /// What a unit of brightness gathered from here on would weigh in the image: the root
 /// mean square over the channels of throughput over brightness of the pixel.
-HWY_INLINE VF WeightInImage(const Wave& wave, VI slots, V3 beta) {
+HWY_INLINE VF WeightInImage(const Wave& wave, const Slots& slots, V3 beta) {
   const float* inverse = wave.run->tables->path_values.inverse_pixel.data();
   const VI at = hn::Mul(Gather(wave.path.pixel, slots), hn::Set(DI(), 3));
   const V3 relative = Mul(beta, Gather3(inverse, inverse + 1, inverse + 2, at));
@@ -55,7 +55,7 @@ HWY_INLINE VF WeightInImage(const Wave& wave, VI slots, V3 beta) {
 
 /// Expected copies where the cache knows nothing: throughput roulette from the second
 /// event on.
-HWY_INLINE VF ThroughputFactor(const PathColumns& p, VI slots, V3 beta) {
+HWY_INLINE VF ThroughputFactor(const PathColumns& p, const Slots& slots, V3 beta) {
   VF s = MaxComponent(beta);
   if (p.eta_scale != nullptr) s = hn::Mul(s, Gather(p.eta_scale, slots));
   const auto late = hn::Gt(Gather(p.depth, slots), hn::Set(DI(), kThroughputFirst - 1));
@@ -145,7 +145,7 @@ HWY_INLINE void PlayWindow(Wave& wave) {
   Queue survivors = {queue.items, 0};  // compacts in place: writes never pass reads
   Queue copies = {wave.queue(QueueId::kScratch).items, 0};
   bool splits = false;
-  ForEachBatch(wave, queue, [&](VI slots, MF valid) HWY_ATTR {
+  ForEachBatch(wave, queue, [&](const Slots& slots, MF valid) HWY_ATTR {
     const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
     const MF first = hn::RebindMask(DF(), hn::Eq(Gather(p.depth, slots), hn::Zero(di)));
     const VF least = hn::IfThenElse(first, Splat(1.0f), Splat(kLeast));

@@ -80,29 +80,32 @@ HWY_INLINE MaterialSource TableSource(const MaterialTable& t) {
 /// Parameters of one batch of paths.
 struct MaterialInputs {
   const MaterialSource& source;
-  VI slot, material;
+  Slots slot;
+  VI material;
   LaneRandom random;  // only filled for kStochastic
 
   HWY_INLINE V3 Color0() const {
-    const VI at = source.color_by_path ? slot : material;
-    return Gather3(source.color0_r, source.color0_g, source.color0_b, at);
+    const MaterialSource& s = source;
+    return s.color_by_path
+               ? Gather3(s.color0_r, s.color0_g, s.color0_b, slot)
+               : LookUp3(s.table->color0_r, s.table->color0_g, s.table->color0_b);
   }
   /// Clamped to [0, 1], as a reflectance must be (a texture may hold anything).
   HWY_INLINE V3 Reflectance() const { return Clamp01(Color0()); }
   HWY_INLINE V3 Color1() const {
     const MaterialTable& t = *source.table;
-    return Gather3(t.color1_r.data(), t.color1_g.data(), t.color1_b.data(), material);
+    return LookUp3(t.color1_r, t.color1_g, t.color1_b);
   }
-  HWY_INLINE VF AlphaX() const { return Alpha(source.alpha_x); }
-  HWY_INLINE VF AlphaY() const { return Alpha(source.alpha_y); }
+  HWY_INLINE VF AlphaX() const { return Alpha(source.alpha_x, source.table->alpha_x); }
+  HWY_INLINE VF AlphaY() const { return Alpha(source.alpha_y, source.table->alpha_y); }
   HWY_INLINE VF Float(const AlignedVector<float>& column) const {
-    return Gather(column.data(), material);
+    return Lookup(column, material);
   }
   HWY_INLINE VI Int(const AlignedVector<std::int32_t>& column) const {
-    return Gather(column.data(), material);
+    return Lookup(column, material);
   }
   HWY_INLINE VI Int(const AlignedVector<std::uint32_t>& column) const {
-    return Gather(column.data(), material);
+    return Lookup(column, material);
   }
   HWY_INLINE static V3 Clamp01(V3 c) {
     const VF zero = hn::Zero(DF()), one = Splat(1.0f);
@@ -111,8 +114,12 @@ struct MaterialInputs {
   }
 
  private:
-  HWY_INLINE VF Alpha(const float* base) const {
-    return Gather(base, source.alpha_by_path ? slot : material);
+  HWY_INLINE VF Alpha(const float* by_path, const AlignedVector<float>& column) const {
+    return source.alpha_by_path ? Gather(by_path, slot) : Lookup(column, material);
+  }
+  HWY_INLINE V3 LookUp3(const AlignedVector<float>& x, const AlignedVector<float>& y,
+                        const AlignedVector<float>& z) const {
+    return {Lookup(x, material), Lookup(y, material), Lookup(z, material)};
   }
 };
 

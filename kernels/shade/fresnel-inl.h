@@ -75,13 +75,14 @@ HWY_INLINE VF FresnelConductor(VF c, VF eta, VF k) {
   const VF sum = hn::Max(hn::Add(a, c), Splat(1e-18f));
   const VF difference = hn::Div(hn::Add(contrast, b2), sum);
   const VF rs_top = hn::MulAdd(difference, difference, b2);
-  const VF rs_bottom = hn::Max(hn::MulAdd(sum, sum, b2), Splat(1e-36f));
+  const VF rs_bottom = hn::MulAdd(sum, sum, b2);
   const VF ac = hn::Mul(a, c), bc2 = hn::Mul(b2, Sqr(c));
   const VF low = hn::Sub(ac, s2), high = hn::Add(ac, s2);
-  const VF rp_over_rs = hn::Div(hn::MulAdd(low, low, bc2),
-                                hn::Max(hn::MulAdd(high, high, bc2), Splat(1e-36f)));
-  const VF rs = hn::Div(rs_top, rs_bottom);
-  return hn::Min(hn::Mul(hn::Mul(half, rs), hn::Add(one, rp_over_rs)), one);
+  const VF rp_top = hn::MulAdd(low, low, bc2), rp_bottom = hn::MulAdd(high, high, bc2);
+  // (rs + rp) / 2 over the common denominator.
+  const VF top = hn::Mul(hn::Mul(half, rs_top), hn::Add(rp_bottom, rp_top));
+  const VF bottom = hn::Max(hn::Mul(rs_bottom, rp_bottom), Splat(1e-36f));
+  return hn::Min(hn::Div(top, bottom), one);
 }
 
 HWY_INLINE V3 FresnelConductor(VF c, V3 eta, V3 k) {

@@ -31,7 +31,7 @@ HWY_INLINE MaterialInputs ProbeInputs(const MaterialSource& source,
   const VI material = hn::Set(DI(), static_cast<std::int32_t>(batch.material));
   const LaneRandom random = {hn::Iota(du, i), hn::Zero(du), hn::Zero(du),
                              hn::Set(du, batch.seed)};
-  return {source, material, material, random};
+  return {source, Slots(material), material, random};
 }
 
 template <class Bsdf>

@@ -79,7 +79,7 @@ struct Shader {
     }
   }
 
-  HWY_INLINE Frame ShadingFrame(V3 ng, VI slots) const {
+  HWY_INLINE Frame ShadingFrame(V3 ng, const Slots& slots) const {
     const PathColumns& path = wave.path;
     V3 n = ng;
     if (path.ns_x != nullptr) n = Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
@@ -91,7 +91,7 @@ struct Shader {
     return FrameFromNormal(n);
   }
 
-  HWY_INLINE MaterialInputs Inputs(VI slots) const {
+  HWY_INLINE MaterialInputs Inputs(const Slots& slots) const {
     const PathColumns& path = wave.path;
     MaterialInputs in{source, slots, Gather(path.material, slots), {}};
     if constexpr (Bsdf::kStochastic) {
@@ -110,7 +110,7 @@ struct Shader {
 
   /// Next-event estimation: what the sampled light would add if nothing is in between.
   HWY_INLINE void SampleLight(const typename Bsdf::Params& material, const Frame& frame,
-                              V3 wo, V3 beta, VI slots, MF valid) {
+                              V3 wo, V3 beta, const StoreSlots& slots, MF valid) {
     const PathColumns& path = wave.path;
     const V3 light = Gather3(path.ls_r, path.ls_g, path.ls_b, slots);
     const V3 wi = frame.ToLocal(Gather3(path.ls_x, path.ls_y, path.ls_z, slots));
@@ -135,12 +135,13 @@ struct Shader {
 
   /// Scatters the path: new ray, throughput and density; returns the paths that go on.
   HWY_INLINE MF Bounce(const typename Bsdf::Params& material, const Frame& frame, V3 wo,
-                       V3 ng, V3 beta, VI slots) {
+                       V3 ng, V3 beta, const StoreSlots& slots) {
     const PathColumns& path = wave.path;
-    const BsdfPoints u = {Gather(path.u_lobe, slots), Gather(path.u_bsdf_0, slots),
-                          Gather(path.u_bsdf_1, slots)};
+    BsdfPoints u = {hn::Zero(DF()), Gather(path.u_bsdf_0, slots),
+                    Gather(path.u_bsdf_1, slots)};
+    if (path.u_lobe != nullptr) u.lobe = Gather(path.u_lobe, slots);
     const BsdfSample sample = Scattered(material, wo, u);
-    const V3 d = Normalize(frame.FromLocal(sample.wi));
+    const V3 d = Renormalize(frame.FromLocal(sample.wi));
     const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
     const V3 o = OffsetOrigin(p, ng, Gather(path.p_error, slots), d);
     // A tangential wo has no defined side; pbrt absorbs it as well.
@@ -164,7 +165,7 @@ struct Shader {
     return hn::And(alive, CarriesLight(carried));
   }
 
-  HWY_INLINE void operator()(VI slots, MF valid) {
+  HWY_INLINE void operator()(const StoreSlots& slots, MF valid) {
     const PathColumns& path = wave.path;
     const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
     const Frame frame = ShadingFrame(ng, slots);
@@ -187,7 +188,7 @@ void ShadeKernel(Wave& wave) {
   Shader<Bsdf, kLighting> shader(wave);
   const uint32_t shadow_rays = wave.queue(QueueId::kShadow).size;
   ForEachBatch(wave, wave.queue(ShadeQueue(kKind)),
-               [&](VI slots, MF valid) HWY_ATTR { shader(slots, valid); });
+               [&](const StoreSlots& slots, MF valid) HWY_ATTR { shader(slots, valid); });
   wave.rays_shadow += wave.queue(QueueId::kShadow).size - shadow_rays;
 }
 

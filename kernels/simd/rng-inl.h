@@ -43,18 +43,23 @@ HWY_INLINE VF ToUnit(VU bits) {
   return hn::Mul(hn::ConvertTo(DF(), top), hn::Set(DF(), 0x1p-24f));
 }
 
+/// Bytes of each word reversed, then the bits of each byte by its halves.
 HWY_INLINE VU ReverseBits32(VU v) {
-  const auto swap = [](VU s, auto shift, uint32_t mask) HWY_ATTR {
-    constexpr int kShift = decltype(shift)::value;
-    const VU m = SplatU(mask);
-    return hn::Or(hn::And(hn::ShiftRight<kShift>(s), m),
-                  hn::ShiftLeft<kShift>(hn::And(s, m)));
+  const DU du;
+  const hn::Repartition<uint8_t, DU> d8;
+  HWY_ALIGN static constexpr uint8_t kBytes[16] = {3,  2,  1, 0, 7,  6,  5,  4,
+                                                   11, 10, 9, 8, 15, 14, 13, 12};
+  HWY_ALIGN static constexpr uint8_t kBits[16] = {0, 8, 4, 12, 2, 10, 6, 14,
+                                                  1, 9, 5, 13, 3, 11, 7, 15};
+  const auto bits = hn::LoadDup128(d8, kBits);
+  const auto reversed = [&](VU halves) HWY_ATTR {
+    return hn::BitCast(du, hn::TableLookupBytes(bits, hn::BitCast(d8, halves)));
   };
-  v = swap(v, std::integral_constant<int, 1>(), 0x55555555u);
-  v = swap(v, std::integral_constant<int, 2>(), 0x33333333u);
-  v = swap(v, std::integral_constant<int, 4>(), 0x0f0f0f0fu);
-  v = swap(v, std::integral_constant<int, 8>(), 0x00ff00ffu);
-  return hn::RotateRight<16>(v);
+  const VU half = SplatU(0x0f0f0f0fu);
+  v = hn::BitCast(du,
+                  hn::TableLookupBytes(hn::BitCast(d8, v), hn::LoadDup128(d8, kBytes)));
+  return hn::Or(hn::ShiftLeft<4>(reversed(hn::And(v, half))),
+                reversed(hn::And(hn::ShiftRight<4>(v), half)));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -14,7 +14,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <bool kNormals, bool kTangents, bool kUv>
-HWY_INLINE void DiskBatch(const Wave& wave, VI slots) {
+HWY_INLINE void DiskBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
   const DI di;
@@ -61,7 +61,7 @@ struct SurfaceDisk {
     const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
     const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
                                          ranges.disks, ranges.planes);
-    ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
+    ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
       DiskBatch<kNormals, kTangents, kUv>(wave, slots);
     });
   }

@@ -14,7 +14,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <bool kNormals, bool kTangents, bool kUv>
-HWY_INLINE void PlaneBatch(const Wave& wave, VI slots) {
+HWY_INLINE void PlaneBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
   const DI di;
@@ -56,7 +56,7 @@ struct SurfacePlane {
     const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
     const Queue& hits =
         FilterPrimitives(wave, wave.queue(QueueId::kSurface), ranges.planes, ranges.end);
-    ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
+    ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
       PlaneBatch<kNormals, kTangents, kUv>(wave, slots);
     });
   }

@@ -28,7 +28,7 @@ HWY_INLINE void Reproject(const SphereHits& s, D3 hit, D3& p, D3& outward) {
 }
 
 template <bool kNormals, bool kTangents, bool kUv>
-HWY_INLINE void SphereBatch(const Wave& wave, VI slots) {
+HWY_INLINE void SphereBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
   const DI di;
@@ -76,7 +76,7 @@ struct SurfaceSphere {
     const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
     const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
                                          ranges.spheres, ranges.disks);
-    ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
+    ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
       SphereBatch<kNormals, kTangents, kUv>(wave, slots);
     });
   }

@@ -26,7 +26,7 @@ struct SurfaceLanes {
 
 /// Point o + t d of a vector of hits.
 template <bool kUpper>
-HWY_INLINE D3 RayPoint(const PathColumns& path, VI slots) {
+HWY_INLINE D3 RayPoint(const PathColumns& path, const Slots& slots) {
   const V3 o = Gather3(path.o_x, path.o_y, path.o_z, slots);
   const V3 d = Gather3(path.d_x, path.d_y, path.d_z, slots);
   return MulAdd(HalfOf<kUpper>(d), HalfOf<kUpper>(Gather(path.t, slots)),
@@ -42,7 +42,8 @@ HWY_INLINE D3 ProjectToPlane(D3 p, V3 point, V3 n) {
 
 /// Writes what every hit has; these shapes have no shading normal of their own.
 template <bool kNormals>
-HWY_INLINE void StoreSurface(const PathColumns& path, VI slots, const SurfaceLanes& s) {
+HWY_INLINE void StoreSurface(const PathColumns& path, const StoreSlots& slots,
+                             const SurfaceLanes& s) {
   Scatter3(s.p, path.p_x, path.p_y, path.p_z, slots);
   Scatter(s.error, path.p_error, slots);
   Scatter3(s.n, path.ng_x, path.ng_y, path.ng_z, slots);

@@ -7,6 +7,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/queue/filter-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "kernels/surface/instance-inl.h"
 #include "kernels/surface/point-inl.h"
 
@@ -17,19 +18,23 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // A vector of hits: vertices in the space of the triangle, barycentric weights.
 struct TriangleLanes {
-  VI prim;
+  VI prim, material;
   V3 v0, v1, v2;
   VF b0, b1, b2;
 };
 
-HWY_INLINE TriangleLanes LoadTriangles(const Wave& wave, VI slots) {
+HWY_INLINE TriangleLanes LoadTriangles(const Wave& wave, const Slots& slots) {
   const PathColumns& path = wave.path;
   const TriangleRecord* records = wave.scene->geometry.triangles.data();
   TriangleLanes tri;
   tri.prim = Gather(path.prim, slots);
-  tri.v0 = GatherRecord3(records, 12, 0, tri.prim);
-  tri.v1 = GatherRecord3(records, 12, 3, tri.prim);
-  tri.v2 = GatherRecord3(records, 12, 6, tri.prim);
+  VF w[12];
+  const Records triangles(records, 12, tri.prim);
+  for (int i = 0; i < 12; i += 4) triangles.Load4(i, w + i);
+  tri.v0 = {w[0], w[1], w[2]};
+  tri.v1 = {w[3], w[4], w[5]};
+  tri.v2 = {w[6], w[7], w[8]};
+  tri.material = hn::BitCast(DI(), w[offsetof(TriangleRecord, material) / 4]);
   tri.b1 = Gather(path.b1, slots);
   tri.b2 = Gather(path.b2, slots);
   tri.b0 = hn::Sub(hn::Sub(Splat(1.0f), tri.b1), tri.b2);
@@ -45,21 +50,31 @@ HWY_INLINE D3 Interpolate(const TriangleLanes& tri) {
   return MulAdd(e1, HalfOf<kUpper>(tri.b1), MulAdd(e2, HalfOf<kUpper>(tri.b2), v0));
 }
 
+// v times a power of two, exactly, with a largest |component| in [1, 2).
+HWY_INLINE V3 ScaleToUnit(V3 v) {
+  const DI di;
+  const VI bits = hn::BitCast(di, MaxComponent(Abs(v)));
+  const VI exponent = hn::And(bits, hn::Set(di, 0x7f800000));
+  return Mul(v, hn::BitCast(DF(), hn::Sub(hn::Set(di, 0x7f000000), exponent)));
+}
+
 // Unit cross(v1 - v0, v2 - v0). Edges are scaled first: the product of tiny ones would
 // underflow.
 HWY_INLINE V3 FaceNormal(V3 e1, V3 e2) {
-  const VF one = Splat(1.0f);
-  return Normalize(Cross(Mul(e1, hn::Div(one, MaxComponent(Abs(e1)))),
-                         Mul(e2, hn::Div(one, MaxComponent(Abs(e2))))));
+  return Normalize(Cross(ScaleToUnit(e1), ScaleToUnit(e2)));
 }
 
 // Interpolated vertex normal, unit, in the space of the triangle; `face` where the
 // normals cancel.
 HWY_INLINE V3 VertexNormal(const Geometry& geometry, const TriangleLanes& tri, V3 face) {
-  const float* normals = geometry.normals.data();
-  const V3 n = MulAdd(GatherRecord3(normals, 9, 0, tri.prim), tri.b0,
-                      MulAdd(GatherRecord3(normals, 9, 3, tri.prim), tri.b1,
-                             Mul(GatherRecord3(normals, 9, 6, tri.prim), tri.b2)));
+  const Records normals(geometry.normals.data(), 9, tri.prim);
+  VF w[12];  // words 0 .. 7 and, not to read beyond the last record, 5 .. 8
+  normals.Load4(0, w);
+  normals.Load4(4, w + 4);
+  normals.Load4(5, w + 8);
+  const V3 n =
+      MulAdd(V3{w[0], w[1], w[2]}, tri.b0,
+             MulAdd(V3{w[3], w[4], w[5]}, tri.b1, Mul(V3{w[6], w[7], w[11]}, tri.b2)));
   return IfThenElse(hn::Gt(Dot(n, n), Splat(0x1p-40f)), n, face);
 }
 
@@ -67,10 +82,11 @@ struct UvLanes {
   VF u[3], v[3];
 };
 HWY_INLINE UvLanes LoadUvs(const Geometry& geometry, VI prim) {
-  const VI at = hn::Mul(prim, hn::Set(DI(), 6));
-  const float* uvs = geometry.uvs.data();
-  return {{Gather(uvs, at), Gather(uvs + 2, at), Gather(uvs + 4, at)},
-          {Gather(uvs + 1, at), Gather(uvs + 3, at), Gather(uvs + 5, at)}};
+  const Records uvs(geometry.uvs.data(), 6, prim);
+  VF first[4], last[4];  // u0 v0 u1 v1, u1 v1 u2 v2
+  uvs.Load4(0, first);
+  uvs.Load4(2, last);
+  return {{first[0], first[2], last[2]}, {first[1], first[3], last[3]}};
 }
 
 // dp/du in the space of the triangle: solves e_i = du_i dp/du + dv_i dp/dv. Where the
@@ -94,7 +110,7 @@ HWY_INLINE VF SizeOf(V3 e1, V3 e2) {
 }
 
 template <bool kNormals, bool kTangents, bool kUv, bool kInstances>
-HWY_INLINE void SurfaceBatch(const Wave& wave, VI slots) {
+HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
   const TriangleLanes tri = LoadTriangles(wave, slots);
@@ -127,9 +143,7 @@ HWY_INLINE void SurfaceBatch(const Wave& wave, VI slots) {
   Scatter3(p, path.p_x, path.p_y, path.p_z, slots);
   Scatter(error, path.p_error, slots);
   Scatter3(ng, path.ng_x, path.ng_y, path.ng_z, slots);
-  const uint32_t* words = &geometry.triangles[0].material;
-  const VI at = hn::Mul(tri.prim, hn::Set(DI(), 12));
-  Scatter(Gather(words, at), path.material, slots);
+  Scatter(tri.material, path.material, slots);
   if constexpr (kUv || kTangents) {
     const UvLanes uv = LoadUvs(geometry, tri.prim);
     if constexpr (kUv) {
@@ -151,7 +165,7 @@ template <bool kNormals, bool kTangents, bool kUv, bool kInstances>
 void SurfaceTriangle(Wave& wave) {
   const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface), 0,
                                        wave.scene->geometry.ranges.spheres);
-  ForEachBatch(wave, hits, [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
     SurfaceBatch<kNormals, kTangents, kUv, kInstances>(wave, slots);
   });
 }

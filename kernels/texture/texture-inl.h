@@ -187,8 +187,11 @@ HWY_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v, V3 con
   while (!hn::AllFalse(di, pending)) {
     const int32_t id = hn::ExtractLane(ids, hn::FindFirstTrue(di, pending));
     const auto same = hn::Eq(ids, hn::Set(di, id));
-    constant =
-        IfThenElse(hn::RebindMask(df, same), EvalTexture(table, id, u, v), constant);
+    const MF mine = hn::RebindMask(df, same);
+    // The other lanes look at one texel: theirs would be fetched for nothing.
+    const V3 value =
+        EvalTexture(table, id, hn::IfThenElseZero(mine, u), hn::IfThenElseZero(mine, v));
+    constant = IfThenElse(mine, value, constant);
     pending = hn::AndNot(same, pending);
   }
   return constant;

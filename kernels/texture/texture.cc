@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 HWY_INLINE VF ColorLimit(const MaterialTable& materials, VI material) {
   const DI di;
   const DF df;
-  const VI kind = Gather(materials.kind.data(), material);
+  const VI kind = Lookup(materials.kind, material);
   const auto is = [&](ShadeKind k) HWY_ATTR {
     return hn::Eq(kind, hn::Set(di, static_cast<int32_t>(k)));
   };
@@ -40,13 +40,13 @@ HWY_INLINE VF Alpha(const CompiledScene& scene, VI material, VF u, VF v,
                     const AlignedVector<float>& constants,
                     const AlignedVector<int32_t>& textures) {
   const DI di;
-  const VI id = Gather(textures.data(), material);
-  const VF constant = Gather(constants.data(), material);
+  const VI id = Lookup(textures, material);
+  const VF constant = Lookup(constants, material);
   const auto textured = hn::Gt(id, hn::Set(di, -1));
   if (hn::AllFalse(di, textured)) return constant;
   const VF roughness =
       hn::Max(EvalAlpha(scene.textures, id, u, v, constant), Splat(0.0f));
-  const VI remap = Gather(scene.materials.alpha_remap.data(), material);
+  const VI remap = Lookup(scene.materials.alpha_remap, material);
   const auto remapped = hn::RebindMask(DF(), hn::Ne(remap, hn::Zero(di)));
   const VF alpha = hn::IfThenElse(remapped, hn::Sqrt(roughness), roughness);
   return hn::IfThenElse(hn::RebindMask(DF(), textured), hn::Max(alpha, Splat(1e-4f)),
@@ -58,29 +58,32 @@ HWY_INLINE void Textures(Wave& wave) {
   const CompiledScene& scene = *wave.scene;
   const MaterialTable& m = scene.materials;
   PathColumns& path = wave.path;
-  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](VI slots, MF) HWY_ATTR {
-    const VI material = Gather(path.material, slots);
-    const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
-    const VF limit = ColorLimit(m, material);
-    const V3 color0 = EvalTextures(
-        scene.textures, Gather(m.color0_texture.data(), material), u, v,
-        Gather3(m.color0_r.data(), m.color0_g.data(), m.color0_b.data(), material));
-    Scatter3(ClampColor(color0, limit), path.color0_r, path.color0_g, path.color0_b,
-             slots);
-    if constexpr (kColor1) {
-      const V3 color1 = EvalTextures(
-          scene.textures, Gather(m.color1_texture.data(), material), u, v,
-          Gather3(m.color1_r.data(), m.color1_g.data(), m.color1_b.data(), material));
-      Scatter3(ClampColor(color1, limit), path.color1_r, path.color1_g, path.color1_b,
-               slots);
-    }
-    if constexpr (kRoughness) {
-      Scatter(Alpha(scene, material, u, v, m.alpha_x, m.alpha_x_texture), path.alpha_x,
-              slots);
-      Scatter(Alpha(scene, material, u, v, m.alpha_y, m.alpha_y_texture), path.alpha_y,
-              slots);
-    }
-  });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const VI material = Gather(path.material, slots);
+        const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
+        const VF limit = ColorLimit(m, material);
+        const V3 color0 =
+            EvalTextures(scene.textures, Lookup(m.color0_texture, material), u, v,
+                         V3{Lookup(m.color0_r, material), Lookup(m.color0_g, material),
+                            Lookup(m.color0_b, material)});
+        Scatter3(ClampColor(color0, limit), path.color0_r, path.color0_g, path.color0_b,
+                 slots);
+        if constexpr (kColor1) {
+          const V3 color1 =
+              EvalTextures(scene.textures, Lookup(m.color1_texture, material), u, v,
+                           V3{Lookup(m.color1_r, material), Lookup(m.color1_g, material),
+                              Lookup(m.color1_b, material)});
+          Scatter3(ClampColor(color1, limit), path.color1_r, path.color1_g, path.color1_b,
+                   slots);
+        }
+        if constexpr (kRoughness) {
+          Scatter(Alpha(scene, material, u, v, m.alpha_x, m.alpha_x_texture),
+                  path.alpha_x, slots);
+          Scatter(Alpha(scene, material, u, v, m.alpha_y, m.alpha_y_texture),
+                  path.alpha_y, slots);
+        }
+      });
 }
 
 void TexturesColor(Wave& wave) { Textures<false, false>(wave); }

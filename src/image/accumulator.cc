@@ -61,7 +61,12 @@ void FilmAccumulator::AddColors(std::size_t index, const float* const* planes,
                                 std::uint32_t count) {
   [[maybe_unused]] const int first_difference =
       kColorPlanes + (aov_.empty() ? 0 : kAovPlanes);
-  Pixel& p = pixels_[index];
+  Pixel p = pixels_[index];
+  if (!kControl && group_size_ == 1) {
+    AddGroupsOfOne(planes, count, p);
+    pixels_[index] = p;
+    return;
+  }
   std::uint32_t in_group = static_cast<std::uint32_t>(p.samples % group_size_);
   for (std::uint32_t i = 0; i < count; ++i) {
     const bool closes_group = ++in_group == group_size_;
@@ -86,6 +91,22 @@ void FilmAccumulator::AddColors(std::size_t index, const float* const* planes,
     if constexpr (kControl) control_->CloseGroup(index, means, group_size_);
   }
   p.samples += count;
+  pixels_[index] = p;
+}
+
+// The same sums where every sample is its own mean.
+void FilmAccumulator::AddGroupsOfOne(const float* const* planes, std::uint32_t count,
+                                     Pixel& p) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (int c = 0; c < kColorPlanes; ++c) {
+      const double value = planes[c][i];
+      p.sum[c] += value;
+      p.squares[c] += value * value;
+      p.group_total[c] += value;
+    }
+  }
+  p.samples += count;
+  p.groups += count;
 }
 
 Rgb FilmAccumulator::Mean(int x, int y) const {

@@ -66,13 +66,14 @@ class FilmAccumulator {
   double Aov(int x, int y, int plane) const;
 
  private:
-  template <bool kControl>
-  void AddColors(std::size_t index, const float* const* planes, std::uint32_t count);
-
   struct Pixel {
     double sum[3] = {}, group[3] = {}, squares[3] = {}, group_total[3] = {};
     std::uint64_t samples = 0, groups = 0;
   };
+  static void AddGroupsOfOne(const float* const* planes, std::uint32_t count, Pixel& p);
+  template <bool kControl>
+  void AddColors(std::size_t index, const float* const* planes, std::uint32_t count);
+
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y - y0_) * width_ + (x - x0_);
   }

@@ -105,6 +105,24 @@ void StoreCdf(const double* weights, std::size_t size, float* cdf) {
   cdf[size] = 1;
 }
 
+// Bits of a guide: about four steps of the distribution for each of its parts.
+int GuideBits(std::size_t size) {
+  int bits = 0;
+  while ((std::size_t{4} << bits) < size) ++bits;
+  return bits;
+}
+
+// See Environment::guide_bits. Parts are powers of two, so that u finds its part exactly.
+void StoreGuide(const float* cdf, std::size_t size, int bits, std::int32_t* guide) {
+  const std::size_t parts = std::size_t{1} << bits;
+  std::size_t step = 0;
+  for (std::size_t k = 0; k <= parts; ++k) {
+    const double u = double(k) / double(parts);
+    while (step + 1 < size && cdf[step + 1] <= u) ++step;
+    guide[k] = static_cast<std::int32_t>(step);
+  }
+}
+
 // The probabilities are those of the rounded sums, which is what the kernel samples.
 void StoreDistribution(Environment& environment) {
   const auto size = static_cast<std::size_t>(environment.size);
@@ -118,9 +136,16 @@ void StoreDistribution(Environment& environment) {
   environment.column_cdf.resize((size + 1) * size);
   environment.probability.resize(size * size);
   StoreCdf(rows.data(), size, environment.row_cdf.data());
+  const int bits = GuideBits(size);
+  const std::size_t guide = (std::size_t{1} << bits) + 1;
+  environment.guide_bits = bits;
+  environment.row_guide.resize(guide);
+  environment.column_guide.resize(guide * size);
+  StoreGuide(environment.row_cdf.data(), size, bits, environment.row_guide.data());
   for (std::size_t y = 0; y < size; ++y) {
     float* columns = environment.column_cdf.data() + y * (size + 1);
     StoreCdf(luminance.data() + y * size, size, columns);
+    StoreGuide(columns, size, bits, environment.column_guide.data() + y * guide);
     const double row =
         double(environment.row_cdf[y + 1]) - double(environment.row_cdf[y]);
     for (std::size_t x = 0; x < size; ++x) {

@@ -114,9 +114,10 @@ struct Geometry {
 #define LANELIGHT_SHADE_KINDS(X)                                                  \
   X(kDiffuse)                                                                     \
   X(kDiffuseUniform)                                                              \
-  X(kDiffuseInSphere) X(kConductorSmooth) X(kConductorRough) X(kDielectricSmooth) \
-      X(kDielectricRough) X(kThinDielectric) X(kCoatedDiffuseSmooth)              \
-          X(kCoatedDiffuseRough) X(kCoatedConductor) X(kDiffuseTransmission)
+  X(kDiffuseInSphere)                                                             \
+  X(kConductorSmooth) X(kConductorRough) X(kDielectricSmooth) X(kDielectricRough) \
+      X(kThinDielectric) X(kCoatedDiffuseSmooth) X(kCoatedDiffuseRough)           \
+          X(kCoatedConductor) X(kDiffuseTransmission)
 
 enum class ShadeKind : std::uint32_t {
 #define X(name) name,
@@ -210,7 +211,12 @@ struct Environment {
   AlignedVector<float> row_cdf;      // size + 1
   AlignedVector<float> column_cdf;   // size + 1 per row
   AlignedVector<float> probability;  // per texel, sums to 1
-  float light_from_scene[9];         // rotation, row-major
+  // Where to look in a distribution for u in [k, k + 1) / 2^guide_bits: from entry k of
+  // its guide, the largest step with a value of at most k / 2^guide_bits, to entry k + 1.
+  std::int32_t guide_bits = 0;
+  AlignedVector<std::int32_t> row_guide;     // 2^guide_bits + 1
+  AlignedVector<std::int32_t> column_guide;  // 2^guide_bits + 1 per row
+  float light_from_scene[9];                 // rotation, row-major
 };
 
 /// Node of a tree of lights, 16 words. The two children of an inner node are neighbours.

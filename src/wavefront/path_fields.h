@@ -54,7 +54,7 @@ namespace lanelight {
   X(f32, color1_r, ({Feature::kTexturedColor1}), "second colour parameter") X(f32, color1_g, ({Feature::kTexturedColor1}), "second colour parameter") X(f32, color1_b, ({Feature::kTexturedColor1}), "second colour parameter") \
   X(f32, alpha_x, ({Feature::kTexturedRoughness}), "GGX alpha along the tangent") X(f32, alpha_y, ({Feature::kTexturedRoughness}), "GGX alpha across it") \
   /* sample points of the bounce */                                                       \
-  X(f32, u_lobe,   ({Feature::kScatters}), "choice of lobe")                              \
+  X(f32, u_lobe,   ({Feature::kDielectricSmooth, Feature::kDielectricRough, Feature::kThinDielectric, Feature::kCoatedDiffuseSmooth, Feature::kCoatedDiffuseRough, Feature::kCoatedConductor, Feature::kDiffuseTransmission}), "choice of lobe") \
   X(f32, u_bsdf_0, ({Feature::kScatters}), "direction") X(f32, u_bsdf_1, ({Feature::kScatters}), "direction") \
   X(f32, u_select, ({Feature::kManyLights}), "choice of light")                           \
   X(f32, u_light_0, ({Feature::kLights}), "point on the light") X(f32, u_light_1, ({Feature::kLights}), "point on the light") \

@@ -50,6 +50,32 @@ TEST_CASE("compile: environment probabilities follow luminance", "[scene][compil
   CHECK(MeanRadiance(e).x == Approx(2 * (16 + 4) / 16.0));
 }
 
+TEST_CASE("compile: guides enclose every step of a distribution", "[scene][compile]") {
+  // One bright texel, black rows and columns, sizes around the powers of two.
+  for (int size : {1, 3, 4, 5, 17, 64}) {
+    Image image = Grey(size, 0);
+    for (int i = 0; i < size; i += 3) image.At(i, size / 2, 0) = float(1 + i % 7);
+    image.At(size - 1, size - 1, 1) = 1e6f;
+    const Environment e = CompileEnvironment(Infinite(), image);
+    const int parts = 1 << e.guide_bits;
+    REQUIRE(e.row_guide.size() == std::size_t(parts) + 1);
+    REQUIRE(e.column_guide.size() == (std::size_t(parts) + 1) * size);
+    for (int row = -1; row < size; ++row) {
+      const float* cdf = row < 0 ? e.row_cdf.data() : &e.column_cdf[row * (size + 1)];
+      const std::int32_t* guide =
+          row < 0 ? e.row_guide.data() : &e.column_guide[row * (parts + 1)];
+      for (int i = 0; i < 4096; ++i) {
+        const float u = float(i) / 4096;
+        int step = 0;
+        while (step + 1 < size && cdf[step + 1] <= u) ++step;
+        const int part = static_cast<int>(u * float(parts));
+        REQUIRE(guide[part] <= step);
+        REQUIRE(step <= guide[part + 1]);
+      }
+    }
+  }
+}
+
 TEST_CASE("compile: grey and black environments", "[scene][compile]") {
   Image grey = MakeImage(2, 2, {"Y"});
   grey.At(1, 0, 0) = 3;

@@ -57,13 +57,13 @@ TEST_CASE("plan: a triangle under a point light gets the minimum", "[plan]") {
                               "intersect_triangles", "split", "limit", "surface_triangle",
                               "points_bounce_independent", "route", "light_point",
                               "shade_diffuse", "shadow_triangles", "connect",
-                              "roulette_throughput", "accumulate"});
+                              "roulette_throughput", "accumulate", "pack"});
   CHECK(Reason(plan, "intersect_spheres") == "no spheres");
   CHECK(Reason(plan, "light_select_table") == "no more than one light");
   for (Field absent :
        {Field::inst, Field::uv_u, Field::ns_x, Field::tg_x, Field::bsdf_pdf,
-        Field::u_select, Field::ls_light, Field::eta_scale, Field::color0_r,
-        Field::u_lens_0, Field::weight, Field::aov_depth}) {
+        Field::u_select, Field::u_lobe, Field::ls_light, Field::eta_scale,
+        Field::color0_r, Field::u_lens_0, Field::weight, Field::aov_depth}) {
     INFO(FieldName(absent));
     CHECK_FALSE(IsLive(plan, absent));
   }

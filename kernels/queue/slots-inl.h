@@ -1,0 +1,191 @@
+// The lane types of all kernels, and how the columns of a batch of paths are reached.
+//
+// Slots of a batch are often neighbours: the pack stage (kernels/queue/pack.cc) starts
+// every wave without gaps, and queues keep their order. Gathers and scatters cost about a
+// cycle per lane wherever the lanes are, so neighbours are reached by whole vectors:
+//   run      slots first, first + 1, ...: one load or store
+//   window   all slots in two adjacent aligned blocks: two loads and permutations
+//   anywhere gather and scatter
+#if defined(LANELIGHT_QUEUE_SLOTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_QUEUE_SLOTS_INL_H_
+#undef LANELIGHT_QUEUE_SLOTS_INL_H_
+#else
+#define LANELIGHT_QUEUE_SLOTS_INL_H_
+#endif
+
+#include <cstddef>
+#include <type_traits>
+
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// The lane types of all kernels: full vectors of 4-byte lanes.
+using DF = hn::ScalableTag<float>;
+using DU = hn::RebindToUnsigned<DF>;
+using DI = hn::RebindToSigned<DF>;
+using VF = hn::Vec<DF>;
+using VU = hn::Vec<DU>;
+using VI = hn::Vec<DI>;
+using MF = hn::Mask<DF>;
+
+// Tables, by lane index.
+HWY_INLINE VF Gather(const float* base, VI index) {
+  return hn::GatherIndex(DF(), base, index);
+}
+HWY_INLINE VI Gather(const int32_t* base, VI index) {
+  return hn::GatherIndex(DI(), base, index);
+}
+HWY_INLINE VI Gather(const uint32_t* base, VI index) {
+  return hn::GatherIndex(DI(), reinterpret_cast<const int32_t*>(base), index);
+}
+HWY_INLINE void Scatter(VF v, float* base, VI index) {
+  hn::ScatterIndex(v, DF(), base, index);
+}
+HWY_INLINE void Scatter(VI v, int32_t* base, VI index) {
+  hn::ScatterIndex(v, DI(), base, index);
+}
+HWY_INLINE void Scatter(VI v, uint32_t* base, VI index) {
+  hn::ScatterIndex(v, DI(), reinterpret_cast<int32_t*>(base), index);
+}
+
+/// Permutations pay where a gather has many lanes.
+inline constexpr bool kWindows = hn::MaxLanes(DF()) >= 8;
+
+/// Entries of a table of `count`, index < count: a small one fits into a register.
+HWY_INLINE VF Lookup(const float* table, std::size_t count, VI index) {
+  const DF df;
+  if (kWindows && count <= hn::Lanes(df)) {
+    const VF all = hn::MaskedLoad(hn::FirstN(df, count), df, table);
+    return hn::TableLookupLanes(all, hn::IndicesFromVec(df, index));
+  }
+  return hn::GatherIndex(df, table, index);
+}
+template <class Column>
+HWY_INLINE auto Lookup(const Column& table, VI index) {
+  const auto* entries = table.data();
+  const VF found = Lookup(reinterpret_cast<const float*>(entries), table.size(), index);
+  if constexpr (std::is_same_v<decltype(entries), const float*>) {
+    return found;
+  } else {
+    return hn::BitCast(DI(), found);
+  }
+}
+
+/// The slots of one batch. Converts to their vector.
+struct Slots {
+  enum class Layout : uint32_t { kRun, kWindow, kAnywhere };
+
+  VI index;
+  Layout layout = Layout::kAnywhere;
+  uint32_t first;  // run: the first slot; window: where its blocks begin
+  VI lane;         // window: of each slot, within its block
+  MF upper;        // window: the slot is in the second block
+
+  HWY_INLINE explicit Slots(VI slots)
+      : index(slots), first(static_cast<uint32_t>(hn::GetLane(slots))) {
+    const DI di;
+    const int32_t lanes = static_cast<int32_t>(hn::Lanes(di));
+    if (hn::AllTrue(di, hn::Eq(index, hn::Iota(di, static_cast<int32_t>(first))))) {
+      layout = Layout::kRun;
+    } else if (kWindows) {
+      const uint32_t begin = first & ~(static_cast<uint32_t>(lanes) - 1);
+      const VI at = hn::Sub(index, hn::Set(di, static_cast<int32_t>(begin)));
+      const VI low = hn::And(at, hn::Set(di, lanes - 1));
+      const VI block = hn::Sub(at, low);
+      const VI second = hn::Set(di, lanes);
+      const auto is_second = hn::Eq(block, second);
+      lane = low;
+      upper = hn::RebindMask(DF(), is_second);
+      if (hn::AllTrue(di, hn::Or(is_second, hn::Eq(block, hn::Zero(di))))) {
+        layout = Layout::kWindow;
+        first = begin;
+      }
+    }
+  }
+  HWY_INLINE operator VI() const { return index; }  // NOLINT: used like one
+};
+
+HWY_INLINE VF Gather(const float* column, const Slots& slots) {
+  const DF df;
+  if (HWY_LIKELY(slots.layout == Slots::Layout::kRun)) {
+    return hn::LoadU(df, column + slots.first);
+  }
+  if (kWindows && slots.layout == Slots::Layout::kWindow) {
+    const float* low = column + slots.first;
+    const auto lane = hn::IndicesFromVec(df, slots.lane);
+    return hn::IfThenElse(slots.upper,
+                          hn::TableLookupLanes(hn::LoadU(df, low + hn::Lanes(df)), lane),
+                          hn::TableLookupLanes(hn::LoadU(df, low), lane));
+  }
+  return hn::GatherIndex(df, column, slots.index);
+}
+HWY_INLINE VI Gather(const int32_t* column, const Slots& slots) {
+  return hn::BitCast(DI(), Gather(reinterpret_cast<const float*>(column), slots));
+}
+HWY_INLINE VI Gather(const uint32_t* column, const Slots& slots) {
+  return hn::BitCast(DI(), Gather(reinterpret_cast<const float*>(column), slots));
+}
+
+/// For stages that write several columns: has the inverse of the permutation.
+struct StoreSlots : Slots {
+  VI from[2];  // window: lane that goes to each place of the two blocks
+  MF has[2];   // and whether there is one
+
+  HWY_INLINE StoreSlots(const Slots& slots)  // NOLINT: a lambda may ask for either
+      : Slots(slots) {
+    if (!kWindows || layout != Layout::kWindow) return;
+    const DI di;
+    const int32_t lanes = static_cast<int32_t>(hn::Lanes(di));
+    HWY_ALIGN int32_t inverse[2 * hn::MaxLanes(DI())];
+    const VI none = hn::Set(di, -1);
+    hn::Store(none, di, inverse);
+    hn::Store(none, di, inverse + lanes);
+    const VI begin = hn::Set(di, static_cast<int32_t>(first));
+    hn::ScatterIndex(hn::Iota(di, 0), di, inverse, hn::Sub(index, begin));
+    for (int block = 0; block < 2; ++block) {
+      const VI source = hn::Load(di, inverse + block * lanes);
+      has[block] = hn::RebindMask(DF(), hn::Gt(source, none));
+      from[block] = hn::Max(source, hn::Zero(di));
+    }
+  }
+};
+
+HWY_INLINE void Scatter(VF v, float* column, const Slots& slots) {
+  if (HWY_LIKELY(slots.layout == Slots::Layout::kRun)) {
+    hn::StoreU(v, DF(), column + slots.first);
+  } else {
+    hn::ScatterIndex(v, DF(), column, slots.index);
+  }
+}
+HWY_INLINE void Scatter(VF v, float* column, const StoreSlots& slots) {
+  const DF df;
+  if (HWY_LIKELY(slots.layout == Slots::Layout::kRun)) {
+    hn::StoreU(v, df, column + slots.first);
+  } else if (kWindows && slots.layout == Slots::Layout::kWindow) {
+    for (int block = 0; block < 2; ++block) {
+      const auto from = hn::IndicesFromVec(df, slots.from[block]);
+      hn::BlendedStore(hn::TableLookupLanes(v, from), slots.has[block], df,
+                       column + slots.first + block * hn::Lanes(df));
+    }
+  } else {
+    hn::ScatterIndex(v, df, column, slots.index);
+  }
+}
+template <class S>
+HWY_INLINE void Scatter(VI v, int32_t* column, const S& slots) {
+  Scatter(hn::BitCast(DF(), v), reinterpret_cast<float*>(column), slots);
+}
+template <class S>
+HWY_INLINE void Scatter(VI v, uint32_t* column, const S& slots) {
+  Scatter(hn::BitCast(DF(), v), reinterpret_cast<float*>(column), slots);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,83 @@
+// Packing: the paths that go on keep what they carry, in the order of their slots.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <numeric>
+#include <random>
+
+#include "kernels/queue/carried.h"
+#include "kernels/simd/target.h"
+#include "kernels/stages.h"
+#include "tests/wavefront/wave_fixture.h"
+
+namespace lanelight {
+namespace {
+
+std::vector<std::uint32_t> SomeSlots(std::uint32_t capacity, std::uint32_t count,
+                                     std::mt19937& engine) {
+  std::vector<std::uint32_t> slots(capacity);
+  std::iota(slots.begin(), slots.end(), 0u);
+  std::shuffle(slots.begin(), slots.end(), engine);
+  slots.resize(count);
+  return slots;
+}
+
+void CheckPacks(std::uint32_t capacity, std::uint32_t count, std::mt19937& engine) {
+  const CompiledScene scene;
+  WaveFixture fixture(scene, capacity);
+  Wave& wave = fixture.wave;
+  const CarriedColumns carried(wave.path);
+  for (std::uint32_t c = 0; c < carried.count; ++c) {
+    for (std::uint32_t i = 0; i < capacity; ++i) carried.columns[c][i] = 1000 * c + i;
+  }
+  std::vector<std::uint32_t> slots = SomeSlots(capacity, count, engine);
+  Queue& live = wave.queue(QueueId::kScattered);
+  live.size = count;
+  std::copy(slots.begin(), slots.end(), live.items);
+  fixture.Run(PackStage(), {});
+  std::sort(slots.begin(), slots.end());
+  REQUIRE(live.size == count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    REQUIRE(live.items[i] == i);
+    for (std::uint32_t c = 0; c < carried.count; ++c) {
+      REQUIRE(carried.columns[c][i] == 1000 * c + slots[i]);
+    }
+  }
+  const Queue& free = wave.queue(QueueId::kFree);
+  REQUIRE(free.size == capacity - count);
+  for (std::uint32_t i = 0; i < free.size; ++i)
+    REQUIRE(free.items[i] == capacity - 1 - i);
+}
+
+}  // namespace
+
+TEST_CASE("pack: paths keep what they carry", "[queue]") {
+  std::mt19937 engine(11);
+  for (const std::string& name : AvailableTargets()) {
+    ForceTarget(name);
+    INFO(name);
+    for (std::uint32_t capacity : {1u, 2u, 16u, 33u, 200u}) {
+      for (int share = 0; share <= 4; ++share) {
+        CheckPacks(capacity, capacity * share / 4, engine);
+      }
+    }
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("pack: what is not carried is written anew in every wave", "[queue]") {
+  FieldSet written = CarriedFields();
+  const auto visit = [&](const Stage& stage) {
+    if (stage.input == QueueId::kFree || stage.input == QueueId::kCamera) return;
+    for (std::size_t i = 0; i < kNumFields; ++i) {
+      const Field f = static_cast<Field>(i);
+      INFO(stage.name << " reads " << FieldName(f));
+      if (stage.reads.Has(f)) CHECK(written.Has(f));
+    }
+    written = written | stage.writes;
+  };
+#define X(name) visit(name##Stage());
+  LANELIGHT_STAGES(X)
+#undef X
+}
+
+}  // namespace lanelight

@@ -1,0 +1,140 @@
+// Records, bit reversal and renormalisation against plain loops.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/simd/vectors_test.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/simd/records-inl.h"
+#include "kernels/simd/rng-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+std::size_t VectorLanes() { return hn::Lanes(DF()); }
+
+// out[4 k + w] = word first + w of record index[k].
+void LoadWords(const float* records, int stride, const int* index, int first,
+               float* out) {
+  const DF df;
+  VF words[4];
+  Records(records, stride, hn::LoadU(DI(), index)).Load4(first, words);
+  const VI at = hn::ShiftLeft<2>(hn::Iota(DI(), 0));
+  for (int w = 0; w < 4; ++w) hn::ScatterIndex(words[w], df, out + w, at);
+}
+
+void Reverse(std::uint32_t* words, std::size_t count) {
+  const DU du;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(du)) {
+    hn::StoreU(ReverseBits32(hn::LoadU(du, words + i)), du, words + i);
+  }
+}
+
+void RenormalizeAll(float* x, float* y, float* z, std::size_t count) {
+  const DF df;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(df)) {
+    const V3 v =
+        Renormalize({hn::LoadU(df, x + i), hn::LoadU(df, y + i), hn::LoadU(df, z + i)});
+    hn::StoreU(v.x, df, x + i);
+    hn::StoreU(v.y, df, y + i);
+    hn::StoreU(v.z, df, z + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "kernels/simd/target.h"
+
+namespace lanelight {
+
+HWY_EXPORT(VectorLanes);
+HWY_EXPORT(LoadWords);
+HWY_EXPORT(Reverse);
+HWY_EXPORT(RenormalizeAll);
+
+namespace {
+
+template <class Body>
+void ForTargets(Body body) {
+  for (const std::string& name : AvailableTargets()) {
+    ForceTarget(name);
+    INFO(name);
+    body();
+  }
+  ForceTarget("");
+}
+
+}  // namespace
+
+TEST_CASE("records: four words of each lane's record", "[simd]") {
+  ForTargets([] {
+    std::mt19937 engine(5);
+    for (int stride : {4, 6, 9, 12, 20}) {
+      std::vector<float> records(50 * std::size_t(stride));
+      for (std::size_t i = 0; i < records.size(); ++i) records[i] = float(i);
+      const std::size_t lanes = HWY_DYNAMIC_DISPATCH(VectorLanes)();
+      std::vector<int> index(lanes);
+      for (int& i : index) i = static_cast<int>(engine() % 50);
+      std::vector<float> out(4 * lanes);
+      for (int first = 0; first + 4 <= stride; ++first) {
+        HWY_DYNAMIC_DISPATCH(LoadWords)
+        (records.data(), stride, index.data(), first, out.data());
+        for (std::size_t k = 0; k < out.size(); ++k) {
+          const int word = index[k / 4] * stride + first + static_cast<int>(k % 4);
+          REQUIRE(out[k] == float(word));
+        }
+      }
+    }
+  });
+}
+
+TEST_CASE("ReverseBits32 moves bit i to bit 31 - i", "[simd]") {
+  ForTargets([] {
+    std::mt19937 engine(6);
+    std::vector<std::uint32_t> words(4096);
+    for (std::uint32_t& w : words) w = static_cast<std::uint32_t>(engine());
+    for (std::uint32_t i = 0; i < 32; ++i) words[i] = 1u << i;
+    std::vector<std::uint32_t> reversed = words;
+    HWY_DYNAMIC_DISPATCH(Reverse)(reversed.data(), reversed.size());
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      std::uint32_t expected = 0;
+      for (int b = 0; b < 32; ++b) expected |= (words[i] >> b & 1u) << (31 - b);
+      REQUIRE(reversed[i] == expected);
+    }
+  });
+}
+
+TEST_CASE("Renormalize: 3/8 e^2 and rounding", "[simd]") {
+  ForTargets([] {
+    constexpr std::size_t kCount = 1 << 14;
+    std::mt19937 engine(8);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> excess(-1e-3, 1e-3);
+    std::vector<float> x(kCount), y(kCount), z(kCount);
+    std::vector<double> e(kCount);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const double a = normal(engine), b = normal(engine), c = normal(engine);
+      const double scale = std::sqrt((1 + excess(engine)) / (a * a + b * b + c * c));
+      x[i] = float(a * scale), y[i] = float(b * scale), z[i] = float(c * scale);
+      e[i] = double(x[i]) * x[i] + double(y[i]) * y[i] + double(z[i]) * z[i] - 1;
+    }
+    HWY_DYNAMIC_DISPATCH(RenormalizeAll)(x.data(), y.data(), z.data(), kCount);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const double length = std::hypot(double(x[i]), double(y[i]), double(z[i]));
+      REQUIRE(std::abs(length - 1) < 0.375 * e[i] * e[i] * 1.01 + 2.5e-7);
+    }
+  });
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE
