@@ -22,7 +22,7 @@ Json CountersJson(const ProfileRow& row) {
           {"llc_misses_per_item", row.PerItem(Counter::kLlcMisses)}};
 }
 
-Json RowJson(const ProfileRow& row) {
+Json RowJson(const ProfileRow& row, double flops) {
   const StageProfile& c = row.counts;
   Json out = {{"name", c.name},     {"kind", Name(row.kind)}, {"seconds", c.seconds},
               {"share", row.share}, {"calls", c.calls},       {"items", c.items}};
@@ -35,6 +35,7 @@ Json RowJson(const ProfileRow& row) {
   out["bytes_written_per_item"] = of_stage(c.bytes_written);
   out["bytes_per_second"] = of_stage(row.bandwidth);
   out["of_peak_bandwidth"] = of_stage(row.of_peak);
+  out["peak_flops_per_item"] = of_stage(1e-9 * row.NsPerItem() * flops);
   out["bound"] = row.bound == Bound::kUnknown ? Json() : Json(Name(row.bound));
   out["counters"] = CountersJson(row);
   return out;
@@ -65,7 +66,8 @@ std::uint64_t TraceEvents(const RunTrace& trace) {
 
 Json ToJson(const ProfileReport& report, const Job& job, const RunResult& result) {
   Json rows = Json::array();
-  for (const ProfileRow& row : report.rows) rows.push_back(RowJson(row));
+  for (const ProfileRow& row : report.rows)
+    rows.push_back(RowJson(row, report.peaks.flops));
   const bool intersects = report.intersect_seconds > 0;
   return {
       {"schema", kProfileSchema},
