@@ -31,7 +31,7 @@ double CpuSeconds(const Job& job, Mode mode) {
   options.seed = job.seed;
   options.profile = mode != kOff;
   options.profiling.counters = mode != kOff;
-  if (mode == kTrace) options.profiling.trace_events = 1 << 18;
+  if (mode == kTrace) options.profiling.trace_events = 1 << 17;
   const double start = ProcessCpuSeconds();
   Run(job.scene, job.plan, options, film);
   return ProcessCpuSeconds() - start;

@@ -20,7 +20,7 @@ namespace {
 struct ProfileCommandOptions {
   SceneOptions scene;
   std::string json, trace;
-  std::size_t trace_events = std::size_t{1} << 18;
+  std::size_t trace_events = std::size_t{1} << 17;
   bool quiet = false;
 };
 

@@ -5,14 +5,14 @@
 namespace lanelight {
 namespace {
 
-void Add(const StageCounters& counters, StageProfile& row) {
+void Add(const StageCounters& counters, const StageTotals& totals, StageProfile& row) {
   row.calls += counters.calls;
   row.items += counters.items;
   row.lane_slots += counters.lane_slots * static_cast<std::uint64_t>(CurrentLanes());
-  row.seconds += counters.seconds;
-  row.counted_items += counters.counted_items;
+  row.seconds += totals.seconds;
+  row.counted_items += totals.counted_items;
   for (std::size_t i = 0; i < row.counted.size(); ++i) {
-    row.counted[i] += counters.counted[i];
+    row.counted[i] += totals.counted[i];
   }
 }
 
@@ -55,7 +55,8 @@ void AddCounts(Wavefront& wavefront, StageClock* clock, RunResult& result) {
   if (clock == nullptr) return;
   const std::size_t stages = result.stages.size();
   for (std::size_t i = 0; i < clock->rows().size(); ++i) {
-    Add(clock->rows()[i], i < stages ? result.stages[i] : result.parts[i - stages]);
+    Add(clock->rows()[i], clock->totals()[i],
+        i < stages ? result.stages[i] : result.parts[i - stages]);
   }
   result.waiting_seconds +=
       double(clock->ticks()) * result.trace.seconds_per_tick - clock->cpu_seconds();

@@ -6,13 +6,21 @@
 namespace lanelight {
 
 StageClock::StageClock(std::size_t stages, const ProfileOptions& options)
-    : stages_(stages),
-      rows_(stages + kNumTaskParts),
-      capacity_(options.trace_events),
+    : rows_(stages + kNumTaskParts),
+      stages_(stages),
+      totals_(stages + kNumTaskParts),
+      events_(options.trace_events),  // touched now: no page fault falls into a stage
       want_counters_(options.counters) {
-  // Touched now, so that no page fault falls into a stage.
-  events_.resize(capacity_);
-  events_.clear();
+  next_event_ = events_.data();
+  end_event_ = next_event_ + events_.size();
+}
+
+std::vector<TraceEvent> StageClock::TakeEvents() {
+  if (!events_.empty()) {
+    events_.resize(static_cast<std::size_t>(next_event_ - events_.data()));
+  }
+  next_event_ = end_event_ = nullptr;
+  return std::move(events_);
 }
 
 void StageClock::StartTask() {
@@ -30,9 +38,10 @@ void StageClock::StartTask() {
 void StageClock::EndTask() {
   const std::uint64_t ticks = std::max<std::uint64_t>(Ticks() - task_start_, 1);
   const double cpu = ThreadCpuSeconds() - task_cpu_;
-  for (StageCounters& row : rows_) {
-    row.seconds += cpu * static_cast<double>(row.ticks) / static_cast<double>(ticks);
-    row.ticks = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    totals_[i].seconds +=
+        cpu * static_cast<double>(rows_[i].ticks) / static_cast<double>(ticks);
+    rows_[i].ticks = 0;
   }
   ticks_ += ticks;
   cpu_seconds_ += cpu;
@@ -48,7 +57,8 @@ void StageClock::StartWave() {
   last_ = Ticks();
 }
 
-void StageClock::Count(StageCounters& c, std::uint64_t items) {
+void StageClock::Count(std::size_t row, std::uint64_t items) {
+  StageTotals& c = totals_[row];
   CounterValues now;
   counting_ = ReadCounters(&now);
   if (!counting_) return;

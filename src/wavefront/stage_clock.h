@@ -14,12 +14,18 @@
 
 namespace lanelight {
 
-/// Per-stage counters of one thread, in the order of Plan::stages; behind them the parts
-/// of a task that are no stages (TaskPart).
+/// Counts of one stage or part of a task on one thread. Small: every stage call touches
+/// them after the stage has pushed them out of the first cache.
 struct StageCounters {
-  std::uint64_t calls = 0, items = 0, lane_slots = 0;  // lane_slots: vectors
-  std::uint64_t ticks = 0;                             // of the current task
-  double seconds = 0;  // processor time, of the tasks before
+  std::uint64_t items = 0, lane_slots = 0;  // lane_slots: vectors
+  std::uint64_t ticks = 0;                  // of the current task
+  std::uint64_t calls = 0;
+};
+static_assert(sizeof(StageCounters) == 32);
+
+/// The same, seldom touched.
+struct StageTotals {
+  double seconds = 0;  // processor time, of the tasks that have ended
   // Of the waves in which the processor's counters are read.
   std::uint64_t counted_items = 0;
   CounterValues counted{};
@@ -46,47 +52,53 @@ class StageClock {
     ++c.calls;
     c.items += items;
     c.lane_slots += vectors;
-    if (events_.size() < capacity_) {
-      events_.push_back({last_, now, static_cast<std::uint32_t>(row),
-                         static_cast<std::uint32_t>(items)});
+    if (next_event_ != end_event_) {
+      *next_event_++ = {last_, now, static_cast<std::uint32_t>(row),
+                        static_cast<std::uint32_t>(items)};
     } else {
-      dropped_ += capacity_ > 0;
+      ++without_event_;
     }
     last_ = now;
-    if (counting_) Count(c, items);
+    if (counting_) Count(row, items);
   }
   void FinishPart(TaskPart part, std::uint64_t items) {
     Finish(stages_ + static_cast<std::size_t>(part), items, 0);
   }
 
+  /// By stage, then by TaskPart; both of the same size.
   const std::vector<StageCounters>& rows() const { return rows_; }
+  const std::vector<StageTotals>& totals() const { return totals_; }
   /// Processor time of the tasks, and their ticks.
   double cpu_seconds() const { return cpu_seconds_; }
   std::uint64_t ticks() const { return ticks_; }
-  /// Hands out the trace, once.
-  std::vector<TraceEvent> TakeEvents() { return std::move(events_); }
-  std::uint64_t dropped() const { return dropped_; }
+  /// Hands out the trace, once, after the last task.
+  std::vector<TraceEvent> TakeEvents();
+  /// Events for which there was no room; 0 without a trace.
+  std::uint64_t dropped() const { return events_.empty() ? 0 : without_event_; }
   /// errno if the processor's counters are missing; 0 if they are there or not wanted.
   int counter_error() const { return counter_error_; }
 
  private:
-  void Count(StageCounters& c, std::uint64_t items);
+  void Count(std::size_t row, std::uint64_t items);
   bool ReadCounters(CounterValues* values);
 
-  std::size_t stages_;
+  std::uint64_t last_ = 0;
   std::vector<StageCounters> rows_;
-  std::uint64_t last_ = 0, task_start_ = 0, ticks_ = 0;
-  double task_cpu_ = 0, cpu_seconds_ = 0;
-  std::size_t capacity_;
+  TraceEvent *next_event_ = nullptr, *end_event_ = nullptr;  // of events_
+  std::uint64_t without_event_ = 0;
+  bool counting_ = false;
+
+  std::size_t stages_;
+  std::vector<StageTotals> totals_;
   std::vector<TraceEvent> events_;
-  std::uint64_t dropped_ = 0;
+  std::uint64_t task_start_ = 0, ticks_ = 0;
+  double task_cpu_ = 0, cpu_seconds_ = 0;
   // Counters follow the thread; threads may take over each other's workspaces.
-  bool want_counters_, counting_ = false;
+  bool want_counters_, first_ = true;
   std::thread::id thread_;
   std::optional<CounterGroup> group_;
   CounterValues at_{};
   int counter_error_ = 0;
-  bool first_ = true;
   std::uint64_t random_ = 1;
 };
 
