@@ -42,16 +42,17 @@ class Writer {
     const ThreadTrace& t = trace_.threads[thread];
     for (const TraceEvent& e : t.events) {
       const double begin = Microseconds(e.begin);
-      Line(fmt::format(
-          R"({{"name":"{}","cat":"{}","ph":"X","pid":1,"tid":{},"ts":{:.3f},"dur":{:.3f},)"
-          R"("args":{{"items":{}}}}})",
-          rows_.names[e.row], rows_.Category(e.row), thread, begin,
-          Microseconds(e.end) - begin, e.items));
+      Line(
+          fmt::format(R"({{"name":"{}","cat":"{}","ph":"X","pid":1,"tid":{},"ts":{:.3f},)"
+                      R"("dur":{:.3f},"args":{{"items":{}}}}})",
+                      rows_.names[e.row], rows_.Category(e.row), thread, begin,
+                      Microseconds(e.end) - begin, e.items));
     }
     if (t.dropped == 0) return;
     const double end = t.events.empty() ? 0 : Microseconds(t.events.back().end);
     Line(fmt::format(
-        R"({{"name":"the buffer is full: {0} later events are missing","ph":"i","s":"t",)"
+        R"({{"name":"the buffer is full: {0} later events are missing","ph":"i",)"
+        R"("s":"t",)"
         R"("pid":1,"tid":{1},"ts":{2:.3f},"args":{{"dropped":{0}}}}})",
         t.dropped, thread, end));
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/core/hardware_counters.h"
+#include "src/core/untouched.h"
 #include "src/image/accumulator.h"
 #include "src/wavefront/plan.h"
 #include "src/wavefront/tiles.h"
@@ -88,8 +89,8 @@ struct TraceEvent {
 };
 
 struct ThreadTrace {
-  std::vector<TraceEvent> events;  // in order of time, without overlap
-  std::uint64_t dropped = 0;       // for which there was no room
+  UntouchedVector<TraceEvent> events;  // in order of time, without overlap
+  std::uint64_t dropped = 0;           // for which there was no room
 };
 
 struct RunTrace {

@@ -9,13 +9,13 @@ StageClock::StageClock(std::size_t stages, const ProfileOptions& options)
     : rows_(stages + kNumTaskParts),
       stages_(stages),
       totals_(stages + kNumTaskParts),
-      events_(options.trace_events),  // touched now: no page fault falls into a stage
+      events_(options.trace_events),
       want_counters_(options.counters) {
   next_event_ = events_.data();
   end_event_ = next_event_ + events_.size();
 }
 
-std::vector<TraceEvent> StageClock::TakeEvents() {
+UntouchedVector<TraceEvent> StageClock::TakeEvents() {
   if (!events_.empty()) {
     events_.resize(static_cast<std::size_t>(next_event_ - events_.data()));
   }

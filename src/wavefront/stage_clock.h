@@ -72,7 +72,7 @@ class StageClock {
   double cpu_seconds() const { return cpu_seconds_; }
   std::uint64_t ticks() const { return ticks_; }
   /// Hands out the trace, once, after the last task.
-  std::vector<TraceEvent> TakeEvents();
+  UntouchedVector<TraceEvent> TakeEvents();
   /// Events for which there was no room; 0 without a trace.
   std::uint64_t dropped() const { return events_.empty() ? 0 : without_event_; }
   /// errno if the processor's counters are missing; 0 if they are there or not wanted.
@@ -90,7 +90,7 @@ class StageClock {
 
   std::size_t stages_;
   std::vector<StageTotals> totals_;
-  std::vector<TraceEvent> events_;
+  UntouchedVector<TraceEvent> events_;
   std::uint64_t task_start_ = 0, ticks_ = 0;
   double task_cpu_ = 0, cpu_seconds_ = 0;
   // Counters follow the thread; threads may take over each other's workspaces.

@@ -32,7 +32,8 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
   const Case cases[] = {
       {{}, "Usage"},
       {{"rendr", "x.pbrt"}, "did you mean 'render'?"},
-      {{"frobnicate"}, "commands are render, advise, plan, profile, info, strategies, compare"},
+      {{"frobnicate"},
+       "commands are render, advise, plan, profile, info, strategies, compare"},
       {{"render"}, "required"},
       {{"render", "x.pbrt"}, "--output is required"},
       {{"render", "x.pbrt", "-o", "x.png"}, "does not end in .exr"},
