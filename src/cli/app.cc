@@ -25,6 +25,7 @@ constexpr const char* kFooter =
     "  lanelight render scenes/cornell-box.pbrt -o box.exr --png --spp 256\n"
     "  lanelight advise scenes/cornell-box.pbrt --time 60 -o box.exr\n"
     "  lanelight plan scenes/glass.pbrt\n"
+    "  lanelight profile scenes/glass.pbrt --trace trace.json\n"
     "  lanelight strategies\n"
     "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
     "  lanelight study scenes/cornell-box.pbrt --out box-study\n"
@@ -102,6 +103,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   AddRenderCommand(root, exit_code);
   AddAdviseCommand(root, exit_code);
   AddPlanCommand(root, exit_code);
+  AddProfileCommand(root, exit_code);
   AddInfoCommand(root, exit_code);
   AddStrategiesCommand(root, exit_code);
   AddCompareCommand(root, exit_code);

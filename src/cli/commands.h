@@ -10,6 +10,7 @@ namespace lanelight {
 void AddRenderCommand(CLI::App& root, int& exit_code);
 void AddAdviseCommand(CLI::App& root, int& exit_code);
 void AddPlanCommand(CLI::App& root, int& exit_code);
+void AddProfileCommand(CLI::App& root, int& exit_code);
 void AddInfoCommand(CLI::App& root, int& exit_code);
 void AddStrategiesCommand(CLI::App& root, int& exit_code);
 void AddCompareCommand(CLI::App& root, int& exit_code);

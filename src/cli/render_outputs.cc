@@ -120,10 +120,12 @@ void ResolvePng(RenderOutputs& options) {
 }
 
 void CheckOutputs(const RenderOutputs& options, const std::string& scene) {
-  std::vector<std::string> paths;
-  if (!options.exr.empty()) paths.push_back(options.exr);
-  if (options.want_png) paths.push_back(options.png);
-  if (!options.json.empty() && options.json != "-") paths.push_back(options.json);
+  CheckOutputPaths({options.exr, options.want_png ? options.png : "", options.json},
+                   scene);
+}
+
+void CheckOutputPaths(std::vector<std::string> paths, const std::string& scene) {
+  std::erase_if(paths, [](const std::string& p) { return p.empty() || p == "-"; });
   for (std::size_t i = 0; i < paths.size(); ++i) {
     std::error_code error;
     if (fs::equivalent(paths[i], scene, error)) {
@@ -151,13 +153,17 @@ void PrintNotes(const Job& job) {
 
 bool SaveJson(const RenderOutputs& options, const nlohmann::json& report) {
   if (options.json.empty()) return true;
-  const std::string text = report.dump(2) + "\n";
-  if (options.json == "-") {
+  return SaveText(options.json, report.dump(2) + "\n");
+}
+
+bool SaveText(const std::string& path, const std::string& text) {
+  if (path.empty()) return true;
+  if (path == "-") {
     Print(text);
     return true;
   }
-  std::string path = options.json;
-  return Save(path, [&](const std::string& p) { WriteFileAtomically(p, text); });
+  std::string where = path;
+  return Save(where, [&](const std::string& p) { WriteFileAtomically(p, text); });
 }
 
 int RenderToOutputs(const RenderOutputs& options, const std::string& scene,

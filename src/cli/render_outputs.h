@@ -5,6 +5,7 @@
 #include <atomic>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "src/render/job.h"
 
@@ -29,12 +30,19 @@ void ResolvePng(RenderOutputs& options);
 /// written.
 void CheckOutputs(const RenderOutputs& options, const std::string& scene);
 
+/// The same for these paths. Empty ones are left out, and so is "-", standard output.
+void CheckOutputPaths(std::vector<std::string> paths, const std::string& scene);
+
 /// Prints what of the scene file and of the strategy is not used.
 void PrintNotes(const Job& job);
 
 /// Writes the report where it was asked for. False, with a message, if that failed; it
 /// then lies in the temporary directory, so that nothing computed is lost.
 bool SaveJson(const RenderOutputs& options, const nlohmann::json& report);
+
+/// Writes a text to `path`, or with a message to the temporary directory, and then
+/// returns false. "-": standard output. Empty: nowhere.
+bool SaveText(const std::string& path, const std::string& text);
 
 /// What a command has to say in front of the summary, and in the report beside a render's
 /// own members.

@@ -1,16 +1,10 @@
 #include "src/wavefront/drive.h"
 
-#include <chrono>
+#include <utility>
 
 namespace lanelight {
 
 namespace {
-
-std::int64_t Now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 // Between waves: what scattered is intersected next; everything else is consumed.
 void StartWave(Wave& wave) {
@@ -21,34 +15,33 @@ void StartWave(Wave& wave) {
   }
 }
 
+// A template, so that without a clock nothing of it is there.
+template <bool kTimed>
+void Loop(Wave& wave, const Plan& plan, StageClock* clock) {
+  while (!wave.work.Done() || wave.queue(QueueId::kScattered).size > 0) {
+    StartWave(wave);
+    if constexpr (kTimed) clock->StartWave();
+    for (std::size_t i = 0; i < plan.stages.size(); ++i) {
+      const PlannedStage& planned = plan.stages[i];
+      if (wave.queue(planned.stage.input).size == 0) continue;
+      if constexpr (kTimed) wave.lanes = {};
+      planned.kernel(wave);
+      if constexpr (kTimed) clock->Finish(i, wave.lanes.items, wave.lanes.vectors);
+    }
+  }
+}
+
 }  // namespace
 
 void Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
-           const SampleBuffer& buffer, std::vector<StageCounters>& counters) {
+           const SampleBuffer& buffer, StageClock* clock) {
   wavefront.Reset();
   Wave& wave = wavefront.wave();
   wave.work = work;
   wave.buffer = buffer;
-  const bool profile = !counters.empty();
-  while (!wave.work.Done() || wave.queue(QueueId::kScattered).size > 0) {
-    StartWave(wave);
-    for (std::size_t i = 0; i < plan.stages.size(); ++i) {
-      const PlannedStage& planned = plan.stages[i];
-      if (wave.queue(planned.stage.input).size == 0) continue;
-      if (!profile) {
-        planned.kernel(wave);
-        continue;
-      }
-      wave.lanes = {};
-      const std::int64_t start = Now();
-      planned.kernel(wave);
-      StageCounters& c = counters[i];
-      c.nanoseconds += Now() - start;
-      ++c.calls;
-      c.items += wave.lanes.items;
-      c.lane_slots += wave.lanes.vectors;
-    }
-  }
+  if (clock == nullptr) return Loop<false>(wave, plan, nullptr);
+  clock->FinishPart(TaskPart::kSetUp, std::uint64_t{work.num_pixels} * work.samples);
+  Loop<true>(wave, plan, clock);
 }
 
 }  // namespace lanelight

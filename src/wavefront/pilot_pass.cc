@@ -91,8 +91,7 @@ class Pass {
     const std::uint32_t count = work.num_pixels * work_.spp, rows = count * copies_;
     const int planes = kColorPlanes + (records_ ? kRecordPlanes : 0);
     std::vector<float> values(std::size_t{rows} * static_cast<std::size_t>(planes));
-    std::vector<StageCounters> untimed;
-    Drive(*wavefront, plan_, work, {values.data(), rows}, untimed);
+    Drive(*wavefront, plan_, work, {values.data(), rows}, nullptr);
     if (copies_ > 1) FoldCopies(values.data(), rows, planes, kColorPlanes);
     for (std::size_t i = 0; i < count; ++i) {
       samples_.colors[first * work_.spp + i] = {values[i], values[count + i],

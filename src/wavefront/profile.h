@@ -11,8 +11,11 @@ namespace lanelight {
 /// One profile per stage of the plan, in its order, without counts.
 std::vector<StageProfile> EmptyProfiles(const Plan& plan);
 
-/// Adds what one thread's wavefront has counted. `counters`: as for Drive().
-void AddCounts(Wavefront& wavefront, const std::vector<StageCounters>& counters,
-               RunResult& result);
+/// The same for the parts of a task that are no stages.
+std::vector<StageProfile> EmptyParts();
+
+/// Adds what one thread's wavefront and clock have counted; the clock gives its trace
+/// away. `clock` may be null.
+void AddCounts(Wavefront& wavefront, StageClock* clock, RunResult& result);
 
 }  // namespace lanelight

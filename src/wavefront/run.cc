@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "src/core/check.h"
+#include "src/core/clock.h"
 #include "src/core/parallel.h"
 #include "src/strategy/tables.h"
 #include "src/wavefront/pilot.h"
@@ -42,6 +43,7 @@ class Runner : private TaskWatcher {
 
   RunResult Run() {
     start_ = Clock::now();
+    start_cpu_ = ProcessCpuSeconds();
     if (plan_.features.Has(Feature::kSplitting)) PreparePaths();
     const std::uint64_t limit = options_.spp > 0 ? options_.spp : kMostSamplesPerPixel;
     if (options_.seconds > 0) pace_.emplace(options_.seconds, PaceTasks());
@@ -81,6 +83,7 @@ class Runner : private TaskWatcher {
       run_ = Parameters();
     }
     pilot_seconds_ = Since(start_);
+    pilot_cpu_seconds_ = ProcessCpuSeconds() - start_cpu_;
   }
 
   // Without a sample count the partition assumes many samples.
@@ -198,18 +201,24 @@ class Runner : private TaskWatcher {
     RunResult result;
     film_.FitControl();
     result.seconds = Since(start_);
+    result.cpu_seconds = ProcessCpuSeconds() - start_cpu_;
     result.samples = tasks_.samples();
     result.stop_reason = Reason(limit);
     result.stopped_early = result.stop_reason == StopReason::kInterrupted;
     result.group_size = film_.group_size();
     result.looks = looks_;
     result.pilot_seconds = pilot_seconds_;
+    result.pilot_cpu_seconds = pilot_cpu_seconds_;
     result.pilot_samples = pilot_.samples;
     result.pilot_rays = pilot_.rays;
     result.pilot_note = pilot_.note;
     result.roulette = plan_.options.roulette.value_or(scene_.strategy.roulette);
     result.control = tasks_.Control();
     result.stages = EmptyProfiles(plan_);
+    result.parts = EmptyParts();
+    result.bytes_in_flight = plan_.wavefront * plan_.bytes_per_path;
+    result.trace.start = ticks_.start();
+    result.trace.seconds_per_tick = ticks_.SecondsPerTick();
     tasks_.AddCounts(result);
     return result;
   }
@@ -222,7 +231,7 @@ class Runner : private TaskWatcher {
   RunParameters run_;
   Tasks tasks_;
   PilotOutcome pilot_;
-  double pilot_seconds_ = 0;
+  double pilot_seconds_ = 0, pilot_cpu_seconds_ = 0;
   std::optional<Pace> pace_;  // with a time budget
   std::uint64_t done_ = 0;    // samples per pixel, of rounds
   double needed_ = INFINITY;  // samples per pixel, by the last look
@@ -230,6 +239,8 @@ class Runner : private TaskWatcher {
   int looks_ = 0;
   double fit_seconds_ = 0;  // that the last step takes
   Clock::time_point start_, last_report_;
+  TickScale ticks_;
+  double start_cpu_ = 0;
   std::mutex progress_mutex_;
 };
 

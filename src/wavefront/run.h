@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "src/core/hardware_counters.h"
+#include "src/core/untouched.h"
 #include "src/image/accumulator.h"
 #include "src/wavefront/plan.h"
 #include "src/wavefront/tiles.h"
@@ -24,6 +26,12 @@ struct Progress {
 /// Most samples per pixel: sample indices are 32-bit.
 inline constexpr std::uint64_t kMostSamplesPerPixel = std::uint64_t{1} << 31;
 
+/// What a profile gathers beside the times of stages.
+struct ProfileOptions {
+  bool counters = false;         // of the processor (src/core/hardware_counters.h)
+  std::size_t trace_events = 0;  // most stage calls that a thread writes down; 0: none
+};
+
 struct RunOptions {
   std::uint64_t spp = 0;  // samples per pixel; 0: until something else ends the render
   /// Time budget of all of Run, 0 = none. Every pixel gets a sample, however long it
@@ -37,6 +45,7 @@ struct RunOptions {
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
   const std::atomic<bool>* stop = nullptr;           // finish the samples in flight
   bool profile = true;                               // time every stage call
+  ProfileOptions profiling;                          // if `profile`
   /// roulette=efficiency keeps its rule even where the pilot passes prefer another.
   bool keep_roulette = false;
   /// Renders these windows of the image only, all of the same width and height, up to 64.
@@ -50,10 +59,44 @@ struct RunOptions {
 struct StageProfile {
   std::string name;
   std::uint64_t calls = 0, items = 0, lane_slots = 0;  // lane_slots = vectors * lanes
-  double seconds = 0;
-  double bytes_per_item = 0;  // columns read + written
+  double seconds = 0;                                  // processor time of all threads
+  double bytes_per_item = 0;                           // columns read + written
+  // Of these; the columns that the plan has and the stage declares.
+  double bytes_read = 0, bytes_written = 0;
+  // The processor's counters, over the calls in which they were read.
+  std::uint64_t counted_items = 0;
+  CounterValues counted{};
   /// items / lane_slots in [0, 1]
   double Occupancy() const { return lane_slots ? double(items) / double(lane_slots) : 0; }
+};
+
+/// What a task does besides running stages. Items are samples.
+enum class TaskPart : int {
+  kSetUp,   // lists the pixels of the tile, empties the wavefront
+  kCopies,  // adds up the copies of paths that split
+  kFilm,    // adds the samples to the film
+  kCount
+};
+inline constexpr int kNumTaskParts = static_cast<int>(TaskPart::kCount);
+/// "task set-up", "sum of copies", "film".
+const char* Name(TaskPart part);
+
+/// One stage call (row: its index in RunResult::stages) or part of a task (row: number of
+/// stages + TaskPart), in ticks of src/core/clock.h.
+struct TraceEvent {
+  std::uint64_t begin = 0, end = 0;
+  std::uint32_t row = 0, items = 0;
+};
+
+struct ThreadTrace {
+  UntouchedVector<TraceEvent> events;  // in order of time, without overlap
+  std::uint64_t dropped = 0;           // for which there was no room
+};
+
+struct RunTrace {
+  std::uint64_t start = 0;  // ticks when the run began
+  double seconds_per_tick = 0;
+  std::vector<ThreadTrace> threads;
 };
 
 /// Bad samples seen by the accumulate stage; each is replaced by zero and counted.
@@ -74,12 +117,19 @@ struct RunResult {
   std::uint64_t samples = 0, rays_closest = 0, rays_shadow = 0;
   Health health;
   std::vector<StageProfile> stages;      // in execution order
+  std::vector<StageProfile> parts;       // of tasks, by TaskPart
+  RunTrace trace;                        // with ProfileOptions::trace_events
+  bool counters = false;                 // of the processor were read
+  int counter_error = 0;                 // errno for which (some of) them are missing
+  double cpu_seconds = 0;                // of all threads of the process, during Run
+  double waiting_seconds = 0;            // of tasks, while others had the processor
   bool stopped_early = false;            // by RunOptions::stop
   std::optional<ControlReport> control;  // of control variates that are fitted
   std::size_t wavefront_bytes = 0;       // all wavefronts and sample buffers together
+  std::size_t bytes_in_flight = 0;       // live columns of the paths of one wavefront
   // Pilot passes (roulette=adjoint, efficiency); their time is part of `seconds`, their
   // samples and rays are not part of those above.
-  double pilot_seconds = 0;
+  double pilot_seconds = 0, pilot_cpu_seconds = 0;
   std::uint64_t pilot_samples = 0, pilot_rays = 0;
   std::string pilot_note;                     // empty: there was none
   Roulette roulette = Roulette::kThroughput;  // that the image was rendered with

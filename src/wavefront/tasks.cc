@@ -122,8 +122,7 @@ Workspace& Tasks::ThreadWorkspace() {
   const std::size_t thread = static_cast<std::size_t>(ThreadIndex());
   LL_CHECK_LT(thread, workspaces_.size());
   if (!workspaces_[thread]) {
-    workspaces_[thread] =
-        std::make_unique<Workspace>(scene_, plan_, run_, options_.profile);
+    workspaces_[thread] = std::make_unique<Workspace>(scene_, plan_, run_, options_);
   }
   return *workspaces_[thread];
 }
@@ -131,6 +130,8 @@ Workspace& Tasks::ThreadWorkspace() {
 void Tasks::RunTask(const PixelRect& tile, std::uint64_t first_sample,
                     std::uint64_t limit, TaskSamples& out) {
   Workspace& space = ThreadWorkspace();
+  StageClock* const clock = space.Clock();
+  if (clock) clock->StartTask();
   out.count = static_cast<std::uint32_t>(
       std::min<std::uint64_t>(per_task_, limit - first_sample));
   TilePixels(tile, scene_.film.width, &space.pixels);
@@ -148,15 +149,22 @@ void Tasks::RunTask(const PixelRect& tile, std::uint64_t first_sample,
   if (out.values.size() < size) out.values.resize(size);
   // A sample that has not split leaves the rows of its further copies alone.
   if (splits) std::fill_n(out.values.begin(), size, 0.0f);
-  Drive(space.wavefront, plan_, work, {out.values.data(), rows}, space.counters);
-  if (splits) FoldCopies(out.values.data(), rows, planes_, difference_plane_);
+  Drive(space.wavefront, plan_, work, {out.values.data(), rows}, clock);
+  if (splits) {
+    FoldCopies(out.values.data(), rows, planes_, difference_plane_);
+    if (clock) clock->FinishPart(TaskPart::kCopies, stride);
+  }
+  if (clock) clock->EndTask();
   samples_ += stride;
 }
 
 void Tasks::Merge(const PixelRect& tile, TaskSamples& task) {
   // Row length behind the indices of the film's pixels.
   const int width = options_.windows.empty() ? scene_.film.width : film_.width();
-  std::vector<std::uint32_t> pixels;
+  Workspace& space = ThreadWorkspace();
+  StageClock* const clock = space.Clock();
+  if (clock) clock->StartTask();
+  std::vector<std::uint32_t>& pixels = space.pixels;
   TilePixels(tile, width, &pixels);
   const std::size_t stride = pixels.size() * task.count;
   if (regression_) {
@@ -173,15 +181,18 @@ void Tasks::Merge(const PixelRect& tile, TaskSamples& task) {
     film_.AddSamples(static_cast<int>(pixels[i]) % width,
                      static_cast<int>(pixels[i]) / width, planes, task.count);
   }
+  if (!clock) return;
+  clock->FinishPart(TaskPart::kFilm, stride);
+  clock->EndTask();
 }
 
 std::optional<ControlReport> Tasks::Control() const {
   return regression_ ? regression_->Report() : film_.Control();
 }
 
-void Tasks::AddCounts(RunResult& result) const {
+void Tasks::AddCounts(RunResult& result) {
   for (const auto& space : workspaces_) {
-    if (space) lanelight::AddCounts(space->wavefront, space->counters, result);
+    if (space) lanelight::AddCounts(space->wavefront, space->Clock(), result);
   }
   for (const TaskSamples& buffer : buffers_) {
     result.wavefront_bytes += buffer.values.size() * sizeof(float);

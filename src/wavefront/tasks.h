@@ -49,7 +49,8 @@ class Tasks {
                 TaskWatcher& watcher);
 
   std::optional<ControlReport> Control() const;
-  void AddCounts(RunResult& result) const;
+  /// Takes the trace along. After the last round; the result has its rows and its scale.
+  void AddCounts(RunResult& result);
 
  private:
   static constexpr int kMostPlanes =

@@ -5,27 +5,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "src/core/aligned.h"
+#include "src/core/untouched.h"
 #include "src/wavefront/plan.h"
 #include "src/wavefront/wave.h"
 
 namespace lanelight {
-
-/// Leaves memory as it is: the room for copies of paths that split is mostly never
-/// touched, and need not be cleared.
-template <typename T>
-struct UntouchedAllocator : AlignedAllocator<T> {
-  template <typename U>
-  struct rebind {
-    using other = UntouchedAllocator<U>;
-  };
-  template <typename U>
-  void construct(U*) {}
-  template <typename U>
-  void construct(U* p, const U& value) {
-    *p = value;
-  }
-};
 
 /// The constants of a render that scene, plan and size of the groups decide; without
 /// seed, planned samples and tables.
@@ -43,7 +27,8 @@ class Wavefront {
   void Reset();
 
  private:
-  std::vector<std::uint32_t, UntouchedAllocator<std::uint32_t>> memory_;
+  // The room for copies of paths that split is mostly never touched.
+  UntouchedVector<std::uint32_t> memory_;
   Wave wave_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "src/core/aligned.h"
@@ -18,10 +19,15 @@ struct TaskSamples {
 /// What a thread keeps between tasks.
 struct Workspace {
   Workspace(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
-            bool profile)
-      : wavefront(scene, plan, run), counters(profile ? plan.stages.size() : 0) {}
+            const RunOptions& options)
+      : wavefront(scene, plan, run) {
+    if (options.profile) clock.emplace(plan.stages.size(), options.profiling);
+  }
+  /// Null if nothing is timed.
+  StageClock* Clock() { return clock ? &*clock : nullptr; }
+
   Wavefront wavefront;
-  std::vector<StageCounters> counters;
+  std::optional<StageClock> clock;
   std::vector<std::uint32_t> pixels;
   TaskSamples samples;
 };

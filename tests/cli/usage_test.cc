@@ -15,7 +15,7 @@ TEST_CASE("help and version go to standard output and succeed", "[cli]") {
   const ProcessResult help = RunLanelight({"--help"});
   CHECK(help.exit_code == kExitGood);
   CHECK_THAT(help.out, Contains("Examples:") && Contains("Exit codes:"));
-  for (const char* command : {"render", "plan", "info", "compare"}) {
+  for (const char* command : {"render", "plan", "profile", "info", "compare"}) {
     CHECK_THAT(help.out, Contains(command));
     const ProcessResult detail = RunLanelight({command, "--help"});
     CHECK(detail.exit_code == kExitGood);
@@ -32,7 +32,8 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
   const Case cases[] = {
       {{}, "Usage"},
       {{"rendr", "x.pbrt"}, "did you mean 'render'?"},
-      {{"frobnicate"}, "commands are render, advise, plan, info, strategies, compare"},
+      {{"frobnicate"},
+       "commands are render, advise, plan, profile, info, strategies, compare"},
       {{"render"}, "required"},
       {{"render", "x.pbrt"}, "--output is required"},
       {{"render", "x.pbrt", "-o", "x.png"}, "does not end in .exr"},

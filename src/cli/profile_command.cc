@@ -1,0 +1,122 @@
+// `lanelight profile SCENE`: where the time of a render goes, stage by stage.
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "kernels/simd/target.h"
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
+#include "src/cli/interrupt.h"
+#include "src/cli/profile_table.h"
+#include "src/cli/progress.h"
+#include "src/cli/render_outputs.h"
+#include "src/cli/scene_options.h"
+#include "src/core/parallel.h"
+#include "src/render/trace_json.h"
+
+namespace lanelight {
+namespace {
+
+struct ProfileCommandOptions {
+  SceneOptions scene;
+  std::string json, trace;
+  std::size_t trace_events = std::size_t{1} << 17;
+  bool quiet = false;
+};
+
+constexpr const char* kInterruptText =
+    "\nstopping: finishing the samples in flight, then printing what was measured (once "
+    "more to abort)\n";
+
+RunResult Measure(const ProfileCommandOptions& options, const Job& job,
+                  const std::atomic<bool>& stop) {
+  ProgressPrinter progress(ChooseProgressStyle(options.quiet));
+  RunOptions run;
+  run.spp = job.spp;
+  run.seed = job.seed;
+  run.stop = &stop;
+  run.on_progress = [&](const Progress& p) { progress.Update(p); };
+  run.profiling.counters = true;
+  if (!options.trace.empty()) run.profiling.trace_events = options.trace_events;
+  FilmAccumulator film = MakeFilm(job);
+  const RunResult result = Run(job.scene, job.plan, run, film);
+  progress.Finish();
+  return result;
+}
+
+bool SaveTrace(const ProfileCommandOptions& options, const RunResult& result) {
+  if (options.trace.empty()) return true;
+  const std::uint64_t dropped = DroppedEvents(result.trace);
+  if (dropped > 0) {
+    PrintError(
+        fmt::format("note: the trace lacks its last {} events: --trace-events {} "
+                    "per thread was not enough",
+                    dropped, options.trace_events));
+  }
+  return SaveText(options.trace,
+                  TraceText(result, "lanelight profile " + options.scene.scene));
+}
+
+int Profile(const ProfileCommandOptions& options) {
+  ForceTarget(options.scene.target);
+  const ThreadLimit threads(options.scene.threads);
+  const std::string& scene = options.scene.scene;
+  CheckOutputPaths({options.json, options.trace}, scene);
+  const Job job = PrepareJob(scene, options.scene.settings);
+  if (!options.quiet) PrintNotes(job);
+  const Peaks peaks = MeasurePeaks(true);
+  const InterruptGuard interrupt(kInterruptText);
+  const RunResult result = Measure(options, job, interrupt.stop());
+  const ProfileReport report = MakeProfileReport(result, peaks);
+  if (options.json != "-") Print(ProfileText(report, job, result, scene));
+  bool good = SaveTrace(options, result);
+  if (!options.json.empty()) {
+    good &= SaveText(options.json, ToJson(report, job, result).dump(2) + "\n");
+  }
+  return good ? kExitGood : kExitBadInput;
+}
+
+void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
+  RenderSettings& settings = options.scene.settings;
+  settings.spp = 16;
+  command.add_option("--spp", settings.spp, "Samples per pixel")
+      ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
+      ->type_name("N");
+  command.add_option("--seed", settings.seed, "Seed of the random numbers")
+      ->type_name("S");
+  command.add_option("--json", options.json, "Write the profile as JSON ('-': print it)")
+      ->type_name("FILE");
+  command
+      .add_option("--trace", options.trace,
+                  "Write every stage call, for ui.perfetto.dev or chrome://tracing")
+      ->check([](const std::string& path) {
+        return path == "-" ? std::string("a trace goes to a file, not to '-'") : "";
+      })
+      ->type_name("FILE");
+  command
+      .add_option("--trace-events", options.trace_events,
+                  "Stage calls a thread writes down at most")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 26).description(""))
+      ->type_name("N");
+  command.add_flag("--quiet", options.quiet, "No progress and no notes");
+}
+
+}  // namespace
+
+void AddProfileCommand(CLI::App& root, int& exit_code) {
+  CLI::App* command = root.add_subcommand(
+      "profile", "Render a scene and print where the time goes, stage by stage");
+  auto options = std::make_shared<ProfileCommandOptions>();
+  AddProfileOptions(*command, *options);
+  AddSceneOptions(*command, options->scene);
+  command->footer(
+      "\nThe image is not kept. --spp is 16 by default. Ctrl-C prints what was measured "
+      "so far;\n"
+      "a second one aborts. docs/profile.md says what the columns mean.\n"
+      "\nExamples:\n"
+      "  lanelight profile scene.pbrt --threads 1\n"
+      "  lanelight profile scene.pbrt --spp 4 --trace trace.json --json profile.json");
+  command->callback([options, &exit_code] { exit_code = Profile(*options); });
+}
+
+}  // namespace lanelight

@@ -1,0 +1,58 @@
+#include "src/render/peaks.h"
+
+#include <catch2/catch.hpp>
+
+#include "kernels/probe/peaks.h"
+#include "kernels/simd/target.h"
+#include "src/core/aligned.h"
+
+namespace lanelight {
+
+TEST_CASE("the loops that measure peaks compute what they say, on every target",
+          "[peaks]") {
+  AlignedVector<std::uint32_t> words(4096);
+  std::uint32_t sum = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    words[i] = static_cast<std::uint32_t>(i * i * 2654435761u);
+    sum += words[i];
+  }
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    INFO(target);
+    CHECK(ReadSum(words.data(), words.size(), 1) == sum);
+    CHECK(ReadSum(words.data(), words.size(), 7) == 7 * sum);
+    CHECK(ReadSum(words.data(), 1024, 0) == 0);
+    CHECK(MultiplyAdds(0, 0.5f, 1) == Approx(6.5));  // mean of 1 to 12
+    CHECK(MultiplyAdds(1, 0.5f, 1) == Approx(0.5 * 6.5 + 1));
+    CHECK(MultiplyAdds(200, 0.5f, 1) == Approx(2));
+    CHECK(MultiplyAdds(200, -0.25f, 5) == Approx(4));
+    CHECK(MultiplyAddsOperations() == 24 * CurrentLanes());
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("peaks have levels from near to far", "[peaks]") {
+  const Peaks peaks = MeasurePeaks(false);
+  REQUIRE(peaks.levels.size() >= 3);
+  CHECK(peaks.levels.front().name == "L1");
+  CHECK(peaks.levels.back().name == "memory");
+  CHECK(peaks.flops > 1e8);
+  for (std::size_t i = 0; i < peaks.levels.size(); ++i) {
+    CHECK(peaks.levels[i].bytes_per_second > 1e8);
+    CHECK(peaks.levels[i].probe <= peaks.levels[i].bytes);
+    if (i > 0) CHECK(peaks.levels[i].bytes > peaks.levels[i - 1].bytes);
+  }
+}
+
+TEST_CASE("a working set lives in the nearest level that holds it", "[peaks]") {
+  Peaks peaks;
+  peaks.levels = {
+      {"L1", 32 << 10, 0, 0}, {"L2", 1 << 20, 0, 0}, {"memory", 1 << 30, 0, 0}};
+  CHECK(peaks.LevelOf(0).name == "L1");
+  CHECK(peaks.LevelOf(32 << 10).name == "L1");
+  CHECK(peaks.LevelOf((32 << 10) + 1).name == "L2");
+  CHECK(peaks.LevelOf(2 << 20).name == "memory");
+  CHECK(peaks.LevelOf(1e12).name == "memory");
+}
+
+}  // namespace lanelight

@@ -1,0 +1,133 @@
+// The rows of a profile from counts that are known, and the rule of the roofline.
+#include "src/render/profile_report.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "src/render/roofline.h"
+#include "src/render/trace_json.h"
+#include "src/wavefront/profile.h"
+
+namespace lanelight {
+namespace {
+
+Peaks SomePeaks() {
+  Peaks peaks;
+  peaks.levels = {{"L1", 32 << 10, 16 << 10, 200e9},
+                  {"L2", 1 << 20, 1 << 19, 100e9},
+                  {"memory", std::size_t{1} << 34, 1 << 28, 10e9}};
+  peaks.flops = 100e9;
+  peaks.fma_ipc = 2;
+  return peaks;
+}
+
+StageProfile Stage(const std::string& name, double seconds, std::uint64_t items) {
+  StageProfile s;
+  s.name = name;
+  s.seconds = seconds;
+  s.items = items;
+  s.calls = 10;
+  s.lane_slots = 2 * items;
+  s.bytes_read = 24, s.bytes_written = 8, s.bytes_per_item = 32;
+  return s;
+}
+
+RunResult SomeResult() {
+  RunResult r;
+  r.stages = {Stage("camera", 0.1, 1000000), Stage("intersect_triangles", 0.4, 4000000),
+              Stage("shadow_spheres", 0.2, 2000000), Stage("connect", 0.2, 2000000)};
+  r.parts = EmptyParts();
+  r.parts[static_cast<std::size_t>(TaskPart::kFilm)].seconds = 0.05;
+  r.parts[static_cast<std::size_t>(TaskPart::kFilm)].calls = 4;
+  r.cpu_seconds = 1;
+  r.bytes_in_flight = 1 << 19;
+  return r;
+}
+
+// A row of one second, with the processor's counters per item.
+ProfileRow CountedRow(double cycles, double instructions, double l1, double llc) {
+  ProfileRow row;
+  row.counts = Stage("connect", 1, 10000000);
+  row.counts.counted_items = 1000;
+  row.counts.counted = {static_cast<std::uint64_t>(cycles * 1000),
+                        static_cast<std::uint64_t>(instructions * 1000),
+                        static_cast<std::uint64_t>(l1 * 1000),
+                        static_cast<std::uint64_t>(llc * 1000)};
+  return row;
+}
+
+Bound BoundOf(ProfileRow row) {
+  const Peaks peaks = SomePeaks();
+  PlaceOnRoofline(peaks, peaks.levels[1], row);
+  return row.bound;
+}
+
+}  // namespace
+
+TEST_CASE("a profile's rows add up to the processor time", "[profile]") {
+  const ProfileReport report = MakeProfileReport(SomeResult(), SomePeaks());
+  CHECK(report.seconds == Approx(1));
+  REQUIRE(report.rows.size() == 6);  // parts that never ran are left out
+  double shares = 0;
+  for (std::size_t i = 0; i < report.rows.size(); ++i) {
+    shares += report.rows[i].share;
+    if (i > 0) CHECK(report.rows[i].share <= report.rows[i - 1].share);
+  }
+  CHECK(shares == Approx(1));
+  CHECK(report.rows[0].counts.name == "intersect_triangles");
+  CHECK(report.rows[0].NsPerItem() == Approx(100));
+  CHECK(report.rows[0].counts.Occupancy() == Approx(0.5));
+  CHECK(report.intersect_seconds == Approx(0.6));
+  CHECK(report.other_stage_seconds == Approx(0.3));
+  CHECK(report.Ratio() == Approx(0.5));
+  CHECK(report.RatioWithAll() == Approx(0.4 / 0.6));
+  CHECK(report.level.name == "L2");
+  CHECK(report.rows.back().share == Approx(0.05));
+}
+
+TEST_CASE("a profile without time or intersection has no ratio", "[profile]") {
+  const ProfileReport empty = MakeProfileReport({}, SomePeaks());
+  CHECK(empty.Ratio() == 0);
+  for (const ProfileRow& row : empty.rows) CHECK(row.share == 0);
+}
+
+TEST_CASE("what a stage is bound by follows from numbers only", "[profile]") {
+  // 10 M items of 32 bytes in a second: 0.32 GB/s, far below.
+  CHECK(BoundOf(CountedRow(0, 0, 0, 0)) == Bound::kUnknown);
+  CHECK(BoundOf(CountedRow(300, 300, 0, 0)) == Bound::kNeither);
+  CHECK(BoundOf(CountedRow(300, 450, 0, 0)) == Bound::kCompute);  // IPC 1.5 of 2
+  // 20 misses of 64 bytes per item: 12.8 GB/s, more than main memory has, little for L2.
+  CHECK(BoundOf(CountedRow(300, 300, 20, 20)) == Bound::kMemory);
+  CHECK(BoundOf(CountedRow(300, 300, 20, 0)) == Bound::kNeither);
+  ProfileRow streaming = CountedRow(0, 0, 0, 0);
+  streaming.counts.seconds = 0.005;  // 64 GB/s of 100
+  CHECK(BoundOf(streaming) == Bound::kMemory);
+  const Peaks peaks = SomePeaks();
+  PlaceOnRoofline(peaks, peaks.levels[1], streaming);
+  CHECK(streaming.bandwidth == Approx(64e9));
+  CHECK(streaming.of_peak == Approx(0.64));
+}
+
+TEST_CASE("the stages that count as intersect are those of kernels/intersect",
+          "[profile]") {
+  namespace fs = std::filesystem;
+  int checked = 0;
+  for (const auto& entry :
+       fs::recursive_directory_iterator(LANELIGHT_SOURCE_DIR "/kernels")) {
+    if (entry.path().extension() != ".cc") continue;
+    std::ifstream in(entry.path());
+    std::stringstream text;
+    text << in.rdbuf();
+    const bool tracing = text.str().find("\"intersect_") != std::string::npos ||
+                         text.str().find("\"shadow_") != std::string::npos;
+    const bool place = entry.path().parent_path().filename() == "intersect";
+    INFO(entry.path());
+    CHECK(tracing == place);
+    checked += tracing;
+  }
+  CHECK(checked == 5);  // files; spheres, disks and planes have both stages
+}
+
+}  // namespace lanelight

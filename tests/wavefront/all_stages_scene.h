@@ -1,0 +1,84 @@
+// A scene that needs most of the stages.
+#pragma once
+
+namespace lanelight {
+
+/// All shapes, lights of several kinds, many materials, a texture.
+inline constexpr const char* kAllStagesScene = R"(
+LookAt 0 2 -6  0 0.8 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 32 "integer yresolution" 32
+PixelFilter "gaussian"
+Integrator "path" "integer maxdepth" 6
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ]
+LightSource "point" "point3 from" [ 2 4 -2 ] "rgb I" [ 9 9 9 ]
+LightSource "distant" "rgb L" [ 0.5 0.5 0.5 ]
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
+  Translate -2 3 0
+  Shape "sphere" "float radius" 0.3
+AttributeEnd
+LightSource "spot" "point3 from" [ -2 4 -2 ] "point3 to" [ 0 0 0 ] "rgb I" [ 9 9 9 ]
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 3 3 3 ]
+  Translate 2 2 -1
+  Shape "disk" "float radius" 0.3
+AttributeEnd
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 3 3 3 ]
+  Shape "trianglemesh" "point3 P" [ 1 3 1  2 3 1  2 3 2 ] "integer indices" [ 0 2 1 ]
+AttributeEnd
+Texture "checks" "spectrum" "checkerboard" "rgb tex1" [ 0.8 0.2 0.1 ] "rgb tex2" [ 0.1 0.2 0.3 ]
+Material "diffuse" "texture reflectance" "checks"
+Shape "trianglemesh" "point3 P" [ -5 0 -5  5 0 -5  5 0 5  -5 0 5 ]
+  "point2 uv" [ 0 0 4 0 4 4 0 4 ] "integer indices" [ 0 2 1 0 3 2 ]
+Material "dielectric" "float eta" 1.5
+AttributeBegin
+  Translate -0.8 0.7 -1
+  Shape "sphere" "float radius" 0.7
+AttributeEnd
+Material "conductor" "float roughness" 0.2
+AttributeBegin
+  Translate 0.9 0.8 0
+  Shape "sphere" "float radius" 0.8
+AttributeEnd
+Material "coateddiffuse" "rgb reflectance" [ 0.1 0.3 0.6 ] "float roughness" 0.1
+Shape "disk" "float height" 3 "float radius" 2
+Material "conductor" "float roughness" 0
+AttributeBegin
+  Translate 0 0.3 -2
+  Shape "sphere" "float radius" 0.3
+AttributeEnd
+Material "dielectric" "float roughness" 0.3
+AttributeBegin
+  Translate -2 0.4 -1
+  Shape "sphere" "float radius" 0.4
+AttributeEnd
+Material "coateddiffuse" "float roughness" 0
+AttributeBegin
+  Translate 2 0.4 -1
+  Shape "sphere" "float radius" 0.4
+AttributeEnd
+Material "coatedconductor"
+AttributeBegin
+  Translate 1 0.3 -2
+  Shape "sphere" "float radius" 0.3
+AttributeEnd
+Material "thindielectric"
+AttributeBegin
+  Translate 0 1.6 -1
+  Shape "sphere" "float radius" 0.3
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ 0.5 0.5 0.5 ]
+AttributeBegin
+  Translate 0 -1 0
+  Rotate -90 1 0 0
+  Shape "plane"
+AttributeEnd
+Material "diffusetransmission"
+Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2.5  -3 3 2.5 ]
+  "integer indices" [ 0 1 2 0 2 3 ]
+)";
+
+}  // namespace lanelight

@@ -1,0 +1,196 @@
+// Stages read and write the columns that they declare and no others: what a profile says
+// of bytes per item rests on it. Each call of a stage is repeated with all columns
+// scrambled that it does not declare to read; what it does must be the same.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <memory>
+#include <set>
+
+#include "src/strategy/tables.h"
+#include "src/wavefront/tiles.h"
+#include "src/wavefront/wavefront.h"
+#include "tests/wavefront/all_stages_scene.h"
+#include "tests/wavefront/render_fixture.h"
+
+namespace lanelight {
+namespace {
+
+constexpr int kSide = 12;
+constexpr std::uint32_t kSamples = 4;
+constexpr std::uint32_t kScrambled = 0x7fdeadffu;  // a NaN, an absurd index
+
+using Words = std::vector<std::uint32_t>;
+
+struct State {
+  Wave wave;
+  std::vector<Words> columns, queues;
+  std::vector<float> samples;
+};
+
+class Checker {
+ public:
+  Checker(const std::string& text, const std::string& strategy)
+      : scene_(CompileScene(ParseSceneText(text, "test.pbrt", "."), {})) {
+    Strategy s = scene_.strategy;
+    ApplyStrategy(strategy, {}, s);
+    UseStrategy(s, scene_);
+    PlanOptions options;
+    options.max_depth = 5;
+    options.wavefront = 300;
+    options.aov = true;
+    plan_ = MakePlan(scene_, options);
+    tables_ = MakeStrategyTables(scene_);
+    run_ = MakeRunParameters(scene_, plan_, GroupSize(scene_.strategy, kSamples));
+    run_.spp = kSamples;
+    run_.tables = &tables_;
+    wavefront_ = std::make_unique<Wavefront>(scene_, plan_, run_);
+    const PathColumns& p = wavefront_->wave().path;
+#define X(type, name, features, meaning) \
+  columns_.push_back(reinterpret_cast<std::uint32_t*>(p.name));
+    LANELIGHT_PATH_FIELDS(X)
+#undef X
+    TilePixels({0, 0, kSide, kSide}, kSide, &pixels_);
+    samples_.resize(std::size_t{Rows()} * 24);
+  }
+
+  // Returns "stage writes column" and "stage depends on column or order" findings.
+  std::set<std::string> Run() {
+    Wave& wave = wavefront_->wave();
+    wave.work.pixels = pixels_.data();
+    wave.work.num_pixels = static_cast<std::uint32_t>(pixels_.size());
+    wave.work.samples = kSamples;
+    wave.buffer = {samples_.data(), Rows()};
+    for (int i = 0; i < 400 && Begin(); ++i) {
+      for (const PlannedStage& planned : plan_.stages) {
+        if (wave.queue(planned.stage.input).size > 0) Check(planned);
+      }
+    }
+    return findings_;
+  }
+  std::set<std::string> stages_run;
+
+ private:
+  static std::uint32_t Rows() { return kSide * kSide * kSamples; }
+
+  // Between waves, as Drive() does it.
+  bool Begin() {
+    Wave& wave = wavefront_->wave();
+    if (wave.work.Done() && wave.queue(QueueId::kScattered).size == 0) return false;
+    std::swap(wave.queue(QueueId::kActive), wave.queue(QueueId::kScattered));
+    for (int i = 0; i < kNumQueues; ++i) {
+      const auto id = static_cast<QueueId>(i);
+      if (id != QueueId::kFree && id != QueueId::kActive) wave.queues[i].size = 0;
+    }
+    return true;
+  }
+
+  State Save() const {
+    State s;
+    s.wave = wavefront_->wave();
+    for (const std::uint32_t* c : columns_) {
+      s.columns.emplace_back(c, c == nullptr ? c : c + s.wave.capacity);
+    }
+    for (const Queue& q : s.wave.queues) s.queues.emplace_back(q.items, q.items + q.size);
+    s.samples = samples_;
+    return s;
+  }
+
+  void Restore(const State& s) {
+    wavefront_->wave() = s.wave;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      std::copy(s.columns[i].begin(), s.columns[i].end(), columns_[i]);
+    }
+    for (int i = 0; i < kNumQueues; ++i) {
+      std::copy(s.queues[i].begin(), s.queues[i].end(), s.wave.queues[i].items);
+    }
+    samples_ = s.samples;
+  }
+
+  void Find(const Stage& stage, const char* what, Field field) {
+    findings_.insert(std::string(stage.name) + what + FieldName(field));
+  }
+
+  // With light-selection=tree the emission stages read what light_hit_tree has written
+  // (kernels/lights/light_stage.h): 4 bytes that their declaration, the same for all
+  // scenes, cannot have.
+  bool Declares(const Stage& stage, Field field) const {
+    const bool of_tree = field == Field::light_pmf &&
+                         plan_.features.HasAll({Feature::kLightTree, Feature::kMis}) &&
+                         std::string(stage.name).rfind("emission_", 0) == 0;
+    return of_tree || stage.reads.Has(field);
+  }
+
+  void Check(const PlannedStage& planned) {
+    const Stage& stage = planned.stage;
+    stages_run.insert(stage.name);
+    const State before = Save();
+    planned.kernel(wavefront_->wave());
+    const State after = Save();
+    Restore(before);
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i] == nullptr || Declares(stage, static_cast<Field>(i))) continue;
+      std::fill_n(columns_[i], before.wave.capacity, kScrambled);
+    }
+    planned.kernel(wavefront_->wave());
+    Compare(stage, before, after, Save());
+    Restore(after);
+  }
+
+  void Compare(const Stage& stage, const State& before, const State& after,
+               const State& scrambled) {
+    if (after.queues != scrambled.queues) findings_.insert(stage.name + kQueues);
+    if (!SameBits(after.samples, scrambled.samples)) {
+      findings_.insert(stage.name + kOutput);
+    }
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const Field field = static_cast<Field>(i);
+      for (std::size_t k = 0; k < after.columns[i].size(); ++k) {
+        if (after.columns[i][k] == before.columns[i][k]) continue;
+        if (!stage.writes.Has(field)) Find(stage, " writes ", field);
+        if (after.columns[i][k] != scrambled.columns[i][k]) {
+          Find(stage, " reads what it does not declare for ", field);
+        }
+      }
+    }
+  }
+
+  static bool SameBits(const std::vector<float>& a, const std::vector<float>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), [](float x, float y) {
+      return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
+    });
+  }
+
+  const std::string kQueues = " reads what it does not declare for queues";
+  const std::string kOutput = " reads what it does not declare for samples";
+  CompiledScene scene_;
+  Plan plan_;
+  StrategyTables tables_;
+  RunParameters run_;
+  std::unique_ptr<Wavefront> wavefront_;
+  std::vector<std::uint32_t*> columns_;  // in the order of Field; null: not live
+  std::vector<std::uint32_t> pixels_;
+  std::vector<float> samples_;
+  std::set<std::string> findings_;
+};
+
+}  // namespace
+
+TEST_CASE("stages touch the columns that they declare", "[plan]") {
+  std::set<std::string> stages;
+  for (const char* strategy :
+       {"points=independent", "points=sobol,light-selection=tree",
+        "points=halton,directions=uniform,pairs=antithetic", "points=cmj,control=ambient",
+        "points=pmj02,control=analytic,roulette=luminance",
+        "points=lattice,control=regression,roulette=constant",
+        "points=stratified,directions=light"}) {
+    Checker checker(kAllStagesScene, strategy);
+    for (const std::string& finding : checker.Run()) {
+      INFO(strategy);
+      FAIL_CHECK(finding);
+    }
+    stages.insert(checker.stages_run.begin(), checker.stages_run.end());
+  }
+  CHECK(stages.size() > 45);
+}
+
+}  // namespace lanelight
