@@ -43,13 +43,13 @@ struct RayArrays {
 };
 
 /// The extension rays of a batch (queue kActive).
-HWY_INLINE Rays LoadRays(const PathColumns& path, VI slots) {
+HWY_INLINE Rays LoadRays(const PathColumns& path, const Slots& slots) {
   return {Gather3(path.o_x, path.o_y, path.o_z, slots),
           Gather3(path.d_x, path.d_y, path.d_z, slots), Gather(path.t, slots)};
 }
 
 /// The shadow rays of a batch (queue kShadow).
-HWY_INLINE Rays LoadShadowRays(const PathColumns& path, VI slots) {
+HWY_INLINE Rays LoadShadowRays(const PathColumns& path, const Slots& slots) {
   const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
   const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
   const V3 d = Gather3(path.ls_x, path.ls_y, path.ls_z, slots);
@@ -86,7 +86,7 @@ HWY_INLINE void RemoveOccluded(Wave& wave, Occluded&& occluded) {
   const Queue all = wave.queue(QueueId::kShadow);
   Queue& kept = wave.queue(QueueId::kShadow);
   kept.size = 0;
-  ForEachBatch(wave, all, [&](VI slots, MF valid) HWY_ATTR {
+  ForEachBatch(wave, all, [&](const Slots& slots, MF valid) HWY_ATTR {
     const MF blocked = occluded(LoadShadowRays(wave.path, slots), slots, valid);
     Push(kept, slots, hn::AndNot(blocked, valid));
   });

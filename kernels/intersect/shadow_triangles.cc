@@ -26,7 +26,7 @@ void ShadowWorldRays(Wave& wave) {
   RayStream<true, kAlpha> stream(scene);
   const auto flush = [&]() HWY_ATTR { stream.KeepOpen(kept); };
   const bool few = !scene.accel.few.triangles.empty();
-  ForEachBatch(wave, all, [&](VI slots, MF valid) HWY_ATTR {
+  ForEachBatch(wave, all, [&](const Slots& slots, MF valid) HWY_ATTR {
     const Rays rays = LoadShadowRays(wave.path, slots);
     if (few) {
       PacketBounds bounds;

@@ -147,7 +147,7 @@ template <class Shape, bool kAlpha, bool kInstances>
 HWY_INLINE void IntersectRecords(Wave& wave) {
   const DI di;
   const PathColumns& path = wave.path;
-  ForEachBatch(wave, wave.queue(QueueId::kActive), [&](VI slots, MF) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(QueueId::kActive), [&](const Slots& slots, MF) HWY_ATTR {
     const Rays rays = LoadRays(path, slots);
     VF best_t = rays.t_max;
     VI best_prim = Gather(path.prim, slots);
@@ -223,7 +223,7 @@ HWY_INLINE void TraceShapes(const CompiledScene& scene, const float o[3],
 template <class Shape, bool kAlpha, bool kInstances>
 HWY_INLINE void IntersectTree(Wave& wave) {
   const PathColumns& path = wave.path;
-  ForEachBatch(wave, wave.queue(QueueId::kActive), [&](VI slots, MF valid) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(QueueId::kActive), [&](const Slots& slots, MF valid) HWY_ATTR {
     const RayArrays rays(LoadRays(path, slots), slots);
     const int count = static_cast<int>(hn::CountTrue(DF(), valid));
     for (int i = 0; i < count; ++i) {

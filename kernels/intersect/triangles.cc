@@ -29,27 +29,30 @@ void IntersectWorld(Wave& wave) {
   const Accel& accel = wave.scene->accel;
   RayStream<false, kAlpha> stream(*wave.scene);
   const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
-  ForEachBatch(wave, wave.queue(QueueId::kActive), [&](VI slots, MF valid) HWY_ATTR {
-    const Rays rays = LoadRays(wave.path, slots);
-    PacketBounds bounds;
-    if (bounds.Compute(rays) && bounds.IsNarrow(accel.groups[0].reach)) {
-      return ClosestFrustum<kAlpha>(wave, rays, bounds, slots);
-    }
-    if (!accel.few.triangles.empty()) return ClosestFew<kAlpha>(wave, rays, slots);
-    if constexpr (kHasStreams) {
-      stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
-    } else {
-      ClosestSingles<kAlpha, false>(wave, rays, slots, valid);
-    }
-  });
+  ForEachBatch(wave, wave.queue(QueueId::kActive),
+               [&](const Slots& slots, MF valid) HWY_ATTR {
+                 const Rays rays = LoadRays(wave.path, slots);
+                 PacketBounds bounds;
+                 if (bounds.Compute(rays) && bounds.IsNarrow(accel.groups[0].reach)) {
+                   return ClosestFrustum<kAlpha>(wave, rays, bounds, slots);
+                 }
+                 if (!accel.few.triangles.empty())
+                   return ClosestFew<kAlpha>(wave, rays, slots);
+                 if constexpr (kHasStreams) {
+                   stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
+                 } else {
+                   ClosestSingles<kAlpha, false>(wave, rays, slots, valid);
+                 }
+               });
   if (!stream.empty()) flush();
 }
 
 template <bool kAlpha>
 void IntersectInstanced(Wave& wave) {
-  ForEachBatch(wave, wave.queue(QueueId::kActive), [&](VI slots, MF valid) HWY_ATTR {
-    ClosestSingles<kAlpha, true>(wave, LoadRays(wave.path, slots), slots, valid);
-  });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kActive), [&](const Slots& slots, MF valid) HWY_ATTR {
+        ClosestSingles<kAlpha, true>(wave, LoadRays(wave.path, slots), slots, valid);
+      });
 }
 
 void TrianglesWorld(Wave& wave) { IntersectWorld<false>(wave); }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <memory>
+#include <mutex>
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
@@ -10,7 +13,10 @@
 namespace lanelight {
 namespace {
 
-constexpr int kBins = 32;
+// Bins per axis for many items, and for few, where sweeping bins costs more than it
+// gains.
+constexpr int kBins = 32, kFewBins = 12;
+constexpr std::uint32_t kFewItems = 64;
 // Ranges smaller than this are built by one thread.
 constexpr std::uint32_t kSerial = 2048;
 // Below this depth ranges are halved instead, which bounds the depth of any tree.
@@ -22,15 +28,48 @@ constexpr float kNodeCost = 0.35f;
 struct BinaryNode {
   AccelBox box;
   std::uint32_t begin = 0, end = 0;
-  std::uint32_t right = 0;  // second child; the first is the next node; 0 = leaf
-  bool IsLeaf() const { return right == 0; }
+  std::uint32_t child = 0;  // the first of two in a row; 0 = leaf
+  bool IsLeaf() const { return child == 0; }
+};
+
+// The nodes of a binary tree, added in pairs by any thread. They stay where they are:
+// chunks are added as they are needed, since most trees need far fewer nodes than the 2n
+// that they may have.
+class BinaryTree {
+ public:
+  explicit BinaryTree(std::size_t items)
+      : chunks_(2 * items / kChunk + 2), next_(2) {}  // the root, and an unused one
+  std::uint32_t AddPair() {
+    const std::uint32_t at = next_.fetch_add(2, std::memory_order_relaxed);
+    Touch(at / kChunk);
+    return at;
+  }
+  void Touch(std::size_t chunk) {
+    std::call_once(chunks_[chunk].made, [&] {
+      chunks_[chunk].nodes = std::make_unique<BinaryNode[]>(kChunk);
+    });
+  }
+  BinaryNode& operator[](std::uint32_t i) {
+    return chunks_[i / kChunk].nodes[i % kChunk];
+  }
+  const BinaryNode& operator[](std::uint32_t i) const {
+    return chunks_[i / kChunk].nodes[i % kChunk];
+  }
+
+ private:
+  static constexpr std::uint32_t kChunk = 4096;
+  struct Chunk {
+    std::once_flag made;
+    std::unique_ptr<BinaryNode[]> nodes;
+  };
+  std::vector<Chunk> chunks_;
+  std::atomic<std::uint32_t> next_;
 };
 
 struct Bin {
   AccelBox box;
   std::uint32_t count = 0;
 };
-using Bins = std::array<std::array<Bin, kBins>, 3>;
 
 struct Split {
   int axis = -1;  // -1: halve
@@ -42,16 +81,19 @@ struct Split {
 struct Binning {
   Vec3f lo, scale;
 
-  explicit Binning(const AccelBox& centers) : lo(centers.lo) {
+  int bins;
+
+  Binning(const AccelBox& centers, std::uint32_t count)
+      : lo(centers.lo), bins(count < kFewItems ? kFewBins : kBins) {
     const Vec3f extent = centers.hi - centers.lo;
     for (int a = 0; a < 3; ++a) {
-      const float s = kBins / extent[a];
+      const float s = static_cast<float>(bins) / extent[a];
       scale[a] = extent[a] > 0 && std::isfinite(s) ? s : 0;
     }
   }
   int Of(Vec3f center2, int axis) const {
     return std::clamp(static_cast<int>((center2[axis] - lo[axis]) * scale[axis]), 0,
-                      kBins - 1);
+                      bins - 1);
   }
 };
 
@@ -61,10 +103,11 @@ class TreeBuilder {
       : items_(items),
         limit_(limit),
         leaf_size_(std::max(1u, limit.items)),
-        tree_(2 * items.size()) {}
+        tree_(items.size()) {
+    tree_.Touch(0);
+  }
 
-  // Fills the subtree rooted at `node` over items [begin, end). A subtree of n items has
-  // at most 2n - 1 nodes, so the second child's place is known before the first is built.
+  // Fills the subtree rooted at `node` over items [begin, end).
   void Build(std::uint32_t node, std::uint32_t begin, std::uint32_t end, int depth) {
     BinaryNode& n = tree_[node];
     n.begin = begin;
@@ -74,16 +117,19 @@ class TreeBuilder {
     const std::uint32_t count = end - begin;
     if (count == 1) return;
     Split split;
-    if (depth < kMaxSahDepth) split = FindSplit(begin, end, centers);
+    if (depth < kMaxSahDepth) {
+      split = count < kFewItems ? FindSplit<kFewBins>(begin, end, centers)
+                                : FindSplit<kBins>(begin, end, centers);
+    }
     if (count <= leaf_size_) {
       const float area = n.box.HalfArea();
       const bool pays = split.axis < 0 || split.cost + kNodeCost * area >= area;
       if (pays && (!limit_.fits || limit_.fits(&items_[begin], count))) return;
     }
     const std::uint32_t middle = Partition(begin, end, centers, split);
-    n.right = node + 2 * (middle - begin);
-    const auto left = [&] { Build(node + 1, begin, middle, depth + 1); };
-    const auto right = [&] { Build(n.right, middle, end, depth + 1); };
+    n.child = tree_.AddPair();
+    const auto left = [&] { Build(n.child, begin, middle, depth + 1); };
+    const auto right = [&] { Build(n.child + 1, middle, end, depth + 1); };
     if (count > kSerial) {
       ParallelInvoke(left, right);
     } else {
@@ -92,7 +138,7 @@ class TreeBuilder {
     }
   }
 
-  const std::vector<BinaryNode>& tree() const { return tree_; }
+  const BinaryTree& tree() const { return tree_; }
 
  private:
   void Measure(std::uint32_t begin, std::uint32_t end, AccelBox& box,
@@ -107,9 +153,10 @@ class TreeBuilder {
     return static_cast<float>((n + leaf_size_ - 1) / leaf_size_);
   }
 
+  template <int kCount>
   Split FindSplit(std::uint32_t begin, std::uint32_t end, const AccelBox& centers) const {
-    const Binning binning(centers);
-    Bins bins;
+    const Binning binning(centers, end - begin);
+    std::array<std::array<Bin, kCount>, 3> bins;
     for (std::uint32_t i = begin; i < end; ++i) {
       const Vec3f c = items_[i].Center2();
       for (int a = 0; a < 3; ++a) {
@@ -126,30 +173,31 @@ class TreeBuilder {
   }
 
   // Least sum of half area times blocks over the splits between bins of one axis.
-  void Sweep(const std::array<Bin, kBins>& bins, int axis, Split& best) const {
-    std::array<float, kBins> right_cost;
+  template <std::size_t kCount>
+  void Sweep(const std::array<Bin, kCount>& bins, int axis, Split& best) const {
+    std::array<float, kCount> right_cost;
     AccelBox box;
     std::uint32_t count = 0;
-    for (int b = kBins - 1; b > 0; --b) {
+    for (std::size_t b = kCount - 1; b > 0; --b) {
       box.Extend(bins[b].box);
       count += bins[b].count;
       right_cost[b] = count == 0 ? INFINITY : box.HalfArea() * Blocks(count);
     }
     box = AccelBox();
     count = 0;
-    for (int b = 1; b < kBins; ++b) {
+    for (std::size_t b = 1; b < kCount; ++b) {
       box.Extend(bins[b - 1].box);
       count += bins[b - 1].count;
       if (count == 0) continue;
       const float cost = box.HalfArea() * Blocks(count) + right_cost[b];
-      if (cost < best.cost) best = {axis, b, cost};
+      if (cost < best.cost) best = {axis, static_cast<int>(b), cost};
     }
   }
 
   std::uint32_t Partition(std::uint32_t begin, std::uint32_t end, const AccelBox& centers,
                           const Split& split) {
     if (split.axis < 0) return begin + (end - begin) / 2;
-    const Binning binning(centers);
+    const Binning binning(centers, end - begin);
     const auto middle = std::partition(
         items_.begin() + begin, items_.begin() + end, [&](const BuildItem& item) {
           return binning.Of(item.Center2(), split.axis) < split.bin;
@@ -160,15 +208,15 @@ class TreeBuilder {
   std::vector<BuildItem>& items_;
   const LeafLimit& limit_;
   std::uint32_t leaf_size_;
-  std::vector<BinaryNode> tree_;
+  BinaryTree tree_;
 };
 
 // Turns a binary tree into wide nodes: children are opened, the largest first, until
 // there are eight.
 class Collapser {
  public:
-  Collapser(const std::vector<BinaryNode>& tree, const std::vector<BuildItem>& items,
-            bool single, AlignedVector<WideNode>& nodes, std::vector<LeafRange>& leaves)
+  Collapser(const BinaryTree& tree, const std::vector<BuildItem>& items, bool single,
+            AlignedVector<WideNode>& nodes, std::vector<LeafRange>& leaves)
       : tree_(tree), items_(items), single_(single), nodes_(nodes), leaves_(leaves) {}
 
   std::uint32_t Emit(std::uint32_t at, int depth) {
@@ -204,8 +252,8 @@ class Collapser {
 
   int Open(std::uint32_t at, std::uint32_t child[kBvhWidth]) const {
     int count = 2;
-    child[0] = at + 1;
-    child[1] = tree_[at].right;
+    child[0] = tree_[at].child;
+    child[1] = child[0] + 1;
     while (count < kBvhWidth) {
       int widest = -1;
       float area = -1;
@@ -218,8 +266,8 @@ class Collapser {
       }
       if (widest < 0) break;
       const std::uint32_t opened = child[widest];
-      child[widest] = opened + 1;
-      child[count++] = tree_[opened].right;
+      child[widest] = tree_[opened].child;
+      child[count++] = child[widest] + 1;
     }
     return count;
   }
@@ -263,7 +311,7 @@ class Collapser {
     }
   }
 
-  const std::vector<BinaryNode>& tree_;
+  const BinaryTree& tree_;
   const std::vector<BuildItem>& items_;
   bool single_;
   AlignedVector<WideNode>& nodes_;
