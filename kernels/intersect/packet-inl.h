@@ -9,6 +9,8 @@
 #define LANELIGHT_INTERSECT_PACKET_INL_H_
 #endif
 
+#include <limits>
+
 #include "kernels/intersect/bvh-inl.h"
 #include "kernels/intersect/packet_leaf-inl.h"
 
@@ -109,10 +111,16 @@ HWY_INLINE uint32_t HitChildren(const Frustum& f, const WideNode& node, float t_
   return bits;
 }
 
-/// Visits the leaves that the packet meets, until no ray wants more.
+/// Leaves that a packet of nearly equal rays may meet for the frustum to pay: where
+/// triangles are much smaller than the packet, its rays go ways of their own.
+inline constexpr int kFrustumLeaves = 16;
+
+/// Visits the leaves that the packet meets, until no ray wants more, or until there are
+/// more than `max_leaves`: then the result is false, and what was found is a bound.
 template <bool kAny, bool kAlpha>
-HWY_INLINE void TraceFrustum(const CompiledScene& scene, const Rays& rays,
-                             const PacketBounds& bounds, PacketBest& best) {
+HWY_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
+                             const PacketBounds& bounds, int max_leaves,
+                             PacketBest& best) {
   const DF df;
   const Bvh& bvh = scene.accel.groups[0];
   const uint32_t all = (1u << hn::Lanes(df)) - 1;
@@ -120,28 +128,34 @@ HWY_INLINE void TraceFrustum(const CompiledScene& scene, const Rays& rays,
   PacketRays packet{rays, MakeShear(order, rays, bvh.reach), true, {}};
   SetAxes(order, all, packet);
   float bound = LargestLane(best.t);
+  int left = max_leaves;
   Traverse(scene.accel.nodes.data(), bvh.root, MakeFrustum(bounds, bvh), bound,
            [&](uint32_t leaf) HWY_ATTR {
+             if (--left < 0) return true;
              TestLeafPacket<kAny, kAlpha>(scene, scene.accel.triangle_leaves[leaf],
                                           packet, all, best);
              bound = LargestLane(best.t);
              return bound < 0;
            });
+  return left >= 0;
 }
 
-/// Closest hits of a batch; hits are written to the columns.
+/// Closest hits of a batch; hits are written to the columns. False if the frustum does
+/// not pay: then the rays are to be traced otherwise, from what the columns hold now.
 template <bool kAlpha>
-HWY_INLINE void ClosestFrustum(const Wave& wave, const Rays& rays,
+HWY_INLINE bool ClosestFrustum(const Wave& wave, const Rays& rays,
                                const PacketBounds& bounds, VI slots) {
   const PathColumns& path = wave.path;
   PacketBest best = NoHits(rays.t_max, Gather(path.prim, slots));
-  TraceFrustum<false, kAlpha>(*wave.scene, rays, bounds, best);
+  const bool done =
+      TraceFrustum<false, kAlpha>(*wave.scene, rays, bounds, kFrustumLeaves, best);
   const MF found = MaskOf(DF(), best.found);
   const VF b1 = hn::Div(best.v, best.det), b2 = hn::Div(best.w, best.det);
   Scatter(best.t, path.t, slots);
   Scatter(best.prim, path.prim, slots);
   Scatter(hn::IfThenElse(found, b1, Gather(path.b1, slots)), path.b1, slots);
   Scatter(hn::IfThenElse(found, b2, Gather(path.b2, slots)), path.b2, slots);
+  return done;
 }
 
 /// Which rays of a batch are blocked.
@@ -149,7 +163,7 @@ template <bool kAlpha>
 HWY_INLINE MF BlockedFrustum(const CompiledScene& scene, const Rays& rays,
                              const PacketBounds& bounds) {
   PacketBest best = NoHits(rays.t_max, hn::Zero(DI()));
-  TraceFrustum<true, kAlpha>(scene, rays, bounds, best);
+  TraceFrustum<true, kAlpha>(scene, rays, bounds, std::numeric_limits<int>::max(), best);
   return MaskOf(DF(), best.found);
 }
 

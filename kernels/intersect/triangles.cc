@@ -22,19 +22,38 @@ HWY_INLINE void ClosestSingles(const Wave& wave, const Rays& rays, VI slots, MF 
   ClosestSingle<kAlpha, kInstances>(wave, rays, slots, count);
 }
 
+// Whether a frustum pays for the packets of a wave: it is tried while at most a quarter
+// of them had to give up.
+class FrustumTrial {
+ public:
+  bool IsOn() const { return 4 * given_up_ <= tried_ + 3; }
+  void Add(bool done) {
+    ++tried_;
+    given_up_ += !done;
+  }
+
+ private:
+  uint32_t tried_ = 0, given_up_ = 0;
+};
+
 // World triangles, batch by batch: through a frustum if the rays are nearly the same,
 // else the plain loop if there are few triangles, else collected to a stream.
 template <bool kAlpha>
 void IntersectWorld(Wave& wave) {
   const Accel& accel = wave.scene->accel;
+  FrustumTrial frustum;
   RayStream<false, kAlpha> stream(*wave.scene);
   const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
   ForEachBatch(wave, wave.queue(QueueId::kActive),
                [&](const Slots& slots, MF valid) HWY_ATTR {
-                 const Rays rays = LoadRays(wave.path, slots);
+                 Rays rays = LoadRays(wave.path, slots);
                  PacketBounds bounds;
-                 if (bounds.Compute(rays) && bounds.IsNarrow(accel.groups[0].reach)) {
-                   return ClosestFrustum<kAlpha>(wave, rays, bounds, slots);
+                 if (frustum.IsOn() && bounds.Compute(rays) &&
+                     bounds.IsNarrow(accel.groups[0].reach)) {
+                   const bool done = ClosestFrustum<kAlpha>(wave, rays, bounds, slots);
+                   frustum.Add(done);
+                   if (done) return;
+                   rays.t_max = Gather(wave.path.t, slots);
                  }
                  if (!accel.few.triangles.empty())
                    return ClosestFew<kAlpha>(wave, rays, slots);
