@@ -4,6 +4,8 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <memory>
 #include <mutex>
 
@@ -66,8 +68,40 @@ class BinaryTree {
   std::atomic<std::uint32_t> next_;
 };
 
+// Four numbers as one vector of the baseline target, the fourth unused.
+typedef float Float4 __attribute__((vector_size(16)));
+
+Float4 Least(Float4 a, Float4 b) { return a < b ? a : b; }
+Float4 Largest(Float4 a, Float4 b) { return a > b ? a : b; }
+Float4 Load4(const float* p) {
+  Float4 v;
+  std::memcpy(&v, p, sizeof(v));
+  return v;
+}
+// The box of an item: its floats lie one after another, and the id behind them.
+static_assert(offsetof(AccelBox, hi) == 12 && offsetof(BuildItem, id) == 24);
+Float4 LowOf(const BuildItem& item) { return Load4(&item.box.lo.x); }
+Float4 HighOf(const BuildItem& item) { return Load4(&item.box.hi.x); }
+
+// A box as it grows.
+struct WideBox {
+  Float4 lo{INFINITY, INFINITY, INFINITY, INFINITY};
+  Float4 hi{-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+
+  void Extend(Float4 l, Float4 h) {
+    lo = Least(lo, l);
+    hi = Largest(hi, h);
+  }
+  void Extend(const WideBox& b) { Extend(b.lo, b.hi); }
+  float HalfArea() const {
+    const Float4 e = hi - lo;
+    return e[0] >= 0 ? e[0] * e[1] + e[1] * e[2] + e[2] * e[0] : 0.0f;
+  }
+  AccelBox Box() const { return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}; }
+};
+
 struct Bin {
-  AccelBox box;
+  WideBox box;
   std::uint32_t count = 0;
 };
 
@@ -143,10 +177,14 @@ class TreeBuilder {
  private:
   void Measure(std::uint32_t begin, std::uint32_t end, AccelBox& box,
                AccelBox& centers) const {
+    WideBox all, middles;
     for (std::uint32_t i = begin; i < end; ++i) {
-      box.Extend(items_[i].box);
-      centers.Extend(items_[i].Center2());
+      const Float4 lo = LowOf(items_[i]), hi = HighOf(items_[i]);
+      all.Extend(lo, hi);
+      middles.Extend(lo + hi, lo + hi);
     }
+    box = all.Box();
+    centers = middles.Box();
   }
 
   float Blocks(std::uint32_t n) const {
@@ -159,9 +197,10 @@ class TreeBuilder {
     std::array<std::array<Bin, kCount>, 3> bins;
     for (std::uint32_t i = begin; i < end; ++i) {
       const Vec3f c = items_[i].Center2();
+      const Float4 lo = LowOf(items_[i]), hi = HighOf(items_[i]);
       for (int a = 0; a < 3; ++a) {
         Bin& bin = bins[a][binning.Of(c, a)];
-        bin.box.Extend(items_[i].box);
+        bin.box.Extend(lo, hi);
         ++bin.count;
       }
     }
@@ -176,14 +215,14 @@ class TreeBuilder {
   template <std::size_t kCount>
   void Sweep(const std::array<Bin, kCount>& bins, int axis, Split& best) const {
     std::array<float, kCount> right_cost;
-    AccelBox box;
+    WideBox box;
     std::uint32_t count = 0;
     for (std::size_t b = kCount - 1; b > 0; --b) {
       box.Extend(bins[b].box);
       count += bins[b].count;
       right_cost[b] = count == 0 ? INFINITY : box.HalfArea() * Blocks(count);
     }
-    box = AccelBox();
+    box = WideBox();
     count = 0;
     for (std::size_t b = 1; b < kCount; ++b) {
       box.Extend(bins[b - 1].box);
