@@ -47,7 +47,7 @@ struct PacketBounds {
   }
 
   /// Whether the rays are close enough for a packet to pay: measured with
-  /// bench/intersect.cc, see src/accel/accel.h.
+  /// bench/intersect/, see src/accel/accel.h.
   HWY_INLINE bool IsNarrow(float reach) const {
     float spread = 0, extent = 0;
     for (int a = 0; a < 3; ++a) {

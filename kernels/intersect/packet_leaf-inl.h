@@ -37,7 +37,7 @@ struct PacketRays {
   uint32_t row[3];
 };
 
-/// `largest[i]` is the axis of the largest |direction| of lane i < count.
+/// Fills same_axes and row from the lanes of `valid`, given as bits.
 HWY_INLINE void SetAxes(const AxisOrder& order, uint32_t valid, PacketRays& packet) {
   const uint32_t y = MaskBits(DF(), order.y) & valid, z = MaskBits(DF(), order.z) & valid;
   packet.same_axes = z == valid || (z == 0 && (y == valid || y == 0));
