@@ -19,9 +19,6 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_INLINE float LeastLane(VF v) { return hn::GetLane(hn::MinOfLanes(DF(), v)); }
-HWY_INLINE float LargestLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(), v)); }
-
 /// Intervals of the rays of a packet, axis by axis.
 struct PacketBounds {
   float o_min[3], o_max[3], d_min[3], d_max[3];
@@ -125,8 +122,8 @@ HWY_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
   const Bvh& bvh = scene.accel.groups[0];
   const uint32_t all = (1u << hn::Lanes(df)) - 1;
   const AxisOrder order(rays.d);
-  PacketRays packet{rays, MakeShear(order, rays, bvh.reach), true, {}};
-  SetAxes(order, all, packet);
+  const PacketRays packet =
+      MakePacket(rays, MakeShear(order, rays, bvh.reach), order, all, bvh.reach);
   float bound = LargestLane(best.t);
   int left = max_leaves;
   Traverse(scene.accel.nodes.data(), bvh.root, MakeFrustum(bounds, bvh), bound,

@@ -8,7 +8,7 @@
 
 #include <bit>
 
-#include "kernels/intersect/many-inl.h"
+#include "kernels/intersect/beam-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -29,21 +29,31 @@ HWY_INLINE PacketBest NoHits(VF t_max, VI prim) {
 }
 
 /// Rays of a packet prepared for leaves. `same_axes`: the order of axes is that of
-/// `row[]`, rows of TriangleLeaf::vertex, for all of them.
+/// `row[]`, rows of TriangleLeaf::vertex, for all of them. `has_beam`: moreover they are
+/// similar, and `beam` bounds them.
 struct PacketRays {
   Rays rays;
   Shear<VF> shear;
-  bool same_axes;
-  uint32_t row[3];
+  bool same_axes = false, has_beam = false;
+  uint32_t row[3] = {};
+  Beam beam = {};
 };
 
-/// Fills same_axes and row from the lanes of `valid`, given as bits.
-HWY_INLINE void SetAxes(const AxisOrder& order, uint32_t valid, PacketRays& packet) {
+/// Prepares rays for leaves; `valid`: their lanes, as bits.
+HWY_INLINE PacketRays MakePacket(const Rays& rays, const Shear<VF>& shear,
+                                 const AxisOrder& order, uint32_t valid, float reach) {
+  PacketRays packet{rays, shear};
   const uint32_t y = MaskBits(DF(), order.y) & valid, z = MaskBits(DF(), order.z) & valid;
   packet.same_axes = z == valid || (z == 0 && (y == valid || y == 0));
   packet.row[2] = z != 0 ? 2 : y != 0 ? 1 : 0;
   packet.row[0] = (packet.row[2] + 1) % 3;
   packet.row[1] = (packet.row[2] + 2) % 3;
+  // The lanes behind the last ray of a stream may hold anything.
+  const bool full = valid == (1u << hn::MaxLanes(DF())) - 1;
+  if (!packet.same_axes || !full) return packet;
+  packet.beam = MakeBeam(shear, reach);
+  packet.has_beam = packet.beam.IsNarrow();
+  return packet;
 }
 
 /// Three numbers for each ray and each vertex, or each triangle, of a leaf.
@@ -86,21 +96,25 @@ HWY_INLINE void ShearLeaf(const TriangleLeaf& leaf, const PacketRays& packet,
 }
 
 /// Tests the rays of `lanes` against a leaf. A first pass finds the triangles that any of
-/// their lines passes through; it has no branches, and what it computes is kept, so that
-/// tests overlap in both passes.
+/// their lines passes through; its tests have no branches, and what it computes is kept,
+/// so that tests overlap in both passes.
 template <bool kAny, bool kAlpha>
 HWY_INLINE void TestLeafPacket(const CompiledScene& scene, const TriangleLeaf& leaf,
                                const PacketRays& packet, uint32_t lanes,
                                PacketBest& best) {
   const DF df;
   const DI di;
+  uint32_t near =
+      packet.has_beam ? TrianglesInBeam(packet.beam, leaf, packet.row) : leaf.used;
+  if (near == 0) return;
   PacketColumns vertices;
   ShearLeaf(leaf, packet, vertices);
   const auto corner = [&](uint32_t i, int k)
                           HWY_ATTR { return vertices[leaf.corner[k][i]]; };
   PacketColumns weights;
   uint32_t passed = 0;
-  for (uint32_t i = 0; i < leaf.count; ++i) {
+  for (; near != 0; near &= near - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(near));
     const auto edges = TestEdges(df, corner(i, 0), corner(i, 1), corner(i, 2));
     weights.Keep(i, {edges.u, edges.v, edges.w});
     passed |= uint32_t{(lanes & MaskBits(df, edges.mask)) != 0} << i;

@@ -120,15 +120,12 @@ class PacketPhase {
                 hn::LoadU(df, column[2] + at_)};
     };
     const V3 d = load(rays_.d), so = load(rays_.shear_o), ss = load(rays_.shear_s);
-    PacketRays packet{{load(rays_.o), d, hn::LoadU(df, rays_.t + at_)},
-                      {{so.x, so.y, so.z},
-                       {ss.x, ss.y, ss.z},
-                       hn::LoadU(df, rays_.abs_dz + at_),
-                       hn::LoadU(df, rays_.t_scale + at_)},
-                      true,
-                      {}};
-    SetAxes(AxisOrder(d), (1u << count_) - 1, packet);
-    return packet;
+    const Shear<VF> shear{{so.x, so.y, so.z},
+                          {ss.x, ss.y, ss.z},
+                          hn::LoadU(df, rays_.abs_dz + at_),
+                          hn::LoadU(df, rays_.t_scale + at_)};
+    const Rays rays{load(rays_.o), d, hn::LoadU(df, rays_.t + at_)};
+    return MakePacket(rays, shear, AxisOrder(d), (1u << count_) - 1, bvh_.reach);
   }
 
   // Fills the frame of a node. Every child is tested, and everything is stored to places
