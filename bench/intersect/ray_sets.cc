@@ -9,9 +9,11 @@
 namespace lanelight::bench {
 namespace {
 
-/// Where a ray hit: just outside the surface, and the normal on the ray's side.
+/// Where a ray hit: just outside the surface, the normal on the ray's side, the direction
+/// of the ray, and the triangle.
 struct Vertex {
-  Vec3f p, n, d;  // d: direction of the ray
+  Vec3f p, n, d;
+  std::uint32_t prim;
 };
 
 std::vector<Vertex> FindHits(const CompiledScene& scene,
@@ -34,7 +36,7 @@ std::vector<Vertex> FindHits(const CompiledScene& scene,
       const std::uint32_t i = hits.items[k];
       Vec3f n = f.Ng(i);
       if (Dot(n, part[i].d) > 0) n = -n;
-      out.push_back({f.P(i) + n * f.wave.path.p_error[i], n, part[i].d});
+      out.push_back({f.P(i) + n * f.wave.path.p_error[i], n, part[i].d, f.wave.path.prim[i]});
     }
   }
   return out;
@@ -63,7 +65,10 @@ class RayMaker {
     const float u = Uniform(), v = Uniform();
     const Vec3f goal = mesh_.light_corner + u * mesh_.light_u + v * mesh_.light_v;
     const float distance = Length(goal - from.p);
-    return {from.p, (goal - from.p) / distance, 0.999f * distance};
+    // A ray into the surface meets it first.
+    const bool leaves = Dot(goal - from.p, from.n) > 0;
+    return {from.p, (goal - from.p) / distance, 0.999f * distance,
+            leaves ? from.prim : kNoPrimitive};
   }
 
   TestRay Diffuse(const Vertex& from) {
@@ -73,12 +78,13 @@ class RayMaker {
       const float length = Length(v);
       if (length > 1 || length < 0.01f) continue;
       const Vec3f d = from.n + v / length;
-      if (Length(d) > 1e-3f) return {from.p, Normalize(d)};
+      if (Length(d) > 1e-3f) return {from.p, Normalize(d), INFINITY, from.prim};
     }
   }
 
   static TestRay Mirror(const Vertex& from) {
-    return {from.p, Normalize(from.d - (2 * Dot(from.n, from.d)) * from.n)};
+    const Vec3f d = Normalize(from.d - (2 * Dot(from.n, from.d)) * from.n);
+    return {from.p, d, INFINITY, from.prim};
   }
 
  private:

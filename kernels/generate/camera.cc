@@ -95,6 +95,9 @@ void Camera(Wave& wave) {
   ForEachBatch(wave, queue, [&](const StoreSlots& slots, MF valid) HWY_ATTR {
     initial.Store(slots);
     Scatter(hn::Zero(DI()), p.depth, slots);
+    if (p.b1 != nullptr) {  // with triangles
+      Scatter(hn::Set(DI(), static_cast<int32_t>(kNoPrimitive)), p.prim, slots);
+    }
     VF x, y;
     FilmPosition<kBox>(wave, slots, &x, &y);
     const V3 film = MulAdd(dx, x, MulAdd(dy, y, base));
@@ -165,7 +168,7 @@ Stage CameraStage() {
       {Field::pixel, Field::u_film_0, Field::u_film_1, Field::u_lens_0, Field::u_lens_1},
       fields::kRay | fields::kThroughput | fields::kRadiance | fields::kAov |
           fields::kControl | fields::kFirstBounce |
-          FieldSet{Field::depth, Field::bsdf_pdf, Field::eta_scale, Field::t,
+          FieldSet{Field::depth, Field::bsdf_pdf, Field::eta_scale, Field::t, Field::prim,
                    Field::weight},
       ResolveCamera};
 }

@@ -75,11 +75,12 @@ struct LeafWeights {
   HWY_ALIGN float z[kLeafVertices];
 };
 
-/// A ray as leaves see it: its shear, and the byte offsets of the rows of
-/// TriangleLeaf::vertex in its permuted order of axes.
+/// A ray as leaves see it: its shear, the byte offsets of the rows of
+/// TriangleLeaf::vertex in its permuted order of axes, and Rays::from.
 struct LeafRay {
   P3<float> o, s;
   uint32_t axis[3];
+  uint32_t from;
 };
 
 HWY_INLINE const float* LeafRow(const TriangleLeaf& leaf, uint32_t offset) {
@@ -88,7 +89,8 @@ HWY_INLINE const float* LeafRow(const TriangleLeaf& leaf, uint32_t offset) {
 }
 
 /// Tests kRays rays, each against a leaf of its own, without a branch: bits[j] are the
-/// triangles that the line of ray j passes through. The rays take each step together, so
+/// triangles that the line of ray j passes through, but
+/// for the one that it starts on. The rays take each step together, so
 /// that the processor's window always holds as many independent chains.
 template <int kRays>
 HWY_INLINE void TestLeaves(const LeafRay (&ray)[kRays], const TriangleLeaf* const* leaf,
@@ -137,7 +139,9 @@ HWY_INLINE void TestLeaves(const LeafRay (&ray)[kRays], const TriangleLeaf* cons
       hn::Store(w[j], d, to[j]->w + i);
       const ML pass = hn::Or(hn::Ge(Min3(u[j], v[j], w[j]), zero),
                              hn::Le(Max3(u[j], v[j], w[j]), zero));
-      bits[j] |= MaskBits(d, pass) << i;
+      const auto other =
+          hn::Ne(hn::LoadU(du, leaf[j]->prim + i), hn::Set(du, ray[j].from));
+      bits[j] |= MaskBits(d, hn::And(pass, hn::RebindMask(d, other))) << i;
     }
   }
   for (int j = 0; j < kRays; ++j) bits[j] &= leaf[j]->used;

@@ -53,7 +53,7 @@ HWY_INLINE Shear<VF> MakeShear(const Order& order, const Rays& rays, float reach
 /// Lanes whose ray has the plane of triangle (v0, v1, v2) ahead: PlaneIsAhead for many
 /// rays, with the same order of operations.
 inline HWY_NOINLINE MF AheadOf(const Rays& rays, const float v0[3], const float v1[3],
-                        const float v2[3]) {
+                               const float v2[3]) {
   const DF df;
   double n[3];
   ExactNormal(v0, v1, v2, n);
@@ -74,6 +74,12 @@ inline HWY_NOINLINE MF AheadOf(const Rays& rays, const float v0[3], const float 
   const VF same =
       InDouble(df, side, rays.o.x, rays.o.y, rays.o.z, rays.d.x, rays.d.y, rays.d.z);
   return hn::Gt(same, hn::Zero(df));
+}
+
+/// Lanes whose ray does not start on triangle `prim`.
+HWY_INLINE MF NotFrom(const Rays& rays, uint32_t prim) {
+  return hn::RebindMask(DF(),
+                        hn::Ne(rays.from, hn::Set(DI(), static_cast<int32_t>(prim))));
 }
 
 /// Clears the lanes of `mask` whose candidate hit on `prim` is cut out.

@@ -117,7 +117,8 @@ HWY_INLINE void TestLeafPacket(const CompiledScene& scene, const TriangleLeaf& l
     const auto i = static_cast<uint32_t>(std::countr_zero(near));
     const auto edges = TestEdges(df, corner(i, 0), corner(i, 1), corner(i, 2));
     weights.Keep(i, {edges.u, edges.v, edges.w});
-    passed |= uint32_t{(lanes & MaskBits(df, edges.mask)) != 0} << i;
+    const MF mask = hn::And(edges.mask, NotFrom(packet.rays, leaf.prim[i]));
+    passed |= uint32_t{(lanes & MaskBits(df, mask)) != 0} << i;
   }
   const MF active = MaskOf(df, lanes);
   for (; passed != 0; passed &= passed - 1) {
@@ -131,11 +132,12 @@ HWY_INLINE void TestLeafPacket(const CompiledScene& scene, const TriangleLeaf& l
     };
     const P3<VF> p = corner(i, 0), q = corner(i, 1), r = corner(i, 2);
     const P3<VF> weight = weights[i];
-    const auto edges = JoinEdges(df, weight.x, weight.y, weight.z);
-    const VF t_det =
-        hn::MulAdd(edges.u, p.z, hn::MulAdd(edges.v, q.z, hn::Mul(edges.w, r.z)));
-    TriangleHits<VF, MF> hit = FinishHits(
-        df, packet.shear, p, q, r, hn::And(edges.mask, active), edges, t_det, is_ahead);
+    auto edges = JoinEdges(df, weight.x, weight.y, weight.z);
+    edges.mask = hn::And(hn::And(edges.mask, active), NotFrom(packet.rays, leaf.prim[i]));
+    const VF t_det = TestDistance(df, packet.shear, p, q, r, best.t, edges);
+    if (hn::AllFalse(df, edges.mask)) continue;
+    TriangleHits<VF, MF> hit =
+        FinishHits(df, packet.shear, p, q, r, edges.mask, edges, t_det, is_ahead);
     MF mask = hit.mask;
     if constexpr (kAlpha) mask = CutOut(scene, packet.rays, leaf.prim[i], hit, mask);
     if constexpr (kAny) {

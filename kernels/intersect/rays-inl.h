@@ -9,6 +9,7 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
+#include "src/scene/compiled.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -16,10 +17,14 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// One vector of rays. `t_max` is the distance to beat (closest hit: a candidate at t_max
-/// still wins with a smaller id) or the exclusive end (shadow).
+/// still wins with a smaller id) or the exclusive end (shadow). `from` is the primitive
+/// that the ray starts on, kNoPrimitive if there is none or it is not known: if it is a
+/// triangle of the world it is left out, since a ray that starts beside the plane of a
+/// triangle, and away from it, cannot meet it.
 struct Rays {
   V3 o, d;
   VF t_max;
+  VI from;
 };
 
 /// The same rays one by one.
@@ -28,6 +33,7 @@ struct RayArrays {
   HWY_ALIGN float d[3][hn::MaxLanes(DF())];
   HWY_ALIGN float t_max[hn::MaxLanes(DF())];
   HWY_ALIGN uint32_t slot[hn::MaxLanes(DF())];
+  HWY_ALIGN int32_t from[hn::MaxLanes(DF())];
 
   HWY_INLINE RayArrays(const Rays& rays, VI slots) {
     const DF df;
@@ -39,13 +45,23 @@ struct RayArrays {
     hn::Store(rays.d.z, df, d[2]);
     hn::Store(rays.t_max, df, t_max);
     hn::Store(hn::BitCast(DU(), slots), DU(), slot);
+    hn::Store(rays.from, DI(), from);
   }
 };
+
+HWY_INLINE VI FromNone() { return hn::Set(DI(), static_cast<int32_t>(kNoPrimitive)); }
+
+/// Rays::from of extension rays: `prim` is that of the last hit until there is a new one.
+HWY_INLINE VI StartsOf(const PathColumns& path, const Slots& slots, VF t) {
+  const auto fresh = hn::RebindMask(DI(), hn::IsInf(t));
+  return hn::IfThenElse(fresh, Gather(path.prim, slots), FromNone());
+}
 
 /// The extension rays of a batch (queue kActive).
 HWY_INLINE Rays LoadRays(const PathColumns& path, const Slots& slots) {
   return {Gather3(path.o_x, path.o_y, path.o_z, slots),
-          Gather3(path.d_x, path.d_y, path.d_z, slots), Gather(path.t, slots)};
+          Gather3(path.d_x, path.d_y, path.d_z, slots), Gather(path.t, slots),
+          FromNone()};
 }
 
 /// The shadow rays of a batch (queue kShadow).
@@ -54,7 +70,7 @@ HWY_INLINE Rays LoadShadowRays(const PathColumns& path, const Slots& slots) {
   const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
   const V3 d = Gather3(path.ls_x, path.ls_y, path.ls_z, slots);
   return {OffsetOrigin(p, ng, Gather(path.p_error, slots), d), d,
-          Gather(path.ls_distance, slots)};
+          Gather(path.ls_distance, slots), FromNone()};
 }
 
 /// Writes the lanes of `closer`; the others keep what they have.

@@ -27,7 +27,8 @@ void ShadowWorldRays(Wave& wave) {
   const auto flush = [&]() HWY_ATTR { stream.KeepOpen(kept); };
   const bool few = !scene.accel.few.triangles.empty();
   ForEachBatch(wave, all, [&](const Slots& slots, MF valid) HWY_ATTR {
-    const Rays rays = LoadShadowRays(wave.path, slots);
+    Rays rays = LoadShadowRays(wave.path, slots);
+    rays.from = Gather(wave.path.prim, slots);
     if (few) {
       PacketBounds bounds;
       const bool narrow =
@@ -78,7 +79,7 @@ Stage ShadowTrianglesStage() {
           .meaning = "drop shadow rays blocked by triangles",
           .input = QueueId::kShadow,
           .needs = {Feature::kTriangles, Feature::kLights},
-          .reads = ShadowRayFields(),
+          .reads = ShadowRayFields() | FieldSet{Field::prim},
           .writes = {},
           .resolve = [](const FeatureSet& features) -> StageFn {
             const bool alpha = features.Has(Feature::kAlpha);

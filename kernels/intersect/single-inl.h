@@ -33,10 +33,12 @@ HWY_INLINE int LargestAxis(const float d[3]) {
   return axis;
 }
 
-/// What the query is about, and the ray in scene space (alpha decisions use it).
+/// What the query is about, and the ray in scene space (alpha decisions use it). `from`
+/// as in Rays; not used where there are instances, of which triangles may be several.
 struct OneRay {
   const CompiledScene* scene;
   float o[3], d[3];
+  uint32_t from;
 };
 
 /// One ray against the triangles of one group, in its space.
@@ -51,7 +53,8 @@ class GroupQuery {
     constexpr uint32_t kRow = sizeof(TriangleLeaf::vertex[0]);
     leaf_ray_[0] = {{o[x], o[y], o[z]},
                     {d[x] / d[z], d[y] / d[z], 1 / d[z]},
-                    {kRow * x, kRow * y, kRow * z}};
+                    {kRow * x, kRow * y, kRow * z},
+                    ray.from};
   }
 
   HWY_INLINE void Run() {
@@ -141,7 +144,8 @@ HWY_INLINE void ClosestSingle(const Wave& wave, const Rays& batch, VI slots, int
     const uint32_t slot = rays.slot[i];
     const OneRay ray{wave.scene,
                      {rays.o[0][i], rays.o[1][i], rays.o[2][i]},
-                     {rays.d[0][i], rays.d[1][i], rays.d[2][i]}};
+                     {rays.d[0][i], rays.d[1][i], rays.d[2][i]},
+                     kInstances ? kNoPrimitive : static_cast<uint32_t>(rays.from[i])};
     OneHit hit{rays.t_max[i], path.prim[slot], 0, 0, kWorldInstance};
     TraceTriangles<false, kAlpha, kInstances>(ray, hit);
     if (!hit.found) continue;
@@ -162,7 +166,8 @@ HWY_INLINE MF BlockedSingle(const CompiledScene& scene, const Rays& batch, VI sl
   for (int i = 0; i < count; ++i) {
     const OneRay ray{&scene,
                      {rays.o[0][i], rays.o[1][i], rays.o[2][i]},
-                     {rays.d[0][i], rays.d[1][i], rays.d[2][i]}};
+                     {rays.d[0][i], rays.d[1][i], rays.d[2][i]},
+                     kInstances ? kNoPrimitive : static_cast<uint32_t>(rays.from[i])};
     OneHit hit{rays.t_max[i], 0, 0, 0, kWorldInstance};
     TraceTriangles<true, kAlpha, kInstances>(ray, hit);
     blocked |= uint32_t{hit.found} << i;

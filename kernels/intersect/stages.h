@@ -20,7 +20,8 @@ Stage ShadowDisksStage();
 Stage ShadowPlanesStage();
 
 /// What a closest-hit query is made of. Where t is still +inf there is no hit yet, and
-/// prim is not looked at.
+/// prim is the primitive that the ray starts on (kNoPrimitive: none), which triangles
+/// leave out.
 inline FieldSet ClosestRayFields() { return fields::kRay | FieldSet{Field::t}; }
 
 /// What a shadow ray is made of: its offset origin, direction and length.

@@ -55,6 +55,7 @@ class PacketPhase {
  private:
   struct Slabs {
     VF rcp[3], near[3], far[3];
+    MF negative[3];
   };
   // The children of a node that the packet is in, in the order of their slots seen from
   // its first ray: entry distances, and which lanes enter.
@@ -73,6 +74,7 @@ class PacketPhase {
       slabs.rcp[a] = hn::LoadU(df, rays_.rcp[a] + at_);
       slabs.near[a] = hn::LoadU(df, rays_.near[a] + at_);
       slabs.far[a] = hn::LoadU(df, rays_.far[a] + at_);
+      slabs.negative[a] = hn::Lt(slabs.rcp[a], hn::Zero(df));
     }
     std::fill_n(rays_.bottom + at_, count_, kDeferred);
     const PacketRays packet = LoadPacket();
@@ -124,7 +126,8 @@ class PacketPhase {
                           {ss.x, ss.y, ss.z},
                           hn::LoadU(df, rays_.abs_dz + at_),
                           hn::LoadU(df, rays_.t_scale + at_)};
-    const Rays rays{load(rays_.o), d, hn::LoadU(df, rays_.t + at_)};
+    const VI from = hn::LoadU(DI(), reinterpret_cast<const int32_t*>(rays_.from) + at_);
+    const Rays rays{load(rays_.o), d, hn::LoadU(df, rays_.t + at_), from};
     return MakePacket(rays, shear, AxisOrder(d), (1u << count_) - 1, bvh_.reach);
   }
 
@@ -141,22 +144,19 @@ class PacketPhase {
       VF enter = hn::Zero(df), leave = t;
       for (int a = 0; a < 3; ++a) {
         const uint32_t negative = kSameSigns ? octant >> a & 1 : 0;
-        const VF p = Splat(node.bounds[a][negative][c]);
-        const VF q = Splat(node.bounds[a][negative ^ 1][c]);
-        if constexpr (kSameSigns) {
-          enter = hn::Max(enter, hn::MulAdd(p, slabs.rcp[a], slabs.near[a]));
-          leave = hn::Min(leave, hn::MulAdd(q, slabs.rcp[a], slabs.far[a]));
-        } else {
-          const VF x = hn::Mul(p, slabs.rcp[a]), y = hn::Mul(q, slabs.rcp[a]);
-          enter = hn::Max(enter, hn::Add(hn::Min(x, y), slabs.near[a]));
-          leave = hn::Min(leave, hn::Add(hn::Max(x, y), slabs.far[a]));
+        VF p = Splat(node.bounds[a][negative][c]);
+        VF q = Splat(node.bounds[a][negative ^ 1][c]);
+        if constexpr (!kSameSigns) {
+          const VF lower = p;
+          p = hn::IfThenElse(slabs.negative[a], q, p);
+          q = hn::IfThenElse(slabs.negative[a], lower, q);
         }
+        enter = hn::Max(enter, hn::MulAdd(p, slabs.rcp[a], slabs.near[a]));
+        leave = hn::Min(leave, hn::MulAdd(q, slabs.rcp[a], slabs.far[a]));
       }
       hn::Store(enter, df, frame.entry[j]);
       frame.ref[j] = node.child[c];
-      // Unused children have inverted bounds, which Min and Max put right.
-      const uint32_t used = node.child[c] == kEmptyRef ? 0 : lanes;
-      frame.lanes[j] = used & MaskBits(df, hn::Le(enter, leave));
+      frame.lanes[j] = lanes & MaskBits(df, hn::Le(enter, leave));
       open |= uint32_t{frame.lanes[j] != 0} << j;
     }
     frame.open = open;

@@ -37,6 +37,7 @@ struct StreamRays {
   // The hits so far; in a shadow query t is the end of the ray.
   float t[kRoom], b1[kRoom], b2[kRoom];
   int32_t prim[kRoom], found[kRoom];
+  uint32_t from[kRoom];  // as in Rays
   int32_t slot[kRoom];
   // Where single rays are: the node or leaf, and the stack [bottom, top] of others, the
   // last one kEmptyRef at the bottom. Stacks are `stride` apart, as deep as the tree
@@ -67,6 +68,7 @@ struct StreamRays {
     hn::StoreU(hn::Zero(df), df, b2 + size);
     hn::StoreU(prims, di, prim + size);
     hn::StoreU(slots, di, slot + size);
+    StoreInt(rays.from, from + size);
     size += count;
   }
 

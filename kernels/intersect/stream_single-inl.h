@@ -174,7 +174,8 @@ class SinglePhase {
       leaf[j] = &LeafOf(r[j]);
       ray[j] = {load(rays_.shear_o),
                 load(rays_.shear_s),
-                {rays_.row[0][r[j]], rays_.row[1][r[j]], rays_.row[2][r[j]]}};
+                {rays_.row[0][r[j]], rays_.row[1][r[j]], rays_.row[2][r[j]]},
+                rays_.from[r[j]]};
       weights[j] = &weights_[at + j];
     }
     TestLeaves(ray, leaf, weights, bits);

@@ -203,12 +203,13 @@ HWY_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray, const P3<V>& 
   return hit;
 }
 
-/// Tests the sheared triangle (a, b, c), for lanes of which most miss.
+/// Tests the sheared triangle (a, b, c) against the lanes of `tested`, most of which miss.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
 HWY_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const P3<V>& a,
                                            const P3<V>& b, const P3<V>& c, V t_max,
-                                           IsAhead&& is_ahead) {
+                                           M tested, IsAhead&& is_ahead) {
   TriangleEdges<V, M> e = TestEdges(d, a, b, c);
+  e.mask = hn::And(e.mask, tested);
   const V zero = hn::Zero(d);
   if (HWY_LIKELY(hn::AllFalse(d, e.mask))) return {e.mask, zero, zero, zero, zero};
   const V t_det = TestDistance(d, ray, a, b, c, t_max, e);

@@ -47,6 +47,7 @@ void IntersectWorld(Wave& wave) {
   ForEachBatch(wave, wave.queue(QueueId::kActive),
                [&](const Slots& slots, MF valid) HWY_ATTR {
                  Rays rays = LoadRays(wave.path, slots);
+                 rays.from = StartsOf(wave.path, slots, rays.t_max);
                  PacketBounds bounds;
                  if (frustum.IsOn() && bounds.Compute(rays) &&
                      bounds.IsNarrow(accel.groups[0].reach)) {
@@ -97,7 +98,7 @@ Stage IntersectTrianglesStage() {
           .meaning = "closest hit on triangles",
           .input = QueueId::kActive,
           .needs = {Feature::kTriangles},
-          .reads = ClosestRayFields(),
+          .reads = ClosestRayFields() | FieldSet{Field::prim},
           .writes = fields::kHit,
           .resolve = [](const FeatureSet& features) -> StageFn {
             const bool alpha = features.Has(Feature::kAlpha);

@@ -8,7 +8,6 @@ namespace lanelight {
 /// True but for the columns that every bounce writes before it reads them.
 constexpr bool IsCarried(Field f) {
   switch (f) {
-    case Field::prim:
     case Field::b1:
     case Field::b2:
     case Field::inst:
@@ -80,11 +79,13 @@ struct CarriedColumns {
   std::uint32_t count = 0;
 
   explicit CarriedColumns(const PathColumns& p) {
-    // The film position is read again only by what fits a control variate to it.
-    const bool film = p.first_0 != nullptr;
+    // The film position is read again only by what fits a control variate to it, and the
+    // last hit only by what intersects triangles.
+    const bool film = p.first_0 != nullptr, triangles = p.b1 != nullptr;
 #define X(type, name, features, meaning)                                              \
   if (p.name != nullptr && IsCarried(Field::name) &&                                  \
-      (film || (Field::name != Field::u_film_0 && Field::name != Field::u_film_1))) { \
+      (film || (Field::name != Field::u_film_0 && Field::name != Field::u_film_1)) && \
+      (triangles || Field::name != Field::prim)) {                                    \
     columns[count++] = reinterpret_cast<std::uint32_t*>(p.name);                      \
   }
     LANELIGHT_PATH_FIELDS(X)

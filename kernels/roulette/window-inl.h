@@ -70,9 +70,10 @@ struct CopiedColumns {
 
   explicit CopiedColumns(const PathColumns& p) {
     static const FieldSet kOwn =
-        fields::kBouncePoints | fields::kLightSample | fields::kShadow | fields::kHit |
+        fields::kBouncePoints | fields::kLightSample | fields::kShadow |
         fields::kRadiance | fields::kControl |
-        FieldSet{Field::o_x,      Field::o_y,      Field::o_z,     Field::u_film_0,
+        FieldSet{Field::t,        Field::b1,       Field::b2,      Field::inst,
+                 Field::o_x,      Field::o_y,      Field::o_z,     Field::u_film_0,
                  Field::u_film_1, Field::u_lens_0, Field::u_lens_1};
 #define X(type, name, features, meaning)                    \
   if (p.name != nullptr && !kOwn.Has(Field::name)) {        \

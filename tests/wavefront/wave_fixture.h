@@ -75,6 +75,7 @@ inline CompiledScene MakeScene(Geometry geometry, const AccelOptions& options = 
 struct TestRay {
   Vec3f o, d;
   float t_max = std::numeric_limits<float>::infinity();
+  std::uint32_t from = kNoPrimitive;  // the triangle that the ray starts on
 };
 
 /// A wavefront whose slots are all in kActive, kSurface or kShadow at will.
@@ -102,6 +103,7 @@ class WaveFixture {
     p.o_x[slot] = ray.o.x, p.o_y[slot] = ray.o.y, p.o_z[slot] = ray.o.z;
     p.d_x[slot] = ray.d.x, p.d_y[slot] = ray.d.y, p.d_z[slot] = ray.d.z;
     p.t[slot] = ray.t_max;
+    p.prim[slot] = ray.from;
     p.inst[slot] = kWorldInstance;
   }
   /// Shadow rays that start exactly at o (no offset), queued in kShadow.
@@ -112,6 +114,7 @@ class WaveFixture {
       p.ng_x[i] = 0, p.ng_y[i] = 0, p.ng_z[i] = 1, p.p_error[i] = 0;
       p.ls_x[i] = rays[i].d.x, p.ls_y[i] = rays[i].d.y, p.ls_z[i] = rays[i].d.z;
       p.ls_distance[i] = rays[i].t_max;
+      p.prim[i] = rays[i].from;
     }
     QueueAll(QueueId::kShadow, static_cast<std::uint32_t>(rays.size()));
   }
