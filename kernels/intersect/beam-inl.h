@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernels/intersect/leaf-inl.h"
 #include "kernels/intersect/many-inl.h"
@@ -24,9 +25,10 @@ HWY_INLINE float LargestLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(), v))
 
 /// Slopes may differ by at most twice this from the mean for the test to pay.
 inline constexpr float kBeamSlope = 0.25f;
-/// What rounding may move a sheared position by, relative to the coordinates: 7 unit
-/// roundoffs (2^-24) where it is tested (triangle-inl.h), less than 10 here.
-inline constexpr float kBeamSlack = 0x1p-19f;
+/// What rounding may change, relatively: sheared positions err by less than 10 unit
+/// roundoffs (2^-24) of |z| and of themselves, where they are tested and here, because
+/// the first step of both is the difference to the origin.
+inline constexpr float kBeamSlack = 0x1p-18f;
 
 /// Where a packet passes. Seen in the permuted axes of its rays, which must be the same,
 /// a vertex at distance z from the middle of the origins is, relative to any of the rays,
@@ -41,11 +43,12 @@ struct Beam {
 
 /// The beam around the rays of all lanes. A position across is p - o - s z; with s = c +-
 /// r and z = z0 +- q over the rays, s z = c z0 +- (|c| q + r |z0| + r q).
-HWY_INLINE Beam MakeBeam(const Shear<VF>& shear, float reach) {
+HWY_INLINE Beam MakeBeam(const Shear<VF>& shear) {
   const auto middle = [](VF v, float& radius) HWY_ATTR {
     const float lo = LeastLane(v), hi = LargestLane(v);
-    radius = 0.5f * (hi - lo);
-    return lo + radius;
+    constexpr float kRound = 2 * std::numeric_limits<float>::epsilon();
+    radius = 0.5f * (hi - lo) + kRound * std::max(std::abs(lo), std::abs(hi));
+    return 0.5f * lo + 0.5f * hi;
   };
   Beam beam;
   float across[2], along;
@@ -53,12 +56,10 @@ HWY_INLINE Beam MakeBeam(const Shear<VF>& shear, float reach) {
             middle(shear.o.z, along)};
   beam.s[0] = middle(shear.s.x, beam.slope[0]);
   beam.s[1] = middle(shear.s.y, beam.slope[1]);
-  const float largest =
-      std::max({std::abs(beam.o.x) + across[0], std::abs(beam.o.y) + across[1],
-                std::abs(beam.o.z) + along});
   for (int a = 0; a < 2; ++a) {
     const float moved = (std::abs(beam.s[a]) + beam.slope[a]) * along;
-    beam.radius[a] = across[a] + moved + kBeamSlack * (reach + largest);
+    beam.radius[a] = (1 + kBeamSlack) * (across[a] + moved) + kBeamSlack * along;
+    beam.slope[a] = (1 + kBeamSlack) * beam.slope[a] + kBeamSlack;
   }
   return beam;
 }

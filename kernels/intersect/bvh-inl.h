@@ -1,13 +1,14 @@
 // Traversal of the 8-wide BVH by one ray: the lanes are the children of a node.
 //
-// Boxes are grown by delta = slack * (reach + |o|) (src/accel/accel.h) so that a node is
-// never culled by rounding if it holds a hit nearer than, or as near as, the best one:
+// Boxes are grown by delta = margin + slack |o| (src/accel/accel.h), beyond what the builder
+// grew them by in proportion to the coordinates of each shape, so that a node is never
+// culled by rounding if it holds a hit nearer than, or as near as, the best one:
 // then the hit found does not depend on the order of traversal. In parameters of the ray
 // that growth is delta / |d|, so it goes into the constant term of the slab test and
 // costs nothing: near = lower / d - (o / d + delta / |d|). Compared with Ize 2013,
 // "Robust BVH Ray Traversal", whose growth is relative to t, this also covers the
 // rounding of the shape tests, which is relative to the coordinates.
-// The slab test itself errs by at most 5 u (reach + |o|) / |d|, u = 2^-24.
+// The slab test itself errs by at most 5 u (|b| + |o|) / |d|, b the plane, u = 2^-24.
 #if defined(LANELIGHT_INTERSECT_BVH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_INTERSECT_BVH_INL_H_
 #undef LANELIGHT_INTERSECT_BVH_INL_H_
@@ -47,7 +48,7 @@ HWY_INLINE float LargestCoordinate(const float o[3]) {
 
 HWY_INLINE SlabRay MakeSlabRay(const float o[3], const float d[3], const Bvh& bvh) {
   const D8 d8;
-  const float delta = bvh.slack * (bvh.reach + LargestCoordinate(o));
+  const float delta = bvh.margin + bvh.slack * LargestCoordinate(o);
   SlabRay ray;
   for (int a = 0; a < 3; ++a) {
     // A direction this small moves less than delta across the scene; zero would give

@@ -66,12 +66,11 @@ struct Frustum {
 
 HWY_INLINE Frustum MakeFrustum(const PacketBounds& p, const Bvh& bvh) {
   const D8 d8;
-  float reach = bvh.reach;
   float largest = 0;
   for (int a = 0; a < 3; ++a) {
     largest = std::max({largest, std::abs(p.o_min[a]), std::abs(p.o_max[a])});
   }
-  const float delta = bvh.slack * (reach + largest);
+  const float delta = bvh.margin + bvh.slack * largest;
   Frustum f;
   for (int a = 0; a < 3; ++a) {
     const bool negative = std::signbit(p.d_min[a]);
@@ -123,7 +122,7 @@ HWY_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
   const uint32_t all = (1u << hn::Lanes(df)) - 1;
   const AxisOrder order(rays.d);
   const PacketRays packet =
-      MakePacket(rays, MakeShear(order, rays, bvh.reach), order, all, bvh.reach);
+      MakePacket(rays, MakeShear(order, rays, bvh.reach), order, all);
   float bound = LargestLane(best.t);
   int left = max_leaves;
   Traverse(scene.accel.nodes.data(), bvh.root, MakeFrustum(bounds, bvh), bound,

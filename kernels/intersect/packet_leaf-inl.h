@@ -41,7 +41,7 @@ struct PacketRays {
 
 /// Prepares rays for leaves; `valid`: their lanes, as bits.
 HWY_INLINE PacketRays MakePacket(const Rays& rays, const Shear<VF>& shear,
-                                 const AxisOrder& order, uint32_t valid, float reach) {
+                                 const AxisOrder& order, uint32_t valid) {
   PacketRays packet{rays, shear};
   const uint32_t y = MaskBits(DF(), order.y) & valid, z = MaskBits(DF(), order.z) & valid;
   packet.same_axes = z == valid || (z == 0 && (y == valid || y == 0));
@@ -51,7 +51,7 @@ HWY_INLINE PacketRays MakePacket(const Rays& rays, const Shear<VF>& shear,
   // The lanes behind the last ray of a stream may hold anything.
   const bool full = valid == (1u << hn::MaxLanes(DF())) - 1;
   if (!packet.same_axes || !full) return packet;
-  packet.beam = MakeBeam(shear, reach);
+  packet.beam = MakeBeam(shear);
   packet.has_beam = packet.beam.IsNarrow();
   return packet;
 }

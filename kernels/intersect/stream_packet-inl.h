@@ -128,7 +128,7 @@ class PacketPhase {
                           hn::LoadU(df, rays_.t_scale + at_)};
     const VI from = hn::LoadU(DI(), reinterpret_cast<const int32_t*>(rays_.from) + at_);
     const Rays rays{load(rays_.o), d, hn::LoadU(df, rays_.t + at_), from};
-    return MakePacket(rays, shear, AxisOrder(d), (1u << count_) - 1, bvh_.reach);
+    return MakePacket(rays, shear, AxisOrder(d), (1u << count_) - 1);
   }
 
   // Fills the frame of a node. Every child is tested, and everything is stored to places

@@ -84,7 +84,7 @@ struct StreamRays {
     const VF ro[3] = {rays.o.x, rays.o.y, rays.o.z};
     const VF rd[3] = {rays.d.x, rays.d.y, rays.d.z};
     const VF largest = hn::Max(hn::Abs(ro[0]), hn::Max(hn::Abs(ro[1]), hn::Abs(ro[2])));
-    const VF delta = hn::Mul(Splat(bvh.slack), hn::Add(Splat(bvh.reach), largest));
+    const VF delta = hn::MulAdd(Splat(bvh.slack), largest, Splat(bvh.margin));
     const VF least = Splat(0x1p-80f);
     VI negatives = hn::Zero(di);
     for (int a = 0; a < 3; ++a) {

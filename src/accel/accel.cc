@@ -14,8 +14,9 @@ namespace lanelight {
 namespace {
 
 // Growth of boxes that covers every rounding of the slab test and of the shape tests: 32
-// unit roundoffs (2^-24) per unit of coordinate. The triangle test needs 20 of them
-// (kernels/intersect/triangle-inl.h), the slab test 5 (kernels/intersect/bvh-inl.h).
+// unit roundoffs (2^-24) per unit of coordinate, of the shape here and of the ray's origin
+// in the kernels. The triangle test needs 20 of them (kernels/intersect/triangle-inl.h),
+// the slab test 5 (kernels/intersect/bvh-inl.h).
 constexpr float kShapeSlack = 0x1p-19f;
 
 constexpr std::size_t kGrain = 4096;
@@ -50,14 +51,30 @@ AccelBox Around(const float* center, float radius) {
 AccelBox BoxOf(const SphereRecord& s) { return Around(s.center, s.radius); }
 AccelBox BoxOf(const DiskRecord& s) { return Around(s.center, s.radius); }
 
-// Finite boxes of records [begin, end).
+float Reach(const AccelBox& box) {
+  float reach = 0;
+  for (int a = 0; a < 3; ++a) {
+    reach = std::max({reach, std::abs(box.lo[a]), std::abs(box.hi[a])});
+  }
+  return reach;
+}
+
+// By its own coordinates, not those of the scene: a teapot in a stadium stays sharp.
+AccelBox Grown(const AccelBox& box) {
+  const float margin = kShapeSlack * Reach(box);
+  const Vec3f by{margin, margin, margin};
+  return {box.lo - by, box.hi + by};
+}
+
+// Finite boxes of records [begin, end), grown.
 template <typename Records>
 std::vector<BuildItem> ItemsOf(const Records& records, std::uint32_t begin,
                                std::uint32_t end, std::uint32_t first_id) {
   std::vector<BuildItem> items(end - begin);
   ParallelForRange(items.size(), kGrain, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
-      items[i] = {BoxOf(records[begin + i]), first_id + static_cast<std::uint32_t>(i)};
+      items[i] = {Grown(BoxOf(records[begin + i])),
+                  first_id + static_cast<std::uint32_t>(i)};
     }
   });
   std::erase_if(items, [](const BuildItem& item) { return !IsFinite(item.box); });
@@ -262,6 +279,7 @@ Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
   }
   Bvh top = BuildTree(items, {.items = 0, .fits = {}}, nodes).bvh;
   if (top.reach > 0) top.slack = 2 * kShapeSlack * (2 * linear + constant / top.reach);
+  top.margin = top.slack * top.reach;
   return top;
 }
 

@@ -87,12 +87,13 @@ struct alignas(64) DiskBlock {
   std::uint32_t prim[kBvhWidth];
 };
 
-/// One tree. `reach` is the largest |coordinate| of its bounds, from which the traversal
-/// derives how far boxes must be grown to be conservative (kernels/intersect/bvh-inl.h).
+/// One tree. The boxes of shapes are grown by what rounding asks for in proportion to
+/// their own coordinates; the traversal adds what a ray asks for
+/// (kernels/intersect/bvh-inl.h). `reach` is the largest |coordinate| of the bounds.
 struct Bvh {
   std::uint32_t root = kEmptyRef;
   float reach = 0;
-  float slack = 0;  // growth per unit of (reach + |origin|)
+  float margin = 0, slack = 0;  // growth of all boxes, and per unit of |origin|
   int depth = 0;    // nodes on the longest path
 };
 
