@@ -51,6 +51,8 @@ struct BuiltTree {
 struct LeafLimit {
   std::uint32_t items = kBvhWidth;
   std::function<bool(const BuildItem* items, std::uint32_t count)> fits;
+  /// If set: how many of these shapes a leaf holds, at a guess, in [1, items].
+  std::function<std::uint32_t(const BuildItem* items, std::uint32_t count)> typical;
 };
 
 /// Sorts `items` into a tree whose leaves keep to `limit` and appends its nodes to
