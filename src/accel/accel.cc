@@ -286,7 +286,10 @@ Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
     linear = std::max(linear, to_scene * RowNorm(m));
     constant = std::max(constant, to_scene * (groups[group].reach + translation));
   }
-  Bvh top = BuildTree(items, {.items = 0, .fits = {}, .typical = {}}, nodes).bvh;
+  Bvh top =
+      BuildTree(items, {.items = 0, .fits = {}, .typical = {}, .triangles = nullptr},
+                nodes)
+          .bvh;
   if (top.reach > 0) top.slack = 2 * kShapeSlack * (2 * linear + constant / top.reach);
   return top;
 }
@@ -299,7 +302,8 @@ void BuildTriangles(const Geometry& geometry, const AccelOptions& options, Accel
                         },
                         [&](const BuildItem* items, std::uint32_t count) {
                           return TypicalLeaf(items, count, geometry.triangles);
-                        }};
+                        },
+                        geometry.triangles.data()};
   for (const Geometry::TriangleGroup& group : geometry.groups) {
     const bool few = boxes.empty() && geometry.instances.empty() &&
                      group.end - group.begin <= options.few_triangles;

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 #include "src/accel/collapse.h"
+#include "src/accel/cut_plan.h"
 #include "src/accel/object_split.h"
+#include "src/accel/spatial_split.h"
 #include "src/core/check.h"
 #include "src/core/parallel.h"
 
@@ -21,31 +24,37 @@ constexpr int kMaxSahDepth = 40;
 // Cost of one level of the binary tree relative to testing one leaf: a wide node holds
 // about three levels.
 constexpr float kNodeCost = 0.35f;
+// Planes that cut triangles are tried where the boxes of the best object split have more
+// than this part of the area in common, and taken if they cost up to kCutGain of it: they
+// leave no overlap for the levels below.
+constexpr float kOverlap = 0.05f, kCutGain = 1.1f;
 
 class TreeBuilder {
  public:
-  TreeBuilder(std::vector<BuildItem>& items, const LeafLimit& limit)
-      : items_(items),
+  TreeBuilder(std::vector<BuildItem>& items, const LeafLimit& limit, const CutPlan& cuts)
+      : items_(items.data()),
         limit_(limit),
+        cuts_(cuts),
         leaf_size_(std::max(1u, limit.items)),
         tree_(items.size()) {}
 
-  // Fills the subtree rooted at `node` over items [begin, end). `leaf`: items that a leaf
-  // holds, 0 if that is not known yet.
-  void Build(std::uint32_t node, std::uint32_t begin, std::uint32_t end,
-             std::uint32_t leaf, int depth) {
+  // Fills the subtree rooted at `node` over the items of `range`. `leaf`: items that a
+  // leaf holds, 0 if it is not known yet.
+  void Build(std::uint32_t node, ItemRange range, std::uint32_t leaf, int depth) {
     BinaryNode& n = tree_[node];
-    n.begin = begin;
-    n.end = end;
-    if (leaf == 0 && end - begin <= kFewItems) {
-      leaf = limit_.typical ? limit_.typical(&items_[begin], end - begin) : leaf_size_;
+    if (leaf == 0 && range.count() <= kFewItems) {
+      leaf = limit_.typical ? limit_.typical(items_ + range.begin, range.count())
+                            : leaf_size_;
     }
-    const std::uint32_t middle = Divide(n, leaf, depth);
-    if (middle != begin) {
+    const std::uint32_t middle = Divide(n.box, range, leaf, depth);
+    n.begin = range.begin;
+    n.end = range.end;
+    if (middle != range.begin) {
       n.child = tree_.AddPair();
-      const auto left = [&] { Build(n.child, begin, middle, leaf, depth + 1); };
-      const auto right = [&] { Build(n.child + 1, middle, end, leaf, depth + 1); };
-      if (end - begin > kSerial) {
+      const ItemRange second = ShareRoom(range, middle);
+      const auto left = [&] { Build(n.child, range, leaf, depth + 1); };
+      const auto right = [&] { Build(n.child + 1, second, leaf, depth + 1); };
+      if (n.end - n.begin > kSerial) {
         ParallelInvoke(left, right);
       } else {
         left();
@@ -58,30 +67,45 @@ class TreeBuilder {
   const BinaryTree& tree() const { return tree_; }
 
  private:
-  // Measures the box of `n` and sorts its items to two sides; returns where the second
-  // begins, or n.begin if the items make a leaf.
-  std::uint32_t Divide(BinaryNode& n, std::uint32_t leaf, int depth) {
-    const std::uint32_t begin = n.begin, end = n.end, count = end - begin;
+  // Measures the box of `range` and sorts its items to two sides, maybe cutting some;
+  // returns where the second begins, or range.begin if the items make a leaf.
+  std::uint32_t Divide(AccelBox& box, ItemRange& range, std::uint32_t leaf, int depth) {
+    const std::uint32_t block = leaf == 0 ? leaf_size_ : leaf;
     AccelBox centers;
-    Measure(begin, end, n.box, centers);
-    if (count == 1) return begin;
-    BuildItem* items = &items_[begin];
+    Measure(range, box, centers);
+    const std::uint32_t count = range.count();
+    if (count == 1) return range.begin;
+    BuildItem* items = items_ + range.begin;
+    const float area = box.HalfArea();
+    const bool may_cut = count >= cuts_.least && range.room() > count / 16;
     ObjectSplit split;
     if (depth < kMaxSahDepth) {
-      split = FindObjectSplit(items, count, centers, leaf == 0 ? leaf_size_ : leaf);
+      split = FindObjectSplit(items, count, centers, block, may_cut);
     }
     if (count <= leaf_size_) {
-      const float area = n.box.HalfArea();
       const bool pays = split.axis < 0 || split.cost + kNodeCost * area >= area;
-      if (pays && (!limit_.fits || limit_.fits(items, count))) return begin;
+      if (pays && (!limit_.fits || limit_.fits(items, count))) return range.begin;
     }
-    return begin + Partition(items, count, centers, split);
+    if (may_cut && depth < kMaxSahDepth && split.overlap > kOverlap * area) {
+      const std::uint32_t middle = Cut(range, box, kCutGain * split.cost, block);
+      if (middle != range.begin && middle != range.end) return middle;
+    }
+    return range.begin + Partition(items, count, centers, split);
   }
 
-  void Measure(std::uint32_t begin, std::uint32_t end, AccelBox& box,
-               AccelBox& centers) const {
+  // Cuts `range` by a plane that costs less than `cost`; returns where the second side
+  // begins, or an end of `range` if there is no such plane.
+  std::uint32_t Cut(ItemRange& range, const AccelBox& box, float cost,
+                    std::uint32_t block) {
+    const SpatialSplit split =
+        FindSpatialSplit(items_, range, box, limit_.triangles, block);
+    if (!(split.cost < cost)) return range.begin;
+    return CutAndPartition(items_, range, split, limit_.triangles);
+  }
+
+  void Measure(ItemRange range, AccelBox& box, AccelBox& centers) const {
     WideBox all, middles;
-    for (std::uint32_t i = begin; i < end; ++i) {
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const Float4 lo = LowOf(items_[i]), hi = HighOf(items_[i]);
       all.Extend(lo, hi);
       middles.Extend(lo + hi, lo + hi);
@@ -90,8 +114,26 @@ class TreeBuilder {
     centers = middles.Box();
   }
 
-  std::vector<BuildItem>& items_;
+  // Makes `range` the part before `middle` and returns the rest, with the room shared
+  // in proportion to the items.
+  ItemRange ShareRoom(ItemRange& range, std::uint32_t middle) {
+    ItemRange second{middle, range.end, range.limit};
+    range.end = range.limit = middle;
+    if (second.room() == 0) return second;
+    const std::uint64_t all = range.count() + second.count();
+    const auto room =
+        static_cast<std::uint32_t>(std::uint64_t{second.room()} * range.count() / all);
+    std::memmove(static_cast<void*>(items_ + middle + room), items_ + middle,
+                 second.count() * sizeof(BuildItem));
+    range.limit += room;
+    second.begin += room;
+    second.end += room;
+    return second;
+  }
+
+  BuildItem* items_;
   const LeafLimit& limit_;
+  const CutPlan cuts_;
   std::uint32_t leaf_size_;
   BinaryTree tree_;
 };
@@ -102,9 +144,13 @@ BuiltTree BuildTree(std::vector<BuildItem>& items, const LeafLimit& limit,
                     AlignedVector<WideNode>& nodes) {
   BuiltTree result;
   if (items.empty()) return result;
-  LL_CHECK_LT(items.size(), std::size_t{1} << 30);
-  TreeBuilder builder(items, limit);
-  builder.Build(0, 0, static_cast<std::uint32_t>(items.size()), 0, 0);
+  const auto count = static_cast<std::uint32_t>(items.size());
+  CutPlan cuts;
+  if (limit.triangles != nullptr) cuts = PlanCuts(items, limit.triangles);
+  LL_CHECK_LT(items.size() + cuts.room, std::size_t{1} << 30);
+  items.resize(items.size() + cuts.room);
+  TreeBuilder builder(items, limit, cuts);
+  builder.Build(0, {0, count, count + cuts.room}, 0, 0);
   result.bvh = Collapse(builder.tree(), items, limit.items == 0, nodes, result.leaves);
   return result;
 }

@@ -59,9 +59,19 @@ void Sweep(const std::array<Bin, kCount>& bins, int axis, std::uint32_t leaf_siz
   }
 }
 
+template <std::size_t kCount>
+float OverlapOf(const std::array<Bin, kCount>& bins, int middle) {
+  WideBox left, right;
+  for (int b = 0; b < static_cast<int>(kCount); ++b) {
+    (b < middle ? left : right).Extend(bins[static_cast<std::size_t>(b)].box);
+  }
+  left.Clip(right.lo, right.hi);
+  return left.IsEmpty() ? 0.0f : left.HalfArea();
+}
+
 template <int kCount>
 ObjectSplit Find(const BuildItem* items, std::uint32_t count, const AccelBox& centers,
-                 std::uint32_t leaf_size) {
+                 std::uint32_t leaf_size, bool want_overlap) {
   const Binning binning(centers, count);
   std::array<std::array<Bin, kCount>, 3> bins;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -77,15 +87,18 @@ ObjectSplit Find(const BuildItem* items, std::uint32_t count, const AccelBox& ce
   for (int a = 0; a < 3; ++a) {
     if (binning.scale[a] > 0) Sweep(bins[a], a, leaf_size, best);
   }
+  if (want_overlap && best.axis >= 0) best.overlap = OverlapOf(bins[best.axis], best.bin);
   return best;
 }
 
 }  // namespace
 
 ObjectSplit FindObjectSplit(const BuildItem* items, std::uint32_t count,
-                            const AccelBox& centers, std::uint32_t leaf_size) {
-  return count < kFewItems ? Find<kFewBins>(items, count, centers, leaf_size)
-                           : Find<kBins>(items, count, centers, leaf_size);
+                            const AccelBox& centers, std::uint32_t leaf_size,
+                            bool want_overlap) {
+  return count < kFewItems
+             ? Find<kFewBins>(items, count, centers, leaf_size, want_overlap)
+             : Find<kBins>(items, count, centers, leaf_size, want_overlap);
 }
 
 std::uint32_t Partition(BuildItem* items, std::uint32_t count, const AccelBox& centers,
