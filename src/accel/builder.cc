@@ -114,15 +114,24 @@ class TreeBuilder {
     centers = middles.Box();
   }
 
-  // Makes `range` the part before `middle` and returns the rest, with the room shared
-  // in proportion to the items.
+  // Sum of half areas.
+  double AreaOf(ItemRange range) const {
+    double area = 0;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      area += items_[i].box.HalfArea();
+    }
+    return area;
+  }
+
+  // Makes `range` the part before `middle` and returns the rest, with the room shared in
+  // proportion to the areas: large boxes have most to gain from cuts.
   ItemRange ShareRoom(ItemRange& range, std::uint32_t middle) {
     ItemRange second{middle, range.end, range.limit};
     range.end = range.limit = middle;
     if (second.room() == 0) return second;
-    const std::uint64_t all = range.count() + second.count();
-    const auto room =
-        static_cast<std::uint32_t>(std::uint64_t{second.room()} * range.count() / all);
+    const double left = AreaOf(range), all = left + AreaOf(second);
+    const double share = all > 0 && std::isfinite(all) ? left / all : 0.5;
+    const auto room = static_cast<std::uint32_t>(share * second.room());
     std::memmove(static_cast<void*>(items_ + middle + room), items_ + middle,
                  second.count() * sizeof(BuildItem));
     range.limit += room;
