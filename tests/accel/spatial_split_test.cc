@@ -28,14 +28,6 @@ AccelBox BoxOf(const WideNode& node, int child) {
   return box;
 }
 
-bool Holds(const AccelBox& box, Vec3d p) {
-  constexpr double kRounding = 1e-15;  // of the point itself
-  for (int a = 0; a < 3; ++a) {
-    if (p[a] < box.lo[a] - kRounding || p[a] > box.hi[a] + kRounding) return false;
-  }
-  return true;
-}
-
 // For every triangle what the boxes on the way to each of its leaves have in common.
 using BoxesOfTriangles = std::map<std::uint32_t, std::vector<AccelBox>>;
 
@@ -68,6 +60,21 @@ std::size_t References(const BoxesOfTriangles& boxes) {
   std::size_t count = 0;
   for (const auto& [id, list] : boxes) count += list.size();
   return count;
+}
+
+// How many of some points of triangles are in no box that their triangle has.
+std::size_t Outside(const Geometry& g, const BoxesOfTriangles& boxes, Random& random,
+                    double scale = 1) {
+  std::size_t outside = 0;
+  for (const auto& [id, list] : boxes) {
+    for (int k = 0; k < 20; ++k) {
+      const Vec3d p = brute::PointOn(g.triangles[id], random);
+      outside += std::none_of(list.begin(), list.end(), [&](const AccelBox& box) {
+        return brute::Holds(box, p, scale);
+      });
+    }
+  }
+  return outside;
 }
 
 // The nearest hits, by plain loops over a few triangles each.
@@ -118,15 +125,33 @@ TEST_CASE("boxes of cut triangles leave nothing out", "[accel]") {
     CHECK(boxes.size() == g.triangles.size());
     CHECK(References(boxes) > g.triangles.size() * 5 / 4);  // they are cut
     CHECK(References(boxes) <= g.triangles.size() * 7 / 4);
-    std::size_t outside = 0;
-    for (const auto& [id, list] : boxes) {
-      for (int k = 0; k < 20; ++k) {
-        const Vec3d p = brute::PointOn(g.triangles[id], random);
-        outside += std::none_of(list.begin(), list.end(),
-                                [&](const AccelBox& box) { return Holds(box, p); });
+    CHECK(Outside(g, boxes, random) == 0);
+  }
+}
+
+TEST_CASE("boxes of cut triangles leave nothing out at any scale", "[accel]") {
+  // Segments, points, and triangles in the planes of axes among sticks; areas that
+  // overflow or underflow.
+  for (const float scale : {1.0f, 1e18f, 1e30f, 1e-18f, 1e-30f}) {
+    CAPTURE(scale);
+    Random random(75);
+    Geometry g = brute::Sticks(random, 4000, 1.0f);
+    for (std::uint32_t i = 0; i < g.triangles.size(); ++i) {
+      auto& p = g.triangles[i].p;
+      for (int k = 0; k < 3; ++k) {
+        for (int a = 0; a < 3; ++a) {
+          if (i % 8 == 0) p[k][a] = p[k == 2 ? 1 : k][a];
+          if (i % 8 == 1) p[k][a] = p[0][a];
+          if (i % 8 == 2 && a == 1) p[k][a] = 0.25f;
+          if (i % 8 == 3 && a != 2) p[k][a] = p[0][a];
+        }
       }
+      for (int k = 0; k < 9; ++k) p[k / 3][k % 3] *= scale;
     }
-    CHECK(outside == 0);
+    const BoxesOfTriangles boxes = Collect(MakeScene(g).accel);
+    CHECK(boxes.size() == g.triangles.size());
+    CHECK(Outside(g, boxes, random, double{scale}) == 0);
+    if (scale == 1) CHECK(References(boxes) > g.triangles.size());
   }
 }
 

@@ -1,6 +1,7 @@
-// Long thin triangles, which the builder cuts.
+// Long thin triangles, which the builder cuts, and points on them.
 #pragma once
 
+#include "src/accel/builder.h"
 #include "tests/intersect/brute_force.h"
 
 namespace lanelight::brute {
@@ -27,6 +28,15 @@ inline Vec3d PointOn(const TriangleRecord& triangle, Random& random) {
   const Vec3d a = ToDouble(Corner(triangle, 0));
   return a + u * (ToDouble(Corner(triangle, 1)) - a) +
          v * (ToDouble(Corner(triangle, 2)) - a);
+}
+
+/// Whether a box holds a point up to its own rounding. `scale`: size of coordinates.
+inline bool Holds(const AccelBox& box, Vec3d p, double scale = 1) {
+  const double rounding = 1e-15 * scale;
+  for (int a = 0; a < 3; ++a) {
+    if (p[a] < box.lo[a] - rounding || p[a] > box.hi[a] + rounding) return false;
+  }
+  return true;
 }
 
 }  // namespace lanelight::brute

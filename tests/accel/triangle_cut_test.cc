@@ -27,14 +27,6 @@ void CheckNear(const AccelBox& box, Vec3f lo, Vec3f hi) {
   }
 }
 
-bool Holds(const AccelBox& box, Vec3d p) {
-  constexpr double kRounding = 1e-15;  // of the point itself
-  for (int a = 0; a < 3; ++a) {
-    if (p[a] < box.lo[a] - kRounding || p[a] > box.hi[a] + kRounding) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 TEST_CASE("parts of a triangle have tight boxes", "[accel]") {
@@ -86,7 +78,7 @@ TEST_CASE("every point of a triangle is in the box of some part of it", "[accel]
     for (int k = 0; k < 50; ++k) {
       const Vec3d p = brute::PointOn(t, random);
       bool held = false;
-      for (const AccelBox& box : parts) held = held || Holds(box, p);
+      for (const AccelBox& box : parts) held = held || brute::Holds(box, p);
       REQUIRE(held);
     }
   }
