@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <tuple>
 
@@ -145,6 +146,31 @@ bool FitsLeaf(const BuildItem* items, std::uint32_t count,
   return true;
 }
 
+// How many triangles a leaf holds if they share vertices as these do: its lanes or its
+// vertices run out. Vertices are told apart by a hash.
+std::uint32_t TypicalLeaf(const BuildItem* items, std::uint32_t count,
+                          const AlignedVector<TriangleRecord>& records) {
+  constexpr std::uint32_t kSlots = 512, kMost = kSlots / 6;
+  std::uint32_t slots[kSlots] = {};
+  std::uint32_t vertices = 0;
+  count = std::min(count, kMost);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (const auto& p : records[items[i].id].p) {
+      std::uint32_t bits[3], hash = 0;
+      std::memcpy(bits, p, sizeof(bits));
+      for (const std::uint32_t word : bits) {
+        hash = (hash ^ word ^ hash >> 15) * 0x9e3779b1u;
+      }
+      hash |= 1;  // 0 is a free slot
+      std::uint32_t at = hash / (0xffffffffu / kSlots + 1);
+      while (slots[at] != 0 && slots[at] != hash) at = (at + 1) % kSlots;
+      vertices += slots[at] == 0;
+      slots[at] = hash;
+    }
+  }
+  return std::min<std::uint32_t>(kLeafTriangles, kLeafVertices * count / vertices);
+}
+
 void FillLeaf(TriangleLeaf& leaf, const BuildItem* items, std::uint32_t count,
               const AlignedVector<TriangleRecord>& records, std::uint32_t) {
   LeafVertices vertices;
@@ -277,7 +303,10 @@ Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
     linear = std::max(linear, to_scene * RowNorm(m));
     constant = std::max(constant, to_scene * (groups[group].reach + translation));
   }
-  Bvh top = BuildTree(items, {.items = 0, .fits = {}}, nodes).bvh;
+  Bvh top =
+      BuildTree(items, {.items = 0, .fits = {}, .typical = {}, .triangles = nullptr},
+                nodes)
+          .bvh;
   if (top.reach > 0) top.slack = 2 * kShapeSlack * (2 * linear + constant / top.reach);
   top.margin = top.slack * top.reach;
   return top;
@@ -285,9 +314,14 @@ Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
 
 void BuildTriangles(const Geometry& geometry, const AccelOptions& options, Accel& accel) {
   std::vector<AccelBox> boxes;
-  const LeafLimit limit{kLeafTriangles, [&](const BuildItem* items, std::uint32_t count) {
+  const LeafLimit limit{kLeafTriangles,
+                        [&](const BuildItem* items, std::uint32_t count) {
                           return FitsLeaf(items, count, geometry.triangles);
-                        }};
+                        },
+                        [&](const BuildItem* items, std::uint32_t count) {
+                          return TypicalLeaf(items, count, geometry.triangles);
+                        },
+                        geometry.triangles.data()};
   for (const Geometry::TriangleGroup& group : geometry.groups) {
     const bool few = boxes.empty() && geometry.instances.empty() &&
                      group.end - group.begin <= options.few_triangles;

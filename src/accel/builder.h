@@ -28,6 +28,8 @@ struct AccelBox {
   }
 };
 
+struct TriangleRecord;  // src/scene/compiled.h
+
 /// A shape to sort into the tree.
 struct BuildItem {
   AccelBox box;
@@ -51,10 +53,16 @@ struct BuiltTree {
 struct LeafLimit {
   std::uint32_t items = kBvhWidth;
   std::function<bool(const BuildItem* items, std::uint32_t count)> fits;
+  /// If set: how many of these shapes a leaf holds, at a guess, in [1, items].
+  std::function<std::uint32_t(const BuildItem* items, std::uint32_t count)> typical;
+  /// If set, items are triangles, which the builder may cut: then several items, in
+  /// different leaves, have the same id, and their boxes together cover the triangle.
+  const TriangleRecord* triangles = nullptr;
 };
 
 /// Sorts `items` into a tree whose leaves keep to `limit` and appends its nodes to
-/// `nodes`. Runs in parallel; the result does not depend on the number of threads.
+/// `nodes`. The leaves tell where in `items` theirs lie. Runs in parallel; the result
+/// does not depend on the number of threads.
 BuiltTree BuildTree(std::vector<BuildItem>& items, const LeafLimit& limit,
                     AlignedVector<WideNode>& nodes);
 

@@ -139,7 +139,10 @@ void PlanCollapse(BinaryTree& tree, std::uint32_t node) {
     float least = INFINITY;
     for (int k = 1; k < roots; ++k) {
       const float cost = a[k - 1] + b[roots - k - 1];
-      if (cost < least) least = cost, n.left[roots - 1] = static_cast<std::uint8_t>(k);
+      // The first always, since costs of huge scenes overflow.
+      if (k > 1 && !(cost < least)) continue;
+      least = cost;
+      n.left[roots - 1] = static_cast<std::uint8_t>(k);
     }
     n.cost[roots - 1] = least;
   }

@@ -1,5 +1,6 @@
-// Structure of the trees: every shape in exactly one leaf, boxes that contain what is
-// below them, the same tree for any number of threads.
+// Structure of trees whose triangles are not cut (those that are: spatial_split_test.cc):
+// every shape in exactly one leaf, boxes that contain what is below them, the same tree
+// for any number of threads.
 #include "src/accel/accel.h"
 
 #include <catch2/catch.hpp>
@@ -136,6 +137,26 @@ TEST_CASE("leaves hold the corners of their triangles, shared or not", "[accel]"
   }
   CHECK(triangles == 1300);
   CHECK(wrong == 0);
+}
+
+TEST_CASE("leaves of separate triangles and of tiles are about full", "[accel]") {
+  const auto per_leaf = [](const Geometry& g) {
+    const Accel accel = MakeScene(g, {.few_triangles = 0}).accel;
+    double triangles = 0;
+    for (const TriangleLeaf& leaf : accel.triangle_leaves) triangles += leaf.count;
+    return triangles / static_cast<double>(accel.triangle_leaves.size());
+  };
+  Random random(65);
+  // They overlap so much that smaller leaves would save nothing.
+  CHECK(per_leaf(brute::Soup(random, 5000, 1, 0.4f)) > 4);  // 16 vertices hold 5
+  Geometry tiles;
+  for (int i = 0; i < 1600; ++i) {
+    const Vec3f c{static_cast<float>(i % 40), static_cast<float>(i / 40), 0};
+    const Vec3f u{0.9f, 0, 0}, v{0, 0.9f, 0};
+    tiles.triangles.push_back(MakeTriangle(c, c + u, c + u + v));
+    tiles.triangles.push_back(MakeTriangle(c, c + u + v, c + v));
+  }
+  CHECK(per_leaf(tiles) > 6);  // 16 vertices hold 8
 }
 
 TEST_CASE("small scenes share vertices", "[accel]") {

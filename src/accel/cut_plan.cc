@@ -1,0 +1,48 @@
+#include "src/accel/cut_plan.h"
+
+#include <cmath>
+
+#include "src/accel/wide_box.h"
+#include "src/scene/compiled.h"
+
+namespace lanelight {
+namespace {
+
+// Triangles to look at for whether cutting pays, and from which waste on it does. Scans
+// have 3 to 4, 400 k separate triangles 11, 200 k sticks 115.
+constexpr std::size_t kSamples = 16384;
+constexpr float kWaste = 30;
+
+// By how much the half areas of boxes exceed those of the triangles in them, each summed
+// over the sides of the axes, in units of the half area of the whole: so many boxes does
+// a ray enter in vain. Measured on one in several triangles.
+float Waste(const std::vector<BuildItem>& items, const TriangleRecord* triangles) {
+  WideBox all;
+  for (const BuildItem& item : items) all.Extend(LowOf(item), HighOf(item));
+  double waste = 0, count = 0;
+  for (std::size_t i = 0; i < items.size(); i += items.size() / kSamples + 1) {
+    const auto& p = triangles[items[i].id].p;
+    const Vec3f a{p[0][0], p[0][1], p[0][2]};
+    const Vec3f n =
+        Cross(Vec3f{p[1][0], p[1][1], p[1][2]} - a, Vec3f{p[2][0], p[2][1], p[2][2]} - a);
+    waste +=
+        items[i].box.HalfArea() - 0.5f * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+    ++count;
+  }
+  const float area = all.HalfArea();
+  const double sum = waste / count * static_cast<double>(items.size());
+  return area > 0 ? static_cast<float>(sum / area) : 0.0f;
+}
+
+}  // namespace
+
+CutPlan PlanCuts(const std::vector<BuildItem>& items, const TriangleRecord* triangles) {
+  CutPlan plan;
+  if (Waste(items, triangles) > kWaste) {
+    plan.room = static_cast<std::uint32_t>(items.size() / 4 * 3);
+    plan.least = 128;
+  }
+  return plan;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,114 @@
+#include "src/accel/object_split.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lanelight {
+namespace {
+
+// Bins per axis for many items, and for few, where sweeping bins costs more than it
+// gains.
+constexpr int kBins = 32, kFewBins = 12;
+constexpr std::uint32_t kFewItems = 64;
+
+struct Bin {
+  WideBox box;
+  std::uint32_t count = 0;
+};
+
+// Where an item falls: bin = (center2 - lo) * scale. Monotonic in the centre.
+struct Binning {
+  Vec3f lo, scale;
+
+  int bins;
+
+  Binning(const AccelBox& centers, std::uint32_t count)
+      : lo(centers.lo), bins(count < kFewItems ? kFewBins : kBins) {
+    const Vec3f extent = centers.hi - centers.lo;
+    for (int a = 0; a < 3; ++a) {
+      const float s = static_cast<float>(bins) / extent[a];
+      scale[a] = extent[a] > 0 && std::isfinite(s) ? s : 0;
+    }
+  }
+  int Of(Vec3f center2, int axis) const {
+    return std::clamp(static_cast<int>((center2[axis] - lo[axis]) * scale[axis]), 0,
+                      bins - 1);
+  }
+};
+
+// Least sum of half area times blocks over the splits between bins of one axis.
+template <std::size_t kCount>
+void Sweep(const std::array<Bin, kCount>& bins, int axis, std::uint32_t leaf_size,
+           ObjectSplit& best) {
+  std::array<float, kCount> right_cost;
+  WideBox box;
+  std::uint32_t count = 0;
+  for (std::size_t b = kCount - 1; b > 0; --b) {
+    box.Extend(bins[b].box);
+    count += bins[b].count;
+    right_cost[b] = count == 0 ? INFINITY : box.HalfArea() * Blocks(count, leaf_size);
+  }
+  box = WideBox();
+  count = 0;
+  for (std::size_t b = 1; b < kCount; ++b) {
+    box.Extend(bins[b - 1].box);
+    count += bins[b - 1].count;
+    if (count == 0) continue;
+    const float cost = box.HalfArea() * Blocks(count, leaf_size) + right_cost[b];
+    if (cost < best.cost) best = {axis, static_cast<int>(b), cost};
+  }
+}
+
+template <std::size_t kCount>
+float OverlapOf(const std::array<Bin, kCount>& bins, int middle) {
+  WideBox left, right;
+  for (int b = 0; b < static_cast<int>(kCount); ++b) {
+    (b < middle ? left : right).Extend(bins[static_cast<std::size_t>(b)].box);
+  }
+  left.Clip(right.lo, right.hi);
+  return left.IsEmpty() ? 0.0f : left.HalfArea();
+}
+
+template <int kCount>
+ObjectSplit Find(const BuildItem* items, std::uint32_t count, const AccelBox& centers,
+                 std::uint32_t leaf_size, bool want_overlap) {
+  const Binning binning(centers, count);
+  std::array<std::array<Bin, kCount>, 3> bins;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vec3f c = items[i].Center2();
+    const Float4 lo = LowOf(items[i]), hi = HighOf(items[i]);
+    for (int a = 0; a < 3; ++a) {
+      Bin& bin = bins[a][binning.Of(c, a)];
+      bin.box.Extend(lo, hi);
+      ++bin.count;
+    }
+  }
+  ObjectSplit best;
+  for (int a = 0; a < 3; ++a) {
+    if (binning.scale[a] > 0) Sweep(bins[a], a, leaf_size, best);
+  }
+  if (want_overlap && best.axis >= 0) best.overlap = OverlapOf(bins[best.axis], best.bin);
+  return best;
+}
+
+}  // namespace
+
+ObjectSplit FindObjectSplit(const BuildItem* items, std::uint32_t count,
+                            const AccelBox& centers, std::uint32_t leaf_size,
+                            bool want_overlap) {
+  return count < kFewItems
+             ? Find<kFewBins>(items, count, centers, leaf_size, want_overlap)
+             : Find<kBins>(items, count, centers, leaf_size, want_overlap);
+}
+
+std::uint32_t Partition(BuildItem* items, std::uint32_t count, const AccelBox& centers,
+                        const ObjectSplit& split) {
+  if (split.axis < 0) return count / 2;
+  const Binning binning(centers, count);
+  const auto* middle = std::partition(items, items + count, [&](const BuildItem& item) {
+    return binning.Of(item.Center2(), split.axis) < split.bin;
+  });
+  return static_cast<std::uint32_t>(middle - items);
+}
+
+}  // namespace lanelight

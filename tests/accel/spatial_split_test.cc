@@ -1,0 +1,197 @@
+// Trees over triangles that were cut: their leaves cover every triangle, in boxes that
+// leave nothing out, and rays hit what they hit without a tree.
+#include "src/accel/spatial_split.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <vector>
+
+#include "src/accel/cut_plan.h"
+#include "src/core/parallel.h"
+#include "tests/accel/sticks.h"
+#include "tests/intersect/trace.h"
+
+namespace lanelight {
+namespace {
+
+using brute::Random;
+
+AccelBox BoxOf(const WideNode& node, int child) {
+  AccelBox box;
+  for (int a = 0; a < 3; ++a) {
+    box.lo[a] = node.bounds[a][0][child];
+    box.hi[a] = node.bounds[a][1][child];
+  }
+  return box;
+}
+
+// For every triangle what the boxes on the way to each of its leaves have in common.
+using BoxesOfTriangles = std::map<std::uint32_t, std::vector<AccelBox>>;
+
+void Collect(const Accel& accel, std::uint32_t ref, const AccelBox& outer,
+             BoxesOfTriangles& boxes) {
+  if (ref == kEmptyRef) return;
+  if (ref & kLeafBit) {
+    const TriangleLeaf& leaf = accel.triangle_leaves[ref & ~kLeafBit];
+    for (std::uint32_t i = 0; i < leaf.count; ++i) {
+      if (i > 0) REQUIRE(leaf.prim[i - 1] < leaf.prim[i]);  // none twice
+      boxes[leaf.prim[i]].push_back(outer);
+    }
+    return;
+  }
+  for (int c = 0; c < kBvhWidth; ++c) {
+    const AccelBox box = BoxOf(accel.nodes[ref], c);
+    Collect(accel, accel.nodes[ref].child[c],
+            {Max(outer.lo, box.lo), Min(outer.hi, box.hi)}, boxes);
+  }
+}
+
+BoxesOfTriangles Collect(const Accel& accel) {
+  BoxesOfTriangles boxes;
+  const Vec3f all{INFINITY, INFINITY, INFINITY};
+  Collect(accel, accel.groups[0].root, {-all, all}, boxes);
+  return boxes;
+}
+
+std::size_t References(const BoxesOfTriangles& boxes) {
+  std::size_t count = 0;
+  for (const auto& [id, list] : boxes) count += list.size();
+  return count;
+}
+
+// How many of some points of triangles are in no box that their triangle has.
+std::size_t Outside(const Geometry& g, const BoxesOfTriangles& boxes, Random& random,
+                    double scale = 1) {
+  std::size_t outside = 0;
+  for (const auto& [id, list] : boxes) {
+    for (int k = 0; k < 20; ++k) {
+      const Vec3d p = brute::PointOn(g.triangles[id], random);
+      outside += std::none_of(list.begin(), list.end(), [&](const AccelBox& box) {
+        return brute::Holds(box, p, scale);
+      });
+    }
+  }
+  return outside;
+}
+
+// The nearest hits, by plain loops over a few triangles each.
+std::vector<KernelHit> NearestOfLoops(const Geometry& g,
+                                      const std::vector<TestRay>& rays) {
+  std::vector<KernelHit> nearest(rays.size(), {INFINITY, 0, 0, 0, 0});
+  for (std::uint32_t first = 0; first < g.triangles.size(); first += kFewTriangles) {
+    Geometry part;
+    const auto end = std::min<std::size_t>(first + kFewTriangles, g.triangles.size());
+    part.triangles.assign(g.triangles.begin() + first,
+                          g.triangles.begin() + static_cast<std::ptrdiff_t>(end));
+    const auto hits = TraceClosest(MakeScene(part), rays, {IntersectTrianglesStage()});
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (!(hits[i].t < nearest[i].t)) continue;
+      nearest[i] = hits[i];
+      nearest[i].prim += first;
+    }
+  }
+  return nearest;
+}
+
+// Rays from anywhere, and rays nearly in the plane of a triangle.
+std::vector<TestRay> RaysAt(const Geometry& g, Random& random, int n) {
+  std::vector<TestRay> rays;
+  for (int i = 0; i < n; ++i) {
+    const TriangleRecord& t = g.triangles[random.engine()() % g.triangles.size()];
+    const Vec3f a = brute::Corner(t, 0), b = brute::Corner(t, 1), c = brute::Corner(t, 2);
+    if (i % 2 == 0) {
+      rays.push_back({random.Point(1.5f), random.Direction()});
+    } else {
+      const Vec3f in_plane = Normalize(b - a + random(-30, 30) * (c - b));
+      const Vec3f at = a + random(0, 1) * (b - a);
+      rays.push_back({at - random(0, 2) * in_plane,
+                      Normalize(in_plane + random(0, 1e-4f) * random.Point(1))});
+    }
+  }
+  return rays;
+}
+
+}  // namespace
+
+TEST_CASE("boxes of cut triangles leave nothing out", "[accel]") {
+  Random random(72);
+  for (const float length : {0.8f, 2.0f}) {
+    const Geometry g = brute::Sticks(random, 4000, length);
+    const Accel accel = MakeScene(g).accel;
+    const BoxesOfTriangles boxes = Collect(accel);
+    CHECK(boxes.size() == g.triangles.size());
+    CHECK(References(boxes) > g.triangles.size() * 5 / 4);  // they are cut
+    CHECK(References(boxes) <= g.triangles.size() * 7 / 4);
+    CHECK(Outside(g, boxes, random) == 0);
+  }
+}
+
+TEST_CASE("boxes of cut triangles leave nothing out at any scale", "[accel]") {
+  // Segments, points, and triangles in the planes of axes among sticks; areas that
+  // overflow or underflow.
+  for (const float scale : {1.0f, 1e18f, 1e30f, 1e-18f, 1e-30f}) {
+    CAPTURE(scale);
+    Random random(75);
+    Geometry g = brute::Sticks(random, 4000, 1.0f);
+    for (std::uint32_t i = 0; i < g.triangles.size(); ++i) {
+      auto& p = g.triangles[i].p;
+      for (int k = 0; k < 3; ++k) {
+        for (int a = 0; a < 3; ++a) {
+          if (i % 8 == 0) p[k][a] = p[k == 2 ? 1 : k][a];
+          if (i % 8 == 1) p[k][a] = p[0][a];
+          if (i % 8 == 2 && a == 1) p[k][a] = 0.25f;
+          if (i % 8 == 3 && a != 2) p[k][a] = p[0][a];
+        }
+      }
+      for (int k = 0; k < 9; ++k) p[k / 3][k % 3] *= scale;
+    }
+    const BoxesOfTriangles boxes = Collect(MakeScene(g).accel);
+    CHECK(boxes.size() == g.triangles.size());
+    CHECK(Outside(g, boxes, random, double{scale}) == 0);
+    if (scale == 1) CHECK(References(boxes) > g.triangles.size());
+  }
+}
+
+TEST_CASE("meshes of small triangles are not cut", "[accel]") {
+  const Geometry g = brute::SphereMesh(60, 120, {0, 0, 0}, 1);
+  CHECK(References(Collect(MakeScene(g).accel)) == g.triangles.size());
+}
+
+TEST_CASE("cut trees do not depend on the number of threads", "[accel]") {
+  Random random(73);
+  const Geometry g = brute::Sticks(random, 20000, 0.4f);
+  const auto build = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return MakeScene(g).accel;
+  };
+  const auto same = [](const auto& a, const auto& b) {
+    return a.size() == b.size() &&
+           std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+  };
+  const Accel one = build(1), two = build(2);
+  CHECK(References(Collect(one)) > g.triangles.size() * 5 / 4);
+  CHECK(same(one.nodes, two.nodes));
+  CHECK(same(one.triangle_leaves, two.triangle_leaves));
+}
+
+TEST_CASE("rays hit cut triangles as they hit whole ones, bit by bit", "[accel]") {
+  Random random(74);
+  const Geometry g = brute::Sticks(random, 4000, 1.0f);
+  const CompiledScene scene = MakeScene(g);
+  REQUIRE(References(Collect(scene.accel)) > g.triangles.size());
+  const std::vector<TestRay> rays = RaysAt(g, random, 20000);
+  const auto hits = TraceClosest(scene, rays, {IntersectTrianglesStage()});
+  const auto truth = NearestOfLoops(g, rays);
+  std::size_t differ = 0, found = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    differ += !(hits[i] == truth[i]);
+    found += !std::isinf(hits[i].t);
+  }
+  CHECK(differ == 0);
+  CHECK(found > rays.size() / 4);
+}
+
+}  // namespace lanelight
