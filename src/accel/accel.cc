@@ -7,18 +7,13 @@
 #include <tuple>
 
 #include "src/accel/builder.h"
+#include "src/accel/grow.h"
 #include "src/core/check.h"
 #include "src/core/parallel.h"
 #include "src/scene/compiled.h"
 
 namespace lanelight {
 namespace {
-
-// Growth of boxes that covers every rounding of the slab test and of the shape tests: 32
-// unit roundoffs (2^-24) per unit of coordinate, of the shape here and of the ray's origin
-// in the kernels. The triangle test needs 20 of them (kernels/intersect/triangle-inl.h),
-// the slab test 5 (kernels/intersect/bvh-inl.h).
-constexpr float kShapeSlack = 0x1p-19f;
 
 constexpr std::size_t kGrain = 4096;
 
@@ -52,21 +47,6 @@ AccelBox Around(const float* center, float radius) {
 AccelBox BoxOf(const SphereRecord& s) { return Around(s.center, s.radius); }
 AccelBox BoxOf(const DiskRecord& s) { return Around(s.center, s.radius); }
 
-float Reach(const AccelBox& box) {
-  float reach = 0;
-  for (int a = 0; a < 3; ++a) {
-    reach = std::max({reach, std::abs(box.lo[a]), std::abs(box.hi[a])});
-  }
-  return reach;
-}
-
-// By its own coordinates, not those of the scene: a teapot in a stadium stays sharp.
-AccelBox Grown(const AccelBox& box) {
-  const float margin = kShapeSlack * Reach(box);
-  const Vec3f by{margin, margin, margin};
-  return {box.lo - by, box.hi + by};
-}
-
 // Finite boxes of records [begin, end), grown.
 template <typename Records>
 std::vector<BuildItem> ItemsOf(const Records& records, std::uint32_t begin,
@@ -74,8 +54,8 @@ std::vector<BuildItem> ItemsOf(const Records& records, std::uint32_t begin,
   std::vector<BuildItem> items(end - begin);
   ParallelForRange(items.size(), kGrain, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
-      items[i] = {Grown(BoxOf(records[begin + i])),
-                  first_id + static_cast<std::uint32_t>(i)};
+      const AccelBox box = BoxOf(records[begin + i]);
+      items[i] = {Grown(box, Reach(box)), first_id + static_cast<std::uint32_t>(i)};
     }
   });
   std::erase_if(items, [](const BuildItem& item) { return !IsFinite(item.box); });

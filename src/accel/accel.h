@@ -94,7 +94,7 @@ struct Bvh {
   std::uint32_t root = kEmptyRef;
   float reach = 0;
   float margin = 0, slack = 0;  // growth of all boxes, and per unit of |origin|
-  int depth = 0;    // nodes on the longest path
+  int depth = 0;                // nodes on the longest path
 };
 
 /// Triangles with their distinct vertices, for testing many rays against each.

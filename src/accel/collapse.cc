@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/accel/grow.h"
 #include "src/core/check.h"
 
 namespace lanelight {
@@ -115,14 +116,6 @@ class Collapser {
   std::vector<LeafRange>& leaves_;
   int depth_ = 0;
 };
-
-float Reach(const AccelBox& box) {
-  float reach = 0;
-  for (int a = 0; a < 3; ++a) {
-    reach = std::max({reach, std::abs(box.lo[a]), std::abs(box.hi[a])});
-  }
-  return reach;
-}
 
 }  // namespace
 

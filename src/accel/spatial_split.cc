@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "src/accel/grow.h"
 #include "src/accel/object_split.h"
 #include "src/accel/triangle_cut.h"
 
@@ -90,8 +91,23 @@ void Sweep(const std::array<Bin, kBins>& bins, const Slabs& slabs, int axis,
   }
 }
 
+// CutTriangle for an item, both parts grown as the whole was.
+CutBoxes CutItem(const BuildItem& item, const SpatialSplit& split,
+                 const TriangleRecord& triangle) {
+  CutBoxes cut = CutTriangle(triangle, item.box, split.axis, split.x);
+  AccelBox whole;
+  for (const auto& p : triangle.p) whole.Extend(Vec3f{p[0], p[1], p[2]});
+  const float reach = Reach(whole);
+  for (AccelBox* part : {&cut.left, &cut.right}) {
+    if (IsEmpty(*part)) continue;
+    const AccelBox grown = Grown(*part, reach);
+    *part = {Max(grown.lo, item.box.lo), Min(grown.hi, item.box.hi)};
+  }
+  return cut;
+}
+
 // Half area of a box if it grows to hold another.
-float Grown(WideBox box, const BuildItem& item) {
+float AreaWith(WideBox box, const BuildItem& item) {
   box.Extend(LowOf(item), HighOf(item));
   return box.HalfArea();
 }
@@ -114,7 +130,7 @@ class Sides {
     int choice = 2;
     for (int s = 0; s < 2; ++s) {
       const float cost =
-          Grown(box_[s], item) * count_[s] + area[1 - s] * (count_[1 - s] - 1);
+          AreaWith(box_[s], item) * count_[s] + area[1 - s] * (count_[1 - s] - 1);
       if (cost < best || (choice == 2 && !room)) best = cost, choice = s;
     }
     return choice;
@@ -164,7 +180,7 @@ std::uint32_t CutAndPartition(BuildItem* items, ItemRange& range,
       int side = sides.Choose(item, range.room() > 0);
       CutBoxes cut;
       if (side == 2) {
-        cut = CutTriangle(triangles[item.id], item.box, split.axis, split.x);
+        cut = CutItem(item, split, triangles[item.id]);
         if (IsEmpty(cut.left)) side = 1;
         if (IsEmpty(cut.right)) side = 0;
       }
