@@ -87,6 +87,15 @@ void ClearLane(DiskBlock& block, int lane) {
   block.inner_radius[lane] = 0;
 }
 
+// A number that equal vertices have in common (0 and -0 count as different).
+std::uint32_t HashOf(const float p[3]) {
+  std::uint32_t bits[3];
+  std::memcpy(bits, p, sizeof(bits));
+  const std::uint32_t hash =
+      bits[0] * 0x9e3779b1u + bits[1] * 0x85ebca6bu + bits[2] * 0xc2b2ae35u;
+  return hash ^ hash >> 15;
+}
+
 // The distinct vertices of a leaf, in order of appearance; `corner` as in TriangleLeaf.
 // False if there are more than kLeafVertices.
 class LeafVertices {
@@ -100,19 +109,25 @@ class LeafVertices {
     return true;
   }
   int count() const { return count_; }
-  float at(int axis, int i) const { return p_[axis][i]; }
+  float at(int axis, int i) const { return p_[i][axis]; }
 
  private:
-  // Vertices are the same if they compare equal: 0 and -0 give the same hits.
+  static constexpr std::uint32_t kSlots = 64;
+
   int Find(const float p[3]) {
-    for (int i = 0; i < count_; ++i) {
-      if (p_[0][i] == p[0] && p_[1][i] == p[1] && p_[2][i] == p[2]) return i;
+    std::uint32_t at = HashOf(p) * 0x2c1b3c6du / (0xffffffffu / kSlots + 1);
+    for (; slot_[at] != 0; at = (at + 1) % kSlots) {
+      const int i = slot_[at] - 1;
+      if (std::memcmp(p_[i], p, sizeof(p_[i])) == 0) return i;
     }
     if (count_ == kLeafVertices) return kLeafVertices;
-    for (int a = 0; a < 3; ++a) p_[a][count_] = p[a];
+    std::memcpy(p_[count_], p, sizeof(p_[count_]));
+    slot_[at] = static_cast<std::uint8_t>(count_ + 1);
     return count_++;
   }
-  float p_[3][kLeafVertices];
+
+  float p_[kLeafVertices][3];
+  std::uint8_t slot_[kSlots] = {};  // by hash: index of a vertex + 1, 0 = none
   int count_ = 0;
 };
 
@@ -136,13 +151,8 @@ std::uint32_t TypicalLeaf(const BuildItem* items, std::uint32_t count,
   count = std::min(count, kMost);
   for (std::uint32_t i = 0; i < count; ++i) {
     for (const auto& p : records[items[i].id].p) {
-      std::uint32_t bits[3], hash = 0;
-      std::memcpy(bits, p, sizeof(bits));
-      for (const std::uint32_t word : bits) {
-        hash = (hash ^ word ^ hash >> 15) * 0x9e3779b1u;
-      }
-      hash |= 1;  // 0 is a free slot
-      std::uint32_t at = hash / (0xffffffffu / kSlots + 1);
+      const std::uint32_t hash = HashOf(p) | 1;  // 0 is a free slot
+      std::uint32_t at = hash * 0x2c1b3c6du / (0xffffffffu / kSlots + 1);
       while (slots[at] != 0 && slots[at] != hash) at = (at + 1) % kSlots;
       vertices += slots[at] == 0;
       slots[at] = hash;

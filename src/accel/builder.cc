@@ -103,15 +103,38 @@ class TreeBuilder {
     return CutAndPartition(items_, range, split, limit_.triangles);
   }
 
-  void Measure(ItemRange range, AccelBox& box, AccelBox& centers) const {
+  // The box of some items, and that of twice their centres.
+  struct Extents {
     WideBox all, middles;
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      const Float4 lo = LowOf(items_[i]), hi = HighOf(items_[i]);
-      all.Extend(lo, hi);
-      middles.Extend(lo + hi, lo + hi);
+
+    void Extend(const Extents& e) {
+      all.Extend(e.all);
+      middles.Extend(e.middles);
     }
-    box = all.Box();
-    centers = middles.Box();
+  };
+  Extents MeasurePart(std::uint32_t begin, std::uint32_t end) const {
+    Extents e;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const Float4 lo = LowOf(items_[i]), hi = HighOf(items_[i]);
+      e.all.Extend(lo, hi);
+      e.middles.Extend(lo + hi);
+    }
+    return e;
+  }
+  void Measure(ItemRange range, AccelBox& box, AccelBox& centers) const {
+    Extents e;
+    if (range.count() < 2 * kPart) {
+      e = MeasurePart(range.begin, range.end);
+    } else {
+      std::vector<Extents> parts((range.count() + kPart - 1) / kPart);
+      ParallelFor(parts.size(), [&](std::size_t i) {
+        const std::uint32_t begin = range.begin + static_cast<std::uint32_t>(i) * kPart;
+        parts[i] = MeasurePart(begin, std::min(range.end, begin + kPart));
+      });
+      for (const Extents& part : parts) e.Extend(part);
+    }
+    box = e.all.Box();
+    centers = e.middles.Box();
   }
 
   // Sum of half areas.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
+
+#include "src/core/parallel.h"
 
 namespace lanelight {
 namespace {
@@ -70,11 +73,12 @@ float OverlapOf(const std::array<Bin, kCount>& bins, int middle) {
 }
 
 template <int kCount>
-ObjectSplit Find(const BuildItem* items, std::uint32_t count, const AccelBox& centers,
-                 std::uint32_t leaf_size, bool want_overlap) {
-  const Binning binning(centers, count);
-  std::array<std::array<Bin, kCount>, 3> bins;
-  for (std::uint32_t i = 0; i < count; ++i) {
+using AxisBins = std::array<std::array<Bin, kCount>, 3>;
+
+template <int kCount>
+void Fill(const BuildItem* items, std::uint32_t begin, std::uint32_t end,
+          const Binning& binning, AxisBins<kCount>& bins) {
+  for (std::uint32_t i = begin; i < end; ++i) {
     const Vec3f c = items[i].Center2();
     const Float4 lo = LowOf(items[i]), hi = HighOf(items[i]);
     for (int a = 0; a < 3; ++a) {
@@ -82,6 +86,40 @@ ObjectSplit Find(const BuildItem* items, std::uint32_t count, const AccelBox& ce
       bin.box.Extend(lo, hi);
       ++bin.count;
     }
+  }
+}
+
+// By several threads. Boxes and counts do not depend on the order.
+void FillTogether(const BuildItem* items, std::uint32_t count, const Binning& binning,
+                  AxisBins<kBins>& bins) {
+  std::vector<AxisBins<kBins>> parts((count + kPart - 1) / kPart);
+  ParallelFor(parts.size(), [&](std::size_t i) {
+    const std::uint32_t begin = static_cast<std::uint32_t>(i) * kPart;
+    Fill<kBins>(items, begin, std::min(count, begin + kPart), binning, parts[i]);
+  });
+  for (const AxisBins<kBins>& part : parts) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = 0; b < kBins; ++b) {
+        bins[a][b].box.Extend(part[a][b].box);
+        bins[a][b].count += part[a][b].count;
+      }
+    }
+  }
+}
+
+template <int kCount>
+ObjectSplit Find(const BuildItem* items, std::uint32_t count, const AccelBox& centers,
+                 std::uint32_t leaf_size, bool want_overlap) {
+  const Binning binning(centers, count);
+  AxisBins<kCount> bins;
+  if constexpr (kCount == kBins) {
+    if (count >= 2 * kPart) {
+      FillTogether(items, count, binning, bins);
+    } else {
+      Fill<kCount>(items, 0, count, binning, bins);
+    }
+  } else {
+    Fill<kCount>(items, 0, count, binning, bins);
   }
   ObjectSplit best;
   for (int a = 0; a < 3; ++a) {

@@ -15,6 +15,10 @@ struct ObjectSplit {
   float overlap = INFINITY;
 };
 
+/// Ranges of at least twice as many items are looked at in parts of this size by several
+/// threads.
+inline constexpr std::uint32_t kPart = 16384;
+
 /// Number of full leaves that `count` items fill.
 inline float Blocks(std::uint32_t count, std::uint32_t leaf_size) {
   return static_cast<float>((count + leaf_size - 1) / leaf_size);
