@@ -1,8 +1,9 @@
 // Traversal of the 8-wide BVH by one ray: the lanes are the children of a node.
 //
-// Boxes are grown by delta = margin + slack |o| (src/accel/accel.h), beyond what the builder
-// grew them by in proportion to the coordinates of each shape, so that a node is never
-// culled by rounding if it holds a hit nearer than, or as near as, the best one:
+// Boxes are grown by delta = margin + slack |o| (src/accel/accel.h), beyond what the
+// builder grew them by in proportion to the coordinates of each shape (src/accel/grow.h),
+// so that a node is never culled by rounding if it holds a hit nearer than, or as near as,
+// the best one:
 // then the hit found does not depend on the order of traversal. In parameters of the ray
 // that growth is delta / |d|, so it goes into the constant term of the slab test and
 // costs nothing: near = lower / d - (o / d + delta / |d|). Compared with Ize 2013,

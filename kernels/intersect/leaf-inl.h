@@ -89,9 +89,9 @@ HWY_INLINE const float* LeafRow(const TriangleLeaf& leaf, uint32_t offset) {
 }
 
 /// Tests kRays rays, each against a leaf of its own, without a branch: bits[j] are the
-/// triangles that the line of ray j passes through, but
-/// for the one that it starts on. The rays take each step together, so
-/// that the processor's window always holds as many independent chains.
+/// triangles that the line of ray j passes through, but for the one that it starts on.
+/// The rays take each step together, so that the processor's window always holds as many
+/// independent chains.
 template <int kRays>
 HWY_INLINE void TestLeaves(const LeafRay (&ray)[kRays], const TriangleLeaf* const* leaf,
                            LeafWeights* const* to, uint32_t (&bits)[kRays]) {

@@ -38,7 +38,7 @@ namespace lanelight {
   X(f32, weight, ({Feature::kSignedFilter}), "filter weight of the sample")               \
   /* hit */                                                                               \
   X(f32, t,    ({}), "hit distance, +inf = miss")                                         \
-  X(u32, prim, ({}), "primitive id of the hit (src/scene/compiled.h)")                    \
+  X(u32, prim, ({}), "primitive id of the hit (src/scene/compiled.h); of the last one, where the ray starts, until there is a new one") \
   X(f32, b1, ({Feature::kTriangles}), "barycentric weight of vertex 1") X(f32, b2, ({Feature::kTriangles}), "barycentric weight of vertex 2") \
   X(u32, inst, ({Feature::kInstances}), "instance of the hit, 0xffffffff = world")        \
   /* surface at the hit */                                                                \
