@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 HWY_INLINE float LeastLane(VF v) { return hn::GetLane(hn::MinOfLanes(DF(), v)); }
 HWY_INLINE float LargestLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(), v)); }
 
-/// Slopes may differ by at most twice this from the mean for the test to pay.
+/// Slopes may differ by at most this from the mean for the test to pay.
 inline constexpr float kBeamSlope = 0.25f;
 /// What rounding may change, relatively: sheared positions err by less than 10 unit
 /// roundoffs (2^-24) of |z| and of themselves, where they are tested and here, because

@@ -33,7 +33,6 @@ struct RayArrays {
   HWY_ALIGN float d[3][hn::MaxLanes(DF())];
   HWY_ALIGN float t_max[hn::MaxLanes(DF())];
   HWY_ALIGN uint32_t slot[hn::MaxLanes(DF())];
-  HWY_ALIGN int32_t from[hn::MaxLanes(DF())];
 
   HWY_INLINE RayArrays(const Rays& rays, VI slots) {
     const DF df;
@@ -45,7 +44,6 @@ struct RayArrays {
     hn::Store(rays.d.z, df, d[2]);
     hn::Store(rays.t_max, df, t_max);
     hn::Store(hn::BitCast(DU(), slots), DU(), slot);
-    hn::Store(rays.from, DI(), from);
   }
 };
 

@@ -37,13 +37,7 @@ void ShadowWorldRays(Wave& wave) {
                                 : BlockedFew<kAlpha>(scene, rays);
       return Push(kept, slots, hn::AndNot(blocked, valid));
     }
-    if constexpr (kHasStreams) {
-      stream.Add(rays, slots, hn::Zero(DI()), valid, flush);
-    } else {
-      const int count = static_cast<int>(hn::CountTrue(DF(), valid));
-      const MF blocked = BlockedSingle<kAlpha, false>(scene, rays, slots, count);
-      Push(kept, slots, hn::AndNot(blocked, valid));
-    }
+    stream.Add(rays, slots, hn::Zero(DI()), valid, flush);
   });
   if (!stream.empty()) flush();
 }
@@ -52,7 +46,7 @@ template <bool kAlpha>
 void ShadowInstancedRays(Wave& wave) {
   RemoveOccluded(wave, [&](const Rays& rays, VI slots, MF valid) HWY_ATTR {
     const int count = static_cast<int>(hn::CountTrue(DF(), valid));
-    return BlockedSingle<kAlpha, true>(*wave.scene, rays, slots, count);
+    return BlockedSingle<kAlpha>(*wave.scene, rays, slots, count);
   });
 }
 

@@ -1,4 +1,4 @@
-// One ray against the triangle BVH, with or without instances.
+// One ray against the triangles of the world and of instances.
 #if defined(LANELIGHT_INTERSECT_SINGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_INTERSECT_SINGLE_INL_H_
 #undef LANELIGHT_INTERSECT_SINGLE_INL_H_
@@ -33,12 +33,10 @@ HWY_INLINE int LargestAxis(const float d[3]) {
   return axis;
 }
 
-/// What the query is about, and the ray in scene space (alpha decisions use it). `from`
-/// as in Rays; not used where there are instances, of which triangles may be several.
+/// What the query is about, and the ray in scene space (alpha decisions use it).
 struct OneRay {
   const CompiledScene* scene;
   float o[3], d[3];
-  uint32_t from;
 };
 
 /// One ray against the triangles of one group, in its space.
@@ -54,7 +52,7 @@ class GroupQuery {
     leaf_ray_[0] = {{o[x], o[y], o[z]},
                     {d[x] / d[z], d[y] / d[z], 1 / d[z]},
                     {kRow * x, kRow * y, kRow * z},
-                    ray.from};
+                    kNoPrimitive};  // a triangle may be in several instances
   }
 
   HWY_INLINE void Run() {
@@ -116,27 +114,25 @@ HWY_INLINE void MapRay(const float m[12], const float p[3], float w, float resul
 }
 
 /// The whole query of one ray.
-template <bool kAny, bool kAlpha, bool kInstances>
+template <bool kAny, bool kAlpha>
 HWY_INLINE void TraceTriangles(const OneRay& ray, OneHit& hit) {
   const Accel& accel = ray.scene->accel;
   GroupQuery<kAny, kAlpha>(ray, ray.o, ray.d, accel.groups[0], kWorldInstance, hit).Run();
-  if constexpr (kInstances) {
-    if (kAny && hit.found) return;
-    const Geometry& geometry = ray.scene->geometry;
-    Traverse(accel.nodes.data(), accel.top.root, MakeSlabRay(ray.o, ray.d, accel.top),
-             hit.t, [&](uint32_t i) HWY_ATTR {
-               float o[3], d[3];
-               MapRay(geometry.instances[i].object_from_scene, ray.o, 1, o);
-               MapRay(geometry.instances[i].object_from_scene, ray.d, 0, d);
-               const Bvh& group = accel.groups[geometry.instance_group[i]];
-               GroupQuery<kAny, kAlpha>(ray, o, d, group, i, hit).Run();
-               return kAny && hit.found;
-             });
-  }
+  if (kAny && hit.found) return;
+  const Geometry& geometry = ray.scene->geometry;
+  Traverse(accel.nodes.data(), accel.top.root, MakeSlabRay(ray.o, ray.d, accel.top),
+           hit.t, [&](uint32_t i) HWY_ATTR {
+             float o[3], d[3];
+             MapRay(geometry.instances[i].object_from_scene, ray.o, 1, o);
+             MapRay(geometry.instances[i].object_from_scene, ray.d, 0, d);
+             const Bvh& group = accel.groups[geometry.instance_group[i]];
+             GroupQuery<kAny, kAlpha>(ray, o, d, group, i, hit).Run();
+             return kAny && hit.found;
+           });
 }
 
 /// Closest hits of a batch, ray by ray; hits are written to the columns.
-template <bool kAlpha, bool kInstances>
+template <bool kAlpha>
 HWY_INLINE void ClosestSingle(const Wave& wave, const Rays& batch, VI slots, int count) {
   const PathColumns& path = wave.path;
   const RayArrays rays(batch, slots);
@@ -144,21 +140,20 @@ HWY_INLINE void ClosestSingle(const Wave& wave, const Rays& batch, VI slots, int
     const uint32_t slot = rays.slot[i];
     const OneRay ray{wave.scene,
                      {rays.o[0][i], rays.o[1][i], rays.o[2][i]},
-                     {rays.d[0][i], rays.d[1][i], rays.d[2][i]},
-                     kInstances ? kNoPrimitive : static_cast<uint32_t>(rays.from[i])};
+                     {rays.d[0][i], rays.d[1][i], rays.d[2][i]}};
     OneHit hit{rays.t_max[i], path.prim[slot], 0, 0, kWorldInstance};
-    TraceTriangles<false, kAlpha, kInstances>(ray, hit);
+    TraceTriangles<false, kAlpha>(ray, hit);
     if (!hit.found) continue;
     path.t[slot] = hit.t;
     path.prim[slot] = hit.prim;
     path.b1[slot] = hit.b1;
     path.b2[slot] = hit.b2;
-    if constexpr (kInstances) path.inst[slot] = hit.inst;
+    path.inst[slot] = hit.inst;
   }
 }
 
 /// Which rays of a batch are blocked.
-template <bool kAlpha, bool kInstances>
+template <bool kAlpha>
 HWY_INLINE MF BlockedSingle(const CompiledScene& scene, const Rays& batch, VI slots,
                             int count) {
   const RayArrays rays(batch, slots);
@@ -166,10 +161,9 @@ HWY_INLINE MF BlockedSingle(const CompiledScene& scene, const Rays& batch, VI sl
   for (int i = 0; i < count; ++i) {
     const OneRay ray{&scene,
                      {rays.o[0][i], rays.o[1][i], rays.o[2][i]},
-                     {rays.d[0][i], rays.d[1][i], rays.d[2][i]},
-                     kInstances ? kNoPrimitive : static_cast<uint32_t>(rays.from[i])};
+                     {rays.d[0][i], rays.d[1][i], rays.d[2][i]}};
     OneHit hit{rays.t_max[i], 0, 0, 0, kWorldInstance};
-    TraceTriangles<true, kAlpha, kInstances>(ray, hit);
+    TraceTriangles<true, kAlpha>(ray, hit);
     blocked |= uint32_t{hit.found} << i;
   }
   return MaskOf(DF(), blocked);

@@ -16,10 +16,6 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Whether the target has vectors for a stream: a node step needs the 8 children of a
-/// node in one vector.
-inline constexpr bool kHasStreams = hn::MaxLanes(D8()) == kBvhWidth;
-
 template <bool kAny, bool kAlpha>
 class RayStream {
  public:

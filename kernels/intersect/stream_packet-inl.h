@@ -19,9 +19,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// A packet goes on into a node, or a leaf, that at least so many of its rays enter.
 /// Fewer are left to the second phase. Of 16 lanes, 4 and 6 instead cost shadow rays 12
-/// to 18 % and bounces 5 %; of 8 lanes, 9 and 5 (no packets) cost 20 to 30 %. The optimum
-/// is flat.
-inline constexpr int kNodeRays = StreamRays::kLanes >= 16 ? 10 : 6;
+/// to 18 % and bounces 5 %, 10 and 8 bounces 5 to 10 %; of 8 lanes, 9 and 5 (no packets)
+/// cost 20 to 30 %; of 4 lanes, 3 and 2 cost 5 to 12 %. The optimum is flat.
+inline constexpr int kNodeRays = StreamRays::kLanes >= 16  ? 10
+                                 : StreamRays::kLanes >= 8 ? 6
+                                                           : 4;
 inline constexpr int kLeafRays = StreamRays::kLanes >= 16 ? 5 : 3;
 
 template <bool kAny, bool kAlpha>

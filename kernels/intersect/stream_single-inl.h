@@ -53,6 +53,8 @@ class SinglePhase {
 
  private:
   static constexpr uint32_t kRoom = StreamRays::kRoom;
+  // Vectors that the children of a node take: 1, or 2 on targets of 4 lanes.
+  static constexpr uint32_t kParts = kBvhWidth / hn::MaxLanes(D8());
 
   // Lists the rays that are at a node, and those that are at a leaf. Apart from the
   // steps, which thus store only to places known beforehand: a store to a place that
@@ -111,13 +113,33 @@ class SinglePhase {
 
   HWY_INLINE void NodeStep(const int32_t* list) {
     const D8 d8;
-    const hn::RebindToUnsigned<D8> du;
     const WideNode* node[kTogether];
-    uint32_t r[kTogether];
-    V8 enter[kTogether], leave[kTogether];
+    uint32_t r[kTogether], top[kTogether];
+    V8 entered[kTogether][kParts];
     for (uint32_t j = 0; j < kTogether; ++j) {
       r[j] = static_cast<uint32_t>(list[j]);
       node[j] = &scene_.accel.nodes[static_cast<uint32_t>(rays_.next[r[j]])];
+    }
+    for (uint32_t part = 0; part < kParts; ++part) {
+      V8 enter[kTogether], leave[kTogether];
+      TestSlabs(r, node, part, enter, leave);
+      for (uint32_t j = 0; j < kTogether; ++j) {
+        entered[j][part] =
+            hn::IfThenElse(hn::Le(enter[j], leave[j]), enter[j], hn::Set(d8, -1.0f));
+      }
+    }
+    for (uint32_t j = 0; j < kTogether; ++j) {
+      top[j] = PushEntered(r[j], *node[j], entered[j]);
+    }
+    for (uint32_t j = 0; j < kTogether; ++j) Pop(r[j], top[j]);
+  }
+
+  // Where rays r[j] enter and leave the children of a part of node[j].
+  HWY_INLINE void TestSlabs(const uint32_t (&r)[kTogether],
+                            const WideNode* const (&node)[kTogether], uint32_t part,
+                            V8 (&enter)[kTogether], V8 (&leave)[kTogether]) const {
+    const D8 d8;
+    for (uint32_t j = 0; j < kTogether; ++j) {
       enter[j] = hn::Zero(d8);
       leave[j] = hn::Set(d8, rays_.t[r[j]]);
     }
@@ -125,35 +147,43 @@ class SinglePhase {
       for (uint32_t j = 0; j < kTogether; ++j) {
         constexpr uint32_t kUpper = kBvhWidth * sizeof(float);
         const uint32_t lower = rays_.lower[a][r[j]];
-        const char* planes = reinterpret_cast<const char*>(node[j]->bounds[a]);
-        const V8 near = hn::Load(d8, reinterpret_cast<const float*>(planes + lower));
-        const V8 far =
-            hn::Load(d8, reinterpret_cast<const float*>(planes + (lower ^ kUpper)));
+        const auto planes = [&](uint32_t offset) HWY_ATTR {
+          const char* at = reinterpret_cast<const char*>(node[j]->bounds[a]) + offset;
+          return hn::Load(d8, reinterpret_cast<const float*>(at) + part * Lanes8());
+        };
         const V8 rcp = hn::Set(d8, rays_.rcp[a][r[j]]);
-        enter[j] =
-            hn::Max(enter[j], hn::MulAdd(near, rcp, hn::Set(d8, rays_.near[a][r[j]])));
-        leave[j] =
-            hn::Min(leave[j], hn::MulAdd(far, rcp, hn::Set(d8, rays_.far[a][r[j]])));
+        enter[j] = hn::Max(
+            enter[j], hn::MulAdd(planes(lower), rcp, hn::Set(d8, rays_.near[a][r[j]])));
+        leave[j] = hn::Min(leave[j], hn::MulAdd(planes(lower ^ kUpper), rcp,
+                                                hn::Set(d8, rays_.far[a][r[j]])));
       }
     }
-    uint32_t top[kTogether];
-    for (uint32_t j = 0; j < kTogether; ++j) {
-      // Last slots first, so that the nearest child is on top of the stack.
-      const auto slot = hn::Xor(hn::Sub(hn::Set(du, kBvhWidth - 1), hn::Iota(du, 0)),
-                                hn::Set(du, rays_.octant[r[j]]));
-      const V8 entered =
-          hn::IfThenElse(hn::Le(enter[j], leave[j]), enter[j], hn::Set(d8, -1.0f));
-      const V8 entry = hn::TableLookupLanes(entered, hn::IndicesFromVec(d8, slot));
-      const auto ref = hn::TableLookupLanes(hn::Load(du, node[j]->child),
-                                            hn::IndicesFromVec(du, slot));
+  }
+
+  // Pushes the children with entries that are not negative, last slots first, so that the
+  // nearest is on top. Returns the new top.
+  HWY_INLINE uint32_t PushEntered(uint32_t r, const WideNode& node,
+                                  const V8 (&entered)[kParts]) {
+    const D8 d8;
+    const hn::RebindToUnsigned<D8> du;
+    constexpr uint32_t kLast = kBvhWidth / kParts - 1;
+    const uint32_t octant = rays_.octant[r];
+    const auto lane = hn::Xor(hn::Sub(hn::Set(du, kLast), hn::Iota(du, 0)),
+                              hn::Set(du, octant & kLast));
+    uint32_t top = rays_.top[r];
+    for (uint32_t k = 0; k < kParts; ++k) {
+      // The bit of the octant above the lanes tells which part is last.
+      const uint32_t part = (kParts - 1 - k) ^ (kParts > 1 ? octant / (kLast + 1) : 0);
+      const V8 some = kParts > 1 && part == 0 ? entered[0] : entered[kParts - 1];
+      const V8 entry = hn::TableLookupLanes(some, hn::IndicesFromVec(d8, lane));
+      const auto ref = hn::TableLookupLanes(hn::Load(du, node.child + part * Lanes8()),
+                                            hn::IndicesFromVec(du, lane));
       const M8 hit = hn::Ge(entry, hn::Zero(d8));
-      top[j] = rays_.top[r[j]];
-      hn::StoreU(hn::Compress(entry, hit), d8, rays_.Entries(r[j]) + top[j] + 1);
-      hn::StoreU(hn::Compress(ref, hn::RebindMask(du, hit)), du,
-                 rays_.Refs(r[j]) + top[j] + 1);
-      top[j] += static_cast<uint32_t>(hn::CountTrue(d8, hit));
+      hn::StoreU(hn::Compress(entry, hit), d8, rays_.Entries(r) + top + 1);
+      hn::StoreU(hn::Compress(ref, hn::RebindMask(du, hit)), du, rays_.Refs(r) + top + 1);
+      top += static_cast<uint32_t>(hn::CountTrue(d8, hit));
     }
-    for (uint32_t j = 0; j < kTogether; ++j) Pop(r[j], top[j]);
+    return top;
   }
 
   HWY_INLINE const TriangleLeaf& LeafOf(uint32_t r) const {

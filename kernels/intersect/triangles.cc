@@ -15,13 +15,6 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-// One ray at a time: instances, and targets with narrow vectors.
-template <bool kAlpha, bool kInstances>
-HWY_INLINE void ClosestSingles(const Wave& wave, const Rays& rays, VI slots, MF valid) {
-  const int count = static_cast<int>(hn::CountTrue(DF(), valid));
-  ClosestSingle<kAlpha, kInstances>(wave, rays, slots, count);
-}
-
 // Whether a frustum pays for the packets of a wave: it is tried while at most a quarter
 // of them had to give up.
 class FrustumTrial {
@@ -58,21 +51,19 @@ void IntersectWorld(Wave& wave) {
                  }
                  if (!accel.few.triangles.empty())
                    return ClosestFew<kAlpha>(wave, rays, slots);
-                 if constexpr (kHasStreams) {
-                   stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
-                 } else {
-                   ClosestSingles<kAlpha, false>(wave, rays, slots, valid);
-                 }
+                 stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
                });
   if (!stream.empty()) flush();
 }
 
+// One ray at a time.
 template <bool kAlpha>
 void IntersectInstanced(Wave& wave) {
-  ForEachBatch(
-      wave, wave.queue(QueueId::kActive), [&](const Slots& slots, MF valid) HWY_ATTR {
-        ClosestSingles<kAlpha, true>(wave, LoadRays(wave.path, slots), slots, valid);
-      });
+  ForEachBatch(wave, wave.queue(QueueId::kActive),
+               [&](const Slots& slots, MF valid) HWY_ATTR {
+                 const int count = static_cast<int>(hn::CountTrue(DF(), valid));
+                 ClosestSingle<kAlpha>(wave, LoadRays(wave.path, slots), slots, count);
+               });
 }
 
 void TrianglesWorld(Wave& wave) { IntersectWorld<false>(wave); }
