@@ -36,7 +36,8 @@ std::vector<Vertex> FindHits(const CompiledScene& scene,
       const std::uint32_t i = hits.items[k];
       Vec3f n = f.Ng(i);
       if (Dot(n, part[i].d) > 0) n = -n;
-      out.push_back({f.P(i) + n * f.wave.path.p_error[i], n, part[i].d, f.wave.path.prim[i]});
+      out.push_back(
+          {f.P(i) + n * f.wave.path.p_error[i], n, part[i].d, f.wave.path.prim[i]});
     }
   }
   return out;

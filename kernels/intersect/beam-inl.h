@@ -24,7 +24,8 @@ HWY_INLINE float LeastLane(VF v) { return hn::GetLane(hn::MinOfLanes(DF(), v)); 
 HWY_INLINE float LargestLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(), v)); }
 
 /// Slopes may differ by at most this from the mean for the test to pay: on narrow targets
-/// only those of a frustum's rays do (AVX2: 0.25 costs bounces and shadow rays 0 to 10 %).
+/// only those of a frustum's rays do (AVX2: 0.25 costs bounces and shadow rays 0 to 10
+/// %).
 inline constexpr float kBeamSlope = hn::MaxLanes(DF()) >= 16 ? 0.25f : 0.05f;
 /// What rounding may change, relatively: sheared positions err by less than 10 unit
 /// roundoffs (2^-24) of |z| and of themselves, where they are tested and here, because

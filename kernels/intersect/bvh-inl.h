@@ -2,14 +2,13 @@
 //
 // Boxes are grown by delta = margin + slack |o| (src/accel/accel.h), beyond what the
 // builder grew them by in proportion to the coordinates of each shape (src/accel/grow.h),
-// so that a node is never culled by rounding if it holds a hit nearer than, or as near as,
-// the best one:
-// then the hit found does not depend on the order of traversal. In parameters of the ray
-// that growth is delta / |d|, so it goes into the constant term of the slab test and
-// costs nothing: near = lower / d - (o / d + delta / |d|). Compared with Ize 2013,
-// "Robust BVH Ray Traversal", whose growth is relative to t, this also covers the
-// rounding of the shape tests, which is relative to the coordinates.
-// The slab test itself errs by at most 5 u (|b| + |o|) / |d|, b the plane, u = 2^-24.
+// so that a node is never culled by rounding if it holds a hit nearer than, or as near
+// as, the best one: then the hit found does not depend on the order of traversal. In
+// parameters of the ray that growth is delta / |d|, so it goes into the constant term of
+// the slab test and costs nothing: near = lower / d - (o / d + delta / |d|). Compared
+// with Ize 2013, "Robust BVH Ray Traversal", whose growth is relative to t, this also
+// covers the rounding of the shape tests, which is relative to the coordinates. The slab
+// test itself errs by at most 5 u (|b| + |o|) / |d|, b the plane, u = 2^-24.
 #if defined(LANELIGHT_INTERSECT_BVH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_INTERSECT_BVH_INL_H_
 #undef LANELIGHT_INTERSECT_BVH_INL_H_

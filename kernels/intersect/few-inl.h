@@ -56,9 +56,9 @@ HWY_INLINE void ForEachFew(const CompiledScene& scene, const Rays& rays, TMax&& 
       return AheadOf(rays, &few.vertices[v[0]].x, &few.vertices[v[1]].x,
                      &few.vertices[v[2]].x);
     };
-    const TriangleHits<VF, MF> hit = TestTriangle(
-        df, shear, vertices[v[0]], vertices[v[1]], vertices[v[2]], t_max(),
-        NotFrom(rays, triangle.prim), is_ahead);
+    const TriangleHits<VF, MF> hit =
+        TestTriangle(df, shear, vertices[v[0]], vertices[v[1]], vertices[v[2]], t_max(),
+                     NotFrom(rays, triangle.prim), is_ahead);
     if (hn::AllFalse(df, hit.mask)) continue;
     MF mask = hit.mask;
     if constexpr (kAlpha) mask = CutOut(scene, rays, triangle.prim, hit, mask);

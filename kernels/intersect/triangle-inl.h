@@ -203,7 +203,8 @@ HWY_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray, const P3<V>& 
   return hit;
 }
 
-/// Tests the sheared triangle (a, b, c) against the lanes of `tested`, most of which miss.
+/// Tests the sheared triangle (a, b, c) against the lanes of `tested`, most of which
+/// miss.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
 HWY_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const P3<V>& a,
                                            const P3<V>& b, const P3<V>& c, V t_max,

@@ -1,5 +1,6 @@
 // Rays leave out the triangle that they start on, and it is the right one that they are
 // told to.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "kernels/simd/target.h"
@@ -47,13 +48,16 @@ Truth Nearest(const CompiledScene& scene, const TestRay& ray, std::uint32_t left
   return truth;
 }
 
-// How far a point is from the plane of a triangle.
-float DistanceTo(const TriangleRecord& triangle, Vec3f p) {
+// Whether a point lies in the plane of the triangle that a path names.
+bool LiesOn(const Wave& wave, std::uint32_t prim, Vec3f p) {
+  const auto& triangles = wave.scene->geometry.triangles;
+  if (prim >= triangles.size()) return false;
   const auto at = [&](int k) {
-    return Vec3f{triangle.p[k][0], triangle.p[k][1], triangle.p[k][2]};
+    const float* v = triangles[prim].p[k];
+    return Vec3f{v[0], v[1], v[2]};
   };
   const Vec3f n = Normalize(Cross(at(1) - at(0), at(2) - at(0)));
-  return std::abs(Dot(n, p - at(0)));
+  return std::abs(Dot(n, p - at(0))) < 1e-4f;
 }
 
 // What stands before the kernels of a plan, and what it has seen. A plain function, as
@@ -64,18 +68,14 @@ int num_closest = 0, num_shadow = 0, num_wrong = 0;
 void CheckClosest(Wave& wave) {
   const PathColumns& p = wave.path;
   const Queue& queue = wave.queue(QueueId::kActive);
-  const auto& triangles = wave.scene->geometry.triangles;
   for (std::uint32_t k = 0; k < queue.size; ++k) {
     const std::uint32_t i = queue.items[k];
     if (p.depth[i] == 0) {
       num_wrong += p.prim[i] != kNoPrimitive;
-      continue;
+    } else {
+      ++num_closest;
+      num_wrong += !LiesOn(wave, p.prim[i], {p.o_x[i], p.o_y[i], p.o_z[i]});
     }
-    ++num_closest;
-    const bool on_it =
-        p.prim[i] < triangles.size() &&
-        DistanceTo(triangles[p.prim[i]], {p.o_x[i], p.o_y[i], p.o_z[i]}) < 1e-4f;
-    num_wrong += !on_it;
   }
   closest(wave);
 }
@@ -83,14 +83,10 @@ void CheckClosest(Wave& wave) {
 void CheckShadow(Wave& wave) {
   const PathColumns& p = wave.path;
   const Queue& queue = wave.queue(QueueId::kShadow);
-  const auto& triangles = wave.scene->geometry.triangles;
+  num_shadow += static_cast<int>(queue.size);
   for (std::uint32_t k = 0; k < queue.size; ++k) {
     const std::uint32_t i = queue.items[k];
-    ++num_shadow;
-    const bool on_it =
-        p.prim[i] < triangles.size() &&
-        DistanceTo(triangles[p.prim[i]], {p.p_x[i], p.p_y[i], p.p_z[i]}) < 1e-4f;
-    num_wrong += !on_it;
+    num_wrong += !LiesOn(wave, p.prim[i], {p.p_x[i], p.p_y[i], p.p_z[i]});
   }
   shadow(wave);
 }
