@@ -44,6 +44,7 @@ std::vector<std::unique_ptr<Builder>> OurBuilders(const Geometry& geometry) {
     rows.push_back(std::make_unique<OurBuilder>(geometry, name, options));
   };
   add("ours", {});
+  add("ours fast", {.quality = BuildQuality::kFast});
   return rows;
 }
 

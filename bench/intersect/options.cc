@@ -33,6 +33,7 @@ std::string FolderOf(const Options& o, const std::string& name) {
 
 AccelOptions Options::Accel() const {
   AccelOptions accel;
+  if (fast) accel.quality = BuildQuality::kFast;
   if (few >= 0) accel.few_triangles = static_cast<std::uint32_t>(few);
   return accel;
 }
@@ -89,6 +90,7 @@ void AddOptions(CLI::App& app, Options& o) {
   app.add_flag("--open", o.open, "leave the box around the meshes out");
   app.add_flag("--build", o.build,
                "builds instead of rays: time, memory, and 1 against 2 threads");
+  app.add_flag("--fast", o.fast, "our fast build below the rays");
   app.add_flag("!--no-embree", o.embree, "leave Embree out");
   app.add_option("--embree-config", o.embree_config,
                  "more for rtcNewDevice, e.g. frequency_level=simd512");

@@ -17,7 +17,7 @@ struct Options {
   std::vector<std::string> sets = kRaySets;
   CompareOptions compare;
   int size = 384;
-  bool embree = true, open = false, build = false;
+  bool embree = true, open = false, build = false, fast = false;
   int few = -1;
 
   AccelOptions Accel() const;

@@ -66,41 +66,43 @@ HWY_INLINE Beam MakeBeam(const Shear<VF>& shear) {
   return beam;
 }
 
-/// Triangles of a leaf, as bits, whose bounds across the beam meet it. `row`: the rows of
-/// TriangleLeaf::vertex in the permuted order of axes.
-HWY_INLINE uint32_t TrianglesInBeam(const Beam& beam, const TriangleLeaf& leaf,
-                                    const uint32_t (&row)[3]) {
-  const DL d;
-  const hn::RebindToUnsigned<DL> du;
-  const hn::Rebind<uint8_t, DL> d8;
-  LeafAxis lo[2], hi[2];
-  for (int i = 0; i < kLeafVertices; i += LeafLanes()) {
+/// Triangles of a leaf, as bits, whose bounds across the beam meet it. `axis`: the
+/// permuted order of axes.
+template <class Leaf>
+HWY_INLINE uint32_t TrianglesInBeam(const Beam& beam, const Leaf& leaf,
+                                    const uint32_t (&axis)[3]) {
+  using V = LeafVec<Leaf>;
+  const LeafTag<Leaf> d;
+  constexpr int kStep = LeafLanes<Leaf>();
+  LeafColumn<Leaf> lo[2], hi[2];
+  for (int i = 0; i < Leaf::kVertexLanes; i += kStep) {
     const auto from = [&](int a, float o) HWY_ATTR {
-      return hn::Sub(hn::Load(d, leaf.vertex[row[a]] + i), hn::Set(d, o));
+      return hn::Sub(hn::Load(d, leaf.vertex[axis[a]] + i), hn::Set(d, o));
     };
-    const VL z = from(2, beam.o.z);
-    const VL p[2] = {from(0, beam.o.x), from(1, beam.o.y)};
+    const V z = from(2, beam.o.z);
+    const V p[2] = {from(0, beam.o.x), from(1, beam.o.y)};
     for (int a = 0; a < 2; ++a) {
-      const VL middle = hn::NegMulAdd(hn::Set(d, beam.s[a]), z, p[a]);
-      const VL radius =
+      const V middle = hn::NegMulAdd(hn::Set(d, beam.s[a]), z, p[a]);
+      const V radius =
           hn::MulAdd(hn::Set(d, beam.slope[a]), hn::Abs(z), hn::Set(d, beam.radius[a]));
-      lo[a].Set(i / LeafLanes(), hn::Sub(middle, radius));
-      hi[a].Set(i / LeafLanes(), hn::Add(middle, radius));
+      lo[a].Set(i / kStep, hn::Sub(middle, radius));
+      hi[a].Set(i / kStep, hn::Add(middle, radius));
     }
   }
   uint32_t bits = 0;
-  for (int i = 0; i < kLeafTriangles; i += LeafLanes()) {
-    const auto a = hn::PromoteTo(du, hn::LoadU(d8, leaf.corner[0] + i));
-    const auto b = hn::PromoteTo(du, hn::LoadU(d8, leaf.corner[1] + i));
-    const auto c = hn::PromoteTo(du, hn::LoadU(d8, leaf.corner[2] + i));
-    const VL least = hn::Max(Min3(lo[0].At(a), lo[0].At(b), lo[0].At(c)),
-                             Min3(lo[1].At(a), lo[1].At(b), lo[1].At(c)));
-    const VL largest = hn::Min(Max3(hi[0].At(a), hi[0].At(b), hi[0].At(c)),
-                               Max3(hi[1].At(a), hi[1].At(b), hi[1].At(c)));
-    const VL zero = hn::Zero(d);
-    bits |= MaskBits(d, hn::And(hn::Le(least, zero), hn::Ge(largest, zero))) << i;
+  for (int i = 0; i < Leaf::kLanes; i += kStep) {
+    const auto least = [&](const LeafColumn<Leaf>& v) HWY_ATTR {
+      return Min3(v.Corner(leaf, 0, i), v.Corner(leaf, 1, i), v.Corner(leaf, 2, i));
+    };
+    const auto largest = [&](const LeafColumn<Leaf>& v) HWY_ATTR {
+      return Max3(v.Corner(leaf, 0, i), v.Corner(leaf, 1, i), v.Corner(leaf, 2, i));
+    };
+    const V zero = hn::Zero(d);
+    const auto below = hn::Le(hn::Max(least(lo[0]), least(lo[1])), zero);
+    const auto above = hn::Ge(hn::Min(largest(hi[0]), largest(hi[1])), zero);
+    bits |= MaskBits(d, hn::And(below, above)) << i;
   }
-  return bits & leaf.used;
+  return bits & UsedLanes(leaf);
 }
 
 }  // namespace HWY_NAMESPACE

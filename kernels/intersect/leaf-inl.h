@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cfloat>
+#include <type_traits>
 
 #include "hwy/highway.h"
 #include "kernels/intersect/triangle-inl.h"
@@ -19,24 +20,56 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Lanes of a leaf test: all 16 triangles at once, or a part on narrower targets.
-using DL = hn::CappedTag<float, kLeafTriangles>;
-using VL = hn::Vec<DL>;
-using ML = hn::Mask<DL>;
-HWY_INLINE constexpr int LeafLanes() { return static_cast<int>(hn::MaxLanes(DL())); }
+/// Lanes of a leaf test: all triangles at once, or a part on narrower targets.
+template <class Leaf>
+using LeafTag = hn::CappedTag<float, Leaf::kLanes>;
+template <class Leaf>
+using LeafVec = hn::Vec<LeafTag<Leaf>>;
+template <class Leaf>
+HWY_INLINE constexpr int LeafLanes() {
+  return static_cast<int>(hn::MaxLanes(LeafTag<Leaf>()));
+}
 
-/// The vertices of a leaf along one permuted axis, sheared, looked up by corner.
-class LeafAxis {
+/// A number for each vertex of a leaf, set in parts, and looked up for the corners of
+/// triangles [i, i + LeafLanes).
+template <class Leaf>
+class LeafColumn;
+
+template <>
+class LeafColumn<SeparateLeaf> {
  public:
-  HWY_INLINE void Set(int part, VL v) { part_[part] = v; }
+  using V = LeafVec<SeparateLeaf>;
+  HWY_INLINE void Set(int part, V v) { part_[part] = v; }
+  HWY_INLINE V Corner(const SeparateLeaf&, int k, int i) const {
+    return part_[(SeparateLeaf::kLanes * k + i) / LeafLanes<SeparateLeaf>()];
+  }
+
+ private:
+  V part_[SeparateLeaf::kVertexLanes / hn::MaxLanes(LeafTag<SeparateLeaf>())];
+};
+
+template <>
+class LeafColumn<TriangleLeaf> {
+ public:
+  using D = LeafTag<TriangleLeaf>;
+  using V = hn::Vec<D>;
+  HWY_INLINE void Set(int part, V v) { part_[part] = v; }
+  HWY_INLINE V Corner(const TriangleLeaf& leaf, int k, int i) const {
+    const hn::RebindToUnsigned<D> du;
+    const hn::Rebind<uint8_t, D> d8;
+    return At(hn::PromoteTo(du, hn::LoadU(d8, leaf.corner[k] + i)));
+  }
+
+ private:
+  using Index = hn::Vec<hn::RebindToUnsigned<D>>;
 #if HWY_MAX_BYTES >= 64
-  HWY_INLINE VL At(hn::Vec<hn::RebindToUnsigned<DL>> index) const {
-    return hn::TableLookupLanes(part_[0], hn::IndicesFromVec(DL(), index));
+  HWY_INLINE V At(Index index) const {
+    return hn::TableLookupLanes(part_[0], hn::IndicesFromVec(D(), index));
   }
 #elif HWY_MAX_BYTES >= 32
-  HWY_INLINE VL At(hn::Vec<hn::RebindToUnsigned<DL>> index) const {
-    const DL d;
-    const hn::RebindToUnsigned<DL> du;
+  HWY_INLINE V At(Index index) const {
+    const D d;
+    const hn::RebindToUnsigned<D> du;
     const auto seven = hn::Set(du, 7);
     const auto lanes = hn::IndicesFromVec(d, hn::And(index, seven));
     const auto upper = hn::RebindMask(d, hn::Gt(index, seven));
@@ -44,23 +77,35 @@ class LeafAxis {
                           hn::TableLookupLanes(part_[0], lanes));
   }
 #else
-  HWY_INLINE VL At(hn::Vec<hn::RebindToUnsigned<DL>> index) const {
-    return hn::GatherIndex(DL(), reinterpret_cast<const float*>(part_),
-                           hn::BitCast(hn::RebindToSigned<DL>(), index));
+  HWY_INLINE V At(Index index) const {
+    return hn::GatherIndex(D(), reinterpret_cast<const float*>(part_),
+                           hn::BitCast(hn::RebindToSigned<D>(), index));
   }
 #endif
 
- private:
-  VL part_[kLeafVertices / hn::MaxLanes(DL())];
+  V part_[TriangleLeaf::kVertexLanes / hn::MaxLanes(D())];
 };
+
+/// Lanes that hold a triangle, as bits.
+HWY_INLINE uint32_t UsedLanes(const TriangleLeaf& leaf) { return leaf.used; }
+HWY_INLINE uint32_t UsedLanes(const SeparateLeaf& leaf) {
+  const hn::RebindToUnsigned<LeafTag<SeparateLeaf>> du;
+  uint32_t bits = 0;
+  for (int i = 0; i < SeparateLeaf::kLanes; i += LeafLanes<SeparateLeaf>()) {
+    const auto used = hn::Ne(hn::LoadU(du, leaf.prim + i), hn::Set(du, kEmptyRef));
+    bits |= MaskBits(du, used) << i;
+  }
+  return bits;
+}
 
 /// Whether the plane of a triangle lies ahead of a ray, exactly. For rays that start on
 /// or near a leaf.
-inline HWY_NOINLINE bool LaneIsAhead(const TriangleLeaf& leaf, int lane, const float o[3],
-                                     const float d[3]) {
+template <class Leaf>
+HWY_NOINLINE bool LaneIsAhead(const Leaf& leaf, uint32_t lane, const float o[3],
+                              const float d[3]) {
   float p[3][3];
   for (int k = 0; k < 3; ++k) {
-    const int corner = leaf.corner[k][lane];
+    const uint32_t corner = leaf.VertexOf(k, lane);
     for (int a = 0; a < 3; ++a) p[k][a] = leaf.vertex[a][corner];
   }
   double n[3];
@@ -72,62 +117,64 @@ inline HWY_NOINLINE bool LaneIsAhead(const TriangleLeaf& leaf, int lane, const f
 /// needed to finish the few lanes that the ray passes through.
 struct LeafWeights {
   HWY_ALIGN float u[kLeafTriangles], v[kLeafTriangles], w[kLeafTriangles];
-  HWY_ALIGN float z[kLeafVertices];
+  HWY_ALIGN float z[SeparateLeaf::kVertexLanes];
 };
 
-/// A ray as leaves see it: its shear, the byte offsets of the rows of
-/// TriangleLeaf::vertex in its permuted order of axes, and Rays::from.
+/// A ray as leaves see it: its shear, its permuted order of axes as byte offsets of
+/// TriangleLeaf::vertex[axis], and Rays::from.
 struct LeafRay {
   P3<float> o, s;
-  uint32_t axis[3];
+  uint32_t row[3];
   uint32_t from;
 };
+inline constexpr uint32_t kLeafRow = sizeof(TriangleLeaf::vertex[0]);
 
-HWY_INLINE const float* LeafRow(const TriangleLeaf& leaf, uint32_t offset) {
-  return reinterpret_cast<const float*>(reinterpret_cast<const char*>(leaf.vertex) +
-                                        offset);
+/// The coordinates along an axis, as in LeafRay::row, of a leaf's vertices.
+template <class Leaf>
+HWY_INLINE const float* LeafRow(const Leaf& leaf, uint32_t row) {
+  static_assert(2 * sizeof(SeparateLeaf::vertex[0]) == 3 * kLeafRow);
+  if constexpr (std::is_same_v<Leaf, SeparateLeaf>) row += row / 2;
+  return reinterpret_cast<const float*>(reinterpret_cast<const char*>(leaf.vertex) + row);
 }
 
 /// Tests kRays rays, each against a leaf of its own, without a branch: bits[j] are the
 /// triangles that the line of ray j passes through, but for the one that it starts on.
 /// The rays take each step together, so that the processor's window always holds as many
 /// independent chains.
-template <int kRays>
-HWY_INLINE void TestLeaves(const LeafRay (&ray)[kRays], const TriangleLeaf* const* leaf,
-                           LeafWeights* const* to, uint32_t (&bits)[kRays]) {
-  const DL d;
-  const hn::RebindToUnsigned<DL> du;
-  const hn::Rebind<uint8_t, DL> d8;
-  const VL zero = hn::Zero(d);
-  LeafAxis x[kRays], y[kRays];
-  for (int i = 0; i < kLeafVertices; i += LeafLanes()) {
-    VL z[kRays];
+template <int kRays, class Leaf>
+HWY_INLINE void TestLeaves(const LeafRay (&ray)[kRays], const Leaf* const (&leaf)[kRays],
+                           LeafWeights* const (&to)[kRays], uint32_t (&bits)[kRays]) {
+  using V = LeafVec<Leaf>;
+  const LeafTag<Leaf> d;
+  const hn::RebindToUnsigned<LeafTag<Leaf>> du;
+  constexpr int kStep = LeafLanes<Leaf>();
+  const V zero = hn::Zero(d);
+  LeafColumn<Leaf> x[kRays], y[kRays];
+  for (int i = 0; i < Leaf::kVertexLanes; i += kStep) {
+    V z[kRays];
     for (int j = 0; j < kRays; ++j) {
-      z[j] = hn::Sub(hn::Load(d, LeafRow(*leaf[j], ray[j].axis[2]) + i),
+      z[j] = hn::Sub(hn::Load(d, LeafRow(*leaf[j], ray[j].row[2]) + i),
                      hn::Set(d, ray[j].o.z));
       hn::Store(hn::Mul(hn::Set(d, ray[j].s.z), z[j]), d, to[j]->z + i);
     }
     for (int j = 0; j < kRays; ++j) {
-      const VL dx = hn::Sub(hn::Load(d, LeafRow(*leaf[j], ray[j].axis[0]) + i),
-                            hn::Set(d, ray[j].o.x));
-      const VL dy = hn::Sub(hn::Load(d, LeafRow(*leaf[j], ray[j].axis[1]) + i),
-                            hn::Set(d, ray[j].o.y));
-      x[j].Set(i / LeafLanes(), hn::NegMulAdd(hn::Set(d, ray[j].s.x), z[j], dx));
-      y[j].Set(i / LeafLanes(), hn::NegMulAdd(hn::Set(d, ray[j].s.y), z[j], dy));
+      const V dx = hn::Sub(hn::Load(d, LeafRow(*leaf[j], ray[j].row[0]) + i),
+                           hn::Set(d, ray[j].o.x));
+      const V dy = hn::Sub(hn::Load(d, LeafRow(*leaf[j], ray[j].row[1]) + i),
+                           hn::Set(d, ray[j].o.y));
+      x[j].Set(i / kStep, hn::NegMulAdd(hn::Set(d, ray[j].s.x), z[j], dx));
+      y[j].Set(i / kStep, hn::NegMulAdd(hn::Set(d, ray[j].s.y), z[j], dy));
     }
   }
   for (int j = 0; j < kRays; ++j) bits[j] = 0;
-  for (int i = 0; i < kLeafTriangles; i += LeafLanes()) {
-    VL ax[kRays], ay[kRays], bx[kRays], by[kRays], cx[kRays], cy[kRays];
+  for (int i = 0; i < Leaf::kLanes; i += kStep) {
+    V ax[kRays], ay[kRays], bx[kRays], by[kRays], cx[kRays], cy[kRays];
     for (int j = 0; j < kRays; ++j) {
-      const auto a = hn::PromoteTo(du, hn::LoadU(d8, leaf[j]->corner[0] + i));
-      const auto b = hn::PromoteTo(du, hn::LoadU(d8, leaf[j]->corner[1] + i));
-      const auto c = hn::PromoteTo(du, hn::LoadU(d8, leaf[j]->corner[2] + i));
-      ax[j] = x[j].At(a), ay[j] = y[j].At(a);
-      bx[j] = x[j].At(b), by[j] = y[j].At(b);
-      cx[j] = x[j].At(c), cy[j] = y[j].At(c);
+      ax[j] = x[j].Corner(*leaf[j], 0, i), ay[j] = y[j].Corner(*leaf[j], 0, i);
+      bx[j] = x[j].Corner(*leaf[j], 1, i), by[j] = y[j].Corner(*leaf[j], 1, i);
+      cx[j] = x[j].Corner(*leaf[j], 2, i), cy[j] = y[j].Corner(*leaf[j], 2, i);
     }
-    VL u[kRays], v[kRays], w[kRays];
+    V u[kRays], v[kRays], w[kRays];
     for (int j = 0; j < kRays; ++j) {
       u[j] = EdgeFunction(d, cx[j], by[j], cy[j], bx[j]);
       v[j] = EdgeFunction(d, ax[j], cy[j], ay[j], cx[j]);
@@ -137,25 +184,28 @@ HWY_INLINE void TestLeaves(const LeafRay (&ray)[kRays], const TriangleLeaf* cons
       hn::Store(u[j], d, to[j]->u + i);
       hn::Store(v[j], d, to[j]->v + i);
       hn::Store(w[j], d, to[j]->w + i);
-      const ML pass = hn::Or(hn::Ge(Min3(u[j], v[j], w[j]), zero),
-                             hn::Le(Max3(u[j], v[j], w[j]), zero));
+      const auto pass = hn::Or(hn::Ge(Min3(u[j], v[j], w[j]), zero),
+                               hn::Le(Max3(u[j], v[j], w[j]), zero));
       const auto other =
           hn::Ne(hn::LoadU(du, leaf[j]->prim + i), hn::Set(du, ray[j].from));
       bits[j] |= MaskBits(d, hn::And(pass, hn::RebindMask(d, other))) << i;
     }
   }
-  for (int j = 0; j < kRays; ++j) bits[j] &= leaf[j]->used;
+  if constexpr (std::is_same_v<Leaf, TriangleLeaf>) {
+    for (int j = 0; j < kRays; ++j) bits[j] &= leaf[j]->used;
+  }
 }
 
 /// Finishes one lane of a leaf for which TestLeaves set the bit. `t` is valid if the
 /// result is true: the triangle lies ahead. The arithmetic is that of FinishHits.
-template <class CopyRay>
-HWY_INLINE bool FinishLane(const TriangleLeaf& leaf, const LeafWeights& weights, int lane,
+template <class Leaf, class CopyRay>
+HWY_INLINE bool FinishLane(const Leaf& leaf, const LeafWeights& weights, uint32_t lane,
                            CopyRay&& copy_ray, float& t, float& det) {
   const hn::CappedTag<float, 1> d1;
   const float u = weights.u[lane], v = weights.v[lane], w = weights.w[lane];
-  const float az = weights.z[leaf.corner[0][lane]], bz = weights.z[leaf.corner[1][lane]],
-              cz = weights.z[leaf.corner[2][lane]];
+  const float az = weights.z[leaf.VertexOf(0, lane)],
+              bz = weights.z[leaf.VertexOf(1, lane)],
+              cz = weights.z[leaf.VertexOf(2, lane)];
   det = u + (v + w);
   if (det == 0) return false;
   const float t_det =

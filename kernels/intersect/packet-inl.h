@@ -126,10 +126,9 @@ HWY_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
   float bound = LargestLane(best.t);
   int left = max_leaves;
   Traverse(scene.accel.nodes.data(), bvh.root, MakeFrustum(bounds, bvh), bound,
-           [&](uint32_t leaf) HWY_ATTR {
+           [&](uint32_t ref) HWY_ATTR {
              if (--left < 0) return true;
-             TestLeafPacket<kAny, kAlpha>(scene, scene.accel.triangle_leaves[leaf],
-                                          packet, all, best);
+             TestLeafPacket<kAny, kAlpha>(scene, ref, packet, all, best);
              bound = LargestLane(best.t);
              return bound < 0;
            });

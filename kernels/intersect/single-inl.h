@@ -48,24 +48,27 @@ class GroupQuery {
       : ray_(ray), o_(o), d_(d), bvh_(bvh), inst_(inst), hit_(hit) {
     const uint32_t z = static_cast<uint32_t>(LargestAxis(d));
     const uint32_t x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
-    constexpr uint32_t kRow = sizeof(TriangleLeaf::vertex[0]);
     leaf_ray_[0] = {{o[x], o[y], o[z]},
                     {d[x] / d[z], d[y] / d[z], 1 / d[z]},
-                    {kRow * x, kRow * y, kRow * z},
+                    {kLeafRow * x, kLeafRow * y, kLeafRow * z},
                     kNoPrimitive};  // a triangle may be in several instances
   }
 
   HWY_INLINE void Run() {
     Traverse(ray_.scene->accel.nodes.data(), bvh_.root, MakeSlabRay(o_, d_, bvh_), hit_.t,
-             [this](uint32_t leaf)
-                 HWY_ATTR { return Test(ray_.scene->accel.triangle_leaves[leaf]); });
+             [this](uint32_t ref) HWY_ATTR {
+               const TriangleBlock& block =
+                   ray_.scene->accel.triangle_blocks[ref & kRefIndex];
+               return ref & kSeparateBit ? Test(block.separate) : Test(block.shared);
+             });
   }
 
  private:
   // Tests the triangles of a leaf; true if the query is over.
-  HWY_INLINE bool Test(const TriangleLeaf& leaf) {
+  template <class Leaf>
+  HWY_INLINE bool Test(const Leaf& leaf) {
     LeafWeights weights;
-    const TriangleLeaf* leaves[1] = {&leaf};
+    const Leaf* leaves[1] = {&leaf};
     LeafWeights* to[1] = {&weights};
     uint32_t hits[1];
     TestLeaves(leaf_ray_, leaves, to, hits);
@@ -73,7 +76,7 @@ class GroupQuery {
       for (int a = 0; a < 3; ++a) o[a] = o_[a], d[a] = d_[a];
     };
     for (uint32_t bits = hits[0]; bits != 0; bits &= bits - 1) {
-      const int i = std::countr_zero(bits);
+      const auto i = static_cast<uint32_t>(std::countr_zero(bits));
       float t, det;
       if (!FinishLane(leaf, weights, i, copy_ray, t, det)) continue;
       if (!IsCloser(t, leaf.prim[i])) continue;

@@ -99,8 +99,7 @@ class PacketPhase {
       const bool few = std::popcount(lanes) < (is_leaf ? kLeafRays : kNodeRays);
       if (few && Defer(ref, entry, lanes)) continue;
       if (is_leaf) {
-        TestLeafPacket<kAny, kAlpha>(
-            scene_, scene_.accel.triangle_leaves[ref & ~kLeafBit], packet, lanes, best);
+        TestLeafPacket<kAny, kAlpha>(scene_, ref, packet, lanes, best);
       } else {
         TestChildren<kSameSigns>(slabs, best.t, scene_.accel.nodes[ref], lanes, *++frame);
       }

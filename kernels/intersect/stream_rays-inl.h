@@ -31,7 +31,7 @@ struct StreamRays {
   // `octant` has bit a set if the direction is negative along axis a.
   float rcp[3][kRoom], near[3][kRoom], far[3][kRoom];
   uint32_t lower[3][kRoom], octant[kRoom];
-  // As in Shear; `row` are byte offsets of the rows of TriangleLeaf::vertex.
+  // As in Shear; `row` as in LeafRay.
   float shear_o[3][kRoom], shear_s[3][kRoom], abs_dz[kRoom], t_scale[kRoom];
   uint32_t row[3][kRoom];
   // The hits so far; in a shadow query t is the end of the ray.
@@ -119,8 +119,7 @@ struct StreamRays {
     hn::StoreU(shear.abs_dz, df, abs_dz + size);
     hn::StoreU(shear.t_scale, df, t_scale + size);
     const auto y = hn::RebindMask(di, order.y), z = hn::RebindMask(di, order.z);
-    constexpr int32_t kRow = sizeof(TriangleLeaf::vertex[0]);
-    const VI at[3] = {hn::Zero(di), hn::Set(di, kRow), hn::Set(di, 2 * kRow)};
+    const VI at[3] = {hn::Zero(di), hn::Set(di, kLeafRow), hn::Set(di, 2 * kLeafRow)};
     StoreInt(hn::IfThenElse(z, at[0], hn::IfThenElse(y, at[2], at[1])), row[0] + size);
     StoreInt(hn::IfThenElse(z, at[1], hn::IfThenElse(y, at[0], at[2])), row[1] + size);
     StoreInt(hn::IfThenElse(z, at[2], hn::IfThenElse(y, at[1], at[0])), row[2] + size);

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <type_traits>
 
 #include "hwy/cache_control.h"
 #include "kernels/intersect/alpha-inl.h"
@@ -35,7 +36,7 @@ class SinglePhase {
       : scene_(scene),
         rays_(rays),
         base_{reinterpret_cast<const char*>(scene.accel.nodes.data()),
-              reinterpret_cast<const char*>(scene.accel.triangle_leaves.data())} {}
+              reinterpret_cast<const char*>(scene.accel.triangle_blocks.data())} {}
 
   /// Places of the rays to trace; the packet phase appends them.
   int32_t* live() { return live_; }
@@ -47,7 +48,8 @@ class SinglePhase {
       Classify();
       if (num_live_ == 0) return;
       NodeRound();
-      LeafRound();
+      LeafRound<TriangleLeaf>(leaves_, num_leaves_);
+      LeafRound<SeparateLeaf>(separate_, num_separate_);
     }
   }
 
@@ -56,13 +58,13 @@ class SinglePhase {
   // Vectors that the children of a node take: 1, or 2 on targets of 4 lanes.
   static constexpr uint32_t kParts = kBvhWidth / hn::MaxLanes(D8());
 
-  // Lists the rays that are at a node, and those that are at a leaf. Apart from the
+  // Lists the rays that are at a node, and those at either kind of leaf. Apart from the
   // steps, which thus store only to places known beforehand: a store to a place that
   // depends on the outcome of a step would hold up the loads of the steps that follow.
   HWY_INLINE void Classify() {
     const DI di;
     const uint32_t n = num_live_;
-    num_live_ = num_nodes_ = num_leaves_ = 0;
+    num_live_ = num_nodes_ = num_leaves_ = num_separate_ = 0;
     for (uint32_t i = 0; i < n; i += hn::MaxLanes(di)) {
       const auto valid = hn::FirstN(di, n - i);
       const VI rays = hn::IfThenElseZero(valid, hn::LoadU(di, live_ + i));
@@ -70,7 +72,10 @@ class SinglePhase {
       const auto live = hn::And(valid, hn::Ne(next, hn::Set(di, -1)));
       const auto leaf = hn::And(live, hn::Lt(next, hn::Zero(di)));
       num_nodes_ += Append(rays, hn::AndNot(leaf, live), nodes_ + num_nodes_);
-      num_leaves_ += Append(rays, leaf, leaves_ + num_leaves_);
+      const auto separate =
+          hn::And(leaf, hn::Lt(hn::ShiftLeft<1>(next), hn::Zero(di)));
+      num_leaves_ += Append(rays, hn::AndNot(separate, leaf), leaves_ + num_leaves_);
+      num_separate_ += Append(rays, separate, separate_ + num_separate_);
       num_live_ += Append(rays, live, live_ + num_live_);
     }
   }
@@ -88,26 +93,27 @@ class SinglePhase {
     PadGroup(nodes_, num_nodes_);
     for (uint32_t k = 0; k < num_nodes_; k += kTogether) NodeStep(nodes_ + k);
   }
-  HWY_NOINLINE void LeafRound() {
-    PadGroup(leaves_, num_leaves_);
-    for (uint32_t base = 0; base < num_leaves_; base += kLeafBlock) {
-      const uint32_t n = std::min(num_leaves_ - base, kLeafBlock);
-      for (uint32_t k = 0; k < n; k += kTogether) LeafStep(leaves_ + base + k, k);
+  template <class Leaf>
+  HWY_NOINLINE void LeafRound(int32_t* list, uint32_t count) {
+    PadGroup(list, count);
+    for (uint32_t base = 0; base < count; base += kLeafBlock) {
+      const uint32_t n = std::min(count - base, kLeafBlock);
+      for (uint32_t k = 0; k < n; k += kTogether) LeafStep<Leaf>(list + base + k, k);
       for (uint32_t k = 0; k < n; ++k) {
         if (bits_[k] == 0) continue;
-        HitStep(static_cast<uint32_t>(leaves_[base + k]), bits_[k], weights_[k]);
+        HitStep<Leaf>(static_cast<uint32_t>(list[base + k]), bits_[k], weights_[k]);
       }
     }
   }
 
   // Goes to the top of the stack if `move` is 1, stays where it is if it is 0.
   HWY_INLINE void Pop(uint32_t r, uint32_t top, uint32_t move = 1) {
-    static constexpr std::size_t kBytes[2] = {sizeof(WideNode), sizeof(TriangleLeaf)};
+    static constexpr std::size_t kBytes[2] = {sizeof(WideNode), sizeof(TriangleBlock)};
     const uint32_t ref = rays_.Refs(r)[top];
     rays_.top[r] = top - move;
     rays_.next[r] = move ? static_cast<int32_t>(ref) : rays_.next[r];
     const uint32_t is_leaf = ref >> 31;
-    const char* at = base_[is_leaf] + (ref & ~kLeafBit) * kBytes[is_leaf];
+    const char* at = base_[is_leaf] + (ref & kRefIndex) * kBytes[is_leaf];
     for (int line = 0; line < 4; ++line) hwy::Prefetch(at + line * kCacheLine);
   }
 
@@ -186,14 +192,17 @@ class SinglePhase {
     return top;
   }
 
-  HWY_INLINE const TriangleLeaf& LeafOf(uint32_t r) const {
-    return scene_.accel.triangle_leaves[static_cast<uint32_t>(rays_.next[r]) & ~kLeafBit];
+  template <class Leaf>
+  HWY_INLINE const Leaf& LeafOf(uint32_t r) const {
+    const auto index = static_cast<uint32_t>(rays_.next[r]) & kRefIndex;
+    return reinterpret_cast<const Leaf*>(base_[1])[index];
   }
 
   // Rays whose lines pass through no triangle go on; the others wait for HitStep.
+  template <class Leaf>
   HWY_INLINE void LeafStep(const int32_t* list, uint32_t at) {
     LeafRay ray[kTogether];
-    const TriangleLeaf* leaf[kTogether];
+    const Leaf* leaf[kTogether];
     LeafWeights* weights[kTogether];
     uint32_t r[kTogether], bits[kTogether], top[kTogether];
     for (uint32_t j = 0; j < kTogether; ++j) {
@@ -201,7 +210,7 @@ class SinglePhase {
       const auto load = [&](const float(&column)[3][kRoom]) HWY_ATTR {
         return P3<float>{column[0][r[j]], column[1][r[j]], column[2][r[j]]};
       };
-      leaf[j] = &LeafOf(r[j]);
+      leaf[j] = &LeafOf<Leaf>(r[j]);
       ray[j] = {load(rays_.shear_o),
                 load(rays_.shear_s),
                 {rays_.row[0][r[j]], rays_.row[1][r[j]], rays_.row[2][r[j]]},
@@ -218,14 +227,15 @@ class SinglePhase {
 
   // Takes the nearest of the triangles that the line of the ray passes through, and goes
   // on.
+  template <class Leaf>
   HWY_NOINLINE void HitStep(uint32_t r, uint32_t bits, const LeafWeights& weights) {
-    const TriangleLeaf& leaf = LeafOf(r);
+    const Leaf& leaf = LeafOf<Leaf>(r);
     const auto copy_ray = [&](float o[3], float d[3]) HWY_ATTR {
       for (int a = 0; a < 3; ++a) o[a] = rays_.o[a][r], d[a] = rays_.d[a][r];
     };
     bool closer = false;
     for (; bits != 0; bits &= bits - 1) {
-      const int i = std::countr_zero(bits);
+      const auto i = static_cast<uint32_t>(std::countr_zero(bits));
       const auto prim = static_cast<int32_t>(leaf.prim[i]);
       float t, det;
       if (!FinishLane(leaf, weights, i, copy_ray, t, det)) continue;
@@ -255,20 +265,20 @@ class SinglePhase {
 
   // Drops what lies beyond the hit, so that nothing needs to be tested when it is popped.
   HWY_INLINE void CullStack(uint32_t r) {
-    const DL dl;
-    const hn::RebindToUnsigned<DL> du;
+    const DF df;
+    const hn::RebindToUnsigned<DF> du;
     uint32_t* refs = rays_.Refs(r);
     float* entries = rays_.Entries(r);
     const uint32_t end = rays_.top[r] + 1;
-    const VL t = hn::Set(dl, rays_.t[r]);
+    const VF t = hn::Set(df, rays_.t[r]);
     uint32_t kept = rays_.bottom[r];
-    for (uint32_t i = kept; i < end; i += LeafLanes()) {
-      const VL entry = hn::LoadU(dl, entries + i);
+    for (uint32_t i = kept; i < end; i += hn::MaxLanes(df)) {
+      const VF entry = hn::LoadU(df, entries + i);
       const auto ref = hn::LoadU(du, refs + i);
-      const ML keep = hn::And(hn::Le(entry, t), hn::FirstN(dl, end - i));
-      hn::StoreU(hn::Compress(entry, keep), dl, entries + kept);
+      const MF keep = hn::And(hn::Le(entry, t), hn::FirstN(df, end - i));
+      hn::StoreU(hn::Compress(entry, keep), df, entries + kept);
       hn::StoreU(hn::Compress(ref, hn::RebindMask(du, keep)), du, refs + kept);
-      kept += static_cast<uint32_t>(hn::CountTrue(dl, keep));
+      kept += static_cast<uint32_t>(hn::CountTrue(df, keep));
     }
     rays_.top[r] = kept - 1;
   }
@@ -276,8 +286,8 @@ class SinglePhase {
   const CompiledScene& scene_;
   StreamRays& rays_;
   const char* base_[2];  // nodes and leaves
-  uint32_t num_live_ = 0, num_nodes_ = 0, num_leaves_ = 0;
-  int32_t live_[kRoom], nodes_[kRoom], leaves_[kRoom];
+  uint32_t num_live_ = 0, num_nodes_ = 0, num_leaves_ = 0, num_separate_ = 0;
+  int32_t live_[kRoom], nodes_[kRoom], leaves_[kRoom], separate_[kRoom];
   uint32_t bits_[kLeafBlock + kTogether];
   LeafWeights weights_[kLeafBlock + kTogether];
 };

@@ -2,8 +2,9 @@
 // kernels in kernels/intersect/ read them. Built once by BuildAccel.
 //
 // What is traced how:
-//   triangles   8-wide BVH, leaves of up to 16 triangles over up to 16 shared vertices;
-//               where boxes are mostly empty (long thin triangles), triangles are cut
+//   triangles   8-wide BVH, leaves of up to 16 triangles over up to 16 shared vertices,
+//               or of up to 8 with corners of their own; where boxes are mostly empty
+//               (long thin triangles), triangles are cut
 //   instances   one BVH per object and one over the instances
 //   spheres, disks   BVH likewise; at most kFewRound: no tree, a vector of rays against
 //               each record in turn; planes always so, since they are infinite
@@ -34,8 +35,10 @@ struct Geometry;  // src/scene/compiled.h, which includes this file
 inline constexpr int kBvhWidth = 8;
 inline constexpr int kLeafTriangles = 16, kLeafVertices = 16;
 /// Child references: with this bit a leaf (the rest is the index of its block, or of an
-/// instance in the top level), without it the index of a node.
-inline constexpr std::uint32_t kLeafBit = 0x80000000u;
+/// instance in the top level), without it the index of a node. Among leaves of triangles
+/// those with kSeparateBit, too, are SeparateLeaf.
+inline constexpr std::uint32_t kLeafBit = 0x80000000u, kSeparateBit = 0x40000000u;
+inline constexpr std::uint32_t kRefIndex = kSeparateBit - 1;
 /// The reference of a tree without shapes, and of unused children.
 inline constexpr std::uint32_t kEmptyRef = 0xffffffffu;
 /// Entries that a traversal stack needs at most; BuildAccel checks it.
@@ -70,8 +73,33 @@ struct alignas(64) TriangleLeaf {
   std::uint32_t prim[kLeafTriangles];
   std::uint32_t count, vertices;  // used lanes of corner and prim, and of vertex
   std::uint32_t used;             // the first `count` bits
+
+  static constexpr int kLanes = kLeafTriangles, kVertexLanes = kLeafVertices;
+  /// Where corner k of a triangle is found in the rows of `vertex`.
+  std::uint32_t VertexOf(int k, std::uint32_t lane) const { return corner[k][lane]; }
 };
 static_assert(sizeof(TriangleLeaf) == 320);
+
+/// Leaf of up to 8 triangles with corners of their own, ascending by id: where a
+/// TriangleLeaf would hold no more, because triangles share few vertices. Unused lanes
+/// have corners that are NaN (never hit) and prim kEmptyRef.
+struct alignas(64) SeparateLeaf {
+  static constexpr int kLanes = 8, kVertexLanes = 3 * kLanes;
+  float vertex[3][kVertexLanes];  // [axis][8 * corner + lane]
+  std::uint32_t prim[kLanes];
+
+  std::uint32_t VertexOf(int k, std::uint32_t lane) const {
+    return static_cast<std::uint32_t>(k) * kLanes + lane;
+  }
+};
+static_assert(sizeof(SeparateLeaf) == 320);
+
+/// A leaf of triangles; references to it tell which.
+union TriangleBlock {
+  TriangleLeaf shared;
+  SeparateLeaf separate;
+};
+static_assert(sizeof(TriangleBlock) == 320);
 
 /// Leaf of up to 8 spheres, ascending by id. Unused lanes have radius -1 (never hit).
 struct alignas(64) SphereBlock {
@@ -109,11 +137,17 @@ struct FewTriangles {
   float reach = 0;
 };
 
+enum class BuildQuality {
+  kHigh,
+  kFast,  // splits along one axis, no cuts: for previews and huge scenes
+};
+
 struct Accel {
+  BuildQuality quality = BuildQuality::kHigh;
   AlignedVector<WideNode> nodes;  // of all trees
 
   FewTriangles few;  // for incoherent rays, used instead of groups[0] if not empty
-  AlignedVector<TriangleLeaf> triangle_leaves;
+  AlignedVector<TriangleBlock> triangle_blocks;
   std::vector<Bvh> groups;  // as Geometry::groups
   Bvh top;                  // over instances; leaf references hold instance indices
 
@@ -125,15 +159,16 @@ struct Accel {
   std::size_t Bytes() const;
 };
 
-/// How to build; the defaults are what rendering uses. The others serve tests and bench.
+/// How to build; the defaults are what rendering uses. What counts as few serves tests
+/// and bench.
 struct AccelOptions {
   std::uint32_t few_triangles = kFewTriangles;
   std::uint32_t few_round = kFewRound;
+  BuildQuality quality = BuildQuality::kHigh;
 };
 
 /// Builds everything that `geometry` needs. The result does not depend on the number of
 /// threads. Shapes with a non-finite coordinate are left out (they cannot be hit).
-Accel BuildAccel(const Geometry& geometry, const AccelOptions& options);
-Accel BuildAccel(const Geometry& geometry);
+Accel BuildAccel(const Geometry& geometry, const AccelOptions& options = {});
 
 }  // namespace lanelight

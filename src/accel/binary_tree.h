@@ -16,6 +16,7 @@ struct BinaryNode {
   AccelBox box;
   std::uint32_t begin = 0, end = 0;  // items
   std::uint32_t child = 0;           // the first of two in a row; 0 = leaf
+  std::uint32_t capacity = 0;        // as in LeafRange, if it is a leaf
   /// What the subtree costs as at most i + 1 wide nodes and leaves side by side, and how
   /// the children share them then: see PlanCollapse.
   float cost[kBvhWidth];

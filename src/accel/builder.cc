@@ -7,6 +7,7 @@
 
 #include "src/accel/collapse.h"
 #include "src/accel/cut_plan.h"
+#include "src/accel/extents.h"
 #include "src/accel/object_split.h"
 #include "src/accel/spatial_split.h"
 #include "src/core/check.h"
@@ -31,11 +32,13 @@ constexpr float kOverlap = 0.05f, kCutGain = 1.1f;
 
 class TreeBuilder {
  public:
-  TreeBuilder(std::vector<BuildItem>& items, const LeafLimit& limit, const CutPlan& cuts)
+  TreeBuilder(std::vector<BuildItem>& items, const LeafLimit& limit, const CutPlan& cuts,
+              bool one_axis)
       : items_(items.data()),
         limit_(limit),
         cuts_(cuts),
         leaf_size_(std::max(1u, limit.items)),
+        one_axis_(one_axis),
         tree_(items.size()) {}
 
   // Fills the subtree rooted at `node` over the items of `range`. `leaf`: items that a
@@ -49,6 +52,7 @@ class TreeBuilder {
     const std::uint32_t middle = Divide(n.box, range, leaf, depth);
     n.begin = range.begin;
     n.end = range.end;
+    n.capacity = leaf;
     if (middle != range.begin) {
       n.child = tree_.AddPair();
       const ItemRange second = ShareRoom(range, middle);
@@ -72,7 +76,7 @@ class TreeBuilder {
   std::uint32_t Divide(AccelBox& box, ItemRange& range, std::uint32_t leaf, int depth) {
     const std::uint32_t block = leaf == 0 ? leaf_size_ : leaf;
     AccelBox centers;
-    Measure(range, box, centers);
+    MeasureItems(items_ + range.begin, range.count(), box, centers);
     const std::uint32_t count = range.count();
     if (count == 1) return range.begin;
     BuildItem* items = items_ + range.begin;
@@ -80,11 +84,14 @@ class TreeBuilder {
     const bool may_cut = count >= cuts_.least && range.room() > count / 16;
     ObjectSplit split;
     if (depth < kMaxSahDepth) {
-      split = FindObjectSplit(items, count, centers, block, may_cut);
+      split = FindObjectSplit(items, count, centers,
+                              {.leaf_size = block,
+                               .overlap = may_cut,
+                               .one_axis = one_axis_});
     }
     if (count <= leaf_size_) {
       const bool pays = split.axis < 0 || split.cost + kNodeCost * area >= area;
-      if (pays && (!limit_.fits || limit_.fits(items, count))) return range.begin;
+      if (pays && (!limit_.fits || limit_.fits(items, count, block))) return range.begin;
     }
     if (may_cut && depth < kMaxSahDepth && split.overlap > kOverlap * area) {
       const std::uint32_t middle = Cut(range, box, kCutGain * split.cost, block);
@@ -101,40 +108,6 @@ class TreeBuilder {
         FindSpatialSplit(items_, range, box, limit_.triangles, block);
     if (!(split.cost < cost)) return range.begin;
     return CutAndPartition(items_, range, split, limit_.triangles);
-  }
-
-  // The box of some items, and that of twice their centres.
-  struct Extents {
-    WideBox all, middles;
-
-    void Extend(const Extents& e) {
-      all.Extend(e.all);
-      middles.Extend(e.middles);
-    }
-  };
-  Extents MeasurePart(std::uint32_t begin, std::uint32_t end) const {
-    Extents e;
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const Float4 lo = LowOf(items_[i]), hi = HighOf(items_[i]);
-      e.all.Extend(lo, hi);
-      e.middles.Extend(lo + hi);
-    }
-    return e;
-  }
-  void Measure(ItemRange range, AccelBox& box, AccelBox& centers) const {
-    Extents e;
-    if (range.count() < 2 * kPart) {
-      e = MeasurePart(range.begin, range.end);
-    } else {
-      std::vector<Extents> parts((range.count() + kPart - 1) / kPart);
-      ParallelFor(parts.size(), [&](std::size_t i) {
-        const std::uint32_t begin = range.begin + static_cast<std::uint32_t>(i) * kPart;
-        parts[i] = MeasurePart(begin, std::min(range.end, begin + kPart));
-      });
-      for (const Extents& part : parts) e.Extend(part);
-    }
-    box = e.all.Box();
-    centers = e.middles.Box();
   }
 
   // Sum of half areas.
@@ -167,23 +140,42 @@ class TreeBuilder {
   const LeafLimit& limit_;
   const CutPlan cuts_;
   std::uint32_t leaf_size_;
+  bool one_axis_;
   BinaryTree tree_;
 };
 
+// The ids of the items of leaf after leaf, which is what `leaves` refer to then.
+std::vector<std::uint32_t> TakeIds(const std::vector<BuildItem>& items,
+                                   std::vector<LeafRange>& leaves) {
+  std::vector<std::uint32_t> ids;
+  std::size_t count = 0;
+  for (const LeafRange& leaf : leaves) count += leaf.end - leaf.begin;
+  ids.reserve(count);
+  for (LeafRange& leaf : leaves) {
+    const auto begin = static_cast<std::uint32_t>(ids.size());
+    for (std::uint32_t i = leaf.begin; i < leaf.end; ++i) ids.push_back(items[i].id);
+    leaf.begin = begin;
+    leaf.end = static_cast<std::uint32_t>(ids.size());
+  }
+  return ids;
+}
+
 }  // namespace
 
-BuiltTree BuildTree(std::vector<BuildItem>& items, const LeafLimit& limit,
-                    AlignedVector<WideNode>& nodes) {
+BuiltTree BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
+                    BuildQuality quality, AlignedVector<WideNode>& nodes) {
   BuiltTree result;
   if (items.empty()) return result;
   const auto count = static_cast<std::uint32_t>(items.size());
   CutPlan cuts;
-  if (limit.triangles != nullptr) cuts = PlanCuts(items, limit.triangles);
+  const bool fast = quality == BuildQuality::kFast;
+  if (limit.triangles != nullptr && !fast) cuts = PlanCuts(items, limit.triangles);
   LL_CHECK_LT(items.size() + cuts.room, std::size_t{1} << 30);
   items.resize(items.size() + cuts.room);
-  TreeBuilder builder(items, limit, cuts);
+  TreeBuilder builder(items, limit, cuts, fast);
   builder.Build(0, {0, count, count + cuts.room}, 0, 0);
   result.bvh = Collapse(builder.tree(), items, limit.items == 0, nodes, result.leaves);
+  result.ids = TakeIds(items, result.leaves);
   return result;
 }
 

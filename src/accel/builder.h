@@ -38,21 +38,26 @@ struct BuildItem {
   Vec3f Center2() const { return box.lo + box.hi; }
 };
 
-/// Shapes of one leaf: items[begin, end) after the build.
+/// Shapes of one leaf: BuiltTree::ids[begin, end). `capacity`: how many a leaf of its
+/// kind holds.
 struct LeafRange {
-  std::uint32_t begin = 0, end = 0;
+  std::uint32_t begin = 0, end = 0, capacity = 0;
 };
 
 struct BuiltTree {
   Bvh bvh;                        // leaf references index `leaves`
   std::vector<LeafRange> leaves;  // in the order of the tree
+  std::vector<std::uint32_t> ids;  // of the items of leaf after leaf
 };
 
 /// What a leaf may hold: at most `items` shapes (0: one shape, and leaf references are
-/// item ids themselves), for which `fits` is true if it is set.
+/// item ids themselves), for which `fits` is true if it is set; `capacity` is what
+/// `typical` said.
 struct LeafLimit {
   std::uint32_t items = kBvhWidth;
-  std::function<bool(const BuildItem* items, std::uint32_t count)> fits;
+  std::function<bool(const BuildItem* items, std::uint32_t count,
+                     std::uint32_t capacity)>
+      fits;
   /// If set: how many of these shapes a leaf holds, at a guess, in [1, items].
   std::function<std::uint32_t(const BuildItem* items, std::uint32_t count)> typical;
   /// If set, items are triangles, which the builder may cut: then several items, in
@@ -61,9 +66,8 @@ struct LeafLimit {
 };
 
 /// Sorts `items` into a tree whose leaves keep to `limit` and appends its nodes to
-/// `nodes`. The leaves tell where in `items` theirs lie. Runs in parallel; the result
-/// does not depend on the number of threads.
-BuiltTree BuildTree(std::vector<BuildItem>& items, const LeafLimit& limit,
-                    AlignedVector<WideNode>& nodes);
+/// `nodes`. Runs in parallel; the result does not depend on the number of threads.
+BuiltTree BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
+                    BuildQuality quality, AlignedVector<WideNode>& nodes);
 
 }  // namespace lanelight

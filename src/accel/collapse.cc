@@ -46,7 +46,7 @@ class Collapser {
  private:
   std::uint32_t EmitLeaf(const BinaryNode& leaf) {
     if (single_) return kLeafBit | items_[leaf.begin].id;
-    leaves_.push_back({leaf.begin, leaf.end});
+    leaves_.push_back({leaf.begin, leaf.end, leaf.capacity});
     LL_CHECK_LT(leaves_.size(), kLeafBit - 1);
     return kLeafBit | static_cast<std::uint32_t>(leaves_.size() - 1);
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "src/accel/partition.h"
 #include "src/core/parallel.h"
 
 namespace lanelight {
@@ -22,7 +23,6 @@ struct Bin {
 // Where an item falls: bin = (center2 - lo) * scale. Monotonic in the centre.
 struct Binning {
   Vec3f lo, scale;
-
   int bins;
 
   Binning(const AccelBox& centers, std::uint32_t count)
@@ -38,6 +38,12 @@ struct Binning {
                       bins - 1);
   }
 };
+
+int LongestAxis(Vec3f extent) {
+  int axis = extent.y > extent.x ? 1 : 0;
+  if (extent.z > extent[axis]) axis = 2;
+  return axis;
+}
 
 // Least sum of half area times blocks over the splits between bins of one axis.
 template <std::size_t kCount>
@@ -72,17 +78,18 @@ float OverlapOf(const std::array<Bin, kCount>& bins, int middle) {
   return left.IsEmpty() ? 0.0f : left.HalfArea();
 }
 
-template <int kCount>
-using AxisBins = std::array<std::array<Bin, kCount>, 3>;
+template <int kCount, int kAxes>
+using AxisBins = std::array<std::array<Bin, kCount>, kAxes>;
 
-template <int kCount>
+// Bins along all three axes, or along one.
+template <int kCount, int kAxes>
 void Fill(const BuildItem* items, std::uint32_t begin, std::uint32_t end,
-          const Binning& binning, AxisBins<kCount>& bins) {
+          const Binning& binning, int axis, AxisBins<kCount, kAxes>& bins) {
   for (std::uint32_t i = begin; i < end; ++i) {
     const Vec3f c = items[i].Center2();
     const Float4 lo = LowOf(items[i]), hi = HighOf(items[i]);
-    for (int a = 0; a < 3; ++a) {
-      Bin& bin = bins[a][binning.Of(c, a)];
+    for (int a = 0; a < kAxes; ++a) {
+      Bin& bin = bins[a][binning.Of(c, kAxes == 1 ? axis : a)];
       bin.box.Extend(lo, hi);
       ++bin.count;
     }
@@ -90,16 +97,18 @@ void Fill(const BuildItem* items, std::uint32_t begin, std::uint32_t end,
 }
 
 // By several threads. Boxes and counts do not depend on the order.
+template <int kCount, int kAxes>
 void FillTogether(const BuildItem* items, std::uint32_t count, const Binning& binning,
-                  AxisBins<kBins>& bins) {
-  std::vector<AxisBins<kBins>> parts((count + kPart - 1) / kPart);
+                  int axis, AxisBins<kCount, kAxes>& bins) {
+  std::vector<AxisBins<kCount, kAxes>> parts((count + kPart - 1) / kPart);
   ParallelFor(parts.size(), [&](std::size_t i) {
     const std::uint32_t begin = static_cast<std::uint32_t>(i) * kPart;
-    Fill<kBins>(items, begin, std::min(count, begin + kPart), binning, parts[i]);
+    Fill<kCount, kAxes>(items, begin, std::min(count, begin + kPart), binning, axis,
+                        parts[i]);
   });
-  for (const AxisBins<kBins>& part : parts) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t b = 0; b < kBins; ++b) {
+  for (const auto& part : parts) {
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      for (std::size_t b = 0; b < kCount; ++b) {
         bins[a][b].box.Extend(part[a][b].box);
         bins[a][b].count += part[a][b].count;
       }
@@ -107,46 +116,53 @@ void FillTogether(const BuildItem* items, std::uint32_t count, const Binning& bi
   }
 }
 
-template <int kCount>
+template <int kCount, int kAxes>
 ObjectSplit Find(const BuildItem* items, std::uint32_t count, const AccelBox& centers,
-                 std::uint32_t leaf_size, bool want_overlap) {
+                 const SplitSearch& search) {
   const Binning binning(centers, count);
-  AxisBins<kCount> bins;
-  if constexpr (kCount == kBins) {
-    if (count >= 2 * kPart) {
-      FillTogether(items, count, binning, bins);
-    } else {
-      Fill<kCount>(items, 0, count, binning, bins);
-    }
+  const int longest = LongestAxis(centers.hi - centers.lo);
+  AxisBins<kCount, kAxes> bins;
+  if (count >= 2 * kPart) {
+    FillTogether<kCount, kAxes>(items, count, binning, longest, bins);
   } else {
-    Fill<kCount>(items, 0, count, binning, bins);
+    Fill<kCount, kAxes>(items, 0, count, binning, longest, bins);
   }
   ObjectSplit best;
-  for (int a = 0; a < 3; ++a) {
-    if (binning.scale[a] > 0) Sweep(bins[a], a, leaf_size, best);
+  for (int a = 0; a < kAxes; ++a) {
+    const int axis = kAxes == 1 ? longest : a;
+    if (binning.scale[axis] > 0) Sweep(bins[a], axis, search.leaf_size, best);
   }
-  if (want_overlap && best.axis >= 0) best.overlap = OverlapOf(bins[best.axis], best.bin);
+  if (search.overlap && best.axis >= 0) {
+    best.overlap = OverlapOf(bins[kAxes == 1 ? 0 : best.axis], best.bin);
+  }
   return best;
+}
+
+template <int kAxes>
+ObjectSplit Find(const BuildItem* items, std::uint32_t count, const AccelBox& centers,
+                 const SplitSearch& search) {
+  return count < kFewItems ? Find<kFewBins, kAxes>(items, count, centers, search)
+                           : Find<kBins, kAxes>(items, count, centers, search);
 }
 
 }  // namespace
 
 ObjectSplit FindObjectSplit(const BuildItem* items, std::uint32_t count,
-                            const AccelBox& centers, std::uint32_t leaf_size,
-                            bool want_overlap) {
-  return count < kFewItems
-             ? Find<kFewBins>(items, count, centers, leaf_size, want_overlap)
-             : Find<kBins>(items, count, centers, leaf_size, want_overlap);
+                            const AccelBox& centers, const SplitSearch& search) {
+  return search.one_axis ? Find<1>(items, count, centers, search)
+                         : Find<3>(items, count, centers, search);
 }
 
 std::uint32_t Partition(BuildItem* items, std::uint32_t count, const AccelBox& centers,
                         const ObjectSplit& split) {
   if (split.axis < 0) return count / 2;
   const Binning binning(centers, count);
-  const auto* middle = std::partition(items, items + count, [&](const BuildItem& item) {
-    return binning.Of(item.Center2(), split.axis) < split.bin;
+  // Of rounds down, so this is Of < split.bin.
+  const float lo = binning.lo[split.axis], scale = binning.scale[split.axis];
+  const auto end = static_cast<float>(split.bin);
+  return PartitionItems(items, count, [&](const BuildItem& item) {
+    return (item.box.lo[split.axis] + item.box.hi[split.axis] - lo) * scale < end;
   });
-  return static_cast<std::uint32_t>(middle - items);
 }
 
 }  // namespace lanelight

@@ -15,20 +15,22 @@ struct ObjectSplit {
   float overlap = INFINITY;
 };
 
-/// Ranges of at least twice as many items are looked at in parts of this size by several
-/// threads.
-inline constexpr std::uint32_t kPart = 16384;
-
 /// Number of full leaves that `count` items fill.
 inline float Blocks(std::uint32_t count, std::uint32_t leaf_size) {
   return static_cast<float>((count + leaf_size - 1) / leaf_size);
 }
 
+/// What to look for: splits into leaves of `leaf_size` items along all axes, or only
+/// along the one where the centres are most apart; and ObjectSplit::overlap.
+struct SplitSearch {
+  std::uint32_t leaf_size = 1;
+  bool overlap = false, one_axis = false;
+};
+
 /// The split of `count` items with the least sum of half area times blocks. `centers`
 /// holds twice their centres.
 ObjectSplit FindObjectSplit(const BuildItem* items, std::uint32_t count,
-                            const AccelBox& centers, std::uint32_t leaf_size,
-                            bool want_overlap);
+                            const AccelBox& centers, const SplitSearch& search);
 
 /// Sorts the items to the sides of `split`; returns how many lie on the first.
 std::uint32_t Partition(BuildItem* items, std::uint32_t count, const AccelBox& centers,

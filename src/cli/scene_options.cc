@@ -129,6 +129,10 @@ void AddExecutionOptions(CLI::App& command, SceneOptions& options) {
                   "Paths in flight per thread; 0 = fit the cache")
       ->check(CLI::Range(0u, kMaxWavefront).description(""))
       ->type_name("N");
+  AddNameOption<BuildQuality>(
+      command, "--build", options.settings.build,
+      {{"fast", BuildQuality::kFast}, {"high", BuildQuality::kHigh}},
+      "How to build the trees over shapes, in less time or for faster rays");
   command.add_option("--threads", options.threads, "Threads; 0 = all cores")
       ->check(CLI::Range(0, 1024).description(""))
       ->type_name("T");

@@ -64,6 +64,7 @@ Json SettingsJson(const Job& job, const RunResult& result, bool half) {
           {"points", PointsText(job, result)},
           {"aov", job.plan.options.aov},
           {"depth", half ? "half" : "float"},
+          {"build", job.scene.accel.quality == BuildQuality::kFast ? "fast" : "high"},
           {"threads", MaxThreads()}};
 }
 

@@ -123,6 +123,7 @@ PixelWindow CropWindow(const Film& film) {
 CompileOptions CompileOptionsOf(const RenderSettings& settings) {
   CompileOptions options;
   options.scattering = settings.scattering;
+  options.build = settings.build.value_or(options.build);
   return options;
 }
 

@@ -26,7 +26,8 @@ struct RenderSettings {
   std::optional<Points> points;
   std::string strategy;  // changes to the scene's strategy, see ApplyStrategy
   std::optional<Scattering> scattering;
-  std::uint32_t wavefront = 0;  // paths; 0 = chosen by the plan
+  std::optional<BuildQuality> build;  // of the trees over shapes
+  std::uint32_t wavefront = 0;        // paths; 0 = chosen by the plan
   bool aov = false;
   bool skip_unsupported = false;
 };

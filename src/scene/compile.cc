@@ -141,7 +141,7 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.materials = std::move(materials.table);
   scene.geometry = std::move(compiled.geometry);
   scene.features = SceneFeatures(scene);
-  scene.accel = BuildAccel(scene.geometry);
+  scene.accel = BuildAccel(scene.geometry, {.quality = options.build});
   UseStrategy(description.strategy, scene);
   return scene;
 }

@@ -10,6 +10,7 @@ namespace lanelight {
 
 struct CompileOptions {
   std::optional<Scattering> scattering;  // overrides every diffuse material
+  BuildQuality build = BuildQuality::kHigh;
 };
 
 /// Throws InputError if the scene cannot be rendered (a missing image, a shape that the

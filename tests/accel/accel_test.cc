@@ -5,11 +5,13 @@
 
 #include <catch2/catch.hpp>
 
-#include <cstring>
+#include <algorithm>
 #include <set>
 
 #include "src/accel/grow.h"
+#include "src/accel/partition.h"
 #include "src/core/parallel.h"
+#include "tests/accel/leaves.h"
 #include "tests/intersect/brute_force.h"
 
 namespace lanelight {
@@ -17,48 +19,22 @@ namespace {
 
 using brute::Random;
 
-// Ids below `ref`, checking that each vertex lies in the boxes on the way, with room for
+// All ids, checking that each vertex lies in the boxes on the way, with room for
 // rounding.
-void Collect(const Accel& accel, std::uint32_t ref, Vec3f lo, Vec3f hi,
-             std::multiset<std::uint32_t>& ids, int& outside) {
-  if (ref == kEmptyRef) return;
-  if (ref & kLeafBit) {
-    const TriangleLeaf& leaf = accel.triangle_leaves[ref & ~kLeafBit];
-    CHECK(leaf.used == (1u << leaf.count) - 1);
-    for (std::uint32_t lane = 0; lane < leaf.count; ++lane) {
-      ids.insert(leaf.prim[lane]);
-      for (int k = 0; k < 3; ++k) {
-        CHECK(leaf.corner[k][lane] < leaf.vertices);
+std::multiset<std::uint32_t> IdsOf(const Accel& accel, int& outside) {
+  std::multiset<std::uint32_t> ids;
+  for (const LeafView& leaf : LeavesOf(accel)) {
+    ids.insert(leaf.prim.begin(), leaf.prim.end());
+    for (const auto& corner : leaf.corner) {
+      for (const Vec3f& p : corner) {
         for (int a = 0; a < 3; ++a) {
-          const float x = leaf.vertex[a][leaf.corner[k][lane]];
-          const float room = 0.9f * kShapeSlack * std::abs(x);
-          outside += x - room < lo[a] || x + room > hi[a];
+          const float room = 0.9f * kShapeSlack * std::abs(p[a]);
+          outside += p[a] - room < leaf.box.lo[a] || p[a] + room > leaf.box.hi[a];
         }
       }
     }
-    return;
   }
-  const WideNode& node = accel.nodes[ref];
-  for (int c = 0; c < kBvhWidth; ++c) {
-    Vec3f child_lo, child_hi;
-    for (int a = 0; a < 3; ++a) {
-      child_lo[a] = node.bounds[a][0][c];
-      child_hi[a] = node.bounds[a][1][c];
-    }
-    Collect(accel, node.child[c], child_lo, child_hi, ids, outside);
-  }
-}
-
-std::multiset<std::uint32_t> IdsOf(const Accel& accel, const Bvh& bvh, int& outside) {
-  std::multiset<std::uint32_t> ids;
-  const Vec3f all{INFINITY, INFINITY, INFINITY};
-  Collect(accel, bvh.root, -all, all, ids, outside);
   return ids;
-}
-
-bool SameBytes(const auto& a, const auto& b) {
-  return a.size() == b.size() &&
-         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0);
 }
 
 }  // namespace
@@ -79,13 +55,15 @@ TEST_CASE("every triangle is in exactly one leaf, inside its boxes", "[accel]") 
   for (const Geometry& g : cases) {
     const std::uint32_t n = static_cast<std::uint32_t>(g.triangles.size());
     CAPTURE(n);
-    const CompiledScene scene = MakeScene(g, {.few_triangles = 0});
-    int outside = 0;
-    const auto ids = IdsOf(scene.accel, scene.accel.groups[0], outside);
-    CHECK(outside == 0);
-    CHECK(ids.size() == n);
-    CHECK(std::set<std::uint32_t>(ids.begin(), ids.end()).size() == n);
-    CHECK(scene.accel.groups[0].depth * (kBvhWidth - 1) + 1 < kTraversalStack);
+    for (const auto quality : {BuildQuality::kHigh, BuildQuality::kFast}) {
+      const CompiledScene scene = MakeScene(g, {.few_triangles = 0, .quality = quality});
+      int outside = 0;
+      const auto ids = IdsOf(scene.accel, outside);
+      CHECK(outside == 0);
+      CHECK(ids.size() == n);
+      CHECK(std::set<std::uint32_t>(ids.begin(), ids.end()).size() == n);
+      CHECK(scene.accel.groups[0].depth * (kBvhWidth - 1) + 1 < kTraversalStack);
+    }
   }
 }
 
@@ -96,7 +74,7 @@ TEST_CASE("triangles with infinite or NaN vertices are left out", "[accel]") {
   g.triangles[20].p[0][0] = NAN;
   const CompiledScene scene = MakeScene(g);
   int outside = 0;
-  const auto ids = IdsOf(scene.accel, scene.accel.groups[0], outside);
+  const auto ids = IdsOf(scene.accel, outside);
   CHECK(ids.size() == 98);
   CHECK(ids.count(10) + ids.count(20) == 0);
   CHECK(outside == 0);
@@ -104,14 +82,38 @@ TEST_CASE("triangles with infinite or NaN vertices are left out", "[accel]") {
 
 TEST_CASE("the tree does not depend on the number of threads", "[accel]") {
   Random random(63);
-  const Geometry g = brute::Soup(random, 30000, 1, 0.05f);
-  const auto build = [&](int threads) {
-    const ThreadLimit limit(threads);
-    return MakeScene(g).accel;
-  };
-  const Accel one = build(1), two = build(2);
-  CHECK(SameBytes(one.nodes, two.nodes));
-  CHECK(SameBytes(one.triangle_leaves, two.triangle_leaves));
+  const Geometry g = brute::Soup(random, 3 * kPart, 1, 0.05f);
+  for (const auto quality : {BuildQuality::kHigh, BuildQuality::kFast}) {
+    const auto build = [&](int threads) {
+      const ThreadLimit limit(threads);
+      return MakeScene(g, {.quality = quality}).accel;
+    };
+    const Accel one = build(1), two = build(2);
+    CHECK(SameBytes(one.nodes, two.nodes));
+    CHECK(SameBytes(one.triangle_blocks, two.triangle_blocks));
+  }
+}
+
+TEST_CASE("items are sorted to two sides", "[accel]") {
+  Random random(66);
+  for (const std::uint32_t count : {0u, 1u, 63u, 64u, 65u, 200u, 5000u, 3 * kPart + 77}) {
+    for (const double part : {0.0, 0.01, 0.5, 0.9, 1.0}) {
+      std::vector<BuildItem> items(count);
+      std::vector<bool> first(count);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        items[i].id = i;
+        first[i] = random(0, 1) < part;
+      }
+      const auto is_first = [&](const BuildItem& item) -> bool { return first[item.id]; };
+      const std::uint32_t middle = PartitionItems(items.data(), count, is_first);
+      CAPTURE(count, part, middle);
+      CHECK(middle == std::ranges::count(first, true));
+      CHECK(std::all_of(items.begin(), items.begin() + middle, is_first));
+      std::set<std::uint32_t> ids;
+      for (const BuildItem& item : items) ids.insert(item.id);
+      CHECK(ids.size() == count);
+    }
+  }
 }
 
 TEST_CASE("leaves hold the corners of their triangles, shared or not", "[accel]") {
@@ -124,20 +126,18 @@ TEST_CASE("leaves hold the corners of their triangles, shared or not", "[accel]"
         MakeTriangle({x + 0.01f, 0, 0}, {x + 0.01f, 1, 0}, {x, 1, 0}));
   }
   const CompiledScene scene = MakeScene(strip, {.few_triangles = 0});
-  std::size_t triangles = 0, wrong = 0;
-  for (const TriangleLeaf& leaf : scene.accel.triangle_leaves) {
-    CHECK(leaf.vertices <= kLeafVertices);
-    triangles += leaf.count;
-    for (std::uint32_t lane = 0; lane < leaf.count; ++lane) {
-      if (lane > 0) CHECK(leaf.prim[lane - 1] < leaf.prim[lane]);
+  std::size_t triangles = 0, wrong = 0, separate = 0, shared = 0;
+  for (const LeafView& leaf : LeavesOf(scene.accel)) {
+    triangles += leaf.prim.size();
+    (leaf.separate ? separate : shared) += 1;
+    CHECK(std::is_sorted(leaf.prim.begin(), leaf.prim.end()));
+    for (std::size_t lane = 0; lane < leaf.prim.size(); ++lane) {
       const TriangleRecord& record = scene.geometry.triangles[leaf.prim[lane]];
-      for (int k = 0; k < 3; ++k) {
-        for (int a = 0; a < 3; ++a) {
-          wrong += leaf.vertex[a][leaf.corner[k][lane]] != record.p[k][a];
-        }
-      }
+      for (int k = 0; k < 3; ++k) wrong += leaf.corner[lane][k] != brute::Corner(record, k);
     }
   }
+  CHECK(separate > 20);
+  CHECK(shared > 20);
   CHECK(triangles == 1300);
   CHECK(wrong == 0);
 }
@@ -145,13 +145,14 @@ TEST_CASE("leaves hold the corners of their triangles, shared or not", "[accel]"
 TEST_CASE("leaves of separate triangles and of tiles are about full", "[accel]") {
   const auto per_leaf = [](const Geometry& g) {
     const Accel accel = MakeScene(g, {.few_triangles = 0}).accel;
-    double triangles = 0;
-    for (const TriangleLeaf& leaf : accel.triangle_leaves) triangles += leaf.count;
-    return triangles / static_cast<double>(accel.triangle_leaves.size());
+    std::size_t triangles = 0;  // some are cut
+    for (const LeafView& leaf : LeavesOf(accel)) triangles += leaf.prim.size();
+    return static_cast<double>(triangles) /
+           static_cast<double>(accel.triangle_blocks.size());
   };
   Random random(65);
   // They overlap so much that smaller leaves would save nothing.
-  CHECK(per_leaf(brute::Soup(random, 5000, 1, 0.4f)) > 4);  // 16 vertices hold 5
+  CHECK(per_leaf(brute::Soup(random, 5000, 1, 0.4f)) > 7);  // a leaf holds 8
   Geometry tiles;
   for (int i = 0; i < 1600; ++i) {
     const Vec3f c{static_cast<float>(i % 40), static_cast<float>(i / 40), 0};
@@ -159,7 +160,7 @@ TEST_CASE("leaves of separate triangles and of tiles are about full", "[accel]")
     tiles.triangles.push_back(MakeTriangle(c, c + u, c + u + v));
     tiles.triangles.push_back(MakeTriangle(c, c + u + v, c + v));
   }
-  CHECK(per_leaf(tiles) > 6);  // 16 vertices hold 8
+  CHECK(per_leaf(tiles) > 6);  // of either kind 8 fit
 }
 
 TEST_CASE("small scenes share vertices", "[accel]") {

@@ -5,13 +5,13 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <vector>
 
 #include "src/accel/cut_plan.h"
 #include "src/accel/grow.h"
 #include "src/core/parallel.h"
+#include "tests/accel/leaves.h"
 #include "tests/accel/sticks.h"
 #include "tests/intersect/trace.h"
 
@@ -20,40 +20,17 @@ namespace {
 
 using brute::Random;
 
-AccelBox BoxOf(const WideNode& node, int child) {
-  AccelBox box;
-  for (int a = 0; a < 3; ++a) {
-    box.lo[a] = node.bounds[a][0][child];
-    box.hi[a] = node.bounds[a][1][child];
-  }
-  return box;
-}
-
 // For every triangle what the boxes on the way to each of its leaves have in common.
 using BoxesOfTriangles = std::map<std::uint32_t, std::vector<AccelBox>>;
 
-void Collect(const Accel& accel, std::uint32_t ref, const AccelBox& outer,
-             BoxesOfTriangles& boxes) {
-  if (ref == kEmptyRef) return;
-  if (ref & kLeafBit) {
-    const TriangleLeaf& leaf = accel.triangle_leaves[ref & ~kLeafBit];
-    for (std::uint32_t i = 0; i < leaf.count; ++i) {
-      if (i > 0) REQUIRE(leaf.prim[i - 1] < leaf.prim[i]);  // none twice
-      boxes[leaf.prim[i]].push_back(outer);
-    }
-    return;
-  }
-  for (int c = 0; c < kBvhWidth; ++c) {
-    const AccelBox box = BoxOf(accel.nodes[ref], c);
-    Collect(accel, accel.nodes[ref].child[c],
-            {Max(outer.lo, box.lo), Min(outer.hi, box.hi)}, boxes);
-  }
-}
-
 BoxesOfTriangles Collect(const Accel& accel) {
   BoxesOfTriangles boxes;
-  const Vec3f all{INFINITY, INFINITY, INFINITY};
-  Collect(accel, accel.groups[0].root, {-all, all}, boxes);
+  for (const LeafView& leaf : LeavesOf(accel)) {
+    for (std::size_t i = 0; i < leaf.prim.size(); ++i) {
+      if (i > 0) REQUIRE(leaf.prim[i - 1] < leaf.prim[i]);  // none twice
+      boxes[leaf.prim[i]].push_back(leaf.box);
+    }
+  }
   return boxes;
 }
 
@@ -176,14 +153,10 @@ TEST_CASE("cut trees do not depend on the number of threads", "[accel]") {
     const ThreadLimit limit(threads);
     return MakeScene(g).accel;
   };
-  const auto same = [](const auto& a, const auto& b) {
-    return a.size() == b.size() &&
-           std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
-  };
   const Accel one = build(1), two = build(2);
   CHECK(References(Collect(one)) > g.triangles.size() * 5 / 4);
-  CHECK(same(one.nodes, two.nodes));
-  CHECK(same(one.triangle_leaves, two.triangle_leaves));
+  CHECK(SameBytes(one.nodes, two.nodes));
+  CHECK(SameBytes(one.triangle_blocks, two.triangle_blocks));
 }
 
 TEST_CASE("rays hit cut triangles as they hit whole ones, bit by bit", "[accel]") {

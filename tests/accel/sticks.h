@@ -17,10 +17,6 @@ inline Geometry Sticks(Random& random, int n, float length) {
   return g;
 }
 
-inline Vec3f Corner(const TriangleRecord& triangle, int k) {
-  return {triangle.p[k][0], triangle.p[k][1], triangle.p[k][2]};
-}
-
 /// A point of a triangle, in double precision.
 inline Vec3d PointOn(const TriangleRecord& triangle, Random& random) {
   double u = random(0, 1), v = random(0, 1);

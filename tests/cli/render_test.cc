@@ -90,7 +90,7 @@ TEST_CASE("overrides replace what the scene says", "[cli]") {
                     "--seed",       "77",     "--threads",   "1",
                     "--sampler",    "sobol",  "--wavefront", "64",
                     "--target",     "EMU128", "--quiet",     "--scattering",
-                    "uniform"});
+                    "uniform",      "--build", "fast"});
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
   CHECK(r.out.empty());
@@ -98,6 +98,7 @@ TEST_CASE("overrides replace what the scene says", "[cli]") {
   const nlohmann::json report = ReadJson(json), settings = report.at("settings");
   CHECK(settings.at("resolution") == nlohmann::json{20, 10});
   CHECK(settings.at("spp") == 3);
+  CHECK(settings.at("build") == "fast");
   CHECK(settings.at("max_depth") == 2);
   CHECK(settings.at("seed") == 77);
   CHECK(settings.at("threads") == 1);

@@ -55,6 +55,7 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
       {{"render", "x.pbrt", "-o", "x.exr", "--target-rmse", "low"}, "--target-rmse"},
       {{"render", "x.pbrt", "-o", "x.exr", "--max-depth", "-1"}, "--max-depth"},
       {{"render", "x.pbrt", "-o", "x.exr", "--threads", "-1"}, "--threads"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--build", "slow"}, "not one of fast, high"},
       {{"render", "x.pbrt", "-o", "x.exr", "--target", "AVX9000"}, "EMU128"},
       {{"render", "x.pbrt", "-o", "x.exr", "--strategy", "points=sobl"},
        "did you mean \"sobol\"?"},

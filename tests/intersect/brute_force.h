@@ -111,6 +111,18 @@ inline Geometry SphereMesh(int rings, int segments, Vec3f center, float radius) 
   return g;
 }
 
+/// n separate triangles in and around a sphere mesh of 180: leaves of both kinds.
+inline Geometry Mixed(Random& random, int n, float edge) {
+  Geometry g = SphereMesh(10, 10, {0.3f, 0, 0}, 0.8f);
+  const Geometry soup = Soup(random, n, 1, edge);
+  g.triangles.insert(g.triangles.end(), soup.triangles.begin(), soup.triangles.end());
+  return g;
+}
+
+inline Vec3f Corner(const TriangleRecord& triangle, int k) {
+  return {triangle.p[k][0], triangle.p[k][1], triangle.p[k][2]};
+}
+
 inline Vec3d ToDouble(Vec3f v) { return VecCast<double>(v); }
 
 }  // namespace lanelight::brute

@@ -63,6 +63,8 @@ TEST_CASE("closest triangle hits agree with brute force", "[intersect]") {
       const CompiledScene scene = MakeScene(brute::Soup(random, n, 1, 0.6f));
       CompareWithBruteForce(scene, RandomRays(random, 500, 2), 1e-5, 1e-5);
     }
+    const CompiledScene mixed = MakeScene(brute::Mixed(random, 200, 0.3f));
+    CompareWithBruteForce(mixed, RandomRays(random, 500, 1), 1e-5, 1e-5);
   }
   ForceTarget("");
 }
@@ -72,8 +74,10 @@ TEST_CASE("any-hit keeps exactly the rays without a nearer hit", "[intersect]") 
     ForceTarget(target);
     CAPTURE(target);
     Random random(8);
-    for (int n : {36, 300}) {
-      const CompiledScene scene = MakeScene(brute::Soup(random, n, 1, 0.4f));
+    for (const Geometry& geometry :
+         {brute::Soup(random, 36, 1, 0.4f), brute::Soup(random, 300, 1, 0.4f),
+          brute::Mixed(random, 200, 0.3f)}) {
+      const CompiledScene scene = MakeScene(geometry);
       std::vector<TestRay> rays = RandomRays(random, 1000, 1);
       const auto hits = Trace(scene, rays);
       std::vector<std::uint32_t> expected;
@@ -92,18 +96,23 @@ TEST_CASE("any-hit keeps exactly the rays without a nearer hit", "[intersect]") 
   ForceTarget("");
 }
 
-TEST_CASE("the tree and the plain loop report the same bits", "[intersect]") {
+TEST_CASE("trees and the plain loop report the same bits", "[intersect]") {
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     CAPTURE(target);
     Random random(9);
-    for (float edge : {0.02f, 0.5f, 2.0f}) {
-      const Geometry geometry = brute::Soup(random, 64, 1, edge);
+    const auto check = [&](const Geometry& geometry) {
       const auto rays = RandomRays(random, 2000, 1.5f);
       const auto plain = Trace(MakeScene(geometry), rays);
-      const auto tree = Trace(MakeScene(geometry, {.few_triangles = 0}), rays);
-      CHECK(plain == tree);
+      for (const auto quality : {BuildQuality::kHigh, BuildQuality::kFast}) {
+        const AccelOptions options = {.few_triangles = 0, .quality = quality};
+        CHECK(Trace(MakeScene(geometry, options), rays) == plain);
+      }
+    };
+    for (float edge : {0.02f, 0.5f, 2.0f}) {
+      check(brute::Soup(random, 64, 1, edge));
     }
+    check(brute::SphereMesh(8, 8, {}, 1));  // vertices are shared
   }
   ForceTarget("");
 }
@@ -113,7 +122,8 @@ TEST_CASE("a hit does not depend on the company of its ray", "[intersect]") {
   // every step by themselves. Deep trees and heaps of overlapping triangles fill stacks.
   Random random(10);
   std::vector<Geometry> cases = {brute::Soup(random, 5000, 1, 0.05f),
-                                 brute::Soup(random, 1000, 1, 2.0f)};
+                                 brute::Soup(random, 1000, 1, 2.0f),
+                                 brute::Mixed(random, 2000, 0.05f)};
   Geometry line;  // exponentially spaced
   for (int i = 0; i < 1000; ++i) {
     const float x = std::ldexp(1.0f, -i % 120);

@@ -1,0 +1,16 @@
+// The tree over the instances of a scene.
+#pragma once
+
+#include <vector>
+
+#include "src/accel/builder.h"
+#include "src/scene/compiled.h"
+
+namespace lanelight {
+
+/// Appends its nodes to `nodes`. `group_boxes` bound the triangles of each group, `groups`
+/// are their trees.
+Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
+             const std::vector<Bvh>& groups, AlignedVector<WideNode>& nodes);
+
+}  // namespace lanelight

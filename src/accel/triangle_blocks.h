@@ -1,0 +1,34 @@
+// The leaves of triangles: how many triangles fit into one, and filling them.
+#pragma once
+
+#include <cstdint>
+
+#include "src/accel/accel.h"
+#include "src/accel/builder.h"
+#include "src/scene/compiled.h"
+
+namespace lanelight {
+
+/// What leaves may hold: as many triangles as fit into a TriangleLeaf, or, where these are
+/// typically no more than SeparateLeaf::kLanes, those.
+LeafLimit TriangleLimit(const AlignedVector<TriangleRecord>& records);
+
+/// Appends the leaves of a tree to those of `accel`: first Place for each of them, then
+/// MakeRoom, then Fill by any thread.
+class TriangleBlocks {
+ public:
+  TriangleBlocks(Accel& accel, const AlignedVector<TriangleRecord>& records);
+
+  /// The reference, less kLeafBit, of the next leaf, as LeafRange::capacity asks.
+  std::uint32_t Place(std::uint32_t capacity);
+  void MakeRoom();
+  /// `ids` ascend.
+  void Fill(std::uint32_t ref, const std::uint32_t* ids, std::uint32_t count);
+
+ private:
+  Accel& accel_;
+  const AlignedVector<TriangleRecord>& records_;
+  std::size_t next_;
+};
+
+}  // namespace lanelight
