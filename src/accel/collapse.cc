@@ -5,6 +5,7 @@
 
 #include "src/accel/grow.h"
 #include "src/core/check.h"
+#include "src/core/parallel.h"
 
 namespace lanelight {
 namespace {
@@ -13,11 +14,36 @@ namespace {
 // docs/intersect.md.
 constexpr float kWideNodeCost = 22, kLeafCost = 30;
 
+// Subtrees of at most so many items are written by one thread.
+constexpr std::uint32_t kSubtree = 8192;
+
+// A part of the wide tree: references count from its own nodes and leaves.
+struct Part {
+  AlignedVector<WideNode> nodes;
+  std::vector<LeafRange> leaves;
+  std::uint32_t root = kEmptyRef;
+  int depth = 0;
+};
+
+// A child of the top of the tree that is a part of its own.
+struct Subtree {
+  std::uint32_t at;    // in the binary tree
+  std::uint32_t node;  // its parent in the top
+  int child, depth;
+};
+
 class Collapser {
  public:
+  // Subtrees are left out and listed in `rest`, if it is not null.
   Collapser(const BinaryTree& tree, const std::vector<BuildItem>& items, bool single,
-            AlignedVector<WideNode>& nodes, std::vector<LeafRange>& leaves)
-      : tree_(tree), items_(items), single_(single), nodes_(nodes), leaves_(leaves) {}
+            Part& part, std::vector<Subtree>* rest)
+      : tree_(tree),
+        items_(items),
+        single_(single),
+        nodes_(part.nodes),
+        leaves_(part.leaves),
+        depth_(part.depth),
+        rest_(rest) {}
 
   std::uint32_t Emit(std::uint32_t at, int depth) {
     if (tree_[at].IsLeaf()) return EmitLeaf(tree_[at]);
@@ -26,7 +52,6 @@ class Collapser {
     int count = 0;
     Divide(at, kBvhWidth, child, count);
     const auto index = static_cast<std::uint32_t>(nodes_.size());
-    LL_CHECK_LT(index, kLeafBit);
     nodes_.emplace_back();
     int slot[kBvhWidth];
     AssignSlots(tree_[at].box, child, count, slot);
@@ -35,19 +60,26 @@ class Collapser {
       node.pad[c] = 0;
       const int from = slot[c];
       SetChild(node, c, from >= 0 ? tree_[child[from]].box : AccelBox());
-      node.child[c] = from >= 0 ? Emit(child[from], depth + 1) : kEmptyRef;
+      node.child[c] = kEmptyRef;
+      if (from < 0) continue;
+      if (rest_ != nullptr && IsSubtree(child[from])) {
+        rest_->push_back({child[from], index, c, depth + 1});
+      } else {
+        node.child[c] = Emit(child[from], depth + 1);
+      }
     }
     nodes_[index] = node;
     return index;
   }
 
-  int depth() const { return depth_; }
-
  private:
+  bool IsSubtree(std::uint32_t at) const {
+    return !tree_[at].IsLeaf() && tree_[at].end - tree_[at].begin <= kSubtree;
+  }
+
   std::uint32_t EmitLeaf(const BinaryNode& leaf) {
     if (single_) return kLeafBit | items_[leaf.begin].id;
     leaves_.push_back({leaf.begin, leaf.end, leaf.capacity});
-    LL_CHECK_LT(leaves_.size(), kLeafBit - 1);
     return kLeafBit | static_cast<std::uint32_t>(leaves_.size() - 1);
   }
 
@@ -114,8 +146,29 @@ class Collapser {
   bool single_;
   AlignedVector<WideNode>& nodes_;
   std::vector<LeafRange>& leaves_;
-  int depth_ = 0;
+  int& depth_;
+  std::vector<Subtree>* rest_;
 };
+
+// Where a part lies in the whole.
+struct Place {
+  std::size_t node = 0, leaf = 0;
+
+  // A reference that counted from the beginning of the part.
+  std::uint32_t Of(std::uint32_t ref, bool single) const {
+    if (ref == kEmptyRef || (single && (ref & kLeafBit))) return ref;
+    return ref + static_cast<std::uint32_t>(ref & kLeafBit ? leaf : node);
+  }
+};
+
+void Append(const Part& part, bool single, const Place& place,
+            AlignedVector<WideNode>& nodes, std::vector<LeafRange>& leaves) {
+  for (std::size_t n = 0; n < part.nodes.size(); ++n) {
+    WideNode& node = nodes[place.node + n] = part.nodes[n];
+    for (std::uint32_t& child : node.child) child = place.Of(child, single);
+  }
+  std::ranges::copy(part.leaves, leaves.data() + place.leaf);
+}
 
 }  // namespace
 
@@ -150,12 +203,42 @@ void PlanCollapse(BinaryTree& tree, std::uint32_t node) {
 
 Bvh Collapse(const BinaryTree& tree, const std::vector<BuildItem>& items, bool single,
              AlignedVector<WideNode>& nodes, std::vector<LeafRange>& leaves) {
-  Collapser collapser(tree, items, single, nodes, leaves);
+  std::vector<Subtree> subtrees;
+  std::vector<Part> parts(1);  // the top, and the subtrees
+  const bool divide = tree[0].end - tree[0].begin > kSubtree;
+  parts[0].root = Collapser(tree, items, single, parts[0], divide ? &subtrees : nullptr)
+                      .Emit(0, 1);
+  parts.resize(1 + subtrees.size());
+  ParallelFor(subtrees.size(), [&](std::size_t i) {
+    Part& part = parts[i + 1];
+    const Subtree& subtree = subtrees[i];
+    part.root =
+        Collapser(tree, items, single, part, nullptr).Emit(subtree.at, subtree.depth);
+  });
+
   Bvh bvh;
-  bvh.root = collapser.Emit(0, 1);
-  bvh.depth = collapser.depth();
-  bvh.reach = Reach(tree[0].box);
+  std::vector<Place> places(parts.size());
+  Place end{nodes.size(), leaves.size()};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    places[i] = end;
+    end.node += parts[i].nodes.size();
+    end.leaf += parts[i].leaves.size();
+    bvh.depth = std::max(bvh.depth, parts[i].depth);
+    parts[i].root = places[i].Of(parts[i].root, single);
+  }
+  LL_CHECK_LT(end.node, std::size_t{kSeparateBit});
+  LL_CHECK_LT(end.leaf, std::size_t{kSeparateBit});
   LL_CHECK_LT(bvh.depth * (kBvhWidth - 1) + 1, kTraversalStack);
+  nodes.resize(end.node);
+  leaves.resize(end.leaf);
+  ParallelFor(parts.size(), [&](std::size_t i) {
+    Append(parts[i], single, places[i], nodes, leaves);
+  });
+  for (std::size_t i = 0; i < subtrees.size(); ++i) {
+    nodes[places[0].node + subtrees[i].node].child[subtrees[i].child] = parts[i + 1].root;
+  }
+  bvh.root = parts[0].root;
+  bvh.reach = Reach(tree[0].box);
   return bvh;
 }
 

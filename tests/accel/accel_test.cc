@@ -37,12 +37,22 @@ std::multiset<std::uint32_t> IdsOf(const Accel& accel, int& outside) {
   return ids;
 }
 
+// Nodes on the longest path.
+int DepthOf(const Accel& accel, std::uint32_t ref) {
+  if (ref == kEmptyRef || (ref & kLeafBit)) return 0;
+  int below = 0;
+  for (const std::uint32_t child : accel.nodes[ref].child) {
+    below = std::max(below, DepthOf(accel, child));
+  }
+  return 1 + below;
+}
+
 }  // namespace
 
 TEST_CASE("every triangle is in exactly one leaf, inside its boxes", "[accel]") {
   Random random(61);
   std::vector<Geometry> cases;
-  for (const int n : {0, 1, 2, 7, 8, 9, 65, 5000}) {
+  for (const int n : {0, 1, 2, 7, 8, 9, 65, 5000, 20000}) {
     cases.push_back(brute::Soup(random, n, 1, 0.1f));
   }
   cases.push_back(brute::Soup(random, 3000, 0, 0));  // all at the origin
@@ -62,7 +72,9 @@ TEST_CASE("every triangle is in exactly one leaf, inside its boxes", "[accel]") 
       CHECK(outside == 0);
       CHECK(ids.size() == n);
       CHECK(std::set<std::uint32_t>(ids.begin(), ids.end()).size() == n);
-      CHECK(scene.accel.groups[0].depth * (kBvhWidth - 1) + 1 < kTraversalStack);
+      const Bvh& bvh = scene.accel.groups[0];
+      CHECK(bvh.depth == DepthOf(scene.accel, bvh.root));
+      CHECK(bvh.depth * (kBvhWidth - 1) + 1 < kTraversalStack);
     }
   }
 }
