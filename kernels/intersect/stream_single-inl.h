@@ -72,8 +72,7 @@ class SinglePhase {
       const auto live = hn::And(valid, hn::Ne(next, hn::Set(di, -1)));
       const auto leaf = hn::And(live, hn::Lt(next, hn::Zero(di)));
       num_nodes_ += Append(rays, hn::AndNot(leaf, live), nodes_ + num_nodes_);
-      const auto separate =
-          hn::And(leaf, hn::Lt(hn::ShiftLeft<1>(next), hn::Zero(di)));
+      const auto separate = hn::And(leaf, hn::Lt(hn::ShiftLeft<1>(next), hn::Zero(di)));
       num_leaves_ += Append(rays, hn::AndNot(separate, leaf), leaves_ + num_leaves_);
       num_separate_ += Append(rays, separate, separate_ + num_separate_);
       num_live_ += Append(rays, live, live_ + num_live_);

@@ -107,19 +107,16 @@ Accel BuildAccel(const Geometry& geometry, const AccelOptions& options) {
   const auto spheres = static_cast<std::uint32_t>(geometry.spheres.size());
   if (spheres > options.few_round) {
     const std::uint32_t first = geometry.ranges.spheres;
-    accel.spheres =
-        BuildShapes(ItemsOf(geometry.spheres, 0, spheres, first), LeafLimit(),
-                    options.quality,
-                    RoundBlocks(accel.sphere_blocks, geometry.spheres, first),
-                    accel.nodes);
+    accel.spheres = BuildShapes(
+        ItemsOf(geometry.spheres, 0, spheres, first), LeafLimit(), options.quality,
+        RoundBlocks(accel.sphere_blocks, geometry.spheres, first), accel.nodes);
   }
   const auto disks = static_cast<std::uint32_t>(geometry.disks.size());
   if (disks > options.few_round) {
     const std::uint32_t first = geometry.ranges.disks;
-    accel.disks = BuildShapes(ItemsOf(geometry.disks, 0, disks, first), LeafLimit(),
-                    options.quality,
-                              RoundBlocks(accel.disk_blocks, geometry.disks, first),
-                              accel.nodes);
+    accel.disks = BuildShapes(
+        ItemsOf(geometry.disks, 0, disks, first), LeafLimit(), options.quality,
+        RoundBlocks(accel.disk_blocks, geometry.disks, first), accel.nodes);
   }
   return accel;
 }

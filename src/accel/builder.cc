@@ -84,10 +84,9 @@ class TreeBuilder {
     const bool may_cut = count >= cuts_.least && range.room() > count / 16;
     ObjectSplit split;
     if (depth < kMaxSahDepth) {
-      split = FindObjectSplit(items, count, centers,
-                              {.leaf_size = block,
-                               .overlap = may_cut,
-                               .one_axis = one_axis_});
+      split = FindObjectSplit(
+          items, count, centers,
+          {.leaf_size = block, .overlap = may_cut, .one_axis = one_axis_});
     }
     if (count <= leaf_size_) {
       const bool pays = split.axis < 0 || split.cost + kNodeCost * area >= area;

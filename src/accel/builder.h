@@ -45,8 +45,8 @@ struct LeafRange {
 };
 
 struct BuiltTree {
-  Bvh bvh;                        // leaf references index `leaves`
-  std::vector<LeafRange> leaves;  // in the order of the tree
+  Bvh bvh;                         // leaf references index `leaves`
+  std::vector<LeafRange> leaves;   // in the order of the tree
   std::vector<std::uint32_t> ids;  // of the items of leaf after leaf
 };
 
@@ -55,8 +55,7 @@ struct BuiltTree {
 /// `typical` said.
 struct LeafLimit {
   std::uint32_t items = kBvhWidth;
-  std::function<bool(const BuildItem* items, std::uint32_t count,
-                     std::uint32_t capacity)>
+  std::function<bool(const BuildItem* items, std::uint32_t count, std::uint32_t capacity)>
       fits;
   /// If set: how many of these shapes a leaf holds, at a guess, in [1, items].
   std::function<std::uint32_t(const BuildItem* items, std::uint32_t count)> typical;

@@ -206,8 +206,8 @@ Bvh Collapse(const BinaryTree& tree, const std::vector<BuildItem>& items, bool s
   std::vector<Subtree> subtrees;
   std::vector<Part> parts(1);  // the top, and the subtrees
   const bool divide = tree[0].end - tree[0].begin > kSubtree;
-  parts[0].root = Collapser(tree, items, single, parts[0], divide ? &subtrees : nullptr)
-                      .Emit(0, 1);
+  parts[0].root =
+      Collapser(tree, items, single, parts[0], divide ? &subtrees : nullptr).Emit(0, 1);
   parts.resize(1 + subtrees.size());
   ParallelFor(subtrees.size(), [&](std::size_t i) {
     Part& part = parts[i + 1];
@@ -231,9 +231,8 @@ Bvh Collapse(const BinaryTree& tree, const std::vector<BuildItem>& items, bool s
   LL_CHECK_LT(bvh.depth * (kBvhWidth - 1) + 1, kTraversalStack);
   nodes.resize(end.node);
   leaves.resize(end.leaf);
-  ParallelFor(parts.size(), [&](std::size_t i) {
-    Append(parts[i], single, places[i], nodes, leaves);
-  });
+  ParallelFor(parts.size(),
+              [&](std::size_t i) { Append(parts[i], single, places[i], nodes, leaves); });
   for (std::size_t i = 0; i < subtrees.size(); ++i) {
     nodes[places[0].node + subtrees[i].node].child[subtrees[i].child] = parts[i + 1].root;
   }

@@ -61,11 +61,10 @@ Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
     linear = std::max(linear, to_scene * RowNorm(m));
     constant = std::max(constant, to_scene * (groups[group].reach + translation));
   }
-  Bvh top =
-      BuildTree(std::move(items),
-                {.items = 0, .fits = {}, .typical = {}, .triangles = nullptr},
-                BuildQuality::kHigh, nodes)
-          .bvh;
+  Bvh top = BuildTree(std::move(items),
+                      {.items = 0, .fits = {}, .typical = {}, .triangles = nullptr},
+                      BuildQuality::kHigh, nodes)
+                .bvh;
   if (top.reach > 0) top.slack = 2 * kShapeSlack * (2 * linear + constant / top.reach);
   top.margin = top.slack * top.reach;
   return top;

@@ -8,8 +8,8 @@
 
 namespace lanelight {
 
-/// Appends its nodes to `nodes`. `group_boxes` bound the triangles of each group, `groups`
-/// are their trees.
+/// Appends its nodes to `nodes`. `group_boxes` bound the triangles of each group,
+/// `groups` are their trees.
 Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
              const std::vector<Bvh>& groups, AlignedVector<WideNode>& nodes);
 

@@ -55,8 +55,8 @@ class LeafVertices {
 };
 
 /// How many triangles a leaf holds if they share vertices as these do: the lanes or the
-/// vertices of a TriangleLeaf run out, or it is a SeparateLeaf. Vertices are told apart by
-/// a hash.
+/// vertices of a TriangleLeaf run out, or it is a SeparateLeaf. Vertices are told apart
+/// by a hash.
 inline std::uint32_t TypicalLeaf(const BuildItem* items, std::uint32_t count,
                                  const AlignedVector<TriangleRecord>& records) {
   constexpr std::uint32_t kSlots = 512, kMost = kSlots / 6;
@@ -72,8 +72,8 @@ inline std::uint32_t TypicalLeaf(const BuildItem* items, std::uint32_t count,
       slots[at] = hash;
     }
   }
-  return std::clamp<std::uint32_t>(kLeafVertices * count / vertices,
-                                   SeparateLeaf::kLanes, kLeafTriangles);
+  return std::clamp<std::uint32_t>(kLeafVertices * count / vertices, SeparateLeaf::kLanes,
+                                   kLeafTriangles);
 }
 
 }  // namespace lanelight

@@ -73,7 +73,8 @@ std::uint32_t PartitionItems(BuildItem* items, std::uint32_t count, IsFirst&& is
     const std::uint32_t begin = begin_of(i), split = begin + firsts[i];
     const std::uint32_t end = std::min(count, begin + kPart);
     if (split < std::min(end, middle)) below.emplace_back(split, std::min(end, middle));
-    if (std::max(begin, middle) < split) above.emplace_back(std::max(begin, middle), split);
+    const std::uint32_t from = std::max(begin, middle);
+    if (from < split) above.emplace_back(from, split);
   }
   for (std::size_t l = 0, r = 0; l < below.size();) {
     auto& [a, a_end] = below[l];

@@ -29,7 +29,8 @@ inline AccelBox BoxOf(const TriangleRecord& triangle) {
   return box;
 }
 
-/// Boxes of round shapes are rounded outwards, since centre plus radius may round inwards.
+/// Boxes of round shapes are rounded outwards, since centre plus radius may round
+/// inwards.
 inline AccelBox Around(const float* center, float radius) {
   AccelBox box;
   for (int a = 0; a < 3; ++a) {

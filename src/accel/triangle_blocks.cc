@@ -65,9 +65,7 @@ LeafLimit TriangleLimit(const AlignedVector<TriangleRecord>& records) {
 }
 
 TriangleBlocks::TriangleBlocks(Accel& accel, const AlignedVector<TriangleRecord>& records)
-    : accel_(accel),
-      records_(records),
-      next_(accel.triangle_blocks.size()) {}
+    : accel_(accel), records_(records), next_(accel.triangle_blocks.size()) {}
 
 std::uint32_t TriangleBlocks::Place(std::uint32_t capacity) {
   LL_CHECK_LT(next_, std::size_t{kRefIndex});
@@ -75,9 +73,7 @@ std::uint32_t TriangleBlocks::Place(std::uint32_t capacity) {
   return kind | static_cast<std::uint32_t>(next_++);
 }
 
-void TriangleBlocks::MakeRoom() {
-  accel_.triangle_blocks.resize(next_);
-}
+void TriangleBlocks::MakeRoom() { accel_.triangle_blocks.resize(next_); }
 
 void TriangleBlocks::Fill(std::uint32_t ref, const std::uint32_t* ids,
                           std::uint32_t count) {

@@ -9,8 +9,8 @@
 
 namespace lanelight {
 
-/// What leaves may hold: as many triangles as fit into a TriangleLeaf, or, where these are
-/// typically no more than SeparateLeaf::kLanes, those.
+/// What leaves may hold: as many triangles as fit into a TriangleLeaf, or, where these
+/// are typically no more than SeparateLeaf::kLanes, those.
 LeafLimit TriangleLimit(const AlignedVector<TriangleRecord>& records);
 
 /// Appends the leaves of a tree to those of `accel`: first Place for each of them, then

@@ -145,7 +145,9 @@ TEST_CASE("leaves hold the corners of their triangles, shared or not", "[accel]"
     CHECK(std::is_sorted(leaf.prim.begin(), leaf.prim.end()));
     for (std::size_t lane = 0; lane < leaf.prim.size(); ++lane) {
       const TriangleRecord& record = scene.geometry.triangles[leaf.prim[lane]];
-      for (int k = 0; k < 3; ++k) wrong += leaf.corner[lane][k] != brute::Corner(record, k);
+      for (int k = 0; k < 3; ++k) {
+        wrong += leaf.corner[lane][k] != brute::Corner(record, k);
+      }
     }
   }
   CHECK(separate > 20);
