@@ -17,9 +17,9 @@
 #include "src/core/parallel.h"
 #include "src/render/job.h"
 #include "src/stat/interval.h"
-#include "src/study/colors.h"
+#include "src/image/colors.h"
 #include "src/study/errors.h"
-#include "src/study/estimate.h"
+#include "src/estimate/estimate.h"
 #include "src/study/options.h"
 
 namespace lanelight {

@@ -10,7 +10,8 @@
 #include <cstdio>
 
 #include "bench/cpu_clock.h"
-#include "kernels/points/probe.h"
+#include "src/prepare/groups.h"
+#include "tests/support/points_probe.h"
 #include "kernels/simd/target.h"
 #include "src/strategy/strategy.h"
 

@@ -3,7 +3,7 @@
 // line here fails tests/wavefront/registry_test.cc; a line without a file fails to link.
 #pragma once
 
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/intersect/brute_force.h"
+#include "tests/support/brute_force.h"
 
 namespace lanelight::bench {
 namespace {

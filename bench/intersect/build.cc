@@ -9,7 +9,7 @@
 #include "bench/intersect/compare.h"
 #include "bench/intersect/counted_new.h"
 #include "src/core/parallel.h"
-#include "tests/wavefront/wave_fixture.h"
+#include "tests/support/wave_fixture.h"
 
 namespace lanelight::bench {
 namespace {

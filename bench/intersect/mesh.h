@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/compiled.h"
+#include "src/compiled/scene.h"
 
 namespace lanelight::bench {
 

@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "bench/intersect/mesh.h"
-#include "tests/wavefront/wave_fixture.h"
+#include "tests/support/wave_fixture.h"
 
 namespace lanelight::bench {
 namespace {

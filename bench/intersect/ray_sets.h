@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/intersect/mesh.h"
-#include "tests/wavefront/wave_fixture.h"
+#include "tests/support/wave_fixture.h"
 
 namespace lanelight::bench {
 

@@ -8,6 +8,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -116,7 +117,7 @@ void AccumulateSignedAov(Wave& wave) { Accumulate<true, true>(wave); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -9,6 +9,7 @@
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/vec3-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -70,7 +71,7 @@ void AovTexturesNormals(Wave& wave) { Aov<true, true>(wave); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

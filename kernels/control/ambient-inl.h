@@ -1,4 +1,4 @@
-// Environments as control=ambient sees them (src/strategy/ambient.h).
+// Environments as control=ambient sees them (src/prepare/ambient.h).
 #if defined(LANELIGHT_CONTROL_AMBIENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_CONTROL_AMBIENT_INL_H_
 #undef LANELIGHT_CONTROL_AMBIENT_INL_H_
@@ -7,7 +7,7 @@
 #endif
 
 #include "kernels/simd/vec3-inl.h"
-#include "src/strategy/ambient.h"
+#include "src/prepare/ambient.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

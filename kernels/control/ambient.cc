@@ -28,9 +28,10 @@
 
 #include "kernels/control/ambient-inl.h"
 #include "kernels/control/apply-inl.h"
-#include "kernels/shade/diffuse_bsdf-inl.h"
-#include "kernels/shade/diffuse_transmission_bsdf-inl.h"
-#include "src/strategy/tables.h"
+#include "kernels/bsdf/diffuse-inl.h"
+#include "kernels/bsdf/diffuse_transmission-inl.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/prepare/tables.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -10,7 +10,9 @@
 #include "kernels/control/ambient-inl.h"
 #include "kernels/control/apply-inl.h"
 #include "kernels/lights/environment-inl.h"
-#include "src/strategy/tables.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/prepare/tables.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -69,7 +71,7 @@ void AmbientScatteredPlain(Wave& wave) { AmbientScattered<false>(wave); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -29,8 +29,9 @@
 
 #include "kernels/control/apply-inl.h"
 #include "kernels/control/area_lights-inl.h"
-#include "kernels/shade/diffuse_bsdf-inl.h"
-#include "kernels/shade/diffuse_transmission_bsdf-inl.h"
+#include "kernels/bsdf/diffuse-inl.h"
+#include "kernels/bsdf/diffuse_transmission-inl.h"
+#include "kernels/queue/batch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

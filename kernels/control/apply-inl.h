@@ -6,6 +6,7 @@
 #define LANELIGHT_CONTROL_APPLY_INL_H_
 #endif
 
+#include "kernels/queue/batch-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();

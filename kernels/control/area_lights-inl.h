@@ -10,6 +10,7 @@
 #include "kernels/control/irradiance-inl.h"
 #include "kernels/lights/geometry-inl.h"
 #include "kernels/simd/math-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

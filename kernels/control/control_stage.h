@@ -2,7 +2,7 @@
 // and before the shading stage of their material.
 #pragma once
 
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

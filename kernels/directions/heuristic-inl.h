@@ -16,6 +16,7 @@
 #endif
 
 #include "kernels/simd/vec3-inl.h"
+#include "src/path/run_parameters.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -16,7 +16,7 @@
 #define LANELIGHT_DIRECTIONS_UNIFORM_INL_H_
 #endif
 
-#include "kernels/shade/bsdf-inl.h"
+#include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/warp/hemisphere-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -8,8 +8,10 @@
 #include "hwy/highway.h"
 
 #include "kernels/generate/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 #include "kernels/warp/disk-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -130,7 +132,7 @@ void CameraFilteredOrthographic(Wave& w) { Camera<false, false, false>(w); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -7,6 +7,7 @@
 #endif
 
 #include "kernels/simd/vec3-inl.h"
+#include "src/compiled/camera.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

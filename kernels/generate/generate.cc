@@ -8,7 +8,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/queue/batch-inl.h"
-#include "src/strategy/path_values.h"
+#include "src/prepare/path_values.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -100,7 +100,7 @@ void GenerateSplitting(Wave& wave) { Start<true>(wave); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

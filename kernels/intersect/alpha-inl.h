@@ -10,7 +10,7 @@
 #include <bit>
 
 #include "kernels/texture/texture-inl.h"
-#include "src/scene/compiled.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -8,6 +8,7 @@
 #endif
 
 #include "kernels/intersect/many-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -13,6 +13,7 @@
 
 #include "kernels/intersect/bvh-inl.h"
 #include "kernels/intersect/packet_leaf-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -9,6 +9,7 @@
 #include <bit>
 
 #include "kernels/intersect/beam-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -9,7 +9,7 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/scene/compiled.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -10,6 +10,8 @@
 #include "kernels/intersect/packet-inl.h"
 #include "kernels/intersect/single-inl.h"
 #include "kernels/intersect/stream-inl.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -12,6 +12,8 @@
 #include "kernels/intersect/rays-inl.h"
 #include "kernels/intersect/round-inl.h"
 #include "kernels/intersect/uv.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

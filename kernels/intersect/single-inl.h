@@ -11,6 +11,7 @@
 #include "kernels/intersect/leaf-inl.h"
 #include "kernels/intersect/rays-inl.h"
 #include "kernels/intersect/triangle-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

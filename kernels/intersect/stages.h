@@ -1,7 +1,7 @@
 // Factories of the intersect stages, and what they have in common.
 #pragma once
 
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -10,6 +10,7 @@
 
 #include "kernels/intersect/stream_packet-inl.h"
 #include "kernels/intersect/stream_single-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

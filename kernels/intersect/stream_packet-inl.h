@@ -11,6 +11,7 @@
 #include <bit>
 
 #include "kernels/intersect/stream_rays-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -18,6 +18,7 @@
 #include "kernels/intersect/bvh-inl.h"
 #include "kernels/intersect/leaf-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/scene/compiled.h"
+#include "src/compiled/scene.h"
 
 namespace lanelight {
 

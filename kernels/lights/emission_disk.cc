@@ -7,6 +7,8 @@
 #include "hwy/highway.h"
 
 #include "kernels/lights/geometry-inl.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -8,6 +8,7 @@
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/simd/math-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

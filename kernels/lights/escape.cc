@@ -7,6 +7,8 @@
 #include "hwy/highway.h"
 
 #include "kernels/lights/environment-inl.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -50,7 +52,7 @@ void EscapePlain(Wave& wave) { Escape<false>(wave); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

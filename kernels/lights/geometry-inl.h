@@ -9,6 +9,7 @@
 #endif
 
 #include "kernels/lights/light-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -9,6 +9,7 @@
 
 #include "kernels/lights/tree-inl.h"
 #include "kernels/queue/filter-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -54,7 +55,7 @@ void HitLightTree(Wave& wave) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -12,6 +12,7 @@
 #include "kernels/directions/heuristic-inl.h"
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/vec3-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -1,7 +1,7 @@
 // What the light-sampling stages have in common.
 #pragma once
 
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -8,6 +8,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/lights/light-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();

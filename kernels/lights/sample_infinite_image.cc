@@ -9,6 +9,8 @@
 #include "hwy/highway.h"
 
 #include "kernels/lights/environment-inl.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

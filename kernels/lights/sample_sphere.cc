@@ -11,7 +11,9 @@
 #include "hwy/highway.h"
 
 #include "kernels/lights/geometry-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -12,7 +12,9 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -39,7 +41,7 @@ void SelectLight(Wave& wave) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -17,6 +17,8 @@
 #include "hwy/highway.h"
 
 #include "kernels/lights/tree-inl.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -79,7 +81,7 @@ void SelectLightTree(Wave& wave) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -8,6 +8,7 @@
 
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/vec3-inl.h"
+#include "src/compiled/lights.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -4,7 +4,7 @@
 //   static GroupIndex Group(const PointsParameters&, VU sample)   (group-inl.h)
 //   static void Point(const PointsParameters&, VU pixel, GroupIndex, VU key, VU seed,
 //                     VF* u0, VF* u1)
-// giving a point in [0,1)^2 for a dimension key (src/wavefront/dimensions.h). The two
+// giving a point in [0,1)^2 for a dimension key (src/path/dimensions.h). The two
 // coordinates of one key are stratified against each other where the policy stratifies;
 // different keys are independent of each other. A scalar dimension takes u0; a policy
 // whose u0 alone is less well stratified than one dimension can be has also
@@ -17,7 +17,8 @@
 #endif
 
 #include "kernels/points/group-inl.h"
-#include "src/wavefront/dimensions.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/path/dimensions.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

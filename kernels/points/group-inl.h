@@ -7,6 +7,7 @@
 #endif
 
 #include "kernels/simd/rng-inl.h"
+#include "src/path/run_parameters.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

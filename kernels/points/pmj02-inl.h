@@ -1,4 +1,4 @@
-// points=pmj02: stored progressive multi-jittered (0,2) sequences (src/strategy/pmj02.h),
+// points=pmj02: stored progressive multi-jittered (0,2) sequences (src/prepare/pmj02.h),
 // one of them chosen and scrambled at random.
 //   estimator   mean of f over a prefix of 2^k points, of which every elementary interval
 //               of base 2 of area 2^-k holds one
@@ -21,7 +21,7 @@
 #endif
 
 #include "kernels/points/permute-inl.h"
-#include "src/strategy/pmj02.h"
+#include "src/prepare/pmj02.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

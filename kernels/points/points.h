@@ -1,7 +1,7 @@
 // What every sampler's two stages have in common.
 #pragma once
 
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -8,7 +8,7 @@
 
 #include "hwy/highway.h"
 #include "kernels/queue/slots-inl.h"
-#include "src/wavefront/wave.h"
+#include "src/path/wave.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

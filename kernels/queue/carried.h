@@ -1,7 +1,7 @@
 // What a path takes along from one wave to the next.
 #pragma once
 
-#include "src/wavefront/path_fields.h"
+#include "src/path/fields.h"
 
 namespace lanelight {
 

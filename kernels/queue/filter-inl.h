@@ -7,6 +7,7 @@
 #endif
 
 #include "kernels/queue/batch-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -1,6 +1,6 @@
-// The lane types of all kernels, and how the columns of a batch of paths are reached.
+// How the columns of a batch of paths are reached.
 //
-// Slots of a batch are often neighbours: the pack stage (kernels/queue/pack.cc) starts
+// Slots of a batch are often neighbours: the pack stage (kernels/sort/pack.cc) starts
 // every wave without gaps, and queues keep their order. Gathers and scatters cost about a
 // cycle per lane wherever the lanes are, so neighbours are reached by whole vectors:
 //   run      slots first, first + 1, ...: one load or store
@@ -13,68 +13,11 @@
 #define LANELIGHT_QUEUE_SLOTS_INL_H_
 #endif
 
-#include <cstddef>
-#include <type_traits>
-
-#include "hwy/highway.h"
+#include "kernels/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-// The lane types of all kernels: full vectors of 4-byte lanes.
-using DF = hn::ScalableTag<float>;
-using DU = hn::RebindToUnsigned<DF>;
-using DI = hn::RebindToSigned<DF>;
-using VF = hn::Vec<DF>;
-using VU = hn::Vec<DU>;
-using VI = hn::Vec<DI>;
-using MF = hn::Mask<DF>;
-
-// Tables, by lane index.
-HWY_INLINE VF Gather(const float* base, VI index) {
-  return hn::GatherIndex(DF(), base, index);
-}
-HWY_INLINE VI Gather(const int32_t* base, VI index) {
-  return hn::GatherIndex(DI(), base, index);
-}
-HWY_INLINE VI Gather(const uint32_t* base, VI index) {
-  return hn::GatherIndex(DI(), reinterpret_cast<const int32_t*>(base), index);
-}
-HWY_INLINE void Scatter(VF v, float* base, VI index) {
-  hn::ScatterIndex(v, DF(), base, index);
-}
-HWY_INLINE void Scatter(VI v, int32_t* base, VI index) {
-  hn::ScatterIndex(v, DI(), base, index);
-}
-HWY_INLINE void Scatter(VI v, uint32_t* base, VI index) {
-  hn::ScatterIndex(v, DI(), reinterpret_cast<int32_t*>(base), index);
-}
-
-/// Permutations pay where a gather has many lanes.
-inline constexpr bool kWindows = hn::MaxLanes(DF()) >= 8;
-
-/// Entries of a table of `count`, index < count: a small one fits into a register.
-HWY_INLINE VF Lookup(const float* table, std::size_t count, VI index) {
-  const DF df;
-  if (kWindows && count <= hn::Lanes(df)) {
-    const VF all = hn::MaskedLoad(hn::FirstN(df, count), df, table);
-    return hn::TableLookupLanes(all, hn::IndicesFromVec(df, index));
-  }
-  return hn::GatherIndex(df, table, index);
-}
-template <class Column>
-HWY_INLINE auto Lookup(const Column& table, VI index) {
-  const auto* entries = table.data();
-  const VF found = Lookup(reinterpret_cast<const float*>(entries), table.size(), index);
-  if constexpr (std::is_same_v<decltype(entries), const float*>) {
-    return found;
-  } else {
-    return hn::BitCast(DI(), found);
-  }
-}
-
 /// The slots of one batch. Converts to their vector.
 struct Slots {
   enum class Layout : uint32_t { kRun, kWindow, kAnywhere };

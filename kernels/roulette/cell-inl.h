@@ -1,4 +1,4 @@
-// Cells of the cache of path values (src/strategy/path_values.h).
+// Cells of the cache of path values (src/prepare/path_values.h).
 #if defined(LANELIGHT_ROULETTE_CELL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_ROULETTE_CELL_INL_H_
 #undef LANELIGHT_ROULETTE_CELL_INL_H_
@@ -6,8 +6,9 @@
 #define LANELIGHT_ROULETTE_CELL_INL_H_
 #endif
 
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/strategy/path_values.h"
+#include "src/prepare/path_values.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -25,6 +25,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/window-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -22,8 +22,9 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
-#include "src/strategy/tables.h"
+#include "src/prepare/tables.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -126,7 +127,7 @@ void RecordPath(Wave& wave) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

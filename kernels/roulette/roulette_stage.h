@@ -1,7 +1,7 @@
 // What the roulettes on scattered rays have in common.
 #pragma once
 
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

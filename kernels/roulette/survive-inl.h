@@ -14,6 +14,7 @@
 #define LANELIGHT_ROULETTE_SURVIVE_INL_H_
 #endif
 
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -14,6 +14,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/survive-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -23,9 +23,10 @@
 #endif
 
 #include "kernels/points/fill-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
 #include "src/core/check.h"
-#include "src/strategy/tables.h"
+#include "src/prepare/tables.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -1,7 +1,7 @@
 // What the roulettes that split have in common.
 #pragma once
 
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/coated_conductor_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/coated_conductor-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveCoatedConductor(const FeatureSet& features) {
   return ResolveShade<CoatedConductorBsdf, ShadeKind::kCoatedConductor>(features);
 }
-BsdfProbe ProbeCoatedConductor() { return ProbeOf<CoatedConductorBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,7 +25,6 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveCoatedConductor);
-HWY_EXPORT(ProbeCoatedConductor);
 
 Stage ShadeCoatedConductorStage() {
   return MakeShadeStage("shade_coated_conductor", "dielectric coat over metal",
@@ -35,11 +32,6 @@ Stage ShadeCoatedConductorStage() {
                         [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveCoatedConductor)(features);
                         });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kCoatedConductor>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeCoatedConductor)();
 }
 
 }  // namespace lanelight

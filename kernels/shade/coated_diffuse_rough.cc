@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/coated_diffuse_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/coated_diffuse-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveCoatedDiffuseRough(const FeatureSet& features) {
   return ResolveShade<CoatedDiffuseRoughBsdf, ShadeKind::kCoatedDiffuseRough>(features);
 }
-BsdfProbe ProbeCoatedDiffuseRough() { return ProbeOf<CoatedDiffuseRoughBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,7 +25,6 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveCoatedDiffuseRough);
-HWY_EXPORT(ProbeCoatedDiffuseRough);
 
 Stage ShadeCoatedDiffuseRoughStage() {
   return MakeShadeStage(
@@ -36,11 +33,6 @@ Stage ShadeCoatedDiffuseRoughStage() {
       [](const FeatureSet& features) {
         return HWY_DYNAMIC_DISPATCH(ResolveCoatedDiffuseRough)(features);
       });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kCoatedDiffuseRough>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeCoatedDiffuseRough)();
 }
 
 }  // namespace lanelight

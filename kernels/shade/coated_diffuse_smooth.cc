@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/coated_diffuse_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/coated_diffuse-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveCoatedDiffuseSmooth(const FeatureSet& features) {
   return ResolveShade<CoatedDiffuseSmoothBsdf, ShadeKind::kCoatedDiffuseSmooth>(features);
 }
-BsdfProbe ProbeCoatedDiffuseSmooth() { return ProbeOf<CoatedDiffuseSmoothBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,7 +25,6 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveCoatedDiffuseSmooth);
-HWY_EXPORT(ProbeCoatedDiffuseSmooth);
 
 Stage ShadeCoatedDiffuseSmoothStage() {
   return MakeShadeStage(
@@ -36,11 +33,6 @@ Stage ShadeCoatedDiffuseSmoothStage() {
       [](const FeatureSet& features) {
         return HWY_DYNAMIC_DISPATCH(ResolveCoatedDiffuseSmooth)(features);
       });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kCoatedDiffuseSmooth>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeCoatedDiffuseSmooth)();
 }
 
 }  // namespace lanelight

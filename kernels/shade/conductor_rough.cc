@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/conductor_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/conductor-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveConductorRough(const FeatureSet& features) {
   return ResolveShade<ConductorRoughBsdf, ShadeKind::kConductorRough>(features);
 }
-BsdfProbe ProbeConductorRough() { return ProbeOf<ConductorRoughBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,7 +25,6 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveConductorRough);
-HWY_EXPORT(ProbeConductorRough);
 
 Stage ShadeConductorRoughStage() {
   return MakeShadeStage("shade_conductor_rough", "rough metal",
@@ -35,11 +32,6 @@ Stage ShadeConductorRoughStage() {
                         [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveConductorRough)(features);
                         });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kConductorRough>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeConductorRough)();
 }
 
 }  // namespace lanelight

@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/conductor_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/conductor-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveConductorSmooth(const FeatureSet& features) {
   return ResolveShade<ConductorSmoothBsdf, ShadeKind::kConductorSmooth>(features);
 }
-BsdfProbe ProbeConductorSmooth() { return ProbeOf<ConductorSmoothBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,7 +25,6 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveConductorSmooth);
-HWY_EXPORT(ProbeConductorSmooth);
 
 Stage ShadeConductorSmoothStage() {
   return MakeShadeStage("shade_conductor_smooth", "smooth metal",
@@ -35,11 +32,6 @@ Stage ShadeConductorSmoothStage() {
                         [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveConductorSmooth)(features);
                         });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kConductorSmooth>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeConductorSmooth)();
 }
 
 }  // namespace lanelight

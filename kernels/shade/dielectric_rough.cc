@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/dielectric_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/dielectric-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveDielectricRough(const FeatureSet& features) {
   return ResolveShade<DielectricRoughBsdf, ShadeKind::kDielectricRough>(features);
 }
-BsdfProbe ProbeDielectricRough() { return ProbeOf<DielectricRoughBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,7 +25,6 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveDielectricRough);
-HWY_EXPORT(ProbeDielectricRough);
 
 Stage ShadeDielectricRoughStage() {
   return MakeShadeStage("shade_dielectric_rough", "rough glass",
@@ -35,11 +32,6 @@ Stage ShadeDielectricRoughStage() {
                         [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDielectricRough)(features);
                         });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kDielectricRough>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeDielectricRough)();
 }
 
 }  // namespace lanelight

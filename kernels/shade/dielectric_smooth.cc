@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/dielectric_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/dielectric-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveDielectricSmooth(const FeatureSet& features) {
   return ResolveShade<DielectricSmoothBsdf, ShadeKind::kDielectricSmooth>(features);
 }
-BsdfProbe ProbeDielectricSmooth() { return ProbeOf<DielectricSmoothBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,7 +25,6 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveDielectricSmooth);
-HWY_EXPORT(ProbeDielectricSmooth);
 
 Stage ShadeDielectricSmoothStage() {
   return MakeShadeStage("shade_dielectric_smooth", "smooth glass",
@@ -35,11 +32,6 @@ Stage ShadeDielectricSmoothStage() {
                         [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDielectricSmooth)(features);
                         });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kDielectricSmooth>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeDielectricSmooth)();
 }
 
 }  // namespace lanelight

@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/diffuse_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveDiffuse(const FeatureSet& features) {
   return ResolveShade<DiffuseBsdf, ShadeKind::kDiffuse>(features);
 }
-BsdfProbe ProbeDiffuse() { return ProbeOf<DiffuseBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,18 +25,12 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveDiffuse);
-HWY_EXPORT(ProbeDiffuse);
 
 Stage ShadeDiffuseStage() {
   return MakeShadeStage("shade_diffuse", "Lambertian reflection", ShadeKind::kDiffuse,
                         Feature::kDiffuse, [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDiffuse)(features);
                         });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kDiffuse>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeDiffuse)();
 }
 
 }  // namespace lanelight

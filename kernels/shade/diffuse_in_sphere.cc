@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/diffuse_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveDiffuseInSphere(const FeatureSet& features) {
   return ResolveShade<DiffuseInSphereBsdf, ShadeKind::kDiffuseInSphere>(features);
 }
-BsdfProbe ProbeDiffuseInSphere() { return ProbeOf<DiffuseInSphereBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,7 +25,6 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveDiffuseInSphere);
-HWY_EXPORT(ProbeDiffuseInSphere);
 
 Stage ShadeDiffuseInSphereStage() {
   return MakeShadeStage("shade_diffuse_in_sphere",
@@ -36,11 +33,6 @@ Stage ShadeDiffuseInSphereStage() {
                         [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDiffuseInSphere)(features);
                         });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kDiffuseInSphere>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeDiffuseInSphere)();
 }
 
 }  // namespace lanelight

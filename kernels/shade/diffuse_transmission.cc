@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/diffuse_transmission_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/diffuse_transmission-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveDiffuseTransmission(const FeatureSet& features) {
   return ResolveShade<DiffuseTransmissionBsdf, ShadeKind::kDiffuseTransmission>(features);
 }
-BsdfProbe ProbeDiffuseTransmission() { return ProbeOf<DiffuseTransmissionBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,7 +25,6 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveDiffuseTransmission);
-HWY_EXPORT(ProbeDiffuseTransmission);
 
 Stage ShadeDiffuseTransmissionStage() {
   return MakeShadeStage(
@@ -36,11 +33,6 @@ Stage ShadeDiffuseTransmissionStage() {
       [](const FeatureSet& features) {
         return HWY_DYNAMIC_DISPATCH(ResolveDiffuseTransmission)(features);
       });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kDiffuseTransmission>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeDiffuseTransmission)();
 }
 
 }  // namespace lanelight

@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/diffuse_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveDiffuseUniform(const FeatureSet& features) {
   return ResolveShade<DiffuseUniformBsdf, ShadeKind::kDiffuseUniform>(features);
 }
-BsdfProbe ProbeDiffuseUniform() { return ProbeOf<DiffuseUniformBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,7 +25,6 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveDiffuseUniform);
-HWY_EXPORT(ProbeDiffuseUniform);
 
 Stage ShadeDiffuseUniformStage() {
   return MakeShadeStage("shade_diffuse_uniform",
@@ -36,11 +33,6 @@ Stage ShadeDiffuseUniformStage() {
                         [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDiffuseUniform)(features);
                         });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kDiffuseUniform>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeDiffuseUniform)();
 }
 
 }  // namespace lanelight

@@ -21,6 +21,8 @@
 
 #include "kernels/directions/heuristic-inl.h"
 #include "kernels/directions/uniform-inl.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -1,7 +1,7 @@
 // The declaration that all shading stages share.
 #pragma once
 
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -6,8 +6,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/shade/shade_stage.h"
-#include "kernels/shade/dielectric_bsdf-inl.h"
-#include "kernels/shade/probe-inl.h"
+#include "kernels/bsdf/dielectric-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +16,6 @@ namespace HWY_NAMESPACE {
 StageFn ResolveThinDielectric(const FeatureSet& features) {
   return ResolveShade<ThinDielectricBsdf, ShadeKind::kThinDielectric>(features);
 }
-BsdfProbe ProbeThinDielectric() { return ProbeOf<ThinDielectricBsdf>(); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -27,7 +25,6 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(ResolveThinDielectric);
-HWY_EXPORT(ProbeThinDielectric);
 
 Stage ShadeThinDielectricStage() {
   return MakeShadeStage("shade_thin_dielectric", "thin sheet of glass",
@@ -35,11 +32,6 @@ Stage ShadeThinDielectricStage() {
                         [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveThinDielectric)(features);
                         });
-}
-
-template <>
-BsdfProbe MakeBsdfProbe<ShadeKind::kThinDielectric>() {
-  return HWY_DYNAMIC_DISPATCH(ProbeThinDielectric)();
 }
 
 }  // namespace lanelight

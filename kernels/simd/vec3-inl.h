@@ -6,7 +6,7 @@
 #define LANELIGHT_SIMD_VEC3_INL_H_
 #endif
 
-#include "kernels/queue/batch-inl.h"
+#include "kernels/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

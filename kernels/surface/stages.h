@@ -2,7 +2,7 @@
 // surface coordinates and material of the hits in kSurface.
 #pragma once
 
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

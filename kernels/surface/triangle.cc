@@ -10,6 +10,7 @@
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/instance-inl.h"
 #include "kernels/surface/point-inl.h"
+#include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -10,7 +10,7 @@
 #endif
 
 #include "kernels/simd/vec3-inl.h"
-#include "src/scene/texture_table.h"
+#include "src/compiled/texture_table.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

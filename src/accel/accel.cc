@@ -13,7 +13,7 @@
 #include "src/accel/triangle_blocks.h"
 #include "src/core/check.h"
 #include "src/core/parallel.h"
-#include "src/scene/compiled.h"
+#include "src/geometry/geometry.h"
 
 namespace lanelight {
 namespace {

@@ -29,7 +29,7 @@
 
 namespace lanelight {
 
-struct Geometry;  // src/scene/compiled.h, which includes this file
+struct Geometry;  // src/geometry/geometry.h, which includes this file
 
 /// Children of a node, and shapes of a leaf of spheres or disks.
 inline constexpr int kBvhWidth = 8;

@@ -28,7 +28,7 @@ struct AccelBox {
   }
 };
 
-struct TriangleRecord;  // src/scene/compiled.h
+struct TriangleRecord;  // src/geometry/geometry.h
 
 /// A shape to sort into the tree.
 struct BuildItem {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "src/accel/wide_box.h"
-#include "src/scene/compiled.h"
+#include "src/geometry/geometry.h"
 
 namespace lanelight {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "src/accel/builder.h"
-#include "src/scene/compiled.h"
+#include "src/geometry/geometry.h"
 
 namespace lanelight {
 

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "src/accel/builder.h"
-#include "src/scene/compiled.h"
+#include "src/geometry/geometry.h"
 
 namespace lanelight {
 

@@ -8,7 +8,7 @@
 #include "src/accel/builder.h"
 #include "src/accel/grow.h"
 #include "src/core/parallel.h"
-#include "src/scene/compiled.h"
+#include "src/geometry/geometry.h"
 
 namespace lanelight {
 

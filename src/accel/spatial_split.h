@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-struct TriangleRecord;  // src/scene/compiled.h
+struct TriangleRecord;  // src/geometry/geometry.h
 
 /// A plane across `axis` at `x`, and the two sides of it: boxes and numbers of the parts
 /// of triangles there.

@@ -5,7 +5,7 @@
 
 #include "src/accel/accel.h"
 #include "src/accel/builder.h"
-#include "src/scene/compiled.h"
+#include "src/geometry/geometry.h"
 
 namespace lanelight {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "src/accel/wide_box.h"
-#include "src/scene/compiled.h"
+#include "src/geometry/geometry.h"
 
 namespace lanelight {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "src/strategy/use_strategy.h"
+#include "src/prepare/use_strategy.h"
 
 namespace lanelight {
 namespace {

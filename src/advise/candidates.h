@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/compiled.h"
+#include "src/compiled/scene.h"
 #include "src/wavefront/plan.h"
 
 namespace lanelight {

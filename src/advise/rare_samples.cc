@@ -4,8 +4,8 @@
 #include <ctime>
 #include <vector>
 
-#include "src/study/colors.h"
-#include "src/study/estimate.h"
+#include "src/image/colors.h"
+#include "src/estimate/estimate.h"
 
 namespace lanelight {
 namespace {

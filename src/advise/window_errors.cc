@@ -6,9 +6,10 @@
 #include <ctime>
 #include <utility>
 
-#include "src/strategy/run_parameters.h"
-#include "src/strategy/use_strategy.h"
-#include "src/study/estimate.h"
+#include "src/prepare/groups.h"
+#include "src/prepare/parameters.h"
+#include "src/prepare/use_strategy.h"
+#include "src/estimate/estimate.h"
 
 namespace lanelight {
 namespace {

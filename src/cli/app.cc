@@ -11,7 +11,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/core/check.h"
 #include "src/core/error.h"
-#include "src/scene/suggest.h"
+#include "src/core/suggest.h"
 
 namespace lanelight {
 namespace {

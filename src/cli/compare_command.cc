@@ -9,7 +9,7 @@
 #include "src/cli/validators.h"
 #include "src/core/error.h"
 #include "src/render/report.h"
-#include "src/study/metrics.h"
+#include "src/estimate/metrics.h"
 
 namespace lanelight {
 namespace {

@@ -7,6 +7,7 @@
 #include "src/cli/console.h"
 #include "src/cli/scene_options.h"
 #include "src/core/parallel.h"
+#include "src/prepare/groups.h"
 #include "src/render/job.h"
 #include "src/render/report.h"
 

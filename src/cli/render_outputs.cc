@@ -14,7 +14,7 @@
 #include "src/image/png.h"
 #include "src/render/output.h"
 #include "src/render/report.h"
-#include "src/study/estimate.h"
+#include "src/estimate/estimate.h"
 
 namespace lanelight {
 namespace {

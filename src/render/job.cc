@@ -1,3 +1,4 @@
+#include "src/prepare/groups.h"
 #include "src/render/job.h"
 
 #include <chrono>
@@ -5,9 +6,9 @@
 
 #include "src/core/parallel.h"
 #include "src/render/memory.h"
-#include "src/scene/compile.h"
-#include "src/scene/parse.h"
-#include "src/strategy/use_strategy.h"
+#include "src/prepare/prepare_scene.h"
+#include "src/parse/parse.h"
+#include "src/prepare/use_strategy.h"
 
 namespace lanelight {
 namespace {
@@ -46,7 +47,7 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   CheckFilmFits(job.window, settings.aov, job.description.strategy, PhysicalMemory());
   job.load_seconds = watch.Lap();
 
-  job.scene = CompileScene(job.description, CompileOptionsOf(settings));
+  job.scene = PrepareScene(job.description, CompileOptionsOf(settings));
   ReleaseMeshes(job.description);
   job.plan = MakePlan(job.scene, PlanOptionsOf(settings, job.description));
   job.build_seconds = watch.Lap();

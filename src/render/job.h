@@ -5,9 +5,9 @@
 #include <string>
 
 #include "src/render/settings.h"
-#include "src/scene/compiled.h"
+#include "src/compiled/scene.h"
 #include "src/scene/description.h"
-#include "src/study/target.h"
+#include "src/estimate/target.h"
 #include "src/wavefront/plan.h"
 #include "src/wavefront/run.h"
 

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "kernels/probe/peaks.h"
+#include "kernels/peaks/peaks.h"
 #include "src/core/aligned.h"
 #include "src/core/check.h"
 #include "src/core/hardware_counters.h"

@@ -1,3 +1,4 @@
+#include "src/prepare/groups.h"
 #include "src/render/report.h"
 
 #include <nlohmann/json.hpp>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "src/render/job.h"
-#include "src/study/estimate.h"
+#include "src/estimate/estimate.h"
 
 namespace lanelight {
 

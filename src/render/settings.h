@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "src/scene/compile.h"
+#include "src/compile/compile.h"
 #include "src/scene/description.h"
 #include "src/wavefront/plan.h"
 #include "src/wavefront/run.h"

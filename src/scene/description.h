@@ -1,7 +1,7 @@
 // What a scene file says, in double precision and in the file's own units, after the
 // parser has resolved names, transforms and spectra. Nothing here depends on how it will
-// be rendered. Produced by ParseScene (src/scene/parse.h), consumed by CompileScene
-// (src/scene/compile.h) and, independently, by the scalar reference tracer in tests/.
+// be rendered. Produced by ParseScene (src/parse/parse.h), consumed by CompileScene
+// (src/compile/compile.h) and, independently, by the scalar reference tracer in tests/.
 #pragma once
 
 #include <cstdint>

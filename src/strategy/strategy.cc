@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "src/scene/suggest.h"
+#include "src/core/suggest.h"
 
 namespace lanelight {
 namespace {

@@ -2,7 +2,7 @@
 // surfaces.
 #include <filesystem>
 
-#include "src/study/colors.h"
+#include "src/image/colors.h"
 #include "src/study/scene_runner.h"
 
 namespace lanelight {

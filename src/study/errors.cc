@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "src/core/check.h"
-#include "src/study/estimate.h"
+#include "src/estimate/estimate.h"
 
 namespace lanelight {
 namespace {

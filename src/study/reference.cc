@@ -6,8 +6,8 @@
 #include "src/core/error.h"
 #include "src/image/exr.h"
 #include "src/image/image.h"
-#include "src/study/colors.h"
-#include "src/study/estimate.h"
+#include "src/image/colors.h"
+#include "src/estimate/estimate.h"
 
 namespace lanelight {
 namespace {

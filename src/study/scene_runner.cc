@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "kernels/simd/target.h"
-#include "src/study/colors.h"
+#include "src/image/colors.h"
 #include "src/study/errors.h"
-#include "src/study/estimate.h"
+#include "src/estimate/estimate.h"
 #include "src/study/schedule.h"
 
 namespace lanelight {

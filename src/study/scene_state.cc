@@ -5,7 +5,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/image/atomic_file.h"
-#include "src/study/colors.h"
+#include "src/image/colors.h"
 #include "src/study/scene_runner.h"
 #include "src/study/schedule.h"
 

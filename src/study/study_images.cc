@@ -4,7 +4,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "src/study/colors.h"
+#include "src/image/colors.h"
 
 namespace lanelight {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "src/core/check.h"
 #include "src/image/accumulator.h"
-#include "src/strategy/path_values.h"
+#include "src/prepare/path_values.h"
 
 namespace lanelight {
 

@@ -11,7 +11,7 @@
 
 #include <string>
 
-#include "src/strategy/tables.h"
+#include "src/prepare/tables.h"
 #include "src/wavefront/run.h"
 
 namespace lanelight {

@@ -6,7 +6,8 @@
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
-#include "src/strategy/tables.h"
+#include "src/prepare/parameters.h"
+#include "src/prepare/tables.h"
 #include "src/wavefront/copies.h"
 #include "src/wavefront/drive.h"
 #include "src/wavefront/plan_features.h"

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "src/strategy/path_values.h"
+#include "src/prepare/path_values.h"
 #include "src/wavefront/plan.h"
-#include "src/wavefront/wave.h"
+#include "src/path/wave.h"
 
 namespace lanelight {
 

@@ -7,7 +7,7 @@
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
 #include "src/core/check.h"
-#include "src/strategy/path_values.h"
+#include "src/prepare/path_values.h"
 #include "src/wavefront/plan_features.h"
 
 namespace lanelight {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/compiled.h"
-#include "src/wavefront/stage.h"
+#include "src/compiled/scene.h"
+#include "src/path/stage.h"
 
 namespace lanelight {
 

@@ -2,7 +2,7 @@
 
 #include "src/core/check.h"
 #include "src/core/error.h"
-#include "src/strategy/ambient.h"
+#include "src/prepare/ambient.h"
 
 namespace lanelight {
 namespace {

@@ -9,7 +9,7 @@
 #include "src/core/check.h"
 #include "src/core/clock.h"
 #include "src/core/parallel.h"
-#include "src/strategy/tables.h"
+#include "src/prepare/tables.h"
 #include "src/wavefront/pilot.h"
 #include "src/wavefront/pilot_pass.h"
 #include "src/wavefront/profile.h"

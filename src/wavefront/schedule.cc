@@ -1,10 +1,11 @@
+#include "src/prepare/groups.h"
 #include "src/wavefront/schedule.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "src/core/check.h"
-#include "src/strategy/run_parameters.h"
+#include "src/prepare/parameters.h"
 
 namespace lanelight {
 namespace {

@@ -7,7 +7,7 @@
 #include "src/wavefront/copies.h"
 #include "src/wavefront/drive.h"
 #include "src/wavefront/profile.h"
-#include "src/strategy/path_values.h"
+#include "src/prepare/path_values.h"
 
 namespace lanelight {
 namespace {

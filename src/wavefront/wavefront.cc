@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src/core/check.h"
+#include "src/prepare/parameters.h"
 
 namespace lanelight {
 

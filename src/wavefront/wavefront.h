@@ -7,7 +7,7 @@
 
 #include "src/core/untouched.h"
 #include "src/wavefront/plan.h"
-#include "src/wavefront/wave.h"
+#include "src/path/wave.h"
 
 namespace lanelight {
 

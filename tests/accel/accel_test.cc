@@ -12,7 +12,7 @@
 #include "src/accel/partition.h"
 #include "src/core/parallel.h"
 #include "tests/accel/leaves.h"
-#include "tests/intersect/brute_force.h"
+#include "tests/support/brute_force.h"
 
 namespace lanelight {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "src/accel/builder.h"
-#include "tests/intersect/brute_force.h"
+#include "tests/support/brute_force.h"
 
 namespace lanelight::brute {
 

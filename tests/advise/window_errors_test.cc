@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/strategy/use_strategy.h"
+#include "src/prepare/use_strategy.h"
 #include "src/advise/candidates.h"
-#include "src/study/estimate.h"
+#include "src/estimate/estimate.h"
 
 namespace lanelight {
 namespace {

@@ -4,7 +4,8 @@
 
 #include "src/image/exr.h"
 #include "src/image/octahedral.h"
-#include "src/strategy/ambient.h"
+#include "src/prepare/ambient.h"
+#include "src/prepare/prepare_scene.h"
 #include "tests/control/control_scenes.h"
 #include "tests/control/quadrature.h"
 #include "tests/image/temporary_folder.h"
@@ -60,7 +61,7 @@ TEST_CASE("ambient: irradiance is the cosine convolution of the radiance", "[con
   scene = WithImage(scene, folder.File("sky.exr"), false);
   Light& light = scene.lights.back();
   light.world_from_light = Transform::Rotate(40, {1, 2, 3});
-  CompiledScene compiled = CompileScene(scene, {});
+  CompiledScene compiled = PrepareScene(scene, {});
   const std::vector<AmbientLight> lights = MakeAmbientLights(compiled);
   REQUIRE(lights.size() == 1);
   const Environment& e = compiled.lights.environments[0];

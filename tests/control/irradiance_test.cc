@@ -6,7 +6,7 @@
 #include "kernels/simd/target.h"
 #include "tests/control/quadrature.h"
 #include "tests/control/receivers.h"
-#include "tests/wavefront/wave_fixture.h"
+#include "tests/support/wave_fixture.h"
 
 namespace lanelight {
 namespace {

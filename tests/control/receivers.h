@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/control/probe.h"
+#include "tests/support/area_lights_probe.h"
 
 namespace lanelight {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "src/core/error.h"
-#include "src/scene/parse.h"
-#include "src/scene/ply.h"
+#include "src/parse/parse.h"
+#include "src/parse/ply.h"
 
 namespace lanelight {
 

@@ -4,7 +4,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/core/check.h"
-#include "tests/intersect/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
 
 namespace lanelight {

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/simd/target.h"
-#include "tests/intersect/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
 #include "tests/wavefront/task_fixture.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kernels/intersect/stages.h"
-#include "tests/wavefront/wave_fixture.h"
+#include "tests/support/wave_fixture.h"
 
 namespace lanelight {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "kernels/simd/target.h"
-#include "tests/intersect/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
 
 namespace lanelight {

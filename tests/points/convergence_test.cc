@@ -11,7 +11,7 @@
 #include <functional>
 #include <numbers>
 
-#include "src/strategy/pmj02.h"
+#include "src/prepare/pmj02.h"
 #include "tests/points/draw.h"
 #include "tests/points/slope.h"
 

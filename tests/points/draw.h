@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kernels/points/probe.h"
+#include "tests/support/points_probe.h"
 
 namespace lanelight::test {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernels/simd/target.h"
+#include "src/prepare/groups.h"
 #include "tests/points/draw.h"
 #include "tests/stat/chi2.h"
 #include "src/stat/distributions.h"

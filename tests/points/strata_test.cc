@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "kernels/simd/target.h"
-#include "src/strategy/lattice.h"
+#include "src/prepare/lattice.h"
 #include "tests/points/draw.h"
 
 namespace lanelight::test {

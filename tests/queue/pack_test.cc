@@ -7,7 +7,7 @@
 #include "kernels/queue/carried.h"
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
-#include "tests/wavefront/wave_fixture.h"
+#include "tests/support/wave_fixture.h"
 
 namespace lanelight {
 namespace {

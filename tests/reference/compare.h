@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/reference/path_tracer.h"
-#include "tests/stat/image_test.h"
+#include "tests/stat/compare_means.h"
 
 namespace lanelight::test {
 

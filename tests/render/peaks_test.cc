@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "kernels/probe/peaks.h"
+#include "kernels/peaks/peaks.h"
 #include "kernels/simd/target.h"
 #include "src/core/aligned.h"
 

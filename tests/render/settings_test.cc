@@ -1,4 +1,5 @@
 // Overrides of a scene and the limits of what is asked for.
+#include "src/prepare/groups.h"
 #include "src/render/settings.h"
 
 #include <catch2/catch.hpp>

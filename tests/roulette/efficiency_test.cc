@@ -2,7 +2,7 @@
 // than the better of them by more than a tenth; and the pieces it decides with.
 #include <catch2/catch.hpp>
 
-#include "src/strategy/path_values.h"
+#include "src/prepare/path_values.h"
 #include "tests/wavefront/agreement.h"
 
 namespace lanelight::test {

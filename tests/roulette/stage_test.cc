@@ -4,8 +4,8 @@
 #include <set>
 
 #include "kernels/stages.h"
-#include "src/strategy/tables.h"
-#include "tests/wavefront/wave_fixture.h"
+#include "src/prepare/tables.h"
+#include "tests/support/wave_fixture.h"
 
 namespace lanelight {
 namespace {

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/scene/compile.h"
-#include "src/scene/parse.h"
+#include "src/prepare/prepare_scene.h"
+#include "src/parse/parse.h"
 
 namespace lanelight {
 namespace {
@@ -62,14 +62,14 @@ TEST_CASE("own scenes: all parse and compile", "[scenes]") {
     CHECK(scene.film.height <= 512);
     CHECK(scene.sampler.spp == 64);
     CHECK(scene.strategy.points == Points::kSobol);
-    REQUIRE_NOTHROW(CompileScene(scene));
+    REQUIRE_NOTHROW(PrepareScene(scene));
   }
 }
 
 TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
   const fs::path root = fs::path(LANELIGHT_SOURCE_DIR) / "scenes";
   const auto features = [&](const char* name) {
-    return CompileScene(ParseScene((root / name).string())).features;
+    return PrepareScene(ParseScene((root / name).string())).features;
   };
   const FeatureSet paper = features("paper.pbrt");
   CHECK(paper.HasAll({Feature::kPlanes, Feature::kSpheres, Feature::kPointLights,
@@ -109,7 +109,7 @@ TEST_CASE("own scenes: generated meshes can be read", "[scenes]") {
     INFO(name);
     REQUIRE(scene.shapes.size() == 1);
     CHECK(scene.shapes[0].mesh->indices.size() >= 3 * 288);
-    REQUIRE_NOTHROW(CompileScene(scene));
+    REQUIRE_NOTHROW(PrepareScene(scene));
     CHECK(ReadText((folder / name).string() + ".cam").starts_with("eye "));
   }
   // The same arguments give the same bytes; bad ones a usage error.

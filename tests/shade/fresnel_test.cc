@@ -6,7 +6,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "kernels/shade/fresnel-inl.h"
+#include "kernels/bsdf/fresnel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

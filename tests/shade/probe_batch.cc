@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/scene/coat_table.h"
+#include "src/compile/coat_table.h"
 
 namespace lanelight::test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "kernels/stages.h"
 #include "tests/shade/probe_batch.h"
-#include "tests/wavefront/wave_fixture.h"
+#include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
 namespace {

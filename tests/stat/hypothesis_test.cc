@@ -7,7 +7,7 @@
 
 #include "tests/reference/random.h"
 #include "src/stat/distributions.h"
-#include "tests/stat/image_test.h"
+#include "tests/stat/compare_means.h"
 
 namespace lanelight::stat {
 namespace {

@@ -2,9 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/stages.h"
+#include "src/prepare/parameters.h"
+#include "src/prepare/prepare_scene.h"
 #include "src/stat/distributions.h"
 #include "tests/wavefront/agreement.h"
-#include "tests/wavefront/wave_fixture.h"
+#include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
 namespace {
@@ -82,7 +84,7 @@ TEST_CASE("antithetic: quadratic integrands lose or gain as theory says", "[stra
 
 TEST_CASE("antithetic: the second sample has the first one's numbers, reflected",
           "[strategy]") {
-  const CompiledScene scene = CompileScene(LinearScene(0.5));
+  const CompiledScene scene = PrepareScene(LinearScene(0.5));
   WaveFixture f(scene, 64);
   f.wave.path.branch = nullptr;
   Strategy strategy;

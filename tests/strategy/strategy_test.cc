@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/scene/parse.h"
+#include "src/parse/parse.h"
 
 namespace lanelight {
 namespace {

@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "tests/reference/closed_forms.h"
+#include "src/prepare/prepare_scene.h"
 #include "src/stat/hypothesis.h"
 #include "tests/strategy/covering.h"
 #include "tests/wavefront/agreement.h"
@@ -71,7 +72,7 @@ SceneDescription SkyAndSun() {
   Material plastic;
   plastic.kind = MaterialKind::kCoatedDiffuse;
   // Grey: a coloured base under a coat is replaced when compiling by the colour of its
-  // spectral response (src/scene/coat_color.h), which the reference does not do.
+  // spectral response (src/compile/coat_color.h), which the reference does not do.
   plastic.reflectance.constant = Grey(0.6);
   plastic.uroughness.constant = plastic.vroughness.constant = 0;
   b.AddPlane({0, 0, 0}, {0, 0, 1}, ground);
@@ -122,7 +123,7 @@ bool Accepts(const SceneDescription& scene, const std::string& strategy) {
   PlanOptions options;
   options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
   try {
-    MakePlan(CompileScene(copy), options);
+    MakePlan(PrepareScene(copy), options);
     return true;
   } catch (const InputError&) {
     return false;
@@ -233,7 +234,7 @@ TEST_CASE("a bias of 1 % is found", "[strategy]") {
 
 TEST_CASE("a probability of selecting a light that is 1 % wrong is found", "[strategy]") {
   const SceneDescription scene = PolygonLight(8);
-  CompiledScene compiled = CompileScene(scene);
+  CompiledScene compiled = PrepareScene(scene);
   Strategy strategy;
   ApplyStrategy("directions=light,points=independent", {}, strategy);
   UseStrategy(strategy, compiled);

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/scene/parse.h"
-#include "src/study/estimate.h"
+#include "src/parse/parse.h"
+#include "src/estimate/estimate.h"
 #include "tests/wavefront/render_fixture.h"
 
 namespace lanelight {

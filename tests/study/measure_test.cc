@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "src/study/estimate.h"
+#include "src/estimate/estimate.h"
 #include "tests/study/simulated.h"
 
 namespace lanelight {

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "src/core/error.h"
-#include "src/study/colors.h"
+#include "src/image/colors.h"
 #include "src/study/study_images.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/study/simulated.h"

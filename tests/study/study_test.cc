@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
-#include "src/study/colors.h"
+#include "src/image/colors.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/study/study_file.h"
 

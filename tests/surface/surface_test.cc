@@ -5,7 +5,7 @@
 #include "kernels/intersect/stages.h"
 #include "kernels/simd/target.h"
 #include "kernels/surface/stages.h"
-#include "tests/intersect/brute_force.h"
+#include "tests/support/brute_force.h"
 
 namespace lanelight {
 namespace {

@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "kernels/simd/target.h"
+#include "src/compiled/scene.h"
 #include "src/core/check.h"
-#include "src/wavefront/stage.h"
+#include "src/path/stage.h"
 #include "tests/reference/texture.h"
 #include "tests/texture/texture_files.h"
+#include "src/compile/texture_table.h"
 
 namespace lanelight {
 

@@ -6,7 +6,9 @@
 #include <memory>
 #include <set>
 
-#include "src/strategy/tables.h"
+#include "src/prepare/groups.h"
+#include "src/prepare/prepare_scene.h"
+#include "src/prepare/tables.h"
 #include "src/wavefront/tiles.h"
 #include "src/wavefront/wavefront.h"
 #include "tests/wavefront/all_stages_scene.h"
@@ -30,7 +32,7 @@ struct State {
 class Checker {
  public:
   Checker(const std::string& text, const std::string& strategy)
-      : scene_(CompileScene(ParseSceneText(text, "test.pbrt", "."), {})) {
+      : scene_(PrepareScene(ParseSceneText(text, "test.pbrt", "."), {})) {
     Strategy s = scene_.strategy;
     ApplyStrategy(strategy, {}, s);
     UseStrategy(s, scene_);

@@ -3,7 +3,8 @@
 #include <catch2/catch.hpp>
 #include <atomic>
 
-#include "src/study/target.h"
+#include "src/estimate/target.h"
+#include "src/prepare/prepare_scene.h"
 #include "tests/wavefront/render_fixture.h"
 
 namespace lanelight {
@@ -40,7 +41,7 @@ struct OpenEnded {
 
 Rendered Render(const OpenEnded& o) {
   const ThreadLimit limit(o.threads);
-  CompiledScene scene = CompileScene(ParseSceneText(kScene, "test.pbrt", "."), {});
+  CompiledScene scene = PrepareScene(ParseSceneText(kScene, "test.pbrt", "."), {});
   Strategy strategy = scene.strategy;
   ApplyStrategy(o.strategy, {}, strategy);
   UseStrategy(strategy, scene);

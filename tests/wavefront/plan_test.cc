@@ -6,6 +6,7 @@
 #include <set>
 
 #include "src/core/check.h"
+#include "src/prepare/prepare_scene.h"
 #include "src/wavefront/wavefront.h"
 #include "tests/wavefront/render_fixture.h"
 
@@ -25,7 +26,7 @@ Plan PlanOf(const std::string& world, std::uint32_t max_depth = 5) {
   SceneDescription description =
       ParseSceneText(kHead + "WorldBegin\n" + world, "test.pbrt", ".");
   description.strategy.points = Points::kIndependent;
-  const CompiledScene scene = CompileScene(description);
+  const CompiledScene scene = PrepareScene(description);
   PlanOptions options;
   options.max_depth = max_depth;
   return MakePlan(scene, options);
@@ -71,7 +72,7 @@ TEST_CASE("plan: a triangle under a point light gets the minimum", "[plan]") {
 }
 
 TEST_CASE("plan: an absent column has no memory", "[plan]") {
-  const CompiledScene scene = CompileScene(
+  const CompiledScene scene = PrepareScene(
       ParseSceneText(kHead + "WorldBegin\n" + kPointLight + kTriangle, "test.pbrt", "."));
   const Plan plan = MakePlan(scene, {});
   const RunParameters run;

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "src/wavefront/path_fields.h"
+#include "src/path/fields.h"
 
 namespace lanelight {
 namespace {

@@ -4,9 +4,10 @@
 #include <string>
 
 #include "src/core/parallel.h"
-#include "src/scene/compile.h"
-#include "src/scene/parse.h"
-#include "src/strategy/use_strategy.h"
+#include "src/prepare/prepare_scene.h"
+#include "src/parse/parse.h"
+#include "src/prepare/groups.h"
+#include "src/prepare/use_strategy.h"
 #include "src/wavefront/run.h"
 
 namespace lanelight {
@@ -32,7 +33,7 @@ struct Rendered {
 inline Rendered RenderDescription(const SceneDescription& description,
                                   const TestRender& t) {
   const ThreadLimit limit(t.threads);
-  CompiledScene scene = CompileScene(description, t.compile);
+  CompiledScene scene = PrepareScene(description, t.compile);
   Strategy strategy = scene.strategy;
   strategy.points = t.sampler;
   ApplyStrategy(t.strategy, {}, strategy);

@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "src/strategy/path_values.h"
-#include "src/strategy/tables.h"
+#include "src/prepare/groups.h"
+#include "src/prepare/path_values.h"
+#include "src/prepare/prepare_scene.h"
+#include "src/prepare/tables.h"
 #include "src/wavefront/drive.h"
 #include "src/wavefront/pilot.h"
 #include "src/wavefront/tiles.h"
@@ -43,7 +45,7 @@ inline std::string MeshScene() {
 class TaskFixture {
  public:
   TaskFixture(const std::string& text, const std::string& strategy, bool aov)
-      : scene_(CompileScene(ParseSceneText(text, "test.pbrt", "."), {})) {
+      : scene_(PrepareScene(ParseSceneText(text, "test.pbrt", "."), {})) {
     Strategy s = scene_.strategy;
     ApplyStrategy(strategy, {}, s);
     UseStrategy(s, scene_);

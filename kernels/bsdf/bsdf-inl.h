@@ -1,0 +1,137 @@
+// What a material policy is: parameters, Eval, Sample, in the local frame of the shading
+// normal (+z). One policy per file *_bsdf-inl.h; the skeleton shade-inl.h turns each into
+// a stage, and probe-inl.h into batch entries for tests.
+//
+//   struct XBsdf {
+//     kSpecular     only delta directions: no Eval, no light samples
+//     kAnisotropic  the tangent matters
+//     kRefracts     Sample fills eta_scale
+//     kStochastic   Load receives random numbers
+//     kHasDelta     delta directions besides others (Sample then returns density 0)
+//     kTransmits    not all directions are on wo's side  (all: static constexpr bool)
+//     struct Params;
+//     static Params Load(const MaterialInputs&);
+//     static BsdfValue Eval(const Params&, V3 wo, V3 wi);
+//     static BsdfSample Sample(const Params&, V3 wo, const BsdfPoints&);
+//   };
+// wo and wi are unit and point away from the surface; wo.z is never 0.
+#if defined(LANELIGHT_BSDF_BSDF_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_BSDF_BSDF_INL_H_
+#undef LANELIGHT_BSDF_BSDF_INL_H_
+#else
+#define LANELIGHT_BSDF_BSDF_INL_H_
+#endif
+
+#include "kernels/bsdf/random-inl.h"
+#include "kernels/queue/slots-inl.h"
+#include "kernels/simd/math-inl.h"
+#include "src/compiled/materials.h"
+
+// Eval and Sample are part of six kernels each. Inlining them there pays where a vector
+// is a register; in the emulation it only costs the compiler half a minute per material.
+#undef LANELIGHT_BSDF_CALL
+#if HWY_TARGET == HWY_EMU128
+#define LANELIGHT_BSDF_CALL HWY_NOINLINE
+#else
+#define LANELIGHT_BSDF_CALL HWY_INLINE
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Uniform in [0,1): the choice of a lobe, and a direction within it.
+struct BsdfPoints {
+  VF lobe, u0, u1;
+};
+
+/// f(wo, wi) * |cos theta_i|, and the density (solid angle) with which Sample would find
+/// wi by its non-delta lobes.
+struct BsdfValue {
+  V3 f_cos;
+  VF pdf;
+};
+
+/// A direction, f * |cos| / density, and the density with respect to solid angle, 0 for a
+/// delta direction. weight 0: absorbed, nothing else counts. eta_scale: square of the
+/// relative index entered, 1 without refraction.
+struct BsdfSample {
+  V3 wi, weight;
+  VF pdf, eta_scale;
+};
+
+/// Where material parameters come from: the table, or columns filled by the texture
+/// stage. The same for every path of a scene, hence resolved once per call of a stage.
+struct MaterialSource {
+  const MaterialTable* table;
+  const float *color0_r, *color0_g, *color0_b, *alpha_x, *alpha_y;
+  bool color_by_path, alpha_by_path;
+};
+
+HWY_INLINE MaterialSource TableSource(const MaterialTable& t) {
+  return {&t,
+          t.color0_r.data(),
+          t.color0_g.data(),
+          t.color0_b.data(),
+          t.alpha_x.data(),
+          t.alpha_y.data(),
+          false,
+          false};
+}
+
+/// Parameters of one batch of paths.
+struct MaterialInputs {
+  const MaterialSource& source;
+  Slots slot;
+  VI material;
+  LaneRandom random;  // only filled for kStochastic
+
+  HWY_INLINE V3 Color0() const {
+    const MaterialSource& s = source;
+    return s.color_by_path
+               ? Gather3(s.color0_r, s.color0_g, s.color0_b, slot)
+               : LookUp3(s.table->color0_r, s.table->color0_g, s.table->color0_b);
+  }
+  /// Clamped to [0, 1], as a reflectance must be (a texture may hold anything).
+  HWY_INLINE V3 Reflectance() const { return Clamp01(Color0()); }
+  HWY_INLINE V3 Color1() const {
+    const MaterialTable& t = *source.table;
+    return LookUp3(t.color1_r, t.color1_g, t.color1_b);
+  }
+  HWY_INLINE VF AlphaX() const { return Alpha(source.alpha_x, source.table->alpha_x); }
+  HWY_INLINE VF AlphaY() const { return Alpha(source.alpha_y, source.table->alpha_y); }
+  HWY_INLINE VF Float(const AlignedVector<float>& column) const {
+    return Lookup(column, material);
+  }
+  HWY_INLINE VI Int(const AlignedVector<std::int32_t>& column) const {
+    return Lookup(column, material);
+  }
+  HWY_INLINE VI Int(const AlignedVector<std::uint32_t>& column) const {
+    return Lookup(column, material);
+  }
+  HWY_INLINE static V3 Clamp01(V3 c) {
+    const VF zero = hn::Zero(DF()), one = Splat(1.0f);
+    return {hn::Clamp(c.x, zero, one), hn::Clamp(c.y, zero, one),
+            hn::Clamp(c.z, zero, one)};
+  }
+
+ private:
+  HWY_INLINE VF Alpha(const float* by_path, const AlignedVector<float>& column) const {
+    return source.alpha_by_path ? Gather(by_path, slot) : Lookup(column, material);
+  }
+  HWY_INLINE V3 LookUp3(const AlignedVector<float>& x, const AlignedVector<float>& y,
+                        const AlignedVector<float>& z) const {
+    return {Lookup(x, material), Lookup(y, material), Lookup(z, material)};
+  }
+};
+
+HWY_INLINE V3 Grey(VF v) { return {v, v, v}; }
+HWY_INLINE MF SameSide(V3 a, V3 b) { return hn::Gt(hn::Mul(a.z, b.z), hn::Zero(DF())); }
+/// v with its height taken to the side of wo, for v on the upper side.
+HWY_INLINE V3 ToSideOf(V3 wo, V3 v) { return {v.x, v.y, hn::CopySign(v.z, wo.z)}; }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,90 @@
+// Metals: the exact Fresnel reflectance of a complex index per channel, on a smooth or a
+// GGX surface. Both sides of the surface reflect.
+#if defined(LANELIGHT_BSDF_CONDUCTOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_BSDF_CONDUCTOR_INL_H_
+#undef LANELIGHT_BSDF_CONDUCTOR_INL_H_
+#else
+#define LANELIGHT_BSDF_CONDUCTOR_INL_H_
+#endif
+
+#include "kernels/bsdf/bsdf-inl.h"
+#include "kernels/bsdf/ggx-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Mirror: delta direction, weight = Fresnel reflectance.
+struct ConductorSmoothBsdf {
+  static constexpr bool kSpecular = true;
+  static constexpr bool kAnisotropic = false;
+  static constexpr bool kRefracts = false;
+  static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = false;
+  static constexpr bool kTransmits = false;
+  struct Params {
+    V3 eta, k;
+  };
+  HWY_INLINE static Params Load(const MaterialInputs& in) {
+    return {in.Color0(), in.Color1()};
+  }
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+                                               const BsdfPoints&) {
+    return {{hn::Neg(wo.x), hn::Neg(wo.y), wo.z},
+            FresnelConductor(hn::Abs(wo.z), m.eta, m.k),
+            hn::Zero(DF()),
+            Splat(1.0f)};
+  }
+};
+
+/// Torrance-Sparrow reflection, f = D F G2 / (4 cos_o cos_i), single scattering as in
+/// pbrt-v4 (Walter et al. 2007, equation 20). Sampled by visible normals:
+/// density Dvis(m) / (4 wo.m), weight F G2 / G1. Light that would be sampled below the
+/// surface is lost, the energy that single scattering lacks.
+struct ConductorRoughBsdf {
+  static constexpr bool kSpecular = false;
+  static constexpr bool kAnisotropic = true;
+  static constexpr bool kRefracts = false;
+  static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = false;
+  static constexpr bool kTransmits = false;
+  struct Params {
+    V3 eta, k;
+    Ggx ggx;
+  };
+  HWY_INLINE static Params Load(const MaterialInputs& in) {
+    return {in.Color0(), in.Color1(), Ggx::FromAlpha(in.AlphaX(), in.AlphaY())};
+  }
+
+  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+    const VF zo = hn::Abs(wo.z), zi = hn::Abs(wi.z);
+    const V3 n = Normalize(wo + wi);
+    const VF d = m.ggx.D(n);
+    const VF so = m.ggx.Spread(wo), si = m.ggx.Spread(wi);
+    const VF shape = hn::Mul(hn::Mul(Splat(0.5f), d), HalfPairMasking(zo, so, zi, si));
+    const VF pdf = hn::Div(hn::Mul(Splat(0.5f), d), hn::Add(zo, so));
+    const MF reflects = SameSide(wo, wi);
+    const V3 f = FresnelConductor(hn::Min(hn::Abs(Dot(wo, n)), Splat(1.0f)), m.eta, m.k);
+    return {IfThenElseZero(reflects, Mul(f, shape)), hn::IfThenElseZero(reflects, pdf)};
+  }
+
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+                                               const BsdfPoints& u) {
+    const V3 up = {wo.x, wo.y, hn::Abs(wo.z)};
+    const V3 n = m.ggx.SampleVisible(up, u.u0, u.u1);
+    const VF cosine = hn::Clamp(Dot(up, n), hn::Zero(DF()), Splat(1.0f));
+    const V3 wi = Reflect(up, n, cosine);
+    const MF reflects = hn::Gt(wi.z, hn::Zero(DF()));
+    const VF so = m.ggx.Spread(up), si = m.ggx.Spread(wi);
+    const VF pdf = hn::Div(hn::Mul(Splat(0.5f), m.ggx.D(n)), hn::Add(up.z, so));
+    const V3 weight =
+        Mul(FresnelConductor(cosine, m.eta, m.k), MaskingRatio(up.z, so, wi.z, si));
+    return {ToSideOf(wo, wi), IfThenElseZero(reflects, weight), pdf, Splat(1.0f)};
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

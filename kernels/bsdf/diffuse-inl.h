@@ -1,0 +1,72 @@
+// The diffuse models of the founding paper. Each reflects on wo's side only, and sampling
+// it weighs a path with exactly the albedo.
+#if defined(LANELIGHT_BSDF_DIFFUSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_BSDF_DIFFUSE_INL_H_
+#undef LANELIGHT_BSDF_DIFFUSE_INL_H_
+#else
+#define LANELIGHT_BSDF_DIFFUSE_INL_H_
+#endif
+
+#include "kernels/bsdf/bsdf-inl.h"
+#include "kernels/warp/hemisphere-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// A diffuse model is a density p(cos) on the hemisphere: f * cos = albedo * p, so that
+/// the weight f * cos / p is the albedo.
+template <class Hemisphere>
+struct DiffuseModel {
+  static constexpr bool kSpecular = false;
+  static constexpr bool kAnisotropic = false;
+  static constexpr bool kRefracts = false;
+  static constexpr bool kStochastic = false;
+  static constexpr bool kHasDelta = false;
+  static constexpr bool kTransmits = false;
+  struct Params {
+    V3 albedo;
+  };
+  HWY_INLINE static Params Load(const MaterialInputs& in) { return {in.Reflectance()}; }
+
+  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+    const VF pdf = hn::IfThenElseZero(SameSide(wo, wi), Hemisphere::Pdf(hn::Abs(wi.z)));
+    return {Mul(m.albedo, pdf), pdf};
+  }
+
+  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+                                               const BsdfPoints& u) {
+    const V3 up = Hemisphere::Sample(u.u0, u.u1);
+    return {ToSideOf(wo, up), m.albedo, Hemisphere::Pdf(up.z), Splat(1.0f)};
+  }
+};
+
+/// Lambert: f = albedo / pi, density cos / pi. Mean cosine 2/3.
+struct CosineHemisphere {
+  HWY_INLINE static V3 Sample(VF u0, VF u1) { return SampleCosineHemisphere(u0, u1); }
+  HWY_INLINE static VF Pdf(VF cos_theta) { return PdfCosineHemisphere(cos_theta); }
+};
+using DiffuseBsdf = DiffuseModel<CosineHemisphere>;
+
+/// "Completely diffuse": scattered directions uniform, f * cos = albedo / (2 pi), so f
+/// grows without bound at grazing angles. Mean cosine 1/2. Not reciprocal.
+struct UniformHemisphere {
+  HWY_INLINE static V3 Sample(VF u0, VF u1) { return SampleUniformHemisphere(u0, u1); }
+  HWY_INLINE static VF Pdf(VF) { return PdfUniformHemisphere(); }
+};
+using DiffuseUniformBsdf = DiffuseModel<UniformHemisphere>;
+
+/// Normal plus a uniform point of the unit ball: density 2 cos^3 / pi (derived in
+/// kernels/warp/hemisphere-inl.h), f * cos = albedo * density. Mean cosine 4/5. Not
+/// reciprocal.
+struct InSphereHemisphere {
+  HWY_INLINE static V3 Sample(VF u0, VF u1) { return SampleInSphere(u0, u1); }
+  HWY_INLINE static VF Pdf(VF cos_theta) { return PdfInSphere(cos_theta); }
+};
+using DiffuseInSphereBsdf = DiffuseModel<InSphereHemisphere>;
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,50 @@
+// Ends paths that have used up their scattering events; the others go on to the surface
+// stages. As in pbrt, a path of maximum depth D sees emission after D events.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/sort/limit.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+void Limit(Wave& wave) {
+  const VI max_depth = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
+  ForEachBatch(
+      wave, wave.queue(QueueId::kHit), [&](const Slots& slots, MF valid) HWY_ATTR {
+        const MF below =
+            hn::RebindMask(DF(), hn::Lt(Gather(wave.path.depth, slots), max_depth));
+        Push(wave.queue(QueueId::kSurface), slots, hn::And(valid, below));
+        Push(wave.queue(QueueId::kDone), slots, hn::AndNot(below, valid));
+      });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(Limit);
+
+Stage LimitStage() {
+  return {"limit",
+          "ends paths at the maximum depth",
+          QueueId::kHit,
+          {},
+          {Field::depth},
+          {},
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Limit); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

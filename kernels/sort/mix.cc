@@ -1,0 +1,84 @@
+// Resolves mix materials to one of their two, chosen with the probability of its weight;
+// a mix of mixes takes several rounds. The number is a pure function of the path, so the
+// choice is the same for any order of evaluation.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/sort/mix.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/simd/rng-inl.h"
+#include "kernels/texture/texture-inl.h"
+#include "src/path/dimensions.h"
+#include "src/compiled/scene.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// Weight of the second material, from its texture where it has one (then the scene has
+// texture coordinates: compile sees to it).
+HWY_INLINE VF MixAmount(const Wave& wave, const Slots& slots, VI material) {
+  const MaterialTable& m = wave.scene->materials;
+  const VF constant = Gather(m.alpha_x.data(), material);
+  if (wave.path.uv_u == nullptr) return constant;
+  return EvalAlpha(wave.scene->textures, Gather(m.alpha_x_texture.data(), material),
+                   Gather(wave.path.uv_u, slots), Gather(wave.path.uv_v, slots),
+                   constant);
+}
+
+void Mix(Wave& wave) {
+  const MaterialTable& m = wave.scene->materials;
+  const DI di;
+  const VU count = SplatU(static_cast<uint32_t>(Dimension::kCount));
+  const VI mix_kind = hn::Set(di, static_cast<int32_t>(ShadeKind::kMix));
+  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots, MF) HWY_ATTR {
+    VI material = Gather(wave.path.material, slots);
+    VU key = hn::Add(hn::Mul(AsUnsigned(Gather(wave.path.depth, slots)), count),
+                     SplatU(static_cast<uint32_t>(Dimension::kMix)));
+    if (wave.path.branch != nullptr) {
+      key = hn::Xor(key, hn::ShiftLeft<28>(AsUnsigned(Gather(wave.path.branch, slots))));
+    }
+    for (uint32_t round = 0;; ++round) {
+      const auto is_mix = hn::Eq(Gather(m.kind.data(), material), mix_kind);
+      if (hn::AllFalse(di, is_mix)) break;
+      const VF amount = MixAmount(wave, slots, material);
+      const U4 r = Pcg4d({AsUnsigned(Gather(wave.path.pixel, slots)),
+                          AsUnsigned(Gather(wave.path.sample, slots)),
+                          hn::Add(key, SplatU(round << 24)), SplatU(wave.run->seed)});
+      const auto second = hn::RebindMask(di, hn::Lt(ToUnit(r.x), amount));
+      const VI chosen = hn::IfThenElse(second, Gather(m.mix1.data(), material),
+                                       Gather(m.mix0.data(), material));
+      material = hn::IfThenElse(is_mix, chosen, material);
+    }
+    Scatter(material, wave.path.material, slots);
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(Mix);
+
+Stage MixStage() {
+  return {"mix",
+          "chooses one material of a mix",
+          QueueId::kSurface,
+          {Feature::kMix, Feature::kScatters},
+          FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
+                   Field::material} |
+              fields::kUv,
+          {Field::material},
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Mix); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,100 @@
+// Moves the paths that go on into the first slots, in the order of their slots, so that
+// the next wave reads its columns by whole vectors (slots-inl.h) and new paths start in
+// neighbouring slots. Numbers and sums of a path do not depend on where it lies.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/sort/pack.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/queue/carried.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// One past the highest slot of the queue; 0 if it is empty.
+HWY_INLINE uint32_t EndOf(const Queue& queue) {
+  const DU du;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
+  if (queue.size == 0) return 0;
+  VU highest = hn::Zero(du);
+  for (uint32_t i = 0; i < queue.size; i += lanes) {
+    highest = hn::Max(highest, hn::LoadU(du, queue.items + i));  // padded
+  }
+  return hn::GetLane(hn::MaxOfLanes(du, highest)) + 1;
+}
+
+// Marks the slots of `queue` by 1, the others below `end` and one vector more by 0.
+HWY_INLINE void Mark(const Queue& queue, uint32_t end, uint32_t* marks) {
+  const DI di;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
+  int32_t* out = reinterpret_cast<int32_t*>(marks);
+  for (uint32_t i = 0; i < end; i += lanes) hn::StoreU(hn::Zero(di), di, out + i);
+  const int32_t* slots = reinterpret_cast<const int32_t*>(queue.items);
+  for (uint32_t i = 0; i < queue.size; i += lanes) {
+    Scatter(hn::Set(di, 1), out, Slots(hn::LoadU(di, slots + i)));
+  }
+}
+
+// Closes the gaps between marked slots in a column, a vector of slots at a time: what is
+// written has been read, because nothing moves up.
+HWY_INLINE void CloseGaps(uint32_t* column, const uint32_t* marks, uint32_t end) {
+  const DU du;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
+  uint32_t* to = column;
+  for (uint32_t from = 0; from < end; from += lanes) {
+    const auto live = hn::Ne(hn::LoadU(du, marks + from), hn::Zero(du));
+    hn::StoreU(hn::Compress(hn::LoadU(du, column + from), live), du, to);
+    to += hn::CountTrue(du, live);
+  }
+}
+
+void Pack(Wave& wave) {
+  const DU du;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
+  Queue& live = wave.queue(QueueId::kScattered);
+  Queue& free = wave.queue(QueueId::kFree);
+  PadTail(live);
+  const uint32_t end = EndOf(live);
+  uint32_t* marks = wave.queue(QueueId::kScratch).items;
+  Mark(live, end, marks);
+  const CarriedColumns carried(wave.path);
+  for (uint32_t c = 0; c < carried.count; ++c) CloseGaps(carried.columns[c], marks, end);
+  for (uint32_t i = 0; i < live.size; i += lanes) {
+    hn::StoreU(hn::Iota(du, i), du, live.items + i);
+  }
+  // A stack: the lowest slot is taken first.
+  free.size = wave.capacity - live.size;
+  const VU top = hn::Set(du, wave.capacity - 1);
+  for (uint32_t i = 0; i < free.size; i += lanes) {
+    hn::StoreU(hn::Sub(top, hn::Iota(du, i)), du, free.items + i);
+  }
+  CountBatches(wave, live);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(Pack);
+
+Stage PackStage() {
+  return {"pack",
+          "moves the paths that go on into the first slots",
+          QueueId::kDone,
+          {},
+          CarriedFields(),
+          CarriedFields(),
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Pack); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,82 @@
+#include "src/compile/camera.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "src/core/check.h"
+#include "src/core/error.h"
+
+namespace lanelight {
+namespace {
+
+struct Window {
+  double x0, x1, y0, y1;
+};
+
+// pbrt: the shorter axis of the screen spans [-1, 1].
+Window ScreenWindow(const Camera& camera, const Film& film) {
+  const double* w = camera.screen_window;
+  if (w[0] != 0 || w[1] != 0 || w[2] != 0 || w[3] != 0) return {w[0], w[1], w[2], w[3]};
+  const double aspect = camera.frame_aspect > 0
+                            ? camera.frame_aspect
+                            : static_cast<double>(film.width) / film.height;
+  if (aspect > 1) return {-aspect, aspect, -1, 1};
+  return {-1, 1, -1 / aspect, 1 / aspect};
+}
+
+void Check(const Camera& camera, const Window& window) {
+  const Transform& t = camera.world_from_camera;
+  if (!t.IsInvertible() || t(3, 0) != 0 || t(3, 1) != 0 || t(3, 2) != 0 || t(3, 3) != 1) {
+    throw InputError(camera.where,
+                     "the camera's transform is singular or projective; only invertible "
+                     "affine transforms are supported");
+  }
+  if (camera.kind == CameraKind::kPerspective && !(camera.fov > 0 && camera.fov < 180)) {
+    throw InputError(camera.where,
+                     fmt::format("field of view {} degrees; supported are values between "
+                                 "0 and 180",
+                                 camera.fov));
+  }
+  if (!(window.x0 != window.x1 && window.y0 != window.y1)) {
+    throw InputError(camera.where,
+                     fmt::format("empty screen window [{} {} {} {}]", window.x0,
+                                 window.x1, window.y0, window.y1));
+  }
+}
+
+Vec3f ToFloat(Vec3d v) { return VecCast<float>(v); }
+
+}  // namespace
+
+CompiledCamera CompileCamera(const Camera& camera, const Film& film, const Frame& frame) {
+  LL_CHECK(film.width > 0 && film.height > 0);
+  const Window window = ScreenWindow(camera, film);
+  Check(camera, window);
+
+  // Camera axes in the scene, measured in units of `unit` scene lengths per camera
+  // length, so that a camera under a uniform scale has unit axes. Mirrored cameras keep
+  // mirrored axes (pbrt scenes use Scale -1 1 1).
+  const Transform t = frame.After(camera.world_from_camera);
+  const Vec3d right = t.Vector({1, 0, 0}), up = t.Vector({0, 1, 0});
+  const Vec3d forward = t.Vector({0, 0, 1});
+  const double unit = Length(forward);
+
+  CompiledCamera out;
+  out.kind = camera.kind;
+  out.right = ToFloat(right / unit);
+  out.up = ToFloat(up / unit);
+  out.forward = ToFloat(forward / unit);
+  out.origin = ToFloat(t.Point({0, 0, 0}));
+  out.lens_radius = static_cast<float>(camera.lens_radius * unit);
+  out.focal_distance = static_cast<float>(camera.focal_distance * unit);
+
+  // Perspective: the film lies at z = 1. Orthographic: screen units are camera lengths.
+  const bool perspective = camera.kind == CameraKind::kPerspective;
+  const double k = perspective ? std::tan(camera.fov * (std::numbers::pi / 360)) : unit;
+  out.base = ToFloat({window.x0 * k, window.y1 * k, perspective ? 1.0 : 0.0});
+  out.dx = ToFloat({(window.x1 - window.x0) / film.width * k, 0, 0});
+  out.dy = ToFloat({0, (window.y0 - window.y1) / film.height * k, 0});
+  return out;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,149 @@
+#include "src/compile/compile.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "src/accel/accel.h"
+#include "src/core/parallel.h"
+#include "src/compile/camera.h"
+#include "src/compile/features.h"
+#include "src/compile/filter.h"
+#include "src/compile/geometry.h"
+#include "src/compile/lights.h"
+#include "src/compile/materials.h"
+#include "src/compile/placement.h"
+#include "src/compile/quadrics.h"
+#include "src/compile/textures.h"
+#include "src/compile/texture_table.h"
+
+namespace lanelight {
+namespace {
+
+// Calls visit(shape) for everything placed, world first.
+template <typename Visit>
+void ForEachShape(const Placement& placement, const Visit& visit) {
+  for (const auto* shapes :
+       {&placement.meshes, &placement.spheres, &placement.disks, &placement.planes}) {
+    for (const PlacedShape& shape : *shapes) visit(shape);
+  }
+  for (const PlacedObject& object : placement.objects) {
+    for (const PlacedShape& shape : object.meshes) visit(shape);
+  }
+}
+
+std::vector<Index> UsedMaterials(const Placement& placement) {
+  std::vector<Index> used;
+  ForEachShape(placement, [&](const PlacedShape& placed) {
+    used.push_back(placed.shape->material);
+  });
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return used;
+}
+
+std::vector<Index> UsedTextures(const CompiledMaterials& materials,
+                                const Placement& placement) {
+  std::vector<Index> used = materials.textures;
+  ForEachShape(placement, [&](const PlacedShape& placed) {
+    if (placed.alpha.texture != kNone) used.push_back(placed.alpha.texture);
+  });
+  return used;
+}
+
+// Alpha of primitives [begin, end).
+void SetAlpha(const PlacedShape& placed, std::size_t begin, std::size_t end,
+              CompiledScene& scene) {
+  for (std::size_t i = begin; i < end; ++i) {
+    scene.alpha_texture[i] = placed.alpha.texture;
+    scene.alpha_constant[i] =
+        placed.alpha.texture == kNone ? static_cast<float>(placed.alpha.constant) : 1.0f;
+  }
+}
+
+void SetAlphas(const std::vector<PlacedShape>& shapes, std::size_t first,
+               CompiledScene& scene) {
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    SetAlpha(shapes[i], first + i, first + i + 1, scene);
+  }
+}
+
+void MakeAlpha(const Placement& placement, const CompiledGeometry& compiled,
+               CompiledScene& scene) {
+  if (!scene.features.Has(Feature::kAlpha)) return;
+  const PrimitiveRanges& ranges = compiled.geometry.ranges;
+  scene.alpha_texture.assign(ranges.end, -1);
+  scene.alpha_constant.assign(ranges.end, 1.0f);
+  const auto meshes = [&](const std::vector<PlacedShape>& shapes,
+                          const std::vector<MeshRange>& at) {
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      SetAlpha(shapes[i], at[i].begin, at[i].end, scene);
+    }
+  };
+  meshes(placement.meshes, compiled.meshes);
+  for (std::size_t o = 0; o < placement.objects.size(); ++o) {
+    meshes(placement.objects[o].meshes, compiled.object_meshes[o]);
+  }
+  SetAlphas(placement.spheres, ranges.spheres, scene);
+  SetAlphas(placement.disks, ranges.disks, scene);
+  SetAlphas(placement.planes, ranges.planes, scene);
+}
+
+void NoteDropped(const std::vector<PlacedShape>& shapes,
+                 const std::vector<MeshRange>& ranges, std::vector<Note>& notes) {
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const MeshRange& range = ranges[i];
+    if (range.dropped == 0) continue;
+    std::string message =
+        fmt::format("left out {} degenerate triangles of {}", range.dropped,
+                    range.dropped + range.end - range.begin);
+    if (shapes[i].area_light != kNone && range.begin == range.end) {
+      message += "; this area light has no area left and emits nothing";
+    }
+    notes.push_back({shapes[i].shape->where, message});
+  }
+}
+
+}  // namespace
+
+CompiledScene CompileScene(const SceneDescription& description,
+                           const CompileOptions& options) {
+  CompiledScene scene;
+  scene.film = description.film;
+  scene.sampler = description.sampler;
+  scene.integrator = description.integrator;
+  scene.filter = CompileFilter(description.filter);
+
+  const Placement placement = PlaceShapes(description);
+  scene.center = placement.frame.center;
+  scene.scale = placement.frame.scale;
+  scene.camera = CompileCamera(description.camera, description.film, placement.frame);
+
+  CompiledMaterials materials =
+      CompileMaterials(description, UsedMaterials(placement), options);
+  scene.features = MaterialFeatures(materials.table, placement);
+  const GeometryOptions geometry_options = {
+      .uvs = scene.features.HasAny({Feature::kUv, Feature::kTangents})};
+
+  CompiledGeometry compiled;
+  ParallelInvoke(
+      [&] {
+        scene.textures = CompileTextures(
+            KeepUsedTextures(description.textures, UsedTextures(materials, placement)));
+      },
+      [&] { compiled = CompileGeometry(placement, materials.index, geometry_options); });
+
+  scene.lights = CompileLights(description, placement, compiled);
+  MakeAlpha(placement, compiled, scene);
+  NoteDropped(placement.meshes, compiled.meshes, scene.notes);
+  for (std::size_t o = 0; o < placement.objects.size(); ++o) {
+    NoteDropped(placement.objects[o].meshes, compiled.object_meshes[o], scene.notes);
+  }
+  scene.materials = std::move(materials.table);
+  scene.geometry = std::move(compiled.geometry);
+  scene.features = SceneFeatures(scene);
+  scene.accel = BuildAccel(scene.geometry, {.quality = options.build});
+  scene.strategy = description.strategy;
+  return scene;
+}
+
+}  // namespace lanelight

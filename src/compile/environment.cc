@@ -1,0 +1,206 @@
+#include "src/compile/environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "src/core/error.h"
+#include "src/image/octahedral.h"
+#include "src/compile/texture_table.h"
+
+namespace lanelight {
+namespace {
+
+[[noreturn]] void Fail(const Light& light, const std::string& message) {
+  throw InputError(light.where, fmt::format("environment image \"{}\": {}",
+                                            light.image_path, message));
+}
+
+// Channels to read as red, green and blue.
+std::array<int, 3> ColorChannels(const Light& light, const Image& image) {
+  if (image.channels <= 2) return {0, 0, 0};
+  const std::array<int, 3> rgb = {image.FindChannel("R"), image.FindChannel("G"),
+                                  image.FindChannel("B")};
+  if (std::any_of(rgb.begin(), rgb.end(), [](int c) { return c < 0; })) {
+    Fail(light, "no channels R, G and B (or a single one)");
+  }
+  return rgb;
+}
+
+// Linear radiance as stored, before any scale. Negative values, which filters leave in
+// photographs, cannot be emitted.
+AlignedVector<float> ReadTexels(const Light& light, const Image& image) {
+  const std::array<int, 3> channels = ColorChannels(light, image);
+  const std::size_t texels = static_cast<std::size_t>(image.width) * image.height;
+  std::vector<float> decode(256);
+  for (int i = 0; i < 256; ++i) {
+    decode[static_cast<std::size_t>(i)] =
+        static_cast<float>(DecodeByte(i, Encoding::kSrgb, 0));
+  }
+  AlignedVector<float> rgb(3 * texels);
+  for (std::size_t i = 0; i < texels; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t at = i * static_cast<std::size_t>(image.channels) +
+                             static_cast<std::size_t>(channels[c]);
+      const float v = image.is_bytes() ? decode[image.bytes[at]] : image.pixels[at];
+      if (!std::isfinite(v)) {
+        Fail(light, fmt::format("the value {} at pixel ({}, {}); only finite radiance is "
+                                "supported",
+                                v, i % static_cast<std::size_t>(image.width),
+                                i / static_cast<std::size_t>(image.width)));
+      }
+      rgb[3 * i + c] = std::max(v, 0.0f);
+    }
+  }
+  return rgb;
+}
+
+double TexelLuminance(const AlignedVector<float>& rgb, std::size_t i) {
+  return Luminance({rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]});
+}
+
+// What pbrt-v4 takes for the illuminance of the map on a plane facing +z. The integral
+// has 4 pi / texels sr per texel; pbrt weighs with 2 pi / texels, so that its images come
+// out twice as bright as asked for. Scenes are made to look right in pbrt, hence so do
+// we.
+double PbrtIlluminance(const AlignedVector<float>& rgb, int size) {
+  double sum = 0;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const Vec3d w = OctahedralToDirection((x + 0.5) / size, (y + 0.5) / size);
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
+                     static_cast<std::size_t>(x);
+      if (w.z > 0) sum += w.z * TexelLuminance(rgb, i);
+    }
+  }
+  return sum * 2 * std::numbers::pi / (static_cast<double>(size) * size);
+}
+
+void StoreRotation(const Light& light, Environment& environment) {
+  const double scale = light.world_from_light.UniformScale();
+  if (!(scale > 0)) {
+    throw InputError(light.where,
+                     "an infinite light under a transform that is not rotation, "
+                     "mirroring and uniform scale is not supported");
+  }
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {  // inverse of a rotation: transposed
+      environment.light_from_scene[3 * row + column] =
+          static_cast<float>(light.world_from_light(column, row) / scale);
+    }
+  }
+}
+
+// Running sums of `weights`, normalised, as `size + 1` floats that start at 0 and end
+// at 1. Without any weight the distribution is uniform.
+void StoreCdf(const double* weights, std::size_t size, float* cdf) {
+  double total = 0;
+  for (std::size_t i = 0; i < size; ++i) total += weights[i];
+  double sum = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    cdf[i] = static_cast<float>(total > 0 ? sum / total : double(i) / double(size));
+    sum += weights[i];
+  }
+  cdf[size] = 1;
+}
+
+// Bits of a guide: about four steps of the distribution for each of its parts.
+int GuideBits(std::size_t size) {
+  int bits = 0;
+  while ((std::size_t{4} << bits) < size) ++bits;
+  return bits;
+}
+
+// See Environment::guide_bits. Parts are powers of two, so that u finds its part exactly.
+void StoreGuide(const float* cdf, std::size_t size, int bits, std::int32_t* guide) {
+  const std::size_t parts = std::size_t{1} << bits;
+  std::size_t step = 0;
+  for (std::size_t k = 0; k <= parts; ++k) {
+    const double u = double(k) / double(parts);
+    while (step + 1 < size && cdf[step + 1] <= u) ++step;
+    guide[k] = static_cast<std::int32_t>(step);
+  }
+}
+
+// The probabilities are those of the rounded sums, which is what the kernel samples.
+void StoreDistribution(Environment& environment) {
+  const auto size = static_cast<std::size_t>(environment.size);
+  std::vector<double> luminance(size * size), rows(size);
+  for (std::size_t i = 0; i < luminance.size(); ++i) {
+    luminance[i] = TexelLuminance(environment.rgb, i);
+    rows[i / size] += luminance[i];
+  }
+  if (std::all_of(rows.begin(), rows.end(), [](double l) { return !(l > 0); })) return;
+  environment.row_cdf.resize(size + 1);
+  environment.column_cdf.resize((size + 1) * size);
+  environment.probability.resize(size * size);
+  StoreCdf(rows.data(), size, environment.row_cdf.data());
+  const int bits = GuideBits(size);
+  const std::size_t guide = (std::size_t{1} << bits) + 1;
+  environment.guide_bits = bits;
+  environment.row_guide.resize(guide);
+  environment.column_guide.resize(guide * size);
+  StoreGuide(environment.row_cdf.data(), size, bits, environment.row_guide.data());
+  for (std::size_t y = 0; y < size; ++y) {
+    float* columns = environment.column_cdf.data() + y * (size + 1);
+    StoreCdf(luminance.data() + y * size, size, columns);
+    StoreGuide(columns, size, bits, environment.column_guide.data() + y * guide);
+    const double row =
+        double(environment.row_cdf[y + 1]) - double(environment.row_cdf[y]);
+    for (std::size_t x = 0; x < size; ++x) {
+      const double column = double(columns[x + 1]) - double(columns[x]);
+      environment.probability[y * size + x] = static_cast<float>(row * column);
+    }
+  }
+}
+
+}  // namespace
+
+Environment CompileEnvironment(const Light& light) {
+  Image image;
+  try {
+    image = ReadImage(light.image_path);
+  } catch (const InputError& e) {
+    throw InputError(light.where, fmt::format("infinite light: {}", e.what()));
+  }
+  return CompileEnvironment(light, image);
+}
+
+Environment CompileEnvironment(const Light& light, const Image& image) {
+  if (image.width != image.height || image.width <= 0) {
+    Fail(light, fmt::format("{} x {} pixels; supported are square equal-area octahedral "
+                            "maps (pbrt-v4: \"imgtool makeequiarea\" converts a "
+                            "latitude-longitude map)",
+                            image.width, image.height));
+  }
+  Environment environment;
+  environment.size = image.width;
+  environment.rgb = ReadTexels(light, image);
+  StoreRotation(light, environment);
+  double scale = light.image_scale;
+  if (light.illuminance > 0) {
+    const double map = PbrtIlluminance(environment.rgb, image.width);
+    if (!(map > 0)) {
+      Fail(light,
+           "black in its upper hemisphere, so it cannot be scaled to the given "
+           "\"illuminance\"");
+    }
+    scale *= light.illuminance / map;
+  }
+  for (float& v : environment.rgb) v = static_cast<float>(v * scale);
+  StoreDistribution(environment);
+  return environment;
+}
+
+Rgb MeanRadiance(const Environment& environment) {
+  Rgb sum;
+  const std::size_t texels = environment.rgb.size() / 3;
+  for (std::size_t i = 0; i < texels; ++i) {
+    sum +=
+        {environment.rgb[3 * i], environment.rgb[3 * i + 1], environment.rgb[3 * i + 2]};
+  }
+  return texels == 0 ? sum : sum / static_cast<double>(texels);
+}
+
+}  // namespace lanelight

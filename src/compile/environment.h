@@ -1,0 +1,21 @@
+// Environment images as the kernels look them up and sample them.
+#pragma once
+
+#include "src/image/image.h"
+#include "src/compiled/scene.h"
+#include "src/scene/description.h"
+
+namespace lanelight {
+
+/// Reads the image of an infinite light and compiles it. Throws InputError at the light's
+/// place: a missing or unreadable file, an image that is not square, values that are not
+/// finite, a transform that is not a rotation (or mirroring) and uniform scale.
+Environment CompileEnvironment(const Light& light);
+
+/// The same for an image in memory. `probability` is empty if the image is black.
+Environment CompileEnvironment(const Light& light, const Image& image);
+
+/// Mean radiance over the sphere.
+Rgb MeanRadiance(const Environment& environment);
+
+}  // namespace lanelight

@@ -1,0 +1,141 @@
+#include "src/compile/features.h"
+
+#include <algorithm>
+
+#include "src/core/check.h"
+#include "src/compile/quadrics.h"
+
+namespace lanelight {
+namespace {
+
+Feature FeatureOf(ShadeKind kind) {
+  switch (kind) {
+#define X(name)         \
+  case ShadeKind::name: \
+    return Feature::name;
+    LANELIGHT_SHADE_KINDS(X)
+#undef X
+    case ShadeKind::kMix:
+      return Feature::kMix;
+  }
+  LL_CHECK(!"unknown kind of material");
+  return Feature::kCount;
+}
+
+bool HasRoughness(ShadeKind kind) {
+  return kind == ShadeKind::kConductorRough || kind == ShadeKind::kDielectricRough ||
+         kind == ShadeKind::kCoatedDiffuseRough || kind == ShadeKind::kCoatedConductor;
+}
+
+bool HasColor1(ShadeKind kind) {
+  return kind == ShadeKind::kConductorSmooth || kind == ShadeKind::kConductorRough ||
+         kind == ShadeKind::kCoatedConductor || kind == ShadeKind::kDiffuseTransmission;
+}
+
+bool IsSpecular(ShadeKind kind) {
+  return kind == ShadeKind::kConductorSmooth || kind == ShadeKind::kDielectricSmooth ||
+         kind == ShadeKind::kThinDielectric;
+}
+
+void AddRoughness(const MaterialTable& m, std::size_t i, FeatureSet& features) {
+  const bool textured = m.alpha_x_texture[i] >= 0 || m.alpha_y_texture[i] >= 0;
+  if (textured) {
+    features.Add(Feature::kTextures);
+    features.Add(Feature::kTexturedRoughness);
+    features.Add(Feature::kUv);
+  }
+  const bool anisotropic = m.alpha_x_texture[i] != m.alpha_y_texture[i] ||
+                           (m.alpha_x_texture[i] < 0 && m.alpha_x[i] != m.alpha_y[i]) ||
+                           m.alpha2_x[i] != m.alpha2_y[i];
+  if (anisotropic) features.Add(Feature::kTangents);
+}
+
+void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
+  const auto kind = static_cast<ShadeKind>(m.kind[i]);
+  features.Add(FeatureOf(kind));
+  if (HasColor1(kind)) features.Add(Feature::kColor1);
+  if (kind == ShadeKind::kDielectricSmooth || kind == ShadeKind::kDielectricRough) {
+    features.Add(Feature::kRefraction);
+  }
+  if (HasRoughness(kind)) AddRoughness(m, i, features);
+  if (m.color0_texture[i] >= 0 || m.color1_texture[i] >= 0) {
+    features.Add(Feature::kTextures);
+    features.Add(Feature::kUv);
+  }
+  if (m.color1_texture[i] >= 0) features.Add(Feature::kTexturedColor1);
+  // A mix weight is looked up by the mix stage itself.
+  if (kind == ShadeKind::kMix && m.alpha_x_texture[i] >= 0) features.Add(Feature::kUv);
+}
+
+void AddAlpha(const std::vector<PlacedShape>& shapes, FeatureSet& features) {
+  for (const PlacedShape& shape : shapes) {
+    if (!IsAlphaTested(shape)) continue;
+    features.Add(Feature::kAlpha);
+    if (shape.alpha.texture != kNone) features.Add(Feature::kUv);
+  }
+}
+
+void AddLights(const LightTable& lights, FeatureSet& features) {
+  static constexpr Feature kShapes[] = {
+      Feature::kTriangleLights,   Feature::kSphereLights, Feature::kDiskLights,
+      Feature::kPointLights,      Feature::kSpotLights,   Feature::kDistantLights,
+      Feature::kInfiniteConstant, Feature::kInfiniteImage};
+  for (const LightRecord& light : lights.lights) features.Add(kShapes[light.shape]);
+  if (!lights.lights.empty()) features.Add(Feature::kLights);
+  if (lights.lights.size() > 1) features.Add(Feature::kManyLights);
+  if (!lights.infinite.empty()) features.Add(Feature::kInfiniteLights);
+  if (features.HasAny(
+          {Feature::kTriangleLights, Feature::kSphereLights, Feature::kDiskLights})) {
+    features.Add(Feature::kAreaLights);
+  }
+}
+
+bool HasNonSpecular(const MaterialTable& materials) {
+  return std::any_of(materials.kind.begin(), materials.kind.end(), [](std::uint32_t k) {
+    const auto kind = static_cast<ShadeKind>(k);
+    return kind != ShadeKind::kMix && !IsSpecular(kind);
+  });
+}
+
+bool HasNegative(const AlignedVector<float>& signs) {
+  return std::any_of(signs.begin(), signs.end(), [](float s) { return s < 0; });
+}
+
+}  // namespace
+
+FeatureSet MaterialFeatures(const MaterialTable& materials, const Placement& placement) {
+  FeatureSet features;
+  for (std::size_t i = 0; i < materials.size(); ++i) AddMaterial(materials, i, features);
+  AddAlpha(placement.meshes, features);
+  AddAlpha(placement.spheres, features);
+  AddAlpha(placement.disks, features);
+  AddAlpha(placement.planes, features);
+  for (const PlacedObject& object : placement.objects) AddAlpha(object.meshes, features);
+  return features;
+}
+
+FeatureSet SceneFeatures(const CompiledScene& scene) {
+  FeatureSet features = scene.features;
+  const Geometry& g = scene.geometry;
+  if (!g.triangles.empty()) features.Add(Feature::kTriangles);
+  if (!g.spheres.empty()) features.Add(Feature::kSpheres);
+  if (!g.disks.empty()) features.Add(Feature::kDisks);
+  if (!g.planes.empty()) features.Add(Feature::kPlanes);
+  if (!g.instances.empty()) features.Add(Feature::kInstances);
+  if (!g.normals.empty()) features.Add(Feature::kVertexNormals);
+  AddLights(scene.lights, features);
+  if (features.HasAny({Feature::kAreaLights, Feature::kInfiniteLights}) &&
+      HasNonSpecular(scene.materials)) {
+    features.Add(Feature::kMis);
+  }
+  if (scene.camera.lens_radius > 0) features.Add(Feature::kLens);
+  if (scene.camera.kind == CameraKind::kOrthographic)
+    features.Add(Feature::kOrthographic);
+  if (!scene.filter.is_box) features.Add(Feature::kFiltered);
+  if (HasNegative(scene.filter.x_sign) || HasNegative(scene.filter.y_sign)) {
+    features.Add(Feature::kSignedFilter);
+  }
+  return features;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,19 @@
+// Lights: one record per emitting primitive and per light of the file, the table to pick
+// one, and the light index of every emitting primitive.
+#pragma once
+
+#include "src/compile/compile.h"
+#include "src/compile/geometry.h"
+#include "src/compile/placement.h"
+#include "src/compiled/scene.h"
+#include "src/scene/description.h"
+
+namespace lanelight {
+
+/// Sets the `light` of emitting records in `geometry` too. Lights without power get no
+/// record. Probabilities are left to UseStrategy (src/prepare/use_strategy.h). Throws
+/// InputError at the directive for images and transforms that cannot be used.
+LightTable CompileLights(const SceneDescription& description, const Placement& placement,
+                         CompiledGeometry& geometry);
+
+}  // namespace lanelight

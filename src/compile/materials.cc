@@ -1,0 +1,273 @@
+#include "src/compile/materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "src/core/check.h"
+#include "src/compile/material_row.h"
+#include "src/compile/textures.h"
+
+namespace lanelight {
+namespace {
+
+// pbrt-v4: below this a microfacet surface is a smooth one.
+constexpr double kSmoothAlpha = 1e-3;
+// Reflectance of a metal that is given as a colour: k of 1 would be infinite.
+constexpr double kMaxMetalReflectance = 0.9999;
+
+class Builder {
+ public:
+  Builder(const SceneDescription& d, const CompileOptions& options)
+      : d_(d), options_(options), index_(d.materials.size(), -1) {}
+
+  std::int32_t Add(Index material);
+  CompiledMaterials Finish();
+
+ private:
+  MaterialRow MakeRow(const Material& m);
+  void Diffuse(const Material& m, MaterialRow& row);
+  void Metal(const Material& m, double eta_above, MaterialRow& row);
+  void Interface(const Material& m, MaterialRow& row);
+  void CoatOf(const Material& m, MaterialRow& row);
+  std::int32_t Mix(const Material& m);
+  std::int32_t Push(MaterialRow row);
+  ColorValue Color(const ColorValue& v) const { return FoldConstant(d_.textures, v); }
+  ColorValue Reflectance(const ColorValue& v) const;
+
+  const SceneDescription& d_;
+  const CompileOptions& options_;
+  std::vector<std::int32_t> index_;
+  std::vector<MaterialRow> rows_;
+  std::map<Coat, std::int32_t> coats_;
+};
+
+bool IsTextured(const ColorValue& v) { return v.texture != kNone; }
+bool IsTextured(const FloatValue& v) { return v.texture != kNone; }
+
+bool IsSmooth(const MaterialRow& row) {
+  return !IsTextured(row.alpha_x) && !IsTextured(row.alpha_y) &&
+         std::max(row.alpha_x.constant, row.alpha_y.constant) < kSmoothAlpha;
+}
+
+[[noreturn]] void Unsupported(const Material& m, const std::string& what) {
+  throw InputError(m.where,
+                   (m.name.empty() ? "" : "material \"" + m.name + "\": ") + what);
+}
+
+Rgb Clamped(Rgb c, double largest) {
+  const Rgb zero, top = {largest, largest, largest};
+  return Min(Max(c, zero), top);
+}
+
+// pbrt clamps constant reflectances too.
+ColorValue Builder::Reflectance(const ColorValue& v) const {
+  ColorValue color = Color(v);
+  if (!IsTextured(color)) color.constant = Clamped(color.constant, 1);
+  return color;
+}
+
+void Builder::Diffuse(const Material& m, MaterialRow& row) {
+  switch (options_.scattering.value_or(m.scattering)) {
+    case Scattering::kLambertian:
+      row.kind = ShadeKind::kDiffuse;
+      break;
+    case Scattering::kUniform:
+      row.kind = ShadeKind::kDiffuseUniform;
+      break;
+    case Scattering::kInSphere:
+      row.kind = ShadeKind::kDiffuseInSphere;
+      break;
+  }
+  row.color0 = Reflectance(m.reflectance);
+}
+
+// Index and extinction relative to `eta_above`.
+void Builder::Metal(const Material& m, double eta_above, MaterialRow& row) {
+  if (m.has_reflectance) {
+    const ColorValue reflectance = Color(m.reflectance);
+    if (IsTextured(reflectance)) {
+      Unsupported(m,
+                  "a textured \"reflectance\" of a conductor is not supported; give a "
+                  "constant reflectance, or \"eta\" and \"k\"");
+    }
+    const Rgb r = Clamped(reflectance.constant, kMaxMetalReflectance);
+    const auto k = [](double x) { return 2 * std::sqrt(x / (1 - x)); };
+    row.color0 = {{1, 1, 1}, kNone};
+    row.color1 = {{k(r.x), k(r.y), k(r.z)}, kNone};
+  } else {
+    row.color0 = Color(m.eta);
+    row.color1 = Color(m.k);
+    if (IsTextured(row.color0) || IsTextured(row.color1)) {
+      Unsupported(m, "textured \"eta\" or \"k\" are not supported; give constants");
+    }
+  }
+  row.color0.constant *= 1 / eta_above;
+  row.color1.constant *= 1 / eta_above;
+}
+
+FloatValue Alpha(const std::vector<Texture>& textures, const FloatValue& v, bool remap) {
+  FloatValue alpha = FoldConstant(textures, v);
+  if (!IsTextured(alpha)) alpha.constant = AlphaOfRoughness(alpha.constant, remap);
+  return alpha;
+}
+
+void Builder::Interface(const Material& m, MaterialRow& row) {
+  row.alpha_x = Alpha(d_.textures, m.uroughness, m.remap_roughness);
+  row.alpha_y = Alpha(d_.textures, m.vroughness, m.remap_roughness);
+  row.remap = m.remap_roughness;
+  row.eta = m.interface_eta;
+}
+
+void CheckEta(const Material& m) {
+  if (m.interface_eta > 0 && std::isfinite(m.interface_eta)) return;
+  Unsupported(
+      m, fmt::format("index of refraction {}; it must be positive", m.interface_eta));
+}
+
+void Builder::CoatOf(const Material& m, MaterialRow& row) {
+  CheckEta(m);
+  if (m.coat_albedo != Rgb{}) {
+    Unsupported(m, fmt::format("a scattering medium inside the coat (albedo {} {} {}) is "
+                               "not supported; supported are clear coats, albedo 0",
+                               m.coat_albedo.x, m.coat_albedo.y, m.coat_albedo.z));
+  }
+  Interface(m, row);
+  if (IsTextured(row.alpha_x) || IsTextured(row.alpha_y)) {
+    Unsupported(m, "a textured roughness of a coat is not supported; give a constant");
+  }
+  const double alpha = IsSmooth(row)
+                           ? 0
+                           : std::sqrt(std::max(row.alpha_x.constant, kMinAlpha) *
+                                       std::max(row.alpha_y.constant, kMinAlpha));
+  const auto next = static_cast<std::int32_t>(coats_.size());
+  row.coat =
+      coats_.try_emplace({alpha, m.interface_eta, m.thickness}, next).first->second;
+  row.coat_thickness = m.thickness;
+  row.coat_depth = static_cast<std::uint32_t>(m.coat_max_depth);
+}
+
+MaterialRow Builder::MakeRow(const Material& m) {
+  MaterialRow row;
+  switch (m.kind) {
+    case MaterialKind::kDiffuse:
+      Diffuse(m, row);
+      break;
+    case MaterialKind::kConductor:
+      Interface(m, row);
+      row.eta = 1;
+      Metal(m, 1, row);
+      row.kind = IsSmooth(row) ? ShadeKind::kConductorSmooth : ShadeKind::kConductorRough;
+      break;
+    case MaterialKind::kDielectric:
+      CheckEta(m);
+      Interface(m, row);
+      // Equal indices on both sides: nothing to see, whatever the roughness (as pbrt).
+      row.kind = IsSmooth(row) || row.eta == 1 ? ShadeKind::kDielectricSmooth
+                                               : ShadeKind::kDielectricRough;
+      break;
+    case MaterialKind::kThinDielectric:
+      CheckEta(m);
+      row.eta = m.interface_eta;
+      row.kind = ShadeKind::kThinDielectric;
+      break;
+    case MaterialKind::kCoatedDiffuse:
+      CoatOf(m, row);
+      row.color0 = Reflectance(m.reflectance);
+      row.kind = IsSmooth(row) ? ShadeKind::kCoatedDiffuseSmooth
+                               : ShadeKind::kCoatedDiffuseRough;
+      break;
+    case MaterialKind::kCoatedConductor: {
+      CoatOf(m, row);
+      Metal(m, m.interface_eta, row);
+      const FloatValue x = Alpha(d_.textures, m.conductor_uroughness, m.remap_roughness);
+      const FloatValue y = Alpha(d_.textures, m.conductor_vroughness, m.remap_roughness);
+      if (IsTextured(x) || IsTextured(y)) {
+        Unsupported(m,
+                    "a textured roughness of a metal below a coat is not supported; "
+                    "give a constant");
+      }
+      row.alpha2_x = x.constant;
+      row.alpha2_y = y.constant;
+      row.kind = ShadeKind::kCoatedConductor;
+      break;
+    }
+    case MaterialKind::kDiffuseTransmission:
+      row.color0 = Reflectance(m.reflectance);
+      row.color1 = Reflectance(m.transmittance);
+      if (IsTextured(row.color1)) {
+        Unsupported(m, "a textured \"transmittance\" is not supported; give a constant");
+      }
+      row.kind = ShadeKind::kDiffuseTransmission;
+      break;
+    case MaterialKind::kMix:
+    case MaterialKind::kInterface:
+      LL_CHECK(!"mixes and interfaces have no row of this form");
+  }
+  return row;
+}
+
+std::int32_t Builder::Mix(const Material& m) {
+  for (Index side : m.mix) {
+    LL_CHECK_GE(side, 0);
+    LL_CHECK_LT(static_cast<std::size_t>(side), d_.materials.size());
+    if (d_.materials[static_cast<std::size_t>(side)].kind == MaterialKind::kInterface) {
+      Unsupported(m,
+                  "mixing with an \"interface\" material is not supported; for a "
+                  "cut-out use the shape's \"alpha\" parameter");
+    }
+  }
+  MaterialRow row;
+  row.kind = ShadeKind::kMix;
+  row.name = m.name;
+  row.alpha_x = FoldConstant(d_.textures, m.mix_amount);
+  if (!IsTextured(row.alpha_x)) {
+    if (row.alpha_x.constant <= 0) return Add(m.mix[0]);
+    if (row.alpha_x.constant >= 1) return Add(m.mix[1]);
+  }
+  row.mix[0] = Add(m.mix[0]);
+  row.mix[1] = Add(m.mix[1]);
+  return Push(std::move(row));
+}
+
+std::int32_t Builder::Push(MaterialRow row) {
+  rows_.push_back(std::move(row));
+  return static_cast<std::int32_t>(rows_.size()) - 1;
+}
+
+std::int32_t Builder::Add(Index material) {
+  LL_CHECK_GE(material, 0);
+  LL_CHECK_LT(static_cast<std::size_t>(material), d_.materials.size());
+  std::int32_t& index = index_[static_cast<std::size_t>(material)];
+  if (index >= 0) return index;
+  const Material& m = d_.materials[static_cast<std::size_t>(material)];
+  if (m.kind == MaterialKind::kMix) return index = Mix(m);
+  MaterialRow row = MakeRow(m);
+  row.name = m.name;
+  return index = Push(std::move(row));
+}
+
+CompiledMaterials Builder::Finish() {
+  CompiledMaterials out;
+  out.index = index_;
+  for (const MaterialRow& row : rows_) AddMaterialRow(row, out);
+  AddCoatTables(coats_, out.table);
+  return out;
+}
+
+}  // namespace
+
+double AlphaOfRoughness(double roughness, bool remap) {
+  return remap ? std::sqrt(std::max(roughness, 0.0)) : roughness;
+}
+
+CompiledMaterials CompileMaterials(const SceneDescription& description,
+                                   const std::vector<Index>& used,
+                                   const CompileOptions& options) {
+  Builder builder(description, options);
+  for (Index material : used) builder.Add(material);
+  return builder.Finish();
+}
+
+}  // namespace lanelight

@@ -1,0 +1,208 @@
+#include "src/compile/placement.h"
+
+#include <optional>
+
+#include "src/core/check.h"
+#include "src/core/parallel.h"
+#include "src/compile/textures.h"
+
+namespace lanelight {
+namespace {
+
+bool IsMaterial(const SceneDescription& d, const Shape& shape, MaterialKind kind) {
+  LL_CHECK_GE(shape.material, 0);
+  LL_CHECK_LT(static_cast<std::size_t>(shape.material), d.materials.size());
+  return d.materials[static_cast<std::size_t>(shape.material)].kind == kind;
+}
+
+void CheckTransform(const Transform& t, const SourceLocation& where, const char* of) {
+  if (!t.IsInvertible()) {
+    throw InputError(where,
+                     fmt::format("the transform of this {} cannot be inverted "
+                                 "(a scale of zero, or numbers out of range); only "
+                                 "invertible transforms are supported",
+                                 of));
+  }
+  if (t(3, 0) != 0 || t(3, 1) != 0 || t(3, 2) != 0 || t(3, 3) != 1) {
+    throw InputError(where,
+                     fmt::format("the transform of this {} is projective (last row "
+                                 "{} {} {} {}); only affine transforms are "
+                                 "supported",
+                                 of, t(3, 0), t(3, 1), t(3, 2), t(3, 3)));
+  }
+}
+
+Index EmittingLight(const SceneDescription& d, const Shape& shape) {
+  if (shape.area_light == kNone) return kNone;
+  LL_CHECK_LT(static_cast<std::size_t>(shape.area_light), d.area_lights.size());
+  const auto& light = d.area_lights[static_cast<std::size_t>(shape.area_light)];
+  return Emits(light) ? shape.area_light : kNone;
+}
+
+void CheckEmitter(const SceneDescription& d, const Shape& shape,
+                  const FloatValue& alpha) {
+  const SourceLocation& where = shape.where;
+  if (IsMaterial(d, shape, MaterialKind::kInterface)) {
+    throw InputError(where,
+                     "an area light on a shape with material \"interface\" is not "
+                     "supported; give the shape another material (a diffuse one with "
+                     "reflectance 0 emits and does not scatter)");
+  }
+  if (shape.kind == ShapeKind::kPlane) {
+    throw InputError(where,
+                     "an infinite plane cannot be an area light; supported are "
+                     "trianglemesh, plymesh, bilinearmesh, sphere and disk");
+  }
+  if (alpha.texture == kNone && alpha.constant <= 0) {
+    throw InputError(where,
+                     "an area light on a shape with alpha 0 (an invisible light) is not "
+                     "supported; use a point, spot or distant light");
+  }
+}
+
+// The shape as it will be compiled, or nothing if it cannot be seen.
+std::optional<PlacedShape> Place(const SceneDescription& d, const Shape& shape,
+                                 const Transform* instance) {
+  PlacedShape placed;
+  placed.shape = &shape;
+  placed.alpha = FoldConstant(d.textures, shape.alpha);
+  placed.area_light = EmittingLight(d, shape);
+  if (placed.area_light != kNone) CheckEmitter(d, shape, placed.alpha);
+  if (IsMaterial(d, shape, MaterialKind::kInterface)) return std::nullopt;
+  if (placed.alpha.texture == kNone && placed.alpha.constant <= 0) return std::nullopt;
+  CheckTransform(shape.world_from_object, shape.where, "shape");
+  placed.transform =
+      instance ? *instance * shape.world_from_object : shape.world_from_object;
+  placed.flip = shape.reverse_orientation != shape.world_from_object.SwapsHandedness();
+  return placed;
+}
+
+void AddToWorld(const PlacedShape& placed, Placement& placement) {
+  switch (placed.shape->kind) {
+    case ShapeKind::kMesh:
+      placement.meshes.push_back(placed);
+      break;
+    case ShapeKind::kSphere:
+      placement.spheres.push_back(placed);
+      break;
+    case ShapeKind::kDisk:
+      placement.disks.push_back(placed);
+      break;
+    case ShapeKind::kPlane:
+      placement.planes.push_back(placed);
+      break;
+  }
+}
+
+bool StaysInObject(const SceneDescription& d, const Shape& shape) {
+  return shape.kind == ShapeKind::kMesh && EmittingLight(d, shape) == kNone;
+}
+
+Box ShapeBox(const PlacedShape& placed) {
+  const Shape& shape = *placed.shape;
+  Box box;
+  if (shape.kind == ShapeKind::kMesh) {
+    LL_CHECK(shape.mesh != nullptr);
+    for (std::uint32_t i : shape.mesh->indices) {
+      LL_CHECK_LT(i, shape.mesh->positions.size());
+      box.Add(placed.transform.Point(shape.mesh->positions[i]));
+    }
+    return box;
+  }
+  if (shape.kind == ShapeKind::kPlane) return box;
+  const double r = shape.radius;
+  const double z = shape.kind == ShapeKind::kSphere ? r : 0;
+  const double h = shape.kind == ShapeKind::kSphere ? 0 : shape.height;
+  box.Add(Vec3d{-r, -r, h - z});
+  box.Add(Vec3d{r, r, h + z});
+  // The box of the box: larger than need be, but its centre is exact.
+  return box.Transformed(placed.transform);
+}
+
+Box UnionOfBoxes(const std::vector<PlacedShape>& shapes) {
+  std::vector<Box> boxes(shapes.size());
+  ParallelFor(shapes.size(), [&](std::size_t i) { boxes[i] = ShapeBox(shapes[i]); });
+  Box all;
+  for (const Box& box : boxes) all.Add(box);
+  return all;
+}
+
+// Nothing but infinite planes: what the camera has to do with them sets the size.
+Box FallbackBox(const SceneDescription& d, const Placement& placement) {
+  Box box;
+  const Vec3d eye = d.camera.world_from_camera.Point({0, 0, 0});
+  box.Add(eye);
+  for (const Light& light : d.lights) {
+    if (light.kind != LightKind::kPoint && light.kind != LightKind::kSpot) continue;
+    box.Add(light.world_from_light.Point(light.from));
+  }
+  for (const PlacedShape& plane : placement.planes) {
+    const Vec3d n = Normalize(plane.transform.Normal({0, 0, 1}));
+    box.Add(eye - n * Dot(eye - plane.transform.Point({0, 0, 0}), n));
+  }
+  return box;
+}
+
+void CopyIntoWorld(const SceneDescription& d, const ObjectDefinition& object,
+                   const Transform& world_from_object, Placement& placement) {
+  for (const Shape& shape : object.shapes) {
+    if (StaysInObject(d, shape)) continue;
+    if (const auto p = Place(d, shape, &world_from_object)) AddToWorld(*p, placement);
+  }
+}
+
+PlacedObject PlaceObject(const SceneDescription& d, const ObjectDefinition& object) {
+  PlacedObject placed;
+  for (const Shape& shape : object.shapes) {
+    if (!StaysInObject(d, shape)) continue;
+    if (const auto p = Place(d, shape, nullptr)) placed.meshes.push_back(*p);
+  }
+  placed.bounds = UnionOfBoxes(placed.meshes);
+  placed.frame = FrameOf(placed.bounds);
+  return placed;
+}
+
+void PlaceInstances(const SceneDescription& d, Placement& placement) {
+  constexpr std::size_t kNotYet = ~std::size_t{0}, kNothing = kNotYet - 1;
+  std::vector<std::size_t> placed_as(d.objects.size(), kNotYet);
+  for (const Instance& instance : d.instances) {
+    LL_CHECK_GE(instance.object, 0);
+    LL_CHECK_LT(static_cast<std::size_t>(instance.object), d.objects.size());
+    CheckTransform(instance.world_from_object, instance.where, "instance");
+    const ObjectDefinition& object = d.objects[static_cast<std::size_t>(instance.object)];
+    CopyIntoWorld(d, object, instance.world_from_object, placement);
+    std::size_t& at = placed_as[static_cast<std::size_t>(instance.object)];
+    if (at == kNotYet) {
+      PlacedObject placed = PlaceObject(d, object);
+      at = placed.bounds.empty() ? kNothing : placement.objects.size();
+      if (at != kNothing) placement.objects.push_back(std::move(placed));
+    }
+    if (at == kNothing) continue;
+    placement.instances.push_back({at, instance.world_from_object});
+    placement.bounds.Add(
+        placement.objects[at].bounds.Transformed(instance.world_from_object));
+  }
+}
+
+}  // namespace
+
+bool Emits(const AreaLight& light) {
+  const Rgb l = light.radiance * light.scale;
+  return l.x > 0 || l.y > 0 || l.z > 0;
+}
+
+Placement PlaceShapes(const SceneDescription& d) {
+  Placement placement;
+  for (const Shape& shape : d.shapes) {
+    if (const auto p = Place(d, shape, nullptr)) AddToWorld(*p, placement);
+  }
+  PlaceInstances(d, placement);
+  placement.bounds.Add(UnionOfBoxes(placement.meshes));
+  placement.bounds.Add(UnionOfBoxes(placement.spheres));
+  placement.bounds.Add(UnionOfBoxes(placement.disks));
+  if (placement.bounds.empty()) placement.bounds = FallbackBox(d, placement);
+  placement.frame = FrameOf(placement.bounds);
+  return placement;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,57 @@
+// Which shapes a scene really has and where they stand: shapes that cannot be seen are
+// left out, instances of what cannot be instanced are copied into the world, and what the
+// renderer cannot represent is an InputError at the directive that asked for it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/compile/frame.h"
+#include "src/scene/description.h"
+
+namespace lanelight {
+
+/// A shape and the coordinates it is compiled into (the world, or those of its object).
+struct PlacedShape {
+  const Shape* shape = nullptr;
+  Transform transform;         // those coordinates from the shape's own
+  bool flip = false;           // quadrics: the normal is turned round (see below)
+  Index area_light = kNone;    // only if it emits anything
+  FloatValue alpha{1, kNone};  // constant textures folded
+};
+
+/// Meshes of an object definition that is instanced, in object coordinates.
+struct PlacedObject {
+  std::vector<PlacedShape> meshes;
+  Box bounds;
+  Frame frame;  // of those bounds
+};
+
+struct PlacedInstance {
+  std::size_t object = 0;  // index into Placement::objects
+  Transform world_from_object;
+};
+
+// Orientation. For quadrics pbrt-v4 turns the parametric normal round if
+// ReverseOrientation XOR the shape's own transform mirrors; the transform of an instance
+// carries that normal along and never turns it. Hence `flip` is decided by the shape's
+// own transform, also for copies made of instanced shapes. (For meshes see
+// compile_geometry.h: there only the product of the transforms matters.)
+struct Placement {
+  std::vector<PlacedShape> meshes, spheres, disks, planes;  // in the world
+  std::vector<PlacedObject> objects;
+  std::vector<PlacedInstance> instances;
+  Frame frame;  // of the scene
+  Box bounds;   // of the finite geometry in the world; if there is none, of the camera,
+                // the lights with a position, and the camera's foot on each plane
+};
+
+/// Meshes, spheres and disks that emit are sampled as lights, which needs world
+/// coordinates; spheres, disks and planes have no instanced form: both kinds are copied
+/// into the world once per instance.
+Placement PlaceShapes(const SceneDescription& description);
+
+/// True if the light emits: some component of its radiance is positive.
+bool Emits(const AreaLight& light);
+
+}  // namespace lanelight

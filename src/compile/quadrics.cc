@@ -1,0 +1,112 @@
+#include "src/compile/quadrics.h"
+
+#include <cmath>
+
+#include "src/core/error.h"
+
+namespace lanelight {
+namespace {
+
+void Store(Vec3d v, float out[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+}
+
+std::uint32_t Flags(const PlacedShape& placed) {
+  return IsAlphaTested(placed) ? kAlphaTested : 0;
+}
+
+void CheckRadius(const Shape& shape, const char* kind) {
+  if (shape.radius > 0 && std::isfinite(shape.radius)) return;
+  throw InputError(
+      shape.where,
+      fmt::format("{} of radius {}; the radius must be positive", kind, shape.radius));
+}
+
+// Relative error that hand-written matrices are forgiven.
+constexpr double kTolerance = 1e-5;
+
+}  // namespace
+
+bool IsAlphaTested(const PlacedShape& placed) {
+  return placed.alpha.texture != kNone || placed.alpha.constant < 1;
+}
+
+SphereRecord CompileSphere(const PlacedShape& placed, const Frame& frame,
+                           std::uint32_t material) {
+  const Shape& shape = *placed.shape;
+  CheckRadius(shape, "a sphere");
+  const Transform t = frame.After(placed.transform);
+  const double s = t.UniformScale();
+  if (!(s > 0)) {
+    throw InputError(shape.where,
+                     "a sphere under a transform that is not rotation, translation, "
+                     "mirroring and uniform scale (an ellipsoid) is not supported; use a "
+                     "trianglemesh or plymesh");
+  }
+  SphereRecord record{};
+  Store(t.Point({0, 0, 0}), record.center);
+  record.radius = static_cast<float>(shape.radius * s);
+  record.material = material;
+  record.light = -1;
+  record.flags = Flags(placed);
+  record.normal_sign = placed.flip ? -1.0f : 1.0f;
+  Store(Normalize(t.Vector({1, 0, 0})), record.x_axis);
+  Store(Normalize(t.Vector({0, 0, 1})), record.z_axis);
+  record.y_sign = t.SwapsHandedness() ? -1.0f : 1.0f;
+  return record;
+}
+
+DiskRecord CompileDisk(const PlacedShape& placed, const Frame& frame,
+                       std::uint32_t material) {
+  const Shape& shape = *placed.shape;
+  CheckRadius(shape, "a disk");
+  if (!(shape.inner_radius >= 0 && shape.inner_radius < shape.radius)) {
+    throw InputError(shape.where,
+                     fmt::format("a disk of inner radius {}; it must be at least 0 and "
+                                 "less than the radius {}",
+                                 shape.inner_radius, shape.radius));
+  }
+  const Transform t = frame.After(placed.transform);
+  const Vec3d x = t.Vector({1, 0, 0}), y = t.Vector({0, 1, 0});
+  const double s = Length(x);
+  if (std::abs(Length(y) - s) > kTolerance * s ||
+      std::abs(Dot(x, y)) > kTolerance * s * s) {
+    throw InputError(
+        shape.where,
+        "a disk under a transform that makes it an ellipse is not supported; "
+        "use a trianglemesh or plymesh");
+  }
+  const Vec3d n = Normalize(t.Normal({0, 0, 1})) * (placed.flip ? -1.0 : 1.0);
+  DiskRecord record{};
+  Store(t.Point({0, 0, shape.height}), record.center);
+  record.radius = static_cast<float>(shape.radius * s);
+  record.inner_radius = static_cast<float>(shape.inner_radius * s);
+  Store(n, record.normal);
+  Store(x / s, record.u_axis);
+  record.v_sign = Dot(Cross(n, x), y) < 0 ? -1.0f : 1.0f;
+  record.material = material;
+  record.light = -1;
+  record.flags = Flags(placed);
+  return record;
+}
+
+PlaneRecord CompilePlane(const PlacedShape& placed, const Frame& frame,
+                         std::uint32_t material, bool keep_uv) {
+  const Transform t = frame.After(placed.transform);
+  const Vec3d x = t.Vector({1, 0, 0}), y = t.Vector({0, 1, 0});
+  const Vec3d n = Normalize(t.Normal({0, 0, 1})) * (placed.flip ? -1.0 : 1.0);
+  const Vec3d origin = t.Point({0, 0, 0});
+  // Dual basis within the plane: dot(a x + b y, u) = a, dot(a x + b y, v) = b.
+  const Vec3d across_y = Cross(y, n), across_x = Cross(n, x);
+  PlaneRecord record{};
+  Store(keep_uv ? origin : n * Dot(origin, n), record.point);
+  Store(n, record.normal);
+  Store(across_y / Dot(across_y, x), record.u_axis);
+  Store(across_x / Dot(across_x, y), record.v_axis);
+  record.material = material;
+  record.light = -1;
+  record.flags = Flags(placed);
+  return record;
+}
+
+}  // namespace lanelight

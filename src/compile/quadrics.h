@@ -1,0 +1,26 @@
+// Spheres, disks and planes to records.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/compile/placement.h"
+#include "src/compiled/scene.h"
+
+namespace lanelight {
+
+/// Throw InputError if the transform does not keep the shape (an ellipsoid, an elliptic
+/// disk) or a radius is not positive. Lights are left at -1.
+SphereRecord CompileSphere(const PlacedShape& placed, const Frame& frame,
+                           std::uint32_t material);
+DiskRecord CompileDisk(const PlacedShape& placed, const Frame& frame,
+                       std::uint32_t material);
+/// With `keep_uv` the record's point is the object-space origin, from which uv count;
+/// otherwise the point of the plane nearest to the scene's centre, for precision.
+PlaneRecord CompilePlane(const PlacedShape& placed, const Frame& frame,
+                         std::uint32_t material, bool keep_uv);
+
+/// True if hits must be tested against the shape's alpha.
+bool IsAlphaTested(const PlacedShape& placed);
+
+}  // namespace lanelight

@@ -1,0 +1,93 @@
+// Lights as the kernels read them, and the tables they are chosen by.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/core/aligned.h"
+
+namespace lanelight {
+
+enum class LightShape : std::uint32_t {
+  kTriangle,
+  kSphere,
+  kDisk,
+  kPoint,
+  kSpot,
+  kDistant,
+  kInfiniteConstant,
+  kInfiniteImage
+};
+
+/// Light record: 20 words.
+struct LightRecord {
+  std::uint32_t shape;       // LightShape
+  std::uint32_t two_sided;   // 0 or 1
+  float pmf;                 // probability of being selected
+  float area;                // scene units; 0 for lights without area
+  float radiance[3];         // radiance; point/spot: intensity in scene units (W/sr times
+                             // scale^2); distant: irradiance on a facing surface
+  std::uint32_t primitive;   // id of the emitting primitive
+  float position[3];         // point, spot
+  std::int32_t environment;  // index into LightTable::environments, or -1
+  float direction[3];        // spot: axis, pointing away from the light; distant: unit,
+                             // pointing TOWARD the light
+  std::int32_t instance;     // of the emitting primitive, -1 (emitters in instances are
+                             // copied into the world at compile)
+  float cos_total, cos_falloff;  // spot
+  float pad[2];
+};
+static_assert(sizeof(LightRecord) == 80);
+
+/// Environment image: size x size equal-area octahedral map (Clarberg 2008; pbrt-v4).
+/// Texel probabilities are proportional to luminance; pdf_sa = p * size^2 / (4 pi).
+/// Looked up without interpolation, as pbrt does. Sampled by inverting the cumulative
+/// distributions of row and column, which keeps the stratification of the sample points.
+struct Environment {
+  std::int32_t size = 0;
+  AlignedVector<float> rgb;          // 3 per texel, row by row, scaled
+  AlignedVector<float> row_cdf;      // size + 1
+  AlignedVector<float> column_cdf;   // size + 1 per row
+  AlignedVector<float> probability;  // per texel, sums to 1
+  // Where to look in a distribution for u in [k, k + 1) / 2^guide_bits: from entry k of
+  // its guide, the largest step with a value of at most k / 2^guide_bits, to entry k + 1.
+  std::int32_t guide_bits = 0;
+  AlignedVector<std::int32_t> row_guide;     // 2^guide_bits + 1
+  AlignedVector<std::int32_t> column_guide;  // 2^guide_bits + 1 per row
+  float light_from_scene[9];                 // rotation, row-major
+};
+
+/// Node of a tree of lights, 16 words. The two children of an inner node are neighbours.
+/// Light leaves `axis` within acos(cos_axis), and from there within a right angle.
+struct LightNode {
+  float low[3];
+  std::int32_t child;  // first of two children; ~light for a leaf
+  float high[3];
+  float power;  // of all lights below
+  float axis[3];
+  float cos_axis;  // half angle of the normals' cone; -1 = all directions
+  std::int32_t parent;
+  std::uint32_t pad[3];
+};
+static_assert(sizeof(LightNode) == 64);
+
+/// Tree over the lights that have a place (not environments and distant lights, of which
+/// each is selected with `pmf_far`).
+struct LightTree {
+  AlignedVector<LightNode> nodes;              // root first; empty = no light has a place
+  AlignedVector<std::int32_t> primitive_leaf;  // leaf of each primitive; -1 = dark
+  AlignedVector<std::uint32_t> far;            // lights without a place
+  float pmf_far = 0;                           // of each of those
+};
+
+struct LightTable {
+  AlignedVector<LightRecord> lights;
+  std::vector<double> power;           // of each light, raised to a least share
+  AlignedVector<float> alias_q;        // Walker-Vose table over lights: with u*n = i + f,
+  AlignedVector<std::uint32_t> alias;  // pick i if f < alias_q[i], else alias[i]
+  std::vector<Environment> environments;
+  std::vector<std::uint32_t> infinite;  // indices of lights that escaped rays see
+  LightTree tree;                       // light-selection=tree only
+};
+
+}  // namespace lanelight

@@ -1,0 +1,43 @@
+// The scene as the kernels read it: flat float32 arrays, recentred and scaled by a power
+// of two (p_scene = (p_world - center) * scale), built once by CompileScene
+// (src/compile/compile.h).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/accel/accel.h"
+#include "src/compiled/camera.h"
+#include "src/compiled/lights.h"
+#include "src/compiled/materials.h"
+#include "src/compiled/texture_table.h"
+#include "src/core/aligned.h"
+#include "src/core/vec.h"
+#include "src/geometry/geometry.h"
+#include "src/path/features.h"
+#include "src/scene/description.h"
+
+namespace lanelight {
+
+struct CompiledScene {
+  Vec3d center;         // world position of the scene origin
+  double scale = 1;     // power of two, scene units per world unit
+  FeatureSet features;  // what the scene contains (options may add or remove more)
+  Geometry geometry;
+  Accel accel;
+  MaterialTable materials;
+  TextureTable textures;
+  /// Per primitive, only with kAlpha: texture of the alpha cut-out or -1, and constant.
+  AlignedVector<std::int32_t> alpha_texture;
+  AlignedVector<float> alpha_constant;
+  LightTable lights;
+  CompiledCamera camera;
+  CompiledFilter filter;
+  Film film;
+  Sampler sampler;
+  Integrator integrator;
+  Strategy strategy;        // what UseStrategy has prepared the light tables for
+  std::vector<Note> notes;  // what compiling left out, such as degenerate triangles
+};
+
+}  // namespace lanelight

@@ -1,0 +1,55 @@
+// Textures as the kernels read them. A texture is a short program: its nodes in an order
+// in which every operand is computed before it is used, each node once, so that
+// evaluation is a loop without recursion and a node shared by two others costs once.
+// Children that are constant are folded into their parents.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/core/aligned.h"
+#include "src/scene/description.h"
+
+namespace lanelight {
+
+/// Nodes that one texture may have after constants are folded; more is an InputError.
+inline constexpr int kMaxTextureNodes = 32;
+
+/// 8-bit images keep their bytes: one 32-bit word per texel, R in the low byte, and a
+/// decode table of 256 entries; float images have three floats per texel. Row 0 is the
+/// top. Images of float textures hold the one value of a texel three times.
+struct TextureImage {
+  std::int32_t width = 0, height = 0;
+  AlignedVector<std::uint32_t> rgba8;  // width * height, or empty
+  AlignedVector<float> rgb;            // 3 * width * height, or empty
+  std::int32_t decode = 0;             // offset into TextureTable::decode (8-bit images)
+};
+
+/// One node. An operand >= 0 is the value of that earlier node of the same program;
+/// -1 is the constant beside it.
+struct TextureNode {
+  TextureKind kind = TextureKind::kConstant;
+  std::int32_t operand[3] = {-1, -1, -1};  // tex1, tex2, amount
+  float constant[3][3] = {};               // of tex1 (kConstant: the value), tex2, amount
+  float su = 1, sv = 1, du = 0, dv = 0;    // uv mapping
+  std::int32_t image = -1;                 // kImage: index into TextureTable::images
+  WrapMode wrap = WrapMode::kRepeat;
+  bool bilinear = true;
+  bool invert = false;  // max(0, 1 - scale * texel)
+  float scale = 1;
+};
+
+/// The nodes [begin, begin + count) of TextureTable::nodes; the last one is the result.
+struct TextureProgram {
+  std::int32_t begin = 0, count = 0;
+};
+
+struct TextureTable {
+  std::vector<TextureProgram> programs;  // one per texture of the description
+  std::vector<TextureNode> nodes;
+  std::vector<TextureImage> images;  // each file once per use
+  AlignedVector<float> decode;       // 256 linear values per encoding in use
+  std::size_t size() const { return programs.size(); }
+};
+
+}  // namespace lanelight

@@ -1,0 +1,226 @@
+#include "src/estimate/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "src/core/check.h"
+#include "src/core/parallel.h"
+#include "src/stat/distributions.h"
+
+namespace lanelight {
+namespace {
+
+constexpr int kReach = 1;  // neighbourhood: 3 x 3 pixels
+
+double Weight(double mean) { return 1 / (mean * mean + kRelativeEpsilon); }
+
+// Sums over pixels, of shares t of the error.
+struct Shares {
+  double sum = 0, squares = 0, by_freedom = 0;
+
+  // `share`: for the sum; `steady`: the same without excess, for the rest.
+  void Add(double share, double steady, double freedom) {
+    sum += share;
+    // E[s^4] = sigma^4 (G + 1) / (G - 1) for normal groups.
+    const double square = steady * steady * freedom / (freedom + 2);
+    squares += square;
+    by_freedom += square / freedom;
+    steady_sum += steady;
+  }
+  void Add(const Shares& other) {
+    sum += other.sum;
+    squares += other.squares;
+    by_freedom += other.by_freedom;
+    steady_sum += other.steady_sum;
+  }
+  // The excess is small and unbiased; where there is little else it may win.
+  double Total() const { return sum > 0 ? sum : steady_sum; }
+  double K1() const { return squares > 0 ? SquaredSum() / squares : 1; }
+  double K2() const { return squares > 0 ? SquaredSum() / by_freedom : 1; }
+
+  double steady_sum = 0;
+
+ private:
+  // Of (sum of true shares)^2: the estimate's own variance is taken off.
+  double SquaredSum() const {
+    return std::max(squares, steady_sum * steady_sum - 2 * by_freedom);
+  }
+};
+
+struct Sums {
+  Shares square, relative;
+  double plain = 0;  // relative error, divided by the means as they are
+  std::uint64_t pixels = 0;
+
+  void Add(const PixelEstimate& p, const Rgb& prior_mean) {
+    double square = 0, square_steady = 0, relative = 0, relative_steady = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double v = p.variance[c], with_excess = v + p.excess[c];
+      const double weight = Weight(prior_mean[c]);
+      square += with_excess / 3;
+      square_steady += v / 3;
+      relative += with_excess * weight / 3;
+      relative_steady += v * weight / 3;
+      plain += v * Weight(p.mean[c]) / 3;
+    }
+    this->square.Add(square, square_steady, p.freedom);
+    this->relative.Add(relative, relative_steady, p.freedom);
+    ++pixels;
+  }
+  void Add(const Sums& other) {
+    square.Add(other.square);
+    relative.Add(other.relative);
+    plain += other.plain;
+    pixels += other.pixels;
+  }
+};
+
+// The pixels of an image, and what their neighbours say of them.
+class PixelGrid {
+ public:
+  PixelGrid(int width, int height, const std::function<PixelEstimate(int, int)>& pixel)
+      : width_(width), height_(height), pixels_(Count()), neighbours_(Count()) {
+    ForRows([&](int y) {
+      for (int x = 0; x < width_; ++x) pixels_[Index(x, y)] = pixel(x, y);
+    });
+    ForRows([&](int y) {
+      for (int x = 0; x < width_; ++x) neighbours_[Index(x, y)] = MeanAround(x, y);
+    });
+  }
+
+  // In the order of the rows, so that it is the same for any number of threads.
+  Sums Total() const {
+    std::vector<Sums> rows(static_cast<std::size_t>(height_));
+    ForRows([&](int y) {
+      for (int x = 0; x < width_; ++x) {
+        const PixelEstimate& p = pixels_[Index(x, y)];
+        if (p.known) rows[static_cast<std::size_t>(y)].Add(p, Shrunk(x, y));
+      }
+    });
+    Sums total;
+    for (const Sums& row : rows) total.Add(row);
+    return total;
+  }
+
+ private:
+  std::size_t Count() const {
+    return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  }
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+  template <class Body>
+  void ForRows(const Body& body) const {
+    ParallelFor(static_cast<std::size_t>(height_),
+                [&](std::size_t y) { body(static_cast<int>(y)); });
+  }
+  // Calls body(index) for the known pixels around (x, y), itself included.
+  template <class Body>
+  void ForWindow(int x, int y, const Body& body) const {
+    const int x1 = std::min(width_ - 1, x + kReach),
+              y1 = std::min(height_ - 1, y + kReach);
+    for (int b = std::max(0, y - kReach); b <= y1; ++b) {
+      for (int a = std::max(0, x - kReach); a <= x1; ++a) {
+        if (pixels_[Index(a, b)].known) body(Index(a, b));
+      }
+    }
+  }
+
+  // Without the pixel itself; its own mean if it stands alone.
+  Rgb MeanAround(int x, int y) const {
+    const std::size_t self = Index(x, y);
+    Rgb sum;
+    double count = 0;
+    ForWindow(x, y, [&](std::size_t i) {
+      if (i == self) return;
+      sum += pixels_[i].mean;
+      ++count;
+    });
+    return count > 0 ? sum / count : pixels_[self].mean;
+  }
+
+  Rgb Shrunk(int x, int y) const {
+    const PixelEstimate& p = pixels_[Index(x, y)];
+    const Rgb& around = neighbours_[Index(x, y)];
+    Rgb spread;
+    double count = 0;
+    ForWindow(x, y, [&](std::size_t i) {
+      for (int c = 0; c < 3; ++c) {
+        const double d = pixels_[i].mean[c] - neighbours_[i][c];
+        spread[c] += d * d - pixels_[i].variance[c];
+      }
+      ++count;
+    });
+    Rgb out;
+    for (int c = 0; c < 3; ++c) {
+      const double v = p.variance[c], a = std::max(0.0, spread[c] / count);
+      out[c] = v > 0 ? (a * p.mean[c] + v * around[c]) / (a + v) : p.mean[c];
+    }
+    return out;
+  }
+
+  int width_, height_;
+  std::vector<PixelEstimate> pixels_;
+  std::vector<Rgb> neighbours_;
+};
+
+Interval SquareRoot(const Interval& v) {
+  return {std::sqrt(v.value), std::sqrt(v.low), std::sqrt(v.high)};
+}
+
+// What the choice of the weights may be wrong by, as a half width in log(relmse).
+double WeightDoubt(const Sums& sums) {
+  const double shrunk = sums.relative.steady_sum;
+  if (!(shrunk > 0) || !(sums.plain > 0)) return 0;
+  return std::hypot(kWeightDoubt * std::log(shrunk / sums.plain), kLeastDoubt);
+}
+
+}  // namespace
+
+Interval ErrorInterval(double estimate, double k1, double k2, double doubt) {
+  LL_CHECK_GE(estimate, 0.0);
+  if (estimate == 0) return {0, 0, 0};
+  constexpr double kTail = (1 - kEstimateConfidence) / 2;
+  // Beyond these bounds nothing is left to widen, and FQuantile has its range.
+  k1 = std::clamp(k1, 1.0, 1e9);
+  k2 = std::clamp(k2, 1.0, 1e9);
+  const double low = std::log(stat::FQuantile(kTail, k1, k2));
+  const double high = std::log(stat::FQuantile(1 - kTail, k1, k2));
+  // The median of F is near 1, so both logarithms have their expected sign.
+  return {estimate, estimate * std::exp(-std::hypot(std::min(low, 0.0), doubt)),
+          estimate * std::exp(std::hypot(std::max(high, 0.0), doubt))};
+}
+
+ErrorEstimate EstimateError(int width, int height,
+                            const std::function<PixelEstimate(int, int)>& pixel) {
+  const Sums sums = PixelGrid(width, height, pixel).Total();
+  ErrorEstimate out;
+  out.pixels = sums.pixels;
+  out.available = out.has_interval = sums.pixels > 0;
+  if (!out.available) return out;
+  const double n = static_cast<double>(sums.pixels);
+  out.effective_pixels = sums.relative.Total() > 0 ? sums.relative.K1() : n;
+  out.rmse = SquareRoot(
+      ErrorInterval(sums.square.Total() / n, sums.square.K1(), sums.square.K2()));
+  out.relmse = ErrorInterval(sums.relative.Total() / n, sums.relative.K1(),
+                             sums.relative.K2(), WeightDoubt(sums));
+  return out;
+}
+
+ErrorEstimate EstimateError(const FilmAccumulator& film) {
+  return EstimateError(film.width(), film.height(), [&film](int x, int y) {
+    const int px = film.x0() + x, py = film.y0() + y;
+    PixelEstimate p;
+    p.known = film.HasVariance(px, py);
+    if (!p.known) return p;
+    p.mean = film.Mean(px, py);
+    p.variance = film.Variance(px, py);
+    p.excess = film.OpenGroupExcess(px, py);
+    p.freedom = static_cast<double>(film.Groups(px, py) - 1);
+    return p;
+  });
+}
+
+}  // namespace lanelight

@@ -1,0 +1,108 @@
+// Shapes as the kernels read them: float32 records in scene space, recentred and scaled by
+// a power of two (p_scene = (p_world - center) * scale).
+//
+// Per-primitive data are fixed-size records, because a shading kernel gathers many words
+// of one primitive: a record is one or two cache lines, while one array per word would
+// touch a line per word.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/core/aligned.h"
+#include "src/core/vec.h"
+
+namespace lanelight {
+
+// A primitive id counts triangles first, then spheres, disks, planes.
+/// No primitive: where a path that has not met a surface yet comes from.
+inline constexpr std::uint32_t kNoPrimitive = 0xffffffffu;
+
+struct PrimitiveRanges {
+  std::uint32_t spheres = 0, disks = 0, planes = 0, end = 0;  // first id of each; end
+};
+
+/// Triangle record: 12 words. Wound so that cross(p1-p0, p2-p0) is the surface normal
+/// (ReverseOrientation and mirroring transforms are already applied; uv and normals are
+/// permuted alike). Triangles of object definitions are in object space.
+struct TriangleRecord {
+  float p[3][3];
+  std::uint32_t material;
+  std::int32_t light;   // index into LightTable::lights, -1 = not emitting
+  std::uint32_t flags;  // kAlphaTested: bit 0
+};
+static_assert(sizeof(TriangleRecord) == 48);
+inline constexpr std::uint32_t kAlphaTested = 1;
+
+/// Sphere record: 16 words. `normal_sign` -1: normal points inward (ReverseOrientation).
+struct SphereRecord {
+  float center[3];
+  float radius;
+  std::uint32_t material;
+  std::int32_t light;
+  std::uint32_t flags;
+  float normal_sign;
+  float x_axis[3],
+      z_axis[3];  // object axes in scene space, unit, for uv; y = cross(z, x)*
+  float y_sign;   // *times y_sign (mirrored transforms)
+  std::uint32_t pad;
+};
+static_assert(sizeof(SphereRecord) == 64);
+
+/// Disk record: 16 words.
+struct DiskRecord {
+  float center[3];
+  float radius;
+  float normal[3];  // unit, on the emitting side
+  float inner_radius;
+  float u_axis[3];  // unit, object x; v axis = v_sign * cross(normal, u_axis)
+  std::uint32_t material;
+  std::int32_t light;
+  std::uint32_t flags;
+  float v_sign;
+  std::uint32_t pad;
+};
+static_assert(sizeof(DiskRecord) == 64);
+
+/// Infinite plane record: 16 words. uv = (dot(p - point, u_axis), dot(p - point,
+/// v_axis)), axes scaled so that uv are object-space x and y.
+struct PlaneRecord {
+  float point[3];
+  std::uint32_t material;
+  float normal[3];
+  std::int32_t light;  // always -1: an infinite plane cannot emit
+  float u_axis[3];
+  std::uint32_t flags;
+  float v_axis[3];
+  std::uint32_t pad;
+};
+static_assert(sizeof(PlaneRecord) == 64);
+
+/// Instance record: 24 words, row-major 3x4 affine maps.
+struct InstanceRecord {
+  float object_from_scene[12];
+  float scene_from_object[12];
+};
+
+struct Geometry {
+  PrimitiveRanges ranges;
+  AlignedVector<TriangleRecord> triangles;
+  AlignedVector<float>
+      normals;               // 9 per triangle (3 vertices); empty without kVertexNormals.
+                             // Unit; triangles without normals hold their face normal.
+  AlignedVector<float> uvs;  // 6 per triangle; empty without kUv and kTangents
+  AlignedVector<SphereRecord> spheres;
+  AlignedVector<DiskRecord> disks;
+  AlignedVector<PlaneRecord> planes;
+  AlignedVector<InstanceRecord> instances;
+  /// Triangle ranges that form one acceleration structure each: [0] is the world (may be
+  /// empty), the others are object definitions.
+  struct TriangleGroup {
+    std::uint32_t begin = 0, end = 0;
+  };
+  std::vector<TriangleGroup> groups;
+  std::vector<std::uint32_t> instance_group;  // group of each instance
+  Vec3f bounds_min, bounds_max;               // of everything finite, scene space
+};
+
+}  // namespace lanelight

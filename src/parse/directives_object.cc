@@ -1,0 +1,182 @@
+#include "src/parse/directives.h"
+#include "src/parse/interpret.h"
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+struct TypedObject {
+  std::string type;
+  ParamSet params;
+};
+
+// Reads "type" and parameters; the type's own place is where errors about it point.
+TypedObject ReadObject(ParseState& state, Statement& statement, const char* kind,
+                       std::shared_ptr<const ParamList> inherited = nullptr) {
+  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
+  std::string type = statement.String();
+  ParamList own = ReadParams(statement.lexer, state.graphics.color_space);
+  ParamSet params(fmt::format("{} {}", kind, Quoted(type)), where, std::move(own),
+                  std::move(inherited), &state.scene.notes);
+  return {std::move(type), std::move(params)};
+}
+
+}  // namespace
+
+void RunCamera(ParseState& state, Statement& statement) {
+  TypedObject object = ReadObject(state, statement, "camera");
+  InterpretCamera(state, object.type, object.params);
+}
+
+void RunFilm(ParseState& state, Statement& statement) {
+  TypedObject object = ReadObject(state, statement, "film");
+  InterpretFilm(state, object.type, object.params);
+}
+
+void RunPixelFilter(ParseState& state, Statement& statement) {
+  TypedObject object = ReadObject(state, statement, "pixel filter");
+  InterpretFilter(state, object.type, object.params);
+}
+
+void RunSampler(ParseState& state, Statement& statement) {
+  TypedObject object = ReadObject(state, statement, "sampler");
+  InterpretSampler(state, object.type, object.params);
+}
+
+void RunIntegrator(ParseState& state, Statement& statement) {
+  TypedObject object = ReadObject(state, statement, "integrator");
+  InterpretIntegrator(state, object.type, object.params);
+}
+
+void RunAccelerator(ParseState& state, Statement& statement) {
+  const TypedObject object = ReadObject(state, statement, "accelerator");
+  state.AddNote(statement.where(), "Accelerator has no effect: there is one kind");
+}
+
+// `Option "name" value` or `Option "type name" value`.
+void RunOption(ParseState& state, Statement& statement) {
+  static const std::vector<std::string> kOptions = {"disablepixeljitter",
+                                                    "disabletexturefiltering",
+                                                    "disablewavelengthjitter",
+                                                    "displacementedgescale",
+                                                    "forcediffuse",
+                                                    "msereferenceimage",
+                                                    "msereferenceout",
+                                                    "pixelstats",
+                                                    "rendercoordsys",
+                                                    "seed",
+                                                    "stats",
+                                                    "wavefront"};
+  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
+  std::string name = statement.String();
+  name = name.substr(name.find_last_of(' ') + 1);
+  const Token value = statement.lexer.Next();
+  if (std::find(kOptions.begin(), kOptions.end(), name) == kOptions.end()) {
+    ThrowUnknown(where, "option", name, kOptions);
+  }
+  const bool fits = value.kind == TokenKind::kNumber ||
+                    value.kind == TokenKind::kString || value.text == "true" ||
+                    value.text == "false";
+  if (!fits) {
+    throw InputError(
+        statement.lexer.Where(value),
+        fmt::format("found {} as the value of option {}; it takes a number, a "
+                    "string, true or false",
+                    value.Describe(), Quoted(name)));
+  }
+  if (name != "seed") {
+    state.AddNote(where, fmt::format("option {} has no effect", Quoted(name)));
+    return;
+  }
+  if (value.kind != TokenKind::kNumber || value.number < 0 ||
+      value.number > 4294967295.0 ||
+      value.number != static_cast<double>(static_cast<std::uint64_t>(value.number))) {
+    throw InputError(statement.lexer.Where(value),
+                     "option \"seed\" takes an integer from 0 to 4294967295");
+  }
+  state.scene.sampler.seed = static_cast<std::uint64_t>(value.number);
+}
+
+void RunMaterial(ParseState& state, Statement& statement) {
+  TypedObject object = ReadObject(state, statement, "material",
+                                  state.Inherited(AttributeTarget::kMaterial));
+  state.graphics.material = InterpretMaterial(state, "", object.type, object.params);
+}
+
+void RunMakeNamedMaterial(ParseState& state, Statement& statement) {
+  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
+  const std::string name = statement.String();
+  ParamList own = ReadParams(statement.lexer, state.graphics.color_space);
+  if (state.materials.contains(name)) {
+    throw InputError(where, fmt::format("material {} is defined twice", Quoted(name)));
+  }
+  ParamSet params(fmt::format("material {}", Quoted(name)), where, std::move(own),
+                  state.Inherited(AttributeTarget::kMaterial), &state.scene.notes);
+  const std::string type = params.String("type", "");
+  if (params.Find("type", {}) == nullptr) {
+    throw InputError(where,
+                     fmt::format("material {} has no \"string type\"", Quoted(name)));
+  }
+  state.materials[name] = InterpretMaterial(state, name, type, params);
+}
+
+void RunNamedMaterial(ParseState& state, Statement& statement) {
+  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
+  const std::string name = statement.String();
+  const auto it = state.materials.find(name);
+  if (it == state.materials.end()) {
+    ThrowUnknown(where, "named material", name, Names(state.materials));
+  }
+  state.graphics.material = it->second;
+}
+
+void RunTexture(ParseState& state, Statement& statement) {
+  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
+  const std::string name = statement.String();
+  const SourceLocation value_where = statement.lexer.Where(statement.lexer.Peek());
+  const std::string value = statement.String();
+  TypedObject object =
+      ReadObject(state, statement, "texture", state.Inherited(AttributeTarget::kTexture));
+  if (value != "float" && value != "spectrum") {
+    ThrowUnknown(value_where, "value type of a texture:", value, {"float", "spectrum"});
+  }
+  const bool is_float = value == "float";
+  auto& names = is_float ? state.float_textures : state.color_textures;
+  if (names.contains(name)) {
+    throw InputError(where,
+                     fmt::format("{} texture {} is defined twice", value, Quoted(name)));
+  }
+  InterpretTexture(state, name, is_float, object.type, object.params);
+}
+
+void RunLightSource(ParseState& state, Statement& statement) {
+  TypedObject object =
+      ReadObject(state, statement, "light", state.Inherited(AttributeTarget::kLight));
+  InterpretLight(state, object.type, object.params);
+}
+
+void RunAreaLightSource(ParseState& state, Statement& statement) {
+  TypedObject object = ReadObject(state, statement, "area light",
+                                  state.Inherited(AttributeTarget::kLight));
+  state.graphics.area_light = InterpretAreaLight(state, object.type, object.params);
+}
+
+void RunShape(ParseState& state, Statement& statement) {
+  TypedObject object =
+      ReadObject(state, statement, "shape", state.Inherited(AttributeTarget::kShape));
+  InterpretShape(state, object.type, object.params);
+}
+
+void RunMakeNamedMedium(ParseState& state, Statement& statement) {
+  const TypedObject object = ReadObject(state, statement, "medium");
+  state.Unsupported(statement.where(), "MakeNamedMedium: media are not supported");
+}
+
+void RunMediumInterface(ParseState& state, Statement& statement) {
+  std::string media = statement.String();
+  if (statement.lexer.Peek().kind == TokenKind::kString) media += statement.String();
+  if (media.empty()) return;  // vacuum on both sides
+  state.Unsupported(statement.where(), "MediumInterface: media are not supported");
+}
+
+}  // namespace lanelight

@@ -1,0 +1,174 @@
+#include "src/parse/directives.h"
+#include "src/parse/interpret.h"
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+constexpr std::size_t kDeepestNesting = 1000;
+
+const char* BeginName(ScopeKind kind) {
+  switch (kind) {
+    case ScopeKind::kAttribute:
+      return "AttributeBegin";
+    case ScopeKind::kTransform:
+      return "TransformBegin";
+    case ScopeKind::kObject:
+      return "ObjectBegin";
+    default:
+      return "Import";
+  }
+}
+
+void Push(ParseState& state, const Statement& statement, ScopeKind kind) {
+  if (state.scopes.size() >= kDeepestNesting) {
+    throw InputError(statement.where(),
+                     fmt::format("blocks are nested more than {} deep", kDeepestNesting));
+  }
+  state.scopes.push_back({kind, statement.where(), state.graphics});
+}
+
+// Removes the innermost scope, which must be of this kind.
+GraphicsState Pop(ParseState& state, const Statement& statement, ScopeKind kind) {
+  if (state.scopes.empty() || state.scopes.back().kind == ScopeKind::kImport) {
+    throw InputError(statement.where(),
+                     fmt::format("{} without {}", statement.token.text, BeginName(kind)));
+  }
+  const Scope& scope = state.scopes.back();
+  if (scope.kind != kind) {
+    throw InputError(statement.where(),
+                     fmt::format("{} inside the {} of {}", statement.token.text,
+                                 BeginName(scope.kind), scope.where.ToString()));
+  }
+  GraphicsState saved = std::move(state.scopes.back().saved);
+  state.scopes.pop_back();
+  return saved;
+}
+
+SourceLocation NextPlace(Statement& statement) {
+  return statement.lexer.Where(statement.lexer.Peek());
+}
+
+}  // namespace
+
+void RunWorldBegin(ParseState& state, Statement&) {
+  state.in_world = true;
+  state.graphics.ctm = Transform();
+  state.graphics.transforms_active = true;
+  state.coordinate_systems["world"] = Transform();
+}
+
+void RunAttributeBegin(ParseState& state, Statement& statement) {
+  Push(state, statement, ScopeKind::kAttribute);
+}
+
+void RunAttributeEnd(ParseState& state, Statement& statement) {
+  state.graphics = Pop(state, statement, ScopeKind::kAttribute);
+}
+
+void RunTransformBegin(ParseState& state, Statement& statement) {
+  Push(state, statement, ScopeKind::kTransform);
+}
+
+void RunTransformEnd(ParseState& state, Statement& statement) {
+  state.graphics.ctm = Pop(state, statement, ScopeKind::kTransform).ctm;
+}
+
+void RunObjectBegin(ParseState& state, Statement& statement) {
+  const SourceLocation where = NextPlace(statement);
+  const std::string name = statement.String();
+  if (state.open_object != kNone) {
+    throw InputError(
+        statement.where(),
+        fmt::format("ObjectBegin inside the definition of object {}; objects "
+                    "do not nest",
+                    Quoted(state.scene.objects.back().name)));
+  }
+  const Index index = static_cast<Index>(state.scene.objects.size());
+  if (!state.objects.emplace(name, index).second) {
+    throw InputError(where, fmt::format("object {} is defined twice", Quoted(name)));
+  }
+  Push(state, statement, ScopeKind::kObject);
+  state.scene.objects.push_back({name, {}});
+  state.open_object = index;
+}
+
+void RunObjectEnd(ParseState& state, Statement& statement) {
+  state.graphics = Pop(state, statement, ScopeKind::kObject);
+  state.open_object = kNone;
+}
+
+void RunObjectInstance(ParseState& state, Statement& statement) {
+  const SourceLocation where = NextPlace(statement);
+  const std::string name = statement.String();
+  if (state.open_object != kNone) {
+    throw InputError(statement.where(),
+                     "ObjectInstance inside an object definition; "
+                     "instances do not nest");
+  }
+  const auto it = state.objects.find(name);
+  if (it == state.objects.end()) {
+    ThrowUnknown(where, "object", name, Names(state.objects));
+  }
+  // A shape of the object lands at (transform here) * (transform at its Shape directive).
+  state.scene.instances.push_back({it->second, state.graphics.ctm, statement.where()});
+}
+
+void RunInclude(ParseState& state, Statement& statement) {
+  const SourceLocation where = NextPlace(statement);
+  RunFile(state, ResolvePath(state, statement.String()), where);
+}
+
+// Like Include, but changes to the graphics state end with the file.
+void RunImport(ParseState& state, Statement& statement) {
+  const SourceLocation where = NextPlace(statement);
+  const std::string path = ResolvePath(state, statement.String());
+  Push(state, statement, ScopeKind::kImport);
+  RunFile(state, path, where);
+  const Scope& scope = state.scopes.back();
+  if (scope.kind != ScopeKind::kImport) {
+    throw InputError(scope.where, fmt::format("this {} has no end in the imported file",
+                                              BeginName(scope.kind)));
+  }
+  state.graphics = std::move(state.scopes.back().saved);
+  state.scopes.pop_back();
+}
+
+void RunAttribute(ParseState& state, Statement& statement) {
+  static const std::vector<std::string> kTargets = {"shape", "light", "material",
+                                                    "medium", "texture"};
+  const SourceLocation where = NextPlace(statement);
+  const std::string name = statement.String();
+  int target = 0;
+  while (target < kAttributeTargets && kTargets[target] != name) ++target;
+  if (target == kAttributeTargets) {
+    ThrowUnknown(where, "target of Attribute:", name, kTargets);
+  }
+  const ParamList added = ReadParams(statement.lexer, state.graphics.color_space);
+  auto& current = state.graphics.attributes[target];
+  // Scopes share the list until it changes.
+  auto list =
+      current ? std::make_shared<ParamList>(*current) : std::make_shared<ParamList>();
+  for (const Param& param : added) {
+    std::erase_if(*list, [&](const Param& old) { return old.name == param.name; });
+    list->push_back(param);
+  }
+  current = std::move(list);
+}
+
+void RunReverseOrientation(ParseState& state, Statement&) {
+  state.graphics.reverse_orientation = !state.graphics.reverse_orientation;
+}
+
+void RunColorSpace(ParseState& state, Statement& statement) {
+  static const std::vector<std::string> kSpaces = {"srgb", "dci-p3", "rec2020",
+                                                   "aces2065-1"};
+  const SourceLocation where = NextPlace(statement);
+  const std::string name = statement.String();
+  if (std::find(kSpaces.begin(), kSpaces.end(), name) == kSpaces.end()) {
+    ThrowUnknown(where, "color space", name, kSpaces);
+  }
+  state.graphics.color_space = name;
+}
+
+}  // namespace lanelight

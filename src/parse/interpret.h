@@ -1,0 +1,69 @@
+// Parameters to objects of the scene description, one file per concept. Each function
+// takes the type name and a ParamSet, checks ranges, and ends with CheckAllUsed(), so an
+// unknown parameter is always reported.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "src/image/spectrum.h"
+#include "src/parse/params.h"
+#include "src/parse/parse_state.h"
+
+namespace lanelight {
+
+// interpret_color.cc ----------------------------------------------------------------
+/// Linear sRGB of an rgb, spectrum or blackbody parameter. Colours outside sRGB's gamut
+/// are clamped to non-negative, with a note.
+Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
+            SpectrumUse use);
+/// A colour without texture: of a light, say.
+Rgb PlainColor(ParseState& state, ParamSet& params, std::string_view name, Rgb absent,
+               SpectrumUse use);
+/// A colour or the index of a spectrum texture.
+ColorValue TexturedColor(ParseState& state, ParamSet& params, std::string_view name,
+                         Rgb absent, SpectrumUse use);
+/// A number of at least `low` and at most `high`, or the index of a float texture.
+FloatValue TexturedFloat(ParseState& state, ParamSet& params, std::string_view name,
+                         double absent, double low, double high);
+
+// interpret_spectrum.cc -------------------------------------------------------------
+/// (wavelength in nm, value) samples of a spectrum parameter with numbers or of the .spd
+/// file that it names. Wavelengths increase, values are not negative.
+struct SpectrumSamples {
+  std::vector<double> wavelengths, values;
+};
+SpectrumSamples SamplesOf(const ParseState& state, const ParamSet& params,
+                          const Param& param);
+/// Index of refraction of a dielectric as one number: float, named glass, or a sampled
+/// spectrum at 587.6 nm (dispersion is not modelled, which is noted).
+double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
+                     double absent);
+/// Index of refraction of a conductor, `<prefix>eta` and `<prefix>k`; copper by default.
+void ConductorIor(ParseState& state, ParamSet& params, const std::string& prefix,
+                  ColorValue* eta, ColorValue* k);
+
+// One per concept -------------------------------------------------------------------
+void InterpretCamera(ParseState& state, const std::string& type, ParamSet& params);
+void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params);
+void InterpretFilter(ParseState& state, const std::string& type, ParamSet& params);
+void InterpretSampler(ParseState& state, const std::string& type, ParamSet& params);
+void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& params);
+
+/// Appends the material and returns its index.
+Index InterpretMaterial(ParseState& state, const std::string& name,
+                        const std::string& type, ParamSet& params);
+/// Appends the texture `name`.
+void InterpretTexture(ParseState& state, const std::string& name, bool is_float,
+                      const std::string& type, ParamSet& params);
+void InterpretLight(ParseState& state, const std::string& type, ParamSet& params);
+/// Appends the area light and returns its index, or kNone if it is skipped.
+Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& params);
+/// Appends the shape to the scene or the open object definition.
+void InterpretShape(ParseState& state, const std::string& type, ParamSet& params);
+
+// interpret_mesh.cc -----------------------------------------------------------------
+std::shared_ptr<const TriangleMesh> InterpretTriangleMesh(ParamSet& params);
+std::shared_ptr<const TriangleMesh> InterpretBilinearMesh(ParamSet& params);
+
+}  // namespace lanelight

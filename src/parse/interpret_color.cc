@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <limits>
+
+#include "src/parse/interpret.h"
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+constexpr double kHottest = 1e6;  // kelvin
+
+// Calls `convert`; its InputErrors, which know no place, get that of the parameter.
+template <typename Fn>
+Rgb At(const ParamSet& params, const Param& param, const Fn& convert) {
+  try {
+    return convert();
+  } catch (const InputError& error) {
+    std::string message = error.what();
+    const std::string prefix = "error: ";
+    if (message.starts_with(prefix)) message = message.substr(prefix.size());
+    params.Fail(param, message);
+  }
+}
+
+Rgb RgbOf(const ParamSet& params, const Param& param, SpectrumUse use) {
+  for (double value : param.numbers) {
+    if (value < 0) params.Fail(param, fmt::format("the component {} is negative", value));
+    if (use == SpectrumUse::kAlbedo && value > 1) {
+      params.Fail(param,
+                  fmt::format("the component {} of a reflectance is above 1", value));
+    }
+  }
+  const Rgb rgb = {param.numbers[0], param.numbers[1], param.numbers[2]};
+  if (param.color_space == "srgb") return rgb;
+  return At(params, param, [&] { return ToSrgb(param.color_space, rgb); });
+}
+
+Rgb BlackbodyOf(const ParamSet& params, const Param& param, SpectrumUse use) {
+  const double kelvin = param.numbers[0];
+  if (use != SpectrumUse::kIlluminant) params.Fail(param, "blackbody is for lights only");
+  if (!(kelvin >= 100 && kelvin <= kHottest)) {
+    params.Fail(param, fmt::format("the temperature {} is outside 100 to {} kelvin",
+                                   kelvin, kHottest));
+  }
+  return RgbFromBlackbody(kelvin);
+}
+
+Index FindTexture(const ParamSet& params, const Param& param,
+                  const std::map<std::string, Index>& same,
+                  const std::map<std::string, Index>& other, const char* kind) {
+  const std::string& name = param.strings[0];
+  const auto it = same.find(name);
+  if (it != same.end()) return it->second;
+  if (other.contains(name)) {
+    params.Fail(param, fmt::format("texture {} is not a {} texture", Quoted(name), kind));
+  }
+  ThrowUnknown(param.where, fmt::format("{} texture", kind), name, Names(same));
+}
+
+}  // namespace
+
+Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
+            SpectrumUse use) {
+  Rgb color;
+  if (param.type == ParamType::kRgb) {
+    color = RgbOf(params, param, use);
+  } else if (param.type == ParamType::kBlackbody) {
+    color = BlackbodyOf(params, param, use);
+  } else if (param.strings.empty() || !NamedSpectrum(param.strings[0], use, &color)) {
+    const SpectrumSamples samples = SamplesOf(state, params, param);
+    color = At(params, param,
+               [&] { return RgbFromSamples(samples.wavelengths, samples.values, use); });
+  }
+  if (color.x < 0 || color.y < 0 || color.z < 0) {
+    state.AddNote(param.where,
+                  "colour outside the sRGB gamut: negative components become 0");
+    color = Max(color, Rgb{});
+  }
+  return color;
+}
+
+Rgb PlainColor(ParseState& state, ParamSet& params, std::string_view name, Rgb absent,
+               SpectrumUse use) {
+  const Param* param =
+      params.Find(name, {ParamType::kRgb, ParamType::kSpectrum, ParamType::kBlackbody});
+  return param == nullptr ? absent : ColorOf(state, params, *param, use);
+}
+
+ColorValue TexturedColor(ParseState& state, ParamSet& params, std::string_view name,
+                         Rgb absent, SpectrumUse use) {
+  const Param* param = params.Find(name, {ParamType::kRgb, ParamType::kSpectrum,
+                                          ParamType::kTexture, ParamType::kBlackbody});
+  if (param == nullptr) return {absent, kNone};
+  if (param->type != ParamType::kTexture)
+    return {ColorOf(state, params, *param, use), kNone};
+  return {absent, FindTexture(params, *param, state.color_textures, state.float_textures,
+                              "spectrum")};
+}
+
+FloatValue TexturedFloat(ParseState& state, ParamSet& params, std::string_view name,
+                         double absent, double low, double high) {
+  const Param* param = params.Find(name, {ParamType::kFloat, ParamType::kTexture});
+  if (param == nullptr) return {absent, kNone};
+  if (param->type == ParamType::kFloat)
+    return {params.Float(name, absent, low, high), kNone};
+  return {absent, FindTexture(params, *param, state.float_textures, state.color_textures,
+                              "float")};
+}
+
+}  // namespace lanelight

@@ -1,0 +1,159 @@
+// Lights. Every scale of the file ends up in the emission, so nothing later needs to know
+// how it was stated (formulas: pbrt-v4's light descriptions).
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "src/parse/interpret.h"
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+constexpr double kHuge = 1e30;
+constexpr Rgb kWhite = {1, 1, 1};
+constexpr double kPi = std::numbers::pi;
+
+double Radians(double degrees) { return degrees * (kPi / 180); }
+
+// A target such as "power"; 0 or less means not given, as in pbrt.
+double Target(ParamSet& params, const char* name) {
+  return params.Float(name, -1, -1, kHuge);
+}
+
+void ReadDirection(ParamSet& params, Light* light) {
+  light->from = params.Point3("from", {0, 0, 0});
+  light->to = params.Point3("to", {0, 0, 1});
+  const Vec3d d = light->to - light->from;
+  const double length = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+  if (!(length > 0) || !std::isfinite(length)) {
+    throw InputError(params.where(), params.object() +
+                                         " has no direction: \"from\" and "
+                                         "\"to\" are the same point");
+  }
+}
+
+void ReadPoint(ParseState& state, ParamSet& params, Light* light) {
+  light->kind = LightKind::kPoint;
+  light->from = params.Point3("from", {0, 0, 0});
+  const double scale = params.Float("scale", 1, 0, kHuge);
+  const double power = Target(params, "power");
+  const Rgb intensity = PlainColor(state, params, "I", kWhite, SpectrumUse::kIlluminant);
+  light->emission = intensity * (power > 0 ? scale * power / (4 * kPi) : scale);
+}
+
+void ReadSpot(ParseState& state, ParamSet& params, Light* light) {
+  light->kind = LightKind::kSpot;
+  ReadDirection(params, light);
+  light->cone_angle = params.Float("coneangle", 30, 1e-6, 180);
+  light->cone_delta = params.Float("conedeltaangle", 5, 0, 180);
+  if (light->cone_delta > light->cone_angle) {
+    throw InputError(params.where(), fmt::format("conedeltaangle {} of the spot light is "
+                                                 "larger than its coneangle {}",
+                                                 light->cone_delta, light->cone_angle));
+  }
+  double scale = params.Float("scale", 1, 0, kHuge);
+  const double power = Target(params, "power");
+  if (power > 0) {
+    // Power of a cone of unit intensity whose edge falls off smoothly: the full inner cap
+    // and, by symmetry of the smoothstep in cos, half of the outer ring.
+    const double outer = std::cos(Radians(light->cone_angle));
+    const double inner = std::cos(Radians(light->cone_angle - light->cone_delta));
+    scale *= power / (2 * kPi * ((1 - inner) + (inner - outer) / 2));
+  }
+  light->emission =
+      PlainColor(state, params, "I", kWhite, SpectrumUse::kIlluminant) * scale;
+}
+
+void ReadDistant(ParseState& state, ParamSet& params, Light* light) {
+  light->kind = LightKind::kDistant;
+  ReadDirection(params, light);
+  const double scale = params.Float("scale", 1, 0, kHuge);
+  const double illuminance = Target(params, "illuminance");
+  light->emission = PlainColor(state, params, "L", kWhite, SpectrumUse::kIlluminant) *
+                    (illuminance > 0 ? scale * illuminance : scale);
+}
+
+void ReadInfinite(ParseState& state, ParamSet& params, Light* light) {
+  light->kind = LightKind::kInfinite;
+  const double scale = params.Float("scale", 1, 0, kHuge);
+  const double illuminance = Target(params, "illuminance");
+  const Param* file = params.Find("filename", {ParamType::kString});
+  const Rgb radiance = PlainColor(state, params, "L", kWhite, SpectrumUse::kIlluminant);
+  if (file == nullptr) {
+    // A hemisphere of radiance L lights a facing surface with pi L.
+    light->emission = radiance * (illuminance > 0 ? scale * illuminance / kPi : scale);
+  } else {
+    if (params.Find("L", {}) != nullptr) {
+      params.Fail(*file, "\"filename\" and \"L\" exclude each other");
+    }
+    const std::string name = params.String("filename", "");
+    if (name.empty()) params.Fail(*file, "the file name is empty");
+    light->image_path = ResolvePath(state, name);
+    light->where = file->where;  // what a missing image is reported at
+    light->image_scale = scale;
+    light->illuminance = illuminance > 0 ? illuminance : -1;
+    light->emission = kWhite;
+  }
+  const Param* portal = params.Find("portal", {ParamType::kPoint3});
+  if (portal != nullptr) {
+    state.Unsupported(portal->where,
+                      "parameter \"portal\" of infinite lights is not "
+                      "supported");
+  }
+}
+
+void CheckEmission(const ParamSet& params, Rgb emission) {
+  if (!std::isfinite(emission.x + emission.y + emission.z)) {
+    throw InputError(params.where(), "the emission of this light overflows");
+  }
+}
+
+}  // namespace
+
+void InterpretLight(ParseState& state, const std::string& type, ParamSet& params) {
+  Light light;
+  light.where = params.where();
+  light.world_from_light = state.graphics.ctm;
+  if (type == "point") {
+    ReadPoint(state, params, &light);
+  } else if (type == "spot") {
+    ReadSpot(state, params, &light);
+  } else if (type == "distant") {
+    ReadDistant(state, params, &light);
+  } else if (type == "infinite") {
+    ReadInfinite(state, params, &light);
+  } else if (type == "goniometric" || type == "projection") {
+    return state.Unsupported(
+        params.where(), fmt::format("light {} is not supported; supported: \"point\", "
+                                    "\"spot\", \"distant\", \"infinite\"",
+                                    Quoted(type)));
+  } else {
+    ThrowUnknown(params.where(), "light", type, {"point", "spot", "distant", "infinite"});
+  }
+  params.CheckAllUsed();
+  CheckEmission(params, light.emission);
+  state.scene.lights.push_back(std::move(light));
+}
+
+Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& params) {
+  if (type != "diffuse") ThrowUnknown(params.where(), "area light", type, {"diffuse"});
+  AreaLight light;
+  light.where = params.where();
+  light.radiance = PlainColor(state, params, "L", kWhite, SpectrumUse::kIlluminant);
+  light.scale = params.Float("scale", 1, 0, kHuge);
+  light.power = Target(params, "power");
+  if (light.power <= 0) light.power = -1;
+  light.two_sided = params.Bool("twosided", false);
+  const Param* file = params.Find("filename", {ParamType::kString});
+  params.CheckAllUsed();
+  CheckEmission(params, light.radiance * light.scale);
+  if (file != nullptr) {
+    state.Unsupported(file->where, "area lights with an image are not supported");
+    return kNone;
+  }
+  state.scene.area_lights.push_back(light);
+  return static_cast<Index>(state.scene.area_lights.size()) - 1;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,205 @@
+#include <algorithm>
+
+#include "src/parse/interpret.h"
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+constexpr double kRoughest = 1e4;  // of roughness parameters; alpha above 1 is legal
+
+const std::vector<std::string> kMaterialNames = {
+    "diffuse",       "conductor",       "dielectric",          "thindielectric",
+    "coateddiffuse", "coatedconductor", "diffusetransmission", "mix",
+    "interface"};
+const std::vector<std::string> kForeignMaterials = {"hair", "measured", "subsurface"};
+
+// `<prefix>roughness` for both directions, `<prefix>uroughness`, `<prefix>vroughness`.
+void ReadRoughness(ParseState& state, ParamSet& params, const std::string& prefix,
+                   FloatValue* u, FloatValue* v) {
+  const auto read = [&](const char* name, FloatValue absent) {
+    const FloatValue value =
+        TexturedFloat(state, params, prefix + name, absent.constant, 0, kRoughest);
+    const bool given = params.Find(prefix + name, {}) != nullptr;
+    return given ? value : absent;
+  };
+  const FloatValue both = read("roughness", {0, kNone});
+  *u = read("uroughness", both);
+  *v = read("vroughness", both);
+}
+
+void ReadDiffuse(ParseState& state, ParamSet& params, Material* material) {
+  material->reflectance =
+      TexturedColor(state, params, "reflectance", {0.5, 0.5, 0.5}, SpectrumUse::kAlbedo);
+  constexpr Scattering kModels[] = {Scattering::kLambertian, Scattering::kUniform,
+                                    Scattering::kInSphere};
+  material->scattering =
+      kModels[params.Choice("scattering", {"lambertian", "uniform", "insphere"})];
+}
+
+// `reflectance`, or else `<prefix>eta` and `<prefix>k`.
+void ReadConductor(ParseState& state, ParamSet& params, const std::string& prefix,
+                   Material* material) {
+  const Param* reflectance = params.Find(
+      "reflectance", {ParamType::kRgb, ParamType::kSpectrum, ParamType::kTexture});
+  material->has_reflectance = reflectance != nullptr;
+  if (reflectance == nullptr) {
+    ConductorIor(state, params, prefix, &material->eta, &material->k);
+    return;
+  }
+  if (params.Find(prefix + "eta", {}) != nullptr ||
+      params.Find(prefix + "k", {}) != nullptr) {
+    params.Fail(*reflectance,
+                fmt::format("reflectance excludes {0}eta and {0}k", prefix));
+  }
+  material->reflectance =
+      TexturedColor(state, params, "reflectance", {0.5, 0.5, 0.5}, SpectrumUse::kAlbedo);
+}
+
+double Untextured(ParamSet& params, std::string_view name, double absent, double low,
+                  double high) {
+  const Param* param = params.Find(name, {ParamType::kFloat, ParamType::kTexture});
+  if (param != nullptr && param->type == ParamType::kTexture) {
+    params.Fail(*param, "this parameter cannot be textured; supported: a float");
+  }
+  return params.Float(name, absent, low, high);
+}
+
+// What coateddiffuse and coatedconductor share: the medium between the layers and the
+// depth of the random walk.
+void ReadCoat(ParseState& state, ParamSet& params, const std::string& prefix,
+              Material* material) {
+  material->interface_eta = DielectricEta(state, params, prefix + "eta", 1.5);
+  ReadRoughness(state, params, prefix, &material->uroughness, &material->vroughness);
+  material->remap_roughness = params.Bool("remaproughness", true);
+  material->thickness = Untextured(params, "thickness", 0.01, 0, 1e6);
+  material->coat_g = Untextured(params, "g", 0, -0.9999, 0.9999);
+  const ColorValue albedo =
+      TexturedColor(state, params, "albedo", {0, 0, 0}, SpectrumUse::kAlbedo);
+  if (albedo.texture != kNone) {
+    params.Fail(*params.Find("albedo", {}),
+                "this parameter cannot be textured; supported: "
+                "rgb or spectrum");
+  }
+  material->coat_albedo = albedo.constant;
+  material->coat_max_depth = params.Integer("maxdepth", 10, 1, 10000);
+  material->coat_samples = params.Integer("nsamples", 1, 1, 10000);
+}
+
+// A colour times a constant; a textured one gets a scale texture of its own.
+ColorValue Scaled(ParseState& state, const ParamSet& params, ColorValue value,
+                  double scale) {
+  if (value.texture == kNone) return {value.constant * scale, kNone};
+  if (scale == 1) return value;
+  Texture texture;
+  texture.kind = TextureKind::kScale;
+  texture.where = params.where();
+  texture.tex1 = value;
+  texture.amount = {scale, kNone};
+  state.scene.textures.push_back(texture);
+  return {value.constant, static_cast<Index>(state.scene.textures.size()) - 1};
+}
+
+void ReadDiffuseTransmission(ParseState& state, ParamSet& params, Material* material) {
+  const Rgb quarter = {0.25, 0.25, 0.25};
+  const double scale = params.Float("scale", 1, 0, 1e6);
+  const ColorValue r =
+      TexturedColor(state, params, "reflectance", quarter, SpectrumUse::kAlbedo);
+  const ColorValue t =
+      TexturedColor(state, params, "transmittance", quarter, SpectrumUse::kAlbedo);
+  material->reflectance = Scaled(state, params, r, scale);
+  material->transmittance = Scaled(state, params, t, scale);
+}
+
+void ReadMix(ParseState& state, ParamSet& params, Material* material) {
+  const Param* names = params.Find("materials", {ParamType::kString});
+  if (names == nullptr) {
+    throw InputError(params.where(), params.object() + " has no \"string materials\"");
+  }
+  if (names->strings.size() != 2) {
+    params.Fail(*names, fmt::format("{} names; a mix takes 2", names->strings.size()));
+  }
+  for (int i = 0; i < 2; ++i) {
+    const auto it = state.materials.find(names->strings[i]);
+    if (it == state.materials.end()) {
+      ThrowUnknown(names->where, "named material", names->strings[i],
+                   Names(state.materials));
+    }
+    material->mix[i] = it->second;
+  }
+  material->mix_amount = TexturedFloat(state, params, "amount", 0.5, 0, 1);
+}
+
+void ReadKind(ParseState& state, ParamSet& params, Material* material) {
+  switch (material->kind) {
+    case MaterialKind::kDiffuse:
+      return ReadDiffuse(state, params, material);
+    case MaterialKind::kConductor:
+      ReadConductor(state, params, "", material);
+      ReadRoughness(state, params, "", &material->uroughness, &material->vroughness);
+      material->remap_roughness = params.Bool("remaproughness", true);
+      return;
+    case MaterialKind::kDielectric:
+      material->interface_eta = DielectricEta(state, params, "eta", 1.5);
+      ReadRoughness(state, params, "", &material->uroughness, &material->vroughness);
+      material->remap_roughness = params.Bool("remaproughness", true);
+      return;
+    case MaterialKind::kThinDielectric:
+      material->interface_eta = DielectricEta(state, params, "eta", 1.5);
+      return;
+    case MaterialKind::kCoatedDiffuse:
+      ReadCoat(state, params, "", material);
+      material->reflectance = TexturedColor(state, params, "reflectance", {0.5, 0.5, 0.5},
+                                            SpectrumUse::kAlbedo);
+      return;
+    case MaterialKind::kCoatedConductor:
+      ReadCoat(state, params, "interface.", material);
+      ReadConductor(state, params, "conductor.", material);
+      ReadRoughness(state, params, "conductor.", &material->conductor_uroughness,
+                    &material->conductor_vroughness);
+      return;
+    case MaterialKind::kDiffuseTransmission:
+      return ReadDiffuseTransmission(state, params, material);
+    case MaterialKind::kMix:
+      return ReadMix(state, params, material);
+    case MaterialKind::kInterface:
+      return;
+  }
+}
+
+}  // namespace
+
+Index InterpretMaterial(ParseState& state, const std::string& name,
+                        const std::string& type, ParamSet& params) {
+  Material material;
+  material.name = name;
+  material.where = params.where();
+  auto it = std::find(kMaterialNames.begin(), kMaterialNames.end(), type);
+  const bool foreign = std::find(kForeignMaterials.begin(), kForeignMaterials.end(),
+                                 type) != kForeignMaterials.end();
+  if (foreign && state.options.skip_unsupported) {
+    state.AddNote(params.where(),
+                  fmt::format("skipped: material {} is not supported; a grey "
+                              "diffuse one replaces it",
+                              Quoted(type)));
+  } else {
+    if (it == kMaterialNames.end() && (type.empty() || type == "none")) {
+      state.AddNote(params.where(),
+                    "material \"\" and \"none\" are taken as \"interface\"");
+      it = kMaterialNames.end() - 1;
+    }
+    if (it == kMaterialNames.end()) {
+      ThrowUnknown(params.where(), "material", type, kMaterialNames);
+    }
+    material.kind = static_cast<MaterialKind>(it - kMaterialNames.begin());
+    ReadKind(state, params, &material);
+    params.Ignore("displacement", "displacement is not supported");
+    params.Ignore("normalmap", "normal maps are not supported");
+    params.Find("type", {ParamType::kString});  // of MakeNamedMaterial, or superfluous
+    params.CheckAllUsed();
+  }
+  state.scene.materials.push_back(std::move(material));
+  return static_cast<Index>(state.scene.materials.size()) - 1;
+}
+
+}  // namespace lanelight

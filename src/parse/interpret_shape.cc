@@ -1,0 +1,140 @@
+#include <algorithm>
+
+#include "src/parse/interpret.h"
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+constexpr double kHuge = 1e30;
+constexpr double kTiny = 1e-30;
+
+const std::vector<std::string> kShapeNames = {"sphere",  "disk",         "trianglemesh",
+                                              "plymesh", "bilinearmesh", "plane"};
+const std::vector<std::string> kForeignShapes = {"cylinder", "curve", "loopsubdiv"};
+
+void ReadPhi(ParamSet& params) {
+  const double phi = params.Float("phimax", 360, 0, kHuge);
+  if (phi < 360) {
+    params.Fail(*params.Find("phimax", {}), fmt::format("a {} cut at {} degrees is not "
+                                                        "supported; 360 is",
+                                                        params.object(), phi));
+  }
+}
+
+void ReadSphere(ParamSet& params, Shape* shape) {
+  shape->kind = ShapeKind::kSphere;
+  shape->radius = params.Float("radius", 1, kTiny, kHuge);
+  const double zmin = params.Float("zmin", -shape->radius);
+  const double zmax = params.Float("zmax", shape->radius);
+  // pbrt takes them in either order.
+  if (std::min(zmin, zmax) > -shape->radius || std::max(zmin, zmax) < shape->radius) {
+    const Param* zmin_param = params.Find("zmin", {});
+    params.Fail(zmin_param != nullptr ? *zmin_param : *params.Find("zmax", {}),
+                "a sphere cut in z is not supported; complete spheres are");
+  }
+  ReadPhi(params);
+}
+
+void ReadDisk(ParamSet& params, Shape* shape) {
+  shape->kind = ShapeKind::kDisk;
+  shape->radius = params.Float("radius", 1, kTiny, kHuge);
+  shape->inner_radius = params.Float("innerradius", 0, 0, kHuge);
+  shape->height = params.Float("height", 0, -kHuge, kHuge);
+  if (shape->inner_radius >= shape->radius) {
+    params.Fail(*params.Find("innerradius", {}),
+                fmt::format("the inner radius {} is not below the radius {}",
+                            shape->inner_radius, shape->radius));
+  }
+  ReadPhi(params);
+}
+
+void ReadPly(ParseState& state, ParamSet& params) {
+  const Param* file = params.Find("filename", {ParamType::kString});
+  if (file == nullptr) {
+    throw InputError(params.where(), "shape \"plymesh\" has no \"string filename\"");
+  }
+  const std::string name = params.String("filename", "");
+  if (name.empty()) params.Fail(*file, "the file name is empty");
+  for (const char* ignored : {"displacement", "displacement.edgelength",
+                              "displacement.uvscale", "edgelength"}) {
+    params.Ignore(ignored, "displacement is not supported");
+  }
+  state.meshes.push_back({ResolvePath(state, name), file->where, state.open_object,
+                          state.OpenShapes().size()});
+}
+
+void ReadGeometry(ParseState& state, const std::string& type, ParamSet& params,
+                  Shape* shape) {
+  if (type == "sphere") return ReadSphere(params, shape);
+  if (type == "disk") return ReadDisk(params, shape);
+  if (type == "plane") {
+    shape->kind = ShapeKind::kPlane;
+    return;
+  }
+  shape->kind = ShapeKind::kMesh;
+  if (type == "trianglemesh") {
+    shape->mesh = InterpretTriangleMesh(params);
+  } else if (type == "bilinearmesh") {
+    shape->mesh = InterpretBilinearMesh(params);
+  } else {
+    ReadPly(state, params);
+  }
+}
+
+Index CurrentMaterial(ParseState& state, const SourceLocation& where) {
+  if (state.graphics.material != kNone) return state.graphics.material;
+  if (state.default_material == kNone) {
+    ParamSet defaults("material \"diffuse\"", where, {}, nullptr, &state.scene.notes);
+    state.default_material = InterpretMaterial(state, "", "diffuse", defaults);
+  }
+  return state.default_material;
+}
+
+// pbrt lets these two cases pass without a light; so do we, and say so.
+Index CurrentAreaLight(ParseState& state, const Shape& shape,
+                       const SourceLocation& where) {
+  const Index light = state.graphics.area_light;
+  if (light == kNone) return kNone;
+  if (state.open_object != kNone) {
+    state.AddNote(where, "the area light has no effect inside an object definition");
+    return kNone;
+  }
+  if (state.scene.materials[shape.material].kind == MaterialKind::kInterface) {
+    state.AddNote(where,
+                  "the area light has no effect on a shape with material "
+                  "\"interface\"");
+    return kNone;
+  }
+  if (shape.kind == ShapeKind::kPlane && state.scene.area_lights[light].power > 0) {
+    throw InputError(where,
+                     "an area light with \"power\" on a plane, whose area is infinite");
+  }
+  return light;
+}
+
+}  // namespace
+
+void InterpretShape(ParseState& state, const std::string& type, ParamSet& params) {
+  if (std::find(kForeignShapes.begin(), kForeignShapes.end(), type) !=
+      kForeignShapes.end()) {
+    return state.Unsupported(params.where(),
+                             fmt::format("shape {} is not supported; supported: {}",
+                                         Quoted(type), QuotedList(kShapeNames)));
+  }
+  if (std::find(kShapeNames.begin(), kShapeNames.end(), type) == kShapeNames.end()) {
+    ThrowUnknown(params.where(), "shape", type, kShapeNames);
+  }
+  Shape shape;
+  shape.where = params.where();
+  shape.world_from_object = state.graphics.ctm;
+  shape.reverse_orientation = state.graphics.reverse_orientation;
+  shape.material = CurrentMaterial(state, params.where());
+  ReadGeometry(state, type, params, &shape);
+  shape.alpha = TexturedFloat(state, params, "alpha", 1, 0, 1);
+  params.CheckAllUsed();
+  shape.area_light = CurrentAreaLight(state, shape, params.where());
+  state.OpenShapes().push_back(std::move(shape));
+}
+
+}  // namespace lanelight

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "src/parse/interpret.h"
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+constexpr double kSodium = 587.6;  // nm, the helium d line, where catalogues state eta
+
+const std::vector<std::string> kMetals = {"Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2"};
+
+SpectrumSamples PairUp(const ParamSet& params, const Param& param,
+                       const std::vector<double>& numbers) {
+  if (numbers.empty() || numbers.size() % 2 != 0) {
+    params.Fail(param,
+                fmt::format("{} numbers; a spectrum is pairs of wavelength (nm) and "
+                            "value",
+                            numbers.size()));
+  }
+  SpectrumSamples samples;
+  for (std::size_t i = 0; i < numbers.size(); i += 2) {
+    if (numbers[i] <= 0 || (i > 0 && numbers[i] <= numbers[i - 2])) {
+      params.Fail(param,
+                  fmt::format("wavelength {} (number {}): wavelengths must be positive "
+                              "and increase",
+                              numbers[i], i + 1));
+    }
+    if (numbers[i + 1] < 0) {
+      params.Fail(param, fmt::format("the value {} at {} nm is negative", numbers[i + 1],
+                                     numbers[i]));
+    }
+    samples.wavelengths.push_back(numbers[i]);
+    samples.values.push_back(numbers[i + 1]);
+  }
+  return samples;
+}
+
+std::vector<double> ReadNumbers(const std::string& text, const std::string& path) {
+  Lexer lexer(text, std::make_shared<const std::string>(path));
+  std::vector<double> numbers;
+  for (Token token = lexer.Next(); token.kind != TokenKind::kEnd; token = lexer.Next()) {
+    if (token.kind != TokenKind::kNumber) {
+      throw InputError(lexer.Where(token), fmt::format("found {} in a spectrum file; it "
+                                                       "holds numbers only",
+                                                       token.Describe()));
+    }
+    numbers.push_back(token.number);
+  }
+  return numbers;
+}
+
+// Linear between samples, the end values outside.
+double Interpolate(const SpectrumSamples& samples, double wavelength) {
+  const auto& x = samples.wavelengths;
+  const auto& y = samples.values;
+  const std::size_t i = std::upper_bound(x.begin(), x.end(), wavelength) - x.begin();
+  if (i == 0) return y.front();
+  if (i == x.size()) return y.back();
+  const double t = (wavelength - x[i - 1]) / (x[i] - x[i - 1]);
+  return (1 - t) * y[i - 1] + t * y[i];
+}
+
+// "metal-Cu-eta" with suffix "-eta" gives "Cu"; "" if the name is not of that form.
+std::string MetalName(const Param* param, const std::string& suffix) {
+  if (param == nullptr) return "Cu";
+  if (param->strings.empty() || param->type != ParamType::kSpectrum) return "";
+  const std::string& name = param->strings[0];
+  constexpr std::string_view kPrefix = "metal-";
+  if (!name.starts_with(kPrefix) || !name.ends_with(suffix)) return "";
+  return name.substr(kPrefix.size(), name.size() - kPrefix.size() - suffix.size());
+}
+
+ComplexIor Metal(const ParamSet& params, const Param* param, const std::string& metal) {
+  ComplexIor ior;
+  if (!NamedMetal(metal, &ior)) {
+    ThrowUnknown(param == nullptr ? params.where() : param->where, "metal", metal,
+                 kMetals);
+  }
+  return ior;
+}
+
+bool IsSampled(const Param* param) {
+  Rgb unused;
+  return param != nullptr && param->type == ParamType::kSpectrum &&
+         (param->strings.empty() ||
+          !NamedSpectrum(param->strings[0], SpectrumUse::kUnbounded, &unused));
+}
+
+}  // namespace
+
+SpectrumSamples SamplesOf(const ParseState& state, const ParamSet& params,
+                          const Param& param) {
+  if (param.strings.empty()) return PairUp(params, param, param.numbers);
+  const std::string& name = param.strings[0];
+  const std::string path = ResolvePath(state, name);
+  const bool looks_like_file = name.find_first_of("./") != name.npos;
+  if (!looks_like_file && !(state.options.allow_files && std::filesystem::exists(path))) {
+    ThrowUnknown(param.where, "spectrum (and there is no such file):", name,
+                 NamedSpectra());
+  }
+  const std::string text = ReadSceneFile(state, path, param.where, "the spectrum file");
+  return PairUp(params, param, ReadNumbers(text, path));
+}
+
+double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
+                     double absent) {
+  constexpr double kLow = 0.01, kHigh = 100;
+  const Param* param = params.Find(name, {ParamType::kFloat, ParamType::kSpectrum});
+  if (param == nullptr) return absent;
+  if (param->type == ParamType::kFloat) return params.Float(name, absent, kLow, kHigh);
+  double eta = 0;
+  if (param->strings.empty() || !NamedGlassEta(param->strings[0], &eta)) {
+    if (!IsSampled(param)) {
+      params.Fail(*param, fmt::format("the spectrum {} is not that of a glass",
+                                      Quoted(param->strings[0])));
+    }
+    eta = Interpolate(SamplesOf(state, params, *param), kSodium);
+  }
+  if (!(eta >= kLow && eta <= kHigh)) {
+    params.Fail(*param, fmt::format("the index of refraction {} is outside {} to {}", eta,
+                                    kLow, kHigh));
+  }
+  state.AddNoteOnce(param->where,
+                    fmt::format("dispersion is not modelled: eta is taken at "
+                                "{} nm",
+                                kSodium));
+  return eta;
+}
+
+void ConductorIor(ParseState& state, ParamSet& params, const std::string& prefix,
+                  ColorValue* eta, ColorValue* k) {
+  const auto types = {ParamType::kSpectrum, ParamType::kRgb, ParamType::kTexture};
+  const Param* eta_param = params.Find(prefix + "eta", types);
+  const Param* k_param = params.Find(prefix + "k", types);
+  if (IsSampled(eta_param) && IsSampled(k_param)) {
+    const SpectrumSamples n = SamplesOf(state, params, *eta_param);
+    const SpectrumSamples m = SamplesOf(state, params, *k_param);
+    const ComplexIor ior =
+        ComplexIorFromSamples(n.wavelengths, n.values, m.wavelengths, m.values);
+    *eta = {ior.eta, kNone};
+    *k = {ior.k, kNone};
+    return;
+  }
+  const std::string eta_metal = MetalName(eta_param, "-eta");
+  const std::string k_metal = MetalName(k_param, "-k");
+  const auto value = [&](const std::string& name) {
+    return TexturedColor(state, params, name, {}, SpectrumUse::kUnbounded);
+  };
+  *eta = eta_metal.empty() ? value(prefix + "eta")
+                           : ColorValue{Metal(params, eta_param, eta_metal).eta, kNone};
+  *k = k_metal.empty() ? value(prefix + "k")
+                       : ColorValue{Metal(params, k_param, k_metal).k, kNone};
+}
+
+}  // namespace lanelight

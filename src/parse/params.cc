@@ -1,0 +1,147 @@
+#include "src/parse/params.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+std::string Typed(ParamType type, std::string_view name) {
+  return fmt::format("{} {}", ParamTypeName(type), name);
+}
+
+bool Contains(std::initializer_list<ParamType> types, ParamType type) {
+  return types.size() == 0 || std::find(types.begin(), types.end(), type) != types.end();
+}
+
+}  // namespace
+
+ParamSet::ParamSet(std::string object, SourceLocation where, ParamList own,
+                   std::shared_ptr<const ParamList> inherited, std::vector<Note>* notes)
+    : object_(std::move(object)),
+      where_(std::move(where)),
+      own_(std::move(own)),
+      used_(own_.size(), false),
+      inherited_(std::move(inherited)),
+      notes_(notes) {}
+
+void ParamSet::Fail(const Param& param, const std::string& message) const {
+  throw InputError(param.where,
+                   fmt::format("{}, in {} of {}", message,
+                               Quoted(Typed(param.type, param.name)), object_));
+}
+
+const Param* ParamSet::Find(std::string_view name,
+                            std::initializer_list<ParamType> types) {
+  if (std::find(legal_.begin(), legal_.end(), name) == legal_.end()) {
+    legal_.emplace_back(name);
+    legal_typed_.push_back(types.size() == 0 ? std::string(name)
+                                             : Typed(*types.begin(), name));
+  }
+  for (std::size_t i = 0; i < own_.size(); ++i) {
+    if (own_[i].name != name) continue;
+    if (!Contains(types, own_[i].type)) {
+      std::vector<std::string> supported;
+      for (ParamType type : types) supported.push_back(Typed(type, name));
+      throw InputError(own_[i].where, fmt::format("found {} for {}; supported: {}",
+                                                  Quoted(Typed(own_[i].type, name)),
+                                                  object_, QuotedList(supported)));
+    }
+    used_[i] = true;
+    return &own_[i];
+  }
+  if (!inherited_) return nullptr;
+  // Of several Attribute directives the last one counts.
+  for (auto it = inherited_->rbegin(); it != inherited_->rend(); ++it) {
+    if (it->name == name && Contains(types, it->type)) return &*it;
+  }
+  return nullptr;
+}
+
+const Param* ParamSet::Single(std::string_view name, ParamType type) {
+  const Param* param = Find(name, {type});
+  if (param == nullptr) return nullptr;
+  const std::size_t wanted = type == ParamType::kPoint3 ? 3 : 1;
+  const std::size_t found =
+      param->numbers.size() + param->strings.size() + param->bools.size();
+  if (found != wanted) Fail(*param, "more than one value");
+  return param;
+}
+
+double ParamSet::Float(std::string_view name, double absent) {
+  const Param* param = Single(name, ParamType::kFloat);
+  return param == nullptr ? absent : param->numbers[0];
+}
+
+double ParamSet::Float(std::string_view name, double absent, double low, double high) {
+  const Param* param = Single(name, ParamType::kFloat);
+  if (param == nullptr) return absent;
+  const double value = param->numbers[0];
+  if (value < low || value > high) {
+    Fail(*param, fmt::format("the value {} is outside {} to {}", value, low, high));
+  }
+  return value;
+}
+
+int ParamSet::Integer(std::string_view name, int absent, int low, int high) {
+  const Param* param = Single(name, ParamType::kInteger);
+  if (param == nullptr) return absent;
+  const int value = static_cast<int>(param->numbers[0]);
+  if (value < low || value > high) {
+    Fail(*param, fmt::format("the value {} is outside {} to {}", value, low, high));
+  }
+  return value;
+}
+
+bool ParamSet::Bool(std::string_view name, bool absent) {
+  const Param* param = Single(name, ParamType::kBool);
+  return param == nullptr ? absent : param->bools[0];
+}
+
+std::string ParamSet::String(std::string_view name, const std::string& absent) {
+  const Param* param = Single(name, ParamType::kString);
+  return param == nullptr ? absent : param->strings[0];
+}
+
+Vec3d ParamSet::Point3(std::string_view name, Vec3d absent) {
+  const Param* param = Single(name, ParamType::kPoint3);
+  if (param == nullptr) return absent;
+  return {param->numbers[0], param->numbers[1], param->numbers[2]};
+}
+
+int ParamSet::Choice(std::string_view name, const std::vector<std::string>& choices) {
+  const Param* param = Single(name, ParamType::kString);
+  if (param == nullptr) return 0;
+  const auto it = std::find(choices.begin(), choices.end(), param->strings[0]);
+  if (it == choices.end()) {
+    ThrowUnknown(param->where,
+                 fmt::format("value of \"string {}\" of {}:", name, object_),
+                 param->strings[0], choices);
+  }
+  return static_cast<int>(it - choices.begin());
+}
+
+void ParamSet::Ignore(std::string_view name, const std::string& why) {
+  const Param* param = Find(name, {});
+  if (param == nullptr) return;
+  notes_->push_back({param->where, fmt::format("parameter {} of {} has no effect: {}",
+                                               Quoted(name), object_, why)});
+}
+
+void ParamSet::CheckAllUsed() {
+  for (std::size_t i = 0; i < own_.size(); ++i) {
+    if (used_[i]) continue;
+    const std::string nearest = NearestName(own_[i].name, legal_);
+    const std::string hint =
+        nearest.empty() ? "" : fmt::format("did you mean {}? ", Quoted(nearest));
+    std::sort(legal_typed_.begin(), legal_typed_.end());
+    throw InputError(
+        own_[i].where,
+        fmt::format("unknown parameter {} of {}; {}supported: {}", Quoted(own_[i].name),
+                    object_, hint, QuotedList(legal_typed_)));
+  }
+}
+
+}  // namespace lanelight

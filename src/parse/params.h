@@ -1,0 +1,100 @@
+// Parameter lists: "type name" value. Read once into Params; an interpreter then asks a
+// ParamSet for what it knows, and whatever nobody asked for is an error that lists what
+// was asked for. So the legal parameters of an object are stated in one place only: the
+// code that uses them.
+#pragma once
+
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/scene/description.h"
+#include "src/parse/lex.h"
+
+namespace lanelight {
+
+enum class ParamType {
+  kBool,
+  kInteger,
+  kFloat,
+  kPoint2,
+  kVector2,
+  kPoint3,
+  kVector3,
+  kNormal,
+  kSpectrum,
+  kRgb,
+  kBlackbody,
+  kString,
+  kTexture
+};
+
+/// The name of a type in a scene file, e.g. "point3".
+const char* ParamTypeName(ParamType type);
+
+struct Param {
+  ParamType type = ParamType::kFloat;
+  std::string name;
+  SourceLocation where;
+  std::string color_space;  // in force where the parameter stands
+  // One of these holds the values: complete tuples, integers in the range of int, finite.
+  std::vector<double> numbers;
+  std::vector<std::string> strings;
+  std::vector<bool> bools;
+};
+using ParamList = std::vector<Param>;
+
+/// Reads parameters up to the first token that starts none. Throws InputError for an
+/// unknown type, values that do not fit it, an incomplete tuple, a name given twice.
+ParamList ReadParams(Lexer& lexer, const std::string& color_space);
+
+/// The parameters of one object and the defaults that Attribute directives give it.
+class ParamSet {
+ public:
+  /// `object` names it in messages, e.g. `shape "disk"`. `inherited` may be null.
+  ParamSet(std::string object, SourceLocation where, ParamList own,
+           std::shared_ptr<const ParamList> inherited, std::vector<Note>* notes);
+
+  const std::string& object() const { return object_; }
+  const SourceLocation& where() const { return where_; }
+
+  /// The parameter, or null; a type not in `types` is an InputError. `types` empty: any.
+  const Param* Find(std::string_view name, std::initializer_list<ParamType> types);
+
+  /// Single values. Out of [low, high] is an InputError that states the range.
+  double Float(std::string_view name, double absent, double low, double high);
+  /// Float without a range (any finite number).
+  double Float(std::string_view name, double absent);
+  int Integer(std::string_view name, int absent, int low, int high);
+  bool Bool(std::string_view name, bool absent);
+  std::string String(std::string_view name, const std::string& absent);
+  Vec3d Point3(std::string_view name, Vec3d absent);
+
+  /// A string out of `choices`; returns its position. The first choice is the default.
+  int Choice(std::string_view name, const std::vector<std::string>& choices);
+
+  /// Accepts the parameter whatever its type, notes that it has no effect, and `why`.
+  void Ignore(std::string_view name, const std::string& why);
+
+  /// Throws InputError for an own parameter that nobody asked for. Call it last.
+  void CheckAllUsed();
+
+  /// InputError at a parameter: `<message>, in "type name" of <object>`.
+  [[noreturn]] void Fail(const Param& param, const std::string& message) const;
+
+ private:
+  const Param* Single(std::string_view name, ParamType type);
+
+  std::string object_;
+  SourceLocation where_;
+  ParamList own_;
+  std::vector<bool> used_;
+  std::shared_ptr<const ParamList> inherited_;
+  std::vector<Note>* notes_;
+  std::vector<std::string> legal_;        // names
+  std::vector<std::string> legal_typed_;  // "type name"
+};
+
+}  // namespace lanelight

@@ -1,0 +1,55 @@
+#include "src/parse/parse.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "src/parse/parse_state.h"
+
+namespace lanelight {
+namespace {
+
+namespace fs = std::filesystem;
+
+// After the last directive: everything must be closed, and the scene is completed with
+// what depends on several directives.
+SceneDescription Finish(ParseState& state, const SourceLocation& end) {
+  if (!state.scopes.empty()) {
+    const Scope& scope = state.scopes.back();
+    const char* name = scope.kind == ScopeKind::kAttribute   ? "AttributeBegin"
+                       : scope.kind == ScopeKind::kTransform ? "TransformBegin"
+                                                             : "ObjectBegin";
+    throw InputError(scope.where, fmt::format("this {} has no matching end", name));
+  }
+  if (!state.in_world) {
+    throw InputError(end, "the file ends without WorldBegin, so it describes no scene");
+  }
+  state.scene.film.imaging_ratio = state.exposure_seconds * state.iso / 100;
+  const Integrator& integrator = state.scene.integrator;
+  ApplyStrategy(integrator.strategy, integrator.strategy_where, state.scene.strategy);
+  LoadMeshes(state);
+  return std::move(state.scene);
+}
+
+}  // namespace
+
+SceneDescription ParseScene(const std::string& path, const ParseOptions& options) {
+  ParseState state;
+  state.options = options;
+  state.scene.path = path;
+  const SourceLocation whole{std::make_shared<const std::string>(path), 0, 0};
+  RunFile(state, path, whole);
+  return Finish(state, whole);
+}
+
+SceneDescription ParseSceneText(std::string_view text, const std::string& name,
+                                const std::string& directory,
+                                const ParseOptions& options) {
+  ParseState state;
+  state.options = options;
+  state.scene.path = (fs::path(directory) / name).string();
+  state.open_files.push_back({"", directory});
+  RunDirectives(state, text, name);
+  return Finish(state, {std::make_shared<const std::string>(name), 0, 0});
+}
+
+}  // namespace lanelight

@@ -1,0 +1,105 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "src/parse/parse_state.h"
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kDeepestInclude = 64;
+constexpr int kMostFiles = 100000;  // a chain of files that each include the next twice
+
+bool Exists(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+// Closes the descriptor when it goes out of scope.
+struct Descriptor {
+  int fd;
+  ~Descriptor() {
+    if (fd >= 0) ::close(fd);
+  }
+};
+
+}  // namespace
+
+void ParseState::Unsupported(const SourceLocation& where, const std::string& message) {
+  if (!options.skip_unsupported) {
+    throw InputError(where, message + " (--skip-unsupported goes on without it)");
+  }
+  AddNote(where, "skipped: " + message);
+}
+
+std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
+                          std::string_view kind) {
+  const auto fail = [&](const std::string& why) {
+    throw InputError(where,
+                     fmt::format("cannot read {} {}: {}", kind, Quoted(path), why));
+  };
+  if (path.ends_with(".gz")) fail("compressed files are not supported; unpack it first");
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.fd < 0) fail(std::strerror(errno));
+  struct stat info;
+  if (::fstat(file.fd, &info) != 0) fail(std::strerror(errno));
+  if (!S_ISREG(info.st_mode)) fail("it is not a regular file");
+  std::string content(static_cast<std::size_t>(info.st_size), '\0');
+  std::size_t done = 0;
+  while (done < content.size()) {
+    const ssize_t n = ::read(file.fd, content.data() + done, content.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(std::strerror(errno));
+    if (n == 0) break;  // the file has become shorter meanwhile
+    done += static_cast<std::size_t>(n);
+  }
+  content.resize(done);
+  return content;
+}
+
+std::string ResolvePath(const ParseState& state, const std::string& name) {
+  const fs::path main = fs::path(state.open_files.front().directory) / name;
+  if (!state.options.allow_files || Exists(main)) return main.string();
+  const fs::path local = fs::path(state.open_files.back().directory) / name;
+  return Exists(local) ? local.string() : main.string();
+}
+
+std::string ReadSceneFile(const ParseState& state, const std::string& path,
+                          const SourceLocation& where, std::string_view kind) {
+  if (!state.options.allow_files) {
+    throw InputError(where, fmt::format("found {} {}, but files may not be read here",
+                                        kind, Quoted(path)));
+  }
+  return ReadWholeFile(path, where, kind);
+}
+
+void RunFile(ParseState& state, const std::string& path, const SourceLocation& where) {
+  std::error_code ignored;
+  const std::string identity = fs::weakly_canonical(path, ignored).string();
+  for (const OpenFile& file : state.open_files) {
+    if (!identity.empty() && file.identity == identity) {
+      throw InputError(where,
+                       fmt::format("{} is included from within itself", Quoted(path)));
+    }
+  }
+  if (state.open_files.size() >= kDeepestInclude) {
+    throw InputError(
+        where, fmt::format("files are included more than {} deep", kDeepestInclude));
+  }
+  if (++state.files_read > kMostFiles) {
+    throw InputError(where, fmt::format("more than {} files are included", kMostFiles));
+  }
+  const std::string text = ReadSceneFile(state, path, where, "the scene file");
+  state.open_files.push_back({identity, fs::path(path).parent_path().string()});
+  RunDirectives(state, text, path);
+  // ResolvePath needs the main file's directory to the end, so the last entry stays.
+  if (state.open_files.size() > 1) state.open_files.pop_back();
+}
+
+}  // namespace lanelight

@@ -1,0 +1,75 @@
+// Mesh files, after the text: every file once, all in parallel.
+#include <optional>
+
+#include "src/core/parallel.h"
+#include "src/parse/parse_state.h"
+#include "src/parse/ply.h"
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+struct LoadedMesh {
+  const MeshRequest* first = nullptr;  // who asked for it first
+  std::shared_ptr<const TriangleMesh> mesh;
+  std::size_t bent_quads = 0;
+};
+
+// Errors inside the file are reported at the scene's line, with the place in the file.
+PlyMesh Parse(const std::string& bytes, const MeshRequest& request) {
+  try {
+    return ParsePly(bytes, request.path);
+  } catch (const InputError& error) {
+    std::string message = error.what();
+    const std::string_view label = ": error: ";
+    const std::size_t at = message.find(label);
+    if (at != message.npos) message.replace(at, label.size(), ": ");
+    throw InputError(request.where, message);
+  }
+}
+
+void Load(const ParseState& state, LoadedMesh* out) {
+  const MeshRequest& request = *out->first;
+  PlyMesh ply =
+      Parse(ReadSceneFile(state, request.path, request.where, "the mesh file"), request);
+  out->bent_quads = ply.bent_quads;
+  out->mesh = std::make_shared<const TriangleMesh>(std::move(ply.mesh));
+}
+
+}  // namespace
+
+void LoadMeshes(ParseState& state) {
+  std::map<std::string, std::size_t> position;
+  std::vector<LoadedMesh> files;
+  for (const MeshRequest& request : state.meshes) {
+    if (position.emplace(request.path, files.size()).second) {
+      files.push_back({&request, nullptr, 0});
+    }
+  }
+  // Errors are collected, so that the first one in the scene is reported on every run.
+  std::vector<std::optional<InputError>> failures(files.size());
+  ParallelFor(files.size(), [&](std::size_t i) {
+    try {
+      Load(state, &files[i]);
+    } catch (const InputError& error) {
+      failures[i] = error;
+    }
+  });
+  for (const auto& failure : failures) {
+    if (failure) throw *failure;
+  }
+  for (const LoadedMesh& file : files) {
+    if (file.bent_quads == 0) continue;
+    state.AddNote(file.first->where,
+                  fmt::format("{} quads of {} are not flat; each becomes two triangles",
+                              file.bent_quads, Quoted(file.first->path)));
+  }
+  for (const MeshRequest& request : state.meshes) {
+    std::vector<Shape>& shapes = request.object == kNone
+                                     ? state.scene.shapes
+                                     : state.scene.objects[request.object].shapes;
+    shapes[request.shape].mesh = files[position[request.path]].mesh;
+  }
+}
+
+}  // namespace lanelight

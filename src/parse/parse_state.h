@@ -1,0 +1,120 @@
+// What the parser knows while it reads: the scene so far, pbrt's graphics state, and the
+// names that have been defined. Directives (directives.cc) change it, interpreters
+// (interpret.h) turn parameters into the objects of a SceneDescription.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "src/parse/params.h"
+#include "src/parse/parse.h"
+
+namespace lanelight {
+
+/// What an Attribute directive gives defaults to.
+enum class AttributeTarget { kShape, kLight, kMaterial, kMedium, kTexture };
+inline constexpr int kAttributeTargets = 5;
+
+/// The state that AttributeBegin saves and AttributeEnd restores.
+struct GraphicsState {
+  Transform ctm;
+  bool reverse_orientation = false;
+  bool transforms_active = true;  // false after `ActiveTransform EndTime`
+  Index material = kNone;         // kNone: the default diffuse
+  Index area_light = kNone;
+  std::string color_space = "srgb";
+  std::array<std::shared_ptr<const ParamList>, kAttributeTargets> attributes;
+};
+
+enum class ScopeKind { kAttribute, kTransform, kObject, kImport };
+struct Scope {
+  ScopeKind kind;
+  SourceLocation where;
+  GraphicsState saved;
+};
+
+/// A mesh file to be read once the text is through, for shapes[shape] of the scene or of
+/// an object definition.
+struct MeshRequest {
+  std::string path;
+  SourceLocation where;
+  Index object = kNone;
+  std::size_t shape = 0;
+};
+
+struct OpenFile {
+  std::string identity;  // canonical path, to detect cycles; empty for text
+  std::string directory;
+};
+
+struct ParseState {
+  ParseOptions options;
+  SceneDescription scene;
+  GraphicsState graphics;
+  bool in_world = false;
+  std::vector<Scope> scopes;
+  Index open_object = kNone;  // between ObjectBegin and ObjectEnd
+  std::vector<OpenFile> open_files;
+  int files_read = 0;
+
+  std::map<std::string, Transform> coordinate_systems;
+  std::map<std::string, Index> materials, objects, float_textures, color_textures;
+  Index default_material = kNone;  // pbrt's grey diffuse, once a shape needs it
+  std::vector<MeshRequest> meshes;
+  double exposure_seconds = 1;  // from the camera's shutter
+  double iso = 100;             // of the film
+  std::set<std::string> noted;
+
+  void AddNote(const SourceLocation& where, const std::string& message) {
+    scene.notes.push_back({where, message});
+  }
+  /// Adds the note unless the same message was noted before.
+  void AddNoteOnce(const SourceLocation& where, const std::string& message) {
+    if (noted.insert(message).second) AddNote(where, message);
+  }
+  /// A note if unsupported things are to be skipped, else an InputError.
+  void Unsupported(const SourceLocation& where, const std::string& message);
+
+  const std::shared_ptr<const ParamList>& Inherited(AttributeTarget target) const {
+    return graphics.attributes[static_cast<int>(target)];
+  }
+  std::vector<Shape>& OpenShapes() {
+    return open_object == kNone ? scene.shapes : scene.objects[open_object].shapes;
+  }
+};
+
+/// The keys of a map of names, for ThrowUnknown.
+template <typename T>
+std::vector<std::string> Names(const std::map<std::string, T>& map) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : map) names.push_back(name);
+  return names;
+}
+
+/// Path of a file named in the scene: relative to the main file's directory (as pbrt), or
+/// if there is none there, relative to the directory of the file that names it.
+std::string ResolvePath(const ParseState& state, const std::string& name);
+
+/// The whole content of a regular file. InputError at `where` if it cannot be read, is
+/// compressed (.gz), or if the options forbid access to files.
+std::string ReadSceneFile(const ParseState& state, const std::string& path,
+                          const SourceLocation& where, std::string_view kind);
+
+/// The same without options, for callers outside the parser.
+std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
+                          std::string_view kind);
+
+/// Runs all directives of `text`, in the open file on top of `state.open_files`.
+void RunDirectives(ParseState& state, std::string_view text, const std::string& name);
+
+/// Include: the same for a file; checks cycles, depth and number of files.
+void RunFile(ParseState& state, const std::string& path, const SourceLocation& where);
+
+/// Reads every requested mesh, each file once, in parallel.
+void LoadMeshes(ParseState& state);
+
+}  // namespace lanelight

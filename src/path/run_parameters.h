@@ -1,0 +1,79 @@
+// The constants of a render that kernels read.
+#pragma once
+
+#include <cstdint>
+
+#include "src/path/dimensions.h"
+#include "src/path/features.h"
+
+namespace lanelight {
+
+/// `count` equal parts of a whole, and what places a number in one of them.
+struct Strata {
+  std::uint32_t count = 1;
+  std::uint32_t bits = 0;  // least b with 2^b >= count
+  // floor((2^64 - 1) / count) = whole 2^32 + part
+  std::uint32_t whole = 0xffffffffu, part = 0xffffffffu;
+};
+
+/// Sample points. `group_size` consecutive samples of a pixel share one randomisation.
+struct PointsParameters {
+  std::uint32_t group_size = 1;
+  std::uint32_t group_shift = 0;  // log2(group_size), for samplers of powers of two
+  // sample / group_size = (sample * group_magic) >> group_magic_shift, for sample < 2^31
+  // (Granlund and Montgomery 1994).
+  std::uint32_t group_magic = 0, group_magic_shift = 0;
+  Strata strata;         // group_size strata of one dimension
+  Strata columns, rows;  // of two: columns * rows = group_size (stratified, cmj)
+  Strata base3;          // 3^base3_digits (halton)
+  std::uint32_t base3_digits = 0;  // least d with 3^d >= group_size
+  // floor(2^64 z / group_size) = lattice_whole 2^32 + lattice_part (lattice)
+  std::uint32_t lattice_whole = 0, lattice_part = 0;
+  const std::uint32_t* pmj02 = nullptr;  // table of pmj02.h (pmj02)
+};
+
+/// Antithetic pairs: bit d set = dimension d (src/path/dimensions.h) is shared by
+/// samples 2k and 2k+1 and reflected, at depths below `depths`.
+struct PairParameters {
+  std::uint32_t dimensions = 0;
+  std::uint32_t depths = 0;
+
+  bool Has(Dimension d) const {
+    return (dimensions >> static_cast<std::uint32_t>(d) & 1) != 0;
+  }
+};
+
+/// Weight of a technique of density p against one of density q, with r = q / p:
+///   1 / (1 + r (square r + linear)),
+/// power heuristic (1, 0), balance heuristic (0, 1). directions=light has (0, 0): light
+/// samples count in full, and `hits`, a factor on light that scattered rays hit, is 0.
+struct MisParameters {
+  float square = 1, linear = 0, hits = 1;
+};
+
+struct RouletteParameters {
+  float termination = 0.25f;  // constant: probability of ending
+  float floor = 0;            // throughput, luminance: least survival probability
+  std::uint32_t first = 2;    // scattering events before the first decision
+};
+
+/// Tables that some strategies need (src/prepare/tables.h).
+struct StrategyTables;
+
+/// Constants of a render, made by src/prepare/parameters.h.
+struct RunParameters {
+  std::uint32_t seed = 0;
+  std::uint32_t width = 0, height = 0;  // full image
+  std::uint32_t spp = 0;                // planned samples per pixel
+  std::uint32_t max_depth = 5;
+  float exposure = 1;  // factor from radiance to film
+  FeatureSet features;
+  PointsParameters points;
+  PairParameters pairs;
+  MisParameters mis;
+  RouletteParameters roulette;
+  float control_coefficient = 1;
+  const StrategyTables* tables = nullptr;
+};
+
+}  // namespace lanelight

@@ -1,0 +1,99 @@
+// What a stage sees: the columns of one wavefront, its queues of path slots, the scene.
+// A wavefront belongs to one task; nothing here is shared or locked.
+#pragma once
+
+#include <cstdint>
+
+#include "src/path/fields.h"
+#include "src/path/run_parameters.h"
+#include "src/path/shade_kinds.h"
+
+namespace lanelight {
+
+struct CompiledScene;  // src/compiled/scene.h
+
+// Queues hold path slots. One writer stage appends, one or more readers consume; the
+// driver (src/wavefront/run.cc) clears them.
+// X(name, meaning)
+#define LANELIGHT_QUEUES(X)                                   \
+  X(kFree, "slots without a path")                            \
+  X(kCamera, "paths that need a camera ray")                  \
+  X(kActive, "paths with a ray to intersect")                 \
+  X(kMiss, "paths whose ray left the scene")                  \
+  X(kHit, "paths whose ray hit something")                    \
+  X(kSurface, "hits that will scatter")                       \
+  X(kLit, "surfaces that connect to a light")                 \
+  X(kShadow, "paths with a shadow ray in ls_* carrying sh_*") \
+  X(kScattered, "paths with a new ray after shading")         \
+  X(kDone, "paths whose radiance is complete")                \
+  X(kScratch, "filtered sub-queue, valid inside one stage call")
+
+enum class QueueId : std::uint8_t {
+#define X(name, meaning) name,
+  LANELIGHT_QUEUES(X)
+#undef X
+      kShade,  // + ShadeKind: one queue per kind of material
+  kCount = kShade + static_cast<int>(ShadeKind::kCount)
+};
+inline constexpr int kNumQueues = static_cast<int>(QueueId::kCount);
+constexpr QueueId ShadeQueue(ShadeKind kind) {
+  return static_cast<QueueId>(static_cast<int>(QueueId::kShade) + static_cast<int>(kind));
+}
+
+/// Slots of paths. `items` has room for the wavefront plus one full vector: kernels pad
+/// the tail with the last valid slot (kernels/queue/batch-inl.h).
+struct Queue {
+  std::uint32_t* items = nullptr;
+  std::uint32_t size = 0;
+};
+
+/// Occupancy of the stage that is running; kernels count through the batch loop.
+struct LaneCounters {
+  std::uint64_t items = 0;    // paths processed
+  std::uint64_t vectors = 0;  // vector iterations
+};
+
+/// Samples of this task: every pixel of the tile, sample indices [first_sample,
+/// first_sample + samples). Started pixel by pixel within one sample index, so that
+/// neighbouring lanes hold neighbouring pixels.
+struct TileWork {
+  const std::uint32_t* pixels = nullptr;  // y * width + x, in the order to start them
+  std::uint32_t num_pixels = 0;
+  std::uint32_t first_sample = 0, samples = 0;
+  std::uint32_t together = 1;  // samples of a pixel in adjacent slots; even for pairs
+  std::uint32_t next_pixel = 0, next_sample = 0;  // cursor; done when >= samples
+
+  bool Done() const { return next_sample >= samples; }
+};
+
+/// Where finished samples go: plane-major buffer of the task's tile,
+/// plane p of sample `output` is at samples[p * stride + output]. A pixel's samples are
+/// consecutive.
+struct SampleBuffer {
+  float* samples = nullptr;
+  std::uint32_t stride = 0;  // samples of one plane
+};
+
+/// Samples that were not finite or negative, replaced by zero.
+struct BadSamples {
+  std::uint64_t nan = 0, infinite = 0, negative = 0;
+};
+
+struct Wave {
+  PathColumns path;
+  const CompiledScene* scene = nullptr;
+  const RunParameters* run = nullptr;
+  Queue queues[kNumQueues];
+  std::uint32_t capacity = 0;
+  TileWork work;
+  SampleBuffer buffer;
+  LaneCounters lanes;
+  BadSamples bad;
+  std::uint64_t rays_closest = 0, rays_shadow = 0;
+
+  Queue& queue(QueueId id) { return queues[static_cast<int>(id)]; }
+};
+
+using StageFn = void (*)(Wave&);
+
+}  // namespace lanelight

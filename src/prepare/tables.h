@@ -1,0 +1,19 @@
+// Tables that some strategies need, built once per render and read by kernels.
+#pragma once
+
+#include "src/core/aligned.h"
+#include "src/compiled/scene.h"
+#include "src/prepare/ambient.h"
+#include "src/prepare/path_values.h"
+
+namespace lanelight {
+
+struct StrategyTables {
+  PathValues path_values;             // adjoint, efficiency: set by the pilot passes
+  std::vector<AmbientLight> ambient;  // control=ambient
+};
+
+/// What the strategy of the scene needs, and nothing else.
+StrategyTables MakeStrategyTables(const CompiledScene& scene);
+
+}  // namespace lanelight

@@ -1,0 +1,254 @@
+// The error estimate predicts the error of this very image: its interval contains the
+// true error as often as it says, on simulated images whose true error is known, whatever
+// the distribution of the samples; and estimates with a mistake in them do not.
+#include "src/estimate/estimate.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace lanelight {
+namespace {
+
+using Noise = std::function<double(std::mt19937_64&)>;  // mean 0, variance 1
+
+double Normal(std::mt19937_64& random) {
+  return std::normal_distribution<double>()(random);
+}
+double Exponential(std::mt19937_64& random) {
+  return std::exponential_distribution<double>()(random) - 1;
+}
+// One sample in twenty is bright.
+double Rare(std::mt19937_64& random) {
+  constexpr double kRate = 0.05;
+  const double x = std::uniform_real_distribution<double>()(random) < kRate ? 1 : 0;
+  return (x - kRate) / std::sqrt(kRate * (1 - kRate));
+}
+
+struct SimulatedImage {
+  int width = 24, height = 16, groups = 16;
+  double deviation = 0.5;  // of a group's mean, relative to the pixel's
+  Noise noise = Normal;
+  int copies = 1;      // of each group: dependent observations
+  bool equal = false;  // all pixels have the same mean
+
+  double Mean(int x, int y) const { return equal ? 0.3 : 0.1 + 0.03 * x + 0.01 * y; }
+
+  // What `copies` > 1 wrongly takes for independent.
+  PixelEstimate Draw(int x, int y, std::mt19937_64& random) const {
+    double sum = 0, squares = 0;
+    for (int g = 0; g < groups; ++g) {
+      const double v = Mean(x, y) * (1 + deviation * noise(random));
+      sum += copies * v;
+      squares += copies * v * v;
+    }
+    const double n = double(groups) * copies, mean = sum / n;
+    const double variance = std::max(0.0, squares / n - mean * mean) / (n - 1);
+    PixelEstimate p;
+    p.known = true;
+    p.freedom = n - 1;
+    for (int c = 0; c < 3; ++c) p.mean[c] = mean, p.variance[c] = variance;
+    return p;
+  }
+
+  struct Drawn {
+    std::vector<PixelEstimate> pixels;
+    double mse = 0, relmse = 0;  // true
+    double plain = 0;            // estimate that divides by the means as they are
+  };
+  Drawn DrawAll(std::mt19937_64& random) const {
+    Drawn out;
+    const double n = double(width) * height;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        out.pixels.push_back(Draw(x, y, random));
+        const double m = out.pixels.back().mean[0], truth = Mean(x, y);
+        const double square = (m - truth) * (m - truth);
+        out.mse += square / n;
+        out.relmse += square / (truth * truth + kRelativeEpsilon) / n;
+        out.plain += out.pixels.back().variance[0] / (m * m + kRelativeEpsilon) / n;
+      }
+    }
+    return out;
+  }
+  ErrorEstimate Estimate(const Drawn& drawn) const {
+    return EstimateError(width, height, [&](int x, int y) {
+      return drawn.pixels[static_cast<std::size_t>(y * width + x)];
+    });
+  }
+};
+
+// Shares of `trials` whose intervals contain the truth.
+struct Coverage {
+  double rmse = 0, relmse = 0, plain = 0;
+};
+
+Coverage MeasureCoverage(const SimulatedImage& image, int trials) {
+  std::mt19937_64 random(7);
+  Coverage covered;
+  for (int i = 0; i < trials; ++i) {
+    const auto drawn = image.DrawAll(random);
+    const ErrorEstimate e = image.Estimate(drawn);
+    const Interval plain =
+        ErrorInterval(drawn.plain, e.effective_pixels,
+                      e.effective_pixels * (image.groups * image.copies - 1));
+    covered.rmse += e.rmse.Contains(std::sqrt(drawn.mse)) / double(trials);
+    covered.relmse += e.relmse.Contains(drawn.relmse) / double(trials);
+    covered.plain += plain.Contains(drawn.relmse) / double(trials);
+  }
+  return covered;
+}
+
+// A coverage of 0.93 or more gives less than this in 150 trials once in 10^6 times
+// (binomial distribution); mistakes give much less.
+constexpr int kTrials = 150;
+constexpr double kLeast = 0.81;
+
+}  // namespace
+
+TEST_CASE("intervals contain the true error for any distribution", "[study]") {
+  for (const Noise& noise : {Noise(Normal), Noise(Exponential), Noise(Rare)}) {
+    for (int groups : {4, 16, 64}) {
+      SimulatedImage image;
+      image.noise = noise;
+      image.groups = groups;
+      const Coverage honest = MeasureCoverage(image, kTrials);
+      INFO(groups << " groups");
+      CHECK(honest.rmse >= kLeast);
+      CHECK(honest.relmse >= kLeast);
+    }
+  }
+}
+
+TEST_CASE("intervals are as narrow as the data allow", "[study]") {
+  // 384 equal pixels of 16 groups, channels alike: the logarithm of the ratio deviates
+  // by sqrt(2/384 + 2/(384 * 15)) = 0.0745.
+  SimulatedImage image;
+  image.equal = true;
+  std::mt19937_64 random(3);
+  const ErrorEstimate e = image.Estimate(image.DrawAll(random));
+  CHECK(std::log(e.rmse.high / e.rmse.low) / 2 == Approx(1.96 * 0.0745 / 2).epsilon(0.1));
+  CHECK(e.effective_pixels == Approx(384).epsilon(0.2));
+}
+
+TEST_CASE("dependent samples taken for independent ones are rejected", "[study]") {
+  SimulatedImage image;
+  image.copies = 4;
+  const Coverage wrong = MeasureCoverage(image, kTrials);
+  CHECK(wrong.rmse < 0.1);
+  CHECK(wrong.relmse < 0.1);
+}
+
+TEST_CASE("dividing by the noisy means themselves is rejected", "[study]") {
+  SimulatedImage image;
+  image.noise = Rare;
+  image.deviation = 2;
+  image.equal = true;
+  image.width = 48, image.height = 32;
+  const Coverage c = MeasureCoverage(image, kTrials);
+  CHECK(c.relmse >= kLeast);
+  CHECK(c.plain < 0.5);
+}
+
+TEST_CASE("one pixel's error is an F variable, not a normal one", "[study]") {
+  // For normal groups m and s^2 are independent, so that F(1, G - 1) is exact: its
+  // interval contains the truth in 95 % of 4000 trials +- five deviations.
+  SimulatedImage image;
+  image.width = image.height = 1;
+  image.groups = 4;
+  std::mt19937_64 random(11);
+  constexpr int kMany = 4000;
+  int inside = 0, by_normal = 0;
+  for (int i = 0; i < kMany; ++i) {
+    const auto drawn = image.DrawAll(random);
+    const ErrorEstimate e = image.Estimate(drawn);
+    inside += e.rmse.Contains(std::sqrt(drawn.mse));
+    const double value = e.rmse.value * e.rmse.value;
+    by_normal += std::abs(drawn.mse - value) <= 1.96 * std::sqrt(2 + 2.0 / 3) * value;
+  }
+  const double slack = 5 * std::sqrt(0.95 * 0.05 / kMany);
+  CHECK(std::abs(double(inside) / kMany - 0.95) < slack);
+  CHECK(double(by_normal) / kMany < 0.95 - 2 * slack);
+}
+
+TEST_CASE("estimated errors equal the true ones on average", "[study]") {
+  for (const Noise& noise : {Noise(Normal), Noise(Exponential)}) {
+    SimulatedImage image;
+    image.width = 40, image.height = 28;
+    image.groups = 64;
+    image.noise = noise;
+    std::mt19937_64 random(1);
+    double truth = 0, mse = 0, true_relmse = 0, relmse = 0;
+    for (int i = 0; i < 20; ++i) {
+      const auto drawn = image.DrawAll(random);
+      const ErrorEstimate e = image.Estimate(drawn);
+      truth += drawn.mse, mse += e.rmse.value * e.rmse.value;
+      true_relmse += drawn.relmse, relmse += e.relmse.value;
+    }
+    // The ratio deviates by sqrt(2 / (20 * 1120)) = 0.9 % (more for unequal pixels).
+    CHECK(mse == Approx(truth).epsilon(0.06));
+    CHECK(relmse == Approx(true_relmse).epsilon(0.06));
+  }
+}
+
+TEST_CASE("pixels without a variance are left out", "[study]") {
+  const ErrorEstimate none =
+      EstimateError(8, 8, [](int, int) { return PixelEstimate{}; });
+  CHECK_FALSE(none.available);
+  CHECK_FALSE(none.has_interval);
+  const ErrorEstimate one = EstimateError(8, 8, [](int x, int y) {
+    PixelEstimate p;
+    p.known = x == 3 && y == 2;
+    p.mean = {1, 1, 1};
+    p.variance = {4, 4, 4};
+    p.freedom = 3;
+    return p;
+  });
+  CHECK(one.available);
+  CHECK(one.pixels == 1);
+  CHECK(one.rmse.value == Approx(2));
+  CHECK(one.relmse.value == Approx(4 / 1.01));
+}
+
+TEST_CASE("images without noise have no error", "[study]") {
+  for (double value : {0.0, 0.7}) {
+    const ErrorEstimate e = EstimateError(5, 4, [&](int, int) {
+      PixelEstimate p;
+      p.known = true;
+      p.mean = {value, value, value};
+      return p;
+    });
+    CHECK(e.has_interval);
+    CHECK(e.rmse.value == 0);
+    CHECK(e.rmse.high == 0);
+    CHECK(e.relmse.high == 0);
+    CHECK(e.effective_pixels == 20);
+  }
+}
+
+TEST_CASE("intervals are finite, positive and contain the estimate", "[study]") {
+  std::mt19937_64 random(5);
+  std::lognormal_distribution<double> heavy(0, 3);
+  for (int i = 0; i < 20; ++i) {
+    const ErrorEstimate e = EstimateError(17, 9, [&](int x, int y) {
+      std::mt19937_64 own(static_cast<std::uint64_t>(1000 * i + 17 * y + x));
+      const double v = heavy(own);
+      PixelEstimate p;
+      p.known = true;
+      p.mean = {std::sqrt(v), 0, 0};
+      p.variance = {v, v, v};
+      p.excess = {-v / 2, v, -v};
+      return p;
+    });
+    for (const Interval& interval : {e.relmse, e.rmse}) {
+      CHECK(interval.HasBounds());
+      CHECK(interval.low >= 0);
+      CHECK(interval.low <= interval.value);
+      CHECK(interval.value <= interval.high);
+    }
+  }
+}
+
+}  // namespace lanelight

@@ -1,0 +1,133 @@
+// Camera, film, filter, sampler, integrator, options.
+#include <catch2/catch.hpp>
+
+#include "tests/parse/parse_text.h"
+
+namespace lanelight {
+namespace {
+
+SceneDescription ParseOptionsBlock(const std::string& text) {
+  return ParseText(text + "\nWorldBegin");
+}
+
+TEST_CASE("defaults are those of pbrt", "[parse]") {
+  const SceneDescription scene = ParseText("WorldBegin");
+  CHECK(scene.camera.kind == CameraKind::kPerspective);
+  CHECK(scene.camera.fov == 90);
+  CHECK(scene.film.width == 1280);
+  CHECK(scene.film.height == 720);
+  CHECK(scene.film.imaging_ratio == 1);
+  CHECK(scene.filter.kind == FilterKind::kGaussian);
+  CHECK(scene.filter.x_radius == 1.5);
+  CHECK(scene.strategy.points == Points::kSobol);
+  CHECK(scene.sampler.spp == 16);
+  CHECK(scene.integrator.max_depth == 5);
+}
+
+TEST_CASE("cameras", "[parse]") {
+  const SceneDescription scene = ParseOptionsBlock(R"(
+    Camera "perspective" "float fov" 40 "float lensradius" 0.1 "float focaldistance" 3
+      "float frameaspectratio" 2 "float screenwindow" [ -1 1 -0.5 0.5 ]
+      "float shutteropen" 1 "float shutterclose" 1.5
+    Film "rgb" "float iso" 400)");
+  CHECK(scene.camera.fov == 40);
+  CHECK(scene.camera.lens_radius == 0.1);
+  CHECK(scene.camera.focal_distance == 3);
+  CHECK(scene.camera.frame_aspect == 2);
+  CHECK(scene.camera.screen_window[2] == -0.5);
+  CHECK(scene.film.imaging_ratio == Approx(0.5 * 400 / 100));
+  CHECK(ParseOptionsBlock("Camera \"orthographic\"").camera.kind ==
+        CameraKind::kOrthographic);
+  CHECK_THROWS_AS(ParseOptionsBlock("Camera \"orthographic\" \"float fov\" 30"),
+                  InputError);
+}
+
+TEST_CASE("film size, crop and ignored sensor", "[parse]") {
+  const SceneDescription scene = ParseOptionsBlock(R"(
+    Film "rgb" "integer xresolution" 101 "integer yresolution" 50
+      "string filename" "out.exr" "float cropwindow" [ 0.25 0.5 0 1 ]
+      "bool savefp16" false "string sensor" "canon_eos_100d"
+      "float maxcomponentvalue" 10)");
+  CHECK(scene.film.width == 101);
+  CHECK(scene.film.filename == "out.exr");
+  CHECK(scene.film.crop[0] == 26);  // ceil(25.25)
+  CHECK(scene.film.crop[1] == 51);
+  CHECK(scene.film.crop[3] == 50);
+  CHECK(scene.notes.size() == 3);
+  CHECK(HasNote(scene, "\"sensor\" of film \"rgb\" has no effect"));
+  const SceneDescription bounds = ParseOptionsBlock(R"(
+    Film "gbuffer" "integer pixelbounds" [ 3 9 4 8 ])");
+  CHECK(bounds.film.crop[0] == 3);
+  CHECK(bounds.film.crop[3] == 8);
+  CHECK(HasNote(bounds, "taken as \"rgb\""));
+}
+
+TEST_CASE("pixel filters have their own default radii", "[parse]") {
+  struct Case {
+    const char* name;
+    FilterKind kind;
+    double radius;
+  };
+  for (const Case& c :
+       {Case{"box", FilterKind::kBox, 0.5}, Case{"triangle", FilterKind::kTriangle, 2},
+        Case{"gaussian", FilterKind::kGaussian, 1.5},
+        Case{"mitchell", FilterKind::kMitchell, 2},
+        Case{"sinc", FilterKind::kLanczos, 4}}) {
+    CAPTURE(c.name);
+    const auto scene = ParseOptionsBlock(std::string("PixelFilter \"") + c.name + '"');
+    CHECK(scene.filter.kind == c.kind);
+    CHECK(scene.filter.x_radius == c.radius);
+    CHECK(scene.filter.y_radius == c.radius);
+  }
+  const auto mitchell =
+      ParseOptionsBlock("PixelFilter \"mitchell\" \"float B\" 0.5 \"float xradius\" 3");
+  CHECK(mitchell.filter.b == 0.5);
+  CHECK(mitchell.filter.c == Approx(1. / 3));
+  CHECK(mitchell.filter.x_radius == 3);
+}
+
+TEST_CASE("samplers", "[parse]") {
+  const auto independent = ParseOptionsBlock(
+      "Sampler \"independent\" \"integer pixelsamples\" 7 \"integer seed\" 9");
+  CHECK(independent.strategy.points == Points::kIndependent);
+  CHECK(independent.sampler.spp == 7);
+  CHECK(independent.sampler.seed == 9);
+  CHECK(independent.notes.empty());
+  const auto sobol = ParseOptionsBlock("Sampler \"sobol\"");
+  CHECK(sobol.strategy.points == Points::kSobol);
+  CHECK(sobol.notes.empty());
+  const auto stratified = ParseOptionsBlock(
+      "Sampler \"stratified\" \"integer xsamples\" 3 \"bool jitter\" true");
+  CHECK(stratified.sampler.spp == 12);
+  CHECK(stratified.strategy.points == Points::kStratified);
+  const auto seeded = ParseOptionsBlock("Option \"integer seed\" 5 Sampler \"halton\"");
+  CHECK(seeded.sampler.seed == 5);
+  CHECK(seeded.strategy.points == Points::kHalton);
+  CHECK(seeded.notes.empty());
+}
+
+TEST_CASE("integrators", "[parse]") {
+  const auto path = ParseOptionsBlock("Integrator \"path\" \"integer maxdepth\" 65");
+  CHECK(path.integrator.max_depth == 65);
+  CHECK(path.notes.empty());
+  for (const char* name : {"volpath", "simplepath", "bdpt", "mlt", "sppm"}) {
+    CHECK(HasNote(ParseOptionsBlock(std::string("Integrator \"") + name + '"'),
+                  "replaced by \"path\""));
+  }
+}
+
+TEST_CASE("accelerator, options and color space are noted", "[parse]") {
+  const auto scene = ParseOptionsBlock(R"(
+    Accelerator "bvh" "string splitmethod" "sah"
+    Option "disablepixeljitter" true
+    Option "string rendercoordsys" "world"
+    ColorSpace "rec2020"
+    Film "rgb")");
+  CHECK(HasNote(scene, "Accelerator has no effect"));
+  CHECK(HasNote(scene, "option \"disablepixeljitter\" has no effect"));
+  CHECK(HasNote(scene, "option \"rendercoordsys\" has no effect"));
+  CHECK(HasNote(scene, "written in linear sRGB"));
+}
+
+}  // namespace
+}  // namespace lanelight

@@ -1,0 +1,123 @@
+// Lights and the spectra of their emission.
+#include <catch2/catch.hpp>
+
+#include <numbers>
+
+#include "src/image/spectrum.h"
+#include "tests/parse/parse_text.h"
+
+namespace lanelight {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Light ParseLight(const std::string& text) {
+  return ParseWorld("LightSource " + text).lights.back();
+}
+
+void CheckColor(Rgb found, Rgb expected) {
+  CHECK(found.x == Approx(expected.x));
+  CHECK(found.y == Approx(expected.y));
+  CHECK(found.z == Approx(expected.z));
+}
+
+TEST_CASE("point lights", "[parse]") {
+  const SceneDescription scene = ParseWorld(
+      "Translate 1 2 3 LightSource \"point\" \"rgb I\" [ 1 2 3 ] \"float scale\" 2 "
+      "\"point3 from\" [ 1 0 0 ]");
+  CHECK(scene.lights[0].kind == LightKind::kPoint);
+  CheckColor(scene.lights[0].emission, {2, 4, 6});
+  CHECK(scene.lights[0].from.x == 1);
+  CHECK(scene.lights[0].world_from_light.Point({0, 0, 0}).z == 3);
+  CheckColor(ParseLight("\"point\"").emission, {1, 1, 1});
+  // Power P over the whole sphere of directions.
+  CheckColor(ParseLight("\"point\" \"float power\" 100").emission,
+             Rgb{1, 1, 1} * (100 / (4 * kPi)));
+}
+
+TEST_CASE("spot lights", "[parse]") {
+  const Light plain = ParseLight(
+      "\"spot\" \"point3 from\" [ 0 0 1 ] \"point3 to\" [ 0 0 0 ] \"rgb I\" [ 5 5 5 ] "
+      "\"float coneangle\" 40 \"float conedeltaangle\" 10");
+  CHECK(plain.kind == LightKind::kSpot);
+  CHECK(plain.cone_angle == 40);
+  CHECK(plain.cone_delta == 10);
+  CheckColor(plain.emission, {5, 5, 5});
+  // Without a soft edge, power / solid angle of the cone.
+  const Light hard = ParseLight(
+      "\"spot\" \"float power\" 7 \"float coneangle\" 60 \"float conedeltaangle\" 0");
+  CHECK(hard.emission.y == Approx(7 / (2 * kPi * (1 - 0.5))));
+  // With one, the smoothstep s(t) = t^2 (3 - 2 t) in the cosine, integrated numerically.
+  const Light soft = ParseLight(
+      "\"spot\" \"float power\" 7 \"float coneangle\" 60 \"float conedeltaangle\" 30");
+  const double inner = std::cos(kPi / 6), outer = std::cos(kPi / 3);
+  double ring = 0;
+  constexpr int kSteps = 10000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double t = (i + 0.5) / kSteps;
+    ring += t * t * (3 - 2 * t) * (inner - outer) / kSteps;
+  }
+  CHECK(soft.emission.y == Approx(7 / (2 * kPi * (1 - inner + ring))));
+}
+
+TEST_CASE("distant and infinite lights", "[parse]") {
+  const Light sun = ParseLight(
+      "\"distant\" \"rgb L\" [ 1 0.5 0.25 ] \"float illuminance\" 8 "
+      "\"point3 from\" [ 0 0 1 ] \"point3 to\" [ 0 0 0 ]");
+  CHECK(sun.kind == LightKind::kDistant);
+  CheckColor(sun.emission, {8, 4, 2});
+  const Light sky =
+      ParseLight("\"infinite\" \"rgb L\" [ 1 1 1 ] \"float illuminance\" 3");
+  CHECK(sky.kind == LightKind::kInfinite);
+  CheckColor(sky.emission, Rgb{1, 1, 1} * (3 / kPi));
+  CHECK(sky.illuminance == -1);
+  const Light map = ParseLight(
+      "\"infinite\" \"string filename\" \"sky.exr\" \"float scale\" 4 "
+      "\"float illuminance\" 3");
+  CHECK(map.image_path == "./sky.exr");
+  CHECK(map.image_scale == 4);
+  CHECK(map.illuminance == 3);
+}
+
+TEST_CASE("emission spectra have luminance one times the scale", "[parse]") {
+  const Light body = ParseLight("\"point\" \"blackbody I\" 5000 \"float scale\" 3");
+  CheckColor(body.emission, RgbFromBlackbody(5000) * 3);
+  CHECK(Luminance(body.emission) == Approx(3).epsilon(1e-3));
+  const Light flat = ParseLight("\"point\" \"spectrum I\" [ 300 7 900 7 ]");
+  CHECK(Luminance(flat.emission) == Approx(1).epsilon(1e-3));
+  Rgb d65;
+  REQUIRE(NamedSpectrum("stdillum-D65", SpectrumUse::kIlluminant, &d65));
+  CheckColor(ParseLight("\"point\" \"spectrum I\" \"stdillum-D65\"").emission, d65);
+  // A candle's blue is outside the gamut of sRGB; no emission is negative.
+  CHECK(ParseLight("\"point\" \"blackbody I\" 1000").emission.z == 0);
+}
+
+TEST_CASE("rgb is converted from its color space", "[parse]") {
+  const SceneDescription scene = ParseWorld(R"(
+    ColorSpace "rec2020"
+    LightSource "point" "rgb I" [ 0.2 0.3 0.4 ]
+    AttributeBegin
+      ColorSpace "srgb"
+      LightSource "point" "rgb I" [ 0.2 0.3 0.4 ]
+    AttributeEnd)");
+  CheckColor(scene.lights[0].emission, ToSrgb("rec2020", {0.2, 0.3, 0.4}));
+  CheckColor(scene.lights[1].emission, {0.2, 0.3, 0.4});
+  CHECK(scene.lights[0].emission.x != Approx(0.2).epsilon(1e-3));
+}
+
+TEST_CASE("area lights", "[parse]") {
+  const SceneDescription scene = ParseWorld(R"(
+    AreaLightSource "diffuse" "rgb L" [ 1 2 3 ] "float scale" 2 "bool twosided" true
+      "float power" 60
+    Shape "sphere"
+    Shape "disk")");
+  REQUIRE(scene.area_lights.size() == 1);
+  CHECK(scene.area_lights[0].radiance == Rgb{1, 2, 3});
+  CHECK(scene.area_lights[0].scale == 2);
+  CHECK(scene.area_lights[0].power == 60);
+  CHECK(scene.area_lights[0].two_sided);
+  CHECK(scene.shapes[1].area_light == 0);
+}
+
+}  // namespace
+}  // namespace lanelight

@@ -1,0 +1,199 @@
+// Materials and textures.
+#include <catch2/catch.hpp>
+
+#include "src/image/spectrum.h"
+#include "tests/parse/parse_text.h"
+
+namespace lanelight {
+namespace {
+
+Material ParseMaterial(const std::string& text) {
+  return ParseWorld("Material " + text).materials.back();
+}
+
+TEST_CASE("diffuse and its scattering models", "[parse]") {
+  const Material material =
+      ParseMaterial("\"diffuse\" \"rgb reflectance\" [ 0.1 0.2 0.3 ]");
+  CHECK(material.kind == MaterialKind::kDiffuse);
+  CHECK(material.reflectance.constant == Rgb{0.1, 0.2, 0.3});
+  CHECK(material.scattering == Scattering::kLambertian);
+  CHECK(ParseMaterial("\"diffuse\" \"string scattering\" \"uniform\"").scattering ==
+        Scattering::kUniform);
+  CHECK(ParseMaterial("\"diffuse\" \"string scattering\" \"insphere\"").scattering ==
+        Scattering::kInSphere);
+}
+
+TEST_CASE("conductors", "[parse]") {
+  ComplexIor copper, silver;
+  REQUIRE(NamedMetal("Cu", &copper));
+  REQUIRE(NamedMetal("Ag", &silver));
+  const Material plain = ParseMaterial("\"conductor\"");
+  CHECK(plain.kind == MaterialKind::kConductor);
+  CHECK(plain.eta.constant == copper.eta);
+  CHECK(plain.k.constant == copper.k);
+  CHECK(plain.uroughness.constant == 0);
+  CHECK(plain.remap_roughness);
+  const Material named = ParseMaterial(
+      "\"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\" "
+      "\"float uroughness\" 0.1 \"float vroughness\" 0.2 \"bool remaproughness\" false");
+  CHECK(named.eta.constant == silver.eta);
+  CHECK(named.k.constant == silver.k);
+  CHECK(named.uroughness.constant == 0.1);
+  CHECK(named.vroughness.constant == 0.2);
+  CHECK_FALSE(named.remap_roughness);
+  const Material rgb = ParseMaterial(
+      "\"conductor\" \"rgb eta\" [ 2 3 4 ] \"rgb k\" [ 5 6 7 ] \"float roughness\" 0.3");
+  CHECK(rgb.eta.constant == Rgb{2, 3, 4});
+  CHECK(rgb.k.constant == Rgb{5, 6, 7});
+  CHECK(rgb.uroughness.constant == 0.3);
+  CHECK(rgb.vroughness.constant == 0.3);
+  const Material tinted =
+      ParseMaterial("\"conductor\" \"rgb reflectance\" [ 0.9 0.8 0.7 ]");
+  CHECK(tinted.has_reflectance);
+  CHECK(tinted.reflectance.constant == Rgb{0.9, 0.8, 0.7});
+  const Material sampled = ParseMaterial(
+      "\"conductor\" \"spectrum eta\" [ 360 2 830 2 ] \"spectrum k\" [ 360 3 830 3 ]");
+  CHECK(sampled.eta.constant.y == Approx(2).epsilon(1e-3));
+  CHECK(sampled.k.constant.y == Approx(3).epsilon(1e-3));
+}
+
+TEST_CASE("dielectrics", "[parse]") {
+  CHECK(ParseMaterial("\"dielectric\"").interface_eta == 1.5);
+  CHECK(ParseMaterial("\"thindielectric\" \"float eta\" 1.3").interface_eta == 1.3);
+  double bk7 = 0;
+  REQUIRE(NamedGlassEta("glass-BK7", &bk7));
+  const SceneDescription scene =
+      ParseWorld("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"");
+  CHECK(scene.materials[0].interface_eta == bk7);
+  CHECK(HasNote(scene, "dispersion is not modelled"));
+  const Material line =
+      ParseMaterial("\"dielectric\" \"spectrum eta\" [ 487.6 1.6 687.6 1.4 ]");
+  CHECK(line.interface_eta == Approx(1.5));
+}
+
+TEST_CASE("coats", "[parse]") {
+  const Material diffuse = ParseMaterial(
+      "\"coateddiffuse\" \"rgb reflectance\" [ 1 1 1 ] \"float roughness\" 0.1 "
+      "\"float thickness\" 0.02 \"float g\" 0.5 \"rgb albedo\" [ 0.1 0.2 0.3 ] "
+      "\"integer maxdepth\" 7 \"integer nsamples\" 3 \"float eta\" 1.4");
+  CHECK(diffuse.kind == MaterialKind::kCoatedDiffuse);
+  CHECK(diffuse.interface_eta == 1.4);
+  CHECK(diffuse.vroughness.constant == 0.1);
+  CHECK(diffuse.thickness == 0.02);
+  CHECK(diffuse.coat_g == 0.5);
+  CHECK(diffuse.coat_albedo == Rgb{0.1, 0.2, 0.3});
+  CHECK(diffuse.coat_max_depth == 7);
+  CHECK(diffuse.coat_samples == 3);
+  const Material conductor = ParseMaterial(
+      "\"coatedconductor\" \"float interface.roughness\" 0.1 "
+      "\"float conductor.uroughness\" 0.2 \"float conductor.vroughness\" 0.3 "
+      "\"float interface.eta\" 1.7 \"rgb conductor.eta\" [ 1 2 3 ] "
+      "\"rgb conductor.k\" [ 4 5 6 ]");
+  CHECK(conductor.kind == MaterialKind::kCoatedConductor);
+  CHECK(conductor.uroughness.constant == 0.1);
+  CHECK(conductor.conductor_uroughness.constant == 0.2);
+  CHECK(conductor.conductor_vroughness.constant == 0.3);
+  CHECK(conductor.interface_eta == 1.7);
+  CHECK(conductor.k.constant == Rgb{4, 5, 6});
+  CHECK(ParseMaterial("\"coatedconductor\"").coat_max_depth == 10);
+}
+
+TEST_CASE("diffuse transmission scales both parts", "[parse]") {
+  const Material plain = ParseMaterial("\"diffusetransmission\"");
+  CHECK(plain.reflectance.constant == Rgb{0.25, 0.25, 0.25});
+  CHECK(plain.transmittance.constant == Rgb{0.25, 0.25, 0.25});
+  const SceneDescription scene = ParseWorld(R"(
+    Texture "t" "spectrum" "constant" "rgb value" [ 0.2 0.4 0.6 ]
+    Material "diffusetransmission" "texture reflectance" "t" "float scale" 0.5)");
+  CHECK(scene.materials[0].transmittance.constant == Rgb{0.125, 0.125, 0.125});
+  const Texture& scaled = scene.textures[scene.materials[0].reflectance.texture];
+  CHECK(scaled.kind == TextureKind::kScale);
+  CHECK(scaled.tex1.texture == 0);
+  CHECK(scaled.amount.constant == 0.5);
+}
+
+TEST_CASE("mix, interface, named materials", "[parse]") {
+  const SceneDescription scene = ParseWorld(R"(
+    MakeNamedMaterial "a" "string type" "diffuse"
+    MakeNamedMaterial "b" "string type" "conductor"
+    MakeNamedMaterial "m" "string type" "mix" "string materials" [ "a" "b" ]
+      "float amount" 0.25
+    NamedMaterial "m" Shape "sphere"
+    Material "interface" AreaLightSource "diffuse" Shape "sphere"
+    Material "none" Shape "sphere"
+    Material "diffuse" "string normalmap" "n.png")");
+  const Material& mix = scene.materials[scene.shapes[0].material];
+  CHECK(mix.kind == MaterialKind::kMix);
+  CHECK(mix.name == "m");
+  CHECK(mix.mix[0] == 0);
+  CHECK(mix.mix[1] == 1);
+  CHECK(mix.mix_amount.constant == 0.25);
+  CHECK(scene.materials[scene.shapes[1].material].kind == MaterialKind::kInterface);
+  CHECK(scene.shapes[1].area_light == kNone);
+  CHECK(scene.materials[scene.shapes[2].material].kind == MaterialKind::kInterface);
+  CHECK(HasNote(scene, "\"normalmap\" of material \"diffuse\" has no effect"));
+}
+
+TEST_CASE("textures", "[parse]") {
+  const SceneDescription scene = ParseWorld(R"(
+    Texture "half" "float" "constant" "float value" 0.5
+    Texture "red" "spectrum" "constant" "rgb value" [ 1 0 0 ]
+    Texture "dark" "spectrum" "scale" "texture tex" "red" "texture scale" "half"
+    Texture "blend" "spectrum" "mix" "texture tex2" "dark" "float amount" 0.3
+    Texture "board" "spectrum" "checkerboard" "float uscale" 20 "float vdelta" 0.5
+      "rgb tex2" [ 0.1 0.2 0.3 ]
+    Texture "half" "spectrum" "constant"
+    Material "diffuse" "texture reflectance" "board"
+    Material "conductor" "texture roughness" "half"
+    Shape "sphere" "texture alpha" "half")");
+  REQUIRE(scene.textures.size() == 6);
+  CHECK(scene.textures[0].is_float);
+  CHECK(scene.textures[0].value == Rgb{0.5, 0.5, 0.5});
+  const Texture& dark = scene.textures[2];
+  CHECK(dark.tex1.texture == 1);
+  CHECK(dark.amount.texture == 0);
+  const Texture& blend = scene.textures[3];
+  CHECK(blend.tex1.constant == Rgb{0, 0, 0});
+  CHECK(blend.tex2.texture == 2);
+  CHECK(blend.amount.constant == 0.3);
+  const Texture& board = scene.textures[4];
+  CHECK(board.tex1.constant == Rgb{1, 1, 1});
+  CHECK(board.tex2.constant == Rgb{0.1, 0.2, 0.3});
+  CHECK(board.mapping.su == 20);
+  CHECK(board.mapping.dv == 0.5);
+  CHECK(scene.materials[0].reflectance.texture == 4);
+  CHECK(scene.materials[1].uroughness.texture == 0);
+  CHECK(scene.materials[1].vroughness.texture == 0);
+  CHECK(scene.shapes[0].alpha.texture == 0);
+}
+
+TEST_CASE("image textures", "[parse]") {
+  const SceneDescription scene = ParseWorld(R"(
+    Texture "a" "spectrum" "imagemap" "string filename" "pic/a.png"
+    Texture "b" "float" "imagemap" "string filename" "b.tga" "string wrap" "black"
+      "string filter" "trilinear" "string encoding" "gamma 1.8" "float scale" 2
+      "bool invert" true "float maxanisotropy" 4
+    Texture "c" "spectrum" "imagemap" "string filename" "c.png" "string filter" "point"
+      "string encoding" "linear"
+    Texture "d" "spectrum" "imagemap" "string filename" "d.png" "string filter" "ewa")");
+  CHECK(scene.textures[0].path == "./pic/a.png");
+  CHECK(scene.textures[0].encoding == Encoding::kSrgb);
+  CHECK(scene.textures[0].wrap == WrapMode::kRepeat);
+  CHECK(scene.textures[0].bilinear);
+  const Texture& b = scene.textures[1];
+  CHECK(b.wrap == WrapMode::kBlack);
+  CHECK(b.encoding == Encoding::kGamma);
+  CHECK(b.gamma == 1.8);
+  CHECK(b.scale == 2);
+  CHECK(b.invert);
+  CHECK_FALSE(scene.textures[2].bilinear);
+  CHECK(scene.textures[2].encoding == Encoding::kLinear);
+  int filter_notes = 0;
+  for (const Note& note : scene.notes) {
+    filter_notes += note.message.find("trilinear") != std::string::npos;
+  }
+  CHECK(filter_notes == 1);
+}
+
+}  // namespace
+}  // namespace lanelight

@@ -1,0 +1,160 @@
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/support/points_probe.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/points/cmj-inl.h"
+#include "kernels/points/fill-inl.h"
+#include "kernels/points/halton-inl.h"
+#include "kernels/points/independent-inl.h"
+#include "kernels/points/lattice-inl.h"
+#include "kernels/points/pmj02-inl.h"
+#include "tests/support/points_probe.h"
+#include "kernels/points/sobol-inl.h"
+#include "kernels/points/stratified-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// Calls body(i, pixels, samples) for each vector of the query: lanes are pixels or, of a
+// single pixel, samples. The last one is repeated past the end, as in a queue (PadTail);
+// what it writes there the next row overwrites.
+template <class Body>
+HWY_INLINE void ForEachPoint(const PointsQuery& q, Body&& body) {
+  const DU du;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
+  const bool one = q.pixels == 1;
+  const uint32_t rows = one ? 1 : q.count, columns = one ? q.count : q.pixels;
+  for (uint32_t row = 0; row < rows; ++row) {
+    for (uint32_t i = 0; i < columns; i += lanes) {
+      const VU column = hn::Min(hn::Iota(du, i), SplatU(columns - 1));
+      const VU pixel = hn::Add(SplatU(q.pixel), one ? hn::Zero(du) : column);
+      const VU sample = hn::Add(SplatU(q.first_sample), one ? column : SplatU(row));
+      body(std::size_t{row} * columns + i, pixel, sample);
+    }
+  }
+}
+
+template <class Policy>
+void ProbePolicy(const PointsQuery& q, const PointsParameters& points, float* u0,
+                 float* u1) {
+  ForEachPoint(q, [&](std::size_t i, VU pixel, VU sample) HWY_ATTR {
+    const GroupIndex at = Policy::Group(points, sample);
+    VF a, b;
+    Policy::Point(points, pixel, at, SplatU(q.key), SplatU(q.seed), &a, &b);
+    hn::StoreU(a, DF(), u0 + i);
+    hn::StoreU(b, DF(), u1 + i);
+  });
+}
+
+template <class Policy>
+void ProbePolicyNumbers(const PointsQuery& q, float* u) {
+  const PointsParameters points = MakePointsParameters(q.points, q.group_size);
+  ForEachPoint(q, [&](std::size_t i, VU pixel, VU sample) HWY_ATTR {
+    const GroupIndex at = Policy::Group(points, sample);
+    VF a, b;
+    if constexpr (HasNumber<Policy>) {
+      a = Policy::Number(points, pixel, at, SplatU(q.key), SplatU(q.seed));
+    } else {
+      Policy::Point(points, pixel, at, SplatU(q.key), SplatU(q.seed), &a, &b);
+    }
+    hn::StoreU(a, DF(), u + i);
+  });
+}
+
+#define LANELIGHT_POLICIES(X)        \
+  X(kIndependent, IndependentPoints) \
+  X(kStratified, StratifiedPoints)   \
+  X(kCmj, CmjPoints)                 \
+  X(kPmj02, Pmj02Points)             \
+  X(kSobol, SobolPoints)             \
+  X(kHalton, HaltonPoints)           \
+  X(kLattice, LatticePoints)
+
+void Probe(const PointsQuery& q, const PointsParameters& points, float* u0, float* u1) {
+  switch (q.points) {
+#define X(enumerator, Policy) \
+  case Points::enumerator:    \
+    return ProbePolicy<Policy>(q, points, u0, u1);
+    LANELIGHT_POLICIES(X)
+#undef X
+  }
+}
+
+void ProbeScalar(const PointsQuery& q, float* u) {
+  switch (q.points) {
+#define X(enumerator, Policy) \
+  case Points::enumerator:    \
+    return ProbePolicyNumbers<Policy>(q, u);
+    LANELIGHT_POLICIES(X)
+#undef X
+  }
+}
+#undef LANELIGHT_POLICIES
+
+void ProbeDivided(const PointsParameters& points, uint32_t first, uint32_t count,
+                  uint32_t* group, uint32_t* index) {
+  const DU du;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
+  for (uint32_t i = 0; i < count; i += lanes) {
+    const VU offset = hn::Min(hn::Iota(du, i), SplatU(count - 1));
+    const GroupIndex at = GroupByDivision(points, hn::Add(SplatU(first), offset));
+    hn::StoreU(at.group, du, group + i);
+    hn::StoreU(at.index, du, index + i);
+  }
+}
+
+void ProbePermuted(const PointsParameters& points, uint32_t key, bool octaves,
+                   uint32_t* out) {
+  const DU du;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
+  for (uint32_t i = 0; i < points.group_size; i += lanes) {
+    const VU index = hn::Min(hn::Iota(du, i), SplatU(points.group_size - 1));
+    const VU image = octaves ? PermuteOctaves(index, SplatU(key))
+                             : Permute(points.strata, index, SplatU(key));
+    hn::StoreU(image, du, out + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lanelight {
+
+HWY_EXPORT(Probe);
+HWY_EXPORT(ProbeScalar);
+HWY_EXPORT(ProbeDivided);
+HWY_EXPORT(ProbePermuted);
+
+void ProbePoints(const PointsQuery& query, float* u0, float* u1) {
+  ProbePoints(query, MakePointsParameters(query.points, query.group_size), u0, u1);
+}
+
+void ProbePoints(const PointsQuery& query, const PointsParameters& parameters, float* u0,
+                 float* u1) {
+  HWY_DYNAMIC_DISPATCH(Probe)(query, parameters, u0, u1);
+}
+
+void ProbeNumbers(const PointsQuery& query, float* u) {
+  HWY_DYNAMIC_DISPATCH(ProbeScalar)(query, u);
+}
+
+void ProbeGroups(std::uint32_t group_size, std::uint32_t first, std::uint32_t count,
+                 std::uint32_t* group, std::uint32_t* index) {
+  const PointsParameters points = MakePointsParameters(Points::kHalton, group_size);
+  HWY_DYNAMIC_DISPATCH(ProbeDivided)(points, first, count, group, index);
+}
+
+void ProbePermutation(std::uint32_t count, std::uint32_t key, bool octaves,
+                      std::uint32_t* out) {
+  const PointsParameters points = MakePointsParameters(Points::kHalton, count);
+  HWY_DYNAMIC_DISPATCH(ProbePermuted)(points, key, octaves, out);
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE
