@@ -7,6 +7,10 @@
 
 namespace lanelight {
 
+// The stage that shades a kind of material.
+#define LANELIGHT_SHADE_STAGE(name, traits, meaning) X(Shade##name)
+
+// X(name), by that name: the list of shading stages asks for it.
 #define LANELIGHT_STAGES(X)   \
   X(Generate)                 \
   X(IndependentCamera)        \
@@ -17,8 +21,9 @@ namespace lanelight {
   X(HaltonCamera)             \
   X(LatticeCamera)            \
   X(AntitheticCamera)         \
-  X(Camera)                   \
-  X(RecordStart)              \
+  X(FirstFilm)                \
+  X(PerspectiveCamera)        \
+  X(OrthographicCamera)       \
   X(IntersectTriangles)       \
   X(IntersectSpheres)         \
   X(IntersectDisks)           \
@@ -37,6 +42,7 @@ namespace lanelight {
   X(Mix)                      \
   X(Texture)                  \
   X(Aov)                      \
+  X(Vertices)                 \
   X(RecordVertex)             \
   X(AdjointRoulette)          \
   X(EfficiencyRoulette)       \
@@ -64,18 +70,7 @@ namespace lanelight {
   X(AnalyticTransmission)     \
   X(AmbientDiffuse)           \
   X(AmbientTransmission)      \
-  X(ShadeDiffuse)             \
-  X(ShadeDiffuseUniform)      \
-  X(ShadeDiffuseInSphere)     \
-  X(ShadeConductorSmooth)     \
-  X(ShadeConductorRough)      \
-  X(ShadeDielectricSmooth)    \
-  X(ShadeDielectricRough)     \
-  X(ShadeThinDielectric)      \
-  X(ShadeCoatedDiffuseSmooth) \
-  X(ShadeCoatedDiffuseRough)  \
-  X(ShadeCoatedConductor)     \
-  X(ShadeDiffuseTransmission) \
+  LANELIGHT_SHADE_KINDS(LANELIGHT_SHADE_STAGE) \
   X(ShadowTriangles)          \
   X(ShadowSpheres)            \
   X(ShadowDisks)              \

@@ -1,3 +1,134 @@
-#include "src/cli/app.h"
+// `lanelight`: reads the command line and does what it says.
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
 
-int main(int argc, char** argv) { return lanelight::RunCommandLine(argc, argv); }
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
+#include "src/core/check.h"
+#include "src/core/error.h"
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+constexpr const char* kDescription =
+    "Lanelight renders pbrt-v4 scenes with a SIMD wavefront path tracer and says how "
+    "far\n"
+    "the image is from the converged one.";
+constexpr const char* kFooter =
+    "\nExamples:\n"
+    "  lanelight render scenes/cornell-box.pbrt -o box.exr --png --spp 256\n"
+    "  lanelight advise scenes/cornell-box.pbrt --time 60 -o box.exr\n"
+    "  lanelight plan scenes/glass.pbrt\n"
+    "  lanelight profile scenes/glass.pbrt --trace trace.json\n"
+    "  lanelight strategies\n"
+    "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
+    "  lanelight study scenes/cornell-box.pbrt --out box-study\n"
+    "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
+    "samples, 4 compare: over the limit, 5 render: the target error was not reached.";
+
+std::vector<std::string> SubcommandNames(const CLI::App& root) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : root.get_subcommands(nullptr)) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+// CLI11 treats an unknown first word as an unexpected argument; naming the commands
+// helps.
+bool ReportUnknownCommand(const CLI::App& root, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return false;
+  const auto names = SubcommandNames(root);
+  const std::string word = argv[1];
+  if (std::find(names.begin(), names.end(), word) != names.end()) return false;
+  const std::string nearest = NearestName(word, names);
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  PrintError("error: unknown command '" + word + "'; commands are " + list +
+             (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+  return true;
+}
+
+// "did you mean --resolution?" for the first flag that no command knows.
+void SuggestFlag(const CLI::App& root, int argc, const char* const* argv) {
+  const auto commands = root.get_subcommands();
+  if (commands.empty()) return;
+  std::vector<std::string> known;
+  for (const CLI::Option* option : commands.front()->get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (int i = 2; i < argc; ++i) {
+    std::string word = argv[i];
+    word.resize(std::min(word.size(), word.find('=')));
+    if (word.rfind("--", 0) != 0 || word.size() < 4) continue;
+    if (std::find(known.begin(), known.end(), word) != known.end()) continue;
+    const std::string nearest = NearestName(word, known);
+    if (!nearest.empty()) PrintError("Did you mean " + nearest + "?");
+    return;
+  }
+}
+
+// What a command line that was not understood, or asked for help, comes to.
+int ReportParse(const CLI::App& root, const CLI::ParseError& error, int argc,
+                const char* const* argv) {
+  const bool asked = error.get_exit_code() == 0;  // --help, --version
+  std::ostringstream out, err;
+  root.exit(error, out, err);
+  Print(out.str());
+  if (asked) return kExitGood;
+  std::cerr << err.str();
+  SuggestFlag(root, argc, argv);
+  return kExitUsage;
+}
+
+void AddCommands(CLI::App& root, Command& chosen) {
+  root.footer(kFooter);
+  root.set_version_flag("--version", "lanelight " LANELIGHT_VERSION);
+  root.require_subcommand(1);
+  AddRenderCommand(root, chosen);
+  AddAdviseCommand(root, chosen);
+  AddPlanCommand(root, chosen);
+  AddProfileCommand(root, chosen);
+  AddInfoCommand(root, chosen);
+  AddStrategiesCommand(root, chosen);
+  AddCompareCommand(root, chosen);
+  AddStudyCommand(root, chosen);
+}
+
+}  // namespace
+}  // namespace lanelight
+
+int main(int argc, char** argv) {
+  using namespace lanelight;
+  // A reader that goes away must not kill a render: writes fail with EPIPE instead.
+  std::signal(SIGPIPE, SIG_IGN);
+  CLI::App root(kDescription, "lanelight");
+  Command chosen;
+  AddCommands(root, chosen);
+  if (argc < 2) {
+    PrintError(root.help());
+    return kExitUsage;
+  }
+  if (ReportUnknownCommand(root, argc, argv)) return kExitUsage;
+  int exit_code = kExitBadInput;
+  try {
+    root.parse(argc, argv);
+    exit_code = chosen();
+  } catch (const CLI::ParseError& error) {
+    exit_code = ReportParse(root, error, argc, argv);
+  } catch (const InputError& error) {
+    PrintError(error.what());
+  } catch (const CheckFailure& error) {
+    PrintError(std::string("internal error, please report: ") + error.what());
+  } catch (const std::bad_alloc&) {
+    PrintError("error: out of memory");
+  } catch (const std::exception& error) {
+    PrintError(std::string("error: ") + error.what());
+  }
+  return FlushOutput() ? exit_code : static_cast<int>(kExitBadInput);
+}

@@ -21,7 +21,7 @@ struct Checked {
 };
 
 template <bool kSigned>
-HWY_INLINE Checked Check(BadSamples& counts, V3 v, MF valid) {
+HWY_INLINE Checked Check(Health& counts, V3 v, MF valid) {
   const DF df;
   const auto any = [](MF x, MF y, MF z) HWY_ATTR { return hn::Or(x, hn::Or(y, z)); };
   const MF nan = any(hn::IsNaN(v.x), hn::IsNaN(v.y), hn::IsNaN(v.z));
@@ -41,43 +41,58 @@ HWY_INLINE Checked Check(BadSamples& counts, V3 v, MF valid) {
   return {IfThenElse(bad, zero, v), bad};
 }
 
-// What a control variate with fitted coefficients needs of a sample, as planes after all
-// others. A bad sample is dropped as a whole.
-struct ControlPlanes {
-  const PathColumns& p;
-  const SampleBuffer& buffer;
-  int next;
+// The planes of one group in the task's buffer.
+struct PlaneWriter {
+  float* plane;
+  std::size_t stride;
 
-  HWY_INLINE float* Next() {
-    return buffer.samples + next++ * std::size_t{buffer.stride};
-  }
+  HWY_INLINE PlaneWriter(const Wave& wave, PlaneGroup group)
+      : plane(wave.buffer.samples +
+              std::size_t(wave.run->planes.First(group)) * wave.buffer.stride),
+        stride(wave.buffer.stride) {}
 
-  /// Makes a sample bad whose control difference is.
-  HWY_INLINE static V3 Poison(V3 sample, V3 difference) {
-    const VF sum = hn::Add(difference.x, hn::Add(difference.y, difference.z));
-    sample.x = hn::IfThenElse(hn::IsFinite(sum), sample.x, hn::NaN(DF()));
-    return sample;
+  HWY_INLINE void Store(VF value, VI output) {
+    Scatter(value, plane, output);
+    plane += stride;
   }
-  HWY_INLINE void StoreDifference(V3 difference, MF bad, VI output) {
-    float *r = Next(), *g = Next(), *b = Next();
-    Scatter3(IfThenElse(bad, Splat3(0, 0, 0), difference), r, g, b, output);
+  HWY_INLINE void Store(V3 v, VI output) {
+    Store(v.x, output);
+    Store(v.y, output);
+    Store(v.z, output);
   }
-  HWY_INLINE void StorePoints(const Slots& slots, VI output) {
-    for (const float* column :
-         {p.first_0, p.first_1, p.first_2, p.first_3, p.u_film_0, p.u_film_1}) {
-      Scatter(Gather(column, slots), Next(), output);
-    }
+  HWY_INLINE void StoreColumns(std::initializer_list<const float*> columns,
+                               const Slots& slots, VI output) {
+    for (const float* column : columns) Store(Gather(column, slots), output);
   }
 };
+
+// Makes a sample bad whose control difference is: it is dropped as a whole.
+HWY_INLINE V3 Poison(V3 sample, V3 difference) {
+  const VF sum = hn::Add(difference.x, hn::Add(difference.y, difference.z));
+  sample.x = hn::IfThenElse(hn::IsFinite(sum), sample.x, hn::NaN(DF()));
+  return sample;
+}
+
+// What control variates with fitted coefficients need of a sample.
+HWY_INLINE void StoreControl(const Wave& wave, const Slots& slots, V3 difference, MF bad,
+                             VI output) {
+  const PathColumns& p = wave.path;
+  if (p.k_r != nullptr) {
+    PlaneWriter(wave, PlaneGroup::kDifference)
+        .Store(IfThenElse(bad, Splat3(0, 0, 0), difference), output);
+  }
+  if (p.first_bsdf_0 != nullptr) {
+    PlaneWriter(wave, PlaneGroup::kNumbers)
+        .StoreColumns({p.first_bsdf_0, p.first_bsdf_1, p.first_light_0, p.first_light_1,
+                       p.first_film_0, p.first_film_1},
+                      slots, output);
+  }
+}
 
 template <bool kSigned, bool kAov>
 void Accumulate(Wave& wave) {
   const PathColumns& p = wave.path;
-  const SampleBuffer& buffer = wave.buffer;
   const VF exposure = Splat(wave.run->exposure);
-  const auto plane = [&](int i) {
-    return buffer.samples + i * std::size_t{buffer.stride};
-  };
   ForEachBatch(
       wave, wave.queue(QueueId::kDone), [&](const Slots& slots, MF valid) HWY_ATTR {
         const VI output = Gather(p.output, slots);
@@ -87,21 +102,18 @@ void Accumulate(Wave& wave) {
         if (kSigned && p.k_r != nullptr) {
           difference = Mul(Gather3(p.k_r, p.k_g, p.k_b, slots), exposure);
           if (p.weight != nullptr) difference = Mul(difference, Gather(p.weight, slots));
-          sample = ControlPlanes::Poison(sample, difference);
+          sample = Poison(sample, difference);
         }
-        const Checked checked = Check<kSigned>(wave.bad, sample, valid);
-        Scatter3(checked.value, plane(0), plane(1), plane(2), output);
+        const Checked checked = Check<kSigned>(wave.health, sample, valid);
+        PlaneWriter(wave, PlaneGroup::kColor).Store(checked.value, output);
         if constexpr (kAov) {
-          const float* columns[] = {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b,
-                                    p.aov_n_x,      p.aov_n_y,      p.aov_n_z,
-                                    p.aov_depth};
-          for (int i = 0; i < 7; ++i)
-            Scatter(Gather(columns[i], slots), plane(3 + i), output);
+          PlaneWriter(wave, PlaneGroup::kAov)
+              .StoreColumns({p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
+                             p.aov_n_y, p.aov_n_z, p.aov_depth},
+                            slots, output);
         }
         if constexpr (kSigned) {
-          ControlPlanes control = {p, buffer, kAov ? 10 : 3};
-          if (p.k_r != nullptr) control.StoreDifference(difference, checked.bad, output);
-          if (p.first_0 != nullptr) control.StorePoints(slots, output);
+          StoreControl(wave, slots, difference, checked.bad, output);
         }
         Push(wave.queue(QueueId::kFree), slots, valid);
       });
@@ -145,7 +157,7 @@ Stage AccumulateStage() {
           QueueId::kDone,
           {},
           fields::kRadiance | fields::kAov | fields::kControl | fields::kFirstBounce |
-              FieldSet{Field::output, Field::weight, Field::u_film_0, Field::u_film_1},
+              fields::kFirstFilm | FieldSet{Field::output, Field::weight},
           {},
           ResolveAccumulate};
 }

@@ -15,13 +15,19 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
+// Lanes whose kind has a trait.
+HWY_INLINE MF HasTrait(VI kind, ShadeTraits trait) {
+  MF mask = hn::FirstN(DF(), 0);
+  for (int k = 0; k < kNumShadeKinds; ++k) {
+    if (!lanelight::HasTrait(static_cast<ShadeKind>(k), trait)) continue;
+    mask = hn::Or(mask, hn::RebindMask(DF(), hn::Eq(kind, hn::Set(DI(), k))));
+  }
+  return mask;
+}
+
 // Reflectance of a material seen head-on: color0 for the diffuse kinds, normal-incidence
 // Fresnel ((eta-1)^2 + k^2) / ((eta+1)^2 + k^2) for metals, white for clear interfaces.
 HWY_INLINE V3 AlbedoOf(const MaterialTable& m, VI kind, VI material, V3 color0) {
-  const DI di;
-  const auto is = [&](ShadeKind k) HWY_ATTR {
-    return hn::RebindMask(DF(), hn::Eq(kind, hn::Set(di, static_cast<int32_t>(k))));
-  };
   const V3 k = Gather3(m.color1_r.data(), m.color1_g.data(), m.color1_b.data(), material);
   const auto fresnel = [](VF n, VF kk) HWY_ATTR {
     const VF k2 = hn::Mul(kk, kk);
@@ -30,13 +36,8 @@ HWY_INLINE V3 AlbedoOf(const MaterialTable& m, VI kind, VI material, V3 color0) 
   };
   const V3 metal = {fresnel(color0.x, k.x), fresnel(color0.y, k.y),
                     fresnel(color0.z, k.z)};
-  const MF is_metal =
-      hn::Or(is(ShadeKind::kConductorSmooth),
-             hn::Or(is(ShadeKind::kConductorRough), is(ShadeKind::kCoatedConductor)));
-  const MF is_clear =
-      hn::Or(is(ShadeKind::kDielectricSmooth),
-             hn::Or(is(ShadeKind::kDielectricRough), is(ShadeKind::kThinDielectric)));
-  return IfThenElse(is_clear, Splat3(1, 1, 1), IfThenElse(is_metal, metal, color0));
+  return IfThenElse(HasTrait(kind, kClear), Splat3(1, 1, 1),
+                    IfThenElse(HasTrait(kind, kMetallic), metal, color0));
 }
 
 template <bool kTextures, bool kNormals>

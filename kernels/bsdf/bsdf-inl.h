@@ -1,6 +1,5 @@
 // What a material policy is: parameters, Eval, Sample, in the local frame of the shading
-// normal (+z). One policy per file *_bsdf-inl.h; the skeleton shade-inl.h turns each into
-// a stage, and probe-inl.h into batch entries for tests.
+// normal (+z). The skeleton kernels/shade/shade-inl.h turns each into a stage.
 //
 //   struct XBsdf {
 //     kSpecular     only delta directions: no Eval, no light samples
@@ -8,7 +7,10 @@
 //     kRefracts     Sample fills eta_scale
 //     kStochastic   Load receives random numbers
 //     kHasDelta     delta directions besides others (Sample then returns density 0)
-//     kTransmits    not all directions are on wo's side  (all: static constexpr bool)
+//     kTransmits    not all directions are on wo's side
+//     kLobes        Sample reads the number of the lobe
+//     kColor1       Load reads the second colour
+//     kRough        Load reads a roughness  (all: static constexpr bool)
 //     struct Params;
 //     static Params Load(const MaterialInputs&);
 //     static BsdfValue Eval(const Params&, V3 wo, V3 wi);
@@ -27,14 +29,17 @@
 #include "kernels/simd/math-inl.h"
 #include "src/compiled/materials.h"
 
-// Eval and Sample are part of six kernels each. Inlining them there pays where a vector
-// is a register; in the emulation it only costs the compiler half a minute per material.
+// Eval and Sample are part of three kernels each. Inlining them there pays where they are
+// short and a vector is a register; long ones, whose lanes are full of work, lose nothing
+// by a call, and the compiler sees them once instead of six times.
 #undef LANELIGHT_BSDF_CALL
+#undef LANELIGHT_LONG_BSDF_CALL
 #if HWY_TARGET == HWY_EMU128
 #define LANELIGHT_BSDF_CALL HWY_NOINLINE
 #else
 #define LANELIGHT_BSDF_CALL HWY_INLINE
 #endif
+#define LANELIGHT_LONG_BSDF_CALL HWY_NOINLINE
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

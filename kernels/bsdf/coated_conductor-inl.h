@@ -30,6 +30,9 @@ struct CoatedConductorBsdf {
   static constexpr bool kStochastic = true;
   static constexpr bool kHasDelta = true;
   static constexpr bool kTransmits = false;
+  static constexpr bool kLobes = true;
+  static constexpr bool kColor1 = true;
+  static constexpr bool kRough = true;
   struct Params {
     CoatLayer coat;
     MetalLayer metal;
@@ -66,7 +69,7 @@ struct CoatedConductorBsdf {
   /// The proxy q (see above), both directions on the upper side: the coat's reflection,
   /// the metal's as seen through it (refraction widens slopes by eta, a rough coat adds
   /// its own), and a tenth of a cosine lobe so that it never vanishes.
-  LANELIGHT_BSDF_CALL static VF Proxy(const Params& p, V3 wo, V3 wi) {
+  LANELIGHT_LONG_BSDF_CALL static VF Proxy(const Params& p, V3 wo, V3 wi) {
     const V3 m = Normalize(wo + wi);
     const auto widened = [&](VF metal, VF coat) HWY_ATTR {
       const VF through = hn::Mul(metal, p.coat.eta);
@@ -90,7 +93,7 @@ struct CoatedConductorBsdf {
   /// One estimate of f |cos wi| by a walk from wo that is connected to wi at every
   /// possible vertex: at the metal through a refraction sampled from wi, at the coat by
   /// evaluating the refraction towards wi; the power heuristic joins the two.
-  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& p, V3 wo_any, V3 wi_any) {
+  LANELIGHT_LONG_BSDF_CALL static BsdfValue Eval(const Params& p, V3 wo_any, V3 wi_any) {
     const V3 wo = {wo_any.x, wo_any.y, hn::Abs(wo_any.z)};
     const V3 wi = {wi_any.x, wi_any.y, hn::Abs(wi_any.z)};
     const MF same = SameSide(wo_any, wi_any);
@@ -99,7 +102,7 @@ struct CoatedConductorBsdf {
     return {IfThenElseZero(same, f_cos), hn::IfThenElseZero(same, Proxy(p, wo, wi))};
   }
 
-  LANELIGHT_BSDF_CALL static V3 Connections(const Params& p, V3 wo, V3 wi) {
+  LANELIGHT_LONG_BSDF_CALL static V3 Connections(const Params& p, V3 wo, V3 wi) {
     const VF one = Splat(1.0f);
     V3 sum = Splat3(0, 0, 0);
     VF u[4];
@@ -140,7 +143,7 @@ struct CoatedConductorBsdf {
     return sum;
   }
 
-  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& p, V3 wo_any,
+  LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& p, V3 wo_any,
                                                const BsdfPoints& points) {
     const V3 wo = {wo_any.x, wo_any.y, hn::Abs(wo_any.z)};
     const LayerEvent first =

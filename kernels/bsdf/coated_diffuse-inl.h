@@ -76,6 +76,9 @@ struct CoatedDiffuseSmoothBsdf {
   static constexpr bool kStochastic = false;
   static constexpr bool kHasDelta = true;
   static constexpr bool kTransmits = false;
+  static constexpr bool kLobes = true;
+  static constexpr bool kColor1 = false;
+  static constexpr bool kRough = false;
   struct Params {
     CoatedBase base;
     VF thickness;
@@ -88,7 +91,7 @@ struct CoatedDiffuseSmoothBsdf {
     return hn::Mul(hn::Sub(Splat(1.0f), at.reflectance), Exp(hn::Neg(slant)));
   }
 
-  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+  LANELIGHT_LONG_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const VF cos_i = hn::Abs(wi.z);
     const Interface at_o = DielectricInterface(hn::Abs(wo.z), m.base.eta);
     const VF to = Transmittance(m, at_o);
@@ -100,7 +103,7 @@ struct CoatedDiffuseSmoothBsdf {
             hn::IfThenElseZero(same, pdf)};
   }
 
-  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+  LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
                                                const BsdfPoints& u) {
     const VF one = Splat(1.0f), tiny = Splat(1e-30f);
     const Interface at_o = DielectricInterface(hn::Abs(wo.z), m.base.eta);
@@ -129,6 +132,9 @@ struct CoatedDiffuseRoughBsdf {
   static constexpr bool kStochastic = false;
   static constexpr bool kHasDelta = false;
   static constexpr bool kTransmits = false;
+  static constexpr bool kLobes = true;
+  static constexpr bool kColor1 = false;
+  static constexpr bool kRough = true;
   struct Params {
     CoatedBase base;
     Ggx ggx;
@@ -152,7 +158,7 @@ struct CoatedDiffuseRoughBsdf {
   }
 
   /// Both directions on the upper side; n = their half vector.
-  LANELIGHT_BSDF_CALL static BsdfValue EvalUpper(const Params& m, V3 wo, V3 wi, V3 n) {
+  LANELIGHT_LONG_BSDF_CALL static BsdfValue EvalUpper(const Params& m, V3 wo, V3 wi, V3 n) {
     const VF half = Splat(0.5f), one = Splat(1.0f);
     const VF to = Transmittance(m, wo.z), ti = Transmittance(m, wi.z);
     const VF coat = m.base.CoatProbability(hn::Sub(one, to), to);
@@ -168,14 +174,14 @@ struct CoatedDiffuseRoughBsdf {
             hn::MulAdd(coat, hn::Sub(coat_pdf, base_pdf), base_pdf)};
   }
 
-  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+  LANELIGHT_LONG_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const V3 wo_up = {wo.x, wo.y, hn::Abs(wo.z)}, wi_up = {wi.x, wi.y, hn::Abs(wi.z)};
     const BsdfValue value = EvalUpper(m, wo_up, wi_up, Normalize(wo_up + wi_up));
     const MF same = SameSide(wo, wi);
     return {IfThenElseZero(same, value.f_cos), hn::IfThenElseZero(same, value.pdf)};
   }
 
-  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo_any,
+  LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo_any,
                                                const BsdfPoints& u) {
     const VF zero = hn::Zero(DF()), one = Splat(1.0f);
     const V3 wo = {wo_any.x, wo_any.y, hn::Abs(wo_any.z)};

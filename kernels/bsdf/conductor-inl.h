@@ -22,6 +22,9 @@ struct ConductorSmoothBsdf {
   static constexpr bool kStochastic = false;
   static constexpr bool kHasDelta = false;
   static constexpr bool kTransmits = false;
+  static constexpr bool kLobes = false;
+  static constexpr bool kColor1 = true;
+  static constexpr bool kRough = false;
   struct Params {
     V3 eta, k;
   };
@@ -48,6 +51,9 @@ struct ConductorRoughBsdf {
   static constexpr bool kStochastic = false;
   static constexpr bool kHasDelta = false;
   static constexpr bool kTransmits = false;
+  static constexpr bool kLobes = false;
+  static constexpr bool kColor1 = true;
+  static constexpr bool kRough = true;
   struct Params {
     V3 eta, k;
     Ggx ggx;

@@ -28,6 +28,9 @@ struct DielectricSmoothBsdf {
   static constexpr bool kStochastic = false;
   static constexpr bool kHasDelta = false;
   static constexpr bool kTransmits = false;
+  static constexpr bool kLobes = true;
+  static constexpr bool kColor1 = false;
+  static constexpr bool kRough = false;
   struct Params {
     VF eta;
   };
@@ -58,6 +61,9 @@ struct ThinDielectricBsdf {
   static constexpr bool kStochastic = false;
   static constexpr bool kHasDelta = false;
   static constexpr bool kTransmits = false;
+  static constexpr bool kLobes = true;
+  static constexpr bool kColor1 = false;
+  static constexpr bool kRough = false;
   struct Params {
     VF eta;
   };
@@ -90,6 +96,9 @@ struct DielectricRoughBsdf {
   static constexpr bool kStochastic = false;
   static constexpr bool kHasDelta = false;
   static constexpr bool kTransmits = true;
+  static constexpr bool kLobes = true;
+  static constexpr bool kColor1 = false;
+  static constexpr bool kRough = true;
   static constexpr float kNearlyMatched = 1e-3f;
   struct Params {
     VF eta;
@@ -106,7 +115,7 @@ struct DielectricRoughBsdf {
     return hn::Div(hn::Add(d, d), hn::Add(zo, so));
   }
 
-  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo_any, V3 wi_any) {
+  LANELIGHT_LONG_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo_any, V3 wi_any) {
     const VF zero = hn::Zero(DF()), side = hn::CopySign(Splat(1.0f), wo_any.z);
     const V3 wo = Mul(wo_any, side), wi = Mul(wi_any, side);
     const VF eta = RelativeIndex(m.eta, wo_any), zi = hn::Abs(wi.z);
@@ -130,7 +139,7 @@ struct DielectricRoughBsdf {
     return {Grey(hn::Mul(hn::Mul(pdf, scale), MaskingRatio(wo.z, so, zi, si))), pdf};
   }
 
-  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo_any,
+  LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo_any,
                                                const BsdfPoints& u) {
     const VF zero = hn::Zero(DF()), one = Splat(1.0f), side = hn::CopySign(one, wo_any.z);
     const V3 wo = Mul(wo_any, side);

@@ -24,6 +24,9 @@ struct DiffuseModel {
   static constexpr bool kStochastic = false;
   static constexpr bool kHasDelta = false;
   static constexpr bool kTransmits = false;
+  static constexpr bool kLobes = false;
+  static constexpr bool kColor1 = false;
+  static constexpr bool kRough = false;
   struct Params {
     V3 albedo;
   };

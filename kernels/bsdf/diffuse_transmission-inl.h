@@ -24,6 +24,9 @@ struct DiffuseTransmissionBsdf {
   static constexpr bool kStochastic = false;
   static constexpr bool kHasDelta = false;
   static constexpr bool kTransmits = true;
+  static constexpr bool kLobes = true;
+  static constexpr bool kColor1 = true;
+  static constexpr bool kRough = false;
   struct Params {
     V3 reflectance, transmittance;
     VF reflect;  // probability of reflection

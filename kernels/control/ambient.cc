@@ -65,10 +65,10 @@ HWY_INLINE V3 SampledAmbient(const Wave& wave, const DiffuseVertex<Bsdf>& vertex
 
 template <class Bsdf>
 HWY_INLINE void Ambient(Wave& wave, ShadeKind kind) {
-  const Shader<Bsdf, Lighting::kDelta> shader(wave);
+  const SurfaceReader<Bsdf> reader(wave);
   const bool light_samples = wave.run->features.Has(Feature::kSampledHittableLights);
   ForEachBatch(wave, wave.queue(ShadeQueue(kind)), [&](const Slots& slots, MF) HWY_ATTR {
-    const DiffuseVertex<Bsdf> vertex(shader, slots);
+    const DiffuseVertex<Bsdf> vertex(reader, slots);
     V3 above = Splat3(0, 0, 0), below = above;
     for (const AmbientLight& light : wave.run->tables->ambient) {
       above = above + EvalQuadratics(light.irradiance, vertex.normal);

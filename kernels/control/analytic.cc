@@ -40,9 +40,9 @@ namespace HWY_NAMESPACE {
 template <class Bsdf>
 HWY_INLINE void Analytic(Wave& wave, ShadeKind kind) {
   const PathColumns& path = wave.path;
-  const Shader<Bsdf, Lighting::kDelta> shader(wave);
+  const SurfaceReader<Bsdf> reader(wave);
   ForEachBatch(wave, wave.queue(ShadeQueue(kind)), [&](const Slots& slots, MF) HWY_ATTR {
-    const DiffuseVertex<Bsdf> vertex(shader, slots);
+    const DiffuseVertex<Bsdf> vertex(reader, slots);
     const VI selected =
         path.ls_light != nullptr ? Gather(path.ls_light, slots) : hn::Zero(DI());
     const AreaLight lights = AreaLightsAt<Bsdf::kTransmits>(

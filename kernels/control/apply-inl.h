@@ -36,16 +36,16 @@ struct DiffuseVertex {
   typename Bsdf::Params material;
   MF usable;  // wo has a side
 
-  HWY_INLINE DiffuseVertex(const Shader<Bsdf, Lighting::kDelta>& shader,
+  HWY_INLINE DiffuseVertex(const SurfaceReader<Bsdf>& reader,
                            const Slots& slots) {
-    const PathColumns& path = shader.wave.path;
-    frame = shader.ShadingFrame(Gather3(path.ng_x, path.ng_y, path.ng_z, slots), slots);
+    const PathColumns& path = reader.wave.path;
+    frame = reader.ShadingFrame(Gather3(path.ng_x, path.ng_y, path.ng_z, slots), slots);
     wo = frame.ToLocal(-Gather3(path.d_x, path.d_y, path.d_z, slots));
     normal = Mul(frame.n, hn::CopySign(Splat(1.0f), wo.z));
     usable = hn::Ne(wo.z, hn::Zero(DF()));
     p = Gather3(path.p_x, path.p_y, path.p_z, slots);
     beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
-    material = Bsdf::Load(shader.Inputs(slots));
+    material = Bsdf::Load(reader.Inputs(slots));
   }
 
   HWY_INLINE BsdfValue Eval(V3 direction) const {

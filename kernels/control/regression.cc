@@ -28,18 +28,26 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
+void FirstFilm(Wave& wave) {
+  const PathColumns& p = wave.path;
+  ForEachBatch(wave, wave.queue(QueueId::kCamera), [&](const Slots& slots, MF) HWY_ATTR {
+    Scatter(Gather(p.u_film_0, slots), p.first_film_0, slots);
+    Scatter(Gather(p.u_film_1, slots), p.first_film_1, slots);
+  });
+}
+
 void FirstBounce(Wave& wave) {
   const PathColumns& p = wave.path;
   const Queue& first =
-      FilterQueue(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots) HWY_ATTR {
+      FilterQueue(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots) HWY_ATTR {
         return hn::RebindMask(DF(), hn::Eq(Gather(p.depth, slots), hn::Zero(DI())));
       });
   ForEachBatch(wave, first, [&](const Slots& slots, MF) HWY_ATTR {
-    Scatter(Gather(p.u_bsdf_0, slots), p.first_0, slots);
-    Scatter(Gather(p.u_bsdf_1, slots), p.first_1, slots);
+    Scatter(Gather(p.u_bsdf_0, slots), p.first_bsdf_0, slots);
+    Scatter(Gather(p.u_bsdf_1, slots), p.first_bsdf_1, slots);
     if (p.u_light_0 == nullptr) return;
-    Scatter(Gather(p.u_light_0, slots), p.first_2, slots);
-    Scatter(Gather(p.u_light_1, slots), p.first_3, slots);
+    Scatter(Gather(p.u_light_0, slots), p.first_light_0, slots);
+    Scatter(Gather(p.u_light_1, slots), p.first_light_1, slots);
   });
 }
 
@@ -52,12 +60,22 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
+HWY_EXPORT(FirstFilm);
 HWY_EXPORT(FirstBounce);
 
+Stage FirstFilmStage() {
+  return {"control_first_film",
+          "keeps the position in the pixel",
+          QueueId::kCamera,
+          {Feature::kRegressionControl},
+          {Field::u_film_0, Field::u_film_1},
+          fields::kFirstFilm,
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(FirstFilm); }};
+}
 Stage FirstBounceStage() {
   return {"control_first_bounce",
           "keeps the numbers of the first bounce",
-          QueueId::kSurface,
+          QueueId::kVertex,
           {Feature::kRegressionControl, Feature::kScatters},
           fields::kBouncePoints | FieldSet{Field::depth},
           fields::kFirstBounce,

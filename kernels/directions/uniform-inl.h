@@ -42,24 +42,33 @@ HWY_INLINE BsdfSample EvaluateUniformDirection(const typename Bsdf::Params& mate
   return {wi, Mul(value.f_cos, hn::Div(Splat(1.0f), pdf)), pdf, Splat(1.0f)};
 }
 
-template <class Bsdf>
-HWY_INLINE BsdfSample SampleUniformDirection(const typename Bsdf::Params& material, V3 wo,
-                                             const BsdfPoints& u) {
-  if constexpr (!Bsdf::kHasDelta) {
-    return EvaluateUniformDirection<Bsdf>(material, wo, u.u0, u.u1);
-  } else {
-    const VF two = Splat(2.0f);
-    const MF delta = hn::Lt(u.lobe, Splat(0.5f));
-    const VF lobe =
-        hn::Mul(two, hn::IfThenElse(delta, u.lobe, hn::Sub(u.lobe, Splat(0.5f))));
-    const BsdfSample lobes = Bsdf::Sample(material, wo, {lobe, u.u0, u.u1});
-    const BsdfSample even = EvaluateUniformDirection<Bsdf>(material, wo, u.u0, u.u1);
-    const V3 specular = IfThenElseZero(hn::Eq(lobes.pdf, hn::Zero(DF())), lobes.weight);
-    return {IfThenElse(delta, lobes.wi, even.wi),
-            Mul(IfThenElse(delta, specular, even.weight), two),
-            hn::IfThenZeroElse(delta, even.pdf), Splat(1.0f)};
+/// A proposal as in material-inl.h.
+struct UniformProposal {
+  template <class Bsdf>
+  static HWY_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
+                                      const BsdfPoints& u) {
+    if constexpr (!Bsdf::kHasDelta) {
+      return EvaluateUniformDirection<Bsdf>(material, wo, u.u0, u.u1);
+    } else {
+      const VF two = Splat(2.0f);
+      const MF delta = hn::Lt(u.lobe, Splat(0.5f));
+      const VF lobe =
+          hn::Mul(two, hn::IfThenElse(delta, u.lobe, hn::Sub(u.lobe, Splat(0.5f))));
+      const BsdfSample lobes = Bsdf::Sample(material, wo, {lobe, u.u0, u.u1});
+      const BsdfSample even = EvaluateUniformDirection<Bsdf>(material, wo, u.u0, u.u1);
+      const V3 specular = IfThenElseZero(hn::Eq(lobes.pdf, hn::Zero(DF())), lobes.weight);
+      return {IfThenElse(delta, lobes.wi, even.wi),
+              Mul(IfThenElse(delta, specular, even.weight), two),
+              hn::IfThenZeroElse(delta, even.pdf), Splat(1.0f)};
+    }
   }
-}
+  template <class Bsdf>
+  static HWY_INLINE VF Pdf(const typename Bsdf::Params&, V3 wo, V3 wi, VF) {
+    const VF pdf = PdfUniformHemisphere();
+    if constexpr (Bsdf::kTransmits) return hn::Mul(pdf, Splat(0.5f));
+    return hn::IfThenElseZero(SameSide(wo, wi), pdf);
+  }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight

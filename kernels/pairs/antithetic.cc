@@ -76,7 +76,7 @@ void AntitheticCamera(Wave& wave) {
 }
 
 void AntitheticBounce(Wave& wave) {
-  const Queue& queue = wave.queue(QueueId::kSurface);
+  const Queue& queue = wave.queue(QueueId::kVertex);
   const PathColumns& p = wave.path;
   PadTail(queue);
   // u_bsdf_1 is the azimuth of the lobes of visible normals and of uniform directions; in
@@ -111,7 +111,7 @@ Stage AntitheticCameraStage() {
   return {"antithetic_camera",
           "reflects film and lens points of odd samples",
           QueueId::kCamera,
-          {Feature::kAntithetic},
+          {Feature::kAntitheticPairs},
           points | FieldSet{Field::sample, Field::depth},
           points,
           [](const FeatureSet&) -> StageFn {
@@ -121,8 +121,8 @@ Stage AntitheticCameraStage() {
 Stage AntitheticBounceStage() {
   return {"antithetic_bounce",
           "reflects the points of a bounce of odd samples",
-          QueueId::kSurface,
-          {Feature::kAntithetic, Feature::kScatters},
+          QueueId::kVertex,
+          {Feature::kAntitheticPairs, Feature::kScatters},
           fields::kBouncePoints | FieldSet{Field::sample, Field::depth},
           fields::kBouncePoints,
           [](const FeatureSet&) -> StageFn {

@@ -110,7 +110,7 @@ HWY_INLINE void FillBounceBatches(Wave& wave) {
   const PathColumns p = wave.path;
   const RunParameters run = *wave.run;
   ForEachBatch(
-      wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
+      wave, wave.queue(QueueId::kVertex), [&](const StoreSlots& slots, MF) HWY_ATTR {
         const Drawer drawer = MakeDrawer<kPlain>(p, slots);
         Draw<Policy, kPlain, false>(run, drawer, Dimension::kBsdf, p.u_bsdf_0,
                                     p.u_bsdf_1);

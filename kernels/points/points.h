@@ -23,7 +23,7 @@ inline Stage PointsCameraStage(const char* name, Feature policy, ResolveFn resol
 inline Stage PointsBounceStage(const char* name, Feature policy, ResolveFn resolve) {
   return {name,
           "sample points of a bounce",
-          QueueId::kSurface,
+          QueueId::kVertex,
           {policy, Feature::kScatters},
           kPointsCounter,
           fields::kBouncePoints,

@@ -31,29 +31,14 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 struct VertexColumns {
-  uint32_t* cell[kPilotVertices];
-  float *at[kPilotVertices], *got[kPilotVertices];
+  uint32_t* cell[kRecordedVertices];
+  float *at[kRecordedVertices], *got[kRecordedVertices];
 
   explicit VertexColumns(const PathColumns& p)
       : cell{p.cell_0, p.cell_1, p.cell_2, p.cell_3},
         at{p.at_0, p.at_1, p.at_2, p.at_3},
         got{p.got_0, p.got_1, p.got_2, p.got_3} {}
 };
-
-void RecordStart(Wave& wave) {
-  const VertexColumns v(wave.path);
-  const Queue& queue = wave.queue(QueueId::kCamera);
-  for (uint32_t i = 0; i < queue.size; ++i) {
-    for (int k = 0; k < kPilotVertices; ++k) {
-      v.cell[k][queue.items[i]] = kNoCell;
-      v.at[k][queue.items[i]] = v.got[k][queue.items[i]] = 0;
-    }
-    for (float* risk : {wave.path.risk_0, wave.path.risk_1, wave.path.risk_2}) {
-      risk[queue.items[i]] = 0;
-    }
-  }
-  CountBatches(wave, queue);
-}
 
 void RecordDecision(Wave& wave) {
   const PathColumns& p = wave.path;
@@ -83,12 +68,12 @@ void RecordVertex(Wave& wave) {
   const PathColumns& p = wave.path;
   const VertexColumns v(p);
   const PathValues& values = wave.run->tables->path_values;
-  ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots, MF) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots, MF) HWY_ATTR {
     const VI depth = Gather(p.depth, slots);
     const VI cell = CellOf(values.grid, p, slots);
     const VF at = Brightness(values, Gather3(p.beta_r, p.beta_g, p.beta_b, slots));
     const VF got = Brightness(values, Gather3(p.l_r, p.l_g, p.l_b, slots));
-    for (int k = 0; k < kPilotVertices; ++k) {
+    for (int k = 0; k < kRecordedVertices; ++k) {
       const auto here = hn::Eq(depth, hn::Set(di, k));
       const MF mine = hn::RebindMask(DF(), here);
       Scatter(hn::IfThenElse(here, cell, Gather(v.cell[k], slots)), v.cell[k], slots);
@@ -98,20 +83,21 @@ void RecordVertex(Wave& wave) {
   });
 }
 
-// Planes behind the three of the colour: cell, at, got of each vertex; Y(l); depth; the
-// three sums of the risk.
+// In the order of PlaneGroup::kRecord.
 void RecordPath(Wave& wave) {
   const PathColumns& p = wave.path;
   const VertexColumns v(p);
   const PathValues& values = wave.run->tables->path_values;
   ForEachBatch(wave, wave.queue(QueueId::kDone), [&](const Slots& slots, MF) HWY_ATTR {
     const VI output = Gather(p.output, slots);
-    float* plane = wave.buffer.samples + 3 * std::size_t{wave.buffer.stride};
+    float* plane = wave.buffer.samples +
+                   std::size_t(wave.run->planes.First(PlaneGroup::kRecord)) *
+                       wave.buffer.stride;
     const auto store = [&](VF value) HWY_ATTR {
       Scatter(value, plane, output);
       plane += wave.buffer.stride;
     };
-    for (int k = 0; k < kPilotVertices; ++k) {
+    for (int k = 0; k < kRecordedVertices; ++k) {
       store(hn::BitCast(DF(), Gather(v.cell[k], slots)));
       store(Gather(v.at[k], slots));
       store(Gather(v.got[k], slots));
@@ -131,26 +117,16 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(RecordStart);
 HWY_EXPORT(RecordVertex);
 HWY_EXPORT(RecordDecision);
 HWY_EXPORT(RecordPath);
 
-Stage RecordStartStage() {
-  return {"record_start",
-          "empties the record of a pilot path",
-          QueueId::kCamera,
-          {Feature::kPilot},
-          {},
-          fields::kVertices | fields::kRisk,
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(RecordStart); }};
-}
 Stage RecordVertexStage() {
   return {
       "record_vertex",
       "records a vertex of a pilot path",
-      QueueId::kSurface,
-      {Feature::kPilot, Feature::kScatters},
+      QueueId::kVertex,
+      {Feature::kRecordsPaths, Feature::kScatters},
       fields::kThroughput | fields::kRadiance | fields::kRay | fields::kPoint |
           fields::kNormal | fields::kVertices | FieldSet{Field::depth},
       fields::kVertices,
@@ -161,7 +137,7 @@ Stage RecordDecisionStage() {
       "record_decision",
       "what roulette would add to the second moment of a pilot path",
       QueueId::kScattered,
-      {Feature::kPilot, Feature::kScatters},
+      {Feature::kRecordsPaths, Feature::kScatters},
       fields::kThroughput | fields::kRadiance | fields::kRisk |
           FieldSet{Field::depth, Field::eta_scale},
       fields::kRisk,
@@ -171,7 +147,7 @@ Stage RecordPathStage() {
   return {"record_path",
           "writes the record of a finished pilot path",
           QueueId::kDone,
-          {Feature::kPilot},
+          {Feature::kRecordsPaths},
           fields::kVertices | fields::kRisk | fields::kRadiance |
               FieldSet{Field::output, Field::depth},
           {},

@@ -63,40 +63,17 @@ HWY_INLINE VF ThroughputFactor(const PathColumns& p, const Slots& slots, V3 beta
   return hn::IfThenElse(hn::RebindMask(DF(), late), hn::Min(s, Splat(1.0f)), Splat(1.0f));
 }
 
-/// Columns that a copy takes over: all but those of the ray that has found this surface
-/// and those of which every bounce writes what it reads.
-struct CopiedColumns {
-  uint32_t* columns[kNumFields];
-  uint32_t count = 0;
-
-  explicit CopiedColumns(const PathColumns& p) {
-    static const FieldSet kOwn =
-        fields::kBouncePoints | fields::kLightSample | fields::kShadow |
-        fields::kRadiance | fields::kControl |
-        FieldSet{Field::t,        Field::b1,       Field::b2,      Field::inst,
-                 Field::o_x,      Field::o_y,      Field::o_z,     Field::u_film_0,
-                 Field::u_film_1, Field::u_lens_0, Field::u_lens_1};
-#define X(type, name, features, meaning)                    \
-  if (p.name != nullptr && !kOwn.Has(Field::name)) {        \
-    columns[count++] = reinterpret_cast<uint32_t*>(p.name); \
-  }
-    LANELIGHT_PATH_FIELDS(X)
-#undef X
-  }
-};
-
-/// The new slots take over their parents' columns. They have gathered nothing yet: the
-/// sample is the sum of its copies.
-HWY_INLINE void CopyPaths(const PathColumns& p, const uint32_t* parents,
+/// The new slots take over their parents' columns; what a path gathers they begin anew:
+/// the sample is the sum of its copies.
+HWY_INLINE void CopyPaths(const ColumnLists& lists, const uint32_t* parents,
                           const uint32_t* slots, uint32_t n) {
-  const CopiedColumns copied(p);
-  for (uint32_t c = 0; c < copied.count; ++c) {
-    uint32_t* column = copied.columns[c];
+  for (uint32_t c = 0; c < lists.copied.count; ++c) {
+    uint32_t* column = lists.copied.columns[c];
     for (uint32_t i = 0; i < n; ++i) column[slots[i]] = column[parents[i]];
   }
-  for (float* column : {p.l_r, p.l_g, p.l_b, p.k_r, p.k_g, p.k_b}) {
-    if (column == nullptr) continue;
-    for (uint32_t i = 0; i < n; ++i) column[slots[i]] = 0;
+  for (uint32_t c = 0; c < lists.begun_by_copies.count; ++c) {
+    uint32_t* column = lists.begun_by_copies.columns[c];
+    for (uint32_t i = 0; i < n; ++i) column[slots[i]] = lists.copy_values[c];
   }
 }
 
@@ -130,7 +107,7 @@ HWY_INLINE void SplitPaths(Wave& wave, Queue& queue, const uint32_t* copies) {
       queue.items[queue.size++] = free.items[--free.size];
     }
   }
-  CopyPaths(wave.path, parents, slots, n);
+  CopyPaths(wave.lists, parents, slots, n);
   for (uint32_t i = 0; i < n;) {
     uint32_t k = 1;
     while (i + k - 1 < n && parents[i + k - 1] == parents[i]) ++k;
@@ -143,7 +120,7 @@ template <class Policy>
 HWY_INLINE void PlayWindow(Wave& wave) {
   const DI di;
   const PathColumns& p = wave.path;
-  Queue& queue = wave.queue(QueueId::kSurface);
+  Queue& queue = wave.queue(QueueId::kVertex);
   Queue survivors = {queue.items, 0};  // compacts in place: writes never pass reads
   Queue copies = {wave.queue(QueueId::kScratch).items, 0};
   bool splits = false;

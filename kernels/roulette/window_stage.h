@@ -11,7 +11,7 @@ inline Stage WindowStage(const char* name, const char* meaning, Feature kind,
                              Field::output, Field::branch, Field::budget};
   return {name,
           meaning,
-          QueueId::kSurface,
+          QueueId::kVertex,
           {Feature::kSplitting, Feature::kScatters, kind},
           fields::kThroughput | fields::kRay | fields::kPoint | fields::kNormal |
               identity | FieldSet{Field::eta_scale},

@@ -28,7 +28,7 @@ HWY_EXPORT(ResolveCoatedConductor);
 
 Stage ShadeCoatedConductorStage() {
   return MakeShadeStage("shade_coated_conductor", "dielectric coat over metal",
-                        ShadeKind::kCoatedConductor, Feature::kCoatedConductor,
+                        ShadeKind::kCoatedConductor,
                         [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveCoatedConductor)(features);
                         });

@@ -28,7 +28,7 @@ HWY_EXPORT(ResolveDielectricRough);
 
 Stage ShadeDielectricRoughStage() {
   return MakeShadeStage("shade_dielectric_rough", "rough glass",
-                        ShadeKind::kDielectricRough, Feature::kDielectricRough,
+                        ShadeKind::kDielectricRough,
                         [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDielectricRough)(features);
                         });

@@ -28,7 +28,7 @@ HWY_EXPORT(ResolveDielectricSmooth);
 
 Stage ShadeDielectricSmoothStage() {
   return MakeShadeStage("shade_dielectric_smooth", "smooth glass",
-                        ShadeKind::kDielectricSmooth, Feature::kDielectricSmooth,
+                        ShadeKind::kDielectricSmooth,
                         [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDielectricSmooth)(features);
                         });

@@ -1,15 +1,5 @@
 // The skeleton of every shading stage: light sample, then the next ray. A material policy
-// (bsdf-inl.h) fills in the physics.
-//
-// directions=bsdf is what the policies' Sample does: importance sampling of the material.
-//   estimator   f(wo, wi) |cos| / p(wi), p close to proportional to f |cos|
-//   density     cosine for Lambert, visible normals for GGX (Heitz 2018), lobes chosen by
-//               their reflectance; each *_bsdf-inl.h states its own
-//   unbiased    p > 0 wherever f > 0; light of any kind that a ray can hit counts in full
-//   variance    that of the arriving light alone where p ~ f cos exactly (Lambert: none
-//               under even light); unbounded as lights get small
-//   cost        nothing beyond the next ray; no shadow rays but to delta lights
-//   source      the paper's section 3.5.2
+// (kernels/bsdf/bsdf-inl.h) fills in the physics.
 #if defined(LANELIGHT_SHADE_SHADE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_SHADE_SHADE_INL_H_
 #undef LANELIGHT_SHADE_SHADE_INL_H_
@@ -19,7 +9,8 @@
 
 #include <limits>
 
-#include "kernels/directions/heuristic-inl.h"
+#include "kernels/directions/lighting-inl.h"
+#include "kernels/directions/material-inl.h"
 #include "kernels/directions/uniform-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
@@ -27,16 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
-
-// What a strategy needs of a shading stage besides its material: four kernels per
-// material. Where normals, tangents and parameters come from is loop-invariant and read
-// through pointers that are the same for every path.
-enum class Lighting {
-  kNone,    // nothing can be sampled
-  kDelta,   // light samples count in full, scattered rays know no light samples
-  kMis,     // both are weighted, and the bsdf_pdf column is live
-  kUniform  // directions=uniform; light samples, if any, as in kDelta
-};
 
 /// Shading frame around n with the first axis along the surface tangent; where the
 /// tangent is missing or along n, any frame.
@@ -61,12 +42,14 @@ HWY_INLINE MF CarriesLight(V3 c) {
                  hn::Ge(hn::Min(c.x, hn::Min(c.y, c.z)), hn::Zero(DF())));
 }
 
-template <class Bsdf, Lighting kLighting>
-struct Shader {
+/// Surfaces as their material sees them. Where normals, tangents and parameters come from
+/// is loop-invariant and read through pointers that are the same for every path.
+template <class Bsdf>
+struct SurfaceReader {
   Wave& wave;
   MaterialSource source;
 
-  HWY_INLINE explicit Shader(Wave& w) : wave(w), source(TableSource(w.scene->materials)) {
+  HWY_INLINE explicit SurfaceReader(Wave& w) : wave(w), source(TableSource(w.scene->materials)) {
     const PathColumns& path = w.path;
     source.color_by_path = path.color0_r != nullptr;
     source.alpha_by_path = path.alpha_x != nullptr;
@@ -109,46 +92,49 @@ struct Shader {
     }
     return in;
   }
+};
+
+/// What a strategy needs of a shading stage besides its material are two independent
+/// policies: where paths go (a proposal, kernels/directions/) and what light samples are
+/// weighed against (a lighting).
+template <class Bsdf, class Proposal, class Lighting>
+struct Shader : SurfaceReader<Bsdf> {
+  using Material = typename Bsdf::Params;
+  using SurfaceReader<Bsdf>::wave;
+
+  HWY_INLINE explicit Shader(Wave& w) : SurfaceReader<Bsdf>(w) {}
 
   /// Next-event estimation: what the sampled light would add if nothing is in between.
-  HWY_INLINE void SampleLight(const typename Bsdf::Params& material, const Frame& frame,
-                              V3 wo, V3 beta, const StoreSlots& slots, MF valid) {
+  HWY_INLINE void SampleLight(const Material& material, const Frame& frame, V3 wo,
+                              V3 beta, const StoreSlots& slots, MF valid) {
     const PathColumns& path = wave.path;
     const V3 light = Gather3(path.ls_r, path.ls_g, path.ls_b, slots);
     const V3 wi = frame.ToLocal(Gather3(path.ls_x, path.ls_y, path.ls_z, slots));
     const BsdfValue value = Bsdf::Eval(material, wo, wi);
     V3 carried = Mul(Mul(beta, value.f_cos), light);
-    if constexpr (kLighting == Lighting::kMis) {
-      carried = Mul(carried, LightSampleWeight(wave.run->mis, Gather(path.ls_pdf, slots),
-                                               value.pdf));
+    if constexpr (Lighting::kWeighs) {
+      const VF pdf = Proposal::template Pdf<Bsdf>(material, wo, wi, value.pdf);
+      carried = Mul(carried,
+                    Lighting::Weight(wave.run->mis, Gather(path.ls_pdf, slots), pdf));
     }
     Scatter3(carried, path.sh_r, path.sh_g, path.sh_b, slots);
     Push(wave.queue(QueueId::kShadow), slots, hn::And(valid, CarriesLight(carried)));
   }
 
-  HWY_INLINE static BsdfSample Scattered(const typename Bsdf::Params& material, V3 wo,
-                                         const BsdfPoints& u) {
-    if constexpr (kLighting == Lighting::kUniform) {
-      return SampleUniformDirection<Bsdf>(material, wo, u);
-    } else {
-      return Bsdf::Sample(material, wo, u);
-    }
-  }
-
   /// Scatters the path: new ray, throughput and density; returns the paths that go on.
-  HWY_INLINE MF Bounce(const typename Bsdf::Params& material, const Frame& frame, V3 wo,
-                       V3 ng, V3 beta, const StoreSlots& slots) {
+  HWY_INLINE MF Bounce(const Material& material, const Frame& frame, V3 wo, V3 ng,
+                       V3 beta, const StoreSlots& slots) {
     const PathColumns& path = wave.path;
     BsdfPoints u = {hn::Zero(DF()), Gather(path.u_bsdf_0, slots),
                     Gather(path.u_bsdf_1, slots)};
     if (path.u_lobe != nullptr) u.lobe = Gather(path.u_lobe, slots);
-    const BsdfSample sample = Scattered(material, wo, u);
+    const BsdfSample sample = Proposal::template Sample<Bsdf>(material, wo, u);
     const V3 d = Renormalize(frame.FromLocal(sample.wi));
     const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
     const V3 o = OffsetOrigin(p, ng, Gather(path.p_error, slots), d);
     // A tangential wo has no defined side; pbrt absorbs it as well.
     MF alive = hn::And(CarriesLight(sample.weight), hn::Ne(wo.z, hn::Zero(DF())));
-    if constexpr (kLighting == Lighting::kMis) {
+    if constexpr (Lighting::kWeighs) {
       alive =
           hn::And(alive, hn::Lt(sample.pdf, Splat(std::numeric_limits<float>::max())));
       Scatter(sample.pdf, path.bsdf_pdf, slots);
@@ -170,14 +156,12 @@ struct Shader {
   HWY_INLINE void operator()(const StoreSlots& slots, MF valid) {
     const PathColumns& path = wave.path;
     const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
-    const Frame frame = ShadingFrame(ng, slots);
+    const Frame frame = this->ShadingFrame(ng, slots);
     const V3 wo = frame.ToLocal(-Gather3(path.d_x, path.d_y, path.d_z, slots));
     const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
-    const typename Bsdf::Params material = Bsdf::Load(Inputs(slots));
-    if constexpr (kLighting != Lighting::kNone && !Bsdf::kSpecular) {
-      if (kLighting != Lighting::kUniform || path.sh_r != nullptr) {
-        SampleLight(material, frame, wo, beta, slots, valid);
-      }
+    const Material material = Bsdf::Load(this->Inputs(slots));
+    if constexpr (!Bsdf::kSpecular) {
+      if (path.sh_r != nullptr) SampleLight(material, frame, wo, beta, slots, valid);
     }
     const MF alive = Bounce(material, frame, wo, ng, beta, slots);
     Push(wave.queue(QueueId::kScattered), slots, hn::And(valid, alive));
@@ -185,28 +169,34 @@ struct Shader {
   }
 };
 
-template <class Bsdf, ShadeKind kKind, Lighting kLighting>
+template <class Bsdf, ShadeKind kKind, class Proposal, class Lighting>
 void ShadeKernel(Wave& wave) {
-  Shader<Bsdf, kLighting> shader(wave);
+  Shader<Bsdf, Proposal, Lighting> shader(wave);
   const uint32_t shadow_rays = wave.queue(QueueId::kShadow).size;
   ForEachBatch(wave, wave.queue(ShadeQueue(kKind)),
                [&](const StoreSlots& slots, MF valid) HWY_ATTR { shader(slots, valid); });
   wave.rays_shadow += wave.queue(QueueId::kShadow).size - shadow_rays;
 }
 
-/// The kernel of this target for the features of a scene.
+/// The kernel of this target for the features of a scene. Only the pairs of policies that
+/// a plan can need are instantiated: uniform directions take light samples of what no ray
+/// can hit, and nothing to weigh them against.
 template <class Bsdf, ShadeKind kKind>
 StageFn ResolveShade(const FeatureSet& features) {
-  if (features.Has(Feature::kMis)) return ShadeKernel<Bsdf, kKind, Lighting::kMis>;
+  static_assert(HasTrait(kKind, kSpecularOnly) == Bsdf::kSpecular);
+  static_assert(HasTrait(kKind, kChoosesLobe) == Bsdf::kLobes);
+  static_assert(HasTrait(kKind, kSecondColor) == Bsdf::kColor1);
+  static_assert(HasTrait(kKind, kMicrofacets) == Bsdf::kRough);
+  static_assert(HasTrait(kKind, kRefracting) == Bsdf::kRefracts);
+  if (features.Has(Feature::kMis)) {
+    return ShadeKernel<Bsdf, kKind, MaterialProposal, MisLighting>;
+  }
   if constexpr (!Bsdf::kSpecular) {
     if (features.Has(Feature::kUniformDirections)) {
-      return ShadeKernel<Bsdf, kKind, Lighting::kUniform>;
-    }
-    if (features.Has(Feature::kLights)) {
-      return ShadeKernel<Bsdf, kKind, Lighting::kDelta>;
+      return ShadeKernel<Bsdf, kKind, UniformProposal, UnweightedLighting>;
     }
   }
-  return ShadeKernel<Bsdf, kKind, Lighting::kNone>;
+  return ShadeKernel<Bsdf, kKind, MaterialProposal, UnweightedLighting>;
 }
 
 }  // namespace HWY_NAMESPACE

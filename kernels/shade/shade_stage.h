@@ -5,9 +5,9 @@
 
 namespace lanelight {
 
-/// A shading stage of `kind`, present if the scene has `feature`.
+/// A shading stage of `kind`, present if the scene has it.
 inline Stage MakeShadeStage(const char* name, const char* meaning, ShadeKind kind,
-                            Feature feature, StageFn (*resolve)(const FeatureSet&)) {
+                            StageFn (*resolve)(const FeatureSet&)) {
   using namespace fields;
   const FieldSet points = {Field::u_lobe, Field::u_bsdf_0, Field::u_bsdf_1};
   const FieldSet identity = {Field::pixel, Field::sample, Field::depth, Field::material};
@@ -16,7 +16,7 @@ inline Stage MakeShadeStage(const char* name, const char* meaning, ShadeKind kin
   return {name,
           meaning,
           ShadeQueue(kind),
-          {feature, Feature::kScatters},
+          {ShadeFeature(kind), Feature::kScatters},
           identity | direction | kThroughput | kPoint | kNormal | kTangent | kParameters |
               points | kLightSample | FieldSet{Field::eta_scale},
           kRay | kThroughput | kShadow | history,

@@ -9,7 +9,6 @@
 #include "hwy/highway.h"
 
 #include "kernels/queue/batch-inl.h"
-#include "kernels/queue/carried.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -61,7 +60,7 @@ void Pack(Wave& wave) {
   const uint32_t end = EndOf(live);
   uint32_t* marks = wave.queue(QueueId::kScratch).items;
   Mark(live, end, marks);
-  const CarriedColumns carried(wave.path);
+  const ColumnList& carried = wave.lists.carried;
   for (uint32_t c = 0; c < carried.count; ++c) CloseGaps(carried.columns[c], marks, end);
   for (uint32_t i = 0; i < live.size; i += lanes) {
     hn::StoreU(hn::Iota(du, i), du, live.items + i);
@@ -91,8 +90,8 @@ Stage PackStage() {
           "moves the paths that go on into the first slots",
           QueueId::kDone,
           {},
-          CarriedFields(),
-          CarriedFields(),
+          fields::EverCarried(),
+          fields::EverCarried(),
           [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Pack); }};
 }
 

@@ -1,4 +1,4 @@
-// Bins surfaces into one queue per kind of material, so that each shading kernel runs on
+// Bins what scatters into one queue per kind of material, so that each shading kernel runs on
 // full vectors of its own kind; those that take light samples also go to kLit.
 #include "kernels/targets.h"
 
@@ -15,17 +15,11 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-// Kinds whose scattering is a set of delta directions: no light sample can use them.
-constexpr bool IsSpecular(ShadeKind kind) {
-  return kind == ShadeKind::kConductorSmooth || kind == ShadeKind::kDielectricSmooth ||
-         kind == ShadeKind::kThinDielectric;
-}
-
 template <bool kLights>
 void Route(Wave& wave) {
   const DI di;
   const MaterialTable& m = wave.scene->materials;
-  const Queue& surface = wave.queue(QueueId::kSurface);
+  const Queue& vertices = wave.queue(QueueId::kVertex);
   // Which kinds the scene has is decided per call, never per lane.
   ShadeKind kinds[kNumShadeKinds];
   int num_kinds = 0;
@@ -34,7 +28,7 @@ void Route(Wave& wave) {
       kinds[num_kinds++] = static_cast<ShadeKind>(k);
     }
   }
-  ForEachBatch(wave, surface, [&](const Slots& slots, MF valid) HWY_ATTR {
+  ForEachBatch(wave, vertices, [&](const Slots& slots, MF valid) HWY_ATTR {
     const VI kind = Lookup(m.kind, Gather(wave.path.material, slots));
     MF lit = hn::FirstN(DF(), 0);
     for (int k = 0; k < num_kinds; ++k) {
@@ -42,7 +36,8 @@ void Route(Wave& wave) {
           valid, hn::RebindMask(
                      DF(), hn::Eq(kind, hn::Set(di, static_cast<int32_t>(kinds[k])))));
       Push(wave.queue(ShadeQueue(kinds[k])), slots, mine);
-      if (!IsSpecular(kinds[k])) lit = hn::Or(lit, mine);
+      // Light samples are of no use to delta directions.
+      if (!HasTrait(kinds[k], kSpecularOnly)) lit = hn::Or(lit, mine);
     }
     // At once, so that the queue keeps the order of the slots.
     if (kLights) Push(wave.queue(QueueId::kLit), slots, lit);
@@ -66,8 +61,8 @@ HWY_EXPORT(RouteUnlit);
 
 Stage RouteStage() {
   return {"route",
-          "bins surfaces by material kind",
-          QueueId::kSurface,
+          "bins what scatters by material kind",
+          QueueId::kVertex,
           {Feature::kScatters},
           {Field::material},
           {},

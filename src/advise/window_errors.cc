@@ -45,7 +45,7 @@ double Limit(std::vector<double> values) {
 
 }  // namespace
 
-WindowSequence::WindowSequence(const PixelWindow& image)
+WindowSequence::WindowSequence(const PixelRect& image)
     : image_(image),
       side_(std::min({kSide, image.width(), image.height()})),
       columns_(image.width() / side_),

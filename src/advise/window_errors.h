@@ -16,12 +16,12 @@ namespace lanelight {
 /// generalisation, Roberts 2018), so that any number of consecutive ones covers it.
 class WindowSequence {
  public:
-  explicit WindowSequence(const PixelWindow& image);
+  explicit WindowSequence(const PixelRect& image);
   /// The next `count`; cells repeat once all have been given about once.
   std::vector<PixelRect> Next(std::size_t count);
 
  private:
-  PixelWindow image_;
+  PixelRect image_;
   int side_, columns_, rows_;
   std::uint64_t index_ = 0;
 };

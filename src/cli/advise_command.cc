@@ -56,13 +56,15 @@ std::string RenderCommand(const AdviseCommandOptions& options, const Advice& adv
 }
 
 int PrintAdvice(const AdviseCommandOptions& options, const Advice& advice) {
-  if (!options.outputs.quiet && options.outputs.json != "-") {
+  if (!options.outputs.quiet && options.outputs.targets.json != "-") {
     Print(AdviceText(advice) + "render     " + RenderCommand(options, advice) + "\n");
   }
   const nlohmann::json report = {{"schema", kReportSchema},
                                  {"scene", options.scene.scene},
                                  {"advice", ToJson(advice)}};
-  return SaveJson(options.outputs, report) ? kExitGood : kExitBadInput;
+  const std::string& json = options.outputs.targets.json;
+  if (json.empty()) return kExitGood;
+  return SaveOrPrint(json, report.dump(2) + "\n") ? kExitGood : kExitBadInput;
 }
 
 int RunAdvise(AdviseCommandOptions& options) {
@@ -77,14 +79,18 @@ int RunAdvise(AdviseCommandOptions& options) {
   advise.seconds = options.seconds;
   advise.stop = &interrupt.stop();
   const Advice advice = Advise(job, advise);
-  if (options.outputs.exr.empty()) return PrintAdvice(options, advice);
-  return RenderToOutputs(options.outputs, options.scene.scene, job, interrupt.stop(),
-                         {AdviceText(advice) + "\n", {{"advice", ToJson(advice)}}});
+  if (options.outputs.targets.exr.empty()) return PrintAdvice(options, advice);
+  ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
+  RenderHooks hooks = PrintingHooks(progress, interrupt.stop());
+  hooks.members = {{"advice", ToJson(advice)}};
+  const Rendering rendering =
+      RenderToFiles(job, options.scene.scene, options.outputs.targets, hooks);
+  return PrintRendering(rendering, job, options.outputs, AdviceText(advice) + "\n");
 }
 
 }  // namespace
 
-void AddAdviseCommand(CLI::App& root, int& exit_code) {
+void AddAdviseCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "advise", "Find the strategy with the least error for the time, render with it");
   auto options = std::make_shared<AdviseCommandOptions>();
@@ -106,12 +112,12 @@ void AddAdviseCommand(CLI::App& root, int& exit_code) {
       "\nExamples:\n"
       "  lanelight advise scene.pbrt --time 60\n"
       "  lanelight advise scene.pbrt --time 60 -o out.exr --json advice.json");
-  command->callback([options, &exit_code] {
-    if (options->outputs.exr.empty() && options->outputs.png_flag->count() > 0) {
+  command->callback([options, &chosen] {
+    if (options->outputs.targets.exr.empty() && options->outputs.png_flag->count() > 0) {
       throw CLI::ValidationError("--png", "needs an image: name it with -o FILE.exr");
     }
-    ResolvePng(options->outputs);
-    exit_code = RunAdvise(*options);
+    ResolveOutputs(options->outputs);
+    chosen = [options] { return RunAdvise(*options); };
   });
 }
 

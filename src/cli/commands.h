@@ -1,19 +1,22 @@
 // The subcommands, one file each. Every Add...Command declares the flags of its
-// subcommand and a callback that runs it; a callback stores its result in `exit_code` and
-// throws InputError for bad input.
+// subcommand and a callback that checks them and stores in `chosen` what is to be done,
+// which returns an exit code and throws InputError for bad input.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 
 namespace lanelight {
 
-void AddRenderCommand(CLI::App& root, int& exit_code);
-void AddAdviseCommand(CLI::App& root, int& exit_code);
-void AddPlanCommand(CLI::App& root, int& exit_code);
-void AddProfileCommand(CLI::App& root, int& exit_code);
-void AddInfoCommand(CLI::App& root, int& exit_code);
-void AddStrategiesCommand(CLI::App& root, int& exit_code);
-void AddCompareCommand(CLI::App& root, int& exit_code);
-void AddStudyCommand(CLI::App& root, int& exit_code);
+using Command = std::function<int()>;
+
+void AddRenderCommand(CLI::App& root, Command& chosen);
+void AddAdviseCommand(CLI::App& root, Command& chosen);
+void AddPlanCommand(CLI::App& root, Command& chosen);
+void AddProfileCommand(CLI::App& root, Command& chosen);
+void AddInfoCommand(CLI::App& root, Command& chosen);
+void AddStrategiesCommand(CLI::App& root, Command& chosen);
+void AddCompareCommand(CLI::App& root, Command& chosen);
+void AddStudyCommand(CLI::App& root, Command& chosen);
 
 }  // namespace lanelight

@@ -93,7 +93,7 @@ int Compare(const CompareCommandOptions& options) {
 
 }  // namespace
 
-void AddCompareCommand(CLI::App& root, int& exit_code) {
+void AddCompareCommand(CLI::App& root, Command& chosen) {
   CLI::App* command =
       root.add_subcommand("compare", "Measure how far image A is from image B");
   auto options = std::make_shared<CompareCommandOptions>();
@@ -115,7 +115,7 @@ void AddCompareCommand(CLI::App& root, int& exit_code) {
       "\nRelative MSE is the mean of (a-b)^2 / (b^2 + 0.01) over pixels and channels.\n"
       "\nExample:\n  lanelight compare box.exr converged.exr --reference --max-relmse "
       "0.01");
-  command->callback([options, &exit_code] { exit_code = Compare(*options); });
+  command->callback([options, &chosen] { chosen = [options] { return Compare(*options); }; });
 }
 
 }  // namespace lanelight

@@ -6,6 +6,7 @@
 #include "kernels/simd/target.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
 #include "src/core/parallel.h"
 #include "src/render/memory.h"
 #include "src/render/report.h"
@@ -53,7 +54,7 @@ std::string JsonText() {
 
 }  // namespace
 
-void AddInfoCommand(CLI::App& root, int&) {
+void AddInfoCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "info", "Print the SIMD target, threads, and versions of the libraries in use");
   auto options = std::make_shared<InfoOptions>();
@@ -65,10 +66,13 @@ void AddInfoCommand(CLI::App& root, int&) {
       ->type_name("T");
   command->add_flag("--json", options->json, "Print JSON");
   command->footer("\nExample:\n  lanelight info --target AVX2");
-  command->callback([options] {
-    ForceTarget(options->target);
-    const ThreadLimit threads(options->threads);
-    Print(options->json ? JsonText() : Text());
+  command->callback([options, &chosen] {
+    chosen = [options] {
+      ForceTarget(options->target);
+      const ThreadLimit threads(options->threads);
+      Print(options->json ? JsonText() : Text());
+      return kExitGood;
+    };
   });
 }
 

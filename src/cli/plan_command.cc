@@ -5,6 +5,7 @@
 #include "kernels/simd/target.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
 #include "src/cli/scene_options.h"
 #include "src/core/parallel.h"
 #include "src/prepare/groups.h"
@@ -95,21 +96,26 @@ std::string JsonText(const Job& job, const std::string& scene) {
   return out.dump(2) + "\n";
 }
 
+int PrintPlan(const PlanCommandOptions& options) {
+  const SceneOptions& scene = options.scene;
+  ForceTarget(scene.target);
+  const ThreadLimit threads(scene.threads);
+  const Job job = PrepareJob(scene.scene, scene.settings);
+  Print(options.json ? JsonText(job, scene.scene) : Text(job, scene.scene));
+  return kExitGood;
+}
+
 }  // namespace
 
-void AddPlanCommand(CLI::App& root, int&) {
+void AddPlanCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "plan", "Print the stages and fields that a scene gets, and what it is spared");
   auto options = std::make_shared<PlanCommandOptions>();
   AddSceneOptions(*command, options->scene);
   command->add_flag("--json", options->json, "Print JSON");
   command->footer("\nExample:\n  lanelight plan scenes/glass.pbrt --max-depth 1");
-  command->callback([options] {
-    const SceneOptions& scene = options->scene;
-    ForceTarget(scene.target);
-    const ThreadLimit threads(scene.threads);
-    const Job job = PrepareJob(scene.scene, scene.settings);
-    Print(options->json ? JsonText(job, scene.scene) : Text(job, scene.scene));
+  command->callback([options, &chosen] {
+    chosen = [options] { return PrintPlan(*options); };
   });
 }
 

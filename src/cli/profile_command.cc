@@ -12,6 +12,7 @@
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
 #include "src/core/parallel.h"
+#include "src/render/saving.h"
 #include "src/render/trace_json.h"
 
 namespace lanelight {
@@ -53,8 +54,8 @@ bool SaveTrace(const ProfileCommandOptions& options, const RunResult& result) {
                     "per thread was not enough",
                     dropped, options.trace_events));
   }
-  return SaveText(options.trace,
-                  TraceText(result, "lanelight profile " + options.scene.scene));
+  return SaveOrPrint(options.trace,
+                     TraceText(result, "lanelight profile " + options.scene.scene));
 }
 
 int Profile(const ProfileCommandOptions& options) {
@@ -71,7 +72,7 @@ int Profile(const ProfileCommandOptions& options) {
   if (options.json != "-") Print(ProfileText(report, job, result, scene));
   bool good = SaveTrace(options, result);
   if (!options.json.empty()) {
-    good &= SaveText(options.json, ToJson(report, job, result).dump(2) + "\n");
+    good &= SaveOrPrint(options.json, ToJson(report, job, result).dump(2) + "\n");
   }
   return good ? kExitGood : kExitBadInput;
 }
@@ -103,7 +104,7 @@ void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
 
 }  // namespace
 
-void AddProfileCommand(CLI::App& root, int& exit_code) {
+void AddProfileCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "profile", "Render a scene and print where the time goes, stage by stage");
   auto options = std::make_shared<ProfileCommandOptions>();
@@ -116,7 +117,7 @@ void AddProfileCommand(CLI::App& root, int& exit_code) {
       "\nExamples:\n"
       "  lanelight profile scene.pbrt --threads 1\n"
       "  lanelight profile scene.pbrt --spp 4 --trace trace.json --json profile.json");
-  command->callback([options, &exit_code] { exit_code = Profile(*options); });
+  command->callback([options, &chosen] { chosen = [options] { return Profile(*options); }; });
 }
 
 }  // namespace lanelight

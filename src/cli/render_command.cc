@@ -24,7 +24,11 @@ int Render(const RenderCommandOptions& options) {
   const Job job = PrepareJob(options.scene.scene, options.scene.settings);
   if (!options.outputs.quiet) PrintNotes(job);
   const InterruptGuard interrupt;
-  return RenderToOutputs(options.outputs, options.scene.scene, job, interrupt.stop());
+  ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
+  const Rendering rendering =
+      RenderToFiles(job, options.scene.scene, options.outputs.targets,
+                    PrintingHooks(progress, interrupt.stop()));
+  return PrintRendering(rendering, job, options.outputs);
 }
 
 void AddTargetOption(CLI::App& command, const char* name, const char* meaning,
@@ -62,7 +66,7 @@ void CheckAmountOptions(const RenderSettings& settings) {
 
 }  // namespace
 
-void AddRenderCommand(CLI::App& root, int& exit_code) {
+void AddRenderCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand("render", "Render a scene to an OpenEXR image");
   auto options = std::make_shared<RenderCommandOptions>();
   AddAmountOptions(*command, options->scene.settings);
@@ -78,10 +82,10 @@ void AddRenderCommand(CLI::App& root, int& exit_code) {
       "r.json\n"
       "  lanelight render scene.pbrt -o out.exr --target-relmse 0.001 --time 600\n"
       "  lanelight render scene.pbrt -o part.exr --crop 100,100,200,150 --aov");
-  command->callback([options, &exit_code] {
-    ResolvePng(options->outputs);
+  command->callback([options, &chosen] {
+    ResolveOutputs(options->outputs);
     CheckAmountOptions(options->scene.settings);
-    exit_code = Render(*options);
+    chosen = [options] { return Render(*options); };
   });
 }
 

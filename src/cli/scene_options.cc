@@ -85,27 +85,25 @@ void AddNameOption(CLI::App& command, const std::string& flag, std::optional<T>&
       ->type_name("NAME");
 }
 
-// What is wrong with a strategy's text, or nothing.
-std::string StrategyProblem(std::string& text) {
+// Reads the text of --strategy.
+void SetStrategyChanges(RenderSettings& settings, const std::string& text) {
   try {
-    Strategy strategy;
-    ApplyStrategy(text, {}, strategy);
-    return "";
+    settings.strategy = ParseStrategy(text, {});
   } catch (const InputError& error) {
     const std::string message = error.what();
-    return message.substr(message.find("strategy "));
+    throw CLI::ValidationError("--strategy", message.substr(message.find("strategy ")));
   }
 }
 
 void AddStrategyOptions(CLI::App& command, RenderSettings& s) {
   std::map<std::string, Points> samplers;
-  for (int i = 0; i <= static_cast<int>(Points::kLattice); ++i) {
+  for (int i = 0; i < kNumPoints; ++i) {
     samplers[Name(static_cast<Points>(i))] = static_cast<Points>(i);
   }
   command
-      .add_option("--strategy", s.strategy,
-                  "How to sample: key=value,... (see `lanelight strategies`)")
-      ->check(CLI::Validator(StrategyProblem, ""))
+      .add_option_function<std::string>(
+          "--strategy", [&s](const std::string& text) { SetStrategyChanges(s, text); },
+          "How to sample: key=value,... (see `lanelight strategies`)")
       ->type_name("TEXT");
   AddNameOption<Points>(command, "--sampler", s.points, samplers, "Sample points");
 }

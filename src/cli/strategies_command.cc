@@ -5,6 +5,7 @@
 
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
 #include "src/strategy/strategy.h"
 
 namespace lanelight {
@@ -66,7 +67,7 @@ std::string JsonText() {
 
 }  // namespace
 
-void AddStrategiesCommand(CLI::App& root, int&) {
+void AddStrategiesCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "strategies", "List the choices of --strategy: meaning, formula, source");
   auto json = std::make_shared<bool>(false);
@@ -76,8 +77,12 @@ void AddStrategiesCommand(CLI::App& root, int&) {
       "  lanelight render scene.pbrt -o out.exr --strategy "
       "points=cmj,roulette=luminance\n"
       "  lanelight render scene.pbrt -o out.exr --strategy paper-roulette,points=sobol");
-  command->callback(
-      [json] { Print(*json ? JsonText() : ChoicesText() + PresetsText()); });
+  command->callback([json, &chosen] {
+    chosen = [json] {
+      Print(*json ? JsonText() : ChoicesText() + PresetsText());
+      return kExitGood;
+    };
+  });
 }
 
 }  // namespace lanelight

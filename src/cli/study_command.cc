@@ -122,7 +122,7 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
 
 }  // namespace
 
-void AddStudyCommand(CLI::App& root, int& exit_code) {
+void AddStudyCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "study", "Measure which strategy gives the least error for the time");
   auto options = std::make_shared<StudyCommandOptions>();
@@ -152,7 +152,7 @@ void AddStudyCommand(CLI::App& root, int& exit_code) {
       "4,16,64\n"
       "  lanelight study a.pbrt --out a --all --budget 2 --reference a1.exr --reference "
       "a2.exr");
-  command->callback([options, &exit_code] { exit_code = RunStudyCommand(*options); });
+  command->callback([options, &chosen] { chosen = [options] { return RunStudyCommand(*options); }; });
 }
 
 }  // namespace lanelight

@@ -8,35 +8,6 @@
 namespace lanelight {
 namespace {
 
-Feature FeatureOf(ShadeKind kind) {
-  switch (kind) {
-#define X(name)         \
-  case ShadeKind::name: \
-    return Feature::name;
-    LANELIGHT_SHADE_KINDS(X)
-#undef X
-    case ShadeKind::kMix:
-      return Feature::kMix;
-  }
-  LL_CHECK(!"unknown kind of material");
-  return Feature::kCount;
-}
-
-bool HasRoughness(ShadeKind kind) {
-  return kind == ShadeKind::kConductorRough || kind == ShadeKind::kDielectricRough ||
-         kind == ShadeKind::kCoatedDiffuseRough || kind == ShadeKind::kCoatedConductor;
-}
-
-bool HasColor1(ShadeKind kind) {
-  return kind == ShadeKind::kConductorSmooth || kind == ShadeKind::kConductorRough ||
-         kind == ShadeKind::kCoatedConductor || kind == ShadeKind::kDiffuseTransmission;
-}
-
-bool IsSpecular(ShadeKind kind) {
-  return kind == ShadeKind::kConductorSmooth || kind == ShadeKind::kDielectricSmooth ||
-         kind == ShadeKind::kThinDielectric;
-}
-
 void AddRoughness(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   const bool textured = m.alpha_x_texture[i] >= 0 || m.alpha_y_texture[i] >= 0;
   if (textured) {
@@ -52,12 +23,9 @@ void AddRoughness(const MaterialTable& m, std::size_t i, FeatureSet& features) {
 
 void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   const auto kind = static_cast<ShadeKind>(m.kind[i]);
-  features.Add(FeatureOf(kind));
-  if (HasColor1(kind)) features.Add(Feature::kColor1);
-  if (kind == ShadeKind::kDielectricSmooth || kind == ShadeKind::kDielectricRough) {
-    features.Add(Feature::kRefraction);
-  }
-  if (HasRoughness(kind)) AddRoughness(m, i, features);
+  features.Add(ShadeFeature(kind));
+  if (HasTrait(kind, kRefracting)) features.Add(Feature::kRefraction);
+  if (HasTrait(kind, kMicrofacets)) AddRoughness(m, i, features);
   if (m.color0_texture[i] >= 0 || m.color1_texture[i] >= 0) {
     features.Add(Feature::kTextures);
     features.Add(Feature::kUv);
@@ -80,6 +48,7 @@ void AddLights(const LightTable& lights, FeatureSet& features) {
       Feature::kTriangleLights,   Feature::kSphereLights, Feature::kDiskLights,
       Feature::kPointLights,      Feature::kSpotLights,   Feature::kDistantLights,
       Feature::kInfiniteConstant, Feature::kInfiniteImage};
+  static_assert(std::size(kShapes) == static_cast<int>(LightShape::kInfiniteImage) + 1);
   for (const LightRecord& light : lights.lights) features.Add(kShapes[light.shape]);
   if (!lights.lights.empty()) features.Add(Feature::kLights);
   if (lights.lights.size() > 1) features.Add(Feature::kManyLights);
@@ -93,7 +62,7 @@ void AddLights(const LightTable& lights, FeatureSet& features) {
 bool HasNonSpecular(const MaterialTable& materials) {
   return std::any_of(materials.kind.begin(), materials.kind.end(), [](std::uint32_t k) {
     const auto kind = static_cast<ShadeKind>(k);
-    return kind != ShadeKind::kMix && !IsSpecular(kind);
+    return kind != ShadeKind::kMix && !HasTrait(kind, kSpecularOnly);
   });
 }
 
@@ -129,8 +98,8 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
     features.Add(Feature::kMis);
   }
   if (scene.camera.lens_radius > 0) features.Add(Feature::kLens);
-  if (scene.camera.kind == CameraKind::kOrthographic)
-    features.Add(Feature::kOrthographic);
+  features.Add(scene.camera.kind == CameraKind::kOrthographic ? Feature::kOrthographic
+                                                              : Feature::kPerspective);
   if (!scene.filter.is_box) features.Add(Feature::kFiltered);
   if (HasNegative(scene.filter.x_sign) || HasNegative(scene.filter.y_sign)) {
     features.Add(Feature::kSignedFilter);

@@ -15,9 +15,6 @@
 namespace lanelight {
 
 // A primitive id counts triangles first, then spheres, disks, planes.
-/// No primitive: where a path that has not met a surface yet comes from.
-inline constexpr std::uint32_t kNoPrimitive = 0xffffffffu;
-
 struct PrimitiveRanges {
   std::uint32_t spheres = 0, disks = 0, planes = 0, end = 0;  // first id of each; end
 };

@@ -7,14 +7,36 @@
 #include <optional>
 #include <vector>
 
+#include "src/core/state.h"
 #include "src/core/vec.h"
 #include "src/image/control_film.h"
+#include "src/path/sample_planes.h"
 
 namespace lanelight {
 
-/// Auxiliary planes of a sample after its three colour planes.
-inline constexpr int kColorPlanes = 3;
-inline constexpr int kAovPlanes = 7;  // albedo rgb, normal xyz, depth
+/// How much the samples of a pixel scatter, by the means of groups of them: samples of a
+/// group depend on each other and count as one observation. Apart from the film's sums,
+/// which know nothing of groups.
+struct GroupScatter {
+  double open[3] = {};     // sum of the incomplete group
+  double squares[3] = {};  // of the means of complete groups
+  double total[3] = {};    // of these means
+  std::uint64_t groups = 0;
+
+  /// Closes the open group of `size` samples in one channel; its mean.
+  double Close(int channel, std::uint32_t size) {
+    const double mean = open[channel] / size;
+    AddMean(channel, mean);
+    open[channel] = 0;
+    return mean;
+  }
+  void AddMean(int channel, double mean) {
+    squares[channel] += mean * mean;
+    total[channel] += mean;
+  }
+  /// Sample variance of the means.
+  double Variance(int channel) const;
+};
 
 class FilmAccumulator {
  public:
@@ -42,8 +64,12 @@ class FilmAccumulator {
   /// begin the first one. Nothing if the size is the same.
   void Regroup(std::uint32_t group_size);
 
-  /// Adds `count` consecutive samples of one pixel; planes[p][i * step] is plane p of the
-  /// i-th. Must be called with the samples of a pixel in order. Safe for different pixels
+  /// Planes that a film takes of a sample, at most.
+  static constexpr int kMostPlanes =
+      kColorPlanes + kAovPlanes + NumPlanes(PlaneGroup::kDifference);
+
+  /// Adds `count` consecutive samples of one pixel; planes[p][i] is plane p (in the order
+  /// of SamplePlanes) of the i-th. Must be called with the samples of a pixel in order. Safe for different pixels
   /// from different threads.
   void AddSamples(int x, int y, const float* const* planes, std::uint32_t count);
 
@@ -53,9 +79,9 @@ class FilmAccumulator {
   /// Estimated variance of Mean() per channel, from the scatter of complete groups;
   /// NaN-free: zero where fewer than two groups are complete (see HasVariance).
   Rgb Variance(int x, int y) const;
-  bool HasVariance(int x, int y) const { return pixel(x, y).groups >= 2; }
+  bool HasVariance(int x, int y) const { return Groups(x, y) >= 2; }
   /// Complete groups of a pixel.
-  std::uint64_t Groups(int x, int y) const { return pixel(x, y).groups; }
+  std::uint64_t Groups(int x, int y) const { return pixel(x, y).scatter.groups; }
   /// Estimate of the variance of Mean() less Variance(), which takes the samples of an
   /// incomplete group for as good as those of a complete one. They are less well
   /// stratified: the square of their distance d from the others, which make up a share s
@@ -65,10 +91,16 @@ class FilmAccumulator {
   /// Mean of an auxiliary plane.
   double Aov(int x, int y, int plane) const;
 
+  /// All that AddSamples has brought, exactly. A film of the same pixels, planes and group
+  /// size goes on from there; Restore throws InputError for another.
+  void Save(StateWriter& state) const;
+  void Restore(StateReader& state);
+
  private:
   struct Pixel {
-    double sum[3] = {}, group[3] = {}, squares[3] = {}, group_total[3] = {};
-    std::uint64_t samples = 0, groups = 0;
+    double sum[3] = {};
+    std::uint64_t samples = 0;
+    GroupScatter scatter;
   };
   static void AddGroupsOfOne(const float* const* planes, std::uint32_t count, Pixel& p);
   template <bool kControl>
@@ -83,6 +115,7 @@ class FilmAccumulator {
   std::uint32_t group_size_;
   std::vector<Pixel> pixels_;
   std::vector<double> aov_;  // kAovPlanes sums per pixel
+  SamplePlanes planes_;      // that it takes
   std::optional<ControlFilm> control_;
 };
 

@@ -162,4 +162,12 @@ ControlReport ControlFilm::Report() const {
   return {coefficients / (6 * static_cast<double>(pixels_.size())), total.Correlation()};
 }
 
+void ControlFilm::Save(StateWriter& state) const {
+  state.Write("control variate pixels", pixels_.data(), pixels_.size());
+}
+
+void ControlFilm::Restore(StateReader& state) {
+  state.Read("control variate pixels", pixels_.data(), pixels_.size());
+}
+
 }  // namespace lanelight

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/core/state.h"
 #include "src/core/vec.h"
 
 namespace lanelight {
@@ -84,6 +85,10 @@ class ControlFilm {
   /// Scatter of the corrected group means about their mean: sum of squares.
   Rgb ResidualSquares(std::size_t pixel) const;
   ControlReport Report() const;
+
+  // As FilmAccumulator's.
+  void Save(StateWriter& state) const;
+  void Restore(StateReader& state);
 
  private:
   static constexpr int kReach = 2;  // window: 5 x 5 pixels

@@ -195,4 +195,14 @@ ControlReport RegressionFilm::Report() const {
   return {coefficient_, scale > 0 ? products / scale : 0};
 }
 
+void RegressionFilm::Save(StateWriter& state) const {
+  state.Write("regression block", block_);
+  state.Write("regression pixels", pixels_.data(), pixels_.size());
+}
+
+void RegressionFilm::Restore(StateReader& state) {
+  state.Expect("regression block", block_);
+  state.Read("regression pixels", pixels_.data(), pixels_.size());
+}
+
 }  // namespace lanelight

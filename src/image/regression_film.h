@@ -54,6 +54,10 @@ class RegressionFilm {
   static void Functions(const float* numbers, float* phi);
   ControlReport Report() const;
 
+  // As FilmAccumulator's.
+  void Save(StateWriter& state) const;
+  void Restore(StateReader& state);
+
  private:
   struct Pixel {
     double f[3] = {}, ff[3] = {};

@@ -1,5 +1,5 @@
 // The dimensions of a path's random numbers, by name. A number is a pure function of
-// (seed, pixel, sample, dimension, depth); see kernels/points/.
+// (seed, pixel, sample, key), and a key of dimension, depth and branch.
 #pragma once
 
 #include <cstdint>

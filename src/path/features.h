@@ -4,11 +4,15 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
+
+#include "src/path/shade_kinds.h"
+#include "src/strategy/choices.h"
 
 namespace lanelight {
 
-// X(bit name, what it means when set)
-#define LANELIGHT_FEATURES(X)                                                 \
+// Features of scenes and options. X(bit name, what it means when set)
+#define LANELIGHT_COMMON_FEATURES(X)                                          \
   X(kTriangles, "triangle meshes")                                            \
   X(kSpheres, "spheres")                                                      \
   X(kDisks, "disks")                                                          \
@@ -20,22 +24,10 @@ namespace lanelight {
   X(kTextures, "textured material parameters")                                \
   X(kTexturedRoughness, "textured roughness")                                 \
   X(kTexturedColor1, "a textured second colour parameter")                    \
-  X(kColor1, "a second colour parameter (conductor k, transmittance)")        \
   X(kAlpha, "alpha cut-outs")                                                 \
   X(kMix, "mix materials")                                                    \
-  X(kDiffuse, "Lambertian diffuse material")                                  \
-  X(kDiffuseUniform, "uniform-scattering diffuse material")                   \
-  X(kDiffuseInSphere, "in-sphere diffuse material")                           \
-  X(kConductorSmooth, "smooth conductor")                                     \
-  X(kConductorRough, "rough conductor")                                       \
-  X(kDielectricSmooth, "smooth dielectric")                                   \
-  X(kDielectricRough, "rough dielectric")                                     \
-  X(kThinDielectric, "thin dielectric")                                       \
-  X(kCoatedDiffuseSmooth, "smooth coated diffuse")                            \
-  X(kCoatedDiffuseRough, "rough coated diffuse")                              \
-  X(kCoatedConductor, "coated conductor")                                     \
-  X(kDiffuseTransmission, "diffuse transmission")                             \
   X(kRefraction, "a refracting interface (roulette must know eta)")           \
+  X(kOtherEvents, "events beside surfaces, such as points in a medium")       \
   X(kLights, "light that is sampled")                                         \
   X(kManyLights, "more than one light")                                       \
   X(kTriangleLights, "emitting triangles")                                    \
@@ -50,36 +42,46 @@ namespace lanelight {
   X(kInfiniteLights, "an environment")                                        \
   X(kMis, "a light that BSDF sampling can hit: multiple importance sampling") \
   X(kScatters, "paths of more than zero bounces (maximum depth > 0)")         \
-  X(kLens, "a thin lens")                                                     \
+  X(kPerspective, "a perspective camera")                                     \
   X(kOrthographic, "an orthographic camera")                                  \
+  X(kLens, "a thin lens")                                                     \
   X(kFiltered, "a pixel filter other than the box")                           \
   X(kSignedFilter, "a pixel filter with negative lobes")                      \
   X(kAov, "auxiliary output (--aov)")                                         \
-  X(kIndependentPoints, "points=independent")                                 \
-  X(kStratifiedPoints, "points=stratified")                                   \
-  X(kCmjPoints, "points=cmj")                                                 \
-  X(kPmj02Points, "points=pmj02")                                             \
-  X(kSobolPoints, "points=sobol")                                             \
-  X(kHaltonPoints, "points=halton")                                           \
-  X(kLatticePoints, "points=lattice")                                         \
   X(kSampledHittableLights, "light samples of lights that rays can hit")      \
-  X(kUniformDirections, "directions=uniform")                                 \
-  X(kAntithetic, "pairs=antithetic")                                          \
   X(kLightTable, "light-selection=power or uniform")                          \
   X(kLightTree, "light-selection=tree")                                       \
   X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")        \
-  X(kConstantRoulette, "roulette=constant")                                   \
-  X(kThroughputRoulette, "roulette=throughput")                               \
-  X(kLuminanceRoulette, "roulette=luminance")                                 \
   X(kSplitting, "paths that split (roulette=adjoint, efficiency)")            \
-  X(kAdjointRoulette, "roulette=adjoint")                                     \
-  X(kEfficiencyRoulette, "roulette=efficiency")                               \
-  X(kPilot, "a pilot pass that records what paths find")                      \
+  X(kPathValues, "values of paths, from a training pass")                     \
+  X(kRecordsPaths, "a training pass that records what paths find")            \
   X(kControl, "a control variate (samples may be negative)")                  \
-  X(kAnalyticControl, "control=analytic")                                     \
-  X(kAmbientControl, "control=ambient")                                       \
-  X(kRegressionControl, "control=regression")                                 \
   X(kControlDifference, "a control variate with an estimated coefficient")
+
+// Choices of strategies that have a stage or kernel of their own, and kinds of materials.
+#define LANELIGHT_OWN_FEATURE_STAGE(name, meaning) X(name, meaning)
+#define LANELIGHT_OWN_FEATURE_PLAIN(name, meaning)
+#define LANELIGHT_DIRECTIONS_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Directions, "directions=" text)
+#define LANELIGHT_POINTS_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Points, "points=" text)
+#define LANELIGHT_PAIRS_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Pairs, "pairs=" text)
+#define LANELIGHT_CONTROL_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Control, "control=" text)
+#define LANELIGHT_ROULETTE_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Roulette, "roulette=" text)
+#define LANELIGHT_SHADE_FEATURE(name, traits, meaning) X(k##name, meaning)
+
+// X(bit name, meaning), by that name: the lists that this one is made of ask for it.
+#define LANELIGHT_FEATURES(X)                        \
+  LANELIGHT_COMMON_FEATURES(X)                       \
+  LANELIGHT_SHADE_KINDS(LANELIGHT_SHADE_FEATURE)     \
+  LANELIGHT_DIRECTIONS(LANELIGHT_DIRECTIONS_FEATURE) \
+  LANELIGHT_POINTS(LANELIGHT_POINTS_FEATURE)         \
+  LANELIGHT_PAIRS(LANELIGHT_PAIRS_FEATURE)           \
+  LANELIGHT_CONTROLS(LANELIGHT_CONTROL_FEATURE)      \
+  LANELIGHT_ROULETTES(LANELIGHT_ROULETTE_FEATURE)
 
 enum class Feature : std::uint8_t {
 #define X(name, meaning) name,
@@ -94,8 +96,15 @@ class FeatureSet {
   constexpr FeatureSet(std::initializer_list<Feature> features) {
     for (Feature f : features) Add(f);
   }
+  static constexpr FeatureSet All() {
+    FeatureSet all;
+    all.low_ = all.high_ = ~std::uint64_t{0};
+    return all;
+  }
   constexpr void Add(Feature f) { Word(f) |= Bit(f); }
+  constexpr void Add(const FeatureSet& o) { low_ |= o.low_, high_ |= o.high_; }
   constexpr void Remove(Feature f) { Word(f) &= ~Bit(f); }
+  constexpr void Remove(const FeatureSet& o) { low_ &= ~o.low_, high_ &= ~o.high_; }
   constexpr bool Has(Feature f) const {
     return ((static_cast<int>(f) < 64 ? low_ : high_) & Bit(f)) != 0;
   }
@@ -118,6 +127,27 @@ class FeatureSet {
   std::uint64_t low_ = 0, high_ = 0;
 };
 static_assert(static_cast<int>(Feature::kCount) <= 128);
+
+/// The feature that says that a scene has a kind of material.
+constexpr Feature ShadeFeature(ShadeKind kind) {
+  constexpr Feature kFeatures[] = {
+#define X(name, traits, meaning) Feature::k##name,
+      LANELIGHT_SHADE_KINDS(X)
+#undef X
+          Feature::kMix};
+  static_assert(std::size(kFeatures) == kNumShadeKinds + 1);
+  return kFeatures[static_cast<int>(kind)];
+}
+
+/// The kinds of materials with a trait.
+constexpr FeatureSet KindsWith(ShadeTraits trait) {
+  FeatureSet features;
+  for (int k = 0; k < kNumShadeKinds; ++k) {
+    const auto kind = static_cast<ShadeKind>(k);
+    if (HasTrait(kind, trait)) features.Add(ShadeFeature(kind));
+  }
+  return features;
+}
 
 /// Identifier without the leading k, e.g. "ConductorRough".
 const char* FeatureName(Feature f);

@@ -1,86 +1,124 @@
-// Every column of a path, declared once: type, name, the feature that needs it, its
-// meaning. Allocation (null when not needed), poisoning in debug builds, the dump, bytes
-// per path, and the read/write checks of the plan all derive from this list.
+// Every column of a path, declared once: type, name, the features of which any one needs
+// it, how long it matters, the value that a new path begins with, its meaning. Allocation
+// (null when not needed), poisoning in debug builds, bytes per path, the first values of
+// a path, what is carried to the next wave, what a copy of a path takes over, and the
+// read/write checks of the plan all derive from this list.
 //
 // A column is an array of 4-byte lanes indexed by path slot. A vector is three columns.
 #pragma once
 
+#include <bit>
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 
 #include "src/path/features.h"
 
 namespace lanelight {
 
-// X(type, name, features of which any one needs it; {} = always, meaning)
+/// How long the value of a column matters.
+enum class Lifetime : std::uint8_t {
+  kCamera,    // to the stages of the camera
+  kHit,       // until the surface at the hit is known
+  kSurface,   // until the path scatters; copies of it take it over
+  kBounce,    // within one scattering event, after roulette has decided
+  kRay,       // to the next wave, with the ray; copies at a surface need it no more
+  kPath,      // to the end of the path; copies take it over
+  kGathered,  // to the end of the path; copies begin anew
+};
+
+/// No primitive: where a path that has not met a surface yet comes from.
+inline constexpr std::uint32_t kNoPrimitive = 0xffffffffu;
+/// No cell of the cache of path values (src/prepare/path_values.h).
+inline constexpr std::uint32_t kNoCell = 0xffffffffu;
+
+// Vectors: one column per component.
+#define LANELIGHT_XYZ(X, type, name, ...) \
+  X(type, name##_x, __VA_ARGS__) X(type, name##_y, __VA_ARGS__) X(type, name##_z, __VA_ARGS__)
+#define LANELIGHT_RGB(X, type, name, ...) \
+  X(type, name##_r, __VA_ARGS__) X(type, name##_g, __VA_ARGS__) X(type, name##_b, __VA_ARGS__)
+#define LANELIGHT_2(X, type, name, ...) \
+  X(type, name##_0, __VA_ARGS__) X(type, name##_1, __VA_ARGS__)
+#define LANELIGHT_4(X, type, name, ...) \
+  LANELIGHT_2(X, type, name, __VA_ARGS__) \
+  X(type, name##_2, __VA_ARGS__) X(type, name##_3, __VA_ARGS__)
+
+// X(type, name, features; {} = always, lifetime, first value; () = a stage writes it, meaning)
+// In them `f` is the set of features of the plan.
 // clang-format off
 #define LANELIGHT_PATH_FIELDS(X)                                                          \
-  /* identity */                                                                          \
-  X(u32, pixel,    ({}), "pixel index, y * width + x: first coordinate of the random numbers") \
-  X(u32, sample,   ({}), "sample index of the pixel: second coordinate")                  \
-  X(u32, output,   ({}), "slot of the sample in the task's sample buffer")                \
-  X(u32, depth,    ({}), "scattering events so far")                                      \
+  /* identity, written by the generate stage */                                           \
+  X(u32, pixel, ({}), kPath, (), "pixel index, y * width + x: first coordinate of the random numbers") \
+  X(u32, sample, ({}), kPath, (), "sample index of the pixel: second coordinate")       \
+  X(u32, output, ({}), kPath, (), "slot of the sample in the task's sample buffer")     \
+  X(u32, depth, ({}), kPath, (), "scattering events so far")                            \
+  X(u32, branch, ({kSplitting}), kPath, (), "which copy of its sample the path is, 0 = the first") \
+  X(u32, budget, ({kSplitting}), kPath, (), "copies that the path may still become, itself included") \
   /* ray: origin and unit direction, scene units */                                       \
-  X(f32, o_x, ({}), "ray origin") X(f32, o_y, ({}), "ray origin") X(f32, o_z, ({}), "ray origin") \
-  X(f32, d_x, ({}), "ray direction") X(f32, d_y, ({}), "ray direction") X(f32, d_z, ({}), "ray direction") \
+  LANELIGHT_XYZ(X, f32, o, ({}), kRay, (), "ray origin")                                \
+  LANELIGHT_XYZ(X, f32, d, ({}), kPath, (), "ray direction, unit")                      \
   /* transport */                                                                         \
-  X(f32, beta_r, ({}), "throughput") X(f32, beta_g, ({}), "throughput") X(f32, beta_b, ({}), "throughput") \
-  X(f32, l_r, ({}), "radiance gathered so far") X(f32, l_g, ({}), "radiance gathered so far") X(f32, l_b, ({}), "radiance gathered so far") \
-  X(f32, bsdf_pdf, ({Feature::kMis}), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
-  X(f32, eta_scale, ({Feature::kRefraction}), "product of eta^2 of refractions, undone by roulette") \
-  X(u32, branch, ({Feature::kSplitting}), "which copy of its sample the path is, 0 = the first") \
-  X(u32, budget, ({Feature::kSplitting}), "copies that the path may still become, itself included") \
+  LANELIGHT_RGB(X, f32, beta, ({}), kPath, (1.0f), "throughput")                          \
+  LANELIGHT_RGB(X, f32, l, ({}), kGathered, (0.0f), "radiance gathered so far")           \
+  X(f32, bsdf_pdf, ({kMis}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
+  X(f32, eta_scale, ({kRefraction}), kPath, (1.0f), "product of eta^2 of refractions, undone by roulette") \
   /* film sample points */                                                                \
-  X(f32, u_film_0, ({}), "position in the pixel") X(f32, u_film_1, ({}), "position in the pixel") \
-  X(f32, u_lens_0, ({Feature::kLens}), "position on the lens") X(f32, u_lens_1, ({Feature::kLens}), "position on the lens") \
-  X(f32, weight, ({Feature::kSignedFilter}), "filter weight of the sample")               \
+  LANELIGHT_2(X, f32, u_film, ({}), kCamera, (), "position in the pixel")               \
+  LANELIGHT_2(X, f32, u_lens, ({kLens}), kCamera, (), "position on the lens")           \
+  X(f32, weight, ({kSignedFilter}), kPath, (), "filter weight of the sample")           \
   /* hit */                                                                               \
-  X(f32, t,    ({}), "hit distance, +inf = miss")                                         \
-  X(u32, prim, ({}), "primitive id of the hit (src/compiled/scene.h); of the last one, where the ray starts, until there is a new one") \
-  X(f32, b1, ({Feature::kTriangles}), "barycentric weight of vertex 1") X(f32, b2, ({Feature::kTriangles}), "barycentric weight of vertex 2") \
-  X(u32, inst, ({Feature::kInstances}), "instance of the hit, 0xffffffff = world")        \
+  X(f32, t, ({}), kRay, (std::numeric_limits<float>::infinity()), "hit distance, +inf = miss") \
+  X(u32, prim, ({}), f.Has(Feature::kTriangles) ? kPath : kSurface, (kNoPrimitive), "primitive id of the hit (src/geometry/geometry.h); of the last one, where the ray starts, until there is a new one") \
+  X(f32, b1, ({kTriangles}), kHit, (), "barycentric weight of vertex 1")                \
+  X(f32, b2, ({kTriangles}), kHit, (), "barycentric weight of vertex 2")                \
+  X(u32, inst, ({kInstances}), kHit, (), "instance of the hit, 0xffffffff = world")     \
   /* surface at the hit */                                                                \
-  X(f32, p_x, ({Feature::kScatters, Feature::kAov}), "hit point") X(f32, p_y, ({Feature::kScatters, Feature::kAov}), "hit point") X(f32, p_z, ({Feature::kScatters, Feature::kAov}), "hit point") \
-  X(f32, p_error, ({Feature::kScatters, Feature::kAov}), "offset along ng that clears the rounding error of p") \
-  X(f32, ng_x, ({Feature::kScatters, Feature::kAov}), "geometric normal, unit, emitting side") X(f32, ng_y, ({Feature::kScatters, Feature::kAov}), "geometric normal") X(f32, ng_z, ({Feature::kScatters, Feature::kAov}), "geometric normal") \
-  X(f32, ns_x, ({Feature::kVertexNormals}), "shading normal, unit") X(f32, ns_y, ({Feature::kVertexNormals}), "shading normal") X(f32, ns_z, ({Feature::kVertexNormals}), "shading normal") \
-  X(f32, tg_x, ({Feature::kTangents}), "dp/du, not normalised") X(f32, tg_y, ({Feature::kTangents}), "dp/du") X(f32, tg_z, ({Feature::kTangents}), "dp/du") \
-  X(f32, uv_u, ({Feature::kUv}), "surface coordinate") X(f32, uv_v, ({Feature::kUv}), "surface coordinate") \
-  X(u32, material, ({Feature::kScatters, Feature::kAov}), "material index")               \
+  LANELIGHT_XYZ(X, f32, p, ({kScatters, kAov}), kSurface, (), "hit point")              \
+  X(f32, p_error, ({kScatters, kAov}), kSurface, (), "offset along ng that clears the rounding error of p") \
+  LANELIGHT_XYZ(X, f32, ng, ({kScatters, kAov}), kSurface, (), "geometric normal, unit, emitting side") \
+  LANELIGHT_XYZ(X, f32, ns, ({kVertexNormals}), kSurface, (), "shading normal, unit")   \
+  LANELIGHT_XYZ(X, f32, tg, ({kTangents}), kSurface, (), "dp/du, not normalised")       \
+  X(f32, uv_u, ({kUv}), kSurface, (), "surface coordinate")                             \
+  X(f32, uv_v, ({kUv}), kSurface, (), "surface coordinate")                             \
+  X(u32, material, ({kScatters, kAov}), kSurface, (), "material index")                 \
   /* textured material parameters */                                                      \
-  X(f32, color0_r, ({Feature::kTextures}), "first colour parameter") X(f32, color0_g, ({Feature::kTextures}), "first colour parameter") X(f32, color0_b, ({Feature::kTextures}), "first colour parameter") \
-  X(f32, color1_r, ({Feature::kTexturedColor1}), "second colour parameter") X(f32, color1_g, ({Feature::kTexturedColor1}), "second colour parameter") X(f32, color1_b, ({Feature::kTexturedColor1}), "second colour parameter") \
-  X(f32, alpha_x, ({Feature::kTexturedRoughness}), "GGX alpha along the tangent") X(f32, alpha_y, ({Feature::kTexturedRoughness}), "GGX alpha across it") \
+  LANELIGHT_RGB(X, f32, color0, ({kTextures}), kSurface, (), "first colour parameter")  \
+  LANELIGHT_RGB(X, f32, color1, ({kTexturedColor1}), kSurface, (), "second colour parameter") \
+  X(f32, alpha_x, ({kTexturedRoughness}), kSurface, (), "GGX alpha along the tangent")  \
+  X(f32, alpha_y, ({kTexturedRoughness}), kSurface, (), "GGX alpha across it")          \
   /* sample points of the bounce */                                                       \
-  X(f32, u_lobe,   ({Feature::kDielectricSmooth, Feature::kDielectricRough, Feature::kThinDielectric, Feature::kCoatedDiffuseSmooth, Feature::kCoatedDiffuseRough, Feature::kCoatedConductor, Feature::kDiffuseTransmission}), "choice of lobe") \
-  X(f32, u_bsdf_0, ({Feature::kScatters}), "direction") X(f32, u_bsdf_1, ({Feature::kScatters}), "direction") \
-  X(f32, u_select, ({Feature::kManyLights}), "choice of light")                           \
-  X(f32, u_light_0, ({Feature::kLights}), "point on the light") X(f32, u_light_1, ({Feature::kLights}), "point on the light") \
-  X(f32, u_roulette, ({Feature::kRoulette}), "survival")                                  \
+  X(f32, u_lobe, (KindsWith(kChoosesLobe)), kBounce, (), "choice of lobe")              \
+  LANELIGHT_2(X, f32, u_bsdf, ({kScatters}), kBounce, (), "direction")                  \
+  X(f32, u_select, ({kManyLights}), kBounce, (), "choice of light")                     \
+  LANELIGHT_2(X, f32, u_light, ({kLights}), kBounce, (), "point on the light")          \
+  X(f32, u_roulette, ({kRoulette}), kBounce, (), "survival")                            \
   /* light sample */                                                                      \
-  X(u32, ls_light, ({Feature::kManyLights}), "selected light")                                \
-  X(f32, ls_x, ({Feature::kLights}), "unit direction to the light") X(f32, ls_y, ({Feature::kLights}), "direction to the light") X(f32, ls_z, ({Feature::kLights}), "direction to the light") \
-  X(f32, ls_distance, ({Feature::kLights}), "length of the shadow ray, already short of the light") \
-  X(f32, ls_r, ({Feature::kLights}), "radiance / pdf of the light sample (selection included); 0 = no light") X(f32, ls_g, ({Feature::kLights}), "radiance / pdf") X(f32, ls_b, ({Feature::kLights}), "radiance / pdf") \
-  X(f32, ls_pdf, ({Feature::kLights}), "pdf_sa of that direction, selection included; 0 = delta light") \
-  X(f32, light_pmf, ({Feature::kLightTree}), "probability of selecting the light that was hit, then of the one selected") \
+  X(u32, ls_light, ({kManyLights}), kBounce, (), "selected light")                      \
+  LANELIGHT_XYZ(X, f32, ls, ({kLights}), kBounce, (), "unit direction to the light")    \
+  X(f32, ls_distance, ({kLights}), kBounce, (), "length of the shadow ray, already short of the light") \
+  LANELIGHT_RGB(X, f32, ls, ({kLights}), kBounce, (), "radiance / pdf of the light sample (selection included); 0 = no light") \
+  X(f32, ls_pdf, ({kLights}), kBounce, (), "pdf_sa of that direction, selection included; 0 = delta light") \
+  X(f32, light_pmf, ({kLightTree}), kBounce, (), "probability of selecting the light that was hit, then of the one selected") \
   /* shadow ray */                                                                        \
-  X(f32, sh_r, ({Feature::kLights}), "radiance the shadow ray carries if unoccluded") X(f32, sh_g, ({Feature::kLights}), "shadow radiance") X(f32, sh_b, ({Feature::kLights}), "shadow radiance") \
+  LANELIGHT_RGB(X, f32, sh, ({kLights}), kBounce, (), "radiance the shadow ray carries if unoccluded") \
   /* control variates */                                                                  \
-  X(f32, k_r, ({Feature::kControlDifference}), "sum over the path of throughput (h - E[h])") X(f32, k_g, ({Feature::kControlDifference}), "control difference") X(f32, k_b, ({Feature::kControlDifference}), "control difference") \
-  X(f32, first_0, ({Feature::kRegressionControl}), "u_bsdf_0 of the first bounce; -1 = none") X(f32, first_1, ({Feature::kRegressionControl}), "u_bsdf_1 of the first bounce") \
-  X(f32, first_2, ({Feature::kRegressionControl}), "u_light_0 of the first bounce; -1 = none") X(f32, first_3, ({Feature::kRegressionControl}), "u_light_1 of the first bounce") \
-  /* pilot pass: the first vertices of a path */                                          \
-  X(u32, cell_0, ({Feature::kPilot}), "cache cell of vertex 0; 0xffffffff = none") X(u32, cell_1, ({Feature::kPilot}), "cache cell of vertex 1") X(u32, cell_2, ({Feature::kPilot}), "cache cell of vertex 2") X(u32, cell_3, ({Feature::kPilot}), "cache cell of vertex 3") \
-  X(f32, at_0, ({Feature::kPilot}), "luminance of the throughput there") X(f32, at_1, ({Feature::kPilot}), "throughput at vertex 1") X(f32, at_2, ({Feature::kPilot}), "throughput at vertex 2") X(f32, at_3, ({Feature::kPilot}), "throughput at vertex 3") \
-  X(f32, got_0, ({Feature::kPilot}), "luminance gathered before it") X(f32, got_1, ({Feature::kPilot}), "gathered before vertex 1") X(f32, got_2, ({Feature::kPilot}), "gathered before vertex 2") X(f32, got_3, ({Feature::kPilot}), "gathered before vertex 3") \
-  X(f32, risk_0, ({Feature::kPilot}), "second moments that roulette would add (kernels/roulette/record.cc)") X(f32, risk_1, ({Feature::kPilot}), "second moments, linear part") X(f32, risk_2, ({Feature::kPilot}), "second moments, constant part") \
+  LANELIGHT_RGB(X, f32, k, ({kControlDifference}), kGathered, (0.0f), "sum over the path of throughput (h - E[h])") \
+  LANELIGHT_2(X, f32, first_bsdf, ({kRegressionControl}), kPath, (-1.0f), "u_bsdf of the first bounce; -1 = none") \
+  LANELIGHT_2(X, f32, first_light, ({kRegressionControl}), kPath, (-1.0f), "u_light of the first bounce; -1 = none") \
+  LANELIGHT_2(X, f32, first_film, ({kRegressionControl}), kPath, (), "u_film of the path") \
+  /* training pass: the first vertices of a path */                                       \
+  LANELIGHT_4(X, u32, cell, ({kRecordsPaths}), kPath, (kNoCell), "cache cell of vertex 0, 1, 2, 3; 0xffffffff = none") \
+  LANELIGHT_4(X, f32, at, ({kRecordsPaths}), kPath, (0.0f), "luminance of the throughput there") \
+  LANELIGHT_4(X, f32, got, ({kRecordsPaths}), kPath, (0.0f), "luminance gathered before it") \
+  X(f32, risk_0, ({kRecordsPaths}), kPath, (0.0f), "second moments that roulette would add (kernels/roulette/record.cc)") \
+  X(f32, risk_1, ({kRecordsPaths}), kPath, (0.0f), "second moments, linear part")         \
+  X(f32, risk_2, ({kRecordsPaths}), kPath, (0.0f), "second moments, constant part")       \
   /* auxiliary output: first hit */                                                       \
-  X(f32, aov_albedo_r, ({Feature::kAov}), "albedo") X(f32, aov_albedo_g, ({Feature::kAov}), "albedo") X(f32, aov_albedo_b, ({Feature::kAov}), "albedo") \
-  X(f32, aov_n_x, ({Feature::kAov}), "shading normal") X(f32, aov_n_y, ({Feature::kAov}), "shading normal") X(f32, aov_n_z, ({Feature::kAov}), "shading normal") \
-  X(f32, aov_depth, ({Feature::kAov}), "distance from the camera, scene units")
+  LANELIGHT_RGB(X, f32, aov_albedo, ({kAov}), kPath, (0.0f), "albedo")                    \
+  LANELIGHT_XYZ(X, f32, aov_n, ({kAov}), kPath, (0.0f), "shading normal")                 \
+  X(f32, aov_depth, ({kAov}), kPath, (0.0f), "distance from the camera, scene units")
 // clang-format on
 
 using f32 = float;
@@ -88,7 +126,7 @@ using u32 = std::uint32_t;
 using i32 = std::int32_t;
 
 enum class Field : std::uint8_t {
-#define X(type, name, features, meaning) name,
+#define X(type, name, ...) name,
   LANELIGHT_PATH_FIELDS(X)
 #undef X
       kCount
@@ -97,7 +135,7 @@ inline constexpr std::size_t kNumFields = static_cast<std::size_t>(Field::kCount
 
 /// Pointers to the columns of one wavefront; null = this scene does not need the column.
 struct PathColumns {
-#define X(type, name, features, meaning) type* name = nullptr;
+#define X(type, name, ...) type* name = nullptr;
   LANELIGHT_PATH_FIELDS(X)
 #undef X
 };
@@ -120,15 +158,40 @@ class FieldSet {
   std::bitset<kNumFields> bits_;
 };
 
-const char* FieldName(Field f);
-const char* FieldMeaning(Field f);
+/// The 32 bits that a column begins with.
+struct FirstValue {
+  bool any = false;
+  std::uint32_t bits = 0;
+
+  constexpr FirstValue() = default;
+  constexpr FirstValue(float v) : any(true), bits(std::bit_cast<std::uint32_t>(v)) {}
+  constexpr FirstValue(std::uint32_t v) : any(true), bits(v) {}
+};
+
+const char* FieldName(Field field);
+const char* FieldMeaning(Field field);
 /// "f32", "u32" or "i32".
-const char* FieldType(Field f);
+const char* FieldType(Field field);
 /// Features of which any one makes the column live; empty = always.
-FeatureSet FieldFeatures(Field f);
+FeatureSet FieldFeatures(Field field);
+/// In a plan with the features `f`.
+Lifetime FieldLifetime(Field field, const FeatureSet& f);
+/// What the camera stage writes; none where another stage does.
+FirstValue FieldFirstValue(Field field);
+
+/// Its value goes from one wave to the next.
+constexpr bool IsCarried(Lifetime lifetime) { return lifetime >= Lifetime::kRay; }
+/// A copy of a path at a surface, before the numbers of the bounce are drawn, needs it.
+constexpr bool IsCopied(Lifetime lifetime) {
+  return lifetime == Lifetime::kSurface || lifetime == Lifetime::kPath;
+}
 
 // Groups used in the declarations of stages.
 namespace fields {
+/// What some plan carries from wave to wave; what the camera stage begins.
+FieldSet EverCarried();
+FieldSet WithFirstValue();
+
 inline const FieldSet kRay = {Field::o_x, Field::o_y, Field::o_z,
                               Field::d_x, Field::d_y, Field::d_z};
 inline const FieldSet kHit = {Field::t, Field::prim, Field::b1, Field::b2, Field::inst};
@@ -153,8 +216,9 @@ inline const FieldSet kAov = {
     Field::aov_n_y,      Field::aov_n_z,      Field::aov_depth};
 inline const FieldSet kShadow = {Field::sh_r, Field::sh_g, Field::sh_b};
 inline const FieldSet kControl = {Field::k_r, Field::k_g, Field::k_b};
-inline const FieldSet kFirstBounce = {Field::first_0, Field::first_1, Field::first_2,
-                                      Field::first_3};
+inline const FieldSet kFirstBounce = {Field::first_bsdf_0, Field::first_bsdf_1,
+                                      Field::first_light_0, Field::first_light_1};
+inline const FieldSet kFirstFilm = {Field::first_film_0, Field::first_film_1};
 inline const FieldSet kVertices = {Field::cell_0, Field::cell_1, Field::cell_2,
                                    Field::cell_3, Field::at_0,   Field::at_1,
                                    Field::at_2,   Field::at_3,   Field::got_0,

@@ -5,6 +5,7 @@
 
 #include "src/path/dimensions.h"
 #include "src/path/features.h"
+#include "src/path/sample_planes.h"
 
 namespace lanelight {
 
@@ -52,9 +53,9 @@ struct MisParameters {
 };
 
 struct RouletteParameters {
-  float termination = 0.25f;  // constant: probability of ending
-  float floor = 0;            // throughput, luminance: least survival probability
-  std::uint32_t first = 2;    // scattering events before the first decision
+  float termination = 0;  // constant: probability of ending
+  float floor = 0;        // throughput, luminance: least survival probability
+  std::uint32_t first = 2;  // scattering events before the first decision
 };
 
 /// Tables that some strategies need (src/prepare/tables.h).
@@ -68,6 +69,7 @@ struct RunParameters {
   std::uint32_t max_depth = 5;
   float exposure = 1;  // factor from radiance to film
   FeatureSet features;
+  SamplePlanes planes;  // of a finished sample
   PointsParameters points;
   PairParameters pairs;
   MisParameters mis;

@@ -1,38 +1,60 @@
-// The kinds of materials that have a shading kernel.
+// The kinds of materials that have a shading kernel, with what the rest of the program
+// must know of each. A kind gets a queue, a feature and a stage from its line.
 #pragma once
 
 #include <cstdint>
 
-#include "src/path/features.h"
-
 namespace lanelight {
 
-/// The shading kernels, one queue each.
-#define LANELIGHT_SHADE_KINDS(X)                                                  \
-  X(kDiffuse)                                                                     \
-  X(kDiffuseUniform)                                                              \
-  X(kDiffuseInSphere)                                                             \
-  X(kConductorSmooth) X(kConductorRough) X(kDielectricSmooth) X(kDielectricRough) \
-      X(kThinDielectric) X(kCoatedDiffuseSmooth) X(kCoatedDiffuseRough)           \
-          X(kCoatedConductor) X(kDiffuseTransmission)
+/// What a kind of material is like; kernels/shade/shade-inl.h holds each against the
+/// members of its policy.
+enum ShadeTraits : std::uint32_t {
+  kPlainShading = 0,
+  kSpecularOnly = 1 << 0,  // delta directions only: takes no light samples
+  kChoosesLobe = 1 << 1,   // reads u_lobe
+  kSecondColor = 1 << 2,   // reads color1
+  kMicrofacets = 1 << 3,   // has a roughness
+  kRefracting = 1 << 4,    // roulette must know the relative index
+  kMetallic = 1 << 5,      // seen head-on: the Fresnel reflectance of color0, color1
+  kClear = 1 << 6,         // seen head-on: white
+};
+
+// X(name, traits, meaning)
+// clang-format off
+#define LANELIGHT_SHADE_KINDS(X)                                                       \
+  X(Diffuse, kPlainShading, "Lambertian diffuse material")                             \
+  X(DiffuseUniform, kPlainShading, "uniform-scattering diffuse material")              \
+  X(DiffuseInSphere, kPlainShading, "in-sphere diffuse material")                      \
+  X(ConductorSmooth, kSpecularOnly | kSecondColor | kMetallic, "smooth conductor")     \
+  X(ConductorRough, kMicrofacets | kSecondColor | kMetallic, "rough conductor")        \
+  X(DielectricSmooth, kSpecularOnly | kChoosesLobe | kRefracting | kClear, "smooth dielectric") \
+  X(DielectricRough, kMicrofacets | kChoosesLobe | kRefracting | kClear, "rough dielectric") \
+  X(ThinDielectric, kSpecularOnly | kChoosesLobe | kClear, "thin dielectric")          \
+  X(CoatedDiffuseSmooth, kChoosesLobe, "smooth coated diffuse")                        \
+  X(CoatedDiffuseRough, kMicrofacets | kChoosesLobe, "rough coated diffuse")           \
+  X(CoatedConductor, kMicrofacets | kChoosesLobe | kSecondColor | kMetallic, "coated conductor") \
+  X(DiffuseTransmission, kChoosesLobe | kSecondColor, "diffuse transmission")
+// clang-format on
 
 enum class ShadeKind : std::uint32_t {
-#define X(name) name,
+#define X(name, traits, meaning) k##name,
   LANELIGHT_SHADE_KINDS(X)
 #undef X
       kCount,
-  kMix = kCount  // resolved by the route stage, has no kernel
+  kMix = kCount  // resolved by the mix stage, has no kernel
 };
 inline constexpr int kNumShadeKinds = static_cast<int>(ShadeKind::kCount);
 
-/// The feature that says that a scene has this kind.
-constexpr Feature ShadeFeature(ShadeKind kind) {
-  constexpr Feature kFeatures[] = {
-#define X(name) Feature::name,
-      LANELIGHT_SHADE_KINDS(X)
+inline constexpr std::uint32_t kTraitsOfShadeKinds[] = {
+#define X(name, traits, meaning) traits,
+    LANELIGHT_SHADE_KINDS(X)
 #undef X
-  };
-  return kFeatures[static_cast<int>(kind)];
+};
+
+/// Whether a kind has a trait; a mix, which becomes another kind before, has none.
+constexpr bool HasTrait(ShadeKind kind, ShadeTraits trait) {
+  return kind != ShadeKind::kMix &&
+         (kTraitsOfShadeKinds[static_cast<int>(kind)] & trait) != 0;
 }
 
 }  // namespace lanelight

@@ -13,7 +13,7 @@ namespace lanelight {
 struct CompiledScene;  // src/compiled/scene.h
 
 // Queues hold path slots. One writer stage appends, one or more readers consume; the
-// driver (src/wavefront/run.cc) clears them.
+// driver (src/wavefront/tasks.cc) clears them.
 // X(name, meaning)
 #define LANELIGHT_QUEUES(X)                                   \
   X(kFree, "slots without a path")                            \
@@ -22,6 +22,8 @@ struct CompiledScene;  // src/compiled/scene.h
   X(kMiss, "paths whose ray left the scene")                  \
   X(kHit, "paths whose ray hit something")                    \
   X(kSurface, "hits that will scatter")                       \
+  X(kMedium, "points in a medium that will scatter")          \
+  X(kVertex, "all that will scatter: surfaces and others")    \
   X(kLit, "surfaces that connect to a light")                 \
   X(kShadow, "paths with a shadow ray in ls_* carrying sh_*") \
   X(kScattered, "paths with a new ray after shading")         \
@@ -74,13 +76,37 @@ struct SampleBuffer {
   std::uint32_t stride = 0;  // samples of one plane
 };
 
-/// Samples that were not finite or negative, replaced by zero.
-struct BadSamples {
+/// Samples that were not finite, or negative where they must not be. Each is replaced by
+/// zero and counted.
+struct Health {
   std::uint64_t nan = 0, infinite = 0, negative = 0;
+  std::uint64_t Total() const { return nan + infinite + negative; }
+};
+
+/// Live columns that are treated alike.
+struct ColumnList {
+  std::uint32_t* columns[kNumFields];
+  std::uint32_t count = 0;
+
+  void Add(std::uint32_t* column) { columns[count++] = column; }
+};
+
+/// What the fields' lifetimes and first values (src/path/fields.h) come to in a plan.
+struct ColumnLists {
+  ColumnList carried;  // to the next wave
+  ColumnList copied;   // to a copy of a path
+  ColumnList begun;    // by the camera stage, ...
+  std::uint32_t first_values[kNumFields];  // ... with these bits, in the same order
+  ColumnList begun_by_copies;              // by a copy of a path ...
+  std::uint32_t copy_values[kNumFields];   // ... with these
+
+  ColumnLists() = default;
+  ColumnLists(const PathColumns& path, const FeatureSet& features);
 };
 
 struct Wave {
   PathColumns path;
+  ColumnLists lists;  // of `path`
   const CompiledScene* scene = nullptr;
   const RunParameters* run = nullptr;
   Queue queues[kNumQueues];
@@ -88,10 +114,15 @@ struct Wave {
   TileWork work;
   SampleBuffer buffer;
   LaneCounters lanes;
-  BadSamples bad;
+  Health health;
   std::uint64_t rays_closest = 0, rays_shadow = 0;
 
-  Queue& queue(QueueId id) { return queues[static_cast<int>(id)]; }
+  /// The queue that is kVertex: where only surfaces scatter, theirs.
+  QueueId vertices = QueueId::kSurface;
+
+  Queue& queue(QueueId id) {
+    return queues[static_cast<int>(id == QueueId::kVertex ? vertices : id)];
+  }
 };
 
 using StageFn = void (*)(Wave&);

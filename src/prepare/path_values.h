@@ -1,6 +1,6 @@
 // What a path is worth, for the roulettes that split: a coarse cache over space and
 // orientation, and the brightness of the pixels, both estimated by pilot passes
-// (src/wavefront/pilot.h). The values steer the number of copies and never enter the
+// (src/wavefront/train_path_values.cc). The values steer the number of copies and never enter the
 // image.
 #pragma once
 
@@ -10,6 +10,7 @@
 
 #include "src/core/aligned.h"
 #include "src/core/vec.h"
+#include "src/path/fields.h"
 
 namespace lanelight {
 
@@ -17,13 +18,8 @@ namespace lanelight {
 /// rows in the sample buffer.
 inline constexpr std::uint32_t kMostCopies = 8;
 
-/// Vertices of a path that a pilot pass records.
-inline constexpr int kPilotVertices = 4;
-
 /// First scattering event after which roulette=throughput is played, by default.
 inline constexpr std::int32_t kThroughputFirst = 2;
-
-inline constexpr std::uint32_t kNoCell = 0xffffffffu;
 
 /// Cells of a box, times the six dominant directions of the normal.
 struct CellGrid {

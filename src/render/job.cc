@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/core/parallel.h"
+#include "src/scene/rendered_pixels.h"
 #include "src/render/memory.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/parse/parse.h"
@@ -43,7 +44,7 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   ParallelInvoke([&] { job.description = ParseScene(scene_path, parse); },
                  [&] { job.scene_hash = HashSceneFiles(scene_path); });
   ApplySettings(settings, job.description);
-  job.window = CropWindow(job.description.film);
+  job.window = RenderedPixels(job.description.film);
   CheckFilmFits(job.window, settings.aov, job.description.strategy, PhysicalMemory());
   job.load_seconds = watch.Lap();
 
@@ -73,20 +74,25 @@ FilmAccumulator MakeFilm(const Job& job) {
                          job.window.height(), job.group_size, job.plan.options.aov);
 }
 
-RunResult RunJob(const Job& job, FilmAccumulator& film,
-                 std::function<void(const Progress&)> on_progress,
-                 const std::atomic<bool>* stop) {
+RunOptions RunOptionsOf(const Job& job, const FilmAccumulator& film) {
   RunOptions options;
   options.spp = job.spp;
   options.seconds = job.seconds;
   options.seed = job.seed;
-  options.on_progress = std::move(on_progress);
-  options.stop = stop;
   if (job.target.Any()) {
     options.samples_needed = [&](std::uint64_t done) {
       return SamplesNeeded(job.target, EstimateError(film), done);
     };
   }
+  return options;
+}
+
+RunResult RunJob(const Job& job, FilmAccumulator& film,
+                 std::function<void(const Progress&)> on_progress,
+                 const std::atomic<bool>* stop) {
+  RunOptions options = RunOptionsOf(job, film);
+  options.on_progress = std::move(on_progress);
+  options.stop = stop;
   return Run(job.scene, job.plan, options, film);
 }
 

@@ -18,7 +18,7 @@ struct Job {
   SceneDescription description;  // overrides applied; meshes released after compiling
   CompiledScene scene;
   Plan plan;
-  PixelWindow window;
+  PixelRect window;
   std::uint64_t spp = 0;  // 0: until the time is over or the target is reached
   double seconds = 0;     // time budget; 0 = none
   ErrorTarget target;
@@ -42,6 +42,9 @@ void SetStrategy(Job& job, const Strategy& strategy);
 
 /// An empty film of the job's size.
 FilmAccumulator MakeFilm(const Job& job);
+
+/// How the job is to be run; refers to both, for as long as it is used.
+RunOptions RunOptionsOf(const Job& job, const FilmAccumulator& film);
 
 /// Runs the job's plan. `stop` and `on_progress` as in RunOptions.
 RunResult RunJob(const Job& job, FilmAccumulator& film,

@@ -28,7 +28,7 @@ std::uint64_t ControlPerPixel(const Strategy& strategy) {
 
 }  // namespace
 
-std::uint64_t FilmBytes(const PixelWindow& window, bool aov, const Strategy& strategy) {
+std::uint64_t FilmBytes(const PixelRect& window, bool aov, const Strategy& strategy) {
   // The planes exist twice for a moment: as planes, and packed into the file's bytes.
   const std::uint64_t per_pixel = kSumsPerPixel + 2 * kPlanesPerPixel +
                                   (aov ? 2 * kAovPerPixel : 0) +
@@ -47,7 +47,7 @@ std::uint64_t PhysicalMemory() {
   return bytes;
 }
 
-void CheckFilmFits(const PixelWindow& window, bool aov, const Strategy& strategy,
+void CheckFilmFits(const PixelRect& window, bool aov, const Strategy& strategy,
                    std::uint64_t memory) {
   const std::uint64_t need = FilmBytes(window, aov, strategy);
   if (need <= memory) return;

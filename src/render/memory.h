@@ -9,14 +9,14 @@ namespace lanelight {
 
 /// Bytes that the film and the planes of the output file take. Independent of the number
 /// of samples.
-std::uint64_t FilmBytes(const PixelWindow& window, bool aov,
+std::uint64_t FilmBytes(const PixelRect& window, bool aov,
                         const Strategy& strategy = {});
 
 /// Memory of the machine, or of the control group it limits this process to.
 std::uint64_t PhysicalMemory();
 
 /// Throws InputError with both numbers if the film does not fit.
-void CheckFilmFits(const PixelWindow& window, bool aov, const Strategy& strategy,
+void CheckFilmFits(const PixelRect& window, bool aov, const Strategy& strategy,
                    std::uint64_t memory);
 
 }  // namespace lanelight

@@ -1,19 +1,9 @@
 #include "src/render/output.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <limits>
-
-#include "src/core/error.h"
 
 namespace lanelight {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Calls fill(pixel index, x, y) for every pixel of the film, rows from the top.
 template <class Fill>
@@ -47,8 +37,6 @@ void AppendAov(const FilmAccumulator& film, double scale, std::size_t pixels,
   });
   for (ExrPlane& plane : aov) planes.push_back(std::move(plane));
 }
-
-std::string Reason() { return std::strerror(errno); }
 
 }  // namespace
 
@@ -99,37 +87,6 @@ Image FilmImage(const FilmAccumulator& film) {
     for (int c = 0; c < 3; ++c) image.pixels[3 * i + c] = static_cast<float>(mean[c]);
   });
   return image;
-}
-
-void CheckWritable(const std::string& path) {
-  const auto refuse = [&](const std::string& reason) {
-    throw InputError("cannot write '" + path + "': " + reason);
-  };
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::is_directory(status)) refuse("it is a directory");
-  if (fs::exists(status) && !fs::is_regular_file(status))
-    refuse("it is not a regular file");
-  const fs::path directory =
-      fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
-  if (!fs::is_directory(directory, error)) {
-    refuse("there is no directory '" + directory.string() + "'");
-  }
-  if (fs::exists(status) && access(path.c_str(), W_OK) != 0) refuse(Reason());
-  // access() does not see read-only and full file systems; creating a file does.
-  std::string probe = (directory / ".lanelight-probe-XXXXXX").string();
-  const int file = mkstemp(probe.data());
-  if (file < 0) refuse(Reason());
-  close(file);
-  unlink(probe.c_str());
-}
-
-std::string FallbackPath(const std::string& path) {
-  std::error_code error;
-  fs::path directory = fs::temp_directory_path(error);
-  if (error) directory = "/tmp";
-  const fs::path name = fs::path(path).filename();
-  return (directory / fmt::format("lanelight-{}-{}", getpid(), name.string())).string();
 }
 
 }  // namespace lanelight

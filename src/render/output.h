@@ -23,11 +23,4 @@ ExrOptions OutputOptions(const Job& job, const RunResult& result, bool half);
 /// R, G, B of the film, for the PNG.
 Image FilmImage(const FilmAccumulator& film);
 
-/// Throws InputError unless a file can be created at `path`: its directory exists and is
-/// writable, and what exists there is a regular file. Leaves nothing behind.
-void CheckWritable(const std::string& path);
-
-/// Where a result goes that could not be written to `path`: the temporary directory.
-std::string FallbackPath(const std::string& path);
-
 }  // namespace lanelight

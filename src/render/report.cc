@@ -50,7 +50,7 @@ Json ControlJson(const std::optional<ControlReport>& control) {
 
 Json SettingsJson(const Job& job, const RunResult& result, bool half) {
   const Film& film = job.description.film;
-  const PixelWindow& w = job.window;
+  const PixelRect& w = job.window;
   return {{"resolution", {film.width, film.height}},
           {"crop", {w.x0, w.y0, w.x1, w.y1}},
           {"spp", job.spp ? Json(job.spp) : Json(nullptr)},

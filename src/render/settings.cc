@@ -7,6 +7,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/image/image.h"
+#include "src/scene/rendered_pixels.h"
 
 namespace lanelight {
 namespace {
@@ -30,7 +31,7 @@ void CheckSize(const Film& film) {
 }
 
 void CheckCrop(const Film& film) {
-  const PixelWindow w = CropWindow(film);
+  const PixelRect w = RenderedPixels(film);
   if (w.x0 < 0 || w.y0 < 0 || w.x1 > film.width || w.y1 > film.height || w.x0 >= w.x1 ||
       w.y0 >= w.y1) {
     throw InputError(
@@ -103,21 +104,12 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
                                  settings.wavefront, kMaxWavefront));
   }
   if (settings.points) scene.strategy.points = *settings.points;
-  ApplyStrategy(settings.strategy,
-                {std::make_shared<const std::string>("--strategy"), 0, 0},
-                scene.strategy);
+  Apply(settings.strategy, scene.strategy);
   if (settings.seed) scene.sampler.seed = *settings.seed;
 }
 
 bool HasTarget(const RenderSettings& settings) {
   return settings.target_relmse || settings.target_rmse;
-}
-
-PixelWindow CropWindow(const Film& film) {
-  const int* c = film.crop;
-  if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0)
-    return {0, 0, film.width, film.height};
-  return {c[0], c[2], c[1], c[3]};
 }
 
 CompileOptions CompileOptionsOf(const RenderSettings& settings) {

@@ -24,7 +24,7 @@ struct RenderSettings {
   std::optional<int> max_depth;
   std::optional<std::uint64_t> seed;
   std::optional<Points> points;
-  std::string strategy;  // changes to the scene's strategy, see ApplyStrategy
+  StrategyChanges strategy;  // to the scene's
   std::optional<Scattering> scattering;
   std::optional<BuildQuality> build;  // of the trees over shapes
   std::uint32_t wavefront = 0;        // paths; 0 = chosen by the plan
@@ -39,23 +39,10 @@ inline constexpr std::uint64_t kMaxSpp = kMostSamplesPerPixel;
 inline constexpr std::uint32_t kMaxWavefront = 1u << 20;
 inline constexpr int kMaxDepth = 1 << 20;
 
-/// The pixels [x0, x1) x [y0, y1) that are rendered.
-struct PixelWindow {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-  std::uint64_t pixels() const {
-    return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height());
-  }
-};
-
 /// Puts the overrides into the description. A crop window of the scene is scaled along
 /// with a new resolution. Throws InputError for sizes, windows, depths and sample counts
 /// that are out of range, wherever they come from.
 void ApplySettings(const RenderSettings& settings, SceneDescription& scene);
-
-/// The window of a film; the whole image if it has no crop.
-PixelWindow CropWindow(const Film& film);
 
 CompileOptions CompileOptionsOf(const RenderSettings& settings);
 PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene);

@@ -2,6 +2,7 @@
 // meaning: choices.h. Text form: `key=value,...`, optionally after the name of a preset.
 #pragma once
 
+#include <bitset>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,7 +27,8 @@ struct Strategy {
   /// paper's equation 7 writes f + c (h - E[h]): its coefficient is minus this one.
   std::optional<double> coefficient;
   Roulette roulette = Roulette::kThroughput;
-  double termination = 0.25;           // of kConstant: probability of ending, in (0, 1)
+  // of kConstant: probability of ending, in (0, 1)
+  double termination = kConstantTermination;
   std::optional<double> floor;         // of kThroughput, kLuminance: least survival
   std::optional<std::uint32_t> first;  // first scattering event with roulette
   LightSelection light_selection = LightSelection::kPower;
@@ -51,9 +53,32 @@ struct Strategy {
   }
 };
 
-/// Changes `strategy` as the text says and leaves the rest. A preset, which can only come
-/// first, replaces all of it. Throws InputError at `where` with the word that is not
-/// understood, what would be, and the nearest known name. An empty text changes nothing.
+enum class StrategyKey {
+  kDirections,
+  kPoints,
+  kPairs,
+  kControl,
+  kCoefficient,
+  kRoulette,
+  kLightSelection,
+  kCount
+};
+
+/// What a text says of a strategy: the values of some keys.
+struct StrategyChanges {
+  Strategy values;
+  std::bitset<static_cast<std::size_t>(StrategyKey::kCount)> keys;
+};
+
+/// A preset, which can only come first, sets all keys. Throws InputError at `where` with
+/// the word that is not understood, what would be, and the nearest known name. An empty
+/// text changes nothing.
+StrategyChanges ParseStrategy(std::string_view text, const SourceLocation& where);
+
+/// Changes `strategy` as the text said and leaves the rest.
+void Apply(const StrategyChanges& changes, Strategy& strategy);
+
+/// Both at once.
 void ApplyStrategy(std::string_view text, const SourceLocation& where,
                    Strategy& strategy);
 

@@ -32,7 +32,7 @@ double Value(const Image& image, int x, int y, int channel) {
 
 // The window of the image in one set of channels; `offset`: of the window in the image.
 std::vector<Rgb> Cut(const Image& image, const int (&channels)[3], int x0, int y0,
-                     const PixelWindow& window) {
+                     const PixelRect& window) {
   std::vector<Rgb> pixels;
   pixels.reserve(window.pixels());
   for (int y = y0; y < y0 + window.height(); ++y) {
@@ -61,7 +61,7 @@ struct Piece {
   std::vector<Rgb> mean, variance;
 };
 
-Piece ReadPiece(const std::string& path, const PixelWindow& window, int full_width,
+Piece ReadPiece(const std::string& path, const PixelRect& window, int full_width,
                 int full_height) {
   const Image image = ReadImage(path);
   int color[3], variance[3];
@@ -128,7 +128,7 @@ double Reference::OwnRelMse() const {
   return sum / double(mean.size());
 }
 
-Reference ReadReference(const std::vector<std::string>& files, const PixelWindow& window,
+Reference ReadReference(const std::vector<std::string>& files, const PixelRect& window,
                         int full_width, int full_height) {
   LL_CHECK(!files.empty());
   Reference reference;

@@ -38,7 +38,7 @@ struct Reference {
 /// their mean is the reference and their scatter its variance. A single file brings its
 /// own variance channels, or none. Throws InputError: unreadable, of another size,
 /// without colour, with values that are not finite.
-Reference ReadReference(const std::vector<std::string>& files, const PixelWindow& window,
+Reference ReadReference(const std::vector<std::string>& files, const PixelRect& window,
                         int full_width, int full_height);
 
 /// Renders one: independent points, which no low-discrepancy sampler under test shares,

@@ -34,7 +34,7 @@ struct SceneRuns {
   std::string error;  // not empty: the scene could not be studied
   std::string hash;
   int full_width = 0, full_height = 0;
-  PixelWindow window;
+  PixelRect window;
   double load_seconds = 0, build_seconds = 0;
   std::vector<std::string> notes;
   std::string folder;  // state and images

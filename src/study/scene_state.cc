@@ -23,7 +23,7 @@ nlohmann::json ScatteringJson(const std::optional<Scattering>& scattering) {
 
 // Everything that finished renders depend on, beyond their strategy.
 nlohmann::json Identity(const StudyOptions& options, const Job& job) {
-  const PixelWindow& w = job.window;
+  const PixelRect& w = job.window;
   return {{"format", kFormat},
           {"scene_hash", fmt::format("{:016x}", job.scene_hash)},
           {"target", CurrentTarget()},

@@ -164,7 +164,7 @@ Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
   const SceneAnalysis& analysis = study.analysis;
   Json out = {{"name", runs.name}, {"path", runs.path}, {"error", Text(runs.error)}};
   if (!runs.error.empty()) return out;
-  const PixelWindow& w = runs.window;
+  const PixelRect& w = runs.window;
   out["hash"] = runs.hash;
   out["resolution"] = {runs.full_width, runs.full_height};
   out["crop"] = {w.x0, w.y0, w.x1, w.y1};

@@ -83,7 +83,7 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
                        ? options.wavefront
                        : WavefrontForCache(plan.bytes_per_path * copies);
   // A pair starts together.
-  if (plan.features.Has(Feature::kAntithetic)) {
+  if (plan.features.Has(Feature::kAntitheticPairs)) {
     plan.wavefront = std::max(plan.wavefront, 2u);
   }
   plan.slots =

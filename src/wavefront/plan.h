@@ -12,15 +12,13 @@
 
 namespace lanelight {
 
-/// Pilot passes prepare the roulettes that split (src/wavefront/pilot.h): independent
-/// points, no pairs, no control variate.
-enum class PilotPass : std::uint8_t { kNone, kMeasure, kRecord };
-
 struct PlanOptions {
   std::uint32_t max_depth = 5;
   bool aov = false;
   std::uint32_t wavefront = 0;  // paths; 0 = sized so that the live columns fit in L2
-  PilotPass pilot = PilotPass::kNone;
+  /// Of a training pass (src/wavefront/training.h): what it turns on to record. It has
+  /// independent points, no pairs and no control variate.
+  std::optional<FeatureSet> training;
   std::optional<Roulette> roulette;  // instead of the strategy's
 };
 

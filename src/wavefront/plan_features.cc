@@ -2,6 +2,7 @@
 
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/path/choice_features.h"
 #include "src/prepare/ambient.h"
 
 namespace lanelight {
@@ -9,16 +10,11 @@ namespace {
 
 // Only emission seen directly is left: nothing is shaded and no light is sampled.
 void RemoveScattering(const PlanOptions& options, FeatureSet& f) {
-  for (Feature lighting : {Feature::kScatters, Feature::kLights, Feature::kManyLights,
-                           Feature::kMis, Feature::kRefraction}) {
-    f.Remove(lighting);
-  }
+  f.Remove({Feature::kScatters, Feature::kLights, Feature::kManyLights, Feature::kMis,
+            Feature::kRefraction});
   if (options.aov) return;
-  for (Feature surface :
-       {Feature::kTextures, Feature::kUv, Feature::kTangents, Feature::kVertexNormals,
-        Feature::kTexturedRoughness, Feature::kMix}) {
-    f.Remove(surface);
-  }
+  f.Remove({Feature::kTextures, Feature::kUv, Feature::kTangents, Feature::kVertexNormals,
+            Feature::kTexturedRoughness, Feature::kMix});
 }
 
 bool HasDeltaLights(const FeatureSet& f) {
@@ -26,66 +22,22 @@ bool HasDeltaLights(const FeatureSet& f) {
 }
 
 void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
-  if (strategy.directions == Directions::kUniform) f.Add(Feature::kUniformDirections);
-  if (strategy.SamplesHittableLights()) {
-    f.Add(Feature::kSampledHittableLights);
-  } else {
+  f.Add(TurnsOn(strategy.directions));
+  if (!strategy.SamplesHittableLights()) {
     // Scattered rays count in full, so they carry no density; what is left to sample are
     // the lights that no ray can hit.
     f.Remove(Feature::kMis);
-    if (!HasDeltaLights(f)) {
-      f.Remove(Feature::kLights);
-      f.Remove(Feature::kManyLights);
-    }
+    if (!HasDeltaLights(f)) f.Remove({Feature::kLights, Feature::kManyLights});
   }
-  if (!f.Has(Feature::kManyLights)) return;
-  f.Add(strategy.light_selection == LightSelection::kTree ? Feature::kLightTree
-                                                          : Feature::kLightTable);
-}
-
-Feature FeatureOf(Points points) {
-  constexpr Feature kFeatures[] = {
-      Feature::kIndependentPoints, Feature::kStratifiedPoints, Feature::kCmjPoints,
-      Feature::kPmj02Points,       Feature::kSobolPoints,      Feature::kHaltonPoints,
-      Feature::kLatticePoints};
-  return kFeatures[static_cast<int>(points)];
-}
-
-void AddRoulette(const Strategy& strategy, std::uint32_t max_depth, FeatureSet& f) {
-  f.Remove(Feature::kRoulette);
-  if (max_depth <= 1) return;
-  switch (strategy.roulette) {
-    case Roulette::kNone:
-      return;
-    case Roulette::kConstant:
-      f.Add(Feature::kConstantRoulette);
-      break;
-    case Roulette::kThroughput:
-      f.Add(Feature::kThroughputRoulette);
-      break;
-    case Roulette::kLuminance:
-      f.Add(Feature::kLuminanceRoulette);
-      break;
-    case Roulette::kAdjoint:
-      f.Add(Feature::kAdjointRoulette);
-      break;
-    case Roulette::kEfficiency:
-      f.Add(Feature::kEfficiencyRoulette);
-      break;
-  }
-  f.Add(strategy.Splits() ? Feature::kSplitting : Feature::kRoulette);
+  if (f.Has(Feature::kManyLights)) f.Add(TurnsOn(strategy.light_selection));
 }
 
 void AddControl(const Strategy& strategy, FeatureSet& f) {
   if (strategy.control == Control::kNone || !f.Has(Feature::kScatters)) return;
-  f.Add(Feature::kControl);
-  if (strategy.control == Control::kRegression) {
-    f.Add(Feature::kRegressionControl);
-    return;
+  f.Add(TurnsOn(strategy.control));
+  if (strategy.control != Control::kRegression && !strategy.coefficient) {
+    f.Add(Feature::kControlDifference);
   }
-  f.Add(strategy.control == Control::kAnalytic ? Feature::kAnalyticControl
-                                               : Feature::kAmbientControl);
-  if (!strategy.coefficient) f.Add(Feature::kControlDifference);
 }
 
 [[noreturn]] void Refuse(const std::string& message) {
@@ -148,18 +100,18 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
   if (options.max_depth == 0) RemoveScattering(options, f);
   if (options.max_depth > 0) AddLightSampling(strategy, f);
   if (options.aov) f.Add(Feature::kAov);
-  f.Add(FeatureOf(strategy.points));
-  if (strategy.pairs == Pairs::kAntithetic) f.Add(Feature::kAntithetic);
-  AddRoulette(strategy, options.max_depth, f);
+  f.Add(TurnsOn(strategy.points));
+  f.Add(TurnsOn(strategy.pairs));
+  if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
   AddControl(strategy, f);
-  if (options.pilot == PilotPass::kRecord) f.Add(Feature::kPilot);
+  if (options.training) f.Add(*options.training);
   return f;
 }
 
 Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options) {
   Strategy strategy = scene.strategy;
   if (options.roulette) strategy.roulette = *options.roulette;
-  if (options.pilot == PilotPass::kNone) return strategy;
+  if (!options.training) return strategy;
   strategy.points = Points::kIndependent;
   strategy.pairs = Pairs::kNone;
   strategy.control = Control::kNone;

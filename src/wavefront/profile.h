@@ -3,7 +3,9 @@
 
 #include <vector>
 
-#include "src/wavefront/drive.h"
+#include "src/wavefront/run.h"
+#include "src/wavefront/stage_clock.h"
+#include "src/wavefront/wavefront.h"
 #include "src/wavefront/run.h"
 
 namespace lanelight {

@@ -10,11 +10,10 @@
 #include "src/core/clock.h"
 #include "src/core/parallel.h"
 #include "src/prepare/tables.h"
-#include "src/wavefront/pilot.h"
-#include "src/wavefront/pilot_pass.h"
 #include "src/wavefront/profile.h"
 #include "src/wavefront/schedule.h"
 #include "src/wavefront/tasks.h"
+#include "src/wavefront/training.h"
 
 namespace lanelight {
 
@@ -35,50 +34,68 @@ class Runner : private TaskWatcher {
         options_(options),
         film_(film),
         tables_(MakeStrategyTables(scene)),
-        tasks_(scene, plan_, run_, options, PlannedSpp(), film) {
+        tasks_(scene, plan_, run_, options, PlannedSpp()) {
     if (OpenEnded()) film_.Regroup(FirstGroupSize(scene.strategy));
     run_ = Parameters();
-    tasks_.UseControl();
+    films_.emplace(run_.planes, scene.strategy.coefficient.value_or(1), film_);
   }
 
-  RunResult Run() {
+  /// Samples [begin, end) of every pixel, in tasks of `per_task`.
+  struct Part {
+    std::uint64_t begin = 0, end = 0;
+    std::uint32_t per_task = 1;
+    Clock::time_point start;
+  };
+
+  /// Trains the strategy and starts the clock.
+  void Start() {
     start_ = Clock::now();
     start_cpu_ = ProcessCpuSeconds();
-    if (plan_.features.Has(Feature::kSplitting)) PreparePaths();
-    const std::uint64_t limit = options_.spp > 0 ? options_.spp : kMostSamplesPerPixel;
+    if (NeedsTraining(plan_)) TrainStrategy();
     if (options_.seconds > 0) pace_.emplace(options_.seconds, PaceTasks());
     // The first look chooses the groups, the later ones ask whether to go on.
-    std::uint64_t next_look = OpenEnded() ? FirstSamples() : limit;
-    while (done_ < limit && !Stopped() && !reached_) {
-      const Round round = NextRound();
-      const std::uint64_t end = std::min({limit, next_look, done_ + round.samples()});
-      const Clock::time_point begin = Clock::now();
-      tasks_.RunRound(done_, end, round.per_task, *this);
-      const std::uint64_t taken = end - std::exchange(done_, end);
-      if (Stopped()) break;  // perhaps within the round
-      if (pace_) pace_->Took(taken, Since(begin));
-      if (pace_ && fit_seconds_ == 0 && 2 * Since(start_) > options_.seconds) TimeFit();
-      if (done_ == next_look || (done_ == limit && options_.samples_needed)) {
-        next_look = Look(next_look);
-      }
-    }
-    return Result(limit);
+    next_look_ = OpenEnded() ? FirstSamples() : Limit();
   }
 
+  /// What to render next; nothing once the render is done.
+  std::optional<Part> Next() const {
+    if (done_ >= Limit() || Stopped() || reached_) return std::nullopt;
+    const Round round = NextRound();
+    const std::uint64_t end = std::min({Limit(), next_look_, done_ + round.samples()});
+    return Part{done_, end, round.per_task, Clock::now()};
+  }
+
+  void Render(const Part& part) {
+    tasks_.RunRound(part.begin, part.end, part.per_task, *this, *films_);
+  }
+
+  /// Takes note of a part that has been rendered.
+  void Finish(const Part& part) {
+    done_ = part.end;
+    if (Stopped()) return;  // perhaps within the part
+    if (pace_) pace_->Took(part.end - part.begin, Since(part.start));
+    if (pace_ && fit_seconds_ == 0 && 2 * Since(start_) > options_.seconds) TimeFit();
+    if (done_ == next_look_ || (done_ == Limit() && options_.samples_needed)) {
+      next_look_ = Look(next_look_);
+    }
+  }
+
+  RunResult Result();
+
  private:
-  // Pilot passes; the image may then be rendered with a simpler roulette.
-  void PreparePaths() {
-    PilotOptions options;
+  // The image may then be rendered with a simpler roulette.
+  void TrainStrategy() {
+    TrainingOptions options;
     options.planned_samples =
         options_.planned_samples > 0
             ? options_.planned_samples
             : tasks_.pixels() * (OpenEnded() ? kOpenEndedSpp : options_.spp);
     options.keep_roulette = options_.keep_roulette;
     options.stop = options_.stop;
-    pilot_ = RunPilot(scene_, plan_, run_, options, tables_);
-    if (pilot_.roulette != scene_.strategy.roulette) {
+    training_ = Train({scene_, plan_, run_, options, tables_});
+    if (training_.roulette && *training_.roulette != scene_.strategy.roulette) {
       PlanOptions simpler = plan_.options;
-      simpler.roulette = pilot_.roulette;
+      simpler.roulette = training_.roulette;
       plan_ = MakePlan(scene_, simpler);
       run_ = Parameters();
     }
@@ -96,6 +113,10 @@ class Runner : private TaskWatcher {
     return run;
   }
 
+  /// Samples per pixel at most.
+  std::uint64_t Limit() const {
+    return options_.spp > 0 ? options_.spp : kMostSamplesPerPixel;
+  }
   bool OpenEnded() const { return options_.seconds > 0 || options_.samples_needed; }
 
   std::uint64_t PlannedSpp() const {
@@ -133,8 +154,7 @@ class Runner : private TaskWatcher {
 
   void Regroup(std::uint32_t group_size) {
     if (group_size == film_.group_size()) return;
-    film_.Regroup(group_size);
-    tasks_.Regroup(group_size);
+    films_->Regroup(group_size);
     run_ = Parameters();
     // Groups are numbered anew: with the same seed the randomisation of a first small
     // group would come again, and that of two groups must never be the same.
@@ -190,37 +210,11 @@ class Runner : private TaskWatcher {
     options_.on_progress(progress);
   }
 
-  StopReason Reason(std::uint64_t limit) const {
+  StopReason Reason() const {
     if (reached_) return StopReason::kTarget;
     // Only what has left samples out counts: a signal may come after the last one.
-    if (tasks_.samples() == tasks_.pixels() * limit) return StopReason::kSamples;
+    if (tasks_.samples() == tasks_.pixels() * Limit()) return StopReason::kSamples;
     return Interrupted() ? StopReason::kInterrupted : StopReason::kTime;
-  }
-
-  RunResult Result(std::uint64_t limit) {
-    RunResult result;
-    film_.FitControl();
-    result.seconds = Since(start_);
-    result.cpu_seconds = ProcessCpuSeconds() - start_cpu_;
-    result.samples = tasks_.samples();
-    result.stop_reason = Reason(limit);
-    result.stopped_early = result.stop_reason == StopReason::kInterrupted;
-    result.group_size = film_.group_size();
-    result.looks = looks_;
-    result.pilot_seconds = pilot_seconds_;
-    result.pilot_cpu_seconds = pilot_cpu_seconds_;
-    result.pilot_samples = pilot_.samples;
-    result.pilot_rays = pilot_.rays;
-    result.pilot_note = pilot_.note;
-    result.roulette = plan_.options.roulette.value_or(scene_.strategy.roulette);
-    result.control = tasks_.Control();
-    result.stages = EmptyProfiles(plan_);
-    result.parts = EmptyParts();
-    result.bytes_in_flight = plan_.wavefront * plan_.bytes_per_path;
-    result.trace.start = ticks_.start();
-    result.trace.seconds_per_tick = ticks_.SecondsPerTick();
-    tasks_.AddCounts(result);
-    return result;
   }
 
   const CompiledScene& scene_;
@@ -230,10 +224,12 @@ class Runner : private TaskWatcher {
   StrategyTables tables_;
   RunParameters run_;
   Tasks tasks_;
-  PilotOutcome pilot_;
+  std::optional<Films> films_;
+  TrainingOutcome training_;
   double pilot_seconds_ = 0, pilot_cpu_seconds_ = 0;
   std::optional<Pace> pace_;  // with a time budget
-  std::uint64_t done_ = 0;    // samples per pixel, of rounds
+  std::uint64_t done_ = 0;    // samples per pixel, of parts
+  std::uint64_t next_look_ = 0;
   double needed_ = INFINITY;  // samples per pixel, by the last look
   bool reached_ = false;      // no more are needed
   int looks_ = 0;
@@ -243,6 +239,32 @@ class Runner : private TaskWatcher {
   double start_cpu_ = 0;
   std::mutex progress_mutex_;
 };
+
+RunResult Runner::Result() {
+  RunResult result;
+  film_.FitControl();
+  result.seconds = Since(start_);
+  result.cpu_seconds = ProcessCpuSeconds() - start_cpu_;
+  result.samples = tasks_.samples();
+  result.stop_reason = Reason();
+  result.stopped_early = result.stop_reason == StopReason::kInterrupted;
+  result.group_size = film_.group_size();
+  result.looks = looks_;
+  result.pilot_seconds = pilot_seconds_;
+  result.pilot_cpu_seconds = pilot_cpu_seconds_;
+  result.pilot_samples = training_.samples;
+  result.pilot_rays = training_.rays;
+  result.pilot_note = training_.note;
+  result.roulette = plan_.options.roulette.value_or(scene_.strategy.roulette);
+  result.control = films_->Control();
+  result.stages = EmptyProfiles(plan_);
+  result.parts = EmptyParts();
+  result.bytes_in_flight = plan_.wavefront * plan_.bytes_per_path;
+  result.trace.start = ticks_.start();
+  result.trace.seconds_per_tick = ticks_.SecondsPerTick();
+  tasks_.AddCounts(result);
+  return result;
+}
 
 }  // namespace
 
@@ -255,7 +277,13 @@ RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& op
               FilmAccumulator& film) {
   LL_CHECK(options.spp > 0 || options.seconds > 0 || options.samples_needed ||
            options.stop != nullptr);
-  return Runner(scene, plan, options, film).Run();
+  Runner runner(scene, plan, options, film);
+  runner.Start();
+  while (const auto part = runner.Next()) {
+    runner.Render(*part);
+    runner.Finish(*part);
+  }
+  return runner.Result();
 }
 
 }  // namespace lanelight

@@ -12,8 +12,9 @@
 #include "src/core/hardware_counters.h"
 #include "src/core/untouched.h"
 #include "src/image/accumulator.h"
+#include "src/image/pixel_rect.h"
+#include "src/path/wave.h"
 #include "src/wavefront/plan.h"
-#include "src/wavefront/tiles.h"
 
 namespace lanelight {
 
@@ -97,12 +98,6 @@ struct RunTrace {
   std::uint64_t start = 0;  // ticks when the run began
   double seconds_per_tick = 0;
   std::vector<ThreadTrace> threads;
-};
-
-/// Bad samples seen by the accumulate stage; each is replaced by zero and counted.
-struct Health {
-  std::uint64_t nan = 0, infinite = 0, negative = 0;
-  std::uint64_t Total() const { return nan + infinite + negative; }
 };
 
 enum class StopReason { kSamples, kTime, kTarget, kInterrupted };

@@ -1,13 +1,14 @@
 #include "src/wavefront/tasks.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
-#include "src/wavefront/copies.h"
-#include "src/wavefront/drive.h"
-#include "src/wavefront/profile.h"
 #include "src/prepare/path_values.h"
+#include "src/scene/rendered_pixels.h"
+#include "src/wavefront/copies.h"
+#include "src/wavefront/profile.h"
 
 namespace lanelight {
 namespace {
@@ -16,18 +17,48 @@ namespace {
 // neighbouring pixels.
 constexpr std::uint32_t kSamplesTogether = 16;
 
+// Between waves: what scattered is intersected next; everything else is consumed.
+void StartWave(Wave& wave) {
+  std::swap(wave.queue(QueueId::kActive), wave.queue(QueueId::kScattered));
+  for (int i = 0; i < kNumQueues; ++i) {
+    const QueueId id = static_cast<QueueId>(i);
+    if (id != QueueId::kFree && id != QueueId::kActive) wave.queues[i].size = 0;
+  }
+}
+
 }  // namespace
 
+void Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
+           const SampleBuffer& buffer, StageClock* clock) {
+  wavefront.Reset();
+  Wave& wave = wavefront.wave();
+  wave.work = work;
+  wave.buffer = buffer;
+  if (clock) {
+    clock->FinishPart(TaskPart::kSetUp, std::uint64_t{work.num_pixels} * work.samples);
+  }
+  while (!wave.work.Done() || wave.queue(QueueId::kScattered).size > 0) {
+    StartWave(wave);
+    if (clock) clock->StartWave();
+    for (std::size_t i = 0; i < plan.stages.size(); ++i) {
+      const PlannedStage& planned = plan.stages[i];
+      if (wave.queue(planned.stage.input).size == 0) continue;
+      wave.lanes = {};
+      planned.kernel(wave);
+      if (clock) clock->Finish(i, wave.lanes.items, wave.lanes.vectors);
+    }
+  }
+}
+
 Tasks::Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
-             const RunOptions& options, std::uint64_t planned_spp, FilmAccumulator& film)
-    : scene_(scene), plan_(plan), run_(run), options_(options), film_(film) {
+             const RunOptions& options, std::uint64_t planned_spp)
+    : scene_(scene), plan_(plan), run_(run), options_(options) {
   const PixelRect pixels = RenderedPixels(scene.film);
-  pixel_count_ = std::uint64_t(pixels.width()) * pixels.height();
+  pixel_count_ = pixels.pixels();
   UseTiles(pixels, planned_spp);
   // A pair must not straddle two tasks.
   if (scene.strategy.pairs == Pairs::kAntithetic)
     partition_.samples += partition_.samples & 1;
-  planes_ = kColorPlanes + (film.has_aov() ? kAovPlanes : 0);
   workspaces_.resize(static_cast<std::size_t>(MaxThreads()) + 1);
 }
 
@@ -43,7 +74,7 @@ void Tasks::UseTiles(const PixelRect& pixels, std::uint64_t planned_spp) {
   pixel_count_ = 0;
   for (const PixelRect& w : windows) {
     LL_CHECK(w.width() == windows[0].width() && w.height() == windows[0].height());
-    pixel_count_ += std::uint64_t(w.width()) * w.height();
+    pixel_count_ += w.pixels();
   }
 }
 
@@ -53,23 +84,6 @@ PixelRect Tasks::Place(std::size_t tile) const {
   if (options_.windows.empty()) return t;
   const int x = static_cast<int>(tile) * t.width();
   return {x, 0, x + t.width(), t.height()};
-}
-
-void Tasks::UseControl() {
-  if (plan_.features.Has(Feature::kControlDifference)) {
-    film_.UseControl();
-    difference_plane_ = planes_;
-    planes_ += kColorPlanes;
-  }
-  if (!plan_.features.Has(Feature::kRegressionControl)) return;
-  regression_.emplace(film_.x0(), film_.y0(), film_.width(), film_.height(),
-                      film_.group_size(), scene_.strategy.coefficient.value_or(1));
-  numbers_plane_ = planes_;
-  planes_ += RegressionFilm::kPlanes;
-}
-
-void Tasks::Regroup(std::uint32_t group_size) {
-  if (regression_) regression_->Regroup(group_size);
 }
 
 Round Tasks::FullRound() const {
@@ -82,24 +96,25 @@ Round Tasks::FullRound() const {
 }
 
 void Tasks::RunRound(std::uint64_t first_sample, std::uint64_t limit,
-                     std::uint32_t per_task, TaskWatcher& watcher) {
+                     std::uint32_t per_task, TaskWatcher& watcher, Films& films) {
   per_task_ = per_task;
   const std::uint64_t chunks = (limit - first_sample + per_task_ - 1) / per_task_;
   if (chunks > 1) {
     return RunRoundInChunks(first_sample, limit, static_cast<std::uint32_t>(chunks),
-                            watcher);
+                            watcher, films);
   }
   ParallelFor(partition_.tiles.size(), [&](std::size_t tile) {
     if (watcher.Stopped()) return;
     TaskSamples& out = ThreadWorkspace().samples;
     RunTask(partition_.tiles[tile], first_sample, limit, out);
     watcher.TaskDone();
-    Merge(Place(tile), out);
+    Merge(tile, out, films);
   });
 }
 
 void Tasks::RunRoundInChunks(std::uint64_t first_sample, std::uint64_t limit,
-                             std::uint32_t chunks, TaskWatcher& watcher) {
+                             std::uint32_t chunks, TaskWatcher& watcher,
+                             Films& films) {
   const std::size_t tiles = partition_.tiles.size();
   if (buffers_.size() < tiles * chunks) buffers_.resize(tiles * chunks);
   ParallelFor(tiles * chunks, [&](std::size_t task) {
@@ -113,7 +128,7 @@ void Tasks::RunRoundInChunks(std::uint64_t first_sample, std::uint64_t limit,
   ParallelFor(tiles, [&](std::size_t tile) {
     // Stops at the first range that did not run: later ones would leave a gap.
     for (std::uint32_t c = 0; c < chunks && buffers_[tile * chunks + c].count > 0; ++c) {
-      Merge(Place(tile), buffers_[tile * chunks + c]);
+      Merge(tile, buffers_[tile * chunks + c], films);
     }
   });
 }
@@ -145,49 +160,33 @@ void Tasks::RunTask(const PixelRect& tile, std::uint64_t first_sample,
   const std::uint32_t stride = work.num_pixels * out.count;
   const bool splits = plan_.features.Has(Feature::kSplitting);
   const std::uint32_t rows = stride * (splits ? kMostCopies : 1);
-  const std::size_t size = std::size_t{rows} * static_cast<std::size_t>(planes_);
+  const std::size_t size = std::size_t{rows} * static_cast<std::size_t>(run_.planes.count());
   if (out.values.size() < size) out.values.resize(size);
   // A sample that has not split leaves the rows of its further copies alone.
   if (splits) std::fill_n(out.values.begin(), size, 0.0f);
   Drive(space.wavefront, plan_, work, {out.values.data(), rows}, clock);
   if (splits) {
-    FoldCopies(out.values.data(), rows, planes_, difference_plane_);
+    FoldCopies(out.values.data(), rows, run_.planes);
     if (clock) clock->FinishPart(TaskPart::kCopies, stride);
   }
   if (clock) clock->EndTask();
   samples_ += stride;
 }
 
-void Tasks::Merge(const PixelRect& tile, TaskSamples& task) {
+void Tasks::Merge(std::size_t tile, TaskSamples& task, Films& films) {
+  const PixelRect place = Place(tile);
   // Row length behind the indices of the film's pixels.
-  const int width = options_.windows.empty() ? scene_.film.width : film_.width();
+  const int width = options_.windows.empty()
+                        ? scene_.film.width
+                        : place.width() * static_cast<int>(options_.windows.size());
   Workspace& space = ThreadWorkspace();
   StageClock* const clock = space.Clock();
   if (clock) clock->StartTask();
-  std::vector<std::uint32_t>& pixels = space.pixels;
-  TilePixels(tile, width, &pixels);
-  const std::size_t stride = pixels.size() * task.count;
-  if (regression_) {
-    const auto num_pixels = static_cast<std::uint32_t>(pixels.size());
-    regression_->Correct(
-        {tile.x0, tile.y0, tile.x1, tile.y1, pixels.data(), num_pixels,
-         static_cast<std::uint32_t>(width), task.values.data(), task.count},
-        numbers_plane_);
-  }
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const float* planes[kMostPlanes];
-    for (int p = 0; p < planes_; ++p)
-      planes[p] = task.values.data() + p * stride + i * task.count;
-    film_.AddSamples(static_cast<int>(pixels[i]) % width,
-                     static_cast<int>(pixels[i]) / width, planes, task.count);
-  }
+  TilePixels(place, width, &space.pixels);
+  films.Add({place, space.pixels, width, task.values.data(), task.count});
   if (!clock) return;
-  clock->FinishPart(TaskPart::kFilm, stride);
+  clock->FinishPart(TaskPart::kFilm, space.pixels.size() * task.count);
   clock->EndTask();
-}
-
-std::optional<ControlReport> Tasks::Control() const {
-  return regression_ ? regression_->Report() : film_.Control();
 }
 
 void Tasks::AddCounts(RunResult& result) {

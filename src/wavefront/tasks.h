@@ -1,19 +1,23 @@
-// The work of a run: (tile x sample range) tasks over threads, and the film that gathers
-// them.
+// The work of a run: (tile x sample range) tasks over threads, each with a wavefront of
+// its own, merged into the films in their order.
 #pragma once
 
 #include <atomic>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "src/image/regression_film.h"
+#include "src/wavefront/films.h"
 #include "src/wavefront/run.h"
 #include "src/wavefront/schedule.h"
 #include "src/wavefront/tiles.h"
 #include "src/wavefront/workspace.h"
 
 namespace lanelight {
+
+/// The loop of one task: runs `work` to the end on `wavefront`, writing finished samples
+/// to `buffer`. `clock` times the stages; null: nothing is timed.
+void Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
+           const SampleBuffer& buffer, StageClock* clock);
 
 /// Who asks for the work. Both may be called from any thread.
 class TaskWatcher {
@@ -29,13 +33,7 @@ class Tasks {
   /// Refers to all of these for as long as it lives; plan and parameters may change until
   /// the first round, the parameters' seed and groups between rounds.
   Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
-        const RunOptions& options, std::uint64_t planned_spp, FilmAccumulator& film);
-
-  /// Control variates whose coefficients come from the samples take further planes.
-  /// Before the first round.
-  void UseControl();
-  /// Size of the groups of a fitted control variate; the film has its own.
-  void Regroup(std::uint32_t group_size);
+        const RunOptions& options, std::uint64_t planned_spp);
 
   std::uint64_t pixels() const { return pixel_count_; }
   std::size_t tiles() const { return partition_.tiles.size(); }
@@ -46,36 +44,27 @@ class Tasks {
 
   /// The samples [first_sample, limit) of every pixel, in tasks of `per_task` of them.
   void RunRound(std::uint64_t first_sample, std::uint64_t limit, std::uint32_t per_task,
-                TaskWatcher& watcher);
+                TaskWatcher& watcher, Films& films);
 
-  std::optional<ControlReport> Control() const;
   /// Takes the trace along. After the last round; the result has its rows and its scale.
   void AddCounts(RunResult& result);
 
  private:
-  static constexpr int kMostPlanes =
-      kColorPlanes + kAovPlanes + kColorPlanes + RegressionFilm::kPlanes;
-
   void UseTiles(const PixelRect& pixels, std::uint64_t planned_spp);
   PixelRect Place(std::size_t tile) const;
   void RunRoundInChunks(std::uint64_t first_sample, std::uint64_t limit,
-                        std::uint32_t chunks, TaskWatcher& watcher);
+                        std::uint32_t chunks, TaskWatcher& watcher, Films& films);
   Workspace& ThreadWorkspace();
   void RunTask(const PixelRect& tile, std::uint64_t first_sample, std::uint64_t limit,
                TaskSamples& out);
-  void Merge(const PixelRect& tile, TaskSamples& task);
+  void Merge(std::size_t tile, TaskSamples& task, Films& films);
 
   const CompiledScene& scene_;
   const Plan& plan_;
   const RunParameters& run_;
   const RunOptions& options_;
-  FilmAccumulator& film_;
   TilePartition partition_;
   std::uint64_t pixel_count_ = 0;
-  int planes_ = kColorPlanes;
-  int difference_plane_ = 0;  // of c=optimal, if there are such planes
-  std::optional<RegressionFilm> regression_;
-  int numbers_plane_ = 0;
   std::uint32_t per_task_ = 1;  // of the current round
   std::vector<std::unique_ptr<Workspace>> workspaces_;
   std::vector<TaskSamples> buffers_;

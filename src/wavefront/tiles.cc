@@ -9,14 +9,6 @@ constexpr std::uint64_t kSamplesPerTask = 8192;
 constexpr int kBlock = 4;
 }  // namespace
 
-PixelRect RenderedPixels(const Film& film) {
-  const int* c = film.crop;
-  if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0) {
-    return {0, 0, film.width, film.height};
-  }
-  return {c[0], c[2], c[1], c[3]};
-}
-
 TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp) {
   TilePartition partition;
   partition.samples = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(spp, 1, 32));
@@ -28,7 +20,7 @@ TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp) {
   }
   // A small window takes longer sample ranges instead of larger tiles.
   const std::uint64_t area =
-      std::min<std::uint64_t>(std::uint64_t(pixels.width()) * pixels.height(),
+      std::min<std::uint64_t>(pixels.pixels(),
                               std::uint64_t(partition.side) * partition.side);
   const std::uint64_t per_task = std::max<std::uint64_t>(kSamplesPerTask / area, 1);
   partition.samples = static_cast<std::uint32_t>(

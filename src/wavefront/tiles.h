@@ -5,18 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/scene/description.h"
+#include "src/image/pixel_rect.h"
 
 namespace lanelight {
-
-struct PixelRect {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-};
-
-/// The pixels that the film asks for: its crop window, or all.
-PixelRect RenderedPixels(const Film& film);
 
 struct TilePartition {
   int side = 16;               // pixels

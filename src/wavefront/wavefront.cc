@@ -54,6 +54,7 @@ RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan,
   run.max_depth = plan.options.max_depth;
   run.exposure = static_cast<float>(scene.film.imaging_ratio);
   run.features = plan.features;
+  run.planes = SamplePlanes(plan.features);
   return run;
 }
 
@@ -68,7 +69,7 @@ Wavefront::Wavefront(const CompiledScene& scene, const Plan& plan,
   memory_.assign(stride * columns, kPoison);
 #endif
   std::uint32_t* next = memory_.data();
-#define X(type, name, features, meaning) \
+#define X(type, name, ...) \
   Place(wave_.path.name, Field::name, plan, next, stride);
   LANELIGHT_PATH_FIELDS(X)
 #undef X
@@ -76,6 +77,8 @@ Wavefront::Wavefront(const CompiledScene& scene, const Plan& plan,
     queue.items = next;
     next += stride;
   }
+  wave_.lists = ColumnLists(wave_.path, plan.features);
+  if (plan.features.Has(Feature::kOtherEvents)) wave_.vertices = QueueId::kVertex;
   wave_.scene = &scene;
   wave_.run = &run;
   wave_.capacity = plan.slots;

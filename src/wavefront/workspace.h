@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "src/core/aligned.h"
-#include "src/wavefront/drive.h"
+#include "src/wavefront/stage_clock.h"
+#include "src/wavefront/wavefront.h"
 
 namespace lanelight {
 

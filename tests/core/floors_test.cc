@@ -22,10 +22,10 @@ struct Floor {
 constexpr Floor kFloors[] = {
     {"src/core",           "checks, errors, threads, vectors"},
     {"src/stat",           "intervals, tests, orders of convergence"},
+    {"src/strategy",       "the vocabulary of strategies"},
+    {"src/path",           "what a path is: fields, stages, dimensions, features"},
     {"src/image",          "films, image files, spectra"},
     {"src/report",         "the page of a study"},
-    {"src/path",           "what a path is: fields, stages, dimensions, features"},
-    {"src/strategy",       "the vocabulary of strategies"},
     {"src/scene",          "what a scene file says"},
     {"src/parse",          "text to description"},
     {"src/geometry",       "shapes as kernels read them"},

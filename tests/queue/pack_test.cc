@@ -4,7 +4,6 @@
 #include <numeric>
 #include <random>
 
-#include "kernels/queue/carried.h"
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
 #include "tests/support/wave_fixture.h"
@@ -25,7 +24,7 @@ void CheckPacks(std::uint32_t capacity, std::uint32_t count, std::mt19937& engin
   const CompiledScene scene;
   WaveFixture fixture(scene, capacity);
   Wave& wave = fixture.wave;
-  const CarriedColumns carried(wave.path);
+  const ColumnList& carried = wave.lists.carried;
   for (std::uint32_t c = 0; c < carried.count; ++c) {
     for (std::uint32_t i = 0; i < capacity; ++i) carried.columns[c][i] = 1000 * c + i;
   }
@@ -65,7 +64,7 @@ TEST_CASE("pack: paths keep what they carry", "[queue]") {
 }
 
 TEST_CASE("pack: what is not carried is written anew in every wave", "[queue]") {
-  FieldSet written = CarriedFields();
+  FieldSet written = fields::EverCarried();
   const auto visit = [&](const Stage& stage) {
     if (stage.input == QueueId::kFree || stage.input == QueueId::kCamera) return;
     for (std::size_t i = 0; i < kNumFields; ++i) {

@@ -1,5 +1,6 @@
 // What of a film ends up in the file, where files may go, and what a scene hash covers.
 #include "src/render/output.h"
+#include "src/render/saving.h"
 
 #include <catch2/catch.hpp>
 

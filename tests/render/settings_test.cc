@@ -1,6 +1,7 @@
 // Overrides of a scene and the limits of what is asked for.
 #include "src/prepare/groups.h"
 #include "src/render/settings.h"
+#include "src/scene/rendered_pixels.h"
 
 #include <catch2/catch.hpp>
 
@@ -21,22 +22,22 @@ TEST_CASE("a crop of the scene is scaled with the resolution", "[render]") {
   RenderSettings settings;
   settings.resolution = {200, 25};
   ApplySettings(settings, scene);
-  const PixelWindow w = CropWindow(scene.film);
+  const PixelRect w = RenderedPixels(scene.film);
   CHECK(w.x0 == 20);
   CHECK(w.x1 == 120);
   CHECK(w.y0 == 3);
   CHECK(w.y1 == 13);
   settings.crop = {1, 2, 3, 4};
   ApplySettings(settings, scene);
-  CHECK(CropWindow(scene.film).x1 == 3);
-  CHECK(CropWindow(scene.film).pixels() == 4);
+  CHECK(RenderedPixels(scene.film).x1 == 3);
+  CHECK(RenderedPixels(scene.film).pixels() == 4);
 }
 
 TEST_CASE("without a crop the window is the whole image", "[render]") {
   SceneDescription scene;
   ApplySettings({}, scene);
-  CHECK(CropWindow(scene.film).width() == scene.film.width);
-  CHECK(CropWindow(scene.film).height() == scene.film.height);
+  CHECK(RenderedPixels(scene.film).width() == scene.film.width);
+  CHECK(RenderedPixels(scene.film).height() == scene.film.height);
 }
 
 TEST_CASE("settings out of range are refused", "[render]") {
@@ -73,7 +74,7 @@ TEST_CASE("groups are powers of two and leave at least four per pixel", "[render
 }
 
 TEST_CASE("a film beyond the memory is refused with both numbers", "[render]") {
-  const PixelWindow window = {0, 0, 1 << 15, 1 << 15};
+  const PixelRect window = {0, 0, 1 << 15, 1 << 15};
   CHECK(FilmBytes(window, true) > FilmBytes(window, false));
   CHECK(FilmBytes(window, false) > window.pixels() * 100);
   Strategy control;

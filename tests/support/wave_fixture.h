@@ -86,11 +86,12 @@ class WaveFixture {
     wave.run = &run;
     wave.capacity = capacity;
     storage_.reserve(kNumFields + kNumQueues);
-#define X(type, name, features, meaning) \
+#define X(type, name, ...) \
   wave.path.name = reinterpret_cast<type*>(NewColumn(capacity));
     LANELIGHT_PATH_FIELDS(X)
 #undef X
     for (Queue& queue : wave.queues) queue.items = NewColumn(capacity);
+    wave.lists = ColumnLists(wave.path, FeatureSet::All());
   }
 
   /// Writes rays to slots 0.. in the order given and queues them in kActive.

@@ -47,7 +47,7 @@ class Checker {
     run_.tables = &tables_;
     wavefront_ = std::make_unique<Wavefront>(scene_, plan_, run_);
     const PathColumns& p = wavefront_->wave().path;
-#define X(type, name, features, meaning) \
+#define X(type, name, ...) \
   columns_.push_back(reinterpret_cast<std::uint32_t*>(p.name));
     LANELIGHT_PATH_FIELDS(X)
 #undef X

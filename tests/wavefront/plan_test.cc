@@ -79,7 +79,7 @@ TEST_CASE("plan: an absent column has no memory", "[plan]") {
   Wavefront wavefront(scene, plan, run);
   const PathColumns& path = wavefront.wave().path;
   std::size_t allocated = 0;
-#define X(type, name, features, meaning)                      \
+#define X(type, name, ...)                      \
   CHECK((path.name != nullptr) == IsLive(plan, Field::name)); \
   allocated += path.name != nullptr;
   LANELIGHT_PATH_FIELDS(X)

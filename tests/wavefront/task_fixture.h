@@ -9,9 +9,9 @@
 #include "src/prepare/path_values.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/prepare/tables.h"
-#include "src/wavefront/drive.h"
-#include "src/wavefront/pilot.h"
+#include "src/wavefront/tasks.h"
 #include "src/wavefront/tiles.h"
+#include "src/wavefront/training.h"
 #include "tests/wavefront/render_fixture.h"
 
 namespace lanelight {
@@ -87,10 +87,10 @@ class TaskFixture {
 
   // What the roulettes that split go by.
   void MakePilotTables() {
-    PilotOptions options;
+    TrainingOptions options;
     options.planned_samples = 100000;
     options.keep_roulette = true;
-    RunPilot(scene_, plan, run_, options, tables_);
+    Train({scene_, plan, run_, options, tables_});
   }
 
   CompiledScene scene_;

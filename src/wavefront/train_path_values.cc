@@ -1,15 +1,20 @@
-#include "src/wavefront/pilot.h"
-
+// Pilot passes, from which the roulettes that split learn what paths are worth.
+//   adjoint     one pass that records: brightness of the pixels, values of the cells
+//   efficiency  the same; then the fixed point of variance and cost by passes with
+//               splitting, and a comparison of the strategy with no roulette and with
+//               roulette on the throughput, all with the same pixels and random numbers
+// They take about 4 percent of the planned samples and stop growing at 240 000 paths.
+// Results do not depend on the number of threads: sums run in the order of the samples,
+// costs are counted in rays.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
-#include "src/core/check.h"
-#include "src/wavefront/pilot_pass.h"
-#include "src/wavefront/pilot_variance.h"
+#include "src/wavefront/path_records.h"
+#include "src/wavefront/training.h"
+#include "src/wavefront/training_pass.h"
 
 namespace lanelight {
 namespace {
@@ -33,28 +38,32 @@ struct Candidate {
 
 class Pilot {
  public:
-  Pilot(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
-        const PilotOptions& options, StrategyTables& tables)
-      : scene_(scene),
-        plan_(plan),
-        run_(run),
-        options_(options),
-        values_(tables.path_values),
-        efficiency_(plan.features.Has(Feature::kEfficiencyRoulette)) {
-    run_.tables = &tables;
-    samples_ = efficiency_
-                   ? std::min(options.planned_samples * 3 / 400, kMostPilotSamples / 4)
-                   : std::min(options.planned_samples / 25, kMostPilotSamples);
-    work_ = MakePilotWork(scene, std::max<std::uint64_t>(samples_, 1));
+  explicit Pilot(const TrainingContext& context)
+      : scene_(context.scene),
+        plan_(context.plan),
+        run_(context.run),
+        options_(context.options),
+        values_(context.tables.path_values),
+        efficiency_(plan_.features.Has(Feature::kEfficiencyRoulette)) {
+    run_.tables = &context.tables;
+    const std::uint64_t planned = options_.planned_samples;
+    samples_ = efficiency_ ? std::min(planned * 3 / 400, kMostPilotSamples / 4)
+                           : std::min(planned / 25, kMostPilotSamples);
+    work_ = MakeTrainingWork(scene_, std::max<std::uint64_t>(samples_, 1));
   }
 
-  PilotOutcome Run() {
+  TrainingOutcome Run() {
     if (efficiency_ && samples_ < kLeastToCompare && !options_.keep_roulette) {
+      outcome_.roulette = Roulette::kThroughput;
       outcome_.note = "none, the image has too few samples: roulette=throughput";
       return outcome_;
     }
-    const PilotSamples recorded = RecordPass();
-    if (outcome_.roulette == Roulette::kAdjoint || Stopped()) return outcome_;
+    // Until more is known, and if the user stops it.
+    if (efficiency_ && !options_.keep_roulette) {
+      outcome_.roulette = Roulette::kThroughput;
+    }
+    const PathSamples recorded = RecordPass();
+    if (!efficiency_ || Stopped()) return outcome_;
     Compare(recorded);
     return outcome_;
   }
@@ -62,57 +71,57 @@ class Pilot {
  private:
   bool Stopped() const { return options_.stop != nullptr && *options_.stop; }
 
-  PilotSamples Pass(PilotPass kind, Roulette roulette, const PilotWork& work) {
+  static constexpr FeatureSet kMeasure = {}, kRecord = {Feature::kRecordsPaths};
+
+  PathSamples Pass(const FeatureSet& records, Roulette roulette,
+                   const TrainingWork& work) {
     PlanOptions options = plan_.options;
     options.aov = false;
-    options.pilot = kind;
+    options.training = records;
     options.roulette = roulette;
-    PilotSamples samples = RunPilotPass(scene_, options, run_, work);
+    PathSamples samples = ReadRecords(RunTrainingPass(scene_, options, run_, work));
     outcome_.samples += samples.colors.size();
     outcome_.rays += samples.rays_closest + samples.rays_shadow;
     return samples;
   }
 
   // The colour of the image: brightness weighs the channels with it.
-  void WeighChannels(const PilotWork& few) {
-    const PilotSamples samples = Pass(PilotPass::kMeasure, Roulette::kThroughput, few);
+  void WeighChannels(const TrainingWork& few) {
+    const PathSamples samples = Pass(kMeasure, Roulette::kThroughput, few);
     const ImageGuess image(run_.width, run_.height, few.pixels, samples.colors);
     for (int c = 0; c < 3; ++c) values_.channel[c] = image.Channel(c);
   }
 
-  PilotSamples RecordPass() {
+  PathSamples RecordPass() {
     const Geometry& geometry = scene_.geometry;
     values_.grid = MakeCellGrid(geometry.bounds_min, geometry.bounds_max,
                                 std::uint64_t{work_.samples()} * 2);
     WeighChannels(FewOf(work_));
-    const PilotSamples samples = Pass(PilotPass::kRecord, Roulette::kThroughput, work_);
+    const PathSamples samples = Pass(kRecord, Roulette::kThroughput, work_);
     image_ = std::make_unique<ImageGuess>(run_.width, run_.height, work_.pixels,
                                           samples.colors);
     values_.inverse_pixel = image_->Inverse(!efficiency_);
     std::vector<CellSums> sums(values_.grid.cells());
     if (!image_->black()) Deposit(samples, sums);
     SetCellValues(sums, efficiency_, values_);
-    if (!efficiency_ || options_.keep_roulette) {
-      outcome_.roulette = efficiency_ ? Roulette::kEfficiency : Roulette::kAdjoint;
-    }
     outcome_.note = fmt::format("{} pilot samples", outcome_.samples);
     return samples;
   }
 
   // An event (a shadow ray and a scattered one, as far as the scene has them) costs what
   // remains after a ray from the camera per sample.
-  void Deposit(const PilotSamples& samples, std::vector<CellSums>& sums) const {
+  void Deposit(const PathSamples& samples, std::vector<CellSums>& sums) const {
     double events = 0;
-    for (const PilotRecord& r : samples.records) events += r.depth;
+    for (const PathRecord& r : samples.records) events += r.depth;
     const double cost_of_event =
         std::max(1.0, (samples.Cost() - 1) * double(samples.records.size()) /
                           std::max(events, 1.0));
     for (std::size_t i = 0; i < samples.records.size(); ++i) {
-      const PilotRecord& r = samples.records[i];
+      const PathRecord& r = samples.records[i];
       const double most =
           ImageGuess::kClamp * image_->Brightness(work_.pixels[i / work_.spp]);
-      for (int k = 0; k < kPilotVertices; ++k) {
-        const PilotRecord::Vertex& v = r.vertices[k];
+      for (int k = 0; k < kRecordedVertices; ++k) {
+        const PathRecord::Vertex& v = r.vertices[k];
         if (v.cell == kNoCell || !(v.at > 0)) continue;
         const double gathered =
             std::clamp<double>((r.end - v.got) * run_.exposure, 0, most);
@@ -122,7 +131,7 @@ class Pilot {
     }
   }
 
-  Candidate Measure(Roulette roulette, const PilotSamples& samples) const {
+  Candidate Measure(Roulette roulette, const PathSamples& samples) const {
     Candidate c{roulette, 0, samples.Cost(), values_.scale, {}};
     c.variances = RelativeVariances(samples, work_, *image_);
     c.variance = RobustMean(c.variances);
@@ -135,7 +144,7 @@ class Pilot {
     for (int pass = 0; pass < 2; ++pass) {
       values_.scale = static_cast<float>(last.Scale());
       last = Measure(Roulette::kEfficiency,
-                     Pass(PilotPass::kMeasure, Roulette::kEfficiency, work_));
+                     Pass(kMeasure, Roulette::kEfficiency, work_));
       if (pass == 0 || last.Score() < best.Score()) best = last;
     }
     values_.scale = static_cast<float>(best.scale);
@@ -145,12 +154,12 @@ class Pilot {
   // The better of no roulette and roulette on the throughput. Without roulette paths may
   // be very long: then a few of them have to do, and what they promise must be clear.
   Candidate BetterPlain(Candidate plain) {
-    PilotWork work = FewOf(work_);
-    PilotSamples samples = Pass(PilotPass::kRecord, Roulette::kNone, work);
+    TrainingWork work = FewOf(work_);
+    PathSamples samples = Pass(kRecord, Roulette::kNone, work);
     const bool cheap = samples.Cost() < 3 * plain.cost;
     if (cheap) {
       work = work_;
-      samples = Pass(PilotPass::kRecord, Roulette::kNone, work);
+      samples = Pass(kRecord, Roulette::kNone, work);
     }
     const double ratio = RouletteVarianceRatio(samples, work, *image_);
     gain_of_none_ = ratio * plain.cost / samples.Cost();
@@ -176,7 +185,7 @@ class Pilot {
     return sum + 2 * error < 0 && splitting.Score() < kMargin * plain.Score();
   }
 
-  void Compare(const PilotSamples& recorded) {
+  void Compare(const PathSamples& recorded) {
     const Candidate throughput = Measure(Roulette::kThroughput, recorded);
     const Candidate splitting = MeasureSplitting(throughput);
     if (options_.keep_roulette) return;
@@ -187,44 +196,26 @@ class Pilot {
         "{} pilot samples: efficiency relative to throughput {:.2f} without roulette, "
         "{:.2f} with splitting; rendered with roulette={}",
         outcome_.samples, gain_of_none_, throughput.Score() / splitting.Score(),
-        Name(outcome_.roulette));
+        Name(*outcome_.roulette));
   }
 
   const CompiledScene& scene_;
   const Plan& plan_;
   RunParameters run_;
-  const PilotOptions& options_;
+  const TrainingOptions& options_;
   PathValues& values_;
   const bool efficiency_;
   std::uint64_t samples_ = 0;  // that one pass may take
-  PilotWork work_;
+  TrainingWork work_;
   std::unique_ptr<ImageGuess> image_;
-  PilotOutcome outcome_;
+  TrainingOutcome outcome_;
   double gain_of_none_ = 0;  // over roulette on the throughput
 };
 
 }  // namespace
 
-PilotOutcome RunPilot(const CompiledScene& scene, const Plan& plan,
-                      const RunParameters& run, const PilotOptions& options,
-                      StrategyTables& tables) {
-  LL_CHECK(plan.features.Has(Feature::kSplitting));
-  return Pilot(scene, plan, run, options, tables).Run();
-}
-
-std::uint64_t SamplesInTime(const CompiledScene& scene, const Plan& plan,
-                            const RunParameters& run, double seconds) {
-  constexpr std::uint64_t kFew = 4096;
-  PlanOptions options = plan.options;
-  options.aov = false;
-  options.pilot = PilotPass::kMeasure;
-  options.roulette = Roulette::kThroughput;
-  const PilotWork work = MakePilotWork(scene, kFew);
-  const auto start = std::chrono::steady_clock::now();
-  RunPilotPass(scene, options, run, work);
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  const double samples = double(work.samples()) * seconds / taken.count();
-  return static_cast<std::uint64_t>(std::max(samples, 1.0));
+TrainingOutcome TrainPathValues(const TrainingContext& context) {
+  return Pilot(context).Run();
 }
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/wavefront/pilot_pass.h"
+#include "src/wavefront/training_pass.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,37 +6,18 @@
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
+#include "src/scene/rendered_pixels.h"
 #include "src/prepare/parameters.h"
 #include "src/prepare/tables.h"
 #include "src/wavefront/copies.h"
-#include "src/wavefront/drive.h"
 #include "src/wavefront/plan_features.h"
+#include "src/wavefront/tasks.h"
 #include "src/wavefront/tiles.h"
 
 namespace lanelight {
 namespace {
 
 constexpr std::uint32_t kSamplesPerTask = 4096;
-constexpr int kRecordPlanes = 3 * kPilotVertices + 5;
-
-PilotRecord ReadRecord(const float* values, std::size_t stride, std::size_t i) {
-  PilotRecord record;
-  const float* plane = values + kColorPlanes * stride + i;
-  const auto next = [&] {
-    const float value = *plane;
-    plane += stride;
-    return value;
-  };
-  for (PilotRecord::Vertex& v : record.vertices) {
-    v.cell = std::bit_cast<std::uint32_t>(next());
-    v.at = next();
-    v.got = next();
-  }
-  record.end = next();
-  record.depth = next();
-  for (float& risk : record.risk) risk = next();
-  return record;
-}
 
 // Pixels that are chosen together: a block of TilePixels, if there are enough of them.
 std::uint64_t RunLength(std::uint64_t pixels) { return pixels >= 512 ? 16 : 1; }
@@ -44,19 +25,19 @@ std::uint64_t RunLength(std::uint64_t pixels) { return pixels >= 512 ? 16 : 1; }
 class Pass {
  public:
   Pass(const CompiledScene& scene, const PlanOptions& options, const RunParameters& run,
-       const PilotWork& work)
+       const TrainingWork& work)
       : scene_(scene),
         plan_(MakePlan(scene, options)),
         run_(Parameters(scene, plan_, run, work.spp)),
         work_(work),
-        copies_(plan_.features.Has(Feature::kSplitting) ? kMostCopies : 1),
-        records_(options.pilot == PilotPass::kRecord) {
+        copies_(plan_.features.Has(Feature::kSplitting) ? kMostCopies : 1) {
     wavefronts_.resize(static_cast<std::size_t>(MaxThreads()) + 1);
     samples_.colors.resize(work.samples());
-    if (records_) samples_.records.resize(samples_.colors.size());
+    samples_.planes = run_.planes.count() - kColorPlanes;
+    samples_.recorded.resize(work.samples() * static_cast<std::size_t>(samples_.planes));
   }
 
-  PilotSamples Run() {
+  TrainingSamples Run() {
     const std::size_t pixels = std::max<std::size_t>(kSamplesPerTask / work_.spp, 1);
     const std::size_t tasks = (work_.pixels.size() + pixels - 1) / pixels;
     ParallelFor(tasks, [&](std::size_t task) { RunTask(task * pixels, pixels); });
@@ -78,6 +59,7 @@ class Pass {
     run.pairs = MakePairParameters(strategy);
     run.roulette = MakeRouletteParameters(strategy);
     run.features = plan.features;
+    run.planes = SamplePlanes(plan.features);
     return run;
   }
 
@@ -90,42 +72,43 @@ class Pass {
         static_cast<std::uint32_t>(std::min(pixels, work_.pixels.size() - first));
     work.samples = work_.spp;
     const std::uint32_t count = work.num_pixels * work_.spp, rows = count * copies_;
-    const int planes = kColorPlanes + (records_ ? kRecordPlanes : 0);
-    std::vector<float> values(std::size_t{rows} * static_cast<std::size_t>(planes));
+    const auto planes = static_cast<std::size_t>(run_.planes.count());
+    std::vector<float> values(rows * planes);
     Drive(*wavefront, plan_, work, {values.data(), rows}, nullptr);
-    if (copies_ > 1) FoldCopies(values.data(), rows, planes, kColorPlanes);
+    if (copies_ > 1) FoldCopies(values.data(), rows, run_.planes);
     for (std::size_t i = 0; i < count; ++i) {
-      samples_.colors[first * work_.spp + i] = {values[i], values[count + i],
-                                                values[2 * count + i]};
-      if (!records_) continue;
-      samples_.records[first * work_.spp + i] = ReadRecord(values.data(), count, i);
+      const std::size_t sample = first * work_.spp + i;
+      samples_.colors[sample] = {values[i], values[count + i], values[2 * count + i]};
+      for (std::size_t p = kColorPlanes; p < planes; ++p) {
+        samples_.recorded[sample * (planes - kColorPlanes) + p - kColorPlanes] =
+            values[p * count + i];
+      }
     }
   }
 
   const CompiledScene& scene_;
   const Plan plan_;
   const RunParameters run_;
-  const PilotWork& work_;
+  const TrainingWork& work_;
   const std::uint32_t copies_;
-  const bool records_;
   std::vector<std::unique_ptr<Wavefront>> wavefronts_;
-  PilotSamples samples_;
+  TrainingSamples samples_;
 };
 
 }  // namespace
 
-PilotWork MakePilotWork(const CompiledScene& scene, std::uint64_t samples) {
+TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples) {
   std::vector<std::uint32_t> all;
   // Blocks of neighbours first, so that an even choice of them is even in both axes.
   TilePixels(RenderedPixels(scene.film), scene.film.width, &all);
-  const std::uint64_t count = std::max<std::uint64_t>(samples / PilotWork::kLeastSpp, 1);
+  const std::uint64_t count = std::max<std::uint64_t>(samples / TrainingWork::kLeastSpp, 1);
   if (count >= all.size()) {
     const std::uint64_t spp = std::max<std::uint64_t>(samples / all.size(), 4);
     return {std::move(all), static_cast<std::uint32_t>(spp)};
   }
   // Whole blocks, if there are enough: rays of neighbours are traced together.
   const std::uint64_t run = RunLength(count), runs = count / run;
-  PilotWork work;
+  TrainingWork work;
   std::uint64_t jitter = 0;
   for (std::uint64_t i = 0; i < runs; ++i) {
     // One of each of equal stretches, at a place of its own in each.
@@ -138,21 +121,21 @@ PilotWork MakePilotWork(const CompiledScene& scene, std::uint64_t samples) {
   return work;
 }
 
-PilotWork FewOf(const PilotWork& work) {
+TrainingWork FewOf(const TrainingWork& work) {
   // At least 16 pixels or blocks, if there are as many.
   const std::size_t run = RunLength(work.pixels.size());
   const std::size_t step = std::clamp<std::size_t>(work.pixels.size() / run / 16, 1, 16);
-  PilotWork few;
+  TrainingWork few;
   few.spp =
-      std::max(work.spp * static_cast<std::uint32_t>(step) / 16, PilotWork::kLeastSpp);
+      std::max(work.spp * static_cast<std::uint32_t>(step) / 16, TrainingWork::kLeastSpp);
   for (std::size_t i = 0; i < work.pixels.size(); ++i) {
     if (i / run % step == 0) few.pixels.push_back(work.pixels[i]);
   }
   return few;
 }
 
-PilotSamples RunPilotPass(const CompiledScene& scene, const PlanOptions& options,
-                          const RunParameters& run, const PilotWork& work) {
+TrainingSamples RunTrainingPass(const CompiledScene& scene, const PlanOptions& options,
+                          const RunParameters& run, const TrainingWork& work) {
   return Pass(scene, options, run, work).Run();
 }
 

@@ -1,7 +1,11 @@
-#include "src/wavefront/pilot_variance.h"
+#include "src/wavefront/path_records.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
+#include <utility>
+
+#include "src/core/check.h"
 
 namespace lanelight {
 namespace {
@@ -16,18 +20,43 @@ struct Part {
   bool operator<(const Part& o) const { return variance + added < o.variance + o.added; }
 };
 
-Part PartOf(const PilotRecord* records, std::uint32_t spp) {
+Part PartOf(const PathRecord* records, std::uint32_t spp) {
   double sum = 0, squares = 0, risk = 0;
   for (std::uint32_t k = 0; k < spp; ++k) {
-    const PilotRecord& r = records[k];
+    const PathRecord& r = records[k];
     sum += r.end, squares += double{r.end} * r.end, risk += r.Risk();
   }
   return {std::max(0.0, squares - sum * sum / spp) / (spp - 1), risk / spp};
 }
 
+PathRecord ReadRecord(const float* next) {
+  PathRecord record;
+  for (PathRecord::Vertex& v : record.vertices) {
+    v.cell = std::bit_cast<std::uint32_t>(*next++);
+    v.at = *next++;
+    v.got = *next++;
+  }
+  record.end = *next++;
+  record.depth = *next++;
+  for (float& risk : record.risk) risk = *next++;
+  return record;
+}
+
 }  // namespace
 
-std::vector<double> RelativeVariances(const PilotSamples& samples, const PilotWork& work,
+PathSamples ReadRecords(TrainingSamples samples) {
+  PathSamples out{std::move(samples), {}};
+  if (out.planes == 0) return out;
+  LL_CHECK_EQ(out.planes, NumPlanes(PlaneGroup::kRecord));
+  for (std::size_t i = 0; i < out.colors.size(); ++i) {
+    out.records.push_back(
+        ReadRecord(out.recorded.data() + i * static_cast<std::size_t>(out.planes)));
+  }
+  out.recorded = {};
+  return out;
+}
+
+std::vector<double> RelativeVariances(const PathSamples& samples, const TrainingWork& work,
                                       const ImageGuess& image) {
   std::vector<double> variances(work.pixels.size());
   for (std::size_t i = 0; i < variances.size(); ++i) {
@@ -53,7 +82,7 @@ double RobustMean(std::vector<double> values) {
          static_cast<double>(values.size());
 }
 
-double RouletteVarianceRatio(const PilotSamples& samples, const PilotWork& work,
+double RouletteVarianceRatio(const PathSamples& samples, const TrainingWork& work,
                              const ImageGuess& image) {
   std::vector<Part> parts;
   for (std::size_t i = 0; i < work.pixels.size(); ++i) {

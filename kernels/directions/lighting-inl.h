@@ -1,0 +1,34 @@
+// What light samples are compared with, and what scattered rays must know for that.
+#if defined(LANELIGHT_DIRECTIONS_LIGHTING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_DIRECTIONS_LIGHTING_INL_H_
+#undef LANELIGHT_DIRECTIONS_LIGHTING_INL_H_
+#else
+#define LANELIGHT_DIRECTIONS_LIGHTING_INL_H_
+#endif
+
+#include "kernels/directions/heuristic-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Light samples count in full, and scattered rays find no light that is sampled.
+struct UnweightedLighting {
+  static constexpr bool kWeighs = false;
+  static HWY_INLINE VF Weight(const MisParameters&, VF, VF) { return Splat(1.0f); }
+};
+
+/// Light samples and scattered rays are weighted against each other; the rays carry
+/// their density (the bsdf_pdf column).
+struct MisLighting {
+  static constexpr bool kWeighs = true;
+  static HWY_INLINE VF Weight(const MisParameters& mis, VF light_pdf, VF scattered_pdf) {
+    return LightSampleWeight(mis, light_pdf, scattered_pdf);
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

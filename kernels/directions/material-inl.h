@@ -1,0 +1,44 @@
+// directions=bsdf, light, mis: scattered directions distributed like the material, by the
+// policies' Sample: importance sampling.
+//   estimator   f(wo, wi) |cos| / p(wi), p close to proportional to f |cos|
+//   density     cosine for Lambert, visible normals for GGX (Heitz 2018), lobes chosen by
+//               their reflectance; each kernels/bsdf/*-inl.h states its own
+//   unbiased    p > 0 wherever f > 0; light of any kind that a ray can hit counts in full
+//   variance    that of the arriving light alone where p ~ f cos exactly (Lambert: none
+//               under even light); unbounded as lights get small
+//   cost        nothing beyond the next ray; no shadow rays but to delta lights
+//   source      the paper's section 3.5.2
+#if defined(LANELIGHT_DIRECTIONS_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_DIRECTIONS_MATERIAL_INL_H_
+#undef LANELIGHT_DIRECTIONS_MATERIAL_INL_H_
+#else
+#define LANELIGHT_DIRECTIONS_MATERIAL_INL_H_
+#endif
+
+#include "kernels/bsdf/bsdf-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// A proposal of the next direction has two members, with the measure of solid angle:
+///   Sample  a direction, what it weighs, and its density
+///   Pdf     the density with which Sample would find wi, given that of the material
+/// `u`: the points of the bounce.
+struct MaterialProposal {
+  template <class Bsdf>
+  static HWY_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
+                                      const BsdfPoints& u) {
+    return Bsdf::Sample(material, wo, u);
+  }
+  template <class Bsdf>
+  static HWY_INLINE VF Pdf(const typename Bsdf::Params&, V3, V3, VF material_pdf) {
+    return material_pdf;
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

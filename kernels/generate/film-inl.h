@@ -1,0 +1,61 @@
+// Where on the film a sample lies.
+#if defined(LANELIGHT_GENERATE_FILM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_GENERATE_FILM_INL_H_
+#undef LANELIGHT_GENERATE_FILM_INL_H_
+#else
+#define LANELIGHT_GENERATE_FILM_INL_H_
+#endif
+
+#include "kernels/generate/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/compiled/scene.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Film position in pixels: pixel centre plus a point distributed like |filter|.
+template <bool kBox>
+HWY_INLINE void FilmPosition(const Wave& wave, const StoreSlots& slots, VF* x, VF* y) {
+  const CompiledFilter& filter = wave.scene->filter;
+  const PathColumns& p = wave.path;
+  const VI pixel = Gather(p.pixel, slots);
+  const VF u0 = Gather(p.u_film_0, slots), u1 = Gather(p.u_film_1, slots);
+  VF dx, dy;
+  if constexpr (kBox) {
+    dx = hn::Mul(hn::MulAdd(u0, Splat(2.0f), Splat(-1.0f)), Splat(filter.x_radius));
+    dy = hn::Mul(hn::MulAdd(u1, Splat(2.0f), Splat(-1.0f)), Splat(filter.y_radius));
+  } else {
+    VF sign_x, sign_y;
+    dx = SampleFilterAxis(filter.x_cdf.data(), filter.x_sign.data(), filter.x_radius, u0,
+                          &sign_x);
+    dy = SampleFilterAxis(filter.y_cdf.data(), filter.y_sign.data(), filter.y_radius, u1,
+                          &sign_y);
+    if (p.weight != nullptr) {
+      Scatter(hn::Mul(hn::Mul(sign_x, sign_y), Splat(filter.weight)), p.weight, slots);
+    }
+  }
+  // Row and column of the pixel index: float division is off by at most one row for
+  // images of less than 2^31 pixels, which the correction undoes.
+  const DI di;
+  const VI width = hn::Set(di, static_cast<int32_t>(wave.run->width));
+  VI row = hn::ConvertTo(di, hn::Mul(hn::ConvertTo(DF(), pixel),
+                                     Splat(1.0f / static_cast<float>(wave.run->width))));
+  VI column = hn::Sub(pixel, hn::Mul(row, width));
+  for (int step = 0; step < 2; ++step) {
+    const auto low = hn::Lt(column, hn::Zero(di));
+    row = hn::IfThenElse(low, hn::Sub(row, hn::Set(di, 1)), row);
+    column = hn::IfThenElse(low, hn::Add(column, width), column);
+    const auto high = hn::Gt(column, hn::Sub(width, hn::Set(di, 1)));
+    row = hn::IfThenElse(high, hn::Add(row, hn::Set(di, 1)), row);
+    column = hn::IfThenElse(high, hn::Sub(column, width), column);
+  }
+  *x = hn::Add(hn::Add(hn::ConvertTo(DF(), column), Splat(0.5f)), dx);
+  *y = hn::Add(hn::Add(hn::ConvertTo(DF(), row), Splat(0.5f)), dy);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

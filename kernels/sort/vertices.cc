@@ -1,0 +1,46 @@
+// All that scatters in one queue, surfaces first. Only where something else than a surface
+// can: otherwise kVertex is the surfaces' queue itself (src/path/wave.h).
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/sort/vertices.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/batch-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+void Vertices(Wave& wave) {
+  for (const QueueId event : {QueueId::kSurface, QueueId::kMedium}) {
+    ForEachBatch(wave, wave.queue(event), [&](const Slots& slots, MF valid) HWY_ATTR {
+      Push(wave.queue(QueueId::kVertex), slots, valid);
+    });
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(Vertices);
+
+Stage VerticesStage() {
+  return {"vertices",
+          "brings together all that scatters",
+          QueueId::kActive,
+          {Feature::kOtherEvents, Feature::kScatters},
+          {},
+          {},
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Vertices); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

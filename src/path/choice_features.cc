@@ -1,0 +1,88 @@
+#include "src/path/choice_features.h"
+
+namespace lanelight {
+
+using enum Feature;
+
+namespace {
+
+FeatureSet Union(FeatureSet a, FeatureSet b) {
+  a.Add(b);
+  return a;
+}
+
+}  // namespace
+
+#define LANELIGHT_OWN_STAGE(feature) FeatureSet({feature})
+#define LANELIGHT_OWN_PLAIN(feature) FeatureSet()
+
+FeatureSet TurnsOn(Directions choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case Directions::k##name: \
+    return Union(LANELIGHT_OWN_##own(k##name##Directions), FeatureSet also);
+    LANELIGHT_DIRECTIONS(X)
+#undef X
+  }
+  return {};
+}
+
+FeatureSet TurnsOn(Points choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case Points::k##name: \
+    return Union(LANELIGHT_OWN_##own(k##name##Points), FeatureSet also);
+    LANELIGHT_POINTS(X)
+#undef X
+  }
+  return {};
+}
+
+FeatureSet TurnsOn(Pairs choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case Pairs::k##name: \
+    return Union(LANELIGHT_OWN_##own(k##name##Pairs), FeatureSet also);
+    LANELIGHT_PAIRS(X)
+#undef X
+  }
+  return {};
+}
+
+FeatureSet TurnsOn(Control choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case Control::k##name: \
+    return Union(LANELIGHT_OWN_##own(k##name##Control), FeatureSet also);
+    LANELIGHT_CONTROLS(X)
+#undef X
+  }
+  return {};
+}
+
+FeatureSet TurnsOn(Roulette choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case Roulette::k##name: \
+    return Union(LANELIGHT_OWN_##own(k##name##Roulette), FeatureSet also);
+    LANELIGHT_ROULETTES(X)
+#undef X
+  }
+  return {};
+}
+
+FeatureSet TurnsOn(LightSelection choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case LightSelection::k##name: \
+    return Union(LANELIGHT_OWN_##own(k##name##LightSelection), FeatureSet also);
+    LANELIGHT_LIGHT_SELECTIONS(X)
+#undef X
+  }
+  return {};
+}
+
+#undef LANELIGHT_OWN_STAGE
+#undef LANELIGHT_OWN_PLAIN
+
+}  // namespace lanelight

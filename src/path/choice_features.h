@@ -1,0 +1,17 @@
+// What the choices of a strategy turn on.
+#pragma once
+
+#include "src/path/features.h"
+#include "src/strategy/strategy.h"
+
+namespace lanelight {
+
+// Of one choice each, from the lists in src/strategy/choices.h.
+FeatureSet TurnsOn(Directions choice);
+FeatureSet TurnsOn(Points choice);
+FeatureSet TurnsOn(Pairs choice);
+FeatureSet TurnsOn(Control choice);
+FeatureSet TurnsOn(Roulette choice);
+FeatureSet TurnsOn(LightSelection choice);
+
+}  // namespace lanelight

@@ -1,0 +1,56 @@
+#include "src/wavefront/films.h"
+
+#include "src/core/check.h"
+
+namespace lanelight {
+
+Films::Films(const SamplePlanes& planes, double coefficient, FilmAccumulator& film)
+    : planes_(planes), film_(film) {
+  LL_CHECK_EQ(planes.Has(PlaneGroup::kAov), film.has_aov());
+  if (planes.Has(PlaneGroup::kDifference)) film_.UseControl();
+  if (!planes.Has(PlaneGroup::kNumbers)) return;
+  regression_.emplace(film.x0(), film.y0(), film.width(), film.height(),
+                      film.group_size(), coefficient);
+}
+
+void Films::Regroup(std::uint32_t group_size) {
+  film_.Regroup(group_size);
+  if (regression_) regression_->Regroup(group_size);
+}
+
+void Films::Add(const TileSamples& tile) {
+  const std::vector<std::uint32_t>& pixels = tile.pixels;
+  const std::size_t stride = pixels.size() * tile.count;
+  if (regression_) {
+    const PixelRect& r = tile.place;
+    regression_->Correct({r.x0, r.y0, r.x1, r.y1, pixels.data(),
+                          static_cast<std::uint32_t>(pixels.size()),
+                          static_cast<std::uint32_t>(tile.width), tile.values, tile.count},
+                         planes_.First(PlaneGroup::kNumbers));
+  }
+  constexpr int kMostPlanes = FilmAccumulator::kMostPlanes;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const float* planes[kMostPlanes];
+    for (int p = 0; p < std::min(planes_.count(), kMostPlanes); ++p) {
+      planes[p] = tile.values + static_cast<std::size_t>(p) * stride + i * tile.count;
+    }
+    film_.AddSamples(static_cast<int>(pixels[i]) % tile.width,
+                     static_cast<int>(pixels[i]) / tile.width, planes, tile.count);
+  }
+}
+
+std::optional<ControlReport> Films::Control() const {
+  return regression_ ? regression_->Report() : film_.Control();
+}
+
+void Films::Save(StateWriter& state) const {
+  film_.Save(state);
+  if (regression_) regression_->Save(state);
+}
+
+void Films::Restore(StateReader& state) {
+  film_.Restore(state);
+  if (regression_) regression_->Restore(state);
+}
+
+}  // namespace lanelight

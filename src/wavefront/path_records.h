@@ -1,0 +1,50 @@
+// What training passes find out of paths, and variances from their few samples.
+#pragma once
+
+#include <vector>
+
+#include "src/path/sample_planes.h"
+#include "src/prepare/path_values.h"
+#include "src/wavefront/training_pass.h"
+
+namespace lanelight {
+
+/// What a recording pass knows of a sample (kernels/roulette/record.cc).
+struct PathRecord {
+  struct Vertex {
+    std::uint32_t cell;
+    float at, got;
+  };
+  Vertex vertices[kRecordedVertices];
+  float end, depth;
+  float risk[3];
+
+  /// What roulette on the throughput would add to the square of `end`, on average; zero
+  /// where rounding could have made it.
+  double Risk() const {
+    const double square = double{end} * end * risk[0];
+    const double added = square - 2.0 * end * risk[1] + risk[2];
+    return added > 1e-5 * square ? added : 0;
+  }
+};
+
+struct PathSamples : TrainingSamples {
+  std::vector<PathRecord> records;  // as many as colours, if the pass has recorded
+};
+
+/// Reads the planes of PlaneGroup::kRecord, if there are any.
+PathSamples ReadRecords(TrainingSamples samples);
+
+/// Variances of a sample in each pixel of `work`, as relative errors weigh them.
+std::vector<double> RelativeVariances(const PathSamples& samples, const TrainingWork& work,
+                                      const ImageGuess& image);
+
+/// Mean without the worst thousandth.
+double RobustMean(std::vector<double> values);
+
+/// Variance with roulette on the throughput over that without, from the records of a pass
+/// without (PathRecord::Risk); the worst thousandth of the pixels counts in neither.
+double RouletteVarianceRatio(const PathSamples& samples, const TrainingWork& work,
+                             const ImageGuess& image);
+
+}  // namespace lanelight

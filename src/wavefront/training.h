@@ -1,0 +1,53 @@
+// Training: short renders before the image whose samples never enter it, from which a
+// strategy learns. A strategy asks for one with a feature that its choice turns on
+// (src/strategy/choices.h); its pass may turn on further features (PlanOptions::training),
+// and with them columns, stages and planes of its own; what it learns goes into
+// StrategyTables. Results do not depend on the number of threads.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+
+#include "src/path/run_parameters.h"
+#include "src/prepare/tables.h"
+#include "src/wavefront/plan.h"
+
+namespace lanelight {
+
+struct TrainingOptions {
+  std::uint64_t planned_samples = 0;  // of the image
+  bool keep_roulette = false;         // even where another would be more efficient
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// What a training knows: `plan` and `run` are those of the image.
+struct TrainingContext {
+  const CompiledScene& scene;
+  const Plan& plan;
+  const RunParameters& run;
+  const TrainingOptions& options;
+  StrategyTables& tables;  // to be filled
+};
+
+struct TrainingOutcome {
+  std::optional<Roulette> roulette;  // that the image is to be rendered with instead
+  std::string note;                  // what was found, one line
+  std::uint64_t samples = 0, rays = 0;
+};
+
+// X(name, feature that asks for it), in the order in which they run. Each is a function
+// Train<name> in a file of its own.
+#define LANELIGHT_TRAININGS(X) X(PathValues, kPathValues)
+
+#define X(name, feature) TrainingOutcome Train##name(const TrainingContext& context);
+LANELIGHT_TRAININGS(X)
+#undef X
+
+/// A strategy of the plan asks for training.
+bool NeedsTraining(const Plan& plan);
+
+/// Runs what the plan's strategy asks for.
+TrainingOutcome Train(const TrainingContext& context);
+
+}  // namespace lanelight

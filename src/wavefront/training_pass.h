@@ -1,0 +1,48 @@
+// One training pass: a few samples of some pixels, kept in memory as they are, with what
+// the strategy's own stages have recorded of them.
+#pragma once
+
+#include <vector>
+
+#include "src/core/vec.h"
+#include "src/path/wave.h"
+#include "src/wavefront/plan.h"
+
+namespace lanelight {
+
+/// Pixels of a pass, and samples of each: at least four, so that it shows the
+/// variance within a pixel.
+struct TrainingWork {
+  static constexpr std::uint32_t kLeastSpp = 4;
+  std::vector<std::uint32_t> pixels;  // y * width + x
+  std::uint32_t spp = kLeastSpp;
+
+  std::size_t samples() const { return pixels.size() * spp; }
+};
+
+struct TrainingSamples {
+  std::vector<Vec3f> colors;    // of a pixel one after the other
+  std::vector<float> recorded;  // the planes behind the colour, sample by sample
+  int planes = 0;               // how many these are
+  std::uint64_t rays_closest = 0, rays_shadow = 0;
+
+  /// Of a sample, in rays that find the closest hit and lead to shading there; one that
+  /// only asks for a hit takes about half the time.
+  double Cost() const {
+    return (double(rays_closest) + 0.5 * double(rays_shadow)) / double(colors.size());
+  }
+};
+
+/// About `samples` samples (at least four): spread evenly over the rendered window.
+TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples);
+
+/// About a sixteenth of it.
+TrainingWork FewOf(const TrainingWork& work);
+
+/// Renders the samples with the plan of `options` (PlanOptions::training says what is
+/// recorded), with random numbers apart from the image's. The result does not depend on
+/// the number of threads.
+TrainingSamples RunTrainingPass(const CompiledScene& scene, const PlanOptions& options,
+                                const RunParameters& run, const TrainingWork& work);
+
+}  // namespace lanelight
