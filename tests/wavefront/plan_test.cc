@@ -54,7 +54,7 @@ std::string Reason(const Plan& plan, const std::string& stage) {
 TEST_CASE("plan: a triangle under a point light gets the minimum", "[plan]") {
   const Plan plan = PlanOf(kPointLight + kTriangle);
   CHECK(StageNames(plan) ==
-        std::set<std::string>{"generate", "points_camera_independent", "camera",
+        std::set<std::string>{"generate", "points_camera_independent", "camera_perspective",
                               "intersect_triangles", "split", "limit", "surface_triangle",
                               "points_bounce_independent", "route", "light_point",
                               "shade_diffuse", "shadow_triangles", "connect",
