@@ -12,6 +12,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/core/suggest.h"
+#include "src/core/version.h"
 
 namespace lanelight {
 namespace {
@@ -98,7 +99,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   int exit_code = kExitGood;
   CLI::App root(kDescription, "lanelight");
   root.footer(kFooter);
-  root.set_version_flag("--version", "lanelight " LANELIGHT_VERSION);
+  root.set_version_flag("--version", FullVersion());
   root.require_subcommand(1);
   AddRenderCommand(root, exit_code);
   AddAdviseCommand(root, exit_code);
