@@ -109,6 +109,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   AddStrategiesCommand(root, exit_code);
   AddCompareCommand(root, exit_code);
   AddStudyCommand(root, exit_code);
+  AddCompletionCommand(root, exit_code);
   if (argc < 2) {
     PrintError(root.help());
     return kExitUsage;

@@ -15,5 +15,6 @@ void AddInfoCommand(CLI::App& root, int& exit_code);
 void AddStrategiesCommand(CLI::App& root, int& exit_code);
 void AddCompareCommand(CLI::App& root, int& exit_code);
 void AddStudyCommand(CLI::App& root, int& exit_code);
+void AddCompletionCommand(CLI::App& root, int& exit_code);
 
 }  // namespace lanelight

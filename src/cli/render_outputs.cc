@@ -91,9 +91,9 @@ void AddOutputOptions(CLI::App& command, RenderOutputs& options, bool required) 
                    : "'" + path + "' does not end in .exr (for a PNG add --png FILE)";
       })
       ->type_name("FILE");
-  command.add_option("--depth", options.depth, "Colour in the EXR: half or float")
+  command.add_option("--depth", options.depth, "Type of colours in the EXR")
       ->check(CLI::IsMember({"half", "float"}).description(""))
-      ->type_name("TYPE");
+      ->type_name("half|float");
   options.png_flag = command
                          .add_option("--png", options.png,
                                      "Write a PNG too; named after the EXR if bare")
@@ -174,8 +174,8 @@ int RenderToOutputs(const RenderOutputs& options, const std::string& scene,
   RenderReport report;
   report.scene = scene;
   report.half = options.depth == "half";
-  report.result = RunJob(
-      job, film, [&](const Progress& p) { progress.Update(p); }, &stop);
+  report.result =
+      RunJob(job, film, [&](const Progress& p) { progress.Update(p); }, &stop);
   progress.Finish();
   report.error = EstimateError(film);
 
