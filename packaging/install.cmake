@@ -39,10 +39,10 @@ set(CPACK_PACKAGE_VENDOR "The Lanelight authors")
 set(CPACK_PACKAGE_CONTACT "The Lanelight authors <authors@lanelight.invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "SIMD wavefront path tracer for pbrt-v4 scenes")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
-"Lanelight renders pbrt-v4 scene files on the CPU. Its rays live in queues that fit in one
-core's cache and move through vectorised stages. Every image comes with the variance of
-each pixel and an estimate of its own error; studies measure which sampling strategy gives
-the least error for the time.")
+"Lanelight renders pbrt-v4 scene files on the CPU. Its rays live in queues that
+fit in one core's cache and move through vectorised stages. Every image comes
+with the variance of each pixel and an estimate of its own error; studies
+measure which sampling strategy gives the least error for the time.")
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
