@@ -11,6 +11,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/core/suggest.h"
+#include "src/core/version.h"
 
 namespace lanelight {
 namespace {
@@ -88,7 +89,7 @@ int ReportParse(const CLI::App& root, const CLI::ParseError& error, int argc,
 
 void AddCommands(CLI::App& root, Command& chosen) {
   root.footer(kFooter);
-  root.set_version_flag("--version", "lanelight " LANELIGHT_VERSION);
+  root.set_version_flag("--version", FullVersion());
   root.require_subcommand(1);
   AddRenderCommand(root, chosen);
   AddAdviseCommand(root, chosen);
@@ -98,6 +99,7 @@ void AddCommands(CLI::App& root, Command& chosen) {
   AddStrategiesCommand(root, chosen);
   AddCompareCommand(root, chosen);
   AddStudyCommand(root, chosen);
+  AddCompletionCommand(root, chosen);
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 // pairs=antithetic: samples 2k and 2k+1 of a pixel share their random numbers; here the
 // second one's are reflected. Before, the points stages have given both the same numbers
 // (PointSample in kernels/points/fill-inl.h) and generate has put them in adjacent slots.
-//   estimator   1/(2N) sum (f(u) + f(u')): u' = 1 - u per coordinate, for azimuths u +
-//   1/2.
-//               Numbers that are not paired are independent in the two samples
+//   estimator   1/(2N) sum (f(u) + f(u')): u' = 1 - u per coordinate, or u + 1/2 for
+//               azimuths. Numbers that are not paired are independent in both samples
 //   unbiased    u' is as uniform as u
 //   variance    (1 + rho) sigma^2 / (2N) for N pairs, rho the correlation of f(u) and
 //               f(u'): 0 if f is linear in the reflected numbers (with equal others), a

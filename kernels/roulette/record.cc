@@ -1,8 +1,7 @@
 // A pilot pass: records what paths find from their first vertices on. For vertex i:
-//   estimate    (Y(l at the end) - Y(l before i)) / Y(beta at i): brightness gathered
-//   from
-//               there on per unit of throughput; expectation: the adjoint Psi there.
-//               Y weighs the channels as PathValues::channel says
+//   estimate    (Y(l at the end) - Y(l before i)) / Y(beta at i): the brightness that is
+//               gathered from there on per unit of throughput; expectation: the adjoint
+//               Psi there. Y weighs the channels as PathValues::channel says
 //   cost        events from there on: depth at the end - i
 // And for paths that have not played roulette, what roulette on the throughput would add
 // to the second moment: a decision of survival s multiplies the square of what comes

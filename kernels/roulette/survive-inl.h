@@ -4,9 +4,8 @@
 //   estimator   survivor / s, zero otherwise: E = s (x / s) = x (the paper's equation 8,
 //               with s = 1 - q)
 //   unbiased    s > 0 wherever the path can still carry light
-//   variance    grows by E[x^2] (1/s - 1) per decision; pays when what it saves in time
-//   is
-//               more than that
+//   variance    grows by E[x^2] (1/s - 1) per decision; pays when it saves more time
+//               than that
 #if defined(LANELIGHT_ROULETTE_SURVIVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_ROULETTE_SURVIVE_INL_H_
 #undef LANELIGHT_ROULETTE_SURVIVE_INL_H_

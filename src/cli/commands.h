@@ -18,5 +18,6 @@ void AddInfoCommand(CLI::App& root, Command& chosen);
 void AddStrategiesCommand(CLI::App& root, Command& chosen);
 void AddCompareCommand(CLI::App& root, Command& chosen);
 void AddStudyCommand(CLI::App& root, Command& chosen);
+void AddCompletionCommand(CLI::App& root, Command& chosen);
 
 }  // namespace lanelight

@@ -43,9 +43,9 @@ void AddOutputOptions(CLI::App& command, RenderOutputs& options, bool required) 
                    : "'" + path + "' does not end in .exr (for a PNG add --png FILE)";
       })
       ->type_name("FILE");
-  command.add_option("--depth", options.depth, "Colour in the EXR: half or float")
+  command.add_option("--depth", options.depth, "Type of colours in the EXR")
       ->check(CLI::IsMember({"half", "float"}).description(""))
-      ->type_name("TYPE");
+      ->type_name("half|float");
   options.png_flag = command
                          .add_option("--png", options.targets.png,
                                      "Write a PNG too; named after the EXR if bare")

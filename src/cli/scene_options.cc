@@ -65,12 +65,15 @@ void AddWindowOptions(CLI::App& command, RenderSettings& s) {
 
 namespace {
 
-// A flag whose value is one of a few names.
+// A flag whose value is one of a few names: its type, from which shells complete it.
 template <class T>
 void AddNameOption(CLI::App& command, const std::string& flag, std::optional<T>& value,
                    std::map<std::string, T> names, const std::string& meaning) {
-  std::string list;
-  for (const auto& [name, unused] : names) list += (list.empty() ? "" : ", ") + name;
+  std::string list, type;
+  for (const auto& [name, unused] : names) {
+    list += (list.empty() ? "" : ", ") + name;
+    type += (type.empty() ? "" : "|") + name;
+  }
   command
       .add_option_function<std::string>(
           flag,
@@ -81,8 +84,8 @@ void AddNameOption(CLI::App& command, const std::string& flag, std::optional<T>&
             }
             value = found->second;
           },
-          meaning + ": " + list)
-      ->type_name("NAME");
+          meaning)
+      ->type_name(type);
 }
 
 // Reads the text of --strategy.

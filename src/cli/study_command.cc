@@ -128,7 +128,7 @@ void AddStudyCommand(CLI::App& root, Command& chosen) {
   auto options = std::make_shared<StudyCommandOptions>();
   command->add_option("SCENE", options->study.scenes, "Scene files")
       ->required()
-      ->type_name("...");
+      ->type_name("");
   command->add_option("--out", options->study.out, "Directory for report and data")
       ->required()
       ->type_name("DIR");

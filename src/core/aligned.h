@@ -16,7 +16,7 @@ struct AlignedAllocator {
   using value_type = T;
   AlignedAllocator() = default;
   template <typename U>
-  AlignedAllocator(const AlignedAllocator<U>&) {}
+  AlignedAllocator(const AlignedAllocator<U>&) {}  // NOLINT(google-explicit-constructor)
   T* allocate(std::size_t n) {
     return static_cast<T*>(
         ::operator new(n * sizeof(T) + kCacheLine, std::align_val_t(kCacheLine)));

@@ -77,7 +77,7 @@ bool CounterGroup::Read(CounterValues* values) const {
 }
 
 std::string WhyNoCounters(int error) {
-  const std::string reason =
+  std::string reason =
       fmt::format("perf_event_open: {} ({})", strerrorname_np(error), strerror(error));
   switch (error) {
     case EACCES:

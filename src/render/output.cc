@@ -2,6 +2,9 @@
 
 #include <limits>
 
+#include "src/core/error.h"
+#include "src/core/version.h"
+
 namespace lanelight {
 namespace {
 
@@ -75,7 +78,7 @@ ExrOptions OutputOptions(const Job& job, const RunResult& result, bool half) {
   options.attributes["spp"] = spp;
   options.attributes["renderTime"] = result.seconds;
   options.attributes["strategy"] = "path, " + ToText(job.scene.strategy);
-  options.attributes["version"] = std::string("lanelight " LANELIGHT_VERSION);
+  options.attributes["version"] = FullVersion();
   options.attributes["sceneHash"] = fmt::format("{:016x}", job.scene_hash);
   return options;
 }

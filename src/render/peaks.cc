@@ -37,12 +37,12 @@ std::size_t CacheBytes(int name, std::size_t otherwise) {
 // The pages of a buffer this large should not be what is measured.
 void UseLargePages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
 #if defined(MADV_HUGEPAGE)
-  constexpr std::uintptr_t kPage = 2 * kMiB;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(data) + kPage - 1) / kPage * kPage;
-  const auto end = (reinterpret_cast<std::uintptr_t>(data) + bytes) / kPage * kPage;
-  if (end > begin) {
-    madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // only advice
-  }
+  constexpr std::size_t kPage = 2 * kMiB;
+  const std::size_t inside = reinterpret_cast<std::uintptr_t>(data) % kPage;
+  const std::size_t skipped = inside == 0 ? 0 : kPage - inside;
+  if (bytes < skipped + kPage) return;
+  madvise(static_cast<char*>(data) + skipped, (bytes - skipped) / kPage * kPage,
+          MADV_HUGEPAGE);  // only advice
 #endif
 }
 

@@ -2,25 +2,15 @@
 
 #include "kernels/simd/target.h"
 #include "src/core/parallel.h"
+#include "src/core/version.h"
 #include "src/render/report.h"
 
 namespace lanelight {
-namespace {
-
-std::string CompilerVersion() {
-#ifdef __clang__
-  return fmt::format("clang {}.{}.{}", __clang_major__, __clang_minor__,
-                     __clang_patchlevel__);
-#else
-  return fmt::format("gcc {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
-#endif
-}
-
-}  // namespace
 
 std::vector<std::pair<std::string, std::string>> LibraryVersions() {
-  return {{"lanelight", LANELIGHT_VERSION},
-          {"compiler", CompilerVersion()},
+  return {{"lanelight", Version()},
+          {"commit", Commit()},
+          {"compiler", Compiler()},
           {"highway", HighwayVersion()},
           {"onetbb", TbbVersion()},
           {"openexr", OPENEXR_VERSION_STRING},

@@ -33,7 +33,7 @@ double Slope(std::span<const double> x, std::span<const double> y) {
   return xx > 0 ? xy / xx : kNan;
 }
 
-double Slope(std::span<const Point> points, double Point::*y) {
+double Slope(std::span<const Point> points, double Point::* y) {
   std::vector<double> xs, ys;
   for (const Point& p : points) {
     xs.push_back(p.samples);
@@ -106,6 +106,7 @@ std::vector<Level> Usable(std::span<const Level> levels) {
 std::vector<Point> ToPoints(std::span<const Level> levels,
                             std::span<const double> means) {
   std::vector<Point> points;
+  points.reserve(levels.size());
   for (std::size_t k = 0; k < levels.size(); ++k) {
     points.push_back({std::log(levels[k].samples), std::log(means[2 * k]),
                       std::log(std::max(means[2 * k + 1], kLeastSeconds))});
@@ -161,7 +162,7 @@ std::optional<TargetCost> CostToTarget(std::span<const Level> levels, double tar
     return std::nullopt;
   }
   const Repetitions repetitions = ToRepetitions(usable);
-  const auto around = [&](double Target::*member) {
+  const auto around = [&](double Target::* member) {
     const OfMeans f = [&](std::span<const double> m) { return find(m).*member; };
     return AroundLogarithm(found.*member, HalfWidth(repetitions, f, confidence));
   };

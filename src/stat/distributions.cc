@@ -77,7 +77,8 @@ double BetaPrefix(double a, double b, double x, double y) {
 // I_x(a, b) by its continued fraction, for x up to about the mean.
 double BetaFraction(double a, double b, double x, double y) {
   const double f = Lentz(1, [&](int i, double& num, double& den) {
-    const double m = i / 2;
+    const int half = i / 2;
+    const double m = half;
     den = 1;
     num = i % 2 == 0 ? m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m))
                      : -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));

@@ -8,11 +8,14 @@
 namespace lanelight {
 
 using Catch::Contains;
+using Catch::Matches;
 
 TEST_CASE("help and version go to standard output and succeed", "[cli]") {
   const ProcessResult version = RunLanelight({"--version"});
   CHECK(version.exit_code == kExitGood);
-  CHECK_THAT(version.out, Contains("lanelight "));
+  CHECK_THAT(version.out, Matches("lanelight [0-9]+\\.[0-9]+\\.[0-9]+ "
+                                  "\\(([0-9a-f]{10,40}(-dirty)?|unknown), "
+                                  "(clang|gcc) [0-9]+\\.[0-9]+\\.[0-9]+\\)\n"));
   const ProcessResult help = RunLanelight({"--help"});
   CHECK(help.exit_code == kExitGood);
   CHECK_THAT(help.out, Contains("Examples:") && Contains("Exit codes:"));
@@ -28,7 +31,7 @@ TEST_CASE("help and version go to standard output and succeed", "[cli]") {
 TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
   struct Case {
     std::vector<std::string> arguments;
-    const char* message;
+    std::string message;
   };
   const Case cases[] = {
       {{}, "Usage"},
@@ -86,6 +89,11 @@ TEST_CASE("info prints the target, threads and libraries", "[cli]") {
                            "openexr", "fmt", "nlohmann_json", "cli11"}) {
     CHECK_THAT(r.out, Contains(word));
   }
+  // The same commit as --version has.
+  const std::string version = RunLanelight({"--version"}).out;
+  const std::size_t open = version.find('('), comma = version.find(',');
+  const std::string commit = version.substr(open + 1, comma - open - 1);
+  CHECK_THAT(r.out, Contains("commit         " + commit + "\n"));
   const ProcessResult forced = RunLanelight({"info", "--target", worst});
   CHECK_THAT(forced.out, Contains("target         " + worst));
 }

@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# A little of everything under a sanitizer: short.sh LANELIGHT, a program built with one.
+# Small images, several threads. Fails at the first report or unexpected exit code.
+set -uo pipefail
+lanelight=$(readlink -f "$1")
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../../scenes"
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+
+# Reports end the program with a code that it does not have itself. Other versions of
+# llvm-symbolizer cannot read what clang 19 writes; addr2line comes with every compiler.
+common=exitcode=99:external_symbolizer_path=$(command -v llvm-symbolizer-19 ||
+  command -v addr2line)
+export ASAN_OPTIONS=$common:strict_string_checks=1:detect_stack_use_after_return=1
+export UBSAN_OPTIONS=$common:print_stacktrace=1
+export TSAN_OPTIONS=$common:second_deadlock_stack=1:atexit_sleep_ms=50
+runs=0
+
+# expect CODE ARGUMENTS: runs lanelight.
+expect() {
+  local wanted=$1 code=0
+  shift
+  timeout 300 "$lanelight" "$@" >"$out/log" 2>&1 || code=$?
+  check "$wanted" "$code" "$@"
+}
+
+# check WANTED CODE ARGUMENTS: fails if the codes differ, or the log has a report.
+check() {
+  local wanted=$1 code=$2
+  shift 2
+  if [[ $code -ne $wanted ]] || grep -qE 'Sanitizer|runtime error:' "$out/log"; then
+    cat "$out/log"
+    echo "FAILED (exit code $code, not $wanted): lanelight $*"
+    exit 1
+  fi
+  runs=$((runs + 1))
+  echo "  ok  lanelight ${*//$out\//}"
+}
+
+render() { expect 0 render "$@" -o "$out/image.exr" --threads 4 --quiet; }
+
+# Every material, shape and light of the scenes here; odd sizes leave partial vectors, small
+# wavefronts are refilled often.
+for scene in *.pbrt stiff/*.pbrt; do
+  render "$scene" --resolution 131x97 --spp 5 --wavefront 256
+done
+
+# Every kind of sample points, choice of directions, control variate, roulette.
+for strategy in points=stratified,pairs=antithetic,directions=light \
+  points=cmj,control=analytic points=pmj02,light-selection=uniform \
+  points=halton,roulette=constant points=lattice,roulette=luminance \
+  directions=bsdf,roulette=none directions=uniform,light-selection=power \
+  control=regression,c=optimal; do
+  render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy "$strategy"
+done
+render sun-sky.pbrt --resolution 81x61 --spp 16 --strategy control=ambient
+# Paths that split into copies, after a pilot of their own.
+render veach-mis.pbrt --resolution 81x61 --spp 16 --strategy roulette=adjoint
+render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy roulette=efficiency
+
+render glass.pbrt --resolution 64x48 --spp 4 --aov --png --crop 3,5,50,40 --depth half \
+  --json "$out/report.json" --build fast
+render many-lights.pbrt --resolution 40x30 --time 1 --strategy light-selection=tree
+render cornell-box.pbrt --resolution 40x30 --target-relmse 0.5 --spp 4096
+cp "$out/image.exr" "$out/other.exr"
+render cornell-box.pbrt --resolution 40x30 --spp 4 --seed 2
+expect 0 compare "$out/image.exr" "$out/other.exr"
+expect 0 plan glass.pbrt
+expect 0 profile cornell-box.pbrt --resolution 40x30 --spp 4 --trace "$out/trace.json" \
+  --threads 4 --quiet
+expect 0 advise cornell-box.pbrt --resolution 40x30 --time 2 -o "$out/image.exr" --quiet
+expect 0 study cornell-box.pbrt --out "$out/study" --resolution 24x18 --spp 4,8 \
+  --strategies 'default;points=pmj02' --repetitions 3 --quiet
+expect 1 plan ../tests/broken/error-in-include.pbrt
+expect 2 render --nonsense
+expect 0 info
+expect 0 completion zsh
+
+# Ctrl-C in the middle of a render: the image is written all the same.
+code=0
+timeout --foreground --preserve-status --signal INT 3 "$lanelight" render \
+  cornell-box.pbrt --resolution 200x150 --spp 1000000 --threads 4 -o "$out/stopped.exr" \
+  >"$out/log" 2>&1 || code=$?
+grep -q stopping "$out/log" || { echo "FAILED: ended before Ctrl-C"; exit 1; }
+check 0 "$code" render cornell-box.pbrt, with Ctrl-C
+[[ -f $out/stopped.exr ]] || { echo "FAILED: no image after Ctrl-C"; exit 1; }
+echo "$runs runs without a report"
