@@ -21,7 +21,7 @@ enum class ShadeKind : std::uint32_t {
   LANELIGHT_SHADE_KINDS(X)
 #undef X
       kCount,
-  kMix = kCount  // resolved by the route stage, has no kernel
+  kMix = kCount  // resolved by the mix stage, has no queue
 };
 inline constexpr int kNumShadeKinds = static_cast<int>(ShadeKind::kCount);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -210,21 +209,6 @@ PilotOutcome RunPilot(const CompiledScene& scene, const Plan& plan,
                       StrategyTables& tables) {
   LL_CHECK(plan.features.Has(Feature::kSplitting));
   return Pilot(scene, plan, run, options, tables).Run();
-}
-
-std::uint64_t SamplesInTime(const CompiledScene& scene, const Plan& plan,
-                            const RunParameters& run, double seconds) {
-  constexpr std::uint64_t kFew = 4096;
-  PlanOptions options = plan.options;
-  options.aov = false;
-  options.pilot = PilotPass::kMeasure;
-  options.roulette = Roulette::kThroughput;
-  const PilotWork work = MakePilotWork(scene, kFew);
-  const auto start = std::chrono::steady_clock::now();
-  RunPilotPass(scene, options, run, work);
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  const double samples = double(work.samples()) * seconds / taken.count();
-  return static_cast<std::uint64_t>(std::max(samples, 1.0));
 }
 
 }  // namespace lanelight

@@ -34,8 +34,4 @@ PilotOutcome RunPilot(const CompiledScene& scene, const Plan& plan,
                       const RunParameters& run, const PilotOptions& options,
                       StrategyTables& tables);
 
-/// About how many samples of the image take `seconds`, from the time of a few thousand.
-std::uint64_t SamplesInTime(const CompiledScene& scene, const Plan& plan,
-                            const RunParameters& run, double seconds);
-
 }  // namespace lanelight
