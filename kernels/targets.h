@@ -1,6 +1,6 @@
 // Included first by every kernel file: which Highway targets are compiled, and why not
 // the others. At run time the best one that the machine has is chosen; `--target` forces
-// one (src/core/simd_target.h).
+// one (kernels/simd/target.h).
 //
 //   AVX3   16 lanes, compress and gather in hardware: what the design is for
 //   AVX2   8 lanes, gather in hardware

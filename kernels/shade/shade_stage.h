@@ -10,7 +10,9 @@ inline Stage MakeShadeStage(const char* name, const char* meaning, ShadeKind kin
                             StageFn (*resolve)(const FeatureSet&)) {
   using namespace fields;
   const FieldSet points = {Field::u_lobe, Field::u_bsdf_0, Field::u_bsdf_1};
-  const FieldSet identity = {Field::pixel, Field::sample, Field::depth, Field::material};
+  // Who the path is: its random walks inside a coat have numbers of their own.
+  const FieldSet identity = {Field::pixel, Field::sample, Field::branch, Field::depth,
+                             Field::material};
   const FieldSet direction = {Field::d_x, Field::d_y, Field::d_z};
   const FieldSet history = {Field::bsdf_pdf, Field::eta_scale, Field::depth, Field::t};
   return {name,

@@ -109,7 +109,6 @@ CompiledScene CompileScene(const SceneDescription& description,
                            const CompileOptions& options) {
   CompiledScene scene;
   scene.film = description.film;
-  scene.sampler = description.sampler;
   scene.integrator = description.integrator;
   scene.filter = CompileFilter(description.filter);
 

@@ -43,13 +43,33 @@ void AddAlpha(const std::vector<PlacedShape>& shapes, FeatureSet& features) {
   }
 }
 
+Feature FeatureOf(LightShape shape) {
+  switch (shape) {
+    case LightShape::kTriangle:
+      return Feature::kTriangleLights;
+    case LightShape::kSphere:
+      return Feature::kSphereLights;
+    case LightShape::kDisk:
+      return Feature::kDiskLights;
+    case LightShape::kPoint:
+      return Feature::kPointLights;
+    case LightShape::kSpot:
+      return Feature::kSpotLights;
+    case LightShape::kDistant:
+      return Feature::kDistantLights;
+    case LightShape::kInfiniteConstant:
+      return Feature::kInfiniteConstant;
+    case LightShape::kInfiniteImage:
+      return Feature::kInfiniteImage;
+  }
+  LL_CHECK(!"unknown shape of light");
+  return Feature::kCount;
+}
+
 void AddLights(const LightTable& lights, FeatureSet& features) {
-  static constexpr Feature kShapes[] = {
-      Feature::kTriangleLights,   Feature::kSphereLights, Feature::kDiskLights,
-      Feature::kPointLights,      Feature::kSpotLights,   Feature::kDistantLights,
-      Feature::kInfiniteConstant, Feature::kInfiniteImage};
-  static_assert(std::size(kShapes) == static_cast<int>(LightShape::kInfiniteImage) + 1);
-  for (const LightRecord& light : lights.lights) features.Add(kShapes[light.shape]);
+  for (const LightRecord& light : lights.lights) {
+    features.Add(FeatureOf(static_cast<LightShape>(light.shape)));
+  }
   if (!lights.lights.empty()) features.Add(Feature::kLights);
   if (lights.lights.size() > 1) features.Add(Feature::kManyLights);
   if (!lights.infinite.empty()) features.Add(Feature::kInfiniteLights);

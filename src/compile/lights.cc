@@ -78,7 +78,6 @@ LightRecord EmptyRecord(LightShape shape) {
   record.shape = static_cast<std::uint32_t>(shape);
   record.primitive = 0xffffffffu;
   record.environment = -1;
-  record.instance = -1;
   return record;
 }
 

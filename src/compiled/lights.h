@@ -19,7 +19,7 @@ enum class LightShape : std::uint32_t {
   kInfiniteImage
 };
 
-/// Light record: 20 words.
+/// Light record: 20 words. Emitters in instances are copied into the world at compile.
 struct LightRecord {
   std::uint32_t shape;       // LightShape
   std::uint32_t two_sided;   // 0 or 1
@@ -32,10 +32,8 @@ struct LightRecord {
   std::int32_t environment;  // index into LightTable::environments, or -1
   float direction[3];        // spot: axis, pointing away from the light; distant: unit,
                              // pointing TOWARD the light
-  std::int32_t instance;     // of the emitting primitive, -1 (emitters in instances are
-                             // copied into the world at compile)
   float cos_total, cos_falloff;  // spot
-  float pad[2];
+  float pad[3];
 };
 static_assert(sizeof(LightRecord) == 80);
 

@@ -34,7 +34,6 @@ struct CompiledScene {
   CompiledCamera camera;
   CompiledFilter filter;
   Film film;
-  Sampler sampler;
   Integrator integrator;
   Strategy strategy;        // what UseStrategy has prepared the light tables for
   std::vector<Note> notes;  // what compiling left out, such as degenerate triangles

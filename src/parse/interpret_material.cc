@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "src/parse/interpret.h"
 #include "src/core/suggest.h"
@@ -8,10 +9,16 @@ namespace {
 
 constexpr double kRoughest = 1e4;  // of roughness parameters; alpha above 1 is legal
 
-const std::vector<std::string> kMaterialNames = {
-    "diffuse",       "conductor",       "dielectric",          "thindielectric",
-    "coateddiffuse", "coatedconductor", "diffusetransmission", "mix",
-    "interface"};
+const std::map<std::string, MaterialKind> kMaterials = {
+    {"diffuse", MaterialKind::kDiffuse},
+    {"conductor", MaterialKind::kConductor},
+    {"dielectric", MaterialKind::kDielectric},
+    {"thindielectric", MaterialKind::kThinDielectric},
+    {"coateddiffuse", MaterialKind::kCoatedDiffuse},
+    {"coatedconductor", MaterialKind::kCoatedConductor},
+    {"diffusetransmission", MaterialKind::kDiffuseTransmission},
+    {"mix", MaterialKind::kMix},
+    {"interface", MaterialKind::kInterface}};
 const std::vector<std::string> kForeignMaterials = {"hair", "measured", "subsurface"};
 
 // `<prefix>roughness` for both directions, `<prefix>uroughness`, `<prefix>vroughness`.
@@ -174,7 +181,6 @@ Index InterpretMaterial(ParseState& state, const std::string& name,
   Material material;
   material.name = name;
   material.where = params.where();
-  auto it = std::find(kMaterialNames.begin(), kMaterialNames.end(), type);
   const bool foreign = std::find(kForeignMaterials.begin(), kForeignMaterials.end(),
                                  type) != kForeignMaterials.end();
   if (foreign && state.options.skip_unsupported) {
@@ -183,15 +189,16 @@ Index InterpretMaterial(ParseState& state, const std::string& name,
                               "diffuse one replaces it",
                               Quoted(type)));
   } else {
-    if (it == kMaterialNames.end() && (type.empty() || type == "none")) {
+    const auto known = kMaterials.find(type);
+    if (known != kMaterials.end()) {
+      material.kind = known->second;
+    } else if (type.empty() || type == "none") {
       state.AddNote(params.where(),
                     "material \"\" and \"none\" are taken as \"interface\"");
-      it = kMaterialNames.end() - 1;
+      material.kind = MaterialKind::kInterface;
+    } else {
+      ThrowUnknown(params.where(), "material", type, Names(kMaterials));
     }
-    if (it == kMaterialNames.end()) {
-      ThrowUnknown(params.where(), "material", type, kMaterialNames);
-    }
-    material.kind = static_cast<MaterialKind>(it - kMaterialNames.begin());
     ReadKind(state, params, &material);
     params.Ignore("displacement", "displacement is not supported");
     params.Ignore("normalmap", "normal maps are not supported");

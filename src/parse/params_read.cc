@@ -18,6 +18,7 @@ constexpr TypeInfo kTypes[] = {  // in the order of ParamType
     {"bool", 0},      {"integer", 1}, {"float", 1},  {"point2", 2},   {"vector2", 2},
     {"point3", 3},    {"vector3", 3}, {"normal", 3}, {"spectrum", 0}, {"rgb", 3},
     {"blackbody", 1}, {"string", 0},  {"texture", 0}};
+static_assert(std::size(kTypes) == static_cast<std::size_t>(ParamType::kTexture) + 1);
 
 std::vector<std::string> TypeNames() {
   std::vector<std::string> names;

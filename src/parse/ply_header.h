@@ -23,6 +23,7 @@ enum class PlyType {
 
 /// Bytes of a value in a binary file.
 inline constexpr std::size_t kPlySize[] = {1, 1, 2, 2, 4, 4, 4, 8};
+static_assert(std::size(kPlySize) == static_cast<std::size_t>(PlyType::kFloat64) + 1);
 constexpr std::size_t PlySize(PlyType type) { return kPlySize[static_cast<int>(type)]; }
 
 struct PlyProperty {

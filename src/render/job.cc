@@ -49,6 +49,9 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   job.load_seconds = watch.Lap();
 
   job.scene = PrepareScene(job.description, CompileOptionsOf(settings));
+  // Reports look for notes in one place.
+  std::vector<Note>& notes = job.description.notes;
+  notes.insert(notes.end(), job.scene.notes.begin(), job.scene.notes.end());
   ReleaseMeshes(job.description);
   job.plan = MakePlan(job.scene, PlanOptionsOf(settings, job.description));
   job.build_seconds = watch.Lap();

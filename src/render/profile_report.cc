@@ -62,6 +62,7 @@ void AddSums(ProfileReport& report) {
 
 const char* Name(RowKind kind) {
   static constexpr const char* kNames[] = {"stage", "task", "pilot", "outside"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(RowKind::kOutside) + 1);
   return kNames[static_cast<int>(kind)];
 }
 

@@ -30,6 +30,7 @@ Bound BoundOf(const Peaks& peaks, const ProfileRow& row) {
 
 const char* Name(Bound bound) {
   static constexpr const char* kNames[] = {"-", "memory", "compute", "neither"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Bound::kNeither) + 1);
   return kNames[static_cast<int>(bound)];
 }
 

@@ -1,17 +1,16 @@
-// Distribution functions for hypothesis tests, own code, double precision. Stated errors
-// are checked by tests/stat/distributions_test.cc.
+// Distribution functions for hypothesis tests, by Boost.Math, in double precision. Stated
+// errors are checked by tests/stat/distributions_test.cc.
 #pragma once
 
 namespace lanelight::stat {
 
 /// Regularised incomplete gamma functions P(a, x) and Q(a, x) = 1 - P, a > 0, x >= 0.
-/// Relative error below 1e-12 for a <= 1e4. Series for x < a + 1, else the continued
-/// fraction of Legendre (Abramowitz and Stegun 6.5.29 and 6.5.31).
+/// Relative error below 1e-12 for a <= 1e4.
 double GammaP(double a, double x);
 double GammaQ(double a, double x);
 
 /// Regularised incomplete beta function I_x(a, b), a, b > 0, 0 <= x <= 1. Relative error
-/// below 1e-11 for a, b <= 1e4. Continued fraction A&S 26.5.8, by Lentz's method.
+/// below 1e-11 for a, b <= 1e4.
 double BetaI(double a, double b, double x);
 /// The same for x close to 1, where `y` = 1 - x is known without cancellation.
 double BetaI(double a, double b, double x, double y);
@@ -21,9 +20,8 @@ double BetaI(double a, double b, double x, double y);
 double NormalCdf(double z);
 double NormalQuantile(double p);
 
-/// P(|T| >= |t|) of Student's t with nu > 0 degrees of freedom (need not be whole).
-/// Beyond 1e5 degrees by the normal approximation of Abramowitz and Stegun 26.7.8, with
-/// an error of order (t / nu)^2.
+/// P(|T| >= |t|) of Student's t with nu > 0 degrees of freedom (need not be whole, may be
+/// infinite).
 double StudentTwoSided(double t, double nu);
 /// P(T <= t).
 double StudentCdf(double t, double nu);
@@ -32,14 +30,12 @@ double StudentTwoSidedQuantile(double p, double nu);
 
 /// P(X >= x) of chi-square with nu degrees of freedom.
 double ChiSquareSurvival(double x, double nu);
-/// The x with P(X <= x) = p, 0 < p < 1, nu > 0 (relative error 1e-10). Beyond 1e4 degrees
-/// by Wilson and Hilferty's (1931) cube, within 1e-5 relative for 1e-9 < p < 1 - 1e-9.
+/// The x with P(X <= x) = p, 0 < p < 1, nu > 0 (relative error 1e-10).
 double ChiSquareQuantile(double p, double nu);
 
 /// The f with P(F <= f) = p of Snedecor's F with d1 and d2 degrees of freedom, 0.1 to 1e9
-/// each, 0 < p < 1. Relative error 1e-9 up to 1e4 degrees, 1e-7 beyond. From I_x(d1/2,
-/// d2/2) (A&S 26.6.2) by bisection on log f. Infinite or 0 where f leaves the range of
-/// double.
+/// each, 0 < p < 1. Relative error 1e-9 up to 1e4 degrees, 1e-7 beyond. Infinite or 0
+/// where f leaves the range of double.
 double FQuantile(double p, double d1, double d2);
 
 /// P(D_n >= d) of the two-sided Kolmogorov-Smirnov statistic of n samples. Kolmogorov's

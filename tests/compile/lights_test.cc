@@ -64,7 +64,6 @@ TEST_CASE("compile: an emitting mesh becomes one light per triangle",
     CHECK(r.primitive == 2 + i);
     CHECK(r.two_sided == 0);
     CHECK(r.environment == -1);
-    CHECK(r.instance == -1);
     CHECK(scene.geometry.triangles[2 + i].light == static_cast<int>(i));
     CHECK(scene.geometry.triangles[i].light == -1);
   }

@@ -2,20 +2,14 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 
 #include "src/parse/parse.h"
 #include "src/prepare/prepare_scene.h"
 #include "tests/compile/testing.h"
+#include "tests/support/shared_scenes.h"
 
 namespace lanelight {
 namespace {
-
-std::string ScenesFolder() {
-  const char* folder = std::getenv("LANELIGHT_SCENES");
-  return folder ? folder : LANELIGHT_SOURCE_DIR "/../shared/scenes";
-}
 
 void CheckTriangles(const CompiledScene& scene) {
   const Geometry& g = scene.geometry;
@@ -51,13 +45,10 @@ void CheckLights(const CompiledScene& scene) {
 }
 
 TEST_CASE("compile: the shared scenes", "[scene][compile]") {
+  if (!HaveSharedScenes()) return;
   for (const char* name :
        {"cornell-box", "veach-mis", "veach-bidir", "material-testball"}) {
-    const std::string path = ScenesFolder() + "/" + name + "/reference.pbrt";
-    if (!std::filesystem::exists(path)) {
-      WARN("skipped: no " << path);
-      continue;
-    }
+    const std::string path = SharedScenes() / name / "reference.pbrt";
     INFO(path);
     const CompiledScene scene = PrepareScene(ParseScene(path));
     CHECK_FALSE(scene.geometry.triangles.empty());

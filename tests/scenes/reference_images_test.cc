@@ -8,11 +8,11 @@
 // standard errors: ours from the film, the reference's from its two halves.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "src/image/exr.h"
 #include "src/image/image.h"
+#include "tests/support/shared_scenes.h"
 #include "tests/wavefront/render_fixture.h"
 
 namespace lanelight {
@@ -29,11 +29,6 @@ constexpr SharedScene kScenes[] = {
     {"veach-bidir", false, true}, {"veach-ajar", true, true},
     {"coffee", false, false},     {"material-testball", false, false},
     {"spaceship", false, false},  {"dining-room", false, true}};
-
-std::filesystem::path SharedFolder() {
-  if (const char* folder = std::getenv("LANELIGHT_SCENES")) return folder;
-  return std::filesystem::path(LANELIGHT_SOURCE_DIR) / ".." / "shared" / "scenes";
-}
 
 constexpr int kTile = 16;
 
@@ -129,12 +124,9 @@ double UnexplainedTiles(const Comparison& c, const SharedScene& scene) {
 }  // namespace
 
 TEST_CASE("shared scenes match the reference renderer", "[scenes][reference]") {
+  if (!HaveSharedScenes()) return;
   for (const SharedScene& scene : kScenes) {
-    const std::filesystem::path folder = SharedFolder() / scene.name;
-    if (!std::filesystem::exists(folder / "reference.pbrt")) {
-      WARN("skipped: no " << folder << " (set LANELIGHT_SCENES)");
-      continue;
-    }
+    const std::filesystem::path folder = SharedScenes() / scene.name;
     INFO(scene.name);
     const SceneDescription description = ParseScene((folder / "reference.pbrt").string());
     TestRender options;

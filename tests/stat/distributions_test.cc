@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace lanelight::stat {
@@ -62,6 +63,10 @@ TEST_CASE("Student's t has its closed forms for one and two degrees", "[stat]") 
     CHECK(StudentTwoSided(t, 2) == Approx(2 / (s * (s + t))).epsilon(1e-11));
   }
   CHECK(StudentTwoSided(1.7, 1e9) == Approx(2 * NormalCdf(-1.7)).epsilon(1e-7));
+  // The normal distribution is the limit; infinitely many degrees are allowed.
+  const double infinite = std::numeric_limits<double>::infinity();
+  CHECK(StudentTwoSided(1.7, infinite) == 2 * NormalCdf(-1.7));
+  CHECK(StudentTwoSidedQuantile(0.05, infinite) == Approx(-NormalQuantile(0.025)));
   CHECK(StudentTwoSided(2.5, 7.3) == StudentTwoSided(-2.5, 7.3));
   CHECK(StudentCdf(-2.5, 7.3) + StudentCdf(2.5, 7.3) == Approx(1));
   for (double p : {0.9, 0.05, 1e-8}) {
@@ -88,11 +93,14 @@ TEST_CASE("chi-square quantiles invert the distribution function", "[stat]") {
       if (p >= 0.5) CHECK(GammaQ(nu / 2, x / 2) == Approx(1 - p).epsilon(1e-8));
     }
   }
-  // Tables: 3.841459 (A&S 26.8). Continuity where the approximation takes over.
+  // Tables: 3.841459 (A&S 26.8). Wilson and Hilferty's (1931) cube for many degrees.
   CHECK(ChiSquareQuantile(0.95, 1) == Approx(3.841458820694124).epsilon(1e-10));
-  for (double p : {1e-9, 0.05, 0.999}) {
-    const double below = ChiSquareQuantile(p, 1e4) / 1e4;
-    CHECK(ChiSquareQuantile(p, 1.0000001e4) / 1e4 == Approx(below).epsilon(1e-5));
+  for (double nu : {1e4, 1e6, 1e8}) {
+    for (double p : {1e-9, 0.05, 0.999}) {
+      const double v = 2 / (9 * nu);
+      const double cube = std::pow(1 - v + NormalQuantile(p) * std::sqrt(v), 3);
+      CHECK(ChiSquareQuantile(p, nu) / nu == Approx(cube).epsilon(1e-5));
+    }
   }
 }
 

@@ -6,8 +6,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "kernels/warp/sphere-inl.h"
-#include "kernels/warp/triangle-inl.h"
+#include "kernels/warp/hemisphere-inl.h"
 #include "tests/warp/warps.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,7 +18,6 @@ void ApplyWarp(WarpId id, const WarpBatch& w) {
   const DF df;
   for (int i = 0; i < w.n; i += static_cast<int>(hn::Lanes(df))) {
     const VF u0 = hn::LoadU(df, w.u0 + i), u1 = hn::LoadU(df, w.u1 + i);
-    const VF rise = Splat(kConeRise);
     V3 p = Splat3(0, 0, 0);
     VF pdf = u0;
     V2 back = {u0, u1};
@@ -46,23 +44,6 @@ void ApplyWarp(WarpId id, const WarpBatch& w) {
         pdf = PdfInSphere(p.z);
         back = InvertInSphere(p);
         break;
-      case WarpId::kSphere:
-        p = SampleUniformSphere(u0, u1);
-        pdf = PdfUniformSphere();
-        back = InvertUniformSphere(p);
-        break;
-      case WarpId::kCone:
-        p = SampleCone(rise, u0, u1);
-        pdf = PdfCone(rise);
-        back = InvertCone(rise, p);
-        break;
-      case WarpId::kTriangle: {
-        const V2 b = SampleTriangle(u0, u1);
-        p = {b.x, b.y, hn::Zero(df)};
-        pdf = PdfTriangle(Splat(0.5f));
-        back = InvertTriangle(b);
-        break;
-      }
     }
     hn::StoreU(p.x, df, w.x + i);
     hn::StoreU(p.y, df, w.y + i);
@@ -96,9 +77,8 @@ namespace {
 
 constexpr int kCount = 1 << 16;
 constexpr double kPiD = std::numbers::pi;
-constexpr WarpId kWarps[] = {
-    WarpId::kDisk,   WarpId::kCosine, WarpId::kUniformHemisphere, WarpId::kInSphere,
-    WarpId::kSphere, WarpId::kCone,   WarpId::kTriangle};
+constexpr WarpId kWarps[] = {WarpId::kDisk, WarpId::kCosine, WarpId::kUniformHemisphere,
+                             WarpId::kInSphere};
 
 struct DrawnPoints {
   std::vector<float> u0, u1, x, y, z, pdf, back0, back1;
@@ -127,12 +107,6 @@ Coordinates Locate(WarpId id, double x, double y, double z) {
   switch (id) {
     case WarpId::kDisk:
       return {(x + 1) / 2, (y + 1) / 2};
-    case WarpId::kTriangle:
-      return {x, y};
-    case WarpId::kSphere:
-      return {(z + 1) / 2, t};
-    case WarpId::kCone:
-      return {(1 - z) / kConeRise, t};
     default:
       return {z, t};
   }
@@ -144,8 +118,6 @@ double Density(WarpId id, double a, double b) {
       const double x = 2 * a - 1, y = 2 * b - 1;
       return x * x + y * y < 1 ? 4 / kPiD : 0;
     }
-    case WarpId::kTriangle:
-      return a + b < 1 ? 2 : 0;
     case WarpId::kCosine:
       return 2 * a;
     case WarpId::kInSphere:
@@ -202,9 +174,7 @@ TEST_CASE("warps invert, and their densities are the stated ones", "[warp]") {
       for (int i = 0; i < kCount; ++i) {
         // Near the square's image of a point (disk centre, pole) or a seam of the angle
         // the inverse is not determined.
-        const double margin = id == WarpId::kCone ? 1e-2 : 1e-3;
-        if (std::min(p.u0[i], p.u1[i]) < margin ||
-            std::max(p.u0[i], p.u1[i]) > 1 - margin) {
+        if (std::min(p.u0[i], p.u1[i]) < 1e-3 || std::max(p.u0[i], p.u1[i]) > 1 - 1e-3) {
           continue;
         }
         if (id == WarpId::kDisk || id == WarpId::kCosine) {
@@ -218,9 +188,6 @@ TEST_CASE("warps invert, and their densities are the stated ones", "[warp]") {
           case WarpId::kDisk:
             want = 1 / kPiD;
             break;
-          case WarpId::kTriangle:
-            want = 2;
-            break;
           case WarpId::kCosine:
             want = z / kPiD;
             break;
@@ -230,15 +197,9 @@ TEST_CASE("warps invert, and their densities are the stated ones", "[warp]") {
           case WarpId::kUniformHemisphere:
             want = 1 / (2 * kPiD);
             break;
-          case WarpId::kSphere:
-            want = 1 / (4 * kPiD);
-            break;
-          case WarpId::kCone:
-            want = 1 / (2 * kPiD * kConeRise);
-            break;
         }
         density = std::max(density, std::abs(p.pdf[i] / want - 1));
-        if (id != WarpId::kDisk && id != WarpId::kTriangle) {
+        if (id != WarpId::kDisk) {
           const double n =
               std::sqrt(double(p.x[i]) * p.x[i] + double(p.y[i]) * p.y[i] + z * z);
           length = std::max(length, std::abs(n - 1));

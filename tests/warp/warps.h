@@ -3,16 +3,8 @@
 
 namespace lanelight {
 
-enum class WarpId {
-  kDisk,
-  kCosine,
-  kUniformHemisphere,
-  kInSphere,
-  kSphere,
-  kCone,
-  kTriangle
-};
-inline constexpr float kConeRise = 1e-3f;
+enum class WarpId { kDisk, kCosine, kUniformHemisphere, kInSphere };
+
 struct WarpBatch {
   int n;
   const float *u0, *u1;

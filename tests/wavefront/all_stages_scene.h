@@ -1,4 +1,4 @@
-// A scene that needs most of the stages.
+// Two scenes that together need every stage.
 #pragma once
 
 namespace lanelight {
@@ -79,6 +79,47 @@ AttributeEnd
 Material "diffusetransmission"
 Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2.5  -3 3 2.5 ]
   "integer indices" [ 0 1 2 0 2 3 ]
+)";
+
+/// What the other one lacks: an environment image (sky.pfm), mixed materials, the other
+/// diffuse models, a lens, instances, a cut-out.
+inline constexpr const char* kOtherStagesScene = R"(
+LookAt 0 2 -6  0 0.8 0  0 1 0
+Camera "perspective" "float fov" 40 "float lensradius" 0.05 "float focaldistance" 6
+Film "rgb" "integer xresolution" 32 "integer yresolution" 32
+PixelFilter "mitchell"
+Integrator "path" "integer maxdepth" 6
+WorldBegin
+LightSource "infinite" "string filename" "sky.pfm"
+LightSource "point" "point3 from" [ 2 4 -2 ] "rgb I" [ 9 9 9 ]
+MakeNamedMaterial "even" "string type" "diffuse" "string scattering" "uniform"
+MakeNamedMaterial "narrow" "string type" "diffuse" "string scattering" "insphere"
+MakeNamedMaterial "both" "string type" "mix" "string materials" [ "even" "narrow" ]
+Texture "holes" "float" "checkerboard" "float tex1" 1 "float tex2" 0
+ObjectBegin "roof"
+  NamedMaterial "narrow"
+  Shape "trianglemesh" "point3 P" [ -1 2 0  1 2 0  0 3 1 ] "integer indices" [ 0 2 1 ]
+    "normal N" [ 0 0.9 -0.4  0.3 0.9 -0.3  0 0.8 -0.6 ]
+ObjectEnd
+ObjectInstance "roof"
+AttributeBegin
+  Translate 1 -0.5 1
+  ObjectInstance "roof"
+AttributeEnd
+NamedMaterial "both"
+Shape "trianglemesh" "point3 P" [ -5 0 -5  5 0 -5  5 0 5  -5 0 5 ]
+  "point2 uv" [ 0 0 9 0 9 9 0 9 ] "integer indices" [ 0 2 1 0 3 2 ] "texture alpha" "holes"
+NamedMaterial "narrow"
+AttributeBegin
+  Translate 0 -1 0
+  Rotate -90 1 0 0
+  Shape "plane"
+AttributeEnd
+NamedMaterial "even"
+AttributeBegin
+  Translate -0.8 0.7 -1
+  Shape "sphere" "float radius" 0.7
+AttributeEnd
 )";
 
 }  // namespace lanelight

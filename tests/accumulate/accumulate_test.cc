@@ -1,0 +1,272 @@
+// The end of a path: what is written of its sample, and which samples are counted as
+// invalid. Samples of every kind are planted; counts are exact.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include "kernels/simd/target.h"
+#include "kernels/stages.h"
+#include "tests/support/wave_fixture.h"
+
+namespace lanelight {
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kExposure = 2;
+// Not a multiple of any vector: the last batch repeats the last slot, and that sample is
+// an invalid one (122 % kKinds == kNotANumber), which must count once.
+constexpr std::uint32_t kPaths = 123, kCapacity = 160, kStride = 200;
+constexpr int kPlanes = 3 + 7 + 3 + 6;
+constexpr float kUntouched = -77;
+
+enum Kind {
+  kGood,
+  kNegativeZero,  // not below zero: good
+  kNotANumber,
+  kInfinite,
+  kMinusInfinite,
+  kNegative,
+  kOverflow,        // becomes infinite by the exposure
+  kNanAndInfinite,  // in different channels: counts as NaN alone
+  kInfAndNegative,  // counts as infinite alone
+  kTiny,            // the least positive normal number: good
+  kAlmostTooLarge,  // finite after the exposure: good
+  kBadDifferenceNan,
+  kBadDifferenceInf,
+  kBadDifferenceMinusInf,
+  kNegativeDifference,  // good
+  kKinds
+};
+
+struct Variant {
+  bool sign, aov, difference, numbers;
+  FeatureSet features() const {
+    FeatureSet f;
+    if (sign) f.Add(Feature::kControl);
+    if (aov) f.Add(Feature::kAov);
+    return f;
+  }
+};
+
+struct Sample {
+  float color[3], difference[3];
+};
+
+// The planted value stands in channel `c`.
+Sample Plant(Kind kind, int c) {
+  Sample s = {{1, 2, 3}, {0.5f, -0.25f, 4}};
+  const int d = (c + 1) % 3;
+  switch (kind) {
+    case kNegativeZero:
+      s.color[c] = -0.0f;
+      break;
+    case kNotANumber:
+      s.color[c] = kNan;
+      break;
+    case kInfinite:
+      s.color[c] = kInf;
+      break;
+    case kMinusInfinite:
+      s.color[c] = -kInf;
+      break;
+    case kNegative:
+      s.color[c] = -1e-30f;
+      break;
+    case kOverflow:
+      s.color[c] = 3e38f;
+      break;
+    case kNanAndInfinite:
+      s.color[c] = kNan, s.color[d] = kInf;
+      break;
+    case kInfAndNegative:
+      s.color[c] = kInf, s.color[d] = -1;
+      break;
+    case kTiny:
+      s.color[c] = std::numeric_limits<float>::min();
+      break;
+    case kAlmostTooLarge:
+      s.color[c] = 1.7e38f;
+      break;
+    case kBadDifferenceNan:
+      s.difference[c] = kNan;
+      break;
+    case kBadDifferenceInf:
+      s.difference[c] = kInf;
+      break;
+    case kBadDifferenceMinusInf:
+      s.difference[c] = -kInf;
+      break;
+    case kNegativeDifference:
+      s.difference[c] = -1e30f;
+      break;
+    default:
+      break;
+  }
+  return s;
+}
+
+enum class Verdict { kGood, kNan, kInfinite, kNegative };
+
+// What is to become of a sample, said independently of how the kernel finds out.
+Verdict VerdictOf(Kind kind, const Variant& v) {
+  switch (kind) {
+    case kNotANumber:
+    case kNanAndInfinite:
+      return Verdict::kNan;
+    case kInfinite:
+    case kMinusInfinite:
+    case kOverflow:
+    case kInfAndNegative:
+      return Verdict::kInfinite;
+    case kNegative:
+      return v.sign ? Verdict::kGood : Verdict::kNegative;
+    case kBadDifferenceNan:
+    case kBadDifferenceInf:
+    case kBadDifferenceMinusInf:
+      return v.difference ? Verdict::kNan : Verdict::kGood;
+    default:
+      return Verdict::kGood;
+  }
+}
+
+class Finished {
+ public:
+  explicit Finished(const Variant& v) : variant_(v), fixture_(scene_, kCapacity) {
+    PathColumns& p = fixture_.wave.path;
+    samples_.assign(std::size_t{kStride} * kPlanes, kUntouched);
+    fixture_.wave.buffer = {samples_.data(), kStride};
+    fixture_.run.exposure = kExposure;
+    std::mt19937 engine(5);
+    slots_ = Shuffled(kCapacity, engine);
+    outputs_ = Shuffled(kStride, engine);
+    Queue& done = fixture_.wave.queue(QueueId::kDone);
+    for (std::uint32_t i = 0; i < kPaths; ++i) Fill(p, i);
+    std::copy_n(slots_.begin(), kPaths, done.items);
+    done.size = kPaths;
+    if (!v.sign) p.weight = nullptr;
+    if (!v.difference) p.k_r = p.k_g = p.k_b = nullptr;
+    if (!v.numbers) p.first_0 = p.first_1 = p.first_2 = p.first_3 = nullptr;
+  }
+  void Run() { fixture_.Run(AccumulateStage(), variant_.features()); }
+
+  Kind kind(std::uint32_t i) const { return static_cast<Kind>(i % kKinds); }
+  Sample planted(std::uint32_t i) const {
+    return Plant(kind(i), static_cast<int>(i / kKinds % 3));
+  }
+  // With a filter of both signs, every other sample's weight is negative.
+  float Factor(std::uint32_t i) const {
+    return kExposure * (variant_.sign ? Weight(i) : 1);
+  }
+  float Stored(int plane, std::uint32_t i) const {
+    return samples_[static_cast<std::size_t>(plane) * kStride + outputs_[i]];
+  }
+  static float Aov(int k, std::uint32_t i) { return 10.0f * k + i; }
+  static float Number(int k, std::uint32_t i) { return -1.0f - k - 8.0f * i; }
+
+  int PlanesWritten() const {
+    return 3 + 7 * variant_.aov + 3 * variant_.difference + 6 * variant_.numbers;
+  }
+  bool OthersUntouched() const {
+    for (int plane = 0; plane < kPlanes; ++plane) {
+      const std::uint32_t first = plane < PlanesWritten() ? kPaths : 0;
+      for (std::uint32_t i = first; i < kStride; ++i) {
+        if (Stored(plane, i) != kUntouched) return false;
+      }
+    }
+    return true;
+  }
+  bool AllSlotsFree() {
+    const Queue& free = fixture_.wave.queue(QueueId::kFree);
+    return free.size == kPaths &&
+           std::equal(slots_.begin(), slots_.begin() + kPaths, free.items);
+  }
+  const BadSamples& bad() const { return fixture_.wave.bad; }
+
+ private:
+  static std::vector<std::uint32_t> Shuffled(std::uint32_t n, std::mt19937& engine) {
+    std::vector<std::uint32_t> v(n);
+    std::iota(v.begin(), v.end(), 0u);
+    std::shuffle(v.begin(), v.end(), engine);
+    return v;
+  }
+  static float Weight(std::uint32_t i) { return i % 2 ? -1.0f : 1.0f; }
+
+  void Fill(PathColumns& p, std::uint32_t i) {
+    const std::uint32_t slot = slots_[i];
+    const Sample s = planted(i);
+    p.output[slot] = outputs_[i];
+    p.l_r[slot] = s.color[0], p.l_g[slot] = s.color[1], p.l_b[slot] = s.color[2];
+    p.k_r[slot] = s.difference[0], p.k_g[slot] = s.difference[1];
+    p.k_b[slot] = s.difference[2];
+    p.weight[slot] = Weight(i);
+    float* aov[] = {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
+                    p.aov_n_y,      p.aov_n_z,      p.aov_depth};
+    for (int k = 0; k < 7; ++k) aov[k][slot] = Aov(k, i);
+    float* numbers[] = {p.first_0, p.first_1,  p.first_2,
+                        p.first_3, p.u_film_0, p.u_film_1};
+    for (int k = 0; k < 6; ++k) numbers[k][slot] = Number(k, i);
+  }
+
+  const Variant variant_;
+  CompiledScene scene_;
+  WaveFixture fixture_;
+  std::vector<float> samples_;
+  std::vector<std::uint32_t> slots_, outputs_;
+};
+
+constexpr Variant kVariants[] = {
+    {false, false, false, false}, {false, true, false, false},
+    {true, false, false, false},  {true, true, false, false},
+    {true, false, true, false},   {true, true, true, false},
+    {true, false, false, true},   {true, true, false, true}};
+
+void CheckSample(const Finished& f, const Variant& v, std::uint32_t i) {
+  const Sample s = f.planted(i);
+  const bool good = VerdictOf(f.kind(i), v) == Verdict::kGood;
+  INFO("sample " << i << " of kind " << f.kind(i));
+  for (int c = 0; c < 3; ++c) {
+    CHECK(f.Stored(c, i) == (good ? f.Factor(i) * s.color[c] : 0));
+  }
+  int plane = 3;
+  for (int k = 0; v.aov && k < 7; ++k) {
+    CHECK(f.Stored(plane++, i) == Finished::Aov(k, i));
+  }
+  for (int c = 0; v.difference && c < 3; ++c) {
+    CHECK(f.Stored(plane++, i) == (good ? f.Factor(i) * s.difference[c] : 0));
+  }
+  for (int k = 0; v.numbers && k < 6; ++k) {
+    CHECK(f.Stored(plane++, i) == Finished::Number(k, i));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("invalid samples are counted by kind and written as zero", "[accumulate]") {
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    for (const Variant& v : kVariants) {
+      CAPTURE(target, v.sign, v.aov, v.difference, v.numbers);
+      Finished f(v);
+      f.Run();
+      std::uint64_t counts[4] = {};
+      for (std::uint32_t i = 0; i < kPaths; ++i) {
+        ++counts[static_cast<int>(VerdictOf(f.kind(i), v))];
+        CheckSample(f, v, i);
+      }
+      CHECK(f.bad().nan == counts[1]);
+      CHECK(f.bad().infinite == counts[2]);
+      CHECK(f.bad().negative == counts[3]);
+      CHECK((counts[1] > 10 && counts[2] > 20 && (counts[3] > 5) == !v.sign));
+      CHECK(VerdictOf(f.kind(kPaths - 1), v) == Verdict::kNan);
+      CHECK(f.AllSlotsFree());
+      CHECK(f.OthersUntouched());
+    }
+  }
+  ForceTarget("");
+}
+
+}  // namespace lanelight

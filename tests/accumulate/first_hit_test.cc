@@ -1,0 +1,145 @@
+// Auxiliary output of the first hit, and the light of unoccluded shadow rays.
+#include <catch2/catch.hpp>
+
+#include "kernels/simd/target.h"
+#include "kernels/stages.h"
+#include "tests/support/wave_fixture.h"
+
+namespace lanelight {
+namespace {
+
+constexpr std::uint32_t kPaths = 77;
+constexpr float kUntouched = -77;
+
+// One material of every kind; colours that differ by material and channel.
+CompiledScene AllKinds() {
+  CompiledScene scene;
+  MaterialTable& m = scene.materials;
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(ShadeKind::kCount); ++k) {
+    m.kind.push_back(k);
+    m.color0_r.push_back(0.1f + 0.05f * k);
+    m.color0_g.push_back(0.2f + 0.05f * k);
+    m.color0_b.push_back(0.3f + 0.05f * k);
+    m.color1_r.push_back(1.0f + k);
+    m.color1_g.push_back(1.5f + k);
+    m.color1_b.push_back(2.0f + k);
+  }
+  return scene;
+}
+
+// Reflectance at normal incidence of a metal n + ik in air.
+double Metal(double n, double k) {
+  return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
+}
+
+// What the albedo of a kind is, for colours c0 and c1 of one channel.
+double Albedo(ShadeKind kind, double c0, double c1) {
+  switch (kind) {
+    case ShadeKind::kConductorSmooth:
+    case ShadeKind::kConductorRough:
+    case ShadeKind::kCoatedConductor:
+      return Metal(c0, c1);
+    case ShadeKind::kDielectricSmooth:
+    case ShadeKind::kDielectricRough:
+    case ShadeKind::kThinDielectric:
+      return 1;
+    default:
+      return c0;
+  }
+}
+
+bool IsFirstHit(std::uint32_t i) { return i % 3 != 1; }
+
+// Paths on a surface, some of them at their first hit.
+void FillHits(WaveFixture& f, std::uint32_t materials) {
+  PathColumns& p = f.wave.path;
+  for (std::uint32_t i = 0; i < kPaths; ++i) {
+    p.depth[i] = IsFirstHit(i) ? 0 : i % 5 + 1;
+    p.material[i] = i % materials;
+    p.t[i] = 2.0f + i;
+    p.ng_x[i] = 1 + i, p.ng_y[i] = 2 + i, p.ng_z[i] = 3 + i;
+    p.ns_x[i] = -1.0f - i, p.ns_y[i] = -2.0f - i, p.ns_z[i] = -3.0f - i;
+    p.color0_r[i] = 0.9f - 0.01f * i, p.color0_g[i] = 0.8f - 0.01f * i;
+    p.color0_b[i] = 0.7f - 0.005f * i;
+    for (float* aov : {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
+                       p.aov_n_y, p.aov_n_z, p.aov_depth}) {
+      aov[i] = kUntouched;
+    }
+  }
+  f.QueueAll(QueueId::kSurface, kPaths);
+}
+
+void CheckHit(const PathColumns& p, const MaterialTable& m, std::uint32_t i,
+              const FeatureSet& features) {
+  INFO("path " << i << ", kind " << m.kind[p.material[i]]);
+  if (!IsFirstHit(i)) {
+    CHECK(p.aov_albedo_g[i] == kUntouched);
+    CHECK(p.aov_n_z[i] == kUntouched);
+    CHECK(p.aov_depth[i] == kUntouched);
+    return;
+  }
+  const std::uint32_t id = p.material[i];
+  const auto kind = static_cast<ShadeKind>(m.kind[id]);
+  const bool textured = features.Has(Feature::kTextures);
+  const float r = textured ? p.color0_r[i] : m.color0_r[id];
+  const float g = textured ? p.color0_g[i] : m.color0_g[id];
+  const float b = textured ? p.color0_b[i] : m.color0_b[id];
+  CHECK(p.aov_albedo_r[i] == Approx(Albedo(kind, r, m.color1_r[id])).epsilon(1e-6));
+  CHECK(p.aov_albedo_g[i] == Approx(Albedo(kind, g, m.color1_g[id])).epsilon(1e-6));
+  CHECK(p.aov_albedo_b[i] == Approx(Albedo(kind, b, m.color1_b[id])).epsilon(1e-6));
+  const bool shading = features.Has(Feature::kVertexNormals);
+  CHECK(p.aov_n_x[i] == (shading ? p.ns_x[i] : p.ng_x[i]));
+  CHECK(p.aov_n_y[i] == (shading ? p.ns_y[i] : p.ng_y[i]));
+  CHECK(p.aov_n_z[i] == (shading ? p.ns_z[i] : p.ng_z[i]));
+  CHECK(p.aov_depth[i] == p.t[i]);
+}
+
+}  // namespace
+
+TEST_CASE("aov: albedo of every kind, normal and depth, at the first hit alone",
+          "[accumulate]") {
+  const CompiledScene scene = AllKinds();
+  const FeatureSet variants[] = {{},
+                                 {Feature::kVertexNormals},
+                                 {Feature::kTextures},
+                                 {Feature::kTextures, Feature::kVertexNormals}};
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    for (const FeatureSet& features : variants) {
+      CAPTURE(target, features.Has(Feature::kTextures));
+      WaveFixture f(scene, kPaths);
+      FillHits(f, static_cast<std::uint32_t>(scene.materials.size()));
+      f.Run(AovStage(), features);
+      for (std::uint32_t i = 0; i < kPaths; ++i) {
+        CheckHit(f.wave.path, scene.materials, i, features);
+      }
+    }
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("connect: the queued paths gain what their shadow rays carry", "[accumulate]") {
+  const CompiledScene scene;
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    CAPTURE(target);
+    WaveFixture f(scene, kPaths);
+    PathColumns& p = f.wave.path;
+    Queue& shadow = f.wave.queue(QueueId::kShadow);
+    for (std::uint32_t i = 0; i < kPaths; ++i) {
+      p.l_r[i] = i, p.l_g[i] = 2 * i, p.l_b[i] = 3 * i;
+      p.sh_r[i] = 1, p.sh_g[i] = 0.5f, p.sh_b[i] = i;
+      if (i % 4 != 2) shadow.items[shadow.size++] = i;
+    }
+    f.Run(ConnectStage(), {});
+    for (std::uint32_t i = 0; i < kPaths; ++i) {
+      const float lit = i % 4 != 2;
+      CHECK(p.l_r[i] == i + lit);
+      CHECK(p.l_g[i] == 2 * i + 0.5f * lit);
+      CHECK(p.l_b[i] == 3 * i + i * lit);
+    }
+  }
+  ForceTarget("");
+}
+
+}  // namespace lanelight

@@ -1,0 +1,332 @@
+#include "tests/lights/light_truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "src/compile/environment.h"
+#include "src/image/octahedral.h"
+#include "tests/support/wave_fixture.h"
+
+namespace lanelight::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Vec3d ToVec(const float* v) { return {v[0], v[1], v[2]}; }
+void Store(Vec3d v, float* out) {
+  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+}
+
+// An image with dark corners and a bright texel, so that probabilities differ widely.
+Environment Sky(int size, double turn) {
+  Image image = MakeImage(size, size, {"R", "G", "B"});
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      for (int c = 0; c < 3; ++c) image.At(x, y, c) = 0.2f + (x * 3 + y * 5 + c) % 7;
+    }
+  }
+  image.At(size / 2, size / 3, 0) = 30;
+  Light light;
+  light.kind = LightKind::kInfinite;
+  light.world_from_light = Transform::Rotate(turn, {1, 2, -1});
+  return CompileEnvironment(light, image);
+}
+
+const Environment& EnvironmentOf(const CompiledScene& scene, const LightRecord& light) {
+  return scene.lights.environments[static_cast<std::size_t>(light.environment)];
+}
+
+double SpotFalloff(const LightRecord& light, Vec3d w) {
+  const double cosine = -Dot(w, ToVec(light.direction));
+  const double low = light.cos_total, high = light.cos_falloff;
+  const double x = std::clamp((cosine - low) / (high - low), 0.0, 1.0);
+  return x * x * (3 - 2 * x);
+}
+
+struct Corners {
+  Vec3d p[3];
+};
+Corners CornersOf(const CompiledScene& scene, const LightRecord& light) {
+  const TriangleRecord& t = scene.geometry.triangles[light.primitive];
+  return {{ToVec(t.p[0]), ToVec(t.p[1]), ToVec(t.p[2])}};
+}
+const SphereRecord& SphereOf(const CompiledScene& scene, const LightRecord& light) {
+  return scene.geometry.spheres[light.primitive - scene.geometry.ranges.spheres];
+}
+const DiskRecord& DiskOf(const CompiledScene& scene, const LightRecord& light) {
+  return scene.geometry.disks[light.primitive - scene.geometry.ranges.disks];
+}
+
+// Completes what lies on a plane with this normal at distance t.
+void OnSurface(SeenLight& seen, const LightRecord& light, Vec3d n, Vec3d w) {
+  seen.cosine = std::abs(Dot(n, w));
+  seen.facing = light.two_sided != 0 || Dot(n, w) < 0;
+  seen.pdf = seen.distance * seen.distance / (light.area * seen.cosine);
+}
+
+SeenLight LookAtTriangle(const CompiledScene& scene, const LightRecord& light, Vec3d from,
+                         Vec3d w) {
+  SeenLight seen;
+  const Corners c = CornersOf(scene, light);
+  const Vec3d e1 = c.p[1] - c.p[0], e2 = c.p[2] - c.p[0], n = Cross(e1, e2);
+  seen.distance = Dot(c.p[0] - from, n) / Dot(w, n);
+  const Vec3d q = from + w * seen.distance - c.p[0];
+  const double b1 = Dot(Cross(q, e2), n) / Dot(n, n);
+  const double b2 = Dot(Cross(e1, q), n) / Dot(n, n);
+  seen.met = seen.distance > 0 && std::min({b1, b2, 1 - b1 - b2}) > -1e-4;
+  OnSurface(seen, light, Normalize(n), w);
+  return seen;
+}
+
+SeenLight LookAtDisk(const CompiledScene& scene, const LightRecord& light, Vec3d from,
+                     Vec3d w) {
+  SeenLight seen;
+  const DiskRecord& disk = DiskOf(scene, light);
+  const Vec3d center = ToVec(disk.center), n = ToVec(disk.normal);
+  seen.distance = Dot(center - from, n) / Dot(w, n);
+  const double r = Length(from + w * seen.distance - center);
+  seen.met = seen.distance > 0 && r < disk.radius * (1 + 1e-4) &&
+             r > disk.inner_radius * (1 - 1e-4);
+  OnSurface(seen, light, Normalize(n), w);
+  return seen;
+}
+
+// From outside the sphere is sampled by its cone of directions, from inside by its area.
+SeenLight LookAtSphere(const CompiledScene& scene, const LightRecord& light, Vec3d from,
+                       Vec3d w) {
+  SeenLight seen;
+  const SphereRecord& sphere = SphereOf(scene, light);
+  const Vec3d c = ToVec(sphere.center) - from;
+  const double r = sphere.radius, d2 = Dot(c, c), along = Dot(c, w);
+  const double half2 = r * r - Dot(c - w * along, c - w * along);
+  const double half = std::sqrt(std::max(0.0, half2));
+  const bool outside = d2 > r * r;
+  seen.distance = outside ? along - half : along + half;
+  seen.met = half2 > -1e-4 * r * r && seen.distance > 0;
+  const Vec3d n = Normalize(w * seen.distance - c) * double{sphere.normal_sign};
+  OnSurface(seen, light, n, w);
+  if (outside) seen.pdf = 1 / (2 * kPi * (1 - std::sqrt(1 - r * r / d2)));
+  return seen;
+}
+
+SeenLight LookAtSky(const CompiledScene& scene, const LightRecord& light, Vec3d w) {
+  SeenLight seen;
+  seen.met = seen.facing = true;
+  seen.distance = std::numeric_limits<double>::infinity();
+  if (light.environment < 0) {
+    seen.radiance = ToVec(light.radiance);
+    seen.pdf = 1 / (4 * kPi);
+    return seen;
+  }
+  const Environment& e = EnvironmentOf(scene, light);
+  const float* m = e.light_from_scene;
+  const Vec3d local = {Dot(ToVec(m), w), Dot(ToVec(m + 3), w), Dot(ToVec(m + 6), w)};
+  const auto [u, v] = DirectionToOctahedral(local);
+  const int x = std::clamp(static_cast<int>(u * e.size), 0, e.size - 1);
+  const int y = std::clamp(static_cast<int>(v * e.size), 0, e.size - 1);
+  // Rounding may move a direction over the edge of a texel.
+  const double edge = std::min({std::abs(u * e.size - std::round(u * e.size)),
+                                std::abs(v * e.size - std::round(v * e.size))});
+  seen.met = edge > 1e-5 * e.size;
+  seen.radiance = ToVec(&e.rgb[3 * static_cast<std::size_t>(y * e.size + x)]);
+  double total = 0;
+  for (std::size_t i = 0; i < e.rgb.size(); i += 3) total += Luminance(ToVec(&e.rgb[i]));
+  seen.pdf = Luminance(seen.radiance) / total * e.size * e.size / (4 * kPi);
+  return seen;
+}
+
+}  // namespace
+
+LightScene::LightScene() {
+  AddShapes();
+  const PrimitiveRanges& r = scene.geometry.ranges;
+  const auto disk_area = [](double outer, double inner) {
+    return kPi * (outer * outer - inner * inner);
+  };
+  AddLight("triangle", LightShape::kTriangle, 1, 0);
+  AddLight("two-sided triangle", LightShape::kTriangle, 2, 0);
+  AddLight("sphere", LightShape::kSphere, r.spheres + 1, 4 * kPi * 0.49);
+  AddLight("room of a sphere", LightShape::kSphere, r.spheres + 2, 4 * kPi * 400);
+  AddLight("two-sided sphere", LightShape::kSphere, r.spheres + 3, 4 * kPi * 225);
+  AddLight("tiny sphere", LightShape::kSphere, r.spheres + 4, 4 * kPi * 1e-6);
+  AddLight("sphere that emits inward", LightShape::kSphere, r.spheres + 5, 4 * kPi);
+  AddLight("ring", LightShape::kDisk, r.disks + 1, disk_area(1.2, 0.5));
+  AddLight("two-sided disk", LightShape::kDisk, r.disks + 2, disk_area(0.8, 0));
+  AddLight("point", LightShape::kPoint, 0xffffffffu, 0);
+  AddLight("spot", LightShape::kSpot, 0xffffffffu, 0);
+  AddLight("distant", LightShape::kDistant, 0xffffffffu, 0);
+  AddLight("constant sky", LightShape::kInfiniteConstant, 0xffffffffu, 0);
+  AddLight("sky", LightShape::kInfiniteImage, 0xffffffffu, 0);
+  AddLight("another sky", LightShape::kInfiniteImage, 0xffffffffu, 0);
+  scene.lights.environments = {Sky(4, 0), Sky(13, 70)};
+  lights[13].record.environment = 0, lights[14].record.environment = 1;
+  AddLight("another point", LightShape::kPoint, 0xffffffffu, 0);
+  Store({-1.5, 2.5, 0.5}, lights[15].record.position);
+  StoreRecords();
+}
+
+void LightScene::AddShapes() {
+  Geometry g;
+  g.triangles = {MakeTriangle({9, 9, 9}, {9, 8, 9}, {9, 9, 8}),
+                 MakeTriangle({-1, -1, 3}, {0.5f, 1.5f, 2.5f}, {1, -1, 3.5f}),
+                 MakeTriangle({2, -1, 0.5f}, {2.2f, 1, 0}, {1.9f, 0, 2}),
+                 MakeTriangle({-9, 9, 9}, {9, -8, 9}, {9, 9, -8})};
+  g.spheres = {MakeSphere({8, 0, 0}, 1),     MakeSphere({0, 0, 4}, 0.7f),
+               MakeSphere({0, 0, 0}, 20),    MakeSphere({0.5f, 0, 0}, 15),
+               MakeSphere({3, 3, 3}, 1e-3f), MakeSphere({-3, 0, 1}, 1)};
+  g.spheres[2].normal_sign = g.spheres[5].normal_sign = -1;
+  g.disks = {MakeDisk({0, 8, 0}, {0, 1, 0}, 1),
+             MakeDisk({0.5f, 3, 0}, {0.1f, -1, 0.2f}, 1.2f, 0.5f),
+             MakeDisk({0, -3, 0.5f}, {0.3f, -1, 0}, 0.8f)};
+  g.planes = {MakePlane({0, 0, -9}, {0, 0, 1})};
+  scene = MakeScene(std::move(g));
+}
+
+void LightScene::AddLight(const char* name, LightShape shape, std::uint32_t primitive,
+                          double area) {
+  const auto i = static_cast<int>(lights.size());
+  LightRecord record{};
+  record.shape = static_cast<std::uint32_t>(shape);
+  record.two_sided = std::string(name).rfind("two-sided", 0) == 0;
+  record.pmf = 0.02f + 0.005f * static_cast<float>(i);
+  record.primitive = primitive;
+  record.environment = -1;
+  Store({1 + 0.5 * i, 2 + 0.25 * i, 3 - 0.125 * i}, record.radiance);
+  if (shape == LightShape::kInfiniteImage) Store({1, 1, 1}, record.radiance);
+  Store({1, 2, 1.5}, record.position);
+  Store(Normalize(Vec3d{-0.4, -0.8, -0.5}), record.direction);
+  record.cos_total = 0.5f, record.cos_falloff = 0.9f;
+  if (shape == LightShape::kTriangle) {
+    const Corners c = CornersOf(scene, record);
+    area = Length(Cross(c.p[1] - c.p[0], c.p[2] - c.p[0])) / 2;
+  }
+  record.area = static_cast<float>(area);
+  lights.push_back({name, record});
+}
+
+// Records into the table, and what shapes and escaped rays know of them.
+void LightScene::StoreRecords() {
+  Geometry& g = scene.geometry;
+  for (auto& t : g.triangles) t.light = -1;
+  for (auto& s : g.spheres) s.light = -1;
+  for (auto& d : g.disks) d.light = -1;
+  scene.lights.lights.clear();
+  scene.lights.infinite.clear();
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const LightRecord& r = lights[i].record;
+    const auto index = static_cast<std::int32_t>(i);
+    scene.lights.lights.push_back(r);
+    switch (static_cast<LightShape>(r.shape)) {
+      case LightShape::kTriangle:
+        g.triangles[r.primitive].light = index;
+        break;
+      case LightShape::kSphere:
+        g.spheres[r.primitive - g.ranges.spheres].light = index;
+        break;
+      case LightShape::kDisk:
+        g.disks[r.primitive - g.ranges.disks].light = index;
+        break;
+      case LightShape::kInfiniteConstant:
+      case LightShape::kInfiniteImage:
+        scene.lights.infinite.push_back(static_cast<std::uint32_t>(i));
+        break;
+      default:
+        break;
+    }
+  }
+}
+
+void LightScene::Keep(std::size_t i) {
+  lights = {lights[i]};
+  StoreRecords();
+}
+
+void LightScene::AddOthers(int count) {
+  for (int i = 0; i < count; ++i) {
+    AddLight("another point", LightShape::kPoint, 0xffffffffu, 0);
+  }
+  StoreRecords();
+}
+
+SeenLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from,
+               Vec3d w) {
+  SeenLight seen;
+  switch (static_cast<LightShape>(light.shape)) {
+    case LightShape::kTriangle:
+      seen = LookAtTriangle(scene, light, from, w);
+      break;
+    case LightShape::kSphere:
+      seen = LookAtSphere(scene, light, from, w);
+      break;
+    case LightShape::kDisk:
+      seen = LookAtDisk(scene, light, from, w);
+      break;
+    case LightShape::kInfiniteConstant:
+    case LightShape::kInfiniteImage:
+      return LookAtSky(scene, light, w);
+    case LightShape::kPoint:
+    case LightShape::kSpot: {
+      const Vec3d to = ToVec(light.position) - from;
+      seen.met = Length(Normalize(to) - w) < 1e-6;
+      seen.facing = true;
+      seen.distance = Length(to);
+      const bool spot = light.shape == static_cast<std::uint32_t>(LightShape::kSpot);
+      const double falloff = spot ? SpotFalloff(light, w) : 1;
+      seen.radiance = ToVec(light.radiance) * (falloff / Dot(to, to));
+      return seen;
+    }
+    case LightShape::kDistant:
+      seen.met = Length(ToVec(light.direction) - w) < 1e-6;
+      seen.facing = true;
+      seen.distance = std::numeric_limits<double>::infinity();
+      seen.radiance = ToVec(light.radiance);
+      return seen;
+  }
+  seen.radiance = ToVec(light.radiance);
+  return seen;
+}
+
+SolidAngle SolidAngleOf(const CompiledScene& scene, const LightRecord& light,
+                        Vec3d from) {
+  const auto cap = [](double cosine, Vec3d axis) {
+    return SolidAngle{2 * kPi * (1 - cosine), axis * (kPi * (1 - cosine * cosine))};
+  };
+  switch (static_cast<LightShape>(light.shape)) {
+    case LightShape::kTriangle: {
+      // Van Oosterom and Strackee 1983; Lambert's formula for the moment.
+      const Corners c = CornersOf(scene, light);
+      Vec3d r[3], moment;
+      for (int k = 0; k < 3; ++k) r[k] = Normalize(c.p[k] - from);
+      const double volume = Dot(r[0], Cross(r[1], r[2]));
+      const double angle =
+          2 * std::atan2(std::abs(volume),
+                         1 + Dot(r[0], r[1]) + Dot(r[1], r[2]) + Dot(r[2], r[0]));
+      for (int k = 0; k < 3; ++k) {
+        const Vec3d edge = Cross(r[k], r[(k + 1) % 3]);
+        const double theta = std::atan2(Length(edge), Dot(r[k], r[(k + 1) % 3]));
+        moment += Normalize(edge) * (theta / 2);
+      }
+      return {angle, volume < 0 ? -moment : moment};
+    }
+    case LightShape::kSphere: {
+      const SphereRecord& sphere = SphereOf(scene, light);
+      const Vec3d to = ToVec(sphere.center) - from;
+      const double s2 = sphere.radius * sphere.radius / Dot(to, to);
+      if (s2 > 1) return {4 * kPi, {}};
+      return cap(std::sqrt(1 - s2), Normalize(to));
+    }
+    case LightShape::kDisk: {
+      const DiskRecord& disk = DiskOf(scene, light);
+      const Vec3d to = ToVec(disk.center) - from;
+      const auto cosine = [&](double r) { return 1 / std::hypot(1, r / Length(to)); };
+      const SolidAngle outer = cap(cosine(disk.radius), Normalize(to));
+      const SolidAngle inner = cap(cosine(disk.inner_radius), Normalize(to));
+      return {outer.steradians - inner.steradians, outer.moment - inner.moment};
+    }
+    default:
+      return {4 * kPi, {}};
+  }
+}
+
+}  // namespace lanelight::test

@@ -1,0 +1,55 @@
+// Lights of every shape, put together by hand, and what a point sees of them: plain
+// formulas in double precision, of which the kernels know nothing.
+#pragma once
+
+#include <vector>
+
+#include "src/compiled/scene.h"
+
+namespace lanelight::test {
+
+/// Lights that a light stage can sample, each with a name for messages. Radiances,
+/// selection probabilities and sides differ.
+struct NamedLight {
+  const char* name;
+  LightRecord record;
+};
+
+/// Triangles, spheres and disks that emit, among dark ones, and lights without a shape:
+/// sixteen lights, as many as the widest vector has lanes.
+struct LightScene {
+  CompiledScene scene;
+  std::vector<NamedLight> lights;
+
+  LightScene();
+  /// Only light `i`; what emitted otherwise is dark.
+  void Keep(std::size_t i);
+  /// `count` point lights more, that nobody selects.
+  void AddOthers(int count);
+
+ private:
+  void AddShapes();
+  void AddLight(const char* name, LightShape shape, std::uint32_t primitive, double area);
+  void StoreRecords();
+};
+
+/// What lies along the unit direction `w` from `from`, if the light is met there.
+struct SeenLight {
+  bool met = false;     // within rounding of its edges
+  bool facing = false;  // the side that emits
+  double distance = 0;
+  double cosine = 1;  // of the light's normal with the direction, 1 without a surface
+  double pdf = 0;     // of sampling `w`, light selection not included; 0: delta light
+  Vec3d radiance;     // delta lights: radiance / pdf
+};
+SeenLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from, Vec3d w);
+
+/// Solid angle under which the light is seen, and the integral of the direction over it;
+/// closed forms. Disks: from points of their axis only.
+struct SolidAngle {
+  double steradians = 0;
+  Vec3d moment;
+};
+SolidAngle SolidAngleOf(const CompiledScene& scene, const LightRecord& light, Vec3d from);
+
+}  // namespace lanelight::test
