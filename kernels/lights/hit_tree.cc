@@ -22,7 +22,9 @@ HWY_INLINE VF ClimbingProbability(const LightTree& tree, VI node, V3 p) {
   for (;;) {
     const auto inner = hn::Gt(node, hn::Zero(di));  // the root is 0
     if (hn::AllFalse(di, inner)) return pmf;
-    const VI parent = LightNodes(tree, node).I(offsetof(LightNode, parent));
+    // The root has none: lanes that are there read the root again.
+    const VI parent =
+        hn::IfThenElseZero(inner, LightNodes(tree, node).I(offsetof(LightNode, parent)));
     const VI first =
         hn::IfThenElseZero(inner, LightNodes(tree, parent).I(offsetof(LightNode, child)));
     const ChildProbabilities go = ProbabilitiesOf(tree, first, p);
