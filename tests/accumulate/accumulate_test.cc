@@ -48,6 +48,8 @@ struct Variant {
     FeatureSet f;
     if (sign) f.Add(Feature::kControl);
     if (aov) f.Add(Feature::kAov);
+    if (difference) f.Add(Feature::kControlDifference);
+    if (numbers) f.Add(Feature::kRegressionControl);
     return f;
   }
 };
@@ -140,6 +142,7 @@ class Finished {
     samples_.assign(std::size_t{kStride} * kPlanes, kUntouched);
     fixture_.wave.buffer = {samples_.data(), kStride};
     fixture_.run.exposure = kExposure;
+    fixture_.run.planes = SamplePlanes(v.features());
     std::mt19937 engine(5);
     slots_ = Shuffled(kCapacity, engine);
     outputs_ = Shuffled(kStride, engine);
@@ -149,7 +152,7 @@ class Finished {
     done.size = kPaths;
     if (!v.sign) p.weight = nullptr;
     if (!v.difference) p.k_r = p.k_g = p.k_b = nullptr;
-    if (!v.numbers) p.first_0 = p.first_1 = p.first_2 = p.first_3 = nullptr;
+    if (!v.numbers) p.first_bsdf_0 = nullptr;
   }
   void Run() { fixture_.Run(AccumulateStage(), variant_.features()); }
 
@@ -184,7 +187,7 @@ class Finished {
     return free.size == kPaths &&
            std::equal(slots_.begin(), slots_.begin() + kPaths, free.items);
   }
-  const BadSamples& bad() const { return fixture_.wave.bad; }
+  const Health& bad() const { return fixture_.wave.health; }
 
  private:
   static std::vector<std::uint32_t> Shuffled(std::uint32_t n, std::mt19937& engine) {
@@ -206,8 +209,8 @@ class Finished {
     float* aov[] = {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
                     p.aov_n_y,      p.aov_n_z,      p.aov_depth};
     for (int k = 0; k < 7; ++k) aov[k][slot] = Aov(k, i);
-    float* numbers[] = {p.first_0, p.first_1,  p.first_2,
-                        p.first_3, p.u_film_0, p.u_film_1};
+    float* numbers[] = {p.first_bsdf_0,  p.first_bsdf_1, p.first_light_0,
+                        p.first_light_1, p.first_film_0, p.first_film_1};
     for (int k = 0; k < 6; ++k) numbers[k][slot] = Number(k, i);
   }
 

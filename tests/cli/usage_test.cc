@@ -85,8 +85,8 @@ TEST_CASE("info prints the target, threads and libraries", "[cli]") {
   const ProcessResult r = RunLanelight({"info", "--threads", "1"});
   CHECK(r.exit_code == kExitGood);
   const std::string worst = AvailableTargets().back();
-  for (const std::string& word : {std::string("target"), std::string("lanes"), worst, "threads", "highway", "onetbb",
-                           "openexr", "fmt", "nlohmann_json", "cli11"}) {
+  for (const std::string& word : std::vector<std::string>{"target", "lanes", worst, "threads", "highway", "onetbb",
+                                "openexr", "fmt", "nlohmann_json", "cli11"}) {
     CHECK_THAT(r.out, Contains(word));
   }
   // The same commit as --version has.

@@ -28,7 +28,8 @@ struct View {
 constexpr View kViews[] = {{"pinhole", CameraKind::kPerspective, 0, false},
                            {"shifted pinhole", CameraKind::kPerspective, 0, true},
                            {"lens", CameraKind::kPerspective, 0.3, false},
-                           {"orthographic", CameraKind::kOrthographic, 0, false}};
+                           {"orthographic", CameraKind::kOrthographic, 0, false},
+                           {"orthographic lens", CameraKind::kOrthographic, 0.3, false}};
 
 Camera Describe(const View& view) {
   Camera camera;
@@ -45,7 +46,6 @@ Camera Describe(const View& view) {
 
 FeatureSet FeaturesOf(const View& view, const CompiledFilter& filter) {
   FeatureSet f;
-  if (view.kind == CameraKind::kOrthographic) f.Add(Feature::kOrthographic);
   if (view.lens_radius > 0) f.Add(Feature::kLens);
   if (!filter.is_box) f.Add(Feature::kFiltered);
   return f;
@@ -74,7 +74,9 @@ struct Shot {
       p.u_lens_0[i] = unit(), p.u_lens_1[i] = unit();
     }
     fixture.QueueAll(QueueId::kCamera, kPaths);
-    fixture.Run(CameraStage(), FeaturesOf(view, scene.filter));
+    const bool orthographic = view.kind == CameraKind::kOrthographic;
+    fixture.Run(orthographic ? OrthographicCameraStage() : PerspectiveCameraStage(),
+                FeaturesOf(view, scene.filter));
   }
   // Back in the file's units.
   Vec3d Origin(std::uint32_t i) const {
@@ -240,11 +242,11 @@ TEST_CASE("a path begins with nothing gathered and its whole throughput", "[gene
                                 p.aov_n_y, p.aov_n_z, p.aov_depth}) {
         REQUIRE(zero[i] == 0);
       }
-      for (const float* none : {p.first_0, p.first_1, p.first_2, p.first_3}) {
+      for (const float* none : {p.first_bsdf_0, p.first_bsdf_1, p.first_light_0,
+                                p.first_light_1}) {
         REQUIRE(none[i] == -1);
       }
       REQUIRE(p.t[i] == std::numeric_limits<float>::infinity());
-      REQUIRE(p.depth[i] == 0);
       REQUIRE(p.prim[i] == kNoPrimitive);
     }
     const Queue& active = shot.fixture.wave.queue(QueueId::kActive);

@@ -82,8 +82,8 @@ struct PairedPaths {
         if (!Left(i)) queue.items[queue.size++] = i;
       }
     }
-    fixture.Run(AntitheticCameraStage(), {Feature::kAntithetic});
-    fixture.Run(AntitheticBounceStage(), {Feature::kAntithetic});
+    fixture.Run(AntitheticCameraStage(), {Feature::kAntitheticPairs});
+    fixture.Run(AntitheticBounceStage(), {Feature::kAntitheticPairs});
   }
   static bool Left(std::uint32_t i) { return i % 10 == 9; }
 };

@@ -28,7 +28,7 @@ constexpr std::uint32_t kScrambled = 0x7fdeadffu;  // a NaN, an absurd index
 struct Case {
   const char* scene;
   const char* strategy;
-  PilotPass pilot = PilotPass::kNone;
+  bool records = false;  // a training pass that records
 };
 
 class Checker {
@@ -41,9 +41,11 @@ class Checker {
     PlanOptions options;
     options.max_depth = 5;
     options.wavefront = 300;
-    options.aov = c.pilot == PilotPass::kNone;
-    options.pilot = c.pilot;
-    if (c.pilot != PilotPass::kNone) options.roulette = Roulette::kThroughput;
+    options.aov = !c.records;
+    if (c.records) {
+      options.training = FeatureSet{Feature::kRecordsPaths, Feature::kOtherEvents};
+      options.roulette = Roulette::kThroughput;
+    }
     plan_ = MakePlan(scene_, options);
     tables_ = MakeStrategyTables(scene_);
     run_ = MakeRunParameters(scene_, plan_, GroupSize(scene_.strategy, kSamples));
@@ -225,7 +227,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "points=stratified,directions=light"},
       {kAllStagesScene, "roulette=adjoint"},
       {kAllStagesScene, "roulette=efficiency"},
-      {kAllStagesScene, "points=sobol", PilotPass::kRecord},
+      {kAllStagesScene, "points=sobol", true},
       {kOtherStagesScene, "points=sobol"},
       {kOtherStagesScene, "directions=bsdf,pairs=antithetic"}};
   std::set<std::string> stages;
