@@ -1,7 +1,7 @@
 // Colour of the base of a coat. Light bounces between base and coat, so what leaves is a
 // series in the reflectance, not proportional to it; a renderer that carries spectra sees
-// the mean of the series over wavelengths, not the series of the mean. Applied to constant
-// colours only (material_row.cc).
+// the mean of the series over wavelengths, not the series of the mean. Applied to
+// constant colours only (material_row.cc).
 #pragma once
 
 #include "src/core/vec.h"

@@ -56,8 +56,9 @@ void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out) {
 namespace {
 
 // The base below a coat acts on light as a spectrum; see coat_color.h. Textured colours
-// stay as they are: the correction is no linear map, so it would have to follow the filter
-// and the arithmetic of textures, and images of real surfaces change by less than 1 %.
+// stay as they are: the correction is no linear map, so it would have to follow the
+// filter and the arithmetic of textures, and images of real surfaces change by less than
+// 1 %.
 void SetBaseColor(MaterialTable& table, std::size_t i) {
   const auto kind = static_cast<ShadeKind>(table.kind[i]);
   const bool diffuse_base =

@@ -1,5 +1,6 @@
 // libFuzzer target for the scene parser and the PLY reader. Seeds: tests/broken and
-// scenes. Needs clang and its sanitizer run-time libraries; from the root of the repository:
+// scenes. Needs clang and its sanitizer run-time libraries; from the root of the
+// repository:
 //
 //   ./run build parse_fuzz
 //   mkdir -p corpus && build/release/tests/parse_fuzz -max_total_time=60 corpus \
