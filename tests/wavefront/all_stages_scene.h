@@ -85,7 +85,7 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2.5  -3 3 2.5 ]
 /// diffuse models, a lens, instances, a cut-out.
 inline constexpr const char* kOtherStagesScene = R"(
 LookAt 0 2 -6  0 0.8 0  0 1 0
-Camera "perspective" "float fov" 40 "float lensradius" 0.05 "float focaldistance" 6
+Camera "orthographic" "float screenwindow" [ -3 3 -3 3 ] "float lensradius" 0.05 "float focaldistance" 6
 Film "rgb" "integer xresolution" 32 "integer yresolution" 32
 PixelFilter "mitchell"
 Integrator "path" "integer maxdepth" 6
