@@ -17,8 +17,8 @@
 #endif
 
 #include "kernels/points/group-inl.h"
+#include "kernels/queue/key-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/path/dimensions.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -28,18 +28,6 @@ template <class Policy>
 concept HasNumber = requires(const PointsParameters& points, VU v, GroupIndex at) {
   Policy::Number(points, v, at, v, v);
 };
-
-/// Key of dimension 0 at a depth. Copies of a path that has split draw from dimensions of
-/// their own.
-HWY_INLINE VU FirstKey(const PathColumns& p, VU depth, const Slots& slots) {
-  const VU key = hn::Mul(depth, SplatU(static_cast<uint32_t>(Dimension::kCount)));
-  if (p.branch == nullptr) return key;
-  return hn::Add(key, hn::ShiftLeft<24>(AsUnsigned(Gather(p.branch, slots))));
-}
-HWY_INLINE VU KeyOf(const PathColumns& p, Dimension dimension, VU depth,
-                    const Slots& slots) {
-  return hn::Add(FirstKey(p, depth, slots), SplatU(static_cast<uint32_t>(dimension)));
-}
 
 /// Who draws: one batch of paths.
 struct Drawer {
@@ -52,8 +40,7 @@ struct Drawer {
 template <bool kPlain>
 HWY_INLINE Drawer MakeDrawer(const PathColumns& p, const StoreSlots& slots) {
   const VU depth = AsUnsigned(Gather(p.depth, slots));
-  const VU key = kPlain ? hn::Mul(depth, SplatU(static_cast<uint32_t>(Dimension::kCount)))
-                        : FirstKey(p, depth, slots);
+  const VU key = kPlain ? FirstKey(depth) : FirstKey(p, depth, slots);
   return {slots, AsUnsigned(Gather(p.pixel, slots)), AsUnsigned(Gather(p.sample, slots)),
           depth, key};
 }

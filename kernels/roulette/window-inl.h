@@ -22,7 +22,9 @@
 #define LANELIGHT_ROULETTE_WINDOW_INL_H_
 #endif
 
-#include "kernels/points/fill-inl.h"
+#include "kernels/queue/batch-inl.h"
+#include "kernels/queue/key-inl.h"
+#include "kernels/simd/rng-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
 #include "src/core/check.h"

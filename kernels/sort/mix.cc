@@ -9,9 +9,9 @@
 #include "hwy/highway.h"
 
 #include "kernels/queue/batch-inl.h"
+#include "kernels/queue/key-inl.h"
 #include "kernels/simd/rng-inl.h"
 #include "kernels/texture/texture-inl.h"
-#include "src/path/dimensions.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,22 +32,19 @@ HWY_INLINE VF MixAmount(const Wave& wave, const Slots& slots, VI material) {
 void Mix(Wave& wave) {
   const MaterialTable& m = wave.scene->materials;
   const DI di;
-  const VU count = SplatU(static_cast<uint32_t>(Dimension::kCount));
   const VI mix_kind = hn::Set(di, static_cast<int32_t>(ShadeKind::kMix));
   ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots, MF) HWY_ATTR {
     VI material = Gather(wave.path.material, slots);
-    VU key = hn::Add(hn::Mul(AsUnsigned(Gather(wave.path.depth, slots)), count),
-                     SplatU(static_cast<uint32_t>(Dimension::kMix)));
-    if (wave.path.branch != nullptr) {
-      key = hn::Xor(key, hn::ShiftLeft<28>(AsUnsigned(Gather(wave.path.branch, slots))));
-    }
+    const VU depth = AsUnsigned(Gather(wave.path.depth, slots));
     for (uint32_t round = 0;; ++round) {
       const auto is_mix = hn::Eq(Gather(m.kind.data(), material), mix_kind);
       if (hn::AllFalse(di, is_mix)) break;
       const VF amount = MixAmount(wave, slots, material);
+      // Levels beyond those that have a dimension draw with another seed.
+      const VU key = KeyOf(wave.path, Dimension::kMix, depth, slots, round % kMixDimensions);
+      const uint32_t seed = wave.run->seed + round / kMixDimensions * 0x9e3779b9u;
       const U4 r = Pcg4d({AsUnsigned(Gather(wave.path.pixel, slots)),
-                          AsUnsigned(Gather(wave.path.sample, slots)),
-                          hn::Add(key, SplatU(round << 24)), SplatU(wave.run->seed)});
+                          AsUnsigned(Gather(wave.path.sample, slots)), key, SplatU(seed)});
       const auto second = hn::RebindMask(di, hn::Lt(ToUnit(r.x), amount));
       const VI chosen = hn::IfThenElse(second, Gather(m.mix1.data(), material),
                                        Gather(m.mix0.data(), material));

@@ -1,24 +1,39 @@
 // The dimensions of a path's random numbers, by name. A number is a pure function of
-// (seed, pixel, sample, key), and a key of dimension, depth and branch.
+// (seed, pixel, sample, key); a key is made of dimension, depth and branch.
+//
+// Every bounce has kDimensionsPerBounce of them and every purpose a range of its own, so
+// that a new dimension takes a free place and changes the numbers of no other one.
+// tests/points/golden_test.cc holds values of each.
 #pragma once
 
 #include <cstdint>
 
 namespace lanelight {
 
-// Each name is one point of up to four coordinates. Append only: the order is part of
-// the golden vectors.
+/// Each is one point of up to four coordinates. The first depth is also the camera's.
 enum class Dimension : std::uint32_t {
-  kFilm,      // 2: position in the pixel
-  kLens,      // 2: position on the lens
-  kBsdf,      // 2: direction
-  kLobe,      // 1: choice of lobe
-  kRoulette,  // 1: survival
-  kLight,     // 2: point on the light
-  kSelect,    // 1: choice of light
-  kMix,       // 1: choice between mixed materials
-  kCoat,      // many: random walk inside a coat (hash counter)
-  kCount
+  // 0 to 7: the camera
+  kFilm = 0,  // 2: position in the pixel
+  kLens = 1,  // 2: position on the lens
+  // 8 to 15: where a path goes
+  kBsdf = 8,  // 2: direction
+  kLobe = 9,  // 1: choice of lobe
+  // 16 to 23: light samples
+  kLight = 16,   // 2: point on the light
+  kSelect = 17,  // 1: choice of light
+  // 24 to 31: whether a path goes on
+  kRoulette = 24,  // 1: survival, or how many copies
+  // 32 to 47: materials; one per level of mixes in mixes
+  kMix = 32,  // 1: choice between mixed materials
+  // 48 to 63: free
 };
+inline constexpr std::uint32_t kDimensionsPerBounce = 64;
+/// Levels of mixes that have a dimension of their own.
+inline constexpr std::uint32_t kMixDimensions = 16;
+
+// Bits of a key: 6 of the dimension, 20 of the depth, the rest of the branch: copies of a
+// path that has split draw from dimensions of their own.
+inline constexpr int kDepthShift = 6, kBranchShift = 26;
+static_assert(kDimensionsPerBounce == 1u << kDepthShift);
 
 }  // namespace lanelight

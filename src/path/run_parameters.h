@@ -36,7 +36,7 @@ struct PointsParameters {
 /// Antithetic pairs: bit d set = dimension d (src/path/dimensions.h) is shared by
 /// samples 2k and 2k+1 and reflected, at depths below `depths`.
 struct PairParameters {
-  std::uint32_t dimensions = 0;
+  std::uint64_t dimensions = 0;
   std::uint32_t depths = 0;
 
   bool Has(Dimension d) const {

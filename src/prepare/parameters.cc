@@ -54,7 +54,9 @@ void SetMagic(PointsParameters& p) {
   p.group_magic_shift = 31 + l;
 }
 
-constexpr std::uint32_t Bit(Dimension d) { return 1u << static_cast<std::uint32_t>(d); }
+constexpr std::uint64_t Bit(Dimension d) {
+  return std::uint64_t{1} << static_cast<std::uint32_t>(d);
+}
 
 }  // namespace
 
@@ -78,9 +80,9 @@ PointsParameters MakePointsParameters(Points points, std::uint32_t group_size) {
 
 PairParameters MakePairParameters(const Strategy& strategy) {
   if (strategy.pairs == Pairs::kNone) return {};
-  constexpr std::uint32_t kPixel = Bit(Dimension::kFilm) | Bit(Dimension::kLens);
-  constexpr std::uint32_t kLight = Bit(Dimension::kSelect) | Bit(Dimension::kLight);
-  constexpr std::uint32_t kBsdf = Bit(Dimension::kBsdf) | Bit(Dimension::kLobe);
+  constexpr std::uint64_t kPixel = Bit(Dimension::kFilm) | Bit(Dimension::kLens);
+  constexpr std::uint64_t kLight = Bit(Dimension::kSelect) | Bit(Dimension::kLight);
+  constexpr std::uint64_t kBsdf = Bit(Dimension::kBsdf) | Bit(Dimension::kLobe);
   constexpr std::uint32_t kEveryDepth = 0xffffffffu;
   switch (strategy.paired) {
     case Paired::kAll:

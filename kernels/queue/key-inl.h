@@ -1,0 +1,38 @@
+// Keys of random numbers (src/path/dimensions.h), for a batch of paths.
+#if defined(LANELIGHT_QUEUE_KEY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_QUEUE_KEY_INL_H_
+#undef LANELIGHT_QUEUE_KEY_INL_H_
+#else
+#define LANELIGHT_QUEUE_KEY_INL_H_
+#endif
+
+#include "kernels/queue/slots-inl.h"
+#include "src/path/dimensions.h"
+#include "src/path/fields.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Key of dimension 0 at a depth.
+HWY_INLINE VU FirstKey(VU depth) { return hn::ShiftLeft<kDepthShift>(depth); }
+
+/// ... of the copy that the path is.
+HWY_INLINE VU FirstKey(const PathColumns& p, VU depth, const Slots& slots) {
+  if (p.branch == nullptr) return FirstKey(depth);
+  const VU branch = hn::BitCast(DU(), Gather(p.branch, slots));
+  return hn::Or(FirstKey(depth), hn::ShiftLeft<kBranchShift>(branch));
+}
+
+/// `offset`: within the range of the purpose.
+HWY_INLINE VU KeyOf(const PathColumns& p, Dimension dimension, VU depth,
+                    const Slots& slots, uint32_t offset = 0) {
+  const uint32_t place = static_cast<uint32_t>(dimension) + offset;
+  return hn::Add(FirstKey(p, depth, slots), hn::Set(DU(), place));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif
