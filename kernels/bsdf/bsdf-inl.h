@@ -29,16 +29,9 @@
 #include "kernels/simd/math-inl.h"
 #include "src/compiled/materials.h"
 
-// Eval and Sample are part of three kernels each. Inlining them there pays where they are
-// short and a vector is a register; long ones, whose lanes are full of work, lose nothing
-// by a call, and the compiler sees them once instead of six times.
-#undef LANELIGHT_BSDF_CALL
+// Eval and Sample are part of three kernels each. Long ones, whose lanes are full of work,
+// lose nothing by a call, and the compiler sees them once.
 #undef LANELIGHT_LONG_BSDF_CALL
-#if HWY_TARGET == HWY_EMU128
-#define LANELIGHT_BSDF_CALL HWY_NOINLINE
-#else
-#define LANELIGHT_BSDF_CALL HWY_INLINE
-#endif
 #define LANELIGHT_LONG_BSDF_CALL HWY_NOINLINE
 
 HWY_BEFORE_NAMESPACE();
@@ -73,7 +66,7 @@ struct MaterialSource {
   bool color_by_path, alpha_by_path;
 };
 
-HWY_INLINE MaterialSource TableSource(const MaterialTable& t) {
+LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
   return {&t,
           t.color0_r.data(),
           t.color0_g.data(),
@@ -91,49 +84,49 @@ struct MaterialInputs {
   VI material;
   LaneRandom random;  // only filled for kStochastic
 
-  HWY_INLINE V3 Color0() const {
+  LANELIGHT_INLINE V3 Color0() const {
     const MaterialSource& s = source;
     return s.color_by_path
                ? Gather3(s.color0_r, s.color0_g, s.color0_b, slot)
                : LookUp3(s.table->color0_r, s.table->color0_g, s.table->color0_b);
   }
   /// Clamped to [0, 1], as a reflectance must be (a texture may hold anything).
-  HWY_INLINE V3 Reflectance() const { return Clamp01(Color0()); }
-  HWY_INLINE V3 Color1() const {
+  LANELIGHT_INLINE V3 Reflectance() const { return Clamp01(Color0()); }
+  LANELIGHT_INLINE V3 Color1() const {
     const MaterialTable& t = *source.table;
     return LookUp3(t.color1_r, t.color1_g, t.color1_b);
   }
-  HWY_INLINE VF AlphaX() const { return Alpha(source.alpha_x, source.table->alpha_x); }
-  HWY_INLINE VF AlphaY() const { return Alpha(source.alpha_y, source.table->alpha_y); }
-  HWY_INLINE VF Float(const AlignedVector<float>& column) const {
+  LANELIGHT_INLINE VF AlphaX() const { return Alpha(source.alpha_x, source.table->alpha_x); }
+  LANELIGHT_INLINE VF AlphaY() const { return Alpha(source.alpha_y, source.table->alpha_y); }
+  LANELIGHT_INLINE VF Float(const AlignedVector<float>& column) const {
     return Lookup(column, material);
   }
-  HWY_INLINE VI Int(const AlignedVector<std::int32_t>& column) const {
+  LANELIGHT_INLINE VI Int(const AlignedVector<std::int32_t>& column) const {
     return Lookup(column, material);
   }
-  HWY_INLINE VI Int(const AlignedVector<std::uint32_t>& column) const {
+  LANELIGHT_INLINE VI Int(const AlignedVector<std::uint32_t>& column) const {
     return Lookup(column, material);
   }
-  HWY_INLINE static V3 Clamp01(V3 c) {
+  LANELIGHT_INLINE static V3 Clamp01(V3 c) {
     const VF zero = hn::Zero(DF()), one = Splat(1.0f);
     return {hn::Clamp(c.x, zero, one), hn::Clamp(c.y, zero, one),
             hn::Clamp(c.z, zero, one)};
   }
 
  private:
-  HWY_INLINE VF Alpha(const float* by_path, const AlignedVector<float>& column) const {
+  LANELIGHT_INLINE VF Alpha(const float* by_path, const AlignedVector<float>& column) const {
     return source.alpha_by_path ? Gather(by_path, slot) : Lookup(column, material);
   }
-  HWY_INLINE V3 LookUp3(const AlignedVector<float>& x, const AlignedVector<float>& y,
+  LANELIGHT_INLINE V3 LookUp3(const AlignedVector<float>& x, const AlignedVector<float>& y,
                         const AlignedVector<float>& z) const {
     return {Lookup(x, material), Lookup(y, material), Lookup(z, material)};
   }
 };
 
-HWY_INLINE V3 Grey(VF v) { return {v, v, v}; }
-HWY_INLINE MF SameSide(V3 a, V3 b) { return hn::Gt(hn::Mul(a.z, b.z), hn::Zero(DF())); }
+LANELIGHT_INLINE V3 Grey(VF v) { return {v, v, v}; }
+LANELIGHT_INLINE MF SameSide(V3 a, V3 b) { return hn::Gt(hn::Mul(a.z, b.z), hn::Zero(DF())); }
 /// v with its height taken to the side of wo, for v on the upper side.
-HWY_INLINE V3 ToSideOf(V3 wo, V3 v) { return {v.x, v.y, hn::CopySign(v.z, wo.z)}; }
+LANELIGHT_INLINE V3 ToSideOf(V3 wo, V3 v) { return {v.x, v.y, hn::CopySign(v.z, wo.z)}; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight

@@ -40,7 +40,7 @@ struct CoatedConductorBsdf {
     VI depth;
     LaneRandom random;
   };
-  HWY_INLINE static Params Load(const MaterialInputs& in) {
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     const MaterialTable& t = *in.source.table;
     return {{Layer::FromAlpha(in.AlphaX(), in.AlphaY()), in.Float(t.eta)},
             {Layer::FromAlpha(in.Float(t.alpha2_x), in.Float(t.alpha2_y)), in.Color0(),
@@ -51,17 +51,17 @@ struct CoatedConductorBsdf {
   }
 
   /// exp(-thickness / |cos w|): one crossing of the medium.
-  HWY_INLINE static VF Crossing(const Params& p, V3 w) {
+  LANELIGHT_INLINE static VF Crossing(const Params& p, V3 w) {
     return Exp(hn::Neg(hn::Div(p.thickness, hn::Max(hn::Abs(w.z), Splat(1e-6f)))));
   }
-  HWY_INLINE static MF Carries(V3 beta) {
+  LANELIGHT_INLINE static MF Carries(V3 beta) {
     return hn::Gt(MaxComponent(beta), hn::Zero(DF()));
   }
-  HWY_INLINE static MF Deeper(const Params& p, int depth) {
+  LANELIGHT_INLINE static MF Deeper(const Params& p, int depth) {
     return hn::RebindMask(DF(), hn::Gt(p.depth, hn::Set(DI(), depth)));
   }
   /// pa^2 / (pa^2 + pb^2).
-  HWY_INLINE static VF Heuristic(VF pa, VF pb) {
+  LANELIGHT_INLINE static VF Heuristic(VF pa, VF pb) {
     const VF ratio = hn::Div(pb, hn::Max(pa, Splat(1e-30f)));
     return hn::Div(Splat(1.0f), hn::MulAdd(ratio, ratio, Splat(1.0f)));
   }

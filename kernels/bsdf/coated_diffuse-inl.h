@@ -28,7 +28,7 @@ struct CoatedBase {
   V3 rho_series;  // rho S
   VF inverse_eta2, escape, eta;
 
-  HWY_INLINE static CoatedBase Load(const MaterialInputs& in) {
+  LANELIGHT_INLINE static CoatedBase Load(const MaterialInputs& in) {
     const MaterialTable& t = *in.source.table;
     const VF internal = in.Float(t.coat_internal), eta = in.Float(t.eta);
     const V3 rho = in.Reflectance();
@@ -40,7 +40,7 @@ struct CoatedBase {
 
   /// 1 + x + ... + x^(n-1), at most 256 terms: more do not show, as x stays below 0.9
   /// for any index below 4.
-  HWY_INLINE static V3 Series(V3 x, VI n) {
+  LANELIGHT_INLINE static V3 Series(V3 x, VI n) {
     const DI di;
     const DF df;
     const int longest = hn::GetLane(hn::MaxOfLanes(di, hn::Min(n, hn::Set(di, 256))));
@@ -54,13 +54,13 @@ struct CoatedBase {
 
   /// f cos of the light that meets the base, per T(wo) T(wi), towards a wi of that
   /// cosine.
-  HWY_INLINE V3 Lambert(VF cos_i) const {
+  LANELIGHT_INLINE V3 Lambert(VF cos_i) const {
     return Mul(rho_series, hn::Mul(inverse_eta2, PdfCosineHemisphere(cos_i)));
   }
 
   /// Probability of following the coat's own reflection: its share of the reflectance, of
   /// which the base's is about T(wo) rho S (1 - Fi).
-  HWY_INLINE VF CoatProbability(VF coat_reflectance, VF t_wo) const {
+  LANELIGHT_INLINE VF CoatProbability(VF coat_reflectance, VF t_wo) const {
     const VF base = hn::Mul(hn::Mul(t_wo, escape), MaxComponent(rho_series));
     const VF sum = hn::Add(coat_reflectance, base);
     return hn::Div(coat_reflectance, hn::Max(sum, Splat(1e-30f)));
@@ -83,10 +83,10 @@ struct CoatedDiffuseSmoothBsdf {
     CoatedBase base;
     VF thickness;
   };
-  HWY_INLINE static Params Load(const MaterialInputs& in) {
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     return {CoatedBase::Load(in), in.Float(in.source.table->coat_thickness)};
   }
-  HWY_INLINE static VF Transmittance(const Params& m, const Interface& at) {
+  LANELIGHT_INLINE static VF Transmittance(const Params& m, const Interface& at) {
     const VF slant = hn::Div(m.thickness, hn::Max(at.cos_t, Splat(1e-6f)));
     return hn::Mul(hn::Sub(Splat(1.0f), at.reflectance), Exp(hn::Neg(slant)));
   }
@@ -141,12 +141,12 @@ struct CoatedDiffuseRoughBsdf {
     const float* table;
     VI offset;
   };
-  HWY_INLINE static Params Load(const MaterialInputs& in) {
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     const MaterialTable& t = *in.source.table;
     return {CoatedBase::Load(in), Ggx::FromAlpha(in.AlphaX(), in.AlphaY()),
             t.coat_transmittance.data(), in.Int(t.coat)};
   }
-  HWY_INLINE static VF Transmittance(const Params& m, VF mu) {
+  LANELIGHT_INLINE static VF Transmittance(const Params& m, VF mu) {
     const DF df;
     const DI di;
     const VF at =

@@ -28,10 +28,10 @@ struct ConductorSmoothBsdf {
   struct Params {
     V3 eta, k;
   };
-  HWY_INLINE static Params Load(const MaterialInputs& in) {
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     return {in.Color0(), in.Color1()};
   }
-  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo,
                                                const BsdfPoints&) {
     return {{hn::Neg(wo.x), hn::Neg(wo.y), wo.z},
             FresnelConductor(hn::Abs(wo.z), m.eta, m.k),
@@ -58,11 +58,11 @@ struct ConductorRoughBsdf {
     V3 eta, k;
     Ggx ggx;
   };
-  HWY_INLINE static Params Load(const MaterialInputs& in) {
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     return {in.Color0(), in.Color1(), Ggx::FromAlpha(in.AlphaX(), in.AlphaY())};
   }
 
-  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+  LANELIGHT_INLINE static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const VF zo = hn::Abs(wo.z), zi = hn::Abs(wi.z);
     const V3 n = Normalize(wo + wi);
     const VF d = m.ggx.D(n);
@@ -74,7 +74,7 @@ struct ConductorRoughBsdf {
     return {IfThenElseZero(reflects, Mul(f, shape)), hn::IfThenElseZero(reflects, pdf)};
   }
 
-  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo,
                                                const BsdfPoints& u) {
     const V3 up = {wo.x, wo.y, hn::Abs(wo.z)};
     const V3 n = m.ggx.SampleVisible(up, u.u0, u.u1);

@@ -15,7 +15,7 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 /// Index seen from wo's side: eta from above (outside), 1 / eta from below.
-HWY_INLINE VF RelativeIndex(VF eta, V3 wo) {
+LANELIGHT_INLINE VF RelativeIndex(VF eta, V3 wo) {
   return hn::IfThenElse(hn::Gt(wo.z, hn::Zero(DF())), eta, hn::Div(Splat(1.0f), eta));
 }
 
@@ -34,11 +34,11 @@ struct DielectricSmoothBsdf {
   struct Params {
     VF eta;
   };
-  HWY_INLINE static Params Load(const MaterialInputs& in) {
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     return {in.Float(in.source.table->eta)};
   }
 
-  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo,
                                                const BsdfPoints& u) {
     const VF eta = RelativeIndex(m.eta, wo), one = Splat(1.0f);
     const Interface at = DielectricInterface(hn::Abs(wo.z), eta);
@@ -67,11 +67,11 @@ struct ThinDielectricBsdf {
   struct Params {
     VF eta;
   };
-  HWY_INLINE static Params Load(const MaterialInputs& in) {
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     return {in.Float(in.source.table->eta)};
   }
 
-  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo,
                                                const BsdfPoints& u) {
     const VF r = DielectricInterface(hn::Abs(wo.z), m.eta).reflectance;
     const VF total = hn::Div(hn::Add(r, r), hn::Add(Splat(1.0f), r));
@@ -104,14 +104,14 @@ struct DielectricRoughBsdf {
     VF eta;
     Ggx ggx;
   };
-  HWY_INLINE static Params Load(const MaterialInputs& in) {
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     return {in.Float(in.source.table->eta), Ggx::FromAlpha(in.AlphaX(), in.AlphaY())};
   }
-  HWY_INLINE static MF NearlyMatched(const Params& m) {
+  LANELIGHT_INLINE static MF NearlyMatched(const Params& m) {
     return hn::Lt(hn::Abs(hn::Sub(m.eta, Splat(1.0f))), Splat(kNearlyMatched));
   }
   /// Visible normals per unit of (wo.m): Dvis / (wo.m).
-  HWY_INLINE static VF Visible(VF d, VF zo, VF so) {
+  LANELIGHT_INLINE static VF Visible(VF d, VF zo, VF so) {
     return hn::Div(hn::Add(d, d), hn::Add(zo, so));
   }
 

@@ -31,14 +31,14 @@ struct DiffuseTransmissionBsdf {
     V3 reflectance, transmittance;
     VF reflect;  // probability of reflection
   };
-  HWY_INLINE static Params Load(const MaterialInputs& in) {
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     const V3 r = in.Reflectance(), t = MaterialInputs::Clamp01(in.Color1());
     const VF pr = MaxComponent(r), sum = hn::Add(pr, MaxComponent(t));
     // Both black: any probability will do, the weight is 0.
     return {r, t, hn::Div(pr, hn::Max(sum, Splat(1e-30f)))};
   }
 
-  LANELIGHT_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+  LANELIGHT_INLINE static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const MF same = SameSide(wo, wi);
     const VF lambert = PdfCosineHemisphere(hn::Abs(wi.z));
     const VF choice = hn::IfThenElse(same, m.reflect, hn::Sub(Splat(1.0f), m.reflect));
@@ -46,7 +46,7 @@ struct DiffuseTransmissionBsdf {
             hn::Mul(choice, lambert)};
   }
 
-  LANELIGHT_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo,
                                                const BsdfPoints& u) {
     const MF reflect = hn::Lt(u.lobe, m.reflect);
     const V3 up = SampleCosineHemisphere(u.u0, u.u1);

@@ -25,7 +25,7 @@ struct Interface {
 /// (g - c) / (g + c) = (eta^2 - 1) / (g + c)^2, and the parallel one is that times
 /// (c (g + c) - 1) / (c (g - c) + 1) (Walter et al. 2007, equation 22): the differences
 /// of nearly equal numbers are gone. eta = 1 gives exactly 0.
-HWY_INLINE Interface DielectricInterface(VF c, VF eta) {
+LANELIGHT_INLINE Interface DielectricInterface(VF c, VF eta) {
   const VF one = Splat(1.0f), zero = hn::Zero(DF());
   const VF contrast = hn::Mul(hn::Sub(eta, one), hn::Add(eta, one));
   const VF g2 = hn::MulAdd(c, c, contrast);
@@ -42,11 +42,11 @@ HWY_INLINE Interface DielectricInterface(VF c, VF eta) {
 
 /// Direction refracted at microfacet normal m, on wo's side of it (Snell's law):
 /// -(wo + bend m) / eta. Meaningless under total internal reflection.
-HWY_INLINE V3 Refract(V3 wo, V3 m, VF bend, VF eta) {
+LANELIGHT_INLINE V3 Refract(V3 wo, V3 m, VF bend, VF eta) {
   return Mul(MulAdd(m, bend, wo), hn::Div(Splat(-1.0f), eta));
 }
 /// Mirror direction 2 (wo.m) m - wo, given cosine = wo.m.
-HWY_INLINE V3 Reflect(V3 wo, V3 m, VF cosine) {
+LANELIGHT_INLINE V3 Reflect(V3 wo, V3 m, VF cosine) {
   return MulAdd(m, hn::Add(cosine, cosine), -wo);
 }
 
@@ -57,7 +57,7 @@ HWY_INLINE V3 Reflect(V3 wo, V3 m, VF cosine) {
 /// (Born and Wolf, section 14.2). The larger of a, b comes from a root without
 /// cancellation and the other from a b = eta k; a - c = (eta^2 - k^2 - 1 + b^2) / (a +
 /// c).
-HWY_INLINE VF FresnelConductor(VF c, VF eta, VF k) {
+LANELIGHT_INLINE VF FresnelConductor(VF c, VF eta, VF k) {
   const VF one = Splat(1.0f), half = Splat(0.5f), zero = hn::Zero(DF());
   const VF s2 = hn::Mul(hn::Sub(one, c), hn::Add(one, c));
   const VF contrast = hn::NegMulAdd(
@@ -85,7 +85,7 @@ HWY_INLINE VF FresnelConductor(VF c, VF eta, VF k) {
   return hn::Min(hn::Div(top, bottom), one);
 }
 
-HWY_INLINE V3 FresnelConductor(VF c, V3 eta, V3 k) {
+LANELIGHT_INLINE V3 FresnelConductor(VF c, V3 eta, V3 k) {
   return {FresnelConductor(c, eta.x, k.x), FresnelConductor(c, eta.y, k.y),
           FresnelConductor(c, eta.z, k.z)};
 }

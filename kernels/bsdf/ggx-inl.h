@@ -20,19 +20,19 @@ namespace HWY_NAMESPACE {
 struct Ggx {
   VF ax, ay;  // roughness, clamped to [1e-4, 1e4]
 
-  HWY_INLINE static Ggx FromAlpha(VF x, VF y) {
+  LANELIGHT_INLINE static Ggx FromAlpha(VF x, VF y) {
     const VF low = Splat(1e-4f), high = Splat(1e4f);
     return {hn::Clamp(x, low, high), hn::Clamp(y, low, high)};
   }
 
-  HWY_INLINE VF Spread(V3 w) const {
+  LANELIGHT_INLINE VF Spread(V3 w) const {
     const VF x = hn::Mul(ax, w.x), y = hn::Mul(ay, w.y);
     return hn::Sqrt(hn::MulAdd(w.z, w.z, hn::MulAdd(x, x, hn::Mul(y, y))));
   }
 
   /// Density of normals per solid angle of m and projected area (Walter et al. 2007,
   /// equation 33; anisotropic: Burley 2012): integral of D(m) cos = 1.
-  HWY_INLINE VF D(V3 m) const {
+  LANELIGHT_INLINE VF D(V3 m) const {
     // 1 / (pi ax ay e^2) with e = (x / ax)^2 + (y / ay)^2 + z^2, times (ax ay)^4 above and
     // below: one division. Powers stay within 1e-32 and 1e32.
     const VF x = hn::Mul(m.x, ay), y = hn::Mul(m.y, ax), a = hn::Mul(ax, ay);
@@ -46,7 +46,7 @@ struct Ggx {
   /// Stretched, the microfacets are a hemisphere; a reflection off its visible part is
   /// uniform over a spherical cap (Dupuy and Benyoub 2023). Heights relative to the
   /// cap's rim are products, never differences. u in [0, 1)^2.
-  HWY_INLINE V3 SampleVisible(V3 wo, VF u0, VF u1) const {
+  LANELIGHT_INLINE V3 SampleVisible(V3 wo, VF u0, VF u1) const {
     const VF one = Splat(1.0f);
     const V3 v = Normalize({hn::Mul(ax, wo.x), hn::Mul(ay, wo.y), wo.z});
     const VF above = hn::Add(one, v.z);
@@ -63,12 +63,12 @@ struct Ggx {
 
 /// Masking of a pair of directions, given z and Spread of both:
 /// G2 / (4 zo zi) * zi = zi / (2 (so zi + si zo)).
-HWY_INLINE VF HalfPairMasking(VF zo, VF so, VF zi, VF si) {
+LANELIGHT_INLINE VF HalfPairMasking(VF zo, VF so, VF zi, VF si) {
   return hn::Div(zi, hn::MulAdd(so, zi, hn::Mul(si, zo)));
 }
 
 /// G2(wo, wi) / G1(wo): what a sample of the visible normals still weighs.
-HWY_INLINE VF MaskingRatio(VF zo, VF so, VF zi, VF si) {
+LANELIGHT_INLINE VF MaskingRatio(VF zo, VF so, VF zi, VF si) {
   return hn::Mul(HalfPairMasking(zo, so, zi, si), hn::Add(zo, so));
 }
 

@@ -36,19 +36,19 @@ struct Layer {
   Ggx ggx;
   MF smooth;
 
-  HWY_INLINE static Layer FromAlpha(VF ax, VF ay) {
+  LANELIGHT_INLINE static Layer FromAlpha(VF ax, VF ay) {
     return {Ggx::FromAlpha(ax, ay), hn::Lt(hn::Max(ax, ay), Splat(kSmoothAlpha))};
   }
-  HWY_INLINE V3 SampleNormal(V3 wo, VF u0, VF u1) const {
+  LANELIGHT_INLINE V3 SampleNormal(V3 wo, VF u0, VF u1) const {
     return IfThenElse(smooth, Splat3(0, 0, 1), ggx.SampleVisible(wo, u0, u1));
   }
   /// G2 / G1 of the pair, 1 where smooth.
-  HWY_INLINE VF Ratio(V3 wo, V3 wi) const {
+  LANELIGHT_INLINE VF Ratio(V3 wo, V3 wi) const {
     const VF rough = MaskingRatio(wo.z, ggx.Spread(wo), hn::Abs(wi.z), ggx.Spread(wi));
     return hn::IfThenElse(smooth, Splat(1.0f), rough);
   }
   /// Dvis / (wo.m).
-  HWY_INLINE VF Visible(V3 wo, V3 m) const {
+  LANELIGHT_INLINE VF Visible(V3 wo, V3 m) const {
     const VF d = ggx.D(m);
     return hn::Div(hn::Add(d, d), hn::Add(wo.z, ggx.Spread(wo)));
   }
@@ -61,14 +61,14 @@ struct CoatLayer {
   Layer layer;
   VF eta;  // of the inside relative to the outside
 
-  HWY_INLINE VF IndexFrom(V3 w) const {
+  LANELIGHT_INLINE VF IndexFrom(V3 w) const {
     return hn::IfThenElse(hn::Gt(w.z, hn::Zero(DF())), eta, hn::Div(Splat(1.0f), eta));
   }
 
   /// Samples the interface from wo, on either side. `radiance`: refraction scales by
   /// 1 / eta^2 (radiance flows towards wo), not so for importance. Weight 0: no outcome.
   template <Outcome kOutcome>
-  LANELIGHT_BSDF_CALL LayerEvent Sample(V3 wo_any, VF u_lobe, VF u0, VF u1,
+  LANELIGHT_INLINE LayerEvent Sample(V3 wo_any, VF u_lobe, VF u0, VF u1,
                                         bool radiance) const {
     const VF zero = hn::Zero(DF()), one = Splat(1.0f), side = hn::CopySign(one, wo_any.z);
     const V3 wo = Mul(wo_any, side);
@@ -102,7 +102,7 @@ struct CoatLayer {
   /// Refraction from inside direction w (w.z < 0 here: the side of incidence of the walk)
   /// out to wi, as radiance: f, and the density with which Sample<kTransmit> from wi
   /// would find w. Zero where smooth.
-  LANELIGHT_BSDF_CALL LayerValue EvalExit(V3 w, V3 wi) const {
+  LANELIGHT_INLINE LayerValue EvalExit(V3 w, V3 wi) const {
     const VF zero = hn::Zero(DF());
     // By adjointness f(w, wi) of radiance is f(wi, w) of importance: evaluated from wi,
     // without the 1 / eta^2.
@@ -124,7 +124,7 @@ struct CoatLayer {
 
   /// Reflection of the interface itself, from outside: f |cos wi|, and its density among
   /// all directions (reflection chosen with probability F). Zero where smooth.
-  LANELIGHT_BSDF_CALL BsdfValue EvalReflection(V3 wo, V3 wi) const {
+  LANELIGHT_INLINE BsdfValue EvalReflection(V3 wo, V3 wi) const {
     const V3 m = Normalize(wo + wi);
     const VF co = hn::Clamp(Dot(wo, m), hn::Zero(DF()), Splat(1.0f));
     const VF f = DielectricInterface(co, eta).reflectance;
@@ -136,7 +136,7 @@ struct CoatLayer {
 
  private:
   /// Density over Visible() given the outcome: 1/4, or (wo.m) |wi.m| / q^2.
-  HWY_INLINE static VF Density(const Interface& at, VF co, VF index, MF reflect) {
+  LANELIGHT_INLINE static VF Density(const Interface& at, VF co, VF index, MF reflect) {
     const VF q2 = hn::Max(Sqr(hn::Div(at.bend, index)), Splat(1e-30f));
     const VF refract = hn::Div(hn::Mul(co, at.cos_t), q2);
     return hn::IfThenElse(reflect, Splat(0.25f), refract);
@@ -148,7 +148,7 @@ struct MetalLayer {
   V3 eta, k;
 
   /// wo.z > 0.
-  LANELIGHT_BSDF_CALL LayerEvent Sample(V3 wo, VF u0, VF u1) const {
+  LANELIGHT_INLINE LayerEvent Sample(V3 wo, VF u0, VF u1) const {
     const V3 m = layer.SampleNormal(wo, u0, u1);
     const VF co = hn::Clamp(Dot(wo, m), hn::Zero(DF()), Splat(1.0f));
     const V3 wi = Reflect(wo, m, co);
@@ -159,7 +159,7 @@ struct MetalLayer {
   }
 
   /// f (without cosine), and the density of Sample. Zero where smooth. wo.z, wi.z > 0.
-  LANELIGHT_BSDF_CALL LayerValue Eval(V3 wo, V3 wi) const {
+  LANELIGHT_INLINE LayerValue Eval(V3 wo, V3 wi) const {
     const V3 m = Normalize(wo + wi);
     const VF co = hn::Clamp(Dot(wo, m), hn::Zero(DF()), Splat(1.0f));
     const VF pdf = hn::Mul(Splat(0.25f), layer.Visible(wo, m));

@@ -24,7 +24,7 @@ struct LaneRandom {
 
   VU pixel, sample, depth, seed;
 
-  HWY_INLINE void Next4(VF out[4]) {
+  LANELIGHT_INLINE void Next4(VF out[4]) {
     const U4 bits = Pcg4d({pixel, sample, depth, seed});
     out[0] = ToUnit(bits.x);
     out[1] = ToUnit(bits.y);

@@ -14,7 +14,7 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 /// Three quadratics, one per channel, at unit direction d.
-HWY_INLINE V3 EvalQuadratics(const Quadratic* q, V3 d) {
+LANELIGHT_INLINE V3 EvalQuadratics(const Quadratic* q, V3 d) {
   const VF monomials[] = {d.x,
                           d.y,
                           d.z,

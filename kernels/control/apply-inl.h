@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 /// `difference` is weighted with the throughput. A given coefficient is applied at once;
 /// an estimated one is not known yet, so that the difference travels along.
-HWY_INLINE void ApplyControl(const Wave& wave, const Slots& slots, V3 difference) {
+LANELIGHT_INLINE void ApplyControl(const Wave& wave, const Slots& slots, V3 difference) {
   const PathColumns& p = wave.path;
   if (p.k_r != nullptr) {
     const V3 sum = Gather3(p.k_r, p.k_g, p.k_b, slots) + difference;
@@ -36,7 +36,7 @@ struct DiffuseVertex {
   typename Bsdf::Params material;
   MF usable;  // wo has a side
 
-  HWY_INLINE DiffuseVertex(const SurfaceReader<Bsdf>& reader,
+  LANELIGHT_INLINE DiffuseVertex(const SurfaceReader<Bsdf>& reader,
                            const Slots& slots) {
     const PathColumns& path = reader.wave.path;
     frame = reader.ShadingFrame(Gather3(path.ng_x, path.ng_y, path.ng_z, slots), slots);
@@ -48,12 +48,12 @@ struct DiffuseVertex {
     material = Bsdf::Load(reader.Inputs(slots));
   }
 
-  HWY_INLINE BsdfValue Eval(V3 direction) const {
+  LANELIGHT_INLINE BsdfValue Eval(V3 direction) const {
     return Bsdf::Eval(material, wo, frame.ToLocal(direction));
   }
 
   /// Mean scattered light under irradiance `above` on wo's side and `below` on the other.
-  HWY_INLINE V3 Scattered(V3 above, V3 below) const {
+  LANELIGHT_INLINE V3 Scattered(V3 above, V3 below) const {
     const VF inv_pi = Splat(kInvPi);
     if constexpr (Bsdf::kTransmits) {
       const V3 sum =

@@ -23,7 +23,7 @@ struct TwoSides {
 
 /// irradiance(half, p, n) of both halves of the vectors, for n and, with kBelow, for -n.
 template <bool kBelow, class Irradiance>
-HWY_INLINE TwoSides InHalves(V3 p, V3 n, Irradiance&& irradiance) {
+LANELIGHT_INLINE TwoSides InHalves(V3 p, V3 n, Irradiance&& irradiance) {
   const D3 p0 = HalfOf<false>(p), p1 = HalfOf<true>(p);
   const D3 n0 = HalfOf<false>(n), n1 = HalfOf<true>(n);
   TwoSides out = {FromHalves(irradiance(p0, n0), irradiance(p1, n1)), Splat(0)};
@@ -38,7 +38,7 @@ HWY_INLINE TwoSides InHalves(V3 p, V3 n, Irradiance&& irradiance) {
 /// Vertices clear of the plane of a light, on a side that it emits to: nearer ones are
 /// lost in the rounding of the points of light samples (StoreSurfaceSample). Depends on
 /// the vertex only, as everything that decides whether a light takes part.
-HWY_INLINE MF ClearOfPlane(V3 p, VF p_error, V3 point, V3 n, float size,
+LANELIGHT_INLINE MF ClearOfPlane(V3 p, VF p_error, V3 point, V3 n, float size,
                            const LightRecord& light) {
   const VF height = Dot(n, p - point);
   const VF reach = hn::Add(SumAbs(p), hn::Add(SumAbs(point), Splat(size)));
@@ -48,7 +48,7 @@ HWY_INLINE MF ClearOfPlane(V3 p, VF p_error, V3 point, V3 n, float size,
 
 /// One light for a vector of vertices. Returns which of them it takes part at.
 template <bool kBelow>
-HWY_INLINE MF TriangleLightAt(const CompiledScene& scene, const LightRecord& light, V3 p,
+LANELIGHT_INLINE MF TriangleLightAt(const CompiledScene& scene, const LightRecord& light, V3 p,
                               VF p_error, V3 n, TwoSides* out) {
   const TriangleRecord& record = scene.geometry.triangles[light.primitive];
   const auto corner = [&](int i) HWY_ATTR {
@@ -69,7 +69,7 @@ HWY_INLINE MF TriangleLightAt(const CompiledScene& scene, const LightRecord& lig
 
 /// From inside (as the sampler of spheres sees it) a sphere takes no part.
 template <bool kBelow>
-HWY_INLINE MF SphereLightAt(const CompiledScene& scene, const LightRecord& light, V3 p,
+LANELIGHT_INLINE MF SphereLightAt(const CompiledScene& scene, const LightRecord& light, V3 p,
                             V3 n, TwoSides* out) {
   const SphereRecord& record =
       scene.geometry.spheres[light.primitive - scene.geometry.ranges.spheres];
@@ -86,7 +86,7 @@ HWY_INLINE MF SphereLightAt(const CompiledScene& scene, const LightRecord& light
 
 /// A disk takes part where its rim does not cross the horizon of the vertex.
 template <bool kBelow>
-HWY_INLINE MF DiskLightAt(const CompiledScene& scene, const LightRecord& light, V3 p,
+LANELIGHT_INLINE MF DiskLightAt(const CompiledScene& scene, const LightRecord& light, V3 p,
                           VF p_error, V3 n, TwoSides* out) {
   const DiskRecord& record =
       scene.geometry.disks[light.primitive - scene.geometry.ranges.disks];
@@ -119,7 +119,7 @@ struct AreaLight {
 
 /// `selected`: light of the light sample of each path.
 template <bool kBelow>
-HWY_INLINE AreaLight AreaLightsAt(const CompiledScene& scene, V3 p, VF p_error, V3 n,
+LANELIGHT_INLINE AreaLight AreaLightsAt(const CompiledScene& scene, V3 p, VF p_error, V3 n,
                                   VI selected) {
   const V3 zero = Splat3(0, 0, 0);
   AreaLight sum = {zero, zero, hn::Lt(zero.x, zero.x)};

@@ -28,29 +28,29 @@ namespace HWY_NAMESPACE {
 
 using MD = hn::Mask<DD>;
 
-HWY_INLINE VD SplatD(double v) { return hn::Set(DD(), v); }
-HWY_INLINE D3 SplatD3(const float* v) {
+LANELIGHT_INLINE VD SplatD(double v) { return hn::Set(DD(), v); }
+LANELIGHT_INLINE D3 SplatD3(const float* v) {
   return {SplatD(v[0]), SplatD(v[1]), SplatD(v[2])};
 }
-HWY_INLINE D3 Plus(D3 a, D3 b) {
+LANELIGHT_INLINE D3 Plus(D3 a, D3 b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
 }
-HWY_INLINE D3 Scaled(D3 a, VD s) {
+LANELIGHT_INLINE D3 Scaled(D3 a, VD s) {
   return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }
-HWY_INLINE D3 Cross(D3 a, D3 b) {
+LANELIGHT_INLINE D3 Cross(D3 a, D3 b) {
   return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)),
           hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
           hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
 }
-HWY_INLINE D3 Select(MD m, D3 a, D3 b) {
+LANELIGHT_INLINE D3 Select(MD m, D3 a, D3 b) {
   return {hn::IfThenElse(m, a.x, b.x), hn::IfThenElse(m, a.y, b.y),
           hn::IfThenElse(m, a.z, b.z)};
 }
-HWY_INLINE VD SqrtPositive(VD v) { return hn::Sqrt(hn::Max(v, SplatD(0))); }
+LANELIGHT_INLINE VD SqrtPositive(VD v) { return hn::Sqrt(hn::Max(v, SplatD(0))); }
 
 /// Angle in [0, pi] of the point (c, s), s >= 0; 0 at the origin.
-HWY_INLINE VD UpperAngle(VD s, VD c) {
+LANELIGHT_INLINE VD UpperAngle(VD s, VD c) {
   const double pi = 3.14159265358979323846;
   const VD size = hn::Abs(c);
   const VD high = hn::Max(hn::Max(s, size), SplatD(1e-300));
@@ -73,9 +73,9 @@ struct HorizonClip {
   // corner.
   D3 sets = {SplatD(0), SplatD(0), SplatD(0)}, rises = sets;
 
-  HWY_INLINE explicit HorizonClip(D3 normal) : n(normal) {}
+  LANELIGHT_INLINE explicit HorizonClip(D3 normal) : n(normal) {}
 
-  HWY_INLINE void Add(D3 a, D3 edge, VD from, VD to) {
+  LANELIGHT_INLINE void Add(D3 a, D3 edge, VD from, VD to) {
     const D3 cross = Cross(a, edge);
     const VD s = hn::Mul(hn::Sub(to, from), hn::Sqrt(Dot(cross, cross)));
     const VD c = Dot(MulAdd(edge, from, a), MulAdd(edge, to, a));
@@ -85,7 +85,7 @@ struct HorizonClip {
   }
 
   /// The edge from first + offset to first + offset + edge, of heights za and zb.
-  HWY_INLINE void AddClipped(D3 first, D3 offset, D3 edge, VD za, VD zb) {
+  LANELIGHT_INLINE void AddClipped(D3 first, D3 offset, D3 edge, VD za, VD zb) {
     const VD zero = SplatD(0), one = SplatD(1);
     const MD above_a = hn::Gt(za, zero), above_b = hn::Gt(zb, zero);
     const MD crosses = hn::Xor(above_a, above_b);
@@ -100,7 +100,7 @@ struct HorizonClip {
   }
 
   /// Closes the outline along the horizon.
-  HWY_INLINE VD Irradiance(D3 first) {
+  LANELIGHT_INLINE VD Irradiance(D3 first) {
     const D3 edge = Minus(rises, sets);
     if (!hn::AllTrue(DD(), hn::Eq(Dot(edge, edge), SplatD(0)))) {
       Add(Plus(first, sets), edge, SplatD(0), SplatD(1));
@@ -109,7 +109,7 @@ struct HorizonClip {
   }
 };
 
-HWY_INLINE VD TriangleIrradiance(const TriangleEdges& t, D3 n) {
+LANELIGHT_INLINE VD TriangleIrradiance(const TriangleEdges& t, D3 n) {
   const D3 e02 = Plus(t.e01, t.e12);
   const VD z0 = Dot(n, t.corner);
   const VD z1 = hn::Add(z0, Dot(n, t.e01)), z2 = hn::Add(z0, Dot(n, e02));
@@ -125,7 +125,7 @@ HWY_INLINE VD TriangleIrradiance(const TriangleEdges& t, D3 n) {
 }
 
 /// t - atan(t) for t = s / c >= 0. Relative error below 1e-8.
-HWY_INLINE VD TMinusAtan(VD t, VD s, VD c) {
+LANELIGHT_INLINE VD TMinusAtan(VD t, VD s, VD c) {
   const VD t2 = hn::Mul(t, t);
   VD series = hn::NegMulAdd(t2, SplatD(1.0 / 9), SplatD(1.0 / 7));
   series = hn::NegMulAdd(t2, series, SplatD(1.0 / 5));
@@ -135,7 +135,7 @@ HWY_INLINE VD TMinusAtan(VD t, VD s, VD c) {
 }
 
 /// A sphere seen from outside.
-HWY_INLINE VD SphereIrradiance(D3 center, VD radius, D3 n) {
+LANELIGHT_INLINE VD SphereIrradiance(D3 center, VD radius, D3 n) {
   const VD one = SplatD(1), r2 = hn::Mul(radius, radius), d2 = Dot(center, center);
   const VD d = hn::Sqrt(d2), sin2 = hn::Div(r2, d2);
   const D3 across = Cross(n, center);
@@ -157,7 +157,7 @@ HWY_INLINE VD SphereIrradiance(D3 center, VD radius, D3 n) {
 ///   across           pi 2 h a r^2 / (s (Z + s))
 /// (By Stokes' theorem the vector irradiance is half the integral of x cross dx / |x|^2
 /// along the rim, which is elementary for a circle.)
-HWY_INLINE VD DiskIrradiance(D3 center, D3 axis, VD radius, D3 n) {
+LANELIGHT_INLINE VD DiskIrradiance(D3 center, D3 axis, VD radius, D3 n) {
   const double pi = 3.14159265358979323846;
   const VD r2 = hn::Mul(radius, radius), along = Dot(axis, center);
   const D3 across = MulAdd(axis, hn::Neg(along), center);

@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 
 /// Weight of the technique of density `mine` > 0 against `other`, in a form that neither
 /// overflows nor divides zero by zero. Which heuristic: see MisParameters.
-HWY_INLINE VF HeuristicWeight(const MisParameters& mis, VF mine, VF other) {
+LANELIGHT_INLINE VF HeuristicWeight(const MisParameters& mis, VF mine, VF other) {
   const VF ratio = hn::Min(hn::Div(other, mine), Splat(1e18f));
   const VF rest = hn::MulAdd(Splat(mis.square), ratio, Splat(mis.linear));
   return hn::Div(Splat(1.0f), hn::MulAdd(ratio, rest, Splat(1.0f)));
@@ -32,7 +32,7 @@ HWY_INLINE VF HeuristicWeight(const MisParameters& mis, VF mine, VF other) {
 
 /// Weight of a light sample whose direction scattering has density bsdf_pdf. Delta lights
 /// (light_pdf = 0), which scattering cannot find, have weight 1.
-HWY_INLINE VF LightSampleWeight(const MisParameters& mis, VF light_pdf, VF bsdf_pdf) {
+LANELIGHT_INLINE VF LightSampleWeight(const MisParameters& mis, VF light_pdf, VF bsdf_pdf) {
   const VF one = Splat(1.0f);
   const MF delta = hn::Eq(light_pdf, hn::Zero(DF()));
   const VF weight = HeuristicWeight(mis, hn::IfThenElse(delta, one, light_pdf), bsdf_pdf);
@@ -41,7 +41,7 @@ HWY_INLINE VF LightSampleWeight(const MisParameters& mis, VF light_pdf, VF bsdf_
 
 /// Weight of emission met by a scattered ray: 1 after the camera or a specular event
 /// (bsdf_pdf = 0), where no light sample could have found it.
-HWY_INLINE VF EmissionWeight(const MisParameters& mis, VF bsdf_pdf, VF light_pdf) {
+LANELIGHT_INLINE VF EmissionWeight(const MisParameters& mis, VF bsdf_pdf, VF light_pdf) {
   const VF one = Splat(1.0f);
   const MF specular = hn::Eq(bsdf_pdf, hn::Zero(DF()));
   const VF weight =

@@ -15,14 +15,14 @@ namespace HWY_NAMESPACE {
 /// Light samples count in full, and scattered rays find no light that is sampled.
 struct UnweightedLighting {
   static constexpr bool kWeighs = false;
-  static HWY_INLINE VF Weight(const MisParameters&, VF, VF) { return Splat(1.0f); }
+  static LANELIGHT_INLINE VF Weight(const MisParameters&, VF, VF) { return Splat(1.0f); }
 };
 
 /// Light samples and scattered rays are weighted against each other; the rays carry
 /// their density (the bsdf_pdf column).
 struct MisLighting {
   static constexpr bool kWeighs = true;
-  static HWY_INLINE VF Weight(const MisParameters& mis, VF light_pdf, VF scattered_pdf) {
+  static LANELIGHT_INLINE VF Weight(const MisParameters& mis, VF light_pdf, VF scattered_pdf) {
     return LightSampleWeight(mis, light_pdf, scattered_pdf);
   }
 };

@@ -27,12 +27,12 @@ namespace HWY_NAMESPACE {
 /// `u`: the points of the bounce.
 struct MaterialProposal {
   template <class Bsdf>
-  static HWY_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
+  static LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
                                       const BsdfPoints& u) {
     return Bsdf::Sample(material, wo, u);
   }
   template <class Bsdf>
-  static HWY_INLINE VF Pdf(const typename Bsdf::Params&, V3, V3, VF material_pdf) {
+  static LANELIGHT_INLINE VF Pdf(const typename Bsdf::Params&, V3, V3, VF material_pdf) {
     return material_pdf;
   }
 };

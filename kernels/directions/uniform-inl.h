@@ -26,7 +26,7 @@ namespace HWY_NAMESPACE {
 /// Uniform over the hemisphere of wo, or over the sphere; the density is kept apart from
 /// 0 at the horizon, as wi.z must not be 0.
 template <class Bsdf>
-HWY_INLINE BsdfSample EvaluateUniformDirection(const typename Bsdf::Params& material,
+LANELIGHT_INLINE BsdfSample EvaluateUniformDirection(const typename Bsdf::Params& material,
                                                V3 wo, VF u0, VF u1) {
   VF height = u0, flip = Splat(1.0f), pdf = PdfUniformHemisphere();
   if constexpr (Bsdf::kTransmits) {
@@ -45,7 +45,7 @@ HWY_INLINE BsdfSample EvaluateUniformDirection(const typename Bsdf::Params& mate
 /// A proposal as in material-inl.h.
 struct UniformProposal {
   template <class Bsdf>
-  static HWY_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
+  static LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
                                       const BsdfPoints& u) {
     if constexpr (!Bsdf::kHasDelta) {
       return EvaluateUniformDirection<Bsdf>(material, wo, u.u0, u.u1);
@@ -63,7 +63,7 @@ struct UniformProposal {
     }
   }
   template <class Bsdf>
-  static HWY_INLINE VF Pdf(const typename Bsdf::Params&, V3 wo, V3 wi, VF) {
+  static LANELIGHT_INLINE VF Pdf(const typename Bsdf::Params&, V3 wo, V3 wi, VF) {
     const VF pdf = PdfUniformHemisphere();
     if constexpr (Bsdf::kTransmits) return hn::Mul(pdf, Splat(0.5f));
     return hn::IfThenElseZero(SameSide(wo, wi), pdf);

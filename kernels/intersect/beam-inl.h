@@ -20,8 +20,8 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_INLINE float LeastLane(VF v) { return hn::GetLane(hn::MinOfLanes(DF(), v)); }
-HWY_INLINE float LargestLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(), v)); }
+LANELIGHT_INLINE float LeastLane(VF v) { return hn::GetLane(hn::MinOfLanes(DF(), v)); }
+LANELIGHT_INLINE float LargestLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(), v)); }
 
 /// Slopes may differ by at most this from the mean for the test to pay: on narrow targets
 /// only those of a frustum's rays do (AVX2: 0.25 costs bounces and shadow rays 0 to 10
@@ -40,12 +40,12 @@ struct Beam {
   P3<float> o;  // middle of the origins
   float s[2], radius[2], slope[2];
 
-  HWY_INLINE bool IsNarrow() const { return std::max(slope[0], slope[1]) <= kBeamSlope; }
+  LANELIGHT_INLINE bool IsNarrow() const { return std::max(slope[0], slope[1]) <= kBeamSlope; }
 };
 
 /// The beam around the rays of all lanes. A position across is p - o - s z; with s = c +-
 /// r and z = z0 +- q over the rays, s z = c z0 +- (|c| q + r |z0| + r q).
-HWY_INLINE Beam MakeBeam(const Shear<VF>& shear) {
+LANELIGHT_INLINE Beam MakeBeam(const Shear<VF>& shear) {
   const auto middle = [](VF v, float& radius) HWY_ATTR {
     const float lo = LeastLane(v), hi = LargestLane(v);
     constexpr float kRound = 2 * std::numeric_limits<float>::epsilon();
@@ -69,7 +69,7 @@ HWY_INLINE Beam MakeBeam(const Shear<VF>& shear) {
 /// Triangles of a leaf, as bits, whose bounds across the beam meet it. `axis`: the
 /// permuted order of axes.
 template <class Leaf>
-HWY_INLINE uint32_t TrianglesInBeam(const Beam& beam, const Leaf& leaf,
+LANELIGHT_INLINE uint32_t TrianglesInBeam(const Beam& beam, const Leaf& leaf,
                                     const uint32_t (&axis)[3]) {
   using V = LeafVec<Leaf>;
   const LeafTag<Leaf> d;

@@ -33,7 +33,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D8 = hn::CappedTag<float, kBvhWidth>;
 using V8 = hn::Vec<D8>;
 using M8 = hn::Mask<D8>;
-HWY_INLINE constexpr int Lanes8() { return static_cast<int>(hn::MaxLanes(D8())); }
+LANELIGHT_INLINE constexpr int Lanes8() { return static_cast<int>(hn::MaxLanes(D8())); }
 
 /// A ray prepared for the slab test: the parameter of plane b of axis a is
 /// b * rcp[a] + (near or far)[a].
@@ -42,11 +42,11 @@ struct SlabRay {
   int lower[3];  // 0 if the near plane of the axis is the lower one, else kBvhWidth
 };
 
-HWY_INLINE float LargestCoordinate(const float o[3]) {
+LANELIGHT_INLINE float LargestCoordinate(const float o[3]) {
   return std::max({std::abs(o[0]), std::abs(o[1]), std::abs(o[2])});
 }
 
-HWY_INLINE SlabRay MakeSlabRay(const float o[3], const float d[3], const Bvh& bvh) {
+LANELIGHT_INLINE SlabRay MakeSlabRay(const float o[3], const float d[3], const Bvh& bvh) {
   const D8 d8;
   const float delta = bvh.margin + bvh.slack * LargestCoordinate(o);
   SlabRay ray;
@@ -64,7 +64,7 @@ HWY_INLINE SlabRay MakeSlabRay(const float o[3], const float d[3], const Bvh& bv
 }
 
 /// Children of the node that the ray meets before t_max, as bits; their entry distances.
-HWY_INLINE uint32_t HitChildren(const SlabRay& ray, const WideNode& node, float t_max,
+LANELIGHT_INLINE uint32_t HitChildren(const SlabRay& ray, const WideNode& node, float t_max,
                                 float* HWY_RESTRICT entry) {
   const D8 d8;
   uint32_t bits = 0;
@@ -85,16 +85,16 @@ HWY_INLINE uint32_t HitChildren(const SlabRay& ray, const WideNode& node, float 
 
 /// A node to visit: entry distance in the high word, so that keys sort by distance
 /// (distances are not negative, so their bits order as integers).
-HWY_INLINE uint64_t StackKey(float entry, uint32_t ref) {
+LANELIGHT_INLINE uint64_t StackKey(float entry, uint32_t ref) {
   return uint64_t{std::bit_cast<uint32_t>(entry)} << 32 | ref;
 }
-HWY_INLINE float EntryOf(uint64_t key) {
+LANELIGHT_INLINE float EntryOf(uint64_t key) {
   return std::bit_cast<float>(static_cast<uint32_t>(key >> 32));
 }
 
 /// Pushes the children in `bits` except the nearest, farthest first, and returns the
 /// nearest.
-HWY_INLINE uint32_t PushChildren(const WideNode& node, uint32_t bits, const float* entry,
+LANELIGHT_INLINE uint32_t PushChildren(const WideNode& node, uint32_t bits, const float* entry,
                                  uint64_t*& top) {
   const int first = std::countr_zero(bits);
   bits &= bits - 1;
@@ -117,7 +117,7 @@ HWY_INLINE uint32_t PushChildren(const WideNode& node, uint32_t bits, const floa
 /// Visits the leaves that the ray (a SlabRay, or a Frustum) meets before `t_max`, roughly
 /// nearest first. `leaf` may lower t_max; it returns true to end the traversal.
 template <class Ray, class Leaf>
-HWY_INLINE void Traverse(const WideNode* HWY_RESTRICT nodes, uint32_t root,
+LANELIGHT_INLINE void Traverse(const WideNode* HWY_RESTRICT nodes, uint32_t root,
                          const Ray& ray, const float& t_max, Leaf&& leaf) {
   if (root == kEmptyRef) return;
   uint64_t stack[kTraversalStack];

@@ -15,7 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// fn(tag of doubles, v...) of the promoted lanes, rounded to float once.
 template <class D, class Fn, class... V>
-HWY_INLINE hn::Vec<D> InDouble(D d, Fn&& fn, V... v) {
+LANELIGHT_INLINE hn::Vec<D> InDouble(D d, Fn&& fn, V... v) {
   const hn::Half<D> dh;
   const hn::Rebind<double, hn::Half<D>> dd;
   const auto upper = fn(dd, hn::PromoteTo(dd, hn::UpperHalf(dh, v))...);

@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Distinct vertices of the scene, sheared for the rays of one batch.
 class FewVertices {
  public:
-  HWY_INLINE FewVertices(const FewTriangles& few, const AxisOrder& order,
+  LANELIGHT_INLINE FewVertices(const FewTriangles& few, const AxisOrder& order,
                          const Shear<VF>& shear) {
     const DF df;
     float* to = data_;
@@ -30,7 +30,7 @@ class FewVertices {
       to += 3 * kLanes;
     }
   }
-  HWY_INLINE P3<VF> operator[](uint32_t i) const {
+  LANELIGHT_INLINE P3<VF> operator[](uint32_t i) const {
     const DF df;
     const float* at = data_ + 3 * kLanes * i;
     return {hn::Load(df, at), hn::Load(df, at + kLanes), hn::Load(df, at + 2 * kLanes)};
@@ -44,7 +44,7 @@ class FewVertices {
 /// Calls found(hits, mask, prim) for every triangle that some lane hits within its t_max
 /// as `t_max()` says at that time; stops when found returns true.
 template <bool kAlpha, class TMax, class Found>
-HWY_INLINE void ForEachFew(const CompiledScene& scene, const Rays& rays, TMax&& t_max,
+LANELIGHT_INLINE void ForEachFew(const CompiledScene& scene, const Rays& rays, TMax&& t_max,
                            Found&& found) {
   const DF df;
   const FewTriangles& few = scene.accel.few;
@@ -69,7 +69,7 @@ HWY_INLINE void ForEachFew(const CompiledScene& scene, const Rays& rays, TMax&& 
 
 /// Closest hits of a batch; hits are written to the columns.
 template <bool kAlpha>
-HWY_INLINE void ClosestFew(const Wave& wave, const Rays& rays, VI slots) {
+LANELIGHT_INLINE void ClosestFew(const Wave& wave, const Rays& rays, VI slots) {
   ManyClosest best(wave.path, rays, slots);
   ForEachFew<kAlpha>(
       *wave.scene, rays, [&]() HWY_ATTR { return best.t(); },
@@ -82,7 +82,7 @@ HWY_INLINE void ClosestFew(const Wave& wave, const Rays& rays, VI slots) {
 
 /// Which rays of a batch are blocked.
 template <bool kAlpha>
-HWY_INLINE MF BlockedFew(const CompiledScene& scene, const Rays& rays) {
+LANELIGHT_INLINE MF BlockedFew(const CompiledScene& scene, const Rays& rays) {
   const DF df;
   MF blocked = hn::FirstN(df, 0);
   ForEachFew<kAlpha>(

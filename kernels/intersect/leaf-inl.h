@@ -26,7 +26,7 @@ using LeafTag = hn::CappedTag<float, Leaf::kLanes>;
 template <class Leaf>
 using LeafVec = hn::Vec<LeafTag<Leaf>>;
 template <class Leaf>
-HWY_INLINE constexpr int LeafLanes() {
+LANELIGHT_INLINE constexpr int LeafLanes() {
   return static_cast<int>(hn::MaxLanes(LeafTag<Leaf>()));
 }
 
@@ -39,8 +39,8 @@ template <>
 class LeafColumn<SeparateLeaf> {
  public:
   using V = LeafVec<SeparateLeaf>;
-  HWY_INLINE void Set(int part, V v) { part_[part] = v; }
-  HWY_INLINE V Corner(const SeparateLeaf&, int k, int i) const {
+  LANELIGHT_INLINE void Set(int part, V v) { part_[part] = v; }
+  LANELIGHT_INLINE V Corner(const SeparateLeaf&, int k, int i) const {
     return part_[(SeparateLeaf::kLanes * k + i) / LeafLanes<SeparateLeaf>()];
   }
 
@@ -53,8 +53,8 @@ class LeafColumn<TriangleLeaf> {
  public:
   using D = LeafTag<TriangleLeaf>;
   using V = hn::Vec<D>;
-  HWY_INLINE void Set(int part, V v) { part_[part] = v; }
-  HWY_INLINE V Corner(const TriangleLeaf& leaf, int k, int i) const {
+  LANELIGHT_INLINE void Set(int part, V v) { part_[part] = v; }
+  LANELIGHT_INLINE V Corner(const TriangleLeaf& leaf, int k, int i) const {
     const hn::RebindToUnsigned<D> du;
     const hn::Rebind<uint8_t, D> d8;
     return At(hn::PromoteTo(du, hn::LoadU(d8, leaf.corner[k] + i)));
@@ -63,11 +63,11 @@ class LeafColumn<TriangleLeaf> {
  private:
   using Index = hn::Vec<hn::RebindToUnsigned<D>>;
 #if HWY_MAX_BYTES >= 64
-  HWY_INLINE V At(Index index) const {
+  LANELIGHT_INLINE V At(Index index) const {
     return hn::TableLookupLanes(part_[0], hn::IndicesFromVec(D(), index));
   }
 #elif HWY_MAX_BYTES >= 32
-  HWY_INLINE V At(Index index) const {
+  LANELIGHT_INLINE V At(Index index) const {
     const D d;
     const hn::RebindToUnsigned<D> du;
     const auto seven = hn::Set(du, 7);
@@ -77,7 +77,7 @@ class LeafColumn<TriangleLeaf> {
                           hn::TableLookupLanes(part_[0], lanes));
   }
 #else
-  HWY_INLINE V At(Index index) const {
+  LANELIGHT_INLINE V At(Index index) const {
     return hn::GatherIndex(D(), reinterpret_cast<const float*>(part_),
                            hn::BitCast(hn::RebindToSigned<D>(), index));
   }
@@ -87,8 +87,8 @@ class LeafColumn<TriangleLeaf> {
 };
 
 /// Lanes that hold a triangle, as bits.
-HWY_INLINE uint32_t UsedLanes(const TriangleLeaf& leaf) { return leaf.used; }
-HWY_INLINE uint32_t UsedLanes(const SeparateLeaf& leaf) {
+LANELIGHT_INLINE uint32_t UsedLanes(const TriangleLeaf& leaf) { return leaf.used; }
+LANELIGHT_INLINE uint32_t UsedLanes(const SeparateLeaf& leaf) {
   const hn::RebindToUnsigned<LeafTag<SeparateLeaf>> du;
   uint32_t bits = 0;
   for (int i = 0; i < SeparateLeaf::kLanes; i += LeafLanes<SeparateLeaf>()) {
@@ -131,7 +131,7 @@ inline constexpr uint32_t kLeafRow = sizeof(TriangleLeaf::vertex[0]);
 
 /// The coordinates along an axis, as in LeafRay::row, of a leaf's vertices.
 template <class Leaf>
-HWY_INLINE const float* LeafRow(const Leaf& leaf, uint32_t row) {
+LANELIGHT_INLINE const float* LeafRow(const Leaf& leaf, uint32_t row) {
   static_assert(2 * sizeof(SeparateLeaf::vertex[0]) == 3 * kLeafRow);
   if constexpr (std::is_same_v<Leaf, SeparateLeaf>) row += row / 2;
   return reinterpret_cast<const float*>(reinterpret_cast<const char*>(leaf.vertex) + row);
@@ -142,7 +142,7 @@ HWY_INLINE const float* LeafRow(const Leaf& leaf, uint32_t row) {
 /// The rays take each step together, so that the processor's window always holds as many
 /// independent chains.
 template <int kRays, class Leaf>
-HWY_INLINE void TestLeaves(const LeafRay (&ray)[kRays], const Leaf* const (&leaf)[kRays],
+LANELIGHT_INLINE void TestLeaves(const LeafRay (&ray)[kRays], const Leaf* const (&leaf)[kRays],
                            LeafWeights* const (&to)[kRays], uint32_t (&bits)[kRays]) {
   using V = LeafVec<Leaf>;
   const LeafTag<Leaf> d;
@@ -199,7 +199,7 @@ HWY_INLINE void TestLeaves(const LeafRay (&ray)[kRays], const Leaf* const (&leaf
 /// Finishes one lane of a leaf for which TestLeaves set the bit. `t` is valid if the
 /// result is true: the triangle lies ahead. The arithmetic is that of FinishHits.
 template <class Leaf, class CopyRay>
-HWY_INLINE bool FinishLane(const Leaf& leaf, const LeafWeights& weights, uint32_t lane,
+LANELIGHT_INLINE bool FinishLane(const Leaf& leaf, const LeafWeights& weights, uint32_t lane,
                            CopyRay&& copy_ray, float& t, float& det) {
   const hn::CappedTag<float, 1> d1;
   const float u = weights.u[lane], v = weights.v[lane], w = weights.w[lane];

@@ -23,13 +23,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 struct AxisOrder {
   MF y, z;
 
-  HWY_INLINE explicit AxisOrder(V3 d) {
+  LANELIGHT_INLINE explicit AxisOrder(V3 d) {
     const VF ax = hn::Abs(d.x), ay = hn::Abs(d.y), az = hn::Abs(d.z);
     y = hn::Gt(ay, ax);
     z = hn::Gt(az, hn::Max(ax, ay));
   }
   /// Cyclic permutation that brings the largest axis last.
-  HWY_INLINE P3<VF> Permute(V3 v) const {
+  LANELIGHT_INLINE P3<VF> Permute(V3 v) const {
     return {hn::IfThenElse(z, v.x, hn::IfThenElse(y, v.z, v.y)),
             hn::IfThenElse(z, v.y, hn::IfThenElse(y, v.x, v.z)),
             hn::IfThenElse(z, v.z, hn::IfThenElse(y, v.y, v.x))};
@@ -37,7 +37,7 @@ struct AxisOrder {
 };
 
 template <class Order>
-HWY_INLINE Shear<VF> MakeShear(const Order& order, const Rays& rays, float reach) {
+LANELIGHT_INLINE Shear<VF> MakeShear(const Order& order, const Rays& rays, float reach) {
   Shear<VF> shear;
   shear.o = order.Permute(rays.o);
   const P3<VF> d = order.Permute(rays.d);
@@ -78,13 +78,13 @@ inline HWY_NOINLINE MF AheadOf(const Rays& rays, const float v0[3], const float 
 }
 
 /// Lanes whose ray does not start on triangle `prim`.
-HWY_INLINE MF NotFrom(const Rays& rays, uint32_t prim) {
+LANELIGHT_INLINE MF NotFrom(const Rays& rays, uint32_t prim) {
   return hn::RebindMask(DF(),
                         hn::Ne(rays.from, hn::Set(DI(), static_cast<int32_t>(prim))));
 }
 
 /// Clears the lanes of `mask` whose candidate hit on `prim` is cut out.
-HWY_INLINE MF CutOut(const CompiledScene& scene, const Rays& rays, uint32_t prim,
+LANELIGHT_INLINE MF CutOut(const CompiledScene& scene, const Rays& rays, uint32_t prim,
                      const TriangleHits<VF, MF>& hit, MF mask) {
   const DF df;
   if (!(scene.geometry.triangles[prim].flags & kAlphaTested)) return mask;
@@ -105,7 +105,7 @@ HWY_INLINE MF CutOut(const CompiledScene& scene, const Rays& rays, uint32_t prim
 /// The closest hits of a vector of rays so far.
 class ManyClosest {
  public:
-  HWY_INLINE ManyClosest(const PathColumns& path, const Rays& rays, VI slots)
+  LANELIGHT_INLINE ManyClosest(const PathColumns& path, const Rays& rays, VI slots)
       : t_(rays.t_max),
         v_(hn::Zero(DF())),
         w_(v_),
@@ -113,9 +113,9 @@ class ManyClosest {
         prim_(Gather(path.prim, slots)),
         any_(hn::FirstN(DF(), 0)) {}
 
-  HWY_INLINE VF t() const { return t_; }
+  LANELIGHT_INLINE VF t() const { return t_; }
   /// Takes over the lanes of `mask` where the hit on `id` is closer; true if there are.
-  HWY_INLINE bool Offer(const TriangleHits<VF, MF>& hit, MF mask, uint32_t id) {
+  LANELIGHT_INLINE bool Offer(const TriangleHits<VF, MF>& hit, MF mask, uint32_t id) {
     const DI di;
     const VI prim = hn::Set(di, static_cast<int32_t>(id));
     const MF closer = hn::And(mask, IsCloser(hit.t, prim, t_, prim_));
@@ -127,7 +127,7 @@ class ManyClosest {
     det_ = hn::IfThenElse(closer, hit.det, det_);
     return !hn::AllFalse(DF(), closer);
   }
-  HWY_INLINE void Store(const PathColumns& path, VI slots) const {
+  LANELIGHT_INLINE void Store(const PathColumns& path, VI slots) const {
     Scatter(t_, path.t, slots);
     Scatter(prim_, path.prim, slots);
     const VF b1 = hn::Div(v_, det_), b2 = hn::Div(w_, det_);

@@ -26,7 +26,7 @@ struct PacketBounds {
 
   /// Computed as far as needed: false as soon as the rays are found not to agree in the
   /// signs of their directions.
-  HWY_INLINE bool Compute(const Rays& rays) {
+  LANELIGHT_INLINE bool Compute(const Rays& rays) {
     const DF df;
     const VF d[3] = {rays.d.x, rays.d.y, rays.d.z};
     const VF o[3] = {rays.o.x, rays.o.y, rays.o.z};
@@ -46,7 +46,7 @@ struct PacketBounds {
 
   /// Whether the rays are close enough for a packet to pay: measured with
   /// bench/intersect/, see src/accel/accel.h.
-  HWY_INLINE bool IsNarrow(float reach) const {
+  LANELIGHT_INLINE bool IsNarrow(float reach) const {
     float spread = 0, extent = 0;
     for (int a = 0; a < 3; ++a) {
       spread = std::max(spread, d_max[a] - d_min[a]);
@@ -65,7 +65,7 @@ struct Frustum {
   int lower[3];
 };
 
-HWY_INLINE Frustum MakeFrustum(const PacketBounds& p, const Bvh& bvh) {
+LANELIGHT_INLINE Frustum MakeFrustum(const PacketBounds& p, const Bvh& bvh) {
   const D8 d8;
   float largest = 0;
   for (int a = 0; a < 3; ++a) {
@@ -88,7 +88,7 @@ HWY_INLINE Frustum MakeFrustum(const PacketBounds& p, const Bvh& bvh) {
 }
 
 /// Children that some ray of the packet may meet before t_max.
-HWY_INLINE uint32_t HitChildren(const Frustum& f, const WideNode& node, float t_max,
+LANELIGHT_INLINE uint32_t HitChildren(const Frustum& f, const WideNode& node, float t_max,
                                 float* HWY_RESTRICT entry) {
   const D8 d8;
   uint32_t bits = 0;
@@ -115,7 +115,7 @@ inline constexpr int kFrustumLeaves = 16;
 /// Visits the leaves that the packet meets, until no ray wants more, or until there are
 /// more than `max_leaves`: then the result is false, and what was found is a bound.
 template <bool kAny, bool kAlpha>
-HWY_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
+LANELIGHT_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
                              const PacketBounds& bounds, int max_leaves,
                              PacketBest& best) {
   const DF df;
@@ -139,7 +139,7 @@ HWY_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
 /// Closest hits of a batch; hits are written to the columns. False if the frustum does
 /// not pay: then the rays are to be traced otherwise, from what the columns hold now.
 template <bool kAlpha>
-HWY_INLINE bool ClosestFrustum(const Wave& wave, const Rays& rays,
+LANELIGHT_INLINE bool ClosestFrustum(const Wave& wave, const Rays& rays,
                                const PacketBounds& bounds, VI slots) {
   const PathColumns& path = wave.path;
   PacketBest best = NoHits(rays.t_max, Gather(path.prim, slots));
@@ -156,7 +156,7 @@ HWY_INLINE bool ClosestFrustum(const Wave& wave, const Rays& rays,
 
 /// Which rays of a batch are blocked.
 template <bool kAlpha>
-HWY_INLINE MF BlockedFrustum(const CompiledScene& scene, const Rays& rays,
+LANELIGHT_INLINE MF BlockedFrustum(const CompiledScene& scene, const Rays& rays,
                              const PacketBounds& bounds) {
   PacketBest best = NoHits(rays.t_max, hn::Zero(DI()));
   TraceFrustum<true, kAlpha>(scene, rays, bounds, std::numeric_limits<int>::max(), best);

@@ -25,7 +25,7 @@ struct PacketBest {
   uint32_t found;  // lanes, as bits
 };
 
-HWY_INLINE PacketBest NoHits(VF t_max, VI prim) {
+LANELIGHT_INLINE PacketBest NoHits(VF t_max, VI prim) {
   return {t_max, prim, hn::Zero(DF()), hn::Zero(DF()), Splat(1.0f), 0};
 }
 
@@ -40,7 +40,7 @@ struct PacketRays {
 };
 
 /// Prepares rays for leaves; `valid`: their lanes, as bits.
-HWY_INLINE PacketRays MakePacket(const Rays& rays, const Shear<VF>& shear,
+LANELIGHT_INLINE PacketRays MakePacket(const Rays& rays, const Shear<VF>& shear,
                                  const AxisOrder& order, uint32_t valid) {
   PacketRays packet{rays, shear};
   const uint32_t y = MaskBits(DF(), order.y) & valid, z = MaskBits(DF(), order.z) & valid;
@@ -60,13 +60,13 @@ HWY_INLINE PacketRays MakePacket(const Rays& rays, const Shear<VF>& shear,
 template <int kRows>
 class PacketColumns {
  public:
-  HWY_INLINE void Keep(uint32_t i, P3<VF> p) {
+  LANELIGHT_INLINE void Keep(uint32_t i, P3<VF> p) {
     const DF df;
     hn::Store(p.x, df, x_[i]);
     hn::Store(p.y, df, y_[i]);
     hn::Store(p.z, df, z_[i]);
   }
-  HWY_INLINE P3<VF> operator[](uint32_t i) const {
+  LANELIGHT_INLINE P3<VF> operator[](uint32_t i) const {
     const DF df;
     return {hn::Load(df, x_[i]), hn::Load(df, y_[i]), hn::Load(df, z_[i])};
   }
@@ -81,11 +81,11 @@ class PacketColumns {
 
 /// Calls f(i) for the vertices of some triangles of a leaf, or more.
 template <class F>
-HWY_INLINE void ForEachVertex(const TriangleLeaf& leaf, uint32_t, F&& f) {
+LANELIGHT_INLINE void ForEachVertex(const TriangleLeaf& leaf, uint32_t, F&& f) {
   for (uint32_t i = 0; i < leaf.vertices; ++i) f(i);
 }
 template <class F>
-HWY_INLINE void ForEachVertex(const SeparateLeaf& leaf, uint32_t triangles, F&& f) {
+LANELIGHT_INLINE void ForEachVertex(const SeparateLeaf& leaf, uint32_t triangles, F&& f) {
   for (; triangles != 0; triangles &= triangles - 1) {
     const auto i = static_cast<uint32_t>(std::countr_zero(triangles));
     for (int k = 0; k < 3; ++k) f(leaf.VertexOf(k, i));
@@ -94,7 +94,7 @@ HWY_INLINE void ForEachVertex(const SeparateLeaf& leaf, uint32_t triangles, F&& 
 
 /// The vertices of some triangles of a leaf as each ray sees them.
 template <class Leaf>
-HWY_INLINE void ShearLeaf(const Leaf& leaf, uint32_t triangles, const PacketRays& packet,
+LANELIGHT_INLINE void ShearLeaf(const Leaf& leaf, uint32_t triangles, const PacketRays& packet,
                           PacketColumns<Leaf::kVertexLanes>& to) {
   const DF df;
   if (packet.same_axes) {
@@ -117,7 +117,7 @@ HWY_INLINE void ShearLeaf(const Leaf& leaf, uint32_t triangles, const PacketRays
 /// their lines passes through; its tests have no branches, and what it computes is kept,
 /// so that tests overlap in both passes.
 template <bool kAny, bool kAlpha, class Leaf>
-HWY_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& leaf,
+LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& leaf,
                                const PacketRays& packet, uint32_t lanes,
                                PacketBest& best) {
   const DF df;
@@ -177,7 +177,7 @@ HWY_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& leaf,
 
 /// The same for the leaf that a reference names.
 template <bool kAny, bool kAlpha>
-HWY_INLINE void TestLeafPacket(const CompiledScene& scene, uint32_t ref,
+LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, uint32_t ref,
                                const PacketRays& packet, uint32_t lanes,
                                PacketBest& best) {
   const TriangleBlock& block = scene.accel.triangle_blocks[ref & kRefIndex];

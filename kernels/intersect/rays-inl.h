@@ -34,7 +34,7 @@ struct RayArrays {
   HWY_ALIGN float t_max[hn::MaxLanes(DF())];
   HWY_ALIGN uint32_t slot[hn::MaxLanes(DF())];
 
-  HWY_INLINE RayArrays(const Rays& rays, VI slots) {
+  LANELIGHT_INLINE RayArrays(const Rays& rays, VI slots) {
     const DF df;
     hn::Store(rays.o.x, df, o[0]);
     hn::Store(rays.o.y, df, o[1]);
@@ -47,23 +47,23 @@ struct RayArrays {
   }
 };
 
-HWY_INLINE VI FromNone() { return hn::Set(DI(), static_cast<int32_t>(kNoPrimitive)); }
+LANELIGHT_INLINE VI FromNone() { return hn::Set(DI(), static_cast<int32_t>(kNoPrimitive)); }
 
 /// Rays::from of extension rays: `prim` is that of the last hit until there is a new one.
-HWY_INLINE VI StartsOf(const PathColumns& path, const Slots& slots, VF t) {
+LANELIGHT_INLINE VI StartsOf(const PathColumns& path, const Slots& slots, VF t) {
   const auto fresh = hn::RebindMask(DI(), hn::IsInf(t));
   return hn::IfThenElse(fresh, Gather(path.prim, slots), FromNone());
 }
 
 /// The extension rays of a batch (queue kActive).
-HWY_INLINE Rays LoadRays(const PathColumns& path, const Slots& slots) {
+LANELIGHT_INLINE Rays LoadRays(const PathColumns& path, const Slots& slots) {
   return {Gather3(path.o_x, path.o_y, path.o_z, slots),
           Gather3(path.d_x, path.d_y, path.d_z, slots), Gather(path.t, slots),
           FromNone()};
 }
 
 /// The shadow rays of a batch (queue kShadow).
-HWY_INLINE Rays LoadShadowRays(const PathColumns& path, const Slots& slots) {
+LANELIGHT_INLINE Rays LoadShadowRays(const PathColumns& path, const Slots& slots) {
   const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
   const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
   const V3 d = Gather3(path.ls_x, path.ls_y, path.ls_z, slots);
@@ -73,7 +73,7 @@ HWY_INLINE Rays LoadShadowRays(const PathColumns& path, const Slots& slots) {
 
 /// Writes the lanes of `closer`; the others keep what they have.
 template <bool kInstances>
-HWY_INLINE void StoreRoundHits(const PathColumns& path, VI slots, MF closer, VF t,
+LANELIGHT_INLINE void StoreRoundHits(const PathColumns& path, VI slots, MF closer, VF t,
                                VI prim) {
   const DI di;
   const auto mask = hn::RebindMask(di, closer);
@@ -86,7 +86,7 @@ HWY_INLINE void StoreRoundHits(const PathColumns& path, VI slots, MF closer, VF 
 }
 
 /// Lanes where (t, prim) is nearer than the best, or as near with a smaller id.
-HWY_INLINE MF IsCloser(VF t, VI prim, VF best_t, VI best_prim) {
+LANELIGHT_INLINE MF IsCloser(VF t, VI prim, VF best_t, VI best_prim) {
   const DF df;
   const MF smaller = hn::RebindMask(df, hn::Lt(prim, best_prim));
   return hn::Or(hn::Lt(t, best_t), hn::And(hn::Eq(t, best_t), smaller));
@@ -96,7 +96,7 @@ HWY_INLINE MF IsCloser(VF t, VI prim, VF best_t, VI best_prim) {
 /// the others in the queue, in order. Storing at or before the place just read is safe:
 /// a compressed store touches one vector, all of which has been read.
 template <class Occluded>
-HWY_INLINE void RemoveOccluded(Wave& wave, Occluded&& occluded) {
+LANELIGHT_INLINE void RemoveOccluded(Wave& wave, Occluded&& occluded) {
   const Queue all = wave.queue(QueueId::kShadow);
   Queue& kept = wave.queue(QueueId::kShadow);
   kept.size = 0;

@@ -28,16 +28,16 @@ struct RayLanes {
 };
 
 template <class V>
-HWY_INLINE V Dot(P3<V> a, P3<V> b) {
+LANELIGHT_INLINE V Dot(P3<V> a, P3<V> b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
 template <class V>
-HWY_INLINE P3<V> Sub(P3<V> a, P3<V> b) {
+LANELIGHT_INLINE P3<V> Sub(P3<V> a, P3<V> b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
 /// a + b * s
 template <class V>
-HWY_INLINE P3<V> AddScaled(P3<V> a, P3<V> b, V s) {
+LANELIGHT_INLINE P3<V> AddScaled(P3<V> a, P3<V> b, V s) {
   return {hn::MulAdd(b.x, s, a.x), hn::MulAdd(b.y, s, a.y), hn::MulAdd(b.z, s, a.z)};
 }
 
@@ -59,7 +59,7 @@ struct SphereLanes {
 /// Improvements for Ray/Sphere Intersection"), the roots as c / q and q / a. Their
 /// positions are within 8u (|coordinates| + |o|) of the sphere, u = 2^-24.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-HWY_INLINE Candidates<V, M> TestShape(D df, const SphereLanes<V>& s,
+LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const SphereLanes<V>& s,
                                       const RayLanes<V>& ray) {
   const V zero = hn::Zero(df);
   const P3<V> f = Sub(ray.o, s.center);
@@ -102,7 +102,7 @@ HWY_INLINE Candidates<V, M> TestShape(D df, const SphereLanes<V>& s,
 /// Distance to the plane through `point` with normal n; the sign is that of the exact
 /// value for the given n. Infinite or NaN for a ray along the plane.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V PlaneDistance(D df, P3<V> point, P3<V> n, const RayLanes<V>& ray) {
+LANELIGHT_INLINE V PlaneDistance(D df, P3<V> point, P3<V> n, const RayLanes<V>& ray) {
   const P3<V> f = Sub(point, ray.o);
   V height = Dot(n, f);
   const P3<V> abs_n = {hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)};
@@ -129,7 +129,7 @@ struct DiskLanes {
 };
 
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-HWY_INLINE Candidates<V, M> TestShape(D df, const DiskLanes<V>& s,
+LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const DiskLanes<V>& s,
                                       const RayLanes<V>& ray) {
   Candidates<V, M> hit;
   hit.t_near = hit.t_far = PlaneDistance(df, s.center, s.normal, ray);
@@ -149,7 +149,7 @@ struct PlaneLanes {
 };
 
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-HWY_INLINE Candidates<V, M> TestShape(D df, const PlaneLanes<V>& s,
+LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const PlaneLanes<V>& s,
                                       const RayLanes<V>& ray) {
   Candidates<V, M> hit;
   hit.t_near = hit.t_far = PlaneDistance(df, s.point, s.normal, ray);

@@ -21,11 +21,11 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D>
-HWY_INLINE P3<hn::Vec<D>> Broadcast3(D d, const float p[3]) {
+LANELIGHT_INLINE P3<hn::Vec<D>> Broadcast3(D d, const float p[3]) {
   return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2])};
 }
 template <class D>
-HWY_INLINE P3<hn::Vec<D>> Load3(D d, const float (*p)[kBvhWidth], int i) {
+LANELIGHT_INLINE P3<hn::Vec<D>> Load3(D d, const float (*p)[kBvhWidth], int i) {
   return {hn::Load(d, p[0] + i), hn::Load(d, p[1] + i), hn::Load(d, p[2] + i)};
 }
 
@@ -38,10 +38,10 @@ struct SphereShape {
   static const Block* Blocks(const Accel& a) { return a.sphere_blocks.data(); }
   static const float* Center(const Record& r) { return r.center; }
   template <class D>
-  static HWY_INLINE SphereLanes<hn::Vec<D>> Broadcast(D d, const Record& r) {
+  static LANELIGHT_INLINE SphereLanes<hn::Vec<D>> Broadcast(D d, const Record& r) {
     return {Broadcast3(d, r.center), hn::Set(d, r.radius)};
   }
-  static HWY_INLINE SphereLanes<V8> Load(const Block& b, int i) {
+  static LANELIGHT_INLINE SphereLanes<V8> Load(const Block& b, int i) {
     return {Load3(D8(), b.center, i), hn::Load(D8(), b.radius + i)};
   }
 };
@@ -55,11 +55,11 @@ struct DiskShape {
   static const Block* Blocks(const Accel& a) { return a.disk_blocks.data(); }
   static const float* Center(const Record& r) { return r.center; }
   template <class D>
-  static HWY_INLINE DiskLanes<hn::Vec<D>> Broadcast(D d, const Record& r) {
+  static LANELIGHT_INLINE DiskLanes<hn::Vec<D>> Broadcast(D d, const Record& r) {
     return {Broadcast3(d, r.center), Broadcast3(d, r.normal), hn::Set(d, r.radius),
             hn::Set(d, r.inner_radius)};
   }
-  static HWY_INLINE DiskLanes<V8> Load(const Block& b, int i) {
+  static LANELIGHT_INLINE DiskLanes<V8> Load(const Block& b, int i) {
     const D8 d;
     return {Load3(d, b.center, i), Load3(d, b.normal, i), hn::Load(d, b.radius + i),
             hn::Load(d, b.inner_radius + i)};
@@ -72,7 +72,7 @@ struct PlaneShape {
   static uint32_t FirstId(const Geometry& g) { return g.ranges.planes; }
   static const float* Center(const Record& r) { return r.point; }
   template <class D>
-  static HWY_INLINE PlaneLanes<hn::Vec<D>> Broadcast(D d, const Record& r) {
+  static LANELIGHT_INLINE PlaneLanes<hn::Vec<D>> Broadcast(D d, const Record& r) {
     return {Broadcast3(d, r.point), Broadcast3(d, r.normal)};
   }
 };
@@ -100,7 +100,7 @@ inline bool ShapePassesAlpha(const CompiledScene& scene, const float o[3],
 
 /// Drops the candidates of one record that are cut out.
 template <class Shape>
-HWY_INLINE void CutOutShape(const CompiledScene& scene, const Rays& rays, uint32_t index,
+LANELIGHT_INLINE void CutOutShape(const CompiledScene& scene, const Rays& rays, uint32_t index,
                             Candidates<VF, MF>& hit) {
   const DF df;
   if (!(Shape::Records(scene.geometry)[index].flags & kAlphaTested)) return;
@@ -123,7 +123,7 @@ HWY_INLINE void CutOutShape(const CompiledScene& scene, const Rays& rays, uint32
 
 /// The nearest candidate of each lane: its distance, and the lanes that have one.
 template <class D, class V, class M>
-HWY_INLINE M Nearest(D, const Candidates<V, M>& hit, V& t) {
+LANELIGHT_INLINE M Nearest(D, const Candidates<V, M>& hit, V& t) {
   t = hn::IfThenElse(hit.near, hit.t_near, hit.t_far);
   return hn::Or(hit.near, hit.far);
 }
@@ -131,7 +131,7 @@ HWY_INLINE M Nearest(D, const Candidates<V, M>& hit, V& t) {
 // ---- A vector of rays against each record ------------------------------------------
 
 template <class Shape, bool kAlpha, class Found>
-HWY_INLINE void ForEachRecord(const CompiledScene& scene, const Rays& rays,
+LANELIGHT_INLINE void ForEachRecord(const CompiledScene& scene, const Rays& rays,
                               Found&& found) {
   const DF df;
   const auto& records = Shape::Records(scene.geometry);
@@ -146,7 +146,7 @@ HWY_INLINE void ForEachRecord(const CompiledScene& scene, const Rays& rays,
 }
 
 template <class Shape, bool kAlpha, bool kInstances>
-HWY_INLINE void IntersectRecords(Wave& wave) {
+LANELIGHT_INLINE void IntersectRecords(Wave& wave) {
   const DI di;
   const PathColumns& path = wave.path;
   ForEachBatch(wave, wave.queue(QueueId::kActive), [&](const Slots& slots, MF) HWY_ATTR {
@@ -167,7 +167,7 @@ HWY_INLINE void IntersectRecords(Wave& wave) {
 }
 
 template <class Shape, bool kAlpha>
-HWY_INLINE void ShadowRecords(Wave& wave) {
+LANELIGHT_INLINE void ShadowRecords(Wave& wave) {
   RemoveOccluded(wave, [&](const Rays& rays, VI, MF) HWY_ATTR {
     MF blocked = hn::FirstN(DF(), 0);
     ForEachRecord<Shape, kAlpha>(
@@ -187,7 +187,7 @@ struct RoundHit {
 };
 
 template <class Shape, bool kAny, bool kAlpha>
-HWY_INLINE void TraceShapes(const CompiledScene& scene, const float o[3],
+LANELIGHT_INLINE void TraceShapes(const CompiledScene& scene, const float o[3],
                             const float d[3], RoundHit& best) {
   const D8 d8;
   const uint32_t first = Shape::FirstId(scene.geometry);
@@ -223,7 +223,7 @@ HWY_INLINE void TraceShapes(const CompiledScene& scene, const float o[3],
 }
 
 template <class Shape, bool kAlpha, bool kInstances>
-HWY_INLINE void IntersectTree(Wave& wave) {
+LANELIGHT_INLINE void IntersectTree(Wave& wave) {
   const PathColumns& path = wave.path;
   ForEachBatch(wave, wave.queue(QueueId::kActive), [&](const Slots& slots, MF valid) HWY_ATTR {
     const RayArrays rays(LoadRays(path, slots), slots);
@@ -243,7 +243,7 @@ HWY_INLINE void IntersectTree(Wave& wave) {
 }
 
 template <class Shape, bool kAlpha>
-HWY_INLINE void ShadowTree(Wave& wave) {
+LANELIGHT_INLINE void ShadowTree(Wave& wave) {
   RemoveOccluded(wave, [&](const Rays& batch, VI slots, MF valid) HWY_ATTR {
     const RayArrays rays(batch, slots);
     const int count = static_cast<int>(hn::CountTrue(DF(), valid));
@@ -260,7 +260,7 @@ HWY_INLINE void ShadowTree(Wave& wave) {
 }
 
 template <class Shape, bool kAlpha, bool kInstances>
-HWY_INLINE void IntersectShapes(Wave& wave) {
+LANELIGHT_INLINE void IntersectShapes(Wave& wave) {
   if constexpr (kHasTree<Shape>) {
     if (Shape::Tree(wave.scene->accel).root != kEmptyRef) {
       return IntersectTree<Shape, kAlpha, kInstances>(wave);
@@ -270,7 +270,7 @@ HWY_INLINE void IntersectShapes(Wave& wave) {
 }
 
 template <class Shape, bool kAlpha>
-HWY_INLINE void ShadowShapes(Wave& wave) {
+LANELIGHT_INLINE void ShadowShapes(Wave& wave) {
   if constexpr (kHasTree<Shape>) {
     if (Shape::Tree(wave.scene->accel).root != kEmptyRef) {
       return ShadowTree<Shape, kAlpha>(wave);

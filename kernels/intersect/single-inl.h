@@ -28,7 +28,7 @@ struct OneHit {
 };
 
 /// Axis of the largest |component|; ties go to the first (as AxisOrder for many rays).
-HWY_INLINE int LargestAxis(const float d[3]) {
+LANELIGHT_INLINE int LargestAxis(const float d[3]) {
   int axis = std::abs(d[1]) > std::abs(d[0]) ? 1 : 0;
   if (std::abs(d[2]) > std::abs(d[axis])) axis = 2;
   return axis;
@@ -44,7 +44,7 @@ struct OneRay {
 template <bool kAny, bool kAlpha>
 class GroupQuery {
  public:
-  HWY_INLINE GroupQuery(const OneRay& ray, const float o[3], const float d[3],
+  LANELIGHT_INLINE GroupQuery(const OneRay& ray, const float o[3], const float d[3],
                         const Bvh& bvh, uint32_t inst, OneHit& hit)
       : ray_(ray), o_(o), d_(d), bvh_(bvh), inst_(inst), hit_(hit) {
     const uint32_t z = static_cast<uint32_t>(LargestAxis(d));
@@ -55,7 +55,7 @@ class GroupQuery {
                     kNoPrimitive};  // a triangle may be in several instances
   }
 
-  HWY_INLINE void Run() {
+  LANELIGHT_INLINE void Run() {
     Traverse(ray_.scene->accel.nodes.data(), bvh_.root, MakeSlabRay(o_, d_, bvh_), hit_.t,
              [this](uint32_t ref) HWY_ATTR {
                const TriangleBlock& block =
@@ -67,7 +67,7 @@ class GroupQuery {
  private:
   // Tests the triangles of a leaf; true if the query is over.
   template <class Leaf>
-  HWY_INLINE bool Test(const Leaf& leaf) {
+  LANELIGHT_INLINE bool Test(const Leaf& leaf) {
     LeafWeights weights;
     const Leaf* leaves[1] = {&leaf};
     LeafWeights* to[1] = {&weights};
@@ -95,7 +95,7 @@ class GroupQuery {
   }
 
   // Ties go to the smaller primitive, then to the smaller instance.
-  HWY_INLINE bool IsCloser(float t, uint32_t prim) const {
+  LANELIGHT_INLINE bool IsCloser(float t, uint32_t prim) const {
     if (t != hit_.t || kAny) return t < hit_.t;
     return prim != hit_.prim ? prim < hit_.prim : inst_ < hit_.inst;
   }
@@ -110,7 +110,7 @@ class GroupQuery {
 };
 
 /// Ray through a 3x4 map: points with w = 1, directions with w = 0.
-HWY_INLINE void MapRay(const float m[12], const float p[3], float w, float result[3]) {
+LANELIGHT_INLINE void MapRay(const float m[12], const float p[3], float w, float result[3]) {
   for (int r = 0; r < 3; ++r) {
     const float* row = m + 4 * r;
     result[r] = row[0] * p[0] + row[1] * p[1] + (row[2] * p[2] + row[3] * w);
@@ -119,7 +119,7 @@ HWY_INLINE void MapRay(const float m[12], const float p[3], float w, float resul
 
 /// The whole query of one ray.
 template <bool kAny, bool kAlpha>
-HWY_INLINE void TraceTriangles(const OneRay& ray, OneHit& hit) {
+LANELIGHT_INLINE void TraceTriangles(const OneRay& ray, OneHit& hit) {
   const Accel& accel = ray.scene->accel;
   GroupQuery<kAny, kAlpha>(ray, ray.o, ray.d, accel.groups[0], kWorldInstance, hit).Run();
   if (kAny && hit.found) return;
@@ -137,7 +137,7 @@ HWY_INLINE void TraceTriangles(const OneRay& ray, OneHit& hit) {
 
 /// Closest hits of a batch, ray by ray; hits are written to the columns.
 template <bool kAlpha>
-HWY_INLINE void ClosestSingle(const Wave& wave, const Rays& batch, VI slots, int count) {
+LANELIGHT_INLINE void ClosestSingle(const Wave& wave, const Rays& batch, VI slots, int count) {
   const PathColumns& path = wave.path;
   const RayArrays rays(batch, slots);
   for (int i = 0; i < count; ++i) {
@@ -158,7 +158,7 @@ HWY_INLINE void ClosestSingle(const Wave& wave, const Rays& batch, VI slots, int
 
 /// Which rays of a batch are blocked.
 template <bool kAlpha>
-HWY_INLINE MF BlockedSingle(const CompiledScene& scene, const Rays& batch, VI slots,
+LANELIGHT_INLINE MF BlockedSingle(const CompiledScene& scene, const Rays& batch, VI slots,
                             int count) {
   const RayArrays rays(batch, slots);
   uint32_t blocked = 0;

@@ -28,7 +28,7 @@ class RayStream {
 
   /// Takes the valid rays of a vector, and hands the stream to done() if it is full.
   template <class Done>
-  HWY_INLINE void Add(const Rays& rays, VI slots, VI prims, MF valid, Done&& done) {
+  LANELIGHT_INLINE void Add(const Rays& rays, VI slots, VI prims, MF valid, Done&& done) {
     rays_.Add(bvh_, rays, slots, prims,
               static_cast<uint32_t>(hn::CountTrue(DF(), valid)));
     if (!rays_.HasRoom()) done();
@@ -36,7 +36,7 @@ class RayStream {
   bool empty() const { return rays_.size == 0; }
 
   /// Traces the rays and writes the hits to the columns.
-  HWY_INLINE void Closest(const PathColumns& path) {
+  LANELIGHT_INLINE void Closest(const PathColumns& path) {
     Trace();
     for (uint32_t r = 0; r < rays_.size; ++r) {
       if (!rays_.found[r]) continue;
@@ -50,7 +50,7 @@ class RayStream {
   }
 
   /// Traces the rays and appends those that are not blocked to `kept`, in order.
-  HWY_INLINE void KeepOpen(Queue& kept) {
+  LANELIGHT_INLINE void KeepOpen(Queue& kept) {
     Trace();
     for (uint32_t r = 0; r < rays_.size; ++r) {
       kept.items[kept.size] = static_cast<uint32_t>(rays_.slot[r]);
@@ -60,7 +60,7 @@ class RayStream {
   }
 
  private:
-  HWY_INLINE void Trace() {
+  LANELIGHT_INLINE void Trace() {
     uint32_t num_live = 0;
     for (uint32_t at = 0; at < rays_.size; at += StreamRays::kLanes) {
       packets_.Run(at, singles_.live(), num_live);

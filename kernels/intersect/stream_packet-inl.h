@@ -35,7 +35,7 @@ class PacketPhase {
 
   /// Traces the rays at [at, at + lanes). What is left for single rays lies on their
   /// stacks, nearest on top; the places of those that have some are appended to `live`.
-  HWY_INLINE void Run(uint32_t at, int32_t* live, uint32_t& num_live) {
+  LANELIGHT_INLINE void Run(uint32_t at, int32_t* live, uint32_t& num_live) {
     const DI di;
     at_ = at;
     count_ = std::min(StreamRays::kLanes, rays_.size - at);
@@ -109,7 +109,7 @@ class PacketPhase {
   }
 
   // Goes up to a frame with children to visit; false if there is none.
-  static HWY_INLINE bool Next(const Frame* first, Frame*& frame) {
+  static LANELIGHT_INLINE bool Next(const Frame* first, Frame*& frame) {
     while (frame->open == 0) {
       if (frame == first) return false;
       --frame;
@@ -117,7 +117,7 @@ class PacketPhase {
     return true;
   }
 
-  HWY_INLINE PacketRays LoadPacket() const {
+  LANELIGHT_INLINE PacketRays LoadPacket() const {
     const DF df;
     const auto load = [&](const float(&column)[3][StreamRays::kRoom]) HWY_ATTR {
       return V3{hn::LoadU(df, column[0] + at_), hn::LoadU(df, column[1] + at_),
@@ -136,7 +136,7 @@ class PacketPhase {
   // Fills the frame of a node. Every child is tested, and everything is stored to places
   // known beforehand, so that the tests overlap.
   template <bool kSameSigns>
-  HWY_INLINE void TestChildren(const Slabs& slabs, VF t, const WideNode& node,
+  LANELIGHT_INLINE void TestChildren(const Slabs& slabs, VF t, const WideNode& node,
                                uint32_t lanes, Frame& frame) const {
     const DF df;
     const uint32_t octant = rays_.octant[at_ + std::countr_zero(lanes)];
@@ -165,7 +165,7 @@ class PacketPhase {
   }
 
   // Leaves a subtree to single rays; false if a ray has no room for it.
-  HWY_INLINE bool Defer(uint32_t ref, const float* entry, uint32_t lanes) {
+  LANELIGHT_INLINE bool Defer(uint32_t ref, const float* entry, uint32_t lanes) {
     for (uint32_t bits = lanes; bits != 0; bits &= bits - 1) {
       if (rays_.bottom[at_ + std::countr_zero(bits)] < 2) return false;
     }
@@ -178,7 +178,7 @@ class PacketPhase {
     return true;
   }
 
-  HWY_INLINE void StoreHits(const PacketBest& best) {
+  LANELIGHT_INLINE void StoreHits(const PacketBest& best) {
     const DF df;
     hn::StoreU(best.t, df, rays_.t + at_);
     for (uint32_t i = 0; i < count_; ++i) rays_.found[at_ + i] = best.found >> i & 1;
@@ -189,7 +189,7 @@ class PacketPhase {
   }
 
   // Puts the end below the stack of a ray, and takes the nearest subtree off it.
-  HWY_INLINE void BeginSingle(uint32_t r) {
+  LANELIGHT_INLINE void BeginSingle(uint32_t r) {
     const uint32_t end = --rays_.bottom[r];
     rays_.Refs(r)[end] = kEmptyRef;
     rays_.Entries(r)[end] = -1;

@@ -52,12 +52,12 @@ struct StreamRays {
     const uint32_t depth = static_cast<uint32_t>(bvh.depth) * (kBvhWidth - 1) + 2;
     stride = kDeferred + (depth + kLeafTriangles + 15) / 16 * 16;
   }
-  HWY_INLINE uint32_t* Refs(uint32_t r) { return refs + std::size_t{r} * stride; }
-  HWY_INLINE float* Entries(uint32_t r) { return entries + std::size_t{r} * stride; }
-  HWY_INLINE bool HasRoom() const { return size + kLanes <= kStreamRays; }
+  LANELIGHT_INLINE uint32_t* Refs(uint32_t r) { return refs + std::size_t{r} * stride; }
+  LANELIGHT_INLINE float* Entries(uint32_t r) { return entries + std::size_t{r} * stride; }
+  LANELIGHT_INLINE bool HasRoom() const { return size + kLanes <= kStreamRays; }
 
   /// Takes the first `count` rays of a vector; `prims` as in NoHits.
-  HWY_INLINE void Add(const Bvh& bvh, const Rays& rays, VI slots, VI prims,
+  LANELIGHT_INLINE void Add(const Bvh& bvh, const Rays& rays, VI slots, VI prims,
                       uint32_t count) {
     const DF df;
     const DI di;
@@ -73,12 +73,12 @@ struct StreamRays {
   }
 
  private:
-  static HWY_INLINE void StoreInt(VI v, uint32_t* to) {
+  static LANELIGHT_INLINE void StoreInt(VI v, uint32_t* to) {
     hn::StoreU(v, DI(), reinterpret_cast<int32_t*>(to));
   }
 
   // The arithmetic of MakeSlabRay.
-  HWY_INLINE void AddSlabs(const Bvh& bvh, const Rays& rays) {
+  LANELIGHT_INLINE void AddSlabs(const Bvh& bvh, const Rays& rays) {
     const DF df;
     const DI di;
     const VF ro[3] = {rays.o.x, rays.o.y, rays.o.z};
@@ -105,7 +105,7 @@ struct StreamRays {
     StoreInt(negatives, octant + size);
   }
 
-  HWY_INLINE void AddShear(const Bvh& bvh, const Rays& rays) {
+  LANELIGHT_INLINE void AddShear(const Bvh& bvh, const Rays& rays) {
     const DF df;
     const DI di;
     const AxisOrder order(rays.d);

@@ -62,7 +62,7 @@ class SinglePhase {
   // Lists the rays that are at a node, and those at either kind of leaf. Apart from the
   // steps, which thus store only to places known beforehand: a store to a place that
   // depends on the outcome of a step would hold up the loads of the steps that follow.
-  HWY_INLINE void Classify() {
+  LANELIGHT_INLINE void Classify() {
     const DI di;
     const uint32_t n = num_live_;
     num_live_ = num_nodes_ = num_leaves_ = num_separate_ = 0;
@@ -80,13 +80,13 @@ class SinglePhase {
     }
   }
   template <class M>
-  static HWY_INLINE uint32_t Append(VI rays, M mask, int32_t* to) {
+  static LANELIGHT_INLINE uint32_t Append(VI rays, M mask, int32_t* to) {
     hn::StoreU(hn::Compress(rays, mask), DI(), to);
     return static_cast<uint32_t>(hn::CountTrue(DI(), mask));
   }
 
   // Fills the last group up with its last ray, whose step is then done twice.
-  static HWY_INLINE void PadGroup(int32_t* list, uint32_t n) {
+  static LANELIGHT_INLINE void PadGroup(int32_t* list, uint32_t n) {
     for (uint32_t j = 0; n > 0 && j < kTogether; ++j) list[n + j] = list[n - 1];
   }
   HWY_NOINLINE void NodeRound() {
@@ -107,7 +107,7 @@ class SinglePhase {
   }
 
   // Goes to the top of the stack if `move` is 1, stays where it is if it is 0.
-  HWY_INLINE void Pop(uint32_t r, uint32_t top, uint32_t move = 1) {
+  LANELIGHT_INLINE void Pop(uint32_t r, uint32_t top, uint32_t move = 1) {
     static constexpr std::size_t kBytes[2] = {sizeof(WideNode), sizeof(TriangleBlock)};
     const uint32_t ref = rays_.Refs(r)[top];
     rays_.top[r] = top - move;
@@ -117,7 +117,7 @@ class SinglePhase {
     for (int line = 0; line < 4; ++line) hwy::Prefetch(at + line * kCacheLine);
   }
 
-  HWY_INLINE void NodeStep(const int32_t* list) {
+  LANELIGHT_INLINE void NodeStep(const int32_t* list) {
     const D8 d8;
     const WideNode* node[kTogether];
     uint32_t r[kTogether], top[kTogether];
@@ -141,7 +141,7 @@ class SinglePhase {
   }
 
   // Where rays r[j] enter and leave the children of a part of node[j].
-  HWY_INLINE void TestSlabs(const uint32_t (&r)[kTogether],
+  LANELIGHT_INLINE void TestSlabs(const uint32_t (&r)[kTogether],
                             const WideNode* const (&node)[kTogether], uint32_t part,
                             V8 (&enter)[kTogether], V8 (&leave)[kTogether]) const {
     const D8 d8;
@@ -168,7 +168,7 @@ class SinglePhase {
 
   // Pushes the children with entries that are not negative, last slots first, so that the
   // nearest is on top. Returns the new top.
-  HWY_INLINE uint32_t PushEntered(uint32_t r, const WideNode& node,
+  LANELIGHT_INLINE uint32_t PushEntered(uint32_t r, const WideNode& node,
                                   const V8 (&entered)[kParts]) {
     const D8 d8;
     const hn::RebindToUnsigned<D8> du;
@@ -193,14 +193,14 @@ class SinglePhase {
   }
 
   template <class Leaf>
-  HWY_INLINE const Leaf& LeafOf(uint32_t r) const {
+  LANELIGHT_INLINE const Leaf& LeafOf(uint32_t r) const {
     const auto index = static_cast<uint32_t>(rays_.next[r]) & kRefIndex;
     return reinterpret_cast<const Leaf*>(base_[1])[index];
   }
 
   // Rays whose lines pass through no triangle go on; the others wait for HitStep.
   template <class Leaf>
-  HWY_INLINE void LeafStep(const int32_t* list, uint32_t at) {
+  LANELIGHT_INLINE void LeafStep(const int32_t* list, uint32_t at) {
     LeafRay ray[kTogether];
     const Leaf* leaf[kTogether];
     LeafWeights* weights[kTogether];
@@ -264,7 +264,7 @@ class SinglePhase {
   }
 
   // Drops what lies beyond the hit, so that nothing needs to be tested when it is popped.
-  HWY_INLINE void CullStack(uint32_t r) {
+  LANELIGHT_INLINE void CullStack(uint32_t r) {
     const DF df;
     const hn::RebindToUnsigned<DF> du;
     uint32_t* refs = rays_.Refs(r);

@@ -37,7 +37,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Bits of a mask of at most 16 lanes.
 template <class D, class M>
-HWY_INLINE uint32_t MaskBits(D d, M mask) {
+LANELIGHT_INLINE uint32_t MaskBits(D d, M mask) {
 #if HWY_TARGET <= HWY_AVX3
   (void)d;
   return mask.raw;  // through memory (below) the store would not be forwarded to the load
@@ -50,7 +50,7 @@ HWY_INLINE uint32_t MaskBits(D d, M mask) {
 
 /// Mask of at most 16 lanes from bits.
 template <class D>
-HWY_INLINE hn::Mask<D> MaskOf(D d, uint32_t bits) {
+LANELIGHT_INLINE hn::Mask<D> MaskOf(D d, uint32_t bits) {
   const hn::RebindToUnsigned<D> du;
   const auto lane_bit = hn::Shl(hn::Set(du, 1), hn::Iota(du, 0));
   return hn::RebindMask(d, hn::Ne(hn::And(lane_bit, hn::Set(du, bits)), hn::Zero(du)));
@@ -75,13 +75,13 @@ struct Shear {
 /// errors above, the error of t det is below 170 u m_z (m_x + z) (m_y + z), with m the
 /// largest |coordinates| of the sheared vertices, z = m_z |d.z|; m_x, m_y <= 2 R,
 /// m_z <= R |Sz|: below 2^-13 R^3 |Sz|.
-HWY_INLINE float SignBound(float reach, float abs_dz) {
+LANELIGHT_INLINE float SignBound(float reach, float abs_dz) {
   return 0x1p-13f * reach * reach * reach / abs_dz;
 }
 
 /// Vertex relative to the ray, sheared.
 template <class D, class V>
-HWY_INLINE P3<V> ShearVertex(D, const Shear<V>& ray, P3<V> v) {
+LANELIGHT_INLINE P3<V> ShearVertex(D, const Shear<V>& ray, P3<V> v) {
   const V x = hn::Sub(v.x, ray.o.x), y = hn::Sub(v.y, ray.o.y), z = hn::Sub(v.z, ray.o.z);
   return {hn::NegMulAdd(ray.s.x, z, x), hn::NegMulAdd(ray.s.y, z, y),
           hn::Mul(ray.s.z, z)};
@@ -91,7 +91,7 @@ HWY_INLINE P3<V> ShearVertex(D, const Shear<V>& ray, P3<V> v) {
 /// multiply-add by Kahan's method (error below 1.5 ulp: Jeannerod, Louvet and Muller
 /// 2013), without it in double precision, where both products are exact.
 template <class D, class V>
-HWY_INLINE V EdgeFunction(D d, V a, V b, V c, V e) {
+LANELIGHT_INLINE V EdgeFunction(D d, V a, V b, V c, V e) {
 #if HWY_NATIVE_FMA
   (void)d;
   const V ce = hn::Mul(c, e);
@@ -114,18 +114,18 @@ struct TriangleHits {
 };
 
 template <class V>
-HWY_INLINE V Min3(V a, V b, V c) {
+LANELIGHT_INLINE V Min3(V a, V b, V c) {
   return hn::Min(a, hn::Min(b, c));
 }
 template <class V>
-HWY_INLINE V Max3(V a, V b, V c) {
+LANELIGHT_INLINE V Max3(V a, V b, V c) {
   return hn::Max(a, hn::Max(b, c));
 }
 
 /// Lanes whose vertices lie on both sides of the origin along the ray. The z of vertices
 /// have exact signs; if they agree so does the sign of t.
 template <class D, class V>
-HWY_INLINE hn::Mask<D> Straddles(D d, const P3<V>& a, const P3<V>& b, const P3<V>& c) {
+LANELIGHT_INLINE hn::Mask<D> Straddles(D d, const P3<V>& a, const P3<V>& b, const P3<V>& c) {
   const V zero = hn::Zero(d);
   return hn::And(hn::Le(Min3(a.z, b.z, c.z), zero), hn::Ge(Max3(a.z, b.z, c.z), zero));
 }
@@ -133,7 +133,7 @@ HWY_INLINE hn::Mask<D> Straddles(D d, const P3<V>& a, const P3<V>& b, const P3<V
 /// Lanes of `mask` (which straddle) whose t is so close to zero that its sign may be
 /// wrong.
 template <class D, class V, class M>
-HWY_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
+LANELIGHT_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
                           const P3<V>& c, V t_det, M mask) {
   const V mx = Max3(hn::Abs(a.x), hn::Abs(b.x), hn::Abs(c.x));
   const V my = Max3(hn::Abs(a.y), hn::Abs(b.y), hn::Abs(c.y));
@@ -153,7 +153,7 @@ struct TriangleEdges {
 };
 
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-HWY_INLINE TriangleEdges<V, M> JoinEdges(D d, V u, V v, V w) {
+LANELIGHT_INLINE TriangleEdges<V, M> JoinEdges(D d, V u, V v, V w) {
   const V zero = hn::Zero(d);
   const V det = hn::Add(u, hn::Add(v, w)), abs_det = hn::Abs(det);
   const M one_sign = hn::Or(hn::Ge(Min3(u, v, w), zero), hn::Le(Max3(u, v, w), zero));
@@ -161,7 +161,7 @@ HWY_INLINE TriangleEdges<V, M> JoinEdges(D d, V u, V v, V w) {
 }
 
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-HWY_INLINE TriangleEdges<V, M> TestEdges(D d, const P3<V>& a, const P3<V>& b,
+LANELIGHT_INLINE TriangleEdges<V, M> TestEdges(D d, const P3<V>& a, const P3<V>& b,
                                          const P3<V>& c) {
   return JoinEdges(d, EdgeFunction(d, c.x, b.y, c.y, b.x),
                    EdgeFunction(d, a.x, c.y, a.y, c.x),
@@ -171,7 +171,7 @@ HWY_INLINE TriangleEdges<V, M> TestEdges(D d, const P3<V>& a, const P3<V>& b,
 /// t det of the plane of the triangle, and in e.mask only the lanes that may hit before
 /// t_max. `t_max` only prunes: candidates with t = t_max remain.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-HWY_INLINE V TestDistance(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
+LANELIGHT_INLINE V TestDistance(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
                           const P3<V>& c, V t_max, TriangleEdges<V, M>& e) {
   const V t_det = hn::MulAdd(e.u, a.z, hn::MulAdd(e.v, b.z, hn::Mul(e.w, c.z)));
   // |t_det| with the sign of t. The factor covers the rounding of product and quotient.
@@ -186,7 +186,7 @@ HWY_INLINE V TestDistance(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>&
 /// origin. `is_ahead(mask)` decides the sign of t of some lanes exactly (PlaneIsAhead);
 /// it is called for rays that start on the triangle.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
-HWY_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray, const P3<V>& a,
+LANELIGHT_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray, const P3<V>& a,
                                          const P3<V>& b, const P3<V>& c, M mask,
                                          const TriangleEdges<V, M>& e, V t_det,
                                          IsAhead&& is_ahead) {
@@ -206,7 +206,7 @@ HWY_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray, const P3<V>& 
 /// Tests the sheared triangle (a, b, c) against the lanes of `tested`, most of which
 /// miss.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
-HWY_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const P3<V>& a,
+LANELIGHT_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const P3<V>& a,
                                            const P3<V>& b, const P3<V>& c, V t_max,
                                            M tested, IsAhead&& is_ahead) {
   TriangleEdges<V, M> e = TestEdges(d, a, b, c);

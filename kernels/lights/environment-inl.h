@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 
 /// Unit direction of a point of the square [0,1]^2 (Clarberg 2008, "Fast Equal-Area
 /// Mapping of the (Hemi)Sphere using SIMD"; orientation as in pbrt-v4).
-HWY_INLINE V3 OctahedralDirection(VF s, VF t) {
+LANELIGHT_INLINE V3 OctahedralDirection(VF s, VF t) {
   const VF one = Splat(1.0f);
   const VF u = hn::MulSub(Splat(2.0f), s, one), v = hn::MulSub(Splat(2.0f), t, one);
   const VF au = hn::Abs(u), av = hn::Abs(v);
@@ -34,7 +34,7 @@ HWY_INLINE V3 OctahedralDirection(VF s, VF t) {
 }
 
 /// Inverse of OctahedralDirection.
-HWY_INLINE void OctahedralSquare(V3 d, VF* s, VF* t) {
+LANELIGHT_INLINE void OctahedralSquare(V3 d, VF* s, VF* t) {
   const VF one = Splat(1.0f), half = Splat(0.5f);
   const VF r = hn::Sqrt(hn::Max(hn::Sub(one, hn::Abs(d.z)), Splat(0)));
   const VF phi = hn::Mul(Atan2(hn::Abs(d.y), hn::Abs(d.x)), Splat(0.636619772367581343f));
@@ -53,7 +53,7 @@ struct EnvironmentSample {
   VF pdf_sa;  // of choosing this direction, light selection not included
 };
 
-HWY_INLINE void TexelValues(const Environment& e, VI row, VI column,
+LANELIGHT_INLINE void TexelValues(const Environment& e, VI row, VI column,
                             EnvironmentSample* out) {
   const DI di;
   const float inv_four_pi = 0.0795774715459476679f;
@@ -64,7 +64,7 @@ HWY_INLINE void TexelValues(const Environment& e, VI row, VI column,
 }
 
 /// Radiance and density of scene direction d.
-HWY_INLINE EnvironmentSample LookUpEnvironment(const Environment& e, V3 d) {
+LANELIGHT_INLINE EnvironmentSample LookUpEnvironment(const Environment& e, V3 d) {
   const DI di;
   const float* m = e.light_from_scene;
   const V3 local = {Dot(Splat3(m[0], m[1], m[2]), d), Dot(Splat3(m[3], m[4], m[5]), d),
@@ -90,7 +90,7 @@ struct Distribution {
 };
 
 /// Largest i in [0, size) with cdf[i] <= u in [0, 1), and u's position inside that step.
-HWY_INLINE VI InvertCdf(const Distribution& d, int32_t bits, VF u, VF* inside) {
+LANELIGHT_INLINE VI InvertCdf(const Distribution& d, int32_t bits, VF u, VF* inside) {
   const DI di;
   const VI one = hn::Set(di, 1), last_part = hn::Set(di, (1 << bits) - 1);
   const VF scaled = hn::Mul(u, Splat(static_cast<float>(1 << bits)));
@@ -114,7 +114,7 @@ HWY_INLINE VI InvertCdf(const Distribution& d, int32_t bits, VF u, VF* inside) {
 }
 
 /// Direction with density proportional to the luminance of its texel.
-HWY_INLINE EnvironmentSample SampleEnvironment(const Environment& e, VF u0, VF u1) {
+LANELIGHT_INLINE EnvironmentSample SampleEnvironment(const Environment& e, VF u0, VF u1) {
   const DI di;
   VF inside_row, inside_column;
   const VI zero = hn::Zero(di);

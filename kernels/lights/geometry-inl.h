@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 struct LightTriangle {
   V3 p0, e1, e2, n;
 
-  HWY_INLINE LightTriangle(const CompiledScene& scene, VI prim) {
+  LANELIGHT_INLINE LightTriangle(const CompiledScene& scene, VI prim) {
     const void* records = scene.geometry.triangles.data();
     p0 = GatherRecord3(records, 12, 0, prim);
     e1 = GatherRecord3(records, 12, 3, prim) - p0;
@@ -31,7 +31,7 @@ struct LightSphere {
   V3 center;
   VF radius, normal_sign;
 
-  HWY_INLINE LightSphere(const CompiledScene& scene, VI prim) {
+  LANELIGHT_INLINE LightSphere(const CompiledScene& scene, VI prim) {
     const VI index =
         hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.geometry.ranges.spheres)));
     const float* words = reinterpret_cast<const float*>(scene.geometry.spheres.data());
@@ -44,14 +44,14 @@ struct LightSphere {
 
 /// 1 - cos of the half-angle under which a sphere is seen from squared distance d2 > r^2,
 /// without cancellation for small spheres.
-HWY_INLINE VF OneMinusCosCone(VF radius, VF d2) {
+LANELIGHT_INLINE VF OneMinusCosCone(VF radius, VF d2) {
   const VF sin2 = hn::Min(hn::Div(hn::Mul(radius, radius), d2), Splat(1.0f));
   const VF cosine = hn::Sqrt(hn::Sub(Splat(1.0f), sin2));
   return hn::Div(sin2, hn::Add(Splat(1.0f), cosine));
 }
 
 /// True where a sphere is sampled by its cone of directions; inside, by area.
-HWY_INLINE MF OutsideSphere(VF radius, VF d2) {
+LANELIGHT_INLINE MF OutsideSphere(VF radius, VF d2) {
   return hn::Gt(d2, hn::Mul(hn::Mul(radius, radius), Splat(1.0001f)));
 }
 
@@ -59,7 +59,7 @@ struct LightDisk {
   V3 center, n, u_axis;
   VF radius, inner_radius;
 
-  HWY_INLINE LightDisk(const CompiledScene& scene, VI prim) {
+  LANELIGHT_INLINE LightDisk(const CompiledScene& scene, VI prim) {
     const VI index =
         hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.geometry.ranges.disks)));
     const void* records = scene.geometry.disks.data();

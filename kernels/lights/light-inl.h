@@ -23,28 +23,28 @@ struct Lights {
   const float* words;
   VI at;
 
-  HWY_INLINE Lights(const CompiledScene& scene, VI light)
+  LANELIGHT_INLINE Lights(const CompiledScene& scene, VI light)
       : words(reinterpret_cast<const float*>(scene.lights.lights.data())),
         at(hn::Mul(light, hn::Set(DI(), sizeof(LightRecord) / 4))) {}
-  HWY_INLINE VF F(std::size_t byte_offset) const {
+  LANELIGHT_INLINE VF F(std::size_t byte_offset) const {
     return Gather(words + byte_offset / 4, at);
   }
-  HWY_INLINE VI I(std::size_t byte_offset) const {
+  LANELIGHT_INLINE VI I(std::size_t byte_offset) const {
     return Gather(reinterpret_cast<const int32_t*>(words) + byte_offset / 4, at);
   }
-  HWY_INLINE V3 F3(std::size_t byte_offset) const {
+  LANELIGHT_INLINE V3 F3(std::size_t byte_offset) const {
     return {F(byte_offset), F(byte_offset + 4), F(byte_offset + 8)};
   }
-  HWY_INLINE V3 Radiance() const { return F3(offsetof(LightRecord, radiance)); }
+  LANELIGHT_INLINE V3 Radiance() const { return F3(offsetof(LightRecord, radiance)); }
   /// Probability of selecting this light: of its record, or where it depends on the place
   /// (a tree), of the path.
-  HWY_INLINE VF Pmf(const PathColumns& p, const Slots& slots) const {
+  LANELIGHT_INLINE VF Pmf(const PathColumns& p, const Slots& slots) const {
     if (p.light_pmf != nullptr) return Gather(p.light_pmf, slots);
     return F(offsetof(LightRecord, pmf));
   }
-  HWY_INLINE VF Area() const { return F(offsetof(LightRecord, area)); }
-  HWY_INLINE VI Primitive() const { return I(offsetof(LightRecord, primitive)); }
-  HWY_INLINE MF TwoSided() const {
+  LANELIGHT_INLINE VF Area() const { return F(offsetof(LightRecord, area)); }
+  LANELIGHT_INLINE VI Primitive() const { return I(offsetof(LightRecord, primitive)); }
+  LANELIGHT_INLINE MF TwoSided() const {
     return hn::RebindMask(DF(),
                           hn::Ne(I(offsetof(LightRecord, two_sided)), hn::Zero(DI())));
   }
@@ -54,7 +54,7 @@ struct Lights {
 struct PrimitiveSpan {
   uint32_t first = 0, last = 0x7fffffffu;
 };
-HWY_INLINE PrimitiveSpan EmittingSpan(const LightTable& table) {
+LANELIGHT_INLINE PrimitiveSpan EmittingSpan(const LightTable& table) {
   // Looking through many lights would cost more than it saves.
   if (table.lights.size() > 64) return {};
   PrimitiveSpan span = {0x7fffffffu, 0};
@@ -69,7 +69,7 @@ HWY_INLINE PrimitiveSpan EmittingSpan(const LightTable& table) {
 /// Calls body(slots, light) for the paths of kLit whose selected light has this shape.
 /// With a single light there is nothing to select and nothing to filter.
 template <bool kMany, class Body>
-HWY_INLINE void ForEachLit(Wave& wave, LightShape shape, Body&& body) {
+LANELIGHT_INLINE void ForEachLit(Wave& wave, LightShape shape, Body&& body) {
   if constexpr (!kMany) {
     ForEachBatch(wave, wave.queue(QueueId::kLit),
                  [&](const StoreSlots& slots, MF)
@@ -91,7 +91,7 @@ HWY_INLINE void ForEachLit(Wave& wave, LightShape shape, Body&& body) {
 
 /// Stores a light sample. `radiance_over_pdf` is zeroed, and with it the connection,
 /// where `usable` is false.
-HWY_INLINE void StoreLightSample(const PathColumns& p, const StoreSlots& slots,
+LANELIGHT_INLINE void StoreLightSample(const PathColumns& p, const StoreSlots& slots,
                                  V3 direction, VF distance, V3 radiance_over_pdf,
                                  VF pdf_sa, MF usable) {
   Scatter3(direction, p.ls_x, p.ls_y, p.ls_z, slots);
@@ -100,7 +100,7 @@ HWY_INLINE void StoreLightSample(const PathColumns& p, const StoreSlots& slots,
   Scatter(pdf_sa, p.ls_pdf, slots);
 }
 
-HWY_INLINE VF SumAbs(V3 v) {
+LANELIGHT_INLINE VF SumAbs(V3 v) {
   return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z)));
 }
 
@@ -108,7 +108,7 @@ HWY_INLINE VF SumAbs(V3 v) {
 /// pdf_area (selection included). The shadow ray ends a little in front of the light, by
 /// a bound on the rounding of both end points (about 8 ulp of their coordinates) and the
 /// offset of its origin, so that the light does not shadow itself.
-HWY_INLINE void StoreSurfaceSample(const PathColumns& p, const StoreSlots& slots, V3 q,
+LANELIGHT_INLINE void StoreSurfaceSample(const PathColumns& p, const StoreSlots& slots, V3 q,
                                    V3 n, VF pdf_area, V3 radiance, MF two_sided) {
   const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
   const VF clearance = hn::MulAdd(Splat(1e-6f), hn::Add(SumAbs(from), SumAbs(q)),
@@ -128,7 +128,7 @@ HWY_INLINE void StoreSurfaceSample(const PathColumns& p, const StoreSlots& slots
 }
 
 /// Adds weight * beta * radiance to the path.
-HWY_INLINE void AddRadiance(const PathColumns& p, const StoreSlots& slots, V3 radiance) {
+LANELIGHT_INLINE void AddRadiance(const PathColumns& p, const StoreSlots& slots, V3 radiance) {
   const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
   const V3 sum = Gather3(p.l_r, p.l_g, p.l_b, slots) + Mul(beta, radiance);
   Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);

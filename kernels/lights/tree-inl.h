@@ -19,26 +19,26 @@ struct LightNodes {
   const float* words;
   VI at;
 
-  HWY_INLINE LightNodes(const LightTree& tree, VI node)
+  LANELIGHT_INLINE LightNodes(const LightTree& tree, VI node)
       : words(reinterpret_cast<const float*>(tree.nodes.data())),
         at(hn::ShiftLeft<4>(node)) {}
-  HWY_INLINE VF F(std::size_t byte_offset) const {
+  LANELIGHT_INLINE VF F(std::size_t byte_offset) const {
     return Gather(words + byte_offset / 4, at);
   }
-  HWY_INLINE V3 F3(std::size_t byte_offset) const {
+  LANELIGHT_INLINE V3 F3(std::size_t byte_offset) const {
     return {F(byte_offset), F(byte_offset + 4), F(byte_offset + 8)};
   }
-  HWY_INLINE VI I(std::size_t byte_offset) const {
+  LANELIGHT_INLINE VI I(std::size_t byte_offset) const {
     return Gather(reinterpret_cast<const int32_t*>(words) + byte_offset / 4, at);
   }
 };
 
 /// cos(max(0, a - b)) of angles in [0, pi], from their cosines and sines.
-HWY_INLINE VF CosDifference(VF cos_a, VF sin_a, VF cos_b, VF sin_b) {
+LANELIGHT_INLINE VF CosDifference(VF cos_a, VF sin_a, VF cos_b, VF sin_b) {
   const VF difference = hn::MulAdd(cos_a, cos_b, hn::Mul(sin_a, sin_b));
   return hn::IfThenElse(hn::Gt(cos_a, cos_b), Splat(1.0f), difference);
 }
-HWY_INLINE VF SineOf(VF cosine) {
+LANELIGHT_INLINE VF SineOf(VF cosine) {
   return hn::Sqrt(hn::Max(hn::NegMulAdd(cosine, cosine, Splat(1.0f)), Splat(0)));
 }
 
@@ -46,7 +46,7 @@ HWY_INLINE VF SineOf(VF cosine) {
 /// with the direction from somewhere in the node's bounding sphere to p, and d the
 /// distance to its centre, at least its radius. The cosine is at least 1/50, so that no
 /// light that may contribute has probability 0, whatever the rounding.
-HWY_INLINE VF LightImportance(const LightNodes& node, V3 p) {
+LANELIGHT_INLINE VF LightImportance(const LightNodes& node, V3 p) {
   const V3 low = node.F3(offsetof(LightNode, low)),
            high = node.F3(offsetof(LightNode, high));
   const V3 center = Mul(low + high, Splat(0.5f)), half = Mul(high - low, Splat(0.5f));
@@ -73,7 +73,7 @@ HWY_INLINE VF LightImportance(const LightNodes& node, V3 p) {
 struct ChildProbabilities {
   VF first, second;
 };
-HWY_INLINE ChildProbabilities ProbabilitiesOf(const LightTree& tree, VI first_child,
+LANELIGHT_INLINE ChildProbabilities ProbabilitiesOf(const LightTree& tree, VI first_child,
                                               V3 p) {
   const VI second = hn::Add(first_child, hn::Set(DI(), 1));
   const VF a = LightImportance(LightNodes(tree, first_child), p);

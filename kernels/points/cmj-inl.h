@@ -28,11 +28,11 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 struct CmjPoints {
-  static HWY_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
+  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
     return GroupByDivision(points, sample);
   }
 
-  static HWY_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
+  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
                                VU key, VU seed, VF* u0, VF* u1) {
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const U4 jitter = Pcg4d({at.index, h.y, h.z, h.w});

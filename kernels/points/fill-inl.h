@@ -38,7 +38,7 @@ struct Drawer {
 /// Pairs and splitting change which numbers a path draws; without them none of their
 /// instructions are executed.
 template <bool kPlain>
-HWY_INLINE Drawer MakeDrawer(const PathColumns& p, const StoreSlots& slots) {
+LANELIGHT_INLINE Drawer MakeDrawer(const PathColumns& p, const StoreSlots& slots) {
   const VU depth = AsUnsigned(Gather(p.depth, slots));
   const VU key = kPlain ? FirstKey(depth) : FirstKey(p, depth, slots);
   return {slots, AsUnsigned(Gather(p.pixel, slots)), AsUnsigned(Gather(p.sample, slots)),
@@ -47,7 +47,7 @@ HWY_INLINE Drawer MakeDrawer(const PathColumns& p, const StoreSlots& slots) {
 
 /// Sample index that the numbers of a dimension come from: the two samples of an
 /// antithetic pair share it in the dimensions that the strategy pairs.
-HWY_INLINE VU PairedSample(const PairParameters& pairs, Dimension dimension,
+LANELIGHT_INLINE VU PairedSample(const PairParameters& pairs, Dimension dimension,
                            const Drawer& drawer) {
   if (!pairs.Has(dimension)) return drawer.sample;
   const VU shared = hn::ShiftRight<1>(drawer.sample);
@@ -60,7 +60,7 @@ HWY_INLINE VU PairedSample(const PairParameters& pairs, Dimension dimension,
 
 /// One dimension of one batch; a scalar one leaves out1 alone.
 template <class Policy, bool kPlain, bool kScalar>
-HWY_INLINE void Draw(const RunParameters& run, const Drawer& drawer, Dimension dimension,
+LANELIGHT_INLINE void Draw(const RunParameters& run, const Drawer& drawer, Dimension dimension,
                      float* out0, float* out1) {
   const VU key = hn::Add(drawer.key, SplatU(static_cast<uint32_t>(dimension)));
   const VU sample = kPlain ? drawer.sample : PairedSample(run.pairs, dimension, drawer);
@@ -77,7 +77,7 @@ HWY_INLINE void Draw(const RunParameters& run, const Drawer& drawer, Dimension d
 }
 
 template <class Policy, bool kPlain>
-HWY_INLINE void FillCameraBatches(Wave& wave) {
+LANELIGHT_INLINE void FillCameraBatches(Wave& wave) {
   const PathColumns p = wave.path;
   const RunParameters run = *wave.run;
   ForEachBatch(wave, wave.queue(QueueId::kCamera),
@@ -93,7 +93,7 @@ HWY_INLINE void FillCameraBatches(Wave& wave) {
 }
 
 template <class Policy, bool kPlain>
-HWY_INLINE void FillBounceBatches(Wave& wave) {
+LANELIGHT_INLINE void FillBounceBatches(Wave& wave) {
   const PathColumns p = wave.path;
   const RunParameters run = *wave.run;
   ForEachBatch(
@@ -119,18 +119,18 @@ HWY_INLINE void FillBounceBatches(Wave& wave) {
       });
 }
 
-HWY_INLINE bool DrawsPlainly(const Wave& wave) {
+LANELIGHT_INLINE bool DrawsPlainly(const Wave& wave) {
   return wave.run->pairs.dimensions == 0 && wave.path.branch == nullptr;
 }
 
 template <class Policy>
-HWY_INLINE void FillCamera(Wave& wave) {
+LANELIGHT_INLINE void FillCamera(Wave& wave) {
   DrawsPlainly(wave) ? FillCameraBatches<Policy, true>(wave)
                      : FillCameraBatches<Policy, false>(wave);
 }
 
 template <class Policy>
-HWY_INLINE void FillBounce(Wave& wave) {
+LANELIGHT_INLINE void FillBounce(Wave& wave) {
   DrawsPlainly(wave) ? FillBounceBatches<Policy, true>(wave)
                      : FillBounceBatches<Policy, false>(wave);
 }

@@ -20,14 +20,14 @@ struct GroupIndex {
 };
 
 /// For samplers whose groups are powers of two.
-HWY_INLINE GroupIndex GroupByShift(const PointsParameters& points, VU sample) {
+LANELIGHT_INLINE GroupIndex GroupByShift(const PointsParameters& points, VU sample) {
   const int shift = static_cast<int>(points.group_shift);
   const VU group = hn::ShiftRightSame(sample, shift);
   return {group, hn::Sub(sample, hn::ShiftLeftSame(group, shift))};
 }
 
 /// For groups of any size; sample < 2^31. See PointsParameters::group_magic.
-HWY_INLINE GroupIndex GroupByDivision(const PointsParameters& points, VU sample) {
+LANELIGHT_INLINE GroupIndex GroupByDivision(const PointsParameters& points, VU sample) {
   const DU du;
   const VU magic = SplatU(points.group_magic);
   const auto even = hn::MulEven(sample, magic);

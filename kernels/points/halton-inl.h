@@ -26,13 +26,13 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 // i = 3 quotient + remainder for all i (2863311531 = (2^33 + 1) / 3).
-HWY_INLINE QuotientRemainder DivideBy3(VU i) {
+LANELIGHT_INLINE QuotientRemainder DivideBy3(VU i) {
   const VU quotient = hn::ShiftRight<1>(MulHigh32(i, SplatU(2863311531u)));
   return {quotient, hn::Sub(i, hn::Mul(quotient, SplatU(3)))};
 }
 
 /// Digits of i in base 3, reversed and scrambled, in 2^-32.
-HWY_INLINE VU ScrambledInverse3(const PointsParameters& points, VU i, VU key) {
+LANELIGHT_INLINE VU ScrambledInverse3(const PointsParameters& points, VU i, VU key) {
   VU tree = key;  // hash of the digits so far: the node of the tree of digits
   VU value = hn::Zero(DU());
   for (uint32_t d = 0; d < points.base3_digits; ++d) {
@@ -57,11 +57,11 @@ HWY_INLINE VU ScrambledInverse3(const PointsParameters& points, VU i, VU key) {
 }
 
 struct HaltonPoints {
-  static HWY_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
+  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
     return GroupByDivision(points, sample);
   }
 
-  static HWY_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
+  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
                                VU key, VU seed, VF* u0, VF* u1) {
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU i = Permute(points.strata, at.index, h.x);

@@ -16,10 +16,10 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 struct IndependentPoints {
-  static HWY_INLINE GroupIndex Group(const PointsParameters&, VU sample) {
+  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters&, VU sample) {
     return {sample, hn::Zero(DU())};
   }
-  static HWY_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at, VU key,
+  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at, VU key,
                                VU seed, VF* u0, VF* u1) {
     const U4 r = Pcg4d({pixel, at.group, key, seed});
     *u0 = ToUnit(r.x);

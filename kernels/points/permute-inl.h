@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 /// Rounds on x; pair(x, random) gives the partner of x under 32 random bits of the round,
 /// such that pair(pair(x, random), random) = x.
 template <class Pair>
-HWY_INLINE VU SwapOrNot(VU x, VU key, Pair&& pair) {
+LANELIGHT_INLINE VU SwapOrNot(VU x, VU key, Pair&& pair) {
   const DI di;
   VU other = hn::Mul(hn::Xor(key, hn::ShiftRight<15>(key)), SplatU(0xd23f38fbu));
   other = hn::Xor(other, hn::ShiftRight<14>(other));
@@ -40,7 +40,7 @@ HWY_INLINE VU SwapOrNot(VU x, VU key, Pair&& pair) {
 }
 
 /// A permutation of [0, strata.count); i < strata.count <= 2^20.
-HWY_INLINE VU Permute(const Strata& strata, VU i, VU key) {
+LANELIGHT_INLINE VU Permute(const Strata& strata, VU i, VU key) {
   const VU count = SplatU(strata.count);
   // As many bits of a random number as its product with `count` leaves room for.
   const int unused = static_cast<int>(HWY_MAX(strata.bits, 1u)), used = 32 - unused;
@@ -54,7 +54,7 @@ HWY_INLINE VU Permute(const Strata& strata, VU i, VU key) {
 
 /// A permutation of [0, 2^24) that keeps 0 and permutes each [2^m, 2^(m+1)) in itself, so
 /// that it keeps every prefix of 2^m numbers. (The exponent of i as a float is m.)
-HWY_INLINE VU PermuteOctaves(VU i, VU key) {
+LANELIGHT_INLINE VU PermuteOctaves(VU i, VU key) {
   const DU du;
   const VU some = hn::Max(i, SplatU(1));
   const VF as_float = hn::ConvertTo(DF(), hn::BitCast(DI(), some));

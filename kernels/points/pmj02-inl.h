@@ -28,11 +28,11 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 struct Pmj02Points {
-  static HWY_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
+  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
     return GroupByShift(points, sample);
   }
 
-  static HWY_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
+  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
                                VU key, VU seed, VF* u0, VF* u1) {
     static_assert((kPmj02Sequences & (kPmj02Sequences - 1)) == 0);
     const U4 h = Pcg4d({pixel, at.group, key, seed});

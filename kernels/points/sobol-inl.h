@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 
 // Random nested (Owen) permutation of bit-reversed numbers: bit i of the result depends
 // on the bits below i only.
-HWY_INLINE VU LaineKarras(VU x, VU seed) {
+LANELIGHT_INLINE VU LaineKarras(VU x, VU seed) {
   x = hn::Xor(x, hn::Mul(x, SplatU(0x3d20adeau)));
   x = hn::Add(x, seed);
   x = hn::Mul(x, hn::Or(hn::ShiftRight<16>(seed), SplatU(1)));
@@ -35,7 +35,7 @@ HWY_INLINE VU LaineKarras(VU x, VU seed) {
 // Bit-reversed second Sobol' coordinate of index i: y_j = xor over k of C(k, j) i_k, and
 // by Lucas C(k, j) is odd iff j is a submask of k, so one xor-shift per bit of the
 // positions does the product with Pascal's triangle.
-HWY_INLINE VU ReversedSobol1(VU i) {
+LANELIGHT_INLINE VU ReversedSobol1(VU i) {
   i = hn::Xor(i, hn::ShiftRight<16>(i));
   i = hn::Xor(i, hn::And(hn::ShiftRight<8>(i), SplatU(0x00ff00ffu)));
   i = hn::Xor(i, hn::And(hn::ShiftRight<4>(i), SplatU(0x0f0f0f0fu)));
@@ -44,10 +44,10 @@ HWY_INLINE VU ReversedSobol1(VU i) {
 }
 
 struct SobolPoints {
-  static HWY_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
+  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
     return GroupByShift(points, sample);
   }
-  static HWY_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at, VU key,
+  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at, VU key,
                                VU seed, VF* u0, VF* u1) {
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU shuffled = ReverseBits32(LaineKarras(ReverseBits32(at.index), h.x));

@@ -14,7 +14,7 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 /// floor(a b / 2^32).
-HWY_INLINE VU MulHigh32(VU a, VU b) {
+LANELIGHT_INLINE VU MulHigh32(VU a, VU b) {
   const DU du;
   const hn::Repartition<uint64_t, DU> d64;
   const auto odd = [&](VU v) HWY_ATTR {
@@ -26,13 +26,13 @@ HWY_INLINE VU MulHigh32(VU a, VU b) {
 }
 
 /// i times the fraction (whole 2^32 + part) / 2^64, modulo 1: in 2^-32, rounded down.
-HWY_INLINE VU TimesFraction(VU i, uint32_t whole, uint32_t part) {
+LANELIGHT_INLINE VU TimesFraction(VU i, uint32_t whole, uint32_t part) {
   return hn::Add(hn::Mul(i, SplatU(whole)), MulHigh32(i, SplatU(part)));
 }
 
 /// (stratum + random / 2^32) / strata.count in 2^-32: off by three units at most, and to
 /// smaller values only, so never 1.
-HWY_INLINE VU InStratum(const Strata& strata, VU stratum, VU random) {
+LANELIGHT_INLINE VU InStratum(const Strata& strata, VU stratum, VU random) {
   return hn::Add(TimesFraction(stratum, strata.whole, strata.part),
                  MulHigh32(random, SplatU(strata.whole)));
 }
@@ -43,7 +43,7 @@ struct QuotientRemainder {
 
 /// i / strata.count for i < 2^21: (i + 1/2) / count is at least 1 / (2 count) away from
 /// whole numbers, and floats put it off by less than i 2^-22 / count.
-HWY_INLINE QuotientRemainder DivideBy(const Strata& strata, VU i) {
+LANELIGHT_INLINE QuotientRemainder DivideBy(const Strata& strata, VU i) {
   const DF df;
   const VF middle = hn::Add(hn::ConvertTo(df, hn::BitCast(DI(), i)), hn::Set(df, 0.5f));
   const VF ratio = hn::Mul(middle, hn::Set(df, 1.0f / static_cast<float>(strata.count)));

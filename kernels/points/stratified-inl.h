@@ -25,7 +25,7 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 struct StratifiedPoints {
-  static HWY_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
+  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
     return GroupByDivision(points, sample);
   }
 
@@ -35,13 +35,13 @@ struct StratifiedPoints {
     VU stratum;
     U4 jitter;
   };
-  static HWY_INLINE Drawn Draw(const PointsParameters& points, VU pixel, GroupIndex at,
+  static LANELIGHT_INLINE Drawn Draw(const PointsParameters& points, VU pixel, GroupIndex at,
                                VU key, VU seed) {
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     return {Permute(points.strata, at.index, h.x), Pcg4d({at.index, h.y, h.z, h.w})};
   }
 
-  static HWY_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
+  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
                                VU key, VU seed, VF* u0, VF* u1) {
     const Drawn drawn = Draw(points, pixel, at, key, seed);
     const QuotientRemainder cell = DivideBy(points.columns, drawn.stratum);
@@ -49,7 +49,7 @@ struct StratifiedPoints {
     *u1 = ToUnit(InStratum(points.rows, cell.quotient, drawn.jitter.y));
   }
 
-  static HWY_INLINE VF Number(const PointsParameters& points, VU pixel, GroupIndex at,
+  static LANELIGHT_INLINE VF Number(const PointsParameters& points, VU pixel, GroupIndex at,
                               VU key, VU seed) {
     const Drawn drawn = Draw(points, pixel, at, key, seed);
     return ToUnit(InStratum(points.strata, drawn.stratum, drawn.jitter.x));

@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Repeats the last slot over one vector past the end. A batch that runs past the end
 /// then recomputes that path: every store of a kernel is a function of the slot alone,
 /// so the repeated lanes store the same values and no masking is needed.
-HWY_INLINE void PadTail(const Queue& queue) {
+LANELIGHT_INLINE void PadTail(const Queue& queue) {
   if (queue.size == 0) return;
   const DU du;
   hn::StoreU(hn::Set(du, queue.items[queue.size - 1]), du, queue.items + queue.size);
@@ -48,7 +48,7 @@ HWY_INLINE void ForEachBatch(Wave& wave, const Queue& queue, Body&& body) {
 }
 
 /// Appends the slots under `mask` to `queue`.
-HWY_INLINE void Push(Queue& queue, VI slots, MF mask) {
+LANELIGHT_INLINE void Push(Queue& queue, VI slots, MF mask) {
   const DI di;
   // Not CompressStore, whose instruction is microcoded on some processors. What is
   // written beyond the end lies within the padding, or has been read where a queue is

@@ -28,7 +28,7 @@ struct Slots {
   VI lane;         // window: of each slot, within its block
   MF upper;        // window: the slot is in the second block
 
-  HWY_INLINE explicit Slots(VI slots)
+  LANELIGHT_INLINE explicit Slots(VI slots)
       : index(slots), first(static_cast<uint32_t>(hn::GetLane(slots))) {
     const DI di;
     const int32_t lanes = static_cast<int32_t>(hn::Lanes(di));
@@ -52,7 +52,7 @@ struct Slots {
   HWY_INLINE operator VI() const { return index; }  // NOLINT: used like one
 };
 
-HWY_INLINE VF Gather(const float* column, const Slots& slots) {
+LANELIGHT_INLINE VF Gather(const float* column, const Slots& slots) {
   const DF df;
   if (HWY_LIKELY(slots.layout == Slots::Layout::kRun)) {
     return hn::LoadU(df, column + slots.first);
@@ -66,10 +66,10 @@ HWY_INLINE VF Gather(const float* column, const Slots& slots) {
   }
   return hn::GatherIndex(df, column, slots.index);
 }
-HWY_INLINE VI Gather(const int32_t* column, const Slots& slots) {
+LANELIGHT_INLINE VI Gather(const int32_t* column, const Slots& slots) {
   return hn::BitCast(DI(), Gather(reinterpret_cast<const float*>(column), slots));
 }
-HWY_INLINE VI Gather(const uint32_t* column, const Slots& slots) {
+LANELIGHT_INLINE VI Gather(const uint32_t* column, const Slots& slots) {
   return hn::BitCast(DI(), Gather(reinterpret_cast<const float*>(column), slots));
 }
 
@@ -78,7 +78,7 @@ struct StoreSlots : Slots {
   VI from[2];  // window: lane that goes to each place of the two blocks
   MF has[2];   // and whether there is one
 
-  HWY_INLINE StoreSlots(const Slots& slots)  // NOLINT: a lambda may ask for either
+  LANELIGHT_INLINE StoreSlots(const Slots& slots)  // NOLINT: a lambda may ask for either
       : Slots(slots) {
     if (!kWindows || layout != Layout::kWindow) return;
     const DI di;
@@ -97,14 +97,14 @@ struct StoreSlots : Slots {
   }
 };
 
-HWY_INLINE void Scatter(VF v, float* column, const Slots& slots) {
+LANELIGHT_INLINE void Scatter(VF v, float* column, const Slots& slots) {
   if (HWY_LIKELY(slots.layout == Slots::Layout::kRun)) {
     hn::StoreU(v, DF(), column + slots.first);
   } else {
     hn::ScatterIndex(v, DF(), column, slots.index);
   }
 }
-HWY_INLINE void Scatter(VF v, float* column, const StoreSlots& slots) {
+LANELIGHT_INLINE void Scatter(VF v, float* column, const StoreSlots& slots) {
   const DF df;
   if (HWY_LIKELY(slots.layout == Slots::Layout::kRun)) {
     hn::StoreU(v, df, column + slots.first);
@@ -119,11 +119,11 @@ HWY_INLINE void Scatter(VF v, float* column, const StoreSlots& slots) {
   }
 }
 template <class S>
-HWY_INLINE void Scatter(VI v, int32_t* column, const S& slots) {
+LANELIGHT_INLINE void Scatter(VI v, int32_t* column, const S& slots) {
   Scatter(hn::BitCast(DF(), v), reinterpret_cast<float*>(column), slots);
 }
 template <class S>
-HWY_INLINE void Scatter(VI v, uint32_t* column, const S& slots) {
+LANELIGHT_INLINE void Scatter(VI v, uint32_t* column, const S& slots) {
   Scatter(hn::BitCast(DF(), v), reinterpret_cast<float*>(column), slots);
 }
 

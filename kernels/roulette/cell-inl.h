@@ -15,21 +15,21 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 /// Brightness, with the weights of the channels that suit the image.
-HWY_INLINE VF Brightness(const PathValues& values, V3 c) {
+LANELIGHT_INLINE VF Brightness(const PathValues& values, V3 c) {
   return hn::MulAdd(
       c.x, Splat(values.channel[0]),
       hn::MulAdd(c.y, Splat(values.channel[1]), hn::Mul(c.z, Splat(values.channel[2]))));
 }
 
 // Cell along one axis; what lies outside the box (infinite planes) counts to its border.
-HWY_INLINE VI CellAlong(const CellGrid& grid, int axis, VF p) {
+LANELIGHT_INLINE VI CellAlong(const CellGrid& grid, int axis, VF p) {
   const VF last = Splat(static_cast<float>(grid.size[axis] - 1));
   const VF at = hn::Mul(hn::Sub(p, Splat(grid.low[axis])), Splat(grid.per_unit[axis]));
   return hn::ConvertTo(DI(), hn::Min(hn::Max(at, hn::Zero(DF())), last));
 }
 
 /// Cell of the surface points of these paths, by the side that they see.
-HWY_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path, const Slots& slots) {
+LANELIGHT_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path, const Slots& slots) {
   const DI di;
   const auto constant = [&](int32_t v) HWY_ATTR { return hn::Set(di, v); };
   const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);

@@ -21,7 +21,7 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 template <class Policy>
-HWY_INLINE void PlayRoulette(Wave& wave) {
+LANELIGHT_INLINE void PlayRoulette(Wave& wave) {
   const PathColumns& p = wave.path;
   const VI before = hn::Set(DI(), static_cast<int32_t>(wave.run->roulette.first) - 1);
   Queue& queue = wave.queue(QueueId::kScattered);
@@ -45,7 +45,7 @@ HWY_INLINE void PlayRoulette(Wave& wave) {
 
 /// The factor eta^2 of refractions undone: radiance is spread by leaving a denser medium
 /// and gathered again, which says nothing of the path's worth.
-HWY_INLINE VF WithoutRefraction(const PathColumns& p, const Slots& slots, VF s) {
+LANELIGHT_INLINE VF WithoutRefraction(const PathColumns& p, const Slots& slots, VF s) {
   return p.eta_scale != nullptr ? hn::Mul(s, Gather(p.eta_scale, slots)) : s;
 }
 

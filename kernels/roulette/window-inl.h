@@ -38,7 +38,7 @@ namespace HWY_NAMESPACE {
 inline constexpr float kLeast = 0.05f;
 
 /// Uniform number of the decision.
-HWY_INLINE VF DecisionNumber(const Wave& wave, const Slots& slots) {
+LANELIGHT_INLINE VF DecisionNumber(const Wave& wave, const Slots& slots) {
   const PathColumns& p = wave.path;
   const VU depth = AsUnsigned(Gather(p.depth, slots));
   return ToUnit(
@@ -49,7 +49,7 @@ HWY_INLINE VF DecisionNumber(const Wave& wave, const Slots& slots) {
 
 /// What a unit of brightness gathered from here on would weigh in the image: the root
 /// mean square over the channels of throughput over brightness of the pixel.
-HWY_INLINE VF WeightInImage(const Wave& wave, const Slots& slots, V3 beta) {
+LANELIGHT_INLINE VF WeightInImage(const Wave& wave, const Slots& slots, V3 beta) {
   const float* inverse = wave.run->tables->path_values.inverse_pixel.data();
   const VI at = hn::Mul(Gather(wave.path.pixel, slots), hn::Set(DI(), 3));
   const V3 relative = Mul(beta, Gather3(inverse, inverse + 1, inverse + 2, at));
@@ -58,7 +58,7 @@ HWY_INLINE VF WeightInImage(const Wave& wave, const Slots& slots, V3 beta) {
 
 /// Expected copies where the cache knows nothing: throughput roulette from the second
 /// event on.
-HWY_INLINE VF ThroughputFactor(const PathColumns& p, const Slots& slots, V3 beta) {
+LANELIGHT_INLINE VF ThroughputFactor(const PathColumns& p, const Slots& slots, V3 beta) {
   VF s = MaxComponent(beta);
   if (p.eta_scale != nullptr) s = hn::Mul(s, Gather(p.eta_scale, slots));
   const auto late = hn::Gt(Gather(p.depth, slots), hn::Set(DI(), kThroughputFirst - 1));
@@ -67,7 +67,7 @@ HWY_INLINE VF ThroughputFactor(const PathColumns& p, const Slots& slots, V3 beta
 
 /// The new slots take over their parents' columns; what a path gathers they begin anew:
 /// the sample is the sum of its copies.
-HWY_INLINE void CopyPaths(const ColumnLists& lists, const uint32_t* parents,
+LANELIGHT_INLINE void CopyPaths(const ColumnLists& lists, const uint32_t* parents,
                           const uint32_t* slots, uint32_t n) {
   for (uint32_t c = 0; c < lists.copied.count; ++c) {
     uint32_t* column = lists.copied.columns[c];
@@ -81,7 +81,7 @@ HWY_INLINE void CopyPaths(const ColumnLists& lists, const uint32_t* parents,
 
 /// Divides the budget of a parent among its k copies: its own share, and those of the new
 /// slots.
-HWY_INLINE void ShareBudget(const PathColumns& p, uint32_t parent, const uint32_t* slots,
+LANELIGHT_INLINE void ShareBudget(const PathColumns& p, uint32_t parent, const uint32_t* slots,
                             uint32_t k) {
   const uint32_t budget = p.budget[parent];
   LL_DCHECK(k <= budget);
@@ -96,7 +96,7 @@ HWY_INLINE void ShareBudget(const PathColumns& p, uint32_t parent, const uint32_
 
 /// Makes copies[i] paths of the i-th of the queue, appending the new ones. The queue of
 /// shadow rays, empty so far, lends its room for the parents' slots.
-HWY_INLINE void SplitPaths(Wave& wave, Queue& queue, const uint32_t* copies) {
+LANELIGHT_INLINE void SplitPaths(Wave& wave, Queue& queue, const uint32_t* copies) {
   Queue& free = wave.queue(QueueId::kFree);
   uint32_t* parents = wave.queue(QueueId::kShadow).items;
   const uint32_t before = queue.size;
@@ -119,7 +119,7 @@ HWY_INLINE void SplitPaths(Wave& wave, Queue& queue, const uint32_t* copies) {
 }
 
 template <class Policy>
-HWY_INLINE void PlayWindow(Wave& wave) {
+LANELIGHT_INLINE void PlayWindow(Wave& wave) {
   const DI di;
   const PathColumns& p = wave.path;
   Queue& queue = wave.queue(QueueId::kVertex);

@@ -12,6 +12,15 @@
 
 #include "hwy/highway.h"
 
+// Routines that everything is made of. Where a vector is a register, a call would cost more
+// than they do; in the emulation they are long, and the compiler's time is what counts.
+#undef LANELIGHT_INLINE
+#if HWY_TARGET == HWY_EMU128
+#define LANELIGHT_INLINE HWY_NOINLINE
+#else
+#define LANELIGHT_INLINE HWY_INLINE
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
@@ -27,22 +36,22 @@ using VI = hn::Vec<DI>;
 using MF = hn::Mask<DF>;
 
 // Tables, by lane index.
-HWY_INLINE VF Gather(const float* base, VI index) {
+LANELIGHT_INLINE VF Gather(const float* base, VI index) {
   return hn::GatherIndex(DF(), base, index);
 }
-HWY_INLINE VI Gather(const int32_t* base, VI index) {
+LANELIGHT_INLINE VI Gather(const int32_t* base, VI index) {
   return hn::GatherIndex(DI(), base, index);
 }
-HWY_INLINE VI Gather(const uint32_t* base, VI index) {
+LANELIGHT_INLINE VI Gather(const uint32_t* base, VI index) {
   return hn::GatherIndex(DI(), reinterpret_cast<const int32_t*>(base), index);
 }
-HWY_INLINE void Scatter(VF v, float* base, VI index) {
+LANELIGHT_INLINE void Scatter(VF v, float* base, VI index) {
   hn::ScatterIndex(v, DF(), base, index);
 }
-HWY_INLINE void Scatter(VI v, int32_t* base, VI index) {
+LANELIGHT_INLINE void Scatter(VI v, int32_t* base, VI index) {
   hn::ScatterIndex(v, DI(), base, index);
 }
-HWY_INLINE void Scatter(VI v, uint32_t* base, VI index) {
+LANELIGHT_INLINE void Scatter(VI v, uint32_t* base, VI index) {
   hn::ScatterIndex(v, DI(), reinterpret_cast<int32_t*>(base), index);
 }
 
@@ -50,7 +59,7 @@ HWY_INLINE void Scatter(VI v, uint32_t* base, VI index) {
 inline constexpr bool kWindows = hn::MaxLanes(DF()) >= 8;
 
 /// Entries of a table of `count`, index < count: a small one fits into a register.
-HWY_INLINE VF Lookup(const float* table, std::size_t count, VI index) {
+LANELIGHT_INLINE VF Lookup(const float* table, std::size_t count, VI index) {
   const DF df;
   if (kWindows && count <= hn::Lanes(df)) {
     const VF all = hn::MaskedLoad(hn::FirstN(df, count), df, table);

@@ -29,7 +29,7 @@ struct SinCosPair {
 
 /// sin and cos of x quarter turns, |x| <= 1/2 (an angle of at most 45 degrees).
 /// Absolute error below 1.2e-7.
-HWY_INLINE SinCosPair SinCosOctant(VF x) {
+LANELIGHT_INLINE SinCosPair SinCosOctant(VF x) {
   const VF t = Sqr(x);
   VF s = MulAddScalar(t, -0.004602149213f, Splat(0.07968021765f));
   s = hn::MulAdd(s, t, Splat(-0.6459634777f));
@@ -42,7 +42,7 @@ HWY_INLINE SinCosPair SinCosOctant(VF x) {
 
 /// sin(2 pi u) and cos(2 pi u) for |u| < 2^20. The reduction is exact, so the absolute
 /// error stays below 1.2e-7 over the whole range, and sin^2 + cos^2 = 1 within 4e-7.
-HWY_INLINE SinCosPair SinCos2Pi(VF u) {
+LANELIGHT_INLINE SinCosPair SinCos2Pi(VF u) {
   const DF df;
   const DI di;
   const VF quarters = hn::Mul(u, Splat(4.0f));
@@ -60,7 +60,7 @@ HWY_INLINE SinCosPair SinCos2Pi(VF u) {
 }
 
 /// atan(x) for |x| <= 1. Absolute error below 1.5e-7.
-HWY_INLINE VF AtanUnit(VF x) {
+LANELIGHT_INLINE VF AtanUnit(VF x) {
   const VF t = Sqr(x);
   VF p = MulAddScalar(t, 0.002766283502f, Splat(-0.01573124912f));
   p = hn::MulAdd(p, t, Splat(0.04213762359f));
@@ -75,7 +75,7 @@ HWY_INLINE VF AtanUnit(VF x) {
 
 /// Angle of the point (x, y) in (-pi, pi], any finite arguments. Absolute error below
 /// 4e-7. The origin gives 0.
-HWY_INLINE VF Atan2(VF y, VF x) {
+LANELIGHT_INLINE VF Atan2(VF y, VF x) {
   const VF ax = hn::Abs(x), ay = hn::Abs(y);
   const VF high = hn::Max(ax, ay), low = hn::Min(ax, ay);
   const MF origin = hn::Eq(high, hn::Zero(DF()));
@@ -87,7 +87,7 @@ HWY_INLINE VF Atan2(VF y, VF x) {
 }
 
 /// exp(x) for x <= 88. Relative error below 1.5e-7 for x >= -87, 0 below that.
-HWY_INLINE VF Exp(VF x) {
+LANELIGHT_INLINE VF Exp(VF x) {
   const DF df;
   const DI di;
   const VF n = hn::Round(hn::Mul(x, Splat(1.44269504f)));

@@ -22,7 +22,7 @@ HWY_INLINE VU AsUnsigned(VI v) { return hn::BitCast(DU(), v); }
 
 /// PCG-4D (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering"): a permutation
 /// of 128-bit words; passes the statistical tests named in the paper.
-HWY_INLINE U4 Pcg4d(U4 v) {
+LANELIGHT_INLINE U4 Pcg4d(U4 v) {
   const VU a = SplatU(1664525u), c = SplatU(1013904223u);
   const auto step = [&](VU s) HWY_ATTR { return hn::Add(hn::Mul(s, a), c); };
   const auto mix = [](U4 s) HWY_ATTR {
@@ -38,13 +38,13 @@ HWY_INLINE U4 Pcg4d(U4 v) {
 }
 
 /// Uniform in [0, 1): the top 24 bits, exact in float.
-HWY_INLINE VF ToUnit(VU bits) {
+LANELIGHT_INLINE VF ToUnit(VU bits) {
   const VI top = hn::BitCast(DI(), hn::ShiftRight<8>(bits));
   return hn::Mul(hn::ConvertTo(DF(), top), hn::Set(DF(), 0x1p-24f));
 }
 
 /// Bytes of each word reversed, then the bits of each byte by its halves.
-HWY_INLINE VU ReverseBits32(VU v) {
+LANELIGHT_INLINE VU ReverseBits32(VU v) {
   const DU du;
   const hn::Repartition<uint8_t, DU> d8;
   HWY_ALIGN static constexpr uint8_t kBytes[16] = {3,  2,  1, 0, 7,  6,  5,  4,

@@ -36,28 +36,28 @@ HWY_INLINE V3 Mul(V3 a, VF s) {
 HWY_INLINE V3 MulAdd(V3 a, VF s, V3 b) {
   return {hn::MulAdd(a.x, s, b.x), hn::MulAdd(a.y, s, b.y), hn::MulAdd(a.z, s, b.z)};
 }
-HWY_INLINE VF Dot(V3 a, V3 b) {
+LANELIGHT_INLINE VF Dot(V3 a, V3 b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
 /// a*b - c*d with an error below 1.5 ulp (Kahan; Jeannerod, Louvet and Muller 2013).
-HWY_INLINE VF DifferenceOfProducts(VF a, VF b, VF c, VF d) {
+LANELIGHT_INLINE VF DifferenceOfProducts(VF a, VF b, VF c, VF d) {
   const VF cd = hn::Mul(c, d);
   const VF difference = hn::MulSub(a, b, cd);
   const VF error = hn::NegMulAdd(c, d, cd);
   return hn::Add(difference, error);
 }
-HWY_INLINE V3 Cross(V3 a, V3 b) {
+LANELIGHT_INLINE V3 Cross(V3 a, V3 b) {
   return {DifferenceOfProducts(a.y, b.z, a.z, b.y),
           DifferenceOfProducts(a.z, b.x, a.x, b.z),
           DifferenceOfProducts(a.x, b.y, a.y, b.x)};
 }
 HWY_INLINE VF Rsqrt(VF x) { return hn::Div(Splat(1.0f), hn::Sqrt(x)); }
 /// Undefined (NaN) for the zero vector.
-HWY_INLINE V3 Normalize(V3 a) { return Mul(a, Rsqrt(Dot(a, a))); }
+LANELIGHT_INLINE V3 Normalize(V3 a) { return Mul(a, Rsqrt(Dot(a, a))); }
 /// Unit length again for a vector whose squared length is 1 + e, |e| < 1e-3: a Newton
 /// step instead of a root and a division. Relative error of the length 3/8 e^2 and
 /// rounding.
-HWY_INLINE V3 Renormalize(V3 a) {
+LANELIGHT_INLINE V3 Renormalize(V3 a) {
   return Mul(a, hn::NegMulAdd(Splat(0.5f), Dot(a, a), Splat(1.5f)));
 }
 HWY_INLINE V3 IfThenElse(MF m, V3 a, V3 b) {
@@ -71,18 +71,18 @@ HWY_INLINE V3 IfThenElseZero(MF m, V3 a) {
 HWY_INLINE VF MaxComponent(V3 a) { return hn::Max(a.x, hn::Max(a.y, a.z)); }
 
 template <class Index>
-HWY_INLINE V3 Gather3(const float* x, const float* y, const float* z,
+LANELIGHT_INLINE V3 Gather3(const float* x, const float* y, const float* z,
                       const Index& index) {
   return {Gather(x, index), Gather(y, index), Gather(z, index)};
 }
 template <class Index>
-HWY_INLINE void Scatter3(V3 v, float* x, float* y, float* z, const Index& index) {
+LANELIGHT_INLINE void Scatter3(V3 v, float* x, float* y, float* z, const Index& index) {
   Scatter(v.x, x, index);
   Scatter(v.y, y, index);
   Scatter(v.z, z, index);
 }
 /// Words offset .. offset+2 of records of `words` floats.
-HWY_INLINE V3 GatherRecord3(const void* records, int words, int offset, VI index) {
+LANELIGHT_INLINE V3 GatherRecord3(const void* records, int words, int offset, VI index) {
   const DI di;
   const float* base = static_cast<const float*>(records) + offset;
   const VI at = hn::Mul(index, hn::Set(di, words));
@@ -98,7 +98,7 @@ struct Frame {
     return MulAdd(s, v.x, MulAdd(t, v.y, Mul(n, v.z)));
   }
 };
-HWY_INLINE Frame FrameFromNormal(V3 n) {
+LANELIGHT_INLINE Frame FrameFromNormal(V3 n) {
   const VF sign = hn::CopySignToAbs(Splat(1.0f), n.z);
   const VF a = hn::Div(Splat(-1.0f), hn::Add(sign, n.z));
   const VF b = hn::Mul(hn::Mul(n.x, n.y), a);
@@ -111,7 +111,7 @@ HWY_INLINE Frame FrameFromNormal(V3 n) {
 
 /// Origin of a ray leaving surface point p on the side of `direction`, clear of the
 /// rounding error of p: p_error bounds it along the geometric normal ng.
-HWY_INLINE V3 OffsetOrigin(V3 p, V3 ng, VF p_error, V3 direction) {
+LANELIGHT_INLINE V3 OffsetOrigin(V3 p, V3 ng, VF p_error, V3 direction) {
   const VF side = hn::CopySign(p_error, Dot(ng, direction));
   return MulAdd(ng, side, p);
 }

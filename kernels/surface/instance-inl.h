@@ -19,15 +19,15 @@ struct Map34 {
   V3 row[3];  // linear part
   V3 move;    // translation
 
-  HWY_INLINE V3 Vector(V3 v) const {
+  LANELIGHT_INLINE V3 Vector(V3 v) const {
     return {Dot(row[0], v), Dot(row[1], v), Dot(row[2], v)};
   }
   /// Transposed linear part: maps normals when the map is the inverse.
-  HWY_INLINE V3 Transposed(V3 n) const {
+  LANELIGHT_INLINE V3 Transposed(V3 n) const {
     return MulAdd(row[0], n.x, MulAdd(row[1], n.y, Mul(row[2], n.z)));
   }
   /// |linear part| v + |translation|, the bound of a mapped point with |coordinates| v.
-  HWY_INLINE V3 Bound(V3 v) const {
+  LANELIGHT_INLINE V3 Bound(V3 v) const {
     return Map34{{Abs(row[0]), Abs(row[1]), Abs(row[2])}, move}.Vector(v) + Abs(move);
   }
 };
@@ -37,7 +37,7 @@ struct InstanceMaps {
 };
 
 /// `inst` is -1 for the world.
-HWY_INLINE InstanceMaps GatherMaps(const AlignedVector<InstanceRecord>& records,
+LANELIGHT_INLINE InstanceMaps GatherMaps(const AlignedVector<InstanceRecord>& records,
                                    VI inst) {
   const DI di;
   const MF world = hn::RebindMask(DF(), hn::Lt(inst, hn::Zero(di)));
@@ -58,7 +58,7 @@ HWY_INLINE InstanceMaps GatherMaps(const AlignedVector<InstanceRecord>& records,
 }
 
 template <bool kUpper>
-HWY_INLINE D3 MapPoint(const Map34& m, D3 p) {
+LANELIGHT_INLINE D3 MapPoint(const Map34& m, D3 p) {
   const D3 move = HalfOf<kUpper>(m.move);
   return {hn::Add(Dot(HalfOf<kUpper>(m.row[0]), p), move.x),
           hn::Add(Dot(HalfOf<kUpper>(m.row[1]), p), move.y),
@@ -69,7 +69,7 @@ HWY_INLINE D3 MapPoint(const Map34& m, D3 p) {
 /// mapping rounds 4u (|M| |p| + |m|) per coordinate, and since both maps were rounded to
 /// float, M S is the identity only within 2u |M| (|S| |p_object| + |s|); u = 2^-24. Twice
 /// their sum is 12u times the larger bound.
-HWY_INLINE VF MappingError(const InstanceMaps& maps, V3 p_object, V3 n) {
+LANELIGHT_INLINE VF MappingError(const InstanceMaps& maps, V3 p_object, V3 n) {
   const V3 reach = maps.scene_from_object.Bound(Abs(p_object));
   const V3 in_object = maps.object_from_scene.Bound(reach);
   const Map34& s = maps.scene_from_object;

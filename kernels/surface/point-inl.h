@@ -30,40 +30,40 @@ struct D3 {
   VD x, y, z;
 };
 
-HWY_INLINE VD LowerDouble(VF v) { return hn::PromoteTo(DD(), hn::LowerHalf(DHalf(), v)); }
-HWY_INLINE VD UpperDouble(VF v) { return hn::PromoteTo(DD(), hn::UpperHalf(DHalf(), v)); }
+LANELIGHT_INLINE VD LowerDouble(VF v) { return hn::PromoteTo(DD(), hn::LowerHalf(DHalf(), v)); }
+LANELIGHT_INLINE VD UpperDouble(VF v) { return hn::PromoteTo(DD(), hn::UpperHalf(DHalf(), v)); }
 template <bool kUpper>
-HWY_INLINE VD HalfOf(VF v) {
+LANELIGHT_INLINE VD HalfOf(VF v) {
   if constexpr (kUpper) return UpperDouble(v);
   return LowerDouble(v);
 }
 template <bool kUpper>
-HWY_INLINE D3 HalfOf(V3 v) {
+LANELIGHT_INLINE D3 HalfOf(V3 v) {
   return {HalfOf<kUpper>(v.x), HalfOf<kUpper>(v.y), HalfOf<kUpper>(v.z)};
 }
-HWY_INLINE VF FromHalves(VD lower, VD upper) {
+LANELIGHT_INLINE VF FromHalves(VD lower, VD upper) {
   const DHalf dh;
   return hn::Combine(DF(), hn::DemoteTo(dh, upper), hn::DemoteTo(dh, lower));
 }
-HWY_INLINE V3 FromHalves(D3 lower, D3 upper) {
+LANELIGHT_INLINE V3 FromHalves(D3 lower, D3 upper) {
   return {FromHalves(lower.x, upper.x), FromHalves(lower.y, upper.y),
           FromHalves(lower.z, upper.z)};
 }
-HWY_INLINE VD Dot(D3 a, D3 b) {
+LANELIGHT_INLINE VD Dot(D3 a, D3 b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
-HWY_INLINE D3 Minus(D3 a, D3 b) {
+LANELIGHT_INLINE D3 Minus(D3 a, D3 b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
 /// a * s + b
-HWY_INLINE D3 MulAdd(D3 a, VD s, D3 b) {
+LANELIGHT_INLINE D3 MulAdd(D3 a, VD s, D3 b) {
   return {hn::MulAdd(a.x, s, b.x), hn::MulAdd(a.y, s, b.y), hn::MulAdd(a.z, s, b.z)};
 }
 
-HWY_INLINE V3 Abs(V3 v) { return {hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)}; }
+LANELIGHT_INLINE V3 Abs(V3 v) { return {hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)}; }
 
 /// See above. `size` bounds |p - reference points of the shape|.
-HWY_INLINE VF RoundingError(V3 p, V3 n, VF size) {
+LANELIGHT_INLINE VF RoundingError(V3 p, V3 n, VF size) {
   return hn::MulAdd(Splat(0x1p-22f), Dot(Abs(p), Abs(n)), hn::Mul(Splat(0x1p-48f), size));
 }
 

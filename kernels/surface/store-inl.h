@@ -26,7 +26,7 @@ struct SurfaceLanes {
 
 /// Point o + t d of a vector of hits.
 template <bool kUpper>
-HWY_INLINE D3 RayPoint(const PathColumns& path, const Slots& slots) {
+LANELIGHT_INLINE D3 RayPoint(const PathColumns& path, const Slots& slots) {
   const V3 o = Gather3(path.o_x, path.o_y, path.o_z, slots);
   const V3 d = Gather3(path.d_x, path.d_y, path.d_z, slots);
   return MulAdd(HalfOf<kUpper>(d), HalfOf<kUpper>(Gather(path.t, slots)),
@@ -35,14 +35,14 @@ HWY_INLINE D3 RayPoint(const PathColumns& path, const Slots& slots) {
 
 /// Foot of the perpendicular from `p` to the plane through `point` with normal n.
 template <bool kUpper>
-HWY_INLINE D3 ProjectToPlane(D3 p, V3 point, V3 n) {
+LANELIGHT_INLINE D3 ProjectToPlane(D3 p, V3 point, V3 n) {
   const D3 nd = HalfOf<kUpper>(n), rel = Minus(p, HalfOf<kUpper>(point));
   return MulAdd(nd, hn::Neg(hn::Div(Dot(nd, rel), Dot(nd, nd))), p);
 }
 
 /// Writes what every hit has; these shapes have no shading normal of their own.
 template <bool kNormals>
-HWY_INLINE void StoreSurface(const PathColumns& path, const StoreSlots& slots,
+LANELIGHT_INLINE void StoreSurface(const PathColumns& path, const StoreSlots& slots,
                              const SurfaceLanes& s) {
   Scatter3(s.p, path.p_x, path.p_y, path.p_z, slots);
   Scatter(s.error, path.p_error, slots);
@@ -52,7 +52,7 @@ HWY_INLINE void StoreSurface(const PathColumns& path, const StoreSlots& slots,
 }
 
 /// Angle of (x, y) in [0, 2 pi], as a fraction of the circle; absolute error below 1e-6.
-HWY_INLINE VF TurnFraction(VF y, VF x) {
+LANELIGHT_INLINE VF TurnFraction(VF y, VF x) {
   const DF df;
   const VF ay = hn::Abs(y), ax = hn::Abs(x);
   const VF high = hn::Max(ax, ay);
@@ -66,7 +66,7 @@ HWY_INLINE VF TurnFraction(VF y, VF x) {
 }
 
 /// `tangent`, or any direction across n where it vanishes (at the centre, at a pole).
-HWY_INLINE V3 TangentOr(V3 tangent, V3 n) {
+LANELIGHT_INLINE V3 TangentOr(V3 tangent, V3 n) {
   const VF length2 = Dot(tangent, tangent);
   return IfThenElse(hn::Gt(length2, hn::Zero(DF())), tangent, FrameFromNormal(n).s);
 }

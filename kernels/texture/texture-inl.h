@@ -22,9 +22,9 @@ struct TexelPair {
   VF weight;
 };
 
-HWY_INLINE VF Fraction(VF x) { return hn::Sub(x, hn::Floor(x)); }
+LANELIGHT_INLINE VF Fraction(VF x) { return hn::Sub(x, hn::Floor(x)); }
 
-HWY_INLINE VI ClampIndex(VI i, int32_t size) {
+LANELIGHT_INLINE VI ClampIndex(VI i, int32_t size) {
   const DI di;
   return hn::Min(hn::Max(i, hn::Zero(di)), hn::Set(di, size - 1));
 }
@@ -32,7 +32,7 @@ HWY_INLINE VI ClampIndex(VI i, int32_t size) {
 /// The texels around coordinate s of an axis with `size` texels, whose centres are at
 /// (i + 0.5) / size; `flip` counts from the other end (1 - s). Nearest lookups have
 /// weight 0 and use i0.
-HWY_INLINE TexelPair FindTexels(VF s, bool flip, int32_t size, const TextureNode& node) {
+LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, int32_t size, const TextureNode& node) {
   const DI di;
   const VF n = Splat(static_cast<float>(size)), one = Splat(1.0f);
   VF x;
@@ -59,7 +59,7 @@ HWY_INLINE TexelPair FindTexels(VF s, bool flip, int32_t size, const TextureNode
 /// Texel index of column i, row j after wrapping; clears `inside` where the wrap mode
 /// makes the texel black. The octahedral map continues across an edge of the square with
 /// the texels of the same edge, mirrored about its middle.
-HWY_INLINE VI WrappedIndex(const TextureImage& image, WrapMode wrap, VI i, VI j,
+LANELIGHT_INLINE VI WrappedIndex(const TextureImage& image, WrapMode wrap, VI i, VI j,
                            MF& inside) {
   const DI di;
   const DF df;
@@ -89,7 +89,7 @@ HWY_INLINE VI WrappedIndex(const TextureImage& image, WrapMode wrap, VI i, VI j,
 }
 
 /// Decoded colour of texels.
-HWY_INLINE V3 LoadTexels(const TextureTable& table, const TextureImage& image, VI index) {
+LANELIGHT_INLINE V3 LoadTexels(const TextureTable& table, const TextureImage& image, VI index) {
   const DI di;
   if (image.rgba8.empty()) {
     return GatherRecord3(image.rgb.data(), 3, 0, index);
@@ -102,7 +102,7 @@ HWY_INLINE V3 LoadTexels(const TextureTable& table, const TextureImage& image, V
           Gather(decode, hn::And(hn::ShiftRight<16>(word), byte))};
 }
 
-HWY_INLINE V3 Texel(const TextureTable& table, const TextureNode& node, VI i, VI j) {
+LANELIGHT_INLINE V3 Texel(const TextureTable& table, const TextureNode& node, VI i, VI j) {
   const DF df;
   const TextureImage& image = table.images[node.image];
   MF inside = hn::FirstN(df, hn::Lanes(df));
@@ -111,11 +111,11 @@ HWY_INLINE V3 Texel(const TextureTable& table, const TextureNode& node, VI i, VI
 }
 
 /// a + (b - a) * t, exact at t = 0 and t = 1.
-HWY_INLINE V3 Lerp(V3 a, V3 b, VF t) {
+LANELIGHT_INLINE V3 Lerp(V3 a, V3 b, VF t) {
   return Mul(a, hn::Sub(Splat(1.0f), t)) + Mul(b, t);
 }
 
-HWY_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node, VF s, VF t) {
+LANELIGHT_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node, VF s, VF t) {
   const TextureImage& image = table.images[node.image];
   const TexelPair x = FindTexels(s, false, image.width, node);
   const TexelPair y = FindTexels(t, true, image.height, node);
@@ -133,7 +133,7 @@ HWY_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node, VF s
 }
 
 /// Lanes whose cell (floor(s), floor(t)) shows the first colour: even sum.
-HWY_INLINE MF EvenCell(VF s, VF t) {
+LANELIGHT_INLINE MF EvenCell(VF s, VF t) {
   // Parity without integers, so that it holds for every float: the sum of the parities is
   // 0, 1 or 2.
   const VF half = Splat(0.5f), two = Splat(2.0f);
@@ -180,7 +180,7 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture, V
 }
 
 /// Values of the lanes' own textures; lanes whose id is negative keep `constant`.
-HWY_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v, V3 constant) {
+LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v, V3 constant) {
   const DF df;
   const DI di;
   auto pending = hn::Gt(ids, hn::Set(di, -1));
@@ -198,12 +198,12 @@ HWY_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v, V3 con
 }
 
 /// Alpha of the lanes' cut-outs, where their id is not negative, else `constant`.
-HWY_INLINE VF EvalAlpha(const TextureTable& table, VI ids, VF u, VF v, VF constant) {
+LANELIGHT_INLINE VF EvalAlpha(const TextureTable& table, VI ids, VF u, VF v, VF constant) {
   return EvalTextures(table, ids, u, v, {constant, constant, constant}).x;
 }
 
 /// Alpha of a single hit, for kernels that hold one ray.
-HWY_INLINE float EvalAlphaAt(const TextureTable& table, int32_t id, float u, float v,
+LANELIGHT_INLINE float EvalAlphaAt(const TextureTable& table, int32_t id, float u, float v,
                              float constant) {
   return id < 0 ? constant : hn::GetLane(EvalTexture(table, id, Splat(u), Splat(v)).x);
 }
