@@ -30,17 +30,16 @@ struct Tap {
 Tap closest_tap, shadow_tap;
 
 TestRay ClosestRay(const PathColumns& p, std::uint32_t i) {
-  return {{p.o_x[i], p.o_y[i], p.o_z[i]},
-          {p.d_x[i], p.d_y[i], p.d_z[i]},
-          p.t[i],
-          p.prim[i]};
+  return {
+      {p.o_x[i], p.o_y[i], p.o_z[i]}, {p.d_x[i], p.d_y[i], p.d_z[i]}, p.t[i], p.prim[i]};
 }
 
 // The origin is moved off the surface as the kernels do it.
 TestRay ShadowRay(const PathColumns& p, std::uint32_t i) {
   const Vec3f d{p.ls_x[i], p.ls_y[i], p.ls_z[i]}, n{p.ng_x[i], p.ng_y[i], p.ng_z[i]};
   const Vec3f from{p.p_x[i], p.p_y[i], p.p_z[i]};
-  return {from + std::copysign(p.p_error[i], Dot(n, d)) * n, d, p.ls_distance[i], p.prim[i]};
+  return {from + std::copysign(p.p_error[i], Dot(n, d)) * n, d, p.ls_distance[i],
+          p.prim[i]};
 }
 
 template <Tap& kTap, QueueId kQueue, TestRay (&kRay)(const PathColumns&, std::uint32_t)>

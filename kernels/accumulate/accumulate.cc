@@ -93,30 +93,31 @@ template <bool kSigned, bool kAov>
 void Accumulate(Wave& wave) {
   const PathColumns& p = wave.path;
   const VF exposure = Splat(wave.run->exposure);
-  ForEachBatch(
-      wave, wave.queue(QueueId::kDone), [&](const Slots& slots, MF valid) HWY_ATTR {
-        const VI output = Gather(p.output, slots);
-        V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
-        if (p.weight != nullptr) sample = Mul(sample, Gather(p.weight, slots));
-        V3 difference = Splat3(0, 0, 0);
-        if (kSigned && p.k_r != nullptr) {
-          difference = Mul(Gather3(p.k_r, p.k_g, p.k_b, slots), exposure);
-          if (p.weight != nullptr) difference = Mul(difference, Gather(p.weight, slots));
-          sample = Poison(sample, difference);
-        }
-        const Checked checked = Check<kSigned>(wave.health, sample, valid);
-        PlaneWriter(wave, PlaneGroup::kColor).Store(checked.value, output);
-        if constexpr (kAov) {
-          PlaneWriter(wave, PlaneGroup::kAov)
-              .StoreColumns({p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
-                             p.aov_n_y, p.aov_n_z, p.aov_depth},
-                            slots, output);
-        }
-        if constexpr (kSigned) {
-          StoreControl(wave, slots, difference, checked.bad, output);
-        }
-        Push(wave.queue(QueueId::kFree), slots, valid);
-      });
+  ForEachBatch(wave, wave.queue(QueueId::kDone),
+               [&](const Slots& slots, MF valid) HWY_ATTR {
+                 const VI output = Gather(p.output, slots);
+                 V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
+                 if (p.weight != nullptr) sample = Mul(sample, Gather(p.weight, slots));
+                 V3 difference = Splat3(0, 0, 0);
+                 if (kSigned && p.k_r != nullptr) {
+                   difference = Mul(Gather3(p.k_r, p.k_g, p.k_b, slots), exposure);
+                   if (p.weight != nullptr)
+                     difference = Mul(difference, Gather(p.weight, slots));
+                   sample = Poison(sample, difference);
+                 }
+                 const Checked checked = Check<kSigned>(wave.health, sample, valid);
+                 PlaneWriter(wave, PlaneGroup::kColor).Store(checked.value, output);
+                 if constexpr (kAov) {
+                   PlaneWriter(wave, PlaneGroup::kAov)
+                       .StoreColumns({p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b,
+                                      p.aov_n_x, p.aov_n_y, p.aov_n_z, p.aov_depth},
+                                     slots, output);
+                 }
+                 if constexpr (kSigned) {
+                   StoreControl(wave, slots, difference, checked.bad, output);
+                 }
+                 Push(wave.queue(QueueId::kFree), slots, valid);
+               });
 }
 
 void AccumulatePlain(Wave& wave) { Accumulate<false, false>(wave); }

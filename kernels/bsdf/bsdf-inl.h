@@ -29,8 +29,8 @@
 #include "kernels/simd/math-inl.h"
 #include "src/compiled/materials.h"
 
-// Eval and Sample are part of three kernels each. Long ones, whose lanes are full of work,
-// lose nothing by a call, and the compiler sees them once.
+// Eval and Sample are part of three kernels each. Long ones, whose lanes are full of
+// work, lose nothing by a call, and the compiler sees them once.
 #undef LANELIGHT_LONG_BSDF_CALL
 #define LANELIGHT_LONG_BSDF_CALL HWY_NOINLINE
 
@@ -96,8 +96,12 @@ struct MaterialInputs {
     const MaterialTable& t = *source.table;
     return LookUp3(t.color1_r, t.color1_g, t.color1_b);
   }
-  LANELIGHT_INLINE VF AlphaX() const { return Alpha(source.alpha_x, source.table->alpha_x); }
-  LANELIGHT_INLINE VF AlphaY() const { return Alpha(source.alpha_y, source.table->alpha_y); }
+  LANELIGHT_INLINE VF AlphaX() const {
+    return Alpha(source.alpha_x, source.table->alpha_x);
+  }
+  LANELIGHT_INLINE VF AlphaY() const {
+    return Alpha(source.alpha_y, source.table->alpha_y);
+  }
   LANELIGHT_INLINE VF Float(const AlignedVector<float>& column) const {
     return Lookup(column, material);
   }
@@ -114,17 +118,21 @@ struct MaterialInputs {
   }
 
  private:
-  LANELIGHT_INLINE VF Alpha(const float* by_path, const AlignedVector<float>& column) const {
+  LANELIGHT_INLINE VF Alpha(const float* by_path,
+                            const AlignedVector<float>& column) const {
     return source.alpha_by_path ? Gather(by_path, slot) : Lookup(column, material);
   }
-  LANELIGHT_INLINE V3 LookUp3(const AlignedVector<float>& x, const AlignedVector<float>& y,
-                        const AlignedVector<float>& z) const {
+  LANELIGHT_INLINE V3 LookUp3(const AlignedVector<float>& x,
+                              const AlignedVector<float>& y,
+                              const AlignedVector<float>& z) const {
     return {Lookup(x, material), Lookup(y, material), Lookup(z, material)};
   }
 };
 
 LANELIGHT_INLINE V3 Grey(VF v) { return {v, v, v}; }
-LANELIGHT_INLINE MF SameSide(V3 a, V3 b) { return hn::Gt(hn::Mul(a.z, b.z), hn::Zero(DF())); }
+LANELIGHT_INLINE MF SameSide(V3 a, V3 b) {
+  return hn::Gt(hn::Mul(a.z, b.z), hn::Zero(DF()));
+}
 /// v with its height taken to the side of wo, for v on the upper side.
 LANELIGHT_INLINE V3 ToSideOf(V3 wo, V3 v) { return {v.x, v.y, hn::CopySign(v.z, wo.z)}; }
 

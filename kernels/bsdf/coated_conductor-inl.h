@@ -144,7 +144,7 @@ struct CoatedConductorBsdf {
   }
 
   LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& p, V3 wo_any,
-                                               const BsdfPoints& points) {
+                                                    const BsdfPoints& points) {
     const V3 wo = {wo_any.x, wo_any.y, hn::Abs(wo_any.z)};
     const LayerEvent first =
         p.coat.Sample<Outcome::kEither>(wo, points.lobe, points.u0, points.u1, true);

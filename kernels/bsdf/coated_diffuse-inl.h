@@ -104,7 +104,7 @@ struct CoatedDiffuseSmoothBsdf {
   }
 
   LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
-                                               const BsdfPoints& u) {
+                                                    const BsdfPoints& u) {
     const VF one = Splat(1.0f), tiny = Splat(1e-30f);
     const Interface at_o = DielectricInterface(hn::Abs(wo.z), m.base.eta);
     const VF to = Transmittance(m, at_o);
@@ -158,7 +158,8 @@ struct CoatedDiffuseRoughBsdf {
   }
 
   /// Both directions on the upper side; n = their half vector.
-  LANELIGHT_LONG_BSDF_CALL static BsdfValue EvalUpper(const Params& m, V3 wo, V3 wi, V3 n) {
+  LANELIGHT_LONG_BSDF_CALL static BsdfValue EvalUpper(const Params& m, V3 wo, V3 wi,
+                                                      V3 n) {
     const VF half = Splat(0.5f), one = Splat(1.0f);
     const VF to = Transmittance(m, wo.z), ti = Transmittance(m, wi.z);
     const VF coat = m.base.CoatProbability(hn::Sub(one, to), to);
@@ -182,7 +183,7 @@ struct CoatedDiffuseRoughBsdf {
   }
 
   LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo_any,
-                                               const BsdfPoints& u) {
+                                                    const BsdfPoints& u) {
     const VF zero = hn::Zero(DF()), one = Splat(1.0f);
     const V3 wo = {wo_any.x, wo_any.y, hn::Abs(wo_any.z)};
     const VF to = Transmittance(m, wo.z);

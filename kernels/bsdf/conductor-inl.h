@@ -31,8 +31,7 @@ struct ConductorSmoothBsdf {
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     return {in.Color0(), in.Color1()};
   }
-  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo,
-                                               const BsdfPoints&) {
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints&) {
     return {{hn::Neg(wo.x), hn::Neg(wo.y), wo.z},
             FresnelConductor(hn::Abs(wo.z), m.eta, m.k),
             hn::Zero(DF()),
@@ -74,8 +73,7 @@ struct ConductorRoughBsdf {
     return {IfThenElseZero(reflects, Mul(f, shape)), hn::IfThenElseZero(reflects, pdf)};
   }
 
-  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo,
-                                               const BsdfPoints& u) {
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
     const V3 up = {wo.x, wo.y, hn::Abs(wo.z)};
     const V3 n = m.ggx.SampleVisible(up, u.u0, u.u1);
     const VF cosine = hn::Clamp(Dot(up, n), hn::Zero(DF()), Splat(1.0f));

@@ -38,8 +38,7 @@ struct DielectricSmoothBsdf {
     return {in.Float(in.source.table->eta)};
   }
 
-  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo,
-                                               const BsdfPoints& u) {
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
     const VF eta = RelativeIndex(m.eta, wo), one = Splat(1.0f);
     const Interface at = DielectricInterface(hn::Abs(wo.z), eta);
     const MF reflect = hn::Lt(u.lobe, at.reflectance);
@@ -71,8 +70,7 @@ struct ThinDielectricBsdf {
     return {in.Float(in.source.table->eta)};
   }
 
-  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo,
-                                               const BsdfPoints& u) {
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
     const VF r = DielectricInterface(hn::Abs(wo.z), m.eta).reflectance;
     const VF total = hn::Div(hn::Add(r, r), hn::Add(Splat(1.0f), r));
     const MF reflect = hn::Lt(u.lobe, total);
@@ -140,7 +138,7 @@ struct DielectricRoughBsdf {
   }
 
   LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo_any,
-                                               const BsdfPoints& u) {
+                                                    const BsdfPoints& u) {
     const VF zero = hn::Zero(DF()), one = Splat(1.0f), side = hn::CopySign(one, wo_any.z);
     const V3 wo = Mul(wo_any, side);
     const VF eta = RelativeIndex(m.eta, wo_any);

@@ -30,15 +30,16 @@ struct DiffuseModel {
   struct Params {
     V3 albedo;
   };
-  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) { return {in.Reflectance()}; }
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
+    return {in.Reflectance()};
+  }
 
   LANELIGHT_INLINE static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const VF pdf = hn::IfThenElseZero(SameSide(wo, wi), Hemisphere::Pdf(hn::Abs(wi.z)));
     return {Mul(m.albedo, pdf), pdf};
   }
 
-  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo,
-                                               const BsdfPoints& u) {
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
     const V3 up = Hemisphere::Sample(u.u0, u.u1);
     return {ToSideOf(wo, up), m.albedo, Hemisphere::Pdf(up.z), Splat(1.0f)};
   }
@@ -46,7 +47,9 @@ struct DiffuseModel {
 
 /// Lambert: f = albedo / pi, density cos / pi. Mean cosine 2/3.
 struct CosineHemisphere {
-  LANELIGHT_INLINE static V3 Sample(VF u0, VF u1) { return SampleCosineHemisphere(u0, u1); }
+  LANELIGHT_INLINE static V3 Sample(VF u0, VF u1) {
+    return SampleCosineHemisphere(u0, u1);
+  }
   LANELIGHT_INLINE static VF Pdf(VF cos_theta) { return PdfCosineHemisphere(cos_theta); }
 };
 using DiffuseBsdf = DiffuseModel<CosineHemisphere>;
@@ -54,7 +57,9 @@ using DiffuseBsdf = DiffuseModel<CosineHemisphere>;
 /// "Completely diffuse": scattered directions uniform, f * cos = albedo / (2 pi), so f
 /// grows without bound at grazing angles. Mean cosine 1/2. Not reciprocal.
 struct UniformHemisphere {
-  LANELIGHT_INLINE static V3 Sample(VF u0, VF u1) { return SampleUniformHemisphere(u0, u1); }
+  LANELIGHT_INLINE static V3 Sample(VF u0, VF u1) {
+    return SampleUniformHemisphere(u0, u1);
+  }
   LANELIGHT_INLINE static VF Pdf(VF) { return PdfUniformHemisphere(); }
 };
 using DiffuseUniformBsdf = DiffuseModel<UniformHemisphere>;

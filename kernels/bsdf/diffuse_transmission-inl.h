@@ -1,6 +1,5 @@
 // A thin translucent sheet: Lambertian reflection and Lambertian transmission.
-#if defined(LANELIGHT_BSDF_DIFFUSE_TRANSMISSION_INL_H_) == \
-    defined(HWY_TARGET_TOGGLE)
+#if defined(LANELIGHT_BSDF_DIFFUSE_TRANSMISSION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_BSDF_DIFFUSE_TRANSMISSION_INL_H_
 #undef LANELIGHT_BSDF_DIFFUSE_TRANSMISSION_INL_H_
 #else
@@ -46,8 +45,7 @@ struct DiffuseTransmissionBsdf {
             hn::Mul(choice, lambert)};
   }
 
-  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo,
-                                               const BsdfPoints& u) {
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
     const MF reflect = hn::Lt(u.lobe, m.reflect);
     const V3 up = SampleCosineHemisphere(u.u0, u.u1);
     const VF choice = hn::IfThenElse(reflect, m.reflect, hn::Sub(Splat(1.0f), m.reflect));

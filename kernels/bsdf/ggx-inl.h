@@ -33,8 +33,8 @@ struct Ggx {
   /// Density of normals per solid angle of m and projected area (Walter et al. 2007,
   /// equation 33; anisotropic: Burley 2012): integral of D(m) cos = 1.
   LANELIGHT_INLINE VF D(V3 m) const {
-    // 1 / (pi ax ay e^2) with e = (x / ax)^2 + (y / ay)^2 + z^2, times (ax ay)^4 above and
-    // below: one division. Powers stay within 1e-32 and 1e32.
+    // 1 / (pi ax ay e^2) with e = (x / ax)^2 + (y / ay)^2 + z^2, times (ax ay)^4 above
+    // and below: one division. Powers stay within 1e-32 and 1e32.
     const VF x = hn::Mul(m.x, ay), y = hn::Mul(m.y, ax), a = hn::Mul(ax, ay);
     const VF z = hn::Mul(m.z, a);
     const VF e = hn::MulAdd(x, x, hn::MulAdd(y, y, Sqr(z)));

@@ -69,7 +69,7 @@ struct CoatLayer {
   /// 1 / eta^2 (radiance flows towards wo), not so for importance. Weight 0: no outcome.
   template <Outcome kOutcome>
   LANELIGHT_INLINE LayerEvent Sample(V3 wo_any, VF u_lobe, VF u0, VF u1,
-                                        bool radiance) const {
+                                     bool radiance) const {
     const VF zero = hn::Zero(DF()), one = Splat(1.0f), side = hn::CopySign(one, wo_any.z);
     const V3 wo = Mul(wo_any, side);
     const VF index = IndexFrom(wo_any);

@@ -36,8 +36,7 @@ struct DiffuseVertex {
   typename Bsdf::Params material;
   MF usable;  // wo has a side
 
-  LANELIGHT_INLINE DiffuseVertex(const SurfaceReader<Bsdf>& reader,
-                           const Slots& slots) {
+  LANELIGHT_INLINE DiffuseVertex(const SurfaceReader<Bsdf>& reader, const Slots& slots) {
     const PathColumns& path = reader.wave.path;
     frame = reader.ShadingFrame(Gather3(path.ng_x, path.ng_y, path.ng_z, slots), slots);
     wo = frame.ToLocal(-Gather3(path.d_x, path.d_y, path.d_z, slots));

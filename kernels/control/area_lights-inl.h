@@ -39,7 +39,7 @@ LANELIGHT_INLINE TwoSides InHalves(V3 p, V3 n, Irradiance&& irradiance) {
 /// lost in the rounding of the points of light samples (StoreSurfaceSample). Depends on
 /// the vertex only, as everything that decides whether a light takes part.
 LANELIGHT_INLINE MF ClearOfPlane(V3 p, VF p_error, V3 point, V3 n, float size,
-                           const LightRecord& light) {
+                                 const LightRecord& light) {
   const VF height = Dot(n, p - point);
   const VF reach = hn::Add(SumAbs(p), hn::Add(SumAbs(point), Splat(size)));
   const VF clear = hn::MulAdd(Splat(1e-5f), reach, hn::Mul(Splat(8.0f), p_error));
@@ -48,8 +48,8 @@ LANELIGHT_INLINE MF ClearOfPlane(V3 p, VF p_error, V3 point, V3 n, float size,
 
 /// One light for a vector of vertices. Returns which of them it takes part at.
 template <bool kBelow>
-LANELIGHT_INLINE MF TriangleLightAt(const CompiledScene& scene, const LightRecord& light, V3 p,
-                              VF p_error, V3 n, TwoSides* out) {
+LANELIGHT_INLINE MF TriangleLightAt(const CompiledScene& scene, const LightRecord& light,
+                                    V3 p, VF p_error, V3 n, TwoSides* out) {
   const TriangleRecord& record = scene.geometry.triangles[light.primitive];
   const auto corner = [&](int i) HWY_ATTR {
     return Splat3(record.p[i][0], record.p[i][1], record.p[i][2]);
@@ -69,8 +69,8 @@ LANELIGHT_INLINE MF TriangleLightAt(const CompiledScene& scene, const LightRecor
 
 /// From inside (as the sampler of spheres sees it) a sphere takes no part.
 template <bool kBelow>
-LANELIGHT_INLINE MF SphereLightAt(const CompiledScene& scene, const LightRecord& light, V3 p,
-                            V3 n, TwoSides* out) {
+LANELIGHT_INLINE MF SphereLightAt(const CompiledScene& scene, const LightRecord& light,
+                                  V3 p, V3 n, TwoSides* out) {
   const SphereRecord& record =
       scene.geometry.spheres[light.primitive - scene.geometry.ranges.spheres];
   const D3 center = SplatD3(record.center);
@@ -86,8 +86,8 @@ LANELIGHT_INLINE MF SphereLightAt(const CompiledScene& scene, const LightRecord&
 
 /// A disk takes part where its rim does not cross the horizon of the vertex.
 template <bool kBelow>
-LANELIGHT_INLINE MF DiskLightAt(const CompiledScene& scene, const LightRecord& light, V3 p,
-                          VF p_error, V3 n, TwoSides* out) {
+LANELIGHT_INLINE MF DiskLightAt(const CompiledScene& scene, const LightRecord& light,
+                                V3 p, VF p_error, V3 n, TwoSides* out) {
   const DiskRecord& record =
       scene.geometry.disks[light.primitive - scene.geometry.ranges.disks];
   const D3 center = SplatD3(record.center), axis = SplatD3(record.normal);
@@ -119,8 +119,8 @@ struct AreaLight {
 
 /// `selected`: light of the light sample of each path.
 template <bool kBelow>
-LANELIGHT_INLINE AreaLight AreaLightsAt(const CompiledScene& scene, V3 p, VF p_error, V3 n,
-                                  VI selected) {
+LANELIGHT_INLINE AreaLight AreaLightsAt(const CompiledScene& scene, V3 p, VF p_error,
+                                        V3 n, VI selected) {
   const V3 zero = Splat3(0, 0, 0);
   AreaLight sum = {zero, zero, hn::Lt(zero.x, zero.x)};
   for (std::size_t i = 0; i < scene.lights.lights.size(); ++i) {

@@ -32,7 +32,8 @@ LANELIGHT_INLINE VF HeuristicWeight(const MisParameters& mis, VF mine, VF other)
 
 /// Weight of a light sample whose direction scattering has density bsdf_pdf. Delta lights
 /// (light_pdf = 0), which scattering cannot find, have weight 1.
-LANELIGHT_INLINE VF LightSampleWeight(const MisParameters& mis, VF light_pdf, VF bsdf_pdf) {
+LANELIGHT_INLINE VF LightSampleWeight(const MisParameters& mis, VF light_pdf,
+                                      VF bsdf_pdf) {
   const VF one = Splat(1.0f);
   const MF delta = hn::Eq(light_pdf, hn::Zero(DF()));
   const VF weight = HeuristicWeight(mis, hn::IfThenElse(delta, one, light_pdf), bsdf_pdf);

@@ -22,7 +22,8 @@ struct UnweightedLighting {
 /// their density (the bsdf_pdf column).
 struct MisLighting {
   static constexpr bool kWeighs = true;
-  static LANELIGHT_INLINE VF Weight(const MisParameters& mis, VF light_pdf, VF scattered_pdf) {
+  static LANELIGHT_INLINE VF Weight(const MisParameters& mis, VF light_pdf,
+                                    VF scattered_pdf) {
     return LightSampleWeight(mis, light_pdf, scattered_pdf);
   }
 };

@@ -28,7 +28,7 @@ namespace HWY_NAMESPACE {
 struct MaterialProposal {
   template <class Bsdf>
   static LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
-                                      const BsdfPoints& u) {
+                                            const BsdfPoints& u) {
     return Bsdf::Sample(material, wo, u);
   }
   template <class Bsdf>

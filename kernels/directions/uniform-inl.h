@@ -26,8 +26,8 @@ namespace HWY_NAMESPACE {
 /// Uniform over the hemisphere of wo, or over the sphere; the density is kept apart from
 /// 0 at the horizon, as wi.z must not be 0.
 template <class Bsdf>
-LANELIGHT_INLINE BsdfSample EvaluateUniformDirection(const typename Bsdf::Params& material,
-                                               V3 wo, VF u0, VF u1) {
+LANELIGHT_INLINE BsdfSample
+EvaluateUniformDirection(const typename Bsdf::Params& material, V3 wo, VF u0, VF u1) {
   VF height = u0, flip = Splat(1.0f), pdf = PdfUniformHemisphere();
   if constexpr (Bsdf::kTransmits) {
     const MF below = hn::Ge(u0, Splat(0.5f));
@@ -46,7 +46,7 @@ LANELIGHT_INLINE BsdfSample EvaluateUniformDirection(const typename Bsdf::Params
 struct UniformProposal {
   template <class Bsdf>
   static LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
-                                      const BsdfPoints& u) {
+                                            const BsdfPoints& u) {
     if constexpr (!Bsdf::kHasDelta) {
       return EvaluateUniformDirection<Bsdf>(material, wo, u.u0, u.u1);
     } else {

@@ -49,21 +49,22 @@ void Camera(Wave& wave) {
   const auto splat = [](Vec3f v) HWY_ATTR { return Splat3(v.x, v.y, v.z); };
   const V3 base = splat(camera.base), dx = splat(camera.dx), dy = splat(camera.dy);
   const Frame axes = {splat(camera.right), splat(camera.up), splat(camera.forward)};
-  ForEachBatch(
-      wave, wave.queue(QueueId::kCamera), [&](const StoreSlots& slots, MF valid) HWY_ATTR {
-        StoreFirstValues(wave.lists, slots);
-        VF x, y;
-        FilmPosition<kBox>(wave, slots, &x, &y);
-        CameraRay ray = Projection::Project(MulAdd(dx, x, MulAdd(dy, y, base)));
-        if constexpr (kLens) {
-          ray = ThroughLens(camera, ray, Gather(p.u_lens_0, slots),
-                            Gather(p.u_lens_1, slots));
-        }
-        const V3 o = splat(camera.origin) + axes.FromLocal(ray.origin);
-        Scatter3(o, p.o_x, p.o_y, p.o_z, slots);
-        Scatter3(Normalize(axes.FromLocal(ray.direction)), p.d_x, p.d_y, p.d_z, slots);
-        Push(wave.queue(QueueId::kActive), slots, valid);
-      });
+  ForEachBatch(wave, wave.queue(QueueId::kCamera),
+               [&](const StoreSlots& slots, MF valid) HWY_ATTR {
+                 StoreFirstValues(wave.lists, slots);
+                 VF x, y;
+                 FilmPosition<kBox>(wave, slots, &x, &y);
+                 CameraRay ray = Projection::Project(MulAdd(dx, x, MulAdd(dy, y, base)));
+                 if constexpr (kLens) {
+                   ray = ThroughLens(camera, ray, Gather(p.u_lens_0, slots),
+                                     Gather(p.u_lens_1, slots));
+                 }
+                 const V3 o = splat(camera.origin) + axes.FromLocal(ray.origin);
+                 Scatter3(o, p.o_x, p.o_y, p.o_z, slots);
+                 Scatter3(Normalize(axes.FromLocal(ray.direction)), p.d_x, p.d_y, p.d_z,
+                          slots);
+                 Push(wave.queue(QueueId::kActive), slots, valid);
+               });
 }
 
 /// The kernel of this target for the features of a scene.

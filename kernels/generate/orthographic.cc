@@ -33,8 +33,9 @@ namespace lanelight {
 HWY_EXPORT(ResolveOrthographic);
 
 Stage OrthographicCameraStage() {
-  return MakeCameraStage("camera_orthographic", "parallel rays, and the first values of a path", Feature::kOrthographic,
-                         [](const FeatureSet& features) {
+  return MakeCameraStage("camera_orthographic",
+                         "parallel rays, and the first values of a path",
+                         Feature::kOrthographic, [](const FeatureSet& features) {
                            return HWY_DYNAMIC_DISPATCH(ResolveOrthographic)(features);
                          });
 }

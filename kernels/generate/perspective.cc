@@ -32,8 +32,9 @@ namespace lanelight {
 HWY_EXPORT(ResolvePerspective);
 
 Stage PerspectiveCameraStage() {
-  return MakeCameraStage("camera_perspective", "rays from one point, and the first values of a path", Feature::kPerspective,
-                         [](const FeatureSet& features) {
+  return MakeCameraStage("camera_perspective",
+                         "rays from one point, and the first values of a path",
+                         Feature::kPerspective, [](const FeatureSet& features) {
                            return HWY_DYNAMIC_DISPATCH(ResolvePerspective)(features);
                          });
 }

@@ -40,7 +40,9 @@ struct Beam {
   P3<float> o;  // middle of the origins
   float s[2], radius[2], slope[2];
 
-  LANELIGHT_INLINE bool IsNarrow() const { return std::max(slope[0], slope[1]) <= kBeamSlope; }
+  LANELIGHT_INLINE bool IsNarrow() const {
+    return std::max(slope[0], slope[1]) <= kBeamSlope;
+  }
 };
 
 /// The beam around the rays of all lanes. A position across is p - o - s z; with s = c +-
@@ -70,7 +72,7 @@ LANELIGHT_INLINE Beam MakeBeam(const Shear<VF>& shear) {
 /// permuted order of axes.
 template <class Leaf>
 LANELIGHT_INLINE uint32_t TrianglesInBeam(const Beam& beam, const Leaf& leaf,
-                                    const uint32_t (&axis)[3]) {
+                                          const uint32_t (&axis)[3]) {
   using V = LeafVec<Leaf>;
   const LeafTag<Leaf> d;
   constexpr int kStep = LeafLanes<Leaf>();

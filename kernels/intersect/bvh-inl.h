@@ -64,8 +64,8 @@ LANELIGHT_INLINE SlabRay MakeSlabRay(const float o[3], const float d[3], const B
 }
 
 /// Children of the node that the ray meets before t_max, as bits; their entry distances.
-LANELIGHT_INLINE uint32_t HitChildren(const SlabRay& ray, const WideNode& node, float t_max,
-                                float* HWY_RESTRICT entry) {
+LANELIGHT_INLINE uint32_t HitChildren(const SlabRay& ray, const WideNode& node,
+                                      float t_max, float* HWY_RESTRICT entry) {
   const D8 d8;
   uint32_t bits = 0;
   for (int i = 0; i < kBvhWidth; i += Lanes8()) {
@@ -94,8 +94,8 @@ LANELIGHT_INLINE float EntryOf(uint64_t key) {
 
 /// Pushes the children in `bits` except the nearest, farthest first, and returns the
 /// nearest.
-LANELIGHT_INLINE uint32_t PushChildren(const WideNode& node, uint32_t bits, const float* entry,
-                                 uint64_t*& top) {
+LANELIGHT_INLINE uint32_t PushChildren(const WideNode& node, uint32_t bits,
+                                       const float* entry, uint64_t*& top) {
   const int first = std::countr_zero(bits);
   bits &= bits - 1;
   if (bits == 0) return node.child[first];
@@ -118,7 +118,7 @@ LANELIGHT_INLINE uint32_t PushChildren(const WideNode& node, uint32_t bits, cons
 /// nearest first. `leaf` may lower t_max; it returns true to end the traversal.
 template <class Ray, class Leaf>
 LANELIGHT_INLINE void Traverse(const WideNode* HWY_RESTRICT nodes, uint32_t root,
-                         const Ray& ray, const float& t_max, Leaf&& leaf) {
+                               const Ray& ray, const float& t_max, Leaf&& leaf) {
   if (root == kEmptyRef) return;
   uint64_t stack[kTraversalStack];
   uint64_t* top = stack;

@@ -19,7 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 class FewVertices {
  public:
   LANELIGHT_INLINE FewVertices(const FewTriangles& few, const AxisOrder& order,
-                         const Shear<VF>& shear) {
+                               const Shear<VF>& shear) {
     const DF df;
     float* to = data_;
     for (const Vec3f& v : few.vertices) {
@@ -44,8 +44,8 @@ class FewVertices {
 /// Calls found(hits, mask, prim) for every triangle that some lane hits within its t_max
 /// as `t_max()` says at that time; stops when found returns true.
 template <bool kAlpha, class TMax, class Found>
-LANELIGHT_INLINE void ForEachFew(const CompiledScene& scene, const Rays& rays, TMax&& t_max,
-                           Found&& found) {
+LANELIGHT_INLINE void ForEachFew(const CompiledScene& scene, const Rays& rays,
+                                 TMax&& t_max, Found&& found) {
   const DF df;
   const FewTriangles& few = scene.accel.few;
   const AxisOrder order(rays.d);

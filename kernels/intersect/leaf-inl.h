@@ -142,8 +142,10 @@ LANELIGHT_INLINE const float* LeafRow(const Leaf& leaf, uint32_t row) {
 /// The rays take each step together, so that the processor's window always holds as many
 /// independent chains.
 template <int kRays, class Leaf>
-LANELIGHT_INLINE void TestLeaves(const LeafRay (&ray)[kRays], const Leaf* const (&leaf)[kRays],
-                           LeafWeights* const (&to)[kRays], uint32_t (&bits)[kRays]) {
+LANELIGHT_INLINE void TestLeaves(const LeafRay (&ray)[kRays],
+                                 const Leaf* const (&leaf)[kRays],
+                                 LeafWeights* const (&to)[kRays],
+                                 uint32_t (&bits)[kRays]) {
   using V = LeafVec<Leaf>;
   const LeafTag<Leaf> d;
   const hn::RebindToUnsigned<LeafTag<Leaf>> du;
@@ -199,8 +201,9 @@ LANELIGHT_INLINE void TestLeaves(const LeafRay (&ray)[kRays], const Leaf* const 
 /// Finishes one lane of a leaf for which TestLeaves set the bit. `t` is valid if the
 /// result is true: the triangle lies ahead. The arithmetic is that of FinishHits.
 template <class Leaf, class CopyRay>
-LANELIGHT_INLINE bool FinishLane(const Leaf& leaf, const LeafWeights& weights, uint32_t lane,
-                           CopyRay&& copy_ray, float& t, float& det) {
+LANELIGHT_INLINE bool FinishLane(const Leaf& leaf, const LeafWeights& weights,
+                                 uint32_t lane, CopyRay&& copy_ray, float& t,
+                                 float& det) {
   const hn::CappedTag<float, 1> d1;
   const float u = weights.u[lane], v = weights.v[lane], w = weights.w[lane];
   const float az = weights.z[leaf.VertexOf(0, lane)],

@@ -85,7 +85,7 @@ LANELIGHT_INLINE MF NotFrom(const Rays& rays, uint32_t prim) {
 
 /// Clears the lanes of `mask` whose candidate hit on `prim` is cut out.
 LANELIGHT_INLINE MF CutOut(const CompiledScene& scene, const Rays& rays, uint32_t prim,
-                     const TriangleHits<VF, MF>& hit, MF mask) {
+                           const TriangleHits<VF, MF>& hit, MF mask) {
   const DF df;
   if (!(scene.geometry.triangles[prim].flags & kAlphaTested)) return mask;
   const RayArrays ray(rays, hn::Zero(DI()));

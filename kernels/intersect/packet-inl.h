@@ -89,7 +89,7 @@ LANELIGHT_INLINE Frustum MakeFrustum(const PacketBounds& p, const Bvh& bvh) {
 
 /// Children that some ray of the packet may meet before t_max.
 LANELIGHT_INLINE uint32_t HitChildren(const Frustum& f, const WideNode& node, float t_max,
-                                float* HWY_RESTRICT entry) {
+                                      float* HWY_RESTRICT entry) {
   const D8 d8;
   uint32_t bits = 0;
   for (int i = 0; i < kBvhWidth; i += Lanes8()) {
@@ -116,8 +116,8 @@ inline constexpr int kFrustumLeaves = 16;
 /// more than `max_leaves`: then the result is false, and what was found is a bound.
 template <bool kAny, bool kAlpha>
 LANELIGHT_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
-                             const PacketBounds& bounds, int max_leaves,
-                             PacketBest& best) {
+                                   const PacketBounds& bounds, int max_leaves,
+                                   PacketBest& best) {
   const DF df;
   const Bvh& bvh = scene.accel.groups[0];
   const uint32_t all = (1u << hn::Lanes(df)) - 1;
@@ -140,7 +140,7 @@ LANELIGHT_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
 /// not pay: then the rays are to be traced otherwise, from what the columns hold now.
 template <bool kAlpha>
 LANELIGHT_INLINE bool ClosestFrustum(const Wave& wave, const Rays& rays,
-                               const PacketBounds& bounds, VI slots) {
+                                     const PacketBounds& bounds, VI slots) {
   const PathColumns& path = wave.path;
   PacketBest best = NoHits(rays.t_max, Gather(path.prim, slots));
   const bool done =
@@ -157,7 +157,7 @@ LANELIGHT_INLINE bool ClosestFrustum(const Wave& wave, const Rays& rays,
 /// Which rays of a batch are blocked.
 template <bool kAlpha>
 LANELIGHT_INLINE MF BlockedFrustum(const CompiledScene& scene, const Rays& rays,
-                             const PacketBounds& bounds) {
+                                   const PacketBounds& bounds) {
   PacketBest best = NoHits(rays.t_max, hn::Zero(DI()));
   TraceFrustum<true, kAlpha>(scene, rays, bounds, std::numeric_limits<int>::max(), best);
   return MaskOf(DF(), best.found);

@@ -41,7 +41,7 @@ struct PacketRays {
 
 /// Prepares rays for leaves; `valid`: their lanes, as bits.
 LANELIGHT_INLINE PacketRays MakePacket(const Rays& rays, const Shear<VF>& shear,
-                                 const AxisOrder& order, uint32_t valid) {
+                                       const AxisOrder& order, uint32_t valid) {
   PacketRays packet{rays, shear};
   const uint32_t y = MaskBits(DF(), order.y) & valid, z = MaskBits(DF(), order.z) & valid;
   packet.same_axes = z == valid || (z == 0 && (y == valid || y == 0));
@@ -94,8 +94,9 @@ LANELIGHT_INLINE void ForEachVertex(const SeparateLeaf& leaf, uint32_t triangles
 
 /// The vertices of some triangles of a leaf as each ray sees them.
 template <class Leaf>
-LANELIGHT_INLINE void ShearLeaf(const Leaf& leaf, uint32_t triangles, const PacketRays& packet,
-                          PacketColumns<Leaf::kVertexLanes>& to) {
+LANELIGHT_INLINE void ShearLeaf(const Leaf& leaf, uint32_t triangles,
+                                const PacketRays& packet,
+                                PacketColumns<Leaf::kVertexLanes>& to) {
   const DF df;
   if (packet.same_axes) {
     const float *x = leaf.vertex[packet.axis[0]], *y = leaf.vertex[packet.axis[1]],
@@ -118,8 +119,8 @@ LANELIGHT_INLINE void ShearLeaf(const Leaf& leaf, uint32_t triangles, const Pack
 /// so that tests overlap in both passes.
 template <bool kAny, bool kAlpha, class Leaf>
 LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& leaf,
-                               const PacketRays& packet, uint32_t lanes,
-                               PacketBest& best) {
+                                     const PacketRays& packet, uint32_t lanes,
+                                     PacketBest& best) {
   const DF df;
   const DI di;
   uint32_t near =
@@ -178,8 +179,8 @@ LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& lea
 /// The same for the leaf that a reference names.
 template <bool kAny, bool kAlpha>
 LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, uint32_t ref,
-                               const PacketRays& packet, uint32_t lanes,
-                               PacketBest& best) {
+                                     const PacketRays& packet, uint32_t lanes,
+                                     PacketBest& best) {
   const TriangleBlock& block = scene.accel.triangle_blocks[ref & kRefIndex];
   if (HWY_UNLIKELY(ref & kSeparateBit)) {
     TestLeafPacket<kAny, kAlpha>(scene, block.separate, packet, lanes, best);

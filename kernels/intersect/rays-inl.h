@@ -47,7 +47,9 @@ struct RayArrays {
   }
 };
 
-LANELIGHT_INLINE VI FromNone() { return hn::Set(DI(), static_cast<int32_t>(kNoPrimitive)); }
+LANELIGHT_INLINE VI FromNone() {
+  return hn::Set(DI(), static_cast<int32_t>(kNoPrimitive));
+}
 
 /// Rays::from of extension rays: `prim` is that of the last hit until there is a new one.
 LANELIGHT_INLINE VI StartsOf(const PathColumns& path, const Slots& slots, VF t) {
@@ -74,7 +76,7 @@ LANELIGHT_INLINE Rays LoadShadowRays(const PathColumns& path, const Slots& slots
 /// Writes the lanes of `closer`; the others keep what they have.
 template <bool kInstances>
 LANELIGHT_INLINE void StoreRoundHits(const PathColumns& path, VI slots, MF closer, VF t,
-                               VI prim) {
+                                     VI prim) {
   const DI di;
   const auto mask = hn::RebindMask(di, closer);
   Scatter(hn::IfThenElse(closer, t, Gather(path.t, slots)), path.t, slots);

@@ -60,7 +60,7 @@ struct SphereLanes {
 /// positions are within 8u (|coordinates| + |o|) of the sphere, u = 2^-24.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const SphereLanes<V>& s,
-                                      const RayLanes<V>& ray) {
+                                            const RayLanes<V>& ray) {
   const V zero = hn::Zero(df);
   const P3<V> f = Sub(ray.o, s.center);
   const V a = Dot(ray.d, ray.d), b = hn::Neg(Dot(f, ray.d));
@@ -130,7 +130,7 @@ struct DiskLanes {
 
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const DiskLanes<V>& s,
-                                      const RayLanes<V>& ray) {
+                                            const RayLanes<V>& ray) {
   Candidates<V, M> hit;
   hit.t_near = hit.t_far = PlaneDistance(df, s.center, s.normal, ray);
   const P3<V> p = AddScaled(Sub(ray.o, s.center), ray.d, hit.t_near);
@@ -150,7 +150,7 @@ struct PlaneLanes {
 
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const PlaneLanes<V>& s,
-                                      const RayLanes<V>& ray) {
+                                            const RayLanes<V>& ray) {
   Candidates<V, M> hit;
   hit.t_near = hit.t_far = PlaneDistance(df, s.point, s.normal, ray);
   hit.near =

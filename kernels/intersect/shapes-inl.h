@@ -100,8 +100,8 @@ inline bool ShapePassesAlpha(const CompiledScene& scene, const float o[3],
 
 /// Drops the candidates of one record that are cut out.
 template <class Shape>
-LANELIGHT_INLINE void CutOutShape(const CompiledScene& scene, const Rays& rays, uint32_t index,
-                            Candidates<VF, MF>& hit) {
+LANELIGHT_INLINE void CutOutShape(const CompiledScene& scene, const Rays& rays,
+                                  uint32_t index, Candidates<VF, MF>& hit) {
   const DF df;
   if (!(Shape::Records(scene.geometry)[index].flags & kAlphaTested)) return;
   const RayArrays ray(rays, hn::Zero(DI()));
@@ -132,7 +132,7 @@ LANELIGHT_INLINE M Nearest(D, const Candidates<V, M>& hit, V& t) {
 
 template <class Shape, bool kAlpha, class Found>
 LANELIGHT_INLINE void ForEachRecord(const CompiledScene& scene, const Rays& rays,
-                              Found&& found) {
+                                    Found&& found) {
   const DF df;
   const auto& records = Shape::Records(scene.geometry);
   const RayLanes<VF> ray{{rays.o.x, rays.o.y, rays.o.z}, {rays.d.x, rays.d.y, rays.d.z}};
@@ -188,7 +188,7 @@ struct RoundHit {
 
 template <class Shape, bool kAny, bool kAlpha>
 LANELIGHT_INLINE void TraceShapes(const CompiledScene& scene, const float o[3],
-                            const float d[3], RoundHit& best) {
+                                  const float d[3], RoundHit& best) {
   const D8 d8;
   const uint32_t first = Shape::FirstId(scene.geometry);
   const RayLanes<V8> ray{Broadcast3(d8, o), Broadcast3(d8, d)};
@@ -225,21 +225,22 @@ LANELIGHT_INLINE void TraceShapes(const CompiledScene& scene, const float o[3],
 template <class Shape, bool kAlpha, bool kInstances>
 LANELIGHT_INLINE void IntersectTree(Wave& wave) {
   const PathColumns& path = wave.path;
-  ForEachBatch(wave, wave.queue(QueueId::kActive), [&](const Slots& slots, MF valid) HWY_ATTR {
-    const RayArrays rays(LoadRays(path, slots), slots);
-    const int count = static_cast<int>(hn::CountTrue(DF(), valid));
-    for (int i = 0; i < count; ++i) {
-      const uint32_t slot = rays.slot[i];
-      const float o[3] = {rays.o[0][i], rays.o[1][i], rays.o[2][i]};
-      const float d[3] = {rays.d[0][i], rays.d[1][i], rays.d[2][i]};
-      RoundHit hit{rays.t_max[i], path.prim[slot]};
-      TraceShapes<Shape, false, kAlpha>(*wave.scene, o, d, hit);
-      if (!hit.found) continue;
-      path.t[slot] = hit.t;
-      path.prim[slot] = hit.prim;
-      if constexpr (kInstances) path.inst[slot] = kWorldInstance;
-    }
-  });
+  ForEachBatch(wave, wave.queue(QueueId::kActive),
+               [&](const Slots& slots, MF valid) HWY_ATTR {
+                 const RayArrays rays(LoadRays(path, slots), slots);
+                 const int count = static_cast<int>(hn::CountTrue(DF(), valid));
+                 for (int i = 0; i < count; ++i) {
+                   const uint32_t slot = rays.slot[i];
+                   const float o[3] = {rays.o[0][i], rays.o[1][i], rays.o[2][i]};
+                   const float d[3] = {rays.d[0][i], rays.d[1][i], rays.d[2][i]};
+                   RoundHit hit{rays.t_max[i], path.prim[slot]};
+                   TraceShapes<Shape, false, kAlpha>(*wave.scene, o, d, hit);
+                   if (!hit.found) continue;
+                   path.t[slot] = hit.t;
+                   path.prim[slot] = hit.prim;
+                   if constexpr (kInstances) path.inst[slot] = kWorldInstance;
+                 }
+               });
 }
 
 template <class Shape, bool kAlpha>

@@ -45,7 +45,7 @@ template <bool kAny, bool kAlpha>
 class GroupQuery {
  public:
   LANELIGHT_INLINE GroupQuery(const OneRay& ray, const float o[3], const float d[3],
-                        const Bvh& bvh, uint32_t inst, OneHit& hit)
+                              const Bvh& bvh, uint32_t inst, OneHit& hit)
       : ray_(ray), o_(o), d_(d), bvh_(bvh), inst_(inst), hit_(hit) {
     const uint32_t z = static_cast<uint32_t>(LargestAxis(d));
     const uint32_t x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
@@ -110,7 +110,8 @@ class GroupQuery {
 };
 
 /// Ray through a 3x4 map: points with w = 1, directions with w = 0.
-LANELIGHT_INLINE void MapRay(const float m[12], const float p[3], float w, float result[3]) {
+LANELIGHT_INLINE void MapRay(const float m[12], const float p[3], float w,
+                             float result[3]) {
   for (int r = 0; r < 3; ++r) {
     const float* row = m + 4 * r;
     result[r] = row[0] * p[0] + row[1] * p[1] + (row[2] * p[2] + row[3] * w);
@@ -137,7 +138,8 @@ LANELIGHT_INLINE void TraceTriangles(const OneRay& ray, OneHit& hit) {
 
 /// Closest hits of a batch, ray by ray; hits are written to the columns.
 template <bool kAlpha>
-LANELIGHT_INLINE void ClosestSingle(const Wave& wave, const Rays& batch, VI slots, int count) {
+LANELIGHT_INLINE void ClosestSingle(const Wave& wave, const Rays& batch, VI slots,
+                                    int count) {
   const PathColumns& path = wave.path;
   const RayArrays rays(batch, slots);
   for (int i = 0; i < count; ++i) {
@@ -159,7 +161,7 @@ LANELIGHT_INLINE void ClosestSingle(const Wave& wave, const Rays& batch, VI slot
 /// Which rays of a batch are blocked.
 template <bool kAlpha>
 LANELIGHT_INLINE MF BlockedSingle(const CompiledScene& scene, const Rays& batch, VI slots,
-                            int count) {
+                                  int count) {
   const RayArrays rays(batch, slots);
   uint32_t blocked = 0;
   for (int i = 0; i < count; ++i) {

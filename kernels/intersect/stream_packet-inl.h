@@ -137,7 +137,7 @@ class PacketPhase {
   // known beforehand, so that the tests overlap.
   template <bool kSameSigns>
   LANELIGHT_INLINE void TestChildren(const Slabs& slabs, VF t, const WideNode& node,
-                               uint32_t lanes, Frame& frame) const {
+                                     uint32_t lanes, Frame& frame) const {
     const DF df;
     const uint32_t octant = rays_.octant[at_ + std::countr_zero(lanes)];
     uint32_t open = 0;

@@ -53,12 +53,14 @@ struct StreamRays {
     stride = kDeferred + (depth + kLeafTriangles + 15) / 16 * 16;
   }
   LANELIGHT_INLINE uint32_t* Refs(uint32_t r) { return refs + std::size_t{r} * stride; }
-  LANELIGHT_INLINE float* Entries(uint32_t r) { return entries + std::size_t{r} * stride; }
+  LANELIGHT_INLINE float* Entries(uint32_t r) {
+    return entries + std::size_t{r} * stride;
+  }
   LANELIGHT_INLINE bool HasRoom() const { return size + kLanes <= kStreamRays; }
 
   /// Takes the first `count` rays of a vector; `prims` as in NoHits.
   LANELIGHT_INLINE void Add(const Bvh& bvh, const Rays& rays, VI slots, VI prims,
-                      uint32_t count) {
+                            uint32_t count) {
     const DF df;
     const DI di;
     AddSlabs(bvh, rays);

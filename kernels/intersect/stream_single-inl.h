@@ -142,8 +142,8 @@ class SinglePhase {
 
   // Where rays r[j] enter and leave the children of a part of node[j].
   LANELIGHT_INLINE void TestSlabs(const uint32_t (&r)[kTogether],
-                            const WideNode* const (&node)[kTogether], uint32_t part,
-                            V8 (&enter)[kTogether], V8 (&leave)[kTogether]) const {
+                                  const WideNode* const (&node)[kTogether], uint32_t part,
+                                  V8 (&enter)[kTogether], V8 (&leave)[kTogether]) const {
     const D8 d8;
     for (uint32_t j = 0; j < kTogether; ++j) {
       enter[j] = hn::Zero(d8);
@@ -169,7 +169,7 @@ class SinglePhase {
   // Pushes the children with entries that are not negative, last slots first, so that the
   // nearest is on top. Returns the new top.
   LANELIGHT_INLINE uint32_t PushEntered(uint32_t r, const WideNode& node,
-                                  const V8 (&entered)[kParts]) {
+                                        const V8 (&entered)[kParts]) {
     const D8 d8;
     const hn::RebindToUnsigned<D8> du;
     constexpr uint32_t kLast = kBvhWidth / kParts - 1;

@@ -125,7 +125,8 @@ LANELIGHT_INLINE V Max3(V a, V b, V c) {
 /// Lanes whose vertices lie on both sides of the origin along the ray. The z of vertices
 /// have exact signs; if they agree so does the sign of t.
 template <class D, class V>
-LANELIGHT_INLINE hn::Mask<D> Straddles(D d, const P3<V>& a, const P3<V>& b, const P3<V>& c) {
+LANELIGHT_INLINE hn::Mask<D> Straddles(D d, const P3<V>& a, const P3<V>& b,
+                                       const P3<V>& c) {
   const V zero = hn::Zero(d);
   return hn::And(hn::Le(Min3(a.z, b.z, c.z), zero), hn::Ge(Max3(a.z, b.z, c.z), zero));
 }
@@ -134,7 +135,7 @@ LANELIGHT_INLINE hn::Mask<D> Straddles(D d, const P3<V>& a, const P3<V>& b, cons
 /// wrong.
 template <class D, class V, class M>
 LANELIGHT_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
-                          const P3<V>& c, V t_det, M mask) {
+                                const P3<V>& c, V t_det, M mask) {
   const V mx = Max3(hn::Abs(a.x), hn::Abs(b.x), hn::Abs(c.x));
   const V my = Max3(hn::Abs(a.y), hn::Abs(b.y), hn::Abs(c.y));
   const V mz = Max3(hn::Abs(a.z), hn::Abs(b.z), hn::Abs(c.z));
@@ -162,7 +163,7 @@ LANELIGHT_INLINE TriangleEdges<V, M> JoinEdges(D d, V u, V v, V w) {
 
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 LANELIGHT_INLINE TriangleEdges<V, M> TestEdges(D d, const P3<V>& a, const P3<V>& b,
-                                         const P3<V>& c) {
+                                               const P3<V>& c) {
   return JoinEdges(d, EdgeFunction(d, c.x, b.y, c.y, b.x),
                    EdgeFunction(d, a.x, c.y, a.y, c.x),
                    EdgeFunction(d, b.x, a.y, b.y, a.x));
@@ -172,7 +173,7 @@ LANELIGHT_INLINE TriangleEdges<V, M> TestEdges(D d, const P3<V>& a, const P3<V>&
 /// t_max. `t_max` only prunes: candidates with t = t_max remain.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 LANELIGHT_INLINE V TestDistance(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
-                          const P3<V>& c, V t_max, TriangleEdges<V, M>& e) {
+                                const P3<V>& c, V t_max, TriangleEdges<V, M>& e) {
   const V t_det = hn::MulAdd(e.u, a.z, hn::MulAdd(e.v, b.z, hn::Mul(e.w, c.z)));
   // |t_det| with the sign of t. The factor covers the rounding of product and quotient.
   const V signed_t = hn::Xor(t_det, hn::And(e.det, hn::Set(d, -0.0f)));
@@ -187,9 +188,9 @@ LANELIGHT_INLINE V TestDistance(D d, const Shear<V>& ray, const P3<V>& a, const 
 /// it is called for rays that start on the triangle.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
 LANELIGHT_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray, const P3<V>& a,
-                                         const P3<V>& b, const P3<V>& c, M mask,
-                                         const TriangleEdges<V, M>& e, V t_det,
-                                         IsAhead&& is_ahead) {
+                                               const P3<V>& b, const P3<V>& c, M mask,
+                                               const TriangleEdges<V, M>& e, V t_det,
+                                               IsAhead&& is_ahead) {
   TriangleHits<V, M> hit{mask, hn::Div(t_det, e.det), e.v, e.w, e.det};
   hit.mask = hn::And(mask, hn::Gt(hit.t, hn::Zero(d)));
   // A hit that is ahead only by the exact test below keeps the least positive distance.
@@ -207,8 +208,8 @@ LANELIGHT_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray, const P
 /// miss.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
 LANELIGHT_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const P3<V>& a,
-                                           const P3<V>& b, const P3<V>& c, V t_max,
-                                           M tested, IsAhead&& is_ahead) {
+                                                 const P3<V>& b, const P3<V>& c, V t_max,
+                                                 M tested, IsAhead&& is_ahead) {
   TriangleEdges<V, M> e = TestEdges(d, a, b, c);
   e.mask = hn::And(e.mask, tested);
   const V zero = hn::Zero(d);

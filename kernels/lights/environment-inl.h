@@ -54,7 +54,7 @@ struct EnvironmentSample {
 };
 
 LANELIGHT_INLINE void TexelValues(const Environment& e, VI row, VI column,
-                            EnvironmentSample* out) {
+                                  EnvironmentSample* out) {
   const DI di;
   const float inv_four_pi = 0.0795774715459476679f;
   const VI texel = hn::Add(hn::Mul(row, hn::Set(di, e.size)), column);

@@ -92,8 +92,8 @@ LANELIGHT_INLINE void ForEachLit(Wave& wave, LightShape shape, Body&& body) {
 /// Stores a light sample. `radiance_over_pdf` is zeroed, and with it the connection,
 /// where `usable` is false.
 LANELIGHT_INLINE void StoreLightSample(const PathColumns& p, const StoreSlots& slots,
-                                 V3 direction, VF distance, V3 radiance_over_pdf,
-                                 VF pdf_sa, MF usable) {
+                                       V3 direction, VF distance, V3 radiance_over_pdf,
+                                       VF pdf_sa, MF usable) {
   Scatter3(direction, p.ls_x, p.ls_y, p.ls_z, slots);
   Scatter(distance, p.ls_distance, slots);
   Scatter3(IfThenElseZero(usable, radiance_over_pdf), p.ls_r, p.ls_g, p.ls_b, slots);
@@ -108,8 +108,9 @@ LANELIGHT_INLINE VF SumAbs(V3 v) {
 /// pdf_area (selection included). The shadow ray ends a little in front of the light, by
 /// a bound on the rounding of both end points (about 8 ulp of their coordinates) and the
 /// offset of its origin, so that the light does not shadow itself.
-LANELIGHT_INLINE void StoreSurfaceSample(const PathColumns& p, const StoreSlots& slots, V3 q,
-                                   V3 n, VF pdf_area, V3 radiance, MF two_sided) {
+LANELIGHT_INLINE void StoreSurfaceSample(const PathColumns& p, const StoreSlots& slots,
+                                         V3 q, V3 n, VF pdf_area, V3 radiance,
+                                         MF two_sided) {
   const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
   const VF clearance = hn::MulAdd(Splat(1e-6f), hn::Add(SumAbs(from), SumAbs(q)),
                                   hn::Mul(Splat(2.0f), Gather(p.p_error, slots)));
@@ -128,7 +129,8 @@ LANELIGHT_INLINE void StoreSurfaceSample(const PathColumns& p, const StoreSlots&
 }
 
 /// Adds weight * beta * radiance to the path.
-LANELIGHT_INLINE void AddRadiance(const PathColumns& p, const StoreSlots& slots, V3 radiance) {
+LANELIGHT_INLINE void AddRadiance(const PathColumns& p, const StoreSlots& slots,
+                                  V3 radiance) {
   const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
   const V3 sum = Gather3(p.l_r, p.l_g, p.l_b, slots) + Mul(beta, radiance);
   Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);

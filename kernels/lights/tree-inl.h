@@ -74,7 +74,7 @@ struct ChildProbabilities {
   VF first, second;
 };
 LANELIGHT_INLINE ChildProbabilities ProbabilitiesOf(const LightTree& tree, VI first_child,
-                                              V3 p) {
+                                                    V3 p) {
   const VI second = hn::Add(first_child, hn::Set(DI(), 1));
   const VF a = LightImportance(LightNodes(tree, first_child), p);
   const VF b = LightImportance(LightNodes(tree, second), p);

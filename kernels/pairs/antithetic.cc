@@ -1,6 +1,7 @@
 // pairs=antithetic: samples 2k and 2k+1 of a pixel share their random numbers; here the
 // second one's are reflected. Before, the points stages have given both the same numbers
-// (PairedSample in kernels/points/fill-inl.h) and generate has put them in adjacent slots.
+// (PairedSample in kernels/points/fill-inl.h) and generate has put them in adjacent
+// slots.
 //   estimator   1/(2N) sum (f(u) + f(u')): u' = 1 - u per coordinate, or u + 1/2 for
 //               azimuths. Numbers that are not paired are independent in both samples
 //   unbiased    u' is as uniform as u

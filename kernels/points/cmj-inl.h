@@ -32,8 +32,8 @@ struct CmjPoints {
     return GroupByDivision(points, sample);
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
-                               VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel,
+                                     GroupIndex at, VU key, VU seed, VF* u0, VF* u1) {
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const U4 jitter = Pcg4d({at.index, h.y, h.z, h.w});
     const QuotientRemainder cell =

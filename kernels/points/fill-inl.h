@@ -48,7 +48,7 @@ LANELIGHT_INLINE Drawer MakeDrawer(const PathColumns& p, const StoreSlots& slots
 /// Sample index that the numbers of a dimension come from: the two samples of an
 /// antithetic pair share it in the dimensions that the strategy pairs.
 LANELIGHT_INLINE VU PairedSample(const PairParameters& pairs, Dimension dimension,
-                           const Drawer& drawer) {
+                                 const Drawer& drawer) {
   if (!pairs.Has(dimension)) return drawer.sample;
   const VU shared = hn::ShiftRight<1>(drawer.sample);
   if (pairs.depths == 0xffffffffu) return shared;
@@ -60,8 +60,8 @@ LANELIGHT_INLINE VU PairedSample(const PairParameters& pairs, Dimension dimensio
 
 /// One dimension of one batch; a scalar one leaves out1 alone.
 template <class Policy, bool kPlain, bool kScalar>
-LANELIGHT_INLINE void Draw(const RunParameters& run, const Drawer& drawer, Dimension dimension,
-                     float* out0, float* out1) {
+LANELIGHT_INLINE void Draw(const RunParameters& run, const Drawer& drawer,
+                           Dimension dimension, float* out0, float* out1) {
   const VU key = hn::Add(drawer.key, SplatU(static_cast<uint32_t>(dimension)));
   const VU sample = kPlain ? drawer.sample : PairedSample(run.pairs, dimension, drawer);
   const GroupIndex at = Policy::Group(run.points, sample);

@@ -61,8 +61,8 @@ struct HaltonPoints {
     return GroupByDivision(points, sample);
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
-                               VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel,
+                                     GroupIndex at, VU key, VU seed, VF* u0, VF* u1) {
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU i = Permute(points.strata, at.index, h.x);
     *u0 = ToUnit(ReverseBits32(LaineKarras(i, h.y)));

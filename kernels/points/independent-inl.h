@@ -19,8 +19,8 @@ struct IndependentPoints {
   static LANELIGHT_INLINE GroupIndex Group(const PointsParameters&, VU sample) {
     return {sample, hn::Zero(DU())};
   }
-  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at, VU key,
-                               VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at,
+                                     VU key, VU seed, VF* u0, VF* u1) {
     const U4 r = Pcg4d({pixel, at.group, key, seed});
     *u0 = ToUnit(r.x);
     *u1 = ToUnit(r.y);

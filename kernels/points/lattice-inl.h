@@ -27,8 +27,8 @@ struct LatticePoints {
     return GroupByDivision(points, sample);
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
-                               VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel,
+                                     GroupIndex at, VU key, VU seed, VF* u0, VF* u1) {
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU i = Permute(points.strata, at.index, h.x);
     const VU x = TimesFraction(i, points.strata.whole, points.strata.part);

@@ -35,22 +35,22 @@ struct StratifiedPoints {
     VU stratum;
     U4 jitter;
   };
-  static LANELIGHT_INLINE Drawn Draw(const PointsParameters& points, VU pixel, GroupIndex at,
-                               VU key, VU seed) {
+  static LANELIGHT_INLINE Drawn Draw(const PointsParameters& points, VU pixel,
+                                     GroupIndex at, VU key, VU seed) {
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     return {Permute(points.strata, at.index, h.x), Pcg4d({at.index, h.y, h.z, h.w})};
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel, GroupIndex at,
-                               VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel,
+                                     GroupIndex at, VU key, VU seed, VF* u0, VF* u1) {
     const Drawn drawn = Draw(points, pixel, at, key, seed);
     const QuotientRemainder cell = DivideBy(points.columns, drawn.stratum);
     *u0 = ToUnit(InStratum(points.columns, cell.remainder, drawn.jitter.x));
     *u1 = ToUnit(InStratum(points.rows, cell.quotient, drawn.jitter.y));
   }
 
-  static LANELIGHT_INLINE VF Number(const PointsParameters& points, VU pixel, GroupIndex at,
-                              VU key, VU seed) {
+  static LANELIGHT_INLINE VF Number(const PointsParameters& points, VU pixel,
+                                    GroupIndex at, VU key, VU seed) {
     const Drawn drawn = Draw(points, pixel, at, key, seed);
     return ToUnit(InStratum(points.strata, drawn.stratum, drawn.jitter.x));
   }

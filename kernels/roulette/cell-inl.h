@@ -29,7 +29,8 @@ LANELIGHT_INLINE VI CellAlong(const CellGrid& grid, int axis, VF p) {
 }
 
 /// Cell of the surface points of these paths, by the side that they see.
-LANELIGHT_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path, const Slots& slots) {
+LANELIGHT_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path,
+                           const Slots& slots) {
   const DI di;
   const auto constant = [&](int32_t v) HWY_ATTR { return hn::Set(di, v); };
   const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);

@@ -89,9 +89,9 @@ void RecordPath(Wave& wave) {
   const PathValues& values = wave.run->tables->path_values;
   ForEachBatch(wave, wave.queue(QueueId::kDone), [&](const Slots& slots, MF) HWY_ATTR {
     const VI output = Gather(p.output, slots);
-    float* plane = wave.buffer.samples +
-                   std::size_t(wave.run->planes.First(PlaneGroup::kRecord)) *
-                       wave.buffer.stride;
+    float* plane =
+        wave.buffer.samples +
+        std::size_t(wave.run->planes.First(PlaneGroup::kRecord)) * wave.buffer.stride;
     const auto store = [&](VF value) HWY_ATTR {
       Scatter(value, plane, output);
       plane += wave.buffer.stride;

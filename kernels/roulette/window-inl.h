@@ -68,7 +68,7 @@ LANELIGHT_INLINE VF ThroughputFactor(const PathColumns& p, const Slots& slots, V
 /// The new slots take over their parents' columns; what a path gathers they begin anew:
 /// the sample is the sum of its copies.
 LANELIGHT_INLINE void CopyPaths(const ColumnLists& lists, const uint32_t* parents,
-                          const uint32_t* slots, uint32_t n) {
+                                const uint32_t* slots, uint32_t n) {
   for (uint32_t c = 0; c < lists.copied.count; ++c) {
     uint32_t* column = lists.copied.columns[c];
     for (uint32_t i = 0; i < n; ++i) column[slots[i]] = column[parents[i]];
@@ -81,8 +81,8 @@ LANELIGHT_INLINE void CopyPaths(const ColumnLists& lists, const uint32_t* parent
 
 /// Divides the budget of a parent among its k copies: its own share, and those of the new
 /// slots.
-LANELIGHT_INLINE void ShareBudget(const PathColumns& p, uint32_t parent, const uint32_t* slots,
-                            uint32_t k) {
+LANELIGHT_INLINE void ShareBudget(const PathColumns& p, uint32_t parent,
+                                  const uint32_t* slots, uint32_t k) {
   const uint32_t budget = p.budget[parent];
   LL_DCHECK(k <= budget);
   for (uint32_t c = 1; c < k; ++c) {

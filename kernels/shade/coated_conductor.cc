@@ -28,8 +28,7 @@ HWY_EXPORT(ResolveCoatedConductor);
 
 Stage ShadeCoatedConductorStage() {
   return MakeShadeStage("shade_coated_conductor", "dielectric coat over metal",
-                        ShadeKind::kCoatedConductor,
-                        [](const FeatureSet& features) {
+                        ShadeKind::kCoatedConductor, [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveCoatedConductor)(features);
                         });
 }

@@ -29,8 +29,7 @@ HWY_EXPORT(ResolveCoatedDiffuseRough);
 Stage ShadeCoatedDiffuseRoughStage() {
   return MakeShadeStage(
       "shade_coated_diffuse_rough", "rough coat over a diffuse base",
-      ShadeKind::kCoatedDiffuseRough,
-      [](const FeatureSet& features) {
+      ShadeKind::kCoatedDiffuseRough, [](const FeatureSet& features) {
         return HWY_DYNAMIC_DISPATCH(ResolveCoatedDiffuseRough)(features);
       });
 }

@@ -29,8 +29,7 @@ HWY_EXPORT(ResolveCoatedDiffuseSmooth);
 Stage ShadeCoatedDiffuseSmoothStage() {
   return MakeShadeStage(
       "shade_coated_diffuse_smooth", "smooth coat over a diffuse base",
-      ShadeKind::kCoatedDiffuseSmooth,
-      [](const FeatureSet& features) {
+      ShadeKind::kCoatedDiffuseSmooth, [](const FeatureSet& features) {
         return HWY_DYNAMIC_DISPATCH(ResolveCoatedDiffuseSmooth)(features);
       });
 }

@@ -28,8 +28,7 @@ HWY_EXPORT(ResolveConductorRough);
 
 Stage ShadeConductorRoughStage() {
   return MakeShadeStage("shade_conductor_rough", "rough metal",
-                        ShadeKind::kConductorRough,
-                        [](const FeatureSet& features) {
+                        ShadeKind::kConductorRough, [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveConductorRough)(features);
                         });
 }

@@ -28,8 +28,7 @@ HWY_EXPORT(ResolveConductorSmooth);
 
 Stage ShadeConductorSmoothStage() {
   return MakeShadeStage("shade_conductor_smooth", "smooth metal",
-                        ShadeKind::kConductorSmooth,
-                        [](const FeatureSet& features) {
+                        ShadeKind::kConductorSmooth, [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveConductorSmooth)(features);
                         });
 }

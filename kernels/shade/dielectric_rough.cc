@@ -28,8 +28,7 @@ HWY_EXPORT(ResolveDielectricRough);
 
 Stage ShadeDielectricRoughStage() {
   return MakeShadeStage("shade_dielectric_rough", "rough glass",
-                        ShadeKind::kDielectricRough,
-                        [](const FeatureSet& features) {
+                        ShadeKind::kDielectricRough, [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDielectricRough)(features);
                         });
 }

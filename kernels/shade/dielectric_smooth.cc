@@ -28,8 +28,7 @@ HWY_EXPORT(ResolveDielectricSmooth);
 
 Stage ShadeDielectricSmoothStage() {
   return MakeShadeStage("shade_dielectric_smooth", "smooth glass",
-                        ShadeKind::kDielectricSmooth,
-                        [](const FeatureSet& features) {
+                        ShadeKind::kDielectricSmooth, [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDielectricSmooth)(features);
                         });
 }

@@ -27,7 +27,8 @@ namespace lanelight {
 HWY_EXPORT(ResolveDiffuse);
 
 Stage ShadeDiffuseStage() {
-  return MakeShadeStage("shade_diffuse", "Lambertian reflection", ShadeKind::kDiffuse, [](const FeatureSet& features) {
+  return MakeShadeStage("shade_diffuse", "Lambertian reflection", ShadeKind::kDiffuse,
+                        [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDiffuse)(features);
                         });
 }

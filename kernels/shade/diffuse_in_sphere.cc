@@ -29,8 +29,7 @@ HWY_EXPORT(ResolveDiffuseInSphere);
 Stage ShadeDiffuseInSphereStage() {
   return MakeShadeStage("shade_diffuse_in_sphere",
                         "diffuse, density proportional to cos^3",
-                        ShadeKind::kDiffuseInSphere,
-                        [](const FeatureSet& features) {
+                        ShadeKind::kDiffuseInSphere, [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDiffuseInSphere)(features);
                         });
 }

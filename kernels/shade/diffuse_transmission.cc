@@ -29,8 +29,7 @@ HWY_EXPORT(ResolveDiffuseTransmission);
 Stage ShadeDiffuseTransmissionStage() {
   return MakeShadeStage(
       "shade_diffuse_transmission", "diffuse reflection and transmission",
-      ShadeKind::kDiffuseTransmission,
-      [](const FeatureSet& features) {
+      ShadeKind::kDiffuseTransmission, [](const FeatureSet& features) {
         return HWY_DYNAMIC_DISPATCH(ResolveDiffuseTransmission)(features);
       });
 }

@@ -29,8 +29,7 @@ HWY_EXPORT(ResolveDiffuseUniform);
 Stage ShadeDiffuseUniformStage() {
   return MakeShadeStage("shade_diffuse_uniform",
                         "diffuse, directions uniform over the hemisphere",
-                        ShadeKind::kDiffuseUniform,
-                        [](const FeatureSet& features) {
+                        ShadeKind::kDiffuseUniform, [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveDiffuseUniform)(features);
                         });
 }

@@ -49,7 +49,8 @@ struct SurfaceReader {
   Wave& wave;
   MaterialSource source;
 
-  HWY_INLINE explicit SurfaceReader(Wave& w) : wave(w), source(TableSource(w.scene->materials)) {
+  HWY_INLINE explicit SurfaceReader(Wave& w)
+      : wave(w), source(TableSource(w.scene->materials)) {
     const PathColumns& path = w.path;
     source.color_by_path = path.color0_r != nullptr;
     source.alpha_by_path = path.alpha_x != nullptr;
@@ -114,8 +115,8 @@ struct Shader : SurfaceReader<Bsdf> {
     V3 carried = Mul(Mul(beta, value.f_cos), light);
     if constexpr (Lighting::kWeighs) {
       const VF pdf = Proposal::template Pdf<Bsdf>(material, wo, wi, value.pdf);
-      carried = Mul(carried,
-                    Lighting::Weight(wave.run->mis, Gather(path.ls_pdf, slots), pdf));
+      carried =
+          Mul(carried, Lighting::Weight(wave.run->mis, Gather(path.ls_pdf, slots), pdf));
     }
     Scatter3(carried, path.sh_r, path.sh_g, path.sh_b, slots);
     Push(wave.queue(QueueId::kShadow), slots, hn::And(valid, CarriesLight(carried)));

@@ -28,8 +28,7 @@ HWY_EXPORT(ResolveThinDielectric);
 
 Stage ShadeThinDielectricStage() {
   return MakeShadeStage("shade_thin_dielectric", "thin sheet of glass",
-                        ShadeKind::kThinDielectric,
-                        [](const FeatureSet& features) {
+                        ShadeKind::kThinDielectric, [](const FeatureSet& features) {
                           return HWY_DYNAMIC_DISPATCH(ResolveThinDielectric)(features);
                         });
 }

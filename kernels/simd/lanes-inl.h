@@ -12,8 +12,9 @@
 
 #include "hwy/highway.h"
 
-// Routines that everything is made of. Where a vector is a register, a call would cost more
-// than they do; in the emulation they are long, and the compiler's time is what counts.
+// Routines that everything is made of. Where a vector is a register, a call would cost
+// more than they do; in the emulation they are long, and the compiler's time is what
+// counts.
 #undef LANELIGHT_INLINE
 #if HWY_TARGET == HWY_EMU128
 #define LANELIGHT_INLINE HWY_NOINLINE

@@ -72,7 +72,7 @@ HWY_INLINE VF MaxComponent(V3 a) { return hn::Max(a.x, hn::Max(a.y, a.z)); }
 
 template <class Index>
 LANELIGHT_INLINE V3 Gather3(const float* x, const float* y, const float* z,
-                      const Index& index) {
+                            const Index& index) {
   return {Gather(x, index), Gather(y, index), Gather(z, index)};
 }
 template <class Index>

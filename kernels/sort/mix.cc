@@ -41,10 +41,12 @@ void Mix(Wave& wave) {
       if (hn::AllFalse(di, is_mix)) break;
       const VF amount = MixAmount(wave, slots, material);
       // Levels beyond those that have a dimension draw with another seed.
-      const VU key = KeyOf(wave.path, Dimension::kMix, depth, slots, round % kMixDimensions);
+      const VU key =
+          KeyOf(wave.path, Dimension::kMix, depth, slots, round % kMixDimensions);
       const uint32_t seed = wave.run->seed + round / kMixDimensions * 0x9e3779b9u;
-      const U4 r = Pcg4d({AsUnsigned(Gather(wave.path.pixel, slots)),
-                          AsUnsigned(Gather(wave.path.sample, slots)), key, SplatU(seed)});
+      const U4 r =
+          Pcg4d({AsUnsigned(Gather(wave.path.pixel, slots)),
+                 AsUnsigned(Gather(wave.path.sample, slots)), key, SplatU(seed)});
       const auto second = hn::RebindMask(di, hn::Lt(ToUnit(r.x), amount));
       const VI chosen = hn::IfThenElse(second, Gather(m.mix1.data(), material),
                                        Gather(m.mix0.data(), material));

@@ -1,5 +1,5 @@
-// Bins what scatters into one queue per kind of material, so that each shading kernel runs on
-// full vectors of its own kind; those that take light samples also go to kLit.
+// Bins what scatters into one queue per kind of material, so that each shading kernel
+// runs on full vectors of its own kind; those that take light samples also go to kLit.
 #include "kernels/targets.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -1,5 +1,5 @@
-// All that scatters in one queue, surfaces first. Only where something else than a surface
-// can: otherwise kVertex is the surfaces' queue itself (src/path/wave.h).
+// All that scatters in one queue, surfaces first. Only where something else than a
+// surface can: otherwise kVertex is the surfaces' queue itself (src/path/wave.h).
 #include "kernels/targets.h"
 
 #undef HWY_TARGET_INCLUDE

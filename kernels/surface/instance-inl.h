@@ -38,7 +38,7 @@ struct InstanceMaps {
 
 /// `inst` is -1 for the world.
 LANELIGHT_INLINE InstanceMaps GatherMaps(const AlignedVector<InstanceRecord>& records,
-                                   VI inst) {
+                                         VI inst) {
   const DI di;
   const MF world = hn::RebindMask(DF(), hn::Lt(inst, hn::Zero(di)));
   const VI at = hn::Mul(hn::Max(inst, hn::Zero(di)), hn::Set(di, 24));

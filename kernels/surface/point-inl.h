@@ -30,8 +30,12 @@ struct D3 {
   VD x, y, z;
 };
 
-LANELIGHT_INLINE VD LowerDouble(VF v) { return hn::PromoteTo(DD(), hn::LowerHalf(DHalf(), v)); }
-LANELIGHT_INLINE VD UpperDouble(VF v) { return hn::PromoteTo(DD(), hn::UpperHalf(DHalf(), v)); }
+LANELIGHT_INLINE VD LowerDouble(VF v) {
+  return hn::PromoteTo(DD(), hn::LowerHalf(DHalf(), v));
+}
+LANELIGHT_INLINE VD UpperDouble(VF v) {
+  return hn::PromoteTo(DD(), hn::UpperHalf(DHalf(), v));
+}
 template <bool kUpper>
 LANELIGHT_INLINE VD HalfOf(VF v) {
   if constexpr (kUpper) return UpperDouble(v);

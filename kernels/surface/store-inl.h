@@ -43,7 +43,7 @@ LANELIGHT_INLINE D3 ProjectToPlane(D3 p, V3 point, V3 n) {
 /// Writes what every hit has; these shapes have no shading normal of their own.
 template <bool kNormals>
 LANELIGHT_INLINE void StoreSurface(const PathColumns& path, const StoreSlots& slots,
-                             const SurfaceLanes& s) {
+                                   const SurfaceLanes& s) {
   Scatter3(s.p, path.p_x, path.p_y, path.p_z, slots);
   Scatter(s.error, path.p_error, slots);
   Scatter3(s.n, path.ng_x, path.ng_y, path.ng_z, slots);

@@ -32,7 +32,8 @@ LANELIGHT_INLINE VI ClampIndex(VI i, int32_t size) {
 /// The texels around coordinate s of an axis with `size` texels, whose centres are at
 /// (i + 0.5) / size; `flip` counts from the other end (1 - s). Nearest lookups have
 /// weight 0 and use i0.
-LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, int32_t size, const TextureNode& node) {
+LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, int32_t size,
+                                      const TextureNode& node) {
   const DI di;
   const VF n = Splat(static_cast<float>(size)), one = Splat(1.0f);
   VF x;
@@ -60,7 +61,7 @@ LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, int32_t size, const Textu
 /// makes the texel black. The octahedral map continues across an edge of the square with
 /// the texels of the same edge, mirrored about its middle.
 LANELIGHT_INLINE VI WrappedIndex(const TextureImage& image, WrapMode wrap, VI i, VI j,
-                           MF& inside) {
+                                 MF& inside) {
   const DI di;
   const DF df;
   const VI w = hn::Set(di, image.width), h = hn::Set(di, image.height);
@@ -89,7 +90,8 @@ LANELIGHT_INLINE VI WrappedIndex(const TextureImage& image, WrapMode wrap, VI i,
 }
 
 /// Decoded colour of texels.
-LANELIGHT_INLINE V3 LoadTexels(const TextureTable& table, const TextureImage& image, VI index) {
+LANELIGHT_INLINE V3 LoadTexels(const TextureTable& table, const TextureImage& image,
+                               VI index) {
   const DI di;
   if (image.rgba8.empty()) {
     return GatherRecord3(image.rgb.data(), 3, 0, index);
@@ -102,7 +104,8 @@ LANELIGHT_INLINE V3 LoadTexels(const TextureTable& table, const TextureImage& im
           Gather(decode, hn::And(hn::ShiftRight<16>(word), byte))};
 }
 
-LANELIGHT_INLINE V3 Texel(const TextureTable& table, const TextureNode& node, VI i, VI j) {
+LANELIGHT_INLINE V3 Texel(const TextureTable& table, const TextureNode& node, VI i,
+                          VI j) {
   const DF df;
   const TextureImage& image = table.images[node.image];
   MF inside = hn::FirstN(df, hn::Lanes(df));
@@ -115,7 +118,8 @@ LANELIGHT_INLINE V3 Lerp(V3 a, V3 b, VF t) {
   return Mul(a, hn::Sub(Splat(1.0f), t)) + Mul(b, t);
 }
 
-LANELIGHT_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node, VF s, VF t) {
+LANELIGHT_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node, VF s,
+                              VF t) {
   const TextureImage& image = table.images[node.image];
   const TexelPair x = FindTexels(s, false, image.width, node);
   const TexelPair y = FindTexels(t, true, image.height, node);
@@ -180,7 +184,8 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture, V
 }
 
 /// Values of the lanes' own textures; lanes whose id is negative keep `constant`.
-LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v, V3 constant) {
+LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v,
+                                 V3 constant) {
   const DF df;
   const DI di;
   auto pending = hn::Gt(ids, hn::Set(di, -1));
@@ -198,13 +203,14 @@ LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v, 
 }
 
 /// Alpha of the lanes' cut-outs, where their id is not negative, else `constant`.
-LANELIGHT_INLINE VF EvalAlpha(const TextureTable& table, VI ids, VF u, VF v, VF constant) {
+LANELIGHT_INLINE VF EvalAlpha(const TextureTable& table, VI ids, VF u, VF v,
+                              VF constant) {
   return EvalTextures(table, ids, u, v, {constant, constant, constant}).x;
 }
 
 /// Alpha of a single hit, for kernels that hold one ray.
-LANELIGHT_INLINE float EvalAlphaAt(const TextureTable& table, int32_t id, float u, float v,
-                             float constant) {
+LANELIGHT_INLINE float EvalAlphaAt(const TextureTable& table, int32_t id, float u,
+                                   float v, float constant) {
   return id < 0 ? constant : hn::GetLane(EvalTexture(table, id, Splat(u), Splat(v)).x);
 }
 

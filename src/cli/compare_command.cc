@@ -115,7 +115,8 @@ void AddCompareCommand(CLI::App& root, Command& chosen) {
       "\nRelative MSE is the mean of (a-b)^2 / (b^2 + 0.01) over pixels and channels.\n"
       "\nExample:\n  lanelight compare box.exr converged.exr --reference --max-relmse "
       "0.01");
-  command->callback([options, &chosen] { chosen = [options] { return Compare(*options); }; });
+  command->callback(
+      [options, &chosen] { chosen = [options] { return Compare(*options); }; });
 }
 
 }  // namespace lanelight

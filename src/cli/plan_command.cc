@@ -114,9 +114,8 @@ void AddPlanCommand(CLI::App& root, Command& chosen) {
   AddSceneOptions(*command, options->scene);
   command->add_flag("--json", options->json, "Print JSON");
   command->footer("\nExample:\n  lanelight plan scenes/glass.pbrt --max-depth 1");
-  command->callback([options, &chosen] {
-    chosen = [options] { return PrintPlan(*options); };
-  });
+  command->callback(
+      [options, &chosen] { chosen = [options] { return PrintPlan(*options); }; });
 }
 
 }  // namespace lanelight

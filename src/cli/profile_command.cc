@@ -117,7 +117,8 @@ void AddProfileCommand(CLI::App& root, Command& chosen) {
       "\nExamples:\n"
       "  lanelight profile scene.pbrt --threads 1\n"
       "  lanelight profile scene.pbrt --spp 4 --trace trace.json --json profile.json");
-  command->callback([options, &chosen] { chosen = [options] { return Profile(*options); }; });
+  command->callback(
+      [options, &chosen] { chosen = [options] { return Profile(*options); }; });
 }
 
 }  // namespace lanelight

@@ -51,11 +51,13 @@ void AddOutputOptions(CLI::App& command, RenderOutputs& options, bool required) 
                                      "Write a PNG too; named after the EXR if bare")
                          ->expected(0, 1)
                          ->type_name("[FILE]");
-  command.add_option("--exposure", options.targets.exposure, "Exposure of the PNG in stops")
+  command
+      .add_option("--exposure", options.targets.exposure, "Exposure of the PNG in stops")
       ->check(FiniteRange(-100, 100))
       ->type_name("EV");
   command
-      .add_option("--json", options.targets.json, "Write a report for scripts ('-': print it)")
+      .add_option("--json", options.targets.json,
+                  "Write a report for scripts ('-': print it)")
       ->type_name("FILE");
   command.add_flag("--quiet", options.quiet, "Print errors only");
 }

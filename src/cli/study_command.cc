@@ -152,7 +152,8 @@ void AddStudyCommand(CLI::App& root, Command& chosen) {
       "4,16,64\n"
       "  lanelight study a.pbrt --out a --all --budget 2 --reference a1.exr --reference "
       "a2.exr");
-  command->callback([options, &chosen] { chosen = [options] { return RunStudyCommand(*options); }; });
+  command->callback(
+      [options, &chosen] { chosen = [options] { return RunStudyCommand(*options); }; });
 }
 
 }  // namespace lanelight

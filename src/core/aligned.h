@@ -21,8 +21,12 @@ struct AlignedAllocator {
     return static_cast<T*>(
         ::operator new(n * sizeof(T) + kCacheLine, std::align_val_t(kCacheLine)));
   }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t(kCacheLine)); }
-  friend bool operator==(const AlignedAllocator&, const AlignedAllocator&) { return true; }
+  void deallocate(T* p, std::size_t) {
+    ::operator delete(p, std::align_val_t(kCacheLine));
+  }
+  friend bool operator==(const AlignedAllocator&, const AlignedAllocator&) {
+    return true;
+  }
 };
 
 template <typename T>

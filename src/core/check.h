@@ -23,19 +23,19 @@ class CheckFailure : public std::logic_error {
 
 }  // namespace lanelight
 
-#define LL_CHECK(condition)                                                  \
-  do {                                                                       \
+#define LL_CHECK(condition)                                                   \
+  do {                                                                        \
     if (!(condition)) ::lanelight::FailCheck(__FILE__, __LINE__, #condition); \
   } while (false)
 
-#define LL_CHECK_OP(a, op, b)                                                     \
-  do {                                                                            \
-    const auto& ll_a = (a);                                                       \
-    const auto& ll_b = (b);                                                       \
-    if (!(ll_a op ll_b)) {                                                        \
-      ::lanelight::FailCheck(__FILE__, __LINE__, #a " " #op " " #b,               \
-                             fmt::format("{} vs. {}", ll_a, ll_b));               \
-    }                                                                             \
+#define LL_CHECK_OP(a, op, b)                                       \
+  do {                                                              \
+    const auto& ll_a = (a);                                         \
+    const auto& ll_b = (b);                                         \
+    if (!(ll_a op ll_b)) {                                          \
+      ::lanelight::FailCheck(__FILE__, __LINE__, #a " " #op " " #b, \
+                             fmt::format("{} vs. {}", ll_a, ll_b)); \
+    }                                                               \
   } while (false)
 #define LL_CHECK_EQ(a, b) LL_CHECK_OP(a, ==, b)
 #define LL_CHECK_NE(a, b) LL_CHECK_OP(a, !=, b)

@@ -32,8 +32,9 @@ int ThreadIndex();
 void ParallelFor(std::size_t n, const std::function<void(std::size_t)>& body);
 
 /// Like ParallelFor over chunks [begin, end) of at least `grain` items.
-void ParallelForRange(std::size_t n, std::size_t grain,
-                      const std::function<void(std::size_t begin, std::size_t end)>& body);
+void ParallelForRange(
+    std::size_t n, std::size_t grain,
+    const std::function<void(std::size_t begin, std::size_t end)>& body);
 
 /// Runs both, in parallel if a thread is free.
 void ParallelInvoke(const std::function<void()>& a, const std::function<void()>& b);

@@ -41,8 +41,8 @@ void StateReader::Take(std::string_view name, void* values, std::size_t size,
 }
 
 void StateReader::Refuse(std::string_view name) {
-  throw InputError(fmt::format(
-      "the saved state does not fit: expected \"{}\" of this render", name));
+  throw InputError(
+      fmt::format("the saved state does not fit: expected \"{}\" of this render", name));
 }
 
 }  // namespace lanelight

@@ -15,9 +15,15 @@ struct Vec3 {
   constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
   constexpr const T& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
 
-  friend constexpr Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend constexpr Vec3 operator*(Vec3 a, Vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+  friend constexpr Vec3 operator+(Vec3 a, Vec3 b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend constexpr Vec3 operator-(Vec3 a, Vec3 b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend constexpr Vec3 operator*(Vec3 a, Vec3 b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+  }
   friend constexpr Vec3 operator*(Vec3 a, T s) { return {a.x * s, a.y * s, a.z * s}; }
   friend constexpr Vec3 operator*(T s, Vec3 a) { return a * s; }
   friend constexpr Vec3 operator/(Vec3 a, T s) { return {a.x / s, a.y / s, a.z / s}; }
@@ -65,6 +71,8 @@ constexpr Vec3<To> VecCast(Vec3<T> a) {
 using Rgb = Vec3<double>;
 
 /// Relative luminance (CIE Y) of a linear sRGB colour.
-constexpr double Luminance(Rgb c) { return 0.212671 * c.x + 0.715160 * c.y + 0.072169 * c.z; }
+constexpr double Luminance(Rgb c) {
+  return 0.212671 * c.x + 0.715160 * c.y + 0.072169 * c.z;
+}
 
 }  // namespace lanelight

@@ -1,5 +1,5 @@
-// Shapes as the kernels read them: float32 records in scene space, recentred and scaled by
-// a power of two (p_scene = (p_world - center) * scale).
+// Shapes as the kernels read them: float32 records in scene space, recentred and scaled
+// by a power of two (p_scene = (p_world - center) * scale).
 //
 // Per-primitive data are fixed-size records, because a shading kernel gathers many words
 // of one primitive: a record is one or two cache lines, while one array per word would

@@ -69,8 +69,8 @@ class FilmAccumulator {
       kColorPlanes + kAovPlanes + NumPlanes(PlaneGroup::kDifference);
 
   /// Adds `count` consecutive samples of one pixel; planes[p][i] is plane p (in the order
-  /// of SamplePlanes) of the i-th. Must be called with the samples of a pixel in order. Safe for different pixels
-  /// from different threads.
+  /// of SamplePlanes) of the i-th. Must be called with the samples of a pixel in order.
+  /// Safe for different pixels from different threads.
   void AddSamples(int x, int y, const float* const* planes, std::uint32_t count);
 
   std::uint64_t Samples(int x, int y) const { return pixel(x, y).samples; }
@@ -91,8 +91,8 @@ class FilmAccumulator {
   /// Mean of an auxiliary plane.
   double Aov(int x, int y, int plane) const;
 
-  /// All that AddSamples has brought, exactly. A film of the same pixels, planes and group
-  /// size goes on from there; Restore throws InputError for another.
+  /// All that AddSamples has brought, exactly. A film of the same pixels, planes and
+  /// group size goes on from there; Restore throws InputError for another.
   void Save(StateWriter& state) const;
   void Restore(StateReader& state);
 

@@ -119,7 +119,7 @@ Image ReadHeader(const std::string& path, Source& source) {
 
 // Decodes with `load` into the vector `pixels` of the image.
 template <class T, class Load>
-Image Decode(const std::string& path, Load load, AlignedVector<T> Image::*pixels) {
+Image Decode(const std::string& path, Load load, AlignedVector<T> Image::* pixels) {
   const std::string content = ReadWholeFile(path);
   Source source(content);
   Image image = ReadHeader(path, source);

@@ -19,7 +19,7 @@ FeatureSet Union(FeatureSet a, FeatureSet b) {
 FeatureSet TurnsOn(Directions choice) {
   switch (choice) {
 #define X(name, own, also, ...) \
-  case Directions::k##name: \
+  case Directions::k##name:     \
     return Union(LANELIGHT_OWN_##own(k##name##Directions), FeatureSet also);
     LANELIGHT_DIRECTIONS(X)
 #undef X
@@ -30,7 +30,7 @@ FeatureSet TurnsOn(Directions choice) {
 FeatureSet TurnsOn(Points choice) {
   switch (choice) {
 #define X(name, own, also, ...) \
-  case Points::k##name: \
+  case Points::k##name:         \
     return Union(LANELIGHT_OWN_##own(k##name##Points), FeatureSet also);
     LANELIGHT_POINTS(X)
 #undef X
@@ -41,7 +41,7 @@ FeatureSet TurnsOn(Points choice) {
 FeatureSet TurnsOn(Pairs choice) {
   switch (choice) {
 #define X(name, own, also, ...) \
-  case Pairs::k##name: \
+  case Pairs::k##name:          \
     return Union(LANELIGHT_OWN_##own(k##name##Pairs), FeatureSet also);
     LANELIGHT_PAIRS(X)
 #undef X
@@ -52,7 +52,7 @@ FeatureSet TurnsOn(Pairs choice) {
 FeatureSet TurnsOn(Control choice) {
   switch (choice) {
 #define X(name, own, also, ...) \
-  case Control::k##name: \
+  case Control::k##name:        \
     return Union(LANELIGHT_OWN_##own(k##name##Control), FeatureSet also);
     LANELIGHT_CONTROLS(X)
 #undef X
@@ -63,7 +63,7 @@ FeatureSet TurnsOn(Control choice) {
 FeatureSet TurnsOn(Roulette choice) {
   switch (choice) {
 #define X(name, own, also, ...) \
-  case Roulette::k##name: \
+  case Roulette::k##name:       \
     return Union(LANELIGHT_OWN_##own(k##name##Roulette), FeatureSet also);
     LANELIGHT_ROULETTES(X)
 #undef X

@@ -36,17 +36,19 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
 
 // Vectors: one column per component.
 #define LANELIGHT_XYZ(X, type, name, ...) \
-  X(type, name##_x, __VA_ARGS__) X(type, name##_y, __VA_ARGS__) X(type, name##_z, __VA_ARGS__)
+  X(type, name##_x, __VA_ARGS__)          \
+  X(type, name##_y, __VA_ARGS__) X(type, name##_z, __VA_ARGS__)
 #define LANELIGHT_RGB(X, type, name, ...) \
-  X(type, name##_r, __VA_ARGS__) X(type, name##_g, __VA_ARGS__) X(type, name##_b, __VA_ARGS__)
+  X(type, name##_r, __VA_ARGS__)          \
+  X(type, name##_g, __VA_ARGS__) X(type, name##_b, __VA_ARGS__)
 #define LANELIGHT_2(X, type, name, ...) \
   X(type, name##_0, __VA_ARGS__) X(type, name##_1, __VA_ARGS__)
-#define LANELIGHT_4(X, type, name, ...) \
+#define LANELIGHT_4(X, type, name, ...)   \
   LANELIGHT_2(X, type, name, __VA_ARGS__) \
   X(type, name##_2, __VA_ARGS__) X(type, name##_3, __VA_ARGS__)
 
-// X(type, name, features; {} = always, lifetime, first value; () = a stage writes it, meaning)
-// In them `f` is the set of features of the plan.
+// X(type, name, features; {} = always, lifetime, first value; () = a stage writes it,
+// meaning) In them `f` is the set of features of the plan.
 // clang-format off
 #define LANELIGHT_PATH_FIELDS(X)                                                          \
   /* identity, written by the generate stage */                                           \

@@ -53,8 +53,8 @@ struct MisParameters {
 };
 
 struct RouletteParameters {
-  float termination = 0;  // constant: probability of ending
-  float floor = 0;        // throughput, luminance: least survival probability
+  float termination = 0;    // constant: probability of ending
+  float floor = 0;          // throughput, luminance: least survival probability
   std::uint32_t first = 2;  // scattering events before the first decision
 };
 

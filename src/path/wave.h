@@ -93,9 +93,9 @@ struct ColumnList {
 
 /// What the fields' lifetimes and first values (src/path/fields.h) come to in a plan.
 struct ColumnLists {
-  ColumnList carried;  // to the next wave
-  ColumnList copied;   // to a copy of a path
-  ColumnList begun;    // by the camera stage, ...
+  ColumnList carried;                      // to the next wave
+  ColumnList copied;                       // to a copy of a path
+  ColumnList begun;                        // by the camera stage, ...
   std::uint32_t first_values[kNumFields];  // ... with these bits, in the same order
   ColumnList begun_by_copies;              // by a copy of a path ...
   std::uint32_t copy_values[kNumFields];   // ... with these

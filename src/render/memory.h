@@ -9,8 +9,7 @@ namespace lanelight {
 
 /// Bytes that the film and the planes of the output file take. Independent of the number
 /// of samples.
-std::uint64_t FilmBytes(const PixelRect& window, bool aov,
-                        const Strategy& strategy = {});
+std::uint64_t FilmBytes(const PixelRect& window, bool aov, const Strategy& strategy = {});
 
 /// Memory of the machine, or of the control group it limits this process to.
 std::uint64_t PhysicalMemory();

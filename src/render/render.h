@@ -15,14 +15,14 @@ namespace lanelight {
 /// Where results go; an empty path: nowhere.
 struct RenderTargets {
   std::string exr, png;
-  std::string json;  // "-": only into Rendering::json
+  std::string json;     // "-": only into Rendering::json
   double exposure = 0;  // of the PNG, stops
   bool half = false;    // colours of the EXR in 16 bits
 };
 
 struct RenderHooks {
   std::function<void(const Progress&)> on_progress;
-  std::function<void()> on_rendered;  // before anything is written
+  std::function<void()> on_rendered;        // before anything is written
   const std::atomic<bool>* stop = nullptr;  // ends the render early; what is there counts
   nlohmann::json members = nlohmann::json::object();  // of the report, beside its own
 };

@@ -1,10 +1,10 @@
-// Every choice of every axis of a strategy, one line each: name, whether it has a stage or
-// kernel of its own (STAGE: then it has a feature, the name followed by the axis), other
-// features that it turns on (src/path/features.h), name on the command line, arguments,
-// meaning, formula, source. The enumerations, the features, the plan, the parser,
-// `lanelight strategies`, the tests over all combinations and the bench rows derive from
-// these lists. Notation: f integrand, p density, u uniform numbers, N samples, beta
-// throughput.
+// Every choice of every axis of a strategy, one line each: name, whether it has a stage
+// or kernel of its own (STAGE: then it has a feature, the name followed by the axis),
+// other features that it turns on (src/path/features.h), name on the command line,
+// arguments, meaning, formula, source. The enumerations, the features, the plan, the
+// parser, `lanelight strategies`, the tests over all combinations and the bench rows
+// derive from these lists. Notation: f integrand, p density, u uniform numbers, N
+// samples, beta throughput.
 #pragma once
 
 #include <cstdint>
@@ -81,7 +81,7 @@ inline constexpr double kConstantTermination = LANELIGHT_CONSTANT_TERMINATION;
 // clang-format on
 
 // Dimensions that an antithetic pair shares and reflects: X(name, text, meaning)
-#define LANELIGHT_PAIRED(X)                                   \
+#define LANELIGHT_PAIRED(X)                                  \
   X(All, "all", "every number of the path (default)")        \
   X(Pixel, "pixel", "position in the pixel and on the lens") \
   X(Light, "light", "choice of light and point on it")       \

@@ -32,7 +32,6 @@ constexpr ChoiceInfo kChoices[] = {
 #undef ROW
 };
 
-
 constexpr PresetInfo kPresets[] = {
     {"paper-plain", "", "the common base: mis, independent points, nothing else"},
     {"paper-uniform", "directions=uniform", "uniform sampling of directions"},

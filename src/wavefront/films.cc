@@ -23,10 +23,10 @@ void Films::Add(const TileSamples& tile) {
   const std::size_t stride = pixels.size() * tile.count;
   if (regression_) {
     const PixelRect& r = tile.place;
-    regression_->Correct({r.x0, r.y0, r.x1, r.y1, pixels.data(),
-                          static_cast<std::uint32_t>(pixels.size()),
-                          static_cast<std::uint32_t>(tile.width), tile.values, tile.count},
-                         planes_.First(PlaneGroup::kNumbers));
+    regression_->Correct(
+        {r.x0, r.y0, r.x1, r.y1, pixels.data(), static_cast<std::uint32_t>(pixels.size()),
+         static_cast<std::uint32_t>(tile.width), tile.values, tile.count},
+        planes_.First(PlaneGroup::kNumbers));
   }
   constexpr int kMostPlanes = FilmAccumulator::kMostPlanes;
   for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -15,7 +15,7 @@ namespace lanelight {
 
 /// Samples of the pixels of a tile, plane by plane; a pixel's are consecutive.
 struct TileSamples {
-  PixelRect place;  // of the tile in the film
+  PixelRect place;                           // of the tile in the film
   const std::vector<std::uint32_t>& pixels;  // y * width + x
   int width = 0;
   float* values = nullptr;
@@ -30,8 +30,8 @@ class Films {
   /// Changes the size of the groups, see FilmAccumulator::Regroup.
   void Regroup(std::uint32_t group_size);
 
-  /// Adds samples, each pixel's in order. Safe for different tiles from different threads.
-  /// Values are changed where a control variate corrects them.
+  /// Adds samples, each pixel's in order. Safe for different tiles from different
+  /// threads. Values are changed where a control variate corrects them.
   void Add(const TileSamples& tile);
 
   std::optional<ControlReport> Control() const;

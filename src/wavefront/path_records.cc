@@ -56,8 +56,8 @@ PathSamples ReadRecords(TrainingSamples samples) {
   return out;
 }
 
-std::vector<double> RelativeVariances(const PathSamples& samples, const TrainingWork& work,
-                                      const ImageGuess& image) {
+std::vector<double> RelativeVariances(const PathSamples& samples,
+                                      const TrainingWork& work, const ImageGuess& image) {
   std::vector<double> variances(work.pixels.size());
   for (std::size_t i = 0; i < variances.size(); ++i) {
     Vec3d sum, squares;

@@ -36,8 +36,8 @@ struct PathSamples : TrainingSamples {
 PathSamples ReadRecords(TrainingSamples samples);
 
 /// Variances of a sample in each pixel of `work`, as relative errors weigh them.
-std::vector<double> RelativeVariances(const PathSamples& samples, const TrainingWork& work,
-                                      const ImageGuess& image);
+std::vector<double> RelativeVariances(const PathSamples& samples,
+                                      const TrainingWork& work, const ImageGuess& image);
 
 /// Mean without the worst thousandth.
 double RobustMean(std::vector<double> values);

@@ -113,8 +113,7 @@ void Tasks::RunRound(std::uint64_t first_sample, std::uint64_t limit,
 }
 
 void Tasks::RunRoundInChunks(std::uint64_t first_sample, std::uint64_t limit,
-                             std::uint32_t chunks, TaskWatcher& watcher,
-                             Films& films) {
+                             std::uint32_t chunks, TaskWatcher& watcher, Films& films) {
   const std::size_t tiles = partition_.tiles.size();
   if (buffers_.size() < tiles * chunks) buffers_.resize(tiles * chunks);
   ParallelFor(tiles * chunks, [&](std::size_t task) {
@@ -160,7 +159,8 @@ void Tasks::RunTask(const PixelRect& tile, std::uint64_t first_sample,
   const std::uint32_t stride = work.num_pixels * out.count;
   const bool splits = plan_.features.Has(Feature::kSplitting);
   const std::uint32_t rows = stride * (splits ? kMostCopies : 1);
-  const std::size_t size = std::size_t{rows} * static_cast<std::size_t>(run_.planes.count());
+  const std::size_t size =
+      std::size_t{rows} * static_cast<std::size_t>(run_.planes.count());
   if (out.values.size() < size) out.values.resize(size);
   // A sample that has not split leaves the rows of its further copies alone.
   if (splits) std::fill_n(out.values.begin(), size, 0.0f);

@@ -19,9 +19,8 @@ TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp) {
     partition.side *= 2;
   }
   // A small window takes longer sample ranges instead of larger tiles.
-  const std::uint64_t area =
-      std::min<std::uint64_t>(pixels.pixels(),
-                              std::uint64_t(partition.side) * partition.side);
+  const std::uint64_t area = std::min<std::uint64_t>(
+      pixels.pixels(), std::uint64_t(partition.side) * partition.side);
   const std::uint64_t per_task = std::max<std::uint64_t>(kSamplesPerTask / area, 1);
   partition.samples = static_cast<std::uint32_t>(
       std::clamp<std::uint64_t>(per_task, 1, std::max<std::uint64_t>(spp, 1)));

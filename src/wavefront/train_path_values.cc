@@ -143,8 +143,7 @@ class Pilot {
     Candidate best, last = throughput;
     for (int pass = 0; pass < 2; ++pass) {
       values_.scale = static_cast<float>(last.Scale());
-      last = Measure(Roulette::kEfficiency,
-                     Pass(kMeasure, Roulette::kEfficiency, work_));
+      last = Measure(Roulette::kEfficiency, Pass(kMeasure, Roulette::kEfficiency, work_));
       if (pass == 0 || last.Score() < best.Score()) best = last;
     }
     values_.scale = static_cast<float>(best.scale);

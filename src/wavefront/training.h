@@ -1,8 +1,8 @@
 // Training: short renders before the image whose samples never enter it, from which a
 // strategy learns. A strategy asks for one with a feature that its choice turns on
-// (src/strategy/choices.h); its pass may turn on further features (PlanOptions::training),
-// and with them columns, stages and planes of its own; what it learns goes into
-// StrategyTables. Results do not depend on the number of threads.
+// (src/strategy/choices.h); its pass may turn on further features
+// (PlanOptions::training), and with them columns, stages and planes of its own; what it
+// learns goes into StrategyTables. Results do not depend on the number of threads.
 #pragma once
 
 #include <atomic>

@@ -101,7 +101,8 @@ TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples)
   std::vector<std::uint32_t> all;
   // Blocks of neighbours first, so that an even choice of them is even in both axes.
   TilePixels(RenderedPixels(scene.film), scene.film.width, &all);
-  const std::uint64_t count = std::max<std::uint64_t>(samples / TrainingWork::kLeastSpp, 1);
+  const std::uint64_t count =
+      std::max<std::uint64_t>(samples / TrainingWork::kLeastSpp, 1);
   if (count >= all.size()) {
     const std::uint64_t spp = std::max<std::uint64_t>(samples / all.size(), 4);
     return {std::move(all), static_cast<std::uint32_t>(spp)};
@@ -135,7 +136,7 @@ TrainingWork FewOf(const TrainingWork& work) {
 }
 
 TrainingSamples RunTrainingPass(const CompiledScene& scene, const PlanOptions& options,
-                          const RunParameters& run, const TrainingWork& work) {
+                                const RunParameters& run, const TrainingWork& work) {
   return Pass(scene, options, run, work).Run();
 }
 

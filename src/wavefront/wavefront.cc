@@ -69,8 +69,7 @@ Wavefront::Wavefront(const CompiledScene& scene, const Plan& plan,
   memory_.assign(stride * columns, kPoison);
 #endif
   std::uint32_t* next = memory_.data();
-#define X(type, name, ...) \
-  Place(wave_.path.name, Field::name, plan, next, stride);
+#define X(type, name, ...) Place(wave_.path.name, Field::name, plan, next, stride);
   LANELIGHT_PATH_FIELDS(X)
 #undef X
   for (Queue& queue : wave_.queues) {

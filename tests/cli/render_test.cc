@@ -84,14 +84,20 @@ TEST_CASE("a render writes an image, a PNG and a report", "[cli]") {
 TEST_CASE("overrides replace what the scene says", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), json = directory / "r.json";
-  const ProcessResult r =
-      RunLanelight({"render",       scene,     "-o",          directory / "r.exr",
-                    "--json",       json,      "--spp",       "3",
-                    "--resolution", "20x10",   "--max-depth", "2",
-                    "--seed",       "77",      "--threads",   "1",
-                    "--sampler",    "sobol",   "--wavefront", "64",
-                    "--target",     AvailableTargets().back(),  "--quiet",     "--scattering",
-                    "uniform",      "--build", "fast"});
+  const ProcessResult r = RunLanelight({"render",       scene,
+                                        "-o",           directory / "r.exr",
+                                        "--json",       json,
+                                        "--spp",        "3",
+                                        "--resolution", "20x10",
+                                        "--max-depth",  "2",
+                                        "--seed",       "77",
+                                        "--threads",    "1",
+                                        "--sampler",    "sobol",
+                                        "--wavefront",  "64",
+                                        "--target",     AvailableTargets().back(),
+                                        "--quiet",      "--scattering",
+                                        "uniform",      "--build",
+                                        "fast"});
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
   CHECK(r.out.empty());

@@ -60,7 +60,8 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
       {{"render", "x.pbrt", "-o", "x.exr", "--max-depth", "-1"}, "--max-depth"},
       {{"render", "x.pbrt", "-o", "x.exr", "--threads", "-1"}, "--threads"},
       {{"render", "x.pbrt", "-o", "x.exr", "--build", "slow"}, "not one of fast, high"},
-      {{"render", "x.pbrt", "-o", "x.exr", "--target", "AVX9000"}, AvailableTargets().back()},
+      {{"render", "x.pbrt", "-o", "x.exr", "--target", "AVX9000"},
+       AvailableTargets().back()},
       {{"render", "x.pbrt", "-o", "x.exr", "--strategy", "points=sobl"},
        "did you mean \"sobol\"?"},
       {{"plan", "x.pbrt", "--strategy", "roulette=constant:2"}, "0.001 to 0.999"},
@@ -85,7 +86,8 @@ TEST_CASE("info prints the target, threads and libraries", "[cli]") {
   const ProcessResult r = RunLanelight({"info", "--threads", "1"});
   CHECK(r.exit_code == kExitGood);
   const std::string worst = AvailableTargets().back();
-  for (const std::string& word : std::vector<std::string>{"target", "lanes", worst, "threads", "highway", "onetbb",
+  for (const std::string& word :
+       std::vector<std::string>{"target", "lanes", worst, "threads", "highway", "onetbb",
                                 "openexr", "fmt", "nlohmann_json", "cli11"}) {
     CHECK_THAT(r.out, Contains(word));
   }

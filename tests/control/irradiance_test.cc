@@ -87,8 +87,7 @@ void TestTriangles() {
                           VecCast<double>(c[2]) - p};
       return quadrature::Triangle(q, n);
     };
-    Compare(
-        r, scene, exact, [&](Vec3d p) { return exact(p, Normalize(-p)); }, out);
+    Compare(r, scene, exact, [&](Vec3d p) { return exact(p, Normalize(-p)); }, out);
   }
   INFO("worst error " << out.worst);
   CHECK(out.compared > 400);
@@ -113,8 +112,7 @@ void TestSpheres() {
     const auto exact = [&](Vec3d p, Vec3d n) {
       return quadrature::Sphere(-p, double(radius), n);
     };
-    Compare(
-        r, scene, exact, [&](Vec3d p) { return exact(p, Normalize(-p)); }, out);
+    Compare(r, scene, exact, [&](Vec3d p) { return exact(p, Normalize(-p)); }, out);
   }
   INFO("worst error " << out.worst);
   CHECK(out.compared > 600);
@@ -147,8 +145,7 @@ void TestDisks() {
     const auto exact = [&](Vec3d p, Vec3d n) {
       return Dot(n, -p) > 0 ? whole(p, n) : 0.0;
     };
-    Compare(
-        r, scene, exact, [&](Vec3d p) { return whole(p, Normalize(-p)); }, out);
+    Compare(r, scene, exact, [&](Vec3d p) { return whole(p, Normalize(-p)); }, out);
   }
   INFO("worst error " << out.worst);
   CHECK(out.compared > 150);

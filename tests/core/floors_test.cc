@@ -78,7 +78,8 @@ std::string Folder(const std::string& file) {
 
 /// What is wrong with `text`, the contents of `file`; empty if nothing.
 std::string UpwardIncludes(const std::string& file, const std::string& text) {
-  static const std::regex include(R"re(#include "((?:src|kernels|tests|bench)/[^"]+)")re");
+  static const std::regex include(
+      R"re(#include "((?:src|kernels|tests|bench)/[^"]+)")re");
   const std::string from = Folder(file);
   if (FloorOf(from) < 0) return file + ": its folder has no floor\n";
   std::string wrong;

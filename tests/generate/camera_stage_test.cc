@@ -242,8 +242,8 @@ TEST_CASE("a path begins with nothing gathered and its whole throughput", "[gene
                                 p.aov_n_y, p.aov_n_z, p.aov_depth}) {
         REQUIRE(zero[i] == 0);
       }
-      for (const float* none : {p.first_bsdf_0, p.first_bsdf_1, p.first_light_0,
-                                p.first_light_1}) {
+      for (const float* none :
+           {p.first_bsdf_0, p.first_bsdf_1, p.first_light_0, p.first_light_1}) {
         REQUIRE(none[i] == -1);
       }
       REQUIRE(p.t[i] == std::numeric_limits<float>::infinity());

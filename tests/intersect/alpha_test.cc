@@ -77,15 +77,13 @@ TEST_CASE("a cut-out keeps its share of the hits", "[intersect]") {
     ForceTarget(target);
     CAPTURE(target);
     Geometry triangles, spheres, disks;
-    AddLayers(triangles.triangles, [](float z) {
-      return MakeTriangle({-2, -2, z}, {2, -2, z}, {0, 3, z});
-    });
+    AddLayers(triangles.triangles,
+              [](float z) { return MakeTriangle({-2, -2, z}, {2, -2, z}, {0, 3, z}); });
     CheckShares(triangles, {IntersectTrianglesStage()}, {ShadowTrianglesStage()});
     AddLayers(disks.disks, [](float z) { return MakeDisk({0, 0, z}, {0, 0, 1}, 2); });
     CheckShares(disks, {IntersectDisksStage()}, {ShadowDisksStage()});
-    AddLayers(spheres.spheres, [](float z) {
-      return MakeSphere({0, 0, 100 + 5 * z}, 100 + 2.5f * z);
-    });
+    AddLayers(spheres.spheres,
+              [](float z) { return MakeSphere({0, 0, 100 + 5 * z}, 100 + 2.5f * z); });
     CheckShares(spheres, {IntersectSpheresStage()}, {ShadowSpheresStage()});
   }
   ForceTarget("");

@@ -17,11 +17,51 @@ struct Golden {
 // Of pixel 12345, sample 678, seed 9; multiples of 2^-24.
 constexpr float kUnit = 0x1p-24f;
 constexpr Golden kGolden[] = {
-    {0, 0, {1717628, 10816061}, {15408127, 9053166}, {5372126, 12143234}, 6793788, {13307703, 16640117}, 10594590, 15814949},
-    {1, 0, {14198913, 2813180}, {13118741, 16747625}, {1263800, 2874292}, 7889349, {14900568, 6400564}, 4851418, 13149130},
-    {5, 0, {6624500, 709905}, {11825225, 16322827}, {13587271, 12670984}, 4812647, {5022210, 908252}, 12085126, 3648586},
-    {1, 3, {16566969, 12267020}, {998285, 14883601}, {4081796, 13253068}, 8936409, {2467076, 14269220}, 15652006, 3787818},
-    {1048575, 7, {8457260, 15778913}, {15580445, 2141555}, {16572938, 924653}, 8141322, {11843031, 6029700}, 7430235, 16256241},
+    {0,
+     0,
+     {1717628, 10816061},
+     {15408127, 9053166},
+     {5372126, 12143234},
+     6793788,
+     {13307703, 16640117},
+     10594590,
+     15814949},
+    {1,
+     0,
+     {14198913, 2813180},
+     {13118741, 16747625},
+     {1263800, 2874292},
+     7889349,
+     {14900568, 6400564},
+     4851418,
+     13149130},
+    {5,
+     0,
+     {6624500, 709905},
+     {11825225, 16322827},
+     {13587271, 12670984},
+     4812647,
+     {5022210, 908252},
+     12085126,
+     3648586},
+    {1,
+     3,
+     {16566969, 12267020},
+     {998285, 14883601},
+     {4081796, 13253068},
+     8936409,
+     {2467076, 14269220},
+     15652006,
+     3787818},
+    {1048575,
+     7,
+     {8457260, 15778913},
+     {15580445, 2141555},
+     {16572938, 924653},
+     8141322,
+     {11843031, 6029700},
+     7430235,
+     16256241},
 };
 
 void CheckGolden(const Golden& g) {
@@ -35,12 +75,12 @@ void CheckGolden(const Golden& g) {
   f.QueueAll(QueueId::kVertex, 1);
   f.Run(IndependentCameraStage(), {});
   f.Run(IndependentBounceStage(), {});
-  const float* found[] = {p.u_film_0, p.u_film_1,  p.u_lens_0, p.u_lens_1,
-                          p.u_bsdf_0, p.u_bsdf_1,  p.u_lobe,   p.u_light_0,
+  const float* found[] = {p.u_film_0,  p.u_film_1, p.u_lens_0,  p.u_lens_1,
+                          p.u_bsdf_0,  p.u_bsdf_1, p.u_lobe,    p.u_light_0,
                           p.u_light_1, p.u_select, p.u_roulette};
-  const float expected[] = {g.film[0], g.film[1],  g.lens[0],  g.lens[1],
-                            g.bsdf[0], g.bsdf[1],  g.lobe,     g.light[0],
-                            g.light[1], g.select, g.roulette};
+  const float expected[] = {g.film[0],  g.film[1], g.lens[0], g.lens[1],
+                            g.bsdf[0],  g.bsdf[1], g.lobe,    g.light[0],
+                            g.light[1], g.select,  g.roulette};
   for (int i = 0; i < 11; ++i) {
     INFO("number " << i << " is " << static_cast<int>(found[i][0] / kUnit) << " units");
     CHECK(found[i][0] == expected[i] * kUnit);
@@ -61,8 +101,8 @@ TEST_CASE("golden: the numbers of every dimension", "[points]") {
 }
 
 TEST_CASE("golden: ranges of dimensions do not overlap", "[points]") {
-  const Dimension all[] = {Dimension::kFilm,   Dimension::kLens,     Dimension::kBsdf,
-                           Dimension::kLobe,   Dimension::kLight,    Dimension::kSelect,
+  const Dimension all[] = {Dimension::kFilm,     Dimension::kLens,  Dimension::kBsdf,
+                           Dimension::kLobe,     Dimension::kLight, Dimension::kSelect,
                            Dimension::kRoulette, Dimension::kMix};
   std::uint64_t taken = 0;
   for (Dimension d : all) {

@@ -122,9 +122,7 @@ TEST_CASE("permutations are uniform over images, pairs and wholes", "[points]") 
   }
   for (std::uint32_t n : {100, 200}) {
     const auto make = [&](std::uint32_t key) { return Permuted(n, key); };
-    check(UniformP(
-              make, [&](const Permutation& p) { return p[n / 3]; }, n),
-          n);
+    check(UniformP(make, [&](const Permutation& p) { return p[n / 3]; }, n), n);
   }
 }
 

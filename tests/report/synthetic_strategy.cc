@@ -123,22 +123,14 @@ Json AddImages(const Recipe& recipe, const std::string& prefix, double noise, in
 
 Json BareStrategy(const std::string& name, const std::string& text,
                   const std::string& status) {
-  return {{"name", name},
-          {"text", text},
-          {"status", status},
-          {"message", nullptr},
-          {"figure", nullptr},
-          {"levels", Json::array()},
-          {"order", nullptr},
-          {"to_target", nullptr},
-          {"efficiency", nullptr},
-          {"efficiency_trimmed", nullptr},
-          {"at_spp", nullptr},
-          {"rank", nullptr},
-          {"heavy_tailed", false},
-          {"stages", Json::array()},
-          {"images", nullptr},
-          {"tiles", nullptr}};
+  return {{"name", name},          {"text", text},
+          {"status", status},      {"message", nullptr},
+          {"figure", nullptr},     {"levels", Json::array()},
+          {"order", nullptr},      {"to_target", nullptr},
+          {"efficiency", nullptr}, {"efficiency_trimmed", nullptr},
+          {"at_spp", nullptr},     {"rank", nullptr},
+          {"heavy_tailed", false}, {"stages", Json::array()},
+          {"images", nullptr},     {"tiles", nullptr}};
 }
 
 Json MakeStrategy(const Recipe& recipe, const std::string& prefix,

@@ -28,9 +28,8 @@ void MapSinCosOctant(const float* x, const float* y, float* a, float* b, int n) 
   Map(x, y, a, b, n, [](VF u, VF) HWY_ATTR { return SinCosOctant(u); });
 }
 void MapAtan2(const float* x, const float* y, float* a, float* b, int n) {
-  Map(x, y, a, b, n, [](VF u, VF v) HWY_ATTR {
-    return SinCosPair{Atan2(v, u), AtanUnit(u)};
-  });
+  Map(x, y, a, b, n,
+      [](VF u, VF v) HWY_ATTR { return SinCosPair{Atan2(v, u), AtanUnit(u)}; });
 }
 void MapExp(const float* x, const float* y, float* a, float* b, int n) {
   Map(x, y, a, b, n, [](VF u, VF) HWY_ATTR { return SinCosPair{Exp(u), u}; });

@@ -54,14 +54,16 @@ TEST_CASE("vertices: points in a medium draw numbers and are routed", "[sort]") 
     for (std::uint32_t i = 0; i < kPaths; ++i) {
       const float u = f.wave.path.u_bsdf_0[i];
       CHECK((u >= 0 && u < 1));
-      const ShadeKind kind = i % 2 == 0 ? ShadeKind::kDiffuse : ShadeKind::kDiffuseUniform;
+      const ShadeKind kind =
+          i % 2 == 0 ? ShadeKind::kDiffuse : ShadeKind::kDiffuseUniform;
       CHECK(SlotsOf(f.wave.queue(ShadeQueue(kind))).count(i) == 1);
     }
   }
   ForceTarget("");
 }
 
-TEST_CASE("vertices: where only surfaces scatter, their queue is all there is", "[sort]") {
+TEST_CASE("vertices: where only surfaces scatter, their queue is all there is",
+          "[sort]") {
   const CompiledScene scene = TwoKinds();
   WaveFixture f(scene, kPaths);
   Fill(f.wave);

@@ -21,21 +21,39 @@ namespace {
 
 constexpr double kFalseAlarm = 1e-4;  // for all comparisons of a test case together
 
+// Arguments with which a choice takes part; the others take part as they are.
+const std::map<std::string, std::vector<std::string>>& Variants() {
+  static const std::map<std::string, std::vector<std::string>> kVariants = {
+      {"mis", {"mis:power", "mis:balance"}},
+      {"antithetic",
+       {"antithetic:all", "antithetic:pixel", "antithetic:light", "antithetic:bsdf",
+        "antithetic:first-bounce"}},
+      {"analytic", {"analytic,c=1", "analytic,c=optimal"}},
+      {"ambient", {"ambient,c=1", "ambient,c=optimal"}},
+      {"regression", {"regression,c=1"}},
+      {"constant", {"constant:0.2"}},
+      {"throughput", {"throughput:0.1:1"}}};
+  return kVariants;
+}
+
+std::vector<Axis> MakeAxes() {
+  std::vector<Axis> axes;
+  for (const ChoiceInfo& choice : AllChoices()) {
+    if (axes.empty() || axes.back().key != choice.axis) axes.push_back({choice.axis, {}});
+    const auto variants = Variants().find(choice.name);
+    auto& values = axes.back().values;
+    if (variants == Variants().end()) {
+      values.push_back(choice.name);
+    } else {
+      values.insert(values.end(), variants->second.begin(), variants->second.end());
+    }
+  }
+  return axes;
+}
+
+// Every choice of src/strategy/choices.h.
 const std::vector<Axis>& Axes() {
-  static const std::vector<Axis> kAxes = {
-      {"directions", {"uniform", "bsdf", "light", "mis:power", "mis:balance"}},
-      {"points",
-       {"independent", "stratified", "cmj", "pmj02", "sobol", "halton", "lattice"}},
-      {"pairs",
-       {"none", "antithetic:all", "antithetic:pixel", "antithetic:light",
-        "antithetic:bsdf", "antithetic:first-bounce"}},
-      {"control",
-       {"none", "analytic,c=1", "analytic,c=optimal", "ambient,c=1", "ambient,c=optimal",
-        "regression,c=1"}},
-      {"roulette",
-       {"none", "constant:0.2", "throughput:0.1:1", "luminance", "adjoint",
-        "efficiency"}},
-      {"light-selection", {"uniform", "power", "tree"}}};
+  static const std::vector<Axis> kAxes = MakeAxes();
   return kAxes;
 }
 

@@ -86,8 +86,7 @@ class WaveFixture {
     wave.run = &run;
     wave.capacity = capacity;
     storage_.reserve(kNumFields + kNumQueues);
-#define X(type, name, ...) \
-  wave.path.name = reinterpret_cast<type*>(NewColumn(capacity));
+#define X(type, name, ...) wave.path.name = reinterpret_cast<type*>(NewColumn(capacity));
     LANELIGHT_PATH_FIELDS(X)
 #undef X
     for (Queue& queue : wave.queues) queue.items = NewColumn(capacity);

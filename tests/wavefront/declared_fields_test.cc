@@ -54,8 +54,7 @@ class Checker {
     MakePathValues();
     wavefront_ = std::make_unique<Wavefront>(scene_, plan_, run_);
     const PathColumns& p = wavefront_->wave().path;
-#define X(type, name, ...) \
-  columns_.push_back(reinterpret_cast<std::uint32_t*>(p.name));
+#define X(type, name, ...) columns_.push_back(reinterpret_cast<std::uint32_t*>(p.name));
     LANELIGHT_PATH_FIELDS(X)
 #undef X
     TilePixels({kFirst, kFirst, kFirst + kSide, kFirst + kSide}, scene_.film.width,

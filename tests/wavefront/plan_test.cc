@@ -54,11 +54,11 @@ std::string Reason(const Plan& plan, const std::string& stage) {
 TEST_CASE("plan: a triangle under a point light gets the minimum", "[plan]") {
   const Plan plan = PlanOf(kPointLight + kTriangle);
   CHECK(StageNames(plan) ==
-        std::set<std::string>{"generate", "points_camera_independent", "camera_perspective",
-                              "intersect_triangles", "split", "limit", "surface_triangle",
-                              "points_bounce_independent", "route", "light_point",
-                              "shade_diffuse", "shadow_triangles", "connect",
-                              "roulette_throughput", "accumulate", "pack"});
+        std::set<std::string>{"generate", "points_camera_independent",
+                              "camera_perspective", "intersect_triangles", "split",
+                              "limit", "surface_triangle", "points_bounce_independent",
+                              "route", "light_point", "shade_diffuse", "shadow_triangles",
+                              "connect", "roulette_throughput", "accumulate", "pack"});
   CHECK(Reason(plan, "intersect_spheres") == "no spheres");
   CHECK(Reason(plan, "light_select_table") == "no more than one light");
   for (Field absent :
@@ -79,7 +79,7 @@ TEST_CASE("plan: an absent column has no memory", "[plan]") {
   Wavefront wavefront(scene, plan, run);
   const PathColumns& path = wavefront.wave().path;
   std::size_t allocated = 0;
-#define X(type, name, ...)                      \
+#define X(type, name, ...)                                    \
   CHECK((path.name != nullptr) == IsLive(plan, Field::name)); \
   allocated += path.name != nullptr;
   LANELIGHT_PATH_FIELDS(X)
