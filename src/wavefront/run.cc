@@ -25,7 +25,7 @@ double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-class Runner : private TaskWatcher {
+class Runner : public TaskWatcher {
  public:
   Runner(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
          FilmAccumulator& film)
@@ -65,9 +65,8 @@ class Runner : private TaskWatcher {
     return Part{done_, end, round.per_task, Clock::now()};
   }
 
-  void Render(const Part& part) {
-    tasks_.RunRound(part.begin, part.end, part.per_task, *this, *films_);
-  }
+  Tasks& tasks() { return tasks_; }
+  Films& films() { return *films_; }
 
   /// Takes note of a part that has been rendered.
   void Finish(const Part& part) {
@@ -280,7 +279,8 @@ RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& op
   Runner runner(scene, plan, options, film);
   runner.Start();
   while (const auto part = runner.Next()) {
-    runner.Render(*part);
+    runner.tasks().RunRound(part->begin, part->end, part->per_task, runner,
+                            runner.films());
     runner.Finish(*part);
   }
   return runner.Result();
