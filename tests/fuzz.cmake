@@ -22,7 +22,8 @@ endif()
 # A static library, so that only what the targets use is linked.
 file(GLOB FUZZ_LIBRARY_SOURCES CONFIGURE_DEPENDS
   ${CMAKE_SOURCE_DIR}/src/core/*.cc ${CMAKE_SOURCE_DIR}/src/parse/*.cc
-  ${CMAKE_SOURCE_DIR}/src/image/*.cc ${CMAKE_SOURCE_DIR}/src/strategy/strategy.cc)
+  ${CMAKE_SOURCE_DIR}/src/image/*.cc ${CMAKE_SOURCE_DIR}/src/strategy/*.cc
+  ${CMAKE_SOURCE_DIR}/src/path/*.cc)
 set(FUZZ_FLAGS -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all)
 add_library(lanelight_fuzz_lib STATIC EXCLUDE_FROM_ALL ${FUZZ_LIBRARY_SOURCES})
 target_compile_options(lanelight_fuzz_lib PRIVATE ${FUZZ_FLAGS}
