@@ -222,7 +222,6 @@ TEST_CASE("uniform: what is scattered agrees with the reference in the mean",
     for (std::size_t i = 0; i < materials.size(); ++i) {
       double wrong = 1;
       for (std::size_t d = 0; d < TestDirections().size(); ++d) {
-        if (target == "EMU128" && d != 1) continue;  // the slowest, and the same code
         const Bounces bounces(*materials[i], TestDirections()[d]);
         INFO(target << ", " << materials[i]->name << ", direction " << d);
         CHECK(LowestP(SumsOf(bounces, 1), reference[i][d]) > level);
