@@ -49,13 +49,15 @@ LANELIGHT_INLINE Drawer MakeDrawer(const PathColumns& p, const StoreSlots& slots
 /// antithetic pair share it in the dimensions that the strategy pairs.
 LANELIGHT_INLINE VU PairedSample(const PairParameters& pairs, Dimension dimension,
                                  const Drawer& drawer) {
-  if (!pairs.Has(dimension)) return drawer.sample;
+  if (pairs.dimensions == 0) return drawer.sample;
+  const VU own = UnpairedSample(drawer.sample);
+  if (!pairs.Has(dimension)) return own;
   const VU shared = hn::ShiftRight<1>(drawer.sample);
   if (pairs.depths == 0xffffffffu) return shared;
   const DI di;
   const auto paired = hn::Lt(hn::BitCast(di, drawer.depth),
                              hn::Set(di, static_cast<int32_t>(pairs.depths)));
-  return hn::IfThenElse(hn::RebindMask(DU(), paired), shared, drawer.sample);
+  return hn::IfThenElse(hn::RebindMask(DU(), paired), shared, own);
 }
 
 /// One dimension of one batch; a scalar one leaves out1 alone.

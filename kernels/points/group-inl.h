@@ -7,6 +7,7 @@
 #endif
 
 #include "kernels/simd/rng-inl.h"
+#include "src/path/replicates.h"
 #include "src/path/run_parameters.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,26 +20,25 @@ struct GroupIndex {
   VU group, index;
 };
 
-/// For samplers whose groups are powers of two.
-LANELIGHT_INLINE GroupIndex GroupByShift(const PointsParameters& points, VU sample) {
+/// Samples take turns at kReplicates groups (src/path/replicates.h). A group ends with
+/// the sampler's sequence, after 2^group_shift points; then as many new ones begin.
+LANELIGHT_INLINE GroupIndex GroupByTurns(const PointsParameters& points, VU sample) {
+  constexpr int kLog = kLogReplicates;
   const int shift = static_cast<int>(points.group_shift);
-  const VU group = hn::ShiftRightSame(sample, shift);
-  return {group, hn::Sub(sample, hn::ShiftLeftSame(group, shift))};
+  const VU turn = hn::ShiftRight<kLog>(sample);
+  const VU round = hn::ShiftRightSame(turn, shift);
+  const VU replicate = hn::And(sample, SplatU(kReplicates - 1));
+  return {hn::Or(hn::ShiftLeft<kLog>(round), replicate),
+          hn::Sub(turn, hn::ShiftLeftSame(round, shift))};
 }
 
-/// For groups of any size; sample < 2^31. See PointsParameters::group_magic.
-LANELIGHT_INLINE GroupIndex GroupByDivision(const PointsParameters& points, VU sample) {
-  const DU du;
-  const VU magic = SplatU(points.group_magic);
-  const auto even = hn::MulEven(sample, magic);
-  const hn::Repartition<uint64_t, DU> d64;
-  const VU odd_lanes = hn::BitCast(du, hn::ShiftRight<32>(hn::BitCast(d64, sample)));
-  const auto odd = hn::MulEven(odd_lanes, magic);
-  const int shift = static_cast<int>(points.group_magic_shift);
-  const auto q_even = hn::ShiftRightSame(even, shift);
-  const auto q_odd = hn::ShiftLeft<32>(hn::ShiftRightSame(odd, shift));
-  const VU group = hn::BitCast(du, hn::Or(q_even, q_odd));
-  return {group, hn::Sub(sample, hn::Mul(group, SplatU(points.group_size)))};
+/// The two samples of pair k, which is observation k, draw unpaired numbers from the same
+/// randomisation: sample 2 k + e with k = 4 t + r becomes 4 (2 t + e) + r.
+LANELIGHT_INLINE VU UnpairedSample(VU sample) {
+  const VU turn = hn::ShiftLeft<3>(hn::ShiftRight<3>(sample));
+  const VU of_pair = hn::ShiftLeft<2>(hn::And(sample, SplatU(1)));
+  const VU replicate = hn::And(hn::ShiftRight<1>(sample), SplatU(kReplicates - 1));
+  return hn::Or(hn::Or(turn, of_pair), replicate);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,15 +1,16 @@
 // points=halton: Owen-scrambled Halton points, padded from pairs of bases 2 and 3.
-//   estimator   mean of f over the group's n points: every interval of 2^-a times 3^-b
+//   estimator   mean of f over a prefix of the sequence: every interval of 2^-a times
+//   3^-b
 //               holds one of any 2^a 3^b successive points
 //   scrambling  nested random permutations of the digits (Owen): in base 2 by the hash of
 //               Laine and Karras, in base 3 by one of the six permutations of a digit,
-//               chosen by a hash of the digits before it. Digits beyond the group's size
-//               are random. The order of the group's points is a random permutation
-//   unbiased    each scrambled point is uniform, for any n
-//   variance    near N^-2 for smooth f; groups of 2^a 3^b points, which PointsGroupSize
-//               prefers, measured a tenth of the variance of others at a thousand
+//               chosen by a hash of the digits before it. Digits beyond the sequence's
+//               are random. A random order within each [2^m, 2^(m+1)) (so that dimensions
+//               do not follow each other, and prefixes of 2^m stay prefixes)
+//   unbiased    each scrambled point is uniform, for any N
+//   variance    near N^-2 for smooth f
 //   dependence  the samples of one group share one randomisation: one observation
-//   cost        a hash, a permutation and log3(n) steps of twenty instructions per point
+//   cost        a hash, a permutation and eight steps of twenty instructions per point
 // Sources: Halton 1964; Owen 2017, "A randomized Halton algorithm in R".
 #if defined(LANELIGHT_POINTS_HALTON_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_POINTS_HALTON_INL_H_
@@ -25,17 +26,24 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
+struct QuotientRemainder {
+  VU quotient, remainder;
+};
+
 // i = 3 quotient + remainder for all i (2863311531 = (2^33 + 1) / 3).
 LANELIGHT_INLINE QuotientRemainder DivideBy3(VU i) {
   const VU quotient = hn::ShiftRight<1>(MulHigh32(i, SplatU(2863311531u)));
   return {quotient, hn::Sub(i, hn::Mul(quotient, SplatU(3)))};
 }
 
-/// Digits of i in base 3, reversed and scrambled, in 2^-32.
-LANELIGHT_INLINE VU ScrambledInverse3(const PointsParameters& points, VU i, VU key) {
+inline constexpr uint32_t kHaltonDigits3 = 8;
+inline constexpr Strata kHaltonStrata = MakeStrata(6561);  // 3^8
+
+/// Digits of i < 3^8 in base 3, reversed and scrambled, in 2^-32.
+LANELIGHT_INLINE VU ScrambledInverse3(VU i, VU key) {
   VU tree = key;  // hash of the digits so far: the node of the tree of digits
   VU value = hn::Zero(DU());
-  for (uint32_t d = 0; d < points.base3_digits; ++d) {
+  for (uint32_t d = 0; d < kHaltonDigits3; ++d) {
     const QuotientRemainder split = DivideBy3(i);
     i = split.quotient;
     tree = hn::Mul(hn::Xor(tree, hn::ShiftRight<16>(tree)), SplatU(0xee15164bu));
@@ -53,20 +61,20 @@ LANELIGHT_INLINE VU ScrambledInverse3(const PointsParameters& points, VU i, VU k
   }
   tree = hn::Mul(hn::Xor(tree, hn::ShiftRight<16>(tree)), SplatU(0xb419ea8bu));
   tree = hn::Mul(hn::Xor(tree, hn::ShiftRight<14>(tree)), SplatU(0xb7f9d0b7u));
-  return InStratum(points.base3, value, hn::Xor(tree, hn::ShiftRight<16>(tree)));
+  return InStratum(kHaltonStrata, value, hn::Xor(tree, hn::ShiftRight<16>(tree)));
 }
 
 struct HaltonPoints {
   static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByDivision(points, sample);
+    return GroupByTurns(points, sample);
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel,
-                                     GroupIndex at, VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at,
+                                     VU key, VU seed, VF* u0, VF* u1) {
     const U4 h = Pcg4d({pixel, at.group, key, seed});
-    const VU i = Permute(points.strata, at.index, h.x);
+    const VU i = PermuteOctaves(at.index, h.x);
     *u0 = ToUnit(ReverseBits32(LaineKarras(i, h.y)));
-    *u1 = ToUnit(ScrambledInverse3(points, i, h.z));
+    *u1 = ToUnit(ScrambledInverse3(i, h.z));
   }
 };
 

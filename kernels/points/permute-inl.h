@@ -1,6 +1,6 @@
-// Random permutations of [0, n), one per key, without tables: swap-or-not rounds. Round r
-// pairs each x with K_r - x modulo n, and swaps the two or not, as a hash of the larger
-// says.
+// Random permutations of [0, 2^m), one per key, without tables: swap-or-not rounds. Round
+// r pairs each x with K_r - x modulo 2^m, and swaps the two or not, as a hash of the
+// larger says.
 //   uniform   tests/points/permute_test.cc bounds what ten rounds leave on images,
 //             pairs and, for few elements, whole permutations
 //   cost      ten rounds of three multiplications and twelve cheap instructions,
@@ -39,36 +39,41 @@ LANELIGHT_INLINE VU SwapOrNot(VU x, VU key, Pair&& pair) {
   return x;
 }
 
-/// A permutation of [0, strata.count); i < strata.count <= 2^20.
-LANELIGHT_INLINE VU Permute(const Strata& strata, VU i, VU key) {
-  const VU count = SplatU(strata.count);
-  // As many bits of a random number as its product with `count` leaves room for.
-  const int unused = static_cast<int>(HWY_MAX(strata.bits, 1u)), used = 32 - unused;
+/// A permutation of [0, mask], mask = 2^m - 1 < 2^24.
+LANELIGHT_INLINE VU PermuteMasked(VU i, VU mask, VU key) {
   return SwapOrNot(i, key, [&](VU x, VU random) HWY_ATTR {
-    const VU bits = hn::ShiftRightSame(random, unused);
-    const VU sum = hn::ShiftRightSame(hn::Mul(bits, count), used);  // below count
-    const VU partner = hn::Sub(sum, x);
-    return hn::Min(partner, hn::Add(partner, count));  // modulo count
+    return hn::And(hn::Sub(hn::ShiftRight<8>(random), x), mask);
   });
 }
 
-/// A permutation of [0, 2^24) that keeps 0 and permutes each [2^m, 2^(m+1)) in itself, so
-/// that it keeps every prefix of 2^m numbers. (The exponent of i as a float is m.)
-LANELIGHT_INLINE VU PermuteOctaves(VU i, VU key) {
+/// Where i < 2^24 lies among {0}, {1}, {2, 3}, [4, 8), [8, 16), ...
+struct Octave {
+  VU number;        // of the set, from 0 on
+  VU log, mask;     // of its size: 2^log, and that less one
+  VU first, place;  // its first element, and i less that
+};
+LANELIGHT_INLINE Octave OctaveOf(VU i) {
   const DU du;
   const VU some = hn::Max(i, SplatU(1));
+  // The exponent of i as a float.
   const VF as_float = hn::ConvertTo(DF(), hn::BitCast(DI(), some));
-  const VU m = hn::Sub(hn::ShiftRight<23>(hn::BitCast(du, as_float)), SplatU(127));
-  const VU first = hn::Shl(SplatU(1), m);
-  const VU mask = hn::Sub(first, SplatU(1));
+  const VU log = hn::Sub(hn::ShiftRight<23>(hn::BitCast(du, as_float)), SplatU(127));
+  const VU power = hn::Shl(SplatU(1), log);
+  const auto zero = hn::Eq(i, hn::Zero(du));
+  const VU first = hn::IfThenZeroElse(zero, power);
+  const VU number = hn::IfThenZeroElse(zero, hn::Add(log, SplatU(1)));
+  return {number, log, hn::Sub(power, SplatU(1)), first, hn::Sub(i, first)};
+}
+
+/// A permutation of [0, 2^24) that keeps 0 and permutes each [2^m, 2^(m+1)) in itself, so
+/// that it keeps every prefix of 2^m numbers.
+LANELIGHT_INLINE VU PermuteOctaves(VU i, VU key) {
+  const Octave octave = OctaveOf(i);
   // A key for each octave: the rounds alone would permute them alike.
-  VU own = hn::Add(key, hn::Mul(m, SplatU(0xee15164bu)));
+  VU own = hn::Add(key, hn::Mul(octave.log, SplatU(0xee15164bu)));
   own = hn::Mul(hn::Xor(own, hn::ShiftRight<16>(own)), SplatU(0xe6302d2bu));
   own = hn::Xor(own, hn::ShiftRight<15>(own));
-  const VU x = SwapOrNot(hn::And(i, mask), own, [&](VU v, VU random) HWY_ATTR {
-    return hn::And(hn::Sub(hn::ShiftRight<8>(random), v), mask);
-  });
-  return hn::IfThenElse(hn::Eq(i, hn::Zero(du)), i, hn::Or(first, x));
+  return hn::Add(octave.first, PermuteMasked(octave.place, octave.mask, own));
 }
 
 }  // namespace HWY_NAMESPACE

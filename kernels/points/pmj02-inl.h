@@ -29,7 +29,7 @@ namespace HWY_NAMESPACE {
 
 struct Pmj02Points {
   static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByShift(points, sample);
+    return GroupByTurns(points, sample);
   }
 
   static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel,

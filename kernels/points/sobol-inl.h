@@ -45,7 +45,7 @@ LANELIGHT_INLINE VU ReversedSobol1(VU i) {
 
 struct SobolPoints {
   static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByShift(points, sample);
+    return GroupByTurns(points, sample);
   }
   static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at,
                                      VU key, VU seed, VF* u0, VF* u1) {

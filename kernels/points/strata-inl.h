@@ -13,6 +13,15 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
+/// `count` equal parts of a whole: floor((2^64 - 1) / count) = whole 2^32 + part.
+struct Strata {
+  uint32_t whole = 0xffffffffu, part = 0xffffffffu;
+};
+constexpr Strata MakeStrata(uint64_t count) {
+  const uint64_t width = ~uint64_t{0} / count;
+  return {static_cast<uint32_t>(width >> 32), static_cast<uint32_t>(width)};
+}
+
 /// floor(a b / 2^32).
 LANELIGHT_INLINE VU MulHigh32(VU a, VU b) {
   const DU du;
@@ -30,25 +39,17 @@ LANELIGHT_INLINE VU TimesFraction(VU i, uint32_t whole, uint32_t part) {
   return hn::Add(hn::Mul(i, SplatU(whole)), MulHigh32(i, SplatU(part)));
 }
 
-/// (stratum + random / 2^32) / strata.count in 2^-32: off by three units at most, and to
+/// (stratum + random / 2^32) / count in 2^-32: off by three units at most, and to
 /// smaller values only, so never 1.
 LANELIGHT_INLINE VU InStratum(const Strata& strata, VU stratum, VU random) {
   return hn::Add(TimesFraction(stratum, strata.whole, strata.part),
                  MulHigh32(random, SplatU(strata.whole)));
 }
 
-struct QuotientRemainder {
-  VU quotient, remainder;
-};
-
-/// i / strata.count for i < 2^21: (i + 1/2) / count is at least 1 / (2 count) away from
-/// whole numbers, and floats put it off by less than i 2^-22 / count.
-LANELIGHT_INLINE QuotientRemainder DivideBy(const Strata& strata, VU i) {
-  const DF df;
-  const VF middle = hn::Add(hn::ConvertTo(df, hn::BitCast(DI(), i)), hn::Set(df, 0.5f));
-  const VF ratio = hn::Mul(middle, hn::Set(df, 1.0f / static_cast<float>(strata.count)));
-  const VU quotient = hn::BitCast(DU(), hn::ConvertTo(DI(), ratio));
-  return {quotient, hn::Sub(i, hn::Mul(quotient, SplatU(strata.count)))};
+/// (stratum + random / 2^32) / 2^log in 2^-32; stratum < 2^log, log < 32.
+LANELIGHT_INLINE VU InBinaryStratum(VU stratum, VU log, VU random) {
+  const VU up = hn::Sub(SplatU(31), log);  // two shifts: one by 32 has no meaning
+  return hn::Or(hn::Shl(hn::ShiftLeft<1>(stratum), up), hn::Shr(random, log));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,16 +1,19 @@
-// points=stratified: the group's samples fill a grid of a x b strata, one jittered sample
-// in each, in a random order per dimension.
-//   estimator   mean of f((x + xi) / a, (y + eta) / b) over all strata (x, y); scalars
-//               have a b strata in one dimension
-//   unbiased    the order is a random permutation, so each sample is uniform; an
-//               incomplete group is unbiased too
+// points=stratified: jittered strata that divide as the samples grow. Any 2^m successive
+// samples of a group, from a multiple of 2^m on, fill a grid of 2^ceil(m/2) x
+// 2^floor(m/2) strata, one sample in each.
+//   estimator   mean of f(x, y), with x and y the even and the odd bits of a number v
+//   whose
+//               first m bits are, over 2^m samples, each once: the van der Corput
+//               sequence with nested random permutations of order and digits, laid along
+//               the Z-order curve. Scalars are v itself: 2^m strata in one dimension
+//   unbiased    the permutations are random, so each sample is uniform, for any N
 //   variance    N^-2 for two dimensions and smooth f, N^-3/2 at edges; N^-3 for one
 //               dimension; never above independent samples in the stratified dimensions.
 //               Nothing is gained for functions of many dimensions at once
-//   dependence  the samples of one group share one permutation: one observation
-//   cost        two PCG-4D hashes and a permutation per point
+//   dependence  the samples of one group share the permutations: one observation
+//   cost        a PCG-4D hash, two nested permutations and a spread of bits per point
 // Sources: the paper's section 3.5.3; Cook 1986, "Stochastic Sampling in Computer
-// Graphics"; Mitchell 1996 (rates).
+// Graphics"; Mitchell 1996 (rates); Owen 1995 (nested permutations).
 #if defined(LANELIGHT_POINTS_STRATIFIED_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_POINTS_STRATIFIED_INL_H_
 #undef LANELIGHT_POINTS_STRATIFIED_INL_H_
@@ -18,41 +21,49 @@
 #define LANELIGHT_POINTS_STRATIFIED_INL_H_
 #endif
 
-#include "kernels/points/permute-inl.h"
+#include "kernels/points/sobol-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
+/// Bits 1, 3, 5, ... of v, from the highest on: in the upper half of the result.
+LANELIGHT_INLINE VU OddBits(VU v) {
+  v = hn::And(v, SplatU(0xaaaaaaaau));
+  v = hn::And(hn::Or(v, hn::ShiftLeft<1>(v)), SplatU(0xccccccccu));
+  v = hn::And(hn::Or(v, hn::ShiftLeft<2>(v)), SplatU(0xf0f0f0f0u));
+  v = hn::And(hn::Or(v, hn::ShiftLeft<4>(v)), SplatU(0xff00ff00u));
+  return hn::And(hn::Or(v, hn::ShiftLeft<8>(v)), SplatU(0xffff0000u));
+}
+
 struct StratifiedPoints {
   static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByDivision(points, sample);
+    return GroupByTurns(points, sample);
   }
 
-  // The group's hash and the index give the jitter; the hash's first word is the
-  // permutation's.
-  struct Drawn {
-    VU stratum;
-    U4 jitter;
-  };
-  static LANELIGHT_INLINE Drawn Draw(const PointsParameters& points, VU pixel,
-                                     GroupIndex at, VU key, VU seed) {
+  /// A scrambled van der Corput point in 2^-32.
+  static LANELIGHT_INLINE VU Along(GroupIndex at, const U4& h) {
+    const VU shuffled = ReverseBits32(LaineKarras(ReverseBits32(at.index), h.x));
+    return ReverseBits32(LaineKarras(shuffled, h.y));
+  }
+
+  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at,
+                                     VU key, VU seed, VF* u0, VF* u1) {
     const U4 h = Pcg4d({pixel, at.group, key, seed});
-    return {Permute(points.strata, at.index, h.x), Pcg4d({at.index, h.y, h.z, h.w})};
+    const VU along = Along(at, h);
+    // Two times 16 bits are too few for floats; the rest is a hash of them.
+    VU rest = hn::Mul(hn::Xor(along, h.z), SplatU(0xd04112adu));
+    rest = hn::Mul(hn::Xor(rest, hn::ShiftRight<15>(rest)), SplatU(0xee15164bu));
+    const VU x = hn::Or(OddBits(along), hn::ShiftRight<16>(rest));
+    rest = hn::Mul(hn::Xor(rest, hn::ShiftRight<16>(rest)), SplatU(0xb419ea8bu));
+    const VU y = hn::Or(OddBits(hn::ShiftLeft<1>(along)), hn::ShiftRight<16>(rest));
+    *u0 = ToUnit(x);
+    *u1 = ToUnit(y);
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel,
-                                     GroupIndex at, VU key, VU seed, VF* u0, VF* u1) {
-    const Drawn drawn = Draw(points, pixel, at, key, seed);
-    const QuotientRemainder cell = DivideBy(points.columns, drawn.stratum);
-    *u0 = ToUnit(InStratum(points.columns, cell.remainder, drawn.jitter.x));
-    *u1 = ToUnit(InStratum(points.rows, cell.quotient, drawn.jitter.y));
-  }
-
-  static LANELIGHT_INLINE VF Number(const PointsParameters& points, VU pixel,
-                                    GroupIndex at, VU key, VU seed) {
-    const Drawn drawn = Draw(points, pixel, at, key, seed);
-    return ToUnit(InStratum(points.strata, drawn.stratum, drawn.jitter.x));
+  static LANELIGHT_INLINE VF Number(const PointsParameters&, VU pixel, GroupIndex at,
+                                    VU key, VU seed) {
+    return ToUnit(Along(at, Pcg4d({pixel, at.group, key, seed})));
   }
 };
 

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kSide = 8;
 constexpr std::uint64_t kSpp = 128;
-constexpr std::uint64_t kGroupsOfSpp = 256;  // whose group size is 64
 // Pilot passes inside a window's run, which a long render has too but hardly notices: so
 // many times the window's samples are what they take a share of.
 constexpr std::uint64_t kPlannedRuns = 12;
@@ -80,8 +79,7 @@ WindowRenderer::Rendered WindowRenderer::Render(const Strategy& strategy,
   plan_options.aov = false;
   const Plan plan = MakePlan(job_.scene, plan_options);
   const int side = windows.front().width(), count = static_cast<int>(windows.size());
-  FilmAccumulator film(0, 0, side * count, side, GroupSize(strategy, kGroupsOfSpp),
-                       false);
+  FilmAccumulator film(0, 0, side * count, side, GroupsOf(strategy), false);
   RunOptions options;
   options.spp = kSpp;
   options.seed = seed_;

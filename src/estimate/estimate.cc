@@ -217,8 +217,7 @@ ErrorEstimate EstimateError(const FilmAccumulator& film) {
     if (!p.known) return p;
     p.mean = film.Mean(px, py);
     p.variance = film.Variance(px, py);
-    p.excess = film.OpenGroupExcess(px, py);
-    p.freedom = static_cast<double>(film.Groups(px, py) - 1);
+    p.freedom = static_cast<double>(film.Observations(px, py) - 1);
     return p;
   });
 }

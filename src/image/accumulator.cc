@@ -1,57 +1,53 @@
 #include "src/image/accumulator.h"
 
 #include <algorithm>
-#include <array>
 
 #include "src/core/check.h"
 
 namespace lanelight {
 
-double GroupScatter::Variance(int channel) const {
-  const double n = static_cast<double>(groups), mean = total[channel] / n;
-  return std::max(0.0, squares[channel] / n - mean * mean) * n / (n - 1);
-}
-
 FilmAccumulator::FilmAccumulator(int x0, int y0, int width, int height,
-                                 std::uint32_t group_size, bool aov)
-    : x0_(x0), y0_(y0), width_(width), height_(height), group_size_(group_size) {
+                                 const SampleGroups& groups, bool aov)
+    : x0_(x0), y0_(y0), width_(width), height_(height), groups_(groups) {
   LL_CHECK_GT(width, 0);
   LL_CHECK_GT(height, 0);
-  LL_CHECK_GT(group_size, 0u);
+  LL_CHECK(groups.unit == 1 || groups.unit == 2);
   const std::size_t pixels =
       static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  pixels_.resize(pixels);
+  samples_.resize(pixels);
+  if (groups.replicates) {
+    replicates_.resize(pixels);
+  } else {
+    units_.resize(pixels);
+    if (groups.unit > 1) open_.resize(pixels);
+  }
   if (!aov) return;
-  aov_.resize(pixels * kAovPlanes);
+  aov_.resize(pixels);
   planes_ = SamplePlanes({Feature::kAov});
 }
 
+std::size_t FilmAccumulator::BytesPerPixel(const SampleGroups& groups, bool aov) {
+  std::size_t bytes = sizeof(std::uint64_t);
+  bytes += groups.replicates ? sizeof(ReplicateSums) : sizeof(UnitSums);
+  if (!groups.replicates && groups.unit > 1) bytes += sizeof(Open);
+  return bytes + (aov ? sizeof(AovSums) : 0);
+}
+
 void FilmAccumulator::UseControl() {
-  for (const Pixel& p : pixels_) LL_CHECK_EQ(p.samples, std::uint64_t{0});
-  control_.emplace(width_, height_);
+  for (std::uint64_t samples : samples_) LL_CHECK_EQ(samples, std::uint64_t{0});
+  control_.emplace(width_, height_, groups_);
   FeatureSet features = {Feature::kControlDifference};
   if (has_aov()) features.Add(Feature::kAov);
   planes_ = SamplePlanes(features);
 }
 
 void FilmAccumulator::FitControl() {
-  if (control_) control_->Fit();
+  if (control_) control_->Fit({samples_, replicates_});
 }
 
 std::optional<ControlReport> FilmAccumulator::Control() const {
   if (!control_) return std::nullopt;
-  return control_->Report();
-}
-
-void FilmAccumulator::Regroup(std::uint32_t group_size) {
-  if (group_size == group_size_) return;
-  for (Pixel& p : pixels_) {
-    LL_CHECK_LT(p.samples, std::uint64_t{group_size});
-    p.scatter = {};
-    for (int c = 0; c < kColorPlanes; ++c) p.scatter.open[c] = p.sum[c];
-  }
-  if (control_) control_->Regroup(group_size_);
-  group_size_ = group_size;
+  return control_->Report({samples_, replicates_});
 }
 
 void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
@@ -59,122 +55,142 @@ void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
   const std::size_t index = Index(x, y);
   control_ ? AddColors<true>(index, planes, count)
            : AddColors<false>(index, planes, count);
-  const int first_aov = planes_.First(PlaneGroup::kAov);
-  for (int a = 0; a < kAovPlanes && !aov_.empty(); ++a) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      aov_[index * kAovPlanes + a] += planes[first_aov + a][i];
-    }
-  }
+  if (has_aov()) AddAov(index, planes, count);
+  samples_[index] += count;
 }
 
 template <bool kControl>
 void FilmAccumulator::AddColors(std::size_t index, const float* const* planes,
                                 std::uint32_t count) {
-  [[maybe_unused]] const int first_difference = planes_.First(PlaneGroup::kDifference);
-  Pixel p = pixels_[index];
-  if (!kControl && group_size_ == 1) {
-    AddGroupsOfOne(planes, count, p);
-    pixels_[index] = p;
+  const std::uint64_t first = samples_[index];
+  if constexpr (kControl) {
+    const int difference = planes_.First(PlaneGroup::kDifference);
+    for (std::uint32_t i = 0; i < count && groups_.replicates; ++i) {
+      for (int c = 0; c < kColorPlanes; ++c) {
+        control_->AddDifference(index, first + i, c, double(planes[difference + c][i]));
+      }
+    }
+  }
+  if (groups_.replicates) {
+    ReplicateSums sums = replicates_[index];
+    for (std::uint32_t i = 0; i < count; ++i) {
+      double* const sum = sums.of[groups_.Replicate(first + i)];
+      for (int c = 0; c < kColorPlanes; ++c) sum[c] += double(planes[c][i]);
+    }
+    replicates_[index] = sums;
     return;
   }
-  std::uint32_t in_group = static_cast<std::uint32_t>(p.samples % group_size_);
+  UnitSums sums = units_[index];
   for (std::uint32_t i = 0; i < count; ++i) {
-    const bool closes_group = ++in_group == group_size_;
+    const bool closes = (first + i + 1) % groups_.unit == 0;
     double means[kColorPlanes];
     for (int c = 0; c < kColorPlanes; ++c) {
-      const double value = planes[c][i];
-      p.sum[c] += value;
-      p.scatter.open[c] += value;
+      const double value = double(planes[c][i]);
+      sums.sum[c] += value;
       if constexpr (kControl) {
-        control_->AddDifference(index, c, planes[first_difference + c][i]);
+        const int difference = planes_.First(PlaneGroup::kDifference);
+        control_->AddDifference(index, first + i, c, double(planes[difference + c][i]));
       }
-      if (!closes_group) continue;
-      means[c] = p.scatter.Close(c, group_size_);
+      means[c] = value;
+      if (groups_.unit > 1) {
+        double& open = open_[index].sum[c];
+        open += value;
+        means[c] = open / groups_.unit;
+        if (closes) open = 0;
+      }
+      if (closes) sums.squares[c] += means[c] * means[c];
     }
-    if (!closes_group) continue;
-    in_group = 0;
-    ++p.scatter.groups;
-    if constexpr (kControl) control_->CloseGroup(index, means, group_size_);
+    if constexpr (kControl) {
+      if (closes) control_->CloseUnit(index, (first + i) / groups_.unit, means);
+    }
   }
-  p.samples += count;
-  pixels_[index] = p;
+  units_[index] = sums;
 }
 
-// The same sums where every sample is its own mean.
-void FilmAccumulator::AddGroupsOfOne(const float* const* planes, std::uint32_t count,
-                                     Pixel& p) {
-  for (std::uint32_t i = 0; i < count; ++i) {
-    for (int c = 0; c < kColorPlanes; ++c) {
-      const double value = planes[c][i];
-      p.sum[c] += value;
-      p.scatter.AddMean(c, value);
+void FilmAccumulator::AddAov(std::size_t index, const float* const* planes,
+                             std::uint32_t count) {
+  const int first = planes_.First(PlaneGroup::kAov);
+  for (int a = 0; a < kAovPlanes; ++a) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      aov_[index].of[a] += double(planes[first + a][i]);
     }
   }
-  p.samples += count;
-  p.scatter.groups += count;
 }
 
 Rgb FilmAccumulator::Mean(int x, int y) const {
-  const Pixel& p = pixel(x, y);
-  if (p.samples == 0) return {};
-  Rgb sum = {p.sum[0], p.sum[1], p.sum[2]};
-  if (control_) sum = sum - control_->Correction(Index(x, y), group_size_);
-  return sum / static_cast<double>(p.samples);
+  const std::size_t index = Index(x, y);
+  const std::uint64_t samples = samples_[index];
+  if (samples == 0) return {};
+  Rgb sum;
+  for (int c = 0; c < 3; ++c) {
+    sum[c] = groups_.replicates ? replicates_[index].Total(c) : units_[index].sum[c];
+  }
+  if (control_) sum = sum - control_->Correction(index, samples);
+  return sum / static_cast<double>(samples);
 }
 
 Rgb FilmAccumulator::Variance(int x, int y) const {
-  const Pixel& p = pixel(x, y);
-  if (p.scatter.groups < 2) return {};
-  const double n = static_cast<double>(p.scatter.groups);
-  // Sample variance of the group means, over n for the variance of their mean, and scaled
-  // down by the share of samples that incomplete groups add.
-  const double share = n * group_size_ / static_cast<double>(p.samples);
-  if (control_) return control_->ResidualSquares(Index(x, y)) * (share / (n * (n - 1)));
+  if (!HasVariance(x, y)) return {};
+  const std::size_t index = Index(x, y);
+  return groups_.replicates ? ReplicateVariance(index) : UnitVariance(index);
+}
+
+Rgb FilmAccumulator::ReplicateVariance(std::size_t index) const {
+  ReplicateSums sums = replicates_[index];
+  if (control_) control_->CorrectReplicates(index, sums);
   Rgb variance;
-  for (int c = 0; c < 3; ++c) variance[c] = p.scatter.Variance(c) / n * share;
+  for (int c = 0; c < 3; ++c) {
+    variance[c] = sums.VarianceOfMean(c, samples_[index], groups_);
+  }
   return variance;
 }
 
-Rgb FilmAccumulator::OpenGroupExcess(int x, int y) const {
-  const Pixel& p = pixel(x, y);
-  const double open = static_cast<double>(p.samples % group_size_);
-  if (open == 0 || p.scatter.groups < 2) return {};
-  const double rest = open / static_cast<double>(p.samples), share = 1 - rest;
-  Rgb sum = {p.scatter.open[0], p.scatter.open[1], p.scatter.open[2]};
-  if (control_) sum = sum - control_->OpenCorrection(Index(x, y));
-  const Rgb distance = (sum / open - Mean(x, y)) / share;
-  const Rgb variance = Variance(x, y);
-  Rgb excess;
+// Sample variance of the units' means, over their number for the variance of their mean,
+// and scaled down by the share of a sample that has no partner yet.
+Rgb FilmAccumulator::UnitVariance(std::size_t index) const {
+  const double n = static_cast<double>(groups_.Observations(samples_[index]));
+  const double share = n * groups_.unit / static_cast<double>(samples_[index]);
+  if (control_) return control_->ResidualSquares(index) * (share / (n * (n - 1)));
+  Rgb variance;
   for (int c = 0; c < 3; ++c) {
-    excess[c] = rest * rest * distance[c] * distance[c] - rest / share * variance[c];
+    const double open = groups_.unit > 1 ? open_[index].sum[c] : 0;
+    const double mean = (units_[index].sum[c] - open) / groups_.unit / n;
+    const double scatter = std::max(0.0, units_[index].squares[c] / n - mean * mean);
+    variance[c] = scatter / (n - 1) * share;
   }
-  return excess;
-}
-
-void FilmAccumulator::Save(StateWriter& state) const {
-  state.Write("film window", std::array{x0_, y0_, width_, height_});
-  state.Write("film group size", group_size_);
-  state.Write("film pixels", pixels_.data(), pixels_.size());
-  state.Write("film auxiliary planes", aov_.data(), aov_.size());
-  state.Write("film has a control variate", control_.has_value());
-  if (control_) control_->Save(state);
-}
-
-void FilmAccumulator::Restore(StateReader& state) {
-  state.Expect("film window", std::array{x0_, y0_, width_, height_});
-  state.Expect("film group size", group_size_);
-  state.Read("film pixels", pixels_.data(), pixels_.size());
-  state.Read("film auxiliary planes", aov_.data(), aov_.size());
-  state.Expect("film has a control variate", control_.has_value());
-  if (control_) control_->Restore(state);
+  return variance;
 }
 
 double FilmAccumulator::Aov(int x, int y, int plane) const {
-  const Pixel& p = pixel(x, y);
   LL_CHECK(has_aov());
-  if (p.samples == 0) return 0;
   const std::size_t index = Index(x, y);
-  return aov_[index * kAovPlanes + plane] / static_cast<double>(p.samples);
+  if (samples_[index] == 0) return 0;
+  return aov_[index].of[plane] / static_cast<double>(samples_[index]);
+}
+
+std::vector<StateColumn> FilmAccumulator::Columns() {
+  std::vector<StateColumn> columns = {
+      ColumnOf<std::uint64_t>("samples", "samples taken", samples_, {})};
+  if (groups_.replicates) {
+    columns.push_back(ColumnOf<double>("replicates",
+                                       "sums of the samples, by replicate and channel",
+                                       replicates_, {kReplicates, 3}));
+  } else {
+    columns.push_back(ColumnOf<double>(
+        "units", "sums of the samples, then of the squares of units' means, by channel",
+        units_, {2, 3}));
+  }
+  if (!open_.empty()) {
+    columns.push_back(
+        ColumnOf<double>("open", "sum of a pair's first sample, by channel", open_, {3}));
+  }
+  if (has_aov()) {
+    columns.push_back(ColumnOf<double>(
+        "aov", "sums of albedo R, G, B, normal X, Y, Z and depth", aov_, {kAovPlanes}));
+  }
+  if (!control_) return columns;
+  for (StateColumn& column : control_->Columns()) columns.push_back(std::move(column));
+  return columns;
 }
 
 }  // namespace lanelight

@@ -52,33 +52,47 @@ double FitCoefficient(const ControlScatter& own, const ControlScatter& window) {
   return std::isfinite(c) ? std::clamp(c, -kMostCoefficient, kMostCoefficient) : 0;
 }
 
-ControlFilm::ControlFilm(int width, int height)
-    : width_(width),
-      height_(height),
-      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+ControlFilm::ControlFilm(int width, int height, const SampleGroups& groups)
+    : width_(width), height_(height), groups_(groups) {
+  const std::size_t pixels =
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (groups.replicates) {
+    replicates_.resize(pixels);
+  } else {
+    halves_.resize(pixels);
+    open_.resize(pixels);
+  }
+  coefficients_.resize(pixels);
+}
 
-void ControlFilm::CloseGroup(std::size_t pixel, const double* means, std::uint32_t size) {
-  Pixel& p = pixels_[pixel];
+std::size_t ControlFilm::BytesPerPixel(const SampleGroups& groups) {
+  return sizeof(Coefficients) +
+         (groups.replicates ? sizeof(ReplicateSums) : sizeof(Halves) + sizeof(Open));
+}
+
+void ControlFilm::CloseUnit(std::size_t pixel, std::uint64_t unit, const double* means) {
   for (int c = 0; c < 3; ++c) {
-    p.halves[p.groups % 2][c].Add(means[c], p.open[c] / size);
-    p.open[c] = 0;
-  }
-  ++p.groups;
-}
-
-void ControlFilm::Regroup(std::uint32_t size) {
-  for (Pixel& p : pixels_) {
-    for (int c = 0; c < 3; ++c) {
-      for (auto& half : p.halves) {
-        p.open[c] += half[c].d * size;
-        half[c] = {};
-      }
-    }
-    p.groups = 0;
+    double& open = open_[pixel].sum[c];
+    halves_[pixel].of[unit % 2][c].Add(means[c], open / groups_.unit);
+    open = 0;
   }
 }
 
-void ControlFilm::FitRow(int y) {
+// Replicates alternate between the halves as units do.
+ControlSums ControlFilm::Sums(const ControlledColors& colors, std::size_t pixel, int half,
+                              int channel) const {
+  if (!groups_.replicates) return halves_[pixel].of[half][channel];
+  ControlSums sums;
+  for (auto r = static_cast<std::uint32_t>(half); r < kReplicates; r += 2) {
+    const auto n = static_cast<double>(groups_.InReplicate(colors.samples[pixel], r));
+    if (n == 0) continue;
+    sums.Add(colors.replicates[pixel].of[r][channel] / n,
+             replicates_[pixel].of[r][channel] / n);
+  }
+  return sums;
+}
+
+void ControlFilm::FitRow(const ControlledColors& colors, int y) {
   const int y0 = std::max(0, y - kReach), y1 = std::min(height_, y + kReach + 1);
   std::vector<ControlScatter> columns(static_cast<std::size_t>(width_));
   for (int half = 0; half < 2; ++half) {
@@ -87,58 +101,64 @@ void ControlFilm::FitRow(int y) {
         ControlScatter& column = columns[static_cast<std::size_t>(x)];
         column = {};
         for (int ny = y0; ny < y1; ++ny) {
-          column.Add(pixels_[Index(x, ny)].halves[half][c]);
+          column.Add(Sums(colors, Index(x, ny), half, c));
         }
       }
       for (int x = 0; x < width_; ++x) {
         ControlScatter own, window;
-        own.Add(pixels_[Index(x, y)].halves[half][c]);
+        own.Add(Sums(colors, Index(x, y), half, c));
         const int x1 = std::min(width_, x + kReach + 1);
         for (int nx = std::max(0, x - kReach); nx < x1; ++nx) {
           window.Add(columns[static_cast<std::size_t>(nx)]);
         }
-        pixels_[Index(x, y)].coefficients[half][c] =
+        coefficients_[Index(x, y)].of[half][c] =
             static_cast<float>(FitCoefficient(own, window));
       }
     }
   }
 }
 
-void ControlFilm::Fit() {
+void ControlFilm::Fit(const ControlledColors& colors) {
   ParallelFor(static_cast<std::size_t>(height_),
-              [&](std::size_t y) { FitRow(static_cast<int>(y)); });
+              [&](std::size_t y) { FitRow(colors, static_cast<int>(y)); });
 }
 
-Rgb ControlFilm::Correction(std::size_t pixel, std::uint32_t size) const {
-  const Pixel& p = pixels_[pixel];
+Rgb ControlFilm::Correction(std::size_t pixel, std::uint64_t samples) const {
   Rgb sum;
+  if (groups_.replicates) {
+    ReplicateSums none;
+    CorrectReplicates(pixel, none);
+    for (int c = 0; c < 3; ++c) sum[c] = -none.Total(c);
+    return sum;
+  }
+  // An incomplete unit belongs to the half that it would be in.
+  const std::uint64_t open_half = samples / groups_.unit % 2;
   for (int c = 0; c < 3; ++c) {
-    for (int half = 0; half < 2; ++half) {
-      // An incomplete group belongs to the half that it would be in.
-      const double open = half == static_cast<int>(p.groups % 2) ? p.open[c] : 0;
-      sum[c] += p.coefficients[1 - half][c] * (p.halves[half][c].d * size + open);
+    for (std::uint64_t half = 0; half < 2; ++half) {
+      const double open = half == open_half ? open_[pixel].sum[c] : 0;
+      sum[c] += double(coefficients_[pixel].of[1 - half][c]) *
+                (halves_[pixel].of[half][c].d * groups_.unit + open);
     }
   }
   return sum;
 }
 
-Rgb ControlFilm::OpenCorrection(std::size_t pixel) const {
-  const Pixel& p = pixels_[pixel];
-  Rgb sum;
-  for (int c = 0; c < 3; ++c) {
-    sum[c] = p.coefficients[1 - p.groups % 2][c] * p.open[c];
+void ControlFilm::CorrectReplicates(std::size_t pixel, ReplicateSums& sums) const {
+  for (std::uint32_t r = 0; r < kReplicates; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      sums.of[r][c] -=
+          double(coefficients_[pixel].of[1 - r % 2][c]) * replicates_[pixel].of[r][c];
+    }
   }
-  return sum;
 }
 
 Rgb ControlFilm::ResidualSquares(std::size_t pixel) const {
-  const Pixel& p = pixels_[pixel];
   Rgb out;
   for (int c = 0; c < 3; ++c) {
     double sum = 0, squares = 0, n = 0;
     for (int half = 0; half < 2; ++half) {
-      const ControlSums& s = p.halves[half][c];
-      const double k = p.coefficients[1 - half][c];
+      const ControlSums& s = halves_[pixel].of[half][c];
+      const double k = double(coefficients_[pixel].of[1 - half][c]);
       sum += s.f - k * s.d;
       squares += s.ff - 2 * k * s.fd + k * k * s.dd;
       n += s.n;
@@ -148,26 +168,33 @@ Rgb ControlFilm::ResidualSquares(std::size_t pixel) const {
   return out;
 }
 
-ControlReport ControlFilm::Report() const {
+ControlReport ControlFilm::Report(const ControlledColors& colors) const {
   ControlScatter total;
   double coefficients = 0;
-  for (const Pixel& p : pixels_) {
+  for (std::size_t pixel = 0; pixel < coefficients_.size(); ++pixel) {
     for (int half = 0; half < 2; ++half) {
       for (int c = 0; c < 3; ++c) {
-        total.Add(p.halves[half][c]);
-        coefficients += p.coefficients[half][c];
+        total.Add(Sums(colors, pixel, half, c));
+        coefficients += double(coefficients_[pixel].of[half][c]);
       }
     }
   }
-  return {coefficients / (6 * static_cast<double>(pixels_.size())), total.Correlation()};
+  return {coefficients / (6 * static_cast<double>(coefficients_.size())),
+          total.Correlation()};
 }
 
-void ControlFilm::Save(StateWriter& state) const {
-  state.Write("control variate pixels", pixels_.data(), pixels_.size());
-}
-
-void ControlFilm::Restore(StateReader& state) {
-  state.Read("control variate pixels", pixels_.data(), pixels_.size());
+std::vector<StateColumn> ControlFilm::Columns() {
+  if (groups_.replicates) {
+    return {ColumnOf<double>("control_replicates",
+                             "sums of h - E[h], by replicate and channel", replicates_,
+                             {kReplicates, 3})};
+  }
+  return {
+      ColumnOf<double>("control_halves",
+                       "sums over units of 1, f, D, f f, f D, D D with D = h - E[h], "
+                       "by half and channel",
+                       halves_, {2, 3, 6}),
+      ColumnOf<double>("control_open", "sum of D over the incomplete unit", open_, {3})};
 }
 
 }  // namespace lanelight

@@ -2,7 +2,7 @@
 // two halves of the samples.
 //
 //   estimator   1/n (sum over half A of (f - c_B D) + sum over half B of (f - c_A D)),
-//               D = h - E[h], c_X = Cov(f, D) / Var(D) from the groups of half X
+//               D = h - E[h], c_X = Cov(f, D) / Var(D) from the observations of half X
 //   unbiased    c_B is a function of samples that are independent of half A, so that
 //               E[c_B D_A] = E[c_B] E[D_A] = 0. With c from the samples it multiplies,
 //               E[c D] is of order (skewness) / n
@@ -12,8 +12,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/core/state.h"
+#include "src/core/column.h"
 #include "src/core/vec.h"
+#include "src/image/replicate_sums.h"
 
 namespace lanelight {
 
@@ -58,54 +59,69 @@ struct ControlReport {
   double correlation = 0;  // of f and D, over the variance of all pixels and channels
 };
 
+/// What the film knows of a pixel's f: the other half of what a fit needs.
+struct ControlledColors {
+  const std::vector<std::uint64_t>& samples;
+  const std::vector<ReplicateSums>& replicates;  // empty without replicates
+};
+
 /// Sums of one film, by pixel index y * width + x.
 class ControlFilm {
  public:
-  ControlFilm(int width, int height);
-  static std::size_t BytesPerPixel() { return sizeof(Pixel); }
+  ControlFilm(int width, int height, const SampleGroups& groups);
+  static std::size_t BytesPerPixel(const SampleGroups& groups);
 
-  /// Adds one sample's difference to the open group.
-  void AddDifference(std::size_t pixel, int channel, double difference) {
-    pixels_[pixel].open[channel] += difference;
+  /// Adds the difference of a pixel's sample number `sample`.
+  void AddDifference(std::size_t pixel, std::uint64_t sample, int channel,
+                     double difference) {
+    if (groups_.replicates) {
+      replicates_[pixel].of[groups_.Replicate(sample)][channel] += difference;
+    } else {
+      open_[pixel].sum[channel] += difference;
+    }
   }
-  /// Closes the open group of `size` samples; `means`: of f, per channel. Groups
-  /// alternate between the halves.
-  void CloseGroup(std::size_t pixel, const double* means, std::uint32_t size);
-
-  /// Returns closed groups, of `size` samples, to the open one.
-  void Regroup(std::uint32_t size);
+  /// Ends unit number `unit` of a pixel without replicates; `means`: of f, per channel.
+  void CloseUnit(std::size_t pixel, std::uint64_t unit, const double* means);
 
   /// Fits the coefficients to all samples so far; before, they are 0.
-  void Fit();
+  void Fit(const ControlledColors& colors);
 
-  /// To subtract from the sum of f over all samples; groups hold `size` samples.
-  Rgb Correction(std::size_t pixel, std::uint32_t size) const;
-  /// The part of Correction() that belongs to the incomplete group.
-  Rgb OpenCorrection(std::size_t pixel) const;
-  /// Scatter of the corrected group means about their mean: sum of squares.
+  /// To subtract from the sum of f over all samples, of which there are `samples`.
+  Rgb Correction(std::size_t pixel, std::uint64_t samples) const;
+  /// The same from the sums of its replicates.
+  void CorrectReplicates(std::size_t pixel, ReplicateSums& sums) const;
+  /// Scatter of the corrected units about their mean: sum of squares. Without replicates.
   Rgb ResidualSquares(std::size_t pixel) const;
-  ControlReport Report() const;
+  ControlReport Report(const ControlledColors& colors) const;
 
-  // As FilmAccumulator's.
-  void Save(StateWriter& state) const;
-  void Restore(StateReader& state);
+  /// All that has been added; coefficients are not part of it.
+  std::vector<StateColumn> Columns();
 
  private:
   static constexpr int kReach = 2;  // window: 5 x 5 pixels
-  struct Pixel {
-    ControlSums halves[2][3];
-    double open[3] = {};
-    float coefficients[2][3] = {};  // fitted to this half, for the other one
-    std::uint64_t groups = 0;
+  struct Halves {
+    ControlSums of[2][3];
   };
-  void FitRow(int y);
+  struct Open {
+    double sum[3] = {};
+  };
+  struct Coefficients {
+    float of[2][3] = {};  // fitted to this half, for the other one
+  };
+  ControlSums Sums(const ControlledColors& colors, std::size_t pixel, int half,
+                   int channel) const;
+  void FitRow(const ControlledColors& colors, int y);
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(x);
   }
 
   int width_, height_;
-  std::vector<Pixel> pixels_;
+  SampleGroups groups_;
+  std::vector<ReplicateSums> replicates_;  // of D; with replicates
+  std::vector<Halves> halves_;             // units alternate between them; without
+  std::vector<Open> open_;                 // of the incomplete unit; without
+  std::vector<Coefficients> coefficients_;
 };
 
 }  // namespace lanelight

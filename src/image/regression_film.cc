@@ -9,7 +9,8 @@
 namespace lanelight {
 namespace {
 
-constexpr std::uint32_t kLeastBlock = 8;
+// Fits come after so many samples and multiples of it: whole turns of the replicates.
+constexpr std::uint64_t kLeast = 8;
 
 // For each channel: n times the correlations of f with the functions, and f's deviation.
 constexpr int kPerChannel = RegressionFilm::kFunctions + 1;
@@ -48,24 +49,33 @@ double Deviation(double sum, double squares, double n) {
   return std::sqrt(std::max(0.0, squares / n - mean * mean));
 }
 
+// The first fit after that at `samples`; they grow apart, so that their cost stays a
+// share of the samples'.
+std::uint64_t NextFit(std::uint64_t samples) {
+  return samples + std::max<std::uint64_t>(1, samples / 4 / kLeast) * kLeast;
+}
+
+// The first fit at `samples` or after: the same however the samples are cut.
+std::uint64_t FitFrom(std::uint64_t samples) {
+  std::uint64_t fit = kLeast;
+  while (fit < samples) fit = NextFit(fit);
+  return fit;
+}
+
 }  // namespace
 
 RegressionFilm::RegressionFilm(int x0, int y0, int width, int height,
-                               std::uint32_t group_size, double coefficient)
-    : x0_(x0),
-      y0_(y0),
-      width_(width),
-      coefficient_(coefficient),
-      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-  Regroup(group_size);
+                               const SampleGroups& groups, double coefficient)
+    : x0_(x0), y0_(y0), width_(width), groups_(groups), coefficient_(coefficient) {
+  const std::size_t pixels =
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  samples_.resize(pixels);
+  pixels_.resize(pixels);
+  fits_.resize(pixels);
 }
 
-void RegressionFilm::Regroup(std::uint32_t group_size) {
-  block_ = (kLeastBlock + group_size - 1) / group_size * group_size;
-  for (Pixel& p : pixels_) {
-    LL_CHECK_LE(p.samples, block_);
-    p.next_fit = block_;
-  }
+std::size_t RegressionFilm::BytesPerPixel() {
+  return sizeof(std::uint64_t) + sizeof(Pixel) + sizeof(Fits);
 }
 
 void RegressionFilm::Functions(const float* numbers, float* phi) {
@@ -82,25 +92,35 @@ void RegressionFilm::Functions(const float* numbers, float* phi) {
   }
 }
 
-// Fits grow apart with the samples, so that their cost stays a share of the samples'.
-std::uint32_t RegressionFilm::NextFit(std::uint32_t samples) const {
-  return samples + std::max(1u, samples / 4 / block_) * block_;
-}
-
-void RegressionFilm::Correlate(const Pixel& p, float* out) {
-  const double n = p.samples;
+void RegressionFilm::Correlate(std::size_t pixel, int half, double n, float* out) const {
+  const Moments& moments = pixels_[pixel].moments[half];
+  const Half& sums = fits_[pixel].sums[half];
   for (int c = 0; c < 3; ++c) {
-    const double mean = p.f[c] / n, deviation = Deviation(p.f[c], p.ff[c], n);
+    const double mean = moments.f[c] / n;
+    const double deviation = Deviation(moments.f[c], moments.ff[c], n);
     for (int j = 0; j < kFunctions; ++j) {
-      const double sum = double(p.products[c][j]) - mean * double(p.phi[j]);
+      const double sum = double(sums.products[c][j]) - mean * double(sums.phi[j]);
       *out++ = deviation > 0 ? static_cast<float>(sum / deviation) : 0;
     }
     *out++ = static_cast<float>(deviation);
   }
 }
 
-void RegressionFilm::Fit(const SampleBlock& block) {
-  const int width = block.x1 - block.x0, height = block.y1 - block.y0;
+void RegressionFilm::FitAll(const SampleBlock& block, std::uint64_t samples) {
+  const double n = static_cast<double>(samples / 2);  // of each half: whole turns
+  for (int by = block.y0 / kBlock * kBlock; by < block.y1; by += kBlock) {
+    for (int bx = block.x0 / kBlock * kBlock; bx < block.x1; bx += kBlock) {
+      for (int half = 0; half < 2; ++half) {
+        FitBlock(std::max(bx, block.x0), std::max(by, block.y0),
+                 std::min(bx + kBlock, block.x1), std::min(by + kBlock, block.y1), half,
+                 n);
+      }
+    }
+  }
+}
+
+void RegressionFilm::FitBlock(int x0, int y0, int x1, int y1, int half, double n) {
+  const int width = x1 - x0, height = y1 - y0;
   std::vector<Correlations> sums(static_cast<std::size_t>(width) *
                                  static_cast<std::size_t>(height));
   std::vector<Correlations> rows(sums.size());
@@ -109,32 +129,32 @@ void RegressionFilm::Fit(const SampleBlock& block) {
   };
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      Correlate(At(block.x0 + x, block.y0 + y), sums[index(x, y)].data());
+      Correlate(Index(x0 + x, y0 + y), half, n, sums[index(x, y)].data());
     }
     SumWindows(&sums[index(0, y)], &rows[index(0, y)], width, 1);
   }
   for (int x = 0; x < width; ++x) {
     SumWindows(&rows[index(x, 0)], &sums[index(x, 0)], height, width);
   }
-  const std::uint32_t next = NextFit(At(block.x0, block.y0).next_fit);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      Pixel& p = At(block.x0 + x, block.y0 + y);
-      p.next_fit = next;
-      const int window = WindowSize(x, width) * WindowSize(y, height);
-      SetCoefficients(p, sums[index(x, y)].data(), window);
+      SetCoefficients(Index(x0 + x, y0 + y), half, sums[index(x, y)].data(), n,
+                      WindowSize(x, width) * WindowSize(y, height));
     }
   }
 }
 
-void RegressionFilm::SetCoefficients(Pixel& p, const float* sums, int window) {
-  const double n = double(p.samples) * window;
+void RegressionFilm::SetCoefficients(std::size_t pixel, int half, const float* sums,
+                                     double n, int window) {
+  const Moments& moments = pixels_[pixel].moments[half];
+  const double all = n * window;
   for (int c = 0; c < 3; ++c, sums += kPerChannel) {
     const double mean_deviation = double(sums[kFunctions]) / window;
-    const double deviation =
-        std::min(Deviation(p.f[c], p.ff[c], p.samples), kMostDeviation * mean_deviation);
+    const double deviation = std::min(Deviation(moments.f[c], moments.ff[c], n),
+                                      kMostDeviation * mean_deviation);
     for (int j = 0; j < kFunctions; ++j) {
-      p.b[c][j] = static_cast<float>(Shrunk(double(sums[j]) / n, n) * deviation);
+      fits_[pixel].b[half][c][j] =
+          static_cast<float>(Shrunk(double(sums[j]) / all, all) * deviation);
     }
   }
 }
@@ -143,37 +163,50 @@ void RegressionFilm::CorrectPixel(const SampleBlock& block, int first_plane,
                                   std::uint32_t pixel, std::uint32_t begin,
                                   std::uint32_t end) {
   const std::uint32_t id = block.pixels[pixel];
-  Pixel& p = At(static_cast<int>(id % block.image_width),
-                static_cast<int>(id / block.image_width));
+  const std::size_t index = Index(static_cast<int>(id % block.image_width),
+                                  static_cast<int>(id / block.image_width));
+  Pixel& p = pixels_[index];
+  Fits& fits = fits_[index];
+  const std::uint64_t first = samples_[index];
   for (std::uint32_t i = begin; i < end; ++i) {
+    const std::uint64_t sample = first + (i - begin);
+    const int half = HalfOf(sample);
+    const bool learns = sample < kMostFitted;
     float numbers[kPlanes], phi[kFunctions];
     for (int k = 0; k < kPlanes; ++k) numbers[k] = block.At(first_plane + k, pixel)[i];
     Functions(numbers, phi);
-    for (int j = 0; j < kFunctions; ++j) p.phi[j] += phi[j];
+    Half& sums = fits.sums[half];
+    for (int j = 0; j < kFunctions && learns; ++j) sums.phi[j] += phi[j];
     for (int c = 0; c < 3; ++c) {
       float& value = block.At(c, pixel)[i];
       const float f = value;
       float fit = 0;
       for (int j = 0; j < kFunctions; ++j) {
-        fit += p.b[c][j] * phi[j];
-        p.products[c][j] += f * phi[j];
+        fit += fits.b[1 - half][c][j] * phi[j];
+        if (learns) sums.products[c][j] += f * phi[j];
       }
-      p.f[c] += double(f);
-      p.ff[c] += double(f) * double(f);
-      p.fitted += f * fit;
-      p.fitted_squares += fit * fit;
+      if (learns) {
+        p.moments[half].f[c] += double(f);
+        p.moments[half].ff[c] += double(f) * double(f);
+        p.fitted += double(f) * double(fit);
+        p.fitted_squares += double(fit) * double(fit);
+      }
       value = static_cast<float>(double(f) - coefficient_ * double(fit));
     }
   }
-  p.samples += end - begin;
+  samples_[index] += end - begin;
 }
 
 void RegressionFilm::Correct(const SampleBlock& block, int first_plane) {
   for (std::uint32_t begin = 0; begin < block.count;) {
-    const Pixel& first = At(block.x0, block.y0);
-    if (first.samples == first.next_fit) Fit(block);
-    const std::uint32_t end =
-        std::min(block.count, begin + (first.next_fit - first.samples));
+    const std::uint64_t samples = samples_[Index(block.x0, block.y0)];
+    std::uint64_t next = FitFrom(samples);
+    if (samples == next) {
+      if (samples <= kMostFitted) FitAll(block, samples);
+      next = NextFit(next);
+    }
+    const auto end = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(block.count, begin + (next - samples)));
     for (std::uint32_t pixel = 0; pixel < block.num_pixels; ++pixel) {
       CorrectPixel(block, first_plane, pixel, begin, end);
     }
@@ -183,26 +216,33 @@ void RegressionFilm::Correct(const SampleBlock& block, int first_plane) {
 
 ControlReport RegressionFilm::Report() const {
   double products = 0, squares = 0, variance = 0;
-  for (const Pixel& p : pixels_) {
-    if (p.samples == 0) continue;
-    products += double(p.fitted);
-    squares += double(p.fitted_squares);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    if (samples_[i] == 0) continue;
+    const Pixel& p = pixels_[i];
+    const auto n = static_cast<double>(std::min(samples_[i], kMostFitted));
+    products += p.fitted;
+    squares += p.fitted_squares;
     for (int c = 0; c < 3; ++c) {
-      variance += std::max(0.0, p.ff[c] - p.f[c] * p.f[c] / p.samples);
+      const double f = p.moments[0].f[c] + p.moments[1].f[c];
+      const double ff = p.moments[0].ff[c] + p.moments[1].ff[c];
+      variance += std::max(0.0, ff - f * f / n);
     }
   }
   const double scale = std::sqrt(squares * variance);
   return {coefficient_, scale > 0 ? products / scale : 0};
 }
 
-void RegressionFilm::Save(StateWriter& state) const {
-  state.Write("regression block", block_);
-  state.Write("regression pixels", pixels_.data(), pixels_.size());
-}
-
-void RegressionFilm::Restore(StateReader& state) {
-  state.Expect("regression block", block_);
-  state.Read("regression pixels", pixels_.data(), pixels_.size());
+std::vector<StateColumn> RegressionFilm::Columns() {
+  return {
+      ColumnOf<std::uint64_t>("regression_samples", "samples corrected", samples_, {}),
+      ColumnOf<double>("regression_moments",
+                       "for each half, sums of f and of its square by channel; then "
+                       "sums of f times the fit and of the fit's square",
+                       pixels_, {14}),
+      ColumnOf<float>("regression_fits",
+                      "for each half, sums of the functions and of f times them by "
+                      "channel; then the coefficients by half, channel and function",
+                      fits_, {140})};
 }
 
 }  // namespace lanelight

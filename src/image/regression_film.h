@@ -7,9 +7,13 @@
 // and r_j = mean((f - mean f) phi_j) / s its correlation with phi_j. The correlation is
 // averaged over the neighbourhood and shrunk by max(0, 1 - 1 / (n r_j^2)); the deviation
 // is the pixel's own, but at most twice the neighbourhood's. (Averaging b_j would spread
-// a bright pixel's noise to its dark neighbours.) Coefficients change only between groups
-// of samples, and only depend on groups that were complete before: E[b phi | what came
-// before] = b E[phi] = 0.
+// a bright pixel's noise to its dark neighbours.)
+//
+// Two halves of the samples, units (or replicates: src/path/replicates.h) in turns, are
+// independent of each other, and each is corrected by what the other one says: E[b phi] =
+// E[b] E[phi] = 0. Samples of the same replicate depend on each other, however far apart.
+// Fits come at fixed numbers of samples, and end with kMostFitted of them: sums in single
+// precision are good enough for as many, and nothing more is to be learned.
 #pragma once
 
 #include <cstdint>
@@ -37,50 +41,65 @@ class RegressionFilm {
  public:
   static constexpr int kPlanes = 6;  // four numbers (-1 = none), position in the pixel
   static constexpr int kFunctions = 10;
-  static constexpr int kReach = 2;  // neighbourhood: 5 x 5 pixels of the rectangle
+  static constexpr int kReach = 2;  // neighbourhood: 5 x 5 pixels of the same block
+  /// Pixels know of each other within blocks of so many squared, from the image's origin
+  /// on: how a render is cut must not matter.
+  static constexpr int kBlock = 16;
+  static constexpr std::uint64_t kMostFitted = std::uint64_t{1} << 20;
 
-  RegressionFilm(int x0, int y0, int width, int height, std::uint32_t group_size,
+  RegressionFilm(int x0, int y0, int width, int height, const SampleGroups& groups,
                  double coefficient);
-  static std::size_t BytesPerPixel() { return sizeof(Pixel); }
-  /// Before the first fit: groups have another size.
-  void Regroup(std::uint32_t group_size);
+  static std::size_t BytesPerPixel();
 
   /// Corrects the colours in place. `first_plane`: of the kPlanes numbers. Rectangles
-  /// must be the same in every call, and each be given its samples in order; safe for
-  /// different ones from different threads.
+  /// hold whole blocks, as far as these are rendered, and each is given its samples in
+  /// order; safe for different ones from different threads.
   void Correct(const SampleBlock& block, int first_plane);
 
   /// Values of the functions at six numbers.
   static void Functions(const float* numbers, float* phi);
   ControlReport Report() const;
 
-  // As FilmAccumulator's.
-  void Save(StateWriter& state) const;
-  void Restore(StateReader& state);
+  /// All that Correct has brought.
+  std::vector<StateColumn> Columns();
 
  private:
-  struct Pixel {
+  // Of one half of a pixel's samples, the first kMostFitted of them.
+  struct Moments {
     double f[3] = {}, ff[3] = {};
-    float phi[kFunctions] = {}, products[3][kFunctions] = {};
-    float b[3][kFunctions] = {};
-    float fitted = 0, fitted_squares = 0;  // of f and the fit, and of the fit
-    std::uint32_t samples = 0, next_fit = 0;
   };
-  Pixel& At(int x, int y) {
-    return pixels_[static_cast<std::size_t>(y - y0_) * static_cast<std::size_t>(width_) +
-                   static_cast<std::size_t>(x - x0_)];
+  struct Half {
+    float phi[kFunctions] = {}, products[3][kFunctions] = {};
+  };
+  struct Pixel {
+    Moments moments[2];
+    double fitted = 0, fitted_squares = 0;  // sums of f times the fit, and of its square
+  };
+  struct Fits {
+    Half sums[2];
+    float b[2][3][kFunctions] = {};  // from this half, for the other one
+  };
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y - y0_) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x - x0_);
   }
-  void Fit(const SampleBlock& block);
-  static void Correlate(const Pixel& p, float* out);
-  static void SetCoefficients(Pixel& p, const float* sums, int window);
+  int HalfOf(std::uint64_t sample) const {
+    return static_cast<int>(sample / groups_.unit % 2);
+  }
+  void FitAll(const SampleBlock& block, std::uint64_t samples);
+  void FitBlock(int x0, int y0, int x1, int y1, int half, double n);
+  void Correlate(std::size_t pixel, int half, double n, float* out) const;
+  void SetCoefficients(std::size_t pixel, int half, const float* sums, double n,
+                       int window);
   void CorrectPixel(const SampleBlock& block, int first_plane, std::uint32_t pixel,
                     std::uint32_t begin, std::uint32_t end);
-  std::uint32_t NextFit(std::uint32_t samples) const;
 
   int x0_, y0_, width_;
-  std::uint32_t block_ = 1;  // least samples between fits: whole groups
+  SampleGroups groups_;
   double coefficient_;
+  std::vector<std::uint64_t> samples_;
   std::vector<Pixel> pixels_;
+  std::vector<Fits> fits_;
 };
 
 }  // namespace lanelight

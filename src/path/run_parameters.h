@@ -9,27 +9,10 @@
 
 namespace lanelight {
 
-/// `count` equal parts of a whole, and what places a number in one of them.
-struct Strata {
-  std::uint32_t count = 1;
-  std::uint32_t bits = 0;  // least b with 2^b >= count
-  // floor((2^64 - 1) / count) = whole 2^32 + part
-  std::uint32_t whole = 0xffffffffu, part = 0xffffffffu;
-};
-
-/// Sample points. `group_size` consecutive samples of a pixel share one randomisation.
+/// Sample points: a randomisation is a sequence of 2^group_shift points, which samples of
+/// a pixel share as src/path/replicates.h says.
 struct PointsParameters {
-  std::uint32_t group_size = 1;
-  std::uint32_t group_shift = 0;  // log2(group_size), for samplers of powers of two
-  // sample / group_size = (sample * group_magic) >> group_magic_shift, for sample < 2^31
-  // (Granlund and Montgomery 1994).
-  std::uint32_t group_magic = 0, group_magic_shift = 0;
-  Strata strata;         // group_size strata of one dimension
-  Strata columns, rows;  // of two: columns * rows = group_size (stratified, cmj)
-  Strata base3;          // 3^base3_digits (halton)
-  std::uint32_t base3_digits = 0;  // least d with 3^d >= group_size
-  // floor(2^64 z / group_size) = lattice_whole 2^32 + lattice_part (lattice)
-  std::uint32_t lattice_whole = 0, lattice_part = 0;
+  std::uint32_t group_shift = 0;
   const std::uint32_t* pmj02 = nullptr;  // table of pmj02.h (pmj02)
 };
 

@@ -8,8 +8,7 @@
 
 namespace lanelight {
 
-/// group_size: a power of two for sobol and pmj02, at most MostGroupSize(points).
-PointsParameters MakePointsParameters(Points points, std::uint32_t group_size);
+PointsParameters MakePointsParameters(Points points);
 PairParameters MakePairParameters(const Strategy& strategy);
 MisParameters MakeMisParameters(const Strategy& strategy);
 RouletteParameters MakeRouletteParameters(const Strategy& strategy);

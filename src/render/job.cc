@@ -62,19 +62,18 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   job.spp = settings.spp.value_or(
       scene_decides ? static_cast<std::uint64_t>(job.description.sampler.spp) : 0);
   job.seed = job.description.sampler.seed;
-  job.group_size = GroupSize(job.scene.strategy, job.OpenEnded() ? 0 : job.spp);
   return job;
 }
 
 void SetStrategy(Job& job, const Strategy& strategy) {
   UseStrategy(strategy, job.scene);
   job.plan = MakePlan(job.scene, job.plan.options);
-  job.group_size = GroupSize(strategy, job.spp);
 }
 
 FilmAccumulator MakeFilm(const Job& job) {
   return FilmAccumulator(job.window.x0, job.window.y0, job.window.width(),
-                         job.window.height(), job.group_size, job.plan.options.aov);
+                         job.window.height(), GroupsOf(job.scene.strategy),
+                         job.plan.options.aov);
 }
 
 RunOptions RunOptionsOf(const Job& job, const FilmAccumulator& film) {

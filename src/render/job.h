@@ -23,7 +23,6 @@ struct Job {
   double seconds = 0;     // time budget; 0 = none
   ErrorTarget target;
   std::uint64_t seed = 0;
-  std::uint32_t group_size = 1;  // see GroupSize(); Run chooses another if OpenEnded()
   std::uint64_t scene_hash = 0;  // see HashSceneFiles()
   double load_seconds = 0;       // reading and parsing
   double build_seconds = 0;      // compiling: acceleration structure, lights, textures

@@ -9,30 +9,29 @@
 #include "src/core/error.h"
 #include "src/image/accumulator.h"
 #include "src/image/regression_film.h"
+#include "src/prepare/groups.h"
 
 namespace lanelight {
 namespace {
 
-// Per pixel and colour channel the accumulator keeps four sums, and two counts per pixel
-// (src/image/accumulator.h); the output holds R, G, B, three variances and the count.
-constexpr std::uint64_t kSumsPerPixel = (4 * kColorPlanes + 2) * sizeof(double);
+// The output holds R, G, B, three variances and the count.
 constexpr std::uint64_t kPlanesPerPixel = (2 * kColorPlanes + 1) * sizeof(float);
-constexpr std::uint64_t kAovPerPixel = kAovPlanes * (sizeof(double) + sizeof(float));
+constexpr std::uint64_t kAovPerPixel = kAovPlanes * sizeof(float);
 
 // Sums from which the coefficients of control variates are fitted.
 std::uint64_t ControlPerPixel(const Strategy& strategy) {
   if (strategy.control == Control::kNone) return 0;
   if (strategy.control == Control::kRegression) return RegressionFilm::BytesPerPixel();
-  return strategy.coefficient ? 0 : ControlFilm::BytesPerPixel();
+  return strategy.coefficient ? 0 : ControlFilm::BytesPerPixel(GroupsOf(strategy));
 }
 
 }  // namespace
 
 std::uint64_t FilmBytes(const PixelRect& window, bool aov, const Strategy& strategy) {
   // The planes exist twice for a moment: as planes, and packed into the file's bytes.
-  const std::uint64_t per_pixel = kSumsPerPixel + 2 * kPlanesPerPixel +
-                                  (aov ? 2 * kAovPerPixel : 0) +
-                                  ControlPerPixel(strategy);
+  const std::uint64_t per_pixel =
+      FilmAccumulator::BytesPerPixel(GroupsOf(strategy), aov) + 2 * kPlanesPerPixel +
+      (aov ? 2 * kAovPerPixel : 0) + ControlPerPixel(strategy);
   return window.pixels() * per_pixel;
 }
 

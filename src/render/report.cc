@@ -57,7 +57,6 @@ Json SettingsJson(const Job& job, const RunResult& result, bool half) {
           {"time_budget", job.seconds > 0 ? Json(job.seconds) : Json(nullptr)},
           {"target_relmse", job.target.relmse > 0 ? Json(job.target.relmse) : Json()},
           {"target_rmse", job.target.rmse > 0 ? Json(job.target.rmse) : Json()},
-          {"group_size", result.group_size},
           {"max_depth", job.plan.options.max_depth},
           {"seed", job.seed},
           {"sampler", Name(job.scene.strategy.points)},
@@ -83,7 +82,7 @@ Json NotesJson(const Job& job) {
 }  // namespace
 
 std::string PointsText(const Job& job, const RunResult& result) {
-  return PointsText(job.scene.strategy, job.OpenEnded() ? 0 : job.spp, result.group_size);
+  return PointsText(job.scene.strategy, job.OpenEnded() ? 0 : job.spp);
 }
 
 Json ToJson(const Plan& plan) {

@@ -9,13 +9,8 @@ Films::Films(const SamplePlanes& planes, double coefficient, FilmAccumulator& fi
   LL_CHECK_EQ(planes.Has(PlaneGroup::kAov), film.has_aov());
   if (planes.Has(PlaneGroup::kDifference)) film_.UseControl();
   if (!planes.Has(PlaneGroup::kNumbers)) return;
-  regression_.emplace(film.x0(), film.y0(), film.width(), film.height(),
-                      film.group_size(), coefficient);
-}
-
-void Films::Regroup(std::uint32_t group_size) {
-  film_.Regroup(group_size);
-  if (regression_) regression_->Regroup(group_size);
+  regression_.emplace(film.x0(), film.y0(), film.width(), film.height(), film.groups(),
+                      coefficient);
 }
 
 void Films::Add(const TileSamples& tile) {
@@ -43,14 +38,13 @@ std::optional<ControlReport> Films::Control() const {
   return regression_ ? regression_->Report() : film_.Control();
 }
 
-void Films::Save(StateWriter& state) const {
-  film_.Save(state);
-  if (regression_) regression_->Save(state);
-}
-
-void Films::Restore(StateReader& state) {
-  film_.Restore(state);
-  if (regression_) regression_->Restore(state);
+std::vector<StateColumn> Films::Columns() {
+  std::vector<StateColumn> columns = film_.Columns();
+  if (!regression_) return columns;
+  for (StateColumn& column : regression_->Columns()) {
+    columns.push_back(std::move(column));
+  }
+  return columns;
 }
 
 }  // namespace lanelight

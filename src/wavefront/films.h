@@ -27,19 +27,20 @@ class Films {
   /// Samples have `planes`; `coefficient`: of control=regression. Before any sample.
   Films(const SamplePlanes& planes, double coefficient, FilmAccumulator& film);
 
-  /// Changes the size of the groups, see FilmAccumulator::Regroup.
-  void Regroup(std::uint32_t group_size);
-
   /// Adds samples, each pixel's in order. Safe for different tiles from different
   /// threads. Values are changed where a control variate corrects them.
   void Add(const TileSamples& tile);
 
   std::optional<ControlReport> Control() const;
 
-  // All that Add has brought, exactly (src/core/state.h); films of the same size, planes
-  // and group size go on from there. Throws InputError for a state of others.
-  void Save(StateWriter& state) const;
-  void Restore(StateReader& state);
+  /// All that Add has brought, by pixel of the film, row by row: films of the same
+  /// pixels, planes and groups that are given these go on from there.
+  std::vector<StateColumn> Columns();
+  /// Whether what is added to a pixel depends on others, in blocks of so many squared
+  /// pixels; 1 if not.
+  int Block() const { return regression_ ? RegressionFilm::kBlock : 1; }
+  const FilmAccumulator& film() const { return film_; }
+  FilmAccumulator& film() { return film_; }
 
  private:
   SamplePlanes planes_;

@@ -45,12 +45,6 @@ std::vector<StageProfile> EmptyParts() {
 }
 
 void AddCounts(Wavefront& wavefront, StageClock* clock, RunResult& result) {
-  const Wave& wave = wavefront.wave();
-  result.rays_closest += wave.rays_closest;
-  result.rays_shadow += wave.rays_shadow;
-  result.health.nan += wave.health.nan;
-  result.health.infinite += wave.health.infinite;
-  result.health.negative += wave.health.negative;
   result.wavefront_bytes += wavefront.bytes();
   if (clock == nullptr) return;
   const std::size_t stages = result.stages.size();

@@ -16,8 +16,8 @@ std::vector<StageProfile> EmptyProfiles(const Plan& plan);
 /// The same for the parts of a task that are no stages.
 std::vector<StageProfile> EmptyParts();
 
-/// Adds what one thread's wavefront and clock have counted; the clock gives its trace
-/// away. `clock` may be null.
+/// Adds the memory of one thread's wavefront and what its clock has counted; the clock
+/// gives its trace away. `clock` may be null.
 void AddCounts(Wavefront& wavefront, StageClock* clock, RunResult& result);
 
 }  // namespace lanelight

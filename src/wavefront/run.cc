@@ -9,7 +9,9 @@
 #include "src/core/check.h"
 #include "src/core/clock.h"
 #include "src/core/parallel.h"
+#include "src/prepare/groups.h"
 #include "src/prepare/tables.h"
+#include "src/scene/rendered_pixels.h"
 #include "src/wavefront/profile.h"
 #include "src/wavefront/schedule.h"
 #include "src/wavefront/tasks.h"
@@ -25,6 +27,12 @@ double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// The seed of kernels: another one after each kSamplesPerSeed samples.
+std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
+  const std::uint64_t turn = first_sample / kSamplesPerSeed * 0x9e3779b97f4a7c15u;
+  return static_cast<std::uint32_t>(seed ^ (seed >> 32) ^ (turn >> 32));
+}
+
 class Runner : public TaskWatcher {
  public:
   Runner(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
@@ -35,79 +43,118 @@ class Runner : public TaskWatcher {
         film_(film),
         tables_(MakeStrategyTables(scene)),
         tasks_(scene, plan_, run_, options, PlannedSpp()) {
-    if (OpenEnded()) film_.Regroup(FirstGroupSize(scene.strategy));
+    LL_CHECK(film.groups() == GroupsOf(scene.strategy));
     run_ = Parameters();
     films_.emplace(run_.planes, scene.strategy.coefficient.value_or(1), film_);
   }
 
-  /// Samples [begin, end) of every pixel, in tasks of `per_task`.
+  /// Samples of every pixel up to `end`, in tasks of `per_task`.
   struct Part {
-    std::uint64_t begin = 0, end = 0;
+    std::uint64_t first = 0, begin = 0, end = 0;
     std::uint32_t per_task = 1;
     Clock::time_point start;
   };
 
-  /// Trains the strategy and starts the clock.
+  /// Starts the clock, and trains the strategy or goes on where a run was put down.
   void Start() {
     start_ = Clock::now();
     start_cpu_ = ProcessCpuSeconds();
-    if (NeedsTraining(plan_)) TrainStrategy();
+    const bool restored = options_.keeper != nullptr && Restore();
+    if (!restored && NeedsTraining(plan_)) TrainStrategy();
     if (options_.seconds > 0) pace_.emplace(options_.seconds, PaceTasks());
-    // The first look chooses the groups, the later ones ask whether to go on.
-    next_look_ = OpenEnded() ? FirstSamples() : Limit();
+    if (restored) LookIfDue();
   }
 
   /// What to render next; nothing once the render is done.
-  std::optional<Part> Next() const {
-    if (done_ >= Limit() || Stopped() || reached_) return std::nullopt;
+  std::optional<Part> Next() {
+    const std::uint64_t done = tasks_.Done();
+    if (done >= Limit() || Ended() || reached_) return std::nullopt;
     const Round round = NextRound();
-    const std::uint64_t end = std::min({Limit(), next_look_, done_ + round.samples()});
-    return Part{done_, end, round.per_task, Clock::now()};
+    Part part;
+    part.begin = done;
+    part.first = done / kSamplesPerSeed * kSamplesPerSeed;
+    part.end = std::min(
+        {Limit(), NextLook(done), done + round.samples(), part.first + kSamplesPerSeed});
+    part.per_task = round.per_task;
+    part.start = Clock::now();
+    run_.seed = SeedOf(options_.seed, part.first);
+    return part;
   }
 
   Tasks& tasks() { return tasks_; }
   Films& films() { return *films_; }
 
-  /// Takes note of a part that has been rendered.
+  /// Takes note of a part that has been rendered, perhaps not to its end.
   void Finish(const Part& part) {
-    done_ = part.end;
-    if (Stopped()) return;  // perhaps within the part
+    if (options_.keeper != nullptr && options_.keeper->Due() && !Ended()) Keep();
+    if (tasks_.Done() < part.end) return;
     if (pace_) pace_->Took(part.end - part.begin, Since(part.start));
-    if (pace_ && fit_seconds_ == 0 && 2 * Since(start_) > options_.seconds) TimeFit();
-    if (done_ == next_look_ || (done_ == Limit() && options_.samples_needed)) {
-      next_look_ = Look(next_look_);
-    }
+    if (pace_ && fit_seconds_ == 0 && 2 * Elapsed() > options_.seconds) TimeFit();
+    LookIfDue();
+  }
+
+  /// The last state is kept too.
+  void End() {
+    if (options_.keeper != nullptr) Keep();
   }
 
   RunResult Result();
 
  private:
-  // The image may then be rendered with a simpler roulette.
+  bool Restore() {
+    RunState state = {*films_, {}, false, {}, {}};
+    if (!options_.keeper->Restore(state)) return false;
+    before_ = state.counts;
+    tasks_.GoOn(*films_, state.counts);
+    if (!state.trained) return !NeedsTraining(plan_);
+    training_ = std::move(state.training);
+    PutTraining(state.tables, tables_);
+    UseTraining();
+    return true;
+  }
+
+  void Keep() {
+    RunState state = {*films_, Counts(), training_done_, training_, {}};
+    if (training_done_) state.tables = TakeTraining(tables_);
+    options_.keeper->Keep(state);
+  }
+
+  RunCounts Counts() const {
+    RunCounts counts = tasks_.counts();
+    counts.seconds = Elapsed();
+    counts.cpu_seconds = before_.cpu_seconds + ProcessCpuSeconds() - start_cpu_;
+    return counts;
+  }
+
   void TrainStrategy() {
     TrainingOptions options;
-    options.planned_samples =
-        options_.planned_samples > 0
-            ? options_.planned_samples
-            : tasks_.pixels() * (OpenEnded() ? kOpenEndedSpp : options_.spp);
+    options.planned_samples = options_.planned_samples > 0
+                                  ? options_.planned_samples
+                                  : RenderedPixels(scene_.film).pixels() * kPilotSpp;
     options.keep_roulette = options_.keep_roulette;
     options.stop = options_.stop;
     training_ = Train({scene_, plan_, run_, options, tables_});
-    if (training_.roulette && *training_.roulette != scene_.strategy.roulette) {
-      PlanOptions simpler = plan_.options;
-      simpler.roulette = training_.roulette;
-      plan_ = MakePlan(scene_, simpler);
-      run_ = Parameters();
-    }
-    pilot_seconds_ = Since(start_);
-    pilot_cpu_seconds_ = ProcessCpuSeconds() - start_cpu_;
+    training_.seconds = Since(start_);
+    training_.cpu_seconds = ProcessCpuSeconds() - start_cpu_;
+    // What was cut short is trained anew when the run goes on.
+    if (!Interrupted()) UseTraining();
   }
 
-  // Without a sample count the partition assumes many samples.
-  static constexpr std::uint64_t kOpenEndedSpp = 32;
+  // The image may be rendered with a simpler roulette then.
+  void UseTraining() {
+    training_done_ = true;
+    if (!training_.roulette || *training_.roulette == scene_.strategy.roulette) return;
+    PlanOptions simpler = plan_.options;
+    simpler.roulette = training_.roulette;
+    plan_ = MakePlan(scene_, simpler);
+    run_ = Parameters();
+  }
+
   RunParameters Parameters() const {
-    RunParameters run = MakeRunParameters(scene_, plan_, film_.group_size());
-    run.seed = static_cast<std::uint32_t>(options_.seed ^ (options_.seed >> 32));
-    run.spp = static_cast<std::uint32_t>(options_.spp);
+    RunParameters run = MakeRunParameters(scene_, plan_);
+    run.seed = SeedOf(options_.seed, 0);
+    run.spp = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(options_.spp, kSamplesPerSeed));
     run.tables = &tables_;
     return run;
   }
@@ -118,46 +165,24 @@ class Runner : public TaskWatcher {
   }
   bool OpenEnded() const { return options_.seconds > 0 || options_.samples_needed; }
 
+  // Without a sample count the partition assumes many samples.
   std::uint64_t PlannedSpp() const {
-    return OpenEnded() || options_.spp == 0 ? kOpenEndedSpp : options_.spp;
+    return OpenEnded() || options_.spp == 0 ? kPilotSpp : options_.spp;
   }
 
-  // Two groups show how much samples differ; a time budget only asks what they cost.
-  std::uint64_t FirstSamples() const {
-    const std::uint64_t group = FirstGroupSize(scene_.strategy);
-    return std::min<std::uint64_t>(kMostSamplesPerPixel,
-                                   options_.samples_needed ? 2 * group : group);
+  std::uint64_t NextLook(std::uint64_t done) const {
+    if (!options_.samples_needed) return kMostSamplesPerPixel;
+    return LookFrom(done + 1, film_.groups().unit);
   }
 
-  // Asks how many samples are needed, and returns when to ask again.
-  std::uint64_t Look(std::uint64_t look) {
-    double predicted = pace_ ? double(done_) + pace_->Reach(Since(start_)) : INFINITY;
-    double needed = INFINITY;
-    if (options_.samples_needed) {
-      film_.FitControl();
-      needed = options_.samples_needed(done_);
-      ++looks_;
-    }
-    if (done_ < look || done_ > FirstSamples()) {
-      reached_ = needed <= double(done_);
-      needed_ = needed;
-      return NextLook(done_, needed, film_.group_size());
-    }
-    // Stratification may need fewer samples than these first ones promise.
-    constexpr double kGain = 4;
-    predicted = std::min(predicted, needed / kGain);
-    if (options_.spp > 0) predicted = std::min(predicted, double(options_.spp));
-    Regroup(ChooseGroupSize(scene_.strategy, predicted, done_));
-    return options_.samples_needed ? FirstLook(film_.group_size()) : kMostSamplesPerPixel;
-  }
-
-  void Regroup(std::uint32_t group_size) {
-    if (group_size == film_.group_size()) return;
-    films_->Regroup(group_size);
-    run_ = Parameters();
-    // Groups are numbered anew: with the same seed the randomisation of a first small
-    // group would come again, and that of two groups must never be the same.
-    run_.seed ^= 0x9e3779b9u;
+  // Asks how many samples are needed.
+  void LookIfDue() {
+    const std::uint64_t done = tasks_.Done();
+    if (!options_.samples_needed || done == 0) return;
+    if (done != LookFrom(done, film_.groups().unit) && done != Limit()) return;
+    film_.FitControl();
+    needed_ = options_.samples_needed(done);
+    reached_ = needed_ <= double(done);
   }
 
   void TimeFit() {
@@ -166,27 +191,35 @@ class Runner : public TaskWatcher {
     fit_seconds_ = Since(begin);
   }
 
+  double Elapsed() const { return before_.seconds + Since(start_); }
   bool Interrupted() const {
     return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed);
   }
   bool OutOfTime() const {
     // The first round always ends: an image with unsampled pixels is no image.
-    return options_.seconds > 0 && done_ > 0 &&
-           Since(start_) >= options_.seconds - fit_seconds_;
+    return options_.seconds > 0 && every_pixel_ &&
+           Elapsed() >= options_.seconds - fit_seconds_;
   }
-  bool Stopped() const override { return Interrupted() || OutOfTime(); }
+  bool Ended() {
+    every_pixel_ = tasks_.Done() > 0;
+    return Interrupted() || OutOfTime();
+  }
+  bool Stopped() const override {
+    return Interrupted() || OutOfTime() ||
+           (options_.keeper != nullptr && options_.keeper->Due());
+  }
 
   Pace::Tasks PaceTasks() const {
     Pace::Tasks tasks;
     tasks.tiles = tasks_.tiles();
     tasks.threads = MaxThreads();
     tasks.most = tasks_.FullRound();
-    tasks.unit = scene_.strategy.pairs == Pairs::kAntithetic ? 2 : 1;
+    tasks.unit = film_.groups().unit;
     return tasks;
   }
 
   Round NextRound() const {
-    if (pace_) return pace_->Next(Since(start_));
+    if (pace_) return pace_->Next(Elapsed());
     return tasks_.FullRound();
   }
 
@@ -196,15 +229,14 @@ class Runner : public TaskWatcher {
     if (!lock || Since(last_report_) < 0.1) return;
     last_report_ = Clock::now();
     Progress progress;
-    progress.seconds = Since(start_);
-    progress.samples = tasks_.samples();
+    progress.seconds = Elapsed();
+    progress.samples = tasks_.taken();
+    const double pixels = double(tasks_.pixels()), samples = double(progress.samples);
     const double by_samples =
-        options_.spp > 0
-            ? double(tasks_.samples()) / (double(tasks_.pixels()) * options_.spp)
-            : 0;
+        options_.spp > 0 ? samples / (pixels * double(options_.spp)) : 0;
     const double by_time = options_.seconds > 0 ? progress.seconds / options_.seconds : 0;
     // Errors fall like 1 / samples, so samples are in proportion to the time it takes.
-    const double by_need = double(tasks_.samples()) / (double(tasks_.pixels()) * needed_);
+    const double by_need = samples / (pixels * needed_);
     progress.fraction = std::min(1.0, std::max({by_samples, by_time, by_need}));
     options_.on_progress(progress);
   }
@@ -212,7 +244,7 @@ class Runner : public TaskWatcher {
   StopReason Reason() const {
     if (reached_) return StopReason::kTarget;
     // Only what has left samples out counts: a signal may come after the last one.
-    if (tasks_.samples() == tasks_.pixels() * Limit()) return StopReason::kSamples;
+    if (tasks_.Done() >= Limit()) return StopReason::kSamples;
     return Interrupted() ? StopReason::kInterrupted : StopReason::kTime;
   }
 
@@ -225,14 +257,13 @@ class Runner : public TaskWatcher {
   Tasks tasks_;
   std::optional<Films> films_;
   TrainingOutcome training_;
-  double pilot_seconds_ = 0, pilot_cpu_seconds_ = 0;
+  bool training_done_ = false;
   std::optional<Pace> pace_;  // with a time budget
-  std::uint64_t done_ = 0;    // samples per pixel, of parts
-  std::uint64_t next_look_ = 0;
+  bool every_pixel_ = false;  // has a sample
   double needed_ = INFINITY;  // samples per pixel, by the last look
   bool reached_ = false;      // no more are needed
-  int looks_ = 0;
-  double fit_seconds_ = 0;  // that the last step takes
+  double fit_seconds_ = 0;    // that the last step takes
+  RunCounts before_;          // this run went on with
   Clock::time_point start_, last_report_;
   TickScale ticks_;
   double start_cpu_ = 0;
@@ -242,15 +273,16 @@ class Runner : public TaskWatcher {
 RunResult Runner::Result() {
   RunResult result;
   film_.FitControl();
-  result.seconds = Since(start_);
-  result.cpu_seconds = ProcessCpuSeconds() - start_cpu_;
-  result.samples = tasks_.samples();
+  const RunCounts counts = Counts();
+  result.seconds = counts.seconds;
+  result.cpu_seconds = counts.cpu_seconds;
   result.stop_reason = Reason();
   result.stopped_early = result.stop_reason == StopReason::kInterrupted;
-  result.group_size = film_.group_size();
-  result.looks = looks_;
-  result.pilot_seconds = pilot_seconds_;
-  result.pilot_cpu_seconds = pilot_cpu_seconds_;
+  if (options_.samples_needed) {
+    result.looks = LooksUpTo(tasks_.Done(), film_.groups().unit);
+  }
+  result.pilot_seconds = training_.seconds;
+  result.pilot_cpu_seconds = training_.cpu_seconds;
   result.pilot_samples = training_.samples;
   result.pilot_rays = training_.rays;
   result.pilot_note = training_.note;
@@ -279,10 +311,11 @@ RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& op
   Runner runner(scene, plan, options, film);
   runner.Start();
   while (const auto part = runner.Next()) {
-    runner.tasks().RunRound(part->begin, part->end, part->per_task, runner,
+    runner.tasks().RunRound(part->first, part->end, part->per_task, runner,
                             runner.films());
     runner.Finish(*part);
   }
+  runner.End();
   return runner.Result();
 }
 

@@ -15,6 +15,7 @@
 #include "src/image/pixel_rect.h"
 #include "src/path/wave.h"
 #include "src/wavefront/plan.h"
+#include "src/wavefront/run_state.h"
 
 namespace lanelight {
 
@@ -24,8 +25,11 @@ struct Progress {
   std::uint64_t samples = 0;
 };
 
-/// Most samples per pixel: sample indices are 32-bit.
-inline constexpr std::uint64_t kMostSamplesPerPixel = std::uint64_t{1} << 31;
+/// Most samples per pixel.
+inline constexpr std::uint64_t kMostSamplesPerPixel = std::uint64_t{1} << 40;
+/// Sample indices in kernels have 32 bits: so many later they begin again, under another
+/// seed. Whole turns of the longest randomisations (src/prepare/groups.h).
+inline constexpr std::uint64_t kSamplesPerSeed = std::uint64_t{1} << 31;
 
 /// What a profile gathers beside the times of stages.
 struct ProfileOptions {
@@ -33,14 +37,17 @@ struct ProfileOptions {
   std::size_t trace_events = 0;  // most stage calls that a thread writes down; 0: none
 };
 
+/// How many samples the image will have must not change what is learned before it.
+inline constexpr std::uint64_t kPilotSpp = 32;
+
 struct RunOptions {
   std::uint64_t spp = 0;  // samples per pixel; 0: until something else ends the render
   /// Time budget of all of Run, 0 = none. Every pixel gets a sample, however long it
   /// takes.
   double seconds = 0;
-  /// If set, the render looks at itself between rounds that give every pixel the same
-  /// number of samples, and ends once this returns `done` or less: how many samples per
-  /// pixel the image is estimated to need, of which `done` are in the film.
+  /// If set, the render looks at itself at certain numbers of samples per pixel
+  /// (src/wavefront/schedule.h), and ends once this returns `done` or less: how many the
+  /// image is estimated to need, of which `done` are in the film.
   std::function<double(std::uint64_t done)> samples_needed;
   std::uint64_t seed = 0;
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
@@ -53,8 +60,13 @@ struct RunOptions {
   /// The film is then a strip in which they lie side by side, in order, from (0, 0) on.
   /// They have the samples that a render of the whole image gives these pixels.
   std::vector<PixelRect> windows;
-  /// What pilot passes are sized for; 0: the samples of this run.
+  /// Renders these tiles of the image only, disjoint; empty: all of it. With
+  /// control=regression whole blocks of RegressionFilm::kBlock.
+  std::vector<PixelRect> tiles;
+  /// What pilot passes are sized for; 0: kPilotSpp samples of every pixel of the image.
   std::uint64_t planned_samples = 0;
+  /// Keeps the state while the run goes on; null: nobody does.
+  RunKeeper* keeper = nullptr;
 };
 
 struct StageProfile {
@@ -107,8 +119,7 @@ const char* Name(StopReason reason);
 struct RunResult {
   double seconds = 0;
   StopReason stop_reason = StopReason::kSamples;
-  std::uint32_t group_size = 1;  // of the film
-  int looks = 0;                 // calls of samples_needed
+  int looks = 0;  // at which the error was compared with the target
   std::uint64_t samples = 0, rays_closest = 0, rays_shadow = 0;
   Health health;
   std::vector<StageProfile> stages;      // in execution order
@@ -130,9 +141,9 @@ struct RunResult {
   Roulette roulette = Roulette::kThroughput;  // that the image was rendered with
 };
 
-/// Renders into `film` (its size must match the crop window of the scene, or the strip of
-/// options.windows). With a time budget or `samples_needed` the size of the film's groups
-/// is chosen here, by what the first samples say; else it is the film's.
+/// Renders into `film`, without samples: its size must match the crop window of the
+/// scene, or the strip of options.windows, its groups the strategy
+/// (src/prepare/groups.h).
 RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 

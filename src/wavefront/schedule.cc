@@ -1,46 +1,33 @@
-#include "src/prepare/groups.h"
 #include "src/wavefront/schedule.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "src/core/check.h"
-#include "src/prepare/parameters.h"
-
 namespace lanelight {
 namespace {
 
-constexpr double kMostSamples = double(std::uint64_t{1} << 31);
 constexpr double kTaskShare = 0.005;  // of the budget
 
-std::uint64_t RoundUp(double samples, std::uint32_t group_size) {
-  const double groups = std::ceil(std::min(samples, kMostSamples) / group_size);
-  return static_cast<std::uint64_t>(std::max(groups, 1.0)) * group_size;
+std::uint64_t NextLook(std::uint64_t look, std::uint32_t unit) {
+  std::uint64_t step = unit;
+  while (look / step >= 8) step *= 2;
+  return look + step;
 }
 
 }  // namespace
 
-std::uint32_t FirstGroupSize(const Strategy& strategy) {
-  return GroupSize(strategy, strategy.pairs == Pairs::kAntithetic ? 2 : 1);
+std::uint64_t FirstLook(std::uint32_t unit) { return std::uint64_t{16} * unit; }
+
+std::uint64_t LookFrom(std::uint64_t done, std::uint32_t unit) {
+  std::uint64_t look = FirstLook(unit);
+  while (look < done) look = NextLook(look, unit);
+  return look;
 }
 
-std::uint32_t ChooseGroupSize(const Strategy& strategy, double spp, std::uint64_t done) {
-  if (strategy.points == Points::kIndependent) return FirstGroupSize(strategy);
-  // GroupSize fits four groups or more into what it is given.
-  auto wanted = static_cast<std::uint64_t>(std::clamp(0.6 * spp, 1.0, kMostSamples));
-  while (GroupSize(strategy, wanted) <= done) wanted *= 2;
-  return GroupSize(strategy, wanted);
-}
-
-std::uint64_t FirstLook(std::uint32_t group_size) {
-  return RoundUp(std::max(16.0, 4.0 * group_size), group_size);
-}
-
-std::uint64_t NextLook(std::uint64_t done, double needed, std::uint32_t group_size) {
-  constexpr double kMargin = 1.02;
-  const double now = static_cast<double>(done);
-  const double next = std::clamp(kMargin * needed, kMargin * now, 2 * now);
-  return std::max(RoundUp(next, group_size), done + group_size);
+int LooksUpTo(std::uint64_t done, std::uint32_t unit) {
+  int looks = 0;
+  for (auto look = FirstLook(unit); look <= done; look = NextLook(look, unit)) ++looks;
+  return looks;
 }
 
 std::uint32_t Pace::Whole(double samples) const {

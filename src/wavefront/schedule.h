@@ -1,32 +1,21 @@
 // How a render whose number of samples is not fixed proceeds: how many samples it takes
-// at a time, in what groups, and when it looks at its own error. Decisions only: no clock
+// at a time, and when it looks at its own error. Decisions only: no clock
 // and no image, so that tests can play through them.
 #pragma once
 
 #include <cstdint>
 
-#include "src/strategy/strategy.h"
-
 namespace lanelight {
 
-/// Size of the groups that samples are taken in until more is known: as if independent.
-std::uint32_t FirstGroupSize(const Strategy& strategy);
-
-/// Size for a render that is predicted to take about `spp` samples per pixel, of which
-/// `done` are taken: at least four, mostly seven groups; larger than `done`. Independent
-/// points keep their first size.
-std::uint32_t ChooseGroupSize(const Strategy& strategy, double spp, std::uint64_t done);
-
-/// Samples per pixel at which a render looks at its error for the first time after its
-/// groups are chosen: four groups, and 16 samples, so that it has seen something of every
-/// pixel.
-std::uint64_t FirstLook(std::uint32_t group_size);
-
-/// ... and for the next time after `done` samples, `needed` being how many the error is
-/// estimated to need. A little more than that; whole groups; at most twice as many as are
-/// done, because the estimate rests on these. Few looks: each is a chance to stop for a
-/// lucky error.
-std::uint64_t NextLook(std::uint64_t done, double needed, std::uint32_t group_size);
+/// Samples per pixel at which a render with a target looks at its error, `unit` samples
+/// belonging together: 4, 5, 6 and 7 times powers of two, from 16 units on. The same
+/// whatever the target, so that a render which goes on towards a finer one ends where it
+/// would have ended at once. Few: each is a chance to stop for a lucky error.
+std::uint64_t FirstLook(std::uint32_t unit);
+/// The first one at `done` or after.
+std::uint64_t LookFrom(std::uint64_t done, std::uint32_t unit);
+/// How many there are up to `done`, itself included.
+int LooksUpTo(std::uint64_t done, std::uint32_t unit);
 
 /// A part of a render: all tiles take `chunks` times `per_task` samples per pixel.
 struct Round {

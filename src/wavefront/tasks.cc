@@ -53,28 +53,34 @@ void Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
 Tasks::Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
              const RunOptions& options, std::uint64_t planned_spp)
     : scene_(scene), plan_(plan), run_(run), options_(options) {
-  const PixelRect pixels = RenderedPixels(scene.film);
-  pixel_count_ = pixels.pixels();
-  UseTiles(pixels, planned_spp);
+  if (!options.windows.empty()) {
+    UseWindows(planned_spp);
+  } else if (!options.tiles.empty()) {
+    partition_.tiles = options.tiles;
+    std::uint64_t most = 1;
+    for (const PixelRect& tile : options.tiles) most = std::max(most, tile.pixels());
+    partition_.samples = SamplesPerTask(most, planned_spp);
+  } else {
+    partition_ = MakePartition(RenderedPixels(scene.film), planned_spp);
+  }
+  for (const PixelRect& tile : partition_.tiles) pixel_count_ += tile.pixels();
   // A pair must not straddle two tasks.
-  if (scene.strategy.pairs == Pairs::kAntithetic)
+  if (scene.strategy.pairs == Pairs::kAntithetic) {
     partition_.samples += partition_.samples & 1;
+  }
+  done_.resize(partition_.tiles.size());
   workspaces_.resize(static_cast<std::size_t>(MaxThreads()) + 1);
 }
 
-void Tasks::UseTiles(const PixelRect& pixels, std::uint64_t planned_spp) {
+void Tasks::UseWindows(std::uint64_t planned_spp) {
   const std::vector<PixelRect>& windows = options_.windows;
-  if (windows.empty()) {
-    partition_ = MakePartition(pixels, planned_spp);
-    return;
-  }
-  partition_ = MakePartition(windows.front(), planned_spp);
+  const PixelRect& first = windows.front();
+  // Small enough for one tile each, wherever they are.
+  partition_ = MakePartition({0, 0, first.width(), first.height()}, planned_spp);
   LL_CHECK_EQ(partition_.tiles.size(), 1u);
   partition_.tiles = windows;
-  pixel_count_ = 0;
   for (const PixelRect& w : windows) {
-    LL_CHECK(w.width() == windows[0].width() && w.height() == windows[0].height());
-    pixel_count_ += w.pixels();
+    LL_CHECK(w.width() == first.width() && w.height() == first.height());
   }
 }
 
@@ -86,6 +92,19 @@ PixelRect Tasks::Place(std::size_t tile) const {
   return {x, 0, x + t.width(), t.height()};
 }
 
+void Tasks::GoOn(const Films& films, const RunCounts& counts) {
+  counts_ = counts;
+  taken_ = counts.samples;
+  for (std::size_t tile = 0; tile < done_.size(); ++tile) {
+    const PixelRect place = Place(tile);
+    done_[tile] = films.film().Samples(place.x0, place.y0);
+  }
+}
+
+std::uint64_t Tasks::Done() const {
+  return *std::min_element(done_.begin(), done_.end());
+}
+
 Round Tasks::FullRound() const {
   // Several sample ranges of the same tile run at once only where there are too few tiles
   // for the threads; they are merged in order, so the image does not depend on it.
@@ -95,39 +114,46 @@ Round Tasks::FullRound() const {
   return {partition_.samples, static_cast<std::uint32_t>(chunks)};
 }
 
-void Tasks::RunRound(std::uint64_t first_sample, std::uint64_t limit,
-                     std::uint32_t per_task, TaskWatcher& watcher, Films& films) {
+void Tasks::RunRound(std::uint64_t first, std::uint64_t limit, std::uint32_t per_task,
+                     TaskWatcher& watcher, Films& films) {
+  first_ = first;
   per_task_ = per_task;
-  const std::uint64_t chunks = (limit - first_sample + per_task_ - 1) / per_task_;
-  if (chunks > 1) {
-    return RunRoundInChunks(first_sample, limit, static_cast<std::uint32_t>(chunks),
-                            watcher, films);
-  }
+  if (limit - Done() > per_task_) return RunRoundInChunks(limit, watcher, films);
   ParallelFor(partition_.tiles.size(), [&](std::size_t tile) {
-    if (watcher.Stopped()) return;
+    if (done_[tile] >= limit || watcher.Stopped()) return;
     TaskSamples& out = ThreadWorkspace().samples;
-    RunTask(partition_.tiles[tile], first_sample, limit, out);
-    watcher.TaskDone();
+    RunTask(partition_.tiles[tile], {done_[tile], limit}, out);
     Merge(tile, out, films);
+    watcher.TaskDone();
   });
 }
 
-void Tasks::RunRoundInChunks(std::uint64_t first_sample, std::uint64_t limit,
-                             std::uint32_t chunks, TaskWatcher& watcher, Films& films) {
-  const std::size_t tiles = partition_.tiles.size();
-  if (buffers_.size() < tiles * chunks) buffers_.resize(tiles * chunks);
-  ParallelFor(tiles * chunks, [&](std::size_t task) {
+void Tasks::RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& films) {
+  struct Chunk {
+    std::size_t tile;
+    Range range;
+  };
+  std::vector<Chunk> chunks;
+  for (std::size_t tile = 0; tile < done_.size(); ++tile) {
+    for (std::uint64_t at = done_[tile]; at < limit; at += per_task_) {
+      chunks.push_back({tile, {at, std::min(limit, at + per_task_)}});
+    }
+  }
+  if (buffers_.size() < chunks.size()) buffers_.resize(chunks.size());
+  ParallelFor(chunks.size(), [&](std::size_t task) {
     TaskSamples& out = buffers_[task];
     out.count = 0;
     if (watcher.Stopped()) return;
-    RunTask(partition_.tiles[task / chunks], first_sample + task % chunks * per_task_,
-            limit, out);
+    RunTask(partition_.tiles[chunks[task].tile], chunks[task].range, out);
     watcher.TaskDone();
   });
-  ParallelFor(tiles, [&](std::size_t tile) {
+  std::vector<std::size_t> first(done_.size(), chunks.size());  // of each tile
+  for (std::size_t i = chunks.size(); i-- > 0;) first[chunks[i].tile] = i;
+  ParallelFor(done_.size(), [&](std::size_t tile) {
     // Stops at the first range that did not run: later ones would leave a gap.
-    for (std::uint32_t c = 0; c < chunks && buffers_[tile * chunks + c].count > 0; ++c) {
-      Merge(tile, buffers_[tile * chunks + c], films);
+    for (std::size_t i = first[tile]; i < chunks.size() && chunks[i].tile == tile; ++i) {
+      if (buffers_[i].count == 0) return;
+      Merge(tile, buffers_[i], films);
     }
   });
 }
@@ -141,18 +167,16 @@ Workspace& Tasks::ThreadWorkspace() {
   return *workspaces_[thread];
 }
 
-void Tasks::RunTask(const PixelRect& tile, std::uint64_t first_sample,
-                    std::uint64_t limit, TaskSamples& out) {
+void Tasks::RunTask(const PixelRect& tile, const Range& range, TaskSamples& out) {
   Workspace& space = ThreadWorkspace();
   StageClock* const clock = space.Clock();
   if (clock) clock->StartTask();
-  out.count = static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(per_task_, limit - first_sample));
+  out.count = static_cast<std::uint32_t>(range.end - range.begin);
   TilePixels(tile, scene_.film.width, &space.pixels);
   TileWork work;
   work.pixels = space.pixels.data();
   work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
-  work.first_sample = static_cast<std::uint32_t>(first_sample);
+  work.first_sample = static_cast<std::uint32_t>(range.begin - first_);
   work.samples = out.count;
   work.together = std::min(kSamplesTogether, plan_.wavefront);
   if (scene_.strategy.pairs == Pairs::kAntithetic) work.together &= ~1u;
@@ -164,13 +188,17 @@ void Tasks::RunTask(const PixelRect& tile, std::uint64_t first_sample,
   if (out.values.size() < size) out.values.resize(size);
   // A sample that has not split leaves the rows of its further copies alone.
   if (splits) std::fill_n(out.values.begin(), size, 0.0f);
+  Wave& wave = space.wavefront.wave();
+  wave.rays_closest = wave.rays_shadow = 0;
+  wave.health = {};
   Drive(space.wavefront, plan_, work, {out.values.data(), rows}, clock);
+  taken_ += stride;
+  out.counts = {stride, wave.rays_closest, wave.rays_shadow, wave.health};
   if (splits) {
     FoldCopies(out.values.data(), rows, run_.planes);
     if (clock) clock->FinishPart(TaskPart::kCopies, stride);
   }
   if (clock) clock->EndTask();
-  samples_ += stride;
 }
 
 void Tasks::Merge(std::size_t tile, TaskSamples& task, Films& films) {
@@ -184,18 +212,38 @@ void Tasks::Merge(std::size_t tile, TaskSamples& task, Films& films) {
   if (clock) clock->StartTask();
   TilePixels(place, width, &space.pixels);
   films.Add({place, space.pixels, width, task.values.data(), task.count});
+  done_[tile] += task.count;
+  {
+    const std::lock_guard lock(counts_mutex_);
+    counts_.Add(task.counts);
+  }
   if (!clock) return;
   clock->FinishPart(TaskPart::kFilm, space.pixels.size() * task.count);
   clock->EndTask();
 }
 
 void Tasks::AddCounts(RunResult& result) {
+  result.samples = counts_.samples;
+  result.rays_closest = counts_.rays_closest;
+  result.rays_shadow = counts_.rays_shadow;
+  result.health = counts_.health;
   for (const auto& space : workspaces_) {
     if (space) lanelight::AddCounts(space->wavefront, space->Clock(), result);
   }
   for (const TaskSamples& buffer : buffers_) {
     result.wavefront_bytes += buffer.values.size() * sizeof(float);
   }
+}
+
+void RunCounts::Add(const RunCounts& more) {
+  samples += more.samples;
+  rays_closest += more.rays_closest;
+  rays_shadow += more.rays_shadow;
+  health.nan += more.health.nan;
+  health.infinite += more.health.infinite;
+  health.negative += more.health.negative;
+  seconds += more.seconds;
+  cpu_seconds += more.cpu_seconds;
 }
 
 }  // namespace lanelight

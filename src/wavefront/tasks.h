@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "src/wavefront/films.h"
@@ -31,32 +32,41 @@ class TaskWatcher {
 class Tasks {
  public:
   /// Refers to all of these for as long as it lives; plan and parameters may change until
-  /// the first round, the parameters' seed and groups between rounds.
+  /// the first round, the parameters' seed between rounds.
   Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
         const RunOptions& options, std::uint64_t planned_spp);
 
   std::uint64_t pixels() const { return pixel_count_; }
   std::size_t tiles() const { return partition_.tiles.size(); }
-  /// Taken so far, of all pixels together.
-  std::uint64_t samples() const { return samples_; }
+  /// Samples of all pixels together, of tasks that may not be merged yet.
+  std::uint64_t taken() const { return taken_; }
+  /// What has been merged into the films; without seconds.
+  const RunCounts& counts() const { return counts_; }
+  /// Begins with films that have samples, and what had been counted for them.
+  void GoOn(const Films& films, const RunCounts& counts);
+  /// Samples per pixel that all tiles have.
+  std::uint64_t Done() const;
   /// The round that keeps all threads busy.
   Round FullRound() const;
 
-  /// The samples [first_sample, limit) of every pixel, in tasks of `per_task` of them.
-  void RunRound(std::uint64_t first_sample, std::uint64_t limit, std::uint32_t per_task,
+  /// Brings every tile to `limit` samples per pixel, each from those that it has, in
+  /// tasks of `per_task` of them. Indices in kernels begin with sample `first`, which no
+  /// tile is behind. Tiles may be left behind where the watcher has stopped it.
+  void RunRound(std::uint64_t first, std::uint64_t limit, std::uint32_t per_task,
                 TaskWatcher& watcher, Films& films);
 
   /// Takes the trace along. After the last round; the result has its rows and its scale.
   void AddCounts(RunResult& result);
 
  private:
-  void UseTiles(const PixelRect& pixels, std::uint64_t planned_spp);
+  struct Range {
+    std::uint64_t begin = 0, end = 0;  // samples of a pixel
+  };
+  void UseWindows(std::uint64_t planned_spp);
   PixelRect Place(std::size_t tile) const;
-  void RunRoundInChunks(std::uint64_t first_sample, std::uint64_t limit,
-                        std::uint32_t chunks, TaskWatcher& watcher, Films& films);
+  void RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& films);
   Workspace& ThreadWorkspace();
-  void RunTask(const PixelRect& tile, std::uint64_t first_sample, std::uint64_t limit,
-               TaskSamples& out);
+  void RunTask(const PixelRect& tile, const Range& range, TaskSamples& out);
   void Merge(std::size_t tile, TaskSamples& task, Films& films);
 
   const CompiledScene& scene_;
@@ -65,10 +75,14 @@ class Tasks {
   const RunOptions& options_;
   TilePartition partition_;
   std::uint64_t pixel_count_ = 0;
-  std::uint32_t per_task_ = 1;  // of the current round
+  std::uint64_t first_ = 0;          // of the current round
+  std::uint32_t per_task_ = 1;       // of the current round
+  std::vector<std::uint64_t> done_;  // samples per pixel of each tile
   std::vector<std::unique_ptr<Workspace>> workspaces_;
   std::vector<TaskSamples> buffers_;
-  std::atomic<std::uint64_t> samples_{0};
+  std::atomic<std::uint64_t> taken_{0};
+  RunCounts counts_;
+  std::mutex counts_mutex_;
 };
 
 }  // namespace lanelight

@@ -18,19 +18,29 @@ TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp) {
              kSamplesPerTask) {
     partition.side *= 2;
   }
+  partition.tiles = TilesOf(pixels, partition.side);
   // A small window takes longer sample ranges instead of larger tiles.
-  const std::uint64_t area = std::min<std::uint64_t>(
-      pixels.pixels(), std::uint64_t(partition.side) * partition.side);
-  const std::uint64_t per_task = std::max<std::uint64_t>(kSamplesPerTask / area, 1);
-  partition.samples = static_cast<std::uint32_t>(
-      std::clamp<std::uint64_t>(per_task, 1, std::max<std::uint64_t>(spp, 1)));
-  for (int y = pixels.y0; y < pixels.y1; y += partition.side) {
-    for (int x = pixels.x0; x < pixels.x1; x += partition.side) {
-      partition.tiles.push_back({x, y, std::min(x + partition.side, pixels.x1),
-                                 std::min(y + partition.side, pixels.y1)});
+  partition.samples =
+      SamplesPerTask(std::min<std::uint64_t>(
+                         pixels.pixels(), std::uint64_t(partition.side) * partition.side),
+                     spp);
+  return partition;
+}
+
+std::uint32_t SamplesPerTask(std::uint64_t pixels, std::uint64_t spp) {
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
+      kSamplesPerTask / pixels, 1, std::max<std::uint64_t>(spp, 1)));
+}
+
+std::vector<PixelRect> TilesOf(const PixelRect& window, int side) {
+  std::vector<PixelRect> tiles;
+  for (int y = window.y0 / side * side; y < window.y1; y += side) {
+    for (int x = window.x0 / side * side; x < window.x1; x += side) {
+      tiles.push_back({std::max(x, window.x0), std::max(y, window.y0),
+                       std::min(x + side, window.x1), std::min(y + side, window.y1)});
     }
   }
-  return partition;
+  return tiles;
 }
 
 void TilePixels(const PixelRect& tile, int image_width,

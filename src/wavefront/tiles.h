@@ -19,6 +19,12 @@ struct TilePartition {
 /// few enough that the sample buffer stays in the cache and threads stay busy.
 TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp);
 
+/// Samples of a task of a tile of so many pixels.
+std::uint32_t SamplesPerTask(std::uint64_t pixels, std::uint64_t spp);
+
+/// The window in tiles whose sides are `side`, from the image's origin on.
+std::vector<PixelRect> TilesOf(const PixelRect& window, int side);
+
 /// Pixel indices (y * image_width + x) of a tile in 4x4 blocks, so that a vector of lanes
 /// starts with neighbouring rays.
 void TilePixels(const PixelRect& tile, int image_width,

@@ -1,5 +1,7 @@
 #include "src/wavefront/training.h"
 
+#include "src/core/error.h"
+
 namespace lanelight {
 namespace {
 
@@ -34,6 +36,58 @@ TrainingOutcome Train(const TrainingContext& context) {
     all.rays += one.rays;
   }
   return all;
+}
+
+std::vector<TrainedTable> TakeTraining(const StrategyTables& tables) {
+  const PathValues& p = tables.path_values;
+  const CellGrid& g = p.grid;
+  std::vector<double> head;
+  for (int i = 0; i < 3; ++i) head.push_back(double(g.low[i]));
+  for (int i = 0; i < 3; ++i) head.push_back(double(g.per_unit[i]));
+  for (int i = 0; i < 3; ++i) head.push_back(g.size[i]);
+  for (int i = 0; i < 3; ++i) head.push_back(double(p.channel[i]));
+  head.push_back(double(p.scale));
+  return {
+      {"path_values",
+       "grid: low corner, cells per unit, cells; weight of each channel; scale", head},
+      {"path_values_survive", "by cell", {p.survive.begin(), p.survive.end()}},
+      {"path_values_split", "by cell", {p.split.begin(), p.split.end()}},
+      {"path_values_inverse",
+       "ImageGuess::Inverse, by pixel of the full image and channel",
+       {p.inverse_pixel.begin(), p.inverse_pixel.end()}}};
+}
+
+namespace {
+
+const std::vector<double>& TableOf(const std::vector<TrainedTable>& trained,
+                                   const std::string& name) {
+  for (const TrainedTable& table : trained) {
+    if (table.name == name) return table.values;
+  }
+  throw InputError(fmt::format("the state has no table '{}'", name));
+}
+
+void Put(const std::vector<double>& values, AlignedVector<float>& out) {
+  out.resize(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) out[i] = static_cast<float>(values[i]);
+}
+
+}  // namespace
+
+void PutTraining(const std::vector<TrainedTable>& trained, StrategyTables& tables) {
+  PathValues& p = tables.path_values;
+  const std::vector<double>& head = TableOf(trained, "path_values");
+  if (head.size() != 13) throw InputError("the state's table 'path_values' is cut");
+  for (std::size_t i = 0; i < 3; ++i) {
+    p.grid.low[i] = static_cast<float>(head[i]);
+    p.grid.per_unit[i] = static_cast<float>(head[3 + i]);
+    p.grid.size[i] = static_cast<std::int32_t>(head[6 + i]);
+    p.channel[i] = static_cast<float>(head[9 + i]);
+  }
+  p.scale = static_cast<float>(head[12]);
+  Put(TableOf(trained, "path_values_survive"), p.survive);
+  Put(TableOf(trained, "path_values_split"), p.split);
+  Put(TableOf(trained, "path_values_inverse"), p.inverse_pixel);
 }
 
 }  // namespace lanelight

@@ -12,6 +12,7 @@
 #include "src/path/run_parameters.h"
 #include "src/prepare/tables.h"
 #include "src/wavefront/plan.h"
+#include "src/wavefront/run_state.h"
 
 namespace lanelight {
 
@@ -30,12 +31,6 @@ struct TrainingContext {
   StrategyTables& tables;  // to be filled
 };
 
-struct TrainingOutcome {
-  std::optional<Roulette> roulette;  // that the image is to be rendered with instead
-  std::string note;                  // what was found, one line
-  std::uint64_t samples = 0, rays = 0;
-};
-
 // X(name, feature that asks for it), in the order in which they run. Each is a function
 // Train<name> in a file of its own.
 #define LANELIGHT_TRAININGS(X) X(PathValues, kPathValues)
@@ -49,5 +44,9 @@ bool NeedsTraining(const Plan& plan);
 
 /// Runs what the plan's strategy asks for.
 TrainingOutcome Train(const TrainingContext& context);
+
+/// What it has put into the tables, to be kept and shipped; and back.
+std::vector<TrainedTable> TakeTraining(const StrategyTables& tables);
+void PutTraining(const std::vector<TrainedTable>& trained, StrategyTables& tables);
 
 }  // namespace lanelight

@@ -55,7 +55,8 @@ class Pass {
     const Strategy strategy = PlannedStrategy(scene, plan.options);
     run.seed ^= 0x5bd1e995u;  // apart from the image's
     run.spp = spp;
-    run.points = MakePointsParameters(strategy.points, 1);
+    run.points = MakePointsParameters(strategy.points);
+    run.points.group_shift = 0;  // every sample is randomised anew: independent
     run.pairs = MakePairParameters(strategy);
     run.roulette = MakeRouletteParameters(strategy);
     run.features = plan.features;

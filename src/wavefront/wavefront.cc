@@ -39,14 +39,12 @@ void Place(T*& column, Field field, const Plan& plan, std::uint32_t*& next,
 
 }  // namespace
 
-RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan,
-                                std::uint32_t group_size) {
+RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan) {
   RunParameters run;
   run.width = static_cast<std::uint32_t>(scene.film.width);
   run.height = static_cast<std::uint32_t>(scene.film.height);
   const Strategy& strategy = scene.strategy;
-  run.points = MakePointsParameters(
-      strategy.points, group_size / (strategy.pairs != Pairs::kNone ? 2 : 1));
+  run.points = MakePointsParameters(strategy.points);
   run.pairs = MakePairParameters(strategy);
   run.mis = MakeMisParameters(strategy);
   run.roulette = MakeRouletteParameters(strategy);

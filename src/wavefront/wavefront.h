@@ -11,10 +11,9 @@
 
 namespace lanelight {
 
-/// The constants of a render that scene, plan and size of the groups decide; without
-/// seed, planned samples and tables.
-RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan,
-                                std::uint32_t group_size);
+/// The constants of a render that scene and plan decide; without seed, planned samples
+/// and tables.
+RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan);
 
 class Wavefront {
  public:

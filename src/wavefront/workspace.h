@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/core/aligned.h"
+#include "src/wavefront/run_state.h"
 #include "src/wavefront/stage_clock.h"
 #include "src/wavefront/wavefront.h"
 
@@ -15,6 +16,7 @@ namespace lanelight {
 struct TaskSamples {
   AlignedVector<float> values;
   std::uint32_t count = 0;  // samples per pixel; 0 = not run
+  RunCounts counts;
 };
 
 /// What a thread keeps between tasks.

@@ -1,4 +1,4 @@
-#include "src/prepare/lattice.h"
+#include "tests/prepare/lattice_quality.h"
 
 #include <algorithm>
 #include <cmath>

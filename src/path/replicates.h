@@ -1,0 +1,47 @@
+// How the samples of a pixel are dealt out to independent randomisations of the sample
+// points. Nothing here depends on how many samples there will be, so a render can be
+// stopped anywhere and go on as if it had not been.
+//
+// Each of kReplicates randomisations is an endless sequence of its own; samples take
+// turns. After n samples there are kReplicates independent estimates from n / kReplicates
+// points each: as good as points that were made for n where that is a power of two, and
+// never an incomplete group. The scatter of the replicates shows the error at any moment.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace lanelight {
+
+/// As many as the error of a pixel needs; more would take stratification away.
+inline constexpr std::uint32_t kReplicates = 4, kLogReplicates = 2;
+
+/// How a pixel's samples count as observations.
+struct SampleGroups {
+  std::uint32_t unit =
+      1;  // successive samples that belong together: 2 in antithetic pairs
+  /// Units take turns at kReplicates observations; else each is one by itself.
+  bool replicates = false;
+
+  bool operator==(const SampleGroups&) const = default;
+
+  /// Whose turn a sample is.
+  std::uint32_t Replicate(std::uint64_t sample) const {
+    return static_cast<std::uint32_t>(sample / unit % kReplicates);
+  }
+  /// Samples of a replicate among the first `samples`.
+  std::uint64_t InReplicate(std::uint64_t samples, std::uint32_t replicate) const {
+    const std::uint64_t turn = std::uint64_t{unit} * kReplicates;
+    const std::uint64_t before = std::uint64_t{unit} * replicate;
+    const std::uint64_t rest = samples % turn;
+    return samples / turn * unit +
+           std::min<std::uint64_t>(unit, rest > before ? rest - before : 0);
+  }
+  /// Independent observations among the first `samples`.
+  std::uint64_t Observations(std::uint64_t samples) const {
+    if (!replicates) return samples / unit;
+    return std::min<std::uint64_t>(kReplicates, (samples + unit - 1) / unit);
+  }
+};
+
+}  // namespace lanelight

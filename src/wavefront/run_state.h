@@ -1,0 +1,61 @@
+// A run at rest: what it needs to go on, here or elsewhere, as if it had never stopped.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/core/column.h"
+#include "src/path/wave.h"
+#include "src/strategy/strategy.h"
+#include "src/wavefront/films.h"
+
+namespace lanelight {
+
+/// What has been counted. All but the seconds are the same however the work was cut.
+struct RunCounts {
+  std::uint64_t samples = 0, rays_closest = 0, rays_shadow = 0;
+  Health health;
+  double seconds = 0, cpu_seconds = 0;  // training included
+
+  void Add(const RunCounts& more);
+};
+
+/// Numbers that a training has learned, by name.
+struct TrainedTable {
+  std::string name, meaning;
+  std::vector<double> values;
+};
+
+/// What a strategy has learned before the image (src/wavefront/training.h).
+struct TrainingOutcome {
+  std::optional<Roulette> roulette;  // that the image is to be rendered with instead
+  std::string note;                  // what was found, one line
+  std::uint64_t samples = 0, rays = 0;
+  double seconds = 0, cpu_seconds = 0;
+};
+
+struct RunState {
+  Films& films;
+  RunCounts counts;
+  bool trained = false;  // what follows is of a training
+  TrainingOutcome training;
+  std::vector<TrainedTable> tables;
+};
+
+/// Keeps the state of a run while it goes on.
+class RunKeeper {
+ public:
+  virtual ~RunKeeper() = default;
+  /// Called before the run begins. True: the state is that of a run to be gone on with;
+  /// the films' columns then hold its samples.
+  virtual bool Restore(RunState& state) = 0;
+  /// Called often, from any thread: whether Keep is due. Tasks that have begun are
+  /// finished then, and others wait.
+  virtual bool Due() const = 0;
+  /// Nothing is in flight; every pixel has a whole number of samples, not all the same.
+  virtual void Keep(RunState& state) = 0;
+};
+
+}  // namespace lanelight
