@@ -9,9 +9,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <utility>
+#include <filesystem>
 
 #include "src/core/error.h"
+#include "src/image/file_descriptor.h"
 
 namespace lanelight {
 namespace {
@@ -19,19 +20,6 @@ namespace {
 [[noreturn]] void Fail(const std::string& path, const char* what, int error) {
   throw InputError(fmt::format("{}: {}: {}", path, what, std::strerror(error)));
 }
-
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int fd) : fd_(fd) {}
-  ~FileDescriptor() { Close(); }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  int get() const { return fd_; }
-  bool Close() { return fd_ < 0 || close(std::exchange(fd_, -1)) == 0; }
-
- private:
-  int fd_;
-};
 
 // True once everything is written; errno says why not.
 bool WriteAll(int fd, std::string_view content) {
@@ -57,6 +45,17 @@ void WriteInPlace(const std::string& path, std::string_view content) {
   if (!WriteAll(file.get(), content) || !file.Close()) Fail(path, "cannot write", errno);
 }
 
+// Puts the name of a file onto the disk. True if done, or if it cannot be done here: some
+// file systems do not know it, and a folder may be writable but not readable. The content
+// is safe even so, and the name is that of the old file or the new one.
+bool SyncFolder(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path();
+  const FileDescriptor fd(
+      open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (fd.get() < 0) return errno == EACCES;
+  return fsync(fd.get()) == 0 || errno == EINVAL || errno == EROFS;
+}
+
 }  // namespace
 
 void WriteFileAtomically(const std::string& path, std::string_view content) {
@@ -69,10 +68,12 @@ void WriteFileAtomically(const std::string& path, std::string_view content) {
   if (file.get() < 0) Fail(path, "cannot create", errno);
   const bool complete = WriteAll(file.get(), content) && fsync(file.get()) == 0 &&
                         file.Close() && rename(temporary.c_str(), path.c_str()) == 0;
-  if (complete) return;
-  const int error = errno;
-  unlink(temporary.c_str());
-  Fail(path, "cannot write", error);
+  if (!complete) {
+    const int error = errno;
+    unlink(temporary.c_str());
+    Fail(path, "cannot write", error);
+  }
+  if (!SyncFolder(path)) Fail(path, "written, but its folder cannot be", errno);
 }
 
 std::string ReadWholeFile(const std::string& path) {

@@ -7,10 +7,10 @@
 namespace lanelight {
 
 /// Writes `content` to a temporary file in the directory of `path`, flushes it to the
-/// disk and renames it over `path`, keeping the permissions that a new file would get. On
-/// any failure (missing directory, no permission, full disk) the temporary file is
-/// removed, an existing `path` stays as it was, and InputError names the path and the
-/// system's reason.
+/// disk, renames it over `path`, keeping the permissions that a new file would get, and
+/// flushes the directory. On any failure (missing directory, no permission, full disk)
+/// the temporary file is removed, an existing `path` stays as it was, and InputError
+/// names the path and the system's reason.
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
 /// The whole file. Throws InputError with the system's reason; a directory is an error.

@@ -95,7 +95,7 @@ class StateFile {
   void ReadTable(const MutableStateColumn& into) const;
 
  private:
-  class Impl;
+  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

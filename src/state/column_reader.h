@@ -1,0 +1,25 @@
+// From datasets to live columns.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "src/state/column.h"
+#include "src/state/hdf5.h"
+#include "src/state/tiles.h"
+
+namespace lanelight {
+
+/// Whether `group` ("pixels", "tables") has a column of this name.
+bool HasColumn(hid_t file, const std::string& group, const std::string& name);
+/// Its rows; throws hdf5::Failure if there is none.
+std::size_t ColumnRows(hid_t file, const std::string& group, const std::string& name);
+
+/// Fills the columns, with all threads: the rows that `tiles` names, or all if it is
+/// null. Throws hdf5::Failure before anything is read if a column is not there with its
+/// type, shape and number of rows.
+void ReadColumns(hid_t file, const std::string& group,
+                 const std::vector<MutableStateColumn>& into, const TileRows* tiles);
+
+}  // namespace lanelight

@@ -1,0 +1,147 @@
+#include "src/state/state_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+
+#include "src/core/error.h"
+#include "src/image/file_descriptor.h"
+#include "src/state/column_reader.h"
+#include "src/state/hdf5.h"
+#include "src/state/seal.h"
+#include "src/state/tiles.h"
+
+namespace lanelight {
+namespace {
+
+// O_NONBLOCK: a pipe would wait for somebody to write.
+FileDescriptor Open(const std::string& path) {
+  FileDescriptor fd(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat info;
+  if (fd.get() < 0 || fstat(fd.get(), &info) != 0) {
+    throw InputError(fmt::format("{}: cannot open: {}", path, std::strerror(errno)));
+  }
+  if (!S_ISREG(info.st_mode)) {
+    throw InputError(fmt::format("{}: is {}, not a state file", path,
+                                 S_ISDIR(info.st_mode) ? "a directory" : "no file"));
+  }
+  return fd;
+}
+
+// The file that was checked, whatever its path names by now.
+hdf5::Handle OpenHdf5(int fd) {
+  const hdf5::Handle access = hdf5::NewProperties(H5P_FILE_ACCESS);
+  hdf5::Check(H5Pset_file_locking(access.get(), false, true), "no locking");
+  return hdf5::Handle(
+      H5Fopen(fmt::format("/proc/self/fd/{}", fd).c_str(), H5F_ACC_RDONLY, access.get()),
+      H5Fclose, "open");
+}
+
+// Coordinates whose differences are numbers as well.
+constexpr std::int32_t kFarthest = 1 << 30;
+
+std::vector<PixelRect> ReadRects(hid_t file, const char* name) {
+  const std::vector<std::int32_t> numbers = hdf5::ReadFours(file, name);
+  std::vector<PixelRect> rects;
+  for (std::size_t i = 0; i < numbers.size(); i += 4) {
+    for (std::size_t k = i; k < i + 4; ++k) {
+      if (numbers[k] < -kFarthest || numbers[k] > kFarthest) {
+        throw hdf5::Failure(fmt::format("{} has a coordinate {}", name, numbers[k]));
+      }
+    }
+    rects.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
+  }
+  return rects;
+}
+
+}  // namespace
+
+// The descriptor is closed after HDF5's file.
+struct StateFile::Impl {
+  const std::string path;
+  const FileDescriptor fd;
+  const std::uint64_t bytes;
+  std::optional<hdf5::Handle> file;
+  std::string identity, report;
+  PixelRect window;
+  std::vector<PixelRect> tiles;
+
+  // Calls action(file); what HDF5 cannot do is an error of this file.
+  template <class Action>
+  auto Do(const Action& action) const {
+    const hdf5::Quiet quiet;
+    try {
+      return action(file->get());
+    } catch (const hdf5::Failure& failure) {
+      throw InputError(fmt::format("{}: {}", path, failure.what()));
+    }
+  }
+
+  explicit Impl(const std::string& p)
+      : path(p), fd(Open(p)), bytes(CheckSeal(fd.get(), p, kStateSchema)) {
+    const hdf5::Quiet quiet;
+    try {
+      file.emplace(OpenHdf5(fd.get()));
+      ReadHead(file->get());
+    } catch (const hdf5::Failure& failure) {
+      throw InputError(fmt::format("{}: {}", path, failure.what()));
+    }
+  }
+
+  void ReadHead(hid_t f) {
+    identity = hdf5::ReadText(f, "identity");
+    report = hdf5::ReadText(f, "report");
+    const std::vector<PixelRect> windows = ReadRects(f, "window");
+    if (windows.size() != 1) throw hdf5::Failure("window is not one rectangle");
+    window = windows[0];
+    tiles = ReadRects(f, "tiles");
+    const std::string problem = TileProblem(tiles, window);
+    if (!problem.empty()) throw hdf5::Failure(problem);
+  }
+};
+
+StateFile::StateFile(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
+StateFile::~StateFile() = default;
+StateFile::StateFile(StateFile&&) noexcept = default;
+StateFile& StateFile::operator=(StateFile&&) noexcept = default;
+
+const std::string& StateFile::path() const { return impl_->path; }
+const std::string& StateFile::identity() const { return impl_->identity; }
+const std::string& StateFile::report() const { return impl_->report; }
+PixelRect StateFile::window() const { return impl_->window; }
+const std::vector<PixelRect>& StateFile::tiles() const { return impl_->tiles; }
+std::uint64_t StateFile::bytes() const { return impl_->bytes; }
+
+void StateFile::ReadPixels(const std::vector<MutableStateColumn>& into,
+                           PixelRect window) const {
+  for (const MutableStateColumn& column : into) {
+    LL_CHECK_EQ(column.rows, window.pixels());
+  }
+  impl_->Do([&](hid_t file) {
+    const std::string problem = TileProblem(impl_->tiles, window);
+    if (!problem.empty()) throw hdf5::Failure(problem);
+    const TileRows tiles(impl_->tiles, window);
+    ReadColumns(file, "pixels", into, &tiles);
+  });
+}
+
+bool StateFile::HasPixels(const std::string& name) const {
+  return impl_->Do([&](hid_t file) { return HasColumn(file, "pixels", name); });
+}
+
+bool StateFile::HasTable(const std::string& name) const {
+  return impl_->Do([&](hid_t file) { return HasColumn(file, "tables", name); });
+}
+
+std::size_t StateFile::TableRows(const std::string& name) const {
+  return impl_->Do([&](hid_t file) { return ColumnRows(file, "tables", name); });
+}
+
+void StateFile::ReadTable(const MutableStateColumn& into) const {
+  impl_->Do([&](hid_t file) { ReadColumns(file, "tables", {into}, nullptr); });
+}
+
+}  // namespace lanelight
