@@ -168,28 +168,29 @@ double FilmAccumulator::Aov(int x, int y, int plane) const {
   return aov_[index].of[plane] / static_cast<double>(samples_[index]);
 }
 
-std::vector<StateColumn> FilmAccumulator::Columns() {
-  std::vector<StateColumn> columns = {
-      ColumnOf<std::uint64_t>("samples", "samples taken", samples_, {})};
+std::vector<MutableStateColumn> FilmAccumulator::Columns() {
+  std::vector<MutableStateColumn> columns = {
+      MakeStateColumn<std::uint64_t>("samples", "samples taken", samples_, {})};
   if (groups_.replicates) {
-    columns.push_back(ColumnOf<double>("replicates",
-                                       "sums of the samples, by replicate and channel",
-                                       replicates_, {kReplicates, 3}));
+    columns.push_back(MakeStateColumn<double>(
+        "replicates", "sums of the samples, by replicate and channel", replicates_,
+        {kReplicates, 3}));
   } else {
-    columns.push_back(ColumnOf<double>(
+    columns.push_back(MakeStateColumn<double>(
         "units", "sums of the samples, then of the squares of units' means, by channel",
         units_, {2, 3}));
   }
   if (!open_.empty()) {
-    columns.push_back(
-        ColumnOf<double>("open", "sum of a pair's first sample, by channel", open_, {3}));
+    columns.push_back(MakeStateColumn<double>(
+        "open", "sum of a pair's first sample, by channel", open_, {3}));
   }
   if (has_aov()) {
-    columns.push_back(ColumnOf<double>(
+    columns.push_back(MakeStateColumn<double>(
         "aov", "sums of albedo R, G, B, normal X, Y, Z and depth", aov_, {kAovPlanes}));
   }
   if (!control_) return columns;
-  for (StateColumn& column : control_->Columns()) columns.push_back(std::move(column));
+  for (MutableStateColumn& column : control_->Columns())
+    columns.push_back(std::move(column));
   return columns;
 }
 

@@ -63,7 +63,7 @@ class FilmAccumulator {
 
   /// All that AddSamples has brought, by pixel, row by row: a film of the same pixels,
   /// planes and groups that is given these goes on from there.
-  std::vector<StateColumn> Columns();
+  std::vector<MutableStateColumn> Columns();
 
  private:
   // Of a pixel whose observations are single units.

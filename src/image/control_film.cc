@@ -183,18 +183,19 @@ ControlReport ControlFilm::Report(const ControlledColors& colors) const {
           total.Correlation()};
 }
 
-std::vector<StateColumn> ControlFilm::Columns() {
+std::vector<MutableStateColumn> ControlFilm::Columns() {
   if (groups_.replicates) {
-    return {ColumnOf<double>("control_replicates",
-                             "sums of h - E[h], by replicate and channel", replicates_,
-                             {kReplicates, 3})};
+    return {MakeStateColumn<double>("control_replicates",
+                                    "sums of h - E[h], by replicate and channel",
+                                    replicates_, {kReplicates, 3})};
   }
-  return {
-      ColumnOf<double>("control_halves",
-                       "sums over units of 1, f, D, f f, f D, D D with D = h - E[h], "
-                       "by half and channel",
-                       halves_, {2, 3, 6}),
-      ColumnOf<double>("control_open", "sum of D over the incomplete unit", open_, {3})};
+  return {MakeStateColumn<double>(
+              "control_halves",
+              "sums over units of 1, f, D, f f, f D, D D with D = h - E[h], "
+              "by half and channel",
+              halves_, {2, 3, 6}),
+          MakeStateColumn<double>("control_open", "sum of D over the incomplete unit",
+                                  open_, {3})};
 }
 
 }  // namespace lanelight

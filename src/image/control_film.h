@@ -95,7 +95,7 @@ class ControlFilm {
   ControlReport Report(const ControlledColors& colors) const;
 
   /// All that has been added; coefficients are not part of it.
-  std::vector<StateColumn> Columns();
+  std::vector<MutableStateColumn> Columns();
 
  private:
   static constexpr int kReach = 2;  // window: 5 x 5 pixels

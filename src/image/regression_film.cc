@@ -232,17 +232,19 @@ ControlReport RegressionFilm::Report() const {
   return {coefficient_, scale > 0 ? products / scale : 0};
 }
 
-std::vector<StateColumn> RegressionFilm::Columns() {
-  return {
-      ColumnOf<std::uint64_t>("regression_samples", "samples corrected", samples_, {}),
-      ColumnOf<double>("regression_moments",
-                       "for each half, sums of f and of its square by channel; then "
-                       "sums of f times the fit and of the fit's square",
-                       pixels_, {14}),
-      ColumnOf<float>("regression_fits",
-                      "for each half, sums of the functions and of f times them by "
-                      "channel; then the coefficients by half, channel and function",
-                      fits_, {140})};
+std::vector<MutableStateColumn> RegressionFilm::Columns() {
+  return {MakeStateColumn<std::uint64_t>("regression_samples", "samples corrected",
+                                         samples_, {}),
+          MakeStateColumn<double>(
+              "regression_moments",
+              "for each half, sums of f and of its square by channel; then "
+              "sums of f times the fit and of the fit's square",
+              pixels_, {14}),
+          MakeStateColumn<float>(
+              "regression_fits",
+              "for each half, sums of the functions and of f times them by "
+              "channel; then the coefficients by half, channel and function",
+              fits_, {140})};
 }
 
 }  // namespace lanelight

@@ -61,7 +61,7 @@ class RegressionFilm {
   ControlReport Report() const;
 
   /// All that Correct has brought.
-  std::vector<StateColumn> Columns();
+  std::vector<MutableStateColumn> Columns();
 
  private:
   // Of one half of a pixel's samples, the first kMostFitted of them.

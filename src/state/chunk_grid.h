@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "src/state/column.h"
+#include "src/core/column.h"
 #include "src/state/tiles.h"
 
 namespace lanelight {

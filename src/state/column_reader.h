@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/state/column.h"
+#include "src/core/column.h"
 #include "src/state/hdf5.h"
 #include "src/state/tiles.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/state/column.h"
+#include "src/core/column.h"
 
 namespace lanelight::hdf5 {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "src/image/pixel_rect.h"
-#include "src/state/column.h"
+#include "src/core/column.h"
 
 namespace lanelight {
 

@@ -38,10 +38,10 @@ std::optional<ControlReport> Films::Control() const {
   return regression_ ? regression_->Report() : film_.Control();
 }
 
-std::vector<StateColumn> Films::Columns() {
-  std::vector<StateColumn> columns = film_.Columns();
+std::vector<MutableStateColumn> Films::Columns() {
+  std::vector<MutableStateColumn> columns = film_.Columns();
   if (!regression_) return columns;
-  for (StateColumn& column : regression_->Columns()) {
+  for (MutableStateColumn& column : regression_->Columns()) {
     columns.push_back(std::move(column));
   }
   return columns;

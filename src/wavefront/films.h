@@ -35,7 +35,7 @@ class Films {
 
   /// All that Add has brought, by pixel of the film, row by row: films of the same
   /// pixels, planes and groups that are given these go on from there.
-  std::vector<StateColumn> Columns();
+  std::vector<MutableStateColumn> Columns();
   /// Whether what is added to a pixel depends on others, in blocks of so many squared
   /// pixels; 1 if not.
   int Block() const { return regression_ ? RegressionFilm::kBlock : 1; }

@@ -25,6 +25,7 @@ constexpr Floor kFloors[] = {
     {"src/strategy",       "the vocabulary of strategies"},
     {"src/path",           "what a path is: fields, stages, dimensions, features"},
     {"src/image",          "films, image files, spectra"},
+    {"src/state",          "files of a render's state"},
     {"src/report",         "the page of a study"},
     {"src/scene",          "what a scene file says"},
     {"src/parse",          "text to description"},

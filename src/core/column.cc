@@ -1,4 +1,4 @@
-#include "src/state/column.h"
+#include "src/core/column.h"
 
 namespace lanelight {
 
