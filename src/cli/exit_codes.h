@@ -10,6 +10,7 @@ enum ExitCode : int {
   kExitInvalidSamples = 3,  // the image was written, but some samples were not numbers
   kExitOverLimit = 4,       // compare: the error exceeds --max-relmse
   kExitTargetMissed = 5,    // render: the image was written, above the target error
+  kExitInterrupted = 6,     // a signal came; what was done is kept, to go on from
 };
 
 }  // namespace lanelight

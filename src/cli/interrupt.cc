@@ -15,7 +15,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);  // set by a signal handl
 const char* message = nullptr;  // set before the handler
 std::size_t message_size = 0;
 
-constexpr int kSignals[] = {SIGINT, SIGTERM};
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 // Only calls that are safe in a signal handler.
 void OnSignal(int) {

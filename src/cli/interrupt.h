@@ -5,14 +5,20 @@
 
 namespace lanelight {
 
-/// While it lives, the first SIGINT or SIGTERM sets stop() and prints a message; the next
-/// one has its ordinary effect. At most one at a time.
+inline constexpr const char* kStoppingMessage =
+    "\nstopping: finishing the samples in flight, then writing the image (once more to "
+    "abort)\n";
+inline constexpr const char* kKeepingMessage =
+    "\nstopping: finishing the samples in flight, then writing state and image (once "
+    "more "
+    "to abort; the last state stays)\n";
+
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP sets stop() and prints a message;
+/// the next one has its ordinary effect. At most one at a time.
 class InterruptGuard {
  public:
   /// `message`, a literal, says what happens now.
-  explicit InterruptGuard(const char* message =
-                              "\nstopping: finishing the samples in flight, then writing "
-                              "the image (once more to abort)\n");
+  explicit InterruptGuard(const char* message = kStoppingMessage);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;

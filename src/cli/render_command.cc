@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "kernels/simd/target.h"
+#include "src/cli/checkpoint_options.h"
 #include "src/cli/commands.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/render_outputs.h"
@@ -15,6 +16,7 @@ namespace {
 struct RenderCommandOptions {
   SceneOptions scene;
   RenderOutputs outputs;
+  CheckpointFlags checkpoint;
 };
 
 int Render(const RenderCommandOptions& options) {
@@ -23,7 +25,9 @@ int Render(const RenderCommandOptions& options) {
   CheckOutputs(options.outputs, options.scene.scene);
   const Job job = PrepareJob(options.scene.scene, options.scene.settings);
   if (!options.outputs.quiet) PrintNotes(job);
-  const InterruptGuard interrupt;
+  CheckPart(options.outputs.targets.checkpoint, job);
+  const bool keeps = !options.outputs.targets.checkpoint.path.empty();
+  const InterruptGuard interrupt(keeps ? kKeepingMessage : kStoppingMessage);
   ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
   const Rendering rendering =
       RenderToFiles(job, options.scene.scene, options.outputs.targets,
@@ -70,21 +74,26 @@ void AddRenderCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand("render", "Render a scene to an OpenEXR image");
   auto options = std::make_shared<RenderCommandOptions>();
   AddAmountOptions(*command, options->scene.settings);
-  AddOutputOptions(*command, options->outputs, true);
+  AddOutputOptions(*command, options->outputs, false);
+  AddCheckpointOptions(*command, options->checkpoint);
   AddSceneOptions(*command, options->scene);
   command->footer(
       "\nFlags override what the scene file says. Ctrl-C finishes the samples in flight "
       "and\n"
-      "writes the image; a second one aborts.\n"
+      "writes the image, and the state with --checkpoint; a second one aborts.\n"
       "\nExamples:\n"
       "  lanelight render scene.pbrt -o out.exr --spp 256 --png\n"
       "  lanelight render scene.pbrt -o out.exr --time 60 --resolution 640x360 --json "
       "r.json\n"
       "  lanelight render scene.pbrt -o out.exr --target-relmse 0.001 --time 600\n"
-      "  lanelight render scene.pbrt -o part.exr --crop 100,100,200,150 --aov");
+      "  lanelight render scene.pbrt -o part.exr --crop 100,100,200,150 --aov\n"
+      "  lanelight render scene.pbrt -o out.exr --spp 65536 --checkpoint out.state "
+      "--resume\n"
+      "  lanelight render scene.pbrt --spp 4096 --part 3/16 --checkpoint part-3.state");
   command->callback([options, &chosen] {
     ResolveOutputs(options->outputs);
     CheckAmountOptions(options->scene.settings);
+    ResolveCheckpoint(options->checkpoint, options->outputs.targets);
     chosen = [options] { return Render(*options); };
   });
 }

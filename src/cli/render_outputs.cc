@@ -76,7 +76,9 @@ void ResolveOutputs(RenderOutputs& options) {
 
 void CheckOutputs(const RenderOutputs& options, const std::string& scene) {
   const RenderTargets& targets = options.targets;
-  CheckOutputPaths({targets.exr, targets.png, targets.json}, scene);
+  const CheckpointSettings& checkpoint = targets.checkpoint;
+  CheckOutputPaths(
+      {targets.exr, targets.png, targets.json, checkpoint.path, checkpoint.watch}, scene);
 }
 
 void PrintNotes(const Job& job) {
@@ -121,7 +123,16 @@ int PrintRendering(const Rendering& rendering, const Job& job,
                            report.result.health.Total()));
     return kExitInvalidSamples;
   }
+  const CheckpointSettings& checkpoint = options.targets.checkpoint;
+  if (!checkpoint.path.empty() && !rendering.state_kept) {
+    PrintError("error: the last state could not be kept in '" + checkpoint.path + "'");
+    return kExitBadInput;
+  }
   if (!good) return kExitBadInput;
+  if (!checkpoint.path.empty() && report.result.stopped_early) {
+    PrintError("interrupted: go on with --resume '" + checkpoint.path + "'");
+    return kExitInterrupted;
+  }
   return CheckAmount(report, job, options.quiet);
 }
 
@@ -129,6 +140,9 @@ RenderHooks PrintingHooks(ProgressPrinter& progress, const std::atomic<bool>& st
   RenderHooks hooks;
   hooks.on_progress = [&](const Progress& p) { progress.Update(p); };
   hooks.on_rendered = [&] { progress.Finish(); };
+  hooks.on_problem = [](const std::string& problem) {
+    PrintError("warning: " + problem + "; rendering goes on");
+  };
   hooks.stop = &stop;
   return hooks;
 }

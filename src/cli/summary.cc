@@ -88,12 +88,13 @@ std::string StageTable(const RunResult& result) {
 std::string SummaryText(const RenderReport& report, const Job& job) {
   const RunResult& r = report.result;
   std::string text =
-      Row("image", fmt::format("{} ({}x{} pixels, {:.4g} samples each)", report.exr,
+      Row("image", fmt::format("{} ({}x{} pixels, {:.4g} samples each)",
+                               report.exr.empty() ? "none" : report.exr,
                                job.window.width(), job.window.height(),
                                double(r.samples) / double(job.window.pixels())));
   if (!report.png.empty()) text += Row("png", report.png);
   text += Row("strategy", ToText(job.scene.strategy));
-  text += Row("points", PointsText(job, r));
+  text += Row("points", PointsText(job));
   text += SpeedRows(r);
   if (!r.pilot_note.empty()) {
     text +=

@@ -38,6 +38,7 @@ void ReleaseMeshes(SceneDescription& description) {
 
 Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   Job job;
+  job.settings = settings;
   Stopwatch watch;
   ParseOptions parse;
   parse.skip_unsupported = settings.skip_unsupported;

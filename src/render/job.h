@@ -15,6 +15,7 @@ namespace lanelight {
 
 /// A scene ready to render.
 struct Job {
+  RenderSettings settings;       // that it was prepared with
   SceneDescription description;  // overrides applied; meshes released after compiling
   CompiledScene scene;
   Plan plan;

@@ -1,9 +1,10 @@
 #include "src/render/output.h"
 
+#include <array>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
-#include "src/core/version.h"
 
 namespace lanelight {
 namespace {
@@ -65,21 +66,26 @@ std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale) {
   return planes;
 }
 
-ExrOptions OutputOptions(const Job& job, const RunResult& result, bool half) {
+ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts,
+                         bool half) {
+  const std::array<int, 4> crop = identity.at("crop");
+  const std::array<int, 2> resolution = identity.at("resolution");
+  const std::string strategy = identity.at("strategy");
   ExrOptions options;
   options.half = half;
-  options.x0 = job.window.x0;
-  options.y0 = job.window.y0;
-  options.full_width = job.description.film.width;
-  options.full_height = job.description.film.height;
+  options.x0 = crop[0];
+  options.y0 = crop[1];
+  options.full_width = resolution[0];
+  options.full_height = resolution[1];
   // Samples actually taken per pixel, on average: an interrupted render has fewer.
-  const double spp = double(result.samples) / double(job.window.pixels());
-  options.attributes["seed"] = std::to_string(job.seed);
-  options.attributes["spp"] = spp;
-  options.attributes["renderTime"] = result.seconds;
-  options.attributes["strategy"] = "path, " + ToText(job.scene.strategy);
-  options.attributes["version"] = FullVersion();
-  options.attributes["sceneHash"] = fmt::format("{:016x}", job.scene_hash);
+  const double pixels = double(crop[2] - crop[0]) * double(crop[3] - crop[1]);
+  const nlohmann::json& seed = identity.at("seed");
+  options.attributes["seed"] = seed.dump();
+  options.attributes["spp"] = double(counts.samples) / pixels;
+  options.attributes["renderTime"] = counts.seconds;
+  options.attributes["strategy"] = "path, " + strategy;
+  options.attributes["version"] = identity.at("version").get<std::string>();
+  options.attributes["sceneHash"] = identity.at("scene_hash").get<std::string>();
   return options;
 }
 

@@ -1,6 +1,7 @@
 // The film as an image file, with its variance and its history.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,10 @@ namespace lanelight {
 /// CompiledScene::scale).
 std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale);
 
-/// Data window, and the attributes seed, spp, renderTime, strategy, version, sceneHash.
-ExrOptions OutputOptions(const Job& job, const RunResult& result, bool half);
+/// Data window, and the attributes seed, spp, renderTime, strategy, version, sceneHash,
+/// of a render of this identity (src/render/identity.h).
+ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts,
+                         bool half);
 
 /// R, G, B of the film, for the PNG.
 Image FilmImage(const FilmAccumulator& film);

@@ -1,21 +1,28 @@
 #include "src/render/render.h"
 
 #include <chrono>
+#include <optional>
 
 #include "src/image/png.h"
+#include "src/render/identity.h"
 #include "src/render/output.h"
 #include "src/render/saving.h"
 
 namespace lanelight {
 namespace {
 
-void SaveImages(const Job& job, const FilmAccumulator& film, const RenderTargets& targets,
-                Saver& saver, RenderReport& report) {
+using Json = nlohmann::json;
+
+void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
+                const RenderTargets& targets, Saver& saver, RenderReport& report) {
   const auto start = std::chrono::steady_clock::now();
+  RunCounts counts;
+  counts.samples = report.result.samples;
+  counts.seconds = report.result.seconds;
   report.exr = targets.exr;
   saver.Save(report.exr, [&](const std::string& path) {
-    WriteExr(path, film.width(), film.height(), FilmPlanes(film, job.scene.scale),
-             OutputOptions(job, report.result, report.half));
+    WriteExr(path, film.width(), film.height(), FilmPlanes(film, scale),
+             OutputOptions(identity, counts, targets.half));
   });
   report.png = targets.png;
   saver.Save(report.png, [&](const std::string& path) {
@@ -25,33 +32,54 @@ void SaveImages(const Job& job, const FilmAccumulator& film, const RenderTargets
   report.write_seconds = taken.count();
 }
 
+RunResult RunKept(const Job& job, FilmAccumulator& film, const Json& head,
+                  const CheckpointSettings& settings, const RenderHooks& hooks,
+                  bool& state_kept) {
+  RunOptions options = RunOptionsOf(job, film);
+  options.on_progress = hooks.on_progress;
+  options.stop = hooks.stop;
+  if (!settings.Any()) return Run(job.scene, job.plan, options, film);
+  const auto on_problem = [&](const std::string& problem) {
+    if (hooks.on_problem) hooks.on_problem(problem);
+  };
+  Checkpoint checkpoint(job, settings, head, on_problem);
+  options.tiles = checkpoint.tiles();
+  options.keeper = &checkpoint;
+  RunResult result = Run(job.scene, job.plan, options, film);
+  checkpoint.Finish();
+  state_kept = checkpoint.kept();
+  return result;
+}
+
 }  // namespace
 
 Rendering RenderToFiles(const Job& job, const std::string& scene,
                         const RenderTargets& targets, const RenderHooks& hooks) {
   FilmAccumulator film = MakeFilm(job);
-  RunOptions options = RunOptionsOf(job, film);
-  options.on_progress = hooks.on_progress;
-  options.stop = hooks.stop;
-
   Rendering out;
-  RenderReport& report = out.report;
-  report.scene = scene;
-  report.half = targets.half;
-  report.result = Run(job.scene, job.plan, options, film);
-  report.error = EstimateError(film);
+  const Json head = HeadJson(job, scene, targets.half);
+  out.report.scene = scene;
+  out.report.half = targets.half;
+  out.report.load_seconds = job.load_seconds;
+  out.report.build_seconds = job.build_seconds;
+  out.report.result = RunKept(job, film, head, targets.checkpoint, hooks, out.state_kept);
   if (hooks.on_rendered) hooks.on_rendered();
+  WriteRendering(film, IdentityOf(job), head, targets, hooks.members, out);
+  return out;
+}
 
+void WriteRendering(const FilmAccumulator& film, const Json& identity, const Json& head,
+                    const RenderTargets& targets, const Json& members, Rendering& out) {
+  out.report.error = EstimateError(film);
   Saver saver;
-  SaveImages(job, film, targets, saver, report);
+  SaveImages(film, identity, head.at("scale"), targets, saver, out.report);
   if (!targets.json.empty()) {
-    nlohmann::json json = ToJson(report, job);
-    json.update(hooks.members);
+    Json json = ToJson(out.report, head);
+    json.update(members);
     out.json = json.dump(2) + "\n";
   }
   if (targets.json != "-") saver.SaveText(targets.json, out.json);
   out.problems = saver.problems();
-  return out;
 }
 
 }  // namespace lanelight

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/render/checkpoint.h"
 #include "src/render/job.h"
 #include "src/render/report.h"
 
@@ -18,11 +19,14 @@ struct RenderTargets {
   std::string json;     // "-": only into Rendering::json
   double exposure = 0;  // of the PNG, stops
   bool half = false;    // colours of the EXR in 16 bits
+  CheckpointSettings checkpoint;
 };
 
 struct RenderHooks {
   std::function<void(const Progress&)> on_progress;
-  std::function<void()> on_rendered;        // before anything is written
+  std::function<void()> on_rendered;  // before anything is written
+  /// Of a state or watched image that could not be written; from any thread.
+  std::function<void(const std::string&)> on_problem;
   const std::atomic<bool>* stop = nullptr;  // ends the render early; what is there counts
   nlohmann::json members = nlohmann::json::object();  // of the report, beside its own
 };
@@ -31,11 +35,20 @@ struct Rendering {
   RenderReport report;
   std::string json;                   // the report as text
   std::vector<std::string> problems;  // of writing; see Saver
+  bool state_kept = false;            // the last state is on the disk
 };
 
 /// Renders the job, estimates the error, and writes images and report; `scene`: name of
 /// the scene in the report. What cannot be written where it should is kept elsewhere.
+/// With a checkpoint the state is kept all along, and the render goes on from one. Throws
+/// InputError for a state that it cannot go on from.
 Rendering RenderToFiles(const Job& job, const std::string& scene,
                         const RenderTargets& targets, const RenderHooks& hooks);
+
+/// The second half of it, for a film whoever has rendered it: `identity` and `head` say
+/// what (src/render/identity.h, HeadJson). out.report.result is what it came to.
+void WriteRendering(const FilmAccumulator& film, const nlohmann::json& identity,
+                    const nlohmann::json& head, const RenderTargets& targets,
+                    const nlohmann::json& members, Rendering& out);
 
 }  // namespace lanelight

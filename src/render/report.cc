@@ -48,7 +48,7 @@ Json ControlJson(const std::optional<ControlReport>& control) {
           {"correlation", control->correlation}};
 }
 
-Json SettingsJson(const Job& job, const RunResult& result, bool half) {
+Json SettingsJson(const Job& job, bool half) {
   const Film& film = job.description.film;
   const PixelRect& w = job.window;
   return {{"resolution", {film.width, film.height}},
@@ -61,7 +61,7 @@ Json SettingsJson(const Job& job, const RunResult& result, bool half) {
           {"seed", job.seed},
           {"sampler", Name(job.scene.strategy.points)},
           {"strategy", ToText(job.scene.strategy)},
-          {"points", PointsText(job, result)},
+          {"points", PointsText(job)},
           {"aov", job.plan.options.aov},
           {"depth", half ? "half" : "float"},
           {"build", job.scene.accel.quality == BuildQuality::kFast ? "fast" : "high"},
@@ -81,7 +81,7 @@ Json NotesJson(const Job& job) {
 
 }  // namespace
 
-std::string PointsText(const Job& job, const RunResult& result) {
+std::string PointsText(const Job& job) {
   return PointsText(job.scene.strategy, job.OpenEnded() ? 0 : job.spp);
 }
 
@@ -124,21 +124,30 @@ Json TargetJson() {
           {"available", AvailableTargets()}};
 }
 
-Json ToJson(const RenderReport& report, const Job& job) {
+Json HeadJson(const Job& job, const std::string& scene, bool half) {
+  Json versions = Json::object();
+  for (const auto& [name, version] : LibraryVersions()) versions[name] = version;
+  return {{"schema", kReportSchema},
+          {"scene", scene},
+          {"scene_hash", fmt::format("{:016x}", job.scene_hash)},
+          {"scale", job.scene.scale},
+          {"plan", ToJson(job.plan)},
+          {"settings", SettingsJson(job, half)},
+          {"target", TargetJson()},
+          {"notes", NotesJson(job)},
+          {"versions", versions}};
+}
+
+Json ToJson(const RenderReport& report, const Json& head) {
   const RunResult& r = report.result;
   const double seconds = r.seconds > 0 ? r.seconds : 1e-9;
   const std::uint64_t rays = r.rays_closest + r.rays_shadow;
-  Json versions = Json::object();
-  for (const auto& [name, version] : LibraryVersions()) versions[name] = version;
-  return {
-      {"schema", kReportSchema},
-      {"scene", report.scene},
-      {"scene_hash", fmt::format("{:016x}", job.scene_hash)},
+  Json json = {
       {"output",
        {{"exr", report.exr}, {"png", report.png.empty() ? Json() : Json(report.png)}}},
       {"seconds",
-       {{"load", job.load_seconds},
-        {"build", job.build_seconds},
+       {{"load", report.load_seconds},
+        {"build", report.build_seconds},
         {"render", r.seconds},
         {"pilot", r.pilot_seconds},
         {"write", report.write_seconds}}},
@@ -160,13 +169,10 @@ Json ToJson(const RenderReport& report, const Job& job) {
        {{"nan", r.health.nan},
         {"infinite", r.health.infinite},
         {"negative", r.health.negative}}},
-      {"plan", ToJson(job.plan)},
       {"stages", ProfileJson(r.stages)},
-      {"wavefront_bytes", r.wavefront_bytes},
-      {"settings", SettingsJson(job, r, report.half)},
-      {"target", TargetJson()},
-      {"notes", NotesJson(job)},
-      {"versions", versions}};
+      {"wavefront_bytes", r.wavefront_bytes}};
+  json.update(head);
+  return json;
 }
 
 }  // namespace lanelight

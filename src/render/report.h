@@ -13,22 +13,25 @@
 
 namespace lanelight {
 
-inline constexpr int kReportSchema = 2;
+inline constexpr int kReportSchema = 3;
 
 struct RenderReport {
   std::string scene, exr, png;  // png empty: not written
   RunResult result;
   ErrorEstimate error;
-  double write_seconds = 0;
+  double load_seconds = 0, build_seconds = 0, write_seconds = 0;
   bool half = false;
 };
 
 nlohmann::json ToJson(const Plan& plan);
 nlohmann::json ToJson(const ErrorEstimate& error);
-nlohmann::json ToJson(const RenderReport& report, const Job& job);
+/// What a report says whatever the render comes to; `scene`: its name.
+nlohmann::json HeadJson(const Job& job, const std::string& scene, bool half);
+/// All of it; `head` is of HeadJson.
+nlohmann::json ToJson(const RenderReport& report, const nlohmann::json& head);
 
-/// How the sample points were grouped.
-std::string PointsText(const Job& job, const RunResult& result);
+/// How the sample points are randomised.
+std::string PointsText(const Job& job);
 
 /// Name and version of the libraries in use, and of the compiler.
 std::vector<std::pair<std::string, std::string>> LibraryVersions();

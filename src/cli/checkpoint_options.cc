@@ -1,0 +1,107 @@
+#include "src/cli/checkpoint_options.h"
+
+#include <filesystem>
+
+#include "src/cli/validators.h"
+#include "src/core/error.h"
+
+namespace lanelight {
+namespace {
+
+constexpr int kMostParts = 1 << 20;
+
+}  // namespace
+
+void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
+  CheckpointSettings& s = flags.settings;
+  command
+      .add_option("--checkpoint", s.path,
+                  "Keep the state of the render in this file, to go on from")
+      ->type_name("FILE");
+  command.add_option("--every", s.seconds, "Seconds between states; default 60")
+      ->check(FiniteRange(0.01, 1e6))
+      ->type_name("SECONDS");
+  flags.resume_flag =
+      command
+          .add_option("--resume", s.from,
+                      "Go on from this state, and keep it; bare: from that of "
+                      "--checkpoint, if it is there")
+          ->expected(0, 1)
+          ->type_name("[FILE]");
+  command
+      .add_option("--watch", s.watch, "Write the image so far with every state (.exr)")
+      ->check([](const std::string& path) {
+        return std::filesystem::path(path).extension() == ".exr"
+                   ? std::string()
+                   : "'" + path + "' does not end in .exr";
+      })
+      ->type_name("FILE");
+  command
+      .add_option("--part", flags.part,
+                  "Render only part I of N, into --checkpoint; `lanelight merge` puts "
+                  "parts together")
+      ->type_name("I/N");
+}
+
+Part ParsePart(const std::string& text) {
+  Part part;
+  const std::size_t slash = text.find('/');
+  const auto number = [&](const std::string& digits) {
+    const bool good = !digits.empty() && digits.size() < 8 &&
+                      digits.find_first_not_of("0123456789") == digits.npos;
+    return good ? std::stoi(digits) : 0;
+  };
+  if (slash != text.npos) {
+    part.index = number(text.substr(0, slash));
+    part.count = number(text.substr(slash + 1));
+  }
+  if (slash == text.npos || part.index < 1 || part.index > part.count ||
+      part.count > kMostParts) {
+    throw CLI::ValidationError(
+        "--part",
+        fmt::format("'{}' is not I/N with I from 1 to N, and N at most {}, e.g. "
+                    "3/16",
+                    text, kMostParts));
+  }
+  return part;
+}
+
+void ResolveCheckpoint(const CheckpointFlags& flags, RenderTargets& targets) {
+  CheckpointSettings settings = flags.settings;
+  if (flags.resume_flag->count() > 0) {
+    const bool bare = settings.from.empty();
+    settings.resume = bare ? Resume::kIfAny : Resume::kMust;
+    if (bare && settings.path.empty()) {
+      throw CLI::ValidationError(
+          "--resume",
+          "--resume FILE, or --resume with --checkpoint FILE (SCENE must not "
+          "follow a bare --resume)");
+    }
+    if (settings.path.empty()) settings.path = settings.from;
+  }
+  if (!flags.part.empty()) {
+    settings.part = ParsePart(flags.part);
+    if (settings.path.empty()) {
+      throw CLI::ValidationError("--part",
+                                 "--part needs --checkpoint FILE for its state");
+    }
+    if (!targets.exr.empty() || !targets.png.empty()) {
+      throw CLI::ValidationError(
+          "--part",
+          "a part is no image: leave out --output, and put the states together "
+          "with `lanelight merge`");
+    }
+  } else if (targets.exr.empty()) {
+    throw CLI::RequiredError("--output");
+  }
+  targets.checkpoint = settings;
+}
+
+void CheckPart(const CheckpointSettings& settings, const Job& job) {
+  if (settings.part.count == 1 || !job.OpenEnded()) return;
+  throw InputError(
+      "--part needs a fixed number of samples, --spp: a time or a target error is one of "
+      "the whole image");
+}
+
+}  // namespace lanelight

@@ -1,0 +1,224 @@
+#include "src/render/checkpoint.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "src/core/error.h"
+#include "src/image/exr.h"
+#include "src/image/regression_film.h"
+#include "src/render/identity.h"
+#include "src/render/output.h"
+
+namespace lanelight {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+std::int64_t Milliseconds() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+             Clock::now().time_since_epoch())
+      .count();
+}
+
+bool SameTiles(const std::vector<PixelRect>& a, const std::vector<PixelRect>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const PixelRect& l, const PixelRect& r) {
+                      return l.x0 == r.x0 && l.y0 == r.y0 && l.x1 == r.x1 && l.y1 == r.y1;
+                    });
+}
+
+std::uint64_t PixelsOf(const std::vector<PixelRect>& tiles) {
+  std::uint64_t pixels = 0;
+  for (const PixelRect& tile : tiles) pixels += tile.pixels();
+  return pixels;
+}
+
+}  // namespace
+
+Checkpoint::Checkpoint(const Job& job, const CheckpointSettings& settings,
+                       const Json& head,
+                       std::function<void(const std::string&)> on_problem)
+    : job_(job),
+      settings_(settings),
+      identity_(IdentityOf(job).dump(1)),
+      head_(head.dump()),
+      on_problem_(std::move(on_problem)) {
+  const bool blocks = job.scene.strategy.control == Control::kRegression;
+  tiles_ = TilesOfPart(job.window, settings.part, blocks ? RegressionFilm::kBlock : 1);
+  Open();
+  next_ = Milliseconds() + static_cast<std::int64_t>(1000 * settings_.seconds);
+}
+
+Checkpoint::~Checkpoint() {
+  if (writing_.valid()) writing_.wait();
+}
+
+// Never silently from the beginning, and never over what took hours.
+void Checkpoint::Open() {
+  const bool exists = fs::exists(settings_.path);
+  if (settings_.resume == Resume::kNever) {
+    if (!exists || settings_.path.empty()) return;
+    throw InputError("'" + settings_.path +
+                     "' exists: go on from it with --resume, or remove it");
+  }
+  const std::string& from = settings_.from.empty() ? settings_.path : settings_.from;
+  if (settings_.resume == Resume::kIfAny && !fs::exists(from)) return;
+  auto file = std::make_unique<StateFile>(from);
+  CheckSame(*file);
+  from_ = std::move(file);
+}
+
+void Checkpoint::CheckSame(const StateFile& file) {
+  const Json had = Json::parse(file.identity()), now = Json::parse(identity_);
+  const std::string differences =
+      IdentityDifferences(had, "the state", now, "this render");
+  if (!differences.empty()) {
+    throw InputError("'" + file.path() +
+                     "' is the state of another render:" + differences);
+  }
+  if (SameTiles(file.tiles(), tiles_)) return;
+  // What a merge of parts has made goes on as a whole.
+  const bool whole = PixelsOf(file.tiles()) == job_.window.pixels();
+  if (whole && settings_.part.count == 1) {
+    tiles_ = file.tiles();
+    return;
+  }
+  throw InputError(
+      fmt::format("'{}' has {} of the {} pixels of the image, and this render is for {} "
+                  "(--part {}/{})"
+                  ": the state of another part, or of parts that do not make a whole",
+                  file.path(), PixelsOf(file.tiles()), job_.window.pixels(),
+                  PixelsOf(tiles_), settings_.part.index, settings_.part.count));
+}
+
+bool Checkpoint::Restore(RunState& state) {
+  if (!from_) return false;
+  from_->ReadPixels(state.films.Columns(), job_.window);
+  const Json report = Json::parse(from_->report());
+  state.counts = CountsFromJson(report.at("counts"));
+  const Json& training = report.at("training");
+  if (!training.is_null()) {
+    state.trained = true;
+    state.training.note = training.at("note");
+    state.training.samples = training.at("samples");
+    state.training.rays = training.at("rays");
+    state.training.seconds = training.at("seconds");
+    state.training.cpu_seconds = training.at("cpu_seconds");
+    if (!training.at("roulette").is_null()) {
+      state.training.roulette = static_cast<Roulette>(training.at("roulette").get<int>());
+    }
+    for (const auto& [name, meaning] : training.at("tables").items()) {
+      TrainedTable table = {name, meaning, std::vector<double>(from_->TableRows(name))};
+      from_->ReadTable(MakeStateColumn<double>(name, meaning, table.values));
+      state.tables.push_back(std::move(table));
+    }
+  }
+  std::uint64_t most = 0;
+  const FilmAccumulator& film = state.films.film();
+  for (const PixelRect& t : tiles_) most = std::max(most, film.Samples(t.x0, t.y0));
+  if (job_.spp > 0 && most > job_.spp) {
+    throw InputError(
+        fmt::format("'{}' has up to {} samples per pixel, more than the {} asked for",
+                    from_->path(), most, job_.spp));
+  }
+  return true;
+}
+
+bool Checkpoint::Due() const { return Milliseconds() >= next_; }
+
+void Checkpoint::Keep(RunState& state) {
+  const Clock::time_point start = Clock::now();
+  if (writing_.valid()) kept_ = writing_.get();
+  std::vector<std::function<void()>> later;
+  if (!settings_.path.empty()) {
+    StateContent content;
+    content.identity = identity_;
+    const Json report = {{"head", Json::parse(head_)},
+                         {"counts", CountsJson(state.counts)},
+                         {"training", TrainingJson(state)}};
+    content.report = report.dump(1);
+    content.window = job_.window;
+    content.tiles = tiles_;
+    for (const MutableStateColumn& column : state.films.Columns()) {
+      content.pixels.push_back(column);
+    }
+    for (const TrainedTable& table : state.tables) {
+      content.tables.push_back(
+          MakeStateColumn<double>(table.name, table.meaning, table.values));
+    }
+    later.push_back([path = settings_.path,
+                     bytes = std::make_shared<SerialisedState>(SerialiseState(content))] {
+      bytes->Write(path);
+    });
+  }
+  if (!settings_.watch.empty()) Watch(state, later);
+  writing_ = std::async(std::launch::async, [this, later = std::move(later)] {
+    bool good = true;
+    for (const auto& write : later) {
+      try {
+        write();
+      } catch (const std::exception& error) {
+        good = false;
+        on_problem_(error.what());
+      }
+    }
+    return good;
+  });
+  ++count_;
+  pause_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+  next_ = Milliseconds() + static_cast<std::int64_t>(1000 * settings_.seconds);
+}
+
+void Checkpoint::Watch(RunState& state, std::vector<std::function<void()>>& later) {
+  FilmAccumulator& film = state.films.film();
+  film.FitControl();
+  auto planes =
+      std::make_shared<std::vector<ExrPlane>>(FilmPlanes(film, job_.scene.scale));
+  const ExrOptions options =
+      OutputOptions(Json::parse(identity_), state.counts, /*half=*/false);
+  later.push_back(
+      [path = settings_.watch, planes, options, width = film.width(),
+       height = film.height()] { WriteExr(path, width, height, *planes, options); });
+}
+
+void Checkpoint::Finish() {
+  if (writing_.valid()) kept_ = writing_.get();
+}
+
+Json CountsJson(const RunCounts& counts) {
+  return {{"samples", counts.samples},          {"rays_closest", counts.rays_closest},
+          {"rays_shadow", counts.rays_shadow},  {"nan", counts.health.nan},
+          {"infinite", counts.health.infinite}, {"negative", counts.health.negative},
+          {"seconds", counts.seconds},          {"cpu_seconds", counts.cpu_seconds}};
+}
+
+RunCounts CountsFromJson(const Json& json) {
+  RunCounts counts;
+  counts.samples = json.at("samples");
+  counts.rays_closest = json.at("rays_closest");
+  counts.rays_shadow = json.at("rays_shadow");
+  counts.health.nan = json.at("nan");
+  counts.health.infinite = json.at("infinite");
+  counts.health.negative = json.at("negative");
+  counts.seconds = json.at("seconds");
+  counts.cpu_seconds = json.at("cpu_seconds");
+  return counts;
+}
+
+Json TrainingJson(const RunState& state) {
+  if (!state.trained) return nullptr;
+  const TrainingOutcome& t = state.training;
+  Json tables = Json::object();
+  for (const TrainedTable& table : state.tables) tables[table.name] = table.meaning;
+  return {{"note", t.note},
+          {"samples", t.samples},
+          {"rays", t.rays},
+          {"seconds", t.seconds},
+          {"cpu_seconds", t.cpu_seconds},
+          {"roulette", t.roulette ? Json(static_cast<int>(*t.roulette)) : Json()},
+          {"tables", tables}};
+}
+
+}  // namespace lanelight

@@ -1,0 +1,87 @@
+// Keeps a render on the disk while it goes on: state files (src/state, docs/state.md),
+// and the image so far.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "src/render/job.h"
+#include "src/render/parts.h"
+#include "src/state/state_file.h"
+
+namespace lanelight {
+
+/// Whether a render goes on from a state.
+enum class Resume {
+  kNever,  // a state that is there already is an error: it would be lost
+  kIfAny,  // from the state if there is one
+  kMust,   // a state must be there
+};
+
+struct CheckpointSettings {
+  std::string from;     // state to go on from
+  std::string path;     // state to keep; empty: none
+  double seconds = 60;  // between two of them
+  Resume resume = Resume::kNever;
+  std::string watch;  // EXR of the image so far, written with each state; empty: none
+  Part part;          // of the render
+
+  bool Any() const { return !path.empty() || !watch.empty(); }
+};
+
+class Checkpoint : public RunKeeper {
+ public:
+  /// `head`: what a report says of this render whatever it comes to. `on_problem` is told
+  /// at once, from any thread, of states that cannot be written. Throws InputError if the
+  /// state to go on from is missing, damaged, or of another render (naming each
+  /// difference), or if one is there that must not be.
+  Checkpoint(const Job& job, const CheckpointSettings& settings,
+             const nlohmann::json& head,
+             std::function<void(const std::string&)> on_problem);
+  ~Checkpoint() override;
+
+  /// What this render is to render: its part, in the order of the state.
+  const std::vector<PixelRect>& tiles() const { return tiles_; }
+  bool resumed() const { return from_ != nullptr; }
+
+  bool Restore(RunState& state) override;
+  bool Due() const override;
+  void Keep(RunState& state) override;
+  /// Waits for what is being written. After the last Keep.
+  void Finish();
+  /// Whether the last state that was to be kept is on the disk.
+  bool kept() const { return kept_; }
+  /// Of all calls of Keep: how often, and how long the render stood still for them.
+  int count() const { return count_; }
+  double pause_seconds() const { return pause_seconds_; }
+
+ private:
+  void Open();
+  void CheckSame(const StateFile& file);
+  void Watch(RunState& state, std::vector<std::function<void()>>& later);
+
+  const Job& job_;
+  CheckpointSettings settings_;
+  std::string identity_, head_;
+  std::function<void(const std::string&)> on_problem_;
+  std::vector<PixelRect> tiles_;
+  std::unique_ptr<StateFile> from_;
+  std::atomic<std::int64_t> next_{0};  // milliseconds of the steady clock
+  std::future<bool> writing_;
+  bool kept_ = false;
+  int count_ = 0;
+  double pause_seconds_ = 0;
+};
+
+/// What a state's report says beside the head of the render's.
+nlohmann::json CountsJson(const RunCounts& counts);
+RunCounts CountsFromJson(const nlohmann::json& json);
+nlohmann::json TrainingJson(const RunState& state);
+
+}  // namespace lanelight
