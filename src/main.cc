@@ -97,6 +97,7 @@ void AddCommands(CLI::App& root, Command& chosen) {
   AddProfileCommand(root, chosen);
   AddInfoCommand(root, chosen);
   AddStrategiesCommand(root, chosen);
+  AddMergeCommand(root, chosen);
   AddCompareCommand(root, chosen);
   AddStudyCommand(root, chosen);
   AddCompletionCommand(root, chosen);

@@ -16,6 +16,7 @@ void AddPlanCommand(CLI::App& root, Command& chosen);
 void AddProfileCommand(CLI::App& root, Command& chosen);
 void AddInfoCommand(CLI::App& root, Command& chosen);
 void AddStrategiesCommand(CLI::App& root, Command& chosen);
+void AddMergeCommand(CLI::App& root, Command& chosen);
 void AddCompareCommand(CLI::App& root, Command& chosen);
 void AddStudyCommand(CLI::App& root, Command& chosen);
 void AddCompletionCommand(CLI::App& root, Command& chosen);

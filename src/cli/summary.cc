@@ -1,5 +1,7 @@
 #include "src/cli/summary.h"
 
+#include <nlohmann/json.hpp>
+
 #include "kernels/simd/target.h"
 #include "src/cli/progress.h"
 #include "src/core/parallel.h"
@@ -83,6 +85,28 @@ std::string StageTable(const RunResult& result) {
   }
   return text +
          fmt::format("{:<24}{:>37.3f}  seconds of all threads together\n", "", total);
+}
+
+std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged) {
+  const RunResult& r = report.result;
+  const auto pixels = double(merged.window.pixels());
+  std::string text;
+  if (!report.exr.empty()) {
+    text += Row("image", fmt::format("{} ({}x{} pixels, {:.4g} samples each)", report.exr,
+                                     merged.window.width(), merged.window.height(),
+                                     double(r.samples) / pixels));
+  }
+  if (!report.png.empty()) text += Row("png", report.png);
+  if (merged.missing > 0) {
+    text += Row("missing",
+                fmt::format("{} of {} pixels", merged.missing, merged.window.pixels()));
+  }
+  if (merged.seeds.size() > 1)
+    text += Row("seeds", fmt::format("{}", merged.seeds.size()));
+  text += Row("strategy", merged.identity.at("strategy"));
+  text += SpeedRows(r);
+  text += Row("error", ErrorText(report.error));
+  return text + Row("health", HealthText(r.health));
 }
 
 std::string SummaryText(const RenderReport& report, const Job& job) {

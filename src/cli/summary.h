@@ -3,9 +3,13 @@
 
 #include <string>
 
+#include "src/render/merge.h"
 #include "src/render/report.h"
 
 namespace lanelight {
+
+/// The same of states that were put together.
+std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged);
 
 /// Output paths, speed, estimated error, health, times, and the cost of each stage.
 std::string SummaryText(const RenderReport& report, const Job& job);

@@ -1,0 +1,112 @@
+// `lanelight merge STATE... -o OUT.exr`: one image of the states of parts.
+#include <memory>
+
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
+#include "src/cli/render_outputs.h"
+#include "src/cli/summary.h"
+#include "src/core/error.h"
+#include "src/core/parallel.h"
+#include "src/render/merge.h"
+#include "src/render/render.h"
+#include "src/render/saving.h"
+
+namespace lanelight {
+namespace {
+
+struct MergeOptions {
+  std::vector<std::string> states;
+  RenderOutputs outputs;
+  std::string state;  // to write
+  bool partial = false;
+  int threads = 0;
+};
+
+void CheckOutputs(const MergeOptions& o) {
+  const RenderTargets& t = o.outputs.targets;
+  for (const std::string& input : o.states) {
+    // A state may be replaced by what it is merged into, an image may not.
+    CheckOutputPaths({t.exr, t.png, t.json}, input);
+  }
+  CheckOutputPaths({t.exr, t.png, t.json, o.state}, "");
+}
+
+std::string MissingText(const MergedRender& merged) {
+  return fmt::format("{} of {} pixels are in none of the states", merged.missing,
+                     merged.window.pixels());
+}
+
+void CheckComplete(const MergedRender& merged, bool partial) {
+  if (partial) return;
+  if (merged.missing > 0) {
+    throw InputError(
+        MissingText(merged) +
+        ": give the missing parts, or --partial for an image of what is there");
+  }
+  if (merged.least == merged.most) return;
+  throw InputError(fmt::format(
+      "pixels have {} to {} samples: parts that were interrupted; go on with them, or "
+      "--partial for an image of what is there",
+      merged.least, merged.most));
+}
+
+int Merge(const MergeOptions& options) {
+  const ThreadLimit threads(options.threads);
+  CheckOutputs(options);
+  MergedRender merged = MergeStates(options.states);
+  CheckComplete(merged, options.partial);
+  if (!options.state.empty()) WriteMergedState(merged, options.state);
+  merged.film->FitControl();
+  Rendering rendering;
+  rendering.report.scene = merged.head.at("scene");
+  rendering.report.half = options.outputs.targets.half;
+  rendering.report.result = ResultOf(merged);
+  nlohmann::json members = nlohmann::json::object();
+  members["merged"] = {{"states", options.states.size()},
+                       {"missing_pixels", merged.missing},
+                       {"seeds", merged.seeds}};
+  WriteRendering(*merged.film, merged.identity, merged.head, options.outputs.targets,
+                 members, rendering);
+  const bool good = PrintProblems(rendering.problems);
+  if (options.outputs.targets.json == "-") {
+    Print(rendering.json);
+  } else if (!options.outputs.quiet) {
+    Print(MergeSummaryText(rendering.report, merged));
+  }
+  if (rendering.report.result.health.Total() > 0) return kExitInvalidSamples;
+  return good ? kExitGood : kExitBadInput;
+}
+
+}  // namespace
+
+void AddMergeCommand(CLI::App& root, Command& chosen) {
+  CLI::App* command = root.add_subcommand(
+      "merge", "Put the states of a render's parts together, or of different seeds");
+  auto options = std::make_shared<MergeOptions>();
+  command->add_option("STATES", options->states, "States of `render --checkpoint`")
+      ->required()
+      ->type_name("");
+  AddOutputOptions(*command, options->outputs, false);
+  command->add_option("--state", options->state, "Write the merged state too")
+      ->type_name("FILE");
+  command->add_flag("--partial", options->partial,
+                    "Pixels may be missing or have fewer samples");
+  command->add_option("--threads", options->threads, "Threads; 0 = all cores")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->type_name("T");
+  command->footer(
+      "\nExamples:\n"
+      "  lanelight merge part-*.state -o out.exr --json out.json\n"
+      "  lanelight merge part-*.state --partial -o so-far.exr\n"
+      "  lanelight merge seed-1.state seed-2.state -o both.exr");
+  command->callback([options, &chosen] {
+    ResolveOutputs(options->outputs);
+    if (options->outputs.targets.exr.empty() && options->state.empty()) {
+      throw CLI::RequiredError("--output or --state");
+    }
+    chosen = [options] { return Merge(*options); };
+  });
+}
+
+}  // namespace lanelight
