@@ -30,7 +30,8 @@ constexpr const char* kFooter =
     "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
     "  lanelight study scenes/cornell-box.pbrt --out box-study\n"
     "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
-    "samples, 4 compare: over the limit, 5 render: the target error was not reached.";
+    "samples, 4 compare: over the limit, 5 render: the target error was not reached,\n"
+    "6 interrupted, to go on from what is kept.";
 
 std::vector<std::string> SubcommandNames(const CLI::App& root) {
   std::vector<std::string> names;

@@ -68,10 +68,11 @@ class Coverage {
                                 static_cast<std::size_t>(window_.width()) +
                             static_cast<std::size_t>(x - window_.x0)];
           if (had >= 0) {
-            throw InputError(fmt::format("'{}' and '{}' both have pixel {},{}",
+            throw InputError(fmt::format("'{}' and '{}' both have pixel {},{} of seed {}",
                                          inputs[static_cast<std::size_t>(had)].path,
                                          inputs[static_cast<std::size_t>(owner)].path, x,
-                                         y));
+                                         y,
+                                         inputs[static_cast<std::size_t>(owner)].seed));
           }
           had = owner;
         }
