@@ -64,7 +64,7 @@ std::string SpeedRows(const RunResult& r) {
 }  // namespace
 
 std::string ErrorText(const ErrorEstimate& e) {
-  if (!e.available) return "unknown: needs two groups of samples per pixel";
+  if (!e.available) return "unknown: needs two samples per pixel, or two pairs";
   return fmt::format("RMSE {}, relative MSE {}{}", IntervalText(e.rmse, e.has_interval),
                      IntervalText(e.relmse, e.has_interval),
                      e.has_interval ? " (estimate, 95 % interval)" : " (estimate)");

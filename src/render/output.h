@@ -13,7 +13,7 @@
 namespace lanelight {
 
 /// Channels of the output file: R, G, B; variance.R/G/B (of the pixel mean; NaN where
-/// fewer than two groups of samples are complete); samples; with auxiliary planes
+/// there are fewer than two observations); samples; with auxiliary planes
 /// albedo.R/G/B, normal.X/Y/Z and depth.Z in units of the scene file (`scale` is
 /// CompiledScene::scale).
 std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale);

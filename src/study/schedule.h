@@ -12,8 +12,7 @@ namespace lanelight {
 /// At least 1.
 std::uint64_t SamplesInSeconds(Job& job, const Strategy& strategy, double seconds);
 
-/// Powers of two below `largest`, and `largest` rounded to five binary digits (groups of
-/// low-discrepancy points then have few samples left over).
+/// Powers of two below `largest`, and `largest` rounded to five binary digits.
 std::vector<std::uint64_t> CountsUpTo(std::uint64_t largest);
 
 /// Sample counts of the strategies that are ok: those asked for; with a budget, up to
