@@ -31,9 +31,11 @@ FileDescriptor Open(const std::string& path) {
   return fd;
 }
 
-// The file that was checked, whatever its path names by now.
+// The file that was checked, whatever its path names by now. HDF5's driver "stdio", since
+// the default one looks for the path of the link, which may be gone.
 hdf5::Handle OpenHdf5(int fd) {
   const hdf5::Handle access = hdf5::NewProperties(H5P_FILE_ACCESS);
+  hdf5::Check(H5Pset_fapl_stdio(access.get()), "the driver stdio");
   hdf5::Check(H5Pset_file_locking(access.get(), false, true), "no locking");
   return hdf5::Handle(
       H5Fopen(fmt::format("/proc/self/fd/{}", fd).c_str(), H5F_ACC_RDONLY, access.get()),

@@ -1,39 +1,13 @@
 // A failed write leaves the old file and no rubbish.
 #include "src/image/atomic_file.h"
 
-#include <sys/resource.h>
-
 #include <catch2/catch.hpp>
-#include <csignal>
 
 #include "src/core/error.h"
+#include "tests/image/file_size_limit.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {
-namespace {
-
-// Makes every file longer than `bytes` fail to write, as a full disk would.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    previous_handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &previous_);
-    rlimit limit = previous_;
-    limit.rlim_cur = bytes;
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &previous_);
-    std::signal(SIGXFSZ, previous_handler_);
-  }
-
- private:
-  rlimit previous_;
-  void (*previous_handler_)(int);
-};
-
-}  // namespace
-
 TEST_CASE("a file is replaced as a whole", "[image][file]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("a");
