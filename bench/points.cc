@@ -10,7 +10,6 @@
 #include <cstdio>
 
 #include "bench/cpu_clock.h"
-#include "src/prepare/groups.h"
 #include "tests/support/points_probe.h"
 #include "kernels/simd/target.h"
 #include "src/strategy/strategy.h"
@@ -21,7 +20,6 @@ namespace {
 struct Options {
   std::string target;
   int repeat = 15, calls = 200;
-  std::uint32_t spp = 256;
 };
 
 constexpr Points kSamplers[] = {
@@ -37,10 +35,8 @@ struct Batch {
   std::vector<double> seconds = {};
 
   void Run(std::uint32_t call) {
-    const PointsQuery query = {points,         1,
-                               call * kPixels, parameters.group_size,
-                               call % 50,      call % 7 * kSamples,
-                               kSamples,       kPixels};
+    const PointsQuery query = {
+        points, 1, call * kPixels, call % 50, call % 7 * kSamples, kSamples, kPixels};
     ProbePoints(query, parameters, u0.data(), u1.data());
   }
   double Sum() const {
@@ -82,12 +78,10 @@ int Main(int argc, char** argv) {
   app.add_option("--repeat", o.repeat, "repetitions")->check(CLI::PositiveNumber);
   app.add_option("--calls", o.calls, "batches per repetition")
       ->check(CLI::PositiveNumber);
-  app.add_option("--spp", o.spp, "samples per pixel, which set the groups");
   CLI11_PARSE(app, argc, argv);
   std::vector<Batch> batches;
   for (Points points : kSamplers) {
-    batches.push_back(
-        {points, MakePointsParameters(points, PointsGroupSize(points, o.spp))});
+    batches.push_back({points, MakePointsParameters(points)});
     Verify(batches.back(), o.target);
   }
   for (int r = 0; r < o.repeat; ++r) {
@@ -99,15 +93,13 @@ int Main(int argc, char** argv) {
       batch.seconds.push_back(timer.Seconds());
     }
   }
-  fmt::print("target {}, {} lanes, {} samples per pixel, {} repetitions\n",
-             CurrentTarget(), CurrentLanes(), o.spp, o.repeat);
-  fmt::print("{:12} {:>6} {:>11} {:>9} {:>9}\n", "points", "group", "ns/number", "lowest",
-             "highest");
+  fmt::print("target {}, {} lanes, {} repetitions\n", CurrentTarget(), CurrentLanes(),
+             o.repeat);
+  fmt::print("{:12} {:>11} {:>9} {:>9}\n", "points", "ns/number", "lowest", "highest");
   for (Batch& batch : batches) {
     std::sort(batch.seconds.begin(), batch.seconds.end());
     const double scale = 1e9 / (2.0 * kPoints * o.calls);
-    fmt::print("{:12} {:6} {:11.3f} {:9.3f} {:9.3f}\n", Name(batch.points),
-               batch.parameters.group_size,
+    fmt::print("{:12} {:11.3f} {:9.3f} {:9.3f}\n", Name(batch.points),
                scale * batch.seconds[batch.seconds.size() / 2],
                scale * batch.seconds.front(), scale * batch.seconds.back());
   }

@@ -73,7 +73,10 @@ struct HaltonPoints {
                                      VU key, VU seed, VF* u0, VF* u1) {
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU i = PermuteOctaves(at.index, h.x);
-    *u0 = ToUnit(ReverseBits32(LaineKarras(i, h.y)));
+    // The hash takes the first digits of low numbers from the low bits of its seed, which
+    // alone are no random numbers.
+    const VU inverse2 = ReverseBits32(LaineKarras(i, h.y));
+    *u0 = ToUnit(hn::Xor(inverse2, h.w));
     *u1 = ToUnit(ScrambledInverse3(i, h.z));
   }
 };

@@ -19,33 +19,24 @@ double Weight(double mean) { return 1 / (mean * mean + kRelativeEpsilon); }
 struct Shares {
   double sum = 0, squares = 0, by_freedom = 0;
 
-  // `share`: for the sum; `steady`: the same without excess, for the rest.
-  void Add(double share, double steady, double freedom) {
+  void Add(double share, double freedom) {
     sum += share;
-    // E[s^4] = sigma^4 (G + 1) / (G - 1) for normal groups.
-    const double square = steady * steady * freedom / (freedom + 2);
+    // E[s^4] = sigma^4 (G + 1) / (G - 1) for normal observations.
+    const double square = share * share * freedom / (freedom + 2);
     squares += square;
     by_freedom += square / freedom;
-    steady_sum += steady;
   }
   void Add(const Shares& other) {
     sum += other.sum;
     squares += other.squares;
     by_freedom += other.by_freedom;
-    steady_sum += other.steady_sum;
   }
-  // The excess is small and unbiased; where there is little else it may win.
-  double Total() const { return sum > 0 ? sum : steady_sum; }
   double K1() const { return squares > 0 ? SquaredSum() / squares : 1; }
   double K2() const { return squares > 0 ? SquaredSum() / by_freedom : 1; }
 
-  double steady_sum = 0;
-
  private:
   // Of (sum of true shares)^2: the estimate's own variance is taken off.
-  double SquaredSum() const {
-    return std::max(squares, steady_sum * steady_sum - 2 * by_freedom);
-  }
+  double SquaredSum() const { return std::max(squares, sum * sum - 2 * by_freedom); }
 };
 
 struct Sums {
@@ -54,18 +45,15 @@ struct Sums {
   std::uint64_t pixels = 0;
 
   void Add(const PixelEstimate& p, const Rgb& prior_mean) {
-    double square = 0, square_steady = 0, relative = 0, relative_steady = 0;
+    double own_square = 0, own_relative = 0;
     for (int c = 0; c < 3; ++c) {
-      const double v = p.variance[c], with_excess = v + p.excess[c];
-      const double weight = Weight(prior_mean[c]);
-      square += with_excess / 3;
-      square_steady += v / 3;
-      relative += with_excess * weight / 3;
-      relative_steady += v * weight / 3;
+      const double v = p.variance[c];
+      own_square += v / 3;
+      own_relative += v * Weight(prior_mean[c]) / 3;
       plain += v * Weight(p.mean[c]) / 3;
     }
-    this->square.Add(square, square_steady, p.freedom);
-    this->relative.Add(relative, relative_steady, p.freedom);
+    square.Add(own_square, p.freedom);
+    relative.Add(own_relative, p.freedom);
     ++pixels;
   }
   void Add(const Sums& other) {
@@ -172,7 +160,7 @@ Interval SquareRoot(const Interval& v) {
 
 // What the choice of the weights may be wrong by, as a half width in log(relmse).
 double WeightDoubt(const Sums& sums) {
-  const double shrunk = sums.relative.steady_sum;
+  const double shrunk = sums.relative.sum;
   if (!(shrunk > 0) || !(sums.plain > 0)) return 0;
   return std::hypot(kWeightDoubt * std::log(shrunk / sums.plain), kLeastDoubt);
 }
@@ -201,10 +189,10 @@ ErrorEstimate EstimateError(int width, int height,
   out.available = out.has_interval = sums.pixels > 0;
   if (!out.available) return out;
   const double n = static_cast<double>(sums.pixels);
-  out.effective_pixels = sums.relative.Total() > 0 ? sums.relative.K1() : n;
-  out.rmse = SquareRoot(
-      ErrorInterval(sums.square.Total() / n, sums.square.K1(), sums.square.K2()));
-  out.relmse = ErrorInterval(sums.relative.Total() / n, sums.relative.K1(),
+  out.effective_pixels = sums.relative.sum > 0 ? sums.relative.K1() : n;
+  out.rmse =
+      SquareRoot(ErrorInterval(sums.square.sum / n, sums.square.K1(), sums.square.K2()));
+  out.relmse = ErrorInterval(sums.relative.sum / n, sums.relative.K1(),
                              sums.relative.K2(), WeightDoubt(sums));
   return out;
 }

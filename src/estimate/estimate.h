@@ -17,7 +17,7 @@ inline constexpr double kRelativeEpsilon = 0.01;
 /// intervals that contain it with probability kEstimateConfidence.
 inline constexpr double kEstimateConfidence = 0.95;
 struct ErrorEstimate {
-  bool available = false;     // at least one pixel has two complete groups of samples
+  bool available = false;     // at least one pixel has two independent observations
   bool has_interval = false;  // the same
   Interval rmse;              // sqrt(mean of the variance of the pixel mean)
   Interval relmse;            // mean of variance / (mean^2 + kRelativeEpsilon)
@@ -31,8 +31,7 @@ struct ErrorEstimate {
 struct PixelEstimate {
   bool known = false;
   Rgb mean, variance;  // `variance` >= 0: estimated, of the mean
-  Rgb excess;          // to add to it where only sums matter; of either sign
-  double freedom = 1;  // degrees of freedom of `variance`: groups - 1, at least 1
+  double freedom = 1;  // degrees of freedom of `variance`: observations - 1, at least 1
 };
 
 /// Averages run over the pixels with a variance and over the three channels.

@@ -34,17 +34,22 @@ SampleGroups GroupsOf(const Strategy& strategy) {
 
 namespace {
 
-// Points of one replicate, of `units` samples or pairs that take turns.
+// Points (or pairs) of one replicate, of `units` samples or pairs that take turns.
 std::string SizeText(const Strategy& strategy, std::uint64_t units) {
   const bool pairs = strategy.pairs == Pairs::kAntithetic;
-  const std::uint64_t own = units / kReplicates;
+  const char* const what = pairs ? "pairs" : "points";
+  const std::uint64_t own = units / kReplicates, rest = units % kReplicates;
   const std::uint64_t most = std::uint64_t{1} << LogSequence(strategy.points);
-  std::string text = fmt::format(", {} randomisations of {} points", kReplicates, own);
-  if (units % kReplicates != 0) text += fmt::format(" or {}", own + 1);
-  if (own > most) {
-    text = fmt::format(", {} randomisations of {} points, the most that it stratifies",
-                       kReplicates * ((own + most - 1) / most), most);
-  } else if (units % kReplicates != 0 || !std::has_single_bit(own)) {
+  if (own + (rest > 0) > most) {
+    const std::uint64_t turn = most * kReplicates;
+    const std::uint64_t rounds = (units + turn - 1) / turn;
+    return fmt::format(", {} randomisations of up to {} {}, the most that it stratifies",
+                       rounds * kReplicates, most, what);
+  }
+  std::string text = fmt::format(", {} randomisations of {}", kReplicates, own);
+  if (rest > 0) text += fmt::format(" or {}", own + 1);
+  text += fmt::format(" {}", what);
+  if (rest > 0 || !std::has_single_bit(own)) {
     const std::uint64_t better = std::bit_floor(own) * kReplicates * (pairs ? 2 : 1);
     text += fmt::format(" ({} or {} samples are better stratified)", better, 2 * better);
   }

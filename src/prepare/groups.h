@@ -16,7 +16,7 @@ std::uint32_t LogSequence(Points points);
 /// What counts as one observation.
 SampleGroups GroupsOf(const Strategy& strategy);
 
-/// "sobol, 4 randomisations of 16 samples", ... for reports; spp = 0: unknown.
+/// "sobol, 4 randomisations of 16 points", ... for reports; spp = 0: unknown.
 std::string PointsText(const Strategy& strategy, std::uint64_t spp);
 
 }  // namespace lanelight

@@ -1,6 +1,7 @@
 #include "src/wavefront/tasks.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "src/core/check.h"
@@ -92,9 +93,35 @@ PixelRect Tasks::Place(std::size_t tile) const {
   return {x, 0, x + t.width(), t.height()};
 }
 
+// Pixels of a tile have equally many samples. Those of a run that was cut into smaller
+// tiles need not: then the tile is divided until they have.
+void Tasks::DivideUnevenTiles(const FilmAccumulator& film) {
+  const auto is_even = [&](const PixelRect& tile) {
+    const std::uint64_t samples = film.Samples(tile.x0, tile.y0);
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        if (film.Samples(x, y) != samples) return false;
+      }
+    }
+    return true;
+  };
+  std::vector<PixelRect>& tiles = partition_.tiles;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    while (!is_even(tiles[i])) {
+      const int longer = std::max(tiles[i].width(), tiles[i].height());
+      const auto side = std::bit_floor(static_cast<unsigned>(longer - 1));
+      const std::vector<PixelRect> parts = TilesOf(tiles[i], static_cast<int>(side));
+      tiles[i] = parts.front();
+      tiles.insert(tiles.end(), parts.begin() + 1, parts.end());
+    }
+  }
+  done_.resize(tiles.size());
+}
+
 void Tasks::GoOn(const Films& films, const RunCounts& counts) {
   counts_ = counts;
   taken_ = counts.samples;
+  if (options_.windows.empty()) DivideUnevenTiles(films.film());
   for (std::size_t tile = 0; tile < done_.size(); ++tile) {
     const PixelRect place = Place(tile);
     done_[tile] = films.film().Samples(place.x0, place.y0);

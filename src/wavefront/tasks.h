@@ -63,6 +63,7 @@ class Tasks {
     std::uint64_t begin = 0, end = 0;  // samples of a pixel
   };
   void UseWindows(std::uint64_t planned_spp);
+  void DivideUnevenTiles(const FilmAccumulator& film);
   PixelRect Place(std::size_t tile) const;
   void RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& films);
   Workspace& ThreadWorkspace();

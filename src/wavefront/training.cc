@@ -87,6 +87,15 @@ void PutTraining(const std::vector<TrainedTable>& trained, StrategyTables& table
   p.scale = static_cast<float>(head[12]);
   Put(TableOf(trained, "path_values_survive"), p.survive);
   Put(TableOf(trained, "path_values_split"), p.split);
+  // Kernels look cells up without asking.
+  const std::size_t cells = p.survive.size();
+  if (cells > 0 && (head[6] < 1 || head[7] < 1 || head[8] < 1 ||
+                    head[6] * head[7] * head[8] * 6 != double(cells))) {
+    throw InputError("the state's table 'path_values_survive' does not fit its grid");
+  }
+  if (!p.split.empty() && p.split.size() != cells) {
+    throw InputError("the state's table 'path_values_split' does not fit its grid");
+  }
   Put(TableOf(trained, "path_values_inverse"), p.inverse_pixel);
 }
 

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "src/prepare/groups.h"
 #include "src/prepare/use_strategy.h"
 #include "src/advise/candidates.h"
 #include "src/estimate/estimate.h"
@@ -19,12 +20,11 @@ Job SmallBox() {
                     settings);
 }
 
-// The whole image with the seed and groups of a pilot's first round.
+// The whole image with the seed of a pilot's first round.
 FilmAccumulator Whole(Job& job) {
   job.spp = 128;
   job.seconds = 0;
   job.seed += 1;
-  job.group_size = 64;
   FilmAccumulator film = MakeFilm(job);
   RunJob(job, film);
   return film;
@@ -49,7 +49,7 @@ TEST_CASE("windows cover the image evenly", "[study]") {
 TEST_CASE("windows have the samples that the whole image has there", "[study]") {
   Job job = SmallBox();
   const std::vector<PixelRect> windows = {{8, 16, 16, 24}, {56, 40, 64, 48}};
-  FilmAccumulator strip(0, 0, 16, 8, 64, false);
+  FilmAccumulator strip(0, 0, 16, 8, GroupsOf(job.scene.strategy), false);
   RunOptions options;
   options.spp = 128;
   options.seed = job.seed + 1;

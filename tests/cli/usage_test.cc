@@ -50,7 +50,7 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
       {{"render", "x.pbrt", "-o", "x.exr", "--crop", "4,4,2,8"}, "x0 < x1"},
       {{"render", "x.pbrt", "-o", "x.exr", "--spp", "0"}, "--spp"},
       {{"render", "x.pbrt", "-o", "x.exr", "--spp", "-4"}, "--spp"},
-      {{"render", "x.pbrt", "-o", "x.exr", "--spp", "4294967296"}, "--spp"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--spp", "1099511627777"}, "--spp"},
       {{"render", "x.pbrt", "-o", "x.exr", "--spp", "4", "--time", "2"}, "excludes"},
       {{"render", "x.pbrt", "-o", "x.exr", "--time", "nan"}, "--time"},
       {{"render", "x.pbrt", "-o", "x.exr", "--target-relmse", "0"}, "--target-relmse"},

@@ -10,14 +10,35 @@
 namespace lanelight::test {
 namespace {
 
+// Who depends on whom.
+enum class Model {
+  kIndependent,
+  kRepeated,    // sample 2k + 1 repeats sample 2k
+  kStratified,  // those of a replicate, of which each has one number in each stratum
+};
+
 // D exponential less its mean 1, f its square: mean 2, E[f D^2] far from E[f] E[D^2].
 struct Skewed {
   std::mt19937 engine;
-  explicit Skewed(unsigned seed) : engine(seed) {}
-  void Draw(float* f, float* d) {
-    const double x = std::exponential_distribution<double>(1)(engine);
-    *f = static_cast<float>(x * x);
-    *d = static_cast<float>(x - 1);
+  Model model;
+  Skewed(Model m, unsigned seed) : engine(seed), model(m) {}
+
+  double Uniform() { return std::uniform_real_distribution<double>()(engine); }
+  // The samples of a pixel.
+  void Draw(std::vector<float>& f, std::vector<float>& d) {
+    const std::size_t n = f.size(), turns = (n + kReplicates - 1) / kReplicates;
+    double u = 0, shifts[kReplicates];
+    for (double& shift : shifts) shift = Uniform();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (model != Model::kRepeated || i % 2 == 0) u = Uniform();
+      if (model == Model::kStratified) {
+        u = shifts[i % kReplicates] + double(i / kReplicates) / double(turns);
+        u -= std::floor(u);
+      }
+      const double x = -std::log1p(-u);
+      f[i] = static_cast<float>(x * x);
+      d[i] = static_cast<float>(x - 1);
+    }
   }
 };
 constexpr double kMean = 2;
@@ -41,21 +62,20 @@ struct Scores {
   double variance = 0;  // mean of what the film says
 };
 
-// Pixels of `spp` samples in groups of `group`; fitted by the film, and by the twin that
-// uses the samples which the coefficient multiplies.
-Scores Simulate(int side, std::uint32_t spp, std::uint32_t group, unsigned seed) {
-  Skewed model(seed);
-  FilmAccumulator film(0, 0, side, side, group, false);
+// Pixels of `spp` samples that count as `groups`; fitted by the film, and by the twin
+// that uses the samples which the coefficient multiplies.
+Scores Simulate(int side, std::uint32_t spp, const SampleGroups& groups, Model model,
+                unsigned seed) {
+  Skewed skewed(model, seed);
+  FilmAccumulator film(0, 0, side, side, groups, false);
   film.UseControl();
   Scores out;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
       std::vector<float> f(spp), d(spp);
+      skewed.Draw(f, d);
       ControlSums sums;
-      for (std::uint32_t i = 0; i < spp; ++i) {
-        model.Draw(&f[i], &d[i]);
-        sums.Add(double(f[i]), double(d[i]));
-      }
+      for (std::uint32_t i = 0; i < spp; ++i) sums.Add(double(f[i]), double(d[i]));
       const float* planes[] = {f.data(), f.data(), f.data(),
                                d.data(), d.data(), d.data()};
       film.AddSamples(x, y, planes, spp);
@@ -81,34 +101,57 @@ constexpr double kReject = 5.5;
 
 TEST_CASE("cross-fitted coefficients are unbiased, others are not", "[control]") {
   for (std::uint32_t spp : {8u, 11u, 16u}) {
-    const Scores s = Simulate(160, spp, 1, spp);
+    const Scores s = Simulate(160, spp, {1, false}, Model::kIndependent, spp);
     INFO(spp << " samples: " << s.cross.Z(kMean) << " " << s.same.Z(kMean));
     CHECK(std::abs(s.cross.Z(kMean)) < kReject);
     CHECK(std::abs(s.same.Z(kMean)) > 2 * kReject);
   }
 }
 
-TEST_CASE("cross-fitting by groups, with an incomplete one", "[control]") {
-  const Scores s = Simulate(160, 26, 4, 3);
-  CHECK(std::abs(s.cross.Z(kMean)) < kReject);
+TEST_CASE("cross-fitting by pairs, with one that is open", "[control]") {
+  for (std::uint32_t spp : {16u, 27u}) {
+    const Scores s = Simulate(160, spp, {2, false}, Model::kRepeated, spp);
+    CHECK(std::abs(s.cross.Z(kMean)) < kReject);
+    // Planted: halves that depend on each other.
+    const Scores torn = Simulate(220, spp, {1, false}, Model::kRepeated, spp);
+    CHECK(std::abs(torn.cross.Z(kMean)) > 2 * kReject);
+  }
+}
+
+TEST_CASE("cross-fitting by replicates, complete and not", "[control]") {
+  for (std::uint32_t spp : {4u, 8u, 16u, 19u, 25u}) {
+    INFO(spp << " samples");
+    const Scores s = Simulate(160, spp, {1, true}, Model::kStratified, spp);
+    CHECK(std::abs(s.cross.Z(kMean)) < kReject);
+    const Scores pairs = Simulate(160, 2 * spp, {2, true}, Model::kRepeated, spp);
+    CHECK(std::abs(pairs.cross.Z(kMean)) < kReject);
+  }
+  // Planted: replicates of single samples, where pairs depend on each other.
+  const Scores torn = Simulate(320, 4, {1, true}, Model::kRepeated, 9);
+  CHECK(std::abs(torn.cross.Z(kMean)) > 2 * kReject);
 }
 
 TEST_CASE("cross-fitting alone in a pixel", "[control]") {
-  Score cross;
-  for (unsigned seed = 0; seed < 4000; ++seed) {
-    Scores one = Simulate(1, 12, 1, 1000 + seed);
-    cross.Add(one.cross.sum);
+  for (bool replicates : {false, true}) {
+    Score cross;
+    for (unsigned seed = 0; seed < 4000; ++seed) {
+      Scores one = Simulate(1, 12, {1, replicates}, Model::kIndependent, 1000 + seed);
+      cross.Add(one.cross.sum);
+    }
+    CHECK(std::abs(cross.Z(kMean)) < kReject);
   }
-  CHECK(std::abs(cross.Z(kMean)) < kReject);
 }
 
 TEST_CASE("the film's variance is that of the corrected mean", "[control]") {
-  const Scores s = Simulate(128, 64, 1, 5);
-  const double n = s.cross.n, mean = s.cross.sum / n;
-  const double seen = s.cross.squares / n - mean * mean;
-  CHECK(s.variance == Approx(seen).epsilon(0.1));
-  // Cov(x^2, x) / Var(x) = 4 and r^2 = 16 / 20: four fifths of the variance 20 / 64 go.
-  CHECK(seen < 0.35 * 20 / 64);
+  for (bool replicates : {false, true}) {
+    const Scores s = Simulate(128, 64, {1, replicates}, Model::kIndependent, 5);
+    const double n = s.cross.n, mean = s.cross.sum / n;
+    const double seen = s.cross.squares / n - mean * mean;
+    INFO("replicates " << replicates << ": " << s.variance << ", seen " << seen);
+    CHECK(s.variance == Approx(seen).epsilon(0.1));
+    // Cov(x^2, x) / Var(x) = 4 and r^2 = 16 / 20: four fifths of the variance 20 / 64 go.
+    CHECK(seen < 0.35 * 20 / 64);
+  }
 }
 
 TEST_CASE("coefficients of differences that do not vary are zero", "[control]") {

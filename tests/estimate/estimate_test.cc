@@ -239,7 +239,6 @@ TEST_CASE("intervals are finite, positive and contain the estimate", "[study]") 
       p.known = true;
       p.mean = {std::sqrt(v), 0, 0};
       p.variance = {v, v, v};
-      p.excess = {-v / 2, v, -v};
       return p;
     });
     for (const Interval& interval : {e.relmse, e.rmse}) {

@@ -1,6 +1,7 @@
 // Sample points of every sampler: uniform in two dimensions and in one, on the grid that
 // antithetic reflection relies on, equal on all SIMD targets, and independent of those of
-// other keys, groups, pixels and seeds.
+// other keys, replicates, pixels and seeds.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -16,12 +17,6 @@ namespace {
 
 constexpr std::uint32_t kPixels = 1 << 15;
 constexpr double kFamily = 1e-6;
-
-std::uint32_t SizeOf(Points points) {
-  if (points == Points::kIndependent) return 1;
-  const bool binary = points == Points::kSobol || points == Points::kPmj02;
-  return binary ? 16 : 18;
-}
 
 // p-value of the hypothesis that (a, b) are uniform over the unit square.
 double UniformP(const std::vector<float>& a, const std::vector<float>& b) {
@@ -41,7 +36,7 @@ double KsP(const std::vector<float>& u) {
 
 // One sample of many pixels.
 PointsQuery Across(Points points, std::uint32_t sample) {
-  return {points, 3, 10, SizeOf(points), 20, sample, 1, kPixels};
+  return {points, 3, 10, 20, sample, 1, kPixels};
 }
 
 // p-value of the hypothesis that two products have no correlation over pixels.
@@ -60,8 +55,8 @@ double CorrelationP(const std::vector<double>& a, const std::vector<double>& b) 
   return 2 * stat::NormalCdf(-std::abs(r) * std::sqrt(n));
 }
 
-// For each pixel, the product of the centred first coordinates of samples 0 and `other`:
-// what the order and the strata of the two have in common.
+// For each pixel, the product of the centred first coordinates of two samples: what the
+// order and the strata of the two have in common.
 std::vector<double> Products(const PointsQuery& q, std::uint32_t other) {
   PointsQuery second = q;
   second.first_sample = other;
@@ -77,21 +72,22 @@ std::vector<double> Products(const PointsQuery& q, std::uint32_t other) {
 
 TEST_CASE("points: equal on all targets, on the grid of 2^-24, below 1", "[points]") {
   for (Points points : kAllPoints) {
-    for (std::uint32_t size : {1u, SizeOf(points), MostGroupSize(points)}) {
-      const PointsQuery query = {points, 9, 123, size, 4, (1u << 31) - 3000, 2999};
-      Drawn first;
+    const std::uint32_t sequence = std::max(kReplicates << LogSequence(points), 1500u);
+    for (std::uint32_t first : {0u, sequence - 1500, (1u << 31) - 3000}) {
+      const PointsQuery query = {points, 9, 123, 4, first, 2999};
+      Drawn reference;
       std::vector<float> numbers;
       for (const std::string& target : AvailableTargets()) {
         ForceTarget(target);
         const Drawn p = Draw(query);
         const std::vector<float> n = DrawNumbers(query);
-        if (first.u0.empty()) first = p, numbers = n;
-        REQUIRE(p.u0 == first.u0);
-        REQUIRE(p.u1 == first.u1);
+        if (reference.u0.empty()) reference = p, numbers = n;
+        REQUIRE(p.u0 == reference.u0);
+        REQUIRE(p.u1 == reference.u1);
         REQUIRE(n == numbers);
       }
       ForceTarget("");
-      for (const auto& column : {first.u0, first.u1, numbers}) {
+      for (const auto& column : {reference.u0, reference.u1, numbers}) {
         for (float u : column) {
           REQUIRE(u >= 0);
           REQUIRE(u < 1);
@@ -102,10 +98,10 @@ TEST_CASE("points: equal on all targets, on the grid of 2^-24, below 1", "[point
   }
 }
 
-TEST_CASE("points: every sample of a group is uniform over pixels", "[points]") {
-  const double level = stat::SidakLevel(kFamily, 7 * 3 * 4);
+TEST_CASE("points: every sample is uniform over pixels", "[points]") {
+  const double level = stat::SidakLevel(kFamily, 7 * 5 * 4);
   for (Points points : kAllPoints) {
-    for (std::uint32_t sample : {0u, 1u, 13u}) {
+    for (std::uint32_t sample : {0u, 1u, 4u, 53u, (1u << 31) - 1}) {
       INFO(Name(points) << ", sample " << sample);
       const Drawn p = Draw(Across(points, sample));
       CHECK(UniformP(p.u0, p.u1) > level);
@@ -116,17 +112,19 @@ TEST_CASE("points: every sample of a group is uniform over pixels", "[points]") 
   }
 }
 
-TEST_CASE("points: other keys, groups, pixels and seeds are independent", "[points]") {
-  const double level = stat::SidakLevel(kFamily, 7 * 4 * 3);
+TEST_CASE("points: other keys, replicates, sequences, pixels and seeds are independent",
+          "[points]") {
+  const double level = stat::SidakLevel(kFamily, 7 * 5 * 3);
   for (Points points : kAllPoints) {
     const PointsQuery base = Across(points, 2);
-    PointsQuery key = base, group = base, pixel = base, seed = base;
+    PointsQuery key = base, replicate = base, sequence = base, pixel = base, seed = base;
     key.key = 21;
-    group.first_sample += SizeOf(points);
+    replicate.first_sample += 1;
+    sequence.first_sample += kReplicates << LogSequence(points);
     pixel.pixel += 1;
     seed.seed = 4;
     const Drawn a = Draw(base);
-    for (const PointsQuery& q : {key, group, pixel, seed}) {
+    for (const PointsQuery& q : {key, replicate, sequence, pixel, seed}) {
       INFO(Name(points));
       const Drawn b = Draw(q);
       CHECK(UniformP(a.u0, b.u0) > level);
@@ -137,13 +135,17 @@ TEST_CASE("points: other keys, groups, pixels and seeds are independent", "[poin
 }
 
 TEST_CASE("points: the orders of samples of two keys are independent", "[points]") {
-  const double level = stat::SidakLevel(kFamily, 7 * 3);
+  const double level = stat::SidakLevel(kFamily, 7 * 2 * 4);
   for (Points points : kAllPoints) {
-    for (std::uint32_t other : {1u, 5u, 15u}) {
-      PointsQuery q = Across(points, 0), key = q;
-      key.key = 21;
-      INFO(Name(points) << ", samples 0 and " << other);
-      CHECK(CorrelationP(Products(q, other), Products(key, other)) > level);
+    // Of one replicate: across its blocks, and within one.
+    for (std::uint32_t first : {0u, 4 * kReplicates}) {
+      for (std::uint32_t turns : {1u, 2u, 3u, 11u}) {
+        PointsQuery q = Across(points, first), key = q;
+        key.key = 21;
+        const std::uint32_t other = first + turns * kReplicates;
+        INFO(Name(points) << ", samples " << first << " and " << other);
+        CHECK(CorrelationP(Products(q, other), Products(key, other)) > level);
+      }
     }
   }
 }
@@ -154,8 +156,8 @@ TEST_CASE("planted: shared orders and a missing corner are rejected", "[points]"
   const PointsQuery q = Across(Points::kStratified, 0);
   PointsQuery jitter = Across(Points::kIndependent, 0);
   jitter.key = 99;
-  const std::vector<double> products = Products(q, 5);
-  std::vector<double> shared = Products(jitter, 5);
+  const std::vector<double> products = Products(q, kReplicates);
+  std::vector<double> shared = Products(jitter, kReplicates);
   for (std::size_t i = 0; i < shared.size(); ++i) {
     shared[i] = products[i] + 0.2 * shared[i];
   }
@@ -191,7 +193,7 @@ struct Lcg {  // PCG-4D, scalar, written from the paper's equations
 }  // namespace
 
 TEST_CASE("independent points equal the scalar PCG-4D", "[points]") {
-  const Drawn p = Draw({Points::kIndependent, 42, 1000, 1, 17, 5, 100});
+  const Drawn p = Draw({Points::kIndependent, 42, 1000, 17, 5, 100});
   for (std::uint32_t i = 0; i < 100; ++i) {
     const Lcg h(1000, 5 + i, 17, 42);
     CHECK(p.u0[i] == float(h.v[0] >> 8) * 0x1p-24f);
@@ -199,27 +201,49 @@ TEST_CASE("independent points equal the scalar PCG-4D", "[points]") {
   }
 }
 
-TEST_CASE("samples are divided into groups of any size exactly", "[points]") {
-  constexpr std::uint32_t kCount = 40, kEnd = 1u << 31;
-  std::vector<std::uint32_t> group(kCount + 16), index(kCount + 16);
+TEST_CASE("samples take turns at replicates, to the last one", "[points]") {
+  constexpr std::uint32_t kCount = 70, kEnd = 1u << 31;
+  std::vector<std::uint32_t> group(kCount + 16), index(group), unpaired(group);
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
-    for (std::uint32_t size = 1; size <= 1u << 20; size += size < 5000 ? 1 : 9973) {
-      // Where the quotient steps, near the end, and at the start.
-      const std::uint32_t step = kEnd / 3 / size * size;
-      for (std::uint32_t first :
-           {0u, step > 20 ? step - 20 : 0, kEnd - kCount,
-            kEnd / size * size > 20 + kCount ? kEnd / size * size - 20 - kCount : 0u}) {
-        ProbeGroups(size, first, kCount, group.data(), index.data());
+    for (std::uint32_t shift : {0u, 1u, 4u, 10u, 12u, 20u}) {
+      const std::uint32_t sequence = kReplicates << shift;
+      // At the start, where a sequence ends, and at the end.
+      for (std::uint32_t first : {0u, std::max(sequence, 40u) - 40,
+                                  kEnd / 3 / sequence * sequence - 33, kEnd - kCount}) {
+        ProbeGroups(shift, first, kCount, group.data(), index.data(), unpaired.data());
         for (std::uint32_t i = 0; i < kCount; ++i) {
-          if (group[i] != (first + i) / size || index[i] != (first + i) % size) {
-            FAIL(size << " at " << first + i);
-          }
+          const std::uint32_t sample = first + i, turn = sample / kReplicates;
+          const std::uint32_t points = 1u << shift;
+          REQUIRE(group[i] == turn / points * kReplicates + sample % kReplicates);
+          REQUIRE(index[i] == turn % points);
+          const std::uint32_t pair = sample / 2, of_replicate = pair / kReplicates;
+          REQUIRE(unpaired[i] == (2 * of_replicate + sample % 2) * kReplicates +
+                                     SampleGroups{2, true}.Replicate(sample));
         }
       }
     }
   }
   ForceTarget("");
+}
+
+TEST_CASE("unpaired numbers are all different, of the replicate of their pair",
+          "[points]") {
+  constexpr std::uint32_t kCount = 4096;
+  std::vector<std::uint32_t> group(kCount + 16), index(group), unpaired(group);
+  ProbeGroups(20, 0, kCount, group.data(), index.data(), unpaired.data());
+  unpaired.resize(kCount);
+  const SampleGroups pairs{2, true}, single{1, true};
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    REQUIRE(single.Replicate(unpaired[i]) == pairs.Replicate(i));
+    REQUIRE(single.Replicate(i / 2) == pairs.Replicate(i));  // paired ones
+  }
+  // Any whole turns of pairs draw a prefix of the sequences.
+  for (std::uint32_t turn = 8; turn <= kCount; turn += 8) {
+    std::vector<std::uint32_t> prefix(unpaired.begin(), unpaired.begin() + turn);
+    std::sort(prefix.begin(), prefix.end());
+    for (std::uint32_t i = 0; i < turn; ++i) REQUIRE(prefix[i] == i);
+  }
 }
 
 }  // namespace lanelight::test

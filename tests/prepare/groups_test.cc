@@ -1,10 +1,11 @@
-// Group sizes of the samplers for any number of samples, and what is said about them.
-#include <bit>
+// Sequences of the samplers, what counts as an observation, and what is said about it.
+#include "src/prepare/groups.h"
+
 #include <catch2/catch.hpp>
 
-#include "src/core/check.h"
-#include "src/prepare/groups.h"
 #include "src/prepare/parameters.h"
+#include "src/prepare/pmj02.h"
+#include "src/wavefront/run.h"
 #include "tests/points/draw.h"
 
 namespace lanelight::test {
@@ -17,60 +18,81 @@ std::string TextOf(Points points, std::uint64_t spp, bool pairs = false) {
   return PointsText(strategy, spp);
 }
 
+// Samples of each replicate, counted one by one.
+void CheckCounts(const SampleGroups& groups) {
+  std::uint64_t counts[kReplicates] = {};
+  for (std::uint64_t n = 0; n <= 300; ++n) {
+    std::uint64_t observations = 0;
+    for (std::uint32_t r = 0; r < kReplicates; ++r) {
+      CAPTURE(groups.unit, n, r);
+      REQUIRE(groups.InReplicate(n, r) == counts[r]);
+      observations += counts[r] > 0;
+    }
+    if (groups.replicates) REQUIRE(groups.Observations(n) == observations);
+    ++counts[groups.Replicate(n)];
+  }
+}
+
 }  // namespace
 
-TEST_CASE("groups fit four times into any number of samples", "[points]") {
+TEST_CASE("sequences are as long as the samplers are good for", "[points]") {
   for (Points points : kAllPoints) {
-    for (std::uint64_t spp :
-         {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{2}, std::uint64_t{3},
-          std::uint64_t{5}, std::uint64_t{7}, std::uint64_t{8}, std::uint64_t{10},
-          std::uint64_t{100}, std::uint64_t{1000}, std::uint64_t{12345},
-          std::uint64_t{1} << 31, ~std::uint64_t{0}}) {
-      const std::uint32_t size = PointsGroupSize(points, spp);
-      INFO(Name(points) << ", " << spp << " samples: groups of " << size);
-      CHECK(size >= 1);
-      CHECK(size <= MostGroupSize(points));
-      if (spp > 0) CHECK((size == 1 || spp / size >= 4));
-      const PointsParameters p = MakePointsParameters(points, size);
-      CHECK(p.group_size == size);
-      if (points == Points::kStratified || points == Points::kCmj) {
-        CHECK(p.columns.count * p.rows.count == size);
-        CHECK(p.rows.count <= 4 * p.columns.count);
-        CHECK(p.rows.count >= p.columns.count);
-      }
-      CHECK_NOTHROW(TextOf(points, spp));
-      CHECK_NOTHROW(TextOf(points, spp, true));
+    INFO(Name(points));
+    CHECK(MakePointsParameters(points).group_shift == LogSequence(points));
+    // Sample counts begin anew after whole turns.
+    CHECK(kSamplesPerSeed % (std::uint64_t{kReplicates} << LogSequence(points)) == 0);
+    CHECK(LogSequence(points) < 24);  // PermuteOctaves, CmjPoints
+  }
+  CHECK(LogSequence(Points::kIndependent) == 0);
+  CHECK(1u << LogSequence(Points::kPmj02) == kPmj02Points);
+  CHECK(1u << LogSequence(Points::kHalton) < 6561);
+  CHECK(LogSequence(Points::kSobol) == 20);
+}
+
+TEST_CASE("independent samples or pairs are observations, others by replicate",
+          "[points]") {
+  for (Points points : kAllPoints) {
+    for (Pairs pairs : {Pairs::kNone, Pairs::kAntithetic}) {
+      Strategy strategy;
+      strategy.points = points;
+      strategy.pairs = pairs;
+      const SampleGroups groups = GroupsOf(strategy);
+      CHECK(groups.replicates == (points != Points::kIndependent));
+      CHECK(groups.unit == (pairs == Pairs::kAntithetic ? 2u : 1u));
+      CheckCounts(groups);
     }
   }
-  CHECK(PointsGroupSize(Points::kIndependent, 1000) == 1);
-  CHECK(PointsGroupSize(Points::kStratified, 1000) == 250);
-  CHECK(PointsGroupSize(Points::kPmj02, 1000) == 128);
-  CHECK(PointsGroupSize(Points::kPmj02, 1 << 20) == 1024);
-  CHECK(PointsGroupSize(Points::kHalton, 864) == 216);
-  CHECK(PointsGroupSize(Points::kLattice, 1000) == 250);
+  CHECK(SampleGroups{1, false}.Observations(7) == 7);
+  CHECK(SampleGroups{2, false}.Observations(7) == 3);
+  CHECK(SampleGroups{2, true}.Observations(7) == 4);
+  CHECK(SampleGroups{2, true}.Observations(6) == 3);
+  CHECK(SampleGroups{1, true}.Observations(std::uint64_t{1} << 40) == 4);
 }
 
-TEST_CASE("what a number of samples costs is said", "[points]") {
-  using Catch::Contains;
+TEST_CASE("what a number of samples is worth is said", "[points]") {
   CHECK(TextOf(Points::kIndependent, 7) == "independent");
-  CHECK(TextOf(Points::kStratified, 64) ==
-        "stratified, 4 randomisations of 16 samples in 4x4 strata");
-  CHECK_THAT(TextOf(Points::kStratified, 100), Contains("5x5 strata"));
-  CHECK_THAT(TextOf(Points::kSobol, 100),
-             Contains("6 randomisations of 16 samples") && Contains("4 left over"));
-  CHECK_THAT(TextOf(Points::kStratified, 1009), Contains("left over"));
-  CHECK_THAT(TextOf(Points::kCmj, 7), Contains("as independent"));
-  CHECK_THAT(TextOf(Points::kPmj02, 1 << 20), Contains("1024 being the most"));
-  CHECK_THAT(TextOf(Points::kSobol, 0), Contains("randomisations of 64 samples"));
-  CHECK_THAT(TextOf(Points::kStratified, 128, true),
-             Contains("of 32 samples in 4x4 strata") && Contains("antithetic"));
-}
-
-TEST_CASE("groups that a sampler does not have are mistakes", "[points]") {
-  CHECK_THROWS_AS(MakePointsParameters(Points::kSobol, 12), CheckFailure);
-  CHECK_THROWS_AS(MakePointsParameters(Points::kPmj02, 2048), CheckFailure);
-  CHECK_THROWS_AS(MakePointsParameters(Points::kIndependent, 2), CheckFailure);
-  CHECK_THROWS_AS(MakePointsParameters(Points::kLattice, 0), CheckFailure);
+  CHECK(TextOf(Points::kIndependent, 7, true) == "independent, antithetic pairs (all)");
+  CHECK(TextOf(Points::kStratified, 64) == "stratified, 4 randomisations of 16 points");
+  CHECK(TextOf(Points::kSobol, 8) == "sobol, 4 randomisations of 2 points");
+  CHECK(TextOf(Points::kSobol, 0) == "sobol, 4 randomisations");
+  CHECK(TextOf(Points::kCmj, 7) ==
+        "cmj, not stratified (that takes 8 samples): as independent");
+  CHECK(TextOf(Points::kSobol, 100) ==
+        "sobol, 4 randomisations of 25 points (64 or 128 samples are better stratified)");
+  CHECK(TextOf(Points::kSobol, 9) ==
+        "sobol, 4 randomisations of 2 or 3 points (8 or 16 samples are better "
+        "stratified)");
+  CHECK(TextOf(Points::kPmj02, 4096) == "pmj02, 4 randomisations of 1024 points");
+  for (std::uint64_t spp : {4097, 5000, 8192}) {
+    CHECK(TextOf(Points::kPmj02, spp) ==
+          "pmj02, 8 randomisations of up to 1024 points, the most that it stratifies");
+  }
+  CHECK(TextOf(Points::kPmj02, 8193).starts_with("pmj02, 12 randomisations of up to"));
+  CHECK(TextOf(Points::kStratified, 128, true) ==
+        "stratified, 4 randomisations of 16 pairs, antithetic pairs (all)");
+  CHECK(TextOf(Points::kHalton, 15, true) ==
+        "halton, 4 randomisations of 2 pairs, antithetic pairs (all)");
+  CHECK(TextOf(Points::kHalton, 14, true).find("takes 16 samples") != std::string::npos);
 }
 
 }  // namespace lanelight::test

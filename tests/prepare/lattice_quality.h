@@ -1,4 +1,5 @@
-// Generators of rank-1 lattices in two dimensions.
+// What a generator of rank-1 lattices in two dimensions is worth, and the best ones: the
+// measure of kLatticeGenerator (src/prepare/lattice.h).
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ using Catch::Contains;
 
 // Two pixels at (3, 4): the first with samples 1 and 3, the second with one sample.
 FilmAccumulator SmallFilm(bool aov) {
-  FilmAccumulator film(3, 4, 2, 1, 1, aov);
+  FilmAccumulator film(3, 4, 2, 1, {1, false}, aov);
   float values[10][2];
   const float* planes[10];
   for (int p = 0; p < 10; ++p) {

@@ -19,6 +19,9 @@ Measured Measure(const SceneDescription& scene, const std::string& roulette,
                  std::uint64_t spp) {
   TestRender t;
   t.spp = spp;
+  // A share of the render, however small the image is.
+  t.planned_samples = spp * static_cast<std::uint64_t>(scene.film.width) *
+                      static_cast<std::uint64_t>(scene.film.height);
   t.strategy = "roulette=" + roulette;
   const Rendered r = RenderDescription(scene, t);
   Measured m;

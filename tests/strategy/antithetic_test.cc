@@ -90,7 +90,7 @@ TEST_CASE("antithetic: the second sample has the first one's numbers, reflected"
   Strategy strategy;
   ApplyStrategy("points=independent,pairs=antithetic:all", {}, strategy);
   f.run.pairs = MakePairParameters(strategy);
-  f.run.points = MakePointsParameters(strategy.points, 1);
+  f.run.points = MakePointsParameters(strategy.points);
   const std::uint32_t pixels[3] = {7, 8, 9};
   f.wave.work.pixels = pixels;
   f.wave.work.num_pixels = 3;

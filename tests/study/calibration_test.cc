@@ -40,7 +40,7 @@ double TrueRelmse(const FilmAccumulator& film, const FilmAccumulator& reference)
 
 struct Shares {
   double honest = 0;
-  double ungrouped = 0;  // of intervals from single samples instead of groups
+  double ungrouped = 0;  // of intervals from single samples instead of replicates
 };
 
 Shares Measure(const SceneDescription& scene, Points points, std::uint64_t spp, int seeds,
@@ -55,8 +55,8 @@ Shares Measure(const SceneDescription& scene, Points points, std::uint64_t spp, 
     const double truth = TrueRelmse(r.film, reference);
     const ErrorEstimate e = EstimateError(r.film);
     shares.honest += e.relmse.Contains(truth) / double(seeds);
-    // Groups of g stratified samples taken for g times as many observations.
-    const double g = r.film.group_size();
+    // Replicates of g stratified samples taken for g times as many observations.
+    const double g = double(spp) / double(r.film.Observations(0, kTop));
     const Interval wrong = ErrorInterval(e.relmse.value * g, e.effective_pixels,
                                          e.effective_pixels * (double(spp) - 1));
     shares.ungrouped += wrong.Contains(truth) / double(seeds);

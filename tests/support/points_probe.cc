@@ -32,7 +32,8 @@ HWY_INLINE void ForEachPoint(const PointsQuery& q, Body&& body) {
     for (uint32_t i = 0; i < columns; i += lanes) {
       const VU column = hn::Min(hn::Iota(du, i), SplatU(columns - 1));
       const VU pixel = hn::Add(SplatU(q.pixel), one ? hn::Zero(du) : column);
-      const VU sample = hn::Add(SplatU(q.first_sample), one ? column : SplatU(row));
+      const VU sample = hn::Add(SplatU(q.first_sample),
+                                hn::Mul(one ? column : SplatU(row), SplatU(q.stride)));
       body(std::size_t{row} * columns + i, pixel, sample);
     }
   }
@@ -52,7 +53,7 @@ void ProbePolicy(const PointsQuery& q, const PointsParameters& points, float* u0
 
 template <class Policy>
 void ProbePolicyNumbers(const PointsQuery& q, float* u) {
-  const PointsParameters points = MakePointsParameters(q.points, q.group_size);
+  const PointsParameters points = MakePointsParameters(q.points);
   ForEachPoint(q, [&](std::size_t i, VU pixel, VU sample) HWY_ATTR {
     const GroupIndex at = Policy::Group(points, sample);
     VF a, b;
@@ -95,26 +96,27 @@ void ProbeScalar(const PointsQuery& q, float* u) {
 }
 #undef LANELIGHT_POLICIES
 
-void ProbeDivided(const PointsParameters& points, uint32_t first, uint32_t count,
-                  uint32_t* group, uint32_t* index) {
+void ProbeTurns(const PointsParameters& points, uint32_t first, uint32_t count,
+                uint32_t* group, uint32_t* index, uint32_t* unpaired) {
   const DU du;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
   for (uint32_t i = 0; i < count; i += lanes) {
     const VU offset = hn::Min(hn::Iota(du, i), SplatU(count - 1));
-    const GroupIndex at = GroupByDivision(points, hn::Add(SplatU(first), offset));
+    const VU sample = hn::Add(SplatU(first), offset);
+    const GroupIndex at = GroupByTurns(points, sample);
     hn::StoreU(at.group, du, group + i);
     hn::StoreU(at.index, du, index + i);
+    hn::StoreU(UnpairedSample(sample), du, unpaired + i);
   }
 }
 
-void ProbePermuted(const PointsParameters& points, uint32_t key, bool octaves,
-                   uint32_t* out) {
+void ProbePermuted(uint32_t count, uint32_t key, bool octaves, uint32_t* out) {
   const DU du;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
-  for (uint32_t i = 0; i < points.group_size; i += lanes) {
-    const VU index = hn::Min(hn::Iota(du, i), SplatU(points.group_size - 1));
+  for (uint32_t i = 0; i < count; i += lanes) {
+    const VU index = hn::Min(hn::Iota(du, i), SplatU(count - 1));
     const VU image = octaves ? PermuteOctaves(index, SplatU(key))
-                             : Permute(points.strata, index, SplatU(key));
+                             : PermuteMasked(index, SplatU(count - 1), SplatU(key));
     hn::StoreU(image, du, out + i);
   }
 }
@@ -128,11 +130,11 @@ namespace lanelight {
 
 HWY_EXPORT(Probe);
 HWY_EXPORT(ProbeScalar);
-HWY_EXPORT(ProbeDivided);
+HWY_EXPORT(ProbeTurns);
 HWY_EXPORT(ProbePermuted);
 
 void ProbePoints(const PointsQuery& query, float* u0, float* u1) {
-  ProbePoints(query, MakePointsParameters(query.points, query.group_size), u0, u1);
+  ProbePoints(query, MakePointsParameters(query.points), u0, u1);
 }
 
 void ProbePoints(const PointsQuery& query, const PointsParameters& parameters, float* u0,
@@ -144,16 +146,16 @@ void ProbeNumbers(const PointsQuery& query, float* u) {
   HWY_DYNAMIC_DISPATCH(ProbeScalar)(query, u);
 }
 
-void ProbeGroups(std::uint32_t group_size, std::uint32_t first, std::uint32_t count,
-                 std::uint32_t* group, std::uint32_t* index) {
-  const PointsParameters points = MakePointsParameters(Points::kHalton, group_size);
-  HWY_DYNAMIC_DISPATCH(ProbeDivided)(points, first, count, group, index);
+void ProbeGroups(std::uint32_t group_shift, std::uint32_t first, std::uint32_t count,
+                 std::uint32_t* group, std::uint32_t* index, std::uint32_t* unpaired) {
+  PointsParameters points;
+  points.group_shift = group_shift;
+  HWY_DYNAMIC_DISPATCH(ProbeTurns)(points, first, count, group, index, unpaired);
 }
 
 void ProbePermutation(std::uint32_t count, std::uint32_t key, bool octaves,
                       std::uint32_t* out) {
-  const PointsParameters points = MakePointsParameters(Points::kHalton, count);
-  HWY_DYNAMIC_DISPATCH(ProbePermuted)(points, key, octaves, out);
+  HWY_DYNAMIC_DISPATCH(ProbePermuted)(count, key, octaves, out);
 }
 
 }  // namespace lanelight

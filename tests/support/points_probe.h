@@ -9,29 +9,31 @@ namespace lanelight {
 
 struct PointsQuery {
   Points points = Points::kSobol;
-  std::uint32_t seed = 0, pixel = 0, group_size = 1, key = 0;
+  std::uint32_t seed = 0, pixel = 0, key = 0;
   std::uint32_t first_sample = 0, count = 0;
   std::uint32_t pixels = 1;  // from `pixel` on
+  std::uint32_t stride = 1;  // from one sample to the next; kReplicates: of one replicate
 };
 
 /// Writes `count` points of each pixel: those of the first sample for all pixels, of the
 /// second, and so on. u0 and u1 need room for a full vector more.
 void ProbePoints(const PointsQuery& query, float* u0, float* u1);
-/// The same with parameters made before: MakePointsParameters(query.points,
-/// query.group_size).
+/// The same with parameters made before: MakePointsParameters(query.points).
 void ProbePoints(const PointsQuery& query, const PointsParameters& parameters, float* u0,
                  float* u1);
 
 /// The same for a scalar dimension.
 void ProbeNumbers(const PointsQuery& query, float* u);
 
-/// Group and index in it of samples [first, first + count), first + count <= 2^31. Both
-/// need room for a full vector more.
-void ProbeGroups(std::uint32_t group_size, std::uint32_t first, std::uint32_t count,
-                 std::uint32_t* group, std::uint32_t* index);
+/// Group and index in it of samples [first, first + count), first + count <= 2^31, in
+/// groups of 2^group_shift, and the samples whose unpaired numbers they draw where
+/// samples come in pairs. All need room for a full vector more.
+void ProbeGroups(std::uint32_t group_shift, std::uint32_t first, std::uint32_t count,
+                 std::uint32_t* group, std::uint32_t* index, std::uint32_t* unpaired);
 
-/// Images of [0, count) in the permutation of `key`; out needs room for a full vector
-/// more. `octaves`: that which keeps prefixes (PermuteOctaves).
+/// Images of [0, count), a power of two, in the permutation of `key`; out needs room for
+/// a full vector more. `octaves`: that which keeps prefixes (PermuteOctaves), for any
+/// count.
 void ProbePermutation(std::uint32_t count, std::uint32_t key, bool octaves,
                       std::uint32_t* out);
 

@@ -20,8 +20,7 @@ inline stat::ImageEstimate Estimate(const Rendered& render) {
       out.variance.push_back(film.Variance(film.x0() + x, film.y0() + y));
     }
   }
-  out.observations =
-      static_cast<double>(film.Samples(film.x0(), film.y0())) / film.group_size();
+  out.observations = static_cast<double>(film.Observations(film.x0(), film.y0()));
   return out;
 }
 

@@ -8,7 +8,6 @@
 
 #include "kernels/stages.h"
 #include "src/image/image.h"
-#include "src/prepare/groups.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/prepare/tables.h"
 #include "src/wavefront/tiles.h"
@@ -48,7 +47,7 @@ class Checker {
     }
     plan_ = MakePlan(scene_, options);
     tables_ = MakeStrategyTables(scene_);
-    run_ = MakeRunParameters(scene_, plan_, GroupSize(scene_.strategy, kSamples));
+    run_ = MakeRunParameters(scene_, plan_);
     run_.spp = kSamples;
     run_.tables = &tables_;
     MakePathValues();

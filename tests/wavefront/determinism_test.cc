@@ -48,17 +48,6 @@ Material "coateddiffuse" "rgb reflectance" [ 0.1 0.3 0.6 ] "float roughness" 0.1
 Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2.5  -3 3 2.5 ] "integer indices" [ 0 1 2 0 2 3 ]
 )";
 
-bool Identical(const FilmAccumulator& a, const FilmAccumulator& b) {
-  for (int y = 0; y < a.height(); ++y) {
-    for (int x = 0; x < a.width(); ++x) {
-      if (!(a.Mean(x, y) == b.Mean(x, y)) || !(a.Variance(x, y) == b.Variance(x, y))) {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 TEST_CASE("images are bit-identical for any threads and wavefront size",

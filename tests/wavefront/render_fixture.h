@@ -20,7 +20,8 @@ struct TestRender {
   Points sampler = Points::kIndependent;
   std::string strategy;  // on top of the scene's and `sampler`
   bool aov = false;
-  bool keep_roulette = false;  // RunOptions
+  bool keep_roulette = false;         // RunOptions
+  std::uint64_t planned_samples = 0;  // RunOptions
   CompileOptions compile;
 };
 
@@ -44,19 +45,33 @@ inline Rendered RenderDescription(const SceneDescription& description,
   plan_options.wavefront = t.wavefront;
   const Plan plan = MakePlan(scene, plan_options);
   Rendered out{FilmAccumulator(0, 0, scene.film.width, scene.film.height,
-                               GroupSize(scene.strategy, t.spp), t.aov),
+                               GroupsOf(scene.strategy), t.aov),
                {},
                plan};
   RunOptions options;
   options.spp = t.spp;
   options.seed = t.seed;
   options.keep_roulette = t.keep_roulette;
+  options.planned_samples = t.planned_samples;
   out.result = Run(scene, plan, options, out.film);
   return out;
 }
 
 inline Rendered RenderText(const std::string& text, const TestRender& t = {}) {
   return RenderDescription(ParseSceneText(text, "test.pbrt", "."), t);
+}
+
+/// Samples, means and variances are equal, to the last bit.
+inline bool Identical(const FilmAccumulator& a, const FilmAccumulator& b) {
+  for (int y = a.y0(); y < a.y0() + a.height(); ++y) {
+    for (int x = a.x0(); x < a.x0() + a.width(); ++x) {
+      if (a.Samples(x, y) != b.Samples(x, y) || !(a.Mean(x, y) == b.Mean(x, y)) ||
+          !(a.Variance(x, y) == b.Variance(x, y))) {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 /// Mean over the pixels of the image.

@@ -4,53 +4,31 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <iterator>
 
 namespace lanelight {
 
-TEST_CASE("groups fit at least four times into what is predicted", "[schedule]") {
-  for (Points points : {Points::kStratified, Points::kCmj, Points::kPmj02, Points::kSobol,
-                        Points::kHalton, Points::kLattice}) {
-    for (Pairs pairs : {Pairs::kNone, Pairs::kAntithetic}) {
-      Strategy strategy;
-      strategy.points = points;
-      strategy.pairs = pairs;
-      const std::uint32_t first = FirstGroupSize(strategy);
-      CHECK(first == (pairs == Pairs::kNone ? 1u : 2u));
-      for (double spp : {1.0, 10.0, 100.0, 1000.0, 1e6, double(INFINITY)}) {
-        const std::uint32_t size = ChooseGroupSize(strategy, spp, 2 * first);
-        CHECK(size > 2 * first);
-        if (spp >= 100) CHECK(4.0 * size <= spp);
-        if (spp >= 100 && spp <= 1e4) CHECK(16.0 * size >= spp);
-      }
+TEST_CASE("looks are the same whatever is needed, whole units, and few", "[schedule]") {
+  const std::uint64_t expected[] = {16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96, 112, 128};
+  for (std::uint32_t unit : {1u, 2u}) {
+    CHECK(FirstLook(unit) == 16 * unit);
+    CHECK(LooksUpTo(16 * unit - 1, unit) == 0);
+    std::uint64_t done = 0;
+    for (std::uint64_t look : expected) {
+      CHECK(LookFrom(done + 1, unit) == look * unit);
+      done = look * unit;
+      CHECK(LookFrom(done, unit) == done);
     }
-  }
-  Strategy independent;
-  independent.points = Points::kIndependent;
-  CHECK(ChooseGroupSize(independent, 1e6, 2) == 1);
-}
-
-TEST_CASE("looks are whole groups, few, and not before four groups", "[schedule]") {
-  for (std::uint32_t group : {1u, 4u, 10u, 64u}) {
-    std::uint64_t look = FirstLook(group);
-    CHECK(look >= 16);
-    CHECK(look >= 4 * group);
-    CHECK(look % group == 0);
-    const double needed = 5000;
-    int looks = 1;
-    while (double(look) < needed) {
-      const std::uint64_t next = NextLook(look, needed, group);
-      CHECK(next > look);
-      CHECK(next <= 2 * look + group);
-      CHECK(next % group == 0);
-      look = next;
-      ++looks;
+    CHECK(LooksUpTo(done, unit) == std::ssize(expected));
+    CHECK(LooksUpTo(done - 1, unit) == std::ssize(expected) - 1);
+    for (int i = 0; i < 130; ++i) {
+      const std::uint64_t next = LookFrom(done + 1, unit);
+      REQUIRE(next > done);
+      REQUIRE(next <= done + done / 4);
+      REQUIRE(next % unit == 0);
+      done = next;
     }
-    CHECK(looks <= 10);
-    // What is needed is overshot by the margin and a group.
-    CHECK(double(look) <= 1.02 * needed + group);
-    // An estimate that says "just a little more" gets at least a group.
-    CHECK(NextLook(look, double(look) + 1, group) >= look + group);
-    CHECK(NextLook(look, INFINITY, group) <= 2 * look + group);
+    CHECK(done > std::uint64_t{1} << 38);
   }
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "src/prepare/groups.h"
 #include "src/prepare/path_values.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/prepare/tables.h"
@@ -55,7 +54,7 @@ class TaskFixture {
     options.wavefront = 256;
     plan = MakePlan(scene_, options);
     tables_ = MakeStrategyTables(scene_);
-    run_ = MakeRunParameters(scene_, plan, GroupSize(scene_.strategy, kSamples));
+    run_ = MakeRunParameters(scene_, plan);
     run_.spp = kSamples;
     run_.tables = &tables_;
     copies_ = plan.features.Has(Feature::kSplitting) ? kMostCopies : 1;

@@ -28,4 +28,20 @@ TEST_CASE("tiles cover the window once", "[tiles]") {
   }
 }
 
+TEST_CASE("tiles hold whole blocks from the image's origin on", "[tiles]") {
+  for (const PixelRect window : {PixelRect{0, 0, 256, 144}, PixelRect{3, 5, 4, 6},
+                                 PixelRect{10, 20, 75, 101}, PixelRect{33, 70, 97, 99}}) {
+    for (std::uint64_t spp : {1, 4, 32, 100}) {
+      const TilePartition partition = MakePartition(window, spp);
+      CHECK(partition.side % 16 == 0);
+      for (const PixelRect& t : partition.tiles) {
+        CHECK((t.x0 % partition.side == 0 || t.x0 == window.x0));
+        CHECK((t.y0 % partition.side == 0 || t.y0 == window.y0));
+        CHECK((t.x1 % partition.side == 0 || t.x1 == window.x1));
+        CHECK((t.y1 % partition.side == 0 || t.y1 == window.y1));
+      }
+    }
+  }
+}
+
 }  // namespace lanelight

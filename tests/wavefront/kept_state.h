@@ -1,0 +1,41 @@
+// The columns of films, copied away and back, for tests.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "src/wavefront/films.h"
+
+namespace lanelight {
+
+struct KeptColumn {
+  std::string name;
+  std::vector<char> bytes;
+
+  bool operator==(const KeptColumn&) const = default;
+};
+
+inline std::vector<KeptColumn> CopyColumns(Films& films) {
+  std::vector<KeptColumn> kept;
+  for (const StateColumn& column : films.Columns()) {
+    KeptColumn copy{column.name, std::vector<char>(column.rows * column.RowBytes())};
+    std::memcpy(copy.bytes.data(), column.data, copy.bytes.size());
+    kept.push_back(std::move(copy));
+  }
+  return kept;
+}
+
+/// Into films of the same kind.
+inline void PutColumns(const std::vector<KeptColumn>& kept, Films& films) {
+  const std::vector<StateColumn> columns = films.Columns();
+  REQUIRE(columns.size() == kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    REQUIRE(columns[i].name == kept[i].name);
+    REQUIRE(columns[i].rows * columns[i].RowBytes() == kept[i].bytes.size());
+    std::memcpy(columns[i].data, kept[i].bytes.data(), kept[i].bytes.size());
+  }
+}
+
+}  // namespace lanelight
