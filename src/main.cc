@@ -29,6 +29,7 @@ constexpr const char* kFooter =
     "  lanelight strategies\n"
     "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
     "  lanelight study scenes/cornell-box.pbrt --out box-study\n"
+    "  lanelight sweep scenes/sweep.toml --out sweep\n"
     "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
     "samples, 4 compare: over the limit, 5 render: the target error was not reached,\n"
     "6 interrupted, to go on from what is kept.";
@@ -101,6 +102,7 @@ void AddCommands(CLI::App& root, Command& chosen) {
   AddMergeCommand(root, chosen);
   AddCompareCommand(root, chosen);
   AddStudyCommand(root, chosen);
+  AddSweepCommand(root, chosen);
   AddCompletionCommand(root, chosen);
 }
 

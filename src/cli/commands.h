@@ -19,6 +19,7 @@ void AddStrategiesCommand(CLI::App& root, Command& chosen);
 void AddMergeCommand(CLI::App& root, Command& chosen);
 void AddCompareCommand(CLI::App& root, Command& chosen);
 void AddStudyCommand(CLI::App& root, Command& chosen);
+void AddSweepCommand(CLI::App& root, Command& chosen);
 void AddCompletionCommand(CLI::App& root, Command& chosen);
 
 }  // namespace lanelight

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Turns the report's page into one C++ file: embed_page.py PAGE_DIR OUTPUT.cc
+"""Turns the report's pages into one C++ file: embed_page.py PAGE_DIR OUTPUT.cc
 
-Reads PAGE_DIR/index.html, replaces every <link rel="stylesheet"> and <script src> by the
+Reads PAGE_DIR/index.html (of a study) and sweep.html, replaces every <link rel="stylesheet"> and <script src> by the
 file that it names, puts the hashes of what is inlined into the content security policy, and
-cuts the result at the line <!-- data -->. Standard library only.
+cuts each result at the line <!-- data -->. Standard library only.
 """
 
 import base64
@@ -39,11 +39,11 @@ def inline(page_dir, tag, hashes, match):
     return f"<{tag}>{text}</{tag}>"
 
 
-def assemble(page_dir):
-    html = (page_dir / "index.html").read_text(encoding="utf-8")
+def assemble(page_dir, name):
+    html = (page_dir / name).read_text(encoding="utf-8")
     for marker in (DATA, STYLE_HASHES, SCRIPT_HASHES, LICENSE):
         if html.count(marker) != 1:
-            raise SystemExit(f"embed_page: index.html must contain {marker} exactly once")
+            raise SystemExit(f"embed_page: {name} must contain {marker} exactly once")
     licence = (page_dir / "vendor/LICENSE").read_text(encoding="utf-8").strip()
     html = html.replace(LICENSE, f"<!--\nuPlot 1.6.32\n{licence}\n-->")
     styles, scripts = [], []
@@ -66,8 +66,11 @@ def literal(name, text):
 
 def main():
     page_dir, output = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-    head, tail = assemble(page_dir).split(DATA)
-    body = HEADER + "\n" + literal("PageHead", head) + "\n" + literal("PageTail", tail)
+    body = HEADER
+    for name, prefix in (("index.html", "Page"), ("sweep.html", "SweepPage")):
+        head, tail = assemble(page_dir, name).split(DATA)
+        body += "\n" + literal(f"{prefix}Head", head)
+        body += "\n" + literal(f"{prefix}Tail", tail)
     output.write_text(body + "\n}  // namespace lanelight\n", encoding="utf-8")
 
 

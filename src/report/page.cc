@@ -112,4 +112,9 @@ std::string ReportPage(const nlohmann::json& study,
   return page;
 }
 
+std::string SweepReportPage(const nlohmann::json& sweep) {
+  return SweepPageHead() + "<script type=\"application/json\" id=\"study\">" +
+         JsonForScript(sweep) + "</script>\n" + SweepPageTail();
+}
+
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-// The study's report: one HTML file with styles, scripts, numbers and images in it.
+// The reports of studies and sweeps: one HTML file each, with styles, scripts, numbers and images in it.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,9 @@ struct ReportImage {
 /// value, and a third more by base64.
 std::string ReportPage(const nlohmann::json& study,
                        const std::vector<ReportImage>& images);
+
+/// The page of a sweep, laid out as docs/sweep.md says; otherwise like ReportPage().
+std::string SweepReportPage(const nlohmann::json& sweep);
 
 /// IEEE 754 binary16, rounded to nearest even: infinities and finite values beyond
 /// +-65504 saturate there, NaN stays one.

@@ -1,4 +1,4 @@
-// The fixed parts of the report's page, around its data. Their definitions are made from
+// The fixed parts of the report's pages, around their data. Their definitions are made from
 // src/report/page/ by embed_page.py when the library is built.
 #pragma once
 
@@ -8,5 +8,8 @@ namespace lanelight {
 
 std::string PageHead();  // from the doctype to where the data goes
 std::string PageTail();  // the scripts, to the end of the document
+
+std::string SweepPageHead();  // the same of a sweep's page
+std::string SweepPageTail();
 
 }  // namespace lanelight

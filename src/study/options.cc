@@ -5,12 +5,10 @@
 #include <iterator>
 
 #include "src/core/error.h"
+#include "src/strategy/named_strategy.h"
 
 namespace lanelight {
 namespace {
-
-constexpr const char* kDefaultName = "default";
-constexpr const char* kSceneName = "scene";
 
 // Presets from Figure 2 on; what they share is paper-plain.
 constexpr const char* kFigures[] = {"paper-uniform",    "paper-importance",
@@ -20,18 +18,18 @@ constexpr const char* kFigures[] = {"paper-uniform",    "paper-importance",
 std::vector<std::string> PaperStrategies() {
   std::vector<std::string> names = {"paper-plain"};
   names.insert(names.end(), std::begin(kFigures), std::end(kFigures));
-  names.insert(names.end(), {kDefaultName, kSceneName});
+  names.insert(names.end(), {kDefaultStrategyName, kSceneStrategyName});
   return names;
 }
 
 // The default, every choice alone changed from it, and the paper's presets.
 std::vector<std::string> AllStrategies() {
-  std::vector<std::string> names = {kDefaultName};
+  std::vector<std::string> names = {kDefaultStrategyName};
   for (const ChoiceInfo& c : AllChoices()) {
     names.push_back(std::string(c.axis) + "=" + c.name);
   }
   for (const PresetInfo& p : AllPresets()) names.push_back(p.name);
-  names.push_back(kSceneName);
+  names.push_back(kSceneStrategyName);
   return names;
 }
 
@@ -50,13 +48,10 @@ std::vector<NamedStrategy> StudyStrategies(const StudyOptions& options,
                                              : options.strategies;
   std::vector<NamedStrategy> strategies;
   for (const std::string& name : names) {
-    NamedStrategy named = {name, {}};
-    if (name == kSceneName) {
-      named.strategy = own;
-    } else if (name != kDefaultName) {
-      ApplyStrategy(name, {std::make_shared<const std::string>("--strategies"), 0, 0},
-                    named.strategy);
-    }
+    NamedStrategy named = {
+        name,
+        StrategyNamed(name, {std::make_shared<const std::string>("--strategies"), 0, 0},
+                      own)};
     const auto same = [&](const NamedStrategy& other) {
       return other.strategy == named.strategy;
     };

@@ -1,0 +1,158 @@
+// `lanelight sweep SWEEP.toml --out DIR`: a grid of renders, filled by any number of
+// processes.
+#include <charconv>
+#include <memory>
+
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
+#include "src/cli/interrupt.h"
+#include "src/cli/sweep_progress.h"
+#include "src/sweep/prediction.h"
+#include "src/sweep/runner.h"
+
+namespace lanelight {
+namespace {
+
+struct SweepCommandOptions {
+  std::string file, part;
+  SweepOptions sweep;
+  bool dry_run = false, quiet = false;
+  int pilots = 24;
+};
+
+std::size_t Number(std::string_view text) {
+  std::size_t value = 0;
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : 0;
+}
+
+// "2/5": the second of five parts.
+void SetPart(const std::string& text, SweepOptions& options) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  options.part = Number(std::string_view(text).substr(0, slash));
+  options.parts =
+      slash == text.size() ? 0 : Number(std::string_view(text).substr(slash + 1));
+  if (options.part >= 1 && options.part <= options.parts) return;
+  throw CLI::ValidationError("--part",
+                             "'" + text + "' is not I/N with I from 1 to N, e.g. 2/5");
+}
+
+void PrintOutcome(const SweepOutcome& o, const SweepOptions& options) {
+  for (const CellFailure& failure : o.failures) {
+    PrintError("failed: " + failure.name + ": " + failure.message);
+  }
+  if (!o.other_cells.empty()) {
+    PrintError(
+        fmt::format("note: {} of the directories in {}/cells, e.g. {}, are not of "
+                    "this sweep; they stay, and are not in the table",
+                    o.other_cells.size(), options.out, o.other_cells.front()));
+  }
+  if (o.without_target > 0) {
+    PrintError(
+        fmt::format("note: {} cells are for SIMD targets that this machine has "
+                    "not; run the sweep on one that has them too",
+                    o.without_target));
+  }
+  if (o.invalid_samples > 0) {
+    PrintError(fmt::format("error: {} samples were invalid and count as zero",
+                           o.invalid_samples));
+  }
+}
+
+void PrintSummary(const SweepOutcome& o, const SweepOptions& options) {
+  std::string text = fmt::format("{} of {} cells are done, {} of them by this process",
+                                 o.done, o.total, o.rendered);
+  const std::size_t missing = o.total - o.done - o.failures.size();
+  if (missing > 0) text += fmt::format("; {} are missing", missing);
+  if (o.elsewhere > 0) text += fmt::format(", {} with other processes", o.elsewhere);
+  Print(fmt::format("{0}\n{1}/sweep.csv, {1}/report.html\n", text, options.out));
+}
+
+int DryRun(const Sweep& sweep, const SweepCommandOptions& options) {
+  const InterruptGuard interrupt("\nstopping\n");
+  Print(PredictionText(
+      sweep, Predict(sweep, options.sweep.out, options.pilots, interrupt.stop())));
+  return interrupt.stop() ? kExitInterrupted : kExitGood;
+}
+
+int RunSweepCommand(SweepCommandOptions& options) {
+  const Sweep sweep = ReadSweep(options.file);
+  if (options.dry_run) return DryRun(sweep, options);
+  SweepProgressPrinter progress(ChooseProgressStyle(options.quiet));
+  const InterruptGuard interrupt(
+      "\nstopping: the cell in hand is given up; the same command goes on with it (once "
+      "more to abort)\n");
+  SweepHooks hooks;
+  hooks.on_progress = [&](const SweepProgress& p) { progress.Update(p); };
+  hooks.on_problem = [&](const std::string& text) { progress.Say(text); };
+  hooks.stop = &interrupt.stop();
+  const SweepOutcome outcome = RunSweep(sweep, options.sweep, hooks);
+  progress.Finish();
+  PrintOutcome(outcome, options.sweep);
+  if (!options.quiet) PrintSummary(outcome, options.sweep);
+  if (outcome.interrupted) return kExitInterrupted;
+  if (!outcome.failures.empty()) return kExitBadInput;
+  return outcome.invalid_samples > 0 ? kExitInvalidSamples : kExitGood;
+}
+
+void AddSharingOptions(CLI::App& command, SweepCommandOptions& options) {
+  command
+      .add_option("--part", options.part,
+                  "Render every N-th cell only, from the I-th on; each process with a "
+                  "part of its own needs no locks")
+      ->type_name("I/N");
+  command.add_flag("--wait", options.sweep.wait,
+                   "Wait for the cells that other processes render, and do them if those "
+                   "die");
+  command.add_flag_callback(
+      "--resume", [] {}, "Leave out what is finished; this is what happens anyway");
+}
+
+}  // namespace
+
+void AddSweepCommand(CLI::App& root, Command& chosen) {
+  CLI::App* command =
+      root.add_subcommand("sweep", "Render a grid of scenes, strategies and settings");
+  auto options = std::make_shared<SweepCommandOptions>();
+  command->add_option("SWEEP", options->file, "The grid, a TOML file (docs/sweep.md)")
+      ->required()
+      ->type_name("");
+  command->add_option("--out", options->sweep.out, "Directory that the cells go to")
+      ->required()
+      ->type_name("DIR");
+  AddSharingOptions(*command, *options);
+  CLI::Option* dry = command->add_flag(
+      "--dry-run", options->dry_run,
+      "Print the cells, and the time and space they will take, and render none");
+  command
+      ->add_option("--pilots", options->pilots,
+                   "Most short renders that --dry-run predicts from; 0: no times")
+      ->check(CLI::Range(0, 100000).description(""))
+      ->needs(dry)
+      ->type_name("N");
+  command
+      ->add_flag("--table-only", options->sweep.table_only,
+                 "Write the table and the page of what there is, and render nothing")
+      ->excludes(dry);
+  command->add_flag("--quiet", options->quiet, "Print errors only");
+  command->footer(
+      "\nWrites DIR/cells/NAME/image.exr and report.json of every cell, DIR/sweep.csv "
+      "and\n"
+      "DIR/report.html. Start the same command as often as you like, on any machines "
+      "that\n"
+      "share DIR: each cell is rendered by one process, and those of a process that "
+      "died\n"
+      "by another. Exit code 6: interrupted, to be started again.\n"
+      "\nExamples:\n"
+      "  lanelight sweep sweep.toml --out out --dry-run\n"
+      "  lanelight sweep sweep.toml --out out\n"
+      "  lanelight sweep sweep.toml --out out --part 2/5");
+  command->callback([options, &chosen] {
+    if (!options->part.empty()) SetPart(options->part, options->sweep);
+    chosen = [options] { return RunSweepCommand(*options); };
+  });
+}
+
+}  // namespace lanelight

@@ -1,0 +1,64 @@
+// The axes of a sweep's grid, in the order in which cells are counted: what changes
+// slowest, and costs most to change, comes first.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/core/error.h"
+#include "src/render/settings.h"
+
+namespace lanelight {
+
+enum class Axis {
+  kScene,
+  kResolution,
+  kMaxDepth,
+  kBuild,
+  kTarget,
+  kThreads,
+  kStrategy,
+  kSpp,
+  kTime,
+  kTargetRelmse,
+  kTargetRmse,
+  kSeed,
+  kCount
+};
+inline constexpr int kNumAxes = static_cast<int>(Axis::kCount);
+
+/// What the sweep file writes in front of an axis' values, e.g. "max-depth": the flag of
+/// `lanelight render` without its dashes.
+const char* Name(Axis axis);
+/// The header of its column in sweep.csv, with its unit, e.g. "time_seconds".
+const char* Column(Axis axis);
+/// Its heading on the page, e.g. "Samples per pixel".
+const char* Title(Axis axis);
+/// All names, in order.
+std::vector<std::string> AxisNames();
+/// The axis of that name, if there is one.
+std::optional<Axis> SweepAxisOf(const std::string& name);
+
+/// Which kind of TOML value an axis takes.
+enum class AxisType { kText, kInteger, kNumber };
+AxisType TypeOf(Axis axis);
+
+/// One text per axis; empty: the scene, or the program, decides.
+using AxisValues = std::array<std::optional<std::string>, kNumAxes>;
+
+inline const std::optional<std::string>& Get(const AxisValues& values, Axis axis) {
+  return values[static_cast<std::size_t>(axis)];
+}
+
+/// The one text by which equal values are known: "08" is "8", "avx2" is "AVX2". Throws
+/// InputError at `where` for what `lanelight render` would not take either.
+std::string CanonicalValue(Axis axis, const std::string& text,
+                           const SourceLocation& where);
+
+/// Puts these values into the settings of a render. The scene, the SIMD target, the
+/// threads and the strategy are not among them.
+void ApplyValues(const AxisValues& values, RenderSettings& settings);
+
+}  // namespace lanelight

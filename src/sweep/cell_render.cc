@@ -1,0 +1,92 @@
+#include "src/sweep/cell_render.h"
+
+#include <algorithm>
+
+#include "kernels/simd/target.h"
+#include "src/core/parallel.h"
+#include "src/prepare/groups.h"
+#include "src/render/memory.h"
+#include "src/strategy/named_strategy.h"
+
+namespace lanelight {
+namespace {
+
+// What a scene is compiled for: threads and target matter to its time.
+constexpr Axis kCompiled[] = {Axis::kScene, Axis::kResolution, Axis::kMaxDepth,
+                              Axis::kBuild, Axis::kTarget,     Axis::kThreads};
+
+void SetAmount(const RenderSettings& settings, Job& job) {
+  job.seconds = settings.seconds.value_or(0);
+  job.target = {settings.target_relmse.value_or(0), settings.target_rmse.value_or(0)};
+  const bool scene_decides = !settings.seconds && !job.target.Any();
+  job.spp = settings.spp.value_or(
+      scene_decides ? static_cast<std::uint64_t>(job.description.sampler.spp) : 0);
+  job.seed = settings.seed.value_or(job.description.sampler.seed);
+}
+
+}  // namespace
+
+std::string CellRenderer::SceneKey(const SweepCell& cell) const {
+  std::string key;
+  for (const Axis axis : kCompiled) key += Get(cell.values, axis).value_or("") + "\n";
+  return key;
+}
+
+int CellRenderer::Threads(const SweepCell& cell) {
+  return std::stoi(Get(cell.values, Axis::kThreads).value_or("0"));
+}
+
+bool CellRenderer::HasTarget(const SweepCell& cell) {
+  const auto& target = Get(cell.values, Axis::kTarget);
+  if (!target) return true;
+  const std::vector<std::string> available = AvailableTargets();
+  return std::find(available.begin(), available.end(), *target) != available.end();
+}
+
+// Leaves no job, and failure_, if that is not possible.
+void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
+  job_.reset();  // before there is another in memory
+  failure_.clear();
+  ForceTarget(Get(cell.values, Axis::kTarget).value_or(""));
+  settings.seed.reset();  // that of one cell is not that of the next
+  try {
+    job_ = PrepareJob(sweep_.ScenePath(cell), settings);
+    own_ = job_->description.strategy;
+  } catch (const InputError& error) {
+    failure_ = error.what();
+  }
+}
+
+Job& CellRenderer::Prepare(const SweepCell& cell) {
+  RenderSettings settings = sweep_.settings.render;
+  ApplyValues(cell.values, settings);
+  if (const std::string key = SceneKey(cell); key != key_) {
+    key_ = key;
+    Compile(cell, settings);
+  }
+  // All cells of a broken scene fail, and only the first one takes the time.
+  if (!job_) throw std::runtime_error(failure_);
+  Job& job = *job_;
+  const Strategy strategy = StrategyNamed(
+      Get(cell.values, Axis::kStrategy).value_or(kSceneStrategyName), {}, own_);
+  CheckFilmFits(job.window, settings.aov, strategy, PhysicalMemory());
+  SetAmount(settings, job);
+  SetStrategy(job, strategy);
+  job.group_size = GroupSize(strategy, job.OpenEnded() ? 0 : job.spp);
+  return job;
+}
+
+Rendering CellRenderer::Render(const SweepCell& cell, const std::string& folder,
+                               const RenderHooks& hooks) {
+  const ThreadLimit threads(Threads(cell));
+  const Job& job = Prepare(cell);
+  RenderTargets targets;
+  targets.exr = folder + "/image.exr";
+  if (sweep_.settings.png) targets.png = folder + "/image.png";
+  targets.json = "-";
+  targets.exposure = sweep_.settings.exposure;
+  targets.half = sweep_.settings.half;
+  return RenderToFiles(job, sweep_.ScenePath(cell), targets, hooks);
+}
+
+}  // namespace lanelight

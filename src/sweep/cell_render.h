@@ -1,0 +1,46 @@
+// The render of a cell. The only file of the sweep that runs jobs.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "src/render/render.h"
+#include "src/sweep/sweep_file.h"
+
+namespace lanelight {
+
+/// Renders cells one after the other, and compiles a scene again only where two in a row
+/// differ in more than strategy, amount and seed.
+class CellRenderer {
+ public:
+  /// `sweep` must outlive the object.
+  explicit CellRenderer(const Sweep& sweep) : sweep_(sweep) {}
+
+  /// The scene as the cell wants it, its strategy and amount set. Refers to this object,
+  /// until the next call. Throws InputError.
+  Job& Prepare(const SweepCell& cell);
+
+  /// Renders into image.exr (and image.png) of `folder`, an existing directory. The
+  /// report is in the result only. Throws InputError.
+  Rendering Render(const SweepCell& cell, const std::string& folder,
+                   const RenderHooks& hooks);
+
+  /// What a compiled scene is of: cells of the same text share it.
+  std::string SceneKey(const SweepCell& cell) const;
+  /// Threads of a cell; 0: all cores.
+  static int Threads(const SweepCell& cell);
+  /// Whether this machine has the cell's SIMD target.
+  static bool HasTarget(const SweepCell& cell);
+
+ private:
+  void Compile(const SweepCell& cell, RenderSettings settings);
+
+  const Sweep& sweep_;
+  std::optional<Job> job_;
+  std::string key_, failure_;  // of job_; why there is none
+  Strategy own_;               // the scene's
+};
+
+}  // namespace lanelight

@@ -1,0 +1,50 @@
+// Who renders which cell, among any number of processes on any machines that share a file
+// system: locks of open file descriptions on single bytes of one empty file. The kernel,
+// or the file server, gives a lock back when its process ends in whatever way, so that
+// claims need no heartbeat, no clock and no clearing up.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace lanelight {
+
+class Claims {
+ public:
+  /// A lock, as long as it lives.
+  class Claim {
+   public:
+    Claim(Claim&& other) noexcept;
+    Claim& operator=(Claim&&) = delete;
+    ~Claim();
+
+   private:
+    friend class Claims;
+    Claim(int file, long offset) : file_(file), offset_(offset) {}
+    int file_;
+    long offset_;
+  };
+
+  /// Opens or makes the file. Throws InputError if that fails, and, unless `optional`, if
+  /// its file system has no locks. With `optional` every claim is then granted.
+  explicit Claims(const std::string& path, bool optional = false);
+  ~Claims();
+  Claims(const Claims&) = delete;
+  Claims& operator=(const Claims&) = delete;
+
+  /// Empty if another process has it. Keys become bytes by their hash: two keys may share
+  /// one with a probability of 2^-62, and are then not claimed at once. Throws InputError
+  /// if the file system fails.
+  std::optional<Claim> Take(const std::string& key) const;
+  /// Waits for it.
+  Claim Wait(const std::string& key) const;
+
+  bool locking() const { return locking_; }
+
+ private:
+  std::string path_;
+  int file_ = -1;
+  bool locking_ = true;
+};
+
+}  // namespace lanelight

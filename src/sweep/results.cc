@@ -1,0 +1,172 @@
+#include "src/sweep/results.h"
+
+#include <unistd.h>
+
+#include <set>
+
+#include "src/core/version.h"
+#include "src/image/atomic_file.h"
+#include "src/sweep/sweep_page.h"
+
+namespace lanelight {
+namespace {
+
+using Json = nlohmann::json;
+
+// Columns of the table beside the axes, each with its place in report.json.
+struct Measure {
+  const char *name, *place;
+};
+constexpr Measure kColumns[] = {
+    {"samples", "/samples"},
+    {"render_seconds", "/seconds/render"},
+    {"cpu_seconds", "/sweep/cpu_seconds"},
+    {"load_seconds", "/seconds/load"},
+    {"build_seconds", "/seconds/build"},
+    {"pilot_seconds", "/seconds/pilot"},
+    {"write_seconds", "/seconds/write"},
+    {"samples_per_second", "/samples_per_second"},
+    {"rays", "/rays/total"},
+    {"rays_per_second", "/rays_per_second"},
+    {"relmse", "/error/relmse/value"},
+    {"relmse_low", "/error/relmse/low"},
+    {"relmse_high", "/error/relmse/high"},
+    {"rmse", "/error/rmse/value"},
+    {"rmse_low", "/error/rmse/low"},
+    {"rmse_high", "/error/rmse/high"},
+    {"stop_reason", "/stop_reason"},
+    {"wavefront_bytes", "/wavefront_bytes"},
+    {"used_threads", "/settings/threads"},
+    {"used_simd_target", "/target/name"},
+    {"used_strategy", "/settings/strategy"},
+    {"width_pixels", "/settings/resolution/0"},
+    {"height_pixels", "/settings/resolution/1"},
+    {"used_max_depth", "/settings/max_depth"},
+    {"used_seed", "/settings/seed"},
+    {"scene_hash", "/scene_hash"},
+    {"machine", "/sweep/machine"},
+    {"program", "/sweep/program"},
+};
+
+std::string MachineName() {
+  char name[256] = "";
+  gethostname(name, sizeof(name) - 1);
+  return name;
+}
+
+Json InvalidSamples(const Json& report) {
+  std::uint64_t invalid = 0;
+  for (const auto& [kind, count] : report.at("health").items()) {
+    invalid += count.get<std::uint64_t>();
+  }
+  return invalid;
+}
+
+// RFC 4180.
+std::string Field(const Json& value) {
+  if (value.is_null()) return "";
+  if (!value.is_string()) return value.dump();
+  const auto text = value.get<std::string>();
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::vector<std::string> StageNames(const std::vector<Json>& cells) {
+  std::set<std::string> names;
+  for (const Json& cell : cells) {
+    for (const auto& [name, seconds] : cell.at("stages").items()) names.insert(name);
+  }
+  return {names.begin(), names.end()};
+}
+
+std::string Header(const std::vector<std::string>& stages) {
+  std::string text = "cell,status";
+  for (int i = 0; i < kNumAxes; ++i) {
+    text += std::string(",") + Column(static_cast<Axis>(i));
+  }
+  for (const Measure& column : kColumns) text += std::string(",") + column.name;
+  text += ",invalid_samples";
+  for (const std::string& stage : stages) text += ",stage_" + stage + "_cpu_seconds";
+  return text + ",message\n";
+}
+
+std::string Row(const Json& cell, const std::vector<std::string>& stages) {
+  std::string text = Field(cell.at("name")) + "," + Field(cell.at("status"));
+  for (int i = 0; i < kNumAxes; ++i) {
+    text += "," + Field(cell.at("values").value(Name(static_cast<Axis>(i)), Json()));
+  }
+  for (const Measure& column : kColumns) {
+    text += "," + Field(cell.at("measured").value(column.name, Json()));
+  }
+  text += "," + Field(cell.at("measured").value("invalid_samples", Json()));
+  for (const std::string& stage : stages) {
+    text += "," + Field(cell.at("stages").value(stage, Json()));
+  }
+  return text + "," + Field(cell.at("message")) + "\n";
+}
+
+}  // namespace
+
+Json CellReport(const Rendering& rendering) {
+  Json report = Json::parse(rendering.json);
+  report["sweep"] = {{"cpu_seconds", rendering.report.result.cpu_seconds},
+                     {"machine", MachineName()},
+                     {"program", FullVersion()}};
+  return report;
+}
+
+Json CellJson(const SweepCell& cell, const CellRecord& record) {
+  Json json = {{"name", cell.name},
+               {"status", Name(record.state)},
+               {"message", record.message.empty() ? Json() : Json(record.message)},
+               {"values", Json::object()},
+               {"measured", Json::object()},
+               {"stages", Json::object()}};
+  for (int i = 0; i < kNumAxes; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    if (const auto& value = Get(cell.values, axis)) json["values"][Name(axis)] = *value;
+  }
+  if (record.state != CellState::kDone) return json;
+  for (const Measure& column : kColumns) {
+    const Json::json_pointer place(column.place);
+    if (record.report.contains(place)) {
+      json["measured"][column.name] = record.report.at(place);
+    }
+  }
+  json["measured"]["invalid_samples"] = InvalidSamples(record.report);
+  for (const Json& stage : record.report.at("stages")) {
+    json["stages"][stage.at("name").get<std::string>()] = stage.at("seconds");
+  }
+  return json;
+}
+
+std::string SweepCsv(const std::vector<Json>& cells) {
+  const std::vector<std::string> stages = StageNames(cells);
+  std::string text = Header(stages);
+  for (const Json& cell : cells) text += Row(cell, stages);
+  return text;
+}
+
+void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome) {
+  std::vector<Json> cells;
+  for (const SweepCell& cell : sweep.cells) {
+    const CellRecord record = folder.Look(cell);
+    cells.push_back(CellJson(cell, record));
+    outcome.done += record.state == CellState::kDone;
+    if (record.state == CellState::kDone) {
+      outcome.invalid_samples +=
+          cells.back()["measured"]["invalid_samples"].get<std::uint64_t>();
+    }
+    if (record.state == CellState::kFailed) {
+      outcome.failures.push_back({cell.name, record.message});
+    }
+  }
+  outcome.total = sweep.cells.size();
+  outcome.other_cells = folder.OtherCells();
+  WriteFileAtomically(folder.File("sweep.csv"), SweepCsv(cells));
+  WriteFileAtomically(folder.File("report.html"), SweepPage(sweep, cells));
+}
+
+}  // namespace lanelight

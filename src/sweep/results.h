@@ -1,0 +1,27 @@
+// What becomes of the finished cells: sweep.csv and the page.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "src/render/render.h"
+#include "src/sweep/runner.h"
+#include "src/sweep/sweep_folder.h"
+
+namespace lanelight {
+
+/// The report of a render with what sweeps add to it: processor seconds, the machine.
+nlohmann::json CellReport(const Rendering& rendering);
+
+/// Looks at all cells, writes the table and the page, and says in `outcome` how the whole
+/// sweep stands.
+void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome);
+
+/// A cell as the page has it (docs/sweep.md); numbers that are not known are null.
+nlohmann::json CellJson(const SweepCell& cell, const CellRecord& record);
+
+/// sweep.csv of such cells, in order.
+std::string SweepCsv(const std::vector<nlohmann::json>& cells);
+
+}  // namespace lanelight

@@ -1,0 +1,170 @@
+#include "src/sweep/sweep_folder.h"
+
+#include <filesystem>
+#include <set>
+
+#include "src/core/suggest.h"
+#include "src/image/atomic_file.h"
+#include "src/render/job.h"
+#include "src/render/saving.h"
+
+namespace lanelight {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+void MakeDirectory(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw InputError("cannot make '" + path + "': " + error.message());
+}
+
+Json ValuesJson(const SweepCell& cell) {
+  Json json = Json::object();
+  for (int i = 0; i < kNumAxes; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    if (const auto& value = Get(cell.values, axis)) json[Name(axis)] = *value;
+  }
+  return json;
+}
+
+std::string TextOr(const Json& json, const std::string& key) {
+  const auto found = json.find(key);
+  return found == json.end() ? "not set" : Quoted(found->get<std::string>());
+}
+
+// "crop is "0,0,8,8" there and not set here; ..."
+std::string Differences(const Json& there, const Json& here) {
+  std::set<std::string> keys;
+  for (const Json& side : {there, here}) {
+    for (const auto& [key, unused] : side.items()) keys.insert(key);
+  }
+  std::string text;
+  for (const std::string& key : keys) {
+    const std::string a = TextOr(there, key), b = TextOr(here, key);
+    if (a == b) continue;
+    text +=
+        fmt::format("{}{} is {} there and {} here", text.empty() ? "" : "; ", key, a, b);
+  }
+  return text;
+}
+
+}  // namespace
+
+const char* Name(CellState state) {
+  constexpr const char* kNames[] = {"missing", "failed", "done"};
+  return kNames[static_cast<int>(state)];
+}
+
+SweepFolder::SweepFolder(std::string path, const Sweep& sweep)
+    : path_(std::move(path)), sweep_(sweep) {}
+
+std::string SweepFolder::File(const SweepCell& cell, const std::string& name) const {
+  return path_ + "/cells/" + cell.name + "/" + name;
+}
+
+void SweepFolder::Make() const {
+  MakeDirectory(path_ + "/cells");
+  CheckWritable();
+  WriteFileAtomically(File("sweep.toml"), sweep_.text);
+}
+
+void SweepFolder::CheckWritable() const {
+  // The name of no file: what is tested is the directory.
+  lanelight::CheckWritable(path_ + "/cells/.probe");
+}
+
+CellRecord SweepFolder::Look(const SweepCell& cell) {
+  CellRecord record;
+  const std::string path = File(cell, "report.json");
+  std::error_code error;
+  const bool report = fs::exists(path, error);
+  if (report && fs::exists(File(cell, "image.exr"), error)) {
+    try {
+      record.report = Json::parse(ReadWholeFile(path));
+      CheckReport(cell, record.report);
+    } catch (const Json::exception& problem) {
+      throw InputError(
+          fmt::format("'{}' is not a report of a sweep ({}); remove it, and "
+                      "the cell is rendered again",
+                      path, problem.what()));
+    }
+    record.state = CellState::kDone;
+  } else if (fs::exists(File(cell, "error.json"), error)) {
+    record.state = CellState::kFailed;
+    const Json failure =
+        Json::parse(ReadWholeFile(File(cell, "error.json")), nullptr, false);
+    record.message = failure.is_object() ? failure.value("message", "") : "";
+  }
+  return record;
+}
+
+void SweepFolder::CheckReport(const SweepCell& cell, const Json& report) {
+  const Json& of = report.at("sweep");
+  Json there = of.at("settings"), here = sweep_.settings.texts;
+  there.update(of.at("values"));
+  here.update(ValuesJson(cell));
+  there["hash of the scene's files"] = report.at("scene_hash");
+  here["hash of the scene's files"] = SceneHash(cell);
+  const std::string differences = Differences(there, here);
+  if (differences.empty()) return;
+  throw InputError(
+      fmt::format("'{}' was rendered otherwise: {}; take another --out, or remove that "
+                  "directory, and the cell is rendered again",
+                  path_ + "/cells/" + cell.name, differences));
+}
+
+const std::string& SweepFolder::SceneHash(const SweepCell& cell) {
+  const std::string path = sweep_.ScenePath(cell);
+  const auto [entry, is_new] = scene_hashes_.try_emplace(path);
+  if (is_new) entry->second = fmt::format("{:016x}", HashSceneFiles(path));
+  return entry->second;
+}
+
+void SweepFolder::MakeCell(const SweepCell& cell) const {
+  const std::string path = path_ + "/cells/" + cell.name;
+  // Not its parents: a sweep's directory that somebody has removed stays removed.
+  std::error_code error;
+  fs::create_directory(path, error);
+  if (error) throw InputError("cannot make '" + path + "': " + error.message());
+  for (const auto& entry : fs::directory_iterator(path, error)) {
+    if (entry.path().extension() == ".tmp") fs::remove(entry.path(), error);
+  }
+}
+
+void SweepFolder::Finish(const SweepCell& cell, Json report) const {
+  report["sweep"]["name"] = cell.name;
+  report["sweep"]["values"] = ValuesJson(cell);
+  report["sweep"]["settings"] = sweep_.settings.texts;
+  WriteFileAtomically(File(cell, "report.json"), report.dump(1) + "\n");
+  std::error_code ignored;
+  fs::remove(File(cell, "error.json"), ignored);
+}
+
+void SweepFolder::Fail(const SweepCell& cell, const std::string& message) const {
+  const Json json = {{"name", cell.name}, {"message", message}};
+  WriteFileAtomically(File(cell, "error.json"),
+                      json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void SweepFolder::RemoveImages(const SweepCell& cell) const {
+  std::error_code ignored;
+  fs::remove(File(cell, "image.exr"), ignored);
+  fs::remove(File(cell, "image.png"), ignored);
+}
+
+std::vector<std::string> SweepFolder::OtherCells() const {
+  std::set<std::string> known;
+  for (const SweepCell& cell : sweep_.cells) known.insert(cell.name);
+  std::vector<std::string> others;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(path_ + "/cells", error)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && known.count(name) == 0) others.push_back(name);
+  }
+  std::sort(others.begin(), others.end());
+  return others;
+}
+
+}  // namespace lanelight

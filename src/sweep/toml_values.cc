@@ -1,0 +1,92 @@
+#include "src/sweep/toml_values.h"
+
+#include <cmath>
+
+#include "src/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+std::string Kind(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "the text " + Quoted(node.value_or(std::string()));
+    case toml::node_type::integer:
+      return fmt::format("the integer {}", node.value_or(std::int64_t{0}));
+    case toml::node_type::floating_point:
+      return fmt::format("the number {}", node.value_or(0.0));
+    case toml::node_type::boolean:
+      return node.value_or(false) ? "true" : "false";
+    default:
+      return "a date or time";
+  }
+}
+
+}  // namespace
+
+TomlFile::TomlFile(const std::string& path, const std::string& text)
+    : name_(std::make_shared<const std::string>(path)) {
+  try {
+    root_ = toml::parse(text, path);
+  } catch (const toml::parse_error& error) {
+    throw InputError(Where(error.source()),
+                     fmt::format("this is not TOML: {}", error.description()));
+  }
+}
+
+SourceLocation TomlFile::Where(const toml::source_region& region) const {
+  return {name_, static_cast<int>(region.begin.line),
+          static_cast<int>(region.begin.column)};
+}
+
+void TomlFile::Refuse(const std::string& key, const toml::node& node,
+                      const std::string& right) const {
+  throw InputError(Where(node),
+                   fmt::format("{} is {}; it should be {}", key, Kind(node), right));
+}
+
+const toml::table& TomlFile::Table(const std::string& key, const toml::node& node) const {
+  if (const toml::table* table = node.as_table()) return *table;
+  Refuse(key, node, fmt::format("a table: [{}] on a line of its own", key));
+}
+
+std::vector<const toml::table*> TomlFile::Tables(const std::string& key,
+                                                 const toml::node& node) const {
+  const std::string right = fmt::format("tables: [[{}]] on a line before each", key);
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->empty()) Refuse(key, node, right);
+  std::vector<const toml::table*> tables;
+  for (const toml::node& item : *array) {
+    if (!item.is_table()) Refuse(key, item, right);
+    tables.push_back(item.as_table());
+  }
+  return tables;
+}
+
+std::string TomlFile::Text(const std::string& key, const toml::node& node) const {
+  if (const auto* text = node.as_string()) return text->get();
+  Refuse(key, node, "a text in quotes");
+}
+
+bool TomlFile::Flag(const std::string& key, const toml::node& node) const {
+  if (const auto* flag = node.as_boolean()) return flag->get();
+  Refuse(key, node, "true or false");
+}
+
+std::int64_t TomlFile::Integer(const std::string& key, const toml::node& node) const {
+  if (const auto* integer = node.as_integer()) return integer->get();
+  Refuse(key, node, "an integer");
+}
+
+double TomlFile::Number(const std::string& key, const toml::node& node) const {
+  if (const auto* integer = node.as_integer()) return double(integer->get());
+  const auto* number = node.as_floating_point();
+  if (number == nullptr || !std::isfinite(number->get())) Refuse(key, node, "a number");
+  return number->get();
+}
+
+}  // namespace lanelight
