@@ -56,15 +56,24 @@ bool SyncFolder(const std::string& path) {
   return fsync(fd.get()) == 0 || errno == EINVAL || errno == EROFS;
 }
 
+// A new file beside `path`; -1 with errno. A name that is there already is another
+// machine's, or was left by a killed process of the same number: the next one is taken.
+int CreateTemporary(const std::string& path, std::string& name) {
+  static std::atomic<unsigned> counter{0};
+  int file = -1;
+  do {
+    name = fmt::format("{}.{}.{}.tmp", path, getpid(), counter.fetch_add(1));
+    file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (file < 0 && errno == EEXIST);
+  return file;
+}
+
 }  // namespace
 
 void WriteFileAtomically(const std::string& path, std::string_view content) {
   if (IsSpecialFile(path)) return WriteInPlace(path, content);
-  static std::atomic<unsigned> counter{0};
-  const std::string temporary =
-      fmt::format("{}.{}.{}.tmp", path, getpid(), counter.fetch_add(1));
-  FileDescriptor file(
-      open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  std::string temporary;
+  FileDescriptor file(CreateTemporary(path, temporary));
   if (file.get() < 0) Fail(path, "cannot create", errno);
   const bool complete = WriteAll(file.get(), content) && fsync(file.get()) == 0 &&
                         file.Close() && rename(temporary.c_str(), path.c_str()) == 0;

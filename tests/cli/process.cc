@@ -50,6 +50,7 @@ void PrepareChild(const ProcessOptions& options, const Pipe& out, const Pipe& er
   if (!options.temp_directory.empty()) {
     setenv("TMPDIR", options.temp_directory.c_str(), 1);
   }
+  if (options.prepare) options.prepare();
 }
 
 pid_t Start(const std::vector<std::string>& arguments, const ProcessOptions& options,

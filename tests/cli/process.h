@@ -22,6 +22,8 @@ struct ProcessOptions {
   std::function<void(int child)> action;  // ... this is called with the process id
   long file_size_limit = 0;    // bytes; writes beyond it fail, as on a full disk
   std::string temp_directory;  // TMPDIR
+  /// Called in the new process before the program; system calls only.
+  std::function<void()> prepare;
   double timeout = 60;         // seconds, then it is killed
 };
 

@@ -20,6 +20,17 @@ TEST_CASE("a file is replaced as a whole", "[image][file]") {
   CHECK(folder.Count() == 1);
 }
 
+TEST_CASE("a temporary file of a killed process is not in the way", "[image][file]") {
+  const TemporaryFolder folder;
+  // Of a process with this number, which may have been another one, or on another machine.
+  for (int i = 0; i < 100; ++i) {
+    folder.Write("a." + std::to_string(getpid()) + "." + std::to_string(i) + ".tmp", "?");
+  }
+  WriteFileAtomically(folder.File("a"), "whole");
+  CHECK(ReadWholeFile(folder.File("a")) == "whole");
+  CHECK(folder.Count() == 101);
+}
+
 TEST_CASE("a write that fails keeps the old file and removes its own", "[image][file]") {
   const TemporaryFolder folder;
   const std::string path = folder.Write("a", "old");

@@ -1,0 +1,90 @@
+// Ten thousand cells: counted, named, looked at and put into a table in seconds.
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <set>
+
+#include "src/image/atomic_file.h"
+#include "src/sweep/prediction.h"
+#include "src/sweep/runner.h"
+#include "src/sweep/sweep_folder.h"
+#include "tests/sweep/sweep_folder.h"
+
+namespace lanelight {
+namespace {
+
+std::string Numbers(int n) {
+  std::string list;
+  for (int i = 1; i <= n; ++i) list += std::to_string(i) + ",";
+  return "[" + list + "]";
+}
+
+class Stopwatch {
+ public:
+  double Seconds() const {
+    const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start_;
+    return d.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+TEST_CASE("sweep: ten thousand cells", "[sweep]") {
+  const TempDirectory directory;
+  WriteSphereScene(directory);
+  const Stopwatch watch;
+  const Sweep sweep = ParseSweep(
+      directory / "sweep.toml",
+      "[grid]\nscene = 'sphere.pbrt'\nresolution = '8x6'\nmax-depth = [1, 2, 3, 4]\n"
+      "strategy = ['default', 'points=cmj', 'points=halton', 'points=pmj02', "
+      "'points=independent']\nspp = " +
+          Numbers(5) + "\nseed = " + Numbers(101) + "\n[[exclude]]\nseed = 101\n");
+  REQUIRE(sweep.cells.size() == 10000);
+  CHECK(sweep.excluded == 100);
+  std::set<std::string> names;
+  for (const SweepCell& cell : sweep.cells) names.insert(cell.name);
+  CHECK(names.size() == 10000);
+  CHECK(watch.Seconds() < 10);
+
+  const std::atomic<bool> stop = false;
+  const SweepPrediction prediction = Predict(sweep, directory / "out", 0, stop);
+  CHECK(prediction.combinations == 20);
+  CHECK(PredictionText(sweep, prediction).size() > 10000 * 40);
+
+  // One is rendered; the others get its report, as if they had been.
+  Sweep one = sweep;
+  one.cells.resize(1);
+  REQUIRE(RunSweep(one, {directory / "out"}, {}).done == 1);
+  const SweepFolder folder(directory / "out", sweep);
+  nlohmann::json report = ReadJson(folder.File(sweep.cells[0], "report.json"));
+  nlohmann::json own = report["sweep"];
+  report.erase("sweep");
+  std::string start = report.dump();
+  start.pop_back();
+  for (std::size_t i = 1; i < sweep.cells.size(); ++i) {
+    // Not Finish(), which waits for the disk.
+    const SweepCell& cell = sweep.cells[i];
+    own["name"] = cell.name;
+    for (const Axis axis : {Axis::kMaxDepth, Axis::kStrategy, Axis::kSpp, Axis::kSeed}) {
+      own["values"][Name(axis)] = *Get(cell.values, axis);
+    }
+    folder.MakeCell(cell);
+    WriteText(folder.File(cell, "image.exr"), "");
+    if (i == 5000) continue;
+    WriteText(folder.File(cell, "report.json"), start + ",\"sweep\":" + own.dump() + "}");
+  }
+  const Stopwatch filled;
+  const SweepOutcome outcome = RunSweep(sweep, {directory / "out"}, {});
+  CHECK(outcome.rendered == 1);  // the one that was left out
+  CHECK(outcome.done == 10000);
+  CHECK(outcome.failures.empty());
+  INFO("ten thousand cells: looked at twice, table and page in seconds: "
+       << filled.Seconds());
+  CHECK(filled.Seconds() < 60);
+  const std::string table = ReadWholeFile(directory / "out/sweep.csv");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 10001);
+}
+
+}  // namespace lanelight
