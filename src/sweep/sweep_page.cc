@@ -1,5 +1,7 @@
 #include "src/sweep/sweep_page.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -27,18 +29,70 @@ Json AxisJson(const Sweep& sweep, Axis axis) {
           {"unset", unset}};
 }
 
+// Of a cell, what the page uses.
+constexpr const char* kMeasured[] = {"samples",
+                                     "render_seconds",
+                                     "cpu_seconds",
+                                     "samples_per_second",
+                                     "rays_per_second",
+                                     "relmse",
+                                     "relmse_low",
+                                     "relmse_high",
+                                     "rmse",
+                                     "rmse_low",
+                                     "rmse_high",
+                                     "used_threads",
+                                     "width_pixels",
+                                     "height_pixels",
+                                     "invalid_samples",
+                                     "machine",
+                                     "program"};
+
+Json StageNames(const std::vector<Json>& cells) {
+  std::set<std::string> names;
+  for (const Json& cell : cells) {
+    for (const auto& [name, unused] : cell.at("stages").items()) names.insert(name);
+  }
+  return names;
+}
+
+// Ten thousand cells fit into a page: stages are numbers of four digits without names.
+Json PageCell(const Json& cell, const Json& stage_names) {
+  Json json = {{"name", cell.at("name")},       {"status", cell.at("status")},
+               {"message", cell.at("message")}, {"values", cell.at("values")},
+               {"measured", Json::object()},    {"stages", Json::array()}};
+  for (const char* name : kMeasured) {
+    if (cell.at("measured").contains(name))
+      json["measured"][name] = cell["measured"][name];
+  }
+  for (const Json& name : stage_names) {
+    const auto stage = cell.at("stages").find(name.get<std::string>());
+    if (stage == cell.at("stages").end()) {
+      json["stages"].push_back(nullptr);
+    } else {
+      const double seconds = stage->get<double>();
+      json["stages"].push_back(std::stod(fmt::format("{:.4g}", seconds)));
+    }
+  }
+  return json;
+}
+
 }  // namespace
 
 Json SweepJson(const Sweep& sweep, const std::vector<Json>& cells) {
   Json axes = Json::array();
   for (const Axis axis : sweep.UsedAxes()) axes.push_back(AxisJson(sweep, axis));
+  const Json stages = StageNames(cells);
+  Json page_cells = Json::array();
+  for (const Json& cell : cells) page_cells.push_back(PageCell(cell, stages));
   return {{"schema", 1},
           {"kind", "lanelight-sweep"},
           {"file", sweep.path},
           {"settings", sweep.settings.texts},
           {"excluded", sweep.excluded},
           {"axes", axes},
-          {"cells", cells}};
+          {"stages", stages},
+          {"cells", page_cells}};
 }
 
 std::string SweepPage(const Sweep& sweep, const std::vector<Json>& cells) {

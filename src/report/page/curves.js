@@ -57,7 +57,7 @@ function curvePlot(view, host, measure, xAxis, xOf) {
   });
 }
 
-function strategyLegend(view) {
+function strategyLegend(view, label = "Strategies shown") {
   const buttons = view.ran.map((s) =>
     el(
       "button",
@@ -85,7 +85,7 @@ function strategyLegend(view) {
   show(view.shown.value);
   return el(
     "div",
-    { class: "legend", role: "group", "aria-label": "Strategies shown" },
+    { class: "legend", role: "group", "aria-label": label },
     buttons,
   );
 }

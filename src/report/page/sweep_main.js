@@ -1,1 +1,63 @@
 "use strict";
+// Shows the sweep; the plots are drawn anew whenever the reader chooses other axes.
+
+let current = null; // the view of the plots
+
+function plotArea(choice, onChange) {
+  if (current) current.close();
+  const lines = cellLines(choice);
+  const view = makeView({ strategies: lines });
+  // The legend's names and styles are those of the lines.
+  view.ran = lines;
+  view.shown.set(new Set(lines.map((line) => line.index)));
+  current = view;
+  return [
+    section(
+      "plots",
+      "Error and throughput",
+      varyingAxes.length > 0 && choiceMenus(choice, onChange),
+      lines.length > 0
+        ? plotsSection(view, choice, lines)
+        : el("p", {}, "No finished cell has these values."),
+    ),
+    costSection(view, choice, lines),
+  ];
+}
+
+function fillNavigation() {
+  const sections = [
+    ["plots", "Plots"],
+    ["stages", "Stage costs"],
+    ["cells", "Cells"],
+  ];
+  document
+    .getElementById("sections")
+    .replaceChildren(...sections.map(([id, title]) => el("a", { href: `#${id}` }, title)));
+}
+
+function start() {
+  theme.bindButton(document.getElementById("theme"));
+  document.title = `${study.file.split("/").pop()} – Lanelight sweep`;
+  document.getElementById("bottom").textContent =
+    "Written by lanelight sweep. This page holds all its numbers and needs no network. " +
+    "Plots: uPlot, MIT licence.";
+  const content = document.getElementById("content");
+  if (doneCells.length === 0) {
+    content.replaceChildren(sweepSummary(), tableSection());
+    return;
+  }
+  fillNavigation();
+  const area = el("div", { id: "area" });
+  const show = (choice) => {
+    const focused = document.activeElement && document.activeElement.dataset.menu;
+    tip.hide();
+    area.replaceChildren(...plotArea(choice, show).filter(Boolean));
+    const again = focused && area.querySelector(`[data-menu="${focused}"]`);
+    if (again) again.focus();
+  };
+  content.replaceChildren(sweepSummary(), area, tableSection());
+  show(firstChoice());
+  addEventListener("scroll", tip.hide, { passive: true });
+}
+
+start();

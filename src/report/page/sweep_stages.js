@@ -1,1 +1,65 @@
 "use strict";
+// Stage costs: a bar for each point of each line, as long as its processor time per sample.
+
+const MOST_BARS = 60;
+
+// {name, stages: [{name, seconds, share}], perSample} of the cells of a point.
+function pointStages(line, point) {
+  const samples = meanOf(point.cells, "samples");
+  const stages = study.stages
+    .map((name, i) => {
+      const seconds = point.cells.map((cell) => (cell.stages || [])[i]).filter(known);
+      const sum = seconds.reduce((total, x) => total + x, 0);
+      return { name, seconds: sum / point.cells.length };
+    })
+    .filter((stage) => stage.seconds > 0);
+  const total = stages.reduce((sum, stage) => sum + stage.seconds, 0);
+  for (const stage of stages) stage.share = stage.seconds / total;
+  return { line, name: `${line.name}, ${point.name}`, point, stages, perSample: total / samples };
+}
+
+function costSection(view, choice, lines) {
+  const all = lines.flatMap((line) => line.points.map((point) => pointStages(line, point)));
+  const bars = all.filter((bar) => bar.stages.length > 0).slice(0, MOST_BARS);
+  if (bars.length === 0) {
+    return section("stages", "Stage costs", el("p", {}, "No stage times were recorded."));
+  }
+  const names = stageNames({ ranked: bars });
+  const most = Math.max(...bars.map((bar) => bar.perSample));
+  const rows = bars.map((bar) => {
+    const whole = stageBar(bar, names);
+    whole.style.width = `${(bar.perSample / most) * 100}%`;
+    return el(
+      "div",
+      { class: "stage-row", "data-line": bar.line.index },
+      el(
+        "div",
+        { class: "stage-name" },
+        strategyLabel(bar.line),
+        el(
+          "span",
+          { class: "bounds" },
+          `${choice.along ? `${bar.point.name}: ` : ""}${fmtSeconds(bar.perSample)} per sample`,
+        ),
+      ),
+      whole,
+    );
+  });
+  const show = (shown) =>
+    rows.forEach((row) => {
+      row.hidden = !shown.has(Number(row.dataset.line));
+    });
+  view.shown.listen(show);
+  return section(
+    "stages",
+    "Stage costs",
+    el(
+      "p",
+      { class: "lead" },
+      "Processor time of each stage per sample; a bar's length is the sum." +
+        (all.length > bars.length ? ` The first ${MOST_BARS} of ${all.length}.` : ""),
+    ),
+    stageLegend(names),
+    el("div", { class: "stage-rows" }, rows),
+  );
+}

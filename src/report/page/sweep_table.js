@@ -1,1 +1,76 @@
 "use strict";
+// All cells in a table.
+
+const MOST_ROWS = 500;
+
+function axisColumn(axis) {
+  const number = (cell) => {
+    const x = Number(cell.values[axis.name]);
+    return known(x) ? x : null;
+  };
+  return {
+    key: axis.name,
+    title: axis.title,
+    text: !axis.numeric,
+    cell: (cell) => valueOn(cell, axis),
+    sort: axis.numeric ? number : (cell) => valueOn(cell, axis),
+  };
+}
+
+function measuredColumn(key, title, unit, format) {
+  return {
+    key,
+    title,
+    unit,
+    cell: (cell) => format(cell.measured[key]),
+    sort: (cell) => (known(cell.measured[key]) ? cell.measured[key] : null),
+  };
+}
+
+function errorColumn(key, title) {
+  const interval = (cell) => meanInterval([cell], key);
+  return {
+    ...measuredColumn(key, title, null, fmt),
+    cell: (cell) => twoLines(intervalTexts(interval(cell))),
+  };
+}
+
+function statusCell(cell) {
+  if (cell.status === "done") return "done";
+  return el("span", { class: "why" }, [cell.status, cell.message].filter(Boolean).join(": "));
+}
+
+function cellColumns() {
+  const shown = varyingAxes.length > 0 ? varyingAxes : study.axes;
+  return [
+    ...shown.map(axisColumn),
+    { key: "status", title: "Status", text: true, cell: statusCell, sort: (c) => c.status },
+    errorColumn("relmse", "Relative MSE"),
+    errorColumn("rmse", "RMSE"),
+    measuredColumn("cpu_seconds", "Processor time", null, fmtSeconds),
+    measuredColumn("render_seconds", "Wall time", null, fmtSeconds),
+    measuredColumn("samples", "Samples", null, fmtCount),
+    measuredColumn("samples_per_second", "Samples", "per second", rateTick),
+    measuredColumn("rays_per_second", "Rays", "per second", rateTick),
+  ];
+}
+
+function tableSection() {
+  const cut = study.cells.length > MOST_ROWS;
+  return section(
+    "cells",
+    "All cells",
+    el(
+      "p",
+      { class: "lead" },
+      `The same and more is in sweep.csv.${cut ? ` ${MOST_ROWS} of ${fmtCount(study.cells.length)} rows are shown, the first ones in the order chosen.` : ""}`,
+    ),
+    sortableTable({
+      columns: cellColumns(),
+      rows: study.cells,
+      caption: "All cells of the sweep",
+      rowClass: (cell) => (cell.status === "done" ? null : "not-run"),
+      most: MOST_ROWS,
+    }),
+  );
+}

@@ -2,8 +2,16 @@
 // Tables that sort by column and scroll sideways in a box of their own.
 
 // columns: [{key, title, unit, cell(row), sort(row) or null, text, hint, axis}].
-// rows: any; fixed: rows at the end that never move, as elements.
-function sortableTable({ columns, rows, fixed = [], caption, sortedBy, rowClass }) {
+// rows: any; fixed: rows at the end that never move, as elements; most: rows shown.
+function sortableTable({
+  columns,
+  rows,
+  fixed = [],
+  caption,
+  sortedBy,
+  rowClass,
+  most = Infinity,
+}) {
   const body = el("tbody");
   const state = { key: sortedBy, descending: false };
   const headers = new Map();
@@ -11,7 +19,7 @@ function sortableTable({ columns, rows, fixed = [], caption, sortedBy, rowClass 
     const column = columns.find((c) => c.key === state.key);
     const ordered = column ? sortRows(rows, column.sort, state.descending) : rows;
     body.replaceChildren(
-      ...ordered.map((row) => tableRow(row, columns, rowClass)),
+      ...ordered.slice(0, most).map((row) => tableRow(row, columns, rowClass)),
       ...fixed,
     );
     for (const [key, header] of headers) {

@@ -1,0 +1,85 @@
+"use strict";
+// What the sweep is, and how much of it there is.
+
+function countOf(status) {
+  return study.cells.filter((cell) => cell.status === status).length;
+}
+
+function sumOf(name) {
+  return doneCells.reduce((sum, cell) => sum + (cell.measured[name] || 0), 0);
+}
+
+function distinct(name) {
+  return [...new Set(doneCells.map((cell) => cell.measured[name]).filter(Boolean))];
+}
+
+function fact(name, value, note) {
+  return el(
+    "div",
+    {},
+    el("dt", {}, name),
+    el("dd", {}, value, note && el("span", { class: "note" }, note)),
+  );
+}
+
+function axisFact(axis) {
+  const values = axisValues(axis);
+  const shown = values.slice(0, 6).map((value) => valueLabel(axis, value));
+  const more = values.length > 6 ? ` and ${values.length - 6} more` : "";
+  return fact(axis.title, values.length, shown.join(", ") + more);
+}
+
+function warnings() {
+  const texts = [];
+  const machines = distinct("machine"),
+    programs = distinct("program");
+  const invalid = sumOf("invalid_samples");
+  if (countOf("failed") > 0) {
+    texts.push(`${countOf("failed")} cells failed; the table says why.`);
+  }
+  if (countOf("missing") > 0) {
+    texts.push(`${countOf("missing")} cells are missing; the same command goes on.`);
+  }
+  if (machines.length > 1) {
+    texts.push(
+      `The cells come from ${machines.length} machines (${machines.slice(0, 4).join(", ")}` +
+        `${machines.length > 4 ? ", ..." : ""}): times may not be comparable.`,
+    );
+  }
+  if (programs.length > 1) {
+    texts.push(`The cells come from ${programs.length} programs: ${programs.join("; ")}.`);
+  }
+  if (invalid > 0) texts.push(`${fmtCount(invalid)} samples were invalid.`);
+  return texts;
+}
+
+function sweepSummary() {
+  const texts = warnings();
+  return el(
+    "section",
+    { id: "summary", "aria-labelledby": "summary-title" },
+    el("h1", { id: "summary-title" }, study.file.split("/").pop()),
+    texts.length > 0 &&
+      el(
+        "div",
+        { class: "warnings", role: "note" },
+        el(
+          "ul",
+          {},
+          texts.map((text) => el("li", {}, text)),
+        ),
+      ),
+    el(
+      "dl",
+      { class: "facts" },
+      fact(
+        "Cells",
+        `${fmtCount(doneCells.length)} of ${fmtCount(study.cells.length)} done`,
+        study.excluded > 0 ? `${fmtCount(study.excluded)} combinations excluded` : null,
+      ),
+      fact("Samples", fmtCount(sumOf("samples"))),
+      fact("Processor time", fmtSeconds(sumOf("cpu_seconds"))),
+      varyingAxes.map(axisFact),
+    ),
+  );
+}
