@@ -7,6 +7,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/image/atomic_file.h"
+#include "src/sweep/grid.h"
 
 namespace lanelight {
 namespace {
@@ -62,13 +63,6 @@ std::vector<Rgb> FromFloatBytes(std::string_view bytes) {
     at += sizeof(value);
   }
   return image;
-}
-
-// FNV-1a: file names from texts of any length and characters.
-std::uint64_t HashText(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (unsigned char c : text) hash = (hash ^ c) * 0x100000001b3u;
-  return hash;
 }
 
 }  // namespace

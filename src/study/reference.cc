@@ -8,6 +8,7 @@
 #include "src/image/image.h"
 #include "src/image/colors.h"
 #include "src/estimate/estimate.h"
+#include "src/sweep/cell_job.h"
 
 namespace lanelight {
 namespace {
@@ -159,18 +160,15 @@ Reference RenderReference(Job& job, std::uint64_t spp, std::uint64_t seed,
                           const std::atomic<bool>* stop) {
   Strategy strategy;
   strategy.points = Points::kIndependent;
-  job.spp = spp;
-  job.seconds = 0;
-  job.seed = seed;
-  SetStrategy(job, strategy);
-  FilmAccumulator film = MakeFilm(job);
-  const RunResult result = RunJob(job, film, on_progress, stop);
+  SetCell(job, {strategy, spp, 0, {}, seed});
+  const CellRun run = RunCell(job, on_progress, stop);
+  const FilmAccumulator& film = run.film;
   Reference reference;
   reference.width = film.width();
   reference.height = film.height();
   reference.strategy = ToText(strategy);
   reference.spp = spp;
-  reference.seconds = result.seconds;
+  reference.seconds = run.result.seconds;
   for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
     for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
       reference.mean.push_back(RoundToFloat(film.Mean(x, y)));

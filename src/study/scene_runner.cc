@@ -1,6 +1,5 @@
 #include "src/study/scene_runner.h"
 
-#include <ctime>
 #include <filesystem>
 
 #include "kernels/simd/target.h"
@@ -8,12 +7,14 @@
 #include "src/study/errors.h"
 #include "src/estimate/estimate.h"
 #include "src/study/schedule.h"
+#include "src/sweep/cell_job.h"
 
 namespace lanelight {
 namespace {
 
-// Of the whole process: unlike the wall clock it does not count other programs.
-double CpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+std::string CellKey(const StrategyRuns& runs, std::uint64_t spp) {
+  return fmt::format("{} {}", runs.Text(), spp);
+}
 
 void Describe(const RunResult& result, const ErrorEstimate& self, Measurement& m) {
   m.samples = result.samples;
@@ -38,13 +39,20 @@ SceneRunner::SceneRunner(const StudyOptions& options, const StudyHooks& hooks,
 void SceneRunner::Run() {
   Prepare();
   CheckStrategies();
+  Settle();
+  if (!Stopped()) RunCells();
+  if (!Stopped()) RunDiffuseModels();
+  scene_.interrupted = Stopped();
+}
+
+// By one process; the others wait, and take over what it has found.
+void SceneRunner::Settle() {
+  const auto claim = claims_->Wait("scene", hooks_.stop);
+  if (!claim) return;
   CheckState();
   FindCounts();
   PlanWork();
   FindReference();
-  if (!Stopped()) RunCells();
-  if (!Stopped()) RunDiffuseModels();
-  scene_.interrupted = Stopped();
 }
 
 void SceneRunner::Prepare() {
@@ -67,6 +75,7 @@ void SceneRunner::Prepare() {
                                      scene_.full_height);
   }
   store_ = std::make_unique<CellStore>(scene_.folder + "/cells", job_.window.pixels());
+  claims_ = std::make_unique<Claims>(scene_.folder + "/cells/claims", true);
 }
 
 void SceneRunner::CheckStrategies() {
@@ -123,17 +132,44 @@ void SceneRunner::RunCells() {
       for (StrategyRuns& runs : scene_.strategies) {
         if (!std::binary_search(runs.counts.begin(), runs.counts.end(), spp)) continue;
         if (runs.status != RunStatus::kOk) continue;
-        if (!RunCell(runs, spp, repetition)) return;
+        if (!RunRepetition(runs, spp, repetition)) return;
       }
     }
   }
+  WaitForOthers();
 }
 
 // False: stopped.
-bool SceneRunner::RunCell(StrategyRuns& runs, std::uint64_t spp, int repetition) {
+bool SceneRunner::RunRepetition(StrategyRuns& runs, std::uint64_t spp, int repetition) {
+  const auto claim = claims_->Take(CellKey(runs, spp));
+  if (!claim) {
+    elsewhere_.insert({&runs, spp});
+    return true;
+  }
+  return FillCell(runs, spp, repetition);
+}
+
+// What other processes were rendering: it is done then, or they are dead.
+void SceneRunner::WaitForOthers() {
+  for (const auto& [runs, spp] : elsewhere_) {
+    Report(fmt::format("waiting for {}, {} spp", runs->named.name, spp));
+    const auto claim = claims_->Wait(CellKey(*runs, spp), hooks_.stop);
+    if (!claim || !FillCell(*runs, spp, options_.Repetitions() - 1)) return;
+  }
+}
+
+// With all repetitions up to this one. False: stopped.
+bool SceneRunner::FillCell(StrategyRuns& runs, std::uint64_t spp, int repetition) {
   Cells cells = store_->Load(runs.Text(), spp);
   const int done = static_cast<int>(cells.repetitions.size());
-  if (done > repetition) return true;
+  for (int next = done; next <= repetition && runs.status == RunStatus::kOk; ++next) {
+    if (!RenderRepetition(runs, spp, next, cells)) return false;
+  }
+  return true;
+}
+
+bool SceneRunner::RenderRepetition(StrategyRuns& runs, std::uint64_t spp, int repetition,
+                                   Cells& cells) {
   const std::string cell =
       fmt::format("{}, {} spp, repetition {}", runs.named.name, spp, repetition + 1);
   Report(cell);
@@ -157,22 +193,17 @@ bool SceneRunner::RunCell(StrategyRuns& runs, std::uint64_t spp, int repetition)
 
 Measurement SceneRunner::Render(const StrategyRuns& runs, std::uint64_t spp,
                                 int repetition, Cells& cells) {
-  job_.spp = spp;
-  job_.seconds = 0;
-  job_.seed = Seed(repetition);
-  SetStrategy(job_, runs.named.strategy);
-  FilmAccumulator film = MakeFilm(job_);
-  const double start = CpuSeconds();
-  const RunResult result = RunJob(job_, film, {}, hooks_.stop);
+  SetCell(job_, {runs.named.strategy, spp, 0, {}, Seed(repetition)});
+  const CellRun run = RunCell(job_, {}, hooks_.stop);
   Measurement m;
   m.seed = job_.seed;
-  m.cpu_seconds = CpuSeconds() - start;
+  m.cpu_seconds = run.cpu_seconds;
   if (Stopped()) return m;
-  Describe(result, EstimateError(film), m);
-  const std::vector<Rgb> image = FilmColors(film);
+  Describe(run.result, EstimateError(run.film), m);
+  const std::vector<Rgb> image = FilmColors(run.film);
   MeasureErrors(image, scene_.reference, m);
   cells.moments.Add(image);
-  AddStages(result.stages, cells.stages);
+  AddStages(run.result.stages, cells.stages);
   if (repetition == 0) cells.first = image;
   return m;
 }

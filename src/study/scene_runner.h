@@ -4,9 +4,11 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "src/core/error.h"
 #include "src/study/runs.h"
+#include "src/sweep/claims.h"
 
 namespace lanelight {
 
@@ -48,6 +50,7 @@ class SceneRunner {
  private:
   void Prepare();
   void CheckStrategies();
+  void Settle();
   void CheckState();
   void SaveState();
   void FindCounts();
@@ -56,7 +59,11 @@ class SceneRunner {
   void PlanWork();
   void RunCells();
   void RunDiffuseModels();
-  bool RunCell(StrategyRuns& runs, std::uint64_t spp, int repetition);
+  bool RunRepetition(StrategyRuns& runs, std::uint64_t spp, int repetition);
+  void WaitForOthers();
+  bool FillCell(StrategyRuns& runs, std::uint64_t spp, int repetition);
+  bool RenderRepetition(StrategyRuns& runs, std::uint64_t spp, int repetition,
+                        Cells& cells);
   Measurement Render(const StrategyRuns& runs, std::uint64_t spp, int repetition,
                      Cells& cells);
   /// Largest sample count of any strategy.
@@ -72,6 +79,8 @@ class SceneRunner {
   SceneRuns& scene_;
   Job job_;
   std::unique_ptr<CellStore> store_;
+  std::unique_ptr<Claims> claims_;  // of its cells: a strategy at a sample count
+  std::set<std::pair<StrategyRuns*, std::uint64_t>> elsewhere_;  // others had them
   nlohmann::json state_;  // scene.json
 };
 

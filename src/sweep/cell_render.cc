@@ -4,9 +4,9 @@
 
 #include "kernels/simd/target.h"
 #include "src/core/parallel.h"
-#include "src/prepare/groups.h"
 #include "src/render/memory.h"
 #include "src/strategy/named_strategy.h"
+#include "src/sweep/cell_job.h"
 
 namespace lanelight {
 namespace {
@@ -15,13 +15,18 @@ namespace {
 constexpr Axis kCompiled[] = {Axis::kScene, Axis::kResolution, Axis::kMaxDepth,
                               Axis::kBuild, Axis::kTarget,     Axis::kThreads};
 
-void SetAmount(const RenderSettings& settings, Job& job) {
-  job.seconds = settings.seconds.value_or(0);
-  job.target = {settings.target_relmse.value_or(0), settings.target_rmse.value_or(0)};
-  const bool scene_decides = !settings.seconds && !job.target.Any();
-  job.spp = settings.spp.value_or(
+// Of the cell; what it does not say is the scene's.
+CellSettings SettingsOf(const RenderSettings& settings, const Strategy& strategy,
+                        const Job& job) {
+  CellSettings cell;
+  cell.strategy = strategy;
+  cell.seconds = settings.seconds.value_or(0);
+  cell.target = {settings.target_relmse.value_or(0), settings.target_rmse.value_or(0)};
+  const bool scene_decides = !settings.seconds && !cell.target.Any();
+  cell.spp = settings.spp.value_or(
       scene_decides ? static_cast<std::uint64_t>(job.description.sampler.spp) : 0);
-  job.seed = settings.seed.value_or(job.description.sampler.seed);
+  cell.seed = settings.seed.value_or(job.description.sampler.seed);
+  return cell;
 }
 
 }  // namespace
@@ -66,14 +71,11 @@ Job& CellRenderer::Prepare(const SweepCell& cell) {
   }
   // All cells of a broken scene fail, and only the first one takes the time.
   if (!job_) throw std::runtime_error(failure_);
-  Job& job = *job_;
   const Strategy strategy = StrategyNamed(
       Get(cell.values, Axis::kStrategy).value_or(kSceneStrategyName), {}, own_);
-  CheckFilmFits(job.window, settings.aov, strategy, PhysicalMemory());
-  SetAmount(settings, job);
-  SetStrategy(job, strategy);
-  job.group_size = GroupSize(strategy, job.OpenEnded() ? 0 : job.spp);
-  return job;
+  CheckFilmFits(job_->window, settings.aov, strategy, PhysicalMemory());
+  SetCell(*job_, SettingsOf(settings, strategy, *job_));
+  return *job_;
 }
 
 Rendering CellRenderer::Render(const SweepCell& cell, const std::string& folder,

@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "src/core/error.h"
@@ -19,13 +21,13 @@ long Offset(const std::string& key) {
 }
 
 // 0, or errno.
-int Lock(int file, short type, long offset, int command) {
+int Lock(int file, short type, long offset) {
   struct flock range = {};
   range.l_type = type;
   range.l_whence = SEEK_SET;
   range.l_start = offset;
   range.l_len = 1;
-  while (fcntl(file, command, &range) != 0) {
+  while (fcntl(file, F_OFD_SETLK, &range) != 0) {
     if (errno != EINTR) return errno;
   }
   return 0;
@@ -43,7 +45,7 @@ Claims::Claim::Claim(Claim&& other) noexcept
     : file_(std::exchange(other.file_, -1)), offset_(other.offset_) {}
 
 Claims::Claim::~Claim() {
-  if (file_ >= 0) Lock(file_, F_UNLCK, offset_, F_OFD_SETLK);
+  if (file_ >= 0) Lock(file_, F_UNLCK, offset_);
 }
 
 Claims::Claims(const std::string& path, bool optional) : path_(path) {
@@ -52,8 +54,8 @@ Claims::Claims(const std::string& path, bool optional) : path_(path) {
     throw InputError(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
   }
   const long probe = Offset("is there locking?");
-  const int error = Lock(file_, F_WRLCK, probe, F_OFD_SETLK);
-  if (error == 0) Lock(file_, F_UNLCK, probe, F_OFD_SETLK);
+  const int error = Lock(file_, F_WRLCK, probe);
+  if (error == 0) Lock(file_, F_UNLCK, probe);
   if (!IsUnsupported(error)) return;
   locking_ = false;
   if (optional) return;
@@ -69,18 +71,21 @@ Claims::~Claims() { close(file_); }
 std::optional<Claims::Claim> Claims::Take(const std::string& key) const {
   if (!locking_) return Claim(-1, 0);
   const long offset = Offset(key);
-  const int error = Lock(file_, F_WRLCK, offset, F_OFD_SETLK);
+  const int error = Lock(file_, F_WRLCK, offset);
   if (error == 0) return Claim(file_, offset);
   if (IsTaken(error)) return std::nullopt;
   throw InputError(fmt::format("cannot lock '{}': {}", path_, std::strerror(error)));
 }
 
-Claims::Claim Claims::Wait(const std::string& key) const {
-  if (!locking_) return {-1, 0};
-  const long offset = Offset(key);
-  const int error = Lock(file_, F_WRLCK, offset, F_OFD_SETLKW);
-  if (error == 0) return {file_, offset};
-  throw InputError(fmt::format("cannot lock '{}': {}", path_, std::strerror(error)));
+std::optional<Claims::Claim> Claims::Wait(const std::string& key,
+                                          const std::atomic<bool>* stop) const {
+  // Not F_OFD_SETLKW, which signals do not end where they restart system calls.
+  constexpr auto kPause = std::chrono::milliseconds(50);
+  while (stop == nullptr || !*stop) {
+    if (auto claim = Take(key)) return claim;
+    std::this_thread::sleep_for(kPause);
+  }
+  return std::nullopt;
 }
 
 }  // namespace lanelight

@@ -4,6 +4,7 @@
 // claims need no heartbeat, no clock and no clearing up.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <string>
 
@@ -36,8 +37,9 @@ class Claims {
   /// one with a probability of 2^-62, and are then not claimed at once. Throws InputError
   /// if the file system fails.
   std::optional<Claim> Take(const std::string& key) const;
-  /// Waits for it.
-  Claim Wait(const std::string& key) const;
+  /// Waits for it; empty if `stop` is set before.
+  std::optional<Claim> Wait(const std::string& key,
+                            const std::atomic<bool>* stop = nullptr) const;
 
   bool locking() const { return locking_; }
 

@@ -216,7 +216,7 @@ SweepOutcome RunSweep(const Sweep& sweep, const SweepOptions& options,
   // One after the other: the last process to get here sees all that is done, and what it
   // writes stays.
   const Claims claims(folder.File("claims"), true);
-  const Claims::Claim claim = claims.Wait("the table");
+  const auto claim = claims.Wait("the table");
   WriteResults(sweep, folder, outcome);
   return outcome;
 }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -67,6 +68,26 @@ TEST_CASE("study: a killed study goes on where it was", "[cli]") {
     INFO(Json::diff(whole, json).dump(1));
     CHECK((json == whole));
   }
+}
+
+TEST_CASE("study: two processes make one study", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory);
+  REQUIRE(RunLanelight(StudyOf(scene, directory / "whole")).exit_code == kExitGood);
+  Json whole = ReadJson(directory / "whole/study.json");
+  RemoveTimings(whole);
+  const std::vector<std::string> arguments =
+      With(StudyOf(scene, directory / "out"), "--resume");
+  const auto run = [&] { return RunLanelight(arguments); };
+  auto other = std::async(std::launch::async, run);
+  for (const ProcessResult& r : {run(), other.get()}) {
+    INFO(r.err);
+    CHECK(r.exit_code == kExitGood);
+  }
+  Json json = ReadJson(directory / "out/study.json");
+  RemoveTimings(json);
+  INFO(Json::diff(whole, json).dump(1));
+  CHECK((json == whole));
 }
 
 TEST_CASE("study: Ctrl-C reports what is finished", "[cli]") {

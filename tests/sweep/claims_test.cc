@@ -50,7 +50,8 @@ TEST_CASE("claims: those of a killed process are free at once", "[sweep]") {
   CHECK_FALSE(claims.Take("x"));
   kill(child, SIGKILL);
   // Waits until the kernel has closed the child's files.
-  const Claims::Claim taken_over = claims.Wait("x");
+  const auto taken_over = claims.Wait("x");
+  REQUIRE(taken_over);
   CHECK(waitpid(child, nullptr, 0) == child);
   const Claims other(folder.File("claims"));
   CHECK_FALSE(other.Take("x"));

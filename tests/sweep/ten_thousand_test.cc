@@ -61,6 +61,7 @@ TEST_CASE("sweep: ten thousand cells", "[sweep]") {
   nlohmann::json report = ReadJson(folder.File(sweep.cells[0], "report.json"));
   nlohmann::json own = report["sweep"];
   report.erase("sweep");
+  const std::string image = folder.File(sweep.cells[0], "image.exr");
   std::string start = report.dump();
   start.pop_back();
   for (std::size_t i = 1; i < sweep.cells.size(); ++i) {
@@ -71,7 +72,7 @@ TEST_CASE("sweep: ten thousand cells", "[sweep]") {
       own["values"][Name(axis)] = *Get(cell.values, axis);
     }
     folder.MakeCell(cell);
-    WriteText(folder.File(cell, "image.exr"), "");
+    std::filesystem::create_hard_link(image, folder.File(cell, "image.exr"));
     if (i == 5000) continue;
     WriteText(folder.File(cell, "report.json"), start + ",\"sweep\":" + own.dump() + "}");
   }

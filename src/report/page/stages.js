@@ -30,7 +30,8 @@ function stageTip(strategy, stage) {
   ];
 }
 
-function stageBar(strategy, names) {
+// length: of the bar, in relation to the widest one.
+function stageBar(strategy, names, length = 1) {
   const stages = (strategy.stages || []).filter(
     (stage) => known(stage.share) && stage.share > 0,
   );
@@ -59,10 +60,10 @@ function stageBar(strategy, names) {
             "aria-label": text,
             style: { width: `${share * 100}%`, "background-color": stageColor(index) },
           },
-          share > 0.06 &&
+          share * length > 0.06 &&
             el(
               "span",
-              { "aria-hidden": "true", class: share < 0.12 ? "narrow" : null },
+              { "aria-hidden": "true", class: share * length < 0.12 ? "narrow" : null },
               fmtPercent(stage.share, 2),
             ),
         ),

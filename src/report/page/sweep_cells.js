@@ -32,6 +32,8 @@ function hasPositions(axis) {
 // A value as a legend or a menu says it.
 function valueLabel(axis, value) {
   if (value === UNSET) return value;
+  if (axis.name === "threads" && value === "0") return "all cores";
+  if (axis.name === "threads" && value === "1") return "1 thread";
   const units = { spp: " spp", time: " s", threads: " threads", resolution: " pixels" };
   return `${value}${units[axis.name] || ""}`;
 }

@@ -12,7 +12,14 @@ function preferredAxis(names, taken) {
 
 // {along, lines: axes or null, fixed: Map from the other varying axes to a value or MEAN}
 function firstChoice() {
-  const amounts = ["spp", "time", "target-relmse", "target-rmse", "resolution", "threads"];
+  const amounts = [
+    "spp",
+    "time",
+    "target-relmse",
+    "target-rmse",
+    "resolution",
+    "threads",
+  ];
   const along = preferredAxis([...amounts, "max-depth"], null);
   const lines = preferredAxis(["strategy", "scene", "build", "target"], along);
   return completed({ along, lines, fixed: new Map() });
@@ -33,13 +40,17 @@ function completed({ along, lines, fixed }) {
   };
 }
 
-// The value that most of the cells with different values along the line have.
+// The value with the most different values along the line that have a known error; the
+// last of several, which has the most samples or threads.
 function commonValue(axis, along) {
   const counts = axisValues(axis).map((value) => {
-    const cells = doneCells.filter((cell) => valueOn(cell, axis) === value);
+    const cells = doneCells.filter(
+      (cell) => valueOn(cell, axis) === value && known(cell.measured.relmse),
+    );
     return along ? new Set(cells.map((cell) => valueOn(cell, along))).size : cells.length;
   });
-  return axisValues(axis)[counts.indexOf(Math.max(...counts))];
+  const most = Math.max(...counts);
+  return axisValues(axis)[axis.numeric ? counts.lastIndexOf(most) : counts.indexOf(most)];
 }
 
 function isChosen(cell, choice) {

@@ -32,7 +32,9 @@ function fillNavigation() {
   ];
   document
     .getElementById("sections")
-    .replaceChildren(...sections.map(([id, title]) => el("a", { href: `#${id}` }, title)));
+    .replaceChildren(
+      ...sections.map(([id, title]) => el("a", { href: `#${id}` }, title)),
+    );
 }
 
 function start() {

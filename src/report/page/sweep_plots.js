@@ -6,7 +6,10 @@ const ERRORS = {
   rmse: { label: "RMSE", power: 1 },
 };
 const TIMES = { cpu_seconds: "processor time", render_seconds: "wall time" };
-const RATES = { samples_per_second: "Samples per second", rays_per_second: "Rays per second" };
+const RATES = {
+  samples_per_second: "Samples per second",
+  rays_per_second: "Rays per second",
+};
 
 const RATE_PREFIXES = [
   [1e9, "G"],
@@ -15,6 +18,7 @@ const RATE_PREFIXES = [
 ];
 
 function rateTick(x) {
+  if (!known(x)) return UNKNOWN;
   const [factor, prefix] = RATE_PREFIXES.find(([size]) => x >= size * 0.9999) || [1, ""];
   return `${Number((x / factor).toPrecision(3))}${prefix && ` ${prefix}`}`;
 }
@@ -31,10 +35,15 @@ function describeCells(choice, line, point, rows) {
 function errorPlot(view, host, choice, lines, error, time) {
   const { label, power } = ERRORS[error];
   const seconds = (cells) => meanOf(cells, time);
+  const drawn = lines.map((line) =>
+    plotted(line, seconds, (cells) => meanInterval(cells, error)),
+  );
+  if (drawn.every((line) => line.points.length === 0)) {
+    host.replaceChildren(el("p", { class: "hint" }, "No error of these cells is known."));
+    return () => host.replaceChildren();
+  }
   return logPlot(view, host, {
-    lines: lines.map((line) =>
-      plotted(line, seconds, (cells) => meanInterval(cells, error)),
-    ),
+    lines: drawn,
     label: `${label} against ${TIMES[time]}`,
     xAxis: { label: TIMES[time], ticks: decadeTicks, format: secondsTick },
     yAxis: { label, ticks: decadeTicks, format: errorTick },
@@ -52,7 +61,12 @@ function alongAxis(axis) {
   return {
     label: axis.title,
     ticks: counts ? binaryTicks : decadeTicks,
-    format: axis.name === "time" ? secondsTick : axis.name.startsWith("target-") ? errorTick : rateTick,
+    format:
+      axis.name === "time"
+        ? secondsTick
+        : axis.name.startsWith("target-")
+          ? errorTick
+          : rateTick,
   };
 }
 
@@ -117,8 +131,12 @@ function choosableFigure(view, name, title, options, draw) {
 }
 
 function plotsSection(view, choice, lines) {
-  const error = choosableFigure(view, "error", "Error against time", ERRORS, (host, key) =>
-    errorPlot(view, host, choice, lines, key, "cpu_seconds"),
+  const error = choosableFigure(
+    view,
+    "error",
+    "Error against time",
+    ERRORS,
+    (host, key) => errorPlot(view, host, choice, lines, key, "cpu_seconds"),
   );
   const drawRate = choice.along && hasPositions(choice.along) ? ratePlot : rateBars;
   const rate = choosableFigure(view, "rate", "Throughput", RATES, (host, key) =>

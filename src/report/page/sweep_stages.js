@@ -15,11 +15,19 @@ function pointStages(line, point) {
     .filter((stage) => stage.seconds > 0);
   const total = stages.reduce((sum, stage) => sum + stage.seconds, 0);
   for (const stage of stages) stage.share = stage.seconds / total;
-  return { line, name: `${line.name}, ${point.name}`, point, stages, perSample: total / samples };
+  return {
+    line,
+    name: `${line.name}, ${point.name}`,
+    point,
+    stages,
+    perSample: total / samples,
+  };
 }
 
 function costSection(view, choice, lines) {
-  const all = lines.flatMap((line) => line.points.map((point) => pointStages(line, point)));
+  const all = lines.flatMap((line) =>
+    line.points.map((point) => pointStages(line, point)),
+  );
   const bars = all.filter((bar) => bar.stages.length > 0).slice(0, MOST_BARS);
   if (bars.length === 0) {
     return section("stages", "Stage costs", el("p", {}, "No stage times were recorded."));
@@ -27,8 +35,9 @@ function costSection(view, choice, lines) {
   const names = stageNames({ ranked: bars });
   const most = Math.max(...bars.map((bar) => bar.perSample));
   const rows = bars.map((bar) => {
-    const whole = stageBar(bar, names);
-    whole.style.width = `${(bar.perSample / most) * 100}%`;
+    const length = bar.perSample / most;
+    const whole = stageBar(bar, names, length);
+    whole.style.width = `${length * 100}%`;
     return el(
       "div",
       { class: "stage-row", "data-line": bar.line.index },

@@ -26,7 +26,11 @@ function axisFact(axis) {
   const values = axisValues(axis);
   const shown = values.slice(0, 6).map((value) => valueLabel(axis, value));
   const more = values.length > 6 ? ` and ${values.length - 6} more` : "";
-  return fact(axis.title, values.length, shown.join(", ") + more);
+  return fact(axis.title, axis.values.length, shown.join(", ") + more);
+}
+
+function cellsThat(count, one, many) {
+  return count === 1 ? `1 cell ${one}` : `${fmtCount(count)} cells ${many}`;
 }
 
 function warnings() {
@@ -35,10 +39,14 @@ function warnings() {
     programs = distinct("program");
   const invalid = sumOf("invalid_samples");
   if (countOf("failed") > 0) {
-    texts.push(`${countOf("failed")} cells failed; the table says why.`);
+    texts.push(
+      `${cellsThat(countOf("failed"), "has", "have")} failed; the table says why.`,
+    );
   }
   if (countOf("missing") > 0) {
-    texts.push(`${countOf("missing")} cells are missing; the same command goes on.`);
+    texts.push(
+      `${cellsThat(countOf("missing"), "is", "are")} missing; the same command goes on.`,
+    );
   }
   if (machines.length > 1) {
     texts.push(
@@ -47,7 +55,9 @@ function warnings() {
     );
   }
   if (programs.length > 1) {
-    texts.push(`The cells come from ${programs.length} programs: ${programs.join("; ")}.`);
+    texts.push(
+      `The cells come from ${programs.length} programs: ${programs.join("; ")}.`,
+    );
   }
   if (invalid > 0) texts.push(`${fmtCount(invalid)} samples were invalid.`);
   return texts;

@@ -37,14 +37,24 @@ function errorColumn(key, title) {
 
 function statusCell(cell) {
   if (cell.status === "done") return "done";
-  return el("span", { class: "why" }, [cell.status, cell.message].filter(Boolean).join(": "));
+  return el(
+    "span",
+    { class: "why" },
+    [cell.status, cell.message].filter(Boolean).join(": "),
+  );
 }
 
 function cellColumns() {
   const shown = varyingAxes.length > 0 ? varyingAxes : study.axes;
   return [
     ...shown.map(axisColumn),
-    { key: "status", title: "Status", text: true, cell: statusCell, sort: (c) => c.status },
+    {
+      key: "status",
+      title: "Status",
+      text: true,
+      cell: statusCell,
+      sort: (c) => c.status,
+    },
     errorColumn("relmse", "Relative MSE"),
     errorColumn("rmse", "RMSE"),
     measuredColumn("cpu_seconds", "Processor time", null, fmtSeconds),

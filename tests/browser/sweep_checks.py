@@ -1,0 +1,209 @@
+"""Checks of what the page of a sweep draws, against the numbers that it holds."""
+
+import json
+import math
+
+from checks import check, plot, require
+
+
+def data(page):
+    return json.loads(page.js("return document.getElementById('study').textContent"))
+
+
+def choose(page, name, value):
+    page.js("const s = document.querySelector(`[data-menu=\"${arguments[0]}\"]`);"
+            "s.value = arguments[1]; s.dispatchEvent(new Event('change'))", name, value)
+    page.settle()
+
+
+def values(page, name):
+    return page.js("return document.querySelector(`[data-plot=\"${arguments[0]}\"]`)"
+                   ".plot.data.map((c) => [...c])", name)
+
+
+def mean(cells, name):
+    numbers = [cell["measured"].get(name) for cell in cells]
+    if not numbers or None in numbers:
+        return None
+    return sum(numbers) / len(numbers)
+
+
+def cells_of(page, **wanted):
+    """Finished cells with these values; underscores stand for dashes."""
+    return [cell for cell in data(page)["cells"] if cell["status"] == "done" and all(
+        cell["values"].get(axis.replace("_", "-"), "not set") == value
+        for axis, value in wanted.items())]
+
+
+def expected(page, points, lines, fixed, x, y):
+    """{line: [(x, y)]} of two functions of cells."""
+    result = []
+    for line in lines:
+        found = []
+        for point in points:
+            cells = cells_of(page, **fixed, **line, **point)
+            pair = (x(cells), y(cells)) if cells else (None, None)
+            if None not in pair:
+                found.append(pair)
+        result.append(sorted(found))
+    return result
+
+
+def close(a, b):
+    return math.isclose(a, b, rel_tol=1e-9)
+
+
+def require_lines(drawn, lines, what):
+    """drawn: x column and a column for each line, null where a line has no point."""
+    xs, columns = drawn[0], drawn[1:]
+    require(len(columns) == len(lines), what, "has", len(columns), "lines")
+    for column, line in zip(columns, lines):
+        points = [(x, y) for x, y in zip(xs, column) if y is not None]
+        require(len(points) == len(line) and len(line) > 0 and
+                all(close(a[0], b[0]) and close(a[1], b[1])
+                    for a, b in zip(points, line)),
+                what, "draws", points, "instead of", line)
+
+
+SPP = [{"spp": n} for n in ("1", "4", "16", "64")]
+STRATEGIES = [{"strategy": s} for s in ("default", "points=cmj")]
+THREADS = [{"threads": n} for n in ("1", "2", "4")]
+
+
+@check
+def plots_are_drawn(page):
+    page.scroll_through()
+    for name in ("error", "rate"):
+        ink = page.ink(plot(page, name))
+        require(ink["ink"] > 0.01 * ink["pixels"], name, "is blank:", ink)
+        require(ink["coloured"] > 800, name, "has no curves:", ink)
+
+
+@check
+def errors_are_means_over_the_seeds(page):
+    fixed = {"scene": "box.pbrt", "threads": "4"}
+    choose(page, "threads", "4")
+    for measure in ("relmse", "rmse"):
+        page.click(f'#plots [data-value="{measure}"]')
+        lines = expected(page, SPP, STRATEGIES, fixed,
+                         lambda cells: mean(cells, "cpu_seconds"),
+                         lambda cells: mean(cells, measure))
+        require([len(line) for line in lines] == [3, 3], "one sample has no error", lines)
+        require_lines(values(page, "error"), lines, measure)
+    page.click('#plots [data-value="relmse"]')
+
+
+@check
+def rates_stand_at_their_samples(page):
+    for measure in ("rays_per_second", "samples_per_second"):
+        page.click(f'#plots [data-value="{measure}"]')
+        lines = expected(page, SPP, STRATEGIES, {"scene": "box.pbrt", "threads": "4"},
+                         lambda cells: float(cells[0]["values"]["spp"]),
+                         lambda cells: mean(cells, measure))
+        require_lines(values(page, "rate"), lines, measure)
+
+
+@check
+def any_two_axes_can_be_chosen(page):
+    choose(page, "along", "threads")
+    choose(page, "lines", "spp")
+    choose(page, "strategy", "points=cmj")
+    choose(page, "seed", "2")
+    fixed = {"scene": "box.pbrt", "strategy": "points=cmj", "seed": "2"}
+    lines = expected(page, THREADS, SPP, fixed,
+                     lambda cells: float(cells[0]["measured"]["used_threads"]),
+                     lambda cells: mean(cells, "samples_per_second"))
+    require_lines(values(page, "rate"), lines, "threads")
+    names = [item.text for item in page.all(".legend-item")]
+    require(names == ["1 spp", "4 spp", "16 spp", "64 spp"], "legend:", names)
+    # Choosing the other one's axis makes them change places.
+    choose(page, "along", "spp")
+    require(page.find('[data-menu="lines"]').get_attribute("value") == "threads",
+            "they do not change places")
+    page.open()
+
+
+@check
+def axes_without_positions_get_bars(page):
+    choose(page, "along", "scene")
+    require(page.find('[data-plot="rate"] canvas') is None, "a canvas for scenes")
+    page.show("#plots")
+    rows = page.js("return [...document.querySelectorAll('.rate-row')].map((r) =>"
+                   "[r.textContent, r.querySelector('.rate-bar').offsetWidth])")
+    fixed = {"spp": page.find('[data-menu="spp"]').get_attribute("value"),
+             "threads": page.find('[data-menu="threads"]').get_attribute("value")}
+    rates = [mean(cells_of(page, strategy=s["strategy"], scene=scene, **fixed),
+                  "samples_per_second")
+             for s in STRATEGIES for scene in ("box.pbrt", "<b>odd</b>.pbrt")]
+    require(len(rows) == 4, "rows:", rows)
+    longest = max(width for _, width in rows)
+    for (text, width), rate in zip(rows, rates):
+        require(abs(width / longest - rate / max(rates)) < 0.02, text, width, rate)
+    page.open()
+
+
+@check
+def without_known_errors_there_is_no_plot(page):
+    choose(page, "along", "scene")
+    require(plot(page, "error"), "no plot where there are errors")
+    choose(page, "spp", "1")
+    require(plot(page, "error") is None, "an empty plot")
+    require("No error of these cells is known" in page.text(), "no word of it")
+    page.open()
+
+
+@check
+def stage_costs_are_per_sample(page):
+    page.show("#stages")
+    stages = data(page)["stages"]
+    rows = page.js("return [...document.querySelectorAll('.stage-row')].map((r) => ["
+                   "r.querySelector('.bar').offsetWidth,"
+                   "[...r.querySelectorAll('.bar-part')].map((p) => [p.ariaLabel,"
+                   "p.offsetWidth])])")
+    fixed = {"scene": "box.pbrt",
+             "threads": page.find('[data-menu="threads"]').get_attribute("value")}
+    wanted = []
+    for line in STRATEGIES:
+        for point in SPP:
+            cells = cells_of(page, **fixed, **line, **point)
+            sums = [sum(cell["stages"][i] or 0 for cell in cells) / len(cells)
+                    for i in range(len(stages))]
+            wanted.append((sum(sums) / mean(cells, "samples"), sums))
+    require(len(rows) == len(wanted), "bars:", len(rows))
+    longest, most = max(row[0] for row in rows), max(cost for cost, _ in wanted)
+    for (width, parts), (cost, sums) in zip(rows, wanted):
+        require(abs(width / longest - cost / most) < 0.02, "length", width, cost)
+        for label, part in parts:
+            share = sums[stages.index(label.split()[0])] / sum(sums)
+            require(abs(part / width - share) < 0.02, label, part, width, share)
+            require(abs(float(label.split()[1]) - 100 * share) < 0.6, label, share)
+
+
+@check
+def the_legend_hides_lines_everywhere(page):
+    before = page.ink(plot(page, "error"))["hash"]
+    page.click(".legend-item")
+    require(page.ink(plot(page, "error"))["hash"] != before, "the plot did not change")
+    hidden = page.js("return [...document.querySelectorAll('.stage-row')]"
+                     ".map((row) => row.hidden)")
+    require(hidden == [True] * 4 + [False] * 4, "stage rows:", hidden)
+    page.click(".legend-item")
+    require(page.ink(plot(page, "error"))["hash"] == before, "not as before")
+
+
+@check
+def hovering_a_marker_tells_its_values(page):
+    page.show("#plots")
+    page.js("""
+      const host = document.querySelector('[data-plot="error"]'), u = host.plot;
+      const at = u.data[1].findIndex((y) => y !== null);
+      const box = u.over.getBoundingClientRect();
+      const init = {bubbles: true, clientX: box.left + u.valToPos(u.data[0][at], 'x'),
+                    clientY: box.top + u.valToPos(u.data[1][at], 'y')};
+      for (const type of ['mouseenter', 'mousemove', 'mousemove'])
+        u.over.dispatchEvent(new MouseEvent(type, init));""")
+    page.settle()
+    text = page.find("#tip").text
+    for part in ("default", "4 spp", "Relative MSE", "[", "mean of 2 cells"):
+        require(part in text, "the tip says:", repr(text))
+    page.js("document.getElementById('tip').hidden = true")
