@@ -36,6 +36,7 @@ CompletionValue ValueOf(const CLI::Option& option) {
   value.name = alone ? option.get_name(true) : type;
   value.kind = alone || type == "FILE" ? Kind::kFile : Kind::kOther;
   if (value.name == "SCENE") value.extension = ".pbrt";
+  if (value.name == "SWEEP") value.extension = ".toml";
   if (type == "DIR") value.kind = Kind::kFolder;
   if (type.find('|') != std::string::npos) {
     value.kind = Kind::kChoices;

@@ -1,6 +1,7 @@
 // `lanelight sweep SWEEP.toml --out DIR`: a grid of renders, filled by any number of
 // processes.
 #include <charconv>
+#include <map>
 #include <memory>
 
 #include "src/cli/commands.h"
@@ -39,10 +40,23 @@ void SetPart(const std::string& text, SweepOptions& options) {
                              "'" + text + "' is not I/N with I from 1 to N, e.g. 2/5");
 }
 
-void PrintOutcome(const SweepOutcome& o, const SweepOptions& options) {
-  for (const CellFailure& failure : o.failures) {
-    PrintError("failed: " + failure.name + ": " + failure.message);
+// A line for each message; sweep.csv has them all.
+void PrintFailures(const std::vector<CellFailure>& failures) {
+  std::vector<std::pair<CellFailure, std::size_t>> lines;  // the first, how many
+  std::map<std::string, std::size_t> line_of;
+  for (const CellFailure& failure : failures) {
+    const auto [entry, is_new] = line_of.try_emplace(failure.message, lines.size());
+    if (is_new) lines.emplace_back(failure, 0);
+    ++lines[entry->second].second;
   }
+  for (const auto& [failure, count] : lines) {
+    const std::string more = count > 1 ? fmt::format(" and {} more", count - 1) : "";
+    PrintError("failed: " + failure.name + more + ": " + failure.message);
+  }
+}
+
+void PrintOutcome(const SweepOutcome& o, const SweepOptions& options) {
+  PrintFailures(o.failures);
   if (!o.other_cells.empty()) {
     PrintError(
         fmt::format("note: {} of the directories in {}/cells, e.g. {}, are not of "

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
+#include <set>
 #include <thread>
 
 #include "src/sweep/cell_render.h"
@@ -40,7 +42,7 @@ class Runner {
   void TryCell(std::size_t i);
   bool StillMissing(std::size_t i);
   void RenderCell(std::size_t i);
-  void Fail(const SweepCell& cell, const std::string& message);
+  void Fail(std::size_t i, const std::string& message);
   void Report(const SweepCell& cell, const Progress& progress);
   bool Stopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
   std::size_t Count(Known what) const {
@@ -57,6 +59,7 @@ class Runner {
   std::vector<Known> known_;            // of each
   std::vector<bool> failed_before_;     // this process began; tried again
   std::vector<Group> groups_;
+  std::set<std::string> said_;  // messages of failures
   std::size_t rendered_ = 0;
   bool interrupted_ = false;
 };
@@ -168,7 +171,6 @@ void Runner::RenderCell(std::size_t i) {
   RenderHooks hooks;
   hooks.on_progress = [&](const Progress& p) { Report(cell, p); };
   hooks.stop = hooks_.stop;
-  known_[i] = Known::kFailed;
   try {
     const Rendering rendering =
         renderer_.Render(cell, folder_.path() + "/cells/" + cell.name, hooks);
@@ -182,27 +184,32 @@ void Runner::RenderCell(std::size_t i) {
       folder_.CheckWritable();
       std::string text;
       for (const std::string& problem : rendering.problems) text += problem + "; ";
-      return Fail(cell, text.substr(0, text.size() - 2));
+      return Fail(i, text.substr(0, text.size() - 2));
     }
     folder_.Finish(cell, CellReport(rendering));
     known_[i] = Known::kDone;
     ++rendered_;
   } catch (const std::bad_alloc&) {
-    Fail(cell, "error: out of memory");
+    Fail(i, "error: out of memory");
   } catch (const std::exception& error) {
     folder_.CheckWritable();
-    Fail(cell, error.what());
+    Fail(i, error.what());
   }
 }
 
-void Runner::Fail(const SweepCell& cell, const std::string& message) {
+void Runner::Fail(std::size_t i, const std::string& message) {
+  const SweepCell& cell = *part_[i];
+  known_[i] = Known::kFailed;
   folder_.Fail(cell, message);
-  if (hooks_.on_problem) hooks_.on_problem(cell.name + ": " + message);
+  // All cells of a broken scene say the same.
+  if (!said_.insert(message).second || !hooks_.on_problem) return;
+  hooks_.on_problem(cell.name + ": " + message);
 }
 
 void Runner::Report(const SweepCell& cell, const Progress& progress) {
   if (!hooks_.on_progress) return;
-  hooks_.on_progress({Count(Known::kDone), part_.size(), &cell, progress});
+  hooks_.on_progress(
+      {Count(Known::kDone) + Count(Known::kFailed), part_.size(), &cell, progress});
 }
 
 }  // namespace

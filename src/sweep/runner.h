@@ -20,7 +20,7 @@ struct SweepOptions {
 };
 
 struct SweepProgress {
-  std::size_t done = 0, total = 0;  // cells of this process's part
+  std::size_t done = 0, total = 0;  // cells of this process's part; failed ones count
   const SweepCell* cell = nullptr;
   Progress render;  // of the cell
 };

@@ -13,7 +13,7 @@ mkdir -p "$folder/bin" "$folder/here/scenes one"
 ln -s "$lanelight" "$folder/bin/lanelight"
 PATH=$folder/bin:$PATH
 cd "$folder/here"
-touch box.pbrt "glass ball.pbrt" notes.txt image.exr
+touch box.pbrt "glass ball.pbrt" notes.txt image.exr grid.toml
 
 # What there is to complete, taken from the help texts.
 commands=$(lanelight --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
@@ -85,6 +85,8 @@ done
 has "$(bash_offers render '')" 'glass ball.pbrt' 'scenes one'
 lacks "$(bash_offers render '')" notes.txt
 has "$(bash_offers study --out '')" 'scenes one'
+has "$(bash_offers sweep '')" grid.toml 'scenes one'
+lacks "$(bash_offers sweep '')" box.pbrt
 lacks "$(bash_offers study --out '')" box.pbrt
 has "$(bash_offers render --depth = h)" half
 has "$(bash_offers render --depth =)" half float
