@@ -131,6 +131,10 @@ bool Checkpoint::Due() const { return Milliseconds() >= next_; }
 void Checkpoint::Keep(RunState& state) {
   const Clock::time_point start = Clock::now();
   if (writing_.valid()) kept_ = writing_.get();
+  if (state.finished && !settings_.finished) {
+    kept_ = true;
+    return;
+  }
   std::vector<std::function<void()>> later;
   if (!settings_.path.empty()) {
     StateContent content;

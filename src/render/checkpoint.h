@@ -31,6 +31,7 @@ struct CheckpointSettings {
   Resume resume = Resume::kNever;
   std::string watch;  // EXR of the image so far, written with each state; empty: none
   Part part;          // of the render
+  bool finished = true;  // the state of a render that is finished is kept too
 
   bool Any() const { return !path.empty() || !watch.empty(); }
 };

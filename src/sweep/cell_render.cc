@@ -88,6 +88,9 @@ Rendering CellRenderer::Render(const SweepCell& cell, const std::string& folder,
   targets.json = "-";
   targets.exposure = sweep_.settings.exposure;
   targets.half = sweep_.settings.half;
+  targets.checkpoint.path = folder + "/state";
+  targets.checkpoint.resume = Resume::kIfAny;
+  targets.checkpoint.finished = false;
   return RenderToFiles(job, sweep_.ScenePath(cell), targets, hooks);
 }
 

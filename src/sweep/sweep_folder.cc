@@ -140,6 +140,7 @@ void SweepFolder::Finish(const SweepCell& cell, Json report) const {
   WriteFileAtomically(File(cell, "report.json"), report.dump(1) + "\n");
   std::error_code ignored;
   fs::remove(File(cell, "error.json"), ignored);
+  fs::remove(File(cell, "state"), ignored);
 }
 
 void SweepFolder::Fail(const SweepCell& cell, const std::string& message) const {

@@ -95,14 +95,14 @@ class Runner : public TaskWatcher {
 
   /// The last state is kept too.
   void End() {
-    if (options_.keeper != nullptr) Keep();
+    if (options_.keeper != nullptr) Keep(Reason() != StopReason::kInterrupted);
   }
 
   RunResult Result();
 
  private:
   bool Restore() {
-    RunState state = {*films_, {}, false, {}, {}};
+    RunState state = {*films_, {}, false, {}, {}, false};
     if (!options_.keeper->Restore(state)) return false;
     before_ = state.counts;
     tasks_.GoOn(*films_, state.counts);
@@ -113,8 +113,8 @@ class Runner : public TaskWatcher {
     return true;
   }
 
-  void Keep() {
-    RunState state = {*films_, Counts(), training_done_, training_, {}};
+  void Keep(bool finished = false) {
+    RunState state = {*films_, Counts(), training_done_, training_, {}, finished};
     if (training_done_) state.tables = TakeTraining(tables_);
     options_.keeper->Keep(state);
   }

@@ -42,6 +42,7 @@ struct RunState {
   bool trained = false;  // what follows is of a training
   TrainingOutcome training;
   std::vector<TrainedTable> tables;
+  bool finished = false;  // to the run's own end, not to a signal
 };
 
 /// Keeps the state of a run while it goes on.
