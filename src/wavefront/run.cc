@@ -128,9 +128,10 @@ class Runner : public TaskWatcher {
 
   void TrainStrategy() {
     TrainingOptions options;
-    options.planned_samples = options_.planned_samples > 0
-                                  ? options_.planned_samples
-                                  : RenderedPixels(scene_.film).pixels() * kPilotSpp;
+    options.planned_samples =
+        options_.planned_samples > 0
+            ? options_.planned_samples
+            : std::max(RenderedPixels(scene_.film).pixels() * kPilotSpp, kLeastPilot);
     options.keep_roulette = options_.keep_roulette;
     options.stop = options_.stop;
     training_ = Train({scene_, plan_, run_, options, tables_});
@@ -175,10 +176,11 @@ class Runner : public TaskWatcher {
     return LookFrom(done + 1, film_.groups().unit);
   }
 
-  // Asks how many samples are needed.
+  // Asks how many samples are needed. A run that was put down within a round has taken
+  // its look before; what it says of an uneven film is not what one run would hear.
   void LookIfDue() {
     const std::uint64_t done = tasks_.Done();
-    if (!options_.samples_needed || done == 0) return;
+    if (!options_.samples_needed || done == 0 || !tasks_.Even()) return;
     if (done != LookFrom(done, film_.groups().unit) && done != Limit()) return;
     film_.FitControl();
     needed_ = options_.samples_needed(done);

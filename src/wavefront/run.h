@@ -39,6 +39,7 @@ struct ProfileOptions {
 
 /// How many samples the image will have must not change what is learned before it.
 inline constexpr std::uint64_t kPilotSpp = 32;
+inline constexpr std::uint64_t kLeastPilot = 1u << 16;  // samples, of small images
 
 struct RunOptions {
   std::uint64_t spp = 0;  // samples per pixel; 0: until something else ends the render
@@ -63,7 +64,8 @@ struct RunOptions {
   /// Renders these tiles of the image only, disjoint; empty: all of it. With
   /// control=regression whole blocks of RegressionFilm::kBlock.
   std::vector<PixelRect> tiles;
-  /// What pilot passes are sized for; 0: kPilotSpp samples of every pixel of the image.
+  /// What pilot passes are sized for; 0: kPilotSpp samples of every pixel of the image,
+  /// and kLeastPilot at least.
   std::uint64_t planned_samples = 0;
   /// Keeps the state while the run goes on; null: nobody does.
   RunKeeper* keeper = nullptr;

@@ -52,8 +52,8 @@ class RunKeeper {
   /// Called before the run begins. True: the state is that of a run to be gone on with;
   /// the films' columns then hold its samples.
   virtual bool Restore(RunState& state) = 0;
-  /// Called often, from any thread: whether Keep is due. Tasks that have begun are
-  /// finished then, and others wait.
+  /// Called often, from any thread: whether Keep is due, true until it is called. Tasks
+  /// that have begun are finished then, and others wait.
   virtual bool Due() const = 0;
   /// Nothing is in flight; every pixel has a whole number of samples, not all the same.
   virtual void Keep(RunState& state) = 0;

@@ -132,6 +132,10 @@ std::uint64_t Tasks::Done() const {
   return *std::min_element(done_.begin(), done_.end());
 }
 
+bool Tasks::Even() const {
+  return Done() == *std::max_element(done_.begin(), done_.end());
+}
+
 Round Tasks::FullRound() const {
   // Several sample ranges of the same tile run at once only where there are too few tiles
   // for the threads; they are merged in order, so the image does not depend on it.

@@ -46,6 +46,8 @@ class Tasks {
   void GoOn(const Films& films, const RunCounts& counts);
   /// Samples per pixel that all tiles have.
   std::uint64_t Done() const;
+  /// No tile has more than that.
+  bool Even() const;
   /// The round that keeps all threads busy.
   Round FullRound() const;
 

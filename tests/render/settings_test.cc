@@ -1,5 +1,4 @@
 // Overrides of a scene and the limits of what is asked for.
-#include "src/prepare/groups.h"
 #include "src/render/settings.h"
 #include "src/scene/rendered_pixels.h"
 
