@@ -1,4 +1,5 @@
-// The reports of studies and sweeps: one HTML file each, with styles, scripts, numbers and images in it.
+// The reports of studies and sweeps: one HTML file each, with styles, scripts, numbers
+// and images in it.
 #pragma once
 
 #include <cstdint>

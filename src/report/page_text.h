@@ -1,5 +1,5 @@
-// The fixed parts of the report's pages, around their data. Their definitions are made from
-// src/report/page/ by embed_page.py when the library is built.
+// The fixed parts of the report's pages, around their data. Their definitions are made
+// from src/report/page/ by embed_page.py when the library is built.
 #pragma once
 
 #include <string>

@@ -81,7 +81,7 @@ class SceneRunner {
   std::unique_ptr<CellStore> store_;
   std::unique_ptr<Claims> claims_;  // of its cells: a strategy at a sample count
   std::set<std::pair<StrategyRuns*, std::uint64_t>> elsewhere_;  // others had them
-  nlohmann::json state_;  // scene.json
+  nlohmann::json state_;                                         // scene.json
 };
 
 }  // namespace lanelight

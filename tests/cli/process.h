@@ -24,7 +24,7 @@ struct ProcessOptions {
   std::string temp_directory;  // TMPDIR
   /// Called in the new process before the program; system calls only.
   std::function<void()> prepare;
-  double timeout = 60;         // seconds, then it is killed
+  double timeout = 60;  // seconds, then it is killed
 };
 
 /// Runs lanelight with these arguments.

@@ -22,7 +22,8 @@ TEST_CASE("a file is replaced as a whole", "[image][file]") {
 
 TEST_CASE("a temporary file of a killed process is not in the way", "[image][file]") {
   const TemporaryFolder folder;
-  // Of a process with this number, which may have been another one, or on another machine.
+  // Of a process with this number, which may have been another one, or on another
+  // machine.
   for (int i = 0; i < 100; ++i) {
     folder.Write("a." + std::to_string(getpid()) + "." + std::to_string(i) + ".tmp", "?");
   }
