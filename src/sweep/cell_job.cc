@@ -2,8 +2,6 @@
 
 #include <ctime>
 
-#include "src/prepare/groups.h"
-
 namespace lanelight {
 namespace {
 
@@ -17,7 +15,6 @@ void SetCell(Job& job, const CellSettings& cell) {
   job.target = cell.target;
   job.seed = cell.seed;
   SetStrategy(job, cell.strategy);
-  job.group_size = GroupSize(cell.strategy, job.OpenEnded() ? 0 : job.spp);
 }
 
 CellRun RunCell(const Job& job, const std::function<void(const Progress&)>& on_progress,
