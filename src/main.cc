@@ -113,6 +113,8 @@ int main(int argc, char** argv) {
   using namespace lanelight;
   // A reader that goes away must not kill a render: writes fail with EPIPE instead.
   std::signal(SIGPIPE, SIG_IGN);
+  // Nor must a limit on the size of files (`ulimit -f`): they fail with EFBIG.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App root(kDescription, "lanelight");
   Command chosen;
   AddCommands(root, chosen);

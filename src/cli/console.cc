@@ -30,6 +30,12 @@ void PrintError(const std::string& line) {
   std::cerr << line << '\n' << std::flush;
 }
 
+void PrintWarning(const std::string& error) {
+  const std::string prefix = "error: ";
+  PrintError("warning: " +
+             (error.starts_with(prefix) ? error.substr(prefix.size()) : error));
+}
+
 bool FlushOutput() {
   errno = 0;
   std::cout.flush();

@@ -10,6 +10,8 @@ namespace lanelight {
 void Print(const std::string& text);
 /// Writes a line to standard error.
 void PrintError(const std::string& line);
+/// The same for an error that ends nothing: "warning: " instead of "error: ".
+void PrintWarning(const std::string& error);
 
 /// Flushes standard output. False, with a message, if something could not be written for
 /// another reason than a closed pipe.

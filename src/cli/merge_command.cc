@@ -1,5 +1,6 @@
 // `lanelight merge STATE... -o OUT.exr`: one image of the states of parts.
 #include <memory>
+#include <optional>
 
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
@@ -11,6 +12,7 @@
 #include "src/render/merge.h"
 #include "src/render/render.h"
 #include "src/render/saving.h"
+#include "src/render/state_lock.h"
 
 namespace lanelight {
 namespace {
@@ -54,6 +56,8 @@ void CheckComplete(const MergedRender& merged, bool partial) {
 int Merge(const MergeOptions& options) {
   const ThreadLimit threads(options.threads);
   CheckOutputs(options);
+  std::optional<StateLock> lock;
+  if (!options.state.empty()) lock.emplace(options.state, PrintWarning);
   MergedRender merged = MergeStates(options.states);
   CheckComplete(merged, options.partial);
   if (!options.state.empty()) WriteMergedState(merged, options.state);

@@ -140,9 +140,7 @@ RenderHooks PrintingHooks(ProgressPrinter& progress, const std::atomic<bool>& st
   RenderHooks hooks;
   hooks.on_progress = [&](const Progress& p) { progress.Update(p); };
   hooks.on_rendered = [&] { progress.Finish(); };
-  hooks.on_problem = [](const std::string& problem) {
-    PrintError("warning: " + problem + "; rendering goes on");
-  };
+  hooks.on_problem = PrintWarning;  // rendering goes on
   hooks.stop = &stop;
   return hooks;
 }

@@ -12,7 +12,7 @@
 #include <filesystem>
 
 #include "src/core/error.h"
-#include "src/image/file_descriptor.h"
+#include "src/core/file_descriptor.h"
 
 namespace lanelight {
 namespace {

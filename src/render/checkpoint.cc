@@ -8,6 +8,7 @@
 #include "src/image/regression_film.h"
 #include "src/render/identity.h"
 #include "src/render/output.h"
+#include "src/render/saving.h"
 
 namespace lanelight {
 namespace {
@@ -47,6 +48,7 @@ Checkpoint::Checkpoint(const Job& job, const CheckpointSettings& settings,
       on_problem_(std::move(on_problem)) {
   const bool blocks = job.scene.strategy.control == Control::kRegression;
   tiles_ = TilesOfPart(job.window, settings.part, blocks ? RegressionFilm::kBlock : 1);
+  if (!settings.path.empty()) lock_.emplace(settings.path, on_problem_);
   Open();
   next_ = Milliseconds() + static_cast<std::int64_t>(1000 * settings_.seconds);
 }
@@ -128,6 +130,7 @@ bool Checkpoint::Restore(RunState& state) {
 
 bool Checkpoint::Due() const { return Milliseconds() >= next_; }
 
+// Afterwards the render may change what is in memory.
 void Checkpoint::Keep(RunState& state) {
   const Clock::time_point start = Clock::now();
   if (writing_.valid()) kept_ = writing_.get();
@@ -135,60 +138,67 @@ void Checkpoint::Keep(RunState& state) {
     kept_ = true;
     return;
   }
-  std::vector<std::function<void()>> later;
   if (!settings_.path.empty()) {
-    StateContent content;
-    content.identity = identity_;
-    const Json report = {{"head", Json::parse(head_)},
-                         {"counts", CountsJson(state.counts)},
-                         {"training", TrainingJson(state)}};
-    content.report = report.dump(1);
-    content.window = job_.window;
-    content.tiles = tiles_;
-    for (const MutableStateColumn& column : state.films.Columns()) {
-      content.pixels.push_back(column);
-    }
-    for (const TrainedTable& table : state.tables) {
-      content.tables.push_back(
-          MakeStateColumn<double>(table.name, table.meaning, table.values));
-    }
-    later.push_back([path = settings_.path,
-                     bytes = std::make_shared<SerialisedState>(SerialiseState(content))] {
-      bytes->Write(path);
-    });
+    last_ = std::make_unique<SerialisedState>(Serialise(state));
   }
-  if (!settings_.watch.empty()) Watch(state, later);
-  writing_ = std::async(std::launch::async, [this, later = std::move(later)] {
-    bool good = true;
-    for (const auto& write : later) {
-      try {
-        write();
-      } catch (const std::exception& error) {
-        good = false;
-        on_problem_(error.what());
-      }
-    }
-    return good;
+  writing_ = std::async(std::launch::async, [this, watch = Watch(state)] {
+    if (watch) Try(watch);
+    return last_ != nullptr && Try([this] { last_->Write(settings_.path); });
   });
   ++count_;
   pause_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
   next_ = Milliseconds() + static_cast<std::int64_t>(1000 * settings_.seconds);
 }
 
-void Checkpoint::Watch(RunState& state, std::vector<std::function<void()>>& later) {
+SerialisedState Checkpoint::Serialise(RunState& state) const {
+  StateContent content;
+  content.identity = identity_;
+  const Json report = {{"head", Json::parse(head_)},
+                       {"counts", CountsJson(state.counts)},
+                       {"training", TrainingJson(state)}};
+  content.report = report.dump(1);
+  content.window = job_.window;
+  content.tiles = tiles_;
+  for (const MutableStateColumn& column : state.films.Columns()) {
+    content.pixels.push_back(column);
+  }
+  for (const TrainedTable& table : state.tables) {
+    content.tables.push_back(
+        MakeStateColumn<double>(table.name, table.meaning, table.values));
+  }
+  return SerialiseState(content);
+}
+
+std::function<void()> Checkpoint::Watch(RunState& state) const {
+  if (settings_.watch.empty()) return {};
   FilmAccumulator& film = state.films.film();
   film.FitControl();
   auto planes =
       std::make_shared<std::vector<ExrPlane>>(FilmPlanes(film, job_.scene.scale));
   const ExrOptions options =
       OutputOptions(Json::parse(identity_), state.counts, /*half=*/false);
-  later.push_back(
-      [path = settings_.watch, planes, options, width = film.width(),
-       height = film.height()] { WriteExr(path, width, height, *planes, options); });
+  return [path = settings_.watch, planes, options, width = film.width(),
+          height = film.height()] { WriteExr(path, width, height, *planes, options); };
 }
 
-void Checkpoint::Finish() {
+bool Checkpoint::Try(const std::function<void()>& write) const {
+  try {
+    write();
+    return true;
+  } catch (const std::exception& error) {
+    on_problem_(error.what());
+    return false;
+  }
+}
+
+std::vector<std::string> Checkpoint::Finish() {
   if (writing_.valid()) kept_ = writing_.get();
+  if (kept_ || !last_) return {};
+  std::string path = settings_.path;
+  Saver saver;
+  saver.Save(path, [&](const std::string& p) { last_->Write(p); });
+  kept_ = path == settings_.path;
+  return saver.problems();
 }
 
 Json CountsJson(const RunCounts& counts) {

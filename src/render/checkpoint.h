@@ -8,11 +8,13 @@
 #include <future>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "src/render/job.h"
 #include "src/render/parts.h"
+#include "src/render/state_lock.h"
 #include "src/state/state_file.h"
 
 namespace lanelight {
@@ -41,7 +43,7 @@ class Checkpoint : public RunKeeper {
   /// `head`: what a report says of this render whatever it comes to. `on_problem` is told
   /// at once, from any thread, of states that cannot be written. Throws InputError if the
   /// state to go on from is missing, damaged, or of another render (naming each
-  /// difference), or if one is there that must not be.
+  /// difference), if one is there that must not be, or if another process keeps it.
   Checkpoint(const Job& job, const CheckpointSettings& settings,
              const nlohmann::json& head,
              std::function<void(const std::string&)> on_problem);
@@ -54,8 +56,9 @@ class Checkpoint : public RunKeeper {
   bool Restore(RunState& state) override;
   bool Due() const override;
   void Keep(RunState& state) override;
-  /// Waits for what is being written. After the last Keep.
-  void Finish();
+  /// After the last Keep: waits for what is being written. If the state cannot be written
+  /// where it should be, it goes to the temporary directory. Messages about that.
+  std::vector<std::string> Finish();
   /// Whether the last state that was to be kept is on the disk.
   bool kept() const { return kept_; }
   /// Of all calls of Keep: how often, and how long the render stood still for them.
@@ -65,16 +68,22 @@ class Checkpoint : public RunKeeper {
  private:
   void Open();
   void CheckSame(const StateFile& file);
-  void Watch(RunState& state, std::vector<std::function<void()>>& later);
+  SerialisedState Serialise(RunState& state) const;
+  /// What writes the image so far; nothing if nobody watches.
+  std::function<void()> Watch(RunState& state) const;
+  /// False after an exception, of which on_problem is told.
+  bool Try(const std::function<void()>& write) const;
 
   const Job& job_;
   CheckpointSettings settings_;
   std::string identity_, head_;
   std::function<void(const std::string&)> on_problem_;
   std::vector<PixelRect> tiles_;
+  std::optional<StateLock> lock_;
   std::unique_ptr<StateFile> from_;
-  std::atomic<std::int64_t> next_{0};  // milliseconds of the steady clock
-  std::future<bool> writing_;
+  std::atomic<std::int64_t> next_{0};      // milliseconds of the steady clock
+  std::unique_ptr<SerialisedState> last_;  // of the last Keep
+  std::future<bool> writing_;              // of last_; whether it is on the disk
   bool kept_ = false;
   int count_ = 0;
   double pause_seconds_ = 0;

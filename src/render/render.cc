@@ -34,7 +34,7 @@ void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
 
 RunResult RunKept(const Job& job, FilmAccumulator& film, const Json& head,
                   const CheckpointSettings& settings, const RenderHooks& hooks,
-                  bool& state_kept) {
+                  Rendering& out) {
   RunOptions options = RunOptionsOf(job, film);
   options.on_progress = hooks.on_progress;
   options.stop = hooks.stop;
@@ -46,8 +46,8 @@ RunResult RunKept(const Job& job, FilmAccumulator& film, const Json& head,
   options.tiles = checkpoint.tiles();
   options.keeper = &checkpoint;
   RunResult result = Run(job.scene, job.plan, options, film);
-  checkpoint.Finish();
-  state_kept = checkpoint.kept();
+  out.problems = checkpoint.Finish();
+  out.state_kept = checkpoint.kept();
   return result;
 }
 
@@ -62,7 +62,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   out.report.half = targets.half;
   out.report.load_seconds = job.load_seconds;
   out.report.build_seconds = job.build_seconds;
-  out.report.result = RunKept(job, film, head, targets.checkpoint, hooks, out.state_kept);
+  out.report.result = RunKept(job, film, head, targets.checkpoint, hooks, out);
   if (hooks.on_rendered) hooks.on_rendered();
   WriteRendering(film, IdentityOf(job), head, targets, hooks.members, out);
   return out;
@@ -79,7 +79,8 @@ void WriteRendering(const FilmAccumulator& film, const Json& identity, const Jso
     out.json = json.dump(2) + "\n";
   }
   if (targets.json != "-") saver.SaveText(targets.json, out.json);
-  out.problems = saver.problems();
+  const std::vector<std::string>& problems = saver.problems();
+  out.problems.insert(out.problems.end(), problems.begin(), problems.end());
 }
 
 }  // namespace lanelight

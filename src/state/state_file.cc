@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "src/core/error.h"
-#include "src/image/file_descriptor.h"
+#include "src/core/file_descriptor.h"
 #include "src/state/column_reader.h"
 #include "src/state/hdf5.h"
 #include "src/state/seal.h"

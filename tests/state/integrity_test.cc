@@ -9,7 +9,7 @@
 
 #include "src/core/error.h"
 #include "src/image/atomic_file.h"
-#include "src/image/file_descriptor.h"
+#include "src/core/file_descriptor.h"
 #include "src/state/seal.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/state/random_film.h"

@@ -1,0 +1,82 @@
+#include "src/render/state_lock.h"
+
+#include <unistd.h>
+
+#include <climits>
+#include <filesystem>
+#include <system_error>
+
+#include "src/core/error.h"
+
+namespace lanelight {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string WhoAmI() {
+  char host[HOST_NAME_MAX + 1] = "";
+  gethostname(host, sizeof(host) - 1);
+  return fmt::format("process {} on {}", getpid(), host);
+}
+
+// "NAME.<digits>.<digits>.tmp", as src/image/atomic_file.cc names what it writes.
+bool IsTemporaryOf(const std::string& name, const std::string& file) {
+  constexpr std::string_view kEnd = ".tmp";
+  if (!name.starts_with(file + ".") || !name.ends_with(kEnd)) return false;
+  if (name.size() <= file.size() + 1 + kEnd.size()) return false;
+  const std::string middle =
+      name.substr(file.size() + 1, name.size() - file.size() - 1 - kEnd.size());
+  const std::size_t dot = middle.find('.');
+  return dot != middle.npos && dot > 0 && dot + 1 < middle.size() &&
+         middle.find_first_not_of("0123456789", dot + 1) == middle.npos &&
+         middle.find_first_not_of("0123456789") == dot;
+}
+
+// Only who keeps a state writes it: with the lock, nobody is at work on these.
+void RemoveTemporaries(const fs::path& state) {
+  std::error_code ignored;
+  const fs::path folder = state.has_parent_path() ? state.parent_path() : ".";
+  for (fs::directory_iterator i(folder, ignored), end; i != end; i.increment(ignored)) {
+    if (IsTemporaryOf(i->path().filename(), state.filename())) {
+      fs::remove(i->path(), ignored);
+    }
+  }
+}
+
+}  // namespace
+
+StateLock::StateLock(const std::string& path,
+                     const std::function<void(const std::string&)>& on_problem) {
+  const std::string name = path + ".lock";
+  for (;;) {
+    auto file = std::make_unique<LockFile>(name);
+    const LockOutcome outcome = file->TryLock(0, 1);
+    if (outcome == LockOutcome::kUnknown) {
+      on_problem(fmt::format(
+          "{}: this file system knows no locks: see to it that nobody else keeps '{}'",
+          name, path));
+      unlink(name.c_str());
+      return;
+    }
+    if (outcome == LockOutcome::kBusy) {
+      const std::string who = file->Note();
+      throw InputError(fmt::format(
+          "'{}' is being kept by {}: let that end or stop it, or keep this state "
+          "in another file",
+          path, who.empty() ? "another process" : who));
+    }
+    // Who had it before may have removed the file just after it was opened here.
+    if (!file->IsNamed()) continue;
+    file->SetNote(WhoAmI());
+    file_ = std::move(file);
+    RemoveTemporaries(path);
+    return;
+  }
+}
+
+// Removed first, unlocked then: nobody else can have the lock of a file that is there.
+StateLock::~StateLock() {
+  if (file_ && file_->IsNamed()) unlink(file_->path().c_str());
+}
+
+}  // namespace lanelight
