@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <iostream>
+#include <memory>
 #include <sstream>
 
 #include "src/cli/commands.h"
@@ -12,6 +12,7 @@
 #include "src/core/error.h"
 #include "src/core/suggest.h"
 #include "src/core/version.h"
+#include "src/ranks/ranks.h"
 
 namespace lanelight {
 namespace {
@@ -84,16 +85,19 @@ int ReportParse(const CLI::App& root, const CLI::ParseError& error, int argc,
   root.exit(error, out, err);
   Print(out.str());
   if (asked) return kExitGood;
-  std::cerr << err.str();
+  if (std::string text = err.str(); !text.empty()) {
+    if (text.back() == '\n') text.pop_back();
+    PrintError(text);
+  }
   SuggestFlag(root, argc, argv);
   return kExitUsage;
 }
 
-void AddCommands(CLI::App& root, Command& chosen) {
+void AddCommands(CLI::App& root, Crew& crew, Command& chosen) {
   root.footer(kFooter);
   root.set_version_flag("--version", FullVersion());
   root.require_subcommand(1);
-  AddRenderCommand(root, chosen);
+  AddRenderCommand(root, crew, chosen);
   AddAdviseCommand(root, chosen);
   AddPlanCommand(root, chosen);
   AddProfileCommand(root, chosen);
@@ -106,6 +110,74 @@ void AddCommands(CLI::App& root, Command& chosen) {
   AddCompletionCommand(root, chosen);
 }
 
+// What the command line comes to without a command: an exit code; kGoOn if there is one
+// to run.
+constexpr int kGoOn = -1;
+
+int Parse(CLI::App& root, int argc, char** argv) {
+  if (argc < 2) {
+    PrintError(root.help());
+    return kExitUsage;
+  }
+  if (ReportUnknownCommand(root, argc, argv)) return kExitUsage;
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return ReportParse(root, error, argc, argv);
+  }
+  return kGoOn;
+}
+
+// Runs what was asked for. A message: it has failed, and this is why.
+int Execute(const Command& chosen, std::string& message) {
+  try {
+    return chosen();
+  } catch (const InputError& error) {
+    message = error.what();
+  } catch (const RankFailure& error) {
+    message = error.what();
+  } catch (const CheckFailure& error) {
+    message = std::string("internal error, please report: ") + error.what();
+  } catch (const std::bad_alloc&) {
+    message = "error: out of memory";
+  } catch (const std::exception& error) {
+    message = std::string("error: ") + error.what();
+  }
+  return kExitBadInput;
+}
+
+// Several ranks render; everything else is for a process alone.
+bool ForRanks(const CLI::App& root, const Crew& crew) {
+  if (crew.ranks() == 1) return true;
+  const std::string name = root.get_subcommands().front()->get_name();
+  if (name == "render") return true;
+  PrintError(
+      fmt::format("error: {} ranks can `render`; run `lanelight {}` without mpirun",
+                  crew.ranks(), name));
+  return false;
+}
+
+int Run(CLI::App& root, const Command& chosen, Ranks& ranks, int argc, char** argv) {
+  int exit_code = Parse(root, argc, argv);
+  if (const std::string who = ranks.WhoDiffers(exit_code); !who.empty()) {
+    PrintError("error: " + who +
+               " does not take this command line as rank 0 does: is a "
+               "file missing there, or its program another?");
+    return ranks.Fail(kExitUsage, "");
+  }
+  if (exit_code != kGoOn) return ranks.Leave(exit_code);
+  if (!ForRanks(root, ranks.crew())) return ranks.Leave(kExitUsage);
+  std::string message;
+  exit_code = Execute(chosen, message);
+  if (!message.empty()) {
+    PrintError(message);
+    FlushOutput();
+    return ranks.Fail(exit_code, message);
+  }
+  if (!FlushOutput()) exit_code = kExitBadInput;
+  return ranks.Leave(exit_code);
+}
+
 }  // namespace
 }  // namespace lanelight
 
@@ -115,28 +187,10 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   // Nor must a limit on the size of files (`ulimit -f`): they fail with EFBIG.
   std::signal(SIGXFSZ, SIG_IGN);
+  const std::unique_ptr<Ranks> ranks = JoinRanks(&argc, &argv);
+  if (!ranks->crew().leads()) SilenceConsole();
   CLI::App root(kDescription, "lanelight");
   Command chosen;
-  AddCommands(root, chosen);
-  if (argc < 2) {
-    PrintError(root.help());
-    return kExitUsage;
-  }
-  if (ReportUnknownCommand(root, argc, argv)) return kExitUsage;
-  int exit_code = kExitBadInput;
-  try {
-    root.parse(argc, argv);
-    exit_code = chosen();
-  } catch (const CLI::ParseError& error) {
-    exit_code = ReportParse(root, error, argc, argv);
-  } catch (const InputError& error) {
-    PrintError(error.what());
-  } catch (const CheckFailure& error) {
-    PrintError(std::string("internal error, please report: ") + error.what());
-  } catch (const std::bad_alloc&) {
-    PrintError("error: out of memory");
-  } catch (const std::exception& error) {
-    PrintError(std::string("error: ") + error.what());
-  }
-  return FlushOutput() ? exit_code : static_cast<int>(kExitBadInput);
+  AddCommands(root, ranks->crew(), chosen);
+  return Run(root, chosen, *ranks, argc, argv);
 }

@@ -6,11 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "src/wavefront/crew.h"
+
 namespace lanelight {
 
 using Command = std::function<int()>;
 
-void AddRenderCommand(CLI::App& root, Command& chosen);
+/// `crew`: who renders; it must outlive the command.
+void AddRenderCommand(CLI::App& root, Crew& crew, Command& chosen);
 void AddAdviseCommand(CLI::App& root, Command& chosen);
 void AddPlanCommand(CLI::App& root, Command& chosen);
 void AddProfileCommand(CLI::App& root, Command& chosen);

@@ -9,6 +9,7 @@ namespace {
 
 // The first reason for which a write failed; the stream itself does not keep it.
 int failure = 0;
+bool silent = false;
 
 void Note() {
   if (!std::cout.good() && failure == 0) failure = errno ? errno : EIO;
@@ -16,13 +17,17 @@ void Note() {
 
 }  // namespace
 
+void SilenceConsole() { silent = true; }
+
 void Print(const std::string& text) {
+  if (silent) return;
   errno = 0;
   std::cout << text;
   Note();
 }
 
 void PrintError(const std::string& line) {
+  if (silent) return;
   // Standard error flushes standard output first; a failure of that is not to be missed.
   errno = 0;
   std::cout.flush();

@@ -6,6 +6,9 @@
 
 namespace lanelight {
 
+/// From here on nothing is printed: another rank does.
+void SilenceConsole();
+
 /// Writes text to standard output.
 void Print(const std::string& text);
 /// Writes a line to standard error.

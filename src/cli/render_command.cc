@@ -4,6 +4,7 @@
 #include "kernels/simd/target.h"
 #include "src/cli/checkpoint_options.h"
 #include "src/cli/commands.h"
+#include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
@@ -19,9 +20,18 @@ struct RenderCommandOptions {
   CheckpointFlags checkpoint;
 };
 
-int Render(const RenderCommandOptions& options) {
+// What a rank does that does not lead.
+int Serve(const RenderCommandOptions& options, Crew& crew) {
+  const Job job = PrepareJob(options.scene.scene, options.scene.settings);
+  const InterruptGuard interrupt("");
+  ServeRender(job, crew, &interrupt.stop());
+  return kExitGood;
+}
+
+int Render(const RenderCommandOptions& options, Crew& crew) {
   ForceTarget(options.scene.target);
   const ThreadLimit threads(options.scene.threads);
+  if (!crew.leads()) return Serve(options, crew);
   CheckOutputs(options.outputs, options.scene.scene);
   const Job job = PrepareJob(options.scene.scene, options.scene.settings);
   if (!options.outputs.quiet) PrintNotes(job);
@@ -29,9 +39,10 @@ int Render(const RenderCommandOptions& options) {
   const bool keeps = !options.outputs.targets.checkpoint.path.empty();
   const InterruptGuard interrupt(keeps ? kKeepingMessage : kStoppingMessage);
   ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
+  RenderHooks hooks = PrintingHooks(progress, interrupt.stop());
+  if (crew.ranks() > 1) hooks.crew = &crew;
   const Rendering rendering =
-      RenderToFiles(job, options.scene.scene, options.outputs.targets,
-                    PrintingHooks(progress, interrupt.stop()));
+      RenderToFiles(job, options.scene.scene, options.outputs.targets, hooks);
   return PrintRendering(rendering, job, options.outputs);
 }
 
@@ -70,7 +81,7 @@ void CheckAmountOptions(const RenderSettings& settings) {
 
 }  // namespace
 
-void AddRenderCommand(CLI::App& root, Command& chosen) {
+void AddRenderCommand(CLI::App& root, Crew& crew, Command& chosen) {
   CLI::App* command = root.add_subcommand("render", "Render a scene to an OpenEXR image");
   auto options = std::make_shared<RenderCommandOptions>();
   AddAmountOptions(*command, options->scene.settings);
@@ -90,11 +101,11 @@ void AddRenderCommand(CLI::App& root, Command& chosen) {
       "  lanelight render scene.pbrt -o out.exr --spp 65536 --checkpoint out.state "
       "--resume\n"
       "  lanelight render scene.pbrt --spp 4096 --part 3/16 --checkpoint part-3.state");
-  command->callback([options, &chosen] {
+  command->callback([options, &crew, &chosen] {
     ResolveOutputs(options->outputs);
     CheckAmountOptions(options->scene.settings);
     ResolveCheckpoint(options->checkpoint, options->outputs.targets);
-    chosen = [options] { return Render(*options); };
+    chosen = [options, &crew] { return Render(*options, crew); };
   });
 }
 

@@ -32,23 +32,44 @@ void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
   report.write_seconds = taken.count();
 }
 
+// All ranks are to render the same, bit by bit.
+void AgreeOnJob(const Job& job, Crew& crew) {
+  crew.Agree("would render something else", IdentityOf(job).dump(),
+             [](const std::string& leaders, const std::string& its) {
+               return IdentityDifferences(Json::parse(leaders), "rank 0",
+                                          Json::parse(its), "it");
+             });
+}
+
 RunResult RunKept(const Job& job, FilmAccumulator& film, const Json& head,
                   const CheckpointSettings& settings, const RenderHooks& hooks,
                   Rendering& out) {
   RunOptions options = RunOptionsOf(job, film);
   options.on_progress = hooks.on_progress;
   options.stop = hooks.stop;
-  if (!settings.Any()) return Run(job.scene, job.plan, options, film);
+  options.crew = hooks.crew;
+  if (!settings.Any()) {
+    if (hooks.crew != nullptr) AgreeOnJob(job, *hooks.crew);
+    return Run(job.scene, job.plan, options, film);
+  }
   const auto on_problem = [&](const std::string& problem) {
     if (hooks.on_problem) hooks.on_problem(problem);
   };
   Checkpoint checkpoint(job, settings, head, on_problem);
   options.tiles = checkpoint.tiles();
   options.keeper = &checkpoint;
-  RunResult result = Run(job.scene, job.plan, options, film);
-  out.problems = checkpoint.Finish();
-  out.state_kept = checkpoint.kept();
-  return result;
+  if (hooks.crew != nullptr) AgreeOnJob(job, *hooks.crew);
+  try {
+    RunResult result = Run(job.scene, job.plan, options, film);
+    out.problems = checkpoint.Finish();
+    out.state_kept = checkpoint.kept();
+    return result;
+  } catch (const RankFailure& failure) {
+    checkpoint.Finish();
+    if (settings.path.empty() || !checkpoint.kept()) throw;
+    throw RankFailure(fmt::format("{}\nwhat was done is kept: go on with --resume '{}'",
+                                  failure.what(), settings.path));
+  }
 }
 
 }  // namespace
@@ -66,6 +87,15 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   if (hooks.on_rendered) hooks.on_rendered();
   WriteRendering(film, IdentityOf(job), head, targets, hooks.members, out);
   return out;
+}
+
+void ServeRender(const Job& job, Crew& crew, const std::atomic<bool>* stop) {
+  FilmAccumulator film = MakeFilm(job);
+  RunOptions options = RunOptionsOf(job, film);
+  options.stop = stop;
+  options.crew = &crew;
+  AgreeOnJob(job, crew);
+  ServeRun(job.scene, job.plan, options, film);
 }
 
 void WriteRendering(const FilmAccumulator& film, const Json& identity, const Json& head,

@@ -151,6 +151,7 @@ Json ToJson(const RenderReport& report, const Json& head) {
         {"render", r.seconds},
         {"pilot", r.pilot_seconds},
         {"write", report.write_seconds}}},
+      {"ranks", r.ranks},
       {"samples", r.samples},
       {"samples_per_second", double(r.samples) / seconds},
       {"rays", {{"closest", r.rays_closest}, {"shadow", r.rays_shadow}, {"total", rays}}},

@@ -12,6 +12,7 @@
 #include "src/prepare/groups.h"
 #include "src/prepare/tables.h"
 #include "src/scene/rendered_pixels.h"
+#include "src/wavefront/crew_start.h"
 #include "src/wavefront/profile.h"
 #include "src/wavefront/schedule.h"
 #include "src/wavefront/tasks.h"
@@ -41,9 +42,11 @@ class Runner : public TaskWatcher {
         plan_(plan),
         options_(options),
         film_(film),
+        crew_(options.crew != nullptr ? *options.crew : alone_),
         tables_(MakeStrategyTables(scene)),
         tasks_(scene, plan_, run_, options, PlannedSpp()) {
     LL_CHECK(film.groups() == GroupsOf(scene.strategy));
+    LL_CHECK(options.windows.empty() || crew_.ranks() == 1);
     run_ = Parameters();
     films_.emplace(run_.planes, scene.strategy.coefficient.value_or(1), film_);
   }
@@ -60,10 +63,27 @@ class Runner : public TaskWatcher {
     start_ = Clock::now();
     start_cpu_ = ProcessCpuSeconds();
     const bool restored = options_.keeper != nullptr && Restore();
+    if (crew_.ranks() > 1) crew_.Share(ToBytes(StartOfOthers(restored)));
     if (!restored && NeedsTraining(plan_)) TrainStrategy();
+    AgreeOnTraining();
     if (options_.seconds > 0) pace_.emplace(options_.seconds, PaceTasks());
     if (restored) LookIfDue();
   }
+
+  /// The same for a rank that serves.
+  void Join(const CrewStart& start) {
+    start_ = Clock::now();
+    if (!start.restored && NeedsTraining(plan_)) TrainStrategy();
+    if (start.trained) {
+      training_.roulette = start.roulette;
+      PutTraining(start.tables, tables_);
+      UseTraining();
+    }
+    AgreeOnTraining();
+  }
+
+  /// Tasks from here on begin with this sample, or later ones.
+  void BeginWith(std::uint64_t first) { run_.seed = SeedOf(options_.seed, first); }
 
   /// What to render next; nothing once the render is done.
   std::optional<Part> Next() {
@@ -77,8 +97,12 @@ class Runner : public TaskWatcher {
         {Limit(), NextLook(done), done + round.samples(), part.first + kSamplesPerSeed});
     part.per_task = round.per_task;
     part.start = Clock::now();
-    run_.seed = SeedOf(options_.seed, part.first);
+    BeginWith(part.first);
     return part;
+  }
+
+  void Render(const Part& part) {
+    crew_.RunRound({part.first, part.end, part.per_task}, tasks_, *this, *films_);
   }
 
   Tasks& tasks() { return tasks_; }
@@ -93,9 +117,10 @@ class Runner : public TaskWatcher {
     LookIfDue();
   }
 
-  /// The last state is kept too.
+  /// The last state is kept too, also where another rank has failed.
   void End() {
     if (options_.keeper != nullptr) Keep(Reason() != StopReason::kInterrupted);
+    crew_.Dismiss();
   }
 
   RunResult Result();
@@ -122,8 +147,27 @@ class Runner : public TaskWatcher {
   RunCounts Counts() const {
     RunCounts counts = tasks_.counts();
     counts.seconds = Elapsed();
-    counts.cpu_seconds = before_.cpu_seconds + ProcessCpuSeconds() - start_cpu_;
+    // What came before, and of other ranks, is in it already.
+    counts.cpu_seconds += ProcessCpuSeconds() - start_cpu_;
     return counts;
+  }
+
+  CrewStart StartOfOthers(bool restored) const {
+    CrewStart start = {tasks_.rects(), restored, training_done_, training_.roulette, {}};
+    if (training_done_) start.tables = TakeTraining(tables_);
+    return start;
+  }
+
+  // Another processor or library might learn other numbers.
+  void AgreeOnTraining() {
+    if (crew_.ranks() == 1) return;
+    const std::string own =
+        training_done_ ? Fingerprint(training_, TakeTraining(tables_)) : "nothing";
+    crew_.Agree("has learned something else before the image", own,
+                [&](const std::string& leaders, const std::string& its) {
+                  if (leaders == its || Interrupted()) return std::string();
+                  return fmt::format("\n  rank 0: {}\n  it:     {}", leaders, its);
+                });
   }
 
   void TrainStrategy() {
@@ -194,8 +238,9 @@ class Runner : public TaskWatcher {
   }
 
   double Elapsed() const { return before_.seconds + Since(start_); }
-  bool Interrupted() const {
-    return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed);
+  bool Interrupted() const override {
+    return (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) ||
+           crew_.Stopped();
   }
   bool OutOfTime() const {
     // The first round always ends: an image with unsampled pixels is no image.
@@ -214,7 +259,7 @@ class Runner : public TaskWatcher {
   Pace::Tasks PaceTasks() const {
     Pace::Tasks tasks;
     tasks.tiles = tasks_.tiles();
-    tasks.threads = MaxThreads();
+    tasks.threads = crew_.threads();
     tasks.most = tasks_.FullRound();
     tasks.unit = film_.groups().unit;
     return tasks;
@@ -222,7 +267,7 @@ class Runner : public TaskWatcher {
 
   Round NextRound() const {
     if (pace_) return pace_->Next(Elapsed());
-    return tasks_.FullRound();
+    return crew_.Widen(tasks_.FullRound());
   }
 
   void TaskDone() override {
@@ -254,6 +299,8 @@ class Runner : public TaskWatcher {
   Plan plan_;
   const RunOptions& options_;
   FilmAccumulator& film_;
+  OneProcess alone_;
+  Crew& crew_;
   StrategyTables tables_;
   RunParameters run_;
   Tasks tasks_;
@@ -274,6 +321,7 @@ class Runner : public TaskWatcher {
 
 RunResult Runner::Result() {
   RunResult result;
+  result.ranks = crew_.ranks();
   film_.FitControl();
   const RunCounts counts = Counts();
   result.seconds = counts.seconds;
@@ -313,12 +361,25 @@ RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& op
   Runner runner(scene, plan, options, film);
   runner.Start();
   while (const auto part = runner.Next()) {
-    runner.tasks().RunRound(part->first, part->end, part->per_task, runner,
-                            runner.films());
+    runner.Render(*part);
     runner.Finish(*part);
   }
   runner.End();
   return runner.Result();
+}
+
+void ServeRun(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
+              FilmAccumulator& film) {
+  LL_CHECK(options.crew != nullptr);
+  const CrewStart start = CrewStartFromBytes(options.crew->Share(""));
+  RunOptions own = options;
+  own.tiles = start.tiles;
+  own.stop = nullptr;  // who leads says when training and tasks end
+  Runner runner(scene, plan, own, film);
+  runner.Join(start);
+  options.crew->Serve({runner.tasks(), runner.films(),
+                       [&](std::uint64_t first) { runner.BeginWith(first); },
+                       options.stop});
 }
 
 }  // namespace lanelight

@@ -14,6 +14,7 @@
 #include "src/image/accumulator.h"
 #include "src/image/pixel_rect.h"
 #include "src/path/wave.h"
+#include "src/wavefront/crew.h"
 #include "src/wavefront/plan.h"
 #include "src/wavefront/run_state.h"
 
@@ -69,6 +70,8 @@ struct RunOptions {
   std::uint64_t planned_samples = 0;
   /// Keeps the state while the run goes on; null: nobody does.
   RunKeeper* keeper = nullptr;
+  /// Who renders, without `windows`; null: this process alone.
+  Crew* crew = nullptr;
 };
 
 struct StageProfile {
@@ -122,6 +125,7 @@ struct RunResult {
   double seconds = 0;
   StopReason stop_reason = StopReason::kSamples;
   int looks = 0;  // at which the error was compared with the target
+  int ranks = 1;  // processes; profiles and memory are of this one
   std::uint64_t samples = 0, rays_closest = 0, rays_shadow = 0;
   Health health;
   std::vector<StageProfile> stages;      // in execution order
@@ -129,7 +133,7 @@ struct RunResult {
   RunTrace trace;                        // with ProfileOptions::trace_events
   bool counters = false;                 // of the processor were read
   int counter_error = 0;                 // errno for which (some of) them are missing
-  double cpu_seconds = 0;                // of all threads of the process, during Run
+  double cpu_seconds = 0;                // of all threads of all ranks, during Run
   double waiting_seconds = 0;            // of tasks, while others had the processor
   bool stopped_early = false;            // by RunOptions::stop
   std::optional<ControlReport> control;  // of control variates that are fitted
@@ -147,6 +151,12 @@ struct RunResult {
 /// scene, or the strip of options.windows, its groups the strategy
 /// (src/prepare/groups.h).
 RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
+              FilmAccumulator& film);
+
+/// The same for a rank of options.crew that serves: as the leader wants it, until it lets
+/// it go. `film` is only where tiles stay while they are rendered; of `options`, what
+/// says how much to render and the keeper are the leader's business.
+void ServeRun(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 
 }  // namespace lanelight

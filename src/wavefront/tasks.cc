@@ -145,10 +145,46 @@ Round Tasks::FullRound() const {
   return {partition_.samples, static_cast<std::uint32_t>(chunks)};
 }
 
-void Tasks::RunRound(std::uint64_t first, std::uint64_t limit, std::uint32_t per_task,
-                     TaskWatcher& watcher, Films& films) {
-  first_ = first;
-  per_task_ = per_task;
+void Tasks::BeginRound(const RoundWork& work) {
+  first_ = work.first;
+  per_task_ = work.per_task;
+}
+
+std::vector<TileRange> Tasks::Behind(std::uint64_t limit) const {
+  std::vector<TileRange> ranges;
+  for (std::size_t tile = 0; tile < done_.size(); ++tile) {
+    if (done_[tile] >= limit) continue;
+    ranges.push_back({static_cast<std::uint32_t>(tile), done_[tile], limit,
+                      partition_.tiles[tile].pixels() * (limit - done_[tile])});
+  }
+  return ranges;
+}
+
+void Tasks::BringOn(const TileRange& range, TaskWatcher& watcher, Films& films) {
+  const std::size_t tile = range.tile;
+  while (done_[tile] < range.end && !watcher.Stopped()) {
+    TaskSamples& out = ThreadWorkspace().samples;
+    RunTask(partition_.tiles[tile],
+            {done_[tile], std::min(range.end, done_[tile] + per_task_)}, out);
+    Merge(tile, out, films);
+    watcher.TaskDone();
+  }
+}
+
+void Tasks::Credit(const RunCounts& counts) {
+  const std::lock_guard lock(counts_mutex_);
+  counts_.Add(counts);
+  taken_ += counts.samples;
+}
+
+RunCounts Tasks::TakeCounts() {
+  const std::lock_guard lock(counts_mutex_);
+  return std::exchange(counts_, {});
+}
+
+void Tasks::RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films) {
+  BeginRound(work);
+  const std::uint64_t limit = work.limit;
   if (limit - Done() > per_task_) return RunRoundInChunks(limit, watcher, films);
   ParallelFor(partition_.tiles.size(), [&](std::size_t tile) {
     if (done_[tile] >= limit || watcher.Stopped()) return;

@@ -7,7 +7,9 @@
 #include <mutex>
 #include <vector>
 
+#include "src/wavefront/crew.h"
 #include "src/wavefront/films.h"
+#include "src/wavefront/hand_out.h"
 #include "src/wavefront/run.h"
 #include "src/wavefront/schedule.h"
 #include "src/wavefront/tiles.h"
@@ -27,6 +29,8 @@ class TaskWatcher {
   /// True: tasks that have not begun are left out.
   virtual bool Stopped() const = 0;
   virtual void TaskDone() = 0;
+  /// Stopped by a signal: whatever is in flight must end soon.
+  virtual bool Interrupted() const { return false; }
 };
 
 class Tasks {
@@ -51,11 +55,26 @@ class Tasks {
   /// The round that keeps all threads busy.
   Round FullRound() const;
 
-  /// Brings every tile to `limit` samples per pixel, each from those that it has, in
-  /// tasks of `per_task` of them. Indices in kernels begin with sample `first`, which no
-  /// tile is behind. Tiles may be left behind where the watcher has stopped it.
-  void RunRound(std::uint64_t first, std::uint64_t limit, std::uint32_t per_task,
-                TaskWatcher& watcher, Films& films);
+  /// Does the work. Tiles may be left behind where the watcher has stopped it.
+  void RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films);
+
+  // The same tile by tile, for who shares the work with others.
+  /// Of the full image.
+  const std::vector<PixelRect>& rects() const { return partition_.tiles; }
+  /// Begins a round: its first sample and samples per task.
+  void BeginRound(const RoundWork& work);
+  /// What tiles lack to `limit` samples per pixel.
+  std::vector<TileRange> Behind(std::uint64_t limit) const;
+  std::uint64_t Done(std::size_t tile) const { return done_[tile]; }
+  /// Brings a tile to `range.end` samples per pixel, in its order, or less far where the
+  /// watcher has stopped it. Safe for different tiles from different threads.
+  void BringOn(const TileRange& range, TaskWatcher& watcher, Films& films);
+  /// The films have been given so many samples of the pixels of a tile.
+  void Put(std::size_t tile, std::uint64_t done) { done_[tile] = done; }
+  /// Counts what others have rendered.
+  void Credit(const RunCounts& counts);
+  /// What has been counted since the last call.
+  RunCounts TakeCounts();
 
   /// Takes the trace along. After the last round; the result has its rows and its scale.
   void AddCounts(RunResult& result);

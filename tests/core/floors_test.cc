@@ -56,6 +56,7 @@ constexpr Floor kFloors[] = {
     {"src/wavefront",      "plan and run"},
     {"src/estimate",       "errors, when to stop, comparison"},
     {"src/render",         "a job from settings to outputs"},
+    {"src/ranks",          "processes that render together"},
     {"src/sweep",          "grids of renders"},
     {"src/study",          "measuring strategies"},
     {"src/advise",         "choosing one"},
