@@ -15,6 +15,10 @@ set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 
 set(SHARE ${CMAKE_INSTALL_DATADIR})
 install(TARGETS lanelight)
+# Only where it is asked for by name: cmake --install ... --component mpi.
+if(LANELIGHT_MPI)
+  install(TARGETS lanelight_mpi COMPONENT mpi EXCLUDE_FROM_ALL)
+endif()
 install(DIRECTORY ${EXTRAS}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} OPTIONAL)
 install(FILES ${EXTRAS}/bash/lanelight DESTINATION ${SHARE}/bash-completion/completions)
 install(FILES ${EXTRAS}/fish/lanelight.fish DESTINATION ${SHARE}/fish/vendor_completions.d)

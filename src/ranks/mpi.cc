@@ -8,12 +8,15 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstring>
 #include <deque>
 #include <exception>
 #include <limits>
 #include <list>
+#include <mutex>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -87,7 +90,7 @@ struct WorkHead {
 struct DoneHead {
   RunCounts counts;
   std::uint64_t ranges = 0;
-  double seconds = 0;
+  double seconds = 0;  // of all threads together
   bool interrupted = false;
 };
 
@@ -100,10 +103,12 @@ class Mail {
   }
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
+  std::uint64_t bytes() const { return bytes_; }  // in both directions
 
   /// Returns at once; Sent() sees to it.
   void Send(int to, Tag tag, std::string bytes) {
     LL_CHECK_LE(bytes.size(), std::size_t(std::numeric_limits<int>::max()));
+    bytes_ += bytes.size();
     Letter& letter = letters_.emplace_back();
     letter.bytes = std::move(bytes);
     MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, to,
@@ -129,6 +134,7 @@ class Mail {
     MPI_Get_count(&status, MPI_BYTE, &size);
     Message message = {static_cast<Tag>(status.MPI_TAG),
                        std::string(static_cast<std::size_t>(size), '\0')};
+    bytes_ += message.bytes.size();
     MPI_Mrecv(message.bytes.data(), size, MPI_BYTE, &handle, MPI_STATUS_IGNORE);
     return message;
   }
@@ -151,6 +157,7 @@ class Mail {
     MPI_Request request = MPI_REQUEST_NULL;
   };
   int rank_ = 0, ranks_ = 1;
+  std::uint64_t bytes_ = 0;
   std::list<Letter> letters_;  // stay where they are until they are sent
 };
 
@@ -301,7 +308,7 @@ class RoundOfLeader {
       tasks_.Put(range.tile, done);
     }
     tasks_.Credit(head.counts);
-    queue_.Took(head.counts.samples, head.seconds, member.threads);
+    queue_.Took(head.counts.samples, head.seconds, 1);
     watcher_.TaskDone();
     if (head.interrupted) on_trouble("");
   }
@@ -317,6 +324,148 @@ class RoundOfLeader {
   std::exception_ptr problem_;
   std::atomic<bool> ended_{false}, own_done_{false};
   bool gave_up_ = false;
+};
+
+// Of a rank that serves: renders batches as they come. Its threads go from one to the
+// next without waiting for each other.
+class Workshop {
+ public:
+  explicit Workshop(const Service& service)
+      : service_(service),
+        signal_(service.stop),
+        rows_(service.films.Columns(), WindowOf(service.films)),
+        thread_([this] { Work(); }) {}
+  ~Workshop() {
+    End();
+    thread_.join();
+  }
+
+  void Add(std::string_view bytes) {
+    const auto head = Read<WorkHead>(bytes);
+    Batch batch;
+    for (std::size_t i = 0; i < head.ranges; ++i) {
+      batch.ranges.push_back(Read<TileRange>(bytes));
+    }
+    for (const TileRange& range : batch.ranges) Unpack(range, bytes);
+    const std::lock_guard lock(mutex_);
+    if (batches_.empty()) {
+      // Of another round, perhaps; nobody reads these now.
+      service_.begin(head.round.first);
+      service_.tasks.BeginRound(head.round);
+      cpu_ = ProcessCpuSeconds();
+    }
+    batches_.push_back(std::move(batch));
+    more_.notify_all();
+  }
+
+  /// The answer to the oldest batch, once it is done. Throws what a thread has thrown.
+  std::optional<std::string> Finished() {
+    const std::lock_guard lock(mutex_);
+    if (problem_) std::rethrow_exception(problem_);
+    if (batches_.empty() || batches_.front().done < batches_.front().ranges.size()) {
+      return std::nullopt;
+    }
+    const Batch batch = std::move(batches_.front());
+    batches_.pop_front();
+    return Answer(batch);
+  }
+
+ private:
+  struct Batch {
+    std::vector<TileRange> ranges;
+    std::size_t begun = 0, done = 0;
+    double seconds = 0;
+    RunCounts counts;
+  };
+  // A signal to this rank ends its batches.
+  struct OwnSignal : TaskWatcher {
+    explicit OwnSignal(const std::atomic<bool>* s) : stop(s) {}
+    bool Stopped() const override { return stop != nullptr && *stop; }
+    void TaskDone() override {}
+    const std::atomic<bool>* stop;
+  };
+
+  void Unpack(const TileRange& range, std::string_view& bytes) {
+    service_.tasks.Put(range.tile, range.begin);
+    const PixelRect& rect = service_.tasks.rects().at(range.tile);
+    if (range.begin > 0) {
+      rows_.Put(rect, bytes.substr(0, rows_.BytesOf(rect)));
+      bytes.remove_prefix(rows_.BytesOf(rect));
+    }
+    LL_CHECK_EQ(service_.films.film().Samples(rect.x0, rect.y0), range.begin);
+  }
+
+  std::string Answer(const Batch& batch) {
+    DoneHead head;
+    head.counts = batch.counts;
+    const double now = ProcessCpuSeconds();
+    head.counts.cpu_seconds = now - std::exchange(cpu_, now);
+    head.ranges = batch.ranges.size();
+    head.seconds = batch.seconds;
+    head.interrupted = signal_.Stopped();
+    std::string bytes;
+    Write(head, bytes);
+    for (const TileRange& range : batch.ranges) {
+      Write(std::uint64_t{service_.tasks.Done(range.tile)}, bytes);
+      rows_.Append(service_.tasks.rects()[range.tile], bytes);
+    }
+    return bytes;
+  }
+
+  void End() {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    more_.notify_all();
+  }
+
+  void Work() {
+    try {
+      ParallelFor(static_cast<std::size_t>(MaxThreads()), [this](std::size_t) {
+        try {
+          WorkInThread();
+        } catch (...) {
+          End();
+          throw;
+        }
+      });
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      problem_ = std::current_exception();
+    }
+  }
+
+  void WorkInThread() {
+    std::unique_lock lock(mutex_);
+    while (!ended_) {
+      const auto open =
+          std::find_if(batches_.begin(), batches_.end(),
+                       [](const Batch& b) { return b.begun < b.ranges.size(); });
+      if (open == batches_.end()) {
+        more_.wait(lock);
+        continue;
+      }
+      Batch& batch = *open;
+      const TileRange range = batch.ranges[batch.begun++];
+      lock.unlock();
+      const Clock::time_point start = Clock::now();
+      const RunCounts counts = service_.tasks.BringOn(range, signal_, service_.films);
+      lock.lock();
+      batch.counts.Add(counts);
+      batch.seconds += Since(start);
+      ++batch.done;
+    }
+  }
+
+  const Service& service_;
+  OwnSignal signal_;
+  const TileRows rows_;
+  std::mutex mutex_;  // of all that follows
+  std::condition_variable more_;
+  std::list<Batch> batches_;
+  double cpu_ = 0;  // of the process, when it was last told
+  bool ended_ = false;
+  std::exception_ptr problem_;
+  std::thread thread_;
 };
 
 class MpiCrew : public Crew {
@@ -339,6 +488,7 @@ class MpiCrew : public Crew {
   int ranks() const override { return mail_.ranks(); }
   int threads() const override { return threads_; }
   bool Stopped() const override { return stopped_; }
+  std::uint64_t bytes() const override { return mail_.bytes(); }
   bool gave_up() const { return gave_up_; }
   const std::string& Name(int rank) const {
     return members_[static_cast<std::size_t>(rank)].name;
@@ -399,11 +549,18 @@ class MpiCrew : public Crew {
   }
 
   void Serve(const Service& service) override {
+    Workshop workshop(service);
     while (true) {
-      const Message message = mail_.Await(0);
-      if (message.tag == kEnd) return;
-      LL_CHECK_EQ(int{message.tag}, int{kWork});
-      mail_.Send(0, kDone, DoBatch(message.bytes, service));
+      const std::optional<Message> message = mail_.Receive(0);
+      if (message && message->tag == kEnd) return;
+      if (message) {
+        LL_CHECK_EQ(int{message->tag}, int{kWork});
+        workshop.Add(message->bytes);
+      }
+      const std::optional<std::string> answer = workshop.Finished();
+      if (answer) mail_.Send(0, kDone, *answer);
+      mail_.Sent();
+      if (!message && !answer) std::this_thread::sleep_for(kNap);
     }
   }
 
@@ -419,14 +576,6 @@ class MpiCrew : public Crew {
  private:
   static constexpr double kLongestTask = HandOut::kBatchSeconds / 2;
   static constexpr std::uint32_t kMostWidened = 1024;
-
-  // Of what a rank that serves renders: a signal to it ends its batch.
-  struct OwnSignal : TaskWatcher {
-    explicit OwnSignal(const std::atomic<bool>* s) : stop(s) {}
-    bool Stopped() const override { return stop != nullptr && *stop; }
-    void TaskDone() override {}
-    const std::atomic<bool>* stop;
-  };
 
   Message AwaitFromMember(int r) {
     while (true) {
@@ -451,41 +600,6 @@ class MpiCrew : public Crew {
       mail_.Sent();
       std::this_thread::sleep_for(kNap);
     }
-  }
-
-  static std::string DoBatch(std::string_view bytes, const Service& service) {
-    const Clock::time_point start = Clock::now();
-    const double start_cpu = ProcessCpuSeconds();
-    Tasks& tasks = service.tasks;
-    const TileRows rows(service.films.Columns(), WindowOf(service.films));
-    const auto head = Read<WorkHead>(bytes);
-    std::vector<TileRange> batch;
-    for (std::size_t i = 0; i < head.ranges; ++i) batch.push_back(Read<TileRange>(bytes));
-    for (const TileRange& range : batch) {
-      tasks.Put(range.tile, range.begin);
-      if (range.begin == 0) continue;
-      const PixelRect& rect = tasks.rects().at(range.tile);
-      rows.Put(rect, bytes.substr(0, rows.BytesOf(rect)));
-      bytes.remove_prefix(rows.BytesOf(rect));
-    }
-    service.begin(head.round.first);
-    tasks.BeginRound(head.round);
-    OwnSignal signal(service.stop);
-    ParallelFor(batch.size(),
-                [&](std::size_t i) { tasks.BringOn(batch[i], signal, service.films); });
-    DoneHead done;
-    done.counts = tasks.TakeCounts();
-    done.counts.cpu_seconds = ProcessCpuSeconds() - start_cpu;
-    done.ranges = batch.size();
-    done.seconds = Since(start);
-    done.interrupted = signal.Stopped();
-    std::string answer;
-    Write(done, answer);
-    for (const TileRange& range : batch) {
-      Write(std::uint64_t{tasks.Done(range.tile)}, answer);
-      rows.Append(tasks.rects()[range.tile], answer);
-    }
-    return answer;
   }
 
   Mail mail_;

@@ -152,6 +152,8 @@ Json ToJson(const RenderReport& report, const Json& head) {
         {"pilot", r.pilot_seconds},
         {"write", report.write_seconds}}},
       {"ranks", r.ranks},
+      {"bytes_between_ranks", r.bytes_between_ranks},
+      {"cpu_seconds", r.cpu_seconds},
       {"samples", r.samples},
       {"samples_per_second", double(r.samples) / seconds},
       {"rays", {{"closest", r.rays_closest}, {"shadow", r.rays_shadow}, {"total", rays}}},

@@ -66,6 +66,8 @@ class Crew {
                         Films& films) = 0;
   /// Leader: a rank was interrupted, or has failed: no more is to be begun.
   virtual bool Stopped() const = 0;
+  /// Leader: that have gone to other ranks and come back.
+  virtual std::uint64_t bytes() const { return 0; }
   /// Leader: lets the others go. Throws RankFailure if one has failed.
   virtual void Dismiss() = 0;
   /// Others: does what the leader asks for until it lets them go.

@@ -322,6 +322,7 @@ class Runner : public TaskWatcher {
 RunResult Runner::Result() {
   RunResult result;
   result.ranks = crew_.ranks();
+  result.bytes_between_ranks = crew_.bytes();
   film_.FitControl();
   const RunCounts counts = Counts();
   result.seconds = counts.seconds;

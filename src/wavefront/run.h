@@ -126,6 +126,7 @@ struct RunResult {
   StopReason stop_reason = StopReason::kSamples;
   int looks = 0;  // at which the error was compared with the target
   int ranks = 1;  // processes; profiles and memory are of this one
+  std::uint64_t bytes_between_ranks = 0;
   std::uint64_t samples = 0, rays_closest = 0, rays_shadow = 0;
   Health health;
   std::vector<StageProfile> stages;      // in execution order

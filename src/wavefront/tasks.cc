@@ -160,26 +160,24 @@ std::vector<TileRange> Tasks::Behind(std::uint64_t limit) const {
   return ranges;
 }
 
-void Tasks::BringOn(const TileRange& range, TaskWatcher& watcher, Films& films) {
+RunCounts Tasks::BringOn(const TileRange& range, TaskWatcher& watcher, Films& films) {
   const std::size_t tile = range.tile;
+  RunCounts counts;
   while (done_[tile] < range.end && !watcher.Stopped()) {
     TaskSamples& out = ThreadWorkspace().samples;
     RunTask(partition_.tiles[tile],
             {done_[tile], std::min(range.end, done_[tile] + per_task_)}, out);
     Merge(tile, out, films);
+    counts.Add(out.counts);
     watcher.TaskDone();
   }
+  return counts;
 }
 
 void Tasks::Credit(const RunCounts& counts) {
   const std::lock_guard lock(counts_mutex_);
   counts_.Add(counts);
   taken_ += counts.samples;
-}
-
-RunCounts Tasks::TakeCounts() {
-  const std::lock_guard lock(counts_mutex_);
-  return std::exchange(counts_, {});
 }
 
 void Tasks::RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films) {

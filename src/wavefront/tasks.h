@@ -67,14 +67,13 @@ class Tasks {
   std::vector<TileRange> Behind(std::uint64_t limit) const;
   std::uint64_t Done(std::size_t tile) const { return done_[tile]; }
   /// Brings a tile to `range.end` samples per pixel, in its order, or less far where the
-  /// watcher has stopped it. Safe for different tiles from different threads.
-  void BringOn(const TileRange& range, TaskWatcher& watcher, Films& films);
+  /// watcher has stopped it; returns what that came to, without seconds. Safe for
+  /// different tiles from different threads.
+  RunCounts BringOn(const TileRange& range, TaskWatcher& watcher, Films& films);
   /// The films have been given so many samples of the pixels of a tile.
   void Put(std::size_t tile, std::uint64_t done) { done_[tile] = done; }
   /// Counts what others have rendered.
   void Credit(const RunCounts& counts);
-  /// What has been counted since the last call.
-  RunCounts TakeCounts();
 
   /// Takes the trace along. After the last round; the result has its rows and its scale.
   void AddCounts(RunResult& result);

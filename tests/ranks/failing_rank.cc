@@ -1,0 +1,56 @@
+// A render with several ranks of which one fails: `failing_rank SCENE STATE`. Rank 1
+// throws in the first stage after some calls of it.
+#include <atomic>
+#include <cstdio>
+#include <exception>
+
+#include "src/core/check.h"
+#include "src/core/parallel.h"
+#include "src/ranks/ranks.h"
+#include "src/render/render.h"
+
+namespace lanelight {
+namespace {
+
+constexpr int kGoodCalls = 200;
+StageFn good_stage = nullptr;
+std::atomic<int> calls{0};
+
+void FailingStage(Wave& wave) {
+  LL_CHECK(++calls < kGoodCalls && "planted failure");
+  good_stage(wave);
+}
+
+void Render(const char* scene, const char* state, Crew& crew) {
+  const ThreadLimit threads(1);
+  RenderSettings settings;
+  settings.resolution = {72, 56};
+  settings.spp = 1000;
+  Job job = PrepareJob(scene, settings);
+  if (crew.rank() == 1) {
+    good_stage = job.plan.stages[0].kernel;
+    job.plan.stages[0].kernel = FailingStage;
+  }
+  if (!crew.leads()) return ServeRender(job, crew, nullptr);
+  RenderTargets targets;
+  targets.checkpoint.path = state;
+  RenderHooks hooks;
+  hooks.crew = &crew;
+  RenderToFiles(job, scene, targets, hooks);
+}
+
+}  // namespace
+}  // namespace lanelight
+
+int main(int argc, char** argv) {
+  using namespace lanelight;
+  const auto ranks = JoinRanks(&argc, &argv);
+  if (argc != 3) return ranks->Leave(2);
+  try {
+    Render(argv[1], argv[2], ranks->crew());
+  } catch (const std::exception& error) {
+    if (ranks->crew().leads()) std::fprintf(stderr, "%s\n", error.what());
+    return ranks->Fail(1, error.what());
+  }
+  return ranks->Leave(0);
+}
