@@ -47,7 +47,8 @@ enum Tag : int {
   kEnd      // from the leader
 };
 
-constexpr auto kNap = std::chrono::microseconds(500);
+constexpr auto kShortestNap = std::chrono::microseconds(50);
+constexpr auto kLongestNap = std::chrono::microseconds(2000);
 // Batches that a rank has at most: it begins with the next one while the last one
 // travels.
 constexpr std::size_t kMostBatches = 2;
@@ -60,6 +61,23 @@ constexpr double kRoundSeconds = 4;
 double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+// Naps between looks at the mail, longer while nothing comes.
+class Naps {
+ public:
+  /// `moved`: something has come, and more may follow soon.
+  void Take(bool moved) {
+    if (moved) {
+      nap_ = kShortestNap;
+      return;
+    }
+    std::this_thread::sleep_for(nap_);
+    nap_ = std::min<std::chrono::microseconds>(2 * nap_, kLongestNap);
+  }
+
+ private:
+  std::chrono::microseconds nap_ = kShortestNap;
+};
 
 // Bytes of a message, one value after the other.
 template <class Value>
@@ -140,15 +158,14 @@ class Mail {
   }
 
   Message Await(int from) {
-    while (true) {
+    for (Naps naps;; naps.Take(false)) {
       Sent();
       if (auto message = Receive(from)) return std::move(*message);
-      std::this_thread::sleep_for(kNap);
     }
   }
 
   void AwaitSent() {
-    while (!Sent()) std::this_thread::sleep_for(kNap);
+    for (Naps naps; !Sent();) naps.Take(false);
   }
 
  private:
@@ -166,6 +183,7 @@ struct Member {
   std::string name;  // "rank 2 on node7"
   int threads = 1;
   bool gone = false;
+  std::deque<Message> texts;                   // that nobody has asked for yet
   std::deque<std::vector<TileRange>> batches;  // that it has not sent back
 };
 
@@ -234,6 +252,7 @@ class RoundOfLeader {
   template <class OnTrouble>
   void Serve(OnTrouble& on_trouble) {
     std::optional<Clock::time_point> signal;
+    Naps naps;
     while (true) {
       bool moved = false;
       for (std::size_t r = 1; r < members_.size(); ++r) {
@@ -247,7 +266,7 @@ class RoundOfLeader {
         gave_up_ = true;
         return;
       }
-      if (!moved) std::this_thread::sleep_for(kNap);
+      naps.Take(moved);
     }
   }
 
@@ -550,6 +569,7 @@ class MpiCrew : public Crew {
 
   void Serve(const Service& service) override {
     Workshop workshop(service);
+    Naps naps;
     while (true) {
       const std::optional<Message> message = mail_.Receive(0);
       if (message && message->tag == kEnd) return;
@@ -560,17 +580,14 @@ class MpiCrew : public Crew {
       const std::optional<std::string> answer = workshop.Finished();
       if (answer) mail_.Send(0, kDone, *answer);
       mail_.Sent();
-      if (!message && !answer) std::this_thread::sleep_for(kNap);
+      naps.Take(message || answer);
     }
   }
 
   /// Of a rank that has failed: tells the leader, who will end it.
   [[noreturn]] void Confess(const std::string& message) {
     mail_.Send(0, kFailed, message);
-    while (true) {
-      mail_.Sent();
-      std::this_thread::sleep_for(20 * kNap);
-    }
+    for (Naps naps;; naps.Take(false)) mail_.Sent();
   }
 
  private:
@@ -578,7 +595,7 @@ class MpiCrew : public Crew {
   static constexpr std::uint32_t kMostWidened = 1024;
 
   Message AwaitFromMember(int r) {
-    while (true) {
+    for (Naps naps;; naps.Take(false)) {
       // Whoever has failed is heard at once, even while another one takes its time.
       for (int other = 1; other < ranks(); ++other) {
         auto message = mail_.Receive(other);
@@ -587,24 +604,20 @@ class MpiCrew : public Crew {
           throw RankFailure("error: " + Name(other) + ": " + message->bytes);
         }
         LL_CHECK_EQ(int{message->tag}, int{kText});
-        members_texts_.resize(static_cast<std::size_t>(ranks()));
-        members_texts_[static_cast<std::size_t>(other)].push_back(std::move(*message));
+        members_[static_cast<std::size_t>(other)].texts.push_back(std::move(*message));
       }
-      members_texts_.resize(static_cast<std::size_t>(ranks()));
-      auto& texts = members_texts_[static_cast<std::size_t>(r)];
+      auto& texts = members_[static_cast<std::size_t>(r)].texts;
       if (!texts.empty()) {
         Message message = std::move(texts.front());
         texts.pop_front();
         return message;
       }
       mail_.Sent();
-      std::this_thread::sleep_for(kNap);
     }
   }
 
   Mail mail_;
   std::vector<Member> members_;  // by rank; the leader's own first
-  std::vector<std::deque<Message>> members_texts_;
   int threads_;
   double cost_ = 0;  // processor seconds of a sample
   std::uint32_t widen_ = 1;
