@@ -9,6 +9,7 @@
 #include "src/render/identity.h"
 #include "src/render/output.h"
 #include "src/render/saving.h"
+#include "src/wavefront/tiles.h"
 
 namespace lanelight {
 namespace {
@@ -30,6 +31,16 @@ bool SameTiles(const std::vector<PixelRect>& a, const std::vector<PixelRect>& b)
                     });
 }
 
+// Tiles as they are without a state where all of the image is rendered: larger ones if
+// there are few samples. Parts have the same tiles whatever the number of samples is.
+std::vector<PixelRect> TilesToRender(const Job& job, const Part& part) {
+  if (part.count == 1) {
+    return MakePartition(job.window, job.OpenEnded() ? kPilotSpp : job.spp).tiles;
+  }
+  const bool blocks = job.scene.strategy.control == Control::kRegression;
+  return TilesOfPart(job.window, part, blocks ? RegressionFilm::kBlock : 1);
+}
+
 std::uint64_t PixelsOf(const std::vector<PixelRect>& tiles) {
   std::uint64_t pixels = 0;
   for (const PixelRect& tile : tiles) pixels += tile.pixels();
@@ -46,8 +57,7 @@ Checkpoint::Checkpoint(const Job& job, const CheckpointSettings& settings,
       identity_(IdentityOf(job).dump(1)),
       head_(head.dump()),
       on_problem_(std::move(on_problem)) {
-  const bool blocks = job.scene.strategy.control == Control::kRegression;
-  tiles_ = TilesOfPart(job.window, settings.part, blocks ? RegressionFilm::kBlock : 1);
+  tiles_ = TilesToRender(job, settings.part);
   if (!settings.path.empty()) lock_.emplace(settings.path, on_problem_);
   Open();
   next_ = Milliseconds() + static_cast<std::int64_t>(1000 * settings_.seconds);
