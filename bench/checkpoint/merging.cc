@@ -1,0 +1,107 @@
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+#include "bench/checkpoint/cases.h"
+#include "bench/resident.h"
+#include "bench/series.h"
+#include "src/core/clock.h"
+#include "src/render/merge.h"
+
+namespace lanelight::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// The states of all parts, from one film: as if each had rendered its own pixels, except
+// that each counts the samples of all.
+std::vector<std::string> WriteParts(const CheckpointBench& bench, const Job& job,
+                                    int count, RunState& state) {
+  std::vector<std::string> paths;
+  for (int part = 1; part <= count; ++part) {
+    CheckpointSettings settings;
+    settings.path = bench.Path(fmt::format("part-{}.state", part));
+    settings.part = {part, count};
+    fs::remove(settings.path);
+    Checkpoint checkpoint(job, settings, HeadOf(job), ThrowProblem);
+    checkpoint.Keep(state);
+    checkpoint.Finish();
+    paths.push_back(settings.path);
+  }
+  return paths;
+}
+
+struct Merging {
+  Series seconds, cpu;
+  double file_bytes = 0, peak = 0;  // beyond what there was before
+};
+
+Merging Measure(const CheckpointBench& bench, const std::vector<std::string>& paths,
+                const Job& job, BenchFilm& whole) {
+  Merging m;
+  for (const std::string& path : paths) m.file_bytes += double(fs::file_size(path));
+  for (int i = 0; i <= bench.repeats; ++i) {
+    const double before = double(ResidentBytes());
+    if (!ForgetPeak()) throw std::runtime_error("the peak of memory cannot be reset");
+    const Clock::time_point start = Clock::now();
+    const double cpu = ProcessCpuSeconds();
+    MergedRender merged = MergeStates(paths);
+    const std::chrono::duration<double> taken = Clock::now() - start;
+    const double taken_cpu = ProcessCpuSeconds() - cpu;
+    if (i == 0) {  // warms up, and is verified
+      BenchFilm film(job);
+      film.film = *merged.film;
+      if (merged.missing != 0 || !film.SameAs(whole)) {
+        throw std::runtime_error("WRONG: the merged film is not the uncut one");
+      }
+      continue;
+    }
+    m.seconds.Add(taken.count());
+    m.cpu.Add(taken_cpu);
+    m.peak = std::max(m.peak, double(PeakResidentBytes()) - before);
+  }
+  return m;
+}
+
+}  // namespace
+
+nlohmann::json MeasureMerging(const CheckpointBench& bench) {
+  const Job job = JobOf(bench, bench.resolution, bench.spp);
+  BenchFilm film(job);
+  nlohmann::json out = nlohmann::json::array();
+  const double film_bytes = double(film.Bytes());
+  std::printf("  film %.1f MB; GB/s of film\n", 1e-6 * film_bytes);
+  std::printf("  %5s %9s %8s %8s %8s %8s %8s %12s\n", "parts", "files MB", "seconds",
+              "least", "most", "cpu s", "GB/s", "peak / film");
+  const auto measure = [&](RunState& state) {
+    for (int count : bench.parts) {
+      const auto paths = WriteParts(bench, job, count, state);
+      const Merging m = Measure(bench, paths, job, film);
+      for (const std::string& path : paths) fs::remove(path);
+      std::printf("  %5d %9.1f %8.3f %8.3f %8.3f %8.3f %8.2f %12.3f\n", count,
+                  1e-6 * m.file_bytes, m.seconds.Median(), m.seconds.Least(),
+                  m.seconds.Most(), m.cpu.Median(),
+                  1e-9 * film_bytes / m.seconds.Median(), m.peak / film_bytes);
+      std::fflush(stdout);
+      out.push_back({{"parts", count},
+                     {"film_bytes", film_bytes},
+                     {"file_bytes", m.file_bytes},
+                     {"seconds", m.seconds.Json()},
+                     {"cpu", m.cpu.Json()},
+                     {"gb_per_second", 1e-9 * film_bytes / m.seconds.Median()},
+                     {"peak_over_film", m.peak / film_bytes}});
+    }
+  };
+  CheckpointSettings none;
+  Checkpoint checkpoint(job, none, HeadOf(job), ThrowProblem);
+  WatchedKeeper keeper(checkpoint, measure);
+  RunOptions options = RunOptionsOf(job, film.film);
+  options.tiles = checkpoint.tiles();
+  options.keeper = &keeper;
+  Run(job.scene, job.plan, options, film.film);
+  return out;
+}
+
+}  // namespace lanelight::bench
