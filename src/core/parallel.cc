@@ -63,6 +63,10 @@ int MaxThreads() {
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
+int ThreadSlots() {
+  return std::max(MaxThreads(), tbb::this_task_arena::max_concurrency()) + 1;
+}
+
 int ThreadIndex() { return std::max(0, tbb::this_task_arena::current_thread_index()); }
 
 void ParallelFor(std::size_t n, const std::function<void(std::size_t)>& body) {

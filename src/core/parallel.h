@@ -24,8 +24,11 @@ class ThreadLimit {
 /// Threads the functions below will use at most.
 int MaxThreads();
 
-/// Index of the calling thread in [0, MaxThreads()) inside a parallel function.
+/// Index of the calling thread inside a parallel function, below ThreadSlots().
 int ThreadIndex();
+/// Indices that threads may have: with a limit below the number of cores, more than there
+/// are threads.
+int ThreadSlots();
 
 /// Calls body(i) for i in [0, n), in parallel, in no particular order. The first
 /// exception thrown by a body is rethrown here; the remaining items may be skipped.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src/core/check.h"
+#include "src/core/huge_pages.h"
 
 namespace lanelight {
 
@@ -14,15 +15,15 @@ FilmAccumulator::FilmAccumulator(int x0, int y0, int width, int height,
   LL_CHECK(groups.unit == 1 || groups.unit == 2);
   const std::size_t pixels =
       static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  samples_.resize(pixels);
+  ResizeInHugePages(samples_, pixels);
   if (groups.replicates) {
-    replicates_.resize(pixels);
+    ResizeInHugePages(replicates_, pixels);
   } else {
-    units_.resize(pixels);
+    ResizeInHugePages(units_, pixels);
     if (groups.unit > 1) open_.resize(pixels);
   }
   if (!aov) return;
-  aov_.resize(pixels);
+  ResizeInHugePages(aov_, pixels);
   planes_ = SamplePlanes({Feature::kAov});
 }
 

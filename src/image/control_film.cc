@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/core/huge_pages.h"
 #include "src/core/parallel.h"
 
 namespace lanelight {
@@ -57,9 +58,9 @@ ControlFilm::ControlFilm(int width, int height, const SampleGroups& groups)
   const std::size_t pixels =
       static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (groups.replicates) {
-    replicates_.resize(pixels);
+    ResizeInHugePages(replicates_, pixels);
   } else {
-    halves_.resize(pixels);
+    ResizeInHugePages(halves_, pixels);
     open_.resize(pixels);
   }
   coefficients_.resize(pixels);

@@ -22,7 +22,8 @@ std::vector<TileRange> HandOut::Next(int threads) {
   }
   // Half of what would be everybody's share of the rest.
   const std::size_t share = left * team / (2 * static_cast<std::size_t>(threads_));
-  count = std::clamp<std::size_t>(count, 1, std::max<std::size_t>(share, 1));
+  // Less than one for each of its threads would leave some of them idle.
+  count = std::min({count, std::max(share, team), left});
   const auto begin = ranges_.begin() + static_cast<std::ptrdiff_t>(next_);
   next_ += count;
   return {begin, begin + static_cast<std::ptrdiff_t>(count)};

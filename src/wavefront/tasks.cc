@@ -70,7 +70,7 @@ Tasks::Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& 
     partition_.samples += partition_.samples & 1;
   }
   done_.resize(partition_.tiles.size());
-  workspaces_.resize(static_cast<std::size_t>(MaxThreads()) + 1);
+  workspaces_.resize(static_cast<std::size_t>(ThreadSlots()));
 }
 
 void Tasks::UseWindows(std::uint64_t planned_spp) {

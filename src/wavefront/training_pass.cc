@@ -31,7 +31,7 @@ class Pass {
         run_(Parameters(scene, plan_, run, work.spp)),
         work_(work),
         copies_(plan_.features.Has(Feature::kSplitting) ? kMostCopies : 1) {
-    wavefronts_.resize(static_cast<std::size_t>(MaxThreads()) + 1);
+    wavefronts_.resize(static_cast<std::size_t>(ThreadSlots()));
     samples_.colors.resize(work.samples());
     samples_.planes = run_.planes.count() - kColorPlanes;
     samples_.recorded.resize(work.samples() * static_cast<std::size_t>(samples_.planes));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "src/core/parallel.h"
 #include "src/render/job.h"
 
 namespace lanelight {
@@ -37,6 +38,8 @@ Render RenderCrop(std::uint64_t spp, const std::string& points) {
   if (points == "independent") settings.points = Points::kIndependent;
   const Job job = PrepareJob(LANELIGHT_SOURCE_DIR "/scenes/cornell-box.pbrt", settings);
   FilmAccumulator film = MakeFilm(job);
+  // A second thread may come to work, and need memory, in one render and not in another.
+  const ThreadLimit limit(1);
   ForgetPeak();
   const RunResult result = RunJob(job, film);
   Render out;

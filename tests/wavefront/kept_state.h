@@ -19,7 +19,7 @@ struct KeptColumn {
 
 inline std::vector<KeptColumn> CopyColumns(Films& films) {
   std::vector<KeptColumn> kept;
-  for (const StateColumn& column : films.Columns()) {
+  for (const MutableStateColumn& column : films.Columns()) {
     KeptColumn copy{column.name, std::vector<char>(column.rows * column.RowBytes())};
     std::memcpy(copy.bytes.data(), column.data, copy.bytes.size());
     kept.push_back(std::move(copy));
@@ -29,7 +29,7 @@ inline std::vector<KeptColumn> CopyColumns(Films& films) {
 
 /// Into films of the same kind.
 inline void PutColumns(const std::vector<KeptColumn>& kept, Films& films) {
-  const std::vector<StateColumn> columns = films.Columns();
+  const std::vector<MutableStateColumn> columns = films.Columns();
   REQUIRE(columns.size() == kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i) {
     REQUIRE(columns[i].name == kept[i].name);

@@ -300,7 +300,7 @@ class LateStart : public RunKeeper {
  public:
   explicit LateStart(std::uint64_t first) : first_(first) {}
   bool Restore(RunState& state) override {
-    for (const StateColumn& column : state.films.Columns()) {
+    for (const MutableStateColumn& column : state.films.Columns()) {
       if (column.name != "samples") continue;
       auto* const samples = static_cast<std::uint64_t*>(column.data);
       std::fill(samples, samples + column.rows, first_);
