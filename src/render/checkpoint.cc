@@ -152,8 +152,10 @@ void Checkpoint::Keep(RunState& state) {
     last_ = std::make_unique<SerialisedState>(Serialise(state));
   }
   writing_ = std::async(std::launch::async, [this, watch = Watch(state)] {
-    if (watch) Try(watch);
-    return last_ != nullptr && Try([this] { last_->Write(settings_.path); });
+    const bool watched = !watch || Try(watch);
+    const bool kept = !last_ || Try([this] { last_->Write(settings_.path); });
+    if (watched && kept) told_.clear();
+    return last_ != nullptr && kept;
   });
   ++count_;
   pause_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
@@ -191,12 +193,12 @@ std::function<void()> Checkpoint::Watch(RunState& state) const {
           height = film.height()] { WriteExr(path, width, height, *planes, options); };
 }
 
-bool Checkpoint::Try(const std::function<void()>& write) const {
+bool Checkpoint::Try(const std::function<void()>& write) {
   try {
     write();
     return true;
   } catch (const std::exception& error) {
-    on_problem_(error.what());
+    if (told_.insert(error.what()).second) on_problem_(error.what());
     return false;
   }
 }

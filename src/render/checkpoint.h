@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -71,13 +72,14 @@ class Checkpoint : public RunKeeper {
   SerialisedState Serialise(RunState& state) const;
   /// What writes the image so far; nothing if nobody watches.
   std::function<void()> Watch(RunState& state) const;
-  /// False after an exception, of which on_problem is told.
-  bool Try(const std::function<void()>& write) const;
+  /// False after an exception, of which on_problem is told, once until all is well.
+  bool Try(const std::function<void()>& write);
 
   const Job& job_;
   CheckpointSettings settings_;
   std::string identity_, head_;
   std::function<void(const std::string&)> on_problem_;
+  std::set<std::string> told_;  // problems
   std::vector<PixelRect> tiles_;
   std::optional<StateLock> lock_;
   std::unique_ptr<StateFile> from_;
