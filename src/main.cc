@@ -129,9 +129,12 @@ int Parse(CLI::App& root, int argc, char** argv) {
 }
 
 // Runs what was asked for. A message: it has failed, and this is why.
-int Execute(const Command& chosen, std::string& message) {
+int Execute(const CLI::App& root, const Command& chosen, int argc, char** argv,
+            std::string& message) {
   try {
     return chosen();
+  } catch (const CLI::ParseError& error) {  // a flag that only the command understands
+    return ReportParse(root, error, argc, argv);
   } catch (const InputError& error) {
     message = error.what();
   } catch (const RankFailure& error) {
@@ -165,10 +168,12 @@ int Run(CLI::App& root, const Command& chosen, Ranks& ranks, int argc, char** ar
                "file missing there, or its program another?");
     return ranks.Fail(kExitUsage, "");
   }
-  if (exit_code != kGoOn) return ranks.Leave(exit_code);
+  if (exit_code != kGoOn) {
+    return ranks.Leave(FlushOutput() ? exit_code : static_cast<int>(kExitBadInput));
+  }
   if (!ForRanks(root, ranks.crew())) return ranks.Leave(kExitUsage);
   std::string message;
-  exit_code = Execute(chosen, message);
+  exit_code = Execute(root, chosen, argc, argv, message);
   if (!message.empty()) {
     PrintError(message);
     FlushOutput();

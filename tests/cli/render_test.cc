@@ -65,7 +65,7 @@ TEST_CASE("a render writes an image, a PNG and a report", "[cli]") {
   CHECK(image.attributes.count("sceneHash") == 1);
 
   const nlohmann::json report = ReadJson(json);
-  CHECK(report.at("schema") == 2);
+  CHECK(report.at("schema") == 3);
   CHECK(report.at("samples") == 32 * 24 * 8);
   CHECK(report.at("rays").at("closest") >= 32 * 24 * 8);
   CHECK(report.at("health") ==

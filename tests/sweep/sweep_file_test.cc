@@ -178,7 +178,7 @@ TEST_CASE("sweep: mistakes are named with their place and a remedy", "[sweep]") 
       {"[grid]\nscene = 'a.pbrt'\nspp = [4, 1, 4]",
        "3:14",
        {"\"4\" is there twice", "line 3"}},
-      {"[grid]\nscene = 'a.pbrt'\nspp = 99999999999", "3:7", {"to 2147483648"}},
+      {"[grid]\nscene = 'a.pbrt'\nspp = 99999999999999", "3:7", {"to 1099511627776"}},
       {"[grid]\nscene = 'a.pbrt'\ntime = nan", "3:8", {"time is the number nan"}},
       {"[grid]\nscene = 'a.pbrt'\ntime = inf", "3:8", {"time is the number inf"}},
       {"[grid]\nscene = 'a.pbrt'\ntime = 0",
