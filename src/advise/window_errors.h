@@ -30,7 +30,8 @@ class WindowSequence {
 inline constexpr double kWindowSamples = 8 * 8 * 128;
 
 /// Renders windows with strategies of the job's scene. A window of 8 x 8 pixels has 128
-/// samples per pixel, in four randomisations of 32: what strata gain beyond that is not seen.
+/// samples per pixel, in four randomisations of 32: what strata gain beyond that is not
+/// seen.
 class WindowRenderer {
  public:
   /// `strategies` by index; all must be such that the scene takes them.

@@ -32,8 +32,8 @@ struct CheckpointSettings {
   std::string path;     // state to keep; empty: none
   double seconds = 60;  // between two of them
   Resume resume = Resume::kNever;
-  std::string watch;  // EXR of the image so far, written with each state; empty: none
-  Part part;          // of the render
+  std::string watch;     // EXR of the image so far, written with each state; empty: none
+  Part part;             // of the render
   bool finished = true;  // the state of a render that is finished is kept too
 
   bool Any() const { return !path.empty() || !watch.empty(); }
