@@ -5,8 +5,11 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <optional>
 #include <string>
+
+#include "src/core/file_lock.h"
 
 namespace lanelight {
 
@@ -21,17 +24,14 @@ class Claims {
 
    private:
     friend class Claims;
-    Claim(int file, long offset) : file_(file), offset_(offset) {}
-    int file_;
-    long offset_;
+    Claim(LockFile* file, std::uint64_t byte) : file_(file), byte_(byte) {}
+    LockFile* file_;  // null: nothing to give back
+    std::uint64_t byte_;
   };
 
   /// Opens or makes the file. Throws InputError if that fails, and, unless `optional`, if
   /// its file system has no locks. With `optional` every claim is then granted.
   explicit Claims(const std::string& path, bool optional = false);
-  ~Claims();
-  Claims(const Claims&) = delete;
-  Claims& operator=(const Claims&) = delete;
 
   /// Empty if another process has it. Keys become bytes by their hash: two keys may share
   /// one with a probability of 2^-62, and are then not claimed at once. Throws InputError
@@ -44,8 +44,7 @@ class Claims {
   bool locking() const { return locking_; }
 
  private:
-  std::string path_;
-  int file_ = -1;
+  mutable LockFile file_;
   bool locking_ = true;
 };
 
