@@ -140,7 +140,7 @@ def deal_round(cost, nodes, cores, k, per_range):
     while at < ranges:
         asked, free, node = heapq.heappop(asking)
         left = ranges - at
-        count = min(wanted, max(left * cores // (2 * threads), int(k["batch_least"])), left)
+        count = min(wanted, max(left * cores // (2 * threads), cores), left)
         batch = cost[at : at + count]
         at += count
         leader = max(leader, asked) + k["message"] + count * per_range

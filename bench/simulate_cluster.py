@@ -93,7 +93,7 @@ class Test(unittest.TestCase):
     K = {
         "film_bytes": 2e8, "merge_bytes_per_second": 1e9, "merge_per_part": 0.0,
         "start": 0.0, "requeue": 100.0, "checkpoint_interval": 60.0, "node_tail": 0.0,
-        "pause_cpu": 0.0, "pause_scales_to": 16, "batch": 0.2, "batch_least": 16,
+        "pause_cpu": 0.0, "pause_scales_to": 16, "batch": 0.2,
         "latency": 0.0, "message": 0.0, "network_bytes_per_second": 1e30, "round": 3.0,
         "longest_range": 0.2,
     }
@@ -102,6 +102,11 @@ class Test(unittest.TestCase):
 
     def machine(self, nodes=10, failures=0.0, seed=1, **changed):
         return Machine({**self.K, **changed}, nodes, 16, failures, seed)
+
+    def test_the_constants_can_be_read(self):
+        scenes, constants = read_constants(pathlib.Path(__file__).with_name("constants.json"))
+        self.assertEqual(len(scenes) >= 2, True)
+        self.assertLessEqual(set(self.K), set(constants))
 
     def test_parts_cover_everything_evenly(self):
         for scene in (self.EVEN, self.UNEVEN):
