@@ -71,6 +71,25 @@ expect 0 profile cornell-box.pbrt --resolution 40x30 --spp 4 --trace "$out/trace
 expect 0 advise cornell-box.pbrt --resolution 40x30 --time 2 -o "$out/image.exr" --quiet
 expect 0 study cornell-box.pbrt --out "$out/study" --resolution 24x18 --spp 4,8 \
   --strategies 'default;points=pmj02' --repetitions 3 --quiet
+# States are written beside the render; parts, and what they are merged into.
+render cornell-box.pbrt --resolution 40x30 --spp 256 --checkpoint "$out/whole.state" \
+  --every 0.05 --watch "$out/watch.exr" --strategy control=analytic
+render cornell-box.pbrt --resolution 40x30 --spp 300 --resume "$out/whole.state" \
+  --strategy control=analytic
+for part in 1 2; do
+  expect 0 render cornell-box.pbrt --resolution 40x30 --spp 16 --quiet --part $part/2 \
+    --checkpoint "$out/part-$part.state" --strategy roulette=adjoint
+done
+expect 0 merge "$out/part-2.state" "$out/part-1.state" -o "$out/image.exr" --quiet
+expect 1 merge "$out/part-1.state" -o "$out/image.exr" --quiet
+cat >"$out/sweep.toml" <<END
+[grid]
+scene = "$PWD/cornell-box.pbrt"
+strategy = ["default", "points=cmj"]
+spp = [4, 16]
+resolution = "24x18"
+END
+expect 0 sweep "$out/sweep.toml" --out "$out/sweep" --quiet
 expect 1 plan ../tests/broken/error-in-include.pbrt
 expect 2 render --nonsense
 expect 0 info
