@@ -37,13 +37,25 @@ void ReleaseMeshes(SceneDescription& description) {
 }  // namespace
 
 Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
-  Job job;
-  job.settings = settings;
   Stopwatch watch;
   ParseOptions parse;
   parse.skip_unsupported = settings.skip_unsupported;
-  ParallelInvoke([&] { job.description = ParseScene(scene_path, parse); },
-                 [&] { job.scene_hash = HashSceneFiles(scene_path); });
+  SceneDescription description;
+  std::uint64_t scene_hash = 0;
+  ParallelInvoke([&] { description = ParseScene(scene_path, parse); },
+                 [&] { scene_hash = HashSceneFiles(scene_path); });
+  const double seconds = watch.Lap();
+  Job job = PrepareJob(std::move(description), settings);
+  job.scene_hash = scene_hash;
+  job.load_seconds += seconds;
+  return job;
+}
+
+Job PrepareJob(SceneDescription description, const RenderSettings& settings) {
+  Job job;
+  job.settings = settings;
+  job.description = std::move(description);
+  Stopwatch watch;
   ApplySettings(settings, job.description);
   job.window = RenderedPixels(job.description.film);
   CheckFilmFits(job.window, settings.aov, job.description.strategy, PhysicalMemory());

@@ -36,6 +36,9 @@ struct Job {
 /// Throws InputError.
 Job PrepareJob(const std::string& scene_path, const RenderSettings& settings);
 
+/// The same for a scene that is parsed already; its hash is 0.
+Job PrepareJob(SceneDescription description, const RenderSettings& settings);
+
 /// Switches the job to another strategy without compiling the scene again. Throws
 /// InputError if the scene does not take it; then the job is to be given another.
 void SetStrategy(Job& job, const Strategy& strategy);

@@ -60,6 +60,8 @@ constexpr Floor kFloors[] = {
     {"src/sweep",          "grids of renders"},
     {"src/study",          "measuring strategies"},
     {"src/advise",         "choosing one"},
+    {"src/stress",         "extremes, measured and judged"},
+    {"src/stress/cases",   "what is extreme, and what must be true there"},
     {"src/cli",            "flags and text"},
     {"src",                "main"},
 };

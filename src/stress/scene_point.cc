@@ -1,0 +1,49 @@
+#include "src/stress/scene_point.h"
+
+#include <cmath>
+#include <utility>
+
+#include "src/parse/parse.h"
+
+namespace lanelight::stress {
+
+Rendered RenderText(const SceneText& scene) {
+  ParseOptions parse;
+  parse.allow_files = false;
+  const Job job =
+      PrepareJob(ParseSceneText(scene.text, "scene", ".", parse), scene.settings);
+  FilmAccumulator film = MakeFilm(job);
+  RunResult result = RunJob(job, film);
+  return {std::move(film), std::move(result)};
+}
+
+Point MeanOf(const Rendered& rendered) {
+  const FilmAccumulator& film = rendered.film;
+  Point point;
+  double sum = 0, variance = 0;
+  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
+    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
+      const Rgb mean = film.Mean(x, y), own = film.Variance(x, y);
+      sum += (mean.x + mean.y + mean.z) / 3;
+      // Channels of one pixel depend on each other: their standard deviations add.
+      const double deviation =
+          (std::sqrt(own.x) + std::sqrt(own.y) + std::sqrt(own.z)) / 3;
+      variance += deviation * deviation;
+    }
+  }
+  const double pixels = double(film.width()) * film.height();
+  point.measured = sum / pixels;
+  point.standard_error = std::sqrt(variance) / pixels;
+  const RunResult& result = rendered.result;
+  point.samples = result.samples;
+  point.rays = result.rays_closest + result.rays_shadow;
+  point.invalid = result.health.nan + result.health.infinite + result.health.negative;
+  point.seconds = result.cpu_seconds;
+  for (const StageProfile& stage : result.stages) {
+    point.lanes_used += stage.items;
+    point.lane_slots += stage.lane_slots;
+  }
+  return point;
+}
+
+}  // namespace lanelight::stress

@@ -1,0 +1,32 @@
+// Renders a scene that is written on the spot and makes a point of what it came to.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "src/render/job.h"
+#include "src/stress/stress_case.h"
+
+namespace lanelight::stress {
+
+/// A scene as pbrt text (no files), and how to render it.
+struct SceneText {
+  std::string text;
+  RenderSettings settings;  // resolution, spp, seed, strategy, depth
+};
+
+/// A rendered scene.
+struct Rendered {
+  FilmAccumulator film;
+  RunResult result;
+};
+
+/// Parses, compiles, plans, renders. Throws InputError for what is refused.
+Rendered RenderText(const SceneText& scene);
+
+/// Mean over all pixels and the three channels, with its standard error from the pixels'
+/// own variances, counts of rays, invalid samples, lanes and seconds.
+Point MeanOf(const Rendered& rendered);
+
+}  // namespace lanelight::stress
