@@ -12,6 +12,7 @@ inline constexpr const char* kPairs[] = {LANELIGHT_PAIRS(X)};
 inline constexpr const char* kControls[] = {LANELIGHT_CONTROLS(X)};
 inline constexpr const char* kRoulettes[] = {LANELIGHT_ROULETTES(X)};
 inline constexpr const char* kLightSelections[] = {LANELIGHT_LIGHT_SELECTIONS(X)};
+inline constexpr const char* kSeenLights[] = {LANELIGHT_SEEN_LIGHTS(X)};
 #undef X
 #define X(enumerator, text, meaning) text,
 inline constexpr const char* kPaired[] = {LANELIGHT_PAIRED(X)};

@@ -14,6 +14,9 @@ namespace lanelight {
 /// Probability of ending of roulette=constant, unless another is given.
 #define LANELIGHT_CONSTANT_TERMINATION 0.25
 inline constexpr double kConstantTermination = LANELIGHT_CONSTANT_TERMINATION;
+/// Camera rays per path of seen-lights=apart.
+#define LANELIGHT_SEEN_LIGHT_RAYS 16
+inline constexpr int kSeenLightRays = LANELIGHT_SEEN_LIGHT_RAYS;
 #define LANELIGHT_TEXT(value) LANELIGHT_TEXT_OF(value)
 #define LANELIGHT_TEXT_OF(value) #value
 
@@ -78,6 +81,12 @@ inline constexpr double kConstantTermination = LANELIGHT_CONSTANT_TERMINATION;
     "p ~ power, by an alias table", "Walker 1977; Vose 1991")                             \
   X(Tree, PLAIN, ({kLightTree}), "tree", "", "descends a tree of lights by power, distance and orientation", \
     "p = product over levels of importance / sum of importances", "Conty Estevez and Kulla 2018")
+
+#define LANELIGHT_SEEN_LIGHTS(X)                                                          \
+  X(Paths, PLAIN, ({}), "paths", "", "light that the camera sees itself by the camera rays of the paths", \
+    "1/N sum Le(x_i)", "")                                                                \
+  X(Apart, PLAIN, ({}), "apart", "", "the same, but by " LANELIGHT_TEXT(LANELIGHT_SEEN_LIGHT_RAYS) " further camera rays per path in pixels at edges of lights (default)", \
+    "1/N sum (f_i - Le(x_i)) + 1/(M N) sum Le(y_j), M = " LANELIGHT_TEXT(LANELIGHT_SEEN_LIGHT_RAYS), "splitting: Arvo and Kirk 1990")
 // clang-format on
 
 // Dimensions that an antithetic pair shares and reflects: X(name, text, meaning)
@@ -96,6 +105,7 @@ LANELIGHT_ENUM(Pairs, LANELIGHT_PAIRS(X));
 LANELIGHT_ENUM(Control, LANELIGHT_CONTROLS(X));
 LANELIGHT_ENUM(Roulette, LANELIGHT_ROULETTES(X));
 LANELIGHT_ENUM(LightSelection, LANELIGHT_LIGHT_SELECTIONS(X));
+LANELIGHT_ENUM(SeenLights, LANELIGHT_SEEN_LIGHTS(X));
 LANELIGHT_ENUM(Paired, LANELIGHT_PAIRED(X));
 #undef X
 #undef LANELIGHT_ENUM

@@ -29,6 +29,9 @@ constexpr ChoiceInfo kChoices[] = {
 #define X(enumerator, ...) ROW("light-selection", __VA_ARGS__)
                         LANELIGHT_LIGHT_SELECTIONS(X)
 #undef X
+#define X(enumerator, ...) ROW("seen-lights", __VA_ARGS__)
+                            LANELIGHT_SEEN_LIGHTS(X)
+#undef X
 #undef ROW
 };
 
@@ -66,8 +69,9 @@ std::string ToText(const Strategy& s) {
   if (s.control != Control::kNone) {
     text += s.coefficient ? fmt::format(",c={}", *s.coefficient) : ",c=optimal";
   }
-  return text + fmt::format(",roulette={},light-selection={}", RouletteText(s),
-                            Name(s.light_selection));
+  return text + fmt::format(",roulette={},light-selection={},seen-lights={}",
+                            RouletteText(s), Name(s.light_selection),
+                            Name(s.seen_lights));
 }
 
 std::span<const ChoiceInfo> AllChoices() { return kChoices; }
@@ -81,6 +85,7 @@ const char* Name(Roulette choice) { return kRoulettes[static_cast<int>(choice)];
 const char* Name(LightSelection choice) {
   return kLightSelections[static_cast<int>(choice)];
 }
+const char* Name(SeenLights choice) { return kSeenLights[static_cast<int>(choice)]; }
 const char* Name(Paired choice) { return kPaired[static_cast<int>(choice)]; }
 
 }  // namespace lanelight

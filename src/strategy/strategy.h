@@ -32,6 +32,7 @@ struct Strategy {
   std::optional<double> floor;         // of kThroughput, kLuminance: least survival
   std::optional<std::uint32_t> first;  // first scattering event with roulette
   LightSelection light_selection = LightSelection::kPower;
+  SeenLights seen_lights = SeenLights::kApart;
 
   friend bool operator==(const Strategy&, const Strategy&) = default;
 
@@ -61,6 +62,7 @@ enum class StrategyKey {
   kCoefficient,
   kRoulette,
   kLightSelection,
+  kSeenLights,
   kCount
 };
 
@@ -104,6 +106,7 @@ const char* Name(Pairs choice);
 const char* Name(Control choice);
 const char* Name(Roulette choice);
 const char* Name(LightSelection choice);
+const char* Name(SeenLights choice);
 const char* Name(Paired choice);
 
 }  // namespace lanelight

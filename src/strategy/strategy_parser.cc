@@ -14,13 +14,14 @@ namespace lanelight {
 namespace {
 
 // By StrategyKey.
-constexpr const char* kKeys[] = {"directions", "points",   "pairs",          "control",
-                                 "c",          "roulette", "light-selection"};
+constexpr const char* kKeys[] = {"directions",      "points",     "pairs",
+                                 "control",         "c",          "roulette",
+                                 "light-selection", "seen-lights"};
 static_assert(std::size(kKeys) == static_cast<std::size_t>(StrategyKey::kCount));
 
 constexpr const char kPlain[] =
     "directions=mis:power,points=independent,pairs=none,control=none,c=optimal,"
-    "roulette=none,light-selection=power";
+    "roulette=none,light-selection=power,seen-lights=paths";
 
 class Parser {
  public:
@@ -145,6 +146,9 @@ class Parser {
         strategy_.light_selection =
             static_cast<LightSelection>(Choose(key, value, kLightSelections));
         return;
+      case StrategyKey::kSeenLights:
+        strategy_.seen_lights = static_cast<SeenLights>(Choose(key, value, kSeenLights));
+        return;
       case StrategyKey::kCount:
         return;
     }
@@ -229,6 +233,7 @@ void Apply(const StrategyChanges& changes, Strategy& strategy) {
     strategy.first = from.first;
   }
   if (has(StrategyKey::kLightSelection)) strategy.light_selection = from.light_selection;
+  if (has(StrategyKey::kSeenLights)) strategy.seen_lights = from.seen_lights;
 }
 
 void ApplyStrategy(std::string_view text, const SourceLocation& where,

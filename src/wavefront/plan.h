@@ -20,6 +20,8 @@ struct PlanOptions {
   /// independent points, no pairs and no control variate.
   std::optional<FeatureSet> training;
   std::optional<Roulette> roulette;  // instead of the strategy's
+  /// Camera rays and the emission that they see, nothing else; with max_depth 0.
+  bool camera_only = false;
 };
 
 struct PlannedStage {

@@ -111,6 +111,7 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
 Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options) {
   Strategy strategy = scene.strategy;
   if (options.roulette) strategy.roulette = *options.roulette;
+  if (options.camera_only) strategy.control = Control::kNone;
   if (!options.training) return strategy;
   strategy.points = Points::kIndependent;
   strategy.pairs = Pairs::kNone;
@@ -120,7 +121,7 @@ Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options)
 
 std::vector<std::string> CheckStrategy(const CompiledScene& scene,
                                        const PlanOptions& options) {
-  const Strategy& s = scene.strategy;
+  const Strategy s = PlannedStrategy(scene, options);
   const FeatureSet& f = scene.features;
   CheckControl(s, scene, options);
   std::vector<std::string> notes;

@@ -19,7 +19,8 @@ void Add(const StageCounters& counters, const StageTotals& totals, StageProfile&
 }  // namespace
 
 const char* Name(TaskPart part) {
-  static constexpr const char* kNames[] = {"task set-up", "sum of copies", "film"};
+  static constexpr const char* kNames[] = {"task set-up", "sum of copies", "seen lights",
+                                           "film"};
   return kNames[static_cast<int>(part)];
 }
 

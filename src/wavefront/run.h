@@ -92,11 +92,12 @@ struct StageProfile {
 enum class TaskPart : int {
   kSetUp,   // lists the pixels of the tile, empties the wavefront
   kCopies,  // adds up the copies of paths that split
+  kSeen,    // light that the camera sees itself, with seen-lights=apart
   kFilm,    // adds the samples to the film
   kCount
 };
 inline constexpr int kNumTaskParts = static_cast<int>(TaskPart::kCount);
-/// "task set-up", "sum of copies", "film".
+/// "task set-up", "sum of copies", "seen lights", "film".
 const char* Name(TaskPart part);
 
 /// One stage call (row: its index in RunResult::stages) or part of a task (row: number of

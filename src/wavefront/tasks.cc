@@ -148,6 +148,10 @@ Round Tasks::FullRound() const {
 void Tasks::BeginRound(const RoundWork& work) {
   first_ = work.first;
   per_task_ = work.per_task;
+  if (begun_) return;
+  begun_ = true;
+  seen_lights_ = SeenLightEdges::Make(scene_, plan_.options, run_);
+  if (seen_lights_) seen_lights_->Find(partition_.tiles);
 }
 
 std::vector<TileRange> Tasks::Behind(std::uint64_t limit) const {
@@ -165,8 +169,7 @@ RunCounts Tasks::BringOn(const TileRange& range, TaskWatcher& watcher, Films& fi
   RunCounts counts;
   while (done_[tile] < range.end && !watcher.Stopped()) {
     TaskSamples& out = ThreadWorkspace().samples;
-    RunTask(partition_.tiles[tile],
-            {done_[tile], std::min(range.end, done_[tile] + per_task_)}, out);
+    RunTask(tile, {done_[tile], std::min(range.end, done_[tile] + per_task_)}, out);
     Merge(tile, out, films);
     counts.Add(out.counts);
     watcher.TaskDone();
@@ -187,7 +190,7 @@ void Tasks::RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films) 
   ParallelFor(partition_.tiles.size(), [&](std::size_t tile) {
     if (done_[tile] >= limit || watcher.Stopped()) return;
     TaskSamples& out = ThreadWorkspace().samples;
-    RunTask(partition_.tiles[tile], {done_[tile], limit}, out);
+    RunTask(tile, {done_[tile], limit}, out);
     Merge(tile, out, films);
     watcher.TaskDone();
   });
@@ -209,7 +212,7 @@ void Tasks::RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& f
     TaskSamples& out = buffers_[task];
     out.count = 0;
     if (watcher.Stopped()) return;
-    RunTask(partition_.tiles[chunks[task].tile], chunks[task].range, out);
+    RunTask(chunks[task].tile, chunks[task].range, out);
     watcher.TaskDone();
   });
   std::vector<std::size_t> first(done_.size(), chunks.size());  // of each tile
@@ -232,12 +235,12 @@ Workspace& Tasks::ThreadWorkspace() {
   return *workspaces_[thread];
 }
 
-void Tasks::RunTask(const PixelRect& tile, const Range& range, TaskSamples& out) {
+void Tasks::RunTask(std::size_t tile, const Range& range, TaskSamples& out) {
   Workspace& space = ThreadWorkspace();
   StageClock* const clock = space.Clock();
   if (clock) clock->StartTask();
   out.count = static_cast<std::uint32_t>(range.end - range.begin);
-  TilePixels(tile, scene_.film.width, &space.pixels);
+  TilePixels(partition_.tiles[tile], scene_.film.width, &space.pixels);
   TileWork work;
   work.pixels = space.pixels.data();
   work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
@@ -263,7 +266,17 @@ void Tasks::RunTask(const PixelRect& tile, const Range& range, TaskSamples& out)
     FoldCopies(out.values.data(), rows, run_.planes);
     if (clock) clock->FinishPart(TaskPart::kCopies, stride);
   }
+  if (seen_lights_) SeeLights(tile, work, out, clock);
   if (clock) clock->EndTask();
+}
+
+void Tasks::SeeLights(std::size_t tile, const TileWork& work, TaskSamples& out,
+                      StageClock* clock) {
+  const SeenLightTask task = {ThreadWorkspace().pixels, work.first_sample, work.samples,
+                              out.values.data(),
+                              std::size_t{work.num_pixels} * work.samples};
+  const bool corrected = seen_lights_->Correct(tile, task, out.counts);
+  if (clock && corrected) clock->FinishPart(TaskPart::kSeen, task.stride);
 }
 
 void Tasks::Merge(std::size_t tile, TaskSamples& task, Films& films) {

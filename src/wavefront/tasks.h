@@ -12,6 +12,7 @@
 #include "src/wavefront/hand_out.h"
 #include "src/wavefront/run.h"
 #include "src/wavefront/schedule.h"
+#include "src/wavefront/seen_lights.h"
 #include "src/wavefront/tiles.h"
 #include "src/wavefront/workspace.h"
 
@@ -87,7 +88,9 @@ class Tasks {
   PixelRect Place(std::size_t tile) const;
   void RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& films);
   Workspace& ThreadWorkspace();
-  void RunTask(const PixelRect& tile, const Range& range, TaskSamples& out);
+  void RunTask(std::size_t tile, const Range& range, TaskSamples& out);
+  void SeeLights(std::size_t tile, const TileWork& work, TaskSamples& out,
+                 StageClock* clock);
   void Merge(std::size_t tile, TaskSamples& task, Films& films);
 
   const CompiledScene& scene_;
@@ -96,9 +99,11 @@ class Tasks {
   const RunOptions& options_;
   TilePartition partition_;
   std::uint64_t pixel_count_ = 0;
-  std::uint64_t first_ = 0;          // of the current round
-  std::uint32_t per_task_ = 1;       // of the current round
-  std::vector<std::uint64_t> done_;  // samples per pixel of each tile
+  std::uint64_t first_ = 0;                      // of the current round
+  std::uint32_t per_task_ = 1;                   // of the current round
+  std::vector<std::uint64_t> done_;              // samples per pixel of each tile
+  std::unique_ptr<SeenLightEdges> seen_lights_;  // null: not apart
+  bool begun_ = false;
   std::vector<std::unique_ptr<Workspace>> workspaces_;
   std::vector<TaskSamples> buffers_;
   std::atomic<std::uint64_t> taken_{0};
