@@ -31,9 +31,10 @@ constexpr const char* kFooter =
     "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
     "  lanelight study scenes/cornell-box.pbrt --out box-study\n"
     "  lanelight sweep scenes/sweep.toml --out sweep\n"
+    "  lanelight stress --out stress\n"
     "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
     "samples, 4 compare: over the limit, 5 render: the target error was not reached,\n"
-    "6 interrupted, to go on from what is kept.";
+    "6 interrupted, to go on from what is kept, 7 stress: a case failed.";
 
 std::vector<std::string> SubcommandNames(const CLI::App& root) {
   std::vector<std::string> names;
@@ -107,6 +108,7 @@ void AddCommands(CLI::App& root, Crew& crew, Command& chosen) {
   AddCompareCommand(root, chosen);
   AddStudyCommand(root, chosen);
   AddSweepCommand(root, chosen);
+  AddStressCommand(root, chosen);
   AddCompletionCommand(root, chosen);
 }
 

@@ -23,6 +23,7 @@ void AddMergeCommand(CLI::App& root, Command& chosen);
 void AddCompareCommand(CLI::App& root, Command& chosen);
 void AddStudyCommand(CLI::App& root, Command& chosen);
 void AddSweepCommand(CLI::App& root, Command& chosen);
+void AddStressCommand(CLI::App& root, Command& chosen);
 void AddCompletionCommand(CLI::App& root, Command& chosen);
 
 }  // namespace lanelight

@@ -11,6 +11,7 @@ enum ExitCode : int {
   kExitOverLimit = 4,       // compare: the error exceeds --max-relmse
   kExitTargetMissed = 5,    // render: the image was written, above the target error
   kExitInterrupted = 6,     // a signal came; what was done is kept, to go on from
+  kExitStressFailed = 7,    // stress: a case failed
 };
 
 }  // namespace lanelight

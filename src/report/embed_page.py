@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Turns the report's pages into one C++ file: embed_page.py PAGE_DIR OUTPUT.cc
 
-Reads PAGE_DIR/index.html (of a study) and sweep.html, replaces every <link rel="stylesheet"> and <script src> by the
-file that it names, puts the hashes of what is inlined into the content security policy, and
+Reads PAGE_DIR/index.html (of a study), sweep.html and stress.html, replaces every
+<link rel="stylesheet"> and <script src> by the file that it names, puts the hashes of what is inlined into the content security policy, and
 cuts each result at the line <!-- data -->. Standard library only.
 """
 
@@ -17,6 +17,8 @@ SCRIPT = re.compile(r'<script src="([^"]+)"></script>')
 DATA = "<!-- data -->"
 STYLE_HASHES, SCRIPT_HASHES = "STYLE_HASHES", "SCRIPT_HASHES"
 LICENSE = "<!-- licence -->"
+PAGES = (("index.html", "Page"), ("sweep.html", "SweepPage"),
+         ("stress.html", "StressPage"))
 PIECE = 12000  # characters of one literal; compilers must take 65535
 
 HEADER = """// Written by src/report/embed_page.py from src/report/page/; not to be edited.
@@ -41,9 +43,12 @@ def inline(page_dir, tag, hashes, match):
 
 def assemble(page_dir, name):
     html = (page_dir / name).read_text(encoding="utf-8")
-    for marker in (DATA, STYLE_HASHES, SCRIPT_HASHES, LICENSE):
-        if html.count(marker) != 1:
-            raise SystemExit(f"embed_page: {name} must contain {marker} exactly once")
+    # The licence of uPlot goes where uPlot goes.
+    licences = 1 if "vendor/" in html else 0
+    for marker, count in ((DATA, 1), (STYLE_HASHES, 1), (SCRIPT_HASHES, 1),
+                          (LICENSE, licences)):
+        if html.count(marker) != count:
+            raise SystemExit(f"embed_page: {name} must contain {marker} {count} times")
     licence = (page_dir / "vendor/LICENSE").read_text(encoding="utf-8").strip()
     html = html.replace(LICENSE, f"<!--\nuPlot 1.6.32\n{licence}\n-->")
     styles, scripts = [], []
@@ -67,7 +72,7 @@ def literal(name, text):
 def main():
     page_dir, output = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     body = HEADER
-    for name, prefix in (("index.html", "Page"), ("sweep.html", "SweepPage")):
+    for name, prefix in PAGES:
         head, tail = assemble(page_dir, name).split(DATA)
         body += "\n" + literal(f"{prefix}Head", head)
         body += "\n" + literal(f"{prefix}Tail", tail)

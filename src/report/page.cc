@@ -34,6 +34,11 @@ std::string JsonForScript(const nlohmann::json& json) {
   return out;
 }
 
+std::string DataBlock(const nlohmann::json& data) {
+  return "<script type=\"application/json\" id=\"study\">" + JsonForScript(data) +
+         "</script>\n";
+}
+
 // The name as JSON, so that the page reads it as it reads the names in the study; then
 // safe between double quotes.
 std::string Attribute(const std::string& name) {
@@ -104,17 +109,18 @@ std::string ReportPage(const nlohmann::json& study,
   for (const ReportImage& image : images) values += image.values.size();
   std::string page = PageHead();
   page.reserve(page.size() + values * 8 / 3 + (1 << 20));
-  page += "<script type=\"application/json\" id=\"study\">";
-  page += JsonForScript(study);
-  page += "</script>\n";
+  page += DataBlock(study);
   for (const ReportImage& image : images) AppendImage(image, page);
   page += PageTail();
   return page;
 }
 
 std::string SweepReportPage(const nlohmann::json& sweep) {
-  return SweepPageHead() + "<script type=\"application/json\" id=\"study\">" +
-         JsonForScript(sweep) + "</script>\n" + SweepPageTail();
+  return SweepPageHead() + DataBlock(sweep) + SweepPageTail();
+}
+
+std::string StressReportPage(const nlohmann::json& stress) {
+  return StressPageHead() + DataBlock(stress) + StressPageTail();
 }
 
 }  // namespace lanelight

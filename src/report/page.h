@@ -1,5 +1,5 @@
-// The reports of studies and sweeps: one HTML file each, with styles, scripts, numbers
-// and images in it.
+// The reports of studies, sweeps and stress cases: one HTML file each, with styles,
+// scripts, numbers and images in it.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +27,10 @@ std::string ReportPage(const nlohmann::json& study,
 
 /// The page of a sweep, laid out as docs/sweep.md says; otherwise like ReportPage().
 std::string SweepReportPage(const nlohmann::json& sweep);
+
+/// The page of a run of stress cases, laid out as docs/stress.md says; otherwise like
+/// ReportPage().
+std::string StressReportPage(const nlohmann::json& stress);
 
 /// IEEE 754 binary16, rounded to nearest even: infinities and finite values beyond
 /// +-65504 saturate there, NaN stays one.

@@ -12,4 +12,7 @@ std::string PageTail();  // the scripts, to the end of the document
 std::string SweepPageHead();  // the same of a sweep's page
 std::string SweepPageTail();
 
+std::string StressPageHead();  // and of a run of stress cases
+std::string StressPageTail();
+
 }  // namespace lanelight

@@ -1,6 +1,7 @@
 #include "src/stress/scene_point.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "src/parse/parse.h"
@@ -20,7 +21,8 @@ Rendered RenderText(const SceneText& scene) {
 Point MeanOf(const Rendered& rendered) {
   const FilmAccumulator& film = rendered.film;
   Point point;
-  double sum = 0, variance = 0;
+  double sum = 0, variance = 0, quartic = 0;
+  bool has_variance = true;
   for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
     for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
       const Rgb mean = film.Mean(x, y), own = film.Variance(x, y);
@@ -28,12 +30,19 @@ Point MeanOf(const Rendered& rendered) {
       // Channels of one pixel depend on each other: their standard deviations add.
       const double deviation =
           (std::sqrt(own.x) + std::sqrt(own.y) + std::sqrt(own.z)) / 3;
-      variance += deviation * deviation;
+      const double square = deviation * deviation;
+      variance += square;
+      // Welch and Satterthwaite: degrees of freedom of a sum of estimated variances.
+      const std::uint64_t observations = film.Observations(x, y);
+      has_variance &= observations >= 2;
+      if (observations >= 2) quartic += square * square / double(observations - 1);
     }
   }
   const double pixels = double(film.width()) * film.height();
   point.measured = sum / pixels;
-  point.standard_error = std::sqrt(variance) / pixels;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  point.standard_error = has_variance ? std::sqrt(variance) / pixels : kNan;
+  if (quartic > 0) point.degrees_of_freedom = variance * variance / quartic;
   const RunResult& result = rendered.result;
   point.samples = result.samples;
   point.rays = result.rays_closest + result.rays_shadow;

@@ -39,6 +39,11 @@ struct Point {
   /// Not measured, and why: outside of what can be described, say. Such a point is in
   /// neither the map nor the verdict, but in the report.
   std::string refused;
+  /// Of `standard_error`, which is an estimate itself; infinite: it is known.
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();
+  /// What errors are relative to where `expected` is 0, the size of what is subtracted,
+  /// say. 0: `expected` is.
+  double scale = 0;
 
   bool operator==(const Point&) const = default;
 };

@@ -1,0 +1,140 @@
+// `lanelight stress [CASE...]`: takes the renderer to its limits and says where they are.
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "kernels/simd/target.h"
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
+#include "src/cli/interrupt.h"
+#include "src/cli/progress.h"
+#include "src/cli/render_outputs.h"
+#include "src/cli/stress_exit.h"
+#include "src/cli/stress_progress.h"
+#include "src/cli/stress_table.h"
+#include "src/core/parallel.h"
+#include "src/stress/cases/cases.h"
+#include "src/stress/select.h"
+#include "src/stress/stress_json.h"
+#include "src/stress/suite.h"
+
+namespace lanelight {
+namespace {
+
+struct StressCommandOptions {
+  std::vector<std::string> words, targets;
+  stress::SuiteOptions suite;
+  std::string out, json;
+  int threads = 0;
+  bool list = false, quiet = false;
+};
+
+constexpr const char* kInterruptText =
+    "\nstopping: finishing the point in hand, then writing what there is (once more to "
+    "abort)\n";
+
+std::vector<stress::Case> Selected(const StressCommandOptions& options) {
+  try {
+    return stress::SelectCases(stress::AllCases(), options.words);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    throw CLI::ValidationError("CASE", message.substr(message.find("no case")));
+  }
+}
+
+std::vector<std::string> TargetsOf(const std::vector<std::string>& words) {
+  const bool all = std::find(words.begin(), words.end(), "all") != words.end();
+  return all ? AvailableTargets() : words;
+}
+
+stress::SuiteResult Measure(const std::vector<stress::Case>& cases,
+                            const StressCommandOptions& options) {
+  StressProgressPrinter progress(ChooseProgressStyle(options.quiet));
+  const InterruptGuard interrupt(kInterruptText);
+  stress::SuiteHooks hooks;
+  hooks.on_progress = [&](const stress::SuiteProgress& p) { progress.Update(p); };
+  hooks.stop = &interrupt.stop();
+  stress::SuiteResult result = stress::RunSuite(cases, options.suite, hooks);
+  progress.Finish();
+  return result;
+}
+
+bool Save(const stress::SuiteResult& result, const StressCommandOptions& options) {
+  if (!options.out.empty()) stress::WriteResults(result, options.out);
+  if (options.json.empty()) return true;
+  return SaveOrPrint(options.json, stress::ToJson(result).dump(1) + "\n");
+}
+
+int RunStressCommand(StressCommandOptions& options) {
+  const std::vector<stress::Case> cases = Selected(options);
+  if (options.list) {
+    Print(StressList(cases));
+    return kExitGood;
+  }
+  const ThreadLimit threads(options.threads);
+  options.suite.targets = TargetsOf(options.targets);
+  const stress::SuiteResult result = Measure(cases, options);
+  if (options.json != "-") Print(StressTable(result));
+  if (!Save(result, options)) return kExitBadInput;
+  if (!options.out.empty() && !options.quiet && options.json != "-") {
+    Print(options.out + "/stress.json, " + options.out + "/report.html\n");
+  }
+  return ExitCodeOf(result);
+}
+
+void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
+  command
+      .add_option("CASE", options.words,
+                  "Cases, groups, or patterns of them ('ggx-*'); all by default")
+      ->type_name("TEXT");
+  command.add_flag("--list", options.list,
+                   "Print the cases: what is extreme, and what must be true there");
+  command.add_flag("--full", options.suite.effort.full,
+                   "Every value of each map, with the samples that a sharp answer needs");
+  command.add_option("--out", options.out, "Write stress.json and report.html there")
+      ->type_name("DIR");
+  command.add_option("--json", options.json, "Write stress.json ('-': print it)")
+      ->type_name("FILE");
+  std::vector<std::string> targets = AvailableTargets();
+  targets.push_back("all");
+  command
+      .add_option("--target", options.targets,
+                  "SIMD targets (see `lanelight info`), or all that this machine has")
+      ->check(CLI::IsMember(targets, CLI::ignore_case).description(""))
+      ->delimiter(',')
+      ->type_name("NAME");
+  command.add_option("--seed", options.suite.effort.seed, "Seed of the random numbers")
+      ->type_name("S");
+  command.add_option("--threads", options.threads, "Threads; 0 = all cores")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->type_name("T");
+  command.add_flag("--quiet", options.quiet, "No progress");
+}
+
+}  // namespace
+
+void AddStressCommand(CLI::App& root, Command& chosen) {
+  CLI::App* command = root.add_subcommand(
+      "stress", "Take the renderer to its limits, and measure where they are");
+  auto options = std::make_shared<StressCommandOptions>();
+  AddStressOptions(*command, *options);
+  command->footer(
+      "\nA row per case: of the promised point that is nearest to failing, what is "
+      "expected\n"
+      "and measured with its interval, and by how many standard errors (z) it is off "
+      "beyond\n"
+      "its tolerance; then where, outside of what is promised, it first breaks. "
+      "docs/stress.md\n"
+      "says more. Ctrl-C finishes the point in hand and prints what there is. Exit code "
+      "7: a\n"
+      "case failed.\n"
+      "\nExamples:\n"
+      "  lanelight stress\n"
+      "  lanelight stress 'ggx-*' lights --target all --out stress\n"
+      "  lanelight stress --full --out stress-full");
+  command->callback(
+      [options, &chosen] { chosen = [options] { return RunStressCommand(*options); }; });
+}
+
+}  // namespace lanelight

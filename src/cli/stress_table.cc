@@ -1,0 +1,157 @@
+#include "src/cli/stress_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "src/cli/progress.h"
+#include "src/stress/stress_json.h"
+
+namespace lanelight {
+namespace {
+
+using namespace stress;
+
+constexpr const char* kRow = "{:<{}}  {:>10} {:>22} {:>6} {:>7} {:>8} {:>6}  {:<8}{}\n";
+
+std::string Significant(double x, int digits) {
+  return std::isfinite(x) ? fmt::format("{:.{}g}", x, digits) : "-";
+}
+
+// As many digits as its noise leaves.
+std::string Measured(const JudgedPoint& judged) {
+  const Point& p = judged.point;
+  if (!p.refused.empty() || !judged.crash.empty()) return "-";
+  if (p.trials > 0) return fmt::format("{} of {}", p.failures, p.trials);
+  if (!(p.standard_error > 0)) return Significant(p.measured, 7);
+  const double half = judged.verdict.allowance - p.tolerance;
+  const double ratio = std::abs(p.measured) / half;
+  const int digits = std::isfinite(ratio) ? 2 + int(std::max(0.0, std::log10(ratio))) : 3;
+  return fmt::format("{:.{}g} ±{:.1g}", p.measured, std::clamp(digits, 2, 9), half);
+}
+
+std::string Deviate(const JudgedPoint& judged) {
+  if (!judged.point.refused.empty() || !judged.crash.empty()) return "-";
+  return std::isinf(judged.verdict.z) ? "inf" : fmt::format("{:.1f}", judged.verdict.z);
+}
+
+std::string RaysPerSample(const CaseResult& result) {
+  double rays = 0, samples = 0;
+  for (const JudgedPoint& judged : result.points) {
+    rays += double(judged.point.rays);
+    samples += double(judged.point.samples);
+  }
+  return samples > 0 ? Significant(rays / samples, 3) : "-";
+}
+
+// "1e-16: refused, 1e+17: off by 3 %", the nearest to the promise on either side.
+std::string Breaks(const CaseResult& result) {
+  std::string text;
+  for (const bool above : {false, true}) {
+    const BreakPlace* nearest = nullptr;
+    for (const BreakPlace& place : result.breaks) {
+      if (place.above != above) continue;
+      const bool nearer = !nearest || (above ? place.parameter < nearest->parameter
+                                             : place.parameter > nearest->parameter);
+      if (nearer) nearest = &place;
+    }
+    if (!nearest) continue;
+    const bool is_message =
+        nearest->fault == Fault::kRefused || nearest->fault == Fault::kCrashed;
+    text += fmt::format("{}{:g}: {}", text.empty() ? "" : ", ", nearest->parameter,
+                        is_message ? Name(nearest->fault) : nearest->why);
+  }
+  return text.empty() ? text : "  " + text;
+}
+
+std::string Row(const CaseResult& result, std::size_t width) {
+  double seconds = 0;
+  std::uint64_t invalid = 0;
+  for (const JudgedPoint& judged : result.points) {
+    seconds += judged.total_seconds;
+    if (judged.promised) invalid += judged.point.invalid;
+  }
+  const JudgedPoint* worst =
+      result.worst < 0 ? nullptr : &result.points[std::size_t(result.worst)];
+  return fmt::format(fmt::runtime(kRow), result.about.name, width,
+                     worst ? Significant(worst->point.expected, 5) : "-",
+                     worst ? Measured(*worst) : "-", worst ? Deviate(*worst) : "-",
+                     invalid, DurationText(seconds), RaysPerSample(result),
+                     Name(result.outcome), Breaks(result));
+}
+
+std::string Where(const Case& about, const JudgedPoint& judged) {
+  std::string text = judged.target;
+  if (std::isfinite(judged.point.parameter)) {
+    text += fmt::format(", {} {:g}{}{}", about.axis.name.empty() ? "at" : about.axis.name,
+                        judged.point.parameter, about.axis.unit.empty() ? "" : " ",
+                        about.axis.unit);
+  }
+  if (!judged.point.series.empty()) text += ", " + judged.point.series;
+  return text;
+}
+
+// The first few points that make a case fail.
+std::string Failures(const CaseResult& result) {
+  constexpr int kMost = 4;
+  if (result.outcome != Outcome::kFailed) return "";
+  if (result.promised == 0) return "    " + result.why + "\n";
+  std::string text;
+  int shown = 0;
+  for (const JudgedPoint& judged : result.points) {
+    if (!judged.promised || judged.verdict.good()) continue;
+    if (++shown > kMost) continue;
+    text += fmt::format("    {}: {}\n", Where(result.about, judged), judged.verdict.why);
+  }
+  if (shown > kMost) text += fmt::format("    and {} more points\n", shown - kMost);
+  return text;
+}
+
+std::size_t NameWidth(const SuiteResult& result) {
+  std::size_t width = 4;
+  for (const CaseResult& one : result.cases) {
+    width = std::max(width, one.about.name.size());
+  }
+  return width;
+}
+
+std::string Summary(const SuiteResult& result) {
+  return fmt::format(
+      "\n{}\n{} promised points in {} ({} of processor time); a correct renderer fails "
+      "one run in {:.0f}\n",
+      Sentence(result), result.promised, DurationText(result.seconds),
+      DurationText(result.cpu_seconds), 1 / result.options.false_alarm);
+}
+
+}  // namespace
+
+std::string StressTable(const SuiteResult& result) {
+  const std::size_t width = NameWidth(result);
+  std::string text =
+      fmt::format(fmt::runtime(kRow), "case", width, "expected", "measured", "z",
+                  "invalid", "cpu", "rays", "verdict", "  first breaks at");
+  std::string group;
+  for (const CaseResult& one : result.cases) {
+    if (one.points.empty()) continue;  // not begun
+    if (one.about.group != group) text += "\n" + one.about.group + "\n";
+    group = one.about.group;
+    text += Row(one, width) + Failures(one);
+  }
+  return text + Summary(result);
+}
+
+std::string StressList(const std::vector<Case>& cases) {
+  std::string text, group;
+  for (const Case& about : cases) {
+    if (about.group != group) text += (group.empty() ? "" : "\n") + about.group + "\n";
+    group = about.group;
+    text += fmt::format("  {}\n      {}\n      must: {} ({})\n", about.name,
+                        about.extreme, about.must, Name(about.truth));
+    if (!about.source.empty()) text += fmt::format("      source: {}\n", about.source);
+  }
+  return text + fmt::format("\n{} case{}\n", cases.size(), cases.size() == 1 ? "" : "s");
+}
+
+}  // namespace lanelight

@@ -1,0 +1,119 @@
+"use strict";
+// The cases of a run: their curves, and what of a point is drawn.
+
+const maps = study.cases.filter((c) => c.points.some((p) => known(p.parameter)));
+const targets = study.settings.targets;
+
+const WORDS = {
+  good: "good",
+  weak: "weak",
+  failed: "failed",
+  unfinished: "not finished",
+};
+
+// What is plotted as the error, by what the truth is.
+function measureOf(aCase) {
+  if (aCase.truth === "rate") return "Rate of failures";
+  return aCase.truth === "bound" ? "Measured, relative to the bound" : "Relative error";
+}
+
+function hasNumber(point) {
+  return point.refused === "" && point.crash === "" && known(point.measured);
+}
+
+// {value, noise, limit}: of the error as it is plotted; `limit` is where a point fails.
+function errorOf(aCase, point) {
+  const unit = point.scale > 0 ? point.scale : 1;
+  const { allowance } = point.verdict;
+  if (aCase.truth === "rate") {
+    return { value: point.measured, noise: 0, limit: point.expected + (allowance || 0) };
+  }
+  const noise = known(allowance) ? (allowance - point.tolerance) / unit : 0;
+  if (aCase.truth === "bound") {
+    return {
+      value: point.measured / unit,
+      noise,
+      limit: (point.expected + (allowance || 0)) / unit,
+    };
+  }
+  const value = Math.abs(point.measured - point.expected) / unit;
+  return { value, noise, limit: known(allowance) ? allowance / unit : null };
+}
+
+// Where the points of a target lie: [{index, name, style, points}], by parameter.
+function seriesOf(aCase, target) {
+  const mine = aCase.points.filter((p) => p.target === target && known(p.parameter));
+  const names = [...new Set(aCase.points.map((p) => p.series))];
+  const named = names.length > 1 ? names.filter((name) => name !== "") : names;
+  return named.map((name, index) => ({
+    index,
+    name: name || "all",
+    style: strategyStyle(index),
+    // A refusal of all curves has no name.
+    points: mine
+      .filter((p) => p.series === name || p.series === "")
+      .sort((a, b) => a.parameter - b.parameter),
+  }));
+}
+
+function breaksOf(aCase, target) {
+  return aCase.breaks.filter((b) => b.target === target && known(b.parameter));
+}
+
+// Where a target fails inside of the promise, in the form of a break.
+function failuresInside(aCase, target) {
+  return aCase.points
+    .filter((p) => p.target === target && p.promised && !p.verdict.good)
+    .filter((p) => known(p.parameter))
+    .sort((a, b) => a.parameter - b.parameter)
+    .map((p) => ({ ...p.verdict, target, parameter: p.parameter, inside: true }));
+}
+
+// The break nearest to the promise below and above, and the first inside: at most three.
+function nearestBreaks(aCase, target) {
+  const found = breaksOf(aCase, target);
+  const below = found.filter((b) => !b.above).sort((a, b) => b.parameter - a.parameter);
+  const above = found.filter((b) => b.above).sort((a, b) => a.parameter - b.parameter);
+  return [failuresInside(aCase, target)[0], below[0], above[0]].filter(Boolean);
+}
+
+// The same among all targets, for the table.
+function firstBreaks(aCase) {
+  const all = targets.flatMap((target) => nearestBreaks(aCase, target));
+  const side = (above) =>
+    all
+      .filter((b) => !b.inside && b.above === above)
+      .sort((a, b) => (above ? 1 : -1) * (a.parameter - b.parameter))[0];
+  return [side(false), side(true)].filter(Boolean);
+}
+
+function fmtParameter(aCase, x) {
+  const { unit } = aCase.axis;
+  return `${errorTick(x)}${unit ? ` ${unit}` : ""}`.replace("-", MINUS);
+}
+
+function breakText(aCase, place) {
+  const what =
+    place.fault === "refused" || place.fault === "crashed" ? place.fault : place.why;
+  const where = place.inside ? "inside the promise, " : "";
+  return `${where}${fmtParameter(aCase, place.parameter)}: ${what}`;
+}
+
+function promiseText(aCase) {
+  const { promised_low: low, promised_high: high } = aCase.axis;
+  if (known(low) && known(high)) {
+    return `${fmtParameter(aCase, low)} to ${fmtParameter(aCase, high)}`;
+  }
+  if (known(low)) return `from ${fmtParameter(aCase, low)} on`;
+  return known(high) ? `up to ${fmtParameter(aCase, high)}` : "everywhere";
+}
+
+// Errors that are found: percent, or a power of ten where that is small.
+function fmtFound(x) {
+  if (!known(x)) return UNKNOWN;
+  return x > 0 && x < 1e-3 ? fmt(x, 2) : fmtPercent(x, 2);
+}
+
+function sumPoints(aCase, key) {
+  return aCase.points.reduce((sum, point) => sum + (point[key] || 0), 0);
+}

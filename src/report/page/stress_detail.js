@@ -1,0 +1,225 @@
+"use strict";
+// One map with all that was measured along it.
+
+function pointRows(aCase, point) {
+  if (point.refused) return [["refused", point.refused]];
+  if (point.crash) return [["crashed", point.crash]];
+  const half = known(point.verdict.allowance)
+    ? point.verdict.allowance - point.tolerance
+    : null;
+  const rate = aCase.truth === "rate";
+  return [
+    ["expected", fmt(point.expected, 6)],
+    ["measured", rate ? `${point.failures} of ${point.trials}` : fmt(point.measured, 6)],
+    !rate && half > 0 && ["noise", `± ${fmt(half, 2)}`],
+    point.tolerance > 0 && ["tolerance", `± ${fmt(point.tolerance, 2)}`],
+    ["z", point.verdict.z === null ? "beyond any noise" : fmt(point.verdict.z, 2)],
+    point.invalid > 0 && ["invalid samples", fmtCount(point.invalid)],
+    [
+      "finds errors from",
+      known(point.verdict.detectable) ? fmtFound(point.verdict.detectable) : "no size on",
+    ],
+    !point.verdict.good && ["fault", point.verdict.why],
+  ].filter(Boolean);
+}
+
+function describePoint(aCase) {
+  return (line, point) => [
+    el("b", {}, line.name === "all" ? aCase.name : line.name),
+    el("div", {}, `${aCase.axis.name} ${fmtParameter(aCase, point.parameter)}`),
+    pointRows(aCase, point).map(([name, text]) => el("div", {}, `${name}: ${text}`)),
+  ];
+}
+
+const perSample = (point, key) =>
+  point.samples > 0 && point[key] > 0 ? point[key] / point.samples : null;
+
+const PLOTS = [
+  {
+    key: "error",
+    title: measureOf,
+    log: true,
+    tick: errorTick,
+    value(aCase, point) {
+      const { value, noise, limit } = errorOf(aCase, point);
+      const band = noise > 0 ? { low: value - noise, high: value + noise } : {};
+      return { value, limit, ...band };
+    },
+  },
+  {
+    key: "noise",
+    title: () => "Standard error, relative",
+    log: true,
+    tick: errorTick,
+    value: (aCase, point) => ({
+      value:
+        point.standard_error > 0
+          ? point.standard_error / (point.scale > 0 ? point.scale : 1)
+          : null,
+    }),
+  },
+  {
+    key: "cost",
+    title: () => "Cost per sample",
+    log: true,
+    choices: {
+      seconds: ["Processor time", secondsTick],
+      rays: ["Rays", (x) => fmtShort(x)],
+    },
+    value: (aCase, point, choice) => ({ value: perSample(point, choice) }),
+  },
+  {
+    key: "lanes",
+    title: () => "Lanes filled",
+    log: false,
+    tick: (x) => fmtShortPercent(x),
+    include: [0, 1],
+    value: (aCase, point) => ({
+      value: point.lane_slots > 0 ? point.lanes_used / point.lane_slots : null,
+    }),
+  },
+];
+
+// The choices of a plot that some point has a value for; [null] where there are none.
+function choicesOf(aCase, lines, plot) {
+  const has = (choice) =>
+    lines.some((line) =>
+      line.points.some((p) => hasNumber(p) && known(plot.value(aCase, p, choice).value)),
+    );
+  return (plot.choices ? Object.keys(plot.choices) : [null]).filter(has);
+}
+
+function detailPlot(aCase, target, lines, plot) {
+  const choices = choicesOf(aCase, lines, plot);
+  if (choices.length === 0) return null;
+  let choice = choices[0];
+  const host = el("div", { class: "map-host", "data-plot": plot.key });
+  const title = plot.title(aCase);
+  const draw = () =>
+    host.isConnected &&
+    mapPlot(host, {
+      aCase,
+      target,
+      lines,
+      label: `${title} against ${aCase.axis.name}`,
+      yLog: plot.log,
+      yTick: choice ? plot.choices[choice][1] : plot.tick,
+      include: plot.include,
+      value: (point) => plot.value(aCase, point, choice),
+      describe: describePoint(aCase),
+    });
+  new ResizeObserver(() => requestAnimationFrame(draw)).observe(host);
+  const buttons =
+    choices.length > 1 &&
+    choiceButtons(title, choices.map((key) => [key, plot.choices[key][0]]), choice, (key) => {
+      choice = key;
+      draw();
+    });
+  return el("figure", { class: "plot-figure" }, el("figcaption", {}, title, buttons), host);
+}
+
+function seriesLegend(lines, shown, onChange) {
+  if (lines.length < 2) return null;
+  return el(
+    "div",
+    { class: "legend", role: "group", "aria-label": "Curves shown" },
+    lines.map((line) => {
+      const button = el(
+        "button",
+        {
+          type: "button",
+          class: "button legend-item",
+          "aria-pressed": String(shown.has(line.index)),
+          onclick: () => {
+            if (!shown.delete(line.index)) shown.add(line.index);
+            button.setAttribute("aria-pressed", String(shown.has(line.index)));
+            onChange();
+          },
+        },
+        strategyLabel(line),
+      );
+      return button;
+    }),
+  );
+}
+
+function factList(aCase, target) {
+  const breaks = nearestBreaks(aCase, target);
+  const rows = [
+    ["Extreme", aCase.extreme],
+    ["Must be true", `${aCase.must} (${aCase.truth})`],
+    ["Promised", promiseText(aCase)],
+    [
+      "First breaks",
+      breaks.length > 0
+        ? breaks.map((b) => breakText(aCase, b)).join("; ")
+        : "nowhere that was measured",
+    ],
+    [
+      "Finds errors from",
+      known(aCase.detectable) ? fmtFound(aCase.detectable) : "some points find none",
+    ],
+    aCase.source && ["Source", aCase.source],
+  ].filter(Boolean);
+  return el(
+    "dl",
+    { class: "about" },
+    rows.map(([name, text]) => el("div", {}, el("dt", {}, name), el("dd", {}, text))),
+  );
+}
+
+function detailSection(aCase, target, onChoose) {
+  const lines = seriesOf(aCase, target);
+  const shown = new Set(lines.map((line) => line.index));
+  const plots = el("div", { class: "map-plots" });
+  const draw = () => {
+    tip.hide();
+    const some = lines.filter((line) => shown.has(line.index));
+    plots.replaceChildren(
+      ...PLOTS.map((plot) => detailPlot(aCase, target, some, plot)).filter(Boolean),
+    );
+  };
+  draw();
+  return section(
+    "map",
+    el("span", {}, aCase.name, el("span", { class: "on-target" }, ` on ${target}`)),
+    mapMenu(aCase, onChoose),
+    factList(aCase, target),
+    seriesLegend(lines, shown, draw),
+    plots,
+    el(
+      "p",
+      { class: "hint" },
+      "Green: the promised range. Bands: noise at the level of the verdict; thin dashed " +
+        "lines: where a point would fail. Red rings: points that are not good; crosses: " +
+        "refused, with the message. A hollow marker has no error at all.",
+    ),
+  );
+}
+
+function mapMenu(aCase, onChoose) {
+  const at = maps.indexOf(aCase);
+  const step = (by, label, text) =>
+    el(
+      "button",
+      {
+        type: "button",
+        class: "button",
+        "aria-label": label,
+        onclick: () => onChoose(maps[(at + by + maps.length) % maps.length].name),
+      },
+      text,
+    );
+  const select = el(
+    "select",
+    { "data-menu": "map", "aria-label": "Map", onchange: () => onChoose(select.value) },
+    maps.map((m) => el("option", { value: m.name, selected: m === aCase }, m.name)),
+  );
+  return el(
+    "div",
+    { class: "map-menu" },
+    step(-1, "Previous map", "←"),
+    select,
+    step(1, "Next map", "→"),
+  );
+}

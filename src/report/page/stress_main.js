@@ -1,0 +1,91 @@
+"use strict";
+// Shows the run; what depends on the SIMD target or the chosen map is drawn anew.
+
+const state = { target: targets[0], map: null };
+
+function fillTargets(onTarget) {
+  if (targets.length < 2) return;
+  document.getElementById("scenes").replaceChildren(
+    ...targets.map((target) =>
+      el(
+        "a",
+        {
+          href: "#summary",
+          class: "tab",
+          "data-target": target,
+          "aria-current": target === state.target ? "true" : null,
+          onclick: (event) => {
+            event.preventDefault();
+            onTarget(target);
+          },
+        },
+        target,
+      ),
+    ),
+  );
+}
+
+function fillSections() {
+  const sections = [
+    ["summary", "Verdict"],
+    maps.length > 0 && ["map", "Map"],
+    compared.length > 0 && ["strategies", "Strategies"],
+    ["cases", "Cases"],
+    ["reading", "How to read this"],
+  ].filter(Boolean);
+  document
+    .getElementById("sections")
+    .replaceChildren(
+      ...sections.map(([id, title]) => el("a", { href: `#${id}` }, title)),
+    );
+}
+
+// The map to begin with: one that fails, or breaks, or the first.
+function firstMap() {
+  const fails = maps.find((m) => m.outcome === "failed");
+  return fails || maps.find((m) => m.breaks.length > 0) || maps[0] || null;
+}
+
+function markTile() {
+  for (const node of document.querySelectorAll(".tile")) {
+    const mine = state.map && node.dataset.case === state.map.name;
+    node.setAttribute("aria-current", String(Boolean(mine)));
+  }
+}
+
+function start() {
+  theme.bindButton(document.getElementById("theme"));
+  document.title = "Lanelight stress";
+  document.getElementById("bottom").textContent =
+    `Written by ${study.version}. This page holds all its numbers and needs no network.`;
+  const top = el("div", {}),
+    detail = el("div", {}),
+    strategies = el("div", {});
+  const showMap = () => {
+    tip.hide();
+    const parts = state.map ? [detailSection(state.map, state.target, choose)] : [];
+    detail.replaceChildren(...parts);
+    markTile();
+  };
+  const choose = (name) => {
+    state.map = maps.find((m) => m.name === name);
+    showMap();
+    document.getElementById("map").scrollIntoView();
+  };
+  const showTarget = (target) => {
+    state.target = target;
+    fillTargets(showTarget);
+    top.replaceChildren(stressSummary(target, choose));
+    strategies.replaceChildren(...[strategiesSection(target)].filter(Boolean));
+    showMap();
+  };
+  state.map = firstMap();
+  fillSections();
+  document
+    .getElementById("content")
+    .replaceChildren(top, detail, strategies, tableSection(choose), readingSection());
+  showTarget(state.target);
+  addEventListener("scroll", tip.hide, { passive: true });
+}
+
+start();

@@ -1,0 +1,48 @@
+#include "src/stress/select.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+
+#include "src/core/error.h"
+#include "src/core/suggest.h"
+
+namespace lanelight::stress {
+namespace {
+
+bool Means(const std::string& word, const Case& about) {
+  return fnmatch(word.c_str(), about.name.c_str(), 0) == 0 ||
+         fnmatch(word.c_str(), about.group.c_str(), 0) == 0;
+}
+
+[[noreturn]] void ThrowNothing(const std::string& word, const std::vector<Case>& cases) {
+  std::vector<std::string> known;
+  for (const Case& about : cases) {
+    known.push_back(about.name);
+    if (std::find(known.begin(), known.end(), about.group) == known.end()) {
+      known.push_back(about.group);
+    }
+  }
+  const std::string nearest = NearestName(word, known);
+  throw InputError("no case or group is called " + Quoted(word) +
+                   (nearest.empty() ? "" : "; did you mean " + Quoted(nearest) + "?") +
+                   "; `lanelight stress --list` shows all");
+}
+
+}  // namespace
+
+std::vector<Case> SelectCases(std::vector<Case> cases,
+                              const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    const auto means = [&](const Case& about) { return Means(word, about); };
+    if (std::none_of(cases.begin(), cases.end(), means)) ThrowNothing(word, cases);
+  }
+  if (words.empty()) return cases;
+  std::erase_if(cases, [&](const Case& about) {
+    return std::none_of(words.begin(), words.end(),
+                        [&](const std::string& word) { return Means(word, about); });
+  });
+  return cases;
+}
+
+}  // namespace lanelight::stress

@@ -1,0 +1,17 @@
+// Which cases somebody means.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/stress/stress_case.h"
+
+namespace lanelight::stress {
+
+/// The cases that any of `words` names, in their own order; all of them without words. A
+/// word is the name of a case or of a group, or a pattern of the shell (* ? [...]) for
+/// either. Throws InputError for a word that names nothing, with the nearest name.
+std::vector<Case> SelectCases(std::vector<Case> cases,
+                              const std::vector<std::string>& words);
+
+}  // namespace lanelight::stress

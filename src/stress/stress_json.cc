@@ -1,0 +1,156 @@
+#include "src/stress/stress_json.h"
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "src/core/error.h"
+#include "src/core/parallel.h"
+#include "src/core/version.h"
+#include "src/image/atomic_file.h"
+#include "src/report/page.h"
+#include "src/stress/efficiency.h"
+
+namespace lanelight::stress {
+namespace {
+
+using Json = nlohmann::json;
+
+Json Number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+Json VerdictJson(const PointVerdict& v) {
+  return {{"good", v.good()},
+          {"fault", Name(v.fault)},
+          {"why", v.why},
+          {"z", Number(v.z)},
+          {"allowance", Number(v.allowance)},
+          {"detectable", Number(v.detectable)},
+          {"weak", v.weak}};
+}
+
+Json PointJson(const JudgedPoint& judged) {
+  const Point& p = judged.point;
+  return {{"target", judged.target},
+          {"parameter", Number(p.parameter)},
+          {"series", p.series},
+          {"promised", judged.promised},
+          {"expected", Number(p.expected)},
+          {"measured", Number(p.measured)},
+          {"standard_error", Number(p.standard_error)},
+          {"degrees_of_freedom", Number(p.degrees_of_freedom)},
+          {"tolerance", Number(p.tolerance)},
+          {"scale", Number(ScaleOf(p))},
+          {"failures", p.failures},
+          {"trials", p.trials},
+          {"invalid", p.invalid},
+          {"samples", p.samples},
+          {"rays", p.rays},
+          {"lanes_used", p.lanes_used},
+          {"lane_slots", p.lane_slots},
+          {"seconds", Number(p.seconds)},
+          {"total_seconds", Number(judged.total_seconds)},
+          {"refused", p.refused},
+          {"crash", judged.crash},
+          {"verdict", VerdictJson(judged.verdict)}};
+}
+
+Json IntervalJson(const Interval& x) {
+  return {{"value", Number(x.value)}, {"low", Number(x.low)}, {"high", Number(x.high)}};
+}
+
+Json PointsJson(const CaseResult& result, bool strategies) {
+  Json points = Json::array();
+  for (const JudgedPoint& judged : result.points) {
+    Json point = PointJson(judged);
+    if (strategies) {
+      const auto efficiency = RelativeEfficiency(result, judged);
+      point["efficiency"] = efficiency ? IntervalJson(*efficiency) : Json();
+    }
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+Json AxisJson(const Axis& axis) {
+  return {{"name", axis.name},
+          {"unit", axis.unit},
+          {"logarithmic", axis.logarithmic},
+          {"promised_low", Number(axis.promised_low)},
+          {"promised_high", Number(axis.promised_high)}};
+}
+
+Json BreakJson(const BreakPlace& place) {
+  return {{"target", place.target},     {"series", place.series},
+          {"above", place.above},       {"parameter", Number(place.parameter)},
+          {"fault", Name(place.fault)}, {"why", place.why}};
+}
+
+Json CaseJson(const CaseResult& result) {
+  const Case& about = result.about;
+  const bool strategies = ComparesStrategies(result);
+  Json json = {{"name", about.name},
+               {"group", about.group},
+               {"extreme", about.extreme},
+               {"must", about.must},
+               {"source", about.source},
+               {"truth", Name(about.truth)},
+               {"axis", AxisJson(about.axis)},
+               {"outcome", Name(result.outcome)},
+               {"why", result.why},
+               {"promised", result.promised},
+               {"failed", result.failed},
+               {"weak", result.weak},
+               {"detectable", Number(result.detectable)},
+               {"worst", result.worst < 0 ? Json() : Json(result.worst)},
+               {"strategies", strategies},
+               {"baseline", strategies ? Json(BaselineOf(result)) : Json()},
+               {"breaks", Json::array()},
+               {"points", PointsJson(result, strategies)}};
+  for (const BreakPlace& place : result.breaks) {
+    json["breaks"].push_back(BreakJson(place));
+  }
+  return json;
+}
+
+}  // namespace
+
+Json ToJson(const SuiteResult& result) {
+  const SuiteOptions& options = result.options;
+  Json json = {{"schema", 1},
+               {"kind", "lanelight-stress"},
+               {"version", FullVersion()},
+               {"settings",
+                {{"full", options.effort.full},
+                 {"seed", options.effort.seed},
+                 {"targets", options.targets},
+                 {"threads", MaxThreads()}}},
+               {"false_alarm", options.false_alarm},
+               {"level", result.level},
+               {"power", kPower},
+               {"weak_from", kWeakFrom},
+               {"promised", result.promised},
+               {"interrupted", result.interrupted},
+               {"seconds", result.seconds},
+               {"cpu_seconds", result.cpu_seconds},
+               {"sentence", Sentence(result)},
+               {"outcomes", Json::object()},
+               {"cases", Json::array()}};
+  for (const Outcome outcome :
+       {Outcome::kGood, Outcome::kWeak, Outcome::kFailed, Outcome::kUnfinished}) {
+    json["outcomes"][Name(outcome)] = result.Count(outcome);
+  }
+  for (const CaseResult& one : result.cases) json["cases"].push_back(CaseJson(one));
+  return json;
+}
+
+void WriteResults(const SuiteResult& result, const std::string& dir) {
+  std::error_code error;
+  std::filesystem::create_directories(dir, error);
+  if (error) throw InputError(dir + ": cannot be made: " + error.message());
+  const Json json = ToJson(result);
+  const auto replace = Json::error_handler_t::replace;
+  WriteFileAtomically(dir + "/stress.json", json.dump(1, ' ', false, replace) + "\n");
+  WriteFileAtomically(dir + "/report.html", StressReportPage(json));
+}
+
+}  // namespace lanelight::stress
