@@ -87,9 +87,17 @@ function firstBreaks(aCase) {
   return [side(false), side(true)].filter(Boolean);
 }
 
+// A value of the axis without its unit.
+function parameterTick(x) {
+  if (x === 0) return "0";
+  const exact = Math.abs(x) >= 1e-3 && Math.abs(x) < 1e4;
+  const size = exact ? String(Number(Math.abs(x).toPrecision(5))) : errorTick(Math.abs(x));
+  return x < 0 ? MINUS + size : size;
+}
+
 function fmtParameter(aCase, x) {
   const { unit } = aCase.axis;
-  return `${errorTick(x)}${unit ? ` ${unit}` : ""}`.replace("-", MINUS);
+  return unit ? `${parameterTick(x)} ${unit}` : parameterTick(x);
 }
 
 function breakText(aCase, place) {

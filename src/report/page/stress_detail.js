@@ -118,56 +118,6 @@ function detailPlot(aCase, target, lines, plot) {
   return el("figure", { class: "plot-figure" }, el("figcaption", {}, title, buttons), host);
 }
 
-function seriesLegend(lines, shown, onChange) {
-  if (lines.length < 2) return null;
-  return el(
-    "div",
-    { class: "legend", role: "group", "aria-label": "Curves shown" },
-    lines.map((line) => {
-      const button = el(
-        "button",
-        {
-          type: "button",
-          class: "button legend-item",
-          "aria-pressed": String(shown.has(line.index)),
-          onclick: () => {
-            if (!shown.delete(line.index)) shown.add(line.index);
-            button.setAttribute("aria-pressed", String(shown.has(line.index)));
-            onChange();
-          },
-        },
-        strategyLabel(line),
-      );
-      return button;
-    }),
-  );
-}
-
-function factList(aCase, target) {
-  const breaks = nearestBreaks(aCase, target);
-  const rows = [
-    ["Extreme", aCase.extreme],
-    ["Must be true", `${aCase.must} (${aCase.truth})`],
-    ["Promised", promiseText(aCase)],
-    [
-      "First breaks",
-      breaks.length > 0
-        ? breaks.map((b) => breakText(aCase, b)).join("; ")
-        : "nowhere that was measured",
-    ],
-    [
-      "Finds errors from",
-      known(aCase.detectable) ? fmtFound(aCase.detectable) : "some points find none",
-    ],
-    aCase.source && ["Source", aCase.source],
-  ].filter(Boolean);
-  return el(
-    "dl",
-    { class: "about" },
-    rows.map(([name, text]) => el("div", {}, el("dt", {}, name), el("dd", {}, text))),
-  );
-}
-
 function detailSection(aCase, target, onChoose) {
   const lines = seriesOf(aCase, target);
   const shown = new Set(lines.map((line) => line.index));
@@ -175,9 +125,9 @@ function detailSection(aCase, target, onChoose) {
   const draw = () => {
     tip.hide();
     const some = lines.filter((line) => shown.has(line.index));
-    plots.replaceChildren(
-      ...PLOTS.map((plot) => detailPlot(aCase, target, some, plot)).filter(Boolean),
-    );
+    const figures = PLOTS.map((plot) => detailPlot(aCase, target, some, plot));
+    plots.replaceChildren(...figures.filter(Boolean));
+    plots.style.setProperty("--plots", Math.max(1, plots.childElementCount));
   };
   draw();
   return section(
@@ -194,32 +144,5 @@ function detailSection(aCase, target, onChoose) {
         "lines: where a point would fail. Red rings: points that are not good; crosses: " +
         "refused, with the message. A hollow marker has no error at all.",
     ),
-  );
-}
-
-function mapMenu(aCase, onChoose) {
-  const at = maps.indexOf(aCase);
-  const step = (by, label, text) =>
-    el(
-      "button",
-      {
-        type: "button",
-        class: "button",
-        "aria-label": label,
-        onclick: () => onChoose(maps[(at + by + maps.length) % maps.length].name),
-      },
-      text,
-    );
-  const select = el(
-    "select",
-    { "data-menu": "map", "aria-label": "Map", onchange: () => onChoose(select.value) },
-    maps.map((m) => el("option", { value: m.name, selected: m === aCase }, m.name)),
-  );
-  return el(
-    "div",
-    { class: "map-menu" },
-    step(-1, "Previous map", "←"),
-    select,
-    step(1, "Next map", "→"),
   );
 }

@@ -36,7 +36,7 @@ function xTicks(frame, aCase, scale) {
         svg(
           "text",
           { x, y: bottom + 16, "text-anchor": "middle" },
-          typographic(errorTick(tick)),
+          parameterTick(tick),
         ),
       ];
     }),

@@ -93,7 +93,7 @@ function tileDrawing(aCase, target) {
 
 function axisEnds(aCase) {
   const values = aCase.points.map((p) => p.parameter).filter(known);
-  return [Math.min(...values), Math.max(...values)].map((x) => fmtParameter(aCase, x));
+  return [Math.min(...values), Math.max(...values)].map(parameterTick);
 }
 
 // The outcome on one target: failing points there.

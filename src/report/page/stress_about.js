@@ -1,0 +1,79 @@
+"use strict";
+// What stands around the plots of a map: what it is about, its curves, the way to others.
+
+function seriesLegend(lines, shown, onChange) {
+  if (lines.length < 2) return null;
+  return el(
+    "div",
+    { class: "legend", role: "group", "aria-label": "Curves shown" },
+    lines.map((line) => {
+      const button = el(
+        "button",
+        {
+          type: "button",
+          class: "button legend-item",
+          "aria-pressed": String(shown.has(line.index)),
+          onclick: () => {
+            if (!shown.delete(line.index)) shown.add(line.index);
+            button.setAttribute("aria-pressed", String(shown.has(line.index)));
+            onChange();
+          },
+        },
+        strategyLabel(line),
+      );
+      return button;
+    }),
+  );
+}
+
+function factList(aCase, target) {
+  const breaks = nearestBreaks(aCase, target);
+  const rows = [
+    ["Extreme", aCase.extreme],
+    ["Must be true", `${aCase.must} (${aCase.truth})`],
+    ["Promised", promiseText(aCase)],
+    [
+      "First breaks",
+      breaks.length > 0
+        ? breaks.map((b) => breakText(aCase, b)).join("; ")
+        : "nowhere that was measured",
+    ],
+    [
+      "Finds errors from",
+      known(aCase.detectable) ? fmtFound(aCase.detectable) : "some points find none",
+    ],
+    aCase.source && ["Source", aCase.source],
+  ].filter(Boolean);
+  return el(
+    "dl",
+    { class: "about" },
+    rows.map(([name, text]) => el("div", {}, el("dt", {}, name), el("dd", {}, text))),
+  );
+}
+
+function mapMenu(aCase, onChoose) {
+  const at = maps.indexOf(aCase);
+  const step = (by, label, text) =>
+    el(
+      "button",
+      {
+        type: "button",
+        class: "button",
+        "aria-label": label,
+        onclick: () => onChoose(maps[(at + by + maps.length) % maps.length].name),
+      },
+      text,
+    );
+  const select = el(
+    "select",
+    { "data-menu": "map", "aria-label": "Map", onchange: () => onChoose(select.value) },
+    maps.map((m) => el("option", { value: m.name, selected: m === aCase }, m.name)),
+  );
+  return el(
+    "div",
+    { class: "map-menu" },
+    step(-1, "Previous map", "←"),
+    select,
+    step(1, "Next map", "→"),
+  );
+}
