@@ -34,7 +34,9 @@ std::string Measured(const JudgedPoint& judged) {
 
 std::string Deviate(const JudgedPoint& judged) {
   if (!judged.point.refused.empty() || !judged.crash.empty()) return "-";
-  return std::isinf(judged.verdict.z) ? "inf" : fmt::format("{:.1f}", judged.verdict.z);
+  const double z = judged.verdict.z;
+  if (std::isinf(z)) return "inf";
+  return z < 9999 ? fmt::format("{:.1f}", z) : fmt::format("{:.0e}", z);
 }
 
 std::string RaysPerSample(const CaseResult& result) {
@@ -118,11 +120,17 @@ std::size_t NameWidth(const SuiteResult& result) {
 }
 
 std::string Summary(const SuiteResult& result) {
+  int not_measured = 0;
+  for (const CaseResult& one : result.cases) not_measured += one.not_measured;
+  const std::string left_out =
+      not_measured == 0
+          ? ""
+          : fmt::format("; {} points say nothing (the report says why)", not_measured);
   return fmt::format(
-      "\n{}\n{} promised points in {} ({} of processor time); a correct renderer fails "
+      "\n{}\n{} promised points in {} ({} of processor time){}; a correct renderer fails "
       "one run in {:.0f}\n",
       Sentence(result), result.promised, DurationText(result.seconds),
-      DurationText(result.cpu_seconds), 1 / result.options.false_alarm);
+      DurationText(result.cpu_seconds), left_out, 1 / result.options.false_alarm);
 }
 
 }  // namespace

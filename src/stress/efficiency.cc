@@ -23,10 +23,18 @@ bool IsStrategy(const std::string& name) {
   }
 }
 
+bool IsDefault(const std::string& name) {
+  if (name == "default") return true;
+  Strategy strategy;
+  ApplyStrategy(name, {}, strategy);
+  return strategy == Strategy{};
+}
+
 bool HasEfficiency(const JudgedPoint& judged) {
   const Point& p = judged.point;
-  return judged.crash.empty() && p.refused.empty() && p.standard_error > 0 &&
-         std::isfinite(p.standard_error) && p.seconds > 0 && p.degrees_of_freedom > 0;
+  return judged.crash.empty() && p.refused.empty() && p.not_measured.empty() &&
+         p.standard_error > 0 && std::isfinite(p.standard_error) && p.seconds > 0 &&
+         p.degrees_of_freedom > 0;
 }
 
 double Cost(const Point& p) { return p.standard_error * p.standard_error * p.seconds; }
@@ -47,12 +55,15 @@ bool ComparesStrategies(const CaseResult& result) {
 }
 
 std::string BaselineOf(const CaseResult& result) {
-  std::string first;
+  std::vector<std::string> names;
   for (const JudgedPoint& judged : result.points) {
-    if (judged.point.series == "default") return "default";
-    if (first.empty()) first = judged.point.series;
+    const std::string& name = judged.point.series;
+    if (name == "default") return name;
+    if (!name.empty()) names.push_back(name);
   }
-  return first;
+  const auto found = std::find_if(names.begin(), names.end(), IsDefault);
+  if (found != names.end()) return *found;
+  return names.empty() ? "" : names.front();
 }
 
 std::optional<Interval> RelativeEfficiency(const CaseResult& result,

@@ -13,7 +13,8 @@ namespace lanelight::stress {
 /// or "default".
 bool ComparesStrategies(const CaseResult& result);
 
-/// The curve that others are compared with: "default", or the first one.
+/// Of curves that are strategies. The curve that others are compared with: "default",
+/// else the first that is the default strategy (as "points=sobol" is), else the first.
 std::string BaselineOf(const CaseResult& result);
 
 /// Efficiency 1 / (variance x processor seconds) of a point relative to the baseline's at

@@ -9,6 +9,7 @@ namespace lanelight::stress {
 namespace {
 
 PointVerdict VerdictOf(const Case& about, const JudgedPoint& judged, double level) {
+  if (!judged.point.not_measured.empty()) return {};
   if (judged.crash.empty()) return Judge(about.truth, judged.point, level);
   PointVerdict verdict;
   verdict.fault = Fault::kCrashed;
@@ -29,6 +30,7 @@ void CountPromised(CaseResult& result) {
   double most = -1;
   for (std::size_t i = 0; i < result.points.size(); ++i) {
     const JudgedPoint& judged = result.points[i];
+    result.not_measured += !judged.point.not_measured.empty();
     if (!judged.promised) continue;
     ++result.promised;
     result.failed += !judged.verdict.good();
@@ -101,7 +103,7 @@ void JudgeCase(const SuiteResult& suite, CaseResult& result) {
     judged.verdict = VerdictOf(result.about, judged, suite.level);
   }
   result.worst = -1;
-  result.promised = result.failed = result.weak = 0;
+  result.promised = result.failed = result.weak = result.not_measured = 0;
   result.detectable = 0;
   result.breaks.clear();
   CountPromised(result);

@@ -29,6 +29,23 @@ bool Means(const std::string& word, const Case& about) {
                    "; `lanelight stress --list` shows all");
 }
 
+// Groups in the order of their first cases.
+std::vector<Case> ByGroup(const std::vector<Case>& cases) {
+  std::vector<std::string> groups;
+  for (const Case& about : cases) {
+    if (std::find(groups.begin(), groups.end(), about.group) == groups.end()) {
+      groups.push_back(about.group);
+    }
+  }
+  std::vector<Case> sorted;
+  for (const std::string& group : groups) {
+    for (const Case& about : cases) {
+      if (about.group == group) sorted.push_back(about);
+    }
+  }
+  return sorted;
+}
+
 }  // namespace
 
 std::vector<Case> SelectCases(std::vector<Case> cases,
@@ -37,12 +54,12 @@ std::vector<Case> SelectCases(std::vector<Case> cases,
     const auto means = [&](const Case& about) { return Means(word, about); };
     if (std::none_of(cases.begin(), cases.end(), means)) ThrowNothing(word, cases);
   }
-  if (words.empty()) return cases;
   std::erase_if(cases, [&](const Case& about) {
-    return std::none_of(words.begin(), words.end(),
+    return !words.empty() &&
+           std::none_of(words.begin(), words.end(),
                         [&](const std::string& word) { return Means(word, about); });
   });
-  return cases;
+  return ByGroup(cases);
 }
 
 }  // namespace lanelight::stress

@@ -8,7 +8,8 @@
 
 namespace lanelight::stress {
 
-/// The cases that any of `words` names, in their own order; all of them without words. A
+/// The cases that any of `words` names, group by group, else in their own order; all of
+/// them without words. A
 /// word is the name of a case or of a group, or a pattern of the shell (* ? [...]) for
 /// either. Throws InputError for a word that names nothing, with the nearest name.
 std::vector<Case> SelectCases(std::vector<Case> cases,

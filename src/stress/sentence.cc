@@ -43,12 +43,12 @@ std::string Sentence(const SuiteResult& result) {
            " good" + on;
   } else {
     text = fmt::format("{} of {} fail{}{}: {}", failed.size(), Cases(judged),
-                       failed.size() == 1 ? "s" : "", on, List(failed, 6));
+                       failed.size() == 1 ? "s" : "", on, List(failed, 3));
   }
   const int weak = result.Count(Outcome::kWeak);
   if (weak > 0) {
-    text += fmt::format("; {} {} too noisy to say much", Cases(weak),
-                        weak == 1 ? "is" : "are");
+    text += fmt::format("; {}{} {} too noisy to say much", weak,
+                        failed.empty() ? " of them" : " more", weak == 1 ? "is" : "are");
   }
   if (judged < total) {
     text += fmt::format("; {} {} not measured to the end", Cases(total - judged),

@@ -36,9 +36,13 @@ struct Point {
   std::uint64_t samples = 0, rays = 0;
   std::uint64_t lanes_used = 0, lane_slots = 0;  // of all stages
   double seconds = 0;                            // of processor time
-  /// Not measured, and why: outside of what can be described, say. Such a point is in
-  /// neither the map nor the verdict, but in the report.
+  /// The renderer's message, if it refused: what it may do outside of the promised range
+  /// only. (An InputError that `measure` throws is a refusal of all series.)
   std::string refused;
+  /// Why this point says nothing, by the case's own reckoning: light too rare to be
+  /// sampled, a choice that does not fit the scene. Such a point is in neither the map
+  /// nor the verdict, but in the report.
+  std::string not_measured;
   /// Of `standard_error`, which is an estimate itself; infinite: it is known.
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
   /// What errors are relative to where `expected` is 0, the size of what is subtracted,

@@ -50,6 +50,7 @@ Json PointJson(const JudgedPoint& judged) {
           {"seconds", Number(p.seconds)},
           {"total_seconds", Number(judged.total_seconds)},
           {"refused", p.refused},
+          {"not_measured", p.not_measured},
           {"crash", judged.crash},
           {"verdict", VerdictJson(judged.verdict)}};
 }
@@ -100,6 +101,7 @@ Json CaseJson(const CaseResult& result) {
                {"promised", result.promised},
                {"failed", result.failed},
                {"weak", result.weak},
+               {"not_measured", result.not_measured},
                {"detectable", Number(result.detectable)},
                {"worst", result.worst < 0 ? Json() : Json(result.worst)},
                {"strategies", strategies},

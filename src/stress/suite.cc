@@ -53,7 +53,8 @@ void Measure(const std::string& target, double parameter, const Effort& effort,
     judged.target = target;
     judged.total_seconds = each;
     if (judged.point.seconds == 0) judged.point.seconds = each;
-    judged.promised = result.about.axis.Promised(parameter);
+    judged.promised =
+        result.about.axis.Promised(parameter) && judged.point.not_measured.empty();
     result.points.push_back(std::move(judged));
   }
 }

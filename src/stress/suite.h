@@ -22,8 +22,8 @@ struct SuiteOptions {
 struct JudgedPoint {
   std::string target;
   Point point;
-  std::string crash;  // message of an exception that is no InputError
-  bool promised = false;
+  std::string crash;      // message of an exception that is no InputError
+  bool promised = false;  // and measured
   PointVerdict verdict;
   double total_seconds = 0;  // of processor time, building the scene included
 };
@@ -57,8 +57,9 @@ struct CaseResult {
   /// one that uses the largest part of what it may be off; -1 if there is none.
   int worst = -1;
   int promised = 0, failed = 0, weak = 0;  // promised points
-  double detectable = 0;                   // the largest of the promised points
-  std::vector<BreakPlace> breaks;          // outside of the promise
+  int not_measured = 0;
+  double detectable = 0;           // the largest of the promised points
+  std::vector<BreakPlace> breaks;  // outside of the promise
 };
 
 struct SuiteResult {

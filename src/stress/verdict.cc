@@ -71,7 +71,9 @@ std::string OffText(const Point& point, double error) {
   if (std::abs(error) > 10 * scale) {
     return fmt::format("{:.3g} instead of {:.3g}", point.measured, point.expected);
   }
-  return fmt::format("off by {:+.2g} %", 100 * error / scale);
+  const double percent = 100 * error / scale;
+  if (std::abs(percent) >= 10) return fmt::format("off by {:+.0f} %", percent);
+  return fmt::format("off by {:+.2g} %", percent);
 }
 
 // The error that is found with probability kPower.

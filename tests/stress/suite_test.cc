@@ -70,6 +70,22 @@ TEST_CASE("stress: a case that measures nothing that is promised fails", "[stres
   CHECK(result.why == "no promised point was measured");
 }
 
+TEST_CASE("stress: what a case leaves out is neither good nor bad", "[stress]") {
+  const auto leave_out = [](double x) {
+    Point point = Around1(2);  // wrong, if it counted
+    point.not_measured = "too rare";
+    return std::vector{x == 1 || x > 1e3 ? point : Around1(1)};
+  };
+  const CaseResult some = RunMap(leave_out);
+  CHECK(some.outcome == Outcome::kGood);
+  CHECK(some.promised == 4);
+  CHECK(some.not_measured == 2);
+  CHECK(some.breaks.empty());
+  Case none = PlantedMap("none", leave_out);
+  none.axis.quick = {1};
+  CHECK(RunOne(none).outcome == Outcome::kFailed);
+}
+
 TEST_CASE("stress: a map breaks where it is first wrong going outward", "[stress]") {
   const CaseResult result = RunMap([](double x) {
     Point refused;

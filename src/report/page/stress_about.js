@@ -42,6 +42,11 @@ function factList(aCase, target) {
       "Finds errors from",
       known(aCase.detectable) ? fmtFound(aCase.detectable) : "some points find none",
     ],
+    aCase.not_measured > 0 && [
+      "Not measured",
+      `${aCase.not_measured} of ${aCase.points.length} points: ` +
+        aCase.points.find((p) => p.not_measured).not_measured,
+    ],
     aCase.source && ["Source", aCase.source],
   ].filter(Boolean);
   return el(

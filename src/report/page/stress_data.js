@@ -18,7 +18,8 @@ function measureOf(aCase) {
 }
 
 function hasNumber(point) {
-  return point.refused === "" && point.crash === "" && known(point.measured);
+  const { refused, crash, not_measured: left } = point;
+  return refused === "" && crash === "" && left === "" && known(point.measured);
 }
 
 // {value, noise, limit}: of the error as it is plotted; `limit` is where a point fails.

@@ -3,6 +3,7 @@
 
 function pointRows(aCase, point) {
   if (point.refused) return [["refused", point.refused]];
+  if (point.not_measured) return [["not measured", point.not_measured]];
   if (point.crash) return [["crashed", point.crash]];
   const half = known(point.verdict.allowance)
     ? point.verdict.allowance - point.tolerance

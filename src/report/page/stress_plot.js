@@ -108,7 +108,7 @@ function refusals(frame, lines, scale, describe) {
   const seen = new Map();
   for (const line of lines) {
     for (const point of line.points) {
-      if (!hasNumber(point)) seen.set(point.parameter, { line, point });
+      if (!hasNumber(point) && !point.not_measured) seen.set(point.parameter, { line, point });
     }
   }
   return [...seen.values()].map(({ line, point }) =>

@@ -1,36 +1,45 @@
 "use strict";
-// Which strategy survives stiffness: strategies against the parameter, coloured by their
-// efficiency relative to the default's, with a mark where they are wrong.
+// Which strategy survives stiffness: strategies against the parameters of all maps that
+// compare them, coloured by efficiency, with a mark where they are wrong.
 
 const compared = study.cases.filter((c) => c.strategies && maps.includes(c));
 
-// Opacity of the colour, and which one: a factor of ten is full.
+// A factor of ten is full colour.
 function efficiencyColor(ratio) {
   const size = Math.min(1, Math.abs(Math.log10(ratio)));
   const color = ratio >= 1 ? "var(--c0)" : "var(--c1)";
-  return `color-mix(in srgb, ${color} ${Math.round(size * 70)}%, var(--panel))`;
+  return `color-mix(in srgb, ${color} ${Math.round(size * 65)}%, var(--panel))`;
+}
+
+// Few characters: "0.85", "2.1", "35", "13k", "10⁻⁴".
+function ratioText(ratio) {
+  if (!(ratio > 0)) return UNKNOWN;
+  if (ratio < 0.001 || ratio >= 1e6) return powerOfTen(Math.round(Math.log10(ratio)));
+  if (ratio < 0.0995) return String(Number(ratio.toPrecision(1)));
+  if (ratio < 9.95) return ratio.toFixed(ratio < 0.995 ? 2 : 1);
+  return ratio < 1e3 ? String(Math.round(ratio)) : `${Math.round(ratio / 1e3)}k`;
 }
 
 function heatText(point) {
+  if (point.not_measured) return "·";
   if (point.refused) return "refused";
   if (point.crash) return "crashed";
-  const ratio = valueOf(point.efficiency);
-  return ratio === null ? UNKNOWN : `×${fmt(ratio, 2)}`;
+  return ratioText(valueOf(point.efficiency));
 }
 
-function heatCell(aCase, line, point) {
-  if (!point) return el("td", {}, "");
+function heatCell(aCase, line, point, first) {
+  const edge = first ? " first" : "";
+  if (!point) return el("td", { class: `heat${edge}` }, "");
   const ratio = hasNumber(point) ? valueOf(point.efficiency) : null;
   const bad = !point.verdict.good;
   const cell = el(
     "td",
     {
-      class: bad ? "heat bad" : "heat",
+      class: `heat${bad ? " bad" : ""}${edge}`,
       tabindex: 0,
       style: ratio > 0 ? { background: efficiencyColor(ratio) } : {},
     },
     heatText(point),
-    bad && hasNumber(point) && el("span", { class: "biased" }, point.verdict.why),
   );
   return withTip(cell, () => [
     describePoint(aCase)(line, point),
@@ -39,89 +48,113 @@ function heatCell(aCase, line, point) {
   ]);
 }
 
-function heatMap(aCase, target) {
+// {aCase, values, lines: Map from strategy to its points} of a map on a target.
+function heatColumns(aCase, target) {
   const lines = seriesOf(aCase, target);
-  const values = [
-    ...new Set(lines.flatMap((line) => line.points.map((p) => p.parameter))),
-  ].sort((a, b) => a - b);
-  const promised = (x) => {
-    const { promised_low: low, promised_high: high } = aCase.axis;
-    return !(known(low) && x < low) && !(known(high) && x > high);
+  const values = lines.flatMap((line) => line.points.map((p) => p.parameter));
+  return {
+    aCase,
+    values: [...new Set(values)].sort((a, b) => a - b),
+    lines: new Map(lines.map((line) => [line.name, line])),
   };
+}
+
+function isPromised({ axis }, x) {
+  const { promised_low: low, promised_high: high } = axis;
+  return !(known(low) && x < low) && !(known(high) && x > high);
+}
+
+function heatHead(blocks) {
+  const names = blocks.map(({ aCase, values }) =>
+    withTip(
+      el(
+        "th",
+        { class: "first map-title", scope: "colgroup", colspan: values.length },
+        aCase.name.replace(/^strateg(y|ies)-/, ""),
+      ),
+      () => [el("b", {}, aCase.name), el("div", {}, aCase.extreme)],
+    ),
+  );
+  const parameters = blocks.flatMap(({ aCase, values }) =>
+    values.map((x, i) =>
+      el(
+        "th",
+        {
+          scope: "col",
+          class: [i === 0 && "first", isPromised(aCase, x) && "inside"]
+            .filter(Boolean)
+            .join(" "),
+        },
+        parameterTick(x),
+      ),
+    ),
+  );
+  return el(
+    "thead",
+    {},
+    el("tr", {}, el("th", { class: "text", scope: "col" }, "Strategy"), names),
+    el("tr", {}, el("th", { class: "text", scope: "col" }, ""), parameters),
+  );
+}
+
+function heatRow(name, blocks) {
+  return el(
+    "tr",
+    { "data-strategy": name },
+    el("th", { scope: "row", class: "text" }, name),
+    blocks.flatMap(({ aCase, values, lines }) =>
+      values.map((x, i) => {
+        const line = lines.get(name);
+        const point = line && line.points.find((p) => p.parameter === x);
+        return heatCell(aCase, line, point, i === 0);
+      }),
+    ),
+  );
+}
+
+function heatMap(target) {
+  const blocks = compared.map((aCase) => heatColumns(aCase, target));
+  const names = [...new Set(blocks.flatMap(({ lines }) => [...lines.keys()]))];
   return el(
     "div",
-    { class: "heat-block", "data-heat": aCase.name },
-    el("h3", {}, aCase.name, " ", el("span", { class: "note" }, aCase.extreme)),
+    { class: "scroll", tabindex: 0, role: "region", "aria-label": "Efficiencies" },
     el(
-      "div",
-      { class: "scroll", tabindex: 0, role: "region", "aria-label": aCase.name },
+      "table",
+      { class: "data heat-map" },
+      heatHead(blocks),
       el(
-        "table",
-        { class: "data heat-map" },
-        el(
-          "thead",
-          {},
-          el(
-            "tr",
-            {},
-            el("th", { class: "text", scope: "col" }, aCase.axis.name),
-            values.map((x) =>
-              el(
-                "th",
-                { scope: "col", class: promised(x) ? "inside" : null },
-                fmtParameter(aCase, x),
-              ),
-            ),
-          ),
-        ),
-        el(
-          "tbody",
-          {},
-          lines.map((line) =>
-            el(
-              "tr",
-              {},
-              el("th", { scope: "row", class: "text" }, strategyLabel(line)),
-              values.map((x) =>
-                heatCell(
-                  aCase,
-                  line,
-                  line.points.find((p) => p.parameter === x),
-                ),
-              ),
-            ),
-          ),
-        ),
+        "tbody",
+        {},
+        names.map((name) => heatRow(name, blocks)),
       ),
     ),
   );
 }
 
-// "points=cmj: in 3 of 4 maps", for the sentence above the tables.
-function survivors(target) {
-  const counts = new Map();
+// Strategies that are wrong somewhere inside a promise: [name, names of maps].
+function wrongStrategies(target) {
+  const wrong = new Map();
   for (const aCase of compared) {
     for (const line of seriesOf(aCase, target)) {
-      const count = counts.get(line.name) || { maps: 0, good: 0 };
-      const mine = line.points.filter((p) => p.promised);
-      count.maps += 1;
-      count.good += mine.length > 0 && mine.every((p) => p.verdict.good);
-      counts.set(line.name, count);
+      if (line.points.some((p) => p.promised && !p.verdict.good)) {
+        wrong.set(line.name, [...(wrong.get(line.name) || []), aCase.name]);
+      }
     }
   }
-  return counts;
+  return [...wrong];
 }
 
 function survivalText(target) {
-  const counts = [...survivors(target)];
-  const wrong = counts.filter(([, { maps: all, good }]) => good < all);
-  const text =
-    wrong.length === 0
-      ? `All ${counts.length} strategies stay unbiased over the promised range of every map.`
-      : `Wrong inside a promised range: ${wrong
-          .map(([name, { maps: all, good }]) => `${name} (${all - good} of ${all} maps)`)
-          .join(", ")}.`;
-  return `${text} Numbers are efficiencies, 1 / (variance × processor time), relative to `;
+  const wrong = wrongStrategies(target);
+  if (wrong.length === 0) {
+    return "Every strategy stays right over the promised range of every map. ";
+  }
+  const most = 4;
+  const texts = wrong
+    .slice(0, most)
+    .map(([name, names]) => `${name} (${names.join(", ")})`);
+  const more = wrong.length > most ? ` and ${wrong.length - most} more` : "";
+  return `Wrong inside a promised range: ${texts.join("; ")}${more}. `;
 }
 
 function strategiesSection(target) {
@@ -130,8 +163,15 @@ function strategiesSection(target) {
   return section(
     "strategies",
     "Which strategy survives stiffness",
-    el("p", { class: "lead" }, survivalText(target), el("b", {}, baselines.join(", ")),
-      ": blue is better, orange is worse, full colour a factor of ten."),
-    compared.map((aCase) => heatMap(aCase, target)),
+    el(
+      "p",
+      { class: "lead" },
+      survivalText(target),
+      "Numbers are efficiencies, 1 / (variance × processor time), relative to ",
+      el("b", {}, baselines.join(", ")),
+      ": blue is better, orange is worse, full colour a factor of ten. A red frame is " +
+        "wrong or refused, a dot was not measured; point at it for the reason.",
+    ),
+    heatMap(target),
   );
 }
