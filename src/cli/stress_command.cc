@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
+#include "src/cli/checkpoint_options.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
@@ -25,7 +26,7 @@ namespace {
 struct StressCommandOptions {
   std::vector<std::string> words, targets;
   stress::SuiteOptions suite;
-  std::string out, json;
+  std::string out, json, part;
   int threads = 0;
   bool list = false, quiet = false;
 };
@@ -36,7 +37,10 @@ constexpr const char* kInterruptText =
 
 std::vector<stress::Case> Selected(const StressCommandOptions& options) {
   try {
-    return stress::SelectCases(stress::AllCases(), options.words);
+    const auto cases = stress::SelectCases(stress::AllCases(), options.words);
+    if (options.part.empty()) return cases;
+    const Part part = ParsePart(options.part);
+    return stress::PartOf(cases, part.index, part.count);
   } catch (const InputError& error) {
     const std::string message = error.what();
     throw CLI::ValidationError("CASE", message.substr(message.find("no case")));
@@ -96,6 +100,10 @@ void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
       ->type_name("DIR");
   command.add_option("--json", options.json, "Write stress.json ('-': print it)")
       ->type_name("FILE");
+  command
+      .add_option("--part", options.part,
+                  "Every N-th of these cases only, from the I-th on")
+      ->type_name("I/N");
   std::vector<std::string> targets = AvailableTargets();
   targets.push_back("all");
   command

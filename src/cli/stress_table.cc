@@ -14,7 +14,7 @@ namespace {
 
 using namespace stress;
 
-constexpr const char* kRow = "{:<{}}  {:>10} {:>22} {:>6} {:>7} {:>8} {:>6}  {:<8}{}\n";
+constexpr const char* kRow = "{:<{}}  {:>10} {:>22} {:>6} {:>7} {:>8} {:>6}  {:<10}{}\n";
 
 std::string Significant(double x, int digits) {
   return std::isfinite(x) ? fmt::format("{:.{}g}", x, digits) : "-";
@@ -68,6 +68,12 @@ std::string Breaks(const CaseResult& result) {
   return text.empty() ? text : "  " + text;
 }
 
+// "weak 3/40": points of all that are promised.
+std::string OutcomeText(const CaseResult& result) {
+  if (result.outcome != Outcome::kWeak) return Name(result.outcome);
+  return fmt::format("weak {}/{}", result.weak, result.promised);
+}
+
 std::string Row(const CaseResult& result, std::size_t width) {
   double seconds = 0;
   std::uint64_t invalid = 0;
@@ -81,7 +87,7 @@ std::string Row(const CaseResult& result, std::size_t width) {
                      worst ? Significant(worst->point.expected, 5) : "-",
                      worst ? Measured(*worst) : "-", worst ? Deviate(*worst) : "-",
                      invalid, DurationText(seconds), RaysPerSample(result),
-                     Name(result.outcome), Breaks(result));
+                     OutcomeText(result), Breaks(result));
 }
 
 std::string Where(const Case& about, const JudgedPoint& judged) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/core/suggest.h"
 
@@ -60,6 +61,15 @@ std::vector<Case> SelectCases(std::vector<Case> cases,
                         [&](const std::string& word) { return Means(word, about); });
   });
   return ByGroup(cases);
+}
+
+std::vector<Case> PartOf(const std::vector<Case>& cases, int part, int parts) {
+  LL_CHECK(part >= 1 && part <= parts);
+  std::vector<Case> mine;
+  for (std::size_t i = std::size_t(part) - 1; i < cases.size(); i += std::size_t(parts)) {
+    mine.push_back(cases[i]);
+  }
+  return mine;
 }
 
 }  // namespace lanelight::stress

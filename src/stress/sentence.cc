@@ -37,6 +37,7 @@ std::string Sentence(const SuiteResult& result) {
   const std::vector<std::string> failed = NamesOf(result, Outcome::kFailed);
   const int total = static_cast<int>(result.cases.size());
   const int judged = total - result.Count(Outcome::kUnfinished);
+  if (total == 0) return "There was no case to measure.";
   std::string text;
   if (failed.empty()) {
     text = (judged == 1 ? "The one case is" : fmt::format("All {} are", Cases(judged))) +

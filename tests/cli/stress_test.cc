@@ -39,6 +39,7 @@ TEST_CASE("stress: a wrong name gets the nearest one", "[cli][stress]") {
   CHECK_THAT(r.err, Contains("did you mean \"unit-of-length\"?") && Contains("--list"));
   CHECK(r.out.empty());
   CHECK(RunLanelight({"stress", "--target", "AVX9000"}).exit_code == kExitUsage);
+  CHECK(RunLanelight({"stress", "--part", "5/4"}).exit_code == kExitUsage);
 }
 
 TEST_CASE("stress: a case, its row, its files", "[cli][stress]") {

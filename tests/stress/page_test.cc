@@ -174,6 +174,8 @@ TEST_CASE("stress: one sentence says what came out", "[stress]") {
   result.cases.resize(1);
   result.options.targets = {"AVX2"};
   CHECK(Sentence(result) == "The one case is good on AVX2.");
+  result.cases.clear();
+  CHECK(Sentence(result) == "There was no case to measure.");
 }
 
 TEST_CASE("stress: results are written whole", "[stress]") {

@@ -11,10 +11,13 @@ function efficiencyColor(ratio) {
   return `color-mix(in srgb, ${color} ${Math.round(size * 65)}%, var(--panel))`;
 }
 
-// Few characters: "0.85", "2.1", "35", "13k", "10⁻⁴".
+// Few characters: "0.85", "2.1", "35", "13k", "10⁻⁴"; where one of the two has no noise
+// but that of rounding, "≫".
 function ratioText(ratio) {
   if (!(ratio > 0)) return UNKNOWN;
-  if (ratio < 0.001 || ratio >= 1e6) return powerOfTen(Math.round(Math.log10(ratio)));
+  if (ratio < 1e-6) return "≪";
+  if (ratio >= 1e6) return "≫";
+  if (ratio < 0.001) return powerOfTen(Math.round(Math.log10(ratio)));
   if (ratio < 0.0995) return String(Number(ratio.toPrecision(1)));
   if (ratio < 9.95) return ratio.toFixed(ratio < 0.995 ? 2 : 1);
   return ratio < 1e3 ? String(Math.round(ratio)) : `${Math.round(ratio / 1e3)}k`;

@@ -94,7 +94,7 @@ function caseColumns(onChoose) {
       text: true,
       cell: (c) => el("span", { class: "must" }, c.must),
     },
-    number("expected", "Expected", worst("expected"), (x) => fmt(x, 5)),
+    number("expected", "Expected", worst("expected"), (x) => fmtShort(x, 5)),
     {
       key: "measured",
       title: "Measured",
