@@ -34,7 +34,8 @@ CompletionValue ValueOf(const CLI::Option& option) {
   const bool alone = option.get_positional();
   value.optional = option.get_items_expected_min() == 0;
   value.name = alone ? option.get_name(true) : type;
-  value.kind = alone || type == "FILE" ? Kind::kFile : Kind::kOther;
+  const bool file = type == "FILE" || (alone && type.empty());
+  value.kind = file ? Kind::kFile : Kind::kOther;
   if (value.name == "SCENE") value.extension = ".pbrt";
   if (value.name == "SWEEP") value.extension = ".toml";
   if (type == "DIR") value.kind = Kind::kFolder;
