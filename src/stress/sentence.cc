@@ -48,8 +48,8 @@ std::string Sentence(const SuiteResult& result) {
   }
   const int weak = result.Count(Outcome::kWeak);
   if (weak > 0) {
-    text += fmt::format("; {}{} {} too noisy to say much", weak,
-                        failed.empty() ? " of them" : " more", weak == 1 ? "is" : "are");
+    text += fmt::format("; in {} {} some points are too noisy to say much", weak,
+                        failed.empty() ? "of them" : "more");
   }
   if (judged < total) {
     text += fmt::format("; {} {} not measured to the end", Cases(total - judged),

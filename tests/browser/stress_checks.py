@@ -15,7 +15,8 @@ def case(page, name):
 
 
 def choose(page, name):
-    page.js("document.querySelector(`.tile[data-case=\"${arguments[0]}\"]`).click()", name)
+    page.js("document.querySelector(`.tile[data-case=\"${arguments[0]}\"]`).click()",
+            name)
     page.settle(30)
 
 
@@ -156,6 +157,12 @@ def the_legend_hides_curves(page):
     require(len(drawn(page, "error")) == 2, "still there")
     page.click("#map .legend-item")
     require(len(drawn(page, "error")) == 3, "gone")
+    page.js("document.querySelectorAll('#map .legend-item')[1].dispatchEvent("
+            "new PointerEvent('pointerenter'))")
+    opacities = page.js("return [...document.querySelectorAll("
+                        "'[data-plot=\"error\"] g[data-series]')]"
+                        ".map((g) => getComputedStyle(g).opacity)")
+    require(opacities == ["0.15", "1", "0.15"], "nothing stands out", opacities)
 
 
 @check

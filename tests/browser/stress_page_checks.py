@@ -53,7 +53,8 @@ def nothing_unknown_is_spelled_out(page):
         found = re.search(rf".{{0,40}}{words}.{{0,40}}|\[object", text)
         require(not found, name, "says", found and found[0])
         wrong = page.js("return [...document.querySelectorAll('svg *')].filter((e) =>"
-                        "[...e.attributes].some((a) => /NaN|undefined|null/.test(a.value)))"
+                        "[...e.attributes].some((a) =>"
+                        "/NaN|undefined|null/.test(a.value)))"
                         ".slice(0, 3).map((e) => e.outerHTML)")
         require(not wrong, name, "draws", wrong)
     page.open()

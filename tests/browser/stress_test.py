@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Looks at the page of synthetic stress cases in Chromium: stress_test.py REPORT.html FOLDER
+"""Looks at the page of synthetic stress cases: stress_test.py REPORT.html FOLDER
 
 As report_test.py.
 """

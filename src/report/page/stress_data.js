@@ -91,8 +91,9 @@ function firstBreaks(aCase) {
 // A value of the axis without its unit.
 function parameterTick(x) {
   if (x === 0) return "0";
-  const exact = Math.abs(x) >= 1e-3 && Math.abs(x) < 1e4;
-  const size = exact ? String(Number(Math.abs(x).toPrecision(5))) : errorTick(Math.abs(x));
+  const y = Math.abs(x);
+  const plain = y >= 1e-3 && y < 1e4;
+  const size = plain ? String(Number(y.toPrecision(5))) : errorTick(y);
   return x < 0 ? MINUS + size : size;
 }
 
@@ -117,10 +118,12 @@ function promiseText(aCase) {
   return known(high) ? `up to ${fmtParameter(aCase, high)}` : "everywhere";
 }
 
-// Errors that are found: percent, or a power of ten where that is small.
+// Errors that are found, relative: percent where that reads well.
 function fmtFound(x) {
   if (!known(x)) return UNKNOWN;
-  return x > 0 && x < 1e-3 ? fmt(x, 2) : fmtPercent(x, 2);
+  if (x === 0) return "any";
+  if (x > 10) return `${fmt(x, 2)} ×`;
+  return x < 1e-3 ? fmt(x, 2) : fmtPercent(x, 2);
 }
 
 function sumPoints(aCase, key) {

@@ -112,11 +112,17 @@ function detailPlot(aCase, target, lines, plot) {
   new ResizeObserver(() => requestAnimationFrame(draw)).observe(host);
   const buttons =
     choices.length > 1 &&
-    choiceButtons(title, choices.map((key) => [key, plot.choices[key][0]]), choice, (key) => {
-      choice = key;
-      draw();
-    });
-  return el("figure", { class: "plot-figure" }, el("figcaption", {}, title, buttons), host);
+    choiceButtons(
+      title,
+      choices.map((key) => [key, plot.choices[key][0]]),
+      choice,
+      (key) => {
+        choice = key;
+        draw();
+      },
+    );
+  const caption = el("figcaption", {}, title, buttons);
+  return el("figure", { class: "plot-figure" }, caption, host);
 }
 
 function detailSection(aCase, target, onChoose) {
@@ -142,8 +148,8 @@ function detailSection(aCase, target, onChoose) {
       "p",
       { class: "hint" },
       "Green: the promised range. Bands: noise at the level of the verdict; thin dashed " +
-        "lines: where a point would fail. Red rings: points that are not good; crosses: " +
-        "refused, with the message. A hollow marker has no error at all.",
+        "lines: where a point would fail. Red rings: points that are not good; " +
+        "crosses: refused, with the message. A hollow marker has no error at all.",
     ),
   );
 }

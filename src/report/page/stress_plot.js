@@ -2,6 +2,9 @@
 // A plot of curves against the parameter of a map, as SVG: the promised range shaded,
 // breaks marked, every point with a note.
 
+// With more curves, bands and limits are those of the one that the legend points at.
+const MOST_BANDS = 4;
+
 const BOX = { left: 58, right: 12, top: 10, bottom: 40 };
 
 function plotFrame(width, height) {
@@ -69,8 +72,8 @@ function breakLines(frame, aCase, target, scale) {
   });
 }
 
-// points: [{x, y, low, high, bad, point}] in pixels.
-function curve(line, points, describe) {
+// points: [{x, y, low, high, bad, point}] in pixels. limit: drawn below it, or null.
+function curve(line, points, describe, limit) {
   const color = `var(${line.style.variable})`;
   const path = points.map((p, i) => `${i === 0 ? "M" : "L"}${p.x} ${p.y}`).join("");
   const banded = points.filter((p) => known(p.low) && known(p.high));
@@ -81,8 +84,13 @@ function curve(line, points, describe) {
   return svg(
     "g",
     { "data-series": line.index },
+    limit,
     corners.length > 3 &&
-      svg("polygon", { class: "band", points: corners.join(" "), style: { fill: color } }),
+      svg("polygon", {
+        class: "band",
+        points: corners.join(" "),
+        style: { fill: color },
+      }),
     svg("path", {
       class: "curve",
       d: path,
@@ -108,7 +116,8 @@ function refusals(frame, lines, scale, describe) {
   const seen = new Map();
   for (const line of lines) {
     for (const point of line.points) {
-      if (!hasNumber(point) && !point.not_measured) seen.set(point.parameter, { line, point });
+      if (hasNumber(point) || point.not_measured) continue;
+      seen.set(point.parameter, { line, point });
     }
   }
   return [...seen.values()].map(({ line, point }) =>
@@ -143,7 +152,7 @@ function mapPlot(host, options) {
     svg(
       "svg",
       {
-        class: "map-plot",
+        class: lines.length > MOST_BANDS ? "map-plot many" : "map-plot",
         width: frame.width,
         height: frame.height,
         role: "img",
@@ -153,8 +162,7 @@ function mapPlot(host, options) {
       gridLines(frame, yScale, options.yTick),
       xTicks(frame, aCase, xScale),
       breakLines(frame, aCase, target, xScale),
-      drawn.map(({ line, points }) => [
-        limitLine(frame, line, points, xScale, yAt),
+      drawn.map(({ line, points }) =>
         curve(
           line,
           points.map((p) => ({
@@ -167,8 +175,9 @@ function mapPlot(host, options) {
             point: p.point,
           })),
           options.describe,
+          limitLine(frame, line, points, xScale, yAt),
         ),
-      ]),
+      ),
       refusals(frame, lines, xScale, options.describe),
     ),
   );

@@ -2,7 +2,11 @@
 // Which strategy survives stiffness: strategies against the parameters of all maps that
 // compare them, coloured by efficiency, with a mark where they are wrong.
 
-const compared = study.cases.filter((c) => c.strategies && maps.includes(c));
+const compared = study.cases
+  .filter((c) => c.strategies && maps.includes(c))
+  .map((c) => [new Set(c.points.map((p) => p.series)).size, c])
+  .sort((a, b) => b[0] - a[0]) // those that say most first
+  .map(([, c]) => c);
 
 // A factor of ten is full colour.
 function efficiencyColor(ratio) {

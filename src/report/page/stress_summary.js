@@ -70,13 +70,13 @@ function stressSummary(target, onChoose) {
 const STRESS_TERMS = [
   [
     "Promised",
-    "The range in which the documentation says that results are right. A point in it that " +
-      "is not right, or is refused, fails its case; outside, the map shows what happens.",
+    "The range in which the documentation says that results are right. A point in it " +
+      "that is not right, or is refused, fails its case; outside, the map shows what happens.",
   ],
   [
     "Noise",
     "Standard errors times the quantile of Student's t at the level of a single point. " +
-      "The levels of all promised points together make the false-alarm probability above.",
+      "The levels of all promised points together make the false-alarm probability.",
   ],
   [
     "Weak",
@@ -90,8 +90,8 @@ const STRESS_TERMS = [
   ],
   [
     "First breaks",
-    "On the way out of the promised range, the first value at which a point is not good: " +
-      "wrong, or refused with a message.",
+    "On the way out of the promised range, the first value at which a point is not " +
+      "good: wrong, or refused with a message.",
   ],
   [
     "Time and rays",

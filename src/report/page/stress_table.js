@@ -80,7 +80,13 @@ function caseColumns(onChoose) {
       cell: (c) => nameCell(c, onChoose),
       sort: (c) => c.name,
     },
-    { key: "group", title: "Group", text: true, cell: (c) => c.group, sort: (c) => c.group },
+    {
+      key: "group",
+      title: "Group",
+      text: true,
+      cell: (c) => c.group,
+      sort: (c) => c.group,
+    },
     {
       key: "outcome",
       title: "Verdict",
@@ -148,16 +154,18 @@ function tableSection(onChoose) {
     fill();
   };
   fill();
-  const groups = [...new Set(study.cases.map((c) => c.group))];
-  const outcomes = Object.keys(ORDER).filter((o) => study.outcomes[o] > 0);
+  const groups = [...new Set(study.cases.map((c) => c.group))].map((g) => [g, g]);
+  const outcomes = Object.keys(ORDER)
+    .filter((outcome) => study.outcomes[outcome] > 0)
+    .map((outcome) => [outcome, WORDS[outcome]]);
   return section(
     "cases",
     "All cases",
     el(
       "div",
       { class: "menus" },
-      filterMenu("Group", "group", groups.map((g) => [g, g]), set("group")),
-      filterMenu("Verdict", "outcome", outcomes.map((o) => [o, WORDS[o]]), set("outcome")),
+      filterMenu("Group", "group", groups, set("group")),
+      filterMenu("Verdict", "outcome", outcomes, set("outcome")),
     ),
     host,
   );

@@ -42,7 +42,9 @@ function tileCurve(line, points) {
 // What noise and tolerance allow: below it an error cannot be told from none.
 function tileAllowance(curves) {
   const lowest = new Map();
-  for (const p of curves.flat()) lowest.set(p.x, Math.min(p.limit, lowest.get(p.x) ?? 1e9));
+  for (const { x, limit } of curves.flat()) {
+    lowest.set(x, Math.min(limit, lowest.get(x) ?? limit));
+  }
   const xs = [...lowest.keys()].sort((a, b) => a - b);
   if (xs.length < 2) return null;
   const top = xs.map((x) => `${x},${lowest.get(x)}`).join(" ");
