@@ -1,5 +1,6 @@
 // `lanelight stress [CASE...]`: takes the renderer to its limits and says where they are.
 #include <algorithm>
+#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,7 @@
 #include "src/cli/stress_progress.h"
 #include "src/cli/stress_table.h"
 #include "src/core/parallel.h"
+#include "src/render/saving.h"
 #include "src/stress/cases/cases.h"
 #include "src/stress/select.h"
 #include "src/stress/stress_json.h"
@@ -76,6 +78,8 @@ int RunStressCommand(StressCommandOptions& options) {
     Print(StressList(cases));
     return kExitGood;
   }
+  CheckOutputPaths({options.json}, "");
+  if (!options.out.empty()) stress::MakeResultsFolder(options.out);
   const ThreadLimit threads(options.threads);
   options.suite.targets = TargetsOf(options.targets);
   const stress::SuiteResult result = Measure(cases, options);
@@ -85,6 +89,14 @@ int RunStressCommand(StressCommandOptions& options) {
     Print(options.out + "/stress.json, " + options.out + "/report.html\n");
   }
   return ExitCodeOf(result);
+}
+
+// (CLI11 takes -1 for 2^64 - 1.)
+std::string CheckSeed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error == std::errc() && end == text.data() + text.size()) return "";
+  return "'" + text + "' is not a whole number from 0 to 2^64 - 1";
 }
 
 void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
@@ -113,6 +125,7 @@ void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
       ->delimiter(',')
       ->type_name("NAME");
   command.add_option("--seed", options.suite.effort.seed, "Seed of the random numbers")
+      ->check(CheckSeed)
       ->type_name("S");
   command.add_option("--threads", options.threads, "Threads; 0 = all cores")
       ->check(CLI::Range(0, 1024).description(""))

@@ -1,6 +1,10 @@
 #include "src/stress/stress_json.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -145,10 +149,16 @@ Json ToJson(const SuiteResult& result) {
   return json;
 }
 
-void WriteResults(const SuiteResult& result, const std::string& dir) {
+void MakeResultsFolder(const std::string& dir) {
   std::error_code error;
   std::filesystem::create_directories(dir, error);
   if (error) throw InputError(dir + ": cannot be made: " + error.message());
+  if (access(dir.c_str(), W_OK) == 0) return;
+  throw InputError(dir + ": nothing can be written there: " + std::strerror(errno));
+}
+
+void WriteResults(const SuiteResult& result, const std::string& dir) {
+  MakeResultsFolder(dir);
   const Json json = ToJson(result);
   const auto replace = Json::error_handler_t::replace;
   WriteFileAtomically(dir + "/stress.json", json.dump(1, ' ', false, replace) + "\n");

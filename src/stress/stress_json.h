@@ -15,6 +15,10 @@ nlohmann::json ToJson(const SuiteResult& result);
 /// One sentence: that all is good, or what is not.
 std::string Sentence(const SuiteResult& result);
 
+/// Makes DIR. Throws InputError with the system's reason, also if nothing can be written
+/// there: to be called before hours of measuring.
+void MakeResultsFolder(const std::string& dir);
+
 /// Writes DIR/stress.json and DIR/report.html, each whole or not at all; makes DIR.
 /// Throws InputError with the system's reason.
 void WriteResults(const SuiteResult& result, const std::string& dir);

@@ -40,6 +40,8 @@ TEST_CASE("stress: a wrong name gets the nearest one", "[cli][stress]") {
   CHECK(r.out.empty());
   CHECK(RunLanelight({"stress", "--target", "AVX9000"}).exit_code == kExitUsage);
   CHECK(RunLanelight({"stress", "--part", "5/4"}).exit_code == kExitUsage);
+  CHECK(RunLanelight({"stress", "--seed", "-1"}).exit_code == kExitUsage);
+  CHECK(RunLanelight({"stress", "--seed", "1e3"}).exit_code == kExitUsage);
 }
 
 TEST_CASE("stress: a case, its row, its files", "[cli][stress]") {
@@ -75,10 +77,13 @@ TEST_CASE("stress --json - prints nothing else", "[cli][stress]") {
 }
 
 TEST_CASE("stress: what cannot be written is an error", "[cli][stress]") {
-  const ProcessResult r =
-      RunLanelight({"stress", "unit-of-length", "--out", "/dev/null/stress", "--quiet"});
-  CHECK(r.exit_code == kExitBadInput);
-  CHECK_THAT(r.err, Contains("/dev/null/stress"));
+  for (const char* flag : {"--out", "--json"}) {
+    const ProcessResult r =
+        RunLanelight({"stress", "unit-of-length", flag, "/dev/null/x"});
+    CHECK(r.exit_code == kExitBadInput);
+    CHECK_THAT(r.err, Contains("/dev/null"));
+    CHECK(r.out.empty());  // said before anything is measured
+  }
 }
 
 TEST_CASE("stress: an interruption keeps what was measured", "[cli][stress]") {
