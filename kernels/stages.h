@@ -28,6 +28,7 @@ namespace lanelight {
   X(IntersectSpheres)                          \
   X(IntersectDisks)                            \
   X(IntersectPlanes)                           \
+  X(IntersectLargeSpheres)                     \
   X(Split)                                     \
   X(Escape)                                    \
   X(HitLightTree)                              \
@@ -39,6 +40,7 @@ namespace lanelight {
   X(SurfaceSphere)                             \
   X(SurfaceDisk)                               \
   X(SurfacePlane)                              \
+  X(SurfaceLargeSphere)                        \
   X(Mix)                                       \
   X(Texture)                                   \
   X(Aov)                                       \
@@ -75,6 +77,7 @@ namespace lanelight {
   X(ShadowSpheres)                             \
   X(ShadowDisks)                               \
   X(ShadowPlanes)                              \
+  X(ShadowLargeSpheres)                        \
   X(Connect)                                   \
   X(AmbientScattered)                          \
   X(RecordDecision)                            \

@@ -99,6 +99,58 @@ LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const SphereLanes<V>& s,
   return hit;
 }
 
+template <class V>
+struct LargeSphereLanes {
+  P3<V> point, normal;
+  V curvature;
+};
+
+/// Roots of c + 2 b t + a t^2, which is twice the height over the sphere along the ray
+/// (LargeSphereRecord in src/geometry/geometry.h), with half of its gradient
+/// g = normal + curvature q at the origin: nothing is as large as the radius, so nothing
+/// cancels that is not small for all spheres.
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const LargeSphereLanes<V>& s,
+                                            const RayLanes<V>& ray) {
+  const V zero = hn::Zero(df);
+  const P3<V> q = Sub(ray.o, s.point);
+  const P3<V> g = AddScaled(s.normal, q, s.curvature);
+  const P3<V> sum = {hn::Add(s.normal.x, g.x), hn::Add(s.normal.y, g.y),
+                     hn::Add(s.normal.z, g.z)};
+  V c = Dot(q, sum);
+  const V magnitude = hn::MulAdd(
+      hn::Abs(q.x), hn::Abs(sum.x),
+      hn::MulAdd(hn::Abs(q.y), hn::Abs(sum.y), hn::Mul(hn::Abs(q.z), hn::Abs(sum.z))));
+  const auto doubtful = hn::Le(hn::Abs(c), hn::Mul(magnitude, hn::Set(df, 0x1p-10f)));
+  if (HWY_UNLIKELY(!hn::AllFalse(df, doubtful))) {
+    const auto height = [](auto, auto ox, auto oy, auto oz, auto px, auto py, auto pz,
+                           auto nx, auto ny, auto nz, auto curvature) HWY_ATTR {
+      const auto term = [&](auto o, auto p, auto n) HWY_ATTR {
+        const auto d = hn::Sub(o, p);
+        return hn::Mul(d, hn::Add(hn::Add(n, n), hn::Mul(curvature, d)));
+      };
+      return hn::Add(hn::Add(term(ox, px, nx), term(oy, py, ny)), term(oz, pz, nz));
+    };
+    const V exact = InDouble(df, height, ray.o.x, ray.o.y, ray.o.z, s.point.x, s.point.y,
+                             s.point.z, s.normal.x, s.normal.y, s.normal.z, s.curvature);
+    c = hn::IfThenElse(doubtful, exact, c);
+  }
+  const V a = hn::Mul(s.curvature, Dot(ray.d, ray.d)), b = Dot(g, ray.d);
+  const V discriminant = hn::NegMulAdd(a, c, hn::Mul(b, b));
+  const V root = hn::Sqrt(hn::Max(discriminant, zero));
+  const V sum_b = hn::Neg(hn::Add(b, hn::CopySign(root, b)));
+  const V t0 = hn::Div(c, sum_b), t1 = hn::Div(sum_b, a);
+  const V largest = hn::Set(df, FLT_MAX);
+  const M meets = hn::Ge(discriminant, zero);
+  Candidates<V, M> hit;
+  hit.t_near = hn::Min(t0, t1);
+  hit.t_far = hn::Max(t0, t1);
+  hit.near =
+      hn::And(meets, hn::And(hn::Gt(hit.t_near, zero), hn::Le(hit.t_near, largest)));
+  hit.far = hn::And(meets, hn::And(hn::Gt(hit.t_far, zero), hn::Le(hit.t_far, largest)));
+  return hit;
+}
+
 /// Distance to the plane through `point` with normal n; the sign is that of the exact
 /// value for the given n. Infinite or NaN for a ray along the plane.
 template <class D, class V = hn::Vec<D>>

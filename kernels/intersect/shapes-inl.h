@@ -76,10 +76,24 @@ struct PlaneShape {
     return {Broadcast3(d, r.point), Broadcast3(d, r.normal)};
   }
 };
+struct LargeSphereShape {
+  using Record = LargeSphereRecord;
+  static const AlignedVector<Record>& Records(const Geometry& g) {
+    return g.large_spheres;
+  }
+  static uint32_t FirstId(const Geometry& g) { return g.ranges.large_spheres; }
+  static const float* Center(const Record& r) { return r.point; }
+  template <class D>
+  static LANELIGHT_INLINE LargeSphereLanes<hn::Vec<D>> Broadcast(D d, const Record& r) {
+    return {Broadcast3(d, r.point), Broadcast3(d, r.normal), hn::Set(d, r.curvature)};
+  }
+};
 template <class Shape>
 inline constexpr bool kHasTree = true;
 template <>
 inline constexpr bool kHasTree<PlaneShape> = false;
+template <>
+inline constexpr bool kHasTree<LargeSphereShape> = false;
 
 /// Whether a candidate at distance t of one ray counts. The far side of a sphere decides
 /// apart from the near one.

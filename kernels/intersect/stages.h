@@ -12,12 +12,14 @@ Stage IntersectTrianglesStage();
 Stage IntersectSpheresStage();
 Stage IntersectDisksStage();
 Stage IntersectPlanesStage();
+Stage IntersectLargeSpheresStage();
 
 // Any hit: input kShadow; blocked paths leave the queue, the others keep their order.
 Stage ShadowTrianglesStage();
 Stage ShadowSpheresStage();
 Stage ShadowDisksStage();
 Stage ShadowPlanesStage();
+Stage ShadowLargeSpheresStage();
 
 /// What a closest-hit query is made of. Where t is still +inf there is no hit yet, and
 /// prim is the primitive that the ray starts on (kNoPrimitive: none), which triangles

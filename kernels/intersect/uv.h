@@ -40,6 +40,16 @@ inline SurfaceUv UvOf(const SphereRecord& s, const double p[3]) {
   return {TurnFraction(y, x), static_cast<float>(1 - theta / std::numbers::pi)};
 }
 
+/// `p` relative to the point.
+inline SurfaceUv UvOf(const LargeSphereRecord& s, const double p[3]) {
+  double out[3];  // the normal there: its length does not matter
+  for (int i = 0; i < 3; ++i) out[i] = s.normal[i] + s.curvature * p[i];
+  const double x = DotWith(s.x_axis, out), z = DotWith(s.z_axis, out);
+  const double y = s.y_sign * CrossDot(s.z_axis, s.x_axis, out);
+  const double theta = std::atan2(std::hypot(x, y), z);
+  return {TurnFraction(y, x), static_cast<float>(1 - theta / std::numbers::pi)};
+}
+
 /// `p` relative to the centre.
 inline SurfaceUv UvOf(const DiskRecord& s, const double p[3]) {
   const double x = DotWith(s.u_axis, p);

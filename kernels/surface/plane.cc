@@ -56,8 +56,8 @@ template <bool kNormals, bool kTangents, bool kUv>
 struct SurfacePlane {
   static void Run(Wave& wave) {
     const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
-    const Queue& hits =
-        FilterPrimitives(wave, wave.queue(QueueId::kSurface), ranges.planes, ranges.end);
+    const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
+                                         ranges.planes, ranges.large_spheres);
     ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
       PlaneBatch<kNormals, kTangents, kUv>(wave, slots);
     });

@@ -10,6 +10,7 @@ Stage SurfaceTriangleStage();
 Stage SurfaceSphereStage();
 Stage SurfaceDiskStage();
 Stage SurfacePlaneStage();
+Stage SurfaceLargeSphereStage();
 
 /// What every surface stage writes (where the columns exist).
 inline FieldSet SurfaceFields() {

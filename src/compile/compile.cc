@@ -8,6 +8,7 @@
 #include "src/compile/camera.h"
 #include "src/compile/features.h"
 #include "src/compile/filter.h"
+#include "src/compile/focus.h"
 #include "src/compile/geometry.h"
 #include "src/compile/lights.h"
 #include "src/compile/materials.h"
@@ -22,8 +23,8 @@ namespace {
 // Calls visit(shape) for everything placed, world first.
 template <typename Visit>
 void ForEachShape(const Placement& placement, const Visit& visit) {
-  for (const auto* shapes :
-       {&placement.meshes, &placement.spheres, &placement.disks, &placement.planes}) {
+  for (const auto* shapes : {&placement.meshes, &placement.spheres, &placement.disks,
+                             &placement.planes, &placement.large_spheres}) {
     for (const PlacedShape& shape : *shapes) visit(shape);
   }
   for (const PlacedObject& object : placement.objects) {
@@ -86,6 +87,7 @@ void MakeAlpha(const Placement& placement, const CompiledGeometry& compiled,
   SetAlphas(placement.spheres, ranges.spheres, scene);
   SetAlphas(placement.disks, ranges.disks, scene);
   SetAlphas(placement.planes, ranges.planes, scene);
+  SetAlphas(placement.large_spheres, ranges.large_spheres, scene);
 }
 
 void NoteDropped(const std::vector<PlacedShape>& shapes,
@@ -133,6 +135,7 @@ CompiledScene CompileScene(const SceneDescription& description,
 
   scene.lights = CompileLights(description, placement, compiled);
   MakeAlpha(placement, compiled, scene);
+  NoteLargeEmitters(placement, scene.notes);
   NoteDropped(placement.meshes, compiled.meshes, scene.notes);
   for (std::size_t o = 0; o < placement.objects.size(); ++o) {
     NoteDropped(placement.objects[o].meshes, compiled.object_meshes[o], scene.notes);

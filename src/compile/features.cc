@@ -99,6 +99,7 @@ FeatureSet MaterialFeatures(const MaterialTable& materials, const Placement& pla
   AddAlpha(placement.spheres, features);
   AddAlpha(placement.disks, features);
   AddAlpha(placement.planes, features);
+  AddAlpha(placement.large_spheres, features);
   for (const PlacedObject& object : placement.objects) AddAlpha(object.meshes, features);
   return features;
 }
@@ -110,6 +111,7 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
   if (!g.spheres.empty()) features.Add(Feature::kSpheres);
   if (!g.disks.empty()) features.Add(Feature::kDisks);
   if (!g.planes.empty()) features.Add(Feature::kPlanes);
+  if (!g.large_spheres.empty()) features.Add(Feature::kLargeSpheres);
   if (!g.instances.empty()) features.Add(Feature::kInstances);
   if (!g.normals.empty()) features.Add(Feature::kVertexNormals);
   AddLights(scene.lights, features);

@@ -171,11 +171,16 @@ void MakeQuadrics(const Placement& placement,
   for (const PlacedShape& p : placement.planes) {
     g.planes.push_back(CompilePlane(p, frame, MaterialOf(p, material_index), keep_uv));
   }
+  for (const PlacedShape& p : placement.large_spheres) {
+    g.large_spheres.push_back(
+        CompileLargeSphere(p, frame, placement.eye, MaterialOf(p, material_index)));
+  }
   const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
   g.ranges.spheres = count(g.triangles);
   g.ranges.disks = g.ranges.spheres + count(g.spheres);
   g.ranges.planes = g.ranges.disks + count(g.disks);
-  g.ranges.end = g.ranges.planes + count(g.planes);
+  g.ranges.large_spheres = g.ranges.planes + count(g.planes);
+  g.ranges.end = g.ranges.large_spheres + count(g.large_spheres);
 }
 
 // One ulp wider than the double-precision bounds, so that rounded positions lie inside.

@@ -4,6 +4,7 @@
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
+#include "src/compile/focus.h"
 #include "src/compile/textures.h"
 
 namespace lanelight {
@@ -98,27 +99,6 @@ bool StaysInObject(const SceneDescription& d, const Shape& shape) {
   return shape.kind == ShapeKind::kMesh && EmittingLight(d, shape) == kNone;
 }
 
-Box ShapeBox(const PlacedShape& placed) {
-  const Shape& shape = *placed.shape;
-  Box box;
-  if (shape.kind == ShapeKind::kMesh) {
-    LL_CHECK(shape.mesh != nullptr);
-    for (std::uint32_t i : shape.mesh->indices) {
-      LL_CHECK_LT(i, shape.mesh->positions.size());
-      box.Add(placed.transform.Point(shape.mesh->positions[i]));
-    }
-    return box;
-  }
-  if (shape.kind == ShapeKind::kPlane) return box;
-  const double r = shape.radius;
-  const double z = shape.kind == ShapeKind::kSphere ? r : 0;
-  const double h = shape.kind == ShapeKind::kSphere ? 0 : shape.height;
-  box.Add(Vec3d{-r, -r, h - z});
-  box.Add(Vec3d{r, r, h + z});
-  // The box of the box: larger than need be, but its centre is exact.
-  return box.Transformed(placed.transform);
-}
-
 Box UnionOfBoxes(const std::vector<PlacedShape>& shapes) {
   std::vector<Box> boxes(shapes.size());
   ParallelFor(shapes.size(), [&](std::size_t i) { boxes[i] = ShapeBox(shapes[i]); });
@@ -186,6 +166,27 @@ void PlaceInstances(const SceneDescription& d, Placement& placement) {
 
 }  // namespace
 
+Box ShapeBox(const PlacedShape& placed) {
+  const Shape& shape = *placed.shape;
+  Box box;
+  if (shape.kind == ShapeKind::kMesh) {
+    LL_CHECK(shape.mesh != nullptr);
+    for (std::uint32_t i : shape.mesh->indices) {
+      LL_CHECK_LT(i, shape.mesh->positions.size());
+      box.Add(placed.transform.Point(shape.mesh->positions[i]));
+    }
+    return box;
+  }
+  if (shape.kind == ShapeKind::kPlane) return box;
+  const double r = shape.radius;
+  const double z = shape.kind == ShapeKind::kSphere ? r : 0;
+  const double h = shape.kind == ShapeKind::kSphere ? 0 : shape.height;
+  box.Add(Vec3d{-r, -r, h - z});
+  box.Add(Vec3d{r, r, h + z});
+  // The box of the box: larger than need be, but its centre is exact.
+  return box.Transformed(placed.transform);
+}
+
 bool Emits(const AreaLight& light) {
   const Rgb l = light.radiance * light.scale;
   return l.x > 0 || l.y > 0 || l.z > 0;
@@ -201,7 +202,9 @@ Placement PlaceShapes(const SceneDescription& d) {
   placement.bounds.Add(UnionOfBoxes(placement.spheres));
   placement.bounds.Add(UnionOfBoxes(placement.disks));
   if (placement.bounds.empty()) placement.bounds = FallbackBox(d, placement);
-  placement.frame = FrameOf(placement.bounds);
+  placement.eye = d.camera.world_from_camera.Point({0, 0, 0});
+  SeparateLargeSpheres(placement);
+  placement.frame = FocusFrame(placement);
   return placement;
 }
 

@@ -38,9 +38,11 @@ struct PlacedInstance {
 // own transform, also for copies made of instanced shapes. (For meshes see
 // compile_geometry.h: there only the product of the transforms matters.)
 struct Placement {
-  std::vector<PlacedShape> meshes, spheres, disks, planes;  // in the world
+  // In the world. Large spheres: see src/compile/focus.h.
+  std::vector<PlacedShape> meshes, spheres, disks, planes, large_spheres;
   std::vector<PlacedObject> objects;
   std::vector<PlacedInstance> instances;
+  Vec3d eye;    // the camera's position in the world
   Frame frame;  // of the scene
   Box bounds;   // of the finite geometry in the world; if there is none, of the camera,
                 // the lights with a position, and the camera's foot on each plane
@@ -50,6 +52,9 @@ struct Placement {
 /// coordinates; spheres, disks and planes have no instanced form: both kinds are copied
 /// into the world once per instance.
 Placement PlaceShapes(const SceneDescription& description);
+
+/// Bounds of a shape, or nothing if it has none; the centre is exact.
+Box ShapeBox(const PlacedShape& placed);
 
 /// True if the light emits: some component of its radiance is positive.
 bool Emits(const AreaLight& light);

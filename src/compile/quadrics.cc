@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "src/compile/focus.h"
 #include "src/core/error.h"
 
 namespace lanelight {
@@ -53,6 +54,26 @@ SphereRecord CompileSphere(const PlacedShape& placed, const Frame& frame,
   Store(Normalize(t.Vector({1, 0, 0})), record.x_axis);
   Store(Normalize(t.Vector({0, 0, 1})), record.z_axis);
   record.y_sign = t.SwapsHandedness() ? -1.0f : 1.0f;
+  return record;
+}
+
+LargeSphereRecord CompileLargeSphere(const PlacedShape& placed, const Frame& frame,
+                                     Vec3d eye, std::uint32_t material) {
+  const SphereRecord sphere = CompileSphere(placed, frame, material);
+  const Vec3d center = placed.transform.Point({0, 0, 0});
+  const double radius = placed.shape->radius * placed.transform.UniformScale();
+  const Foot foot = FootOn(center, radius, eye);
+  LargeSphereRecord record{};
+  Store(frame.Point(foot.point), record.point);
+  Store((foot.point - center) / radius, record.normal);
+  record.curvature = static_cast<float>(1 / (radius * frame.scale));
+  record.material = material;
+  record.light = -1;
+  record.flags = sphere.flags;
+  record.normal_sign = sphere.normal_sign;
+  for (int i = 0; i < 3; ++i) record.x_axis[i] = sphere.x_axis[i];
+  for (int i = 0; i < 3; ++i) record.z_axis[i] = sphere.z_axis[i];
+  record.y_sign = sphere.y_sign;
   return record;
 }
 

@@ -17,6 +17,9 @@ DiskRecord CompileDisk(const PlacedShape& placed, const Frame& frame,
                        std::uint32_t material);
 /// With `keep_uv` the record's point is the object-space origin, from which uv count;
 /// otherwise the point of the plane nearest to the scene's centre, for precision.
+/// `eye`: the camera's position in the world (src/compile/focus.h).
+LargeSphereRecord CompileLargeSphere(const PlacedShape& placed, const Frame& frame,
+                                     Vec3d eye, std::uint32_t material);
 PlaneRecord CompilePlane(const PlacedShape& placed, const Frame& frame,
                          std::uint32_t material, bool keep_uv);
 

@@ -14,9 +14,10 @@
 
 namespace lanelight {
 
-// A primitive id counts triangles first, then spheres, disks, planes.
+// A primitive id counts triangles first, then spheres, disks, planes, large spheres.
 struct PrimitiveRanges {
-  std::uint32_t spheres = 0, disks = 0, planes = 0, end = 0;  // first id of each; end
+  // The first id of each, and the end.
+  std::uint32_t spheres = 0, disks = 0, planes = 0, large_spheres = 0, end = 0;
 };
 
 /// Triangle record: 12 words. Wound so that cross(p1-p0, p2-p0) is the surface normal
@@ -75,6 +76,25 @@ struct PlaneRecord {
 };
 static_assert(sizeof(PlaneRecord) == 64);
 
+/// Sphere that is much larger than its distance from the camera: 20 words. The points q,
+/// relative to `point` on the sphere, with curvature |q|^2 + 2 q . normal = 0: a form
+/// that is exact about `point`, however large the radius. `normal` points away from the
+/// centre; the others are as in SphereRecord.
+struct LargeSphereRecord {
+  float point[3];
+  std::uint32_t material;
+  float normal[3];
+  float curvature;  // 1 / radius
+  float x_axis[3];
+  float normal_sign;
+  float z_axis[3];
+  float y_sign;
+  std::int32_t light;  // always -1
+  std::uint32_t flags;
+  std::uint32_t pad[2];
+};
+static_assert(sizeof(LargeSphereRecord) == 80);
+
 /// Instance record: 24 words, row-major 3x4 affine maps.
 struct InstanceRecord {
   float object_from_scene[12];
@@ -91,6 +111,7 @@ struct Geometry {
   AlignedVector<SphereRecord> spheres;
   AlignedVector<DiskRecord> disks;
   AlignedVector<PlaneRecord> planes;
+  AlignedVector<LargeSphereRecord> large_spheres;
   AlignedVector<InstanceRecord> instances;
   /// Triangle ranges that form one acceleration structure each: [0] is the world (may be
   /// empty), the others are object definitions.

@@ -17,6 +17,7 @@ namespace lanelight {
   X(kSpheres, "spheres")                                                      \
   X(kDisks, "disks")                                                          \
   X(kPlanes, "infinite planes")                                               \
+  X(kLargeSpheres, "spheres much larger than the camera's distance to them")  \
   X(kInstances, "object instances")                                           \
   X(kVertexNormals, "interpolated vertex normals")                            \
   X(kUv, "surface coordinates (a texture is looked up)")                      \

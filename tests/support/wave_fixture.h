@@ -60,13 +60,15 @@ inline CompiledScene MakeScene(Geometry geometry, const AccelOptions& options = 
   ranges.spheres = count(geometry.triangles);
   ranges.disks = ranges.spheres + count(geometry.spheres);
   ranges.planes = ranges.disks + count(geometry.disks);
-  ranges.end = ranges.planes + count(geometry.planes);
+  ranges.large_spheres = ranges.planes + count(geometry.planes);
+  ranges.end = ranges.large_spheres + count(geometry.large_spheres);
   if (geometry.groups.empty()) geometry.groups.push_back({0, ranges.spheres});
   std::uint32_t id = 0;
   for (auto& r : geometry.triangles) r.material = id++;
   for (auto& r : geometry.spheres) r.material = id++;
   for (auto& r : geometry.disks) r.material = id++;
   for (auto& r : geometry.planes) r.material = id++;
+  for (auto& r : geometry.large_spheres) r.material = id++;
   scene.geometry = std::move(geometry);
   scene.accel = BuildAccel(scene.geometry, options);
   return scene;

@@ -82,7 +82,7 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2.5  -3 3 2.5 ]
 )";
 
 /// What the other one lacks: an environment image (sky.pfm), mixed materials, the other
-/// diffuse models, a lens, instances, a cut-out.
+/// diffuse models, a lens, instances, a cut-out, a sphere far larger than its distance.
 inline constexpr const char* kOtherStagesScene = R"(
 LookAt 0 2 -6  0 0.8 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -3 3 -3 3 ] "float lensradius" 0.05 "float focaldistance" 6
@@ -116,6 +116,10 @@ AttributeBegin
   Shape "plane"
 AttributeEnd
 NamedMaterial "even"
+AttributeBegin
+  Translate 0 -1000.8 0
+  Shape "sphere" "float radius" 1000
+AttributeEnd
 AttributeBegin
   Translate -0.8 0.7 -1
   Shape "sphere" "float radius" 0.7

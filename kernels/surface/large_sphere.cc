@@ -1,0 +1,129 @@
+// The surface at hits on large spheres.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/surface/large_sphere.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/surface/store-inl.h"
+#include "src/compiled/scene.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kWords = sizeof(LargeSphereRecord) / 4;
+
+struct LargeSphereHits {
+  V3 point, normal;
+  VF curvature;
+};
+
+// The hit moved onto the sphere along its gradient, the unit vector away from the centre,
+// and how far from the record's point that is. With g the gradient and m that at the
+// point, the height over the sphere is (|g| - |m|) / curvature, written without
+// cancellation.
+template <bool kUpper>
+HWY_INLINE void Reproject(const LargeSphereHits& s, D3 hit, D3& p, D3& outward,
+                          VD& size) {
+  const D3 m = HalfOf<kUpper>(s.normal), q = Minus(hit, HalfOf<kUpper>(s.point));
+  const VD curvature = HalfOf<kUpper>(s.curvature);
+  const D3 g = MulAdd(q, curvature, m);
+  const D3 sum = {hn::Add(m.x, g.x), hn::Add(m.y, g.y), hn::Add(m.z, g.z)};
+  const VD length = hn::Sqrt(Dot(g, g));
+  const VD height = hn::Div(Dot(q, sum), hn::Add(length, hn::Sqrt(Dot(m, m))));
+  const VD inverse = hn::Div(hn::Set(DD(), 1.0), length);
+  outward = {hn::Mul(g.x, inverse), hn::Mul(g.y, inverse), hn::Mul(g.z, inverse)};
+  p = MulAdd(outward, hn::Neg(height), hit);
+  size = hn::Sqrt(Dot(q, q));
+}
+
+template <bool kNormals, bool kTangents, bool kUv>
+HWY_INLINE void LargeSphereBatch(const Wave& wave, const StoreSlots& slots) {
+  const PathColumns& path = wave.path;
+  const Geometry& geometry = wave.scene->geometry;
+  const DI di;
+  const LargeSphereRecord* records = geometry.large_spheres.data();
+  const auto first = static_cast<int32_t>(geometry.ranges.large_spheres);
+  const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
+  const VI at = hn::Mul(index, hn::Set(di, kWords));
+  const LargeSphereHits s{GatherRecord3(records, kWords, 0, index),
+                          GatherRecord3(records, kWords, 4, index),
+                          Gather(&records->curvature, at)};
+  D3 p[2], outward[2];
+  VD size[2];
+  Reproject<false>(s, RayPoint<false>(path, slots), p[0], outward[0], size[0]);
+  Reproject<true>(s, RayPoint<true>(path, slots), p[1], outward[1], size[1]);
+  const V3 out = FromHalves(outward[0], outward[1]);
+  SurfaceLanes surface{.p = FromHalves(p[0], p[1]),
+                       .n = Mul(out, Gather(&records->normal_sign, at)),
+                       .error = Splat(0),
+                       .material = Gather(&records->material, at)};
+  surface.error = RoundingError(surface.p, out, FromHalves(size[0], size[1]));
+  StoreSurface<kNormals>(path, slots, surface);
+  if constexpr (kTangents || kUv) {
+    const V3 x_axis = GatherRecord3(records, kWords, 8, index);
+    const V3 z_axis = GatherRecord3(records, kWords, 12, index);
+    const V3 y_axis = Mul(Cross(z_axis, x_axis), Gather(&records->y_sign, at));
+    const VF x = Dot(out, x_axis);
+    const VF y = Dot(out, y_axis);
+    if constexpr (kUv) {
+      // v = 1 - theta / pi, theta from the pole z; half a turn of (z, across).
+      const VF z = Dot(out, z_axis);
+      const VF across = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
+      const VF theta = TurnFraction(across, z);
+      Scatter(TurnFraction(y, x), path.uv_u, slots);
+      Scatter(hn::NegMulAdd(Splat(2.0f), theta, Splat(1.0f)), path.uv_v, slots);
+    }
+    if constexpr (kTangents) {
+      const V3 around = MulAdd(y_axis, x, Mul(x_axis, hn::Neg(y)));
+      const VF scale = hn::Div(Splat(2 * std::numbers::pi_v<float>), s.curvature);
+      Scatter3(TangentOr(Mul(around, scale), out), path.tg_x, path.tg_y, path.tg_z,
+               slots);
+    }
+  }
+}
+
+template <bool kNormals, bool kTangents, bool kUv>
+struct SurfaceLargeSphere {
+  static void Run(Wave& wave) {
+    const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
+    const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
+                                         ranges.large_spheres, ranges.end);
+    ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
+      LargeSphereBatch<kNormals, kTangents, kUv>(wave, slots);
+    });
+  }
+};
+
+StageFn ChooseSurfaceLargeSphere(const FeatureSet& features) {
+  return ChooseVariant<SurfaceLargeSphere>(features);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/surface/stages.h"
+
+namespace lanelight {
+HWY_EXPORT(ChooseSurfaceLargeSphere);
+
+Stage SurfaceLargeSphereStage() {
+  return {.name = "surface_large_sphere",
+          .meaning = "point, normals and material of hits on large spheres",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kLargeSpheres, Feature::kScatters},
+          .reads = fields::kRay | FieldSet{Field::t, Field::prim},
+          .writes = SurfaceFields(),
+          .resolve = [](const FeatureSet& features) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(ChooseSurfaceLargeSphere)(features);
+          }};
+}
+
+}  // namespace lanelight
+#endif
