@@ -11,5 +11,15 @@ namespace lanelight::stress {
 std::vector<Case> AllCases();
 
 void AddUnitCases(std::vector<Case>& cases);  // units.cc: length, radiance, distance
+// Geometry.
+void AddTriangleCases(std::vector<Case>& cases);
+void AddSurfaceCases(std::vector<Case>& cases);
+void AddSphereCases(std::vector<Case>& cases);
+void AddGroundSphereCases(std::vector<Case>& cases);
+void AddPlaneAndDiskCases(std::vector<Case>& cases);
+void AddMeshCases(std::vector<Case>& cases);
+void AddSizeCases(std::vector<Case>& cases);
+void AddInstanceCases(std::vector<Case>& cases);
+void AddCameraCases(std::vector<Case>& cases);
 
 }  // namespace lanelight::stress

@@ -1,0 +1,105 @@
+// Scenes of any size, and of nothing.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "src/stress/cases/cases.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/shapes_text.h"
+#include "src/stress/trace_rays.h"
+
+namespace lanelight::stress {
+namespace {
+
+// A square light of side 1 at height 1 over a floor, seen at a point of the floor: the
+// closed form is that of its four right angles. In any unit of length.
+std::vector<Point> LampOverFloor(double unit, const Effort& effort) {
+  MeshText floor, lamp;
+  const double u = unit;
+  floor.AddQuad({-5 * u, -5 * u, 0}, {5 * u, -5 * u, 0}, {5 * u, 5 * u, 0},
+                {-5 * u, 5 * u, 0});
+  lamp.AddQuad({-u / 2, -u / 2, u}, {-u / 2, u / 2, u}, {u / 2, u / 2, u},
+               {u / 2, -u / 2, u});
+  const std::string text =
+      CameraText({0, 0, u / 2}, {0, 0, 0}, 0.01) +
+      "WorldBegin\nMaterial \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\n" +
+      floor.Text() + "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n" + lamp.Text();
+  // Form factor of a parallel rectangle above its corner, a = b = 1/2, four times.
+  const double x = 0.5 / std::sqrt(1.25);
+  return {Measure({.text = text,
+                   .expected = 0.5 * 4 / M_PI * x * std::atan(x),
+                   .quick = 256,
+                   .depth = 1},
+                  effort)};
+}
+
+// Flat patches of a side of 10^k, and far from the origin by as much: rays end on them
+// and leave them.
+std::vector<Point> Patches(double size, const Effort& effort) {
+  Draws draws(effort.seed);
+  const Vec3d center = size * Vec3d{3, -1, 2};
+  const Across a(Normalize(Vec3d{0.2, 0.3, 1}));
+  const Vec3d n = Normalize(Vec3d{0.2, 0.3, 1});
+  std::string text = "Shape \"bilinearmesh\" \"point3 P\" [";
+  for (const auto& [s, t] : {std::pair{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}) {
+    const Vec3d p = center + size * (double(s) * a.u + double(t) * a.v);
+    text += fmt::format("{:.17g} {:.17g} {:.17g} ", p.x, p.y, p.z);
+  }
+  RayTracer tracer(
+      RayScene(text + "] \"integer indices\" [0 1 2 3]\n", center + 3 * size * n));
+  std::vector<WorldRay> rays;
+  std::vector<Vec3d> leaving;
+  std::uint64_t failures = 0;
+  for (int i = 0; i < effort(2000, 200000); ++i) {
+    const Vec3d d = -draws.Above(n, 0.2);
+    const Vec3d at = center + 0.9 * size * (draws(-1, 1) * a.u + draws(-1, 1) * a.v);
+    rays.push_back({at - size * d, d});
+    leaving.push_back(draws.Above(n, 1e-3));
+  }
+  for (const WorldHit& hit : tracer.Trace(rays)) {
+    failures += !hit.found || std::abs(hit.t / size - 1) > 1e-5;
+  }
+  for (const bool blocked : tracer.Blocked(leaving)) failures += blocked;
+  return {RatePoint(failures, 2 * rays.size())};
+}
+
+// Nothing to hit: what is there is the sky.
+std::vector<Point> Empty(double, const Effort& effort) {
+  std::vector<Point> points;
+  const std::pair<const char*, const char*> scenes[] = {
+      {"no shape", ""},
+      {"degenerate",
+       "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 1 1 2 2 2] \"integer indices\" "
+       "[0 1 2]\n"},
+      {"alpha 0", "Shape \"sphere\" \"float alpha\" 0\n"},
+      {"interface", "Material \"interface\"\nShape \"sphere\"\n"}};
+  for (const auto& [name, shapes] : scenes) {
+    points.push_back(
+        Measure({.text = SkyScene(CameraText({0, 0, 5}, {}, 30), 0.5, shapes),
+                 .expected = 1,
+                 .relative = 1e-6,
+                 .pixels = 4,
+                 .quick = 4,
+                 .series = name},
+                effort));
+  }
+  return points;
+}
+
+}  // namespace
+
+void AddSizeCases(std::vector<Case>& cases) {
+  cases.push_back({"lamp-over-floor", "geometry",
+                   "a square light one unit above a floor, the unit 1e-15 to 1e15",
+                   "the floor under it is as bright as the formula says",
+                   "mitsuba2 #171 (1 to 1e7), mitsuba3 #1962 (1e-3), embree #416 (6e11)",
+                   Truth::kClosedForm, Decades("unit of length", "", -15, 15, 5, -15, 15),
+                   LampOverFloor});
+  cases.push_back({"patches", "geometry", "flat patches of sides 1 to 1e12, and as far",
+                   "rays end on them and leave them", "pbrt-v4 #186 (1e4 to 1e6)",
+                   Truth::kRate, Decades("side", "", 0, 12, 2, 0, 12), Patches});
+  cases.push_back({"nothing-to-hit", "geometry", "scenes without a shape that can be hit",
+                   "one sees the sky", "embree", Truth::kClosedForm, Single(), Empty});
+}
+
+}  // namespace lanelight::stress

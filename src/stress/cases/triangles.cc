@@ -1,0 +1,167 @@
+// Single triangles and pairs of them, at every size, place and angle, by rays.
+#include <numbers>
+
+#include "src/stress/cases/cases.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/shapes_text.h"
+#include "src/stress/trace_rays.h"
+
+namespace lanelight::stress {
+namespace {
+
+const Vec3d kTilted = Normalize(Vec3d{0.3, -0.5, 0.8});
+
+std::vector<Point> FarFromOrigin(double distance, const Effort& effort) {
+  Draws draws(effort.seed);
+  const Vec3d center = distance * Normalize(Vec3d{1, -2, 0.5});
+  RayTracer tracer(RayScene(SquareMesh(center, kTilted).Text(), center + 5 * kTilted));
+  std::vector<WorldRay> rays;
+  std::vector<Vec3d> targets;
+  for (int i = 0; i < effort(1000, 100000); ++i) {
+    targets.push_back(PointOfSquare(draws, center, kTilted));
+    const Vec3d d = -draws.Above(kTilted, 0.2);
+    rays.push_back({targets.back() - 3.0 * d, d});
+  }
+  const std::vector<WorldHit> hits = tracer.Trace(rays);
+  double worst = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    worst = std::max(worst, hits[i].found ? Length(hits[i].point - targets[i]) : 1);
+  }
+  return {BoundPoint(worst, 5e-6)};
+}
+
+// A triangle of length 1 and width 1 / aspect along x, or turned: interior points hit,
+// and the normal is that of its vertices.
+std::vector<Point> Needle(double aspect, const Effort& effort) {
+  Draws draws(effort.seed);
+  const double width = 1 / aspect;
+  MeshText mesh;
+  mesh.AddTriangle({-0.5, 0, 0}, {0.5, -width / 2, 0}, {0.5, width / 2, 0});
+  RayTracer tracer(RayScene(mesh.Text()));
+  std::vector<WorldRay> rays;
+  for (int i = 0; i < effort(1000, 100000); ++i) {
+    const double x = draws(0.1, 0.9), y = x * width * draws(-0.4, 0.4);
+    const Vec3d d = -draws.Above({0, 0, 1}, 0.3);
+    // Across the needle the ray must be straight: a float is coarser than it is wide.
+    const Vec3d straight = Normalize(Vec3d{d.x, 0, d.z});
+    rays.push_back({Vec3d{x - 0.5, y, 0} - 2.0 * straight, straight});
+  }
+  std::uint64_t failures = 0;
+  for (const WorldHit& hit : tracer.Trace(rays)) {
+    failures += !hit.found || std::abs(std::abs(hit.normal.z) - 1) > 1e-6;
+  }
+  return {RatePoint(failures, rays.size())};
+}
+
+// Rays that leave a triangle whose vertices have coordinates of 10^-8 to 10^8 never meet
+// it, nor its copy with the vertices in another order, again.
+std::vector<Point> VerticesOfAllSizes(double, const Effort& effort) {
+  Draws draws(effort.seed);
+  const auto wild = [&] {
+    const double size = std::pow(10, draws(-8, 8));
+    return draws(-1, 1) < 0 ? -size : size;
+  };
+  std::uint64_t failures = 0, trials = 0;
+  for (int n = 0; n < effort(40, 1000); ++n) {
+    const Vec3d a{wild(), wild(), wild()}, b{wild(), wild(), wild()};
+    const Vec3d c{wild(), wild(), wild()}, normal = Normalize(Cross(b - a, c - a));
+    MeshText mesh;
+    mesh.AddTriangle(a, b, c);
+    mesh.AddTriangle(b, c, a);
+    RayTracer tracer(RayScene(mesh.Text(), a + Length(b - a) * normal));
+    std::vector<WorldRay> rays;
+    std::vector<Vec3d> leaving;
+    for (int i = 0; i < 1000; ++i) {
+      const double u = draws(0.02, 0.97), v = draws(0.01, 0.98 - u);
+      const Vec3d target = a + u * (b - a) + v * (c - a);
+      rays.push_back({target + Length(c - a) * normal, -normal});
+    }
+    for (const WorldHit& hit : tracer.Trace(rays)) {
+      trials += hit.found;
+      leaving.push_back(draws.Above(draws(-1, 1) * hit.normal, 1e-3));
+    }
+    for (const bool blocked : tracer.Blocked(leaving)) failures += blocked;
+  }
+  return {RatePoint(failures, trials)};
+}
+
+// Triangles without area are never hit, nor do they hide what is behind. Coordinates are
+// small multiples of 1/16, or two of them the same, so that no rounding gives them area.
+std::vector<Point> Collinear(double, const Effort& effort) {
+  Draws draws(effort.seed);
+  MeshText mesh;
+  mesh.AddTriangle({-13.45, -7.05, -5.24}, {-13.45, -8.09, -5.24},
+                   {-13.45, -7.21, -5.24});
+  const auto whole = [&] { return std::floor(draws(-64, 64)) / 16; };
+  const auto corner = [&] { return Vec3d{whole(), whole(), whole()}; };
+  for (int i = 0; i < 200; ++i) {
+    const Vec3d a = corner(), b = corner();
+    mesh.AddTriangle(a, b, a + std::floor(draws(-3, 4)) * (b - a));
+    mesh.AddTriangle(a, a, b);
+    mesh.AddTriangle(a, a, a);
+  }
+  const std::size_t slivers = mesh.indices.size() / 3;
+  const MeshText floor = SquareMesh({0, 0, -64}, {0, 0, 1}, 256);
+  RayTracer tracer(RayScene(mesh.Text() + floor.Text()));
+  std::vector<WorldRay> rays;
+  for (int i = 0; i < effort(2000, 200000); ++i) {
+    const std::size_t k =
+        i % 8 == 0 ? 0 : static_cast<std::size_t>(draws(0, double(slivers)));
+    const Vec3d a = mesh.points[3 * k], b = mesh.points[3 * k + 1];
+    const Vec3d target = a + draws(0, 1) * (b - a);
+    rays.push_back({target + 20.0 * draws.Direction(), {}});
+    rays.back().direction = Normalize(target - rays.back().origin);
+  }
+  std::uint64_t failures = 0;
+  for (const WorldHit& hit : tracer.Trace(rays)) {
+    failures += hit.found && std::abs(hit.point.z + 64) > 1e-3;
+  }
+  return {RatePoint(failures, rays.size())};
+}
+
+// Rays at an angle to a square of two triangles, at points of the edge that they share.
+std::vector<Point> SharedEdge(double sine, const Effort& effort) {
+  Draws draws(effort.seed);
+  MeshText mesh;
+  mesh.AddQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
+  RayTracer tracer(RayScene(mesh.Text()));
+  std::vector<WorldRay> rays;
+  for (int i = 0; i < effort(2000, 200000); ++i) {
+    const double along = draws(-0.8, 0.8), phi = draws(0, 2 * std::numbers::pi);
+    const double cosine = std::sqrt(1 - sine * sine);
+    const Vec3d d{cosine * std::cos(phi), cosine * std::sin(phi), -sine};
+    rays.push_back({Vec3d{along, along, 0} - 3.0 * d, d});
+  }
+  std::uint64_t failures = 0;
+  for (const WorldHit& hit : tracer.Trace(rays)) failures += !hit.found;
+  return {RatePoint(failures, rays.size())};
+}
+
+}  // namespace
+
+void AddTriangleCases(std::vector<Case>& cases) {
+  cases.push_back({"triangle-far-from-origin", "geometry",
+                   "a square of side 1 at a distance from the origin, to 1e9",
+                   "rays hit it within 5e-6 of where they are aimed", "", Truth::kBound,
+                   Decades("distance from the origin", "sides", 0, 12, 3, 0, 9),
+                   FarFromOrigin});
+  cases.push_back({"triangle-aspect", "geometry",
+                   "a triangle of length 1 and width 1 to 1e-8",
+                   "rays at points inside hit it, and see its normal", "", Truth::kRate,
+                   Decades("length over width", "", 0, 8, 1, 0, 8), Needle});
+  cases.push_back({"triangle-vertices-of-all-sizes", "geometry",
+                   "vertices with coordinates from 1e-8 to 1e8 in one triangle",
+                   "of 1000 rays that leave such a triangle and a copy of it, none "
+                   "meets them again",
+                   "pbrt-v4, shapes_test", Truth::kRate, Single(), VerticesOfAllSizes});
+  cases.push_back({"triangle-collinear", "geometry", "triangles without area",
+                   "none is hit", "pbrt-v4, BadCases", Truth::kRate, Single(),
+                   Collinear});
+  cases.push_back({"shared-edge-grazing", "geometry",
+                   "rays at the edge of two triangles, at angles from 1 to 1e-7",
+                   "none passes between the two",
+                   "mitsuba3, grazing rays on shared edges", Truth::kRate,
+                   Decades("sine of the angle", "", -8, 0, 1, -7, 0), SharedEdge});
+}
+
+}  // namespace lanelight::stress
