@@ -10,7 +10,7 @@
 #include <cstdio>
 
 #include "bench/cpu_clock.h"
-#include "tests/support/points_probe.h"
+#include "kernels/probe/points_probe.h"
 #include "kernels/simd/target.h"
 #include "src/strategy/strategy.h"
 

@@ -52,6 +52,7 @@ constexpr Floor kFloors[] = {
     {"kernels/control",    "control variates"},
     {"kernels/roulette",   "roulette and splitting"},
     {"kernels/accumulate", "finished samples"},
+    {"kernels/probe",      "kernel routines outside a render"},
     {"kernels",            "the registry of stages"},
     {"src/wavefront",      "plan and run"},
     {"src/estimate",       "errors, when to stop, comparison"},

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tests/support/points_probe.h"
+#include "kernels/probe/points_probe.h"
 
 namespace lanelight::test {
 

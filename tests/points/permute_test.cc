@@ -5,7 +5,7 @@
 #include <map>
 #include <numeric>
 
-#include "tests/support/points_probe.h"
+#include "kernels/probe/points_probe.h"
 #include "kernels/simd/target.h"
 #include "tests/stat/chi2.h"
 #include "src/stat/hypothesis.h"

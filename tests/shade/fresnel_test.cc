@@ -1,44 +1,12 @@
 // Fresnel equations against closed forms in double precision.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/shade/fresnel_test.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
-
-#include "kernels/bsdf/fresnel-inl.h"
-
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-
-// One incidence after the other: out = reflectance, refracted cosine; or reflectance of
-// the metal (k >= 0).
-void FresnelBatch(const float* c, int n, float eta, float k, float* out, float* cos_t) {
-  const DF df;
-  for (int i = 0; i < n; i += static_cast<int>(hn::Lanes(df))) {
-    const VF at = hn::LoadU(df, c + i);
-    const Interface glass = DielectricInterface(at, Splat(eta));
-    const VF metal = FresnelConductor(at, Splat(eta), Splat(k));
-    hn::StoreU(k < 0 ? glass.reflectance : metal, df, out + i);
-    hn::StoreU(glass.cos_t, df, cos_t + i);
-  }
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "kernels/probe/fresnel_probe.h"
 #include "tests/reference/optics.h"
 #include "tests/shade/probe_batch.h"
 
 namespace lanelight {
-
-HWY_EXPORT(FresnelBatch);
 
 namespace {
 
@@ -50,8 +18,9 @@ struct Incidences {
     for (int i = 0; i < kCount; ++i) c[i] = (i + 0.5f) / kCount;
     for (int i = 0; i < 16; ++i) c[i] = std::ldexp(1.f, -24 + i);  // grazing
     c[kCount - 1] = 1;
-    HWY_DYNAMIC_DISPATCH(FresnelBatch)
-    (c.data(), kCount, eta, k, out.data(), cos_t.data());
+    const std::vector<float> etas(kCount, eta), ks(kCount, k);
+    ProbeFresnel({kCount, c.data(), etas.data(), k < 0 ? nullptr : ks.data(), out.data(),
+                  cos_t.data()});
   }
 };
 
@@ -123,4 +92,3 @@ TEST_CASE("conductor reflectance", "[shade][fresnel]") {
 }
 
 }  // namespace lanelight
-#endif

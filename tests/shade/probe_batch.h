@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/bsdf_probe.h"
+#include "kernels/probe/bsdf_probe.h"
 #include "kernels/simd/target.h"
 #include "tests/reference/bsdf.h"
 

@@ -1,84 +1,22 @@
 // Every warp against its density (chi-square), its inverse, and its mean.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/warp/warp_test.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
-
-#include "kernels/warp/hemisphere-inl.h"
-#include "tests/warp/warps.h"
-
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-
-// Applies warp `id`: in u, out the point, its density, and the inverse.
-void ApplyWarp(WarpId id, const WarpBatch& w) {
-  const DF df;
-  for (int i = 0; i < w.n; i += static_cast<int>(hn::Lanes(df))) {
-    const VF u0 = hn::LoadU(df, w.u0 + i), u1 = hn::LoadU(df, w.u1 + i);
-    V3 p = Splat3(0, 0, 0);
-    VF pdf = u0;
-    V2 back = {u0, u1};
-    switch (id) {
-      case WarpId::kDisk: {
-        const V2 q = SampleDisk(u0, u1);
-        p = {q.x, q.y, hn::Zero(df)};
-        pdf = PdfDisk();
-        back = InvertDisk(q);
-        break;
-      }
-      case WarpId::kCosine:
-        p = SampleCosineHemisphere(u0, u1);
-        pdf = PdfCosineHemisphere(p.z);
-        back = InvertCosineHemisphere(p);
-        break;
-      case WarpId::kUniformHemisphere:
-        p = SampleUniformHemisphere(u0, u1);
-        pdf = PdfUniformHemisphere();
-        back = InvertUniformHemisphere(p);
-        break;
-      case WarpId::kInSphere:
-        p = SampleInSphere(u0, u1);
-        pdf = PdfInSphere(p.z);
-        back = InvertInSphere(p);
-        break;
-    }
-    hn::StoreU(p.x, df, w.x + i);
-    hn::StoreU(p.y, df, w.y + i);
-    hn::StoreU(p.z, df, w.z + i);
-    hn::StoreU(pdf, df, w.pdf + i);
-    hn::StoreU(back.x, df, w.back0 + i);
-    hn::StoreU(back.y, df, w.back1 + i);
-  }
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <vector>
 
+#include "kernels/probe/warp_probe.h"
 #include "kernels/simd/target.h"
 #include "tests/stat/chi2.h"
 #include "src/stat/hypothesis.h"
 
 namespace lanelight {
 
-HWY_EXPORT(ApplyWarp);
-
 namespace {
 
 constexpr int kCount = 1 << 16;
 constexpr double kPiD = std::numbers::pi;
-constexpr WarpId kWarps[] = {WarpId::kDisk, WarpId::kCosine, WarpId::kUniformHemisphere,
-                             WarpId::kInSphere};
 
 struct DrawnPoints {
   std::vector<float> u0, u1, x, y, z, pdf, back0, back1;
@@ -91,9 +29,8 @@ struct DrawnPoints {
     }
     u0[0] = u1[0] = u0[1] = u1[2] = 0;  // corners
     u1[1] = u0[2] = u0[3] = u1[3] = 1 - 0x1p-24f;
-    HWY_DYNAMIC_DISPATCH(ApplyWarp)
-    (id, {kCount, u0.data(), u1.data(), x.data(), y.data(), z.data(), pdf.data(),
-          back0.data(), back1.data()});
+    ProbeWarp(id, {kCount, u0.data(), u1.data(), x.data(), y.data(), z.data(), pdf.data(),
+                   back0.data(), back1.data()});
   }
 };
 
@@ -151,10 +88,10 @@ double PValue(WarpId id, WarpId density) {
 TEST_CASE("warps follow their densities", "[warp][stat]") {
   const auto targets = AvailableTargets();
   const double level =
-      stat::SidakLevel(1e-3, static_cast<int>(targets.size() * std::size(kWarps)));
+      stat::SidakLevel(1e-3, static_cast<int>(targets.size() * std::size(kWarpIds)));
   for (const std::string& target : targets) {
     ForceTarget(target);
-    for (WarpId id : kWarps) {
+    for (WarpId id : kWarpIds) {
       INFO(target << " warp " << static_cast<int>(id));
       CHECK(PValue(id, id) > level);
     }
@@ -168,7 +105,7 @@ TEST_CASE("warps follow their densities", "[warp][stat]") {
 TEST_CASE("warps invert, and their densities are the stated ones", "[warp]") {
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
-    for (WarpId id : kWarps) {
+    for (WarpId id : kWarpIds) {
       const DrawnPoints p(id);
       double worst = 0, density = 0, length = 0;
       for (int i = 0; i < kCount; ++i) {
@@ -241,4 +178,3 @@ TEST_CASE("mean cosines of the diffuse models", "[warp]") {
 }
 
 }  // namespace lanelight
-#endif

@@ -1,4 +1,4 @@
-#include "tests/support/bsdf_probe.h"
+#include "kernels/probe/bsdf_probe.h"
 
 #include "src/core/check.h"
 

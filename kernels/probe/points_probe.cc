@@ -1,7 +1,7 @@
 #include "kernels/targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/support/points_probe.cc"
+#define HWY_TARGET_INCLUDE "kernels/probe/points_probe.cc"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
@@ -11,7 +11,7 @@
 #include "kernels/points/independent-inl.h"
 #include "kernels/points/lattice-inl.h"
 #include "kernels/points/pmj02-inl.h"
-#include "tests/support/points_probe.h"
+#include "kernels/probe/points_probe.h"
 #include "kernels/points/sobol-inl.h"
 #include "kernels/points/stratified-inl.h"
 

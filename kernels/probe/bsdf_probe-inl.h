@@ -1,13 +1,13 @@
-// Batch entries of a material policy; see probe.h.
-#if defined(LANELIGHT_TESTS_SUPPORT_BSDF_PROBE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_TESTS_SUPPORT_BSDF_PROBE_INL_H_
-#undef LANELIGHT_TESTS_SUPPORT_BSDF_PROBE_INL_H_
+// Batch entries of a material policy; see bsdf_probe.h.
+#if defined(LANELIGHT_PROBE_BSDF_PROBE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_PROBE_BSDF_PROBE_INL_H_
+#undef LANELIGHT_PROBE_BSDF_PROBE_INL_H_
 #else
-#define LANELIGHT_TESTS_SUPPORT_BSDF_PROBE_INL_H_
+#define LANELIGHT_PROBE_BSDF_PROBE_INL_H_
 #endif
 
 #include "kernels/bsdf/bsdf-inl.h"
-#include "tests/support/bsdf_probe.h"
+#include "kernels/probe/bsdf_probe.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -1,13 +1,13 @@
 #include "kernels/targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/support/bsdf_probe_interface.cc"
+#define HWY_TARGET_INCLUDE "kernels/probe/bsdf_probe_interface.cc"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
 #include "kernels/bsdf/conductor-inl.h"
 #include "kernels/bsdf/dielectric-inl.h"
-#include "tests/support/bsdf_probe-inl.h"
+#include "kernels/probe/bsdf_probe-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

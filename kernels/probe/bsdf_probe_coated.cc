@@ -1,13 +1,13 @@
 #include "kernels/targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/support/bsdf_probe_coated.cc"
+#define HWY_TARGET_INCLUDE "kernels/probe/bsdf_probe_coated.cc"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
 #include "kernels/bsdf/coated_conductor-inl.h"
 #include "kernels/bsdf/coated_diffuse-inl.h"
-#include "tests/support/bsdf_probe-inl.h"
+#include "kernels/probe/bsdf_probe-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

@@ -1,0 +1,43 @@
+#include "kernels/probe/fresnel_probe.h"
+
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/probe/fresnel_probe.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/bsdf/fresnel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+void RunFresnel(const FresnelBatch& batch) {
+  const DF df;
+  for (uint32_t i = 0; i < batch.n; i += static_cast<uint32_t>(hn::Lanes(df))) {
+    const VF c = hn::LoadU(df, batch.cosine + i), eta = hn::LoadU(df, batch.eta + i);
+    if (batch.k != nullptr) {
+      const VF k = hn::LoadU(df, batch.k + i);
+      hn::StoreU(FresnelConductor(c, eta, k), df, batch.reflectance + i);
+      continue;
+    }
+    const Interface at = DielectricInterface(c, eta);
+    hn::StoreU(at.reflectance, df, batch.reflectance + i);
+    if (batch.cos_t != nullptr) hn::StoreU(at.cos_t, df, batch.cos_t + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lanelight {
+
+HWY_EXPORT(RunFresnel);
+
+void ProbeFresnel(const FresnelBatch& batch) { HWY_DYNAMIC_DISPATCH(RunFresnel)(batch); }
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

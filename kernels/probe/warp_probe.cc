@@ -1,0 +1,71 @@
+#include "kernels/probe/warp_probe.h"
+
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/probe/warp_probe.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/warp/hemisphere-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// Applies warp `id`: in u, out the point, its density, and the inverse.
+void ApplyWarp(WarpId id, const WarpBatch& w) {
+  const DF df;
+  for (int i = 0; i < w.n; i += static_cast<int>(hn::Lanes(df))) {
+    const VF u0 = hn::LoadU(df, w.u0 + i), u1 = hn::LoadU(df, w.u1 + i);
+    V3 p = Splat3(0, 0, 0);
+    VF pdf = u0;
+    V2 back = {u0, u1};
+    switch (id) {
+      case WarpId::kDisk: {
+        const V2 q = SampleDisk(u0, u1);
+        p = {q.x, q.y, hn::Zero(df)};
+        pdf = PdfDisk();
+        back = InvertDisk(q);
+        break;
+      }
+      case WarpId::kCosine:
+        p = SampleCosineHemisphere(u0, u1);
+        pdf = PdfCosineHemisphere(p.z);
+        back = InvertCosineHemisphere(p);
+        break;
+      case WarpId::kUniformHemisphere:
+        p = SampleUniformHemisphere(u0, u1);
+        pdf = PdfUniformHemisphere();
+        back = InvertUniformHemisphere(p);
+        break;
+      case WarpId::kInSphere:
+        p = SampleInSphere(u0, u1);
+        pdf = PdfInSphere(p.z);
+        back = InvertInSphere(p);
+        break;
+    }
+    hn::StoreU(p.x, df, w.x + i);
+    hn::StoreU(p.y, df, w.y + i);
+    hn::StoreU(p.z, df, w.z + i);
+    hn::StoreU(pdf, df, w.pdf + i);
+    hn::StoreU(back.x, df, w.back0 + i);
+    hn::StoreU(back.y, df, w.back1 + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lanelight {
+
+HWY_EXPORT(ApplyWarp);
+
+void ProbeWarp(WarpId id, const WarpBatch& batch) {
+  HWY_DYNAMIC_DISPATCH(ApplyWarp)(id, batch);
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE
