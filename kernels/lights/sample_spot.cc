@@ -26,11 +26,13 @@ void SampleSpotLight(Wave& wave) {
         const VF d2 = Dot(to_light, to_light);
         const VF distance = hn::Sqrt(d2);
         const V3 direction = Mul(to_light, hn::Div(Splat(1.0f), distance));
-        const VF cosine =
-            hn::Neg(Dot(direction, light.F3(offsetof(LightRecord, direction))));
-        const VF edge = light.F(offsetof(LightRecord, cos_total));
-        const VF width = hn::Sub(light.F(offsetof(LightRecord, cos_falloff)), edge);
-        const VF inside = hn::Sub(cosine, edge);
+        // 1 - cos of the angle to the axis: half the squared distance of the unit
+        // vectors. Cosines would not tell cones below 0.02 degrees from nothing.
+        const V3 aside = direction + light.F3(offsetof(LightRecord, direction));
+        const VF versine = hn::Mul(Splat(0.5f), Dot(aside, aside));
+        const VF edge = light.F(offsetof(LightRecord, versine_total));
+        const VF width = hn::Sub(edge, light.F(offsetof(LightRecord, versine_falloff)));
+        const VF inside = hn::Sub(edge, versine);
         // A cone without falloff (width 0) is a step.
         const VF x = hn::IfThenElse(
             hn::Gt(width, Splat(0)), hn::Div(inside, width),

@@ -193,18 +193,22 @@ void LightCompiler::Spot(const Light& light) {
   if (!(Length(axis) > 0)) {
     throw InputError(light.where, "a spot light whose \"from\" and \"to\" are the same");
   }
-  const auto cosine = [](double degrees) { return std::cos(degrees * (kPi / 180)); };
-  const double total = cosine(light.cone_angle);
-  const double falloff = cosine(light.cone_angle - light.cone_delta);
+  // 1 - cos, which for a narrow cone is nothing beside 1.
+  const auto versine = [](double degrees) {
+    const double sine = std::sin(degrees * (kPi / 360));
+    return 2 * sine * sine;
+  };
+  const double total = versine(light.cone_angle);
+  const double falloff = versine(light.cone_angle - light.cone_delta);
   LightRecord record = EmptyRecord(LightShape::kSpot);
   const Rgb intensity = SceneIntensity(light, placement_.frame);
   Store(intensity, record.radiance);
   Store(Position(light), record.position);
   Store(Normalize(axis), record.direction);
-  record.cos_total = static_cast<float>(total);
-  record.cos_falloff = static_cast<float>(falloff);
+  record.versine_total = static_cast<float>(total);
+  record.versine_falloff = static_cast<float>(falloff);
   // The smooth step between the two angles is 1/2 in the mean.
-  Push(record, 2 * kPi * Luminance(intensity) * ((1 - falloff) + (falloff - total) / 2));
+  Push(record, 2 * kPi * Luminance(intensity) * ((falloff + total) / 2));
 }
 
 void LightCompiler::Distant(const Light& light) {

@@ -32,7 +32,8 @@ struct LightRecord {
   std::int32_t environment;  // index into LightTable::environments, or -1
   float direction[3];        // spot: axis, pointing away from the light; distant: unit,
                              // pointing TOWARD the light
-  float cos_total, cos_falloff;  // spot
+  // Spot: 1 - cos of the cone and of where its falloff begins, exact for narrow cones.
+  float versine_total, versine_falloff;
   float pad[3];
 };
 static_assert(sizeof(LightRecord) == 80);

@@ -14,7 +14,11 @@ constexpr double kHuge = 1e30;
 constexpr Rgb kWhite = {1, 1, 1};
 constexpr double kPi = std::numbers::pi;
 
-double Radians(double degrees) { return degrees * (kPi / 180); }
+// 1 - cos, without cancellation for small angles.
+double Versine(double degrees) {
+  const double sine = std::sin(degrees * (kPi / 360));
+  return 2 * sine * sine;
+}
 
 // A target such as "power"; 0 or less means not given, as in pbrt.
 double Target(ParamSet& params, const char* name) {
@@ -57,9 +61,9 @@ void ReadSpot(ParseState& state, ParamSet& params, Light* light) {
   if (power > 0) {
     // Power of a cone of unit intensity whose edge falls off smoothly: the full inner cap
     // and, by symmetry of the smoothstep in cos, half of the outer ring.
-    const double outer = std::cos(Radians(light->cone_angle));
-    const double inner = std::cos(Radians(light->cone_angle - light->cone_delta));
-    scale *= power / (2 * kPi * ((1 - inner) + (inner - outer) / 2));
+    const double outer = Versine(light->cone_angle);
+    const double inner = Versine(light->cone_angle - light->cone_delta);
+    scale *= power / (kPi * (inner + outer));
   }
   light->emission =
       PlainColor(state, params, "I", kWhite, SpectrumUse::kIlluminant) * scale;

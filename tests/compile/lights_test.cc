@@ -163,8 +163,8 @@ TEST_CASE("compile: point, spot and distant lights", "[scene][compile]") {
   CHECK(lights[1].radiance[0] == 2);
   CHECK(Length(ToVec(lights[1].position) - Vec3d{0.25, 0, 0}) < 1e-6);
   CHECK(Length(ToVec(lights[1].direction) - Vec3d{0, 1, 0}) < 1e-6);
-  CHECK(lights[1].cos_total == Approx(0.5));
-  CHECK(lights[1].cos_falloff == Approx(std::sqrt(0.5)));
+  CHECK(lights[1].versine_total == Approx(0.5));
+  CHECK(lights[1].versine_falloff == Approx(1 - std::sqrt(0.5)));
   CHECK(lights[2].radiance[0] == 3);
   CHECK(Length(ToVec(lights[2].direction) - Vec3d{1, 0, 0}) < 1e-6);  // toward the light
   // Powers: 4 pi; 2 pi 2 (1 - (cos 45 + cos 60) / 2); pi R^2 3 with R^2 = 2.

@@ -39,7 +39,8 @@ const Environment& EnvironmentOf(const CompiledScene& scene, const LightRecord& 
 
 double SpotFalloff(const LightRecord& light, Vec3d w) {
   const double cosine = -Dot(w, ToVec(light.direction));
-  const double low = light.cos_total, high = light.cos_falloff;
+  const double low = 1 - double(light.versine_total);
+  const double high = 1 - double(light.versine_falloff);
   const double x = std::clamp((cosine - low) / (high - low), 0.0, 1.0);
   return x * x * (3 - 2 * x);
 }
@@ -196,7 +197,7 @@ void LightScene::AddLight(const char* name, LightShape shape, std::uint32_t prim
   if (shape == LightShape::kInfiniteImage) Store({1, 1, 1}, record.radiance);
   Store({1, 2, 1.5}, record.position);
   Store(Normalize(Vec3d{-0.4, -0.8, -0.5}), record.direction);
-  record.cos_total = 0.5f, record.cos_falloff = 0.9f;
+  record.versine_total = 0.5f, record.versine_falloff = 0.1f;
   if (shape == LightShape::kTriangle) {
     const Corners c = CornersOf(scene, record);
     area = Length(Cross(c.p[1] - c.p[0], c.p[2] - c.p[0])) / 2;
