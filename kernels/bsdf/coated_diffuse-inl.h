@@ -38,16 +38,21 @@ struct CoatedBase {
             hn::Sub(Splat(1.0f), internal), eta};
   }
 
-  /// 1 + x + ... + x^(n-1), at most 256 terms: more do not show, as x stays below 0.9
-  /// for any index below 4.
+  /// S_n = 1 + x + ... + x^(n-1) by the bits of n from the top: S_2k = S_k (1 + x^k),
+  /// S_(k+1) = 1 + x S_k. Without cancellation, and exact in length: under a coat of high
+  /// index x comes close to 1, and thousands of terms count.
   LANELIGHT_INLINE static V3 Series(V3 x, VI n) {
     const DI di;
     const DF df;
-    const int longest = hn::GetLane(hn::MaxOfLanes(di, hn::Min(n, hn::Set(di, 256))));
-    V3 sum = Splat3(0, 0, 0);
-    for (int k = 0; k < longest; ++k) {
-      const MF more = hn::RebindMask(df, hn::Gt(n, hn::Set(di, k)));
-      sum = IfThenElse(more, Mul(x, sum) + Splat3(1, 1, 1), sum);
+    const int longest = hn::GetLane(hn::MaxOfLanes(di, n));
+    V3 sum = Splat3(0, 0, 0), power = Splat3(1, 1, 1);  // S_k, x^k
+    for (int bit = 1 << 30; bit != 0; bit >>= 1) {
+      if (bit > longest) continue;
+      sum = Mul(sum, power) + sum;
+      power = Mul(power, power);
+      const MF odd = hn::RebindMask(df, hn::TestBit(n, hn::Set(di, bit)));
+      sum = IfThenElse(odd, Mul(x, sum) + Splat3(1, 1, 1), sum);
+      power = IfThenElse(odd, Mul(power, x), power);
     }
     return sum;
   }

@@ -1,6 +1,7 @@
 #include "src/compile/coat_color.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src/image/rgb_spectrum.h"
 
@@ -20,9 +21,10 @@ double InvertResponse(double response, double internal, int bounces) {
 }  // namespace
 
 double CoatedResponse(double rho, double internal, int bounces) {
-  double sum = 0;
-  for (int k = 0; k < std::min(bounces, 256); ++k) sum = sum * rho * internal + 1;
-  return rho * sum;
+  const double q = rho * internal;
+  // (1 - q^n) / (1 - q); for q near 1 without cancellation.
+  const double series = q == 1 ? bounces : -std::expm1(bounces * std::log(q)) / (1 - q);
+  return rho * series;
 }
 
 Rgb EffectiveCoatBase(Rgb rgb, double internal, int bounces) {

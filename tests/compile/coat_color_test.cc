@@ -12,6 +12,10 @@ TEST_CASE("coat color: the response is the truncated geometric series", "[coat]"
   CHECK(CoatedResponse(0.5, 0.6, 1) == Approx(0.5));
   CHECK(CoatedResponse(0.5, 0.6, 3) == Approx(0.5 * (1 + 0.3 + 0.09)));
   CHECK(CoatedResponse(1, 0.6, 200) == Approx(1 / 0.4));
+  CHECK(CoatedResponse(0, 0.6, 3) == 0);
+  // Under a coat of index 10 thousands of terms count.
+  CHECK(CoatedResponse(1, 0.996, 5000) == Approx(250));
+  CHECK(CoatedResponse(1, 1, 5000) == 5000);
 }
 
 TEST_CASE("coat color: a spectrum has the colour it was made for", "[coat]") {
