@@ -14,6 +14,19 @@ std::vector<Case> AllCases() {
   AddSizeCases(cases);
   AddInstanceCases(cases);
   AddCameraCases(cases);
+  AddRoughnessCases(cases);
+  AddFresnelCases(cases);
+  AddGlassCases(cases);
+  AddCoatCases(cases);
+  AddScatteringCases(cases);
+  AddLightSizeCases(cases);
+  AddManyLightCases(cases);
+  AddRadianceCases(cases);
+  AddTransportCases(cases);
+  AddFilmCases(cases);
+  AddSampleCases(cases);
+  AddBsdfEndCases(cases);
+  AddStrategyCases(cases);
   return cases;
 }
 

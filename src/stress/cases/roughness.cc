@@ -1,0 +1,155 @@
+// Microfacets from alpha 1 to nothing, and materials seen at grazing angles.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/stress/cases/cases.h"
+#include "src/stress/cases/transport_setup.h"
+#include "src/stress/closed_forms.h"
+
+namespace lanelight::stress {
+namespace {
+
+constexpr double kMetalK = 6;          // extinction of a metal of reflectance 0.9
+constexpr double kQuadrature = 1e-4;   // error of IntegrateGgx
+constexpr double kSmoothAlpha = 1e-3;  // below it surfaces are smooth (README)
+
+std::string Metal(double alpha_x, double alpha_y) {
+  return fmt::format(
+      "\"conductor\" \"rgb reflectance\" [0.9 0.9 0.9] \"float uroughness\" {:.17g} "
+      "\"float vroughness\" {:.17g} \"bool remaproughness\" false",
+      alpha_x, alpha_y);
+}
+
+std::string Glass(double alpha, double eta) {
+  return fmt::format(
+      "\"dielectric\" \"float eta\" {:.17g} \"float roughness\" {:.17g} "
+      "\"bool remaproughness\" false",
+      eta, alpha);
+}
+
+double MetalFresnel(double c) { return FresnelConductor(c, 1, kMetalK); }
+
+// What a plane of metal reflects of a sky of radiance 1.
+double MetalFurnace(double alpha_x, double alpha_y, double cosine) {
+  if (std::max(alpha_x, alpha_y) < kSmoothAlpha) return MetalFresnel(cosine);
+  return IntegrateGgx(alpha_x, alpha_y, cosine, 0, MetalFresnel).reflected;
+}
+
+// What is seen of a sky of radiance 1 on both sides of a face of glass: refraction from
+// above spreads radiance by 1 / eta^2.
+double GlassFurnace(double alpha, double eta, double cosine) {
+  const auto fresnel = [eta](double c) { return FresnelDielectric(c, eta); };
+  const double f = fresnel(cosine);
+  if (alpha < kSmoothAlpha) return f + (1 - f) / (eta * eta);
+  const GgxAlbedo albedo = IntegrateGgx(alpha, alpha, cosine, eta, fresnel);
+  return albedo.reflected + albedo.transmitted / (eta * eta);
+}
+
+Point Furnace(const std::string& series, const std::string& material, double expected,
+              double cosine, const Effort& effort) {
+  Quality quality;
+  quality.depth = 1;
+  Point point = Named(
+      series,
+      Expect(expected, ViewOfPlane(cosine) + Sky(1) + Plane(material), quality, effort));
+  point.tolerance = kQuadrature * expected;
+  return point;
+}
+
+std::vector<Point> MetalByAlpha(double alpha, const Effort& effort) {
+  std::vector<Point> points;
+  for (double cosine : {1.0, 0.5, 0.05}) {
+    points.push_back(Furnace(fmt::format("cosine {}", cosine), Metal(alpha, alpha),
+                             MetalFurnace(alpha, alpha, cosine), cosine, effort));
+  }
+  return points;
+}
+
+std::vector<Point> GlassByAlpha(double alpha, const Effort& effort) {
+  std::vector<Point> points;
+  for (double cosine : {1.0, 0.3}) {
+    for (double eta : {1.5, 0.75}) {
+      points.push_back(Furnace(fmt::format("index {}, cosine {}", eta, cosine),
+                               Glass(alpha, eta), GlassFurnace(alpha, eta, cosine),
+                               cosine, effort));
+    }
+  }
+  return points;
+}
+
+std::vector<Point> ByAnisotropy(double ratio, const Effort& effort) {
+  // The narrow side is at least the least alpha that there is.
+  const double narrow = std::max(1 / ratio, 1e-4);
+  return {Furnace("rough along x", Metal(1, 1 / ratio), MetalFurnace(1, narrow, 0.5), 0.5,
+                  effort),
+          Furnace("rough along y", Metal(1 / ratio, 1), MetalFurnace(narrow, 1, 0.5), 0.5,
+                  effort)};
+}
+
+// A metal plane shows a lamp that fills a cone of 20 degrees around the mirrored view.
+// GGX puts at most the share (alpha / tan 10 deg)^2 of its normals farther out.
+std::vector<Point> AgainstMirror(double alpha, const Effort& effort) {
+  const std::string text = ViewOfPlane(std::sqrt(0.5)) +
+                           SphereLight({-10 * std::sqrt(0.5), 0, 10 * std::sqrt(0.5)},
+                                       10 * std::sin(20 * 3.14159265358979 / 180), 1) +
+                           Plane(Metal(alpha, alpha));
+  const double mirror = MetalFresnel(std::sqrt(0.5));
+  Quality quality;
+  quality.depth = 1;
+  Point point = Expect(mirror, text, quality, effort);
+  const double tail = std::pow(alpha / std::tan(10 * 3.14159265358979 / 180), 2);
+  point.tolerance += mirror * std::min(1.0, 2 * tail);
+  return {point};
+}
+
+std::vector<Point> Grazing(double cosine, const Effort& effort) {
+  const double glass = GlassFurnace(0, 1.5, cosine);
+  std::vector<Point> points = {
+      Furnace("diffuse", Diffuse(0.5), 0.5, cosine, effort),
+      Furnace("mirror", Metal(0, 0), MetalFurnace(0, 0, cosine), cosine, effort),
+      Furnace("metal, alpha 0.1", Metal(0.1, 0.1), MetalFurnace(0.1, 0.1, cosine), cosine,
+              effort),
+      Furnace("glass", Glass(0, 1.5), glass, cosine, effort),
+      Furnace("glass, alpha 0.1", Glass(0.1, 1.5), GlassFurnace(0.1, 1.5, cosine), cosine,
+              effort),
+      Furnace("coat",
+              "\"coateddiffuse\" \"float roughness\" 0 \"float thickness\" 0 "
+              "\"integer maxdepth\" 1000 \"rgb reflectance\" [0.5 0.5 0.5]",
+              CoatFurnace({0.5, 1.5, 0, 500}, cosine), cosine, effort)};
+  return points;
+}
+
+}  // namespace
+
+void AddRoughnessCases(std::vector<Case>& cases) {
+  cases.push_back(
+      {"ggx-metal-alpha", "materials", "roughness of a metal, alpha from 1e-8 to 1",
+       "a furnace shows the albedo of single scattering, integrated over slopes", "",
+       Truth::kTwin,
+       LogAxis("GGX alpha", "", 0, 1, Decades(-8, 0, 1), Decades(-8, 0, 0.5)),
+       MetalByAlpha});
+  cases.push_back(
+      {"ggx-glass-alpha", "materials", "roughness of glass, alpha from 1e-8 to 1",
+       "what is reflected and refracted in a furnace is the integral over slopes", "",
+       Truth::kTwin,
+       LogAxis("GGX alpha", "", 0, 1, Decades(-8, 0, 2), Decades(-8, 0, 0.5)),
+       GlassByAlpha});
+  cases.push_back(
+      {"ggx-anisotropy", "materials",
+       "roughness 1 along one axis, 1 to 1e-8 along the other",
+       "a furnace shows the integral over slopes", "", Truth::kTwin,
+       LogAxis("ratio of the alphas", "", 1, 1e8, Decades(0, 8, 2), Decades(0, 8)),
+       ByAnisotropy});
+  cases.push_back({"roughness-against-mirror", "materials",
+                   "alpha so small that the metal is a mirror",
+                   "a lamp of 20 degrees is seen as in a mirror, but for the tail of GGX",
+                   "pbrt-v3 #214", Truth::kInvariance,
+                   LogAxis("GGX alpha", "", 0, 0.01, Decades(-8, -2)), AgainstMirror});
+  cases.push_back(
+      {"grazing-view", "materials", "materials seen under a cosine of 1 to 1e-7",
+       "in a furnace every material returns its albedo for that angle", "", Truth::kTwin,
+       LogAxis("cosine of the view", "", 1e-7, 1, Decades(-7, 0, 1)), Grazing});
+}
+
+}  // namespace lanelight::stress
