@@ -99,7 +99,7 @@ Stage AovStage() {
   return {"aov",
           "albedo, normal and depth of the first hit",
           QueueId::kSurface,
-          {Feature::kAov},
+          {Feature::kAov, Feature::kScatters},
           fields::kNormal | fields::kParameters |
               FieldSet{Field::depth, Field::t, Field::material},
           fields::kAov,

@@ -105,6 +105,17 @@ void NoteDropped(const std::vector<PlacedShape>& shapes,
   }
 }
 
+// A render of nothing is a black image, or one of the environment, but seldom what was
+// meant.
+void NoteNothingToHit(const SceneDescription& description, CompiledScene& scene) {
+  if (scene.geometry.ranges.end > 0) return;
+  const bool lit = scene.features.Has(Feature::kInfiniteLights);
+  scene.notes.push_back(
+      {{std::make_shared<const std::string>(description.path), 0, 0},
+       std::string("the scene has no shape that rays can hit: ") +
+           (lit ? "the image shows the environment alone" : "the image is black")});
+}
+
 }  // namespace
 
 CompiledScene CompileScene(const SceneDescription& description,
@@ -143,6 +154,7 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.materials = std::move(materials.table);
   scene.geometry = std::move(compiled.geometry);
   scene.features = SceneFeatures(scene);
+  NoteNothingToHit(description, scene);
   scene.accel = BuildAccel(scene.geometry, {.quality = options.build});
   scene.strategy = description.strategy;
   return scene;

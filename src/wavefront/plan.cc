@@ -7,6 +7,7 @@
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
 #include "src/core/check.h"
+#include "src/core/error.h"
 #include "src/prepare/path_values.h"
 #include "src/wavefront/plan_features.h"
 
@@ -56,6 +57,11 @@ std::uint32_t WavefrontForCache(std::size_t bytes_per_path) {
 }  // namespace
 
 Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
+  if (options.aov && options.max_depth == 0) {
+    throw InputError(
+        "auxiliary output (--aov) tells of surfaces where paths scatter: it needs a "
+        "maximum depth of at least 1");
+  }
   Plan plan;
   plan.options = options;
   plan.features = PlanFeatures(scene, options);

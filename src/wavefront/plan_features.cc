@@ -8,11 +8,16 @@
 namespace lanelight {
 namespace {
 
+// Rays can meet something. Without (no shape, or none that can be seen) there is nothing
+// but the environment.
+bool HasSurfaces(const FeatureSet& f) {
+  return f.HasAny(
+      {Feature::kTriangles, Feature::kSpheres, Feature::kDisks, Feature::kPlanes});
+}
+
 // Only emission seen directly is left: nothing is shaded and no light is sampled.
-void RemoveScattering(const PlanOptions& options, FeatureSet& f) {
-  f.Remove({Feature::kScatters, Feature::kLights, Feature::kManyLights, Feature::kMis,
-            Feature::kRefraction});
-  if (options.aov) return;
+void RemoveScattering(FeatureSet& f) {
+  f.Remove({Feature::kLights, Feature::kManyLights, Feature::kMis, Feature::kRefraction});
   f.Remove({Feature::kTextures, Feature::kUv, Feature::kTangents, Feature::kVertexNormals,
             Feature::kTexturedRoughness, Feature::kMix});
 }
@@ -96,13 +101,16 @@ void CheckControl(const Strategy& s, const CompiledScene& scene,
 FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) {
   const Strategy strategy = PlannedStrategy(scene, options);
   FeatureSet f = scene.features;
-  f.Add(Feature::kScatters);
-  if (options.max_depth == 0) RemoveScattering(options, f);
-  if (options.max_depth > 0) AddLightSampling(strategy, f);
+  if (options.max_depth > 0 && HasSurfaces(f)) {
+    f.Add(Feature::kScatters);
+    AddLightSampling(strategy, f);
+    if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
+  } else {
+    RemoveScattering(f);
+  }
   if (options.aov) f.Add(Feature::kAov);
   f.Add(TurnsOn(strategy.points));
   f.Add(TurnsOn(strategy.pairs));
-  if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
   AddControl(strategy, f);
   if (options.training) f.Add(*options.training);
   return f;
