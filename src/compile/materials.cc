@@ -20,9 +20,12 @@ constexpr double kMaxMetalReflectance = 0.9999;
 class Builder {
  public:
   Builder(const SceneDescription& d, const CompileOptions& options)
-      : d_(d), options_(options), index_(d.materials.size(), -1) {}
+      : d_(d),
+        options_(options),
+        constants_(d.textures),
+        index_(d.materials.size(), -1) {}
 
-  std::int32_t Add(Index material);
+  void Add(Index material);
   CompiledMaterials Finish();
 
  private:
@@ -31,13 +34,17 @@ class Builder {
   void Metal(const Material& m, double eta_above, MaterialRow& row);
   void Interface(const Material& m, MaterialRow& row);
   void CoatOf(const Material& m, MaterialRow& row);
-  std::int32_t Mix(const Material& m);
+  std::vector<Index> Sides(const Material& m) const;
+  std::int32_t Mix(const Material& m, const std::vector<Index>& sides);
+  std::int32_t Compile(const Material& m, const std::vector<Index>& sides);
   std::int32_t Push(MaterialRow row);
-  ColorValue Color(const ColorValue& v) const { return FoldConstant(d_.textures, v); }
+  ColorValue Color(const ColorValue& v) const { return constants_.Fold(v); }
+  FloatValue Alpha(const FloatValue& v, bool remap) const;
   ColorValue Reflectance(const ColorValue& v) const;
 
   const SceneDescription& d_;
   const CompileOptions& options_;
+  const TextureConstants constants_;
   std::vector<std::int32_t> index_;
   std::vector<MaterialRow> rows_;
   std::map<Coat, std::int32_t> coats_;
@@ -107,15 +114,15 @@ void Builder::Metal(const Material& m, double eta_above, MaterialRow& row) {
   row.color1.constant *= 1 / eta_above;
 }
 
-FloatValue Alpha(const std::vector<Texture>& textures, const FloatValue& v, bool remap) {
-  FloatValue alpha = FoldConstant(textures, v);
+FloatValue Builder::Alpha(const FloatValue& v, bool remap) const {
+  FloatValue alpha = constants_.Fold(v);
   if (!IsTextured(alpha)) alpha.constant = AlphaOfRoughness(alpha.constant, remap);
   return alpha;
 }
 
 void Builder::Interface(const Material& m, MaterialRow& row) {
-  row.alpha_x = Alpha(d_.textures, m.uroughness, m.remap_roughness);
-  row.alpha_y = Alpha(d_.textures, m.vroughness, m.remap_roughness);
+  row.alpha_x = Alpha(m.uroughness, m.remap_roughness);
+  row.alpha_y = Alpha(m.vroughness, m.remap_roughness);
   row.remap = m.remap_roughness;
   row.eta = m.interface_eta;
 }
@@ -181,8 +188,8 @@ MaterialRow Builder::MakeRow(const Material& m) {
     case MaterialKind::kCoatedConductor: {
       CoatOf(m, row);
       Metal(m, m.interface_eta, row);
-      const FloatValue x = Alpha(d_.textures, m.conductor_uroughness, m.remap_roughness);
-      const FloatValue y = Alpha(d_.textures, m.conductor_vroughness, m.remap_roughness);
+      const FloatValue x = Alpha(m.conductor_uroughness, m.remap_roughness);
+      const FloatValue y = Alpha(m.conductor_vroughness, m.remap_roughness);
       if (IsTextured(x) || IsTextured(y)) {
         Unsupported(m,
                     "a textured roughness of a metal below a coat is not supported; "
@@ -208,7 +215,9 @@ MaterialRow Builder::MakeRow(const Material& m) {
   return row;
 }
 
-std::int32_t Builder::Mix(const Material& m) {
+// The materials that a mix is made of: one of them if it takes nothing of the other.
+std::vector<Index> Builder::Sides(const Material& m) const {
+  if (m.kind != MaterialKind::kMix) return {};
   for (Index side : m.mix) {
     LL_CHECK_GE(side, 0);
     LL_CHECK_LT(static_cast<std::size_t>(side), d_.materials.size());
@@ -218,16 +227,29 @@ std::int32_t Builder::Mix(const Material& m) {
                   "cut-out use the shape's \"alpha\" parameter");
     }
   }
+  const FloatValue amount = constants_.Fold(m.mix_amount);
+  if (!IsTextured(amount) && amount.constant <= 0) return {m.mix[0]};
+  if (!IsTextured(amount) && amount.constant >= 1) return {m.mix[1]};
+  return {m.mix[0], m.mix[1]};
+}
+
+std::int32_t Builder::Mix(const Material& m, const std::vector<Index>& sides) {
+  const auto row_of = [&](Index side) { return index_[static_cast<std::size_t>(side)]; };
+  if (sides.size() == 1) return row_of(sides[0]);
   MaterialRow row;
   row.kind = ShadeKind::kMix;
   row.name = m.name;
-  row.alpha_x = FoldConstant(d_.textures, m.mix_amount);
-  if (!IsTextured(row.alpha_x)) {
-    if (row.alpha_x.constant <= 0) return Add(m.mix[0]);
-    if (row.alpha_x.constant >= 1) return Add(m.mix[1]);
-  }
-  row.mix[0] = Add(m.mix[0]);
-  row.mix[1] = Add(m.mix[1]);
+  row.alpha_x = constants_.Fold(m.mix_amount);
+  row.mix[0] = row_of(sides[0]);
+  row.mix[1] = row_of(sides[1]);
+  return Push(std::move(row));
+}
+
+// The sides of a mix have been compiled.
+std::int32_t Builder::Compile(const Material& m, const std::vector<Index>& sides) {
+  if (m.kind == MaterialKind::kMix) return Mix(m, sides);
+  MaterialRow row = MakeRow(m);
+  row.name = m.name;
   return Push(std::move(row));
 }
 
@@ -236,16 +258,25 @@ std::int32_t Builder::Push(MaterialRow row) {
   return static_cast<std::int32_t>(rows_.size()) - 1;
 }
 
-std::int32_t Builder::Add(Index material) {
-  LL_CHECK_GE(material, 0);
-  LL_CHECK_LT(static_cast<std::size_t>(material), d_.materials.size());
-  std::int32_t& index = index_[static_cast<std::size_t>(material)];
-  if (index >= 0) return index;
-  const Material& m = d_.materials[static_cast<std::size_t>(material)];
-  if (m.kind == MaterialKind::kMix) return index = Mix(m);
-  MaterialRow row = MakeRow(m);
-  row.name = m.name;
-  return index = Push(std::move(row));
+// Depth first and without recursion: mixes may be nested as deep as a file likes.
+void Builder::Add(Index material) {
+  std::vector<Index> open = {material};
+  while (!open.empty()) {
+    LL_CHECK_GE(open.back(), 0);
+    const auto at = static_cast<std::size_t>(open.back());
+    LL_CHECK_LT(at, d_.materials.size());
+    const Material& m = d_.materials[at];
+    const std::vector<Index> sides = Sides(m);
+    const auto waits_for = std::find_if(sides.begin(), sides.end(), [&](Index side) {
+      return index_[static_cast<std::size_t>(side)] < 0;
+    });
+    if (index_[at] < 0 && waits_for != sides.end()) {
+      open.push_back(*waits_for);
+      continue;
+    }
+    if (index_[at] < 0) index_[at] = Compile(m, sides);
+    open.pop_back();
+  }
 }
 
 CompiledMaterials Builder::Finish() {

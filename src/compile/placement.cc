@@ -62,11 +62,12 @@ void CheckEmitter(const SceneDescription& d, const Shape& shape,
 }
 
 // The shape as it will be compiled, or nothing if it cannot be seen.
-std::optional<PlacedShape> Place(const SceneDescription& d, const Shape& shape,
+std::optional<PlacedShape> Place(const SceneDescription& d,
+                                 const TextureConstants& constants, const Shape& shape,
                                  const Transform* instance) {
   PlacedShape placed;
   placed.shape = &shape;
-  placed.alpha = FoldConstant(d.textures, shape.alpha);
+  placed.alpha = constants.Fold(shape.alpha);
   placed.area_light = EmittingLight(d, shape);
   if (placed.area_light != kNone) CheckEmitter(d, shape, placed.alpha);
   if (IsMaterial(d, shape, MaterialKind::kInterface)) return std::nullopt;
@@ -123,26 +124,33 @@ Box FallbackBox(const SceneDescription& d, const Placement& placement) {
   return box;
 }
 
-void CopyIntoWorld(const SceneDescription& d, const ObjectDefinition& object,
-                   const Transform& world_from_object, Placement& placement) {
+void CopyIntoWorld(const SceneDescription& d, const TextureConstants& constants,
+                   const ObjectDefinition& object, const Transform& world_from_object,
+                   Placement& placement) {
   for (const Shape& shape : object.shapes) {
     if (StaysInObject(d, shape)) continue;
-    if (const auto p = Place(d, shape, &world_from_object)) AddToWorld(*p, placement);
+    if (const auto p = Place(d, constants, shape, &world_from_object)) {
+      AddToWorld(*p, placement);
+    }
   }
 }
 
-PlacedObject PlaceObject(const SceneDescription& d, const ObjectDefinition& object) {
+PlacedObject PlaceObject(const SceneDescription& d, const TextureConstants& constants,
+                         const ObjectDefinition& object) {
   PlacedObject placed;
   for (const Shape& shape : object.shapes) {
     if (!StaysInObject(d, shape)) continue;
-    if (const auto p = Place(d, shape, nullptr)) placed.meshes.push_back(*p);
+    if (const auto p = Place(d, constants, shape, nullptr)) {
+      placed.meshes.push_back(*p);
+    }
   }
   placed.bounds = UnionOfBoxes(placed.meshes);
   placed.frame = FrameOf(placed.bounds);
   return placed;
 }
 
-void PlaceInstances(const SceneDescription& d, Placement& placement) {
+void PlaceInstances(const SceneDescription& d, const TextureConstants& constants,
+                    Placement& placement) {
   constexpr std::size_t kNotYet = ~std::size_t{0}, kNothing = kNotYet - 1;
   std::vector<std::size_t> placed_as(d.objects.size(), kNotYet);
   for (const Instance& instance : d.instances) {
@@ -150,10 +158,10 @@ void PlaceInstances(const SceneDescription& d, Placement& placement) {
     LL_CHECK_LT(static_cast<std::size_t>(instance.object), d.objects.size());
     CheckTransform(instance.world_from_object, instance.where, "instance");
     const ObjectDefinition& object = d.objects[static_cast<std::size_t>(instance.object)];
-    CopyIntoWorld(d, object, instance.world_from_object, placement);
+    CopyIntoWorld(d, constants, object, instance.world_from_object, placement);
     std::size_t& at = placed_as[static_cast<std::size_t>(instance.object)];
     if (at == kNotYet) {
-      PlacedObject placed = PlaceObject(d, object);
+      PlacedObject placed = PlaceObject(d, constants, object);
       at = placed.bounds.empty() ? kNothing : placement.objects.size();
       if (at != kNothing) placement.objects.push_back(std::move(placed));
     }
@@ -193,11 +201,12 @@ bool Emits(const AreaLight& light) {
 }
 
 Placement PlaceShapes(const SceneDescription& d) {
+  const TextureConstants constants(d.textures);
   Placement placement;
   for (const Shape& shape : d.shapes) {
-    if (const auto p = Place(d, shape, nullptr)) AddToWorld(*p, placement);
+    if (const auto p = Place(d, constants, shape, nullptr)) AddToWorld(*p, placement);
   }
-  PlaceInstances(d, placement);
+  PlaceInstances(d, constants, placement);
   placement.bounds.Add(UnionOfBoxes(placement.meshes));
   placement.bounds.Add(UnionOfBoxes(placement.spheres));
   placement.bounds.Add(UnionOfBoxes(placement.disks));

@@ -5,50 +5,38 @@
 namespace lanelight {
 namespace {
 
-const Texture& At(const std::vector<Texture>& textures, Index i) {
-  LL_CHECK_GE(i, 0);
-  LL_CHECK_LT(static_cast<std::size_t>(i), textures.size());
-  return textures[static_cast<std::size_t>(i)];
-}
-
-std::optional<Rgb> Constant(const std::vector<Texture>& textures, const ColorValue& v) {
-  return v.texture == kNone ? v.constant : ConstantTexture(textures, v.texture);
-}
-
-std::optional<double> Constant(const std::vector<Texture>& textures,
-                               const FloatValue& v) {
-  if (v.texture == kNone) return v.constant;
-  const std::optional<Rgb> c = ConstantTexture(textures, v.texture);
-  return c ? std::optional<double>(c->x) : std::nullopt;
-}
-
-void Mark(const std::vector<Texture>& textures, Index i, std::vector<bool>& used) {
-  if (i == kNone) return;
-  const Texture& t = At(textures, i);
-  if (used[static_cast<std::size_t>(i)]) return;
-  used[static_cast<std::size_t>(i)] = true;
-  Mark(textures, t.tex1.texture, used);
-  Mark(textures, t.tex2.texture, used);
-  Mark(textures, t.amount.texture, used);
+// Marks what texture i refers to.
+void MarkOperands(const std::vector<Texture>& textures, std::size_t i,
+                  std::vector<bool>& used) {
+  const Texture& t = textures[i];
+  for (Index operand : {t.tex1.texture, t.tex2.texture, t.amount.texture}) {
+    if (operand == kNone) continue;
+    LL_CHECK_GE(operand, 0);
+    LL_CHECK_LT(static_cast<std::size_t>(operand), i);
+    used[static_cast<std::size_t>(operand)] = true;
+  }
 }
 
 }  // namespace
 
-std::optional<Rgb> ConstantTexture(const std::vector<Texture>& textures, Index texture) {
-  const Texture& t = At(textures, texture);
-  // A texture refers only to earlier ones, so this recursion ends.
+TextureConstants::TextureConstants(const std::vector<Texture>& textures) {
+  constants_.reserve(textures.size());
+  for (const Texture& texture : textures) constants_.push_back(ConstantOf(texture));
+}
+
+std::optional<Rgb> TextureConstants::ConstantOf(const Texture& t) const {
   switch (t.kind) {
     case TextureKind::kConstant:
       return t.value;
     case TextureKind::kScale: {
-      const auto a = Constant(textures, t.tex1);
-      const auto s = Constant(textures, t.amount);
+      const auto a = ValueOf(t.tex1);
+      const auto s = ValueOf(t.amount);
       if (a && s) return *a * *s;
       return std::nullopt;
     }
     case TextureKind::kMix: {
-      const auto a = Constant(textures, t.tex1), b = Constant(textures, t.tex2);
-      const auto w = Constant(textures, t.amount);
+      const auto a = ValueOf(t.tex1), b = ValueOf(t.tex2);
+      const auto w = ValueOf(t.amount);
       if (a && b && w) return *a * (1 - *w) + *b * *w;
       return std::nullopt;
     }
@@ -59,23 +47,40 @@ std::optional<Rgb> ConstantTexture(const std::vector<Texture>& textures, Index t
   return std::nullopt;
 }
 
-ColorValue FoldConstant(const std::vector<Texture>& textures, const ColorValue& value) {
-  const std::optional<Rgb> c = Constant(textures, value);
+std::optional<Rgb> TextureConstants::ValueOf(const ColorValue& v) const {
+  return v.texture == kNone ? v.constant : Of(v.texture);
+}
+
+std::optional<double> TextureConstants::ValueOf(const FloatValue& v) const {
+  if (v.texture == kNone) return v.constant;
+  const std::optional<Rgb>& c = Of(v.texture);
+  return c ? std::optional<double>(c->x) : std::nullopt;
+}
+
+ColorValue TextureConstants::Fold(const ColorValue& value) const {
+  const std::optional<Rgb> c = ValueOf(value);
   return c ? ColorValue{*c, kNone} : value;
 }
 
-FloatValue FoldConstant(const std::vector<Texture>& textures, const FloatValue& value) {
-  const std::optional<double> c = Constant(textures, value);
+FloatValue TextureConstants::Fold(const FloatValue& value) const {
+  const std::optional<double> c = ValueOf(value);
   return c ? FloatValue{*c, kNone} : value;
 }
 
 std::vector<Texture> KeepUsedTextures(const std::vector<Texture>& textures,
                                       const std::vector<Index>& used) {
   std::vector<bool> keep(textures.size(), false);
-  for (Index i : used) Mark(textures, i, keep);
+  for (Index i : used) {
+    LL_CHECK_GE(i, 0);
+    keep.at(static_cast<std::size_t>(i)) = true;
+  }
+  // Operands are earlier, so what needs a texture has been seen before it.
   std::vector<Texture> kept = textures;
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (keep[i]) continue;
+  for (std::size_t i = kept.size(); i-- > 0;) {
+    if (keep[i]) {
+      MarkOperands(textures, i, keep);
+      continue;
+    }
     Texture unused;
     unused.name = kept[i].name;
     unused.where = kept[i].where;
