@@ -1,5 +1,6 @@
 #include "src/compile/placement.h"
 
+#include <cmath>
 #include <optional>
 
 #include "src/core/check.h"
@@ -100,11 +101,56 @@ bool StaysInObject(const SceneDescription& d, const Shape& shape) {
   return shape.kind == ShapeKind::kMesh && EmittingLight(d, shape) == kNone;
 }
 
+// World coordinates and sizes of scenes that can be brought to unit size (frame.cc): the
+// squares of their lengths and of the scale are ordinary numbers of double precision.
+constexpr double kFarthest = 1e100, kSmallest = 1e-100;
+
+bool IsTooFar(Vec3d p) {
+  const Vec3d a = Max(p, -p);
+  return !(a.x <= kFarthest && a.y <= kFarthest && a.z <= kFarthest);
+}
+
+[[noreturn]] void RefuseFar(const SourceLocation& where, const char* what) {
+  throw InputError(
+      where,
+      fmt::format("{} reaches beyond {:g} units from the origin of the world; what "
+                  "is nearer is supported: scale the scene down",
+                  what, kFarthest));
+}
+
+bool IsFinite(Vec3d v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// The box of a mesh; nothing if it reaches too far. Vertices that are no numbers to begin
+// with make degenerate triangles, which are left out.
+std::optional<Box> MeshBox(const PlacedShape& placed) {
+  const TriangleMesh& mesh = *placed.shape->mesh;
+  Box box;
+  for (std::uint32_t i : mesh.indices) {
+    LL_CHECK_LT(i, mesh.positions.size());
+    if (!IsFinite(mesh.positions[i])) continue;
+    const Vec3d p = placed.transform.Point(mesh.positions[i]);
+    if (IsTooFar(p)) return std::nullopt;
+    box.Add(p);
+  }
+  return box;
+}
+
 Box UnionOfBoxes(const std::vector<PlacedShape>& shapes) {
-  std::vector<Box> boxes(shapes.size());
-  ParallelFor(shapes.size(), [&](std::size_t i) { boxes[i] = ShapeBox(shapes[i]); });
+  std::vector<std::optional<Box>> boxes(shapes.size());
+  ParallelFor(shapes.size(), [&](std::size_t i) {
+    const bool is_mesh = shapes[i].shape->kind == ShapeKind::kMesh;
+    boxes[i] = is_mesh ? MeshBox(shapes[i]) : ShapeBox(shapes[i]);
+  });
   Box all;
-  for (const Box& box : boxes) all.Add(box);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const std::optional<Box>& box = boxes[i];
+    if (!box || (!box->empty() && (IsTooFar(box->min) || IsTooFar(box->max)))) {
+      RefuseFar(shapes[i].shape->where, "this shape");
+    }
+    all.Add(*box);
+  }
   return all;
 }
 
@@ -167,9 +213,22 @@ void PlaceInstances(const SceneDescription& d, const TextureConstants& constants
     }
     if (at == kNothing) continue;
     placement.instances.push_back({at, instance.world_from_object});
-    placement.bounds.Add(
-        placement.objects[at].bounds.Transformed(instance.world_from_object));
+    const Box box = placement.objects[at].bounds.Transformed(instance.world_from_object);
+    if (box.empty() || IsTooFar(box.min) || IsTooFar(box.max)) {
+      RefuseFar(instance.where, "this instance");
+    }
+    placement.bounds.Add(box);
   }
+}
+
+void CheckSize(const SceneDescription& d, const Box& bounds) {
+  const double size = bounds.HalfDiagonal();
+  if (bounds.empty() || size == 0 || size >= kSmallest || d.shapes.empty()) return;
+  throw InputError(
+      d.shapes.front().where,
+      fmt::format("all shapes together are {:g} units large; {:g} to {:g} are supported: "
+                  "scale the scene up",
+                  size, kSmallest, kFarthest));
 }
 
 }  // namespace
@@ -179,11 +238,7 @@ Box ShapeBox(const PlacedShape& placed) {
   Box box;
   if (shape.kind == ShapeKind::kMesh) {
     LL_CHECK(shape.mesh != nullptr);
-    for (std::uint32_t i : shape.mesh->indices) {
-      LL_CHECK_LT(i, shape.mesh->positions.size());
-      box.Add(placed.transform.Point(shape.mesh->positions[i]));
-    }
-    return box;
+    return MeshBox(placed).value_or(box);
   }
   if (shape.kind == ShapeKind::kPlane) return box;
   const double r = shape.radius;
@@ -211,6 +266,7 @@ Placement PlaceShapes(const SceneDescription& d) {
   placement.bounds.Add(UnionOfBoxes(placement.spheres));
   placement.bounds.Add(UnionOfBoxes(placement.disks));
   if (placement.bounds.empty()) placement.bounds = FallbackBox(d, placement);
+  CheckSize(d, placement.bounds);
   placement.eye = d.camera.world_from_camera.Point({0, 0, 0});
   SeparateLargeSpheres(placement);
   placement.frame = FocusFrame(placement);
