@@ -8,22 +8,16 @@
 #endif
 
 #include "kernels/intersect/packet_leaf-inl.h"
+#include "kernels/intersect/ray_stacks.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Rays in flight: enough for independent work to the end of a stream; what is touched of
-/// their columns and stacks stays in L2 (measured: 64 are 2 to 5 % slower, 512 equal).
-inline constexpr uint32_t kStreamRays = 256;
-/// Subtrees that a ray can put off in the packet phase.
-inline constexpr uint32_t kDeferred = 32;
-
 struct StreamRays {
   static constexpr uint32_t kLanes = hn::MaxLanes(DF());
   static constexpr uint32_t kRoom = kStreamRays + 2 * kLanes;
-  static constexpr uint32_t kStackRoom = kDeferred + kTraversalStack + 32;
 
   uint32_t size = 0;
   HWY_ALIGN float o[3][kRoom], d[3][kRoom];
@@ -40,18 +34,17 @@ struct StreamRays {
   uint32_t from[kRoom];  // as in Rays
   int32_t slot[kRoom];
   // Where single rays are: the node or leaf, and the stack [bottom, top] of others, the
-  // last one kEmptyRef at the bottom. Stacks are `stride` apart, as deep as the tree
-  // asks.
+  // last one kEmptyRef at the bottom. Stacks are `stride` apart.
   int32_t next[kRoom];
-  uint32_t top[kRoom], bottom[kRoom], stride = 0;
-  uint32_t refs[kStreamRays * kStackRoom];
-  float entries[kStreamRays * kStackRoom];
+  uint32_t top[kRoom], bottom[kRoom];
+  const uint32_t stride;
+  uint32_t* const refs;
+  float* const entries;
 
-  explicit StreamRays(const Bvh& bvh) {
-    // A vector may be stored past the top.
-    const uint32_t depth = static_cast<uint32_t>(bvh.depth) * (kBvhWidth - 1) + 2;
-    stride = kDeferred + (depth + kLeafTriangles + 15) / 16 * 16;
-  }
+  explicit StreamRays(const Bvh& bvh)
+      : stride(RayStackStride(bvh)),
+        refs(ThreadRayStacks(stride)),
+        entries(reinterpret_cast<float*>(refs + std::size_t{kStreamRays} * stride)) {}
   LANELIGHT_INLINE uint32_t* Refs(uint32_t r) { return refs + std::size_t{r} * stride; }
   LANELIGHT_INLINE float* Entries(uint32_t r) {
     return entries + std::size_t{r} * stride;
