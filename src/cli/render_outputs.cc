@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
   const RunResult& r = report.result;
   if (!quiet && job.seconds > 0 && r.seconds > 1.05 * job.seconds &&
-      r.samples <= 2 * job.window.pixels()) {
+      r.samples <= 2 * job.window.pixels() && report.unsampled_pixels == 0) {
     PrintError(
         fmt::format("note: --time {}: one sample per pixel takes longer ({}); a lower "
                     "--resolution takes less",
@@ -30,6 +30,16 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
   PrintError(fmt::format("error: the target was not reached before the end by {}: {}",
                          limit, ErrorText(report.error)));
   return kExitTargetMissed;
+}
+
+// A part has most pixels in other parts.
+void PrintUnsampled(const RenderReport& report, const Job& job,
+                    const RenderOutputs& options) {
+  if (report.unsampled_pixels == 0 || options.targets.exr.empty()) return;
+  PrintError(fmt::format(
+      "warning: {} of {} pixels have no sample and are black: the render was stopped "
+      "before, or paths there do not end (the maximum depth is {})",
+      report.unsampled_pixels, job.window.pixels(), job.plan.options.max_depth));
 }
 
 }  // namespace
@@ -123,6 +133,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
                            report.result.health.Total()));
     return kExitInvalidSamples;
   }
+  PrintUnsampled(report, job, options);
   const CheckpointSettings& checkpoint = options.targets.checkpoint;
   if (!checkpoint.path.empty() && !rendering.state_kept) {
     PrintError("error: the last state could not be kept in '" + checkpoint.path + "'");

@@ -30,6 +30,7 @@
 #include "src/ranks/ranks.h"
 #include "src/wavefront/hand_out.h"
 #include "src/wavefront/schedule.h"
+#include "src/wavefront/stop_watcher.h"
 #include "src/wavefront/tasks.h"
 #include "src/wavefront/tile_rows.h"
 
@@ -55,6 +56,8 @@ constexpr std::size_t kMostBatches = 2;
 // After a signal mpirun leaves a second; for those who do not answer until then nobody
 // waits.
 constexpr double kPatienceSeconds = 0.6;
+// The same after the time is over, where paths of other ranks do not end.
+constexpr double kEndlessSeconds = 10;
 // Rounds become longer, up to this: at the end of each, ranks wait for each other.
 constexpr double kRoundSeconds = 4;
 
@@ -251,7 +254,10 @@ class RoundOfLeader {
 
   template <class OnTrouble>
   void Serve(OnTrouble& on_trouble) {
-    std::optional<Clock::time_point> signal;
+    std::optional<Clock::time_point> signal, over;
+    const auto is_late = [](const auto& since, double patience) {
+      return since && Since(*since) > patience;
+    };
     Naps naps;
     while (true) {
       bool moved = false;
@@ -262,7 +268,9 @@ class RoundOfLeader {
       mail_.Sent();
       if (own_done_ && !InFlight()) return;
       if (!signal && watcher_.Interrupted()) signal = Clock::now();
-      if (own_done_ && signal && Since(*signal) > kPatienceSeconds) {
+      if (!over && watcher_.PutsDown()) over = Clock::now();
+      if (own_done_ &&
+          (is_late(signal, kPatienceSeconds) || is_late(over, kEndlessSeconds))) {
         gave_up_ = true;
         return;
       }
@@ -396,13 +404,6 @@ class Workshop {
     double seconds = 0;
     RunCounts counts;
   };
-  // A signal to this rank ends its batches.
-  struct OwnSignal : TaskWatcher {
-    explicit OwnSignal(const std::atomic<bool>* s) : stop(s) {}
-    bool Stopped() const override { return stop != nullptr && *stop; }
-    void TaskDone() override {}
-    const std::atomic<bool>* stop;
-  };
 
   void Unpack(const TileRange& range, std::string_view& bytes) {
     service_.tasks.Put(range.tile, range.begin);
@@ -476,7 +477,7 @@ class Workshop {
   }
 
   const Service& service_;
-  OwnSignal signal_;
+  StopWatcher signal_;  // to this rank: ends its batches
   const TileRows rows_;
   std::mutex mutex_;  // of all that follows
   std::condition_variable more_;

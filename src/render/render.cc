@@ -32,6 +32,16 @@ void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
   report.write_seconds = taken.count();
 }
 
+std::uint64_t CountUnsampled(const FilmAccumulator& film) {
+  std::uint64_t count = 0;
+  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
+    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
+      count += film.Samples(x, y) == 0;
+    }
+  }
+  return count;
+}
+
 // All ranks are to render the same, bit by bit.
 void AgreeOnJob(const Job& job, Crew& crew) {
   crew.Agree("would render something else", IdentityOf(job).dump(),
@@ -101,6 +111,7 @@ void ServeRender(const Job& job, Crew& crew, const std::atomic<bool>* stop) {
 void WriteRendering(const FilmAccumulator& film, const Json& identity, const Json& head,
                     const RenderTargets& targets, const Json& members, Rendering& out) {
   out.report.error = EstimateError(film);
+  out.report.unsampled_pixels = CountUnsampled(film);
   Saver saver;
   SaveImages(film, identity, head.at("scale"), targets, saver, out.report);
   if (!targets.json.empty()) {

@@ -155,6 +155,7 @@ Json ToJson(const RenderReport& report, const Json& head) {
       {"bytes_between_ranks", r.bytes_between_ranks},
       {"cpu_seconds", r.cpu_seconds},
       {"samples", r.samples},
+      {"unsampled_pixels", report.unsampled_pixels},
       {"samples_per_second", double(r.samples) / seconds},
       {"rays", {{"closest", r.rays_closest}, {"shadow", r.rays_shadow}, {"total", rays}}},
       {"pilot",

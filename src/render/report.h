@@ -19,6 +19,7 @@ struct RenderReport {
   std::string scene, exr, png;  // png empty: not written
   RunResult result;
   ErrorEstimate error;
+  std::uint64_t unsampled_pixels = 0;  // of the film: without a sample, black
   double load_seconds = 0, build_seconds = 0, write_seconds = 0;
   bool half = false;
 };

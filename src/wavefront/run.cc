@@ -13,6 +13,7 @@
 #include "src/prepare/tables.h"
 #include "src/scene/rendered_pixels.h"
 #include "src/wavefront/crew_start.h"
+#include "src/wavefront/patience.h"
 #include "src/wavefront/profile.h"
 #include "src/wavefront/schedule.h"
 #include "src/wavefront/tasks.h"
@@ -67,6 +68,7 @@ class Runner : public TaskWatcher {
     if (!restored && NeedsTraining(plan_)) TrainStrategy();
     AgreeOnTraining();
     if (options_.seconds > 0) pace_.emplace(options_.seconds, PaceTasks());
+    patience_.emplace(options_.seconds, Elapsed());
     if (restored) LookIfDue();
   }
 
@@ -80,6 +82,7 @@ class Runner : public TaskWatcher {
       UseTraining();
     }
     AgreeOnTraining();
+    patience_.emplace();
   }
 
   /// Tasks from here on begin with this sample, or later ones.
@@ -249,11 +252,19 @@ class Runner : public TaskWatcher {
   }
   bool Ended() {
     every_pixel_ = tasks_.Done() > 0;
-    return Interrupted() || OutOfTime();
+    return Interrupted() || OutOfTime() || put_down_;
   }
   bool Stopped() const override {
-    return Interrupted() || OutOfTime() ||
+    return Interrupted() || OutOfTime() || put_down_ ||
            (options_.keeper != nullptr && options_.keeper->Due());
+  }
+
+  bool PutsDown() const override {
+    // Without a budget only a stop matters, and clocks need not be read.
+    const bool stopped = Interrupted();
+    if (!stopped && options_.seconds <= 0) return false;
+    if (patience_->IsOver(stopped, every_pixel_, Elapsed())) put_down_ = true;
+    return put_down_;
   }
 
   Pace::Tasks PaceTasks() const {
@@ -271,6 +282,7 @@ class Runner : public TaskWatcher {
   }
 
   void TaskDone() override {
+    if (options_.seconds > 0) patience_->Ended(Elapsed());
     if (!options_.on_progress) return;
     std::unique_lock lock(progress_mutex_, std::try_to_lock);
     if (!lock || Since(last_report_) < 0.1) return;
@@ -308,11 +320,13 @@ class Runner : public TaskWatcher {
   TrainingOutcome training_;
   bool training_done_ = false;
   std::optional<Pace> pace_;  // with a time budget
-  bool every_pixel_ = false;  // has a sample
-  double needed_ = INFINITY;  // samples per pixel, by the last look
-  bool reached_ = false;      // no more are needed
-  double fit_seconds_ = 0;    // that the last step takes
-  RunCounts before_;          // this run went on with
+  mutable std::optional<Patience> patience_;
+  mutable std::atomic<bool> put_down_{false};  // tasks were; that ends the run
+  bool every_pixel_ = false;                   // has a sample
+  double needed_ = INFINITY;                   // samples per pixel, by the last look
+  bool reached_ = false;                       // no more are needed
+  double fit_seconds_ = 0;                     // that the last step takes
+  RunCounts before_;                           // this run went on with
   Clock::time_point start_, last_report_;
   TickScale ticks_;
   double start_cpu_ = 0;

@@ -44,8 +44,8 @@ inline constexpr std::uint64_t kLeastPilot = 1u << 16;  // samples, of small ima
 
 struct RunOptions {
   std::uint64_t spp = 0;  // samples per pixel; 0: until something else ends the render
-  /// Time budget of all of Run, 0 = none. Every pixel gets a sample, however long it
-  /// takes.
+  /// Time budget of all of Run, 0 = none. Every pixel gets a sample, unless paths do not
+  /// end (src/wavefront/patience.h).
   double seconds = 0;
   /// If set, the render looks at itself at certain numbers of samples per pixel
   /// (src/wavefront/schedule.h), and ends once this returns `done` or less: how many the
@@ -53,9 +53,10 @@ struct RunOptions {
   std::function<double(std::uint64_t done)> samples_needed;
   std::uint64_t seed = 0;
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
-  const std::atomic<bool>* stop = nullptr;           // finish the samples in flight
-  bool profile = true;                               // time every stage call
-  ProfileOptions profiling;                          // if `profile`
+  /// Finish the samples in flight; those that take longer are put down.
+  const std::atomic<bool>* stop = nullptr;
+  bool profile = true;       // time every stage call
+  ProfileOptions profiling;  // if `profile`
   /// roulette=efficiency keeps its rule even where the pilot passes prefer another.
   bool keep_roulette = false;
   /// Renders these windows of the image only, all of the same width and height, up to 64.

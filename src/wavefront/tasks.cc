@@ -29,8 +29,8 @@ void StartWave(Wave& wave) {
 
 }  // namespace
 
-void Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
-           const SampleBuffer& buffer, StageClock* clock) {
+bool Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
+           const SampleBuffer& buffer, StageClock* clock, const TaskWatcher* watcher) {
   wavefront.Reset();
   Wave& wave = wavefront.wave();
   wave.work = work;
@@ -48,7 +48,9 @@ void Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
       planned.kernel(wave);
       if (clock) clock->Finish(i, wave.lanes.items, wave.lanes.vectors);
     }
+    if (watcher != nullptr && watcher->PutsDown()) return false;
   }
+  return true;
 }
 
 Tasks::Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
@@ -169,7 +171,8 @@ RunCounts Tasks::BringOn(const TileRange& range, TaskWatcher& watcher, Films& fi
   RunCounts counts;
   while (done_[tile] < range.end && !watcher.Stopped()) {
     TaskSamples& out = ThreadWorkspace().samples;
-    RunTask(tile, {done_[tile], std::min(range.end, done_[tile] + per_task_)}, out);
+    const Range next = {done_[tile], std::min(range.end, done_[tile] + per_task_)};
+    if (!RunTask(tile, next, watcher, out)) break;
     Merge(tile, out, films);
     counts.Add(out.counts);
     watcher.TaskDone();
@@ -190,7 +193,7 @@ void Tasks::RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films) 
   ParallelFor(partition_.tiles.size(), [&](std::size_t tile) {
     if (done_[tile] >= limit || watcher.Stopped()) return;
     TaskSamples& out = ThreadWorkspace().samples;
-    RunTask(tile, {done_[tile], limit}, out);
+    if (!RunTask(tile, {done_[tile], limit}, watcher, out)) return;
     Merge(tile, out, films);
     watcher.TaskDone();
   });
@@ -212,8 +215,10 @@ void Tasks::RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& f
     TaskSamples& out = buffers_[task];
     out.count = 0;
     if (watcher.Stopped()) return;
-    RunTask(chunks[task].tile, chunks[task].range, out);
-    watcher.TaskDone();
+    const Chunk& chunk = chunks[task];
+    if (RunTask(chunk.tile, chunk.range, watcher, out)) {
+      watcher.TaskDone();
+    }
   });
   std::vector<std::size_t> first(done_.size(), chunks.size());  // of each tile
   for (std::size_t i = chunks.size(); i-- > 0;) first[chunks[i].tile] = i;
@@ -235,7 +240,9 @@ Workspace& Tasks::ThreadWorkspace() {
   return *workspaces_[thread];
 }
 
-void Tasks::RunTask(std::size_t tile, const Range& range, TaskSamples& out) {
+// False, and no samples, if it was put down.
+bool Tasks::RunTask(std::size_t tile, const Range& range, const TaskWatcher& watcher,
+                    TaskSamples& out) {
   Workspace& space = ThreadWorkspace();
   StageClock* const clock = space.Clock();
   if (clock) clock->StartTask();
@@ -259,15 +266,21 @@ void Tasks::RunTask(std::size_t tile, const Range& range, TaskSamples& out) {
   Wave& wave = space.wavefront.wave();
   wave.rays_closest = wave.rays_shadow = 0;
   wave.health = {};
-  Drive(space.wavefront, plan_, work, {out.values.data(), rows}, clock);
-  taken_ += stride;
-  out.counts = {stride, wave.rays_closest, wave.rays_shadow, wave.health};
-  if (splits) {
+  const bool ended =
+      Drive(space.wavefront, plan_, work, {out.values.data(), rows}, clock, &watcher);
+  if (ended) {
+    taken_ += stride;
+    out.counts = {stride, wave.rays_closest, wave.rays_shadow, wave.health};
+  } else {
+    out.count = 0;
+  }
+  if (ended && splits) {
     FoldCopies(out.values.data(), rows, run_.planes);
     if (clock) clock->FinishPart(TaskPart::kCopies, stride);
   }
-  if (seen_lights_) SeeLights(tile, work, out, clock);
+  if (ended && seen_lights_) SeeLights(tile, work, out, clock);
   if (clock) clock->EndTask();
+  return ended;
 }
 
 void Tasks::SeeLights(std::size_t tile, const TileWork& work, TaskSamples& out,

@@ -18,12 +18,7 @@
 
 namespace lanelight {
 
-/// The loop of one task: runs `work` to the end on `wavefront`, writing finished samples
-/// to `buffer`. `clock` times the stages; null: nothing is timed.
-void Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
-           const SampleBuffer& buffer, StageClock* clock);
-
-/// Who asks for the work. Both may be called from any thread.
+/// Who asks for the work. All may be called from any thread.
 class TaskWatcher {
  public:
   virtual ~TaskWatcher() = default;
@@ -32,7 +27,17 @@ class TaskWatcher {
   virtual void TaskDone() = 0;
   /// Stopped by a signal: whatever is in flight must end soon.
   virtual bool Interrupted() const { return false; }
+  /// True: tasks in flight are put down (src/wavefront/patience.h). Asked after each
+  /// wave.
+  virtual bool PutsDown() const { return false; }
 };
+
+/// The loop of one task: runs `work` to the end on `wavefront`, writing finished samples
+/// to `buffer`. `clock` times the stages; null: nothing is timed. Returns false if the
+/// watcher has had it put down; then the buffer is of no use. Null: nobody does.
+bool Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
+           const SampleBuffer& buffer, StageClock* clock,
+           const TaskWatcher* watcher = nullptr);
 
 class Tasks {
  public:
@@ -56,7 +61,8 @@ class Tasks {
   /// The round that keeps all threads busy.
   Round FullRound() const;
 
-  /// Does the work. Tiles may be left behind where the watcher has stopped it.
+  /// Does the work. Tiles may be left behind where the watcher has stopped it; a task
+  /// that was put down is as if it had not begun.
   void RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films);
 
   // The same tile by tile, for who shares the work with others.
@@ -88,7 +94,8 @@ class Tasks {
   PixelRect Place(std::size_t tile) const;
   void RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& films);
   Workspace& ThreadWorkspace();
-  void RunTask(std::size_t tile, const Range& range, TaskSamples& out);
+  bool RunTask(std::size_t tile, const Range& range, const TaskWatcher& watcher,
+               TaskSamples& out);
   void SeeLights(std::size_t tile, const TileWork& work, TaskSamples& out,
                  StageClock* clock);
   void Merge(std::size_t tile, TaskSamples& task, Films& films);

@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "src/wavefront/path_records.h"
+#include "src/wavefront/stop_watcher.h"
 #include "src/wavefront/training.h"
 #include "src/wavefront/training_pass.h"
 
@@ -44,6 +45,7 @@ class Pilot {
         run_(context.run),
         options_(context.options),
         values_(context.tables.path_values),
+        watcher_(context.options.stop),
         efficiency_(plan_.features.Has(Feature::kEfficiencyRoulette)) {
     run_.tables = &context.tables;
     const std::uint64_t planned = options_.planned_samples;
@@ -79,7 +81,8 @@ class Pilot {
     options.aov = false;
     options.training = records;
     options.roulette = roulette;
-    PathSamples samples = ReadRecords(RunTrainingPass(scene_, options, run_, work));
+    PathSamples samples =
+        ReadRecords(RunTrainingPass(scene_, options, run_, work, &watcher_));
     outcome_.samples += samples.colors.size();
     outcome_.rays += samples.rays_closest + samples.rays_shadow;
     return samples;
@@ -187,8 +190,9 @@ class Pilot {
   void Compare(const PathSamples& recorded) {
     const Candidate throughput = Measure(Roulette::kThroughput, recorded);
     const Candidate splitting = MeasureSplitting(throughput);
-    if (options_.keep_roulette) return;
+    if (options_.keep_roulette || Stopped()) return;
     const Candidate plain = BetterPlain(throughput);
+    if (Stopped()) return;
     outcome_.roulette =
         IsWorthIt(splitting, plain) ? Roulette::kEfficiency : plain.roulette;
     outcome_.note = fmt::format(
@@ -203,6 +207,7 @@ class Pilot {
   RunParameters run_;
   const TrainingOptions& options_;
   PathValues& values_;
+  const StopWatcher watcher_;
   const bool efficiency_;
   std::uint64_t samples_ = 0;  // that one pass may take
   TrainingWork work_;

@@ -25,11 +25,12 @@ std::uint64_t RunLength(std::uint64_t pixels) { return pixels >= 512 ? 16 : 1; }
 class Pass {
  public:
   Pass(const CompiledScene& scene, const PlanOptions& options, const RunParameters& run,
-       const TrainingWork& work)
+       const TrainingWork& work, const TaskWatcher* watcher)
       : scene_(scene),
         plan_(MakePlan(scene, options)),
         run_(Parameters(scene, plan_, run, work.spp)),
         work_(work),
+        watcher_(watcher),
         copies_(plan_.features.Has(Feature::kSplitting) ? kMostCopies : 1) {
     wavefronts_.resize(static_cast<std::size_t>(ThreadSlots()));
     samples_.colors.resize(work.samples());
@@ -75,7 +76,7 @@ class Pass {
     const std::uint32_t count = work.num_pixels * work_.spp, rows = count * copies_;
     const auto planes = static_cast<std::size_t>(run_.planes.count());
     std::vector<float> values(rows * planes);
-    Drive(*wavefront, plan_, work, {values.data(), rows}, nullptr);
+    if (!Drive(*wavefront, plan_, work, {values.data(), rows}, nullptr, watcher_)) return;
     if (copies_ > 1) FoldCopies(values.data(), rows, run_.planes);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t sample = first * work_.spp + i;
@@ -91,6 +92,7 @@ class Pass {
   const Plan plan_;
   const RunParameters run_;
   const TrainingWork& work_;
+  const TaskWatcher* const watcher_;
   const std::uint32_t copies_;
   std::vector<std::unique_ptr<Wavefront>> wavefronts_;
   TrainingSamples samples_;
@@ -137,8 +139,9 @@ TrainingWork FewOf(const TrainingWork& work) {
 }
 
 TrainingSamples RunTrainingPass(const CompiledScene& scene, const PlanOptions& options,
-                                const RunParameters& run, const TrainingWork& work) {
-  return Pass(scene, options, run, work).Run();
+                                const RunParameters& run, const TrainingWork& work,
+                                const TaskWatcher* watcher) {
+  return Pass(scene, options, run, work, watcher).Run();
 }
 
 }  // namespace lanelight

@@ -10,6 +10,8 @@
 
 namespace lanelight {
 
+class TaskWatcher;  // src/wavefront/tasks.h
+
 /// Pixels of a pass, and samples of each: at least four, so that it shows the
 /// variance within a pixel.
 struct TrainingWork {
@@ -41,8 +43,10 @@ TrainingWork FewOf(const TrainingWork& work);
 
 /// Renders the samples with the plan of `options` (PlanOptions::training says what is
 /// recorded), with random numbers apart from the image's. The result does not depend on
-/// the number of threads.
+/// the number of threads. It is of no use where the watcher has had samples put down;
+/// null: nobody does.
 TrainingSamples RunTrainingPass(const CompiledScene& scene, const PlanOptions& options,
-                                const RunParameters& run, const TrainingWork& work);
+                                const RunParameters& run, const TrainingWork& work,
+                                const TaskWatcher* watcher = nullptr);
 
 }  // namespace lanelight

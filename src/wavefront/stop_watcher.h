@@ -1,0 +1,33 @@
+// The watcher of work that nothing but a signal ends early.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+
+#include "src/wavefront/patience.h"
+#include "src/wavefront/tasks.h"
+
+namespace lanelight {
+
+class StopWatcher : public TaskWatcher {
+ public:
+  /// `stop` is set by a signal; null: never.
+  explicit StopWatcher(const std::atomic<bool>* stop) : stop_(stop) {}
+
+  bool Stopped() const override { return stop_ != nullptr && *stop_; }
+  void TaskDone() override {}
+  bool Interrupted() const override { return Stopped(); }
+  bool PutsDown() const override {
+    if (!Stopped()) return false;
+    const std::chrono::duration<double> now = Clock::now() - start_;
+    return patience_.IsOver(true, false, now.count());
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const std::atomic<bool>* stop_;
+  const Clock::time_point start_ = Clock::now();
+  mutable Patience patience_;
+};
+
+}  // namespace lanelight
