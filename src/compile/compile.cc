@@ -144,7 +144,7 @@ CompiledScene CompileScene(const SceneDescription& description,
       },
       [&] { compiled = CompileGeometry(placement, materials.index, geometry_options); });
 
-  scene.lights = CompileLights(description, placement, compiled);
+  scene.lights = CompileLights(description, placement, compiled, scene.notes);
   MakeAlpha(placement, compiled, scene);
   NoteLargeEmitters(placement, scene.notes);
   NoteDropped(placement.meshes, compiled.meshes, scene.notes);

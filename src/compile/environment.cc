@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/core/error.h"
+#include "src/core/error_text.h"
 #include "src/image/octahedral.h"
 #include "src/compile/texture_table.h"
 
@@ -28,9 +29,16 @@ std::array<int, 3> ColorChannels(const Light& light, const Image& image) {
   return rgb;
 }
 
+// Values of an image that cannot be emitted.
+struct Negatives {
+  std::size_t count = 0;
+  float least = 0;
+};
+
 // Linear radiance as stored, before any scale. Negative values, which filters leave in
-// photographs, cannot be emitted.
-AlignedVector<float> ReadTexels(const Light& light, const Image& image) {
+// photographs, become zero, as in pbrt.
+AlignedVector<float> ReadTexels(const Light& light, const Image& image,
+                                Negatives& negatives) {
   const std::array<int, 3> channels = ColorChannels(light, image);
   const std::size_t texels = static_cast<std::size_t>(image.width) * image.height;
   std::vector<float> decode(256);
@@ -51,6 +59,8 @@ AlignedVector<float> ReadTexels(const Light& light, const Image& image) {
                                 i / static_cast<std::size_t>(image.width)));
       }
       rgb[3 * i + c] = std::max(v, 0.0f);
+      negatives.count += v < 0;
+      negatives.least = std::min(negatives.least, v);
     }
   }
   return rgb;
@@ -157,17 +167,18 @@ void StoreDistribution(Environment& environment) {
 
 }  // namespace
 
-Environment CompileEnvironment(const Light& light) {
+Environment CompileEnvironment(const Light& light, std::vector<Note>* notes) {
   Image image;
   try {
     image = ReadImage(light.image_path);
   } catch (const InputError& e) {
-    throw InputError(light.where, fmt::format("infinite light: {}", e.what()));
+    throw InputError(light.where, "infinite light: " + WithoutPrefix(e));
   }
-  return CompileEnvironment(light, image);
+  return CompileEnvironment(light, image, notes);
 }
 
-Environment CompileEnvironment(const Light& light, const Image& image) {
+Environment CompileEnvironment(const Light& light, const Image& image,
+                               std::vector<Note>* notes) {
   if (image.width != image.height || image.width <= 0) {
     Fail(light, fmt::format("{} x {} pixels; supported are square equal-area octahedral "
                             "maps (pbrt-v4: \"imgtool makeequiarea\" converts a "
@@ -176,7 +187,15 @@ Environment CompileEnvironment(const Light& light, const Image& image) {
   }
   Environment environment;
   environment.size = image.width;
-  environment.rgb = ReadTexels(light, image);
+  Negatives negatives;
+  environment.rgb = ReadTexels(light, image, negatives);
+  if (negatives.count > 0 && notes != nullptr) {
+    notes->push_back({light.where, fmt::format("{} of {} values of the environment image "
+                                               "are negative (the least is {}) and count "
+                                               "as 0",
+                                               negatives.count, environment.rgb.size(),
+                                               negatives.least)});
+  }
   StoreRotation(light, environment);
   double scale = light.image_scale;
   if (light.illuminance > 0) {

@@ -9,11 +9,13 @@ namespace lanelight {
 
 /// Reads the image of an infinite light and compiles it. Throws InputError at the light's
 /// place: a missing or unreadable file, an image that is not square, values that are not
-/// finite, a transform that is not a rotation (or mirroring) and uniform scale.
-Environment CompileEnvironment(const Light& light);
+/// finite, a transform that is not a rotation (or mirroring) and uniform scale. Negative
+/// values count as zero, and go to `notes` unless that is null.
+Environment CompileEnvironment(const Light& light, std::vector<Note>* notes);
 
 /// The same for an image in memory. `probability` is empty if the image is black.
-Environment CompileEnvironment(const Light& light, const Image& image);
+Environment CompileEnvironment(const Light& light, const Image& image,
+                               std::vector<Note>* notes = nullptr);
 
 /// Mean radiance over the sphere.
 Rgb MeanRadiance(const Environment& environment);

@@ -37,6 +37,7 @@ class LightCompiler {
         radius_(placement.bounds.HalfDiagonal() * placement.frame.scale) {}
 
   LightTable Finish();
+  std::vector<Note> TakeNotes() { return std::move(notes_); }
 
  private:
   std::int32_t Push(LightRecord record, double power);
@@ -65,6 +66,7 @@ class LightCompiler {
   const double radius_;
   LightTable table_;
   std::vector<double> power_;
+  std::vector<Note> notes_;
 };
 
 std::int32_t LightCompiler::Push(LightRecord record, double power) {
@@ -229,7 +231,7 @@ void LightCompiler::Infinite(const Light& light) {
       EmptyRecord(image ? LightShape::kInfiniteImage : LightShape::kInfiniteConstant);
   Rgb mean = light.emission;
   if (image) {
-    Environment environment = CompileEnvironment(light);
+    Environment environment = CompileEnvironment(light, &notes_);
     mean = MeanRadiance(environment);
     if (environment.probability.empty()) return;  // black
     record.environment = static_cast<std::int32_t>(table_.environments.size());
@@ -282,8 +284,11 @@ LightTable LightCompiler::Finish() {
 }  // namespace
 
 LightTable CompileLights(const SceneDescription& description, const Placement& placement,
-                         CompiledGeometry& geometry) {
-  return LightCompiler(description, placement, geometry).Finish();
+                         CompiledGeometry& geometry, std::vector<Note>& notes) {
+  LightCompiler compiler(description, placement, geometry);
+  LightTable table = compiler.Finish();
+  for (Note& note : compiler.TakeNotes()) notes.push_back(std::move(note));
+  return table;
 }
 
 }  // namespace lanelight

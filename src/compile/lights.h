@@ -12,8 +12,9 @@ namespace lanelight {
 
 /// Sets the `light` of emitting records in `geometry` too. Lights without power get no
 /// record. Probabilities are left to UseStrategy (src/prepare/use_strategy.h). Throws
-/// InputError at the directive for images and transforms that cannot be used.
+/// InputError at the directive for images and transforms that cannot be used; what is not
+/// used of an image goes to `notes`.
 LightTable CompileLights(const SceneDescription& description, const Placement& placement,
-                         CompiledGeometry& geometry);
+                         CompiledGeometry& geometry, std::vector<Note>& notes);
 
 }  // namespace lanelight

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/core/error.h"
+#include "src/core/error_text.h"
 #include "src/core/parallel.h"
 #include "src/compile/texture_table.h"
 
@@ -95,11 +96,8 @@ void AtPlace(const Texture& texture, F&& f) {
   try {
     f();
   } catch (const InputError& error) {
-    std::string what = error.what();
-    const std::string prefix = "error: ";
-    if (what.starts_with(prefix)) what.erase(0, prefix.size());
-    throw InputError(texture.where,
-                     fmt::format("texture \"{}\": {}", texture.name, what));
+    throw InputError(texture.where, fmt::format("texture \"{}\": {}", texture.name,
+                                                WithoutPrefix(error)));
   }
 }
 

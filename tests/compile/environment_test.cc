@@ -117,6 +117,25 @@ TEST_CASE("compile: illuminance of environments as in pbrt", "[scene][compile]")
   CHECK_THROWS_WITH(CompileEnvironment(light, below), Catch::Contains("illuminance"));
 }
 
+TEST_CASE("compile: negative values of an environment are told", "[scene][compile]") {
+  Image image = Grey(2, 1);
+  std::vector<Note> notes;
+  CompileEnvironment(Infinite(), image, &notes);
+  CHECK(notes.empty());
+  image.At(1, 0, 2) = -0.5f;
+  image.At(1, 1, 0) = -2;
+  image.At(0, 0, 0) = -0.0f;
+  const Environment e = CompileEnvironment(Infinite(), image, &notes);
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].where.line == 40);
+  CHECK(
+      notes[0].message ==
+      "2 of 12 values of the environment image are negative (the least is -2) and count "
+      "as 0");
+  CHECK(e.rgb[3 * 1 + 2] == 0);
+  CHECK(e.rgb[3 * 3] == 0);
+}
+
 TEST_CASE("compile: images that are no environments", "[scene][compile]") {
   CHECK_THROWS_WITH(CompileEnvironment(Infinite(), MakeImage(4, 2, {"R", "G", "B"})),
                     Catch::Contains("scene.pbrt:40:1") && Catch::Contains("4 x 2") &&
@@ -133,6 +152,7 @@ TEST_CASE("compile: images that are no environments", "[scene][compile]") {
   const std::string error = CompileError(d);
   CHECK(error.find("scene.pbrt:40:1: error: ") == 0);
   CHECK(error.find("/nowhere/sky.exr") != std::string::npos);
+  CHECK(error.rfind("error: ") == error.find("error: "));
 }
 
 }  // namespace
