@@ -51,8 +51,9 @@ std::string AdviceText(const Advice& advice) {
 
 // The command that renders as the advice says.
 std::string RenderCommand(const AdviseCommandOptions& options, const Advice& advice) {
-  return fmt::format("lanelight render {} -o FILE.exr --time {:g} --strategy {}",
-                     options.scene.scene, options.seconds, ToText(advice.chosen));
+  return fmt::format("lanelight render {} -o FILE.exr --time {:g} --strategy {}{}",
+                     ShellWord(options.scene.scene), options.seconds,
+                     ToText(advice.chosen), FlagsText(options.scene));
 }
 
 int PrintAdvice(const AdviseCommandOptions& options, const Advice& advice) {
@@ -98,9 +99,7 @@ void AddAdviseCommand(CLI::App& root, Command& chosen) {
       ->required()
       ->check(FiniteRange(1e-3, 1e9))
       ->type_name("SECONDS");
-  command
-      ->add_option("--seed", options->scene.settings.seed, "Seed of the random numbers")
-      ->type_name("S");
+  AddSeedOption(*command, options->scene.settings);
   AddOutputOptions(*command, options->outputs, false);
   AddSceneOptions(*command, options->scene);
   command->footer(

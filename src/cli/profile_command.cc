@@ -83,8 +83,7 @@ void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
   command.add_option("--spp", settings.spp, "Samples per pixel")
       ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
       ->type_name("N");
-  command.add_option("--seed", settings.seed, "Seed of the random numbers")
-      ->type_name("S");
+  AddSeedOption(command, settings);
   command.add_option("--json", options.json, "Write the profile as JSON ('-': print it)")
       ->type_name("FILE");
   command

@@ -66,8 +66,7 @@ void AddAmountOptions(CLI::App& command, RenderSettings& settings) {
                   settings.target_relmse);
   AddTargetOption(command, "--target-rmse", "The same for the RMSE",
                   settings.target_rmse);
-  command.add_option("--seed", settings.seed, "Seed of the random numbers")
-      ->type_name("S");
+  AddSeedOption(command, settings);
 }
 
 // Without a target both would say how much to render.

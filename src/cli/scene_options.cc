@@ -1,10 +1,14 @@
 #include "src/cli/scene_options.h"
 
 #include <charconv>
+#include <fmt/ranges.h>
+
 #include <map>
+#include <string_view>
 #include <vector>
 
 #include "kernels/simd/target.h"
+#include "src/cli/validators.h"
 #include "src/image/image.h"
 
 namespace lanelight {
@@ -113,6 +117,12 @@ void AddStrategyOptions(CLI::App& command, RenderSettings& s) {
 
 }  // namespace
 
+void AddSeedOption(CLI::App& command, RenderSettings& s) {
+  command.add_option("--seed", s.seed, "Seed of the random numbers")
+      ->check(SeedRange())
+      ->type_name("S");
+}
+
 void AddTransportOptions(CLI::App& command, RenderSettings& s) {
   command.add_option("--max-depth", s.max_depth, "Most scattering events of a path")
       ->check(CLI::Range(0, kMaxDepth).description(""))
@@ -155,6 +165,37 @@ void AddSceneOptions(CLI::App& command, SceneOptions& options) {
   AddStrategyOptions(command, s);
   AddTransportOptions(command, s);
   AddExecutionOptions(command, options);
+}
+
+std::string FlagsText(const SceneOptions& options) {
+  const RenderSettings& s = options.settings;
+  std::string text;
+  if (s.resolution) {
+    text += fmt::format(" --resolution {}x{}", (*s.resolution)[0], (*s.resolution)[1]);
+  }
+  if (s.crop) text += fmt::format(" --crop {}", fmt::join(*s.crop, ","));
+  if (s.aov) text += " --aov";
+  if (s.max_depth) text += fmt::format(" --max-depth {}", *s.max_depth);
+  if (s.seed) text += fmt::format(" --seed {}", *s.seed);
+  if (s.scattering)
+    text += fmt::format(" --scattering {}", ScatteringName(*s.scattering));
+  if (s.build) {
+    text += s.build == BuildQuality::kFast ? " --build fast" : " --build high";
+  }
+  if (s.wavefront > 0) text += fmt::format(" --wavefront {}", s.wavefront);
+  if (options.threads > 0) text += fmt::format(" --threads {}", options.threads);
+  if (!options.target.empty()) text += " --target " + options.target;
+  if (s.skip_unsupported) text += " --skip-unsupported";
+  return text;
+}
+
+std::string ShellWord(const std::string& text) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == text.npos) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
 }
 
 }  // namespace lanelight

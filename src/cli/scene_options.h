@@ -17,10 +17,18 @@ struct SceneOptions {
 
 /// Declare flags on `command`; what they are stored in must outlive parsing.
 void AddWindowOptions(CLI::App& command, RenderSettings& settings);
+void AddSeedOption(CLI::App& command, RenderSettings& settings);
 void AddTransportOptions(CLI::App& command, RenderSettings& settings);
 void AddExecutionOptions(CLI::App& command, SceneOptions& options);
 
 /// These, the scene itself, the strategy and --aov.
 void AddSceneOptions(CLI::App& command, SceneOptions& options);
+
+/// The flags of AddSceneOptions and the seed that give these options, each with a space
+/// before it; without scene and strategy.
+std::string FlagsText(const SceneOptions& options);
+
+/// The text as one word of a shell.
+std::string ShellWord(const std::string& text);
 
 }  // namespace lanelight

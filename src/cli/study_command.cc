@@ -137,9 +137,7 @@ void AddStudyCommand(CLI::App& root, Command& chosen) {
                     "Continue the study in DIR; what is finished is not done again");
   AddWindowOptions(*command, options->machine.settings);
   AddTransportOptions(*command, options->machine.settings);
-  command
-      ->add_option("--seed", options->machine.settings.seed, "Seed of the random numbers")
-      ->type_name("S");
+  AddSeedOption(*command, options->machine.settings);
   AddExecutionOptions(*command, options->machine);
   command->add_flag("--quiet", options->quiet, "Print errors only");
   command->footer(

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdint>
+#include <limits>
 #include <string>
 
 namespace lanelight {
@@ -16,6 +19,20 @@ inline CLI::Validator FiniteRange(double low, double high) {
         const bool number = CLI::detail::lexical_cast(text, value);
         if (number && value >= low && value <= high) return std::string();
         return fmt::format("'{}' is not a number from {} to {}", text, low, high);
+      },
+      "");
+}
+
+/// An integer from 0 to 2^64 - 1. (CLI11 makes 2^64 - 1 of what is negative or larger.)
+inline CLI::Validator SeedRange() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        std::uint64_t value = 0;
+        const char* const end = text.data() + text.size();
+        const auto [at, error] = std::from_chars(text.data(), end, value);
+        if (error == std::errc() && at == end) return std::string();
+        return fmt::format("'{}' is not an integer from 0 to {}", text,
+                           std::numeric_limits<std::uint64_t>::max());
       },
       "");
 }

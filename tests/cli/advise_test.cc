@@ -82,6 +82,39 @@ TEST_CASE("advise without an image prints the command that renders", "[cli]") {
   CHECK(report.at("advice").at("candidates").size() >= 8);
 }
 
+TEST_CASE("the command that advise prints has the flags that it was given", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = directory / "it's a sphere.pbrt";
+  std::filesystem::rename(WriteSphereScene(directory), scene);
+  const ProcessResult r = RunLanelight({"advise",
+                                        scene,
+                                        "--time",
+                                        "0.3",
+                                        "--resolution",
+                                        "32x24",
+                                        "--crop",
+                                        "0,0,16,16",
+                                        "--aov",
+                                        "--max-depth",
+                                        "3",
+                                        "--seed",
+                                        "7",
+                                        "--threads",
+                                        "1",
+                                        "--build",
+                                        "fast",
+                                        "--scattering",
+                                        "uniform",
+                                        "--wavefront",
+                                        "512"});
+  INFO(r.err);
+  REQUIRE(r.exit_code == kExitGood);
+  CHECK_THAT(r.out, Contains("it'\\''s a sphere.pbrt' -o FILE.exr --time 0.3"));
+  CHECK_THAT(r.out, Contains(" --resolution 32x24 --crop 0,0,16,16 --aov --max-depth 3 "
+                             "--seed 7 --scattering uniform --build fast --wavefront 512 "
+                             "--threads 1\n"));
+}
+
 TEST_CASE("advise refuses flags that make no sense", "[cli]") {
   CHECK(RunLanelight({"advise", kBox}).exit_code == kExitUsage);
   CHECK(RunLanelight({"advise", kBox, "--time", "0"}).exit_code == kExitUsage);
