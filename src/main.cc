@@ -10,9 +10,11 @@
 #include "src/cli/exit_codes.h"
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/core/error_text.h"
 #include "src/core/suggest.h"
 #include "src/core/version.h"
 #include "src/ranks/ranks.h"
+#include "src/render/memory.h"
 
 namespace lanelight {
 namespace {
@@ -144,9 +146,9 @@ int Execute(const CLI::App& root, const Command& chosen, int argc, char** argv,
   } catch (const CheckFailure& error) {
     message = std::string("internal error, please report: ") + error.what();
   } catch (const std::bad_alloc&) {
-    message = "error: out of memory";
+    message = "error: " + OutOfMemoryText();
   } catch (const std::exception& error) {
-    message = std::string("error: ") + error.what();
+    message = WithPrefix(error);
   }
   return kExitBadInput;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/core/error_text.h"
 #include "src/parse/interpret.h"
 #include "src/core/suggest.h"
 
@@ -15,10 +16,7 @@ Rgb At(const ParamSet& params, const Param& param, const Fn& convert) {
   try {
     return convert();
   } catch (const InputError& error) {
-    std::string message = error.what();
-    const std::string prefix = "error: ";
-    if (message.starts_with(prefix)) message = message.substr(prefix.size());
-    params.Fail(param, message);
+    params.Fail(param, WithoutPrefix(error));
   }
 }
 

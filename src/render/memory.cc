@@ -1,5 +1,6 @@
 #include "src/render/memory.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,6 +26,17 @@ std::uint64_t ControlPerPixel(const Strategy& strategy) {
   return strategy.coefficient ? 0 : ControlFilm::BytesPerPixel(GroupsOf(strategy));
 }
 
+constexpr double kGiB = 1 << 30;
+
+// What `ulimit -v` leaves.
+std::uint64_t AddressSpace() {
+  rlimit limit;
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
+    return ~std::uint64_t{0};
+  }
+  return limit.rlim_cur;
+}
+
 }  // namespace
 
 std::uint64_t FilmBytes(const PixelRect& window, bool aov, const Strategy& strategy) {
@@ -43,14 +55,27 @@ std::uint64_t PhysicalMemory() {
   std::uint64_t limit = 0;
   std::ifstream group("/sys/fs/cgroup/memory.max");  // "max" where there is no limit
   if (group >> limit && limit > 0) bytes = std::min(bytes, limit);
-  return bytes;
+  return std::min(bytes, AddressSpace());
+}
+
+std::string OutOfMemoryText() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  const double taken = 1024.0 * double(usage.ru_maxrss) / kGiB;
+  const std::uint64_t limit = AddressSpace();
+  std::string text =
+      fmt::format("out of memory: the program had taken {:.2f} GiB of {:.2f} GiB", taken,
+                  double(PhysicalMemory()) / kGiB);
+  if (limit != ~std::uint64_t{0}) {
+    text += fmt::format(", and may address {:.2f} GiB (ulimit -v)", double(limit) / kGiB);
+  }
+  return text + "; a lower --resolution, a --crop or fewer --threads need less";
 }
 
 void CheckFilmFits(const PixelRect& window, bool aov, const Strategy& strategy,
                    std::uint64_t memory) {
   const std::uint64_t need = FilmBytes(window, aov, strategy);
   if (need <= memory) return;
-  constexpr double kGiB = 1 << 30;
   throw InputError(
       fmt::format("an image of {}x{} pixels needs {:.1f} GiB of memory, this "
                   "machine has {:.1f} GiB; lower --resolution or render parts "

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "src/render/settings.h"
 
@@ -11,8 +12,11 @@ namespace lanelight {
 /// of samples.
 std::uint64_t FilmBytes(const PixelRect& window, bool aov, const Strategy& strategy = {});
 
-/// Memory of the machine, or of the control group it limits this process to.
+/// Memory of the machine, or what a control group or `ulimit -v` limits this process to.
 std::uint64_t PhysicalMemory();
+
+/// "out of memory: ..." with what the process has taken, and what there is, in GiB.
+std::string OutOfMemoryText();
 
 /// Throws InputError with both numbers if the film does not fit.
 void CheckFilmFits(const PixelRect& window, bool aov, const Strategy& strategy,

@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "src/render/memory.h"
 #include "src/sweep/cell_render.h"
 #include "src/sweep/claims.h"
 #include "src/sweep/results.h"
@@ -190,7 +191,7 @@ void Runner::RenderCell(std::size_t i) {
     known_[i] = Known::kDone;
     ++rendered_;
   } catch (const std::bad_alloc&) {
-    Fail(i, "error: out of memory");
+    Fail(i, "error: " + OutOfMemoryText());
   } catch (const std::exception& error) {
     folder_.CheckWritable();
     Fail(i, error.what());
