@@ -74,6 +74,7 @@ int RunAdvise(AdviseCommandOptions& options) {
   CheckOutputs(options.outputs, options.scene.scene);
   options.scene.settings.seconds = options.seconds;
   Job job = PrepareJob(options.scene.scene, options.scene.settings);
+  CheckOutputs(options.outputs, job);
   if (!options.outputs.quiet) PrintNotes(job);
   const InterruptGuard interrupt;
   AdviceOptions advise;

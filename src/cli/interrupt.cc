@@ -1,10 +1,14 @@
 #include "src/cli/interrupt.h"
 
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+
+#include "src/core/parallel.h"
 
 namespace lanelight {
 namespace {
@@ -15,15 +19,30 @@ static_assert(std::atomic<bool>::is_always_lock_free);  // set by a signal handl
 const char* message = nullptr;  // set before the handler
 std::size_t message_size = 0;
 
-constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
 
 // Only calls that are safe in a signal handler.
 void OnSignal(int) {
   const int saved = errno;
   stop_requested.store(true);
-  for (int s : kSignals) signal(s, SIG_DFL);
+  // SIGXCPU comes again with every second of processor time.
+  for (int s : kSignals) signal(s, s == SIGXCPU ? SIG_IGN : SIG_DFL);
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message, message_size);
   errno = saved;
+}
+
+// `ulimit -t` sets both limits of processor time, and at the hard one the process is
+// killed without a word: the soft one is moved ahead, so that there is time to write.
+void MoveSoftLimitAhead() {
+  rlimit limit;
+  if (getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+      limit.rlim_cur < limit.rlim_max) {
+    return;
+  }
+  const auto per_second = static_cast<rlim_t>(MaxThreads());
+  const rlim_t to_write = std::min(limit.rlim_max / 2, 2 + 2 * per_second);
+  limit.rlim_cur = limit.rlim_max - to_write;
+  setrlimit(RLIMIT_CPU, &limit);
 }
 
 }  // namespace
@@ -32,6 +51,7 @@ InterruptGuard::InterruptGuard(const char* text) {
   message = text;
   message_size = std::strlen(text);
   stop_requested.store(false);
+  MoveSoftLimitAhead();
   struct sigaction action = {};
   action.sa_handler = OnSignal;
   action.sa_flags = SA_RESTART;

@@ -1,4 +1,5 @@
-// Ctrl-C during a render: the first one asks for a stop, the second one ends the program.
+// Ctrl-C and its like during a render: the first one asks for a stop, the second one ends
+// the program.
 #pragma once
 
 #include <atomic>
@@ -13,8 +14,10 @@ inline constexpr const char* kKeepingMessage =
     "more "
     "to abort; the last state stays)\n";
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP sets stop() and prints a message;
-/// the next one has its ordinary effect. At most one at a time.
+/// While it lives, the first SIGINT, SIGTERM, SIGHUP or SIGXCPU sets stop() and prints a
+/// message; the next one has its ordinary effect, except SIGXCPU, of which the system
+/// sends one per second. A limit of processor time that would kill at once is preceded by
+/// one that sends SIGXCPU. At most one at a time.
 class InterruptGuard {
  public:
   /// `message`, a literal, says what happens now.

@@ -27,10 +27,8 @@ struct MergeOptions {
 
 void CheckOutputs(const MergeOptions& o) {
   const RenderTargets& t = o.outputs.targets;
-  for (const std::string& input : o.states) {
-    // A state may be replaced by what it is merged into, an image may not.
-    CheckOutputPaths({t.exr, t.png, t.json}, input);
-  }
+  // A state may be replaced by what it is merged into, not by an image.
+  CheckInputsAreSpared({t.exr, t.png, t.json}, {o.states.begin(), o.states.end()});
   CheckOutputPaths({t.exr, t.png, t.json, o.state}, "");
 }
 

@@ -64,6 +64,7 @@ int Profile(const ProfileCommandOptions& options) {
   const std::string& scene = options.scene.scene;
   CheckOutputPaths({options.json, options.trace}, scene);
   const Job job = PrepareJob(scene, options.scene.settings);
+  CheckInputsAreSpared({options.json, options.trace}, job.files);
   if (!options.quiet) PrintNotes(job);
   const Peaks peaks = MeasurePeaks(true);
   const InterruptGuard interrupt(kInterruptText);

@@ -34,6 +34,7 @@ int Render(const RenderCommandOptions& options, Crew& crew) {
   if (!crew.leads()) return Serve(options, crew);
   CheckOutputs(options.outputs, options.scene.scene);
   const Job job = PrepareJob(options.scene.scene, options.scene.settings);
+  CheckOutputs(options.outputs, job);
   if (!options.outputs.quiet) PrintNotes(job);
   CheckPart(options.outputs.targets.checkpoint, job);
   const bool keeps = !options.outputs.targets.checkpoint.path.empty();

@@ -89,6 +89,16 @@ void CheckOutputs(const RenderOutputs& options, const std::string& scene) {
   const CheckpointSettings& checkpoint = targets.checkpoint;
   CheckOutputPaths(
       {targets.exr, targets.png, targets.json, checkpoint.path, checkpoint.watch}, scene);
+  // A state may be written over by the one that goes on from it, and by nothing else.
+  if (checkpoint.from.empty()) return;
+  CheckInputsAreSpared({targets.exr, targets.png, targets.json, checkpoint.watch},
+                       {checkpoint.from});
+}
+
+void CheckOutputs(const RenderOutputs& options, const Job& job) {
+  const RenderTargets& t = options.targets;
+  CheckInputsAreSpared({t.exr, t.png, t.json, t.checkpoint.path, t.checkpoint.watch},
+                       job.files);
 }
 
 void PrintNotes(const Job& job) {

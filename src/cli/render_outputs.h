@@ -30,6 +30,9 @@ void ResolveOutputs(RenderOutputs& options);
 /// written.
 void CheckOutputs(const RenderOutputs& options, const std::string& scene);
 
+/// Throws InputError if an output would overwrite a file that the scene reads.
+void CheckOutputs(const RenderOutputs& options, const Job& job);
+
 /// Prints what of the scene file and of the strategy is not used.
 void PrintNotes(const Job& job);
 

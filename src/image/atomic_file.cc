@@ -60,15 +60,27 @@ bool SyncFolder(const std::string& path) {
 // machine's, or was left by a killed process of the same number: the next one is taken.
 int CreateTemporary(const std::string& path, std::string& name) {
   static std::atomic<unsigned> counter{0};
+  const std::string start = TemporaryStart(path);
   int file = -1;
   do {
-    name = fmt::format("{}.{}.{}.tmp", path, getpid(), counter.fetch_add(1));
+    name = fmt::format("{}.{}.{}.tmp", start, getpid(), counter.fetch_add(1));
     file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (file < 0 && errno == EEXIST);
   return file;
 }
 
 }  // namespace
+
+std::string TemporaryStart(const std::string& path) {
+  // Most file systems have 255 bytes for a name, and some want whole characters.
+  constexpr std::size_t kMost = 220;
+  const std::size_t slash = path.rfind('/');
+  const std::size_t name = slash == path.npos ? 0 : slash + 1;
+  if (path.size() - name <= kMost) return path;
+  std::size_t end = name + kMost;
+  while (end > name && (static_cast<unsigned char>(path[end]) & 0xc0) == 0x80) --end;
+  return path.substr(0, end);
+}
 
 void WriteFileAtomically(const std::string& path, std::string_view content) {
   if (IsSpecialFile(path)) return WriteInPlace(path, content);
@@ -83,6 +95,15 @@ void WriteFileAtomically(const std::string& path, std::string_view content) {
     Fail(path, "cannot write", error);
   }
   if (!SyncFolder(path)) Fail(path, "written, but its folder cannot be", errno);
+}
+
+void CheckCreatable(const std::string& path) {
+  std::string temporary;
+  FileDescriptor file(CreateTemporary(path, temporary));
+  if (file.get() < 0) {
+    throw InputError(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
+  }
+  unlink(temporary.c_str());
 }
 
 std::string ReadWholeFile(const std::string& path) {

@@ -13,6 +13,14 @@ namespace lanelight {
 /// names the path and the system's reason.
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
+/// What the names of its temporary files begin with, before ".<digits>.<digits>.tmp":
+/// `path`, or as much of it as leaves room for that.
+std::string TemporaryStart(const std::string& path);
+
+/// Throws InputError with the system's reason if WriteFileAtomically could not even
+/// begin: no temporary file can be created beside `path`. Leaves nothing behind.
+void CheckCreatable(const std::string& path);
+
 /// The whole file. Throws InputError with the system's reason; a directory is an error.
 std::string ReadWholeFile(const std::string& path);
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,9 @@ namespace lanelight {
 struct ParseOptions {
   bool skip_unsupported = false;  // media and the like become notes instead of errors
   bool allow_files = true;  // false: Include, Import, meshes and spectra files are errors
+  /// If set, gets the path of every file that the scene names to be read: included
+  /// scenes, meshes, images, spectra.
+  std::set<std::string>* files = nullptr;
 };
 
 /// Parses the file and everything it includes; meshes are read in parallel.

@@ -65,9 +65,11 @@ std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
 
 std::string ResolvePath(const ParseState& state, const std::string& name) {
   const fs::path main = fs::path(state.open_files.front().directory) / name;
-  if (!state.options.allow_files || Exists(main)) return main.string();
+  if (!state.options.allow_files) return main.string();
   const fs::path local = fs::path(state.open_files.back().directory) / name;
-  return Exists(local) ? local.string() : main.string();
+  const fs::path& found = !Exists(main) && Exists(local) ? local : main;
+  if (state.options.files != nullptr) state.options.files->insert(found.string());
+  return found.string();
 }
 
 std::string ReadSceneFile(const ParseState& state, const std::string& path,

@@ -96,7 +96,8 @@ std::vector<std::string> Names(const std::map<std::string, T>& map) {
 }
 
 /// Path of a file named in the scene: relative to the main file's directory (as pbrt), or
-/// if there is none there, relative to the directory of the file that names it.
+/// if there is none there, relative to the directory of the file that names it. Goes to
+/// ParseOptions::files.
 std::string ResolvePath(const ParseState& state, const std::string& name);
 
 /// The whole content of a regular file. InputError at `where` if it cannot be read, is

@@ -42,11 +42,14 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   parse.skip_unsupported = settings.skip_unsupported;
   SceneDescription description;
   std::uint64_t scene_hash = 0;
+  std::vector<std::string> files;
+  parse.files = &files;
   ParallelInvoke([&] { description = ParseScene(scene_path, parse); },
                  [&] { scene_hash = HashSceneFiles(scene_path); });
   const double seconds = watch.Lap();
   Job job = PrepareJob(std::move(description), settings);
   job.scene_hash = scene_hash;
+  job.files = std::move(files);
   job.load_seconds += seconds;
   return job;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 
 #include "src/render/settings.h"
@@ -17,6 +18,7 @@ namespace lanelight {
 struct Job {
   RenderSettings settings;       // that it was prepared with
   SceneDescription description;  // overrides applied; meshes released after compiling
+  std::set<std::string> files;   // that the scene reads beside its own
   CompiledScene scene;
   Plan plan;
   PixelRect window;

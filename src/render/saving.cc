@@ -1,6 +1,5 @@
 #include "src/render/saving.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,6 +7,7 @@
 #include <filesystem>
 
 #include "src/core/error.h"
+#include "src/core/error_text.h"
 #include "src/image/atomic_file.h"
 
 namespace lanelight {
@@ -16,6 +16,22 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string Reason() { return std::strerror(errno); }
+
+void EraseUnwritten(std::vector<std::string>& paths) {
+  std::erase_if(paths, [](const std::string& p) { return p.empty() || p == "-"; });
+}
+
+// Whether two paths lead to one file, by whatever links, or will once it is there.
+bool SameFile(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  const auto place = [](const std::string& path) {
+    std::error_code ignored;
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  };
+  return a == b ||
+         (!fs::exists(a, error) && !fs::exists(b, error) && place(a) == place(b));
+}
 
 }  // namespace
 
@@ -34,7 +50,7 @@ void Saver::Save(std::string& path,
     problems_.push_back("the result is kept in '" + fallback + "'");
     path = fallback;
   } catch (const std::exception& error) {
-    problems_.push_back(std::string("nor could it be kept elsewhere: ") + error.what());
+    problems_.push_back("nor could it be kept elsewhere: " + WithoutPrefix(error));
   }
 }
 
@@ -43,16 +59,29 @@ void Saver::SaveText(std::string path, const std::string& text) {
 }
 
 void CheckOutputPaths(std::vector<std::string> paths, const std::string& scene) {
-  std::erase_if(paths, [](const std::string& p) { return p.empty() || p == "-"; });
+  EraseUnwritten(paths);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    std::error_code error;
-    if (fs::equivalent(paths[i], scene, error)) {
+    if (SameFile(paths[i], scene)) {
       throw InputError("output '" + paths[i] + "' would overwrite the scene");
     }
     for (std::size_t j = 0; j < i; ++j) {
-      if (paths[i] == paths[j]) throw InputError("two outputs go to '" + paths[i] + "'");
+      if (!SameFile(paths[i], paths[j])) continue;
+      throw InputError("two outputs go to '" + paths[i] + "'" +
+                       (paths[i] == paths[j] ? "" : ", which is '" + paths[j] + "'"));
     }
     CheckWritable(paths[i]);
+  }
+}
+
+void CheckInputsAreSpared(std::vector<std::string> paths,
+                          const std::set<std::string>& inputs) {
+  EraseUnwritten(paths);
+  for (const std::string& path : paths) {
+    for (const std::string& input : inputs) {
+      if (!SameFile(path, input)) continue;
+      throw InputError("output '" + path + "' would overwrite '" + input +
+                       "', which is read: give the output another name");
+    }
   }
 }
 
@@ -62,6 +91,8 @@ void CheckWritable(const std::string& path) {
   };
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
+  // A name that is too long, a loop of links, a folder that may not be entered.
+  if (status.type() == fs::file_type::none) refuse(error.message());
   if (fs::is_directory(status)) refuse("it is a directory");
   if (fs::exists(status) && !fs::is_regular_file(status))
     refuse("it is not a regular file");
@@ -72,19 +103,18 @@ void CheckWritable(const std::string& path) {
   }
   if (fs::exists(status) && access(path.c_str(), W_OK) != 0) refuse(Reason());
   // access() does not see read-only and full file systems; creating a file does.
-  std::string probe = (directory / ".lanelight-probe-XXXXXX").string();
-  const int file = mkstemp(probe.data());
-  if (file < 0) refuse(Reason());
-  close(file);
-  unlink(probe.c_str());
+  CheckCreatable(path);
 }
 
 std::string FallbackPath(const std::string& path) {
   std::error_code error;
   fs::path directory = fs::temp_directory_path(error);
   if (error) directory = "/tmp";
-  const fs::path name = fs::path(path).filename();
-  return (directory / fmt::format("lanelight-{}-{}", getpid(), name.string())).string();
+  // The end of a long name, with its extension.
+  constexpr std::size_t kMostOfName = 200;
+  std::string name = fs::path(path).filename();
+  if (name.size() > kMostOfName) name.erase(0, name.size() - kMostOfName);
+  return (directory / fmt::format("lanelight-{}-{}", getpid(), name)).string();
 }
 
 }  // namespace lanelight

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,13 @@ class Saver {
 };
 
 /// Throws InputError if an output would overwrite the scene or another one, or cannot be
-/// written. Empty paths are left out, and so is "-", standard output.
+/// written. Empty paths are left out, and so is "-", standard output. Files are the same
+/// whatever links lead to them.
 void CheckOutputPaths(std::vector<std::string> paths, const std::string& scene);
+
+/// Throws InputError if an output would overwrite one of `inputs`.
+void CheckInputsAreSpared(std::vector<std::string> paths,
+                          const std::set<std::string>& inputs);
 
 /// Throws InputError unless a file can be created at `path`: its directory exists and is
 /// writable, and what exists there is a regular file. Leaves nothing behind.

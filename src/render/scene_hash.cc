@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -6,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "src/render/job.h"
@@ -46,24 +48,46 @@ bool ReadFile(const fs::path& path, std::string* content) {
   return !in.bad();
 }
 
-// Quoted strings that could be file names: on one line, with an extension.
-std::vector<std::string_view> QuotedNames(std::string_view text) {
-  constexpr std::size_t kLongest = 1024;
-  std::vector<std::string_view> names;
-  for (std::size_t at = text.find('"'); at != text.npos; at = text.find('"', at)) {
-    const std::size_t end = text.find('"', at + 1);
-    if (end == text.npos) break;
-    const std::size_t newline = text.find('\n', at);
-    if (newline < end) {  // a lonely quote, in a comment
-      at = newline;
-      continue;
+// Quoted strings of scene text that could be names of files to be read: with an
+// extension, and none of a Film directive, which names the output.
+class QuotedNames {
+ public:
+  explicit QuotedNames(std::string_view text) : text_(text) {}
+
+  std::vector<std::string_view> Find() {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '#') {
+        Until("\n", at_);
+      } else if (c == '"') {
+        TakeString();
+      } else if (std::isalpha(static_cast<unsigned char>(c))) {
+        directive_ = Until(" \t\r\n\"#[]", at_);
+      } else {
+        ++at_;
+      }
     }
-    const std::string_view name = text.substr(at + 1, end - at - 1);
-    if (name.size() < kLongest && name.find('.') != name.npos) names.push_back(name);
-    at = end + 1;
+    return std::move(names_);
   }
-  return names;
-}
+
+ private:
+  // What lies between `from` and the next of these characters, where it goes on.
+  std::string_view Until(std::string_view ends, std::size_t from) {
+    at_ = std::min(text_.find_first_of(ends, from), text_.size());
+    return text_.substr(from, at_ - from);
+  }
+  void TakeString() {
+    constexpr std::size_t kLongest = 1024;
+    const std::string_view name = Until("\"", at_ + 1);
+    ++at_;
+    const bool is_name = name.size() < kLongest && name.find('.') != name.npos;
+    if (is_name && directive_ != "Film") names_.push_back(name);
+  }
+
+  std::string_view text_, directive_;
+  std::size_t at_ = 0;
+  std::vector<std::string_view> names_;
+};
 
 class SceneHasher {
  public:
@@ -75,7 +99,7 @@ class SceneHasher {
     if (!ReadFile(path, &content)) return;
     hash_.Add(content);
     if (path.extension() != ".pbrt") return;
-    for (std::string_view name : QuotedNames(content)) {
+    for (std::string_view name : QuotedNames(content).Find()) {
       AddFile(directory_ / fs::path(name));
       if (path.parent_path() != directory_) AddFile(path.parent_path() / fs::path(name));
     }

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "src/core/error.h"
+#include "src/image/atomic_file.h"
 
 namespace lanelight {
 namespace {
@@ -19,7 +20,7 @@ std::string WhoAmI() {
   return fmt::format("process {} on {}", getpid(), host);
 }
 
-// "NAME.<digits>.<digits>.tmp", as src/image/atomic_file.cc names what it writes.
+// "FILE.<digits>.<digits>.tmp", as src/image/atomic_file.h names what it writes.
 bool IsTemporaryOf(const std::string& name, const std::string& file) {
   constexpr std::string_view kEnd = ".tmp";
   if (!name.starts_with(file + ".") || !name.ends_with(kEnd)) return false;
@@ -36,8 +37,9 @@ bool IsTemporaryOf(const std::string& name, const std::string& file) {
 void RemoveTemporaries(const fs::path& state) {
   std::error_code ignored;
   const fs::path folder = state.has_parent_path() ? state.parent_path() : ".";
+  const std::string start = TemporaryStart(state.filename());
   for (fs::directory_iterator i(folder, ignored), end; i != end; i.increment(ignored)) {
-    if (IsTemporaryOf(i->path().filename(), state.filename())) {
+    if (IsTemporaryOf(i->path().filename(), start)) {
       fs::remove(i->path(), ignored);
     }
   }

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "src/core/error.h"
+#include "src/image/atomic_file.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {
@@ -76,6 +77,69 @@ TEST_CASE("outputs that cannot be files are refused", "[render]") {
   CHECK_THROWS_WITH(CheckWritable("/dev/null"), Contains("not a regular file"));
   const std::string existing = WriteText(directory / "old.exr", "x");
   CHECK_NOTHROW(CheckWritable(existing));
+}
+
+TEST_CASE("a name that is too long, and one that is just not, are told apart",
+          "[render]") {
+  TempDirectory directory;
+  const std::string longest = directory / (std::string(251, 'a') + ".exr");
+  CHECK_NOTHROW(CheckWritable(longest));
+  WriteFileAtomically(longest, "whole");
+  CHECK(ReadWholeFile(longest) == "whole");
+  CHECK(directory.Files().size() == 1);
+  CHECK_THROWS_WITH(CheckWritable(directory / (std::string(252, 'a') + ".exr")),
+                    Contains("cannot write") && Contains("too long"));
+  // Cut between characters.
+  std::string umlauts;
+  while (umlauts.size() < 250) umlauts += "ä";
+  const std::string start = TemporaryStart(umlauts);
+  CHECK(start.size() == 220);
+  CHECK(TemporaryStart("x" + umlauts).size() == 219);
+  CHECK(TemporaryStart("a/" + umlauts).size() == 222);
+  CHECK(TemporaryStart("a/b.exr") == "a/b.exr");
+  CHECK(std::filesystem::path(FallbackPath(longest)).filename().string().size() < 240);
+  CHECK(FallbackPath(longest).ends_with("a.exr"));
+}
+
+TEST_CASE("outputs spare what is read, whatever links lead there", "[render]") {
+  TempDirectory directory;
+  namespace fs = std::filesystem;
+  const std::string input = WriteText(directory / "in.png", "x");
+  fs::create_directory(directory / "sub");
+  fs::create_symlink(input, directory / "soft.png");
+  fs::create_hard_link(input, directory / "hard.png");
+  fs::create_directory_symlink(directory.path(), directory / "sub/up");
+  for (const char* path :
+       {"in.png", "soft.png", "hard.png", "sub/../in.png", "sub/up/in.png"}) {
+    INFO(path);
+    CHECK_THROWS_WITH(CheckInputsAreSpared({directory / path}, {input}),
+                      Contains("would overwrite") && Contains("in.png"));
+    CHECK_THROWS_WITH(CheckOutputPaths({directory / path}, input),
+                      Contains("would overwrite the scene"));
+    CHECK_THROWS_WITH(CheckOutputPaths({directory / "other.exr", input, directory / path},
+                                       directory / "none.pbrt"),
+                      Contains("two outputs"));
+  }
+  // Neither is there yet.
+  CHECK_THROWS_WITH(
+      CheckOutputPaths({directory / "new.exr", directory / "sub/up/new.exr"}, input),
+      Contains("two outputs"));
+  CHECK_NOTHROW(CheckInputsAreSpared({directory / "new.exr", "", "-"}, {input}));
+  CHECK_NOTHROW(CheckOutputPaths({directory / "a.exr", directory / "b.exr"}, input));
+}
+
+TEST_CASE("the scene hash leaves out where the film would go", "[render]") {
+  TempDirectory directory;
+  const std::string scene = WriteText(directory / "a.pbrt", R"(
+Film "rgb" # "rgb.txt"
+  "string filename" [ "out.exr" ] "integer xresolution" 4
+LightSource "infinite" "string filename" "sky.exr")");
+  const std::uint64_t first = HashSceneFiles(scene);
+  WriteText(directory / "out.exr", "an image of before");
+  WriteText(directory / "rgb.txt", "only in a comment");
+  CHECK(HashSceneFiles(scene) == first);
+  WriteText(directory / "sky.exr", "another sky");
+  CHECK(HashSceneFiles(scene) != first);
 }
 
 TEST_CASE("the scene hash covers every file that the scene names", "[render]") {

@@ -1,0 +1,218 @@
+// What would lose a render, or what it was made from, is seen before the first sample,
+// and what ends a render early leaves its image.
+#include <catch2/catch.hpp>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <filesystem>
+
+#include "src/cli/exit_codes.h"
+#include "src/image/exr.h"
+#include "tests/cli/process.h"
+#include "tests/texture/texture_files.h"
+
+namespace lanelight {
+namespace {
+
+using Catch::Contains;
+namespace fs = std::filesystem;
+
+std::function<void()> Limit(int resource, rlim_t soft, rlim_t hard) {
+  return [=] {
+    const rlimit limit = {soft, hard};
+    setrlimit(static_cast<__rlimit_resource>(resource), &limit);
+  };
+}
+
+// A scene of several files; the mesh has enough triangles for a tree.
+std::string WriteSceneOfFiles(const TempDirectory& directory) {
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 600\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 200\nproperty list uchar int vertex_indices\n"
+      "end_header\n";
+  for (int i = 0; i < 200; ++i) {
+    const int x = i % 20 - 10, y = i / 20 - 5, z = i % 7;
+    ply += fmt::format("{0} {1} {2}\n{3} {1} {2}\n{0} {4} {2}\n", x, y, z, x + 1, y + 1);
+  }
+  for (int i = 0; i < 200; ++i) {
+    ply += fmt::format("3 {} {} {}\n", 3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  WriteText(directory / "mesh.ply", ply);
+  WriteText(directory / "part.pbrt",
+            "LightSource \"point\" \"point3 from\" [ 0 0 -9 ]\n");
+  WriteRandomExr(directory / "color.exr", 2, 2, false);
+  WriteRandomExr(directory / "sky.exr", 2, 2, false);
+  return WriteText(directory / "scene.pbrt", R"(
+LookAt 0 0 -20  0 0 0  0 1 0
+Camera "perspective" "float fov" 60
+Film "rgb" "integer xresolution" 32 "integer yresolution" 24
+  "string filename" "film.exr"
+Sampler "independent" "integer pixelsamples" 2
+WorldBegin
+Include "part.pbrt"
+LightSource "infinite" "string filename" "sky.exr"
+Texture "color" "spectrum" "imagemap" "string filename" "color.exr"
+Material "diffuse" "texture reflectance" "color"
+Shape "plymesh" "string filename" "mesh.ply"
+)");
+}
+
+}  // namespace
+
+TEST_CASE("no output overwrites a file that the scene reads", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSceneOfFiles(directory), exr = directory / "out.exr";
+  fs::create_symlink(directory / "color.exr", directory / "link.exr");
+  fs::create_hard_link(directory / "sky.exr", directory / "hard.exr");
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& file) {
+    INFO(arguments.back());
+    const std::uintmax_t size = fs::file_size(directory / file);
+    const ProcessResult r = RunLanelight(arguments);
+    CHECK(r.exit_code == kExitBadInput);
+    CHECK_THAT(r.err,
+               Contains("would overwrite") && Contains(file) && !Contains("rendering"));
+    CHECK(fs::file_size(directory / file) == size);
+  };
+  for (const char* output : {"color.exr", "link.exr"}) {
+    refused({"render", scene, "-o", directory / output}, "color.exr");
+  }
+  refused({"render", scene, "-o", directory / "hard.exr"}, "sky.exr");
+  refused({"render", scene, "-o", exr, "--json", directory / "mesh.ply"}, "mesh.ply");
+  refused({"render", scene, "-o", exr, "--checkpoint", directory / "part.pbrt"},
+          "part.pbrt");
+  refused({"render", scene, "-o", exr, "--watch", directory / "color.exr"}, "color.exr");
+  refused({"profile", scene, "--trace", directory / "mesh.ply"}, "mesh.ply");
+  refused({"advise", scene, "--time", "1", "-o", directory / "sky.exr"}, "sky.exr");
+  // What the film names is where an output goes.
+  const std::string film = directory / "film.exr";
+  REQUIRE(RunLanelight({"render", scene, "-o", film}).exit_code == kExitGood);
+  CHECK(RunLanelight({"render", scene, "-o", film}).exit_code == kExitGood);
+}
+
+TEST_CASE("a scene whose film names the output can be gone on with", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSceneOfFiles(directory), film = directory / "film.exr";
+  const std::string state = directory / "film.state";
+  const auto render = [&](const char* spp) {
+    return RunLanelight(
+        {"render", scene, "-o", film, "--checkpoint", state, "--resume", "--spp", spp});
+  };
+  REQUIRE(render("2").exit_code == kExitGood);
+  const ProcessResult r = render("4");
+  INFO(r.err);
+  CHECK(r.exit_code == kExitGood);
+}
+
+TEST_CASE("a state is spared by all outputs but the next state", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory), state = directory / "a.state";
+  const std::string exr = directory / "a.exr";
+  REQUIRE(RunLanelight({"render", scene, "-o", exr, "--checkpoint", state}).exit_code ==
+          kExitGood);
+  const ProcessResult r =
+      RunLanelight({"render", scene, "-o", exr, "--resume", state, "--checkpoint",
+                    directory / "b.state", "--json", state, "--spp", "32"});
+  CHECK(r.exit_code == kExitBadInput);
+  CHECK_THAT(r.err, Contains("would overwrite") && Contains("a.state"));
+  const ProcessResult merge = RunLanelight({"merge", state, "-o", exr, "--json", state});
+  CHECK(merge.exit_code == kExitBadInput);
+  CHECK_THAT(merge.err, Contains("would overwrite"));
+}
+
+TEST_CASE("a name that is too long is seen before the render", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory);
+  const std::string name = directory / (std::string(250, 'n') + ".exr");
+  const ProcessResult r = RunLanelight({"render", scene, "-o", name + "x.exr"});
+  CHECK(r.exit_code == kExitBadInput);
+  CHECK_THAT(r.err, Contains("too long") && !Contains("rendering"));
+  // As long as a name can be.
+  CHECK(RunLanelight({"render", scene, "-o", name}).exit_code == kExitGood);
+  CHECK(fs::exists(name));
+}
+
+TEST_CASE("signals that end programs leave an image", "[cli]") {
+  for (const int number : {SIGHUP, SIGTERM, SIGXCPU}) {
+    INFO(number);
+    TempDirectory directory;
+    const std::string scene = WriteSphereScene(directory), exr = directory / "i.exr";
+    ProcessOptions options;
+    options.trigger = "rendering";
+    options.action = [=](int child) { kill(child, number); };
+    options.prepare = [=] { signal(number, SIG_DFL); };
+    const ProcessResult r =
+        RunLanelight({"render", scene, "-o", exr, "--time", "20"}, options);
+    INFO(r.err);
+    CHECK(r.exit_code == kExitGood);
+    CHECK_THAT(r.out, Contains("stopped early"));
+    CHECK(ReadExr(exr).width == 32);
+  }
+}
+
+TEST_CASE("a limit of processor time leaves an image", "[cli]") {
+  // The soft limit sends a signal, and again every second; at the hard one the kernel
+  // kills, and it is what `ulimit -t` sets.
+  for (const rlim_t soft : {1, 3}) {
+    INFO(soft);
+    TempDirectory directory;
+    const std::string scene = WriteSphereScene(directory), exr = directory / "i.exr";
+    ProcessOptions options;
+    options.prepare = Limit(RLIMIT_CPU, soft, 3);
+    const ProcessResult r = RunLanelight(
+        {"render", scene, "-o", exr, "--time", "50", "--threads", "1"}, options);
+    INFO(r.err);
+    CHECK(r.exit_code == kExitGood);
+    CHECK_THAT(r.out, Contains("stopped early"));
+    CHECK(ReadExr(exr).width == 32);
+  }
+}
+
+TEST_CASE("a file that may not grow is a full disk", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory), exr = directory / "i.exr";
+  ProcessOptions options;
+  options.prepare = [] {
+    signal(SIGXFSZ, SIG_DFL);
+    const rlimit limit = {2000, 2000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  };
+  options.temp_directory = directory.path();
+  const ProcessResult r = RunLanelight({"render", scene, "-o", exr}, options);
+  CHECK(r.signal == 0);
+  CHECK(r.exit_code == kExitBadInput);
+  CHECK_THAT(r.err, Contains("i.exr") && !Contains("error: error:") &&
+                        !Contains("elsewhere: error:"));
+}
+
+TEST_CASE("a small stack is enough", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSceneOfFiles(directory), exr = directory / "i.exr";
+  for (const char* threads : {"1", "2"}) {
+    ProcessOptions options;
+    options.prepare = Limit(RLIMIT_STACK, 512 * 1024, 512 * 1024);
+    const ProcessResult r =
+        RunLanelight({"render", scene, "-o", exr, "--threads", threads}, options);
+    INFO(r.err);
+    CHECK(r.exit_code == kExitGood);
+    CHECK(r.signal == 0);
+  }
+}
+
+TEST_CASE("running out of memory says how much there is", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory), exr = directory / "i.exr";
+  ProcessOptions options;
+  options.prepare = Limit(RLIMIT_AS, rlim_t{1} << 30, rlim_t{1} << 30);
+  const ProcessResult film = RunLanelight(
+      {"render", scene, "-o", exr, "--resolution", "8000x8000", "--spp", "1"}, options);
+  CHECK(film.exit_code == kExitBadInput);
+  CHECK_THAT(film.err, Contains("GiB of memory") && Contains("1.0 GiB"));
+  const ProcessResult wavefront =
+      RunLanelight({"render", scene, "-o", exr, "--resolution", "2000x1500", "--spp", "1",
+                    "--wavefront", "1048576", "--threads", "8"},
+                   options);
+  if (wavefront.exit_code == kExitGood) return;  // it has got by with that
+  CHECK_THAT(wavefront.err, Contains("out of memory") && Contains("GiB"));
+}
+
+}  // namespace lanelight
