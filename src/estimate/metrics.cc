@@ -11,6 +11,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/estimate/z_scores.h"
+#include "src/image/variance_unit.h"
 
 namespace lanelight {
 namespace {
@@ -110,7 +111,11 @@ double Ratio(double test, double reference) {
 class Comparison {
  public:
   Comparison(const Image& test, const Image& reference, const CompareOptions& options)
-      : test_(test), reference_(reference), options_(options) {}
+      : test_(test),
+        reference_(reference),
+        options_(options),
+        test_unit_(VarianceUnit(test)),
+        reference_unit_(VarianceUnit(reference)) {}
 
   CompareResult Run() {
     result_.width = test_.width;
@@ -149,9 +154,11 @@ class Comparison {
 
   double Variance(const Channel& channel, int x, int y) const {
     double sum = 0;
-    if (channel.test_variance >= 0) sum += Value(test_, x, y, channel.test_variance);
+    if (channel.test_variance >= 0) {
+      sum += test_unit_ * Value(test_, x, y, channel.test_variance);
+    }
     if (channel.reference_variance >= 0) {
-      sum += Value(reference_, x, y, channel.reference_variance);
+      sum += reference_unit_ * Value(reference_, x, y, channel.reference_variance);
     }
     return sum;
   }
@@ -187,6 +194,7 @@ class Comparison {
   const Image& test_;
   const Image& reference_;
   const CompareOptions& options_;
+  const double test_unit_, reference_unit_;  // of their variances
   CompareResult result_;
   ZCollector z_;
   bool has_variance_ = false;

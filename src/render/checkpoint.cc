@@ -188,7 +188,7 @@ std::function<void()> Checkpoint::Watch(RunState& state) const {
   auto planes =
       std::make_shared<std::vector<ExrPlane>>(FilmPlanes(film, job_.scene.scale));
   const ExrOptions options =
-      OutputOptions(Json::parse(identity_), state.counts, /*half=*/false);
+      OutputOptions(Json::parse(identity_), state.counts, film, /*half=*/false);
   return [path = settings_.watch, planes, options, width = film.width(),
           height = film.height()] { WriteExr(path, width, height, *planes, options); };
 }

@@ -1,10 +1,13 @@
 #include "src/render/output.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
+#include "src/image/variance_unit.h"
 
 namespace lanelight {
 namespace {
@@ -44,6 +47,18 @@ void AppendAov(const FilmAccumulator& film, double scale, std::size_t pixels,
 
 }  // namespace
 
+int VarianceExponent(const FilmAccumulator& film) {
+  double largest = 0;
+  ForEachPixel(film, [&](std::size_t, int x, int y) {
+    if (!film.HasVariance(x, y)) return;
+    const Rgb variance = film.Variance(x, y);
+    for (int c = 0; c < 3; ++c) {
+      if (std::isfinite(variance[c])) largest = std::max(largest, variance[c]);
+    }
+  });
+  return VarianceExponent(largest);
+}
+
 std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale) {
   const std::size_t pixels = static_cast<std::size_t>(film.width()) * film.height();
   auto planes = NamedPlanes({"R", "G", "B"}, pixels, false);
@@ -52,8 +67,9 @@ std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale) {
        NamedPlanes({"variance.R", "variance.G", "variance.B", "samples"}, pixels, true)) {
     planes.push_back(std::move(p));
   }
+  const double unit = std::ldexp(1.0, -VarianceExponent(film));
   ForEachPixel(film, [&](std::size_t i, int x, int y) {
-    const Rgb mean = film.Mean(x, y), variance = film.Variance(x, y);
+    const Rgb mean = film.Mean(x, y), variance = film.Variance(x, y) * unit;
     const bool known = film.HasVariance(x, y);
     for (int c = 0; c < 3; ++c) {
       planes[c].values[i] = static_cast<float>(mean[c]);
@@ -66,8 +82,13 @@ std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale) {
   return planes;
 }
 
+void NoteVarianceUnit(const FilmAccumulator& film, ExrOptions& options) {
+  const int exponent = VarianceExponent(film);
+  if (exponent != 0) options.attributes[kVarianceExponent] = exponent;
+}
+
 ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts,
-                         bool half) {
+                         const FilmAccumulator& film, bool half) {
   const std::array<int, 4> crop = identity.at("crop");
   const std::array<int, 2> resolution = identity.at("resolution");
   const std::string strategy = identity.at("strategy");
@@ -86,6 +107,7 @@ ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts
   options.attributes["strategy"] = "path, " + strategy;
   options.attributes["version"] = identity.at("version").get<std::string>();
   options.attributes["sceneHash"] = identity.at("scene_hash").get<std::string>();
+  NoteVarianceUnit(film, options);
   return options;
 }
 

@@ -12,16 +12,22 @@
 
 namespace lanelight {
 
-/// Channels of the output file: R, G, B; variance.R/G/B (of the pixel mean; NaN where
-/// there are fewer than two observations); samples; with auxiliary planes
+/// Of the variances of the film (src/image/variance_unit.h).
+int VarianceExponent(const FilmAccumulator& film);
+/// Adds the attribute that tells of it, unless it is 0.
+void NoteVarianceUnit(const FilmAccumulator& film, ExrOptions& options);
+
+/// Channels of the output file: R, G, B; variance.R/G/B (of the pixel mean, over 2 to the
+/// VarianceExponent; NaN where there are fewer than two observations); samples; with
+/// auxiliary planes
 /// albedo.R/G/B, normal.X/Y/Z and depth.Z in units of the scene file (`scale` is
 /// CompiledScene::scale).
 std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale);
 
 /// Data window, and the attributes seed, spp, renderTime, strategy, version, sceneHash,
-/// of a render of this identity (src/render/identity.h).
+/// of a render of this identity (src/render/identity.h), and that of the variances.
 ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts,
-                         bool half);
+                         const FilmAccumulator& film, bool half);
 
 /// R, G, B of the film, for the PNG.
 Image FilmImage(const FilmAccumulator& film);

@@ -22,7 +22,7 @@ void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
   report.exr = targets.exr;
   saver.Save(report.exr, [&](const std::string& path) {
     WriteExr(path, film.width(), film.height(), FilmPlanes(film, scale),
-             OutputOptions(identity, counts, targets.half));
+             OutputOptions(identity, counts, film, targets.half));
   });
   report.png = targets.png;
   saver.Save(report.png, [&](const std::string& path) {

@@ -7,6 +7,7 @@
 #include "src/image/exr.h"
 #include "src/image/image.h"
 #include "src/image/colors.h"
+#include "src/image/variance_unit.h"
 #include "src/estimate/estimate.h"
 #include "src/sweep/cell_job.h"
 
@@ -82,7 +83,9 @@ Piece ReadPiece(const std::string& path, const PixelRect& window, int full_width
   CheckFinite(path, piece.mean);
   if (FindColor(image, "variance.", variance)) {
     piece.variance = Cut(image, variance, x0, y0, window);
-    for (const Rgb& v : piece.variance) {
+    const double unit = VarianceUnit(image);
+    for (Rgb& v : piece.variance) {
+      v *= unit;
       if (v.x >= 0 && v.y >= 0 && v.z >= 0 && std::isfinite(v.x + v.y + v.z)) continue;
       piece.variance.clear();
       break;

@@ -9,6 +9,8 @@
 
 #include "src/core/error.h"
 #include "src/image/atomic_file.h"
+#include "src/image/exr.h"
+#include "src/image/variance_unit.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {
@@ -140,6 +142,37 @@ LightSource "infinite" "string filename" "sky.exr")");
   CHECK(HashSceneFiles(scene) == first);
   WriteText(directory / "sky.exr", "another sky");
   CHECK(HashSceneFiles(scene) != first);
+}
+
+TEST_CASE("variances beyond 32 bits are written in another unit", "[render]") {
+  TempDirectory directory;
+  for (const double size : {1.0, 1e-9, 1e12, 1e15, 1e30, 1e-20, 1e-30}) {
+    CAPTURE(size);
+    FilmAccumulator film(0, 0, 2, 1, SampleGroups{}, false);
+    const float dim = static_cast<float>(size * 1e-6), bright = static_cast<float>(size);
+    const float dims[2] = {dim, 3 * dim}, brights[2] = {bright, 3 * bright};
+    const float zeros[2] = {0, 0};
+    const float* const first[3] = {dims, zeros, brights};
+    const float* const second[3] = {brights, brights, dims};
+    film.AddSamples(0, 0, first, 2);
+    film.AddSamples(1, 0, second, 2);
+    const std::string path = directory / "variance.exr";
+    ExrOptions options;
+    NoteVarianceUnit(film, options);
+    WriteExr(path, 2, 1, FilmPlanes(film, 1), options);
+    const Image image = ReadExr(path);
+    const double unit = VarianceUnit(image);
+    const bool ordinary = size > 1e-10 && size < 1e18;
+    CHECK((unit == 1) == ordinary);
+    CHECK(image.attributes.contains(kVarianceExponent) != ordinary);
+    for (int x = 0; x < 2; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const int channel = image.FindChannel(std::string("variance.") + "RGB"[c]);
+        CHECK(unit * double(image.At(x, 0, channel)) ==
+              Approx(film.Variance(x, 0)[c]).epsilon(1e-6));
+      }
+    }
+  }
 }
 
 TEST_CASE("the scene hash covers every file that the scene names", "[render]") {
