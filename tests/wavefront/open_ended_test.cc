@@ -2,6 +2,7 @@
 // pixels alike, do not depend on the number of threads, and are unbiased.
 #include <catch2/catch.hpp>
 #include <atomic>
+#include <cmath>
 
 #include "src/estimate/target.h"
 #include "src/prepare/prepare_scene.h"
@@ -150,6 +151,47 @@ TEST_CASE("a time budget gives every pixel a sample and ends", "[open_ended]") {
   both.seconds = 1000;
   both.target = 0.05;
   CHECK(Render(both).result.stop_reason == StopReason::kTarget);
+}
+
+TEST_CASE("a render of a million samples has variances whenever it is stopped",
+          "[open_ended]") {
+  for (int i = 0; i < kNumPoints; ++i) {
+    const std::string points = Name(static_cast<Points>(i));
+    for (const char* pairs : {"", ",pairs=antithetic"}) {
+      CAPTURE(points, pairs);
+      const ThreadLimit limit(2);
+      CompiledScene scene = PrepareScene(ParseSceneText(kScene, "test.pbrt", "."), {});
+      Strategy strategy = scene.strategy;
+      ApplyStrategy("points=" + points + pairs, {}, strategy);
+      UseStrategy(strategy, scene);
+      PlanOptions plan_options;
+      plan_options.max_depth = 3;
+      const Plan plan = MakePlan(scene, plan_options);
+      FilmAccumulator film(0, 0, 37, 29, GroupsOf(scene.strategy), false);
+      std::atomic<bool> stop{false};
+      RunOptions options;
+      options.spp = 1'000'000;
+      options.stop = &stop;
+      // After a few tasks: 32 samples of a pixel, of which a million are planned.
+      options.on_progress = [&](const Progress&) { stop = true; };
+      const RunResult result = Run(scene, plan, options, film);
+      CHECK(result.stop_reason == StopReason::kInterrupted);
+      int sampled = 0, varied = 0;
+      for (int y = 0; y < 29; ++y) {
+        for (int x = 0; x < 37; ++x) {
+          if (film.Samples(x, y) == 0) continue;
+          ++sampled;
+          REQUIRE(film.Samples(x, y) < 10000);
+          REQUIRE(film.HasVariance(x, y));
+          const Rgb v = film.Variance(x, y);
+          REQUIRE(std::isfinite(v.x + v.y + v.z));
+          varied += v.x > 0;
+        }
+      }
+      CHECK(sampled > 0);
+      CHECK(2 * varied > sampled);
+    }
+  }
 }
 
 TEST_CASE("stopping at the target keeps the image unbiased", "[open_ended]") {
