@@ -1,0 +1,94 @@
+#include "src/wavefront/plan_key.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <type_traits>
+
+#include "src/prepare/groups.h"
+#include "src/prepare/parameters.h"
+#include "src/wavefront/plan_features.h"
+
+namespace lanelight {
+namespace {
+
+// FNV-1a, 64 bits.
+class Hash {
+ public:
+  template <class Values>
+  void Add(const Values& values) {
+    using Value = typename Values::value_type;
+    static_assert(std::is_trivially_copyable_v<Value>);
+    AddWord(values.size());
+    for (const Value& value : values) {
+      unsigned char bytes[sizeof(Value)];
+      std::memcpy(bytes, &value, sizeof(Value));
+      for (unsigned char byte : bytes) AddByte(byte);
+    }
+  }
+  void AddWord(std::uint64_t word) {
+    for (int i = 0; i < 8; ++i) AddByte(static_cast<unsigned char>(word >> (8 * i)));
+  }
+  std::uint64_t value() const { return state_; }
+
+ private:
+  void AddByte(unsigned char byte) { state_ = (state_ ^ byte) * 0x100000001b3u; }
+  std::uint64_t state_ = 0xcbf29ce484222325u;
+};
+
+std::uint64_t HashLights(const LightTable& table) {
+  std::vector<float> pmf;
+  for (const LightRecord& light : table.lights) pmf.push_back(light.pmf);
+  Hash hash;
+  hash.Add(pmf);
+  hash.Add(table.alias_q);
+  hash.Add(table.alias);
+  hash.Add(table.tree.nodes);
+  hash.Add(table.tree.far);
+  return hash.value();
+}
+
+std::string FeaturesText(const FeatureSet& features) {
+  std::string text;
+  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+    text += features.Has(static_cast<Feature>(i)) ? '1' : '0';
+  }
+  return text;
+}
+
+// Of the strategy that the plan is for; what no stage of the plan reads is left out.
+std::string ParametersText(const Strategy& s, const FeatureSet& features) {
+  const PointsParameters points = MakePointsParameters(s.points);
+  const PairParameters pairs = MakePairParameters(s);
+  const MisParameters mis = MakeMisParameters(s);
+  const SampleGroups groups = GroupsOf(s);
+  std::string text = fmt::format("points {} {} pairs {} {} groups {} {} mis {} {} {}",
+                                 points.group_shift, points.pmj02 != nullptr,
+                                 pairs.dimensions, pairs.depths, groups.unit,
+                                 groups.replicates, mis.square, mis.linear, mis.hits);
+  if (features.HasAny({Feature::kRoulette, Feature::kSplitting})) {
+    const RouletteParameters r = MakeRouletteParameters(s);
+    text += fmt::format(" roulette {} {} {} {}", Name(s.roulette), r.termination, r.floor,
+                        r.first);
+  }
+  if (features.Has(Feature::kControl)) {
+    text += fmt::format(" control {} {}", Name(s.control),
+                        s.coefficient ? fmt::format("{}", *s.coefficient) : "optimal");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string PlanKey(const CompiledScene& scene, const Plan& plan) {
+  std::string key = FeaturesText(plan.features);
+  for (const PlannedStage& planned : plan.stages) {
+    key += fmt::format(" {} {}", planned.stage.name,
+                       reinterpret_cast<std::uintptr_t>(planned.kernel));
+  }
+  key += fmt::format(" depth {} ", plan.options.max_depth);
+  key += ParametersText(PlannedStrategy(scene, plan.options), plan.features);
+  return key + fmt::format(" lights {:016x}", HashLights(scene.lights));
+}
+
+}  // namespace lanelight
