@@ -6,6 +6,7 @@
 
 #include "src/core/check.h"
 #include "src/stat/bootstrap.h"
+#include "src/stat/distributions.h"
 #include "src/stat/hypothesis.h"
 
 namespace lanelight::stat {
@@ -57,15 +58,26 @@ Interval EfficiencyRatio(std::span<const Cost> baseline, std::span<const Cost> o
   return ratio.HasBounds() ? ratio : WithoutBounds(value);
 }
 
+Interval Widened(const Interval& ratio, double deviation, double confidence) {
+  if (!(deviation > 0) || !(ratio.value > 0) || !ratio.HasBounds()) return ratio;
+  const double more = deviation * NormalQuantile((1 + confidence) / 2);
+  const double below = std::hypot(std::log(ratio.value / ratio.low), more);
+  const double above = std::hypot(std::log(ratio.high / ratio.value), more);
+  return {ratio.value, ratio.value * std::exp(-below), ratio.value * std::exp(above)};
+}
+
 std::vector<RankRange> RankByEfficiency(const std::vector<std::vector<Cost>>& strategies,
-                                        double confidence) {
+                                        double confidence,
+                                        std::span<const double> doubts) {
   const int n = static_cast<int>(strategies.size());
   std::vector<RankRange> ranks(strategies.size(), {1, n});
   if (n < 2) return ranks;
   const double level = SidakLevel(1 - confidence, n * (n - 1) / 2);
   for (std::size_t i = 0; i < strategies.size(); ++i) {
     for (std::size_t j = i + 1; j < strategies.size(); ++j) {
-      const Interval ratio = EfficiencyRatio(strategies[i], strategies[j], 1 - level);
+      const double doubt = doubts.empty() ? 0 : std::hypot(doubts[i], doubts[j]);
+      const Interval ratio = Widened(
+          EfficiencyRatio(strategies[i], strategies[j], 1 - level), doubt, 1 - level);
       if (!ratio.HasBounds() || ratio.Contains(1)) continue;
       const bool other_is_better = ratio.low > 1;
       ranks[other_is_better ? i : j].best += 1;

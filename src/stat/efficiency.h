@@ -36,9 +36,17 @@ struct RankRange {
   int best = 1, worst = 1;
 };
 
+/// The interval of a ratio whose logarithm has an independent error of this standard
+/// deviation beside what the interval is about: half widths of the logarithm add as their
+/// squares, that of the error by the normal distribution.
+Interval Widened(const Interval& ratio, double deviation, double confidence);
+
 /// Ranks of all strategies, each with the same number of repetitions. All pairwise claims
 /// hold together with probability `confidence` (Sidak). Ranks are independent of order.
+/// `doubts`: of each strategy, the standard deviation of an error of the logarithm of its
+/// efficiency that all its repetitions share; empty: none.
 std::vector<RankRange> RankByEfficiency(const std::vector<std::vector<Cost>>& strategies,
-                                        double confidence);
+                                        double confidence,
+                                        std::span<const double> doubts = {});
 
 }  // namespace lanelight::stat

@@ -205,6 +205,29 @@ TEST_CASE("strategies that differ by a factor of three are told apart", "[stat]"
   CHECK(right == 1);
 }
 
+TEST_CASE("an error that all repetitions share widens a ratio and its ranks", "[stat]") {
+  const Interval ratio = {2, 1.6, 2.5};
+  const double z = 1.959964, deviation = 0.3;
+  const Interval wide = Widened(ratio, deviation, 0.95);
+  CHECK(wide.value == 2);
+  CHECK(std::log(2 / wide.low) ==
+        Approx(std::hypot(std::log(2 / 1.6), z * deviation)).epsilon(1e-6));
+  CHECK(std::log(wide.high / 2) ==
+        Approx(std::hypot(std::log(2.5 / 2), z * deviation)).epsilon(1e-6));
+  CHECK(Widened(ratio, 0, 0.95).high == 2.5);
+  CHECK_FALSE(Widened(WithoutBounds(2), 1, 0.95).HasBounds());
+
+  Random random(9);
+  std::vector<Costs> two(2);
+  for (int i = 0; i < 8; ++i) {
+    two[0].push_back({LogNormal(Normal(random), 0.05), 1});
+    two[1].push_back({LogNormal(Normal(random), 0.05) / 1.5, 1});
+  }
+  CHECK(RankByEfficiency(two, 0.95)[0].best == 2);
+  const std::vector<double> doubts = {0, 0.3};
+  CHECK(RankByEfficiency(two, 0.95, doubts)[0].best == 1);
+}
+
 TEST_CASE("ranks do not depend on the order of the strategies", "[stat]") {
   Random random(11);
   auto all = Strategies(random, 5, 8, 1.5);
