@@ -72,6 +72,23 @@ std::string Wrap(const std::string& text) {
   return out + line + "\n";
 }
 
+// "points=sobol, scene: the same as default on this scene, not rendered again".
+std::string Twins(const SceneRuns& runs) {
+  std::string text;
+  for (std::size_t i = 0; i < runs.strategies.size(); ++i) {
+    std::string names;
+    for (const StrategyRuns& s : runs.strategies) {
+      if (s.same_as != i) continue;
+      names += (names.empty() ? "" : ", ") + s.named.name;
+    }
+    if (names.empty()) continue;
+    text +=
+        Wrap(fmt::format("    =  {}: the same as {} on this scene, not rendered again",
+                         names, runs.strategies[i].named.name));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
@@ -90,8 +107,9 @@ std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
   for (std::size_t i : analysis.ranking) {
     text += Row(runs.strategies[i], analysis.strategies[i]);
   }
+  text += Twins(runs);
   for (const StrategyRuns& s : runs.strategies) {
-    if (s.status == RunStatus::kOk) continue;
+    if (s.status == RunStatus::kOk || s.status == RunStatus::kSame) continue;
     text += fmt::format("{:>5}  {:<30} {}: {}\n", "-", Short(s.named.name),
                         Name(s.status), s.message);
   }

@@ -10,6 +10,7 @@
 #include "src/report/page.h"
 #include "src/stat/convergence.h"
 #include "src/stat/efficiency.h"
+#include "src/stat/hypothesis.h"
 #include "src/stat/interval.h"
 #include "src/study/runs.h"
 
@@ -17,8 +18,9 @@ namespace lanelight {
 
 /// How often the renders' own error estimates held.
 struct SelfCheck {
-  Interval relmse;  // mean of the estimates
-  std::uint64_t inside = 0, total = 0;
+  Interval relmse;                      // mean of the estimates
+  std::uint64_t inside = 0, total = 0;  // of the renders that stated an interval
+  std::uint64_t refused = 0;            // stated an estimate, and no interval about it
 };
 
 struct LevelAnalysis {
@@ -39,21 +41,32 @@ struct LevelAnalysis {
 /// Test of equal means by tile.
 struct TileTest {
   int side = 0, columns = 0, rows = 0;
-  std::vector<double> z;            // signed, normal if the means are equal
-  std::vector<std::size_t> failed;  // by Holm's correction over the tiles
-  double level = 0;                 // of all tiles together
+  std::vector<double> z;  // signed, normal if the means are equal; NaN: not testable
+  /// By Holm's correction over the tiles; after TestBias without those that are `shared`.
+  std::vector<std::size_t> failed;
+  /// Differ from the reference, but not from the other strategies.
+  std::vector<std::size_t> shared;
+  std::vector<stat::MeanEstimate> means;  // of the tiles, all repetitions together
+  double level = 0;                       // of all tiles together
 };
 
 struct StrategyAnalysis {
   std::vector<LevelAnalysis> levels;
-  std::vector<stat::Level> costs;   // relative MSE and processor seconds by level
-  std::vector<stat::Cost> trimmed;  // trimmed relative MSE, at the level `at`
-  std::size_t at = 0;               // index of the level that comparisons are at
-  std::optional<Interval> order;    // of the RMSE
+  std::vector<stat::Level> costs;    // relative MSE and processor seconds by level
+  std::vector<stat::Level> squares;  // MSE and processor seconds by level
+  std::vector<stat::Cost> trimmed;   // trimmed relative MSE, at the level `at`
+  std::size_t at = 0;                // index of the level that comparisons are at
+  /// Slopes over log samples of log RMSE, and of log sqrt(relative MSE): they differ
+  /// where dark and bright pixels converge at different rates.
+  std::optional<Interval> order, order_relmse;
   std::optional<stat::TargetCost> to_target;
   std::optional<Interval> efficiency;
   std::optional<Interval> efficiency_trimmed;  // of Measurement::relmse_trimmed
+  /// Standard deviation of the logarithm of the efficiency at equal time, because the
+  /// budget's sample counts are measured; in the intervals of both efficiencies.
+  double budget_doubt = 0;
   stat::RankRange rank;
+  stat::MeanEstimate image_mean;  // of all pixels and repetitions at the level `at`
   bool heavy_tailed = false;
   std::vector<StageProfile> stages;
   std::optional<TileTest> tiles;
@@ -70,7 +83,10 @@ struct SceneAnalysis {
   double target_relmse = 0;
   SelfCheck calibration;
   std::size_t bias_tests = 0;
-  std::vector<std::size_t> biased;  // strategies whose whole image differs, by Holm
+  /// Strategies whose whole image differs from the reference, by Holm: those that differ
+  /// from the other strategies too, and those that do not, which points at the reference.
+  std::vector<std::size_t> biased, biased_alike;
+  std::vector<std::size_t> suspect_tiles;  // TileTest::shared of any strategy
   double bias_level = 0;
   std::string verdict;
   std::string reference_image;  // name
@@ -96,7 +112,17 @@ SceneAnalysis AnalyseScene(const SceneRuns& runs, const StudyOptions& options,
 /// The parts of it.
 LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
                            std::uint64_t spp, double confidence);
-TileTest TestTiles(const Moments& moments, const Reference& reference, double level);
+stat::MeanEstimate ImageMean(const Moments& moments);
+/// After the strategies have their levels: ranking, efficiencies, ranks.
+void CompareStrategies(const SceneRuns& runs, const StudyOptions& options,
+                       SceneAnalysis& analysis);
+/// After the strategies have their tiles. What differs from the reference speaks against
+/// a strategy only if it differs from the other strategies as well: an error of the
+/// reference is in the comparison of every strategy with it.
+void TestBias(SceneAnalysis& analysis);
+/// `moments` of renders of `spp` samples per pixel.
+TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint64_t spp,
+                   double level);
 std::string Verdict(const SceneRuns& runs, const SceneAnalysis& analysis);
 
 }  // namespace lanelight

@@ -65,29 +65,15 @@ Interval SquaredBias(const Moments& moments, const Reference& reference,
 }
 
 // Mean over pixels and channels of the reference, and the variance of that mean; the
-// channels of a pixel are taken as fully dependent.
+// channels of a pixel are taken as fully dependent. How many samples make a pixel's
+// variance is not known: one degree of freedom each.
 stat::MeanEstimate ReferenceMean(const Reference& reference) {
-  stat::MeanEstimate out;
-  const double n = double(reference.mean.size());
+  std::vector<stat::MeanEstimate> pixels;
   for (std::size_t i = 0; i < reference.mean.size(); ++i) {
     const Rgb& m = reference.mean[i];
     const Rgb v = reference.Variance(i);
-    out.mean += (m.x + m.y + m.z) / 3 / n;
     const double deviation = (std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z)) / 3;
-    out.variance += deviation * deviation / (n * n);
-  }
-  out.dof = 1e6;  // many samples of many pixels
-  return out;
-}
-
-// Mean over the pixels of all repetitions. Pixels are independent, so the variance of the
-// mean is the sum of theirs, known with many more degrees of freedom than from the means
-// of a few repetitions.
-stat::MeanEstimate ImageMean(const Moments& moments) {
-  std::vector<stat::MeanEstimate> pixels;
-  const double n = double(moments.count());
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    pixels.push_back({moments.GreyMean(i), moments.GreyVariance(i) / n, n - 1});
+    pixels.push_back({(m.x + m.y + m.z) / 3, deviation * deviation, 1});
   }
   return stat::Average(pixels);
 }
@@ -117,7 +103,10 @@ SelfCheck CheckSelf(const std::vector<Measurement>& all, double confidence) {
   std::vector<double> estimates;
   for (const Measurement& m : all) {
     if (std::isfinite(m.self_relmse)) estimates.push_back(m.self_relmse);
-    if (!m.HasSelf()) continue;
+    if (!m.HasSelf()) {
+      self.refused += std::isfinite(m.self_relmse);
+      continue;
+    }
     ++self.total;
     self.inside += m.SelfHolds();
   }
@@ -140,6 +129,18 @@ void CountRays(const std::vector<Measurement>& all, LevelAnalysis& level) {
 }
 
 }  // namespace
+
+// Mean over the pixels of all repetitions. Pixels are independent, so the variance of the
+// mean is the sum of theirs, known with many more degrees of freedom than from the means
+// of a few repetitions.
+stat::MeanEstimate ImageMean(const Moments& moments) {
+  std::vector<stat::MeanEstimate> pixels;
+  const double n = double(moments.count());
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    pixels.push_back({moments.GreyMean(i), moments.GreyVariance(i) / n, n - 1});
+  }
+  return stat::Average(pixels);
+}
 
 LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
                            std::uint64_t spp, double confidence) {

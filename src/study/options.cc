@@ -48,16 +48,12 @@ std::vector<NamedStrategy> StudyStrategies(const StudyOptions& options,
                                              : options.strategies;
   std::vector<NamedStrategy> strategies;
   for (const std::string& name : names) {
-    NamedStrategy named = {
-        name,
-        StrategyNamed(name, {std::make_shared<const std::string>("--strategies"), 0, 0},
-                      own)};
-    const auto same = [&](const NamedStrategy& other) {
-      return other.strategy == named.strategy;
-    };
-    if (std::none_of(strategies.begin(), strategies.end(), same)) {
-      strategies.push_back(std::move(named));
-    }
+    const auto same = [&](const NamedStrategy& other) { return other.name == name; };
+    if (std::any_of(strategies.begin(), strategies.end(), same)) continue;
+    strategies.push_back(
+        {name,
+         StrategyNamed(name, {std::make_shared<const std::string>("--strategies"), 0, 0},
+                       own)});
   }
   return strategies;
 }

@@ -39,8 +39,8 @@ struct NamedStrategy {
   Strategy strategy;
 };
 
-/// The strategies of a study on a scene whose own strategy is `base`: no two are the
-/// same. Throws InputError for a text that is not understood.
+/// The strategies of a study on a scene whose own strategy is `base`, each name once.
+/// Several may be the same strategy. Throws InputError for a text that is not understood.
 std::vector<NamedStrategy> StudyStrategies(const StudyOptions& options,
                                            const Strategy& base);
 

@@ -9,7 +9,6 @@
 #include "src/image/colors.h"
 #include "src/image/variance_unit.h"
 #include "src/estimate/estimate.h"
-#include "src/sweep/cell_job.h"
 
 namespace lanelight {
 namespace {
@@ -154,29 +153,6 @@ Reference ReadReference(const std::vector<std::string>& files, const PixelRect& 
         "the reference file does not say how noisy it is, and is taken as exact: its own "
         "error counts as error of every strategy, and as bias (give two independent "
         "renders with --reference A --reference B to have it measured)";
-  }
-  return reference;
-}
-
-Reference RenderReference(Job& job, std::uint64_t spp, std::uint64_t seed,
-                          const std::function<void(const Progress&)>& on_progress,
-                          const std::atomic<bool>* stop) {
-  Strategy strategy;
-  strategy.points = Points::kIndependent;
-  SetCell(job, {strategy, spp, 0, {}, seed});
-  const CellRun run = RunCell(job, on_progress, stop);
-  const FilmAccumulator& film = run.film;
-  Reference reference;
-  reference.width = film.width();
-  reference.height = film.height();
-  reference.strategy = ToText(strategy);
-  reference.spp = spp;
-  reference.seconds = run.result.seconds;
-  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
-    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
-      reference.mean.push_back(RoundToFloat(film.Mean(x, y)));
-      reference.variance.push_back(RoundToFloat(film.Variance(x, y)));
-    }
   }
   return reference;
 }

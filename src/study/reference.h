@@ -41,12 +41,28 @@ struct Reference {
 Reference ReadReference(const std::vector<std::string>& files, const PixelRect& window,
                         int full_width, int full_height);
 
+struct ReferenceOptions {
+  std::uint64_t spp = 1, seed = 0;
+  /// File that keeps the render's state (docs/state.md) once a minute, and when it is
+  /// stopped; it goes on from one that is there, and leaves it behind. Empty: none.
+  std::string state;
+  std::function<void(const Progress&)> on_progress;
+  std::function<void(const std::string&)> on_problem;  // a state that cannot be written
+  const std::atomic<bool>* stop = nullptr;             // as in RunOptions
+};
+
 /// Renders one: independent points, which no low-discrepancy sampler under test shares,
-/// with a seed of its own. Leaves the job with that strategy. `stop` as in RunOptions;
-/// the result is then unusable.
-Reference RenderReference(Job& job, std::uint64_t spp, std::uint64_t seed,
-                          const std::function<void(const Progress&)>& on_progress,
-                          const std::atomic<bool>* stop);
+/// with a seed of its own. Leaves the job with that strategy. If it was stopped, the
+/// result is unusable. The same pixels whether it was stopped in between or not. Throws
+/// InputError if the state is damaged, or of another render.
+Reference RenderReference(Job& job, const ReferenceOptions& options);
+
+/// The same without a state.
+inline Reference RenderReference(Job& job, std::uint64_t spp, std::uint64_t seed,
+                                 const std::function<void(const Progress&)>& on_progress,
+                                 const std::atomic<bool>* stop) {
+  return RenderReference(job, {spp, seed, "", on_progress, {}, stop});
+}
 
 /// As an EXR file with variance channels; mean and variance are floats, so that what is
 /// read back is the same.

@@ -1,5 +1,6 @@
 #include "src/study/runs.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -37,6 +38,22 @@ std::vector<SceneRuns> NamedScenes(const StudyOptions& options) {
   return scenes;
 }
 
+// Tables and page would be without the scenes that are not named now.
+void CheckOtherScenes(const StudyOptions& options, const std::vector<SceneRuns>& scenes) {
+  for (const auto& entry : fs::directory_iterator(options.out)) {
+    const std::string name = entry.path().filename().string();
+    if (!fs::exists(entry.path() / "cells/scene.json")) continue;
+    if (std::any_of(scenes.begin(), scenes.end(),
+                    [&](const SceneRuns& scene) { return scene.name == name; })) {
+      continue;
+    }
+    throw InputError(fmt::format(
+        "'{}' has a study of the scene '{}' too, which would be missing from its tables: "
+        "name that scene as well, or give another directory",
+        options.out, name));
+  }
+}
+
 void CheckFolder(const StudyOptions& options) {
   std::error_code error;
   if (fs::exists(options.out, error) && !fs::is_directory(options.out, error)) {
@@ -58,6 +75,8 @@ const char* Name(RunStatus status) {
   switch (status) {
     case RunStatus::kOk:
       return "ok";
+    case RunStatus::kSame:
+      return "same";
     case RunStatus::kRefused:
       return "refused";
     case RunStatus::kFailed:
@@ -71,6 +90,7 @@ const char* Name(RunStatus status) {
 std::vector<SceneRuns> RunStudy(const StudyOptions& options, const StudyHooks& hooks) {
   CheckFolder(options);
   std::vector<SceneRuns> scenes = NamedScenes(options);
+  CheckOtherScenes(options, scenes);
   StudyClock clock(scenes.size());
   for (SceneRuns& scene : scenes) {
     try {

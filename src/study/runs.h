@@ -1,6 +1,7 @@
 // The renders of a study: what ran, what did not and why.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,15 +11,25 @@
 
 namespace lanelight {
 
-enum class RunStatus { kOk, kRefused, kFailed, kSkipped };
-const char* Name(RunStatus status);  // "ok", "refused", ...
+enum class RunStatus {
+  kOk,
+  kSame,     // as another one on this scene: rendered once, under its name
+  kRefused,  // the scene does not take it
+  kFailed,
+  kSkipped  // interrupted
+};
+const char* Name(RunStatus status);  // "ok", "same", ...
 
 /// One strategy of a scene.
 struct StrategyRuns {
   NamedStrategy named;
   RunStatus status = RunStatus::kOk;
-  std::string message;                // why not, or a note
-  std::vector<std::uint64_t> counts;  // samples per pixel, ascending
+  std::string message;                      // why not, or a note
+  std::vector<std::uint64_t> counts;        // samples per pixel, ascending
+  std::optional<std::size_t> same_as = {};  // of kSame: index of the one that is rendered
+  /// Of a count that a budget was turned into: standard error of its logarithm, by the
+  /// scatter of the pilots; 0 for counts that were given.
+  double count_spread = 0;
 
   std::string Text() const { return ToText(named.strategy); }
 };

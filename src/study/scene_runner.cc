@@ -51,6 +51,7 @@ void SceneRunner::Settle() {
   if (!claim) return;
   CheckState();
   FindCounts();
+  if (Stopped()) return;
   PlanWork();
   FindReference();
 }
@@ -76,23 +77,6 @@ void SceneRunner::Prepare() {
   }
   store_ = std::make_unique<CellStore>(scene_.folder + "/cells", job_.window.pixels());
   claims_ = std::make_unique<Claims>(scene_.folder + "/cells/claims", true);
-}
-
-void SceneRunner::CheckStrategies() {
-  for (NamedStrategy& named : StudyStrategies(options_, job_.description.strategy)) {
-    StrategyRuns runs;
-    runs.named = std::move(named);
-    try {
-      SetStrategy(job_, runs.named.strategy);
-      for (const std::string& note : job_.plan.notes) {
-        runs.message += (runs.message.empty() ? "" : "; ") + note;
-      }
-    } catch (const InputError& error) {
-      runs.status = RunStatus::kRefused;
-      runs.message = error.what();
-    }
-    scene_.strategies.push_back(std::move(runs));
-  }
 }
 
 std::uint64_t SceneRunner::Seed(int repetition) const {

@@ -50,11 +50,14 @@ class SceneRunner {
  private:
   void Prepare();
   void CheckStrategies();
+  void FindTwin(StrategyRuns& runs, const std::string& key);
   void Settle();
   void CheckState();
   void SaveState();
   void FindCounts();
   void FindReference();
+  void LoadReference();
+  std::string ReferencePath() const;
   std::uint64_t ReferenceSamples() const;
   void PlanWork();
   void RunCells();
@@ -79,7 +82,8 @@ class SceneRunner {
   SceneRuns& scene_;
   Job job_;
   std::unique_ptr<CellStore> store_;
-  std::unique_ptr<Claims> claims_;  // of its cells: a strategy at a sample count
+  std::unique_ptr<Claims> claims_;      // of its cells: a strategy at a sample count
+  std::vector<std::string> plan_keys_;  // of the strategies; empty: refused
   std::set<std::pair<StrategyRuns*, std::uint64_t>> elsewhere_;  // others had them
   nlohmann::json state_;                                         // scene.json
 };

@@ -66,6 +66,8 @@ void SceneRunner::SaveState() {
 // Counts that were measured once stay: they depend on the machine's speed then.
 void SceneRunner::FindCounts() {
   nlohmann::json& counts = state_["counts"];
+  nlohmann::json& spreads = state_["spreads"];
+  if (spreads.is_null()) spreads = nlohmann::json::object();
   const bool given = !options_.spp.empty();
   bool all_known = true;
   for (StrategyRuns& runs : scene_.strategies) {
@@ -74,14 +76,17 @@ void SceneRunner::FindCounts() {
   }
   if (given || !all_known) {
     Report("choosing sample counts");
-    ChooseCounts(options_, job_, scene_.strategies);
+    ChooseCounts(options_, job_, scene_.strategies, hooks_.stop);
   }
   for (StrategyRuns& runs : scene_.strategies) {
     if (runs.status != RunStatus::kOk) continue;
     if (!given && counts.contains(runs.Text())) {
       runs.counts = counts[runs.Text()].get<std::vector<std::uint64_t>>();
+      runs.count_spread = spreads.value(runs.Text(), 0.0);
     }
+    if (runs.counts.empty()) continue;  // stopped before it was known
     counts[runs.Text()] = runs.counts;
+    if (runs.count_spread > 0) spreads[runs.Text()] = runs.count_spread;
   }
   SaveState();
 }
@@ -105,43 +110,61 @@ void SceneRunner::PlanWork() {
     }
   }
   if (options_.references.empty() && !state_.contains("reference")) {
-    work += Work(ReferenceSamples());
+    work += Work(state_.value("reference_spp", ReferenceSamples()));
   }
   clock_.StartScene(work);
 }
 
+std::string SceneRunner::ReferencePath() const {
+  return scene_.folder + "/reference.exr";
+}
+
+void SceneRunner::LoadReference() {
+  const nlohmann::json& had = state_["reference"];
+  try {
+    scene_.reference = ReadReference({ReferencePath()}, job_.window, scene_.full_width,
+                                     scene_.full_height);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format(
+        "the reference of this study cannot be read: {}\nremove '{}', and --resume "
+        "renders the same one again ({} samples per pixel)",
+        error.what(), ReferencePath(), had.at("spp").get<std::uint64_t>()));
+  }
+  scene_.reference.files.clear();
+  scene_.reference.strategy = had.at("strategy");
+  scene_.reference.spp = had.at("spp");
+  scene_.reference.seconds = had.at("seconds");
+}
+
+// How long it is stays as it was when it was begun: errors were measured against it.
 void SceneRunner::FindReference() {
   if (!options_.references.empty()) return;  // read already
-  const std::string path = scene_.folder + "/reference.exr";
-  if (state_.contains("reference")) {
-    const nlohmann::json& had = state_["reference"];
-    scene_.reference =
-        ReadReference({path}, job_.window, scene_.full_width, scene_.full_height);
-    scene_.reference.files.clear();
-    scene_.reference.strategy = had.at("strategy");
-    scene_.reference.spp = had.at("spp");
-    scene_.reference.seconds = had.at("seconds");
-    return;
-  }
-  const std::uint64_t spp = ReferenceSamples();
-  const auto on_progress = [&](const Progress& p) {
+  if (state_.contains("reference") && fs::exists(ReferencePath())) return LoadReference();
+  ReferenceOptions options;
+  options.spp = state_.value("reference_spp", ReferenceSamples());
+  if (state_.contains("reference")) options.spp = state_["reference"].at("spp");
+  options.seed = job_.description.sampler.seed ^ kReferenceSeed;
+  options.state = scene_.folder + "/cells/reference.state";
+  options.on_problem = hooks_.on_problem;
+  options.stop = hooks_.stop;
+  options.on_progress = [&](const Progress& p) {
     if (!hooks_.on_progress) return;
-    const double own = Work(spp) * p.fraction;
     StudyClock ahead = clock_;
-    ahead.Worked(own);
-    hooks_.on_progress({scene_.name, fmt::format("reference, {} spp", spp),
+    ahead.Worked(Work(options.spp) * p.fraction);
+    hooks_.on_progress({scene_.name, fmt::format("reference, {} spp", options.spp),
                         ahead.Fraction(), ahead.Seconds(), ahead.SecondsLeft()});
   };
-  scene_.reference =
-      RenderReference(job_, spp, job_.description.sampler.seed ^ kReferenceSeed,
-                      on_progress, hooks_.stop);
-  clock_.Worked(Work(spp));
+  state_["reference_spp"] = options.spp;
+  SaveState();
+  scene_.reference = RenderReference(job_, options);
+  clock_.Worked(Work(options.spp));
   if (Stopped()) return;
-  WriteReference(path, scene_.reference);
+  WriteReference(ReferencePath(), scene_.reference);
   state_["reference"] = {{"strategy", scene_.reference.strategy},
-                         {"spp", spp},
+                         {"spp", options.spp},
                          {"seconds", scene_.reference.seconds}};
   SaveState();
+  fs::remove(options.state);
 }
 
 }  // namespace lanelight

@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "src/stat/interval.h"
+#include "src/sweep/cell_job.h"
 
 namespace lanelight {
 namespace {
 
 constexpr std::uint64_t kMostSpp = 1u << 20;
-
-double RenderSeconds(Job& job, const Strategy& strategy, std::uint64_t spp) {
-  job.spp = spp;
-  SetStrategy(job, strategy);
-  FilmAccumulator film = MakeFilm(job);
-  return RunJob(job, film).seconds;
-}
+constexpr double kLeastSeconds = 1e-9;  // what a coarse clock cannot show
 
 std::vector<std::uint64_t> Sorted(std::vector<std::uint64_t> counts) {
   std::sort(counts.begin(), counts.end());
@@ -21,18 +20,97 @@ std::vector<std::uint64_t> Sorted(std::vector<std::uint64_t> counts) {
   return counts;
 }
 
+double Median(const std::vector<double>& values) {
+  return stat::MedianInterval(values, 0.5).value;
+}
+
+double StandardDeviation(const std::vector<double>& values) {
+  double mean = 0, squares = 0;
+  for (double v : values) mean += v / double(values.size());
+  for (double v : values) squares += (v - mean) * (v - mean);
+  return std::sqrt(squares / double(values.size() - 1));
+}
+
+class Pilots {
+ public:
+  Pilots(Job& job, const std::vector<Strategy>& strategies, double seconds,
+         const std::atomic<bool>* stop)
+      : job_(job), strategies_(strategies), seconds_(seconds), stop_(stop) {}
+
+  std::vector<Calibration> Run() {
+    for (std::size_t i = 0; i < strategies_.size() && !Stopped(); ++i) {
+      pilots_.push_back({WarmUp(strategies_[i]), {}});
+    }
+    for (int round = 0; round < kPilotRounds; ++round) {
+      for (std::size_t i = 0; i < pilots_.size() && !Stopped(); ++i) Measure(i);
+    }
+    if (Stopped()) return {};
+    std::vector<Calibration> out;
+    for (const Pilot& pilot : pilots_) out.push_back(Evaluate(pilot));
+    return out;
+  }
+
+ private:
+  struct Pilot {
+    std::uint64_t spp = 1;
+    std::vector<double> seconds;  // of the processor
+  };
+  struct Seconds {
+    double wall = 0, cpu = 0;
+  };
+
+  bool Stopped() const { return stop_ != nullptr && *stop_; }
+
+  Seconds Render(const Strategy& strategy, std::uint64_t spp) {
+    SetCell(job_, {strategy, spp, 0, {}, job_.seed});
+    const CellRun run = RunCell(job_, {}, stop_);
+    return {std::max(run.result.seconds, kLeastSeconds),
+            std::max(run.cpu_seconds, kLeastSeconds)};
+  }
+
+  // Renders of doubling size until one is as long as a pilot: its samples. What they
+  // load, build and allocate for the first time does not count.
+  std::uint64_t WarmUp(const Strategy& strategy) {
+    const double wanted = std::clamp(seconds_ / 2, kShortestPilot, kLongestPilot);
+    std::uint64_t spp = 1;
+    Render(strategy, spp);
+    // A half, or the next would be too long.
+    while (Render(strategy, spp).wall < wanted / 2 && spp < kMostSpp && !Stopped()) {
+      spp *= 2;
+    }
+    return spp;
+  }
+
+  void Measure(std::size_t i) {
+    const Seconds taken = Render(strategies_[i], pilots_[i].spp);
+    pilots_[i].seconds.push_back(taken.cpu);
+    wall_per_cpu_.push_back(taken.wall / taken.cpu);
+  }
+
+  Calibration Evaluate(const Pilot& pilot) const {
+    const double of_sample =
+        Median(pilot.seconds) * Median(wall_per_cpu_) / double(pilot.spp);
+    std::vector<double> logarithms;
+    for (double s : pilot.seconds) logarithms.push_back(std::log(s));
+    // The standard error of a median of normal values.
+    const double spread = StandardDeviation(logarithms) *
+                          std::sqrt(std::numbers::pi / 2 / double(logarithms.size()));
+    return {std::clamp(seconds_ / of_sample, 1.0, double(kMostSpp)), spread};
+  }
+
+  Job& job_;
+  const std::vector<Strategy>& strategies_;
+  double seconds_;
+  const std::atomic<bool>* stop_;
+  std::vector<Pilot> pilots_;
+  std::vector<double> wall_per_cpu_;
+};
+
 }  // namespace
 
-std::uint64_t SamplesInSeconds(Job& job, const Strategy& strategy, double seconds) {
-  std::uint64_t spp = 1;
-  double taken = RenderSeconds(job, strategy, spp);
-  // An eighth of the time measures the speed well enough, costs of starting included.
-  while (taken < seconds / 8 && spp < kMostSpp) {
-    spp *= 2;
-    taken = RenderSeconds(job, strategy, spp);
-  }
-  const double samples = double(spp) * seconds / std::max(taken, 1e-9);
-  return static_cast<std::uint64_t>(std::clamp(samples, 1.0, double(kMostSpp)));
+std::vector<Calibration> Calibrate(Job& job, const std::vector<Strategy>& strategies,
+                                   double seconds, const std::atomic<bool>* stop) {
+  return Pilots(job, strategies, seconds, stop).Run();
 }
 
 std::vector<std::uint64_t> CountsUpTo(std::uint64_t largest) {
@@ -44,20 +122,24 @@ std::vector<std::uint64_t> CountsUpTo(std::uint64_t largest) {
 }
 
 void ChooseCounts(const StudyOptions& options, Job& job,
-                  std::vector<StrategyRuns>& strategies) {
-  std::vector<std::uint64_t> common = Sorted(options.spp);
-  for (StrategyRuns& runs : strategies) {
-    if (runs.status != RunStatus::kOk) continue;
-    if (options.spp.empty() && options.budget) {
-      runs.counts =
-          CountsUpTo(SamplesInSeconds(job, runs.named.strategy, *options.budget));
-      continue;
-    }
-    if (common.empty()) {
-      common = CountsUpTo(std::bit_floor(
-          SamplesInSeconds(job, runs.named.strategy, kDefaultStudySeconds)));
-    }
-    runs.counts = common;
+                  std::vector<StrategyRuns>& strategies, const std::atomic<bool>* stop) {
+  std::vector<StrategyRuns*> runs;
+  std::vector<Strategy> calibrated;
+  const bool each = options.spp.empty() && options.budget;
+  for (StrategyRuns& s : strategies) {
+    if (s.status != RunStatus::kOk) continue;
+    if (each || calibrated.empty()) calibrated.push_back(s.named.strategy);
+    runs.push_back(&s);
+    s.counts = Sorted(options.spp);
+  }
+  if (!options.spp.empty() || runs.empty()) return;
+  const std::vector<Calibration> found =
+      Calibrate(job, calibrated, options.budget.value_or(kDefaultStudySeconds), stop);
+  for (std::size_t i = 0; i < runs.size() && !found.empty(); ++i) {
+    const Calibration& c = found[each ? i : 0];
+    const auto most = static_cast<std::uint64_t>(c.samples);
+    runs[i]->counts = CountsUpTo(each ? most : std::bit_floor(most));
+    runs[i]->count_spread = each ? c.spread : 0;
   }
 }
 

@@ -30,8 +30,11 @@ Json Optional(const std::optional<T>& v) {
 }
 
 Json SelfJson(const SelfCheck& self) {
-  if (self.total == 0) return nullptr;
-  return {{"relmse", Range(self.relmse)}, {"inside", self.inside}, {"total", self.total}};
+  if (self.total + self.refused == 0) return nullptr;
+  return {{"relmse", Range(self.relmse)},
+          {"inside", self.inside},
+          {"total", self.total},
+          {"refused", self.refused}};
 }
 
 Json LevelJson(const LevelAnalysis& l) {
@@ -84,7 +87,8 @@ Json TilesJson(const std::optional<TileTest>& tiles) {
   }
   return {{"side", tiles->side},     {"columns", tiles->columns},
           {"rows", tiles->rows},     {"z", z},
-          {"failed", tiles->failed}, {"level", tiles->level}};
+          {"failed", tiles->failed}, {"shared", tiles->shared},
+          {"level", tiles->level}};
 }
 
 Json TargetJson(const std::optional<stat::TargetCost>& target) {
@@ -100,12 +104,15 @@ Json StrategyJson(const StrategyRuns& runs, const StrategyAnalysis& s) {
               {"text", runs.Text()},
               {"status", Name(runs.status)},
               {"message", Text(runs.message)},
+              {"same_as", Optional(runs.same_as)},
               {"figure", figure > 0 ? Json(figure) : Json()},
               {"levels", Json::array()},
               {"order", Range(s.order)},
+              {"order_relmse", Range(s.order_relmse)},
               {"to_target", TargetJson(s.to_target)},
               {"efficiency", Range(s.efficiency)},
               {"efficiency_trimmed", Range(s.efficiency_trimmed)},
+              {"budget_doubt", Number(s.budget_doubt)},
               {"at_spp", s.HasRuns() ? Json(s.AtLevel().spp) : Json()},
               {"rank", s.HasRuns() ? Json({s.rank.best, s.rank.worst}) : Json()},
               {"heavy_tailed", s.heavy_tailed},
@@ -138,9 +145,10 @@ Json ReferenceJson(const SceneRuns& runs, const SceneAnalysis& analysis) {
 }
 
 Json CalibrationJson(const SelfCheck& self, double confidence) {
-  if (self.total == 0) return nullptr;
+  if (self.total + self.refused == 0) return nullptr;
   return {{"inside", self.inside},
           {"total", self.total},
+          {"refused", self.refused},
           {"share", Range(stat::ProportionInterval(self.inside, self.total, confidence))},
           {"stated", 0.95}};
 }
@@ -185,6 +193,8 @@ Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
   out["bias"] = {{"tests", analysis.bias_tests},
                  {"failed", analysis.biased.size()},
                  {"strategies", analysis.biased},
+                 {"alike", analysis.biased_alike},
+                 {"suspect_tiles", analysis.suspect_tiles},
                  {"level", analysis.bias_level}};
   out["verdict"] = analysis.verdict;
   out["diffuse"] = DiffuseJson(runs, analysis);

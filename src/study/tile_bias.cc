@@ -26,15 +26,33 @@ struct TileMeans {
     image.push_back({moments.GreyMean(pixel), moments.GreyVariance(pixel) / n, n - 1});
     const Rgb m = r.mean[pixel], v = r.Variance(pixel);
     const double deviation = (std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z)) / 3;
-    reference.push_back({(m.x + m.y + m.z) / 3, deviation * deviation, 1e3});
+    // How many of its samples found what makes its variance is not known: a tile whose
+    // variance is that of a few pixels has few degrees of freedom.
+    reference.push_back({(m.x + m.y + m.z) / 3, deviation * deviation, 1});
   }
 };
+
+// Where the mean is made of rare bright samples, an image may have missed them all, and
+// its own scatter does not show it: at least so many of them must be expected.
+constexpr double kLeastObservations = 25;
+
+// Whether the mean of a tile rests on enough: (mean / standard error)^2 is how many
+// samples of equal value would scatter as much. Also of the image by the reference's own
+// variance, which has seen more samples, each one by itself.
+bool IsTestable(const stat::MeanEstimate& image, const stat::MeanEstimate& reference,
+                double reference_per_image) {
+  const double signal = std::max(std::abs(image.mean), std::abs(reference.mean));
+  const double variance =
+      std::max(image.variance, reference.variance * std::max(1.0, reference_per_image));
+  return signal * signal >= kLeastObservations * variance;
+}
 
 }  // namespace
 
 // Pixels are independent, so the mean of a tile varies by what its pixels do, with more
 // degrees of freedom than its own repetitions have (Welch and Satterthwaite).
-TileTest TestTiles(const Moments& moments, const Reference& reference, double level) {
+TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint64_t spp,
+                   double level) {
   TileTest test;
   test.level = level;
   test.side = TileSide(reference);
@@ -52,7 +70,14 @@ TileTest TestTiles(const Moments& moments, const Reference& reference, double le
   std::vector<double> p;
   for (const TileMeans& tile : tiles) {
     const stat::MeanEstimate a = stat::Average(tile.image);
+    test.means.push_back(a);
     const stat::MeanEstimate b = stat::Average(tile.reference);
+    const double samples = double(spp) * double(moments.count());
+    if (!IsTestable(a, b, double(reference.spp) / samples)) {
+      p.push_back(1);
+      test.z.push_back(std::nan(""));
+      continue;
+    }
     p.push_back(stat::WelchPValue(a, b, kFloatRounding * std::abs(b.mean)));
     // The z-score of the same p-value; 9 and beyond are all the same to a reader.
     const double tail = std::clamp(p.back() / 2, 1e-19, 0.5);

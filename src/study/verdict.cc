@@ -129,10 +129,13 @@ class Writer {
   void Warnings() {
     const auto share = analysis_.calibration;
     if (share.total > 0) {
-      Say(
-          fmt::format("The renders' own 95 % error intervals held in {:.1f} % of {} "
-                      "renders.",
-                      100 * double(share.inside) / double(share.total), share.total));
+      Say(fmt::format(
+          "The renders' own 95 % error intervals held in {:.1f} % of {} "
+          "renders{}.",
+          100 * double(share.inside) / double(share.total), share.total,
+          share.refused == 0 ? "" : fmt::format("; {} more stated none", share.refused)));
+    } else if (share.refused > 0) {
+      Say("No render stated an interval of its own error.");
     }
     std::vector<std::size_t> heavy, failed;
     for (std::size_t i = 0; i < analysis_.strategies.size(); ++i) {
@@ -143,22 +146,10 @@ class Writer {
       Say(fmt::format(
           "Rare bright samples carry much of the error of {}: intervals there "
           "may not hold, and bias cannot be tested.",
-          heavy.size() > kMostNames ? fmt::format("{} strategies", heavy.size())
-                                    : List(heavy)));
+          Named(heavy)));
       TrimmedWinner();
     }
-    if (!analysis_.biased.empty()) {
-      Say(fmt::format(
-          "The mean image of {} differs from the reference by more than noise "
-          "(level {:g} for all tests together).",
-          List(analysis_.biased), analysis_.bias_level));
-    } else if (analysis_.bias_tests > 0) {
-      Say(
-          fmt::format("No {}mean image differs from the reference by more than noise ({} "
-                      "test{}).",
-                      heavy.empty() ? "" : "other ", analysis_.bias_tests,
-                      analysis_.bias_tests == 1 ? "" : "s"));
-    }
+    Bias(!heavy.empty());
     if (!failed.empty()) Say("Failed: " + List(failed) + ".");
     if (Of(analysis_.ranking.front()).AtLevel().ReferenceLimited()) {
       Say("The reference is too noisy for the smallest errors: more than half of what "
@@ -166,6 +157,41 @@ class Writer {
           "measured there is its own.");
     }
     if (runs_.interrupted) Say("The study was interrupted; --resume continues it.");
+  }
+
+  std::string Named(const std::vector<std::size_t>& indices) const {
+    return indices.size() > kMostNames ? fmt::format("{} strategies", indices.size())
+                                       : List(indices);
+  }
+
+  void Bias(bool heavy) {
+    if (!analysis_.biased.empty()) {
+      Say(fmt::format(
+          "The mean image of {} differs from the reference by more than noise "
+          "(level {:g} for all tests together).",
+          Named(analysis_.biased), analysis_.bias_level));
+    } else if (analysis_.bias_tests > 0 && analysis_.biased_alike.empty()) {
+      Say(
+          fmt::format("No {}mean image differs from the reference by more than noise ({} "
+                      "test{}).",
+                      heavy ? "other " : "", analysis_.bias_tests,
+                      analysis_.bias_tests == 1 ? "" : "s"));
+    }
+    if (!analysis_.biased_alike.empty()) {
+      Say(
+          fmt::format("The mean image of {} differs from the reference by more than "
+                      "noise, but not from those of the others: that points at the "
+                      "reference.",
+                      Named(analysis_.biased_alike)));
+    }
+    const std::size_t tiles = analysis_.suspect_tiles.size();
+    if (tiles > 0) {
+      Say(
+          fmt::format("In {} tile{} of the image the strategies agree with each other "
+                      "and not with the reference, which is less sure there than it "
+                      "says.",
+                      tiles, tiles == 1 ? "" : "s"));
+    }
   }
 
   const SceneRuns& runs_;

@@ -115,7 +115,7 @@ TEST_CASE("degenerate renders have defined results", "[study]") {
     CHECK(level.bias.value == 0);
     CHECK(*level.bias_p == 1);
     CHECK(level.worst_share == 0);
-    CHECK(TestTiles(cells.moments, black, 0.01).failed.empty());
+    CHECK(TestTiles(cells.moments, black, 4, 0.01).failed.empty());
   }
   SECTION("no variance, equal to the reference") {
     Reference exact = noisy;
@@ -143,14 +143,14 @@ TEST_CASE("tiles that differ are found, others are not", "[study]") {
   int alarms = 0, found = 0, misplaced = 0;
   for (int run = 0; run < 60; ++run) {
     const Reference r = NoisyReference(32, 24, 0.01, random);
-    alarms += !TestTiles(Simulate(r, 6, 0.1, random).moments, r, 0.01).failed.empty();
+    alarms += !TestTiles(Simulate(r, 6, 0.1, random).moments, r, 16, 0.01).failed.empty();
     const auto brighten = [](std::vector<Rgb>& image) {
       for (int y = 8; y < 12; ++y) {
         for (int x = 4; x < 8; ++x) image[y * 32 + x] *= 1.15;
       }
     };
     const TileTest test =
-        TestTiles(Simulate(r, 6, 0.1, random, brighten).moments, r, 0.01);
+        TestTiles(Simulate(r, 6, 0.1, random, brighten).moments, r, 16, 0.01);
     REQUIRE(test.side == 4);
     REQUIRE(test.columns == 8);
     for (std::size_t tile : test.failed) {

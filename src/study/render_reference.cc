@@ -1,0 +1,79 @@
+// The reference that a study renders itself. It may be the longest of all its renders: it
+// keeps its state, and goes on from it.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "src/core/error.h"
+#include "src/image/colors.h"
+#include "src/render/checkpoint.h"
+#include "src/render/report.h"
+#include "src/study/reference.h"
+#include "src/sweep/cell_job.h"
+
+namespace lanelight {
+namespace {
+
+std::unique_ptr<Checkpoint> OpenCheckpoint(const Job& job,
+                                           const ReferenceOptions& options) {
+  CheckpointSettings settings;
+  settings.path = options.state;
+  settings.resume = Resume::kIfAny;
+  settings.finished = false;
+  const auto on_problem = [problem = options.on_problem](const std::string& text) {
+    if (problem) problem(text);
+  };
+  try {
+    return std::make_unique<Checkpoint>(job, settings, HeadJson(job, "", false),
+                                        on_problem);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}\nremove '{}', and the reference is rendered from its beginning",
+                    error.what(), options.state));
+  }
+}
+
+Reference FromFilm(const FilmAccumulator& film) {
+  Reference reference;
+  reference.width = film.width();
+  reference.height = film.height();
+  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
+    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
+      reference.mean.push_back(RoundToFloat(film.Mean(x, y)));
+      reference.variance.push_back(RoundToFloat(film.Variance(x, y)));
+    }
+  }
+  return reference;
+}
+
+void Finish(Checkpoint& checkpoint, const ReferenceOptions& options) {
+  for (const std::string& problem : checkpoint.Finish()) {
+    if (options.on_problem) options.on_problem(problem);
+  }
+}
+
+}  // namespace
+
+Reference RenderReference(Job& job, const ReferenceOptions& options) {
+  Strategy strategy;
+  strategy.points = Points::kIndependent;
+  SetCell(job, {strategy, options.spp, 0, {}, options.seed});
+  FilmAccumulator film = MakeFilm(job);
+  RunOptions run = RunOptionsOf(job, film);
+  run.on_progress = options.on_progress;
+  run.stop = options.stop;
+  std::unique_ptr<Checkpoint> checkpoint;
+  if (!options.state.empty()) {
+    checkpoint = OpenCheckpoint(job, options);
+    run.tiles = checkpoint->tiles();
+    run.keeper = checkpoint.get();
+  }
+  const RunResult result = Run(job.scene, job.plan, run, film);
+  if (checkpoint) Finish(*checkpoint, options);
+  Reference reference = FromFilm(film);
+  reference.strategy = ToText(strategy);
+  reference.spp = options.spp;
+  reference.seconds = result.seconds;
+  return reference;
+}
+
+}  // namespace lanelight

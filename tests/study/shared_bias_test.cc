@@ -1,0 +1,134 @@
+// What differs from the reference: a strategy, the reference itself, or too few samples
+// to say so; by simulation, with known answers.
+#include <catch2/catch.hpp>
+
+#include "src/study/analysis.h"
+#include "tests/study/simulated.h"
+
+namespace lanelight {
+namespace {
+
+using reference::Random;
+
+constexpr int kWidth = 32, kHeight = 24, kStrategies = 5, kRepetitions = 6;
+constexpr std::uint64_t kSpp = 16;
+constexpr std::size_t kTile = 2 * 8 + 1;  // of 8 x 6 tiles of 4 x 4 pixels
+
+void BrightenTile(std::vector<Rgb>& image) {
+  for (int y = 8; y < 12; ++y) {
+    for (int x = 4; x < 8; ++x) image[y * kWidth + x] *= 1.15;
+  }
+}
+
+using Change = std::function<void(std::vector<Rgb>&)>;
+
+// Analysis of five strategies, of which the last has its images changed.
+SceneAnalysis Analyse(const Reference& reference, Random& random,
+                      const Change& of_last = {}, const Change& of_all = {}) {
+  SceneAnalysis out;
+  for (int i = 0; i < kStrategies; ++i) {
+    const auto change = [&](std::vector<Rgb>& image) {
+      if (of_all) of_all(image);
+      if (i + 1 == kStrategies && of_last) of_last(image);
+    };
+    const Cells cells = Simulate(reference, kRepetitions, 0.1, random, change);
+    StrategyAnalysis s;
+    s.levels.push_back(AnalyseLevel(cells, reference, kSpp, 0.95));
+    s.image_mean = ImageMean(cells.moments);
+    s.tiles = TestTiles(cells.moments, reference, kSpp, kBiasLevel);
+    out.strategies.push_back(std::move(s));
+  }
+  TestBias(out);
+  return out;
+}
+
+Reference Usual(Random& random) { return NoisyReference(kWidth, kHeight, 0.01, random); }
+
+std::size_t FailedTiles(const SceneAnalysis& analysis) {
+  std::size_t failed = 0;
+  for (const StrategyAnalysis& s : analysis.strategies) failed += s.tiles->failed.size();
+  return failed;
+}
+
+}  // namespace
+
+TEST_CASE("an error of the reference is not held against the strategies", "[study]") {
+  Random random(21);
+  std::size_t suspected = 0, failed = 0, alike = 0, biased = 0;
+  for (int run = 0; run < 20; ++run) {
+    Reference r = Usual(random);
+    BrightenTile(r.mean);  // its variance does not know
+    const SceneAnalysis tile = Analyse(r, random);
+    failed += FailedTiles(tile);
+    suspected += tile.suspect_tiles == std::vector<std::size_t>{kTile};
+    Reference bright = Usual(random);
+    for (Rgb& c : bright.mean) c *= 1.03;
+    const SceneAnalysis whole = Analyse(bright, random);
+    alike += whole.biased_alike.size();
+    biased += whole.biased.size();
+  }
+  CHECK(suspected >= 18);
+  CHECK(alike >= 5 * 18);
+  // 100 strategies of 20 references at a level of 0.001: a false alarm of three or more
+  // has a probability of 2e-4.
+  CHECK(failed <= 2);
+  CHECK(biased <= 2);
+}
+
+TEST_CASE("the bias of one strategy is found among others", "[study]") {
+  Random random(22);
+  int tiles = 0, images = 0;
+  for (int run = 0; run < 20; ++run) {
+    const SceneAnalysis tile = Analyse(Usual(random), random, BrightenTile);
+    const TileTest& test = *tile.strategies.back().tiles;
+    tiles += test.failed == std::vector<std::size_t>{kTile} && FailedTiles(tile) == 1;
+    CHECK(test.z[kTile] > 0);
+    const SceneAnalysis whole =
+        Analyse(Usual(random), random, [](std::vector<Rgb>& image) {
+          for (Rgb& c : image) c *= 1.03;
+        });
+    images += whole.biased == std::vector<std::size_t>{kStrategies - 1} &&
+              whole.biased_alike.empty();
+  }
+  CHECK(tiles >= 18);
+  CHECK(images >= 18);
+}
+
+TEST_CASE("a tile of rare samples is not tested", "[study]") {
+  // In the tile all light comes in samples that one pixel in 20 of an image gets: 5 of
+  // them are expected in all repetitions of a strategy, and none come in one of 150.
+  Random random(23);
+  const auto rare = [&random](std::vector<Rgb>& image) {
+    for (int y = 8; y < 12; ++y) {
+      for (int x = 4; x < 8; ++x) {
+        const double hit = random.Uniform() < 0.05 ? 1 : 0;
+        image[y * kWidth + x] = Rgb{1e-4 + hit, 1e-4 + hit, 1e-4 + hit};
+      }
+    }
+  };
+  std::size_t failed = 0, untested = 0;
+  for (int run = 0; run < 60; ++run) {
+    Reference r = Usual(random);
+    r.spp = 12 * kSpp * kRepetitions;
+    for (int y = 8; y < 12; ++y) {
+      for (int x = 4; x < 8; ++x) {
+        double hits = 0;
+        for (int i = 0; i < 12 * kRepetitions; ++i) hits += random.Uniform() < 0.05;
+        const double n = 12.0 * kRepetitions;
+        const Rgb one{1, 1, 1};
+        r.mean[y * kWidth + x] = one * (1e-4 + hits / n);
+        r.variance[y * kWidth + x] = one * (hits / n * (1 - hits / n) / n);
+      }
+    }
+    const SceneAnalysis analysis = Analyse(r, random, {}, rare);
+    failed += FailedTiles(analysis);
+    for (const StrategyAnalysis& s : analysis.strategies) {
+      untested += std::isnan(s.tiles->z[kTile]);
+    }
+  }
+  // 300 strategies at a level of 0.001: four or more have a probability of 3e-4.
+  CHECK(failed <= 3);
+  CHECK(untested >= 290);
+}
+
+}  // namespace lanelight
