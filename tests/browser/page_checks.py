@@ -9,7 +9,7 @@ from checks import check, plot, require, theme
 @check
 def scenes_switch(page):
     names = [tab.text for tab in page.all("#scenes a")]
-    require(len(names) == 4, "tabs:", names)
+    require(len(names) == 5, "tabs:", names)
     for index, name in enumerate(names):
         page.js("document.querySelectorAll('#scenes a')[arguments[0]].click()", index)
         page.settle()
@@ -30,7 +30,7 @@ def hostile_names_are_text(page):
 
 @check
 def nothing_unknown_is_spelled_out(page):
-    for index in range(4):
+    for index in range(5):
         page.js("document.querySelectorAll('#scenes a')[arguments[0]].click()", index)
         page.settle()
         page.scroll_through()
@@ -70,7 +70,7 @@ def dark_changes_everything(page):
 @check
 def a_phone_scrolls_down_only(page):
     page.resize(360, 740, mobile=True)
-    for index in range(4):
+    for index in range(5):
         page.open()
         page.js("document.querySelectorAll('#scenes a')[arguments[0]].click()", index)
         page.settle()

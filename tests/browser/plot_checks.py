@@ -89,8 +89,11 @@ def dragging_zooms_a_plot(page):
 @check
 def table_sorts(page):
     def column():
-        return page.js("return [...document.querySelectorAll('#ranking tbody tr')]"
-                       ".map((row) => row.cells[4]).filter((c) => c && c.colSpan === 1)"
+        return page.js("const heads = [...document.querySelectorAll('#ranking thead th')];"
+                       "const at = heads.findIndex((h) =>"
+                       "h.querySelector('[data-key=\"relmse\"]'));"
+                       "return [...document.querySelectorAll('#ranking tbody tr')]"
+                       ".map((row) => row.cells[at]).filter((c) => c && c.colSpan === 1)"
                        ".map((c) => c.querySelector('.value').textContent)")
 
     def number(text):
@@ -106,6 +109,7 @@ def table_sorts(page):
         page.click('#ranking [data-key="relmse"]')
         values = [sign * number(text) for text in column()]
         require(len(values) == 6 and values == sorted(values), order, values)
+        require(len(set(values)) > 4, "a column of equal values:", values)
         require(page.find(f'#ranking th[aria-sort="{order}"]'), "no aria-sort", order)
     last = page.find("#ranking tbody tr:last-child").text
     require("Failed" in last, "failed strategies are not last:", last)

@@ -1,62 +1,15 @@
 #include "tests/report/synthetic_study.h"
 
-#include <algorithm>
 #include <string>
 
 #include "tests/report/synthetic_images.h"
+#include "tests/report/synthetic_scene.h"
 #include "tests/report/synthetic_strategy.h"
 
 namespace lanelight {
 namespace {
 
 using Json = nlohmann::json;
-
-// Efficiencies relative to the first, the order by them, and ranks from their intervals.
-void Rank(Json& scene) {
-  std::vector<int> order;
-  Json& strategies = scene["strategies"];
-  const int baseline = scene["baseline"];
-  const double unit = strategies[baseline]["efficiency"]["value"];
-  for (int i = 0; i < int(strategies.size()); ++i) {
-    Json& efficiency = strategies[i]["efficiency"];
-    if (efficiency.is_null()) continue;
-    for (Json& x : efficiency) {
-      if (x.is_number()) x = x.get<double>() / unit;
-    }
-    order.push_back(i);
-  }
-  const auto value = [&](int i, const char* member) {
-    return strategies[i]["efficiency"][member].template get<double>();
-  };
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return value(a, "value") > value(b, "value"); });
-  scene["ranking"] = order;
-  for (const int i : order) {
-    if (strategies[i]["efficiency"]["low"].is_null()) continue;
-    int best = 1, worst = int(order.size());
-    for (const int j : order) {
-      best += value(j, "low") > value(i, "high");
-      worst -= value(j, "high") < value(i, "low");
-    }
-    strategies[i]["rank"] = {best, worst};
-  }
-}
-
-Json BareScene(const std::string& name) {
-  return {{"name", name},
-          {"path", "scenes/" + name + ".pbrt"},
-          {"hash", "9e3779b97f4a7c15"},
-          {"error", nullptr},
-          {"resolution", {kSyntheticWidth, kSyntheticHeight}},
-          {"crop", {0, 0, kSyntheticWidth, kSyntheticHeight}},
-          {"seconds", {{"load", 0.012}, {"build", 0.034}, {"reference", 12.5}}},
-          {"notes", Json::array()},
-          {"baseline", 0},
-          {"target_relmse", nullptr},
-          {"calibration", nullptr},
-          {"bias", {{"tests", 0}, {"failed", 0}, {"level", 0.05}}},
-          {"diffuse", Json::array()}};
-}
 
 Json RenderedReference(const std::string& image) {
   return {{"source", "rendered"},
@@ -197,7 +150,7 @@ SyntheticStudy MakeSyntheticStudy() {
                        {"path", "scenes/broken.pbrt"},
                        {"error", "scenes/broken.pbrt:7:1: unknown directive \"Shap\""}};
   out.study["scenes"] = {CompleteScene(out.images), SparseScene(out.images), broken,
-                         EmptyScene()};
+                         EmptyScene(), CrowdedScene()};
   return out;
 }
 

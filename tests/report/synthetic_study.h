@@ -14,9 +14,9 @@ struct SyntheticStudy {
   std::vector<ReportImage> images;
 };
 
-/// Four scenes: one complete (eight strategies, one refused, one failed, hostile names),
+/// Five scenes: one complete (eight strategies, one refused, one failed, hostile names),
 /// one with a single repetition and every optional member null, one that could not be
-/// studied, one whose only strategy failed. Deterministic.
+/// studied, one whose only strategy failed, one of many strategies. Deterministic.
 SyntheticStudy MakeSyntheticStudy();
 
 /// The name that would end its script block if it could.

@@ -51,13 +51,24 @@ function describeCalibration(line, { level }) {
     el("div", {}, `true ${joined(intervalTexts(level.relmse))}`),
     el("div", {}, `estimated ${joined(intervalTexts(level.self.relmse))}`),
     el("div", {}, `interval held in ${level.self.inside} of ${level.self.total} renders`),
+    level.self.refused > 0 && el("div", {}, `${level.self.refused} renders stated none`),
   ];
 }
 
+// Their samples could not tell how large it is.
+function refusedText({ refused, total }) {
+  if (!(refused > 0)) return "No render stated an interval of its own error.";
+  return (
+    `${fmtCount(refused)} of ${fmtCount(refused + total)} renders stated no interval: ` +
+    "rare bright samples may be missing from them, and their own samples cannot tell."
+  );
+}
+
 function calibrationNumber(calibration) {
-  if (!calibration || !known(valueOf(calibration.share))) {
+  if (!calibration) {
     return el("p", {}, "No render had an estimate of its own error.");
   }
+  if (!known(valueOf(calibration.share))) return el("p", {}, refusedText(calibration));
   const stated = known(calibration.stated)
     ? fmtShortPercent(calibration.stated)
     : UNKNOWN;
@@ -70,10 +81,11 @@ function calibrationNumber(calibration) {
     el(
       "p",
       {},
-      `of ${fmtCount(calibration.total)} renders stated an interval that holds ` +
-        `their true relative MSE (${fmtCount(calibration.inside)} renders). ` +
+      `of the ${fmtCount(calibration.total)} renders that stated an interval have their ` +
+        `true relative MSE in it (${fmtCount(calibration.inside)} renders). ` +
         `Stated confidence: ${stated}.`,
     ),
+    calibration.refused > 0 && el("p", {}, refusedText(calibration)),
     whiskerRow(calibration),
   );
 }

@@ -49,6 +49,7 @@ function curvePlot(view, host, measure, xAxis, xOf) {
     label: `${label} against ${xAxis.label}, a line for each strategy`,
     xAxis,
     yAxis: { label, ticks: decadeTicks, format: errorTick },
+    ghosts: true,
     guides: (u) => {
       drawSlopes(u, power);
       if (measure === "relmse") drawTarget(u, view.scene.target_relmse);
@@ -58,7 +59,8 @@ function curvePlot(view, host, measure, xAxis, xOf) {
 }
 
 function strategyLegend(view, label = "Strategies shown") {
-  const buttons = view.ran.map((s) =>
+  const listed = view.ranked;
+  const buttons = listed.map((s) =>
     el(
       "button",
       {
@@ -79,15 +81,42 @@ function strategyLegend(view, label = "Strategies shown") {
   );
   const show = (shown) =>
     buttons.forEach((button, i) =>
-      button.setAttribute("aria-pressed", String(shown.has(view.ran[i].index))),
+      button.setAttribute("aria-pressed", String(shown.has(listed[i].index))),
     );
   view.shown.listen(show);
   show(view.shown.value);
-  return el(
+  const legend = el(
     "div",
     { class: "legend", role: "group", "aria-label": label },
     buttons,
   );
+  if (listed.length > MOST_CURVES) legend.prepend(filterBox(view, listed, buttons));
+  return legend;
+}
+
+// Shows the strategies whose name or text has what is typed.
+function filterBox(view, listed, buttons) {
+  const box = el("input", {
+    type: "search",
+    class: "filter",
+    "data-control": "filter",
+    placeholder: "Filter, e.g. points=",
+    "aria-label": "Show the strategies that contain",
+  });
+  box.addEventListener("input", () => {
+    const wanted = box.value.trim().toLowerCase();
+    const has = (s) => `${s.name} ${s.text || ""}`.toLowerCase().includes(wanted);
+    const found = listed.filter((s) => has(s));
+    buttons.forEach((button, i) => {
+      button.hidden = wanted !== "" && !has(listed[i]);
+    });
+    view.shown.set(
+      wanted === ""
+        ? leading(view.ranked, view.baseline)
+        : new Set(found.map((s) => s.index)),
+    );
+  });
+  return box;
 }
 
 function showAllButtons(view) {
@@ -98,15 +127,17 @@ function showAllButtons(view) {
         type: "button",
         class: "button",
         "data-show": name,
-        onclick: () => view.shown.set(new Set(shown.map((s) => s.index))),
+        onclick: () => view.shown.set(shown),
       },
       `Show ${name}`,
     );
   return el(
     "div",
     { class: "choices", role: "group", "aria-label": "Strategies" },
-    button("all", view.ran),
-    button("none", []),
+    view.ran.length > MOST_CURVES &&
+      button("leading", leading(view.ranked, view.baseline)),
+    button("all", new Set(view.ran.map((s) => s.index))),
+    button("none", new Set()),
   );
 }
 
@@ -158,7 +189,7 @@ function curvesSection(view) {
       "Lower and further left is better. Bands are confidence " +
         "intervals; hollow markers are limited by the reference's own error. Point at a marker " +
         "for its values, drag to zoom, double-click to see all again; double-click a strategy " +
-        "to see it alone.",
+        "to see it alone. Those that are not chosen stay as thin grey lines.",
     ),
   );
 }

@@ -191,7 +191,11 @@ function orderFigure(view) {
 function figuresSection(view, compare) {
   const inset = insetWindow(view);
   const numbers = Object.keys(FIGURE_TITLES).map(Number);
-  const ofFigure = (number) => view.strategies.find((s) => s.figure === number);
+  const ofFigure = (number) => {
+    const found = view.strategies.find((s) => s.figure === number);
+    const twin = found && found.status === "same" && view.strategies[found.same_as];
+    return twin ? { ...twin, name: found.name } : found;
+  };
   const figures = numbers
     .filter(ofFigure)
     .map((number) => strategyFigure(view, number, ofFigure(number), inset, compare));

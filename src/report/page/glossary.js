@@ -28,7 +28,8 @@ const TERMS = [
   [
     "Efficiency",
     "1 / (relative MSE × processor seconds), relative to the baseline. It does " +
-      "not depend on the sample count as long as the error falls like 1 / samples.",
+      "not depend on the sample count as long as the error falls like 1 / samples; where " +
+      "a budget sets the counts, how sure these are is in the interval.",
   ],
   [
     "Rank",

@@ -20,13 +20,20 @@ const LEVEL_COLUMNS = [
   [
     "Held",
     (l) =>
-      l.self && known(l.self.total) ? `${l.self.inside} of ${l.self.total}` : UNKNOWN,
+      l.self && known(l.self.total) ? joined(heldTexts(l.self)) : UNKNOWN,
   ],
   ["Rays / sample", (l) => fmt(l.rays_per_sample)],
   ["Path length", (l) => fmt(l.path_length)],
   ["Reference's share", (l) => fmtPercent(l.reference_share)],
   ["Invalid", (l) => fmtCount(l.invalid)],
 ];
+
+function heldTexts({ inside, total, refused }) {
+  return {
+    value: `${inside} of ${total}`,
+    bounds: refused > 0 ? `(${refused} stated none)` : "",
+  };
+}
 
 function levelsDetails(strategy) {
   const levels = strategy.levels || [];

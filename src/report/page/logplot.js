@@ -3,7 +3,8 @@
 // keeps axes, scales, lines, zoom and toggling; the rest is drawn in its hooks.
 //
 // options: {lines, xAxis, yAxis, label, guides(u), describe(line, point), square: one range
-// for both axes, include: values that the y axis must hold}
+// for both axes, include: values that the y axis must hold, ghosts: lines that are not
+// shown stay, thin and grey}
 // line: {index, name, style, points: [{x, y, low, high, hollow}]}, x ascending.
 
 function alignedData(lines) {
@@ -72,17 +73,24 @@ function plotOptions(view, options, size) {
       {},
       ...options.lines.map((line) => ({
         label: line.name,
-        width: 2,
         spanGaps: true,
         points: { show: false },
-        stroke: () => theme.color(line.style.variable),
-        dash: line.style.dash,
         alpha: 1,
-        show: view.shown.value.has(line.index),
+        stroke: () =>
+          theme.color(
+            view.shown.value.has(line.index) ? line.style.variable : "--ghost",
+          ),
+        show: options.ghosts || view.shown.value.has(line.index),
+        ...lineLook(view, line),
       })),
     ],
     hooks: plotHooks(view, options),
   };
+}
+
+function lineLook(view, line) {
+  const shown = view.shown.value.has(line.index);
+  return { width: shown ? 2 : 1, dash: shown ? line.style.dash : [] };
 }
 
 // The point nearest to the pointer, within 40 pixels.
@@ -129,11 +137,16 @@ function logPlot(view, host, options) {
   let alive = true;
   view.shown.listen((shown) => {
     if (!alive) return;
-    u.batch(() =>
-      options.lines.forEach((line, i) =>
-        u.setSeries(i + 1, { show: shown.has(line.index) }),
-      ),
+    options.lines.forEach((line, i) =>
+      Object.assign(u.series[i + 1], lineLook(view, line)),
     );
+    if (!options.ghosts) {
+      u.batch(() =>
+        options.lines.forEach((line, i) =>
+          u.setSeries(i + 1, { show: shown.has(line.index) }),
+        ),
+      );
+    }
     u.setData(u.data); // new ranges
   });
   view.focus.listen((index) => {

@@ -15,26 +15,72 @@ function rankingSection(view) {
         `${confidenceText() ? `${confidenceText()} ` : ""}confidence intervals. ` +
         "A rank range such as 2–4 says that the order within it could be chance.",
     ),
-    rankingTable(view),
+    rankingTables(view),
   );
 }
 
-function rankingTable(view) {
+// The columns that answer, or all of them across the whole window.
+function rankingTables(view) {
+  const host = el("div", { class: "ranking-host" });
+  const show = (which) => {
+    host.classList.toggle("wide", which === "all");
+    host.replaceChildren(rankingTable(view, which === "all"));
+  };
+  show("main");
+  const choices = [
+    ["main", "Main columns"],
+    ["all", "All columns"],
+  ];
+  return [
+    el("div", { class: "toolbar" }, choiceButtons("Columns", choices, "main", show)),
+    host,
+  ];
+}
+
+function rankingTable(view, all) {
   const scale = whiskerScale(
     view.ranked.map((s) => s.efficiency),
     true,
     [1],
   );
   const notRun = view.strategies.filter((s) => !view.ran.includes(s));
-  const columns = rankingColumns(view, scale);
+  const columns = rankingColumns(view, scale).filter(
+    (column) => all || MAIN_COLUMNS.has(column.key),
+  );
   return sortableTable({
     caption: "Ranking of the strategies by efficiency",
     columns,
     rows: view.ranked,
-    fixed: notRun.map((s) => notRunRow(s, columns.length)),
+    fixed: [
+      ...view.ran.map((s) => twinsRow(view, s, columns.length)).filter(Boolean),
+      ...notRun
+        .filter((s) => s.status !== "same")
+        .map((s) => notRunRow(s, columns.length)),
+    ],
     sortedBy: "rank",
     rowClass: (s) => (s.rank && s.rank[0] === 1 ? "best" : null),
   });
+}
+
+// Those that do exactly the same here were rendered once.
+function twinsRow(view, strategy, count) {
+  const twins = twinsOf(view, strategy);
+  if (twins.length === 0) return null;
+  return el(
+    "tr",
+    { class: "not-run" },
+    el("td", { class: "text" }, "="),
+    el("th", { scope: "row", class: "text" }, strategyLabel(strategy)),
+    el(
+      "td",
+      { class: "text", colspan: count - 2 },
+      el(
+        "span",
+        { class: "why" },
+        `The same on this scene, and rendered once: ${twins.map((s) => s.name).join(", ")}`,
+      ),
+    ),
+  );
 }
 
 function notRunRow(strategy, count) {
@@ -74,9 +120,6 @@ function rankCell(view, s) {
         ? `Not distinguishable from ${others.map((o) => o.name).join(", ")}`
         : null,
     },
-    twoLines(
-      { value: rankText(s.rank), bounds: "" },
-      others.length > 0 ? "not distinguishable" : null,
-    ),
+    rankText(s.rank),
   );
 }

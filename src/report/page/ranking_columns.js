@@ -41,38 +41,37 @@ function targetColumn(view, key, title, texts) {
     key: `target-${key}`,
     title,
     unit: known(target) ? `to ${fmtShort(target)}` : null,
-    hint: "To reach the target's relative MSE; extrapolated where no render got there",
-    cell: (s) =>
-      s.to_target
-        ? twoLines(
-            texts(s.to_target[key]),
-            s.to_target.extrapolated ? "extrapolated" : null,
-          )
-        : UNKNOWN,
+    hint: "To reach the target's relative MSE; * extrapolated: no render got there",
+    cell: (s) => {
+      if (!s.to_target) return UNKNOWN;
+      const { value, bounds } = texts(s.to_target[key]);
+      return twoLines({ value: s.to_target.extrapolated ? `${value} *` : value, bounds });
+    },
     sort: (s) => (s.to_target ? valueOf(s.to_target[key]) : null),
   };
 }
 
-function efficiencyColumns(scale) {
+function efficiencyColumns(view, scale) {
   return [
     {
       key: "efficiency",
       title: "Efficiency",
       unit: "relative",
       descendingFirst: true,
-      cell: (s) => twoLines(intervalTexts(s.efficiency)),
+      cell: (s) =>
+        twoLines(intervalTexts(s.efficiency), s === view.baseline ? "baseline" : null),
       sort: (s) => valueOf(s.efficiency),
     },
     {
       key: "whisker",
       title: "",
       text: true,
-      axis: scale && whiskerAxis(scale, { width: 190 }),
+      axis: scale && whiskerAxis(scale, { width: 160 }),
       cell: (s) =>
         whisker(s.efficiency, scale, {
           style: s.style,
           marks: [1],
-          width: 190,
+          width: 160,
           label: `Efficiency of ${s.name}`,
         }),
     },
@@ -89,11 +88,12 @@ function efficiencyColumns(scale) {
 }
 
 function coverageTexts(self) {
-  if (!self || !known(self.total) || self.total === 0)
-    return { value: UNKNOWN, bounds: "" };
+  if (!self || !known(self.total)) return { value: UNKNOWN, bounds: "" };
+  const refused = self.refused > 0 ? `${self.refused} without` : "";
+  if (self.total === 0) return { value: UNKNOWN, bounds: refused };
   return {
     value: fmtPercent(self.inside / self.total, 2),
-    bounds: `${self.inside} of ${self.total}`,
+    bounds: [`${self.inside} of ${self.total}`, refused].filter(Boolean).join(", "),
   };
 }
 
@@ -104,9 +104,33 @@ function breakable(text) {
     .flatMap((part, i, all) => [part + (i + 1 < all.length ? "," : ""), el("wbr")]);
 }
 
+// What answers the question; the rest is for those who doubt it.
+const MAIN_COLUMNS = new Set([
+  "rank",
+  "name",
+  "efficiency",
+  "whisker",
+  "efficiency-trimmed",
+  "relmse",
+  "cpu_seconds",
+  "order",
+  "target-seconds",
+]);
+
+// The full text on demand: it may be five lines long.
+function nameCell(s) {
+  if (!s.text || s.text === s.name) return strategyLabel(s);
+  return el(
+    "details",
+    { class: "name" },
+    el("summary", {}, strategyLabel(s)),
+    el("span", { class: "full-text" }, breakable(s.text)),
+  );
+}
+
 function rankingColumns(view, scale) {
   const spp = new Set(view.ran.map((s) => s.at_spp).filter(known));
-  const at = spp.size === 1 ? `at ${fmtCount([...spp][0])} spp` : "at the largest count";
+  const at = spp.size === 1 ? `at ${fmtCount([...spp][0])} spp` : "at the most spp";
   const wholeTexts = (interval) => {
     const x = valueOf(interval);
     return x !== null && x >= 100 && x < 1e9
@@ -131,13 +155,10 @@ function rankingColumns(view, scale) {
       title: "Strategy",
       text: true,
       rowHead: true,
-      cell: (s) => [
-        strategyLabel(s),
-        s.text && s.text !== s.name && el("span", { class: "full-text" }, breakable(s.text)),
-      ],
+      cell: nameCell,
       sort: (s) => s.name,
     },
-    ...efficiencyColumns(scale),
+    ...efficiencyColumns(view, scale),
     levelColumn(
       view,
       "relmse",

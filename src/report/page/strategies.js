@@ -58,13 +58,39 @@ function swatch(style) {
   );
 }
 
+const LONGEST_NAME = 38;
+
+// What tells a strategy from others in little room: of a long list of changes the values
+// only, "mis · pmj02 · antithetic", cut where even that is long.
+function shortName(name) {
+  if (name.length <= LONGEST_NAME) return name;
+  const values = name
+    .split(",")
+    .map((change) => change.slice(change.indexOf("=") + 1))
+    .join(" · ");
+  return values.length <= LONGEST_NAME ? values : `${values.slice(0, LONGEST_NAME - 1)}…`;
+}
+
+// The name in full, and what it stands for.
+function fullName(strategy) {
+  const { name, text } = strategy;
+  return text && text !== name ? `${name}: ${text}` : name;
+}
+
 function strategyLabel(strategy) {
   return el(
     "span",
-    { class: "strategy" },
+    { class: "strategy", title: fullName(strategy) },
     swatch(strategy.style),
-    el("span", { class: "strategy-name" }, strategy.name),
+    el("span", { class: "strategy-name" }, shortName(strategy.name)),
   );
+}
+
+// "A, B and 3 more".
+function someNames(strategies, most = 4) {
+  const names = strategies.map((s) => shortName(s.name));
+  if (names.length <= most + 1) return names.join(", ");
+  return `${names.slice(0, most).join(", ")} and ${names.length - most} more`;
 }
 
 const STATUS_WORDS = { refused: "refused", failed: "failed", skipped: "not finished" };

@@ -1,5 +1,5 @@
 "use strict";
-// The first screen: the verdict, what was measured and how, and what to beware of.
+// The first screen, and below it what to beware of, what was measured and how.
 
 function summarySection(view) {
   const { scene } = view;
@@ -7,11 +7,9 @@ function summarySection(view) {
     "section",
     { id: "summary", "aria-labelledby": "summary-title" },
     el("h1", { id: "summary-title" }, scene.name),
-    scene.verdict
-      ? el("p", { class: "verdict" }, scene.verdict)
-      : el("p", { class: "verdict" }, "There is no verdict for this scene."),
-    factsList(view),
+    hero(view),
     warningsList(view),
+    factsList(view),
     notesList(scene),
   );
 }
@@ -103,94 +101,6 @@ function referenceNote(reference) {
   );
   if (reference.strategy) parts.push(reference.strategy);
   return parts.join("; ");
-}
-
-function warningTexts(view) {
-  const { scene } = view;
-  const out = [];
-  for (const s of view.strategies) {
-    if (statusWord(s)) out.push([s.name, whyMissing(s)]);
-  }
-  for (const s of view.ran) {
-    if (s.heavy_tailed) {
-      out.push([
-        s.name,
-        "Heavy tails: rare bright samples carry most of the error. Its " +
-          "intervals may not hold; compare the trimmed error.",
-      ]);
-    }
-    if (s.level && s.level.reference_limited) {
-      out.push([
-        s.name,
-        "The reference's own error is more than half of the measured " +
-          "difference at the largest count: the error is not well known.",
-      ]);
-    }
-    if (s.tiles && s.tiles.failed && s.tiles.failed.length > 0) {
-      out.push([
-        s.name,
-        `${s.tiles.failed.length} of ${s.tiles.columns * s.tiles.rows} ` +
-          "tiles differ from the reference by more than noise explains.",
-      ]);
-    }
-    if (s.level && s.level.invalid > 0) {
-      out.push([
-        s.name,
-        `${fmtCount(s.level.invalid)} samples were not finite or negative.`,
-      ]);
-    }
-  }
-  if (scene.bias && scene.bias.failed > 0) {
-    out.push([
-      "Bias",
-      `${scene.bias.failed} of ${scene.bias.tests} strategies differ from ` +
-        `the reference in the mean (Holm, level ${fmtShort(scene.bias.level)}).`,
-    ]);
-  }
-  const calibration = scene.calibration;
-  if (calibration && known(calibration.share.high) &&
-      calibration.share.high < calibration.stated - 0.05) {
-    out.push([
-      "Self-estimates",
-      `held their true error in ${fmtPercent(calibration.share.value, 2)} of the renders ` +
-        `only, ${fmtPercent(calibration.stated, 2)} were stated.`,
-    ]);
-  }
-  if (scene.report_scale > 1) {
-    out.push([
-      "Images",
-      `are shown here at 1/${scene.report_scale} of their size; the EXR files are whole.`,
-    ]);
-  }
-  if (scene.reference && scene.reference.note)
-    out.push(["Reference", scene.reference.note]);
-  return out;
-}
-
-function warningsList(view) {
-  const texts = warningTexts(view);
-  if (texts.length === 0) {
-    return el(
-      "p",
-      { class: "all-well" },
-      "Nothing to beware of: every strategy ran, no test " +
-        "failed, and the reference is good enough.",
-    );
-  }
-  return el(
-    "div",
-    { class: "warnings", role: "note" },
-    el(
-      "h3",
-      {},
-      texts.length === 1 ? "One thing to know" : `${texts.length} things to know`,
-    ),
-    el(
-      "ul",
-      {},
-      texts.map(([who, what]) => el("li", {}, el("b", {}, who), ` ${what}`)),
-    ),
-  );
 }
 
 function notesList(scene) {

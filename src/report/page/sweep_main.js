@@ -8,7 +8,7 @@ function plotArea(choice, onChange) {
   const lines = cellLines(choice);
   const view = makeView({ strategies: lines });
   // The legend's names and styles are those of the lines.
-  view.ran = lines;
+  view.ran = view.ranked = lines;
   view.shown.set(new Set(lines.map((line) => line.index)));
   current = view;
   return [

@@ -33,19 +33,36 @@ function makeView(scene) {
     level: levelOf(strategy),
   }));
   const ran = strategies.filter((s) => s.status === "ok" || (s.levels || []).length > 0);
+  const ranked = rankOrder(scene, ran);
+  const baseline = strategies[scene.baseline] || null;
   return {
     scene,
     strategies,
     ran,
-    ranked: rankOrder(scene, ran),
-    baseline: strategies[scene.baseline] || null,
-    shown: makeSignal(new Set(ran.map((s) => s.index))), // in the plots
+    ranked,
+    baseline,
+    shown: makeSignal(leading(ranked, baseline)), // in colour in the plots
     focus: makeSignal(null), // index of a strategy, or null
     compare: makeSignal(null), // {a, b}: names that the comparator is asked to show
     tone: makeSignal({ curve: "srgb", exposure: 0 }),
     signal: abort.signal, // aborted when another scene is shown
     close: () => abort.abort(),
   };
+}
+
+const MOST_CURVES = 8; // that an eye can tell apart
+
+// Indices of all, or of the first and the baseline where all would be too many.
+function leading(ranked, baseline) {
+  const few = ranked.length <= MOST_CURVES ? ranked : ranked.slice(0, MOST_CURVES - 2);
+  const indices = new Set(few.map((s) => s.index));
+  if (baseline && ranked.includes(baseline)) indices.add(baseline.index);
+  return indices;
+}
+
+// The strategies that do on this scene exactly what `strategy` does.
+function twinsOf(view, strategy) {
+  return view.strategies.filter((s) => s.same_as === strategy.index);
 }
 
 function rankOrder(scene, ran) {

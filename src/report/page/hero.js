@@ -1,0 +1,127 @@
+"use strict";
+// The first thing to see: who wins, by how much, and the picture that shows it.
+
+// The winner, and what it is compared with: the baseline, or, where that wins, the next.
+function contest(view) {
+  const [winner, next] = view.ranked;
+  const { baseline } = view;
+  if (!winner || !winner.level || !(valueOf(winner.level.relmse) > 0)) return null;
+  if (valueOf(winner.efficiency) === null) return null;
+  return { winner, other: winner === baseline ? next || null : baseline };
+}
+
+function inverted({ value, low, high }) {
+  return {
+    value: 1 / value,
+    low: known(high) && high > 0 ? 1 / high : null,
+    high: known(low) && low > 0 ? 1 / low : null,
+  };
+}
+
+// Efficiencies are relative to the baseline.
+function gainOver(view, { winner, other }) {
+  if (!other || valueOf(other.efficiency) === null) return null;
+  if (other === view.baseline) return winner.efficiency;
+  return other.efficiency.value > 0 ? inverted(other.efficiency) : null;
+}
+
+function heroSentence(view, { winner }) {
+  const name = el("b", { title: fullName(winner) }, shortName(winner.name));
+  const level = winner.level.repetitions;
+  if (!winner.rank || level < 3) {
+    const times = level === 1 ? "One repetition" : `${level} repetitions`;
+    return [name, ` is ahead here. ${times} cannot say how sure that is.`];
+  }
+  const rivals = view.ranked.filter((s) => s !== winner && s.rank && s.rank[0] === 1);
+  if (rivals.length === 0) return [name, " gives the least error for the time."];
+  const who =
+    rivals.length > 3 ? `${rivals.length} others are` : `${someNames(rivals)} ${
+      rivals.length === 1 ? "is" : "are"
+    }`;
+  return [name, ` is ahead, but ${who} not certainly behind.`];
+}
+
+function heroNumber(value, bounds, caption) {
+  return el(
+    "div",
+    { class: "hero-number" },
+    el("div", { class: "number" }, value),
+    bounds && el("div", { class: "bounds" }, bounds),
+    el("div", { class: "hero-caption" }, caption),
+  );
+}
+
+function gainNumber(view, pair) {
+  const gain = gainOver(view, pair);
+  if (!gain) return null;
+  const { value, bounds } = intervalTexts(gain);
+  return heroNumber(`${value}×`, bounds, [
+    "as efficient as ",
+    el("b", {}, shortName(pair.other.name)),
+    pair.other === view.baseline ? ", the baseline" : ", the next",
+  ]);
+}
+
+function targetNumber(view, { winner, other }) {
+  const mine = winner.to_target,
+    theirs = other && other.to_target;
+  if (!mine || valueOf(mine.seconds) === null) return null;
+  const { value, bounds } = secondsTexts(mine.seconds);
+  const target = fmtShort(view.scene.target_relmse);
+  const guess = (t) => (t.extrapolated ? " (extrapolated)" : "");
+  return heroNumber(value, bounds, [
+    `of processor time to a relative MSE of ${target}${guess(mine)}`,
+    theirs && valueOf(theirs.seconds) !== null &&
+      `; ${shortName(other.name)} takes ${joined(secondsTexts(theirs.seconds))}` +
+        guess(theirs),
+  ]);
+}
+
+// A plot of its own: what is chosen further down does not change it.
+function heroPlot(view, { winner, other }) {
+  const strong = [winner, other].filter(Boolean);
+  const own = {
+    ...view,
+    shown: makeSignal(new Set(strong.map((s) => s.index))),
+    focus: makeSignal(null),
+  };
+  const { host, figure } = plotFigure("hero", "Relative MSE against processor time");
+  figure.firstChild.append(
+    el("span", { class: "hero-legend" }, strong.map((s) => strategyLabel(s)),
+      view.ran.length > strong.length && el("span", { class: "bounds" }, "grey: the others"),
+    ),
+  );
+  const axis = {
+    label: "processor time of one render",
+    ticks: decadeTicks,
+    format: secondsTick,
+  };
+  whenVisible(view, figure, () =>
+    curvePlot(own, host, "relmse", axis, (level) => valueOf(level.cpu_seconds)),
+  );
+  return figure;
+}
+
+function hero(view) {
+  const { scene } = view;
+  const pair = contest(view);
+  if (!pair) {
+    return el("p", { class: "verdict" }, scene.verdict || "No strategy has been measured.");
+  }
+  return [
+    el("p", { class: "verdict" }, heroSentence(view, pair)),
+    el(
+      "div",
+      { class: "hero" },
+      el("div", { class: "hero-numbers" }, gainNumber(view, pair), targetNumber(view, pair)),
+      heroPlot(view, pair),
+    ),
+    scene.verdict &&
+      el(
+        "details",
+        { class: "notes" },
+        el("summary", {}, "In words, with all intervals"),
+        el("p", { class: "lead" }, scene.verdict),
+      ),
+  ];
+}

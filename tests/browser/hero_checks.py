@@ -1,0 +1,137 @@
+"""Checks of the first screen, and of a study of many strategies."""
+
+import json
+
+from checks import check, plot, require
+
+CROWD = 4  # index of the scene of many strategies
+
+
+def scene(page, index):
+    study = json.loads(page.js("return document.getElementById('study').textContent"))
+    return study["scenes"][index]
+
+
+def open_crowd(page):
+    page.open()
+    page.js("document.querySelectorAll('#scenes a')[arguments[0]].click()", CROWD)
+    page.settle()
+
+
+def box(page, selector):
+    return page.js("const b = document.querySelector(arguments[0]).getBoundingClientRect();"
+                   "return [b.left, b.top, b.right, b.bottom]", selector)
+
+
+@check
+def the_first_screen_answers_with_a_picture(page):
+    for width, height in ((1920, 1080), (1280, 800)):
+        page.resize(width, height)
+        page.open()
+        page.settle(20)
+        data = scene(page, 0)
+        winner = data["strategies"][data["ranking"][0]]
+        sentence = page.find("#summary .verdict").text
+        require(winner["name"] in sentence, "the winner is not named:", sentence)
+        require(len(sentence) < 140, "too long:", sentence)
+        numbers = [n.text for n in page.all("#summary .hero-number .number")]
+        require(len(numbers) == 2, "numbers:", numbers)
+        value = winner["efficiency"]["value"]
+        require(abs(float(numbers[0].rstrip("×")) / value - 1) < 0.01, numbers, value)
+        ink = page.ink(plot(page, "hero"))
+        require(ink["coloured"] > 800, "no curves:", ink)
+        require(box(page, '[data-plot="hero"]')[3] < height, "below the first screen")
+    page.resize(1280, 900)
+    page.open()
+
+
+@check
+def warnings_are_said_once(page):
+    open_crowd(page)
+    items = [item.text for item in page.all("#summary .warnings li")]
+    require(0 < len(items) <= 8, len(items), "things to know:", items)
+    titles = [item.text for item in page.all("#summary .warnings li > b")]
+    require(len(set(titles)) == len(titles), "said twice:", titles)
+    text = " ".join(items)
+    require("points at" in text or "not from each other" in text, "no word of it:", text)
+    page.open()
+
+
+@check
+def the_ranking_fits(page):
+    for width in (1280, 1920):
+        page.resize(width, 1000)
+        open_crowd(page)
+        page.show("#ranking")
+        inner, outer = page.js("const b = document.querySelector('#ranking .scroll');"
+                               "return [b.scrollWidth, b.clientWidth]")
+        require(inner <= outer, "main columns clipped at", width, inner, outer)
+        tall = page.js("return Math.max(...[...document.querySelectorAll("
+                       "'#ranking tbody tr:not(.not-run)')].map((r) => r.offsetHeight))")
+        require(tall <= 60, "a row is", tall, "pixels high")
+        few = len(page.all("#ranking thead th"))
+        page.click('#ranking [data-value="all"]')
+        require(len(page.all("#ranking thead th")) > few + 5, "not all columns")
+        require(page.js("return document.documentElement.scrollWidth") <= width,
+                "the page scrolls sideways at", width)
+        if width < 1900:
+            continue
+        inner, outer = page.js("const b = document.querySelector('#ranking .scroll');"
+                               "return [b.scrollWidth, b.clientWidth]")
+        require(inner <= outer, "all columns clipped at", width, inner, outer)
+    page.resize(1280, 900)
+    page.open()
+
+
+@check
+def full_texts_are_there_on_demand(page):
+    open_crowd(page)
+    page.show("#ranking")
+    full = "#ranking details.name .full-text"
+    require(not page.find(full).is_displayed(), "the full text is there at once")
+    page.click("#ranking details.name summary")
+    require(page.find(full).is_displayed(), "the full text does not open")
+    require("light-selection=power" in page.find(full).text, "not the full text")
+    rows = [row.text for row in page.all("#ranking tr.not-run")]
+    require(any("points=sobol, scene" in row for row in rows), "no twins:", rows)
+    page.open()
+
+
+@check
+def many_curves_fade_and_filter(page):
+    open_crowd(page)
+    page.show("#curves")
+
+    def pressed():
+        return page.js("return [...document.querySelectorAll('#curves .legend-item')]"
+                       ".filter((b) => b.getAttribute('aria-pressed') === 'true')"
+                       ".map((b) => b.dataset.strategy)")
+
+    leading = pressed()
+    require(4 <= len(leading) <= 8, "curves in colour:", leading)
+    first = page.ink(plot(page, "spp"))
+    page.js("""const f = document.querySelector('[data-control="filter"]');
+      f.value = 'pmj02'; f.dispatchEvent(new Event('input'));""")
+    page.settle()
+    found = [scene(page, CROWD)["strategies"][int(i)]["name"] for i in pressed()]
+    require(len(found) == 4 and all("pmj02" in name for name in found), found)
+    require(page.ink(plot(page, "spp"))["hash"] != first["hash"], "the plot is as before")
+    page.js("""const f = document.querySelector('[data-control="filter"]');
+      f.value = ''; f.dispatchEvent(new Event('input'));""")
+    page.settle()
+    require(pressed() == leading, "not as before", pressed())
+    page.click('[data-show="all"]')
+    every = page.ink(plot(page, "spp"))
+    require(every["coloured"] > 1.5 * first["coloured"], "not all in colour", every)
+    page.click('[data-show="none"]')
+    none = page.ink(plot(page, "spp"))
+    require(none["ink"] > 0.3 * first["ink"], "the others are gone, not grey:", none)
+    page.open()
+
+
+@check
+def refused_intervals_are_told(page):
+    open_crowd(page)
+    text = page.find("#calibration").text
+    require("stated no interval" in text, "the text says:", text)
+    page.open()
