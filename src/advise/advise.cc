@@ -200,10 +200,11 @@ class Adviser {
     for (const AdvisedCandidate& c : advice_.candidates) {
       if (c.changes != best.changes) continue;
       const Interval& e = c.outcome.efficiency;
-      return fmt::format("{} is {:.3g} [{:.3g}, {:.3g}] times as efficient as {} ({})",
-                         best.changes, e.value, e.low, e.high,
-                         c.relative_to.empty() ? "the default strategy" : c.relative_to,
-                         best.meaning);
+      const std::string bounds =
+          e.HasBounds() ? fmt::format(" [{:.3g}, {:.3g}]", e.low, e.high) : "";
+      return fmt::format(
+          "{} is {:.3g}{} times as efficient as {} ({})", best.changes, e.value, bounds,
+          c.relative_to.empty() ? "the default strategy" : c.relative_to, best.meaning);
     }
     return "";
   }

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "src/prepare/use_strategy.h"
+#include "src/wavefront/plan_key.h"
 
 namespace lanelight {
 namespace {
@@ -37,13 +39,14 @@ constexpr CandidateInfo kCandidates[] = {
     {"control=analytic", "pays where little is shadowed", 0},
 };
 
-// Why the scene does not take the strategy; empty if it does.
+// Why the scene does not take the strategy; empty if it does. `key` is then its plan's.
 std::string Refusal(const Strategy& strategy, const PlanOptions& options,
-                    CompiledScene& scene) {
+                    CompiledScene& scene, std::string& key) {
   if (strategy.light_selection == LightSelection::kTree &&
       scene.lights.lights.size() < kFewLights) {
-    return fmt::format("with {} lights there is little to select",
-                       scene.lights.lights.size());
+    const std::size_t lights = scene.lights.lights.size();
+    return fmt::format("with {} light{} there is little to select", lights,
+                       lights == 1 ? "" : "s");
   }
   if (strategy.control == Control::kAnalytic &&
       scene.lights.lights.size() > kManyLights) {
@@ -52,7 +55,7 @@ std::string Refusal(const Strategy& strategy, const PlanOptions& options,
   }
   try {
     UseStrategy(strategy, scene);
-    MakePlan(scene, options);
+    key = PlanKey(scene, MakePlan(scene, options));
   } catch (const InputError& error) {
     const std::string text = error.what(), prefix = "strategy: ";
     const std::size_t at = text.find(prefix);
@@ -86,8 +89,18 @@ std::vector<Candidate> CandidatesFor(CompiledScene& scene, const PlanOptions& op
   if (own != usual) {
     out.insert(out.begin() + kPlaceOfOwn, {own, ToText(own), kOwnStrategy, 0, ""});
   }
+  std::vector<std::string> keys;
   for (Candidate& candidate : out) {
-    candidate.refused = Refusal(candidate.strategy, options, scene);
+    std::string key;
+    candidate.refused = Refusal(candidate.strategy, options, scene, key);
+    // Equal plans give equal bits: what would differ is their timing alone.
+    const auto twin = std::find(keys.begin(), keys.end(), key);
+    if (candidate.refused.empty() && twin != keys.end()) {
+      const std::string& changes = out[std::size_t(twin - keys.begin())].changes;
+      candidate.refused = "does on this scene exactly what " +
+                          (changes.empty() ? "the default" : changes) + " does";
+    }
+    keys.push_back(candidate.refused.empty() ? key : "-");
   }
   // A comparison needs its first.
   if (!out.front().refused.empty()) std::swap(out[0], out[kPlaceOfOwn]);

@@ -17,28 +17,51 @@ using stat::Cost;
 
 constexpr int kWarmUpWindows = 2;
 
-// Means of at most 16 blocks of consecutive windows. Consecutive windows cover the image,
-// so that what is shown in them scatters less from block to block; and means of many are
-// nearer to normal, and quicker to resample.
-std::vector<Cost> Blocks(std::span<const Cost> windows) {
-  const std::size_t n = windows.size(), count = std::min<std::size_t>(n, 16);
+constexpr std::size_t kMostBlocks = 16;
+
+// A window's error, and its share of the time of its batch (counted over all rounds).
+struct WindowCost {
+  Cost cost;
+  std::size_t batch = 0;
+};
+
+std::size_t Batches(std::span<const WindowCost> windows) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    count += i == 0 || windows[i].batch != windows[i - 1].batch;
+  }
+  return count;
+}
+
+// Means of at most 16 blocks of consecutive windows: whole batches, as the windows of one
+// have one time. Consecutive windows cover the image, so that what is shown in them
+// scatters less from block to block; and means of many are nearer to normal, and quicker
+// to resample.
+std::vector<Cost> Blocks(std::span<const WindowCost> windows) {
+  const std::size_t batches = Batches(windows), count = std::min(batches, kMostBlocks);
   std::vector<Cost> blocks(count);
   std::vector<double> sizes(count);
-  for (std::size_t i = 0; i < n; ++i) sizes[i * count / n] += 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t block = i * count / n;
-    blocks[block].error += windows[i].error / sizes[block];
-    blocks[block].seconds += windows[i].seconds / sizes[block];
+  std::size_t batch = 0;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    batch += i > 0 && windows[i].batch != windows[i - 1].batch;
+    const std::size_t block = batch * count / batches;
+    blocks[block].error += windows[i].cost.error;
+    blocks[block].seconds += windows[i].cost.seconds;
+    sizes[block] += 1;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    blocks[i].error /= sizes[i];
+    blocks[i].seconds /= sizes[i];
   }
   return blocks;
 }
 
 // Error times seconds.
-double Product(std::span<const Cost> windows) {
+double Product(std::span<const WindowCost> windows) {
   double error = 0, seconds = 0;
-  for (const Cost& c : windows) {
-    error += c.error;
-    seconds += c.seconds;
+  for (const WindowCost& w : windows) {
+    error += w.cost.error;
+    seconds += w.cost.seconds;
   }
   return error * seconds;
 }
@@ -72,7 +95,7 @@ class Halving {
  private:
   struct Record {
     std::size_t first = 0;  // candidate 0 had so many windows before
-    std::vector<Cost> all, robust;
+    std::vector<WindowCost> all, robust;
   };
 
   double Left() const { return options_.seconds - result_.seconds; }
@@ -142,29 +165,35 @@ class Halving {
     LL_CHECK_EQ(measured.size(), alive_.size());
     window_seconds_ = elapsed / static_cast<double>(windows * alive_.size());
     for (std::size_t i = 0; i < alive_.size(); ++i) Add(alive_[i], measured[i]);
+    batches_ += measured.front().batch.back() + 1;
     for (std::size_t i : alive_) Compare(i);
     return true;
   }
 
   void Add(std::size_t candidate, const WindowErrors& errors) {
     Record& record = records_[candidate];
-    const double seconds = errors.seconds / static_cast<double>(errors.all.size());
-    for (double e : errors.all) record.all.push_back({e, seconds});
-    for (double e : errors.robust) record.robust.push_back({e, seconds});
+    const std::size_t windows = errors.all.size();
+    LL_CHECK(errors.seconds.size() == windows && errors.batch.size() == windows);
+    for (std::size_t i = 0; i < windows; ++i) {
+      const std::size_t batch = batches_ + errors.batch[i];
+      record.all.push_back({{errors.all[i], errors.seconds[i]}, batch});
+      record.robust.push_back({{errors.robust[i], errors.seconds[i]}, batch});
+    }
   }
 
   void Compare(std::size_t candidate) {
     CandidateOutcome& out = result_.candidates[candidate];
     out.rounds += 1;
     out.windows = records_[candidate].all.size();
-    out.efficiency = Ratio(0, candidate, options_.choose_confidence);
+    if (candidate > 0) out.efficiency = Ratio(0, candidate, options_.choose_confidence);
     const Record& own = records_[candidate];
     out.with_all_pixels = Product(Since(records_[0].all, own.first)) / Product(own.all);
     if (std::isnan(out.with_all_pixels)) out.with_all_pixels = 1;  // no error in either
   }
 
-  static std::span<const Cost> Since(const std::vector<Cost>& costs, std::size_t first) {
-    return std::span(costs).subspan(first);
+  static std::span<const WindowCost> Since(const std::vector<WindowCost>& windows,
+                                           std::size_t first) {
+    return std::span(windows).subspan(first);
   }
 
   // On the windows that both had: candidate 0, or one that came at the same time.
@@ -252,8 +281,9 @@ class Halving {
     } else if (c.status == CandidateStatus::kKept && candidate == 0) {
       c.reason = "the default; another is certainly more efficient";
     } else if (c.status == CandidateStatus::kKept) {
-      c.reason = IsBetter(candidate) ? "better than the default, but not the best"
-                                     : "not certainly better than the default";
+      c.reason = IsBetter(candidate)    ? "better than the default, but not the best"
+                 : c.efficiency.low > 1 ? "better, but by less than it must gain"
+                                        : "not certainly better than the default";
     }
   }
 
@@ -263,6 +293,7 @@ class Halving {
   std::vector<Record> records_;
   std::vector<std::size_t> waiting_, alive_;
   double window_seconds_ = 0;
+  std::size_t batches_ = 0;  // of all rounds
   HalvingResult result_;
 };
 

@@ -12,11 +12,14 @@
 
 namespace lanelight {
 
-/// What one candidate did on the windows of a round.
+/// What one candidate did on the windows of a round. Windows are rendered in batches, the
+/// candidates taking turns, so that how far the speed of the machine scatters is measured
+/// as well.
 struct WindowErrors {
-  std::vector<double> all;     // mean squared relative error of each window
-  std::vector<double> robust;  // the same without the worst pixels of the round
-  double seconds = 0;          // of processor time, for all windows together
+  std::vector<double> all;         // mean squared relative error of each window
+  std::vector<double> robust;      // the same without the worst pixels of the round
+  std::vector<double> seconds;     // of processor time: each window's share of its batch
+  std::vector<std::size_t> batch;  // of each window, counted from 0, ascending
 };
 
 /// Measures these candidates (indices) on `windows` fresh windows, the same for all.
@@ -52,7 +55,8 @@ struct CandidateOutcome {
   std::string reason;
   int rounds = 0;
   std::size_t windows = 0;
-  /// Efficiency relative to candidate 0: robust (with interval), and with all pixels.
+  /// Efficiency relative to candidate 0: robust (with interval; that of candidate 0
+  /// itself is 1, without), and with all pixels.
   Interval efficiency = WithoutBounds(1);
   double with_all_pixels = 1;
   /// The smaller one: rare bright pixels may be missing from either's sample.

@@ -35,6 +35,15 @@ std::vector<double> WindowMeans(const std::vector<double>& values, std::size_t s
   return means;
 }
 
+// Enough for an interval, of two windows at least.
+std::size_t Batches(std::size_t windows) {
+  return std::max<std::size_t>(1, std::min<std::size_t>(windows / 2, 8));
+}
+
+void Append(const std::vector<double>& more, std::vector<double>& values) {
+  values.insert(values.end(), more.begin(), more.end());
+}
+
 double Limit(std::vector<double> values) {
   const auto at = values.begin() +
                   static_cast<std::ptrdiff_t>((1 - kTrimmed) * double(values.size() - 1));
@@ -73,7 +82,8 @@ WindowRenderer::WindowRenderer(Job& job, std::vector<Strategy> strategies,
       seed_(job.seed) {}
 
 WindowRenderer::Rendered WindowRenderer::Render(const Strategy& strategy,
-                                                const std::vector<PixelRect>& windows) {
+                                                const std::vector<PixelRect>& windows,
+                                                std::size_t planned) {
   UseStrategy(strategy, job_.scene);
   PlanOptions plan_options = job_.plan.options;
   plan_options.aov = false;
@@ -86,15 +96,16 @@ WindowRenderer::Rendered WindowRenderer::Render(const Strategy& strategy,
   options.stop = stop_;
   options.profile = false;
   options.windows = windows;
-  options.planned_samples = kPlannedRuns * kSpp * windows.size() *
+  options.planned_samples = kPlannedRuns * kSpp * planned *
                             static_cast<std::uint64_t>(side) *
                             static_cast<std::uint64_t>(side);
   const double start = CpuSeconds();
   const RunResult run = Run(job_.scene, plan, options, film);
   Rendered out;
-  out.seconds = CpuSeconds() - start;
+  double seconds = CpuSeconds() - start;
   // The share of pilot passes is not the strategy's cost in a long render.
-  if (run.seconds > 0) out.seconds *= 1 - run.pilot_seconds / run.seconds;
+  if (run.seconds > 0) seconds *= 1 - run.pilot_seconds / run.seconds;
+  out.seconds.assign(windows.size(), seconds / double(windows.size()));
   for (int x = 0; x < film.width(); ++x) {
     for (int y = 0; y < side; ++y) {
       for (int c = 0; c < 3; ++c) {
@@ -110,10 +121,19 @@ std::vector<WindowErrors> WindowRenderer::operator()(
     const std::vector<std::size_t>& candidates, std::size_t windows, double& elapsed) {
   const std::vector<PixelRect> rects = sequence_.Next(windows);
   ++seed_;
-  std::vector<Rendered> rendered;
-  for (std::size_t candidate : candidates) {
-    rendered.push_back(Render(strategies_[candidate], rects));
-    if (stop_ != nullptr && *stop_) return {};
+  std::vector<Rendered> rendered(candidates.size());
+  const std::size_t batches = Batches(windows);
+  for (std::size_t b = 0; b < batches; ++b) {
+    const std::vector<PixelRect> batch(rects.begin() + b * windows / batches,
+                                       rects.begin() + (b + 1) * windows / batches);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      Rendered part = Render(strategies_[candidates[i]], batch, windows);
+      if (stop_ != nullptr && *stop_) return {};
+      Append(part.mean, rendered[i].mean);
+      Append(part.variance, rendered[i].variance);
+      Append(part.seconds, rendered[i].seconds);
+      rendered[i].batch.resize(rendered[i].seconds.size(), b);
+    }
   }
   std::vector<double> scale(rendered.front().mean.size());
   for (const Rendered& r : rendered) {
@@ -128,7 +148,7 @@ std::vector<WindowErrors> WindowRenderer::operator()(
     }
     const std::size_t size = scale.size() / windows;
     out.push_back({WindowMeans(r.variance, size, INFINITY),
-                   WindowMeans(r.variance, size, Limit(r.variance)), r.seconds});
+                   WindowMeans(r.variance, size, Limit(r.variance)), r.seconds, r.batch});
   }
   const auto now = std::chrono::steady_clock::now();
   elapsed = std::chrono::duration<double>(now - std::exchange(last_, now)).count();

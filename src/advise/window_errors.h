@@ -38,18 +38,22 @@ class WindowRenderer {
   WindowRenderer(Job& job, std::vector<Strategy> strategies,
                  const std::atomic<bool>* stop);
 
-  /// As MeasureRound asks. Errors are estimated variances relative to the squared mean
-  /// of the pixel over all candidates of the round + kRelativeEpsilon. `elapsed`: wall
-  /// clock since the previous round, so that what is done with its results counts too.
+  /// As MeasureRound asks, in four to eight batches. Errors are estimated variances
+  /// relative to the squared mean of the pixel over all candidates of the round +
+  /// kRelativeEpsilon. `elapsed`: wall clock since the previous round, so that what is
+  /// done with its results counts too.
   std::vector<WindowErrors> operator()(const std::vector<std::size_t>& candidates,
                                        std::size_t windows, double& elapsed);
 
  private:
   struct Rendered {
     std::vector<double> mean, variance;  // by window, pixel and channel
-    double seconds = 0;
+    std::vector<double> seconds;         // by window
+    std::vector<std::size_t> batch;
   };
-  Rendered Render(const Strategy& strategy, const std::vector<PixelRect>& windows);
+  /// `planned`: windows of the round.
+  Rendered Render(const Strategy& strategy, const std::vector<PixelRect>& windows,
+                  std::size_t planned);
 
   Job& job_;
   std::vector<Strategy> strategies_;

@@ -27,6 +27,8 @@ class Simulation {
   std::size_t stop_after = 0;  // rounds, then interrupted; 0: never
   std::size_t outlier = 0;     // this candidate has rare bright pixels; 0: none
   double own_noise = 0.3;
+  double slow_noise = 0;  // of the speed of batches
+  std::size_t batch = 1;  // windows
 
  private:
   std::vector<WindowErrors> Round(const std::vector<std::size_t>& candidates,
@@ -44,7 +46,15 @@ class Simulation {
         errors.robust.push_back(robust);
         errors.all.push_back(outlier > 0 && bright ? 100 * robust : robust);
       }
-      errors.seconds = static_cast<double>(windows);
+      // Speed that scatters from batch to batch, for one candidate after the other.
+      double speed = 1;
+      for (std::size_t i = 0; i < windows; ++i) {
+        if (slow_noise > 0 && i % batch == 0) {
+          speed = stat::LogNormal(stat::Normal(random_), slow_noise);
+        }
+        errors.seconds.push_back(speed);
+        errors.batch.push_back(i / batch);
+      }
       out.push_back(errors);
     }
     measured += windows * candidates.size();
@@ -164,6 +174,30 @@ TEST_CASE("rare bright pixels keep a strategy from being chosen", "[study]") {
   }
 }
 
+TEST_CASE("the scatter of the machine's speed is in the intervals", "[study]") {
+  // Errors are as good as exact; what differs is the time of batches, by 20 %.
+  int held = 0, narrow = 0;
+  const int trials = 200;
+  Random random(12);
+  for (int t = 0; t < trials; ++t) {
+    Simulation simulation(random, {1, 1.5});
+    simulation.own_noise = 1e-6;
+    simulation.slow_noise = 0.2;
+    simulation.batch = 4;
+    const HalvingResult r = Halve({0, 0}, simulation.Measure(), Seconds(100));
+    const Interval& efficiency = r.candidates[1].efficiency;
+    REQUIRE(efficiency.HasBounds());
+    held += efficiency.Contains(1.5);
+    narrow += efficiency.high / efficiency.low < 1.02;
+    // The default is not measured against itself.
+    CHECK_FALSE(r.candidates[0].efficiency.HasBounds());
+    CHECK(r.candidates[0].efficiency.value == 1);
+  }
+  // Stated: 80 %; five standard deviations below.
+  CHECK(held > (0.8 - stat::FiveSigma(0.8, trials)) * trials);
+  CHECK(narrow == 0);
+}
+
 TEST_CASE("a margin asks for more than certainty", "[study]") {
   for (double margin : {0.0, 0.5}) {
     Random random(6);
@@ -189,8 +223,11 @@ TEST_CASE("a black scene keeps the default", "[study]") {
   const MeasureRound black = [](const std::vector<std::size_t>& candidates,
                                 std::size_t windows, double& elapsed) {
     elapsed = static_cast<double>(windows * candidates.size());
-    const WindowErrors none = {std::vector<double>(windows), std::vector<double>(windows),
-                               1};
+    WindowErrors none = {std::vector<double>(windows),
+                         std::vector<double>(windows),
+                         std::vector<double>(windows, 1.0),
+                         {}};
+    for (std::size_t i = 0; i < windows; ++i) none.batch.push_back(i);
     return std::vector<WindowErrors>(candidates.size(), none);
   };
   const HalvingResult r = Halve({0, 0, 0}, black, Seconds(100));

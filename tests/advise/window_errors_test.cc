@@ -79,7 +79,15 @@ TEST_CASE("errors of windows average to the error of the image", "[study]") {
   for (double e : measured[0].all) mean += e / 48;
   for (double e : measured[0].robust) robust += e / 48;
   CHECK(elapsed > 0);
-  CHECK(measured[0].seconds > 0);
+  REQUIRE(measured[0].seconds.size() == 48);
+  REQUIRE(measured[0].batch.size() == 48);
+  CHECK(measured[0].batch.back() == 7);
+  CHECK(std::is_sorted(measured[0].batch.begin(), measured[0].batch.end()));
+  for (std::size_t i = 1; i < 48; ++i) {
+    const auto& m = measured[0];
+    if (m.batch[i] == m.batch[i - 1]) CHECK(m.seconds[i] == m.seconds[i - 1]);
+  }
+  CHECK(measured[0].seconds.front() >= 0);
   CHECK(robust < mean);
   CHECK(robust > 0.3 * mean);
   // Some windows twice, some never: near the estimate of the whole, not on it.
@@ -104,6 +112,24 @@ TEST_CASE("candidates that a scene refuses say why", "[study]") {
     CHECK_FALSE(c.meaning.empty());
   }
   CHECK(refused == 2);  // and the tree: there is one light of two triangles
+}
+
+TEST_CASE("candidates that do the same on a scene are not compared", "[study]") {
+  RenderSettings settings;
+  settings.resolution = {16, 12};
+  settings.max_depth = 1;  // no roulette is played
+  settings.seconds = 1;
+  Job job =
+      PrepareJob(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/paper.pbrt", settings);
+  int same = 0;
+  for (const Candidate& c : CandidatesFor(job.scene, job.plan.options)) {
+    const bool roulette =
+        c.changes == "roulette=none" || c.changes == "roulette=luminance";
+    const bool refused = c.refused.find("exactly what the default") != std::string::npos;
+    if (roulette) CHECK(refused);
+    same += refused;
+  }
+  CHECK(same >= 2);
 }
 
 }  // namespace lanelight
