@@ -40,7 +40,7 @@ class SceneAnalyser {
     for (const StrategyRuns& runs : runs_.strategies) AddStrategy(runs);
     AddSceneImages(runs_, out_, images_);
     CompareStrategies(runs_, options_, out_);
-    TestBias(out_);
+    TestBias(runs_.reference, out_);
     Calibrate();
     FindTargets();
     out_.verdict = Verdict(runs_, out_);

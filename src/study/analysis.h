@@ -44,10 +44,11 @@ struct TileTest {
   std::vector<double> z;  // signed, normal if the means are equal; NaN: not testable
   /// By Holm's correction over the tiles; after TestBias without those that are `shared`.
   std::vector<std::size_t> failed;
-  /// Differ from the reference, but not from the other strategies.
+  /// Differ from the reference as the other strategies do.
   std::vector<std::size_t> shared;
-  std::vector<stat::MeanEstimate> means;  // of the tiles, all repetitions together
-  double level = 0;                       // of all tiles together
+  /// Of the tiles: all repetitions together, and the reference.
+  std::vector<stat::MeanEstimate> means, reference;
+  double level = 0;  // of all tiles together
 };
 
 struct StrategyAnalysis {
@@ -84,7 +85,7 @@ struct SceneAnalysis {
   SelfCheck calibration;
   std::size_t bias_tests = 0;
   /// Strategies whose whole image differs from the reference, by Holm: those that differ
-  /// from the other strategies too, and those that do not, which points at the reference.
+  /// from the other strategies too, and those that do as these, which points at it.
   std::vector<std::size_t> biased, biased_alike;
   std::vector<std::size_t> suspect_tiles;  // TileTest::shared of any strategy
   double bias_level = 0;
@@ -116,10 +117,12 @@ stat::MeanEstimate ImageMean(const Moments& moments);
 /// After the strategies have their levels: ranking, efficiencies, ranks.
 void CompareStrategies(const SceneRuns& runs, const StudyOptions& options,
                        SceneAnalysis& analysis);
-/// After the strategies have their tiles. What differs from the reference speaks against
-/// a strategy only if it differs from the other strategies as well: an error of the
-/// reference is in the comparison of every strategy with it.
-void TestBias(SceneAnalysis& analysis);
+stat::MeanEstimate ReferenceMean(const Reference& reference);
+/// After the strategies have their tiles. An error of the reference is in the comparison
+/// of every strategy with it: what differs from the reference, does not differ from the
+/// consensus of the other strategies, and is not in it alone, points at the reference.
+/// Heavy-tailed strategies are not tested.
+void TestBias(const Reference& reference, SceneAnalysis& analysis);
 /// `moments` of renders of `spp` samples per pixel.
 TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint64_t spp,
                    double level);

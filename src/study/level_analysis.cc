@@ -64,18 +64,13 @@ Interval SquaredBias(const Moments& moments, const Reference& reference,
   return {sum / n, sum / n - half, sum / n + half};
 }
 
-// Mean over pixels and channels of the reference, and the variance of that mean; the
-// channels of a pixel are taken as fully dependent. How many samples make a pixel's
-// variance is not known: one degree of freedom each.
-stat::MeanEstimate ReferenceMean(const Reference& reference) {
-  std::vector<stat::MeanEstimate> pixels;
-  for (std::size_t i = 0; i < reference.mean.size(); ++i) {
-    const Rgb& m = reference.mean[i];
-    const Rgb v = reference.Variance(i);
-    const double deviation = (std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z)) / 3;
-    pixels.push_back({(m.x + m.y + m.z) / 3, deviation * deviation, 1});
-  }
-  return stat::Average(pixels);
+// With the variance that independent samples would have by the reference, which has seen
+// more of the rare ones, if that is more: an image may have missed them all.
+stat::MeanEstimate Cautious(const stat::MeanEstimate& own,
+                            const stat::MeanEstimate& known, double reference_per_image) {
+  stat::MeanEstimate out = own;
+  out.variance = std::max(out.variance, known.variance * reference_per_image);
+  return out;
 }
 
 void TestMean(const Moments& moments, const Reference& reference, double confidence,
@@ -85,7 +80,9 @@ void TestMean(const Moments& moments, const Reference& reference, double confide
   const double bias = (own.mean - known.mean) / scale;
   level.bias = WithoutBounds(bias);
   if (moments.count() < 2) return;
-  level.bias_p = stat::WelchPValue(own, known, kFloatRounding * scale);
+  const double samples = double(level.spp) * double(moments.count());
+  level.bias_p = stat::WelchPValue(Cautious(own, known, double(reference.spp) / samples),
+                                   known, kFloatRounding * scale);
   const double variance = own.variance + known.variance;
   if (variance == 0) {
     level.bias = {bias, bias, bias};
@@ -129,6 +126,20 @@ void CountRays(const std::vector<Measurement>& all, LevelAnalysis& level) {
 }
 
 }  // namespace
+
+// Mean over pixels and channels of the reference, and the variance of that mean; the
+// channels of a pixel are taken as fully dependent. How many samples make a pixel's
+// variance is not known: one degree of freedom each.
+stat::MeanEstimate ReferenceMean(const Reference& reference) {
+  std::vector<stat::MeanEstimate> pixels;
+  for (std::size_t i = 0; i < reference.mean.size(); ++i) {
+    const Rgb& m = reference.mean[i];
+    const Rgb v = reference.Variance(i);
+    const double deviation = (std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z)) / 3;
+    pixels.push_back({(m.x + m.y + m.z) / 3, deviation * deviation, 1});
+  }
+  return stat::Average(pixels);
+}
 
 // Mean over the pixels of all repetitions. Pixels are independent, so the variance of the
 // mean is the sum of theirs, known with many more degrees of freedom than from the means

@@ -73,6 +73,22 @@ TEST_CASE("a bias of three percent is found and measured", "[study]") {
   CHECK(c.bias2 >= 85);
 }
 
+TEST_CASE("an image that missed the rarest samples is not called biased", "[study]") {
+  // 3 % too dark, and steady. By the reference's variance, independent samples scatter by
+  // 3 % of the mean: 0.02 x sqrt(192) of a pixel is what its 192 pixels' mean varies by.
+  Random random(6);
+  Reference r = NoisyReference(kWidth, kHeight, 0.02 * std::sqrt(192), random);
+  r.mean = Truth(r.mean.size());
+  const Cells cells = Simulate(r, 4, 0.001, random, [](std::vector<Rgb>& image) {
+    for (Rgb& c : image) c *= 0.97;
+  });
+  r.spp = 0;  // not known: its own scatter is believed
+  for (Rgb& v : r.variance) v *= 1e-6;
+  CHECK(*AnalyseLevel(cells, r, 16, 0.95).bias_p < 1e-9);
+  r.spp = 1000000 * 16 * 4;
+  CHECK(*AnalyseLevel(cells, r, 16, 0.95).bias_p > 0.01);
+}
+
 TEST_CASE("the mean error is variance plus squared bias", "[study]") {
   Random random(3);
   const Reference r = NoisyReference(kWidth, kHeight, 0.02, random);
