@@ -42,7 +42,7 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   parse.skip_unsupported = settings.skip_unsupported;
   SceneDescription description;
   std::uint64_t scene_hash = 0;
-  std::vector<std::string> files;
+  std::set<std::string> files;
   parse.files = &files;
   ParallelInvoke([&] { description = ParseScene(scene_path, parse); },
                  [&] { scene_hash = HashSceneFiles(scene_path); });

@@ -8,6 +8,7 @@
 #include "src/prepare/groups.h"
 #include "src/prepare/parameters.h"
 #include "src/wavefront/plan_features.h"
+#include "src/wavefront/seen_lights.h"
 
 namespace lanelight {
 namespace {
@@ -88,6 +89,7 @@ std::string PlanKey(const CompiledScene& scene, const Plan& plan) {
   }
   key += fmt::format(" depth {} ", plan.options.max_depth);
   key += ParametersText(PlannedStrategy(scene, plan.options), plan.features);
+  if (SeesLightsApart(scene)) key += " seen lights apart";
   return key + fmt::format(" lights {:016x}", HashLights(scene.lights));
 }
 

@@ -113,12 +113,15 @@ class SeenRanges {
 
 }  // namespace
 
+bool SeesLightsApart(const CompiledScene& scene) {
+  return scene.strategy.seen_lights == SeenLights::kApart &&
+         scene.features.HasAny({Feature::kAreaLights, Feature::kInfiniteLights});
+}
+
 std::unique_ptr<SeenLightEdges> SeenLightEdges::Make(const CompiledScene& scene,
                                                      const PlanOptions& options,
                                                      const RunParameters& run) {
-  const bool lights =
-      scene.features.HasAny({Feature::kAreaLights, Feature::kInfiniteLights});
-  if (!lights || scene.strategy.seen_lights != SeenLights::kApart) return nullptr;
+  if (!SeesLightsApart(scene)) return nullptr;
   return std::unique_ptr<SeenLightEdges>(new SeenLightEdges(scene, options, run));
 }
 

@@ -31,6 +31,9 @@ struct SeenLightTask {
   std::size_t stride = 0;
 };
 
+/// Whether the scene's strategy integrates lights apart, and it has any that can be seen.
+bool SeesLightsApart(const CompiledScene& scene);
+
 class SeenLightEdges {
  public:
   /// Null where no light can be seen, or the strategy does not ask for it. Refers to all
