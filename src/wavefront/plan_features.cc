@@ -11,8 +11,8 @@ namespace {
 // Rays can meet something. Without (no shape, or none that can be seen) there is nothing
 // but the environment.
 bool HasSurfaces(const FeatureSet& f) {
-  return f.HasAny(
-      {Feature::kTriangles, Feature::kSpheres, Feature::kDisks, Feature::kPlanes});
+  return f.HasAny({Feature::kTriangles, Feature::kSpheres, Feature::kLargeSpheres,
+                   Feature::kDisks, Feature::kPlanes});
 }
 
 // Only emission seen directly is left: nothing is shaded and no light is sampled.

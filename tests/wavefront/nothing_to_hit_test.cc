@@ -78,6 +78,22 @@ TEST_CASE("a scene without surfaces pays for none", "[plan]") {
   CHECK(r.result.rays_shadow == 0);
 }
 
+TEST_CASE("any kind of surface by itself scatters", "[plan]") {
+  for (const char* shape :
+       {"Shape \"sphere\"", "Shape \"disk\"", "Shape \"plane\"",
+        "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0 ]",
+        "ObjectBegin \"a\" Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0 ] "
+        "ObjectEnd ObjectInstance \"a\"",
+        // Much larger than its distance.
+        "Translate 0 -1e7 0 Shape \"sphere\" \"float radius\" 9999999"}) {
+    INFO(shape);
+    const CompiledScene scene = PrepareScene(
+        ParseSceneText(std::string(kHead) + kSky + shape, "one.pbrt", "."), {});
+    CHECK(MakePlan(scene, {}).features.Has(Feature::kScatters));
+    CHECK(scene.notes.empty());
+  }
+}
+
 TEST_CASE("a scene without surfaces gets a note", "[plan]") {
   const auto note = [](const std::string& text) {
     const CompiledScene scene = PrepareScene(ParseSceneText(text, "empty.pbrt", "."), {});
