@@ -163,7 +163,7 @@ void AddCameraCases(std::vector<Case>& cases) {
   cases.push_back({"crops", "geometry", "an image in four crops",
                    "they have the same mean, to the last bit of a double", "",
                    Truth::kInvariance, Single(), Crops});
-  cases.push_back({"lens-radius", "geometry",
+  cases.push_back({"lens-in-focus", "geometry",
                    "a lens of radius 1e-6 to 1e4 at a distance of 1 from what is sharp",
                    half, "", Truth::kClosedForm,
                    Decades("lens radius", "", -6, 4, 2, -6, 3), Lens});

@@ -22,6 +22,7 @@ std::vector<Point> PathSum(double missing, const Effort& effort) {
                        quality, effort);
   // Each of 1 / (1 - albedo) events rounds the sum once (README).
   point.tolerance += 0x1p-24 / missing * point.expected;
+  point.standard_error = 0;  // all paths are equal; one of each pixel shows no scatter
   return {point};
 }
 
