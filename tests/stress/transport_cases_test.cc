@@ -31,7 +31,7 @@ int CheckCase(const Case& c) {
   for (double value : Values(c)) {
     if (!c.axis.Promised(value)) continue;
     for (const Point& p : c.measure(value, {})) {
-      if (!p.refused.empty()) continue;
+      if (!p.not_measured.empty()) continue;
       ++measured;
       INFO(c.name << " at " << value << ", " << p.series << ": " << p.measured << " +- "
                   << p.standard_error << " for " << p.expected << ", " << p.failures

@@ -26,6 +26,7 @@ std::vector<Case> AllCases() {
   AddFilmCases(cases);
   AddSampleCases(cases);
   AddBsdfEndCases(cases);
+  AddVarianceCases(cases);
   AddStrategyCases(cases);
   return cases;
 }

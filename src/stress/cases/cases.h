@@ -36,6 +36,7 @@ void AddTransportCases(std::vector<Case>& cases);  // transport.cc: long paths
 void AddFilmCases(std::vector<Case>& cases);       // film.cc: sums, filters, lenses
 void AddSampleCases(std::vector<Case>& cases);     // samples.cc: sample points, warps
 void AddBsdfEndCases(std::vector<Case>& cases);    // bsdf_ends.cc: materials at the ends
+void AddVarianceCases(std::vector<Case>& cases);   // variance.cc: exact strategies
 void AddStrategyCases(
     std::vector<Case>& cases);  // strategies.cc: every choice of a strategy
 

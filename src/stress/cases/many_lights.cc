@@ -62,8 +62,8 @@ void AddManyLightCases(std::vector<Case>& cases) {
   cases.push_back({"many-lights", "lights",
                    "1 to 1e6 point lights, over six decades of intensity",
                    "the plane below shows their sum", "", Truth::kClosedForm,
-                   LogAxis("lights", "", 1, 1e6, {1, 100, 1e4, 65536},
-                           {1, 10, 100, 1e3, 1e4, 65536, 1e5, 1e6}),
+                   LogAxis("lights", "", 1, 1e6, {1, 100, 1e4, 262144},
+                           {1, 10, 100, 1e3, 1e4, 1e5, 262144, 1e6}),
                    Points});
   cases.push_back(
       {"emitting-triangles", "lights", "a lamp that is cut into 2 to 1e6 triangles",

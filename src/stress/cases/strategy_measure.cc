@@ -38,22 +38,22 @@ bool FoundNothing(const std::string& strategy, const RunResult& result) {
 Point Measure(const StrategyScene& scene, const std::string& strategy,
               const Effort& effort) {
   const std::string spared = scene.spared(strategy);
-  if (!spared.empty()) return Refused(strategy, spared);
+  if (!spared.empty()) return NotMeasured(strategy, spared);
   Quality quality = scene.quality;
   quality.strategy = strategy;
   SceneText setup = Setup(scene.text, quality, effort);
   const double samples = double(*setup.settings.spp) * quality.size * quality.size;
   const double chance = scene.chance(strategy), hits = samples * chance;
   if (hits < kLeastHits) {
-    return Refused(strategy,
-                   fmt::format("only {:.2g} of {} samples find the light: nothing "
-                               "can be said of their mean",
-                               hits, samples));
+    return NotMeasured(strategy,
+                       fmt::format("only {:.2g} of {} samples find the light: nothing "
+                                   "can be said of their mean",
+                                   hits, samples));
   }
   try {
     const Rendered rendered = RenderText(setup);
     if (FoundNothing(strategy, rendered.result)) {
-      return Refused(strategy, rendered.result.pilot_note);
+      return NotMeasured(strategy, rendered.result.pilot_note);
     }
     Point point = MeanOf(rendered);
     point.series = strategy;
@@ -67,7 +67,7 @@ Point Measure(const StrategyScene& scene, const std::string& strategy,
     }
     return point;
   } catch (const InputError& refusal) {
-    return Refused(strategy, refusal.what());
+    return NotMeasured(strategy, refusal.what());
   }
 }
 

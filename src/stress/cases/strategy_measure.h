@@ -31,7 +31,7 @@ bool HasPilot(const std::string& strategy);
 
 /// One point for each choice, all others as by default; series are called what
 /// --strategy takes. Seconds are without pilots, which are the same for any length.
-/// What a scene refuses, or what too few samples say nothing of, is a refused point.
+/// What a scene refuses, or what too few samples say nothing of, is not measured.
 std::vector<Point> MeasureAll(const StrategyScene& scene, const Effort& effort);
 
 }  // namespace lanelight::stress

@@ -89,10 +89,10 @@ Point Named(const std::string& series, Point point) {
   return point;
 }
 
-Point Refused(const std::string& series, const std::string& why) {
+Point NotMeasured(const std::string& series, const std::string& why) {
   Point point;
   point.series = series;
-  point.refused = why;
+  point.not_measured = why;
   return point;
 }
 

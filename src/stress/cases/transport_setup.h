@@ -49,8 +49,8 @@ Point Expect(double expected, const std::string& text, const Quality& quality,
              const Effort& effort);
 /// The same, as a point of a series.
 Point Named(const std::string& series, Point point);
-/// A point of a series that cannot be measured, and why.
-Point Refused(const std::string& series, const std::string& why);
+/// A point of a series that is not measured, and why.
+Point NotMeasured(const std::string& series, const std::string& why);
 /// The point of a mean of two outcomes `difference` apart, the rarer with probability
 /// `rare`: the scatter of the samples alone says nothing where the rare one did not come.
 /// A few of them by chance are tolerated.
