@@ -103,6 +103,9 @@ inline constexpr double kHeavyTail = 0.3;
 /// any false alarm.
 inline constexpr double kBiasLevel = 1e-3;
 
+/// Names that a reader takes in.
+inline constexpr std::size_t kMostNames = 4;
+
 /// Relative differences of means up to this are rounding of pixels to float.
 inline constexpr double kFloatRounding = 1e-6;
 
@@ -127,5 +130,10 @@ void TestBias(const Reference& reference, SceneAnalysis& analysis);
 TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint64_t spp,
                    double level);
 std::string Verdict(const SceneRuns& runs, const SceneAnalysis& analysis);
+/// The verdict's sentences about bias; may be empty.
+std::string BiasText(const SceneRuns& runs, const SceneAnalysis& analysis);
+/// "A, B and C"; "7 strategies" of more than `most`.
+std::string NamesText(const SceneRuns& runs, const std::vector<std::size_t>& strategies,
+                      std::size_t most = kMostNames);
 
 }  // namespace lanelight

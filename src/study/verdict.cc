@@ -12,8 +12,6 @@ std::string Numbers(const Interval& v) {
   return fmt::format("{:.3g} [{:.3g}, {:.3g}]", v.value, v.low, v.high);
 }
 
-constexpr std::size_t kMostNames = 4;  // that a reader takes in
-
 class Writer {
  public:
   Writer(const SceneRuns& runs, const SceneAnalysis& analysis)
@@ -38,12 +36,7 @@ class Writer {
   }
 
   std::string List(const std::vector<std::size_t>& indices) const {
-    std::string list;
-    for (std::size_t k = 0; k < indices.size(); ++k) {
-      list += k == 0 ? "" : k + 1 == indices.size() ? " and " : ", ";
-      list += NameOf(indices[k]);
-    }
-    return list;
+    return NamesText(runs_, indices, indices.size());
   }
 
   void Winner() {
@@ -149,7 +142,8 @@ class Writer {
           Named(heavy)));
       TrimmedWinner();
     }
-    Bias(!heavy.empty());
+    const std::string bias = BiasText(runs_, analysis_);
+    if (!bias.empty()) Say(bias);
     if (!failed.empty()) Say("Failed: " + List(failed) + ".");
     if (Of(analysis_.ranking.front()).AtLevel().ReferenceLimited()) {
       Say("The reference is too noisy for the smallest errors: more than half of what "
@@ -160,38 +154,7 @@ class Writer {
   }
 
   std::string Named(const std::vector<std::size_t>& indices) const {
-    return indices.size() > kMostNames ? fmt::format("{} strategies", indices.size())
-                                       : List(indices);
-  }
-
-  void Bias(bool heavy) {
-    if (!analysis_.biased.empty()) {
-      Say(fmt::format(
-          "The mean image of {} differs from the reference by more than noise "
-          "(level {:g} for all tests together).",
-          Named(analysis_.biased), analysis_.bias_level));
-    } else if (analysis_.bias_tests > 0 && analysis_.biased_alike.empty()) {
-      Say(
-          fmt::format("No {}mean image differs from the reference by more than noise ({} "
-                      "test{}).",
-                      heavy ? "other " : "", analysis_.bias_tests,
-                      analysis_.bias_tests == 1 ? "" : "s"));
-    }
-    if (!analysis_.biased_alike.empty()) {
-      Say(
-          fmt::format("The mean image of {} differs from the reference by more than "
-                      "noise, but not from those of the others: that points at the "
-                      "reference.",
-                      Named(analysis_.biased_alike)));
-    }
-    const std::size_t tiles = analysis_.suspect_tiles.size();
-    if (tiles > 0) {
-      Say(
-          fmt::format("In {} tile{} of the image the strategies agree with each other "
-                      "and not with the reference, which is less sure there than it "
-                      "says.",
-                      tiles, tiles == 1 ? "" : "s"));
-    }
+    return NamesText(runs_, indices);
   }
 
   const SceneRuns& runs_;

@@ -328,6 +328,11 @@ TEST_CASE("the verdict names what rare bright samples hide", "[study]") {
           Contains("much of the error of wild") &&
           Contains("Without the worst 1 % of the pixels wild is the most efficient") &&
           Contains("No other mean image differs"));
+  // What the page lists, the verdict says too.
+  analysis.strategies[0].tiles.emplace();
+  analysis.strategies[0].tiles->failed = {3};
+  CHECK_THAT(Verdict(runs, analysis), Contains("Parts of the image differ") &&
+                                          Contains("more than noise for base."));
   analysis.strategies[1].rank = {1, 1};
   analysis.strategies[0].rank = analysis.strategies[2].rank = {2, 3};
   CHECK_THAT(Verdict(runs, analysis),
