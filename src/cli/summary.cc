@@ -20,8 +20,9 @@ std::string Row(const std::string& label, const std::string& text) {
   return fmt::format("{:<10} {}\n", label, text);
 }
 
-std::string IntervalText(const Interval& v, bool has_interval) {
-  if (!has_interval) return fmt::format("{:.4g}", v.value);
+std::string IntervalText(const Interval& v) {
+  if (!v.HasBounds())
+    return fmt::format("at least {:.4g} (estimate {:.4g})", v.low, v.value);
   return fmt::format("{:.4g} [{:.4g}, {:.4g}]", v.value, v.low, v.high);
 }
 
@@ -65,9 +66,10 @@ std::string SpeedRows(const RunResult& r) {
 
 std::string ErrorText(const ErrorEstimate& e) {
   if (!e.available) return "unknown: needs two samples per pixel, or two pairs";
-  return fmt::format("RMSE {}, relative MSE {}{}", IntervalText(e.rmse, e.has_interval),
-                     IntervalText(e.relmse, e.has_interval),
-                     e.has_interval ? " (estimate, 95 % interval)" : " (estimate)");
+  std::string text = fmt::format("RMSE {}, relative MSE {} (95 % confidence)",
+                                 IntervalText(e.rmse), IntervalText(e.relmse));
+  if (!e.why.empty()) text += "; how large it may be cannot be told: " + e.why;
+  return text;
 }
 
 std::string StageTable(const RunResult& result) {

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
@@ -11,7 +14,8 @@
 namespace lanelight {
 namespace {
 
-constexpr int kReach = 1;  // neighbourhood: 3 x 3 pixels
+constexpr int kReach = 1;   // neighbours: 3 x 3 pixels
+constexpr int kSpread = 2;  // where their scatter is taken from: 5 x 5
 
 double Weight(double mean) { return 1 / (mean * mean + kRelativeEpsilon); }
 
@@ -41,7 +45,8 @@ struct Shares {
 
 struct Sums {
   Shares square, relative;
-  double plain = 0;  // relative error, divided by the means as they are
+  double plain = 0;      // relative error, divided by the means as they are
+  double unsettled = 0;  // relative error of pixels above kUnsettled
   std::uint64_t pixels = 0;
 
   void Add(const PixelEstimate& p, const Rgb& prior_mean) {
@@ -54,12 +59,14 @@ struct Sums {
     }
     square.Add(own_square, p.freedom);
     relative.Add(own_relative, p.freedom);
+    if (own_relative > kUnsettled) unsettled += own_relative;
     ++pixels;
   }
   void Add(const Sums& other) {
     square.Add(other.square);
     relative.Add(other.relative);
     plain += other.plain;
+    unsettled += other.unsettled;
     pixels += other.pixels;
   }
 };
@@ -106,11 +113,10 @@ class PixelGrid {
   }
   // Calls body(index) for the known pixels around (x, y), itself included.
   template <class Body>
-  void ForWindow(int x, int y, const Body& body) const {
-    const int x1 = std::min(width_ - 1, x + kReach),
-              y1 = std::min(height_ - 1, y + kReach);
-    for (int b = std::max(0, y - kReach); b <= y1; ++b) {
-      for (int a = std::max(0, x - kReach); a <= x1; ++a) {
+  void ForWindow(int x, int y, int reach, const Body& body) const {
+    const int x1 = std::min(width_ - 1, x + reach), y1 = std::min(height_ - 1, y + reach);
+    for (int b = std::max(0, y - reach); b <= y1; ++b) {
+      for (int a = std::max(0, x - reach); a <= x1; ++a) {
         if (pixels_[Index(a, b)].known) body(Index(a, b));
       }
     }
@@ -121,7 +127,7 @@ class PixelGrid {
     const std::size_t self = Index(x, y);
     Rgb sum;
     double count = 0;
-    ForWindow(x, y, [&](std::size_t i) {
+    ForWindow(x, y, kReach, [&](std::size_t i) {
       if (i == self) return;
       sum += pixels_[i].mean;
       ++count;
@@ -134,7 +140,7 @@ class PixelGrid {
     const Rgb& around = neighbours_[Index(x, y)];
     Rgb spread;
     double count = 0;
-    ForWindow(x, y, [&](std::size_t i) {
+    ForWindow(x, y, kSpread, [&](std::size_t i) {
       for (int c = 0; c < 3; ++c) {
         const double d = pixels_[i].mean[c] - neighbours_[i][c];
         spread[c] += d * d - pixels_[i].variance[c];
@@ -159,10 +165,31 @@ Interval SquareRoot(const Interval& v) {
 }
 
 // What the choice of the weights may be wrong by, as a half width in log(relmse).
-double WeightDoubt(const Sums& sums) {
+double WeightDoubt(const Sums& sums, double relmse) {
   const double shrunk = sums.relative.sum;
   if (!(shrunk > 0) || !(sums.plain > 0)) return 0;
-  return std::hypot(kWeightDoubt * std::log(shrunk / sums.plain), kLeastDoubt);
+  return std::hypot(kWeightDoubt * std::log(shrunk / sums.plain),
+                    kSkewDoubt * std::sqrt(relmse), kLeastDoubt);
+}
+
+// Why an error has no upper end; empty if it has one.
+std::string TooFew(const Shares& shares, double pixels) {
+  if (!(shares.sum > 0) || shares.K1() >= std::min(kLeastEffectivePixels, pixels / 2)) {
+    return "";
+  }
+  return fmt::format("few pixels carry it (as {:.2g} of {} alike would): rare samples",
+                     shares.K1(), pixels);
+}
+std::string Unsettled(const Sums& sums) {
+  const double share = sums.relative.sum > 0 ? sums.unsettled / sums.relative.sum : 0;
+  if (share <= kMostUnsettled) return "";
+  return fmt::format("{:.0f} % of it is in pixels whose noise is as large as their value",
+                     100 * share);
+}
+
+// Only the lower end of an interval is known.
+Interval AtLeast(const Interval& v) {
+  return {v.value, v.low, std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace
@@ -186,14 +213,24 @@ ErrorEstimate EstimateError(int width, int height,
   const Sums sums = PixelGrid(width, height, pixel).Total();
   ErrorEstimate out;
   out.pixels = sums.pixels;
-  out.available = out.has_interval = sums.pixels > 0;
+  out.available = sums.pixels > 0;
   if (!out.available) return out;
   const double n = static_cast<double>(sums.pixels);
   out.effective_pixels = sums.relative.sum > 0 ? sums.relative.K1() : n;
   out.rmse =
       SquareRoot(ErrorInterval(sums.square.sum / n, sums.square.K1(), sums.square.K2()));
-  out.relmse = ErrorInterval(sums.relative.sum / n, sums.relative.K1(),
-                             sums.relative.K2(), WeightDoubt(sums));
+  const double relmse = sums.relative.sum / n;
+  out.relmse =
+      ErrorInterval(relmse * std::exp(kSkew * std::sqrt(relmse)), sums.relative.K1(),
+                    sums.relative.K2(), WeightDoubt(sums, relmse));
+  std::string why = TooFew(sums.relative, n);
+  if (why.empty()) why = Unsettled(sums);
+  if (!why.empty()) out.relmse = AtLeast(out.relmse);
+  out.why = why;
+  why = TooFew(sums.square, n);
+  if (!why.empty()) out.rmse = AtLeast(out.rmse);
+  if (out.why.empty()) out.why = why;
+  out.has_interval = out.why.empty();
   return out;
 }
 

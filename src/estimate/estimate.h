@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "src/core/vec.h"
 #include "src/image/accumulator.h"
@@ -16,11 +17,15 @@ inline constexpr double kRelativeEpsilon = 0.01;
 /// Estimates of what `lanelight compare` would measure against the converged image, with
 /// intervals that contain it with probability kEstimateConfidence.
 inline constexpr double kEstimateConfidence = 0.95;
+
+/// Where the samples cannot tell an upper end, it is infinite, and `low` is what the error
+/// is at least, with probability kEstimateConfidence: see Doubts.
 struct ErrorEstimate {
   bool available = false;     // at least one pixel has two independent observations
-  bool has_interval = false;  // the same
+  bool has_interval = false;  // `rmse` and `relmse` both have an upper end
   Interval rmse;              // sqrt(mean of the variance of the pixel mean)
   Interval relmse;            // mean of variance / (mean^2 + kRelativeEpsilon)
+  std::string why;            // an upper end is missing; empty if none is
   std::uint64_t pixels = 0;   // that the estimate rests on
   /// Pixels of equal relative error that would scatter as much: few if few pixels carry
   /// most of the error.
@@ -54,20 +59,29 @@ struct PixelEstimate {
 /// by kWeightDoubt times the change in log(relmse) that this makes, as variances add:
 /// what remains of the bias was measured to be below that (bench/calibrate.cc).
 ///
-/// The relative error is underestimated, and its interval too low, where pixels half seen
-/// by a small bright light carry it: their neighbours are no guide, and their own mean is
-/// high when their variance is (scenes/cornell-box.pbrt, the edge of the lamp: true error
-/// 1.3 times the estimate at 32 samples per pixel of 64 x 48, 1.15 at 64). The RMSE,
-/// which has no weights, is right there.
+/// Variance and weight of a pixel are not independent: rare samples are bright ones, so
+/// that a pixel's mean is high when its variance is. To first order that takes
+/// 2 gamma sqrt(r) of a pixel's relative error r away, gamma being the skewness of its
+/// mean; over scenes the loss was found to be near kSkew sqrt(relmse), which is given
+/// back, and the interval is widened by kSkewDoubt of it.
+///
+/// Pixels half seen by a lamp, whose neighbours are no guide, are beyond this: they are
+/// not left to the samples (src/wavefront/seen_lights.h).
 ///
 /// Holds for two groups or more, best for four. What no group has sampled cannot be seen:
-/// as long as the brightest paths are so rare that most renders miss them, the true error
-/// is above the interval in those.
+/// where few pixels carry the error, or where most of it is in pixels whose noise is as
+/// large as their value, the brightest paths are likely to be still missing. Then there is
+/// no upper end (kLeastEffectivePixels, kMostUnsettled), only a lower one.
 ErrorEstimate EstimateError(const FilmAccumulator& film);
-inline constexpr double kWeightDoubt = 0.4;
-/// What the weights may be wrong by even where shrinking changes nothing: measured biases
-/// of 2 to 11 % on images of 30 000 pixels, whose F interval alone is +-2 %.
-inline constexpr double kLeastDoubt = 0.07;
+inline constexpr double kWeightDoubt = 0.3;
+inline constexpr double kSkew = 0.35, kSkewDoubt = 0.25;
+/// What the weights may be wrong by even where nothing else is in doubt.
+inline constexpr double kLeastDoubt = 0.02;
+/// Fewer, and there is no interval.
+inline constexpr double kLeastEffectivePixels = 40;
+/// Share of the relative error that pixels may have whose relative variance is above
+/// kUnsettled.
+inline constexpr double kMostUnsettled = 0.7, kUnsettled = 0.3;
 
 /// The same for any source of pixels, x in [0, width), y in [0, height), which may be
 /// asked from several threads at once.

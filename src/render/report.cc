@@ -1,6 +1,7 @@
 #include "src/prepare/groups.h"
 #include "src/render/report.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
@@ -11,15 +12,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json IntervalJson(const Interval& v, bool has_interval) {
-  Json out = {{"value", v.value}};
-  if (has_interval) {
-    out["low"] = v.low;
-    out["high"] = v.high;
-  } else {
-    out["low"] = out["high"] = nullptr;
-  }
-  return out;
+// An end that is not known is null.
+Json IntervalJson(const Interval& v) {
+  const auto end = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+  return {{"value", v.value}, {"low", end(v.low)}, {"high", end(v.high)}};
 }
 
 Json StageJson(const StageProfile& s, double total) {
@@ -111,9 +107,10 @@ Json ToJson(const Plan& plan) {
 
 Json ToJson(const ErrorEstimate& e) {
   if (!e.available) return nullptr;
-  return {{"rmse", IntervalJson(e.rmse, e.has_interval)},
-          {"relmse", IntervalJson(e.relmse, e.has_interval)},
+  return {{"rmse", IntervalJson(e.rmse)},
+          {"relmse", IntervalJson(e.relmse)},
           {"confidence", kEstimateConfidence},
+          {"why", e.why.empty() ? Json(nullptr) : Json(e.why)},
           {"pixels", e.pixels},
           {"effective_pixels", e.effective_pixels}};
 }

@@ -25,7 +25,7 @@ void Describe(const RunResult& result, const ErrorEstimate& self, Measurement& m
   m.invalid = result.health.Total();
   if (!self.available) return;
   m.self_relmse = self.relmse.value;
-  if (!self.has_interval) return;
+  if (!self.relmse.HasBounds()) return;
   m.self_low = self.relmse.low;
   m.self_high = self.relmse.high;
 }

@@ -122,6 +122,39 @@ TEST_CASE("intervals contain the true error for any distribution", "[study]") {
   }
 }
 
+TEST_CASE("what samples cannot tell is not told", "[study]") {
+  SimulatedImage image;
+  image.equal = true;
+  std::mt19937_64 random(5);
+  auto drawn = image.DrawAll(random);
+  CHECK(image.Estimate(drawn).why.empty());
+  CHECK(image.Estimate(drawn).has_interval);
+
+  // One bright sample in one pixel carries the error.
+  auto rare = drawn;
+  for (int c = 0; c < 3; ++c)
+    rare.pixels[40].mean[c] = 50, rare.pixels[40].variance[c] = 2500;
+  const ErrorEstimate few = image.Estimate(rare);
+  CHECK_FALSE(few.has_interval);
+  CHECK(few.why.find("few pixels") != std::string::npos);
+  for (const Interval& v : {few.rmse, few.relmse}) {
+    CHECK_FALSE(v.HasBounds());
+    CHECK(std::isinf(v.high));
+    CHECK(v.low > 0);
+    CHECK(v.low < v.value);
+  }
+
+  // Noise as large as the picture, everywhere.
+  auto noisy = drawn;
+  for (PixelEstimate& p : noisy.pixels) {
+    for (int c = 0; c < 3; ++c) p.variance[c] = p.mean[c] * p.mean[c] + 0.01;
+  }
+  const ErrorEstimate all = image.Estimate(noisy);
+  CHECK(all.why.find("noise as large") != std::string::npos);
+  CHECK_FALSE(all.relmse.HasBounds());
+  CHECK(all.rmse.HasBounds());  // has no weights to be wrong about
+}
+
 TEST_CASE("intervals are as narrow as the data allow", "[study]") {
   // 384 equal pixels of 16 groups, channels alike: the logarithm of the ratio deviates
   // by sqrt(2/384 + 2/(384 * 15)) = 0.0745.
