@@ -18,7 +18,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cfloat>
 #include <cmath>
+#include <limits>
 
 #include "hwy/highway.h"
 #include "kernels/intersect/triangle-inl.h"
@@ -50,6 +52,7 @@ LANELIGHT_INLINE SlabRay MakeSlabRay(const float o[3], const float d[3], const B
   const D8 d8;
   const float delta = bvh.margin + bvh.slack * LargestCoordinate(o);
   SlabRay ray;
+  bool no_number = false;
   for (int a = 0; a < 3; ++a) {
     // A direction this small moves less than delta across the scene; zero would give
     // 0 * inf.
@@ -59,6 +62,14 @@ LANELIGHT_INLINE SlabRay MakeSlabRay(const float o[3], const float d[3], const B
     ray.near[a] = hn::Set(d8, -(o[a] * rcp) - delta * std::abs(rcp));
     ray.far[a] = hn::Set(d8, -(o[a] * rcp) + delta * std::abs(rcp));
     ray.lower[a] = std::signbit(da) ? kBvhWidth : 0;
+    no_number |= !(std::abs(o[a] * rcp) <= FLT_MAX);
+  }
+  // What Min and Max make of NaN differs between targets: such a ray enters nothing.
+  if (HWY_UNLIKELY(no_number)) {
+    ray.rcp[0] = hn::Set(d8, 1.0f);
+    ray.near[0] = hn::Set(d8, std::numeric_limits<float>::infinity());
+    ray.far[0] = hn::Neg(ray.near[0]);
+    ray.lower[0] = 0;
   }
   return ray;
 }

@@ -86,7 +86,10 @@ class PacketPhase {
     Frame* frame = frames;
     hn::Store(hn::Zero(df), df, frame->entry[0]);
     frame->ref[0] = bvh_.root;
-    frame->lanes[0] = (1u << count_) - 1;
+    // A ray that is no ray (NaN, infinite) enters nothing: what Min and Max make of NaN
+    // differs between targets, and unused children must not be entered.
+    const VF sum = hn::Add(slabs.near[0], hn::Add(slabs.near[1], slabs.near[2]));
+    frame->lanes[0] = ((1u << count_) - 1) & MaskBits(df, hn::IsFinite(sum));
     frame->open = bvh_.root != kEmptyRef;
     while (Next(frames, frame)) {
       const int child = std::countr_zero(frame->open);
