@@ -84,8 +84,10 @@ Point Stack(const std::string& series, std::span<const double> index, double gap
   Quality quality;
   quality.quick = 256;
   quality.depth = depth;
-  return Named(series,
-               Expect(LayersAtNormal(index, depth), Layers(index, gap), quality, effort));
+  const double expected = LayersAtNormal(index, depth);
+  const Point point = Expect(expected, Layers(index, gap), quality, effort);
+  // What the depth cuts off may be in a few paths only.
+  return Named(series, WithRare(point, 1 - expected, 1));
 }
 
 constexpr double kGlassOfWater[] = {1, 1.5, 1.33, 1.5, 1};

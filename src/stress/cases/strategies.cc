@@ -71,7 +71,12 @@ std::vector<Point> ByRoughness(double alpha, const Effort& effort) {
     return blind && !smooth ? std::min(1.0, alpha * alpha) : 1.0;
   };
   auto points = MeasureAll(scene, effort);
-  for (Point& point : points) point.tolerance = 1e-4 * point.expected;  // of the integral
+  for (Point& point : points) {
+    if (!point.not_measured.empty()) continue;
+    // Facets that send light below the surface: about alpha^2 of them.
+    if (!smooth && alpha < 0.5) point = WithRare(point, alpha * alpha, point.expected);
+    point.tolerance += 1e-4 * point.expected;  // of the integral
+  }
   return points;
 }
 
@@ -105,7 +110,10 @@ std::vector<Point> ByTransmittance(double transmitted, const Effort& effort) {
     // Roulette by the path's own throughput keeps what is left of it.
     const bool none = Is(strategy, "roulette=none") || HasPilot(strategy);
     if (none) return 1.0;
-    if (Is(strategy, "roulette=luminance")) return std::max(0.05, transmitted);
+    if (Is(strategy, "roulette=luminance")) {
+      // 0.05 at each of the sheets of 1e-3 but the first.
+      return std::pow(0.05, std::max(0.0, -std::log10(transmitted) / 3 - 1));
+    }
     return std::min(1.0, transmitted * 1e3);  // from the second sheet on
   };
   return MeasureAll(scene, effort);
