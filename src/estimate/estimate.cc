@@ -43,30 +43,38 @@ struct Shares {
   double SquaredSum() const { return std::max(squares, sum * sum - 2 * by_freedom); }
 };
 
+// What is known of a pixel's true value.
+struct Posterior {
+  Rgb mean, variance;
+};
+
 struct Sums {
   Shares square, relative;
-  double plain = 0;      // relative error, divided by the means as they are
-  double unsettled = 0;  // relative error of pixels above kUnsettled
+  double plain = 0;   // relative error, divided by the means as they are
+  double darker = 0;  // by how much it would grow if pixels were darker
   std::uint64_t pixels = 0;
 
-  void Add(const PixelEstimate& p, const Rgb& prior_mean) {
+  void Add(const PixelEstimate& p, const Posterior& truth) {
     double own_square = 0, own_relative = 0;
     for (int c = 0; c < 3; ++c) {
       const double v = p.variance[c];
       own_square += v / 3;
-      own_relative += v * Weight(prior_mean[c]) / 3;
+      const double weight = Weight(truth.mean[c]);
+      own_relative += v * weight / 3;
+      const double low =
+          std::max(0.0, std::abs(truth.mean[c]) - std::sqrt(truth.variance[c]));
+      darker += std::min(kMostDarker, v * (Weight(low) - weight)) / 3;
       plain += v * Weight(p.mean[c]) / 3;
     }
     square.Add(own_square, p.freedom);
     relative.Add(own_relative, p.freedom);
-    if (own_relative > kUnsettled) unsettled += own_relative;
     ++pixels;
   }
   void Add(const Sums& other) {
     square.Add(other.square);
     relative.Add(other.relative);
     plain += other.plain;
-    unsettled += other.unsettled;
+    darker += other.darker;
     pixels += other.pixels;
   }
 };
@@ -135,7 +143,7 @@ class PixelGrid {
     return count > 0 ? sum / count : pixels_[self].mean;
   }
 
-  Rgb Shrunk(int x, int y) const {
+  Posterior Shrunk(int x, int y) const {
     const PixelEstimate& p = pixels_[Index(x, y)];
     const Rgb& around = neighbours_[Index(x, y)];
     Rgb spread;
@@ -147,10 +155,11 @@ class PixelGrid {
       }
       ++count;
     });
-    Rgb out;
+    Posterior out;
     for (int c = 0; c < 3; ++c) {
       const double v = p.variance[c], a = std::max(0.0, spread[c] / count);
-      out[c] = v > 0 ? (a * p.mean[c] + v * around[c]) / (a + v) : p.mean[c];
+      out.mean[c] = v > 0 ? (a * p.mean[c] + v * around[c]) / (a + v) : p.mean[c];
+      out.variance[c] = v > 0 ? v * a / (a + v) : 0;
     }
     return out;
   }
@@ -172,19 +181,23 @@ double WeightDoubt(const Sums& sums, double relmse) {
                     kSkewDoubt * std::sqrt(relmse), kLeastDoubt);
 }
 
+// What the correlation of variances and weights has taken away.
+double SkewFactor(double relmse) { return std::exp(kSkew * std::sqrt(relmse)); }
+
 // Why an error has no upper end; empty if it has one.
-std::string TooFew(const Shares& shares, double pixels) {
-  if (!(shares.sum > 0) || shares.K1() >= std::min(kLeastEffectivePixels, pixels / 2)) {
+std::string TooFew(const Shares& shares, double least, double pixels) {
+  if (!(shares.sum > 0) || shares.K1() >= std::min(least, pixels / 2)) {
     return "";
   }
   return fmt::format("few pixels carry it (as {:.2g} of {} alike would): rare samples",
                      shares.K1(), pixels);
 }
-std::string Unsettled(const Sums& sums) {
-  const double share = sums.relative.sum > 0 ? sums.unsettled / sums.relative.sum : 0;
-  if (share <= kMostUnsettled) return "";
-  return fmt::format("{:.0f} % of it is in pixels whose noise is as large as their value",
-                     100 * share);
+std::string TooDark(const Sums& sums) {
+  if (!(sums.darker > kMostDoubt * sums.relative.sum)) return "";
+  return fmt::format(
+      "it would be {:.0f} % larger if noisy pixels were darker by as much as their noise "
+      "allows: rare bright samples",
+      100 * sums.darker / sums.relative.sum);
 }
 
 // Only the lower end of an interval is known.
@@ -219,15 +232,16 @@ ErrorEstimate EstimateError(int width, int height,
   out.effective_pixels = sums.relative.sum > 0 ? sums.relative.K1() : n;
   out.rmse =
       SquareRoot(ErrorInterval(sums.square.sum / n, sums.square.K1(), sums.square.K2()));
-  const double relmse = sums.relative.sum / n;
+  const double relmse = sums.relative.sum / n, doubt = WeightDoubt(sums, relmse);
+  const auto interval = [&](double value) {
+    return ErrorInterval(value, sums.relative.K1(), sums.relative.K2(), doubt);
+  };
+  out.why = TooFew(sums.relative, kLeastEffectivePixels, n);
+  if (out.why.empty()) out.why = TooDark(sums);
+  // The skewness of what has not been sampled well is not known either.
   out.relmse =
-      ErrorInterval(relmse * std::exp(kSkew * std::sqrt(relmse)), sums.relative.K1(),
-                    sums.relative.K2(), WeightDoubt(sums, relmse));
-  std::string why = TooFew(sums.relative, n);
-  if (why.empty()) why = Unsettled(sums);
-  if (!why.empty()) out.relmse = AtLeast(out.relmse);
-  out.why = why;
-  why = TooFew(sums.square, n);
+      out.why.empty() ? interval(relmse * SkewFactor(relmse)) : AtLeast(interval(relmse));
+  const std::string why = TooFew(sums.square, kLeastForRmse, n);
   if (!why.empty()) out.rmse = AtLeast(out.rmse);
   if (out.why.empty()) out.why = why;
   out.has_interval = out.why.empty();

@@ -18,8 +18,8 @@ inline constexpr double kRelativeEpsilon = 0.01;
 /// intervals that contain it with probability kEstimateConfidence.
 inline constexpr double kEstimateConfidence = 0.95;
 
-/// Where the samples cannot tell an upper end, it is infinite, and `low` is what the error
-/// is at least, with probability kEstimateConfidence: see Doubts.
+/// Where the samples cannot tell an upper end, it is infinite, and `low` is what the
+/// error is at least, with probability kEstimateConfidence: see Doubts.
 struct ErrorEstimate {
   bool available = false;     // at least one pixel has two independent observations
   bool has_interval = false;  // `rmse` and `relmse` both have an upper end
@@ -57,7 +57,7 @@ struct PixelEstimate {
 /// neighbours with weights a and v, a being the mean of (m - n)^2 - v around the pixel
 /// (at least 0): empirical Bayes with the neighbourhood as prior. The interval is widened
 /// by kWeightDoubt times the change in log(relmse) that this makes, as variances add:
-/// what remains of the bias was measured to be below that (bench/calibrate.cc).
+/// what remains of the bias was measured to be below that (bench/calibrate/).
 ///
 /// Variance and weight of a pixel are not independent: rare samples are bright ones, so
 /// that a pixel's mean is high when its variance is. To first order that takes
@@ -69,19 +69,23 @@ struct PixelEstimate {
 /// not left to the samples (src/wavefront/seen_lights.h).
 ///
 /// Holds for two groups or more, best for four. What no group has sampled cannot be seen:
-/// where few pixels carry the error, or where most of it is in pixels whose noise is as
-/// large as their value, the brightest paths are likely to be still missing. Then there is
-/// no upper end (kLeastEffectivePixels, kMostUnsettled), only a lower one.
+/// where few pixels carry the error, or where it hangs on how dark noisy pixels really
+/// are, the brightest paths are likely to be still missing. Then there is no upper end
+/// (kLeastEffectivePixels, kMostDoubt), only a lower one.
 ErrorEstimate EstimateError(const FilmAccumulator& film);
 inline constexpr double kWeightDoubt = 0.3;
 inline constexpr double kSkew = 0.35, kSkewDoubt = 0.25;
 /// What the weights may be wrong by even where nothing else is in doubt.
 inline constexpr double kLeastDoubt = 0.02;
-/// Fewer, and there is no interval.
-inline constexpr double kLeastEffectivePixels = 40;
-/// Share of the relative error that pixels may have whose relative variance is above
-/// kUnsettled.
-inline constexpr double kMostUnsettled = 0.7, kUnsettled = 0.3;
+/// Fewer effective pixels, and there is no upper end. The RMSE, which has no weights, needs
+/// fewer: a sample that makes it large is in its variance as well.
+inline constexpr double kLeastEffectivePixels = 40, kLeastForRmse = 5;
+/// By how much the relative error may grow if every pixel's true value were nearer to
+/// zero by its standard deviation, given the pixel and its neighbours; of one pixel
+/// kMostDarker counts. Beyond, weights are not known: glossy highlights of small lamps,
+/// whose neighbours are no guide. Measured: at most 0.53 in scenes whose intervals hold,
+/// 0.6 and more where they do not (bench/calibrate/).
+inline constexpr double kMostDoubt = 0.55, kMostDarker = 50;
 
 /// The same for any source of pixels, x in [0, width), y in [0, height), which may be
 /// asked from several threads at once.

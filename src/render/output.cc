@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
+#include "src/estimate/estimate.h"
 #include "src/image/variance_unit.h"
 
 namespace lanelight {
@@ -87,6 +88,23 @@ void NoteVarianceUnit(const FilmAccumulator& film, ExrOptions& options) {
   if (exponent != 0) options.attributes[kVarianceExponent] = exponent;
 }
 
+namespace {
+
+// What the image knows of its own error. Without an upper end: why.
+void NoteError(const FilmAccumulator& film, ExrOptions& options) {
+  const ErrorEstimate error = EstimateError(film);
+  if (!error.available) return;
+  options.attributes["relmse"] = error.relmse.value;
+  options.attributes["relmseLow"] = error.relmse.low;
+  if (error.relmse.HasBounds()) {
+    options.attributes["relmseHigh"] = error.relmse.high;
+  } else {
+    options.attributes["relmseDoubt"] = error.why;
+  }
+}
+
+}  // namespace
+
 ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts,
                          const FilmAccumulator& film, bool half) {
   const std::array<int, 4> crop = identity.at("crop");
@@ -107,6 +125,7 @@ ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts
   options.attributes["strategy"] = "path, " + strategy;
   options.attributes["version"] = identity.at("version").get<std::string>();
   options.attributes["sceneHash"] = identity.at("scene_hash").get<std::string>();
+  NoteError(film, options);
   NoteVarianceUnit(film, options);
   return options;
 }

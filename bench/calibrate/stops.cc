@@ -1,0 +1,58 @@
+// Renders that stop by themselves once the error they state is below a target.
+#include <algorithm>
+#include <cstdio>
+
+#include "bench/calibrate/calibration.h"
+#include "src/core/error.h"
+
+namespace lanelight::bench {
+namespace {
+
+constexpr double kLeastSeconds = 0.1;  // of a render
+
+}  // namespace
+
+void Calibration::Stops(Job& job, const std::string& strategy, double target,
+                        const Reference& reference, const Deadline& deadline) {
+  try {
+    UseStrategy(job, strategy, 0);
+  } catch (const InputError& error) {
+    fmt::print("{:<48} {}\n", strategy, error.what());
+    return;
+  }
+  job.target.relmse = target;
+  // Where the samples cannot tell the error, the target is never reached.
+  job.seconds = std::max(kLeastSeconds, deadline.Left() / kLeastSeeds);
+  std::uint64_t reached = 0, stopped = 0, renders = 0;
+  double error = 0, samples = 0, looks = 0;
+  for (int seed = 1; seed <= options_.seeds; ++seed) {
+    if (seed > kLeastSeeds && deadline.Over()) break;
+    job.seed = static_cast<std::uint64_t>(seed);
+    FilmAccumulator film = MakeFilm(job);
+    const RunResult result = RunJob(job, film);
+    ++renders;
+    if (result.stop_reason != StopReason::kTarget) continue;
+    const double truth = TrueErrors(film, reference).relmse;
+    ++stopped;
+    reached += truth < target;
+    error += truth;
+    samples += double(result.samples) / double(job.window.pixels());
+    looks += double(result.looks);
+  }
+  all_reached_ += reached;
+  all_stopped_ += stopped;
+  fmt::print("{:<48} target {:<8} stopped {}/{}", strategy, target, stopped, renders);
+  if (stopped > 0) {
+    const Interval share = stat::ProportionInterval(reached, stopped, 0.95);
+    const double n = double(stopped);
+    fmt::print(
+        ", reached {:5.1f} % [{:4.1f}, {:5.1f}], overshoot {:.3f}, {:.1f} spp, "
+        "{:.1f} looks",
+        100 * share.value, 100 * share.low, 100 * share.high, target * n / error,
+        samples / n, looks / n);
+  }
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
+}  // namespace lanelight::bench

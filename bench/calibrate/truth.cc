@@ -1,0 +1,70 @@
+#include "bench/calibrate/truth.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "bench/calibrate/options.h"
+#include "src/image/colors.h"
+#include "src/study/errors.h"
+
+namespace lanelight::bench {
+namespace {
+
+constexpr std::uint64_t kReferenceSeed = 0x5eed5eed;  // renders have 1, 2, ...
+constexpr std::uint64_t kTrialSpp = 64;
+constexpr double kMostReference = 1024;  // times kLeastReferenceSpp
+
+// Rows of an image, means and variances.
+Reference FromFilm(const FilmAccumulator& film, std::uint64_t spp) {
+  Reference reference;
+  reference.width = film.width();
+  reference.height = film.height();
+  reference.mean = FilmColors(film);
+  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
+    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
+      reference.variance.push_back(film.Variance(x, y));
+    }
+  }
+  reference.spp = spp;
+  return reference;
+}
+
+}  // namespace
+
+Strategy ParseStrategy(const std::string& text) {
+  Strategy strategy;
+  ApplyStrategy(text, {std::make_shared<const std::string>("--strategies"), 0, 0},
+                strategy);
+  return strategy;
+}
+
+void UseStrategy(Job& job, const std::string& text, std::uint64_t spp) {
+  const Strategy strategy = ParseStrategy(text);
+  job.spp = spp;
+  job.target = {};
+  job.seconds = 0;
+  SetStrategy(job, strategy);
+}
+
+Measurement TrueErrors(const FilmAccumulator& film, const Reference& reference) {
+  Measurement m;
+  MeasureErrors(FilmColors(film), reference, m);
+  return m;
+}
+
+Reference MakeReference(Job& job, std::uint64_t spp, double seconds) {
+  UseStrategy(job, "points=sobol", kTrialSpp);
+  job.seed = kReferenceSeed;
+  if (spp == 0) {  // a short render says how long samples take
+    FilmAccumulator trial = MakeFilm(job);
+    const double fit = seconds / RunJob(job, trial).seconds * double(kTrialSpp);
+    spp = kLeastReferenceSpp *
+          std::uint64_t(std::clamp(fit / kLeastReferenceSpp, 1.0, kMostReference));
+  }
+  job.spp = spp;
+  FilmAccumulator film = MakeFilm(job);
+  RunJob(job, film);
+  return FromFilm(film, spp);
+}
+
+}  // namespace lanelight::bench

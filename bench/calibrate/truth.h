@@ -1,0 +1,28 @@
+// What renders are compared with.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "src/render/job.h"
+#include "src/study/measurement.h"
+#include "src/study/reference.h"
+
+namespace lanelight::bench {
+
+/// A strategy of --strategies, as a change of the default. Throws InputError.
+Strategy ParseStrategy(const std::string& text);
+
+/// The same for a job, which then renders `spp` samples without a target or a time.
+/// Throws InputError if the scene does not take the strategy.
+void UseStrategy(Job& job, const std::string& text, std::uint64_t spp);
+
+/// Renders a reference by Sobol' points with a seed of its own, with `spp` samples per
+/// pixel, or, for 0, as many as fit into the seconds, at least kLeastReferenceSpp. Leaves
+/// the job with that strategy.
+Reference MakeReference(Job& job, std::uint64_t spp, double seconds);
+
+/// Less the reference's own error.
+Measurement TrueErrors(const FilmAccumulator& film, const Reference& reference);
+
+}  // namespace lanelight::bench
