@@ -178,21 +178,30 @@ double WeightDoubt(const Sums& sums, double relmse) {
   const double shrunk = sums.relative.sum;
   if (!(shrunk > 0) || !(sums.plain > 0)) return 0;
   return std::hypot(kWeightDoubt * std::log(shrunk / sums.plain),
-                    kSkewDoubt * std::sqrt(relmse), kLeastDoubt);
+                    kSkewDoubt * std::sqrt(std::min(relmse, 1.0)), kLeastDoubt);
 }
 
 // What the correlation of variances and weights has taken away.
-double SkewFactor(double relmse) { return std::exp(kSkew * std::sqrt(relmse)); }
+double SkewFactor(double relmse) {
+  return std::exp(kSkew * std::sqrt(std::min(relmse, 1.0)));
+}
 
 // Why an error has no upper end; empty if it has one.
-std::string TooFew(const Shares& shares, double least, double pixels) {
-  if (!(shares.sum > 0) || shares.K1() >= std::min(least, pixels / 2)) {
+std::string TooFew(const Shares& shares, double pixels) {
+  if (!(shares.sum > 0) || shares.K1() >= std::min(kLeastEffectivePixels, pixels / 2)) {
     return "";
   }
   return fmt::format("few pixels carry it (as {:.2g} of {} alike would): rare samples",
                      shares.K1(), pixels);
 }
 std::string TooDark(const Sums& sums) {
+  const double change = sums.relative.sum / sums.plain;
+  if (sums.plain > 0 && std::abs(std::log(change)) > kMostWeightChange) {
+    return fmt::format(
+        "it is {:.2g} times as large by what neighbours say of noisy pixels: "
+        "rare bright samples",
+        change);
+  }
   if (!(sums.darker > kMostDoubt * sums.relative.sum)) return "";
   return fmt::format(
       "it would be {:.0f} % larger if noisy pixels were darker by as much as their noise "
@@ -236,12 +245,12 @@ ErrorEstimate EstimateError(int width, int height,
   const auto interval = [&](double value) {
     return ErrorInterval(value, sums.relative.K1(), sums.relative.K2(), doubt);
   };
-  out.why = TooFew(sums.relative, kLeastEffectivePixels, n);
+  out.why = TooFew(sums.relative, n);
   if (out.why.empty()) out.why = TooDark(sums);
   // The skewness of what has not been sampled well is not known either.
   out.relmse =
       out.why.empty() ? interval(relmse * SkewFactor(relmse)) : AtLeast(interval(relmse));
-  const std::string why = TooFew(sums.square, kLeastForRmse, n);
+  const std::string why = TooFew(sums.square, n);
   if (!why.empty()) out.rmse = AtLeast(out.rmse);
   if (out.why.empty()) out.why = why;
   out.has_interval = out.why.empty();

@@ -74,12 +74,13 @@ struct PixelEstimate {
 /// (kLeastEffectivePixels, kMostDoubt), only a lower one.
 ErrorEstimate EstimateError(const FilmAccumulator& film);
 inline constexpr double kWeightDoubt = 0.3;
-inline constexpr double kSkew = 0.35, kSkewDoubt = 0.25;
+inline constexpr double kSkew = 0.35, kSkewDoubt = 0.35;
 /// What the weights may be wrong by even where nothing else is in doubt.
 inline constexpr double kLeastDoubt = 0.02;
-/// Fewer effective pixels, and there is no upper end. The RMSE, which has no weights, needs
-/// fewer: a sample that makes it large is in its variance as well.
-inline constexpr double kLeastEffectivePixels = 40, kLeastForRmse = 5;
+/// Fewer effective pixels, and there is no upper end.
+inline constexpr double kLeastEffectivePixels = 5;
+/// Nor if shrinking changes log(relmse) by more.
+inline constexpr double kMostWeightChange = 1.5;
 /// By how much the relative error may grow if every pixel's true value were nearer to
 /// zero by its standard deviation, given the pixel and its neighbours; of one pixel
 /// kMostDarker counts. Beyond, weights are not known: glossy highlights of small lamps,

@@ -94,7 +94,7 @@ std::vector<std::uint32_t> PlacesOfSmallLights(const CompiledScene& scene) {
     const std::optional<Ball> ball = BallOf(scene.geometry, light);
     if (!ball) continue;
     const std::optional<Picture> at = projector.Project(*ball);
-    if (!at || !(at->radius < kSmallLight)) continue;
+    if (!at || !(at->radius < kSmallLight) || !std::isfinite(at->x + at->y)) continue;
     const double reach_x = at->radius + double(scene.filter.x_radius) - 0.5;
     const double reach_y = at->radius + double(scene.filter.y_radius) - 0.5;
     const auto clamp = [](double v, int most) {

@@ -146,8 +146,7 @@ SeenLightEdges::Space& SeenLightEdges::ThreadSpace() {
   return *space;
 }
 
-void SeenLightEdges::Trace(Space& space, const Rays& rays, std::vector<float>& out,
-                           RunCounts& counts) {
+void SeenLightEdges::Trace(Space& space, const Rays& rays, std::vector<float>& out) {
   TileWork work;
   work.pixels = rays.pixels;
   work.num_pixels = static_cast<std::uint32_t>(rays.num_pixels);
@@ -162,7 +161,6 @@ void SeenLightEdges::Trace(Space& space, const Rays& rays, std::vector<float>& o
   wave.health = {};
   Drive(space.wavefront, plan_, work, {out.data(), static_cast<std::uint32_t>(rows)},
         nullptr);
-  counts.rays_closest += wave.rays_closest;
 }
 
 std::vector<std::uint32_t> SeenLightEdges::EdgesOf(const PixelRect& tile) {
@@ -170,17 +168,16 @@ std::vector<std::uint32_t> SeenLightEdges::EdgesOf(const PixelRect& tile) {
   const PixelRect all = WithBorder(tile, reach_, scene_.film.width, scene_.film.height);
   SeenRanges ranges(all, width);
   Space& space = ThreadSpace();
-  RunCounts ignored;
   TilePixels(all, scene_.film.width, &space.pixels);
   const std::size_t rows = space.pixels.size() * kFindRays;
   Trace(space, {space.pixels.data(), space.pixels.size(), kFindSeed, 0, kFindRays},
-        space.others, ignored);
+        space.others);
   for (std::size_t p = 0; p < space.pixels.size(); ++p) {
     ranges.Add(space.pixels[p], space.others.data() + p * kFindRays, rows, kFindRays);
   }
   for (const std::uint32_t pixel : space.pixels) {
     if (!std::binary_search(small_lights_.begin(), small_lights_.end(), pixel)) continue;
-    Trace(space, {&pixel, 1, kFindSeed, 0, kSmallLightRays}, space.own, ignored);
+    Trace(space, {&pixel, 1, kFindSeed, 0, kSmallLightRays}, space.own);
     ranges.Add(pixel, space.own.data(), kSmallLightRays, kSmallLightRays);
   }
   TilePixels(tile, scene_.film.width, &space.pixels);
@@ -213,19 +210,20 @@ bool SeenLightEdges::Correct(std::size_t tile, const SeenLightTask& task,
       samples_.End(task.begin + task.count) - samples_.Begin(task.begin);
   const std::size_t most = std::max<std::size_t>(1, kMostRays / each);
   for (std::size_t first = 0; first < edges.size(); first += most) {
-    CorrectPixels(space, edges.data() + first, std::min(most, edges.size() - first), task,
-                  counts);
+    CorrectPixels(space, edges.data() + first, std::min(most, edges.size() - first),
+                  task);
   }
+  // As many for any cut; those that others of a turn need are traced again.
+  counts.rays_closest += edges.size() * task.count * (1 + kSeenLightRays);
   return true;
 }
 
 void SeenLightEdges::CorrectPixels(Space& space, const std::uint32_t* places,
-                                   std::size_t count, const SeenLightTask& task,
-                                   RunCounts& counts) {
+                                   std::size_t count, const SeenLightTask& task) {
   space.pixels.clear();
   for (std::size_t p = 0; p < count; ++p) space.pixels.push_back(task.pixels[places[p]]);
   Trace(space, {space.pixels.data(), count, image_run_.seed, task.begin, task.count},
-        space.own, counts);
+        space.own);
   const std::uint64_t end = task.begin + task.count;
   for (std::uint64_t begin = task.begin, next = 0; begin < end; begin = next) {
     const std::uint64_t turn = begin / kSamplesPerRaySeed;
@@ -235,7 +233,7 @@ void SeenLightEdges::CorrectPixels(Space& space, const std::uint32_t* places,
     const auto rays = static_cast<std::uint32_t>(samples_.End(next - base) - first);
     Trace(space,
           {space.pixels.data(), count, RaySeed(image_run_.seed, turn), first, rays},
-          space.others, counts);
+          space.others);
     for (std::size_t c = 0; c < kColorPlanes; ++c) {
       for (std::size_t p = 0; p < count; ++p) {
         const float* const own = space.own.data() + (c * count + p) * task.count;

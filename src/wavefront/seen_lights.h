@@ -73,10 +73,10 @@ class SeenLightEdges {
   SeenLightEdges(const CompiledScene& scene, const PlanOptions& options,
                  const RunParameters& run);
   Space& ThreadSpace();
-  void Trace(Space& space, const Rays& rays, std::vector<float>& out, RunCounts& counts);
+  void Trace(Space& space, const Rays& rays, std::vector<float>& out);
   std::vector<std::uint32_t> EdgesOf(const PixelRect& tile);
   void CorrectPixels(Space& space, const std::uint32_t* places, std::size_t count,
-                     const SeenLightTask& task, RunCounts& counts);
+                     const SeenLightTask& task);
 
   const CompiledScene& scene_;
   const RunParameters& image_run_;

@@ -22,7 +22,8 @@ Measured Measure(const SceneDescription& scene, const std::string& roulette,
   // A share of the render, however small the image is.
   t.planned_samples = spp * static_cast<std::uint64_t>(scene.film.width) *
                       static_cast<std::uint64_t>(scene.film.height);
-  t.strategy = "roulette=" + roulette;
+  // Seen edges of the lamp cost rays that no roulette has a say in.
+  t.strategy = "seen-lights=paths,roulette=" + roulette;
   const Rendered r = RenderDescription(scene, t);
   Measured m;
   for (int y = 0; y < r.film.height(); ++y) {
