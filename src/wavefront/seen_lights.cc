@@ -25,6 +25,8 @@ constexpr std::uint64_t kMostRays = 1u << 15;
 /// Samples of the image under one seed of the further rays: their indices have 31 bits.
 constexpr std::uint64_t kSamplesPerRaySeed = kSamplesPerSeed / kSeenLightRays;
 
+/// Light at the end of what floats can say, and a light's edge on top of it.
+constexpr double kLargest = std::numeric_limits<float>::max();
 /// Where small lights lie, which may be hidden or be part of a larger one.
 constexpr std::uint32_t kSmallLightRays = 256;
 
@@ -245,7 +247,9 @@ void SeenLightEdges::CorrectPixels(Space& space, const std::uint32_t* places,
           samples_.ForEach(i - base,
                            [&](std::uint64_t s) { sum += double(others[s - first]); });
           const auto at = static_cast<std::size_t>(i - task.begin);
-          values[at] += static_cast<float>(sum / samples_.Count()) - own[at];
+          const double corrected =
+              double(values[at]) - double(own[at]) + sum / samples_.Count();
+          values[at] = static_cast<float>(std::clamp(corrected, -kLargest, kLargest));
         }
       }
     }
