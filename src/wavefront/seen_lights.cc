@@ -10,7 +10,7 @@
 #include "src/prepare/groups.h"
 #include "src/strategy/choices.h"
 #include "src/wavefront/seen_light_places.h"
-#include "src/wavefront/tasks.h"
+#include "src/wavefront/drive.h"
 #include "src/wavefront/tiles.h"
 
 namespace lanelight {
@@ -154,7 +154,7 @@ void SeenLightEdges::Trace(Space& space, const Rays& rays, std::vector<float>& o
   work.num_pixels = static_cast<std::uint32_t>(rays.num_pixels);
   work.first_sample = static_cast<std::uint32_t>(rays.first);
   work.samples = rays.count;
-  work.together = 16;
+  work.together = SamplesTogether(scene_, plan_);
   const std::size_t rows = rays.num_pixels * rays.count;
   out.resize(std::max(out.size(), rows * kColorPlanes));
   space.run.seed = rays.seed;

@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "src/wavefront/patience.h"
-#include "src/wavefront/tasks.h"
+#include "src/wavefront/task_watcher.h"
 
 namespace lanelight {
 

@@ -9,50 +9,10 @@
 #include "src/prepare/path_values.h"
 #include "src/scene/rendered_pixels.h"
 #include "src/wavefront/copies.h"
+#include "src/wavefront/drive.h"
 #include "src/wavefront/profile.h"
 
 namespace lanelight {
-namespace {
-
-// Samples of a pixel in adjacent slots: their rays share more of the scene than those of
-// neighbouring pixels.
-constexpr std::uint32_t kSamplesTogether = 16;
-
-// Between waves: what scattered is intersected next; everything else is consumed.
-void StartWave(Wave& wave) {
-  std::swap(wave.queue(QueueId::kActive), wave.queue(QueueId::kScattered));
-  for (int i = 0; i < kNumQueues; ++i) {
-    const QueueId id = static_cast<QueueId>(i);
-    if (id != QueueId::kFree && id != QueueId::kActive) wave.queues[i].size = 0;
-  }
-}
-
-}  // namespace
-
-bool Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
-           const SampleBuffer& buffer, StageClock* clock, const TaskWatcher* watcher) {
-  wavefront.Reset();
-  Wave& wave = wavefront.wave();
-  wave.work = work;
-  wave.buffer = buffer;
-  if (clock) {
-    clock->FinishPart(TaskPart::kSetUp, std::uint64_t{work.num_pixels} * work.samples);
-  }
-  while (!wave.work.Done() || wave.queue(QueueId::kScattered).size > 0) {
-    StartWave(wave);
-    if (clock) clock->StartWave();
-    for (std::size_t i = 0; i < plan.stages.size(); ++i) {
-      const PlannedStage& planned = plan.stages[i];
-      if (wave.queue(planned.stage.input).size == 0) continue;
-      wave.lanes = {};
-      planned.kernel(wave);
-      if (clock) clock->Finish(i, wave.lanes.items, wave.lanes.vectors);
-    }
-    if (watcher != nullptr && watcher->PutsDown()) return false;
-  }
-  return true;
-}
-
 Tasks::Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
              const RunOptions& options, std::uint64_t planned_spp)
     : scene_(scene), plan_(plan), run_(run), options_(options) {
@@ -253,8 +213,7 @@ bool Tasks::RunTask(std::size_t tile, const Range& range, const TaskWatcher& wat
   work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
   work.first_sample = static_cast<std::uint32_t>(range.begin - first_);
   work.samples = out.count;
-  work.together = std::min(kSamplesTogether, plan_.wavefront);
-  if (scene_.strategy.pairs == Pairs::kAntithetic) work.together &= ~1u;
+  work.together = SamplesTogether(scene_, plan_);
   const std::uint32_t stride = work.num_pixels * out.count;
   const bool splits = plan_.features.Has(Feature::kSplitting);
   const std::uint32_t rows = stride * (splits ? kMostCopies : 1);

@@ -13,31 +13,11 @@
 #include "src/wavefront/run.h"
 #include "src/wavefront/schedule.h"
 #include "src/wavefront/seen_lights.h"
+#include "src/wavefront/task_watcher.h"
 #include "src/wavefront/tiles.h"
 #include "src/wavefront/workspace.h"
 
 namespace lanelight {
-
-/// Who asks for the work. All may be called from any thread.
-class TaskWatcher {
- public:
-  virtual ~TaskWatcher() = default;
-  /// True: tasks that have not begun are left out.
-  virtual bool Stopped() const = 0;
-  virtual void TaskDone() = 0;
-  /// Stopped by a signal: whatever is in flight must end soon.
-  virtual bool Interrupted() const { return false; }
-  /// True: tasks in flight are put down (src/wavefront/patience.h). Asked after each
-  /// wave.
-  virtual bool PutsDown() const { return false; }
-};
-
-/// The loop of one task: runs `work` to the end on `wavefront`, writing finished samples
-/// to `buffer`. `clock` times the stages; null: nothing is timed. Returns false if the
-/// watcher has had it put down; then the buffer is of no use. Null: nobody does.
-bool Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
-           const SampleBuffer& buffer, StageClock* clock,
-           const TaskWatcher* watcher = nullptr);
 
 class Tasks {
  public:

@@ -11,7 +11,7 @@
 #include "src/prepare/tables.h"
 #include "src/wavefront/copies.h"
 #include "src/wavefront/plan_features.h"
-#include "src/wavefront/tasks.h"
+#include "src/wavefront/drive.h"
 #include "src/wavefront/tiles.h"
 
 namespace lanelight {

@@ -8,7 +8,7 @@
 #include "src/prepare/path_values.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/prepare/tables.h"
-#include "src/wavefront/tasks.h"
+#include "src/wavefront/drive.h"
 #include "src/wavefront/tiles.h"
 #include "src/wavefront/training.h"
 #include "tests/wavefront/render_fixture.h"

@@ -1,0 +1,53 @@
+#include "src/wavefront/drive.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "src/core/check.h"
+
+namespace lanelight {
+namespace {
+
+// Between waves: what scattered is intersected next; everything else is consumed.
+void StartWave(Wave& wave) {
+  std::swap(wave.queue(QueueId::kActive), wave.queue(QueueId::kScattered));
+  for (int i = 0; i < kNumQueues; ++i) {
+    const QueueId id = static_cast<QueueId>(i);
+    if (id != QueueId::kFree && id != QueueId::kActive) wave.queues[i].size = 0;
+  }
+}
+
+}  // namespace
+
+std::uint32_t SamplesTogether(const CompiledScene& scene, const Plan& plan) {
+  constexpr std::uint32_t kMost = 16;
+  const std::uint32_t together = std::min(kMost, plan.wavefront);
+  return scene.strategy.pairs == Pairs::kAntithetic ? together & ~1u : together;
+}
+
+bool Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
+           const SampleBuffer& buffer, StageClock* clock, const TaskWatcher* watcher) {
+  LL_CHECK_LE(work.together, plan.wavefront);  // they are generated at once, or never
+  wavefront.Reset();
+  Wave& wave = wavefront.wave();
+  wave.work = work;
+  wave.buffer = buffer;
+  if (clock) {
+    clock->FinishPart(TaskPart::kSetUp, std::uint64_t{work.num_pixels} * work.samples);
+  }
+  while (!wave.work.Done() || wave.queue(QueueId::kScattered).size > 0) {
+    StartWave(wave);
+    if (clock) clock->StartWave();
+    for (std::size_t i = 0; i < plan.stages.size(); ++i) {
+      const PlannedStage& planned = plan.stages[i];
+      if (wave.queue(planned.stage.input).size == 0) continue;
+      wave.lanes = {};
+      planned.kernel(wave);
+      if (clock) clock->Finish(i, wave.lanes.items, wave.lanes.vectors);
+    }
+    if (watcher != nullptr && watcher->PutsDown()) return false;
+  }
+  return true;
+}
+
+}  // namespace lanelight
