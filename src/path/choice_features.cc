@@ -82,6 +82,61 @@ FeatureSet TurnsOn(LightSelection choice) {
   return {};
 }
 
+FeatureSet TurnsOn(LightPoints choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case LightPoints::k##name:    \
+    return Union(LANELIGHT_OWN_##own(k##name##LightPoints), FeatureSet also);
+    LANELIGHT_LIGHT_POINTS(X)
+#undef X
+  }
+  return {};
+}
+
+FeatureSet TurnsOn(LightCandidates choice) {
+  switch (choice) {
+#define X(name, own, also, ...)  \
+  case LightCandidates::k##name: \
+    return Union(LANELIGHT_OWN_##own(k##name##LightCandidates), FeatureSet also);
+    LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)
+#undef X
+  }
+  return {};
+}
+
+FeatureSet TurnsOn(ShadowRoulette choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case ShadowRoulette::k##name: \
+    return Union(LANELIGHT_OWN_##own(k##name##ShadowRoulette), FeatureSet also);
+    LANELIGHT_SHADOW_ROULETTES(X)
+#undef X
+  }
+  return {};
+}
+
+FeatureSet TurnsOn(Guiding choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case Guiding::k##name:        \
+    return Union(LANELIGHT_OWN_##own(k##name##Guiding), FeatureSet also);
+    LANELIGHT_GUIDINGS(X)
+#undef X
+  }
+  return {};
+}
+
+FeatureSet TurnsOn(Decide choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case Decide::k##name:         \
+    return Union(LANELIGHT_OWN_##own(k##name##Decide), FeatureSet also);
+    LANELIGHT_DECISIONS(X)
+#undef X
+  }
+  return {};
+}
+
 #undef LANELIGHT_OWN_STAGE
 #undef LANELIGHT_OWN_PLAIN
 

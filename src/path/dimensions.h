@@ -16,11 +16,13 @@ enum class Dimension : std::uint32_t {
   kFilm = 0,  // 2: position in the pixel
   kLens = 1,  // 2: position on the lens
   // 8 to 15: where a path goes
-  kBsdf = 8,  // 2: direction
-  kLobe = 9,  // 1: choice of lobe
+  kBsdf = 8,    // 2: direction
+  kLobe = 9,    // 1: choice of lobe
+  kGuide = 10,  // 1: choice between guide and material
   // 16 to 23: light samples
   kLight = 16,   // 2: point on the light
   kSelect = 17,  // 1: choice of light
+  kShadow = 18,  // 1: whether a shadow ray is traced
   // 24 to 31: whether a path goes on
   kRoulette = 24,  // 1: survival, or how many copies
   // 32 to 47: materials; one per level of mixes in mixes

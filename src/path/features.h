@@ -56,6 +56,11 @@ namespace lanelight {
   X(kSplitting, "paths that split (roulette=adjoint, efficiency)")            \
   X(kPathValues, "values of paths, from a training pass")                     \
   X(kRecordsPaths, "a training pass that records what paths find")            \
+  X(kSolidAngleLights, "light-points=solid-angle")                            \
+  X(kLightCandidates, "several candidates for each light sample")             \
+  X(kGuided, "a guide that proposes directions, from training passes")        \
+  X(kDecides, "a strategy chosen by a pilot")                                 \
+  X(kRecordsGuide, "a training pass that records what a guide learns from")   \
   X(kControl, "a control variate (samples may be negative)")                  \
   X(kControlDifference, "a control variate with an estimated coefficient")
 
@@ -72,6 +77,8 @@ namespace lanelight {
   LANELIGHT_OWN_FEATURE_##own(k##name##Control, "control=" text)
 #define LANELIGHT_ROULETTE_FEATURE(name, own, also, text, ...) \
   LANELIGHT_OWN_FEATURE_##own(k##name##Roulette, "roulette=" text)
+#define LANELIGHT_SHADOW_ROULETTE_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##ShadowRoulette, "shadow-roulette=" text)
 #define LANELIGHT_SHADE_FEATURE(name, traits, meaning) X(k##name, meaning)
 
 // X(bit name, meaning), by that name: the lists that this one is made of ask for it.
@@ -82,7 +89,8 @@ namespace lanelight {
   LANELIGHT_POINTS(LANELIGHT_POINTS_FEATURE)         \
   LANELIGHT_PAIRS(LANELIGHT_PAIRS_FEATURE)           \
   LANELIGHT_CONTROLS(LANELIGHT_CONTROL_FEATURE)      \
-  LANELIGHT_ROULETTES(LANELIGHT_ROULETTE_FEATURE)
+  LANELIGHT_ROULETTES(LANELIGHT_ROULETTE_FEATURE)    \
+  LANELIGHT_SHADOW_ROULETTES(LANELIGHT_SHADOW_ROULETTE_FEATURE)
 
 enum class Feature : std::uint8_t {
 #define X(name, meaning) name,

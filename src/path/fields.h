@@ -64,7 +64,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   /* transport */                                                                         \
   LANELIGHT_RGB(X, f32, beta, ({}), kPath, (1.0f), "throughput")                          \
   LANELIGHT_RGB(X, f32, l, ({}), kGathered, (0.0f), "radiance gathered so far")           \
-  X(f32, bsdf_pdf, ({kMis}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
+  X(f32, bsdf_pdf, ({kMis, kRecordsGuide}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
   X(f32, eta_scale, ({kRefraction}), kPath, (1.0f), "product of eta^2 of refractions, undone by roulette") \
   /* film sample points */                                                                \
   LANELIGHT_2(X, f32, u_film, ({}), kCamera, (), "position in the pixel")               \
@@ -96,6 +96,12 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(f32, u_select, ({kManyLights}), kBounce, (), "choice of light")                     \
   LANELIGHT_2(X, f32, u_light, ({kLights}), kBounce, (), "point on the light")          \
   X(f32, u_roulette, ({kRoulette}), kBounce, (), "survival")                            \
+  X(f32, u_guide, ({kGuided}), kBounce, (), "choice between guide and material")        \
+  X(f32, u_shadow, ({kContributionShadowRoulette}), kBounce, (), "whether the shadow ray is traced") \
+  /* guide (src/prepare/guide.h) */                                                       \
+  X(u32, guide_cell, ({kGuided}), kBounce, (), "cell of the guide at the hit point")    \
+  LANELIGHT_XYZ(X, f32, guide, ({kGuided}), kBounce, (), "direction that the guide proposes, unit, scene") \
+  X(f32, guide_pdf, ({kGuided}), kBounce, (), "pdf_sa of that direction, by the guide alone") \
   /* light sample */                                                                      \
   X(u32, ls_light, ({kManyLights}), kBounce, (), "selected light")                      \
   LANELIGHT_XYZ(X, f32, ls, ({kLights}), kBounce, (), "unit direction to the light")    \
@@ -117,6 +123,15 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(f32, risk_0, ({kRecordsPaths}), kPath, (0.0f), "second moments that roulette would add (kernels/roulette/record.cc)") \
   X(f32, risk_1, ({kRecordsPaths}), kPath, (0.0f), "second moments, linear part")         \
   X(f32, risk_2, ({kRecordsPaths}), kPath, (0.0f), "second moments, constant part")       \
+  /* training pass of a guide: the first rays of a path that scattered, by number */      \
+  LANELIGHT_4(X, f32, from_x, ({kRecordsGuide}), kPath, (0.0f), "where ray 0, 1, 2, 3 starts") \
+  LANELIGHT_4(X, f32, from_y, ({kRecordsGuide}), kPath, (0.0f), "where it starts")        \
+  LANELIGHT_4(X, f32, from_z, ({kRecordsGuide}), kPath, (0.0f), "where it starts")        \
+  LANELIGHT_4(X, u32, from_n, ({kRecordsGuide}), kPath, (0u), "normal there, on the side that the path sees: octahedral, 16 bits each") \
+  LANELIGHT_4(X, u32, toward, ({kRecordsGuide}), kPath, (0u), "direction of the ray, likewise") \
+  LANELIGHT_4(X, f32, sent_pdf, ({kRecordsGuide}), kPath, (0.0f), "pdf_sa of the ray; 0 = specular, or no such ray") \
+  LANELIGHT_4(X, f32, sent, ({kRecordsGuide}), kPath, (0.0f), "brightness of the throughput of the ray") \
+  LANELIGHT_4(X, f32, before, ({kRecordsGuide}), kPath, (0.0f), "brightness gathered before it") \
   /* auxiliary output: first hit */                                                       \
   LANELIGHT_RGB(X, f32, aov_albedo, ({kAov}), kPath, (0.0f), "albedo")                    \
   LANELIGHT_XYZ(X, f32, aov_n, ({kAov}), kPath, (0.0f), "shading normal")                 \
@@ -208,8 +223,9 @@ inline const FieldSet kParameters = {Field::color0_r, Field::color0_g, Field::co
                                      Field::color1_r, Field::color1_g, Field::color1_b,
                                      Field::alpha_x,  Field::alpha_y};
 inline const FieldSet kBouncePoints = {
-    Field::u_lobe,    Field::u_bsdf_0,  Field::u_bsdf_1,  Field::u_select,
-    Field::u_light_0, Field::u_light_1, Field::u_roulette};
+    Field::u_lobe,     Field::u_bsdf_0,  Field::u_bsdf_1,
+    Field::u_select,   Field::u_light_0, Field::u_light_1,
+    Field::u_roulette, Field::u_guide,   Field::u_shadow};
 inline const FieldSet kLightSample = {Field::ls_x,        Field::ls_y,  Field::ls_z,
                                       Field::ls_distance, Field::ls_r,  Field::ls_g,
                                       Field::ls_b,        Field::ls_pdf};

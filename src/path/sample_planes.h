@@ -18,7 +18,8 @@ inline constexpr int kRecordedVertices = 4;
   X(Aov, 7, ({kAov}), false, "of the first hit: albedo, shading normal, depth")           \
   X(Difference, 3, ({kControlDifference}), true, "h - E[h] of a control variate")         \
   X(Numbers, 6, ({kRegressionControl}), false, "that drove the first bounce, and position in the pixel") \
-  X(Record, 3 * kRecordedVertices + 5, ({kRecordsPaths}), false, "cell, throughput, gathered of each vertex; gathered at the end; depth; the three sums of the risk")
+  X(Record, 3 * kRecordedVertices + 5, ({kRecordsPaths}), false, "cell, throughput, gathered of each vertex; gathered at the end; depth; the three sums of the risk") \
+  X(GuideRecord, 8 * kRecordedVertices + 1, ({kRecordsGuide}), false, "of each scattered ray: start (3), normal, direction, pdf_sa, throughput, gathered before; gathered at the end")
 // clang-format on
 
 enum class PlaneGroup : std::uint8_t {
@@ -55,7 +56,7 @@ class SamplePlanes {
   static bool Sums(PlaneGroup group);
 
  private:
-  int first_[kNumPlaneGroups] = {0, -1, -1, -1, -1};
+  int first_[kNumPlaneGroups] = {0, -1, -1, -1, -1, -1};
   int count_ = kColorPlanes;
 };
 

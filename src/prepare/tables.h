@@ -4,12 +4,14 @@
 #include "src/core/aligned.h"
 #include "src/compiled/scene.h"
 #include "src/prepare/ambient.h"
+#include "src/prepare/guide.h"
 #include "src/prepare/path_values.h"
 
 namespace lanelight {
 
 struct StrategyTables {
   PathValues path_values;             // adjoint, efficiency: set by the pilot passes
+  Guide guide;                        // guiding=radiance: set by training passes
   std::vector<AmbientLight> ambient;  // control=ambient
 };
 

@@ -17,6 +17,9 @@ inline constexpr double kConstantTermination = LANELIGHT_CONSTANT_TERMINATION;
 /// Camera rays per path of seen-lights=apart.
 #define LANELIGHT_SEEN_LIGHT_RAYS 16
 inline constexpr int kSeenLightRays = LANELIGHT_SEEN_LIGHT_RAYS;
+/// Light samples of which light-candidates=resampled keeps one, unless told otherwise.
+#define LANELIGHT_LIGHT_CANDIDATES 4
+inline constexpr std::uint32_t kDefaultLightCandidates = LANELIGHT_LIGHT_CANDIDATES;
 #define LANELIGHT_TEXT(value) LANELIGHT_TEXT_OF(value)
 #define LANELIGHT_TEXT_OF(value) #value
 
@@ -87,6 +90,43 @@ inline constexpr int kSeenLightRays = LANELIGHT_SEEN_LIGHT_RAYS;
     "1/N sum Le(x_i)", "")                                                                \
   X(Apart, PLAIN, ({}), "apart", "", "the same, but by " LANELIGHT_TEXT(LANELIGHT_SEEN_LIGHT_RAYS) " further camera rays per path in pixels at edges of lights (default)", \
     "1/N sum (f_i - Le(x_i)) + 1/(M N) sum Le(y_j), M = " LANELIGHT_TEXT(LANELIGHT_SEEN_LIGHT_RAYS), "splitting: Arvo and Kirk 1990")
+
+#define LANELIGHT_LIGHT_POINTS(X)                                                         \
+  X(Area, PLAIN, ({}), "area", "", "points on emitting triangles and rectangles uniform over the area (default)", \
+    "Le / p, p = pmf d^2 / (A |cos|)", "Shirley, Wang and Zimmerman 1996")                \
+  X(SolidAngle, PLAIN, ({kSolidAngleLights}), "solid-angle", "", "uniform over the solid angle that they fill", \
+    "Le / p, p = pmf / omega", "Arvo 1995; Urena, Fajardo and King 2013")
+
+#define LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)                                              \
+  X(Single, PLAIN, ({}), "single", "", "every light sample is used (default)", "f / p", "") \
+  X(Resampled, PLAIN, ({kLightCandidates}), "resampled", "[:M]", "one of M = " LANELIGHT_TEXT(LANELIGHT_LIGHT_CANDIDATES) " light samples, by what it would add unshadowed", \
+    "f(y) / h(y) 1/M sum h(x_i) / p(x_i), h = f without visibility", "Talbot, Cline and Egbert 2005")
+
+#define LANELIGHT_ENVIRONMENT_CHOICES(X)                                                  \
+  X(Plain, PLAIN, ({}), "plain", "", "environment images sampled in proportion to their radiance (default)", \
+    "p ~ L", "")                                                                          \
+  X(Compensated, PLAIN, ({}), "compensated", "", "the same less its mean, with directions=mis: what is dim is left to the material", \
+    "p ~ max(0, L - mean L)", "Karlik et al. 2019")
+
+#define LANELIGHT_SHADOW_ROULETTES(X)                                                     \
+  X(None, PLAIN, ({}), "none", "", "every light sample that could add light is traced (default)", "f V", "") \
+  X(Contribution, STAGE, ({}), "contribution", "[:FLOOR]", "shadow rays are traced with a probability that falls with what they can still add", \
+    "f V / s or 0, s = min(1, max(FLOOR = 0.1, what it adds / what the pixel is worth))", "Arvo and Kirk 1990; Shirley, Wang and Zimmerman 1996")
+
+#define LANELIGHT_ALLOCATIONS(X)                                                          \
+  X(Uniform, PLAIN, ({}), "uniform", "", "every pixel has as many samples (default)", "N", "") \
+  X(Error, PLAIN, ({}), "error", "", "more samples where they lower the relative error of the image most", \
+    "N_i ~ sigma_i / sqrt(mean_i^2 + epsilon)", "Neyman 1934")
+
+#define LANELIGHT_GUIDINGS(X)                                                             \
+  X(None, PLAIN, ({}), "none", "", "directions by the material alone (default)", "f / p", "") \
+  X(Radiance, PLAIN, ({kGuided}), "radiance", "", "directions by the material or by the incident radiance that training passes have found; pilot passes", \
+    "f / (c p_guide + (1 - c) p_material)", "Vorba et al. 2014; Mueller, Gross and Novak 2017")
+
+#define LANELIGHT_DECISIONS(X)                                                            \
+  X(None, PLAIN, ({}), "none", "", "the strategy is as its other keys say", "", "")       \
+  X(Pilot, PLAIN, ({kDecides}), "pilot", "", "roulette and guiding are chosen by a pilot, where they pay; else as their keys say", \
+    "argmin over strategies of variance times cost", "")
 // clang-format on
 
 // Dimensions that an antithetic pair shares and reflects: X(name, text, meaning)
@@ -106,6 +146,13 @@ LANELIGHT_ENUM(Control, LANELIGHT_CONTROLS(X));
 LANELIGHT_ENUM(Roulette, LANELIGHT_ROULETTES(X));
 LANELIGHT_ENUM(LightSelection, LANELIGHT_LIGHT_SELECTIONS(X));
 LANELIGHT_ENUM(SeenLights, LANELIGHT_SEEN_LIGHTS(X));
+LANELIGHT_ENUM(LightPoints, LANELIGHT_LIGHT_POINTS(X));
+LANELIGHT_ENUM(LightCandidates, LANELIGHT_LIGHT_CANDIDATE_CHOICES(X));
+LANELIGHT_ENUM(EnvironmentPoints, LANELIGHT_ENVIRONMENT_CHOICES(X));
+LANELIGHT_ENUM(ShadowRoulette, LANELIGHT_SHADOW_ROULETTES(X));
+LANELIGHT_ENUM(Allocation, LANELIGHT_ALLOCATIONS(X));
+LANELIGHT_ENUM(Guiding, LANELIGHT_GUIDINGS(X));
+LANELIGHT_ENUM(Decide, LANELIGHT_DECISIONS(X));
 LANELIGHT_ENUM(Paired, LANELIGHT_PAIRED(X));
 #undef X
 #undef LANELIGHT_ENUM

@@ -11,27 +11,50 @@ namespace {
 constexpr ChoiceInfo kChoices[] = {
 #define ROW(axis, own, also, name, arguments, meaning, formula, source) \
   {axis, name, arguments, meaning, formula, source},
+// clang-format off
 #define X(enumerator, ...) ROW("directions", __VA_ARGS__)
     LANELIGHT_DIRECTIONS(X)
 #undef X
 #define X(enumerator, ...) ROW("points", __VA_ARGS__)
-        LANELIGHT_POINTS(X)
+    LANELIGHT_POINTS(X)
 #undef X
 #define X(enumerator, ...) ROW("pairs", __VA_ARGS__)
-            LANELIGHT_PAIRS(X)
+    LANELIGHT_PAIRS(X)
 #undef X
 #define X(enumerator, ...) ROW("control", __VA_ARGS__)
-                LANELIGHT_CONTROLS(X)
+    LANELIGHT_CONTROLS(X)
 #undef X
 #define X(enumerator, ...) ROW("roulette", __VA_ARGS__)
-                    LANELIGHT_ROULETTES(X)
+    LANELIGHT_ROULETTES(X)
 #undef X
 #define X(enumerator, ...) ROW("light-selection", __VA_ARGS__)
-                        LANELIGHT_LIGHT_SELECTIONS(X)
+    LANELIGHT_LIGHT_SELECTIONS(X)
 #undef X
 #define X(enumerator, ...) ROW("seen-lights", __VA_ARGS__)
-                            LANELIGHT_SEEN_LIGHTS(X)
+    LANELIGHT_SEEN_LIGHTS(X)
 #undef X
+#define X(enumerator, ...) ROW("light-points", __VA_ARGS__)
+    LANELIGHT_LIGHT_POINTS(X)
+#undef X
+#define X(enumerator, ...) ROW("light-candidates", __VA_ARGS__)
+    LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)
+#undef X
+#define X(enumerator, ...) ROW("environment", __VA_ARGS__)
+    LANELIGHT_ENVIRONMENT_CHOICES(X)
+#undef X
+#define X(enumerator, ...) ROW("shadow-roulette", __VA_ARGS__)
+    LANELIGHT_SHADOW_ROULETTES(X)
+#undef X
+#define X(enumerator, ...) ROW("allocation", __VA_ARGS__)
+    LANELIGHT_ALLOCATIONS(X)
+#undef X
+#define X(enumerator, ...) ROW("guiding", __VA_ARGS__)
+    LANELIGHT_GUIDINGS(X)
+#undef X
+#define X(enumerator, ...) ROW("decide", __VA_ARGS__)
+    LANELIGHT_DECISIONS(X)
+#undef X
+// clang-format on
 #undef ROW
 };
 
@@ -56,6 +79,17 @@ std::string RouletteText(const Strategy& s) {
   return text;
 }
 
+std::string LightText(const Strategy& s) {
+  std::string text = fmt::format(",light-points={},light-candidates={}",
+                                 Name(s.light_points), Name(s.light_candidates));
+  if (s.light_candidates == LightCandidates::kResampled) {
+    text += fmt::format(":{}", s.candidates);
+  }
+  text += fmt::format(",environment={},shadow-roulette={}", Name(s.environment),
+                      Name(s.shadow_roulette));
+  return s.shadow_floor ? text + fmt::format(":{}", *s.shadow_floor) : text;
+}
+
 }  // namespace
 
 std::string ToText(const Strategy& s) {
@@ -69,9 +103,11 @@ std::string ToText(const Strategy& s) {
   if (s.control != Control::kNone) {
     text += s.coefficient ? fmt::format(",c={}", *s.coefficient) : ",c=optimal";
   }
-  return text + fmt::format(",roulette={},light-selection={},seen-lights={}",
-                            RouletteText(s), Name(s.light_selection),
-                            Name(s.seen_lights));
+  text += fmt::format(",roulette={},light-selection={},seen-lights={}", RouletteText(s),
+                      Name(s.light_selection), Name(s.seen_lights));
+  return text + LightText(s) +
+         fmt::format(",allocation={},guiding={},decide={}", Name(s.allocation),
+                     Name(s.guiding), Name(s.decide));
 }
 
 std::span<const ChoiceInfo> AllChoices() { return kChoices; }
@@ -86,6 +122,19 @@ const char* Name(LightSelection choice) {
   return kLightSelections[static_cast<int>(choice)];
 }
 const char* Name(SeenLights choice) { return kSeenLights[static_cast<int>(choice)]; }
+const char* Name(LightPoints choice) { return kLightPoints[static_cast<int>(choice)]; }
+const char* Name(LightCandidates choice) {
+  return kLightCandidateChoices[static_cast<int>(choice)];
+}
+const char* Name(EnvironmentPoints choice) {
+  return kEnvironmentPoints[static_cast<int>(choice)];
+}
+const char* Name(ShadowRoulette choice) {
+  return kShadowRoulettes[static_cast<int>(choice)];
+}
+const char* Name(Allocation choice) { return kAllocations[static_cast<int>(choice)]; }
+const char* Name(Guiding choice) { return kGuidings[static_cast<int>(choice)]; }
+const char* Name(Decide choice) { return kDecisions[static_cast<int>(choice)]; }
 const char* Name(Paired choice) { return kPaired[static_cast<int>(choice)]; }
 
 }  // namespace lanelight

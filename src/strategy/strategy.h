@@ -16,6 +16,8 @@ namespace lanelight {
 
 enum class Heuristic : std::uint8_t { kPower, kBalance };
 
+inline constexpr std::uint32_t kMostLightCandidates = 64;
+
 struct Strategy {
   Directions directions = Directions::kMis;
   Heuristic heuristic = Heuristic::kPower;  // of kMis
@@ -33,6 +35,16 @@ struct Strategy {
   std::optional<std::uint32_t> first;  // first scattering event with roulette
   LightSelection light_selection = LightSelection::kPower;
   SeenLights seen_lights = SeenLights::kApart;
+  LightPoints light_points = LightPoints::kArea;
+  LightCandidates light_candidates = LightCandidates::kSingle;
+  std::uint32_t candidates =
+      kDefaultLightCandidates;  // of kResampled: 2 to kMostLightCandidates
+  EnvironmentPoints environment = EnvironmentPoints::kPlain;
+  ShadowRoulette shadow_roulette = ShadowRoulette::kNone;
+  std::optional<double> shadow_floor;  // of kContribution: least probability of a ray
+  Allocation allocation = Allocation::kUniform;
+  Guiding guiding = Guiding::kNone;
+  Decide decide = Decide::kNone;
 
   friend bool operator==(const Strategy&, const Strategy&) = default;
 
@@ -40,6 +52,8 @@ struct Strategy {
   double Floor() const {
     return floor.value_or(roulette == Roulette::kLuminance ? 0.05 : 0);
   }
+  /// Least probability of a shadow ray.
+  double ShadowFloor() const { return shadow_floor.value_or(0.1); }
   /// First scattering event (from 1) after which roulette is played.
   std::uint32_t First() const {
     return first.value_or(roulette == Roulette::kConstant ? 1 : 2);
@@ -63,6 +77,13 @@ enum class StrategyKey {
   kRoulette,
   kLightSelection,
   kSeenLights,
+  kLightPoints,
+  kLightCandidates,
+  kEnvironment,
+  kShadowRoulette,
+  kAllocation,
+  kGuiding,
+  kDecide,
   kCount
 };
 
@@ -107,6 +128,13 @@ const char* Name(Control choice);
 const char* Name(Roulette choice);
 const char* Name(LightSelection choice);
 const char* Name(SeenLights choice);
+const char* Name(LightPoints choice);
+const char* Name(LightCandidates choice);
+const char* Name(EnvironmentPoints choice);
+const char* Name(ShadowRoulette choice);
+const char* Name(Allocation choice);
+const char* Name(Guiding choice);
+const char* Name(Decide choice);
 const char* Name(Paired choice);
 
 }  // namespace lanelight

@@ -14,14 +14,17 @@ namespace lanelight {
 namespace {
 
 // By StrategyKey.
-constexpr const char* kKeys[] = {"directions",      "points",     "pairs",
-                                 "control",         "c",          "roulette",
-                                 "light-selection", "seen-lights"};
+constexpr const char* kKeys[] = {
+    "directions",  "points",          "pairs",       "control",      "c",
+    "roulette",    "light-selection", "seen-lights", "light-points", "light-candidates",
+    "environment", "shadow-roulette", "allocation",  "guiding",      "decide"};
 static_assert(std::size(kKeys) == static_cast<std::size_t>(StrategyKey::kCount));
 
 constexpr const char kPlain[] =
     "directions=mis:power,points=independent,pairs=none,control=none,c=optimal,"
-    "roulette=none,light-selection=power,seen-lights=paths";
+    "roulette=none,light-selection=power,seen-lights=paths,light-points=area,"
+    "light-candidates=single,environment=plain,shadow-roulette=none,allocation=uniform,"
+    "guiding=none,decide=none";
 
 class Parser {
  public:
@@ -149,6 +152,27 @@ class Parser {
       case StrategyKey::kSeenLights:
         strategy_.seen_lights = static_cast<SeenLights>(Choose(key, value, kSeenLights));
         return;
+      case StrategyKey::kLightPoints:
+        strategy_.light_points =
+            static_cast<LightPoints>(Choose(key, value, kLightPoints));
+        return;
+      case StrategyKey::kLightCandidates:
+        return SetLightCandidates(value);
+      case StrategyKey::kEnvironment:
+        strategy_.environment =
+            static_cast<EnvironmentPoints>(Choose(key, value, kEnvironmentPoints));
+        return;
+      case StrategyKey::kShadowRoulette:
+        return SetShadowRoulette(value);
+      case StrategyKey::kAllocation:
+        strategy_.allocation = static_cast<Allocation>(Choose(key, value, kAllocations));
+        return;
+      case StrategyKey::kGuiding:
+        strategy_.guiding = static_cast<Guiding>(Choose(key, value, kGuidings));
+        return;
+      case StrategyKey::kDecide:
+        strategy_.decide = static_cast<Decide>(Choose(key, value, kDecisions));
+        return;
       case StrategyKey::kCount:
         return;
     }
@@ -174,6 +198,33 @@ class Parser {
     if (parts.size() < 2) return;
     if (strategy_.pairs == Pairs::kNone) Fail("\"none\" of pairs takes no argument");
     strategy_.paired = static_cast<Paired>(Choose("pairs=antithetic", parts[1], kPaired));
+  }
+
+  void SetLightCandidates(std::string_view value) {
+    const auto parts = Parts("light-candidates", value, 2);
+    strategy_.light_candidates = static_cast<LightCandidates>(
+        Choose("light-candidates", parts[0], kLightCandidateChoices));
+    strategy_.candidates = kDefaultLightCandidates;
+    if (parts.size() < 2) return;
+    if (strategy_.light_candidates == LightCandidates::kSingle) {
+      Fail("\"single\" of light-candidates takes no argument");
+    }
+    const double m =
+        Number("light-candidates=resampled", parts[1], 2, kMostLightCandidates);
+    if (m != std::floor(m)) Fail("the number of light candidates must be whole");
+    strategy_.candidates = static_cast<std::uint32_t>(m);
+  }
+
+  void SetShadowRoulette(std::string_view value) {
+    const auto parts = Parts("shadow-roulette", value, 2);
+    strategy_.shadow_roulette = static_cast<ShadowRoulette>(
+        Choose("shadow-roulette", parts[0], kShadowRoulettes));
+    strategy_.shadow_floor.reset();
+    if (parts.size() < 2) return;
+    if (strategy_.shadow_roulette == ShadowRoulette::kNone) {
+      Fail("\"none\" of shadow-roulette takes no argument");
+    }
+    strategy_.shadow_floor = Number("shadow-roulette", parts[1], 0.001, 1);
   }
 
   void SetRoulette(std::string_view value) {
@@ -234,6 +285,19 @@ void Apply(const StrategyChanges& changes, Strategy& strategy) {
   }
   if (has(StrategyKey::kLightSelection)) strategy.light_selection = from.light_selection;
   if (has(StrategyKey::kSeenLights)) strategy.seen_lights = from.seen_lights;
+  if (has(StrategyKey::kLightPoints)) strategy.light_points = from.light_points;
+  if (has(StrategyKey::kLightCandidates)) {
+    strategy.light_candidates = from.light_candidates;
+    strategy.candidates = from.candidates;
+  }
+  if (has(StrategyKey::kEnvironment)) strategy.environment = from.environment;
+  if (has(StrategyKey::kShadowRoulette)) {
+    strategy.shadow_roulette = from.shadow_roulette;
+    strategy.shadow_floor = from.shadow_floor;
+  }
+  if (has(StrategyKey::kAllocation)) strategy.allocation = from.allocation;
+  if (has(StrategyKey::kGuiding)) strategy.guiding = from.guiding;
+  if (has(StrategyKey::kDecide)) strategy.decide = from.decide;
 }
 
 void ApplyStrategy(std::string_view text, const SourceLocation& where,

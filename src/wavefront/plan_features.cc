@@ -35,6 +35,10 @@ void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
     if (!HasDeltaLights(f)) f.Remove({Feature::kLights, Feature::kManyLights});
   }
   if (f.Has(Feature::kManyLights)) f.Add(TurnsOn(strategy.light_selection));
+  if (!f.Has(Feature::kLights)) return;
+  f.Add(TurnsOn(strategy.light_points));
+  f.Add(TurnsOn(strategy.light_candidates));
+  f.Add(TurnsOn(strategy.shadow_roulette));
 }
 
 void AddControl(const Strategy& strategy, FeatureSet& f) {
@@ -105,6 +109,8 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
     f.Add(Feature::kScatters);
     AddLightSampling(strategy, f);
     if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
+    f.Add(TurnsOn(strategy.guiding));
+    f.Add(TurnsOn(strategy.decide));
   } else {
     RemoveScattering(f);
   }
