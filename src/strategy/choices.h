@@ -124,7 +124,7 @@ inline constexpr std::uint32_t kDefaultLightCandidates = LANELIGHT_LIGHT_CANDIDA
     "f / (c p_guide + (1 - c) p_material)", "Vorba et al. 2014; Mueller, Gross and Novak 2017")
 
 #define LANELIGHT_DECISIONS(X)                                                            \
-  X(None, PLAIN, ({}), "none", "", "the strategy is as its other keys say", "", "")       \
+  X(None, PLAIN, ({}), "none", "", "the strategy is as its other keys say (default)", "one strategy", "")       \
   X(Pilot, PLAIN, ({kDecides}), "pilot", "", "roulette and guiding are chosen by a pilot, where they pay; else as their keys say", \
     "argmin over strategies of variance times cost", "")
 // clang-format on

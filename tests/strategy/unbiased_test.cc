@@ -20,6 +20,8 @@ namespace lanelight::test {
 namespace {
 
 constexpr double kFalseAlarm = 1e-4;  // for all comparisons of a test case together
+// A comparison that finds no smaller bias than that is not made.
+constexpr double kJudged = 0.25;
 
 // Arguments with which a choice takes part; the others take part as they are.
 const std::map<std::string, std::vector<std::string>>& Variants() {
@@ -211,11 +213,16 @@ void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth, std::uint
         {hard.tile, stat::SidakLevel(kFalseAlarm, int(5 * combinations.size())),
          kFloatTolerance, 1e-7});
     INFO(hard.name << ", " << strategy << ": " << result.ToString());
+    // So few bright samples that their mean is far from normal (uniform directions, tiny
+    // light, roulette that knows of no light): a test would reject good renders and find
+    // no fault. Power::Check asks that every choice is judged elsewhere.
+    if (result.detectable_bias > kJudged) continue;
     CHECK(result.same);
     uniformity.push_back(result.uniformity_p);
     power.Add(combinations[i], strategy == StrategyOf(Axes(), combinations[i]),
               result.detectable_bias);
   }
+  REQUIRE(!uniformity.empty());
   const double least = *std::min_element(uniformity.begin(), uniformity.end());
   CHECK(least > stat::SidakLevel(kFalseAlarm, int(uniformity.size())));
 }
