@@ -37,7 +37,7 @@ std::string ReadText(const fs::path& path) {
 
 TEST_CASE("own scenes: the header states purpose, needs and closed form", "[scenes]") {
   const auto scenes = OwnScenes();
-  CHECK(scenes.size() >= 18);
+  CHECK(scenes.size() >= 22);
   for (const fs::path& path : scenes) {
     const std::string text = ReadText(path);
     INFO(path);
@@ -88,6 +88,17 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
   CHECK(
       features("many-lights.pbrt").HasAll({Feature::kSpotLights, Feature::kManyLights}));
   CHECK(features("glass.pbrt").HasAll({Feature::kDielectricRough, Feature::kTextures}));
+  CHECK(features("shaded-lamp.pbrt")
+            .HasAll({Feature::kSphereLights, Feature::kDiffuseTransmission,
+                     Feature::kDielectricSmooth, Feature::kDisks}));
+  CHECK(features("blinds.pbrt")
+            .HasAll({Feature::kInstances, Feature::kDiskLights,
+                     Feature::kInfiniteConstant, Feature::kPlanes}));
+  CHECK(features("corridor.pbrt")
+            .HasAll({Feature::kSphereLights, Feature::kDielectricSmooth}));
+  CHECK(features("mirror-wall.pbrt")
+            .HasAll({Feature::kDiskLights, Feature::kConductorSmooth,
+                     Feature::kConductorRough}));
   CHECK(features("stiff/roughness-1e-4.pbrt")
             .HasAll({Feature::kConductorRough, Feature::kConductorSmooth}));
 }
@@ -119,6 +130,27 @@ TEST_CASE("own scenes: generated meshes can be read", "[scenes]") {
                       .c_str()) == 0);
   CHECK(ReadText(folder / "soup.ply") == first);
   CHECK(std::system((script + "soup --size 2 2> /dev/null").c_str()) != 0);
+  fs::remove_all(folder);
+}
+
+TEST_CASE("own scenes: turned parts are what scenes/parts/turn writes", "[scenes]") {
+  if (std::system("python3 --version > /dev/null 2>&1") != 0) {
+    WARN("skipped: no python3");
+    return;
+  }
+  const fs::path parts = fs::path(LANELIGHT_SOURCE_DIR) / "scenes" / "parts";
+  const fs::path folder = fs::temp_directory_path() / "lanelight_turn_test";
+  fs::remove_all(folder);
+  REQUIRE(
+      std::system(("python3 " + (parts / "turn").string() + " --out " + folder.string())
+                      .c_str()) == 0);
+  int written = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    INFO(entry.path());
+    CHECK(ReadText(entry.path()) == ReadText(parts / entry.path().filename()));
+    ++written;
+  }
+  CHECK(written == 4);
   fs::remove_all(folder);
 }
 
