@@ -13,6 +13,7 @@ line has, at that time:
 
   error      variance of a render over mean^2 + 0.01, mean over pixels and colours; the mean
              is that of all renders of the scene, or of one of --reference-time seconds
+  worst      the share of the error in the worst 1 % of a render's pixels
   gain       (baseline's error times its time) / (error times time), and 95 % interval
   trimmed    the same without the worst 1 % of each render's pixels
   means      p-value for equal expectations; below 0.001 the line is marked BIASED?
@@ -117,7 +118,9 @@ def compare(runs, mean, size, who):
     parts = [blocks_of_errors(run, mean, of, blocks) for run in runs]
     rows = []
     for k, (label, _, _) in enumerate(who):
+        whole, kept = (sum(map(sum, part)) for part in parts[k][:2])
         row = {"candidate": label, "error": parts[k][2],
+               "worst": 1 - kept / whole if whole else math.nan,
                "seconds": sum(seconds for _, seconds in runs[k]) / len(runs[k])}
         if k:
             row["gain"] = statistics.efficiency(parts[0][0], parts[k][0])
@@ -133,10 +136,11 @@ def interval(values):
 
 def print_rows(scene, length, rows):
     print(f"\n{scene} {' '.join(length)}")
-    print(f"  {'candidate':40} {'seconds':>8} {'error':>10} {'gain':>22} {'trimmed':>22} "
-          f"{'means':>7}")
+    print(f"  {'candidate':40} {'seconds':>8} {'error':>10} {'worst':>6} "
+          f"{'gain':>22} {'trimmed':>22} {'means':>7}")
     for row in rows:
         line = f"  {row['candidate']:40} {row['seconds']:8.2f} {row['error']:10.4g}"
+        line += f" {row['worst']:6.0%}"
         if "gain" in row:
             line += f" {interval(row['gain']):>22} {interval(row['trimmed']):>22}"
             line += f" {row['means']:7.2g}"

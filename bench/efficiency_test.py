@@ -145,6 +145,8 @@ class StatisticsTest(unittest.TestCase):
             runs = [run(0.5, 1.2), run(0.02, 30)]
             mean = efficiency.reference(options, "", who, [runs])
             rows = efficiency.compare(runs, mean, (32, 32), who)
+            self.assertLess(rows[0]["worst"], 0.05)
+            self.assertGreater(rows[1]["worst"], 0.1)
             alarms += rows[1]["means"] < efficiency.FALSE_ALARM
         self.assertLessEqual(alarms, 1)
 
