@@ -33,6 +33,7 @@ namespace lanelight {
   X(Escape)                                    \
   X(HitLightTree)                              \
   X(EmissionTriangle)                          \
+  X(EmissionRectangle)                         \
   X(EmissionSphere)                            \
   X(EmissionDisk)                              \
   X(Limit)                                     \
@@ -61,6 +62,7 @@ namespace lanelight {
   X(SelectLight)                               \
   X(SelectLightTree)                           \
   X(SampleTriangleLight)                       \
+  X(SampleRectangleLight)                      \
   X(SampleSphereLight)                         \
   X(SampleDiskLight)                           \
   X(SamplePointLight)                          \

@@ -46,11 +46,13 @@ LANELIGHT_INLINE MF ClearOfPlane(V3 p, VF p_error, V3 point, V3 n, float size,
   return hn::Gt(light.two_sided != 0 ? hn::Abs(height) : height, clear);
 }
 
-/// One light for a vector of vertices. Returns which of them it takes part at.
+/// One light for a vector of vertices: a triangle of it. Returns which of them it takes
+/// part at.
 template <bool kBelow>
-LANELIGHT_INLINE MF TriangleLightAt(const CompiledScene& scene, const LightRecord& light,
-                                    V3 p, VF p_error, V3 n, TwoSides* out) {
-  const TriangleRecord& record = scene.geometry.triangles[light.primitive];
+LANELIGHT_INLINE MF TriangleLightAt(const CompiledScene& scene, uint32_t primitive,
+                                    const LightRecord& light, V3 p, VF p_error, V3 n,
+                                    TwoSides* out) {
+  const TriangleRecord& record = scene.geometry.triangles[primitive];
   const auto corner = [&](int i) HWY_ATTR {
     return Splat3(record.p[i][0], record.p[i][1], record.p[i][2]);
   };
@@ -65,6 +67,19 @@ LANELIGHT_INLINE MF TriangleLightAt(const CompiledScene& scene, const LightRecor
     return TriangleIrradiance({Minus(c0, at), e01, e12}, normal);
   });
   return clear;
+}
+
+/// Two triangles, of which rectangles consist as rays see them. Both take part or none.
+template <bool kBelow>
+LANELIGHT_INLINE MF RectangleLightAt(const CompiledScene& scene, const LightRecord& light,
+                                     V3 p, VF p_error, V3 n, TwoSides* out) {
+  TwoSides first = {Splat(0), Splat(0)}, second = first;
+  const MF a =
+      TriangleLightAt<kBelow>(scene, light.primitive, light, p, p_error, n, &first);
+  const MF b = TriangleLightAt<kBelow>(scene, light.second_primitive, light, p, p_error,
+                                       n, &second);
+  *out = {hn::Add(first.above, second.above), hn::Add(first.below, second.below)};
+  return hn::And(a, b);
 }
 
 /// From inside (as the sampler of spheres sees it) a sphere takes no part.
@@ -129,7 +144,11 @@ LANELIGHT_INLINE AreaLight AreaLightsAt(const CompiledScene& scene, V3 p, VF p_e
     MF takes_part;
     switch (static_cast<LightShape>(light.shape)) {
       case LightShape::kTriangle:
-        takes_part = TriangleLightAt<kBelow>(scene, light, p, p_error, n, &one);
+        takes_part =
+            TriangleLightAt<kBelow>(scene, light.primitive, light, p, p_error, n, &one);
+        break;
+      case LightShape::kRectangle:
+        takes_part = RectangleLightAt<kBelow>(scene, light, p, p_error, n, &one);
         break;
       case LightShape::kSphere:
         takes_part = SphereLightAt<kBelow>(scene, light, p, n, &one);

@@ -9,6 +9,7 @@
 #endif
 
 #include "kernels/lights/light-inl.h"
+#include "kernels/warp/solid_angle-inl.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,6 +27,28 @@ struct LightTriangle {
     n = Normalize(Cross(e1, e2));
   }
 };
+
+struct LightRectangle {
+  V3 corner, along_x, along_y, n;
+  VF size_x, size_y;
+
+  LANELIGHT_INLINE explicit LightRectangle(const Lights& light)
+      : corner(light.F3(offsetof(LightRecord, position))),
+        along_x(light.F3(offsetof(LightRecord, direction))),
+        along_y(light.F3(offsetof(LightRecord, side))),
+        n(Cross(along_x, along_y)),
+        size_x(light.F(offsetof(LightRecord, size))),
+        size_y(light.F(offsetof(LightRecord, size) + 4)) {}
+
+  LANELIGHT_INLINE LocalRectangle From(V3 p) const {
+    return {corner - p, along_x, along_y, n, size_x, size_y};
+  }
+};
+
+/// True where a triangle or rectangle is sampled by its solid angle; else by area.
+LANELIGHT_INLINE MF BySolidAngle(VF omega) {
+  return hn::Ge(omega, Splat(kLeastSolidAngle));  // false for NaN
+}
 
 struct LightSphere {
   V3 center;

@@ -62,6 +62,9 @@ LANELIGHT_INLINE PrimitiveSpan EmittingSpan(const LightTable& table) {
     if (light.primitive == 0xffffffffu) continue;
     span.first = HWY_MIN(span.first, light.primitive);
     span.last = HWY_MAX(span.last, light.primitive);
+    if (light.shape != static_cast<uint32_t>(LightShape::kRectangle)) continue;
+    span.first = HWY_MIN(span.first, light.second_primitive);
+    span.last = HWY_MAX(span.last, light.second_primitive);
   }
   return span;
 }
@@ -104,28 +107,48 @@ LANELIGHT_INLINE VF SumAbs(V3 v) {
   return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z)));
 }
 
-/// Light sample at point q with unit normal n of a surface light, chosen with density
-/// pdf_area (selection included). The shadow ray ends a little in front of the light, by
-/// a bound on the rounding of both end points (about 8 ulp of their coordinates) and the
-/// offset of its origin, so that the light does not shadow itself.
+/// The shadow ray to point q with unit normal n of a surface light. It ends a little in
+/// front of the light, by a bound on the rounding of both end points (about 8 ulp of
+/// their coordinates) and the offset of its origin, so that the light does not shadow
+/// itself.
+struct ShadowRay {
+  V3 direction;
+  VF distance2, distance, cos_light;
+
+  LANELIGHT_INLINE ShadowRay(const PathColumns& p, const StoreSlots& slots, V3 q, V3 n) {
+    const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
+    const VF clearance = hn::MulAdd(Splat(1e-6f), hn::Add(SumAbs(from), SumAbs(q)),
+                                    hn::Mul(Splat(2.0f), Gather(p.p_error, slots)));
+    const VF side = hn::CopySign(clearance, Dot(n, from - q));
+    const V3 to_light = MulAdd(n, side, q) - from;
+    distance2 = Dot(to_light, to_light);
+    distance = hn::Sqrt(distance2);
+    direction = Mul(to_light, hn::Div(Splat(1.0f), distance));
+    cos_light = hn::Neg(Dot(n, direction));
+  }
+  /// Of a density over the light's area.
+  LANELIGHT_INLINE VF PdfSa(VF pdf_area) const {
+    return hn::Div(hn::Mul(pdf_area, distance2), hn::Abs(cos_light));
+  }
+};
+
+/// Light sample by a shadow ray with density pdf_sa (selection included).
+LANELIGHT_INLINE void StoreShadowRay(const PathColumns& p, const StoreSlots& slots,
+                                     const ShadowRay& ray, VF pdf_sa, V3 radiance,
+                                     MF two_sided) {
+  const MF facing = hn::Or(hn::Gt(ray.cos_light, Splat(0)), two_sided);
+  const MF usable =
+      hn::And(facing, hn::And(hn::Gt(pdf_sa, Splat(0)), hn::Lt(pdf_sa, Splat(1e30f))));
+  StoreLightSample(p, slots, ray.direction, ray.distance,
+                   Mul(radiance, hn::Div(Splat(1.0f), pdf_sa)), pdf_sa, usable);
+}
+
+/// The same to point q with normal n, chosen with density pdf_area (selection included).
 LANELIGHT_INLINE void StoreSurfaceSample(const PathColumns& p, const StoreSlots& slots,
                                          V3 q, V3 n, VF pdf_area, V3 radiance,
                                          MF two_sided) {
-  const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
-  const VF clearance = hn::MulAdd(Splat(1e-6f), hn::Add(SumAbs(from), SumAbs(q)),
-                                  hn::Mul(Splat(2.0f), Gather(p.p_error, slots)));
-  const VF side = hn::CopySign(clearance, Dot(n, from - q));
-  const V3 to_light = MulAdd(n, side, q) - from;
-  const VF distance2 = Dot(to_light, to_light);
-  const VF distance = hn::Sqrt(distance2);
-  const V3 direction = Mul(to_light, hn::Div(Splat(1.0f), distance));
-  const VF cos_light = hn::Neg(Dot(n, direction));
-  const MF facing = hn::Or(hn::Gt(cos_light, Splat(0)), two_sided);
-  const VF pdf_sa = hn::Div(hn::Mul(pdf_area, distance2), hn::Abs(cos_light));
-  const MF usable =
-      hn::And(facing, hn::And(hn::Gt(pdf_sa, Splat(0)), hn::Lt(pdf_sa, Splat(1e30f))));
-  StoreLightSample(p, slots, direction, distance,
-                   Mul(radiance, hn::Div(Splat(1.0f), pdf_sa)), pdf_sa, usable);
+  const ShadowRay ray(p, slots, q, n);
+  StoreShadowRay(p, slots, ray, ray.PdfSa(pdf_area), radiance, two_sided);
 }
 
 /// Adds weight * beta * radiance to the path.

@@ -47,6 +47,8 @@ Feature FeatureOf(LightShape shape) {
   switch (shape) {
     case LightShape::kTriangle:
       return Feature::kTriangleLights;
+    case LightShape::kRectangle:
+      return Feature::kRectangleLights;
     case LightShape::kSphere:
       return Feature::kSphereLights;
     case LightShape::kDisk:
@@ -73,8 +75,8 @@ void AddLights(const LightTable& lights, FeatureSet& features) {
   if (!lights.lights.empty()) features.Add(Feature::kLights);
   if (lights.lights.size() > 1) features.Add(Feature::kManyLights);
   if (!lights.infinite.empty()) features.Add(Feature::kInfiniteLights);
-  if (features.HasAny(
-          {Feature::kTriangleLights, Feature::kSphereLights, Feature::kDiskLights})) {
+  if (features.HasAny({Feature::kTriangleLights, Feature::kRectangleLights,
+                       Feature::kSphereLights, Feature::kDiskLights})) {
     features.Add(Feature::kAreaLights);
   }
 }

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/compile/environment.h"
+#include "src/compile/rectangles.h"
 
 namespace lanelight {
 namespace {
@@ -45,6 +47,10 @@ class LightCompiler {
   LightRecord AreaRecord(LightShape shape, const PlacedShape& placed, Rgb radiance,
                          double area, std::uint32_t primitive) const;
   void EmittingMesh(const PlacedShape& placed, const MeshRange& range);
+  void EmittingTriangle(const PlacedShape& placed, Rgb radiance, double area,
+                        std::uint32_t i);
+  void EmittingRectangle(const PlacedShape& placed, Rgb radiance, double area,
+                         const Rectangle& r, std::uint32_t begin);
   void EmittingSphere(const PlacedShape& placed, std::size_t i);
   void EmittingDisk(const PlacedShape& placed, std::size_t i);
   void AddShapes();
@@ -119,21 +125,55 @@ double RoundedArea(const TriangleRecord& t) {
   return Length(Cross(p(1) - p(0), p(2) - p(0))) / 2;
 }
 
+// Rays and samples meet the rounded triangle; what it emits is to be what the file says.
+double CorrectionOf(double area, double rounded) {
+  const double ratio = area / rounded;
+  return std::abs(ratio - 1) > kAreaTolerance ? ratio : 1;
+}
+
+void LightCompiler::EmittingTriangle(const PlacedShape& placed, Rgb radiance, double area,
+                                     std::uint32_t i) {
+  TriangleRecord& triangle = compiled_.geometry.triangles[i];
+  const double rounded = RoundedArea(triangle);
+  const LightRecord record = AreaRecord(
+      LightShape::kTriangle, placed, radiance * CorrectionOf(area, rounded), rounded, i);
+  triangle.light = Push(record, AreaPower(record));
+}
+
+void LightCompiler::EmittingRectangle(const PlacedShape& placed, Rgb radiance,
+                                      double area, const Rectangle& r,
+                                      std::uint32_t begin) {
+  const double x = Length(r.x_side), y = Length(r.y_side);
+  LightRecord record =
+      AreaRecord(LightShape::kRectangle, placed, radiance * CorrectionOf(area, x * y),
+                 x * y, begin + r.first);
+  record.second_primitive = begin + r.second;
+  Store(r.corner, record.position);
+  Store(r.x_side / x, record.direction);
+  Store(r.y_side / y, record.side);
+  record.size[0] = static_cast<float>(x), record.size[1] = static_cast<float>(y);
+  const std::int32_t light = Push(record, AreaPower(record));
+  for (const std::uint32_t i : {r.first, r.second}) {
+    compiled_.geometry.triangles[begin + i].light = light;
+  }
+}
+
 void LightCompiler::EmittingMesh(const PlacedShape& placed, const MeshRange& range) {
   double total = 0;
   for (double area : range.areas) total += area;
   if (!(total > 0)) return;  // only degenerate triangles: CompileScene leaves a note
   const Rgb radiance = Radiance(placed, total);
-  for (std::uint32_t i = range.begin; i < range.end; ++i) {
-    TriangleRecord& triangle = compiled_.geometry.triangles[i];
-    // Rays and samples meet the rounded triangle; what it emits is to be what the file
-    // says.
-    const double area = RoundedArea(triangle);
-    const double ratio = range.areas[i - range.begin] / area;
-    const double correction = std::abs(ratio - 1) > kAreaTolerance ? ratio : 1;
-    const LightRecord record =
-        AreaRecord(LightShape::kTriangle, placed, radiance * correction, area, i);
-    triangle.light = Push(record, AreaPower(record));
+  const std::span<TriangleRecord> mesh(&compiled_.geometry.triangles[range.begin],
+                                       range.end - range.begin);
+  const std::vector<Rectangle> rectangles = FindRectangles(mesh);
+  auto next = rectangles.begin();
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+    if (next != rectangles.end() && next->first == i) {
+      const double area = range.areas[i] + range.areas[next->second];
+      EmittingRectangle(placed, radiance, area, *next++, range.begin);
+    } else if (mesh[i].light < 0) {  // not the second of a rectangle
+      EmittingTriangle(placed, radiance, range.areas[i], range.begin + i);
+    }
   }
 }
 

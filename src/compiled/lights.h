@@ -16,10 +16,11 @@ enum class LightShape : std::uint32_t {
   kSpot,
   kDistant,
   kInfiniteConstant,
-  kInfiniteImage
+  kInfiniteImage,
+  kRectangle  // two triangles of a mesh, which rays hit
 };
 
-/// Light record: 20 words. Emitters in instances are copied into the world at compile.
+/// Light record: 24 words. Emitters in instances are copied into the world at compile.
 struct LightRecord {
   std::uint32_t shape;       // LightShape
   std::uint32_t two_sided;   // 0 or 1
@@ -28,15 +29,20 @@ struct LightRecord {
   float radiance[3];         // radiance; point/spot: intensity in scene units (W/sr times
                              // scale^2); distant: irradiance on a facing surface
   std::uint32_t primitive;   // id of the emitting primitive
-  float position[3];         // point, spot
+  float position[3];         // point, spot; rectangle: a corner
   std::int32_t environment;  // index into LightTable::environments, or -1
   float direction[3];        // spot: axis, pointing away from the light; distant: unit,
-                             // pointing TOWARD the light
+                             // pointing TOWARD the light; rectangle: unit, along a side
+                             // that begins at `position`
   // Spot: 1 - cos of the cone and of where its falloff begins, exact for narrow cones.
   float versine_total, versine_falloff;
-  float pad[3];
+  float side[3];  // rectangle: unit, along the other side; its normal, on the side that
+                  // emits, is cross(direction, side)
+  float size[2];  // rectangle: lengths of the two sides
+  std::uint32_t second_primitive;  // rectangle: the other triangle
+  std::uint32_t pad;
 };
-static_assert(sizeof(LightRecord) == 80);
+static_assert(sizeof(LightRecord) == 96);
 
 /// Environment image: size x size equal-area octahedral map (Clarberg 2008; pbrt-v4).
 /// Texel probabilities are proportional to luminance; pdf_sa = p * size^2 / (4 pi).

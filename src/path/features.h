@@ -32,6 +32,7 @@ namespace lanelight {
   X(kLights, "light that is sampled")                                         \
   X(kManyLights, "more than one light")                                       \
   X(kTriangleLights, "emitting triangles")                                    \
+  X(kRectangleLights, "emitting rectangles (two triangles each)")             \
   X(kSphereLights, "emitting spheres")                                        \
   X(kDiskLights, "emitting disks")                                            \
   X(kPointLights, "point lights")                                             \

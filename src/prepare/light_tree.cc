@@ -88,6 +88,14 @@ Bounds BoundsOf(const Geometry& g, const LightRecord& light) {
       if (!light.two_sided) b.cone = {Normalize(n), 0};
       break;
     }
+    case LightShape::kRectangle: {
+      for (const std::uint32_t prim : {light.primitive, light.second_primitive}) {
+        for (const auto& p : g.triangles[prim].p) b.Add(ToVec(p));
+      }
+      const Vec3d n = Cross(ToVec(light.direction), ToVec(light.side));
+      if (!light.two_sided) b.cone = {Normalize(n), 0};
+      break;
+    }
     case LightShape::kSphere: {
       const SphereRecord& s = g.spheres[light.primitive - g.ranges.spheres];
       const double r = s.radius;
@@ -235,10 +243,12 @@ LightTree BuildLightTree(const Geometry& geometry, std::span<const LightRecord> 
   Builder(std::move(leaves), tree).Build();
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     if (tree.nodes[i].child >= 0) continue;
-    const std::uint32_t primitive =
-        lights[static_cast<std::uint32_t>(~tree.nodes[i].child)].primitive;
-    if (primitive < geometry.ranges.end) {
-      tree.primitive_leaf[primitive] = static_cast<std::int32_t>(i);
+    const LightRecord& light = lights[static_cast<std::uint32_t>(~tree.nodes[i].child)];
+    const auto leaf = static_cast<std::int32_t>(i);
+    if (light.primitive >= geometry.ranges.end) continue;
+    tree.primitive_leaf[light.primitive] = leaf;
+    if (light.shape == static_cast<std::uint32_t>(LightShape::kRectangle)) {
+      tree.primitive_leaf[light.second_primitive] = leaf;
     }
   }
   return tree;

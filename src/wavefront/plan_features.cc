@@ -26,6 +26,12 @@ bool HasDeltaLights(const FeatureSet& f) {
   return f.HasAny({Feature::kPointLights, Feature::kSpotLights, Feature::kDistantLights});
 }
 
+// Lights whose points light-points= chooses, and samples of them.
+bool SamplesFlatLights(const FeatureSet& f) {
+  return f.Has(Feature::kSampledHittableLights) &&
+         f.HasAny({Feature::kTriangleLights, Feature::kRectangleLights});
+}
+
 void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
   f.Add(TurnsOn(strategy.directions));
   if (!strategy.SamplesHittableLights()) {
@@ -36,7 +42,7 @@ void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
   }
   if (f.Has(Feature::kManyLights)) f.Add(TurnsOn(strategy.light_selection));
   if (!f.Has(Feature::kLights)) return;
-  f.Add(TurnsOn(strategy.light_points));
+  if (SamplesFlatLights(f)) f.Add(TurnsOn(strategy.light_points));
   f.Add(TurnsOn(strategy.light_candidates));
   f.Add(TurnsOn(strategy.shadow_roulette));
 }
@@ -142,6 +148,11 @@ std::vector<std::string> CheckStrategy(const CompiledScene& scene,
   if (s.light_selection != LightSelection::kPower && !f.Has(Feature::kManyLights)) {
     notes.push_back(std::string("light-selection=") + Name(s.light_selection) +
                     " has no effect: there are no two lights to choose from");
+  }
+  if (s.light_points != LightPoints::kArea &&
+      !SamplesFlatLights(PlanFeatures(scene, options))) {
+    notes.push_back(std::string("light-points=") + Name(s.light_points) +
+                    " has no effect: no triangle or rectangle that emits is sampled");
   }
   if (s.directions == Directions::kLight && !f.Has(Feature::kLights)) {
     notes.push_back(

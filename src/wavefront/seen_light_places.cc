@@ -27,6 +27,11 @@ std::optional<Ball> BallOf(const Geometry& g, const LightRecord& light) {
       return Ball{center,
                   std::max({Length(a - center), Length(b - center), Length(c - center)})};
     }
+    case LightShape::kRectangle: {
+      const double x = light.size[0], y = light.size[1];
+      const Vec3d across = x * ToVec(light.direction) + y * ToVec(light.side);
+      return Ball{ToVec(light.position) + 0.5 * across, 0.5 * std::hypot(x, y)};
+    }
     case LightShape::kSphere: {
       const SphereRecord& s = g.spheres[light.primitive - g.ranges.spheres];
       return Ball{ToVec(s.center), s.radius};

@@ -381,9 +381,10 @@ TEST_CASE("compile: degenerate triangles are left out and noted", "[scene][compi
   REQUIRE(scene.geometry.triangles.size() == 5);
   CHECK(scene.geometry.groups[0].end == 5);
   CHECK(scene.geometry.triangles[1].p[2][0] == -scene.scale);  // second of the square
-  CHECK(scene.geometry.triangles[2].light == 2);               // the one of 4 1 2
+  CHECK(scene.geometry.triangles[1].light == 0);               // one light with the first
+  CHECK(scene.geometry.triangles[2].light == 1);               // the one of 4 1 2
   CHECK(scene.geometry.triangles[3].light == -1);
-  CHECK(scene.lights.lights.size() == 3);
+  CHECK(scene.lights.lights.size() == 2);
   REQUIRE(scene.notes.size() == 1);
   CHECK(scene.notes[0].where.line == 10);
   CHECK(scene.notes[0].message == "left out 4 degenerate triangles of 7");

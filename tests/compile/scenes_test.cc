@@ -38,8 +38,12 @@ void CheckLights(const CompiledScene& scene) {
     sum += light.pmf;
     CHECK(light.pmf > 0);
     CHECK(std::isfinite(light.radiance[0] + light.radiance[1] + light.radiance[2]));
-    if (light.shape != static_cast<std::uint32_t>(LightShape::kTriangle)) continue;
-    CHECK(scene.geometry.triangles[light.primitive].light == static_cast<int>(i));
+    const auto shape = static_cast<LightShape>(light.shape);
+    if (shape != LightShape::kTriangle && shape != LightShape::kRectangle) continue;
+    const auto& triangles = scene.geometry.triangles;
+    CHECK(triangles[light.primitive].light == static_cast<int>(i));
+    if (shape == LightShape::kTriangle) continue;
+    CHECK(triangles[light.second_primitive].light == static_cast<int>(i));
   }
   CHECK(sum == Approx(1));
 }

@@ -94,6 +94,45 @@ void TestTriangles() {
   CHECK(out.cut > 25);
 }
 
+// As rays see them: two triangles, which here differ, so that none stands for the other.
+void TestRectangles() {
+  Random random(17);
+  Outcome out;
+  for (int light = 0; light < 20; ++light) {
+    const double size = std::pow(10, random.U(-3, 0.3));
+    Vec3f c[4];
+    for (Vec3f& corner : c) corner = VecCast<float>(random.Direction() * size);
+    const Vec3d n =
+        Normalize(Cross(VecCast<double>(c[1] - c[0]), VecCast<double>(c[2] - c[0])));
+    // The other triangle in the same plane and on the same side of the diagonal.
+    c[3] = c[1] + (c[2] - c[0]) * 0.75f;
+    Geometry g;
+    g.triangles = {MakeTriangle({9, 9, 9}, {9, 8, 9}, {9, 9, 8}),
+                   MakeTriangle(c[0], c[1], c[2]), MakeTriangle(c[3], c[2], c[1])};
+    CompiledScene scene = SceneOfOneLight(std::move(g), LightShape::kRectangle, true);
+    scene.lights.lights[0].primitive = 1, scene.lights.lights[0].second_primitive = 2;
+    Receivers r;
+    for (int i = 0; i < 16; ++i) {
+      const double distance = 2.5 * size + random.U(0.5, 2);
+      const Vec3d at = Normalize(random.Direction() + n * 0.5) * distance;
+      r.Add(at, random.Normal(Normalize(-at), size / distance));
+    }
+    const auto exact = [&](Vec3d p, Vec3d normal) {
+      double sum = 0;
+      for (const int half : {0, 1}) {
+        const int at[2][3] = {{0, 1, 2}, {3, 2, 1}};
+        Vec3d q[3];
+        for (int k = 0; k < 3; ++k) q[k] = VecCast<double>(c[at[half][k]]) - p;
+        sum += quadrature::Triangle(q, normal);
+      }
+      return sum;
+    };
+    Compare(r, scene, exact, [&](Vec3d p) { return exact(p, Normalize(-p)); }, out);
+  }
+  INFO("worst error " << out.worst);
+  CHECK(out.compared > 150);
+}
+
 void TestSpheres() {
   Random random(12);
   Outcome out;
@@ -156,6 +195,10 @@ void TestDisks() {
 
 TEST_CASE("irradiance of triangles, clipped at the horizon", "[control]") {
   ForEachTarget(TestTriangles);
+}
+
+TEST_CASE("irradiance of rectangles of two triangles", "[control]") {
+  ForEachTarget(TestRectangles);
 }
 
 TEST_CASE("irradiance of spheres, clipped at the horizon", "[control]") {

@@ -20,10 +20,13 @@ struct Variant {
   const char* strategy;
   bool mis, tree;
   double exponent;  // of the heuristic
+  bool solid_angle = false;
 };
 constexpr Variant kVariants[] = {{"directions=mis:power", true, false, 2},
                                  {"directions=mis:balance", true, false, 1},
                                  {"directions=mis:power", true, true, 2},
+                                 {"directions=mis:power", true, false, 2, true},
+                                 {"directions=mis:balance", true, true, 1, true},
                                  {"directions=bsdf", false, false, 0}};
 
 Vec3f At(const Geometry& g, std::uint32_t prim, std::mt19937& engine) {
@@ -81,7 +84,10 @@ struct Hits {
     }
   }
   FeatureSet features() const {
-    return variant.mis ? FeatureSet{Feature::kMis} : FeatureSet{};
+    FeatureSet features;
+    if (variant.mis) features.Add(Feature::kMis);
+    if (variant.solid_angle) features.Add(Feature::kSolidAngleLights);
+    return features;
   }
   Vec3d Origin(std::uint32_t i) const {
     const PathColumns& p = fixture.wave.path;
@@ -123,7 +129,8 @@ void CheckHit(const Hits& hits, std::uint32_t i) {
   if (index < 0) return hits.CheckGained(i, {}, 0);
   const NamedLight& light = hits.lights.lights[static_cast<std::size_t>(index)];
   // What is hit is not always what is nearest: a far side is seen through the near one.
-  const SeenLight seen = Look(scene, light.record, hits.Origin(i), hits.Direction(i));
+  const SeenLight seen = Look(scene, light.record, hits.Origin(i), hits.Direction(i),
+                              hits.variant.solid_angle);
   INFO(light.name << ", cosine " << seen.cosine);
   if (std::abs(seen.distance - p.t[i]) > 1e-5 * p.t[i]) return;
   if (seen.cosine < 0.03) return;  // rounding decides which side is seen
@@ -146,6 +153,7 @@ TEST_CASE("hit lights add their emission, by the weight of hits", "[lights]") {
         Hits hits(*lights, variant);
         hits.fixture.QueueAll(QueueId::kHit, kPaths);
         hits.fixture.Run(EmissionTriangleStage(), hits.features());
+        hits.fixture.Run(EmissionRectangleStage(), hits.features());
         hits.fixture.Run(EmissionSphereStage(), hits.features());
         hits.fixture.Run(EmissionDiskStage(), hits.features());
         for (std::uint32_t i = 0; i < kPaths; ++i) CheckHit(hits, i);
@@ -169,8 +177,9 @@ TEST_CASE("escaped rays see every environment, by the weight of hits", "[lights]
         Vec3d sum;
         bool sure = true;
         for (const NamedLight& light : all.lights) {
-          if (light.record.shape <
-              static_cast<std::uint32_t>(LightShape::kInfiniteConstant)) {
+          const auto shape = static_cast<LightShape>(light.record.shape);
+          if (shape != LightShape::kInfiniteConstant &&
+              shape != LightShape::kInfiniteImage) {
             continue;
           }
           const SeenLight seen = Look(all.scene, light.record, {}, hits.Direction(i));

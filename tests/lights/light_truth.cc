@@ -45,6 +45,7 @@ double SpotFalloff(const LightRecord& light, Vec3d w) {
   return x * x * (3 - 2 * x);
 }
 
+// A rectangle's light, too, is made of triangles: the first of them is `primitive`.
 struct Corners {
   Vec3d p[3];
 };
@@ -78,6 +79,15 @@ SeenLight LookAtTriangle(const CompiledScene& scene, const LightRecord& light, V
   seen.met = seen.distance > 0 && std::min({b1, b2, 1 - b1 - b2}) > -1e-4;
   OnSurface(seen, light, Normalize(n), w);
   return seen;
+}
+
+// Through whichever of its two triangles.
+SeenLight LookAtRectangle(const CompiledScene& scene, const LightRecord& light,
+                          Vec3d from, Vec3d w) {
+  LightRecord half = light;
+  const SeenLight first = LookAtTriangle(scene, half, from, w);
+  half.primitive = light.second_primitive;
+  return first.met ? first : LookAtTriangle(scene, half, from, w);
 }
 
 SeenLight LookAtDisk(const CompiledScene& scene, const LightRecord& light, Vec3d from,
@@ -139,6 +149,22 @@ SeenLight LookAtSky(const CompiledScene& scene, const LightRecord& light, Vec3d 
 
 }  // namespace
 
+LightRecord FlatLight(LightShape shape, Vec3d corner, Vec3d x, Vec3d y) {
+  LightRecord record{};
+  record.shape = static_cast<std::uint32_t>(shape);
+  record.environment = -1;
+  const bool rectangle = shape == LightShape::kRectangle;
+  record.area = static_cast<float>(Length(Cross(x, y)) / (rectangle ? 1 : 2));
+  if (!rectangle) return record;
+  record.second_primitive = 1;
+  Store(corner, record.position);
+  Store(Normalize(x), record.direction);
+  Store(Normalize(y), record.side);
+  record.size[0] = static_cast<float>(Length(x));
+  record.size[1] = static_cast<float>(Length(y));
+  return record;
+}
+
 LightScene::LightScene() {
   AddShapes();
   const PrimitiveRanges& r = scene.geometry.ranges;
@@ -162,8 +188,7 @@ LightScene::LightScene() {
   AddLight("another sky", LightShape::kInfiniteImage, 0xffffffffu, 0);
   scene.lights.environments = {Sky(4, 0), Sky(13, 70)};
   lights[13].record.environment = 0, lights[14].record.environment = 1;
-  AddLight("another point", LightShape::kPoint, 0xffffffffu, 0);
-  Store({-1.5, 2.5, 0.5}, lights[15].record.position);
+  AddRectangle();
   StoreRecords();
 }
 
@@ -172,7 +197,9 @@ void LightScene::AddShapes() {
   g.triangles = {MakeTriangle({9, 9, 9}, {9, 8, 9}, {9, 9, 8}),
                  MakeTriangle({-1, -1, 3}, {0.5f, 1.5f, 2.5f}, {1, -1, 3.5f}),
                  MakeTriangle({2, -1, 0.5f}, {2.2f, 1, 0}, {1.9f, 0, 2}),
-                 MakeTriangle({-9, 9, 9}, {9, -8, 9}, {9, 9, -8})};
+                 MakeTriangle({-9, 9, 9}, {9, -8, 9}, {9, 9, -8}),
+                 MakeTriangle({-2, 1, 0.5f}, {-2, -0.5f, 1.5f}, {-1, 1, 0.5f}),
+                 MakeTriangle({-1, -0.5f, 1.5f}, {-1, 1, 0.5f}, {-2, -0.5f, 1.5f})};
   g.spheres = {MakeSphere({8, 0, 0}, 1),     MakeSphere({0, 0, 4}, 0.7f),
                MakeSphere({0, 0, 0}, 20),    MakeSphere({0.5f, 0, 0}, 15),
                MakeSphere({3, 3, 3}, 1e-3f), MakeSphere({-3, 0, 1}, 1)};
@@ -182,6 +209,18 @@ void LightScene::AddShapes() {
              MakeDisk({0, -3, 0.5f}, {0.3f, -1, 0}, 0.8f)};
   g.planes = {MakePlane({0, 0, -9}, {0, 0, 1})};
   scene = MakeScene(std::move(g));
+}
+
+// The last two triangles.
+void LightScene::AddRectangle() {
+  AddLight("rectangle", LightShape::kRectangle, 4, 0);
+  LightRecord& light = lights.back().record;
+  LightRecord flat =
+      FlatLight(LightShape::kRectangle, {-2, 1, 0.5}, {0, -1.5, 1}, {1, 0, 0});
+  flat.pmf = light.pmf;
+  std::copy_n(light.radiance, 3, flat.radiance);
+  flat.primitive = 4, flat.second_primitive = 5;
+  light = flat;
 }
 
 void LightScene::AddLight(const char* name, LightShape shape, std::uint32_t primitive,
@@ -222,6 +261,9 @@ void LightScene::StoreRecords() {
       case LightShape::kTriangle:
         g.triangles[r.primitive].light = index;
         break;
+      case LightShape::kRectangle:
+        g.triangles[r.primitive].light = g.triangles[r.second_primitive].light = index;
+        break;
       case LightShape::kSphere:
         g.spheres[r.primitive - g.ranges.spheres].light = index;
         break;
@@ -250,12 +292,17 @@ void LightScene::AddOthers(int count) {
   StoreRecords();
 }
 
-SeenLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from,
-               Vec3d w) {
+SeenLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from, Vec3d w,
+               bool solid_angle) {
   SeenLight seen;
   switch (static_cast<LightShape>(light.shape)) {
     case LightShape::kTriangle:
       seen = LookAtTriangle(scene, light, from, w);
+      if (solid_angle) seen.pdf = 1 / SolidAngleOf(scene, light, from).steradians;
+      break;
+    case LightShape::kRectangle:
+      seen = LookAtRectangle(scene, light, from, w);
+      if (solid_angle) seen.pdf = 1 / SolidAngleOf(scene, light, from).steradians;
       break;
     case LightShape::kSphere:
       seen = LookAtSphere(scene, light, from, w);
@@ -309,6 +356,14 @@ SolidAngle SolidAngleOf(const CompiledScene& scene, const LightRecord& light,
         moment += Normalize(edge) * (theta / 2);
       }
       return {angle, volume < 0 ? -moment : moment};
+    }
+    case LightShape::kRectangle: {
+      LightRecord half = light;
+      half.shape = static_cast<std::uint32_t>(LightShape::kTriangle);
+      const SolidAngle first = SolidAngleOf(scene, half, from);
+      half.primitive = light.second_primitive;
+      const SolidAngle second = SolidAngleOf(scene, half, from);
+      return {first.steradians + second.steradians, first.moment + second.moment};
     }
     case LightShape::kSphere: {
       const SphereRecord& sphere = SphereOf(scene, light);

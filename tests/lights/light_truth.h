@@ -29,9 +29,14 @@ struct LightScene {
 
  private:
   void AddShapes();
+  void AddRectangle();
   void AddLight(const char* name, LightShape shape, std::uint32_t primitive, double area);
   void StoreRecords();
 };
+
+/// Record of a triangle or rectangle from `corner` along two sides, as the scene compiler
+/// would write it: its triangles are primitives 0 and 1; no radiance, no pmf.
+LightRecord FlatLight(LightShape shape, Vec3d corner, Vec3d x, Vec3d y);
 
 /// What lies along the unit direction `w` from `from`, if the light is met there.
 struct SeenLight {
@@ -42,7 +47,9 @@ struct SeenLight {
   double pdf = 0;     // of sampling `w`, light selection not included; 0: delta light
   Vec3d radiance;     // delta lights: radiance / pdf
 };
-SeenLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from, Vec3d w);
+/// solid_angle: triangles and rectangles are sampled by that, instead of by area.
+SeenLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from, Vec3d w,
+               bool solid_angle = false);
 
 /// Solid angle under which the light is seen, and the integral of the direction over it;
 /// closed forms. Disks: from points of their axis only.

@@ -158,6 +158,36 @@ TEST_CASE("light tree: near and facing lights are preferred", "[strategy]") {
   CHECK(nearest > 4 * 2048 / (3 * 42));
 }
 
+TEST_CASE("light tree: both halves of a rectangle are its light", "[strategy]") {
+  SceneBuilder b(4, 4);
+  const Index dark = b.AddDiffuse(Grey(0));
+  for (int i = 0; i < 9; ++i) {
+    const Index light = b.AddEmission({1 + 0.5 * i, 2, 1}, i % 2 == 0);
+    b.AddQuad({2.0 * i, 0.3 * i, 1}, {0.5, 0, 0}, {0, 0.75, 0}, dark, light);
+  }
+  SceneDescription description = b.Build();
+  description.strategy.light_selection = LightSelection::kTree;
+  const CompiledScene scene = PrepareScene(description);
+  REQUIRE(scene.lights.lights.size() == 9);
+  const LightTree& tree = scene.lights.tree;
+  for (const LightRecord& light : scene.lights.lights) {
+    REQUIRE(light.shape == static_cast<std::uint32_t>(LightShape::kRectangle));
+    const std::int32_t leaf = tree.primitive_leaf[light.primitive];
+    CHECK(leaf >= 0);
+    CHECK(tree.primitive_leaf[light.second_primitive] == leaf);
+    const LightNode& node = tree.nodes[static_cast<std::size_t>(leaf)];
+    CHECK(&light == &scene.lights.lights[static_cast<std::size_t>(~node.child)]);
+    for (const std::uint32_t prim : {light.primitive, light.second_primitive}) {
+      for (const auto& p : scene.geometry.triangles[prim].p) {
+        for (int k = 0; k < 3; ++k) {
+          CHECK(p[k] >= node.low[k]);
+          CHECK(p[k] <= node.high[k]);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("light tree: lights without a place need no tree", "[strategy]") {
   SceneBuilder b(4, 4);
   b.Depth(2).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 36);
