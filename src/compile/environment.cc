@@ -8,6 +8,7 @@
 #include "src/core/error.h"
 #include "src/core/error_text.h"
 #include "src/image/octahedral.h"
+#include "src/compile/environment_table.h"
 #include "src/compile/texture_table.h"
 
 namespace lanelight {
@@ -102,69 +103,6 @@ void StoreRotation(const Light& light, Environment& environment) {
   }
 }
 
-// Running sums of `weights`, normalised, as `size + 1` floats that start at 0 and end
-// at 1. Without any weight the distribution is uniform.
-void StoreCdf(const double* weights, std::size_t size, float* cdf) {
-  double total = 0;
-  for (std::size_t i = 0; i < size; ++i) total += weights[i];
-  double sum = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    cdf[i] = static_cast<float>(total > 0 ? sum / total : double(i) / double(size));
-    sum += weights[i];
-  }
-  cdf[size] = 1;
-}
-
-// Bits of a guide: about four steps of the distribution for each of its parts.
-int GuideBits(std::size_t size) {
-  int bits = 0;
-  while ((std::size_t{4} << bits) < size) ++bits;
-  return bits;
-}
-
-// See Environment::guide_bits. Parts are powers of two, so that u finds its part exactly.
-void StoreGuide(const float* cdf, std::size_t size, int bits, std::int32_t* guide) {
-  const std::size_t parts = std::size_t{1} << bits;
-  std::size_t step = 0;
-  for (std::size_t k = 0; k <= parts; ++k) {
-    const double u = double(k) / double(parts);
-    while (step + 1 < size && cdf[step + 1] <= u) ++step;
-    guide[k] = static_cast<std::int32_t>(step);
-  }
-}
-
-// The probabilities are those of the rounded sums, which is what the kernel samples.
-void StoreDistribution(Environment& environment) {
-  const auto size = static_cast<std::size_t>(environment.size);
-  std::vector<double> luminance(size * size), rows(size);
-  for (std::size_t i = 0; i < luminance.size(); ++i) {
-    luminance[i] = TexelLuminance(environment.rgb, i);
-    rows[i / size] += luminance[i];
-  }
-  if (std::all_of(rows.begin(), rows.end(), [](double l) { return !(l > 0); })) return;
-  environment.row_cdf.resize(size + 1);
-  environment.column_cdf.resize((size + 1) * size);
-  environment.probability.resize(size * size);
-  StoreCdf(rows.data(), size, environment.row_cdf.data());
-  const int bits = GuideBits(size);
-  const std::size_t guide = (std::size_t{1} << bits) + 1;
-  environment.guide_bits = bits;
-  environment.row_guide.resize(guide);
-  environment.column_guide.resize(guide * size);
-  StoreGuide(environment.row_cdf.data(), size, bits, environment.row_guide.data());
-  for (std::size_t y = 0; y < size; ++y) {
-    float* columns = environment.column_cdf.data() + y * (size + 1);
-    StoreCdf(luminance.data() + y * size, size, columns);
-    StoreGuide(columns, size, bits, environment.column_guide.data() + y * guide);
-    const double row =
-        double(environment.row_cdf[y + 1]) - double(environment.row_cdf[y]);
-    for (std::size_t x = 0; x < size; ++x) {
-      const double column = double(columns[x + 1]) - double(columns[x]);
-      environment.probability[y * size + x] = static_cast<float>(row * column);
-    }
-  }
-}
-
 }  // namespace
 
 Environment CompileEnvironment(const Light& light, std::vector<Note>* notes) {
@@ -208,7 +146,7 @@ Environment CompileEnvironment(const Light& light, const Image& image,
     scale *= light.illuminance / map;
   }
   for (float& v : environment.rgb) v = static_cast<float>(v * scale);
-  StoreDistribution(environment);
+  SetEnvironmentTable(false, environment);
   return environment;
 }
 

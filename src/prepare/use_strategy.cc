@@ -1,5 +1,6 @@
 #include "src/prepare/use_strategy.h"
 
+#include "src/compile/environment_table.h"
 #include "src/core/alias_table.h"
 #include "src/prepare/light_tree.h"
 
@@ -41,9 +42,25 @@ void UseTree(const std::vector<double>& weights, CompiledScene& scene) {
   }
 }
 
+// The tables are plain unless the strategy that they were prepared for compensated them;
+// then, and where the new one does, they are made anew.
+void UseEnvironmentTables(const Strategy& strategy, CompiledScene& scene) {
+  const bool compensated = CompensatesEnvironment(strategy);
+  if (!compensated && !CompensatesEnvironment(scene.strategy)) return;
+  for (Environment& environment : scene.lights.environments) {
+    SetEnvironmentTable(compensated, environment);
+  }
+}
+
 }  // namespace
 
+bool CompensatesEnvironment(const Strategy& strategy) {
+  return strategy.environment == EnvironmentPoints::kCompensated &&
+         strategy.directions == Directions::kMis;
+}
+
 void UseStrategy(const Strategy& strategy, CompiledScene& scene) {
+  UseEnvironmentTables(strategy, scene);
   scene.strategy = strategy;
   LightTable& table = scene.lights;
   table.tree = {};

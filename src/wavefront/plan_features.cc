@@ -164,6 +164,18 @@ std::vector<std::string> CheckStrategy(const CompiledScene& scene,
     notes.push_back(std::string("roulette=") + Name(s.roulette) +
                     " has no effect: paths end after one scattering event");
   }
+  if (s.environment == EnvironmentPoints::kCompensated &&
+      !f.Has(Feature::kInfiniteImage)) {
+    notes.push_back(
+        "environment=compensated has no effect: there is no environment image");
+  } else if (s.environment == EnvironmentPoints::kCompensated &&
+             s.directions != Directions::kMis) {
+    notes.push_back(
+        std::string("environment=compensated has no effect with directions=") +
+        Name(s.directions) +
+        ": only with directions=mis do scattered rays find what light samples "
+        "leave out");
+  }
   if (s.pairs == Pairs::kAntithetic && s.paired == Paired::kLight &&
       !PlanFeatures(scene, options).Has(Feature::kLights)) {
     notes.push_back("pairs=antithetic:light has no effect: no light is sampled");

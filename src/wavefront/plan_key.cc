@@ -7,6 +7,7 @@
 
 #include "src/prepare/groups.h"
 #include "src/prepare/parameters.h"
+#include "src/prepare/use_strategy.h"
 #include "src/wavefront/plan_features.h"
 #include "src/wavefront/seen_lights.h"
 
@@ -89,6 +90,10 @@ std::string PlanKey(const CompiledScene& scene, const Plan& plan) {
   }
   key += fmt::format(" depth {} ", plan.options.max_depth);
   key += ParametersText(PlannedStrategy(scene, plan.options), plan.features);
+  if (plan.features.HasAll({Feature::kInfiniteImage, Feature::kLights}) &&
+      CompensatesEnvironment(scene.strategy)) {
+    key += " environment compensated";
+  }
   if (SeesLightsApart(scene)) key += " seen lights apart";
   return key + fmt::format(" lights {:016x}", HashLights(scene.lights));
 }

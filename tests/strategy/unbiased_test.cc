@@ -10,6 +10,9 @@
 #include <cstdlib>
 #include <map>
 
+#include "src/image/exr.h"
+#include "src/image/octahedral.h"
+#include "tests/image/temporary_folder.h"
 #include "tests/reference/closed_forms.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/stat/hypothesis.h"
@@ -81,7 +84,33 @@ SceneDescription GlossyPlates() {
   return scene;
 }
 
-// A sky with a sun of its own and one that is a small, far, bright sphere.
+// Radiance of the image of a sky, 8 x 8 texels: dim, with a bright spot.
+Rgb SkyTexel(int x, int y) {
+  if (x == 5 && y == 3) return {3, 2.5, 2};
+  return {0.1 + 0.02 * ((x + 2 * y) % 5), 0.15, 0.1 + 0.03 * (y % 3)};
+}
+
+Rgb SkyRadiance(Index, Vec3d toward) {
+  const auto [u, v] = DirectionToOctahedral(toward);
+  return SkyTexel(std::min(static_cast<int>(8 * u), 7),
+                  std::min(static_cast<int>(8 * v), 7));
+}
+
+std::string SkyFile() {
+  static const TemporaryFolder folder;
+  std::vector<ExrPlane> planes = {{"R", {}, true}, {"G", {}, true}, {"B", {}, true}};
+  for (int i = 0; i < 64; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      planes[static_cast<std::size_t>(c)].values.push_back(
+          static_cast<float>(SkyTexel(i % 8, i / 8)[c]));
+    }
+  }
+  WriteExr(folder.File("sky.exr"), 8, 8, planes);
+  return folder.File("sky.exr");
+}
+
+// Skies, constant and as an image, with a sun of their own and one that is a small, far,
+// bright sphere.
 SceneDescription SkyAndSun() {
   SceneBuilder b(8, 8);
   b.Depth(3).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 36);
@@ -101,8 +130,11 @@ SceneDescription SkyAndSun() {
   b.AddSphere({0.6, 0, 0.5}, 0.5, b.AddMaterial(plastic));
   b.AddSphere({4, 3, 8}, 1.5, ground, b.AddEmission({12, 11, 9}));
   b.AddDistant({-1, -1, 2}, {0.5, 0.5, 0.6});
-  b.AddEnvironment({0.4, 0.5, 0.7});
-  return b.Build();
+  b.AddEnvironment({0.2, 0.3, 0.5});
+  b.AddEnvironment({});
+  SceneDescription scene = b.Build();
+  scene.lights.back().image_path = SkyFile();
+  return scene;
 }
 
 // Lights of every shape that has a place, for the selection of lights.
@@ -228,8 +260,9 @@ void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth, std::uint
 }
 
 stat::ImageEstimate Reference(const SceneDescription& scene, int samples) {
-  return Estimate(
-      RenderReference(scene, Options(ReferenceEstimator::kLightSampling, samples)));
+  ReferenceOptions options = Options(ReferenceEstimator::kLightSampling, samples);
+  options.environment = SkyRadiance;
+  return Estimate(RenderReference(scene, options));
 }
 
 }  // namespace
