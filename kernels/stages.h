@@ -58,6 +58,7 @@ namespace lanelight {
   X(LatticeBounce)                             \
   X(AntitheticBounce)                          \
   X(FirstBounce)                               \
+  X(GuideProposals)                            \
   X(Route)                                     \
   X(SelectLight)                               \
   X(SelectLightTree)                           \

@@ -15,6 +15,7 @@
 //     static Params Load(const MaterialInputs&);
 //     static BsdfValue Eval(const Params&, V3 wo, V3 wi);
 //     static BsdfSample Sample(const Params&, V3 wo, const BsdfPoints&);
+//     static VF EtaScale(const Params&, V3 wo, V3 wi);  with Eval and kRefracts
 //   };
 // wo and wi are unit and point away from the surface; wo.z is never 0.
 #if defined(LANELIGHT_BSDF_BSDF_INL_H_) == defined(HWY_TARGET_TOGGLE)

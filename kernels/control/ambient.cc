@@ -38,7 +38,7 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 // (f cos) L_h / p of the light sample, weighted, if it is of an environment.
-template <class Bsdf>
+template <class Bsdf, class Proposal>
 HWY_INLINE V3 SampledAmbient(const Wave& wave, const DiffuseVertex<Bsdf>& vertex,
                              const Slots& slots) {
   const PathColumns& path = wave.path;
@@ -57,17 +57,21 @@ HWY_INLINE V3 SampledAmbient(const Wave& wave, const DiffuseVertex<Bsdf>& vertex
   const VF pdf = Gather(path.ls_pdf, slots);
   const MF usable = hn::And(is_ambient, hn::Gt(pdf, Splat(0)));
   VF weight = hn::Div(Splat(1.0f), hn::IfThenElse(usable, pdf, Splat(1.0f)));
-  if (path.bsdf_pdf != nullptr) {
-    weight = hn::Mul(weight, LightSampleWeight(wave.run->mis, pdf, value.pdf));
+  if (wave.run->features.Has(Feature::kMis)) {
+    const Proposal proposal(wave, vertex.frame, slots);
+    const V3 wi = vertex.frame.ToLocal(direction);
+    const VF scattered =
+        proposal.template Pdf<Bsdf>(vertex.material, vertex.wo, wi, value.pdf);
+    weight = hn::Mul(weight, LightSampleWeight(wave.run->mis, pdf, scattered));
   }
   return IfThenElseZero(usable, Mul(Mul(value.f_cos, radiance), weight));
 }
 
-template <class Bsdf>
-HWY_INLINE void Ambient(Wave& wave, ShadeKind kind) {
+template <class Bsdf, ShadeKind kKind, class Proposal>
+void Ambient(Wave& wave) {
   const SurfaceReader<Bsdf> reader(wave);
   const bool light_samples = wave.run->features.Has(Feature::kSampledHittableLights);
-  ForEachBatch(wave, wave.queue(ShadeQueue(kind)), [&](const Slots& slots, MF) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(ShadeQueue(kKind)), [&](const Slots& slots, MF) HWY_ATTR {
     const DiffuseVertex<Bsdf> vertex(reader, slots);
     V3 above = Splat3(0, 0, 0), below = above;
     for (const AmbientLight& light : wave.run->tables->ambient) {
@@ -77,15 +81,26 @@ HWY_INLINE void Ambient(Wave& wave, ShadeKind kind) {
       }
     }
     V3 difference = -vertex.Scattered(above, below);
-    if (light_samples) difference = difference + SampledAmbient(wave, vertex, slots);
+    if (light_samples) {
+      difference = difference + SampledAmbient<Bsdf, Proposal>(wave, vertex, slots);
+    }
     ApplyControl(wave, slots,
                  IfThenElseZero(vertex.usable, Mul(vertex.beta, difference)));
   });
 }
 
-void AmbientDiffuse(Wave& wave) { Ambient<DiffuseBsdf>(wave, ShadeKind::kDiffuse); }
-void AmbientTransmission(Wave& wave) {
-  Ambient<DiffuseTransmissionBsdf>(wave, ShadeKind::kDiffuseTransmission);
+template <class Bsdf, ShadeKind kKind>
+StageFn ResolveAmbient(const FeatureSet& features) {
+  return features.Has(Feature::kGuided) ? Ambient<Bsdf, kKind, GuidedProposal>
+                                        : Ambient<Bsdf, kKind, MaterialProposal>;
+}
+
+StageFn AmbientDiffuse(const FeatureSet& features) {
+  return ResolveAmbient<DiffuseBsdf, ShadeKind::kDiffuse>(features);
+}
+StageFn AmbientTransmission(const FeatureSet& features) {
+  return ResolveAmbient<DiffuseTransmissionBsdf, ShadeKind::kDiffuseTransmission>(
+      features);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -104,15 +119,13 @@ Stage AmbientDiffuseStage() {
   return SurfaceControlStage(
       "control_ambient", "control by the unoccluded environment",
       Feature::kAmbientControl, ShadeKind::kDiffuse,
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(AmbientDiffuse); });
+      [](const FeatureSet& f) { return HWY_DYNAMIC_DISPATCH(AmbientDiffuse)(f); });
 }
 Stage AmbientTransmissionStage() {
-  return SurfaceControlStage("control_ambient_sheet",
-                             "control by the unoccluded environment on both sides",
-                             Feature::kAmbientControl, ShadeKind::kDiffuseTransmission,
-                             [](const FeatureSet&) -> StageFn {
-                               return HWY_DYNAMIC_DISPATCH(AmbientTransmission);
-                             });
+  return SurfaceControlStage(
+      "control_ambient_sheet", "control by the unoccluded environment on both sides",
+      Feature::kAmbientControl, ShadeKind::kDiffuseTransmission,
+      [](const FeatureSet& f) { return HWY_DYNAMIC_DISPATCH(AmbientTransmission)(f); });
 }
 
 }  // namespace lanelight

@@ -15,7 +15,8 @@ inline Stage SurfaceControlStage(const char* name, const char* meaning, Feature 
           ShadeQueue(kind),
           {control, ShadeFeature(kind), Feature::kScatters},
           direction | kThroughput | kRadiance | kPoint | kNormal | kParameters |
-              kLightSample | kControl | FieldSet{Field::material, Field::ls_light},
+              kLightSample | kControl |
+              FieldSet{Field::material, Field::ls_light, Field::guide_cell},
           kRadiance | kControl,
           resolve};
 }

@@ -16,23 +16,26 @@
 #endif
 
 #include "kernels/bsdf/bsdf-inl.h"
+#include "src/path/wave.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-/// A proposal of the next direction has two members, with the measure of solid angle:
+/// A proposal of the next direction is made for a batch of paths and their shading frame.
+/// It has two members, with the measure of solid angle:
 ///   Sample  a direction, what it weighs, and its density
 ///   Pdf     the density with which Sample would find wi, given that of the material
 /// `u`: the points of the bounce.
 struct MaterialProposal {
+  LANELIGHT_INLINE MaterialProposal(const Wave&, const Frame&, const Slots&) {}
   template <class Bsdf>
-  static LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
-                                            const BsdfPoints& u) {
+  LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
+                                     const BsdfPoints& u) const {
     return Bsdf::Sample(material, wo, u);
   }
   template <class Bsdf>
-  static LANELIGHT_INLINE VF Pdf(const typename Bsdf::Params&, V3, V3, VF material_pdf) {
+  LANELIGHT_INLINE VF Pdf(const typename Bsdf::Params&, V3, V3, VF material_pdf) const {
     return material_pdf;
   }
 };

@@ -18,6 +18,7 @@
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/warp/hemisphere-inl.h"
+#include "src/path/wave.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -44,9 +45,10 @@ EvaluateUniformDirection(const typename Bsdf::Params& material, V3 wo, VF u0, VF
 
 /// A proposal as in material-inl.h.
 struct UniformProposal {
+  LANELIGHT_INLINE UniformProposal(const Wave&, const Frame&, const Slots&) {}
   template <class Bsdf>
-  static LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
-                                            const BsdfPoints& u) {
+  LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
+                                     const BsdfPoints& u) const {
     if constexpr (!Bsdf::kHasDelta) {
       return EvaluateUniformDirection<Bsdf>(material, wo, u.u0, u.u1);
     } else {
@@ -63,7 +65,7 @@ struct UniformProposal {
     }
   }
   template <class Bsdf>
-  static LANELIGHT_INLINE VF Pdf(const typename Bsdf::Params&, V3 wo, V3 wi, VF) {
+  LANELIGHT_INLINE VF Pdf(const typename Bsdf::Params&, V3 wo, V3 wi, VF) const {
     const VF pdf = PdfUniformHemisphere();
     if constexpr (Bsdf::kTransmits) return hn::Mul(pdf, Splat(0.5f));
     return hn::IfThenElseZero(SameSide(wo, wi), pdf);

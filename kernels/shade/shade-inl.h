@@ -9,6 +9,7 @@
 
 #include <limits>
 
+#include "kernels/directions/guided-inl.h"
 #include "kernels/directions/lighting-inl.h"
 #include "kernels/directions/material-inl.h"
 #include "kernels/directions/uniform-inl.h"
@@ -106,15 +107,16 @@ struct Shader : SurfaceReader<Bsdf> {
   HWY_INLINE explicit Shader(Wave& w) : SurfaceReader<Bsdf>(w) {}
 
   /// Next-event estimation: what the sampled light would add if nothing is in between.
-  HWY_INLINE void SampleLight(const Material& material, const Frame& frame, V3 wo,
-                              V3 beta, const StoreSlots& slots, MF valid) {
+  HWY_INLINE void SampleLight(const Material& material, const Proposal& proposal,
+                              const Frame& frame, V3 wo, V3 beta, const StoreSlots& slots,
+                              MF valid) {
     const PathColumns& path = wave.path;
     const V3 light = Gather3(path.ls_r, path.ls_g, path.ls_b, slots);
     const V3 wi = frame.ToLocal(Gather3(path.ls_x, path.ls_y, path.ls_z, slots));
     const BsdfValue value = Bsdf::Eval(material, wo, wi);
     V3 carried = Mul(Mul(beta, value.f_cos), light);
     if constexpr (Lighting::kWeighs) {
-      const VF pdf = Proposal::template Pdf<Bsdf>(material, wo, wi, value.pdf);
+      const VF pdf = proposal.template Pdf<Bsdf>(material, wo, wi, value.pdf);
       carried =
           Mul(carried, Lighting::Weight(wave.run->mis, Gather(path.ls_pdf, slots), pdf));
     }
@@ -123,13 +125,14 @@ struct Shader : SurfaceReader<Bsdf> {
   }
 
   /// Scatters the path: new ray, throughput and density; returns the paths that go on.
-  HWY_INLINE MF Bounce(const Material& material, const Frame& frame, V3 wo, V3 ng,
-                       V3 beta, const StoreSlots& slots) {
+  HWY_INLINE MF Bounce(const Material& material, const Proposal& proposal,
+                       const Frame& frame, V3 wo, V3 ng, V3 beta,
+                       const StoreSlots& slots) {
     const PathColumns& path = wave.path;
     BsdfPoints u = {hn::Zero(DF()), Gather(path.u_bsdf_0, slots),
                     Gather(path.u_bsdf_1, slots)};
     if (path.u_lobe != nullptr) u.lobe = Gather(path.u_lobe, slots);
-    const BsdfSample sample = Proposal::template Sample<Bsdf>(material, wo, u);
+    const BsdfSample sample = proposal.template Sample<Bsdf>(material, wo, u);
     const V3 d = Renormalize(frame.FromLocal(sample.wi));
     const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
     const V3 o = OffsetOrigin(p, ng, Gather(path.p_error, slots), d);
@@ -138,6 +141,8 @@ struct Shader : SurfaceReader<Bsdf> {
     if constexpr (Lighting::kWeighs) {
       alive =
           hn::And(alive, hn::Lt(sample.pdf, Splat(std::numeric_limits<float>::max())));
+    }
+    if (Lighting::kWeighs || path.bsdf_pdf != nullptr) {  // or somebody keeps records
       Scatter(sample.pdf, path.bsdf_pdf, slots);
     }
     const V3 carried = IfThenElseZero(alive, Mul(beta, sample.weight));
@@ -161,10 +166,12 @@ struct Shader : SurfaceReader<Bsdf> {
     const V3 wo = frame.ToLocal(-Gather3(path.d_x, path.d_y, path.d_z, slots));
     const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
     const Material material = Bsdf::Load(this->Inputs(slots));
+    const Proposal proposal(wave, frame, slots);
     if constexpr (!Bsdf::kSpecular) {
-      if (path.sh_r != nullptr) SampleLight(material, frame, wo, beta, slots, valid);
+      if (path.sh_r != nullptr)
+        SampleLight(material, proposal, frame, wo, beta, slots, valid);
     }
-    const MF alive = Bounce(material, frame, wo, ng, beta, slots);
+    const MF alive = Bounce(material, proposal, frame, wo, ng, beta, slots);
     Push(wave.queue(QueueId::kScattered), slots, hn::And(valid, alive));
     Push(wave.queue(QueueId::kDone), slots, hn::AndNot(alive, valid));
   }
@@ -181,7 +188,7 @@ void ShadeKernel(Wave& wave) {
 
 /// The kernel of this target for the features of a scene. Only the pairs of policies that
 /// a plan can need are instantiated: uniform directions take light samples of what no ray
-/// can hit, and nothing to weigh them against.
+/// can hit, and nothing to weigh them against; a guide has nothing to say to mirrors.
 template <class Bsdf, ShadeKind kKind>
 StageFn ResolveShade(const FeatureSet& features) {
   static_assert(HasTrait(kKind, kSpecularOnly) == Bsdf::kSpecular);
@@ -189,6 +196,13 @@ StageFn ResolveShade(const FeatureSet& features) {
   static_assert(HasTrait(kKind, kSecondColor) == Bsdf::kColor1);
   static_assert(HasTrait(kKind, kMicrofacets) == Bsdf::kRough);
   static_assert(HasTrait(kKind, kRefracting) == Bsdf::kRefracts);
+  if constexpr (!Bsdf::kSpecular) {
+    if (features.Has(Feature::kGuided)) {
+      return features.Has(Feature::kMis)
+                 ? ShadeKernel<Bsdf, kKind, GuidedProposal, MisLighting>
+                 : ShadeKernel<Bsdf, kKind, GuidedProposal, UnweightedLighting>;
+    }
+  }
   if (features.Has(Feature::kMis)) {
     return ShadeKernel<Bsdf, kKind, MaterialProposal, MisLighting>;
   }

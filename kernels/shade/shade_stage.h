@@ -1,6 +1,7 @@
 // The declaration that all shading stages share.
 #pragma once
 
+#include "kernels/guide/guide_fields.h"
 #include "src/path/stage.h"
 
 namespace lanelight {
@@ -9,7 +10,8 @@ namespace lanelight {
 inline Stage MakeShadeStage(const char* name, const char* meaning, ShadeKind kind,
                             StageFn (*resolve)(const FeatureSet&)) {
   using namespace fields;
-  const FieldSet points = {Field::u_lobe, Field::u_bsdf_0, Field::u_bsdf_1};
+  const FieldSet points = {Field::u_lobe, Field::u_bsdf_0, Field::u_bsdf_1,
+                           Field::u_guide};
   // Who the path is: its random walks inside a coat have numbers of their own.
   const FieldSet identity = {Field::pixel, Field::sample, Field::branch, Field::depth,
                              Field::material};
@@ -20,7 +22,7 @@ inline Stage MakeShadeStage(const char* name, const char* meaning, ShadeKind kin
           ShadeQueue(kind),
           {ShadeFeature(kind), Feature::kScatters},
           identity | direction | kThroughput | kPoint | kNormal | kTangent | kParameters |
-              points | kLightSample | FieldSet{Field::eta_scale},
+              points | kGuideProposal | kLightSample | FieldSet{Field::eta_scale},
           kRay | kThroughput | kShadow | history,
           resolve};
 }

@@ -1,11 +1,14 @@
 #include "src/prepare/tables.h"
 
+#include "src/prepare/guide_cell.h"
+
 namespace lanelight {
 
 StrategyTables MakeStrategyTables(const CompiledScene& scene) {
   const Strategy& strategy = scene.strategy;
   StrategyTables tables;
   if (strategy.control == Control::kAmbient) tables.ambient = MakeAmbientLights(scene);
+  if (strategy.guiding != Guiding::kNone) tables.guide = UnknowingGuide();
   return tables;
 }
 

@@ -11,7 +11,7 @@ namespace lanelight {
 
 struct StrategyTables {
   PathValues path_values;             // adjoint, efficiency: set by the pilot passes
-  Guide guide;                        // guiding=radiance: set by training passes
+  Guide guide;                        // guiding=radiance: knows nothing until trained
   std::vector<AmbientLight> ambient;  // control=ambient
 };
 

@@ -22,6 +22,16 @@ void RemoveScattering(FeatureSet& f) {
             Feature::kTexturedRoughness, Feature::kMix});
 }
 
+// A surface follows directions that are not its own choice.
+bool CanGuide(const Strategy& strategy, const FeatureSet& f) {
+  FeatureSet kinds;
+  for (int k = 0; k < kNumShadeKinds; ++k) {
+    const auto kind = static_cast<ShadeKind>(k);
+    if (!HasTrait(kind, kSpecularOnly)) kinds.Add(ShadeFeature(kind));
+  }
+  return strategy.directions != Directions::kUniform && f.HasAny(kinds);
+}
+
 bool HasDeltaLights(const FeatureSet& f) {
   return f.HasAny({Feature::kPointLights, Feature::kSpotLights, Feature::kDistantLights});
 }
@@ -115,7 +125,7 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
     f.Add(Feature::kScatters);
     AddLightSampling(strategy, f);
     if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
-    f.Add(TurnsOn(strategy.guiding));
+    if (CanGuide(strategy, f)) f.Add(TurnsOn(strategy.guiding));
     f.Add(TurnsOn(strategy.decide));
   } else {
     RemoveScattering(f);
@@ -175,6 +185,14 @@ std::vector<std::string> CheckStrategy(const CompiledScene& scene,
         Name(s.directions) +
         ": only with directions=mis do scattered rays find what light samples "
         "leave out");
+  }
+  if (s.guiding != Guiding::kNone && s.directions == Directions::kUniform) {
+    notes.push_back(std::string("guiding=") + Name(s.guiding) +
+                    " has no effect: directions=uniform asks nobody");
+  } else if (s.guiding != Guiding::kNone &&
+             !PlanFeatures(scene, options).Has(Feature::kGuided)) {
+    notes.push_back(std::string("guiding=") + Name(s.guiding) +
+                    " has no effect: nothing scatters, or mirrors and clear glass alone");
   }
   if (s.pairs == Pairs::kAntithetic && s.paired == Paired::kLight &&
       !PlanFeatures(scene, options).Has(Feature::kLights)) {

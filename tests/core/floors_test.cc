@@ -46,6 +46,7 @@ constexpr Floor kFloors[] = {
     {"kernels/surface",    "where a ray hit"},
     {"kernels/sort",       "paths into queues"},
     {"kernels/bsdf",       "materials, as policies"},
+    {"kernels/guide",      "where light comes from, as learned"},
     {"kernels/directions", "the next direction, and its weight"},
     {"kernels/lights",     "light samples, emission"},
     {"kernels/shade",      "materials, as stages"},

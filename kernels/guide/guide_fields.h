@@ -1,0 +1,11 @@
+// The columns that the guide stage fills.
+#pragma once
+
+#include "src/path/fields.h"
+
+namespace lanelight::fields {
+
+inline const FieldSet kGuideProposal = {Field::guide_cell, Field::guide_x, Field::guide_y,
+                                        Field::guide_z, Field::guide_pdf};
+
+}  // namespace lanelight::fields

@@ -1,0 +1,73 @@
+// guiding=radiance: the cell of the guide that a path is in and, where the guide and not
+// the material is to choose (u_guide below the cell's fraction), the direction that it
+// proposes. What becomes of both: kernels/directions/guided-inl.h.
+//   density     that of the cell's leaf (src/prepare/guide.h)
+//   cost        the levels of the tree, two gathers each; eight gathers and an octahedral
+//               map per direction. Batches in which no path is guided skip the latter
+//   source      Mueller, Gross and Novak 2017, "Practical Path Guiding for Efficient
+//               Light-Transport Simulation"
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/guide/propose.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/guide/guide-inl.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/prepare/tables.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+void GuideProposals(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const Guide& guide = wave.run->tables->guide;
+  ForEachBatch(wave, wave.queue(QueueId::kVertex),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+                 V3 n = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
+                 n = IfThenElse(hn::Gt(Dot(n, d), hn::Zero(DF())), -n, n);
+                 const VI cell = GuideCell(guide, Gather3(p.p_x, p.p_y, p.p_z, slots), n);
+                 Scatter(cell, p.guide_cell, slots);
+                 const VF fraction = Gather(guide.fraction.data(), cell);
+                 // Who is not guided has no use for the direction.
+                 if (hn::AllFalse(DF(), hn::Lt(Gather(p.u_guide, slots), fraction)))
+                   return;
+                 const GuideSample sample = SampleGuide(
+                     guide, cell, Gather(p.u_bsdf_0, slots), Gather(p.u_bsdf_1, slots));
+                 Scatter3(sample.direction, p.guide_x, p.guide_y, p.guide_z, slots);
+                 Scatter(sample.pdf_sa, p.guide_pdf, slots);
+               });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/guide/guide_fields.h"
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(GuideProposals);
+
+Stage GuideProposalsStage() {
+  using namespace fields;
+  const FieldSet direction = {Field::d_x, Field::d_y, Field::d_z};
+  const FieldSet normal = {Field::ng_x, Field::ng_y, Field::ng_z};
+  return {
+      "guide",
+      "what is known of the light at a point, and the direction it proposes",
+      QueueId::kVertex,
+      {Feature::kGuided, Feature::kScatters},
+      direction | normal | kPoint |
+          FieldSet{Field::u_guide, Field::u_bsdf_0, Field::u_bsdf_1},
+      kGuideProposal,
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(GuideProposals); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,68 @@
+#include "kernels/probe/guide_probe.h"
+
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/probe/guide_probe.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/guide/guide-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+LANELIGHT_INLINE V3 LoadAt(const float* const a[3], std::uint32_t i) {
+  const DF df;
+  return {hn::LoadU(df, a[0] + i), hn::LoadU(df, a[1] + i), hn::LoadU(df, a[2] + i)};
+}
+LANELIGHT_INLINE VI CellsAt(const GuideBatch& b, std::uint32_t i) {
+  return hn::LoadU(DI(), reinterpret_cast<const int32_t*>(b.cell) + i);
+}
+
+void GuideCells(const GuideBatch& b) {
+  for (std::uint32_t i = 0; i < b.n; i += hn::Lanes(DF())) {
+    const VI cell = GuideCell(*b.guide, LoadAt(b.point, i), LoadAt(b.normal, i));
+    hn::StoreU(cell, DI(), reinterpret_cast<int32_t*>(b.cell) + i);
+  }
+}
+
+void GuideSamples(const GuideBatch& b) {
+  const DF df;
+  for (std::uint32_t i = 0; i < b.n; i += hn::Lanes(df)) {
+    const GuideSample s = SampleGuide(*b.guide, CellsAt(b, i), hn::LoadU(df, b.u0 + i),
+                                      hn::LoadU(df, b.u1 + i));
+    hn::StoreU(s.direction.x, df, b.direction[0] + i);
+    hn::StoreU(s.direction.y, df, b.direction[1] + i);
+    hn::StoreU(s.direction.z, df, b.direction[2] + i);
+    hn::StoreU(s.pdf_sa, df, b.pdf_sa + i);
+  }
+}
+
+void GuidePdfs(const GuideBatch& b) {
+  for (std::uint32_t i = 0; i < b.n; i += hn::Lanes(DF())) {
+    const VF pdf = GuidePdf(*b.guide, CellsAt(b, i), LoadAt(b.direction, i));
+    hn::StoreU(pdf, DF(), b.pdf_sa + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lanelight {
+
+HWY_EXPORT(GuideCells);
+HWY_EXPORT(GuideSamples);
+HWY_EXPORT(GuidePdfs);
+
+void ProbeGuideCells(const GuideBatch& batch) { HWY_DYNAMIC_DISPATCH(GuideCells)(batch); }
+void ProbeGuideSamples(const GuideBatch& batch) {
+  HWY_DYNAMIC_DISPATCH(GuideSamples)(batch);
+}
+void ProbeGuidePdfs(const GuideBatch& batch) { HWY_DYNAMIC_DISPATCH(GuidePdfs)(batch); }
+
+}  // namespace lanelight
+#endif  // HWY_ONCE
