@@ -47,6 +47,7 @@ namespace lanelight {
   X(Aov)                                       \
   X(Vertices)                                  \
   X(RecordVertex)                              \
+  X(RecordStart)                               \
   X(AdjointRoulette)                           \
   X(EfficiencyRoulette)                        \
   X(IndependentBounce)                         \
@@ -84,10 +85,12 @@ namespace lanelight {
   X(Connect)                                   \
   X(AmbientScattered)                          \
   X(RecordDecision)                            \
+  X(RecordRay)                                 \
   X(ConstantRoulette)                          \
   X(ThroughputRoulette)                        \
   X(LuminanceRoulette)                         \
   X(RecordPath)                                \
+  X(RecordRays)                                \
   X(Accumulate)                                \
   X(Pack)
 

@@ -180,6 +180,10 @@ class Runner : public TaskWatcher {
             ? options_.planned_samples
             : std::max(RenderedPixels(scene_.film).pixels() * kPilotSpp, kLeastPilot);
     options.keep_roulette = options_.keep_roulette;
+    // Ranks train for themselves and have to agree: their clocks would not.
+    if (options_.spp == 0 && !options_.samples_needed && crew_.ranks() == 1) {
+      options.seconds = options_.seconds;
+    }
     options.stop = options_.stop;
     training_ = Train({scene_, plan_, run_, options, tables_});
     training_.seconds = Since(start_);

@@ -1,6 +1,7 @@
 #include "src/wavefront/training.h"
 
 #include "src/core/error.h"
+#include "src/wavefront/guide_tables.h"
 
 namespace lanelight {
 namespace {
@@ -47,7 +48,7 @@ std::vector<TrainedTable> TakeTraining(const StrategyTables& tables) {
   for (int i = 0; i < 3; ++i) head.push_back(g.size[i]);
   for (int i = 0; i < 3; ++i) head.push_back(double(p.channel[i]));
   head.push_back(double(p.scale));
-  return {
+  std::vector<TrainedTable> trained = {
       {"path_values",
        "grid: low corner, cells per unit, cells; weight of each channel; scale", head},
       {"path_values_survive", "by cell", {p.survive.begin(), p.survive.end()}},
@@ -55,6 +56,8 @@ std::vector<TrainedTable> TakeTraining(const StrategyTables& tables) {
       {"path_values_inverse",
        "ImageGuess::Inverse, by pixel of the full image and channel",
        {p.inverse_pixel.begin(), p.inverse_pixel.end()}}};
+  for (TrainedTable& table : TakeGuide(tables.guide)) trained.push_back(std::move(table));
+  return trained;
 }
 
 namespace {
@@ -97,6 +100,7 @@ void PutTraining(const std::vector<TrainedTable>& trained, StrategyTables& table
     throw InputError("the state's table 'path_values_split' does not fit its grid");
   }
   Put(TableOf(trained, "path_values_inverse"), p.inverse_pixel);
+  if (!tables.guide.nodes.empty()) PutGuide(trained, tables.guide);
 }
 
 }  // namespace lanelight

@@ -18,6 +18,7 @@ namespace lanelight {
 
 struct TrainingOptions {
   std::uint64_t planned_samples = 0;  // of the image
+  double seconds = 0;                 // that the run may take; 0: samples decide
   bool keep_roulette = false;         // even where another would be more efficient
   const std::atomic<bool>* stop = nullptr;
 };
@@ -31,9 +32,9 @@ struct TrainingContext {
   StrategyTables& tables;  // to be filled
 };
 
-// X(name, feature that asks for it), in the order in which they run. Each is a function
-// Train<name> in a file of its own.
-#define LANELIGHT_TRAININGS(X) X(PathValues, kPathValues)
+// X(name, feature that asks for it), in the order in which they run: path values are
+// those of guided paths. Each is a function Train<name> in a file of its own.
+#define LANELIGHT_TRAININGS(X) X(Guide, kGuided) X(PathValues, kPathValues)
 
 #define X(name, feature) TrainingOutcome Train##name(const TrainingContext& context);
 LANELIGHT_TRAININGS(X)
@@ -45,8 +46,10 @@ bool NeedsTraining(const Plan& plan);
 /// Runs what the plan's strategy asks for.
 TrainingOutcome Train(const TrainingContext& context);
 
-/// What it has put into the tables, to be kept and shipped; and back.
+/// What it has put into the tables, to be kept and shipped; and back, into the tables
+/// that MakeStrategyTables has made:
 std::vector<TrainedTable> TakeTraining(const StrategyTables& tables);
+/// throws InputError for tables that are missing or that kernels must not be given.
 void PutTraining(const std::vector<TrainedTable>& trained, StrategyTables& tables);
 
 }  // namespace lanelight

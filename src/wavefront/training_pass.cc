@@ -100,7 +100,8 @@ class Pass {
 
 }  // namespace
 
-TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples) {
+TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples,
+                              std::uint64_t turn) {
   std::vector<std::uint32_t> all;
   // Blocks of neighbours first, so that an even choice of them is even in both axes.
   TilePixels(RenderedPixels(scene.film), scene.film.width, &all);
@@ -113,7 +114,7 @@ TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples)
   // Whole blocks, if there are enough: rays of neighbours are traced together.
   const std::uint64_t run = RunLength(count), runs = count / run;
   TrainingWork work;
-  std::uint64_t jitter = 0;
+  std::uint64_t jitter = turn * 0x9e3779b97f4a7c15u;
   for (std::uint64_t i = 0; i < runs; ++i) {
     // One of each of equal stretches, at a place of its own in each.
     const std::uint64_t begin = i * (all.size() / run) / runs;

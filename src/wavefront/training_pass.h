@@ -35,8 +35,10 @@ struct TrainingSamples {
   }
 };
 
-/// About `samples` samples (at least four): spread evenly over the rendered window.
-TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples);
+/// About `samples` samples (at least four): spread evenly over the rendered window. Each
+/// `turn` has pixels of its own, unless all of them are taken.
+TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples,
+                              std::uint64_t turn = 0);
 
 /// About a sixteenth of it.
 TrainingWork FewOf(const TrainingWork& work);

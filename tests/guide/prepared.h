@@ -1,0 +1,59 @@
+// A scene whose guide is trained, for tests.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "src/prepare/guide_records.h"
+#include "src/prepare/parameters.h"
+#include "src/wavefront/training.h"
+#include "src/wavefront/training_pass.h"
+#include "src/wavefront/wavefront.h"
+#include "tests/reference/scenes.h"
+#include "tests/wavefront/render_fixture.h"
+
+namespace lanelight {
+
+// A scene and what its training sees of it.
+struct Prepared {
+  Prepared(const SceneDescription& description, const std::string& strategy,
+           std::uint32_t wavefront = 0)
+      : scene(PrepareScene(description, {})) {
+    Strategy s = scene.strategy;
+    s.points = Points::kIndependent;
+    ApplyStrategy(strategy, {}, s);
+    UseStrategy(s, scene);
+    PlanOptions options;
+    options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
+    options.wavefront = wavefront;
+    plan = MakePlan(scene, options);
+    tables = MakeStrategyTables(scene);
+    run = MakeRunParameters(scene, plan);
+    run.seed = 11;
+    run.tables = &tables;
+  }
+
+  TrainingOutcome TrainWith(std::uint64_t planned) {
+    TrainingOptions options;
+    options.planned_samples = planned;
+    return Train({scene, plan, run, options, tables});
+  }
+
+  std::vector<GuideRecord> Records(std::uint64_t samples) const {
+    PlanOptions options = plan.options;
+    options.training = FeatureSet{Feature::kRecordsGuide};
+    const TrainingSamples found =
+        RunTrainingPass(scene, options, run, MakeTrainingWork(scene, samples));
+    std::vector<GuideRecord> records;
+    CHECK(ReadGuideRecords(found.recorded, tables.guide, records) == 0);
+    return records;
+  }
+
+  CompiledScene scene;
+  Plan plan;
+  StrategyTables tables;
+  RunParameters run;
+};
+
+}  // namespace lanelight
