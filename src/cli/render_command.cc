@@ -20,9 +20,25 @@ struct RenderCommandOptions {
   CheckpointFlags checkpoint;
 };
 
+// The default decides by a pilot in long renders; one that is gone on with has what it
+// began with. Ranks have what the leader says, who has the state.
+DefaultDecision DecisionFor(const RenderCommandOptions& options, Crew& crew) {
+  DefaultDecision decision = DefaultDecision::kIfLong;
+  if (crew.leads()) {
+    if (const auto began = DecisionOfState(options.outputs.targets.checkpoint)) {
+      decision =
+          *began == Decide::kPilot ? DefaultDecision::kAlways : DefaultDecision::kNever;
+    }
+  }
+  if (crew.ranks() == 1) return decision;
+  const std::string leaders = crew.Share(std::to_string(static_cast<int>(decision)));
+  return static_cast<DefaultDecision>(std::stoi(leaders));
+}
+
 // What a rank does that does not lead.
-int Serve(const RenderCommandOptions& options, Crew& crew) {
-  const Job job = PrepareJob(options.scene.scene, options.scene.settings);
+int Serve(const RenderCommandOptions& options, const RenderSettings& settings,
+          Crew& crew) {
+  const Job job = PrepareJob(options.scene.scene, settings);
   const InterruptGuard interrupt("");
   ServeRender(job, crew, &interrupt.stop());
   return kExitGood;
@@ -31,9 +47,11 @@ int Serve(const RenderCommandOptions& options, Crew& crew) {
 int Render(const RenderCommandOptions& options, Crew& crew) {
   ForceTarget(options.scene.target);
   const ThreadLimit threads(options.scene.threads);
-  if (!crew.leads()) return Serve(options, crew);
-  CheckOutputs(options.outputs, options.scene.scene);
-  const Job job = PrepareJob(options.scene.scene, options.scene.settings);
+  if (crew.leads()) CheckOutputs(options.outputs, options.scene.scene);
+  RenderSettings settings = options.scene.settings;
+  settings.decision = DecisionFor(options, crew);
+  if (!crew.leads()) return Serve(options, settings, crew);
+  const Job job = PrepareJob(options.scene.scene, settings);
   CheckOutputs(options.outputs, job);
   if (!options.outputs.quiet) PrintNotes(job);
   CheckPart(options.outputs.targets.checkpoint, job);

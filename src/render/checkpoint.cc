@@ -49,6 +49,16 @@ std::uint64_t PixelsOf(const std::vector<PixelRect>& tiles) {
 
 }  // namespace
 
+std::optional<Decide> DecisionOfState(const CheckpointSettings& settings) {
+  if (settings.resume == Resume::kNever) return std::nullopt;
+  const std::string& from = settings.from.empty() ? settings.path : settings.from;
+  if (!fs::exists(from)) return std::nullopt;
+  Strategy strategy;
+  const Json identity = Json::parse(StateFile(from).identity());
+  ApplyStrategy(identity.at("strategy").get<std::string>(), {}, strategy);
+  return strategy.decide;
+}
+
 Checkpoint::Checkpoint(const Job& job, const CheckpointSettings& settings,
                        const Json& head,
                        std::function<void(const std::string&)> on_problem)
@@ -118,9 +128,7 @@ bool Checkpoint::Restore(RunState& state) {
     state.training.rays = training.at("rays");
     state.training.seconds = training.at("seconds");
     state.training.cpu_seconds = training.at("cpu_seconds");
-    if (!training.at("roulette").is_null()) {
-      state.training.roulette = static_cast<Roulette>(training.at("roulette").get<int>());
-    }
+    state.training.changes = training.at("changes");
     for (const auto& [name, meaning] : training.at("tables").items()) {
       TrainedTable table = {name, meaning, std::vector<double>(from_->TableRows(name))};
       from_->ReadTable(MakeStateColumn<double>(name, meaning, table.values));
@@ -238,12 +246,8 @@ Json TrainingJson(const RunState& state) {
   const TrainingOutcome& t = state.training;
   Json tables = Json::object();
   for (const TrainedTable& table : state.tables) tables[table.name] = table.meaning;
-  return {{"note", t.note},
-          {"samples", t.samples},
-          {"rays", t.rays},
-          {"seconds", t.seconds},
-          {"cpu_seconds", t.cpu_seconds},
-          {"roulette", t.roulette ? Json(static_cast<int>(*t.roulette)) : Json()},
+  return {{"note", t.note},       {"samples", t.samples},         {"rays", t.rays},
+          {"seconds", t.seconds}, {"cpu_seconds", t.cpu_seconds}, {"changes", t.changes},
           {"tables", tables}};
 }
 

@@ -39,6 +39,10 @@ struct CheckpointSettings {
   bool Any() const { return !path.empty() || !watch.empty(); }
 };
 
+/// What the state that a render is to go on from says of decide=; nothing if there is no
+/// state to go on from. Throws InputError for one that is damaged.
+std::optional<Decide> DecisionOfState(const CheckpointSettings& settings);
+
 class Checkpoint : public RunKeeper {
  public:
   /// `head`: what a report says of this render whatever it comes to. `on_problem` is told

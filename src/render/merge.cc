@@ -101,7 +101,11 @@ void CheckTraining(const MergedRender& merged, const Json& training,
   const auto same = [](const TrainedTable& a, const TrainedTable& b) {
     return a.name == b.name && a.values == b.values;
   };
+  const auto changes = [](const Json& t) {
+    return t.is_null() ? std::string() : t.at("changes").get<std::string>();
+  };
   if (merged.training.is_null() == training.is_null() &&
+      changes(merged.training) == changes(training) &&
       std::equal(tables.begin(), tables.end(), merged.tables.begin(), merged.tables.end(),
                  same)) {
     return;
@@ -233,9 +237,9 @@ RunResult ResultOf(const MergedRender& merged) {
   result.pilot_samples = t.at("samples");
   result.pilot_rays = t.at("rays");
   result.pilot_seconds = t.at("seconds");
-  if (!t.at("roulette").is_null()) {
-    result.roulette = static_cast<Roulette>(t.at("roulette").get<int>());
-  }
+  result.pilot_changes = t.at("changes");
+  ApplyStrategy(result.pilot_changes, {}, strategy);
+  result.roulette = strategy.roulette;
   return result;
 }
 

@@ -159,6 +159,7 @@ Json ToJson(const RenderReport& report, const Json& head) {
        {{"samples", r.pilot_samples},
         {"rays", r.pilot_rays},
         {"note", r.pilot_note},
+        {"changes", r.pilot_changes},
         {"roulette", Name(r.roulette)}}},
       {"rays_per_second", double(rays) / seconds},
       {"stopped_early", r.stopped_early},

@@ -8,6 +8,7 @@
 #include "src/core/error.h"
 #include "src/image/image.h"
 #include "src/scene/rendered_pixels.h"
+#include "src/wavefront/training.h"
 
 namespace lanelight {
 namespace {
@@ -104,8 +105,24 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
                                  settings.wavefront, kMaxWavefront));
   }
   if (settings.points) scene.strategy.points = *settings.points;
+  if (DecidesByDefault(settings, scene)) scene.strategy.decide = Decide::kPilot;
   Apply(settings.strategy, scene.strategy);
   if (settings.seed) scene.sampler.seed = *settings.seed;
+}
+
+bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene) {
+  if (settings.decision == DefaultDecision::kNever || settings.strategy.keys.any() ||
+      !scene.integrator.strategy.empty()) {
+    return false;
+  }
+  if (settings.decision == DefaultDecision::kAlways) return true;
+  if (settings.seconds) return *settings.seconds >= kLeastDecidedSeconds;
+  const std::uint64_t pixels = RenderedPixels(scene.film).pixels();
+  // Towards a target nobody knows: as many as that takes at least.
+  const std::uint64_t own =
+      HasTarget(settings) ? kPilotSpp : static_cast<std::uint64_t>(scene.sampler.spp);
+  const double samples = double(settings.spp.value_or(own)) * double(pixels);
+  return samples >= double(DecidedBy(pixels));
 }
 
 bool HasTarget(const RenderSettings& settings) {

@@ -13,6 +13,14 @@
 
 namespace lanelight {
 
+/// Whether decide=pilot is the default of a render that is asked for no strategy, neither
+/// by its settings nor by the scene.
+enum class DefaultDecision {
+  kNever,
+  kIfLong,  // if the pilot takes a small share of it: see DecidesByDefault
+  kAlways,
+};
+
 /// Overrides of the scene file; what is empty stays as the scene says.
 struct RenderSettings {
   std::optional<std::uint64_t> spp;
@@ -25,6 +33,7 @@ struct RenderSettings {
   std::optional<std::uint64_t> seed;
   std::optional<Points> points;
   StrategyChanges strategy;  // to the scene's
+  DefaultDecision decision = DefaultDecision::kNever;
   std::optional<Scattering> scattering;
   std::optional<BuildQuality> build;  // of the trees over shapes
   std::uint32_t wavefront = 0;        // paths; 0 = chosen by the plan
@@ -43,6 +52,11 @@ inline constexpr int kMaxDepth = 1 << 20;
 /// with a new resolution. Throws InputError for sizes, windows, depths and sample counts
 /// that are out of range, wherever they come from.
 void ApplySettings(const RenderSettings& settings, SceneDescription& scene);
+
+/// Whether decide=pilot is in force though nobody asked for it: with kIfLong, for 2
+/// seconds and more, and for as many samples as the pilot is planned for (DecidedBy).
+bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene);
+inline constexpr double kLeastDecidedSeconds = 2;
 
 CompileOptions CompileOptionsOf(const RenderSettings& settings);
 PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene);

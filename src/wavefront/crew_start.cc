@@ -19,12 +19,12 @@ std::string ToBytes(const CrewStart& start) {
   for (const TrainedTable& t : start.tables) {
     tables.push_back({{"name", t.name}, {"values", t.values}});
   }
-  const Json json = {
-      {"tiles", tiles},
-      {"restored", start.restored},
-      {"trained", start.trained},
-      {"roulette", start.roulette ? Json(static_cast<int>(*start.roulette)) : Json()},
-      {"tables", tables}};
+  const Json json = {{"tiles", tiles},
+                     {"planned_samples", start.planned_samples},
+                     {"restored", start.restored},
+                     {"trained", start.trained},
+                     {"changes", start.changes},
+                     {"tables", tables}};
   std::string bytes;
   Json::to_cbor(json, bytes);
   return bytes;
@@ -37,10 +37,10 @@ CrewStart CrewStartFromBytes(const std::string& bytes) {
     start.tiles.push_back(
         {t.at(0).get<int>(), t.at(1).get<int>(), t.at(2).get<int>(), t.at(3).get<int>()});
   }
+  start.planned_samples = json.at("planned_samples");
   start.restored = json.at("restored");
   start.trained = json.at("trained");
-  const Json& roulette = json.at("roulette");
-  if (!roulette.is_null()) start.roulette = static_cast<Roulette>(roulette.get<int>());
+  start.changes = json.at("changes");
   for (const Json& t : json.at("tables")) {
     start.tables.push_back({t.at("name"), "", t.at("values")});
   }
@@ -49,8 +49,7 @@ CrewStart CrewStartFromBytes(const std::string& bytes) {
 
 std::string Fingerprint(const TrainingOutcome& training,
                         const std::vector<TrainedTable>& tables) {
-  std::string text = fmt::format(
-      "roulette {}", training.roulette ? static_cast<int>(*training.roulette) : -1);
+  std::string text = fmt::format("changes '{}'", training.changes);
   for (const TrainedTable& t : tables) {
     const auto hash = XXH3_64bits(t.values.data(), t.values.size() * sizeof(double));
     text += fmt::format("; {} {:016x}", t.name, hash);

@@ -2,21 +2,20 @@
 // what a run that is gone on with has learned.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "src/image/pixel_rect.h"
-#include "src/strategy/strategy.h"
 #include "src/wavefront/run_state.h"
 
 namespace lanelight {
 
 struct CrewStart {
   std::vector<PixelRect> tiles;
-  bool restored = false;  // nobody trains; else every rank does
-  bool trained = false;   // before: this is what came out
-  std::optional<Roulette> roulette;
+  std::uint64_t planned_samples = 0;  // that pilot passes are sized for
+  bool restored = false;              // nobody trains; else every rank does
+  bool trained = false;               // before: this is what came out
+  std::string changes;
   std::vector<TrainedTable> tables;
 };
 

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 #include <utility>
 
 #include "src/core/check.h"
+#include "src/wavefront/pilot_comparison.h"
 
 namespace lanelight {
 namespace {
-
-// How many of n pixels, sorted by what they add, count: all but the worst thousandth.
-// Single bright samples would decide alone.
-std::size_t Kept(std::size_t n) { return n - std::min(n / 16, (n + 999) / 1000); }
 
 // What a pixel adds without roulette, and what roulette adds to it.
 struct Part {
@@ -56,30 +52,30 @@ PathSamples ReadRecords(TrainingSamples samples) {
   return out;
 }
 
-std::vector<double> RelativeVariances(const PathSamples& samples,
+std::vector<double> RelativeVariances(const TrainingSamples& samples,
                                       const TrainingWork& work, const ImageGuess& image) {
+  const std::uint32_t n = samples.observations;  // of a pixel
   std::vector<double> variances(work.pixels.size());
   for (std::size_t i = 0; i < variances.size(); ++i) {
+    const Vec3f* const colors = samples.colors.data() + i * work.spp;
     Vec3d sum, squares;
-    for (std::uint32_t k = 0; k < work.spp; ++k) {
-      const Vec3f& v = samples.colors[i * work.spp + k];
-      const Vec3d d{v.x, v.y, v.z};
-      sum += d;
-      squares += {d.x * d.x, d.y * d.y, d.z * d.z};
+    for (std::uint32_t k = 0; k < n; ++k) {
+      Vec3d of_one;
+      // Randomisations take turns (src/path/replicates.h).
+      for (std::uint32_t j = k; j < work.spp; j += n) {
+        of_one += {colors[j].x, colors[j].y, colors[j].z};
+      }
+      sum += of_one;
+      squares += {of_one.x * of_one.x, of_one.y * of_one.y, of_one.z * of_one.z};
     }
     for (int c = 0; c < 3; ++c) {
-      const double scatter = std::max(0.0, squares[c] - sum[c] * sum[c] / work.spp);
-      variances[i] += scatter / (work.spp - 1) * image.ErrorWeight(work.pixels[i], c) / 3;
+      // Of the sum over an observation; per sample.
+      const double scatter = std::max(0.0, squares[c] - sum[c] * sum[c] / n) * n;
+      variances[i] +=
+          scatter / (n - 1) / work.spp * image.ErrorWeight(work.pixels[i], c) / 3;
     }
   }
   return variances;
-}
-
-double RobustMean(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  values.resize(Kept(values.size()));
-  return std::accumulate(values.begin(), values.end(), 0.0) /
-         static_cast<double>(values.size());
 }
 
 double RouletteVarianceRatio(const PathSamples& samples, const TrainingWork& work,
@@ -92,7 +88,7 @@ double RouletteVarianceRatio(const PathSamples& samples, const TrainingWork& wor
     parts.push_back({part.variance * weight, part.added * weight});
   }
   std::sort(parts.begin(), parts.end());
-  parts.resize(Kept(parts.size()));
+  parts.resize(KeptOf(parts.size()));
   double variance = 0, added = 0;
   for (const Part& p : parts) variance += p.variance, added += p.added;
   return added > 0 ? 1 + added / std::max(variance, 1e-9 * added) : 1;

@@ -35,12 +35,10 @@ struct PathSamples : TrainingSamples {
 /// Reads the planes of PlaneGroup::kRecord, if there are any.
 PathSamples ReadRecords(TrainingSamples samples);
 
-/// Variances of a sample in each pixel of `work`, as relative errors weigh them.
-std::vector<double> RelativeVariances(const PathSamples& samples,
+/// Variances of a sample in each pixel of `work`, as relative errors weigh them: of the
+/// means of observations, times the samples of one.
+std::vector<double> RelativeVariances(const TrainingSamples& samples,
                                       const TrainingWork& work, const ImageGuess& image);
-
-/// Mean without the worst thousandth.
-double RobustMean(std::vector<double> values);
 
 /// Variance with roulette on the throughput over that without, from the records of a pass
 /// without (PathRecord::Risk); the worst thousandth of the pixels counts in neither.

@@ -19,7 +19,12 @@ struct PlanOptions {
   /// Of a training pass (src/wavefront/training.h): what it turns on to record. It has
   /// independent points, no pairs and no control variate.
   std::optional<FeatureSet> training;
-  std::optional<Roulette> roulette;  // instead of the strategy's
+  /// Of a training pass: it has the strategy's points all the same, so that its samples
+  /// depend on each other as those of a render do.
+  bool own_points = false;
+  /// To the scene's strategy, as in --strategy: what a training has found to be better
+  /// (roulette, guiding, decide). Empty: none.
+  std::string changes;
   /// Camera rays and the emission that they see, nothing else; with max_depth 0.
   bool camera_only = false;
 };

@@ -140,10 +140,10 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
 
 Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options) {
   Strategy strategy = scene.strategy;
-  if (options.roulette) strategy.roulette = *options.roulette;
+  ApplyStrategy(options.changes, {}, strategy);
   if (options.camera_only) strategy.control = Control::kNone;
   if (!options.training) return strategy;
-  strategy.points = Points::kIndependent;
+  if (!options.own_points) strategy.points = Points::kIndependent;
   strategy.pairs = Pairs::kNone;
   strategy.control = Control::kNone;
   return strategy;

@@ -14,8 +14,11 @@
 #include "src/scene/rendered_pixels.h"
 #include "src/wavefront/crew_start.h"
 #include "src/wavefront/patience.h"
+#include "src/wavefront/plan_features.h"
 #include "src/wavefront/profile.h"
+#include "src/wavefront/sample_rate.h"
 #include "src/wavefront/schedule.h"
+#include "src/wavefront/stop_watcher.h"
 #include "src/wavefront/tasks.h"
 #include "src/wavefront/training.h"
 
@@ -64,6 +67,7 @@ class Runner : public TaskWatcher {
     start_ = Clock::now();
     start_cpu_ = ProcessCpuSeconds();
     const bool restored = options_.keeper != nullptr && Restore();
+    if (!restored && NeedsTraining(plan_)) planned_samples_ = PlannedSamples();
     if (crew_.ranks() > 1) crew_.Share(ToBytes(StartOfOthers(restored)));
     if (!restored && NeedsTraining(plan_)) TrainStrategy();
     AgreeOnTraining();
@@ -75,9 +79,10 @@ class Runner : public TaskWatcher {
   /// The same for a rank that serves.
   void Join(const CrewStart& start) {
     start_ = Clock::now();
+    planned_samples_ = start.planned_samples;
     if (!start.restored && NeedsTraining(plan_)) TrainStrategy();
     if (start.trained) {
-      training_.roulette = start.roulette;
+      training_.changes = start.changes;
       PutTraining(start.tables, tables_);
       UseTraining();
     }
@@ -156,7 +161,8 @@ class Runner : public TaskWatcher {
   }
 
   CrewStart StartOfOthers(bool restored) const {
-    CrewStart start = {tasks_.rects(), restored, training_done_, training_.roulette, {}};
+    CrewStart start = {tasks_.rects(), planned_samples_,  restored,
+                       training_done_, training_.changes, {}};
     if (training_done_) start.tables = TakeTraining(tables_);
     return start;
   }
@@ -173,12 +179,21 @@ class Runner : public TaskWatcher {
                 });
   }
 
+  // That pilot passes are sized for. All ranks have the leader's: clocks differ.
+  std::uint64_t PlannedSamples() const {
+    if (options_.planned_samples > 0) return options_.planned_samples;
+    const std::uint64_t pixels = RenderedPixels(scene_.film).pixels();
+    const bool decides = plan_.features.Has(Feature::kDecides);
+    if (decides && options_.seconds > 0) {
+      const StopWatcher watcher(options_.stop);
+      return SamplesWithin(options_.seconds, scene_, plan_.options, run_, &watcher);
+    }
+    return decides ? DecidedBy(pixels) : std::max(pixels * kPilotSpp, kLeastPilot);
+  }
+
   void TrainStrategy() {
     TrainingOptions options;
-    options.planned_samples =
-        options_.planned_samples > 0
-            ? options_.planned_samples
-            : std::max(RenderedPixels(scene_.film).pixels() * kPilotSpp, kLeastPilot);
+    options.planned_samples = planned_samples_;
     options.keep_roulette = options_.keep_roulette;
     // Ranks train for themselves and have to agree: their clocks would not.
     if (options_.spp == 0 && !options_.samples_needed && crew_.ranks() == 1) {
@@ -192,13 +207,13 @@ class Runner : public TaskWatcher {
     if (!Interrupted()) UseTraining();
   }
 
-  // The image may be rendered with a simpler roulette then.
+  // The image may be rendered with another roulette then.
   void UseTraining() {
     training_done_ = true;
-    if (!training_.roulette || *training_.roulette == scene_.strategy.roulette) return;
-    PlanOptions simpler = plan_.options;
-    simpler.roulette = training_.roulette;
-    plan_ = MakePlan(scene_, simpler);
+    PlanOptions changed = plan_.options;
+    changed.changes = training_.changes;
+    if (PlannedStrategy(scene_, changed) == scene_.strategy) return;
+    plan_ = MakePlan(scene_, changed);
     run_ = Parameters();
   }
 
@@ -323,7 +338,8 @@ class Runner : public TaskWatcher {
   std::optional<Films> films_;
   TrainingOutcome training_;
   bool training_done_ = false;
-  std::optional<Pace> pace_;  // with a time budget
+  std::uint64_t planned_samples_ = 0;  // that it is sized for
+  std::optional<Pace> pace_;           // with a time budget
   mutable std::optional<Patience> patience_;
   mutable std::atomic<bool> put_down_{false};  // tasks were; that ends the run
   bool every_pixel_ = false;                   // has a sample
@@ -355,7 +371,8 @@ RunResult Runner::Result() {
   result.pilot_samples = training_.samples;
   result.pilot_rays = training_.rays;
   result.pilot_note = training_.note;
-  result.roulette = plan_.options.roulette.value_or(scene_.strategy.roulette);
+  result.pilot_changes = training_.changes;
+  result.roulette = PlannedStrategy(scene_, plan_.options).roulette;
   result.control = films_->Control();
   result.stages = EmptyProfiles(plan_);
   result.parts = EmptyParts();

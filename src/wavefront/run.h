@@ -67,7 +67,8 @@ struct RunOptions {
   /// control=regression whole blocks of RegressionFilm::kBlock.
   std::vector<PixelRect> tiles;
   /// What pilot passes are sized for; 0: kPilotSpp samples of every pixel of the image,
-  /// and kLeastPilot at least.
+  /// and kLeastPilot at least. With decide=pilot DecidedBy (src/wavefront/training.h), or
+  /// what the time budget is enough for.
   std::uint64_t planned_samples = 0;
   /// Keeps the state while the run goes on; null: nobody does.
   RunKeeper* keeper = nullptr;
@@ -147,6 +148,7 @@ struct RunResult {
   double pilot_seconds = 0, pilot_cpu_seconds = 0;
   std::uint64_t pilot_samples = 0, pilot_rays = 0;
   std::string pilot_note;                     // empty: there was none
+  std::string pilot_changes;                  // to the strategy, that it has made
   Roulette roulette = Roulette::kThroughput;  // that the image was rendered with
 };
 

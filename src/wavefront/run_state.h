@@ -2,13 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "src/core/column.h"
 #include "src/path/wave.h"
-#include "src/strategy/strategy.h"
 #include "src/wavefront/films.h"
 
 namespace lanelight {
@@ -30,8 +28,10 @@ struct TrainedTable {
 
 /// What a strategy has learned before the image (src/wavefront/training.h).
 struct TrainingOutcome {
-  std::optional<Roulette> roulette;  // that the image is to be rendered with instead
-  std::string note;                  // what was found, one line
+  /// To the strategy, as in --strategy, with which the image is to be rendered; empty:
+  /// none.
+  std::string changes;
+  std::string note;  // what was found, one line
   std::uint64_t samples = 0, rays = 0;
   double seconds = 0, cpu_seconds = 0;
 };

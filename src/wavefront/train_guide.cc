@@ -107,7 +107,8 @@ class GuideTraining {
     RunParameters run = context_.run;
     run.tables = &context_.tables;
     run.seed = GuidePassSeed(run.seed, ++passes_);
-    const TrainingWork work = MakeTrainingWork(context_.scene, samples, passes_);
+    const TrainingWork work =
+        MakeTrainingWork(context_.scene, samples, TrainingWork::kLeastSpp, passes_);
     const TrainingSamples found =
         RunTrainingPass(context_.scene, options_, run, work, &watcher_);
     outcome_.samples += found.colors.size();

@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "src/wavefront/path_records.h"
+#include "src/wavefront/pilot_comparison.h"
 #include "src/wavefront/stop_watcher.h"
 #include "src/wavefront/training.h"
 #include "src/wavefront/training_pass.h"
@@ -27,15 +28,20 @@ constexpr std::uint64_t kLeastToCompare = 256;
 // than their rays, and the passes are short.
 constexpr double kMargin = 0.87;
 
-struct Candidate {
+struct Candidate : PilotMeasure {
   Roulette roulette = Roulette::kThroughput;
-  double variance = 0, cost = 1, scale = 1;
-  std::vector<double> variances;  // of the pixels
+  double scale = 1;
 
-  double Score() const { return variance * cost; }  // 1 / efficiency
   // Of the fixed point: what the next pass weighs variance and cost with.
-  double Scale() const { return variance > 0 ? std::sqrt(cost / variance) : 1; }
+  double Scale() const {
+    const double variance = RobustMean(variances);
+    return variance > 0 ? std::sqrt(cost / variance) : 1;
+  }
 };
+
+std::string Change(Roulette roulette) {
+  return std::string("roulette=") + Name(roulette);
+}
 
 class Pilot {
  public:
@@ -56,13 +62,13 @@ class Pilot {
 
   TrainingOutcome Run() {
     if (efficiency_ && samples_ < kLeastToCompare && !options_.keep_roulette) {
-      outcome_.roulette = Roulette::kThroughput;
+      outcome_.changes = Change(Roulette::kThroughput);
       outcome_.note = "none, the image has too few samples: roulette=throughput";
       return outcome_;
     }
     // Until more is known, and if the user stops it.
     if (efficiency_ && !options_.keep_roulette) {
-      outcome_.roulette = Roulette::kThroughput;
+      outcome_.changes = Change(Roulette::kThroughput);
     }
     const PathSamples recorded = RecordPass();
     if (!efficiency_ || Stopped()) return outcome_;
@@ -80,7 +86,7 @@ class Pilot {
     PlanOptions options = plan_.options;
     options.aov = false;
     options.training = records;
-    options.roulette = roulette;
+    options.changes = Change(roulette);
     PathSamples samples =
         ReadRecords(RunTrainingPass(scene_, options, run_, work, &watcher_));
     outcome_.samples += samples.colors.size();
@@ -135,10 +141,9 @@ class Pilot {
   }
 
   Candidate Measure(Roulette roulette, const PathSamples& samples) const {
-    Candidate c{roulette, 0, samples.Cost(), values_.scale, {}};
-    c.variances = RelativeVariances(samples, work_, *image_);
-    c.variance = RobustMean(c.variances);
-    return c;
+    return {{samples.Cost(), RelativeVariances(samples, work_, *image_)},
+            roulette,
+            values_.scale};
   }
 
   // The fixed point: each pass weighs variance against cost as the one before found them.
@@ -168,23 +173,8 @@ class Pilot {
     if (gain_of_none_ <= (cheap ? 1 : 2)) return plain;
     plain.roulette = Roulette::kNone;
     plain.cost = samples.Cost();
-    plain.variance /= ratio;
     for (double& v : plain.variances) v /= ratio;
     return plain;
-  }
-
-  // Splitting must be better by the margin, and by two standard errors of the difference,
-  // pixel by pixel.
-  bool IsWorthIt(const Candidate& splitting, const Candidate& plain) const {
-    const double n = static_cast<double>(work_.pixels.size());
-    double sum = 0, squares = 0;
-    for (std::size_t i = 0; i < work_.pixels.size(); ++i) {
-      const double loss = splitting.cost * splitting.variances[i] -
-                          kMargin * plain.cost * plain.variances[i];
-      sum += loss, squares += loss * loss;
-    }
-    const double error = std::sqrt(std::max(0.0, squares - sum * sum / n));
-    return sum + 2 * error < 0 && splitting.Score() < kMargin * plain.Score();
   }
 
   void Compare(const PathSamples& recorded) {
@@ -193,13 +183,15 @@ class Pilot {
     if (options_.keep_roulette || Stopped()) return;
     const Candidate plain = BetterPlain(throughput);
     if (Stopped()) return;
-    outcome_.roulette =
-        IsWorthIt(splitting, plain) ? Roulette::kEfficiency : plain.roulette;
+    const Roulette chosen = IsClearlyBetter(splitting, plain, kMargin)
+                                ? Roulette::kEfficiency
+                                : plain.roulette;
+    outcome_.changes = Change(chosen);
     outcome_.note = fmt::format(
         "{} pilot samples: efficiency relative to throughput {:.2f} without roulette, "
         "{:.2f} with splitting; rendered with roulette={}",
         outcome_.samples, gain_of_none_, throughput.Score() / splitting.Score(),
-        Name(*outcome_.roulette));
+        Name(chosen));
   }
 
   const CompiledScene& scene_;

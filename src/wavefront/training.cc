@@ -20,6 +20,7 @@ constexpr Training kTrainings[] = {
 }  // namespace
 
 bool NeedsTraining(const Plan& plan) {
+  if (plan.features.Has(Feature::kDecides)) return true;
   for (const Training& t : kTrainings) {
     if (plan.features.Has(t.asks)) return true;
   }
@@ -27,11 +28,12 @@ bool NeedsTraining(const Plan& plan) {
 }
 
 TrainingOutcome Train(const TrainingContext& context) {
+  if (context.plan.features.Has(Feature::kDecides)) return TrainDecision(context);
   TrainingOutcome all;
   for (const Training& t : kTrainings) {
     if (!context.plan.features.Has(t.asks)) continue;
     const TrainingOutcome one = t.train(context);
-    if (one.roulette) all.roulette = one.roulette;
+    if (!one.changes.empty()) all.changes = one.changes;
     all.note += (all.note.empty() || one.note.empty() ? "" : "; ") + one.note;
     all.samples += one.samples;
     all.rays += one.rays;

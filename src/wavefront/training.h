@@ -23,6 +23,13 @@ struct TrainingOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// Planned samples beyond which the pilot of decide=pilot does not grow, and that it is
+/// planned for at least: fewer do not show what the rare bright samples do that matter.
+inline constexpr std::uint64_t kMostDecidedBy = std::uint64_t{1} << 24;
+inline constexpr std::uint64_t kLeastDecidedBy = std::uint64_t{1} << 22;
+/// What that is for an image of so many pixels, unless a time budget says it.
+std::uint64_t DecidedBy(std::uint64_t pixels);
+
 /// What a training knows: `plan` and `run` are those of the image.
 struct TrainingContext {
   const CompiledScene& scene;
@@ -33,12 +40,15 @@ struct TrainingContext {
 };
 
 // X(name, feature that asks for it), in the order in which they run: path values are
-// those of guided paths. Each is a function Train<name> in a file of its own.
+// those of guided paths. Each is a function Train<name> in a file of its own. With
+// kDecides TrainDecision runs instead, which trains what it compares, and what it has
+// chosen.
 #define LANELIGHT_TRAININGS(X) X(Guide, kGuided) X(PathValues, kPathValues)
 
 #define X(name, feature) TrainingOutcome Train##name(const TrainingContext& context);
 LANELIGHT_TRAININGS(X)
 #undef X
+TrainingOutcome TrainDecision(const TrainingContext& context);
 
 /// A strategy of the plan asks for training.
 bool NeedsTraining(const Plan& plan);

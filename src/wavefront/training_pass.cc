@@ -7,6 +7,7 @@
 #include "src/core/check.h"
 #include "src/core/parallel.h"
 #include "src/scene/rendered_pixels.h"
+#include "src/prepare/groups.h"
 #include "src/prepare/parameters.h"
 #include "src/prepare/tables.h"
 #include "src/wavefront/copies.h"
@@ -20,7 +21,10 @@ namespace {
 constexpr std::uint32_t kSamplesPerTask = 4096;
 
 // Pixels that are chosen together: a block of TilePixels, if there are enough of them.
-std::uint64_t RunLength(std::uint64_t pixels) { return pixels >= 512 ? 16 : 1; }
+// With many samples of each, these are traced together already.
+std::uint64_t RunLength(std::uint64_t pixels, std::uint32_t spp) {
+  return pixels >= 512 && spp < 16 ? 16 : 1;
+}
 
 class Pass {
  public:
@@ -35,6 +39,8 @@ class Pass {
     wavefronts_.resize(static_cast<std::size_t>(ThreadSlots()));
     samples_.colors.resize(work.samples());
     samples_.planes = run_.planes.count() - kColorPlanes;
+    samples_.observations = OwnPoints(scene, options) ? kReplicates : work.spp;
+    LL_CHECK(work.spp % samples_.observations == 0 && samples_.observations > 1);
     samples_.recorded.resize(work.samples() * static_cast<std::size_t>(samples_.planes));
   }
 
@@ -51,13 +57,18 @@ class Pass {
   }
 
  private:
+  static bool OwnPoints(const CompiledScene& scene, const PlanOptions& options) {
+    return GroupsOf(PlannedStrategy(scene, options)).replicates;
+  }
+
   static RunParameters Parameters(const CompiledScene& scene, const Plan& plan,
                                   RunParameters run, std::uint32_t spp) {
     const Strategy strategy = PlannedStrategy(scene, plan.options);
     run.seed ^= 0x5bd1e995u;  // apart from the image's
     run.spp = spp;
     run.points = MakePointsParameters(strategy.points);
-    run.points.group_shift = 0;  // every sample is randomised anew: independent
+    // Without points of its own every sample is randomised anew: independent.
+    if (!OwnPoints(scene, plan.options)) run.points.group_shift = 0;
     run.pairs = MakePairParameters(strategy);
     run.roulette = MakeRouletteParameters(strategy);
     run.features = plan.features;
@@ -101,19 +112,19 @@ class Pass {
 }  // namespace
 
 TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples,
-                              std::uint64_t turn) {
+                              std::uint32_t spp, std::uint64_t turn) {
   std::vector<std::uint32_t> all;
   // Blocks of neighbours first, so that an even choice of them is even in both axes.
   TilePixels(RenderedPixels(scene.film), scene.film.width, &all);
-  const std::uint64_t count =
-      std::max<std::uint64_t>(samples / TrainingWork::kLeastSpp, 1);
+  const std::uint64_t count = std::max<std::uint64_t>(samples / spp, 1);
   if (count >= all.size()) {
-    const std::uint64_t spp = std::max<std::uint64_t>(samples / all.size(), 4);
-    return {std::move(all), static_cast<std::uint32_t>(spp)};
+    const std::uint64_t more = std::max<std::uint64_t>(samples / all.size(), spp);
+    return {std::move(all), static_cast<std::uint32_t>(more)};
   }
   // Whole blocks, if there are enough: rays of neighbours are traced together.
-  const std::uint64_t run = RunLength(count), runs = count / run;
+  const std::uint64_t run = RunLength(count, spp), runs = count / run;
   TrainingWork work;
+  work.spp = spp;
   std::uint64_t jitter = turn * 0x9e3779b97f4a7c15u;
   for (std::uint64_t i = 0; i < runs; ++i) {
     // One of each of equal stretches, at a place of its own in each.
@@ -128,7 +139,7 @@ TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples,
 
 TrainingWork FewOf(const TrainingWork& work) {
   // At least 16 pixels or blocks, if there are as many.
-  const std::size_t run = RunLength(work.pixels.size());
+  const std::size_t run = RunLength(work.pixels.size(), work.spp);
   const std::size_t step = std::clamp<std::size_t>(work.pixels.size() / run / 16, 1, 16);
   TrainingWork few;
   few.spp =

@@ -26,6 +26,9 @@ struct TrainingSamples {
   std::vector<Vec3f> colors;    // of a pixel one after the other
   std::vector<float> recorded;  // the planes behind the colour, sample by sample
   int planes = 0;               // how many these are
+  // Of each pixel, as many samples in each: they are independent, samples of one are not
+  // (PlanOptions::own_points).
+  std::uint32_t observations = 1;
   std::uint64_t rays_closest = 0, rays_shadow = 0;
 
   /// Of a sample, in rays that find the closest hit and lead to shading there; one that
@@ -35,9 +38,10 @@ struct TrainingSamples {
   }
 };
 
-/// About `samples` samples (at least four): spread evenly over the rendered window. Each
-/// `turn` has pixels of its own, unless all of them are taken.
+/// About `samples` samples (at least four): spread evenly over the rendered window, `spp`
+/// of a pixel or more. Each `turn` has pixels of its own, unless all of them are taken.
 TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples,
+                              std::uint32_t spp = TrainingWork::kLeastSpp,
                               std::uint64_t turn = 0);
 
 /// About a sixteenth of it.

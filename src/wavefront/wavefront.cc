@@ -4,6 +4,7 @@
 
 #include "src/core/check.h"
 #include "src/prepare/parameters.h"
+#include "src/wavefront/plan_features.h"
 
 namespace lanelight {
 
@@ -43,7 +44,7 @@ RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan) {
   RunParameters run;
   run.width = static_cast<std::uint32_t>(scene.film.width);
   run.height = static_cast<std::uint32_t>(scene.film.height);
-  const Strategy& strategy = scene.strategy;
+  const Strategy strategy = PlannedStrategy(scene, plan.options);
   run.points = MakePointsParameters(strategy.points);
   run.pairs = MakePairParameters(strategy);
   run.mis = MakeMisParameters(strategy);

@@ -267,4 +267,42 @@ TEST_CASE("absurd sizes are refused with numbers", "[cli]") {
   CHECK_THAT(r.err, Contains("65536x65536") && Contains("GiB"));
 }
 
+TEST_CASE("a long render decides by a pilot, says so, and goes on with it", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory), json = directory / "r.json";
+  const std::string state = directory / "r.state";
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"render", scene,    "--resolution",
+                                          "64x64",  "--json", json};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProcessResult r = RunLanelight(arguments);
+    INFO(r.err);
+    REQUIRE(r.exit_code == kExitGood);
+    return ReadJson(json);
+  };
+  const auto decides = [](const nlohmann::json& report) {
+    const std::string strategy = report["settings"]["strategy"];
+    CHECK((report["pilot"]["changes"] != "") == (report["pilot"]["samples"] > 0));
+    return strategy.find("decide=pilot") != std::string::npos;
+  };
+  const std::string exr = directory / "out.exr";
+  CHECK_FALSE(decides(render({"-o", exr, "--spp", "1023"})));
+  const nlohmann::json report = render({"-o", exr, "--spp", "1024"});
+  CHECK(decides(report));
+  CHECK(report["pilot"]["changes"] == "decide=none");
+  CHECK_THAT(report["pilot"]["note"].get<std::string>(), Contains("roulette=adjoint"));
+  CHECK_FALSE(
+      decides(render({"-o", exr, "--spp", "1024", "--strategy", "points=sobol"})));
+  // What is gone on with keeps what it began with, to more samples too.
+  const auto kept = [&](const char* spp, std::vector<std::string> more) {
+    more.insert(more.end(), {"-o", exr, "--checkpoint", state, "--resume", "--spp", spp});
+    return render(more);
+  };
+  CHECK_FALSE(decides(kept("4", {})));
+  CHECK_FALSE(decides(kept("1024", {})));
+  fs::remove(state);
+  CHECK(decides(kept("4", {"--strategy", "decide=pilot"})));
+  CHECK(decides(kept("8", {})));
+}
+
 }  // namespace lanelight

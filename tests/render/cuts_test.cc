@@ -79,10 +79,11 @@ void CheckCuts(const KeptRender& whole, std::vector<int> counts) {
 }  // namespace
 
 TEST_CASE("cuts: the same bits for every kind of film and training", "[cuts]") {
-  for (const char* strategy : {"points=independent", "points=sobol", "pairs=antithetic",
-                               "points=independent,pairs=antithetic", "control=analytic",
-                               "control=analytic,points=independent", "roulette=adjoint",
-                               "roulette=efficiency", "points=cmj", "points=halton"}) {
+  for (const char* strategy :
+       {"points=independent", "points=sobol", "pairs=antithetic",
+        "points=independent,pairs=antithetic", "control=analytic",
+        "control=analytic,points=independent", "roulette=adjoint", "roulette=efficiency",
+        "points=cmj", "points=halton", "decide=pilot"}) {
     INFO(strategy);
     CheckCuts(RenderOf("cornell-box", strategy), {1, 3, 7});
   }

@@ -81,4 +81,69 @@ TEST_CASE("a film beyond the memory is refused with both numbers", "[render]") {
   CHECK(PhysicalMemory() > gib / 4);
 }
 
+namespace {
+
+// decide= of a render of 256 x 256 pixels.
+Decide DecisionOf(RenderSettings settings, const std::string& own = "") {
+  SceneDescription scene;
+  scene.integrator.strategy = own;
+  if (!settings.resolution) settings.resolution = {256, 256};
+  settings.decision = DefaultDecision::kIfLong;
+  ApplySettings(settings, scene);
+  return scene.strategy.decide;
+}
+
+RenderSettings Samples(std::uint64_t spp) {
+  RenderSettings settings;
+  settings.spp = spp;
+  return settings;
+}
+
+}  // namespace
+
+TEST_CASE("long renders decide by a pilot, unless they are told how", "[render]") {
+  CHECK(DecisionOf(Samples(63)) == Decide::kNone);
+  CHECK(DecisionOf(Samples(64)) == Decide::kPilot);
+  RenderSettings small = Samples(1u << 11);
+  small.resolution = {32, 32};
+  CHECK(DecisionOf(small) == Decide::kNone);
+  // Where the pilot has stopped growing fewer samples of each pixel do.
+  RenderSettings large = Samples(9);
+  large.resolution = {1920, 1080};
+  CHECK(DecisionOf(large) == Decide::kPilot);
+  large.spp = 8;
+  CHECK(DecisionOf(large) == Decide::kNone);
+  RenderSettings timed;
+  timed.seconds = 1.9;
+  CHECK(DecisionOf(timed) == Decide::kNone);
+  timed.seconds = 2;
+  CHECK(DecisionOf(timed) == Decide::kPilot);
+  RenderSettings towards;
+  towards.target_relmse = 0.01;
+  CHECK(DecisionOf(towards) == Decide::kNone);
+  towards.resolution = {1280, 720};
+  CHECK(DecisionOf(towards) == Decide::kPilot);
+  // Any word about the strategy.
+  RenderSettings told = Samples(1024);
+  told.strategy = ParseStrategy("points=cmj", {});
+  CHECK(DecisionOf(told) == Decide::kNone);
+  told.strategy = ParseStrategy("points=cmj,decide=pilot", {});
+  CHECK(DecisionOf(told) == Decide::kPilot);
+  CHECK(DecisionOf(Samples(1024), "roulette=none") == Decide::kNone);
+}
+
+TEST_CASE("only who may decide does, or who goes on with a decision", "[render]") {
+  for (const auto& [decision, decide] :
+       {std::pair{DefaultDecision::kNever, Decide::kNone},
+        {DefaultDecision::kAlways, Decide::kPilot}}) {
+    for (std::uint64_t spp : {1, 1024}) {
+      RenderSettings settings = Samples(spp);
+      settings.decision = decision;
+      SceneDescription scene;
+      ApplySettings(settings, scene);
+      CHECK(scene.strategy.decide == decide);
+    }
+  }
+}
+
 }  // namespace lanelight

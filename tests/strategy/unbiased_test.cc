@@ -199,6 +199,7 @@ stat::ImageEstimate RenderWith(const SceneDescription& scene, const std::string&
   options.spp = spp;
   options.seed = seed;
   options.strategy = strategy;
+  options.planned_samples = kLeastPilot;  // what is learned need not be good
   const Rendered render = RenderDescription(scene, options);
   CHECK(render.result.health.Total() == 0);
   return Estimate(render);

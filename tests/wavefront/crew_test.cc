@@ -95,7 +95,8 @@ TEST_CASE("what the leader shares arrives bit by bit", "[crew]") {
   CrewStart start;
   start.tiles = {{0, 0, 16, 16}, {16, 0, 20, 7}};
   start.restored = start.trained = true;
-  start.roulette = Roulette::kEfficiency;
+  start.changes = "roulette=efficiency";
+  start.planned_samples = std::uint64_t{1} << 60;
   const double tiny = std::numeric_limits<double>::denorm_min();
   start.tables = {{"one", "meaning", {0.1, -0.0, tiny, INFINITY}}, {"none", "", {}}};
   const CrewStart there = CrewStartFromBytes(ToBytes(start));
@@ -103,13 +104,17 @@ TEST_CASE("what the leader shares arrives bit by bit", "[crew]") {
   CHECK(there.tiles[1].x1 == 20);
   CHECK(there.tiles[1].y1 == 7);
   CHECK((there.restored && there.trained));
-  CHECK(there.roulette == start.roulette);
+  CHECK(there.changes == start.changes);
+  CHECK(there.planned_samples == start.planned_samples);
   REQUIRE(there.tables.size() == 2);
   CHECK(there.tables[0].name == "one");
   CHECK(Fingerprint({}, there.tables) == Fingerprint({}, start.tables));
   start.tables[0].values[1] = 0.0;  // the sign is lost
   CHECK(Fingerprint({}, there.tables) != Fingerprint({}, start.tables));
-  CHECK_FALSE(CrewStartFromBytes(ToBytes({})).roulette.has_value());
+  CHECK(CrewStartFromBytes(ToBytes({})).changes.empty());
+  TrainingOutcome decided;
+  decided.changes = "decide=none";
+  CHECK(Fingerprint(decided, {}) != Fingerprint({}, {}));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ class Checker {
     options.aov = !c.records;
     if (c.records) {
       options.training = FeatureSet{Feature::kRecordsPaths, Feature::kOtherEvents};
-      options.roulette = Roulette::kThroughput;
+      options.changes = "roulette=throughput";
     }
     plan_ = MakePlan(scene_, options);
     tables_ = MakeStrategyTables(scene_);

@@ -158,6 +158,7 @@ const char* const kStrategies[] = {
     "points=independent,control=regression,pairs=antithetic",
     "points=halton,roulette=adjoint",
     "points=sobol,roulette=efficiency",
+    "points=sobol,decide=pilot",
 };
 
 }  // namespace
@@ -234,6 +235,22 @@ TEST_CASE("a roulette that the pilot passes prefer is kept", "[resume]") {
   CHECK(whole.result.pilot_samples > 0);
 }
 
+TEST_CASE("a decision is kept, and nothing is decided anew", "[resume]") {
+  Request request;
+  request.strategy = "points=sobol,decide=pilot";
+  request.spp = 12;
+  const Rendered whole = Render(request);
+  CHECK_THAT(whole.result.pilot_changes, Catch::Contains("decide=none"));
+  CHECK(whole.result.pilot_samples > 0);
+  int pauses = 0;
+  Rest rest;
+  const Rendered parts = RenderInParts(request, {}, rest, pauses, 10);
+  CHECK(pauses > 0);
+  CHECK(Identical(parts.film, whole.film));
+  CHECK(Same(parts.result, whole.result));
+  CHECK(parts.result.pilot_changes == whole.result.pilot_changes);
+}
+
 namespace {
 
 // Half a run, and what is left of it.
@@ -254,6 +271,19 @@ FilmAccumulator RestOf(Request request, Rest rest) {
 }
 
 }  // namespace
+
+TEST_CASE("planted: a run that forgets its decision ends elsewhere", "[resume]") {
+  Request request;
+  request.strategy = "points=sobol,decide=pilot";
+  request.spp = 21;
+  const FilmAccumulator whole = Render(request).film;
+  Rest rest = HalfOf(request);
+  CHECK(Identical(RestOf(request, rest), whole));
+  rest.training.changes = "roulette=none,decide=none";
+  CHECK_FALSE(Identical(RestOf(request, rest), whole));
+  rest.training.changes = "roulette=nonesuch";
+  CHECK_THROWS_AS(RestOf(request, rest), InputError);
+}
 
 TEST_CASE("planted: a run that forgets anything ends elsewhere", "[resume]") {
   for (const char* strategy :

@@ -1,0 +1,60 @@
+#include "src/wavefront/pilot_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "src/core/check.h"
+
+namespace lanelight {
+namespace {
+
+// What a pixel adds to the scores of both.
+struct PixelScores {
+  double other, usual;
+  // By the worse of both; what is equal is equal in all.
+  bool operator<(const PixelScores& o) const {
+    const double own = std::max(other, usual), its = std::max(o.other, o.usual);
+    return own != its ? own < its : std::min(other, usual) < std::min(o.other, o.usual);
+  }
+};
+
+// Those that count.
+std::vector<PixelScores> Pixels(const PilotMeasure& other, const PilotMeasure& usual) {
+  LL_CHECK_EQ(other.variances.size(), usual.variances.size());
+  std::vector<PixelScores> pixels;
+  for (std::size_t i = 0; i < other.variances.size(); ++i) {
+    pixels.push_back({other.cost * other.variances[i], usual.cost * usual.variances[i]});
+  }
+  std::sort(pixels.begin(), pixels.end());
+  pixels.resize(KeptOf(pixels.size()));
+  return pixels;
+}
+
+}  // namespace
+
+std::size_t KeptOf(std::size_t n) { return n - std::min(n / 16, (n + 999) / 1000); }
+
+double RobustMean(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  values.resize(KeptOf(values.size()));
+  return std::accumulate(values.begin(), values.end(), 0.0) /
+         static_cast<double>(values.size());
+}
+
+double PilotMeasure::Score() const { return cost * RobustMean(variances); }
+
+bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual,
+                     double margin) {
+  const std::vector<PixelScores> pixels = Pixels(other, usual);
+  double sum = 0, squares = 0;
+  for (const PixelScores& pixel : pixels) {
+    const double loss = pixel.other - margin * pixel.usual;
+    sum += loss, squares += loss * loss;
+  }
+  const double n = static_cast<double>(pixels.size());
+  const double error = std::sqrt(std::max(0.0, squares - sum * sum / n));
+  return sum + 2 * error < 0 && other.Score() < margin * usual.Score();
+}
+
+}  // namespace lanelight

@@ -1,0 +1,32 @@
+// Which of two strategies is the more efficient, from short passes with both on the same
+// pixels. Variances of short passes have heavy tails, so single pixels must not decide.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace lanelight {
+
+/// What passes with one strategy have shown, by pixel.
+struct PilotMeasure {
+  double cost = 1;                // of a sample (TrainingSamples::Cost)
+  std::vector<double> variances;  // of a sample, relative (RelativeVariances)
+
+  /// 1 / efficiency: the mean of the variances without the worst thousandth of them,
+  /// times the cost.
+  double Score() const;
+};
+
+/// Both have the same pixels. `other` is better: its variance times cost is below
+/// `margin` of that of `usual`, and that by two standard errors of the difference pixel
+/// by pixel. The worst thousandth of the pixels, by either, counts in neither.
+bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, double margin);
+
+/// How many of n values, sorted, count: all but the worst thousandth, and at least one is
+/// left out of 16. A single bright sample would decide alone.
+std::size_t KeptOf(std::size_t n);
+
+/// Mean without the worst thousandth.
+double RobustMean(std::vector<double> values);
+
+}  // namespace lanelight

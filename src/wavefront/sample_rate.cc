@@ -1,0 +1,33 @@
+#include "src/wavefront/sample_rate.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+
+#include "src/wavefront/training_pass.h"
+
+namespace lanelight {
+
+std::uint64_t SamplesWithin(double seconds, const CompiledScene& scene,
+                            const PlanOptions& options, const RunParameters& run,
+                            const TaskWatcher* watcher) {
+  PlanOptions simple = options;
+  simple.aov = false;
+  simple.training = FeatureSet{};
+  // What has learned nothing yet cannot be rendered with.
+  simple.changes = "roulette=throughput,guiding=none,decide=none";
+  double rate = 1;
+  // The first pass warms up: memory is touched, code and scene are read.
+  for (const std::uint64_t samples : {2048u, 8192u}) {
+    const TrainingWork work = MakeTrainingWork(scene, samples, 16);
+    const auto start = std::chrono::steady_clock::now();
+    RunTrainingPass(scene, simple, run, work, watcher);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    rate = double(work.samples()) / std::max(taken.count(), 1e-6);
+  }
+  return std::bit_floor(
+      static_cast<std::uint64_t>(std::clamp(rate * seconds, 1.0, 1e15)));
+}
+
+}  // namespace lanelight

@@ -1,0 +1,226 @@
+// decide=pilot: what it chooses, that the image then is that of the choice, bit by bit,
+// and the pieces that it decides with.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "src/wavefront/path_records.h"
+#include "src/wavefront/pilot_comparison.h"
+#include "src/wavefront/training.h"
+#include "tests/wavefront/agreement.h"
+
+namespace lanelight::test {
+namespace {
+
+// A lamp seen through a small hole: most paths in the dark part die of nothing.
+SceneDescription SplitRoom(int size) {
+  SceneBuilder b(size, size);
+  b.Depth(8).Perspective({0, 0, 0.9}, {0, 0, -1}, {0, 1, 0}, 70);
+  const Index wall = b.AddDiffuse({0.8, 0.7, 0.6});
+  b.AddBox({-1, -1, -1}, {1, 1, 1}, wall).reverse_orientation = true;
+  b.AddBox({-1, -0.1, -0.4}, {0.95, 0, 1}, wall);
+  b.AddQuad({-0.3, 0.99, -0.3}, {0.6, 0, 0}, {0, 0, 0.6}, b.AddDiffuse(Grey(0)),
+            b.AddEmission(Grey(5)));
+  return b.Build();
+}
+
+// As a render of so many samples would decide, with few of its own.
+Rendered Decide(const SceneDescription& scene, const std::string& strategy,
+                std::uint64_t planned = 1u << 21, std::uint64_t spp = 4) {
+  TestRender t;
+  t.spp = spp;
+  t.planned_samples = planned;
+  t.strategy = "points=sobol,seen-lights=paths," + strategy;
+  return RenderDescription(scene, t);
+}
+
+bool SameImage(const Rendered& a, const Rendered& b) {
+  return Identical(a.film, b.film) && a.result.rays_closest == b.result.rays_closest &&
+         a.result.rays_shadow == b.result.rays_shadow;
+}
+
+// 1 / (relative variance times rays), without the pilot.
+double Efficiency(const Rendered& r) {
+  std::vector<double> variances;
+  for (int y = 0; y < r.film.height(); ++y) {
+    for (int x = 0; x < r.film.width(); ++x) {
+      const Rgb mean = r.film.Mean(x, y), variance = r.film.Variance(x, y);
+      double sum = 0;
+      for (int c = 0; c < 3; ++c) sum += variance[c] / (mean[c] * mean[c] + 0.01);
+      variances.push_back(sum);
+    }
+  }
+  const double rays = double(r.result.rays_closest) + 0.5 * double(r.result.rays_shadow);
+  return 1 / (RobustMean(variances) * rays);
+}
+
+}  // namespace
+
+TEST_CASE("the pilot finds splitting where a room needs it", "[decision]") {
+  const Rendered r = Decide(SplitRoom(32), "decide=pilot");
+  INFO(r.result.pilot_note);
+  CHECK(r.result.roulette == Roulette::kAdjoint);
+  CHECK(r.result.pilot_changes == "roulette=adjoint,decide=none");
+  CHECK_THAT(r.result.pilot_note, Catch::Contains("rendered with roulette=adjoint") &&
+                                      Catch::Contains("roulette=throughput:0:5"));
+  // The image is what it is with that asked for: the pilot leaves nothing behind.
+  CHECK(SameImage(r, Decide(SplitRoom(32), "roulette=adjoint")));
+}
+
+TEST_CASE("the pilot leaves the strategy as it is where nothing pays", "[decision]") {
+  // After one event on the plane paths leave.
+  SceneDescription plane = PolygonLight(32);
+  plane.integrator.max_depth = 6;
+  for (const char* strategy : {"", "roulette=throughput:0.05:5,", "points=cmj,"}) {
+    const std::string text = strategy;
+    const Rendered r = Decide(plane, text + "decide=pilot");
+    INFO(text << ": " << r.result.pilot_note);
+    CHECK(r.result.pilot_changes == "decide=none");
+    CHECK(SameImage(r, Decide(plane, text + "decide=none")));
+  }
+}
+
+TEST_CASE("a decision does not hang on threads or wavefronts", "[decision]") {
+  for (const SceneDescription& scene : {SplitRoom(24), SmallRoom(24, 5)}) {
+    TestRender t;
+    t.spp = 3;
+    t.planned_samples = 1u << 19;
+    t.strategy = "points=sobol,decide=pilot";
+    const Rendered one = RenderDescription(scene, t);
+    for (const auto& [threads, wavefront] : {std::pair{1, 0u}, {3, 300u}, {2, 64u}}) {
+      t.threads = threads;
+      t.wavefront = wavefront;
+      const Rendered other = RenderDescription(scene, t);
+      CHECK(SameImage(other, one));
+      CHECK(other.result.pilot_note == one.result.pilot_note);
+      CHECK(other.result.pilot_rays == one.result.pilot_rays);
+    }
+  }
+}
+
+TEST_CASE("what the pilot chooses is at most a tenth below the best candidate",
+          "[decision]") {
+  const std::pair<const char*, SceneDescription> scenes[] = {
+      {"small room", SmallRoom(24, 8)},
+      {"closed room", ClosedRoom(0.7, 20)},
+      {"split room", SplitRoom(24)}};
+  for (const auto& [name, scene] : scenes) {
+    const bool tiny = scene.film.width < 24;
+    const std::uint64_t spp = tiny ? 8192 : 256;
+    double best = 0;
+    std::string found;
+    for (const char* roulette : {"throughput", "adjoint", "throughput:0:5"}) {
+      const std::string change = std::string("roulette=") + roulette;
+      const double efficiency = Efficiency(Decide(scene, change, 1u << 21, spp));
+      best = std::max(best, efficiency);
+      found += fmt::format("{} {:.3g}, ", roulette, efficiency);
+    }
+    const Rendered chosen = Decide(scene, "decide=pilot", 1u << 21, spp);
+    INFO(name << ": " << found << chosen.result.pilot_note);
+    // What must be gained is 5 to 13 percent, and both have noise.
+    CHECK(Efficiency(chosen) > 0.82 * best);
+  }
+}
+
+TEST_CASE("the pilot of a decision takes a few percent of what it is planned for",
+          "[decision]") {
+  SceneDescription plane = PolygonLight(32);
+  plane.integrator.max_depth = 6;
+  for (const std::uint64_t planned :
+       {std::uint64_t{1} << 14, std::uint64_t{1} << 19, std::uint64_t{1} << 26}) {
+    const Rendered r = Decide(plane, "decide=pilot", planned);
+    const auto samples = double(r.result.pilot_samples);
+    CHECK((samples > 0) == (planned > (1u << 14)));
+    CHECK(samples < 0.04 * double(std::min(planned, kMostDecidedBy)));
+  }
+  // Nothing to choose from: paths end after one event.
+  SceneDescription direct = SmallRoom(8, 1);
+  const Rendered r = Decide(direct, "decide=pilot");
+  CHECK(r.result.pilot_samples == 0);
+  CHECK(SameImage(r, Decide(direct, "decide=none")));
+}
+
+namespace {
+
+PilotMeasure MeasureOf(double cost, double variance, unsigned seed = 1) {
+  std::mt19937 engine(seed);
+  std::exponential_distribution<double> scatter(1 / variance);
+  PilotMeasure m;
+  m.cost = cost;
+  for (int i = 0; i < 2000; ++i) m.variances.push_back(scatter(engine));
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("one strategy is clearly better only by variance times cost", "[decision]") {
+  const PilotMeasure usual = MeasureOf(3, 1);
+  // Planted: the cost, or the variance, left out would turn these around.
+  CHECK_FALSE(IsClearlyBetter(MeasureOf(6, 0.7), usual, 0.95));
+  CHECK_FALSE(IsClearlyBetter(MeasureOf(2, 1.6), usual, 0.95));
+  CHECK(IsClearlyBetter(MeasureOf(6, 0.4), usual, 0.95));
+  CHECK(IsClearlyBetter(MeasureOf(2, 1.2), usual, 0.95));
+  CHECK_FALSE(IsClearlyBetter(usual, MeasureOf(6, 0.4), 0.95));
+  // By less than the margin.
+  CHECK(IsClearlyBetter(MeasureOf(3, 0.9), usual, 0.95));
+  CHECK_FALSE(IsClearlyBetter(MeasureOf(3, 0.9), usual, 0.87));
+}
+
+TEST_CASE("single pixels do not decide", "[decision]") {
+  const PilotMeasure usual = MeasureOf(1, 1);
+  PilotMeasure lucky = usual, unlucky = MeasureOf(1, 0.8);
+  PilotMeasure bright = usual;
+  bright.variances[700] = 1e6;
+  CHECK_FALSE(IsClearlyBetter(lucky, bright, 0.95));
+  unlucky.variances[31] = 1e6;
+  CHECK(IsClearlyBetter(unlucky, usual, 0.95));
+  // One in twenty is the strategy's own.
+  for (std::size_t i = 0; i < unlucky.variances.size(); i += 20) {
+    unlucky.variances[i] = 100;
+  }
+  CHECK_FALSE(IsClearlyBetter(unlucky, usual, 0.95));
+  // Equal ones from other samples: a difference of chance, by two standard errors about
+  // one time in fifty, and by 5 percent as well.
+  int better = 0;
+  for (unsigned seed = 2; seed < 102; ++seed) {
+    better += IsClearlyBetter(MeasureOf(1, 1, seed), usual, 0.95);
+  }
+  CHECK(better < 5);
+}
+
+TEST_CASE("variances of samples that depend on each other are of their observations",
+          "[decision]") {
+  // Pixels of four observations, whose samples take turns: all of one are the same.
+  std::mt19937 engine(5);
+  std::normal_distribution<float> normal(1, 0.25f);
+  TrainingWork work;
+  work.spp = 8;
+  TrainingSamples samples;
+  samples.observations = 4;
+  for (std::uint32_t pixel = 0; pixel < 64 * 64; ++pixel) {
+    work.pixels.push_back(pixel);
+    float of_one[4];
+    for (float& v : of_one) v = normal(engine);
+    for (std::uint32_t k = 0; k < work.spp; ++k) {
+      const float v = of_one[k % 4];
+      samples.colors.push_back({v, v, v});
+    }
+  }
+  const ImageGuess image(64, 64, work.pixels, samples.colors);
+  const double weight = 1 / (1 + 0.01);
+  // Two samples of an observation are worth one. 2 sigma^4 / 3 is the variance of each
+  // pixel's; six standard errors: 2e-9.
+  const auto mean = [](const std::vector<double>& values) {
+    double sum = 0;
+    for (double v : values) sum += v;
+    return sum / double(values.size());
+  };
+  const double noise = 6 * std::sqrt(2.0 / 3 / (64 * 64)) + 0.02;
+  CHECK(mean(RelativeVariances(samples, work, image)) ==
+        Approx(2 * 0.0625 * weight).epsilon(noise));
+  // Planted: as if all were independent.
+  samples.observations = 8;
+  CHECK(mean(RelativeVariances(samples, work, image)) <
+        2 * 0.0625 * weight * (1 - 2 * noise));
+}
+
+}  // namespace lanelight::test
