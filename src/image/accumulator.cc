@@ -118,27 +118,47 @@ void FilmAccumulator::AddAov(std::size_t index, const float* const* planes,
   }
 }
 
-Rgb FilmAccumulator::Mean(int x, int y) const {
-  const std::size_t index = Index(x, y);
-  const std::uint64_t samples = samples_[index];
-  if (samples == 0) return {};
+Rgb FilmAccumulator::Sum(std::size_t index) const {
   Rgb sum;
   for (int c = 0; c < 3; ++c) {
     sum[c] = groups_.replicates ? replicates_[index].Total(c) : units_[index].sum[c];
   }
+  return sum;
+}
+
+Rgb FilmAccumulator::Mean(int x, int y) const {
+  const std::size_t index = Index(x, y);
+  const std::uint64_t samples = samples_[index];
+  if (samples == 0) return {};
+  Rgb sum = Sum(index);
   if (control_) sum = sum - control_->Correction(index, samples);
   return sum / static_cast<double>(samples);
 }
 
-Rgb FilmAccumulator::Variance(int x, int y) const {
-  if (!HasVariance(x, y)) return {};
+Rgb FilmAccumulator::PlainMean(int x, int y) const {
   const std::size_t index = Index(x, y);
-  return groups_.replicates ? ReplicateVariance(index) : UnitVariance(index);
+  if (samples_[index] == 0) return {};
+  return Sum(index) / static_cast<double>(samples_[index]);
 }
 
-Rgb FilmAccumulator::ReplicateVariance(std::size_t index) const {
+Rgb FilmAccumulator::Variance(int x, int y) const {
+  return HasVariance(x, y) ? Variance(Index(x, y), control_ ? &*control_ : nullptr)
+                           : Rgb{};
+}
+
+Rgb FilmAccumulator::PlainVariance(int x, int y) const {
+  return HasVariance(x, y) ? Variance(Index(x, y), nullptr) : Rgb{};
+}
+
+Rgb FilmAccumulator::Variance(std::size_t index, const ControlFilm* control) const {
+  return groups_.replicates ? ReplicateVariance(index, control)
+                            : UnitVariance(index, control);
+}
+
+Rgb FilmAccumulator::ReplicateVariance(std::size_t index,
+                                       const ControlFilm* control) const {
   ReplicateSums sums = replicates_[index];
-  if (control_) control_->CorrectReplicates(index, sums);
+  if (control != nullptr) control->CorrectReplicates(index, sums);
   Rgb variance;
   for (int c = 0; c < 3; ++c) {
     variance[c] = sums.VarianceOfMean(c, samples_[index], groups_);
@@ -148,10 +168,12 @@ Rgb FilmAccumulator::ReplicateVariance(std::size_t index) const {
 
 // Sample variance of the units' means, over their number for the variance of their mean,
 // and scaled down by the share of a sample that has no partner yet.
-Rgb FilmAccumulator::UnitVariance(std::size_t index) const {
+Rgb FilmAccumulator::UnitVariance(std::size_t index, const ControlFilm* control) const {
   const double n = static_cast<double>(groups_.Observations(samples_[index]));
   const double share = n * groups_.unit / static_cast<double>(samples_[index]);
-  if (control_) return control_->ResidualSquares(index) * (share / (n * (n - 1)));
+  if (control != nullptr) {
+    return control->ResidualSquares(index) * (share / (n * (n - 1)));
+  }
   Rgb variance;
   for (int c = 0; c < 3; ++c) {
     const double open = groups_.unit > 1 ? open_[index].sum[c] : 0;
