@@ -16,7 +16,15 @@ void CheckWhole(const MergedRender& render) {
   }
   const SampleGroups& groups = render.film->groups();
   const std::uint64_t turn = groups.unit * (groups.replicates ? kReplicates : 1);
-  if (render.least == render.most && render.least % turn == 0) return;
+  bool whole_turns = true;
+  for (const PixelRect& t : render.tiles) {
+    for (int y = t.y0; y < t.y1; ++y) {
+      for (int x = t.x0; x < t.x1; ++x) {
+        whole_turns = whole_turns && render.film->Samples(x, y) % turn == 0;
+      }
+    }
+  }
+  if (render.least == render.most && whole_turns) return;
   throw InputError(
       fmt::format("seed {} has {} to {} samples per pixel: renders of different seeds "
                   "can be added if "
@@ -42,6 +50,7 @@ void AddSeed(MergedRender& sum, MergedRender& more) {
   const auto columns = sum.film->Columns(), others = more.film->Columns();
   LL_CHECK_EQ(columns.size(), others.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].name == "weights") continue;  // each had its own
     columns[i].type == StateType::kUint64
         ? AddColumn<std::uint64_t>(columns[i], others[i])
         : AddColumn<double>(columns[i], others[i]);

@@ -9,6 +9,7 @@
 #include "src/render/identity.h"
 #include "src/render/output.h"
 #include "src/render/saving.h"
+#include "src/wavefront/share.h"
 #include "src/wavefront/tiles.h"
 
 namespace lanelight {
@@ -37,7 +38,16 @@ std::vector<PixelRect> TilesToRender(const Job& job, const Part& part) {
   if (part.count == 1) {
     return MakePartition(job.window, job.OpenEnded() ? kPilotSpp : job.spp).tiles;
   }
-  const bool blocks = job.scene.strategy.control == Control::kRegression;
+  const Strategy& strategy = job.scene.strategy;
+  if (strategy.allocation == Allocation::kError) {
+    throw InputError(fmt::format(
+        "--part {}/{}: with allocation=error the samples of a pixel depend on the errors "
+        "of others, which a part does not know: render with several ranks "
+        "(docs/mpi.md), merge whole renders of different seeds, or take "
+        "allocation=uniform",
+        part.index, part.count));
+  }
+  const bool blocks = strategy.control == Control::kRegression;
   return TilesOfPart(job.window, part, blocks ? RegressionFilm::kBlock : 1);
 }
 
@@ -135,15 +145,25 @@ bool Checkpoint::Restore(RunState& state) {
       state.tables.push_back(std::move(table));
     }
   }
-  std::uint64_t most = 0;
-  const FilmAccumulator& film = state.films.film();
-  for (const PixelRect& t : tiles_) most = std::max(most, film.Samples(t.x0, t.y0));
-  if (job_.spp > 0 && most > job_.spp) {
-    throw InputError(
-        fmt::format("'{}' has up to {} samples per pixel, more than the {} asked for",
-                    from_->path(), most, job_.spp));
-  }
+  CheckNotTooMany(state.films);
   return true;
+}
+
+void Checkpoint::CheckNotTooMany(const Films& films) const {
+  if (job_.spp == 0) return;
+  const auto check = [&](int x, int y) {
+    const std::uint64_t samples = films.film().Samples(x, y);
+    if (samples <= ShareOf(films, x, y).Samples(job_.spp)) return;
+    throw InputError(
+        fmt::format("'{}' has {} samples of pixel {},{}, more than with the {} per pixel "
+                    "asked for",
+                    from_->path(), samples, x, y, job_.spp));
+  };
+  for (const PixelRect& t : tiles_) {
+    for (int y = t.y0; y < t.y1; ++y) {
+      for (int x = t.x0; x < t.x1; ++x) check(x, y);
+    }
+  }
 }
 
 bool Checkpoint::Due() const { return Milliseconds() >= next_; }

@@ -43,7 +43,8 @@ std::uint64_t FilmBytes(const PixelRect& window, bool aov, const Strategy& strat
   // The planes exist twice for a moment: as planes, and packed into the file's bytes.
   const std::uint64_t per_pixel =
       FilmAccumulator::BytesPerPixel(GroupsOf(strategy), aov) + 2 * kPlanesPerPixel +
-      (aov ? 2 * kAovPerPixel : 0) + ControlPerPixel(strategy);
+      (aov ? 2 * kAovPerPixel : 0) + ControlPerPixel(strategy) +
+      (strategy.allocation == Allocation::kError ? sizeof(double) : 0);
   return window.pixels() * per_pixel;
 }
 

@@ -9,6 +9,7 @@
 #include "src/render/checkpoint.h"
 #include "src/render/identity.h"
 #include "src/strategy/strategy.h"
+#include "src/wavefront/share.h"
 
 namespace lanelight {
 namespace {
@@ -51,6 +52,7 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
       w.x0, w.y0, w.width(), w.height(), GroupsOf(strategy), features.Has(Feature::kAov));
   merged.films = std::make_unique<Films>(SamplePlanes(features),
                                          strategy.coefficient.value_or(1), *merged.film);
+  if (file.HasPixels("weights")) merged.films->UseWeights();
 }
 
 // Which pixels files of one seed have already brought, and whose they are.
@@ -194,12 +196,33 @@ class Merger {
     return merged;
   }
 
+  // Where pixels have shares of the samples, these are told by their mean.
   static void FindSamples(MergedRender& merged) {
+    const Json& spp = merged.head.at("settings").at("spp");
+    const std::uint64_t wanted = spp.is_number() ? spp.get<std::uint64_t>() : 0;
     merged.least = ~std::uint64_t{0};
+    ForPixels(merged, [&](std::uint64_t samples, const Share& share) {
+      const std::uint64_t mean =
+          samples == share.Samples(wanted) ? wanted : share.Mean(samples);
+      merged.least = std::min(merged.least, mean);
+      merged.most = std::max(merged.most, mean);
+    });
+    // The same mean may be known within bounds only.
+    bool even = true;
+    ForPixels(merged, [&](std::uint64_t samples, const Share& share) {
+      even = even && samples == share.Samples(merged.least);
+    });
+    if (even) merged.most = merged.least;
+  }
+
+  template <class Do>
+  static void ForPixels(const MergedRender& merged, Do&& body) {
     for (const PixelRect& t : merged.tiles) {
-      const std::uint64_t samples = merged.film->Samples(t.x0, t.y0);
-      merged.least = std::min(merged.least, samples);
-      merged.most = std::max(merged.most, samples);
+      for (int y = t.y0; y < t.y1; ++y) {
+        for (int x = t.x0; x < t.x1; ++x) {
+          body(merged.film->Samples(x, y), ShareOf(*merged.films, x, y));
+        }
+      }
     }
   }
 

@@ -31,6 +31,13 @@ class Films {
   /// threads. Values are changed where a control variate corrects them.
   void Add(const TileSamples& tile);
 
+  /// From here on (before any sample) pixels have weights (src/wavefront/allocation.h).
+  void UseWeights();
+  /// By pixel of the film, row by row; 0 until they are known. Empty without UseWeights.
+  std::vector<double>& weights() { return weights_; }
+  /// 0 without.
+  double WeightAt(int x, int y) const;
+
   std::optional<ControlReport> Control() const;
 
   /// All that Add has brought, by pixel of the film, row by row: films of the same
@@ -46,6 +53,7 @@ class Films {
   SamplePlanes planes_;
   FilmAccumulator& film_;
   std::optional<RegressionFilm> regression_;
+  std::vector<double> weights_;
 };
 
 }  // namespace lanelight

@@ -53,6 +53,9 @@ class Runner : public TaskWatcher {
     LL_CHECK(options.windows.empty() || crew_.ranks() == 1);
     run_ = Parameters();
     films_.emplace(run_.planes, scene.strategy.coefficient.value_or(1), film_);
+    if (!Allocates()) return;
+    LL_CHECK_EQ(tasks_.pixels(), RenderedPixels(scene.film).pixels());  // no part
+    films_->UseWeights();
   }
 
   /// Samples of every pixel up to `end`, in tasks of `per_task`.
@@ -68,12 +71,16 @@ class Runner : public TaskWatcher {
     start_cpu_ = ProcessCpuSeconds();
     const bool restored = options_.keeper != nullptr && Restore();
     if (!restored && NeedsTraining(plan_)) planned_samples_ = PlannedSamples();
+    // Ranks are told once which tiles there are.
+    if (crew_.ranks() > 1 && Allocates()) tasks_.CutIntoCells();
     if (crew_.ranks() > 1) crew_.Share(ToBytes(StartOfOthers(restored)));
     if (!restored && NeedsTraining(plan_)) TrainStrategy();
     AgreeOnTraining();
     if (options_.seconds > 0) pace_.emplace(options_.seconds, PaceTasks());
     patience_.emplace(options_.seconds, Elapsed());
-    if (restored) LookIfDue();
+    if (!restored) return;
+    AllocateIfDue();
+    LookIfDue(LastLevel());
   }
 
   /// The same for a rank that serves.
@@ -101,8 +108,8 @@ class Runner : public TaskWatcher {
     Part part;
     part.begin = done;
     part.first = done / kSamplesPerSeed * kSamplesPerSeed;
-    part.end = std::min(
-        {Limit(), NextLook(done), done + round.samples(), part.first + kSamplesPerSeed});
+    part.end = std::min({Limit(), NextLook(done), NextDecision(done),
+                         done + round.samples(), part.first + kSamplesPerSeed});
     part.per_task = round.per_task;
     part.start = Clock::now();
     BeginWith(part.first);
@@ -122,7 +129,8 @@ class Runner : public TaskWatcher {
     if (tasks_.Done() < part.end) return;
     if (pace_) pace_->Took(part.end - part.begin, Since(part.start));
     if (pace_ && fit_seconds_ == 0 && 2 * Elapsed() > options_.seconds) TimeFit();
-    LookIfDue();
+    AllocateIfDue();
+    LookIfDue(part.end);
   }
 
   /// The last state is kept too, also where another rank has failed.
@@ -237,16 +245,47 @@ class Runner : public TaskWatcher {
     return OpenEnded() || options_.spp == 0 ? kPilotSpp : options_.spp;
   }
 
+  // Windows are cut from an image whose other pixels nobody knows.
+  bool Allocates() const {
+    return scene_.strategy.allocation == Allocation::kError && options_.windows.empty();
+  }
+
+  // Where pixels begin to differ in their samples.
+  std::uint64_t NextDecision(std::uint64_t done) const {
+    return Allocates() && done < kAllocationPilot ? kAllocationPilot
+                                                  : kMostSamplesPerPixel;
+  }
+
+  // What the pilot says is in the films, for a run that goes on later.
+  void AllocateIfDue() {
+    if (!Allocates() || allocated_ || tasks_.Done() < kAllocationPilot) return;
+    allocated_ = true;
+    if (tasks_.IsAt(kAllocationPilot)) {
+      const PixelRect window = RenderedPixels(scene_.film);
+      films_->weights() = WeighPixels(film_, CellSide(window, scene_.strategy.control));
+    }
+    tasks_.UseShares(*films_);
+    if (pace_) pace_->Cut(PaceTasks());
+  }
+
   std::uint64_t NextLook(std::uint64_t done) const {
     if (!options_.samples_needed) return kMostSamplesPerPixel;
     return LookFrom(done + 1, film_.groups().unit);
   }
 
+  // Samples per pixel of a run that goes on. Where pixels have shares of them, it may
+  // have been at its last look already, and no pixel has had more since.
+  std::uint64_t LastLevel() const {
+    const std::uint64_t done = tasks_.Done();
+    std::uint64_t look = done;
+    for (auto next = NextLook(0); next <= done; next = NextLook(next)) look = next;
+    return tasks_.IsAt(look) ? look : done;
+  }
+
   // Asks how many samples are needed. A run that was put down within a round has taken
   // its look before; what it says of an uneven film is not what one run would hear.
-  void LookIfDue() {
-    const std::uint64_t done = tasks_.Done();
-    if (!options_.samples_needed || done == 0 || !tasks_.Even()) return;
+  void LookIfDue(std::uint64_t done) {
+    if (!options_.samples_needed || done == 0 || !tasks_.IsAt(done)) return;
     if (done != LookFrom(done, film_.groups().unit) && done != Limit()) return;
     film_.FitControl();
     needed_ = options_.samples_needed(done);
@@ -343,6 +382,7 @@ class Runner : public TaskWatcher {
   mutable std::optional<Patience> patience_;
   mutable std::atomic<bool> put_down_{false};  // tasks were; that ends the run
   bool every_pixel_ = false;                   // has a sample
+  bool allocated_ = false;                     // samples, by their weights
   double needed_ = INFINITY;                   // samples per pixel, by the last look
   bool reached_ = false;                       // no more are needed
   double fit_seconds_ = 0;                     // that the last step takes

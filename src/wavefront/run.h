@@ -61,10 +61,12 @@ struct RunOptions {
   bool keep_roulette = false;
   /// Renders these windows of the image only, all of the same width and height, up to 64.
   /// The film is then a strip in which they lie side by side, in order, from (0, 0) on.
-  /// They have the samples that a render of the whole image gives these pixels.
+  /// They have the samples that a render of the whole image gives these pixels, and
+  /// equally many with allocation=error too.
   std::vector<PixelRect> windows;
   /// Renders these tiles of the image only, disjoint; empty: all of it. With
-  /// control=regression whole blocks of RegressionFilm::kBlock.
+  /// control=regression whole blocks of RegressionFilm::kBlock; with allocation=error all
+  /// pixels.
   std::vector<PixelRect> tiles;
   /// What pilot passes are sized for; 0: kPilotSpp samples of every pixel of the image,
   /// and kLeastPilot at least. With decide=pilot DecidedBy (src/wavefront/training.h), or

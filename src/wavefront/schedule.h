@@ -37,6 +37,8 @@ class Pace {
   };
   Pace(double budget, const Tasks& tasks) : budget_(budget), tasks_(tasks) {}
 
+  /// The same work is cut otherwise from here on.
+  void Cut(const Tasks& tasks) { tasks_ = tasks; }
   /// The next round, `elapsed` seconds after the start of rendering.
   Round Next(double elapsed) const;
   /// A round of so many samples per pixel took `seconds`.

@@ -15,7 +15,11 @@
 namespace lanelight {
 Tasks::Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
              const RunOptions& options, std::uint64_t planned_spp)
-    : scene_(scene), plan_(plan), run_(run), options_(options) {
+    : scene_(scene),
+      plan_(plan),
+      run_(run),
+      options_(options),
+      planned_spp_(planned_spp) {
   if (!options.windows.empty()) {
     UseWindows(planned_spp);
   } else if (!options.tiles.empty()) {
@@ -90,12 +94,45 @@ void Tasks::GoOn(const Films& films, const RunCounts& counts) {
   }
 }
 
-std::uint64_t Tasks::Done() const {
-  return *std::min_element(done_.begin(), done_.end());
+void Tasks::CutIntoCells() {
+  const int side = CellSide(RenderedPixels(scene_.film), scene_.strategy.control);
+  std::vector<PixelRect> cells;
+  std::vector<std::uint64_t> done;
+  for (std::size_t tile = 0; tile < done_.size(); ++tile) {
+    for (const PixelRect& cell : TilesOf(partition_.tiles[tile], side)) {
+      cells.push_back(cell);
+      done.push_back(done_[tile]);
+    }
+  }
+  partition_.tiles = std::move(cells);
+  partition_.samples = SamplesPerTask(
+      static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side), planned_spp_);
+  done_ = std::move(done);
+  begun_ = false;  // what is known of tiles is of others
 }
 
-bool Tasks::Even() const {
-  return Done() == *std::max_element(done_.begin(), done_.end());
+void Tasks::UseShares(const Films& films) {
+  CutIntoCells();
+  shares_.clear();
+  for (const PixelRect& tile : partition_.tiles) {
+    shares_.push_back(ShareOf(films, tile.x0, tile.y0));
+  }
+}
+
+std::uint64_t Tasks::Done() const {
+  if (shares_.empty()) return *std::min_element(done_.begin(), done_.end());
+  std::uint64_t least = ~std::uint64_t{0};
+  for (std::size_t tile = 0; tile < done_.size(); ++tile) {
+    least = std::min(least, shares_[tile].Mean(done_[tile]));
+  }
+  return least;
+}
+
+bool Tasks::IsAt(std::uint64_t limit) const {
+  for (std::size_t tile = 0; tile < done_.size(); ++tile) {
+    if (done_[tile] != Goal(tile, limit)) return false;
+  }
+  return true;
 }
 
 Round Tasks::FullRound() const {
@@ -119,9 +156,10 @@ void Tasks::BeginRound(const RoundWork& work) {
 std::vector<TileRange> Tasks::Behind(std::uint64_t limit) const {
   std::vector<TileRange> ranges;
   for (std::size_t tile = 0; tile < done_.size(); ++tile) {
-    if (done_[tile] >= limit) continue;
-    ranges.push_back({static_cast<std::uint32_t>(tile), done_[tile], limit,
-                      partition_.tiles[tile].pixels() * (limit - done_[tile])});
+    const std::uint64_t end = Goal(tile, limit);
+    if (done_[tile] >= end) continue;
+    ranges.push_back({static_cast<std::uint32_t>(tile), done_[tile], end,
+                      partition_.tiles[tile].pixels() * (end - done_[tile])});
   }
   return ranges;
 }
@@ -149,14 +187,17 @@ void Tasks::Credit(const RunCounts& counts) {
 void Tasks::RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films) {
   BeginRound(work);
   const std::uint64_t limit = work.limit;
-  if (limit - Done() > per_task_) return RunRoundInChunks(limit, watcher, films);
+  if (InChunks(limit)) return RunRoundInChunks(limit, watcher, films);
   ParallelFor(partition_.tiles.size(), [&](std::size_t tile) {
-    if (done_[tile] >= limit || watcher.Stopped()) return;
-    TaskSamples& out = ThreadWorkspace().samples;
-    if (!RunTask(tile, {done_[tile], limit}, watcher, out)) return;
-    Merge(tile, out, films);
-    watcher.TaskDone();
+    BringOn({static_cast<std::uint32_t>(tile), done_[tile], Goal(tile, limit), 0},
+            watcher, films);
   });
+}
+
+// Where there are few tiles for the threads, ranges of samples are rendered at once, and
+// wait in memory until it is their turn. Tiles that have a large share do not ask for it.
+bool Tasks::InChunks(std::uint64_t limit) const {
+  return limit - Done() > per_task_ && (shares_.empty() || FullRound().chunks > 1);
 }
 
 void Tasks::RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& films) {
@@ -166,8 +207,9 @@ void Tasks::RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& f
   };
   std::vector<Chunk> chunks;
   for (std::size_t tile = 0; tile < done_.size(); ++tile) {
-    for (std::uint64_t at = done_[tile]; at < limit; at += per_task_) {
-      chunks.push_back({tile, {at, std::min(limit, at + per_task_)}});
+    const std::uint64_t end = Goal(tile, limit);
+    for (std::uint64_t at = done_[tile]; at < end; at += per_task_) {
+      chunks.push_back({tile, {at, std::min(end, at + per_task_)}});
     }
   }
   if (buffers_.size() < chunks.size()) buffers_.resize(chunks.size());

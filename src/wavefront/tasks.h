@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "src/wavefront/allocation.h"
 #include "src/wavefront/crew.h"
 #include "src/wavefront/films.h"
 #include "src/wavefront/hand_out.h"
@@ -34,10 +35,16 @@ class Tasks {
   const RunCounts& counts() const { return counts_; }
   /// Begins with films that have samples, and what had been counted for them.
   void GoOn(const Films& films, const RunCounts& counts);
-  /// Samples per pixel that all tiles have.
+  /// Makes each cell of allocation=error a tile; larger ones take less time while all
+  /// pixels have as many samples.
+  void CutIntoCells();
+  /// From here on tiles, now cells, have their shares of the samples, by the films'
+  /// weights. Between rounds.
+  void UseShares(const Films& films);
+  /// Samples per pixel that all tiles have, or have their share of.
   std::uint64_t Done() const;
-  /// No tile has more than that.
-  bool Even() const;
+  /// All tiles have just (their share of) so many.
+  bool IsAt(std::uint64_t limit) const;
   /// The round that keeps all threads busy.
   Round FullRound() const;
 
@@ -50,7 +57,7 @@ class Tasks {
   const std::vector<PixelRect>& rects() const { return partition_.tiles; }
   /// Begins a round: its first sample and samples per task.
   void BeginRound(const RoundWork& work);
-  /// What tiles lack to `limit` samples per pixel.
+  /// What tiles lack to (their share of) `limit` samples per pixel.
   std::vector<TileRange> Behind(std::uint64_t limit) const;
   std::uint64_t Done(std::size_t tile) const { return done_[tile]; }
   /// Brings a tile to `range.end` samples per pixel, in its order, or less far where the
@@ -69,6 +76,10 @@ class Tasks {
   struct Range {
     std::uint64_t begin = 0, end = 0;  // samples of a pixel
   };
+  std::uint64_t Goal(std::size_t tile, std::uint64_t limit) const {
+    return shares_.empty() ? limit : shares_[tile].Samples(limit);
+  }
+  bool InChunks(std::uint64_t limit) const;
   void UseWindows(std::uint64_t planned_spp);
   void DivideUnevenTiles(const FilmAccumulator& film);
   PixelRect Place(std::size_t tile) const;
@@ -84,11 +95,13 @@ class Tasks {
   const Plan& plan_;
   const RunParameters& run_;
   const RunOptions& options_;
+  std::uint64_t planned_spp_;
   TilePartition partition_;
   std::uint64_t pixel_count_ = 0;
   std::uint64_t first_ = 0;                      // of the current round
   std::uint32_t per_task_ = 1;                   // of the current round
   std::vector<std::uint64_t> done_;              // samples per pixel of each tile
+  std::vector<Share> shares_;                    // of each tile; empty: all the same
   std::unique_ptr<SeenLightEdges> seen_lights_;  // null: not apart
   bool begun_ = false;
   std::vector<std::unique_ptr<Workspace>> workspaces_;
