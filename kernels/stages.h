@@ -77,6 +77,7 @@ namespace lanelight {
   X(AmbientDiffuse)                            \
   X(AmbientTransmission)                       \
   LANELIGHT_SHADE_KINDS(LANELIGHT_SHADE_STAGE) \
+  X(ShadowRoulette)                            \
   X(ShadowTriangles)                           \
   X(ShadowSpheres)                             \
   X(ShadowDisks)                               \

@@ -9,6 +9,7 @@ StrategyTables MakeStrategyTables(const CompiledScene& scene) {
   StrategyTables tables;
   if (strategy.control == Control::kAmbient) tables.ambient = MakeAmbientLights(scene);
   if (strategy.guiding != Guiding::kNone) tables.guide = UnknowingGuide();
+  tables.shadow_worth.floor = static_cast<float>(strategy.ShadowFloor());
   return tables;
 }
 

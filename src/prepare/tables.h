@@ -6,12 +6,14 @@
 #include "src/prepare/ambient.h"
 #include "src/prepare/guide.h"
 #include "src/prepare/path_values.h"
+#include "src/prepare/shadow_worth.h"
 
 namespace lanelight {
 
 struct StrategyTables {
   PathValues path_values;             // adjoint, efficiency: set by the pilot passes
   Guide guide;                        // guiding=radiance: knows nothing until trained
+  ShadowWorth shadow_worth;           // shadow-roulette=contribution: by a pilot pass
   std::vector<AmbientLight> ambient;  // control=ambient
 };
 

@@ -194,6 +194,10 @@ std::vector<std::string> CheckStrategy(const CompiledScene& scene,
     notes.push_back(std::string("guiding=") + Name(s.guiding) +
                     " has no effect: nothing scatters, or mirrors and clear glass alone");
   }
+  if (s.shadow_roulette != ShadowRoulette::kNone &&
+      !PlanFeatures(scene, options).Has(Feature::kLights)) {
+    notes.push_back("shadow-roulette=contribution has no effect: no light is sampled");
+  }
   if (s.pairs == Pairs::kAntithetic && s.paired == Paired::kLight &&
       !PlanFeatures(scene, options).Has(Feature::kLights)) {
     notes.push_back("pairs=antithetic:light has no effect: no light is sampled");

@@ -73,6 +73,9 @@ std::string ParametersText(const Strategy& s, const FeatureSet& features) {
     text += fmt::format(" roulette {} {} {} {}", Name(s.roulette), r.termination, r.floor,
                         r.first);
   }
+  if (features.Has(Feature::kContributionShadowRoulette)) {
+    text += fmt::format(" shadow floor {}", s.ShadowFloor());
+  }
   if (features.Has(Feature::kControl)) {
     text += fmt::format(" control {} {}", Name(s.control),
                         s.coefficient ? fmt::format("{}", *s.coefficient) : "optimal");

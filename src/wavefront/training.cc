@@ -11,6 +11,9 @@ struct Training {
   TrainingOutcome (*train)(const TrainingContext&);
 };
 
+// Left out of the state where nothing is known.
+constexpr char kShadowWorth[] = "shadow_worth_inverse";
+
 constexpr Training kTrainings[] = {
 #define X(name, feature) {Feature::feature, Train##name},
     LANELIGHT_TRAININGS(X)
@@ -58,6 +61,13 @@ std::vector<TrainedTable> TakeTraining(const StrategyTables& tables) {
       {"path_values_inverse",
        "ImageGuess::Inverse, by pixel of the full image and channel",
        {p.inverse_pixel.begin(), p.inverse_pixel.end()}}};
+  const AlignedVector<float>& shadow = tables.shadow_worth.inverse;
+  if (!shadow.empty()) {
+    trained.push_back(
+        {kShadowWorth,
+         "inverse worth of shadow rays, by pixel of the full image and channel",
+         {shadow.begin(), shadow.end()}});
+  }
   for (TrainedTable& table : TakeGuide(tables.guide)) trained.push_back(std::move(table));
   return trained;
 }
@@ -103,6 +113,9 @@ void PutTraining(const std::vector<TrainedTable>& trained, StrategyTables& table
   }
   Put(TableOf(trained, "path_values_inverse"), p.inverse_pixel);
   if (!tables.guide.nodes.empty()) PutGuide(trained, tables.guide);
+  for (const TrainedTable& table : trained) {
+    if (table.name == kShadowWorth) Put(table.values, tables.shadow_worth.inverse);
+  }
 }
 
 }  // namespace lanelight

@@ -43,7 +43,10 @@ struct TrainingContext {
 // those of guided paths. Each is a function Train<name> in a file of its own. With
 // kDecides TrainDecision runs instead, which trains what it compares, and what it has
 // chosen.
-#define LANELIGHT_TRAININGS(X) X(Guide, kGuided) X(PathValues, kPathValues)
+#define LANELIGHT_TRAININGS(X) \
+  X(Guide, kGuided)            \
+  X(PathValues, kPathValues)   \
+  X(ShadowWorth, kContributionShadowRoulette)
 
 #define X(name, feature) TrainingOutcome Train##name(const TrainingContext& context);
 LANELIGHT_TRAININGS(X)

@@ -37,7 +37,8 @@ const std::map<std::string, std::vector<std::string>>& Variants() {
       {"ambient", {"ambient,c=1", "ambient,c=optimal"}},
       {"regression", {"regression,c=1"}},
       {"constant", {"constant:0.2"}},
-      {"throughput", {"throughput:0.1:1"}}};
+      {"throughput", {"throughput:0.1:1"}},
+      {"contribution", {"contribution", "contribution:0.02"}}};
   return kVariants;
 }
 

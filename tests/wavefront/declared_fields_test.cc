@@ -51,6 +51,10 @@ class Checker {
     run_.spp = kSamples;
     run_.tables = &tables_;
     MakePathValues();
+    if (plan_.features.Has(Feature::kContributionShadowRoulette)) {
+      const auto pixels = std::size_t{run_.width} * run_.height;
+      tables_.shadow_worth.inverse.assign(3 * pixels, 0.5f);
+    }
     wavefront_ = std::make_unique<Wavefront>(scene_, plan_, run_);
     const PathColumns& p = wavefront_->wave().path;
 #define X(type, name, ...) columns_.push_back(reinterpret_cast<std::uint32_t*>(p.name));
@@ -222,7 +226,8 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "points=cmj,control=ambient"},
       {kAllStagesScene, "points=pmj02,control=analytic,roulette=luminance"},
       {kAllStagesScene, "points=lattice,control=regression,roulette=constant"},
-      {kAllStagesScene, "points=stratified,directions=light"},
+      {kAllStagesScene,
+       "points=stratified,directions=light,shadow-roulette=contribution"},
       {kAllStagesScene, "roulette=adjoint"},
       {kAllStagesScene, "roulette=efficiency"},
       {kAllStagesScene, "points=sobol", true},

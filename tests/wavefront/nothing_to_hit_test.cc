@@ -55,6 +55,7 @@ TEST_CASE("a scene without surfaces shows its environment, or nothing", "[plan]"
     for (const char* strategy :
          {"", "points=sobol,light-selection=tree", "roulette=efficiency",
           "roulette=adjoint,directions=light", "control=regression",
+          "shadow-roulette=contribution,environment=compensated",
           "pairs=antithetic,directions=uniform"}) {
       for (const bool aov : {false, true}) {
         CAPTURE(body, strategy, aov);

@@ -54,8 +54,9 @@ TEST_CASE("choices without effect leave plan and pixels as they are", "[plan]") 
   const TemporaryFolder folder;
   Job job = Prepare(folder, "", 1);
   const Rendered usual = Render(job, "default");
-  for (const char* same : {"light-selection=uniform", "light-selection=tree",
-                           "roulette=none", "roulette=luminance", "c=0.5"}) {
+  for (const char* same :
+       {"light-selection=uniform", "light-selection=tree", "roulette=none",
+        "roulette=luminance", "c=0.5", "environment=compensated"}) {
     INFO(same);
     const Rendered other = Render(job, same);
     CHECK(other.key == usual.key);
@@ -77,7 +78,8 @@ TEST_CASE("choices with an effect have another key", "[plan]") {
         "roulette=throughput:0.2", "roulette=throughput:0:3", "roulette=adjoint",
         "points=pmj02", "points=independent", "pairs=antithetic",
         "pairs=antithetic:light", "directions=mis:balance", "directions=light",
-        "control=ambient", "control=ambient,c=0.5"}) {
+        "control=ambient", "control=ambient,c=0.5", "shadow-roulette=contribution",
+        "shadow-roulette=contribution:0.2"}) {
     INFO(other);
     const std::string key = Render(job, other).key;
     CHECK(std::count(keys.begin(), keys.end(), key) == 0);

@@ -163,6 +163,7 @@ const char* const kStrategies[] = {
     "points=independent,control=analytic,allocation=error",
     "points=cmj,pairs=antithetic,allocation=error",
     "points=sobol,control=regression,allocation=error",
+    "points=sobol,shadow-roulette=contribution",
 };
 
 }  // namespace

@@ -58,7 +58,7 @@ class TaskFixture {
     run_.spp = kSamples;
     run_.tables = &tables_;
     copies_ = plan.features.Has(Feature::kSplitting) ? kMostCopies : 1;
-    if (copies_ > 1) MakePilotTables();
+    if (NeedsTraining(plan)) MakePilotTables();
     wavefront_ = std::make_unique<Wavefront>(scene_, plan, run_);
     TilePixels({0, 0, 32, 32}, 32, &pixels_);
     buffer_.resize(std::size_t{Rows()} * kPlanes);
@@ -84,7 +84,7 @@ class TaskFixture {
 
   std::uint32_t Rows() const { return 32 * 32 * kSamples * copies_; }
 
-  // What the roulettes that split go by.
+  // What roulettes that have a pilot go by.
   void MakePilotTables() {
     TrainingOptions options;
     options.planned_samples = 100000;

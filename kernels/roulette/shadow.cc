@@ -1,0 +1,75 @@
+// shadow-roulette=contribution: a shadow ray is traced with probability
+// s = min(1, max(floor, what it carries / what its pixel asks for)).
+//   estimator   sh V / s with probability s, else 0: E = sh V
+//   density     of tracing: s, a function of what the ray carries and of its pixel, which
+//               a pilot pass has seen (src/prepare/shadow_worth.h)
+//   unbiased    s >= floor > 0; s is known before the ray is traced
+//   variance    grows by E[sh^2 V (1/s - 1)] per ray. What a survivor carries is at most
+//               what its pixel asks for, so no fireflies
+//   cost        a gather of three and a compaction per ray
+//   source      Arvo and Kirk 1990; Veach 1997, section 10.4 (efficiency-optimised);
+//               Shirley, Wang and Zimmerman 1996 (fewer rays to what is dim)
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/roulette/shadow.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/simd/vec3-inl.h"
+#include "src/prepare/tables.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE VF ShadowSurvival(const ShadowWorth& worth, VI pixel, V3 carried) {
+  const VI at = hn::Mul(pixel, hn::Set(DI(), 3));
+  const float* inverse = worth.inverse.data();
+  const V3 ratio = Mul(carried, Gather3(inverse, inverse + 1, inverse + 2, at));
+  // Squares may overflow to infinity, which survives.
+  return hn::Min(hn::Max(hn::Sqrt(Dot(ratio, ratio)), Splat(worth.floor)), Splat(1.0f));
+}
+
+void ShadowRoulette(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const ShadowWorth& worth = wave.run->tables->shadow_worth;
+  if (worth.inverse.empty()) return;  // nothing is known: the pilot pass itself
+  Queue& queue = wave.queue(QueueId::kShadow);
+  Queue survivors = {queue.items, 0};  // compacts in place: writes never pass reads
+  ForEachBatch(wave, queue, [&](const StoreSlots& slots, MF valid) HWY_ATTR {
+    const V3 carried = Gather3(p.sh_r, p.sh_g, p.sh_b, slots);
+    const VF s = ShadowSurvival(worth, Gather(p.pixel, slots), carried);
+    const MF survives = hn::Lt(Gather(p.u_shadow, slots), s);
+    Scatter3(Mul(carried, hn::Div(Splat(1.0f), s)), p.sh_r, p.sh_g, p.sh_b, slots);
+    Push(survivors, slots, hn::And(valid, survives));
+  });
+  wave.rays_shadow -= queue.size - survivors.size;
+  queue.size = survivors.size;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(ShadowRoulette);
+
+Stage ShadowRouletteStage() {
+  return {
+      "roulette_shadow",
+      "Russian roulette on shadow rays",
+      QueueId::kShadow,
+      {Feature::kContributionShadowRoulette, Feature::kLights, Feature::kScatters},
+      fields::kShadow | FieldSet{Field::pixel, Field::u_shadow},
+      fields::kShadow,
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(ShadowRoulette); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,72 @@
+// A pilot pass, from which shadow-roulette=contribution learns how bright the pixels are
+// and how noisy a sample is for its rays. It takes about 1 percent of the planned samples
+// and stops growing at 60 000 paths.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "src/wavefront/path_records.h"
+#include "src/wavefront/stop_watcher.h"
+#include "src/wavefront/training.h"
+#include "src/wavefront/training_pass.h"
+
+namespace lanelight {
+namespace {
+
+constexpr std::uint64_t kMostPilotSamples = 60'000;
+// Cost of a shadow ray in the unit of TrainingSamples::Cost.
+constexpr double kShadowRayCost = 0.5;
+// Points that are stratified leave less variance than the independent ones of the pass,
+// and the pass has that between the points of a pixel too; roulette adds noise that no
+// stratification lowers.
+constexpr double kStratified = 0.25;
+
+PathSamples Pass(const TrainingContext& context, const TrainingWork& work) {
+  const StopWatcher watcher(context.options.stop);
+  PlanOptions options = context.plan.options;
+  options.aov = false;
+  options.training = FeatureSet{};
+  if (context.plan.features.Has(Feature::kSplitting)) {
+    options.roulette = Roulette::kThroughput;
+  }
+  RunParameters run = context.run;
+  run.tables = &context.tables;
+  return ReadRecords(RunTrainingPass(context.scene, options, run, work, &watcher));
+}
+
+// The square of the mean standard deviation. By the mean variance a few pixels that see
+// rare light would have all others save on rays that matter there; what most pixels have
+// alone would leave nothing to save where light is rare everywhere.
+double UsualVariance(const std::vector<double>& variances) {
+  double sum = 0;
+  for (double v : variances) sum += std::sqrt(v);
+  const double mean = sum / static_cast<double>(variances.size());
+  return mean * mean;
+}
+
+}  // namespace
+
+TrainingOutcome TrainShadowWorth(const TrainingContext& context) {
+  const std::uint64_t samples = std::clamp<std::uint64_t>(
+      context.options.planned_samples / 100, 1, kMostPilotSamples);
+  const TrainingWork work = MakeTrainingWork(context.scene, samples);
+  ShadowWorth& worth = context.tables.shadow_worth;
+  worth.inverse.clear();  // the pass traces every ray
+  const PathSamples pass = Pass(context, work);
+  const RunParameters& run = context.run;
+  const ImageGuess image(run.width, run.height, work.pixels, pass.colors);
+  const double variance = UsualVariance(RelativeVariances(pass, work, image));
+  const double share = kShadowRayCost / std::max(pass.Cost(), kShadowRayCost);
+  worth.inverse =
+      InverseShadowWorth(image, run.width * run.height,
+                         std::sqrt(kStratified * variance * share), double{run.exposure});
+  TrainingOutcome outcome;
+  outcome.samples = pass.colors.size();
+  outcome.rays = pass.rays_closest + pass.rays_shadow;
+  outcome.note = fmt::format("{} pilot samples for shadow rays", outcome.samples);
+  return outcome;
+}
+
+}  // namespace lanelight
