@@ -8,6 +8,7 @@
 
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
+#include "src/prepare/parameters.h"
 #include "src/stat/hypothesis.h"
 #include "tests/lights/light_truth.h"
 #include "tests/stat/chi2.h"
@@ -158,6 +159,26 @@ double ErrorOfAngle(const Flat& f) {
   return error + 4 * (Length(f.x) + Length(f.y)) / Length(f.corner);
 }
 
+// Scattered rays along the light samples, of their density.
+void HitSamples(Draw& draw, std::uint32_t count) {
+  PathColumns& p = draw.fixture.wave.path;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    p.o_x[i] = p.o_y[i] = p.o_z[i] = 0;
+    p.d_x[i] = p.ls_x[i], p.d_y[i] = p.ls_y[i], p.d_z[i] = p.ls_z[i];
+    p.t[i] = p.ls_distance[i], p.bsdf_pdf[i] = p.ls_pdf[i];
+    p.prim[i] = draw.light.rectangle ? i % 2 : 0;
+    p.beta_r[i] = p.beta_g[i] = p.beta_b[i] = 1;
+    p.l_r[i] = p.l_g[i] = p.l_b[i] = 0;
+  }
+  Strategy strategy;
+  ApplyStrategy("directions=mis:balance", {}, strategy);
+  draw.fixture.run.mis = MakeMisParameters(strategy);
+  draw.fixture.QueueAll(QueueId::kHit, count);
+  draw.fixture.Run(
+      draw.light.rectangle ? EmissionRectangleStage() : EmissionTriangleStage(),
+      {Feature::kMis, Feature::kSolidAngleLights});
+}
+
 double PValue(const Draw& draw, std::uint32_t count) {
   const Flat& f = draw.light;
   const double total = AngleOf(f);
@@ -218,6 +239,34 @@ TEST_CASE("samples by solid angle are uniform over it", "[lights]") {
       CAPTURE(target, f.name, f.rectangle);
       CHECK(PValue(Draw(f, kCount), kCount) > level);
       for (std::uint32_t i = 0; i < 4; ++i) CHECK(std::isfinite(Draw(f, 4).Where(i).x));
+    }
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("light that rays hit knows the density of samples", "[lights]") {
+  constexpr std::uint32_t kCount = 67;
+  std::vector<Flat> lights = Lights();
+  // By area, whose density varies by a tenth over it.
+  for (const bool rectangle : {true, false}) {
+    lights.push_back(
+        {"too small, flat", {1, 0, 0.01}, {1e-3, 0, 0}, {0, 1e-3, 0}, rectangle});
+  }
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    for (const Flat& exact : lights) {
+      const Flat f = Rounded(exact);
+      CAPTURE(target, f.name, f.rectangle);
+      Draw draw(f, kCount);
+      HitSamples(draw, kCount);
+      const double cosine = std::abs(Dot(f.Normal(), Normalize(f.corner)));
+      // As dense as the ray: half of the radiance. By area, the ray has missed the light
+      // by the clearance of the shadow ray.
+      const double tolerance =
+          AngleOf(f) > kLeast ? 4e-6 * (1 + 1 / cosine) : 1e-4 * (1 + 0.1 / cosine);
+      for (std::uint32_t i = 0; i < kCount; ++i) {
+        CHECK(draw.fixture.wave.path.l_r[i] == Approx(1).epsilon(tolerance));
+      }
     }
   }
   ForceTarget("");

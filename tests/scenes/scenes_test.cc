@@ -79,7 +79,7 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
             .HasAll({Feature::kDiffuseUniform, Feature::kDiffuseInSphere,
                      Feature::kThinDielectric, Feature::kDiffuseTransmission}));
   CHECK(features("closed-room.pbrt")
-            .HasAll({Feature::kSphereLights, Feature::kTriangleLights,
+            .HasAll({Feature::kSphereLights, Feature::kRectangleLights,
                      Feature::kDiskLights}));
   CHECK(features("instances.pbrt").Has(Feature::kInstances));
   CHECK(
