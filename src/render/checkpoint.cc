@@ -155,8 +155,7 @@ void Checkpoint::CheckNotTooMany(const Films& films) const {
     const std::uint64_t samples = films.film().Samples(x, y);
     if (samples <= ShareOf(films, x, y).Samples(job_.spp)) return;
     throw InputError(
-        fmt::format("'{}' has {} samples of pixel {},{}, more than with the {} per pixel "
-                    "asked for",
+        fmt::format("'{}' has {} samples of pixel {},{}, more than the {} asked for",
                     from_->path(), samples, x, y, job_.spp));
   };
   for (const PixelRect& t : tiles_) {

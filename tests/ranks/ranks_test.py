@@ -18,7 +18,8 @@ import uuid
 
 SIZE = ["--resolution", "72x56"]
 STRATEGIES = ["points=sobol", "points=independent", "pairs=antithetic", "control=analytic",
-              "control=regression", "roulette=adjoint"]
+              "control=regression", "roulette=adjoint", "allocation=error",
+              "allocation=error,control=regression"]
 INTERRUPTED = 6
 
 

@@ -105,6 +105,48 @@ TEST_CASE("weights of a cell do not depend on samples of its colour", "[allocati
   }
 }
 
+namespace {
+
+// Samples f + D of which a control variate D is fitted away, with help of neighbours.
+FilmAccumulator ControlledPilot(std::uint64_t seed_of_black,
+                                std::uint64_t seed_of_white) {
+  std::mt19937_64 numbers[] = {std::mt19937_64(seed_of_black),
+                               std::mt19937_64(seed_of_white)};
+  FilmAccumulator film(0, 0, 34, 19, kReplicated, false);
+  film.UseControl();
+  ForPixels(film, [&](int x, int y) {
+    std::mt19937_64& random = numbers[ColourOf(x, y)];
+    float value[kAllocationPilot], difference[kAllocationPilot];
+    for (std::size_t i = 0; i < kAllocationPilot; ++i) {
+      difference[i] = 0.3f * (Noisy(5, 0, random) - 1);
+      value[i] = Noisy(x, y, random) + difference[i];
+    }
+    const float* const planes[] = {value,      value,      value,
+                                   difference, difference, difference};
+    film.AddSamples(x, y, planes, kAllocationPilot);
+  });
+  film.FitControl();
+  return film;
+}
+
+}  // namespace
+
+TEST_CASE("nor do they where a control variate is fitted", "[allocation]") {
+  const FilmAccumulator film = ControlledPilot(1, 2), other = ControlledPilot(7, 2);
+  const std::vector<double> weights = WeighPixels(film, kCell),
+                            others = WeighPixels(other, kCell);
+  bool fit_knows_neighbours = false;
+  ForPixels(film, [&](int x, int y) {
+    const auto i = static_cast<std::size_t>(y * film.width() + x);
+    if (ColourOf(x, y) == 0) {
+      CHECK(others[i] == weights[i]);
+    } else {
+      fit_knows_neighbours |= !(film.Variance(x, y) == other.Variance(x, y));
+    }
+  });
+  CHECK(fit_knows_neighbours);  // else this would show nothing
+}
+
 TEST_CASE("weights have mean 1, limits, and follow the error", "[allocation]") {
   const FilmAccumulator film = PilotOf(1, 2);
   const std::vector<double> weights = WeighPixels(film, kCell);
