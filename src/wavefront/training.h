@@ -25,8 +25,8 @@ struct TrainingOptions {
 
 /// Planned samples beyond which the pilot of decide=pilot does not grow, and that it is
 /// planned for at least: fewer do not show what the rare bright samples do that matter.
-inline constexpr std::uint64_t kMostDecidedBy = std::uint64_t{1} << 24;
-inline constexpr std::uint64_t kLeastDecidedBy = std::uint64_t{1} << 22;
+inline constexpr std::uint64_t kMostDecidedBy = std::uint64_t{1} << 25;
+inline constexpr std::uint64_t kLeastDecidedBy = std::uint64_t{1} << 23;
 /// What that is for an image of so many pixels, unless a time budget says it.
 std::uint64_t DecidedBy(std::uint64_t pixels);
 

@@ -286,20 +286,20 @@ TEST_CASE("a long render decides by a pilot, says so, and goes on with it", "[cl
     return strategy.find("decide=pilot") != std::string::npos;
   };
   const std::string exr = directory / "out.exr";
-  CHECK_FALSE(decides(render({"-o", exr, "--spp", "1023"})));
-  const nlohmann::json report = render({"-o", exr, "--spp", "1024"});
+  CHECK_FALSE(decides(render({"-o", exr, "--spp", "2047"})));
+  const nlohmann::json report = render({"-o", exr, "--spp", "2048"});
   CHECK(decides(report));
   CHECK(report["pilot"]["changes"] == "decide=none");
   CHECK_THAT(report["pilot"]["note"].get<std::string>(), Contains("roulette=adjoint"));
   CHECK_FALSE(
-      decides(render({"-o", exr, "--spp", "1024", "--strategy", "points=sobol"})));
+      decides(render({"-o", exr, "--spp", "2048", "--strategy", "points=sobol"})));
   // What is gone on with keeps what it began with, to more samples too.
   const auto kept = [&](const char* spp, std::vector<std::string> more) {
     more.insert(more.end(), {"-o", exr, "--checkpoint", state, "--resume", "--spp", spp});
     return render(more);
   };
   CHECK_FALSE(decides(kept("4", {})));
-  CHECK_FALSE(decides(kept("1024", {})));
+  CHECK_FALSE(decides(kept("2048", {})));
   fs::remove(state);
   CHECK(decides(kept("4", {"--strategy", "decide=pilot"})));
   CHECK(decides(kept("8", {})));

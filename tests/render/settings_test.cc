@@ -102,16 +102,16 @@ RenderSettings Samples(std::uint64_t spp) {
 }  // namespace
 
 TEST_CASE("long renders decide by a pilot, unless they are told how", "[render]") {
-  CHECK(DecisionOf(Samples(63)) == Decide::kNone);
-  CHECK(DecisionOf(Samples(64)) == Decide::kPilot);
-  RenderSettings small = Samples(1u << 11);
+  CHECK(DecisionOf(Samples(127)) == Decide::kNone);
+  CHECK(DecisionOf(Samples(128)) == Decide::kPilot);
+  RenderSettings small = Samples(1u << 12);
   small.resolution = {32, 32};
   CHECK(DecisionOf(small) == Decide::kNone);
   // Where the pilot has stopped growing fewer samples of each pixel do.
-  RenderSettings large = Samples(9);
+  RenderSettings large = Samples(17);
   large.resolution = {1920, 1080};
   CHECK(DecisionOf(large) == Decide::kPilot);
-  large.spp = 8;
+  large.spp = 16;
   CHECK(DecisionOf(large) == Decide::kNone);
   RenderSettings timed;
   timed.seconds = 1.9;

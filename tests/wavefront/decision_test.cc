@@ -11,13 +11,22 @@
 namespace lanelight::test {
 namespace {
 
-// A lamp seen through a small hole: most paths in the dark part die of nothing.
-SceneDescription SplitRoom(int size) {
-  SceneBuilder b(size, size);
-  b.Depth(8).Perspective({0, 0, 0.9}, {0, 0, -1}, {0, 1, 0}, 70);
+constexpr int kSide = 24;
+
+// Every wall emits 1 and reflects so much; paths of up to `depth` events.
+SceneDescription Room(double albedo, int depth) {
+  SceneDescription scene = ClosedRoom(albedo, depth);
+  scene.film.width = scene.film.height = kSide;
+  return scene;
+}
+
+// A lamp behind a gap: most paths in the dark part die of nothing.
+SceneDescription SplitRoom(int depth = 8) {
+  SceneBuilder b(kSide, kSide);
+  b.Depth(depth).Perspective({0, 0, 0.9}, {0, 0, -1}, {0, 1, 0}, 70);
   const Index wall = b.AddDiffuse({0.8, 0.7, 0.6});
   b.AddBox({-1, -1, -1}, {1, 1, 1}, wall).reverse_orientation = true;
-  b.AddBox({-1, -0.1, -0.4}, {0.95, 0, 1}, wall);
+  b.AddBox({-1, -0.1, -1}, {0.95, 0, 1}, wall);
   b.AddQuad({-0.3, 0.99, -0.3}, {0.6, 0, 0}, {0, 0, 0.6}, b.AddDiffuse(Grey(0)),
             b.AddEmission(Grey(5)));
   return b.Build();
@@ -56,14 +65,21 @@ double Efficiency(const Rendered& r) {
 }  // namespace
 
 TEST_CASE("the pilot finds splitting where a room needs it", "[decision]") {
-  const Rendered r = Decide(SplitRoom(32), "decide=pilot");
+  const Rendered r = Decide(Room(0.9, 100), "decide=pilot");
   INFO(r.result.pilot_note);
   CHECK(r.result.roulette == Roulette::kAdjoint);
   CHECK(r.result.pilot_changes == "roulette=adjoint,decide=none");
   CHECK_THAT(r.result.pilot_note, Catch::Contains("rendered with roulette=adjoint") &&
                                       Catch::Contains("roulette=throughput:0:5"));
   // The image is what it is with that asked for: the pilot leaves nothing behind.
-  CHECK(SameImage(r, Decide(SplitRoom(32), "roulette=adjoint")));
+  CHECK(SameImage(r, Decide(Room(0.9, 100), "roulette=adjoint")));
+}
+
+TEST_CASE("the pilot shortens paths that cost more than they bring", "[decision]") {
+  // Nothing ends a path but the depth: that has the least variance by far the most rays.
+  const Rendered r = Decide(SplitRoom(40), "roulette=throughput:1,decide=pilot");
+  INFO(r.result.pilot_note);
+  CHECK(r.result.pilot_changes != "decide=none");
 }
 
 TEST_CASE("the pilot leaves the strategy as it is where nothing pays", "[decision]") {
@@ -80,7 +96,7 @@ TEST_CASE("the pilot leaves the strategy as it is where nothing pays", "[decisio
 }
 
 TEST_CASE("a decision does not hang on threads or wavefronts", "[decision]") {
-  for (const SceneDescription& scene : {SplitRoom(24), SmallRoom(24, 5)}) {
+  for (const SceneDescription& scene : {Room(0.9, 100), SmallRoom(24, 5)}) {
     TestRender t;
     t.spp = 3;
     t.planned_samples = 1u << 19;
@@ -97,27 +113,26 @@ TEST_CASE("a decision does not hang on threads or wavefronts", "[decision]") {
   }
 }
 
-TEST_CASE("what the pilot chooses is at most a tenth below the best candidate",
-          "[decision]") {
+TEST_CASE("what the pilot chooses is not far below the best candidate", "[decision]") {
   const std::pair<const char*, SceneDescription> scenes[] = {
-      {"small room", SmallRoom(24, 8)},
-      {"closed room", ClosedRoom(0.7, 20)},
-      {"split room", SplitRoom(24)}};
+      {"dark closed room", Room(0.5, 20)},
+      {"bright closed room", Room(0.9, 100)},
+      {"split room", SplitRoom()}};
+  constexpr std::uint64_t kPlanned = 1u << 23, kRenderSpp = 128;
   for (const auto& [name, scene] : scenes) {
-    const bool tiny = scene.film.width < 24;
-    const std::uint64_t spp = tiny ? 8192 : 256;
     double best = 0;
     std::string found;
     for (const char* roulette : {"throughput", "adjoint", "throughput:0:5"}) {
       const std::string change = std::string("roulette=") + roulette;
-      const double efficiency = Efficiency(Decide(scene, change, 1u << 21, spp));
+      const double efficiency = Efficiency(Decide(scene, change, kPlanned, kRenderSpp));
       best = std::max(best, efficiency);
       found += fmt::format("{} {:.3g}, ", roulette, efficiency);
     }
-    const Rendered chosen = Decide(scene, "decide=pilot", 1u << 21, spp);
+    const Rendered chosen = Decide(scene, "decide=pilot", kPlanned, kRenderSpp);
     INFO(name << ": " << found << chosen.result.pilot_note);
-    // What must be gained is 5 to 13 percent, and both have noise.
-    CHECK(Efficiency(chosen) > 0.82 * best);
+    // What must be gained is 8 to 21 percent. Each efficiency has a standard error of 4
+    // percent (576 pixels of four observations each).
+    CHECK(Efficiency(chosen) > 0.75 * best);
   }
 }
 
