@@ -1,14 +1,17 @@
 // A guide (src/prepare/guide.h) as lanes read it: the cell of a point, the density of a
 // direction in a cell, a direction of that density.
-//   cell       one step of the tree per level, two gathers each; ends with the deepest
-//   lane density    the square of the direction (one root, one arc tangent), then two
-//   gathers direction  six gathers of bounds, two of the leaf found
+//   cell        one step of the tree per level of the deepest lane: permutations in the
+//               upper levels, then two gathers each
+//   density     the square of the direction (a root, an arc tangent), then two gathers
+//   direction   six gathers of bounds, two of the leaf found
 #if defined(LANELIGHT_GUIDE_GUIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_GUIDE_GUIDE_INL_H_
 #undef LANELIGHT_GUIDE_GUIDE_INL_H_
 #else
 #define LANELIGHT_GUIDE_GUIDE_INL_H_
 #endif
+
+#include <algorithm>
 
 #include "kernels/warp/octahedral-inl.h"
 #include "src/prepare/guide.h"
@@ -28,27 +31,68 @@ LANELIGHT_INLINE VF GuideCoordinate(VI axis, V3 p, V3 n) {
                         position);
 }
 
+/// The first nodes of a tree, in registers: permutations cost a quarter of gathers, and
+/// training numbers nodes by levels.
+struct GuideTop {
+  static constexpr std::size_t kNodes = hn::MaxLanes(DF());
+  HWY_ALIGN float at[kNodes] = {};
+  HWY_ALIGN int32_t link[kNodes] = {};
+
+  explicit GuideTop(const Guide& guide) {
+    for (std::size_t i = 0; i < std::min(kNodes, guide.nodes.size()); ++i) {
+      at[i] = guide.nodes[i].at;
+      link[i] = static_cast<int32_t>(guide.nodes[i].next);
+    }
+  }
+  LANELIGHT_INLINE bool Has(VI node) const {
+    return hn::AllTrue(DI(), hn::Lt(node, hn::Set(DI(), int32_t{kNodes})));
+  }
+  LANELIGHT_INLINE VF At(VI node) const {
+    const DF df;
+    return hn::TableLookupLanes(hn::Load(df, at), hn::IndicesFromVec(df, node));
+  }
+  LANELIGHT_INLINE VI Link(VI node) const {
+    const DI di;
+    return hn::TableLookupLanes(hn::Load(di, link), hn::IndicesFromVec(di, node));
+  }
+};
+
+/// A step of the descent from nodes that hold `at` and `link`.
+struct GuideStep {
+  VI target;  // first child, or cell
+  VI next;    // node; the same at a leaf
+  MF inner;   // not at a leaf yet
+
+  LANELIGHT_INLINE GuideStep(VI node, VF at, VI link, V3 p, V3 n) {
+    const DI di;
+    const VI leaf = hn::Set(di, static_cast<int32_t>(Guide::Node::kLeaf));
+    const VI axis = hn::And(link, leaf);
+    target = hn::BitCast(di, hn::ShiftRight<3>(hn::BitCast(DU(), link)));
+    const auto goes_on = hn::Ne(axis, leaf);
+    inner = hn::RebindMask(DF(), goes_on);
+    // Of a NaN, false: the second child.
+    const MF first = hn::Lt(GuideCoordinate(axis, p, n), at);
+    const VI second = hn::IfThenZeroElse(hn::RebindMask(di, first), hn::Set(di, 1));
+    next = hn::IfThenElse(goes_on, hn::Add(target, second), node);
+  }
+};
+
 /// Cell of surface points p with normal n on the side that the paths see.
-LANELIGHT_INLINE VI GuideCell(const Guide& guide, V3 p, V3 n) {
+LANELIGHT_INLINE VI GuideCell(const Guide& guide, const GuideTop& top, V3 p, V3 n) {
   static_assert(sizeof(Guide::Node) == 2 * sizeof(float));
-  const DI di;
   const auto* words = reinterpret_cast<const float*>(guide.nodes.data());
   const auto* links = reinterpret_cast<const int32_t*>(words) + 1;
-  const VI leaf = hn::Set(di, static_cast<int32_t>(Guide::Node::kLeaf));
-  const VI one = hn::Set(di, 1);
-  VI node = hn::Zero(di);
+  VI node = hn::Zero(DI());
+  while (top.Has(node)) {
+    const GuideStep step(node, top.At(node), top.Link(node), p, n);
+    if (hn::AllFalse(DF(), step.inner)) return step.target;
+    node = step.next;
+  }
   for (;;) {
     const VI at = hn::Add(node, node);
-    const VI link = Gather(links, at);
-    const VI axis = hn::And(link, leaf);
-    const VI target = hn::BitCast(di, hn::ShiftRight<3>(hn::BitCast(DU(), link)));
-    const auto inner = hn::Ne(axis, leaf);
-    if (hn::AllFalse(di, inner)) return target;
-    // Of a NaN, false: the second child.
-    const MF first = hn::Lt(GuideCoordinate(axis, p, n), Gather(words, at));
-    const VI child =
-        hn::IfThenElse(hn::RebindMask(di, first), target, hn::Add(target, one));
-    node = hn::IfThenElse(inner, child, node);
+    const GuideStep step(node, Gather(words, at), Gather(links, at), p, n);
+    if (hn::AllFalse(DF(), step.inner)) return step.target;
+    node = step.next;
   }
 }
 

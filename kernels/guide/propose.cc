@@ -24,22 +24,22 @@ namespace HWY_NAMESPACE {
 void GuideProposals(Wave& wave) {
   const PathColumns& p = wave.path;
   const Guide& guide = wave.run->tables->guide;
-  ForEachBatch(wave, wave.queue(QueueId::kVertex),
-               [&](const StoreSlots& slots, MF) HWY_ATTR {
-                 const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
-                 V3 n = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
-                 n = IfThenElse(hn::Gt(Dot(n, d), hn::Zero(DF())), -n, n);
-                 const VI cell = GuideCell(guide, Gather3(p.p_x, p.p_y, p.p_z, slots), n);
-                 Scatter(cell, p.guide_cell, slots);
-                 const VF fraction = Gather(guide.fraction.data(), cell);
-                 // Who is not guided has no use for the direction.
-                 if (hn::AllFalse(DF(), hn::Lt(Gather(p.u_guide, slots), fraction)))
-                   return;
-                 const GuideSample sample = SampleGuide(
-                     guide, cell, Gather(p.u_bsdf_0, slots), Gather(p.u_bsdf_1, slots));
-                 Scatter3(sample.direction, p.guide_x, p.guide_y, p.guide_z, slots);
-                 Scatter(sample.pdf_sa, p.guide_pdf, slots);
-               });
+  const GuideTop top(guide);
+  ForEachBatch(
+      wave, wave.queue(QueueId::kVertex), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+        V3 n = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
+        n = IfThenElse(hn::Gt(Dot(n, d), hn::Zero(DF())), -n, n);
+        const VI cell = GuideCell(guide, top, Gather3(p.p_x, p.p_y, p.p_z, slots), n);
+        Scatter(cell, p.guide_cell, slots);
+        const VF fraction = Gather(guide.fraction.data(), cell);
+        // Who is not guided has no use for the direction.
+        if (hn::AllFalse(DF(), hn::Lt(Gather(p.u_guide, slots), fraction))) return;
+        const GuideSample sample = SampleGuide(guide, cell, Gather(p.u_bsdf_0, slots),
+                                               Gather(p.u_bsdf_1, slots));
+        Scatter3(sample.direction, p.guide_x, p.guide_y, p.guide_z, slots);
+        Scatter(sample.pdf_sa, p.guide_pdf, slots);
+      });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -22,8 +22,9 @@ LANELIGHT_INLINE VI CellsAt(const GuideBatch& b, std::uint32_t i) {
 }
 
 void GuideCells(const GuideBatch& b) {
+  const GuideTop top(*b.guide);
   for (std::uint32_t i = 0; i < b.n; i += hn::Lanes(DF())) {
-    const VI cell = GuideCell(*b.guide, LoadAt(b.point, i), LoadAt(b.normal, i));
+    const VI cell = GuideCell(*b.guide, top, LoadAt(b.point, i), LoadAt(b.normal, i));
     hn::StoreU(cell, DI(), reinterpret_cast<int32_t*>(b.cell) + i);
   }
 }

@@ -24,7 +24,8 @@ class RandomGuideMaker {
   explicit RandomGuideMaker(const RandomGuideOptions& options)
       : options_(options), random_(options.seed) {
     guide_.nodes.resize(1);
-    Fill(0, options.levels);
+    levels_.push_back(options.levels);
+    for (std::uint32_t node = 0; node < guide_.nodes.size(); ++node) Fill(node);
   }
   Guide Take() { return std::move(guide_); }
 
@@ -32,7 +33,8 @@ class RandomGuideMaker {
   double Between(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
-  void Fill(std::uint32_t node, int levels) {
+  void Fill(std::uint32_t node) {
+    const int levels = levels_[node];  // below it
     if (levels == 0 || random_() % 8 == 0) {
       guide_.nodes[node].next = Guide::Node::kLeaf | Cell() << 3;
       return;
@@ -43,8 +45,7 @@ class RandomGuideMaker {
     const auto children = static_cast<std::uint32_t>(guide_.nodes.size());
     guide_.nodes.resize(children + 2);
     guide_.nodes[node] = {static_cast<float>(at), axis | children << 3};
-    Fill(children, levels - 1);
-    Fill(children + 1, levels - 1);
+    levels_.insert(levels_.end(), 2, levels - 1);
   }
   std::uint32_t Cell() {
     std::vector<double> masses(kGuideSquares);
@@ -55,6 +56,7 @@ class RandomGuideMaker {
 
   const RandomGuideOptions options_;
   std::mt19937 random_;
+  std::vector<int> levels_;  // by node
   Guide guide_;
 };
 

@@ -131,8 +131,11 @@ TEST_CASE("guided: planted errors of a guide are found", "[guide]") {
   });
   const auto same = [&](const Guide& guide) {
     const GuidedRender options = {
-        .strategy = "directions=bsdf", .spp = 32768, .seed = 11, .guide = &guide};
-    return stat::CompareMeans(RenderGuided(scene, options), truth, Level(1)).same;
+        .strategy = "directions=bsdf", .spp = 131072, .seed = 11, .guide = &guide};
+    const stat::ImageTestResult result =
+        stat::CompareMeans(RenderGuided(scene, options), truth, Level(1));
+    UNSCOPED_INFO(result.ToString());
+    return result.same;
   };
   CHECK(same(Lopsided()));
   Guide dense = Lopsided();  // the density off by 1 %
