@@ -2,8 +2,10 @@
 // the material is to choose (u_guide below the cell's fraction), the direction that it
 // proposes. What becomes of both: kernels/directions/guided-inl.h.
 //   density     that of the cell's leaf (src/prepare/guide.h)
-//   cost        the levels of the tree, two gathers each; eight gathers and an octahedral
-//               map per direction. Batches in which no path is guided skip the latter
+//   cost        the levels of the tree; eight gathers and a map per direction, which
+//               batches in which no path is guided skip. Measured, ns per path of a tree
+//               of 10 levels: cell 6, direction 6, density 2.5 (AVX-512); 5, 7, 3 (AVX2);
+//               15, 27, 6.5 (SSE4)
 //   source      Mueller, Gross and Novak 2017, "Practical Path Guiding for Efficient
 //               Light-Transport Simulation"
 #include "kernels/targets.h"
