@@ -15,6 +15,11 @@
 // [kLeastShare, kMostShare]: where the pilot has missed rare light, the error is at most
 // 1 / kLeastShare times what it would have been, and bright samples that the pilot has
 // found by chance cost the rest of the image little.
+//
+// What it gains, 128 samples per pixel on average, against as many everywhere: relative
+// error at equal samples 1.075 times lower on cornell-box and 1.28 times on spaceship, at
+// equal time 1.05 (1.01 to 1.09) and 1.065 (1.02 to 1.11): paths are dearer where the
+// error is. Little where rare samples carry the error, which no pilot predicts.
 #pragma once
 
 #include <cstdint>
