@@ -53,10 +53,10 @@ inline constexpr int kMaxDepth = 1 << 20;
 /// that are out of range, wherever they come from.
 void ApplySettings(const RenderSettings& settings, SceneDescription& scene);
 
-/// Whether decide=pilot is in force though nobody asked for it: with kIfLong, for 2
+/// Whether decide=pilot is in force though nobody asked for it: with kIfLong, for 4
 /// seconds and more, and for as many samples as the pilot is planned for (DecidedBy).
 bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene);
-inline constexpr double kLeastDecidedSeconds = 2;
+inline constexpr double kLeastDecidedSeconds = 4;
 
 CompileOptions CompileOptionsOf(const RenderSettings& settings);
 PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene);

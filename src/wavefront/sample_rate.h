@@ -12,7 +12,7 @@ class TaskWatcher;  // src/wavefront/tasks.h
 
 /// By the speed of a few thousand samples with roulette on the throughput, in this
 /// process; rounded down to a power of two, so that runs on one machine mostly agree. At
-/// least 1. It takes about 20 ms of a thread.
+/// least 1. It takes about 20 ms.
 std::uint64_t SamplesWithin(double seconds, const CompiledScene& scene,
                             const PlanOptions& options, const RunParameters& run,
                             const TaskWatcher* watcher);

@@ -114,9 +114,9 @@ TEST_CASE("long renders decide by a pilot, unless they are told how", "[render]"
   large.spp = 16;
   CHECK(DecisionOf(large) == Decide::kNone);
   RenderSettings timed;
-  timed.seconds = 1.9;
+  timed.seconds = 3.9;
   CHECK(DecisionOf(timed) == Decide::kNone);
-  timed.seconds = 2;
+  timed.seconds = 4;
   CHECK(DecisionOf(timed) == Decide::kPilot);
   RenderSettings towards;
   towards.target_relmse = 0.01;
