@@ -1,5 +1,6 @@
 #include "src/cli/summary.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
