@@ -33,6 +33,7 @@ namespace HWY_NAMESPACE {
 
 /// A proposal as in material-inl.h, of paths that the guide stage has seen.
 struct GuidedProposal {
+  static constexpr bool kScales = true;
   const Guide& guide;
   const PathColumns& path;
   const Frame& frame;
@@ -73,6 +74,12 @@ struct GuidedProposal {
   }
 
  private:
+  // What roulette multiplies the throughput with, so that it sees the one that the
+  // material alone would have brought: a guided ray is light because it is likely.
+  static LANELIGHT_INLINE VF Bounded(VF scale) {
+    return hn::Min(hn::Max(scale, Splat(1e-4f)), Splat(1e4f));
+  }
+
   // What the material has found, as a sample of the mixture.
   LANELIGHT_INLINE BsdfSample Mixed(const BsdfSample& own) const {
     const VF zero = hn::Zero(DF());
@@ -83,7 +90,8 @@ struct GuidedProposal {
         hn::IfThenElse(delta, zero, hn::Min(hn::Div(g, own.pdf), Splat(1e30f)));
     const VF scale = hn::MulAdd(fraction, ratio, rest);
     return {own.wi, Mul(own.weight, hn::Div(Splat(1.0f), scale)),
-            hn::IfThenZeroElse(delta, Mixture(g, own.pdf)), own.eta_scale};
+            hn::IfThenZeroElse(delta, Mixture(g, own.pdf)),
+            hn::Mul(own.eta_scale, Bounded(scale))};
   }
 
   // What the guide has proposed.
@@ -94,7 +102,9 @@ struct GuidedProposal {
     const VF pdf = Mixture(Gather(path.guide_pdf, slots), value.pdf);
     VF eta_scale = Splat(1.0f);
     if constexpr (Bsdf::kRefracts) eta_scale = Bsdf::EtaScale(material, wo, wi);
-    return {wi, Mul(value.f_cos, hn::Div(Splat(1.0f), pdf)), pdf, eta_scale};
+    const VF scale = Bounded(hn::Div(pdf, hn::Max(value.pdf, Splat(1e-30f))));
+    return {wi, Mul(value.f_cos, hn::Div(Splat(1.0f), pdf)), pdf,
+            hn::Mul(eta_scale, scale)};
   }
 };
 

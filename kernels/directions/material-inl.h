@@ -28,6 +28,7 @@ namespace HWY_NAMESPACE {
 ///   Pdf     the density with which Sample would find wi, given that of the material
 /// `u`: the points of the bounce.
 struct MaterialProposal {
+  static constexpr bool kScales = false;
   LANELIGHT_INLINE MaterialProposal(const Wave&, const Frame&, const Slots&) {}
   template <class Bsdf>
   LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,

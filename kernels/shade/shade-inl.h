@@ -150,7 +150,7 @@ struct Shader : SurfaceReader<Bsdf> {
     Scatter3(d, path.d_x, path.d_y, path.d_z, slots);
     Scatter3(carried, path.beta_r, path.beta_g, path.beta_b, slots);
     Scatter(Splat(std::numeric_limits<float>::infinity()), path.t, slots);
-    if constexpr (Bsdf::kRefracts) {
+    if constexpr (Bsdf::kRefracts || Proposal::kScales) {
       Scatter(hn::Mul(Gather(path.eta_scale, slots), sample.eta_scale), path.eta_scale,
               slots);
     }

@@ -186,6 +186,28 @@ TEST_CASE("guided paths weigh f cos over the mixture, and know its density", "[g
   });
 }
 
+TEST_CASE("roulette sees guided paths as the material would have sent them", "[guide]") {
+  // A ray towards a lamp that the guide knows has a small throughput because it is
+  // likely; roulette goes by throughput times eta_scale, for diffuse surfaces the albedo.
+  TestMaterial white = TestMaterials().front();
+  for (const TestMaterial& m : TestMaterials()) {
+    if (m.kind == ShadeKind::kDiffuse) white = m;
+  }
+  REQUIRE(white.kind == ShadeKind::kDiffuse);
+  GuidedPaths material(white, {0.3, 0.2, 0.9}, 5), guided(white, {0.3, 0.2, 0.9}, 5);
+  material.Shade(white.kind, false);
+  guided.Shade(white.kind, true);
+  double lightest = 1e9, heaviest = 0;
+  for (std::uint32_t i = 0; i < kPaths; ++i) {
+    const double beta = double(guided.path().beta_r[i]);
+    if (!(beta > 0)) continue;
+    lightest = std::min(lightest, beta), heaviest = std::max(heaviest, beta);
+    const double seen = beta * double(guided.path().eta_scale[i]);
+    CHECK(seen == Approx(double(material.path().beta_r[0])).epsilon(1e-3));
+  }
+  CHECK(lightest < 0.2 * heaviest);
+}
+
 TEST_CASE("light samples are weighed against the mixture", "[guide]") {
   ForEachSurface([&](const TestMaterial& m, Vec3d wo) {
     GuidedPaths paths(m, wo, 41);
