@@ -7,6 +7,7 @@
 
 #include "src/prepare/guide_cell.h"
 #include "src/prepare/guide_fraction.h"
+#include "src/prepare/guide_horizon.h"
 #include "src/prepare/guide_space.h"
 
 namespace lanelight {
@@ -112,7 +113,7 @@ class Builder {
       if (!(mass > 0)) continue;
       sum += mass, squares += mass * mass;
       Deposit(records_[i], mass, own);
-      fraction.Add(records_[i], mass);
+      fraction.Add(records_[i]);
     }
     known.fraction = fraction.Blend(known.fraction);
     known.effective = squares > 0 ? sum * sum / squares : 0;
@@ -144,8 +145,9 @@ class Builder {
     const auto [fraction, gain] = known.fraction.Best(known.effective);
     fractions_ += fraction * double(node.count());
     gains_ += gain * double(node.count());
-    return AppendGuideCell(known.squares, settings_.even, static_cast<float>(fraction),
-                           guide_);
+    Squares squares = known.squares;
+    LeaveOutBehind({records_.data() + node.begin, node.count()}, squares);
+    return AppendGuideCell(squares, settings_.even, static_cast<float>(fraction), guide_);
   }
 
   std::vector<GuideRecord>& records_;

@@ -29,7 +29,7 @@ struct GuideSummary {
 /// The guide of these records, which are sorted anew. The density of a cell follows
 /// GuideRecord::Mass over directions. No record counts for more than a sixteenth of its
 /// cell's mass (or the fourth brightest); cells with few that count borrow from those
-/// around. The fraction of a cell is the one in {0, 0.1, ..., 0.9} with which the records
+/// around. The fraction of a cell is the one in {0, 0.1, ..., 0.5} with which the records
 /// of a guided pass (GuideRecord::guide > 0) would have the least second moment: a
 /// mixture c g + (1 - c) p, and the integrand p L, by importance weights. Without such
 /// records it is up to a half. Depends on the records and their order alone.

@@ -10,15 +10,17 @@ namespace {
 constexpr double kBorrowed = 8;
 // A guide must promise this much less second moment: it takes time.
 constexpr double kLeastGain = 0.95;
+constexpr double kStep = 0.1;
 constexpr double kUntried = 0.5, kUntriedRecords = 16;
 
 }  // namespace
 
-void FractionSums::Add(const GuideRecord& record, double mass) {
+void FractionSums::Add(const GuideRecord& record) {
   const double g = double{record.guide}, p = double{record.material};
+  const double mass = record.Mass();
   if (!(g > 0) || !(p > 0)) return;
   for (std::size_t i = 0; i < kFractions; ++i) {
-    const double c = double(i) / kFractions;
+    const double c = kStep * double(i);
     sums_[i] += mass * mass / (c * g + (1 - c) * p);
   }
   const double plain = mass * mass / p;
@@ -42,7 +44,7 @@ FractionSums::Choice FractionSums::Best(double effective) const {
   }
   const auto best = std::min_element(sums_.begin(), sums_.end());
   if (*best > kLeastGain * sums_[0]) return {0, 1};
-  return {double(best - sums_.begin()) / kFractions, *best / sums_[0]};
+  return {kStep * double(best - sums_.begin()), *best / sums_[0]};
 }
 
 }  // namespace lanelight

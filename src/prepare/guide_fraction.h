@@ -14,14 +14,16 @@ namespace lanelight {
 /// what it has learned by heart.
 class FractionSums {
  public:
-  static constexpr int kFractions = 10;  // 0, 0.1, ..., 0.9
+  /// 0, 0.1, ..., 0.5. More would be better for what records have seen, and worse for the
+  /// rare light that they have missed: at a half the second moment of anything is at most
+  /// twice that of the material alone.
+  static constexpr int kFractions = 6;
 
   struct Choice {
     double fraction, gain;  // gain: second moment over that of fraction 0
   };
 
-  /// `mass` is the record's, clamped.
-  void Add(const GuideRecord& record, double mass);
+  void Add(const GuideRecord& record);
   /// With what is known of the surroundings, by how many records count here.
   FractionSums Blend(const FractionSums& around) const;
   /// Of the fractions the best. Where no guide has been tried yet: half, less where few

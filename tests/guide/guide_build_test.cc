@@ -187,4 +187,25 @@ TEST_CASE("walls of different orientation have cells of their own", "[guide]") {
   }
 }
 
+TEST_CASE("a guide leaves out what lies behind a wall", "[guide]") {
+  // Some records of a floor, among many of a ceiling, whose light comes from below.
+  std::vector<GuideRecord> records = FloorRecords(300, 1, TwoLamps);
+  std::vector<GuideRecord> ceiling = FloorRecords(2000, 1, TwoLamps, 6);
+  for (GuideRecord& r : ceiling) {
+    const Vec3d d = OctahedralToDirection(r.u / 65536.0, r.v / 65536.0);
+    const auto [s, t] = DirectionToOctahedral({d.x, d.y, -d.z});
+    r.u = Fixed(s), r.v = Fixed(t);
+    r.normal = {0, 0, -1};
+  }
+  records.insert(records.end(), ceiling.begin(), ceiling.end());
+  const Guide guide = BuildGuide(records, {});
+  double behind = 0;
+  for (std::size_t s = 0; s < kGuideSquares; ++s) {
+    if (Middle(s).z < 0) behind += Share(guide, {0.5f, 0.5f, 0}, s);
+  }
+  // Half of what is spread evenly, and what leaves of some squares have across the
+  // border.
+  CHECK(behind < 0.1);
+}
+
 }  // namespace lanelight
