@@ -26,7 +26,8 @@ namespace HWY_NAMESPACE {
 /// It has two members, with the measure of solid angle:
 ///   Sample  a direction, what it weighs, and its density
 ///   Pdf     the density with which Sample would find wi, given that of the material
-/// `u`: the points of the bounce.
+/// `u`: the points of the bounce. kScales: eta_scale of samples has factors besides those
+/// of refraction.
 struct MaterialProposal {
   static constexpr bool kScales = false;
   LANELIGHT_INLINE MaterialProposal(const Wave&, const Frame&, const Slots&) {}

@@ -42,7 +42,8 @@ class Checker {
     options.wavefront = 300;
     options.aov = !c.records;
     if (c.records) {
-      options.training = FeatureSet{Feature::kRecordsPaths, Feature::kOtherEvents};
+      options.training = FeatureSet{Feature::kRecordsPaths, Feature::kRecordsGuide,
+                                    Feature::kOtherEvents};
       options.changes = "roulette=throughput";
     }
     plan_ = MakePlan(scene_, options);
@@ -62,7 +63,7 @@ class Checker {
 #undef X
     TilePixels({kFirst, kFirst, kFirst + kSide, kFirst + kSide}, scene_.film.width,
                &pixels_);
-    samples_.resize(std::size_t{Rows()} * 24);
+    samples_.resize(std::size_t{Rows()} * static_cast<std::size_t>(run_.planes.count()));
   }
 
   // Returns "stage writes column" and "stage depends on column or order" findings.
@@ -230,7 +231,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
        "points=stratified,directions=light,shadow-roulette=contribution"},
       {kAllStagesScene, "roulette=adjoint"},
       {kAllStagesScene, "roulette=efficiency"},
-      {kAllStagesScene, "points=sobol", true},
+      {kAllStagesScene, "points=sobol,guiding=radiance", true},
       {kOtherStagesScene, "points=sobol"},
       {kOtherStagesScene, "directions=bsdf,pairs=antithetic"}};
   std::set<std::string> stages;
