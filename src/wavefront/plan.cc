@@ -9,6 +9,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/prepare/path_values.h"
+#include "src/wavefront/check_strategy.h"
 #include "src/wavefront/plan_features.h"
 
 namespace lanelight {

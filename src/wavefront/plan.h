@@ -27,6 +27,11 @@ struct PlanOptions {
   std::string changes;
   /// Camera rays and the emission that they see, nothing else; with max_depth 0.
   bool camera_only = false;
+
+  /// Changes the strategy further.
+  void Change(const std::string& text) {
+    changes += (changes.empty() || text.empty() ? "" : ",") + text;
+  }
 };
 
 struct PlannedStage {

@@ -219,7 +219,7 @@ class Runner : public TaskWatcher {
   void UseTraining() {
     training_done_ = true;
     PlanOptions changed = plan_.options;
-    changed.changes = training_.changes;
+    changed.Change(training_.changes);
     if (PlannedStrategy(scene_, changed) == scene_.strategy) return;
     plan_ = MakePlan(scene_, changed);
     run_ = Parameters();

@@ -142,7 +142,7 @@ class Decider {
     for (Entry& entry : entries_) {
       const TrainingOutcome out = Learn(entry, planned_ / kLearned, entry.tables);
       // It may have found that it had better be something else.
-      if (!out.changes.empty()) entry.options.changes += "," + out.changes;
+      entry.options.Change(out.changes);
       const TrainingSamples samples = Stopped() ? TrainingSamples() : Render(entry);
       if (Stopped()) return usual;
       // Weights are those of the image that the strategy as given shows.

@@ -38,7 +38,7 @@ class GuideTraining {
     options_.training = FeatureSet{Feature::kRecordsGuide};
     // A path that splits would be on record with its first copy only.
     if (context.plan.features.Has(Feature::kSplitting)) {
-      options_.roulette = Roulette::kThroughput;
+      options_.Change("roulette=throughput");
     }
   }
 

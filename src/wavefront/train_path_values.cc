@@ -86,7 +86,7 @@ class Pilot {
     PlanOptions options = plan_.options;
     options.aov = false;
     options.training = records;
-    options.changes = Change(roulette);
+    options.Change(Change(roulette));
     PathSamples samples =
         ReadRecords(RunTrainingPass(scene_, options, run_, work, &watcher_));
     outcome_.samples += samples.colors.size();

@@ -29,7 +29,7 @@ PathSamples Pass(const TrainingContext& context, const TrainingWork& work) {
   options.aov = false;
   options.training = FeatureSet{};
   if (context.plan.features.Has(Feature::kSplitting)) {
-    options.roulette = Roulette::kThroughput;
+    options.Change("roulette=throughput");
   }
   RunParameters run = context.run;
   run.tables = &context.tables;

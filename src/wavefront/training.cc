@@ -1,5 +1,7 @@
 #include "src/wavefront/training.h"
 
+#include <algorithm>
+
 #include "src/core/error.h"
 #include "src/wavefront/guide_tables.h"
 
@@ -74,6 +76,11 @@ std::vector<TrainedTable> TakeTraining(const StrategyTables& tables) {
 
 namespace {
 
+bool HasTable(const std::vector<TrainedTable>& trained, const std::string& name) {
+  return std::any_of(trained.begin(), trained.end(),
+                     [&](const TrainedTable& table) { return table.name == name; });
+}
+
 const std::vector<double>& TableOf(const std::vector<TrainedTable>& trained,
                                    const std::string& name) {
   for (const TrainedTable& table : trained) {
@@ -112,7 +119,10 @@ void PutTraining(const std::vector<TrainedTable>& trained, StrategyTables& table
     throw InputError("the state's table 'path_values_split' does not fit its grid");
   }
   Put(TableOf(trained, "path_values_inverse"), p.inverse_pixel);
-  if (!tables.guide.nodes.empty()) PutGuide(trained, tables.guide);
+  // A pilot may have decided on a guide that the scene's strategy does not ask for.
+  if (!tables.guide.nodes.empty() || HasTable(trained, "guide_at")) {
+    PutGuide(trained, tables.guide);
+  }
   for (const TrainedTable& table : trained) {
     if (table.name == kShadowWorth) Put(table.values, tables.shadow_worth.inverse);
   }
