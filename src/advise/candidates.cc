@@ -16,7 +16,7 @@ namespace {
 // both is never much worse than either (Veach and Guibas 1995), one alone can be.
 constexpr double kRareSamples = 0.15;
 
-// A quad is two lights; a tree over so few finds no more than their power says.
+// A tree over fewer lights finds no more than their power says.
 constexpr std::size_t kFewLights = 4;
 
 // The control variate integrates over every light at every hit: beyond this many it costs

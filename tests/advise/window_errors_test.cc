@@ -111,7 +111,7 @@ TEST_CASE("candidates that a scene refuses say why", "[study]") {
     if (c.changes == "control=ambient") CHECK(c.refused.find("environment") < 60);
     CHECK_FALSE(c.meaning.empty());
   }
-  CHECK(refused == 3);  // and the tree: the two triangles are one light
+  CHECK(refused == 2);  // of environments, and of many lights
 }
 
 TEST_CASE("candidates that do the same on a scene are not compared", "[study]") {

@@ -29,6 +29,11 @@ AttributeBegin
   AreaLightSource "diffuse" "rgb L" [ 3 3 3 ]
   Shape "trianglemesh" "point3 P" [ 1 3 1  2 3 1  2 3 2 ] "integer indices" [ 0 2 1 ]
 AttributeEnd
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 2 3 3 ]
+  Shape "trianglemesh" "point3 P" [ -1 3 1  0 3 1  0 3 2  -1 3 2 ]
+    "integer indices" [ 0 2 1 0 3 2 ]
+AttributeEnd
 Texture "checks" "spectrum" "checkerboard" "rgb tex1" [ 0.8 0.2 0.1 ] "rgb tex2" [ 0.1 0.2 0.3 ]
 Material "diffuse" "texture reflectance" "checks"
 Shape "trianglemesh" "point3 P" [ -5 0 -5  5 0 -5  5 0 5  -5 0 5 ]

@@ -222,7 +222,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
   WriteSky(folder.File("sky.pfm"));
   constexpr Case kCases[] = {
       {kAllStagesScene, "points=independent"},
-      {kAllStagesScene, "points=sobol,light-selection=tree"},
+      {kAllStagesScene, "points=sobol,light-selection=tree,light-points=solid-angle"},
       {kAllStagesScene, "points=halton,directions=uniform,pairs=antithetic"},
       {kAllStagesScene, "points=cmj,control=ambient"},
       {kAllStagesScene, "points=pmj02,control=analytic,roulette=luminance"},
