@@ -5,7 +5,8 @@
 // Space: a binary tree over position and normal, up to kGuideDepth levels. Directions: in
 // each cell a quadtree over the square of the equal-area octahedral map (Clarberg 2008;
 // kernels/warp/octahedral-inl.h), flattened to exactly kGuideLeaves squares, so that
-//   sampling   finds a leaf by its cumulative mass (log2 kGuideLeaves steps), then a point
+//   sampling   finds a leaf by its cumulative mass (log2 kGuideLeaves steps), then a
+//   point
 //              in its square
 //   density    finds the leaf of a direction in a grid of kGuideGrid^2 squares
 // A leaf's density is constant: mass / (share of the square * 4 pi).
