@@ -57,6 +57,13 @@ render sun-sky.pbrt --resolution 81x61 --spp 16 --strategy control=ambient
 # Paths that split into copies, after a pilot of their own.
 render veach-mis.pbrt --resolution 81x61 --spp 16 --strategy roulette=adjoint
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy roulette=efficiency
+# What learns before the image, or shares its samples out.
+for strategy in guiding=radiance guiding=radiance,roulette=adjoint \
+  shadow-roulette=contribution allocation=error; do
+  render corridor.pbrt --resolution 81x61 --spp 40 --strategy "$strategy"
+done
+render veach-mis.pbrt --resolution 24x18 --spp 16 --strategy decide=pilot
+render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=solid-angle
 
 render glass.pbrt --resolution 64x48 --spp 4 --aov --png --crop 3,5,50,40 --depth half \
   --json "$out/report.json" --build fast
