@@ -44,8 +44,8 @@ double RobustMean(std::vector<double> values) {
 
 double PilotMeasure::Score() const { return cost * RobustMean(variances); }
 
-bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual,
-                     double margin) {
+bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, double margin,
+                     double standard_errors) {
   const std::vector<PixelScores> pixels = Pixels(other, usual);
   double sum = 0, squares = 0;
   for (const PixelScores& pixel : pixels) {
@@ -54,7 +54,7 @@ bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual,
   }
   const double n = static_cast<double>(pixels.size());
   const double error = std::sqrt(std::max(0.0, squares - sum * sum / n));
-  return sum + 2 * error < 0 && other.Score() < margin * usual.Score();
+  return sum + standard_errors * error < 0 && other.Score() < margin * usual.Score();
 }
 
 }  // namespace lanelight

@@ -18,9 +18,10 @@ struct PilotMeasure {
 };
 
 /// Both have the same pixels. `other` is better: its variance times cost is below
-/// `margin` of that of `usual`, and that by two standard errors of the difference pixel
-/// by pixel. The worst thousandth of the pixels, by either, counts in neither.
-bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, double margin);
+/// `margin` of that of `usual`, and that by so many standard errors of the difference
+/// pixel by pixel. The worst thousandth of the pixels, by either, counts in neither.
+bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, double margin,
+                     double standard_errors = 2);
 
 /// How many of n values, sorted, count: all but the worst thousandth, and at least one is
 /// left out of 16. A single bright sample would decide alone.
