@@ -117,7 +117,7 @@ inline constexpr int kSeenLightRays = LANELIGHT_SEEN_LIGHT_RAYS;
 
 #define LANELIGHT_DECISIONS(X)                                                            \
   X(None, PLAIN, ({}), "none", "", "the strategy is as its other keys say (default)", "one strategy", "")       \
-  X(Pilot, PLAIN, ({kDecides}), "pilot", "", "roulette and guiding are chosen by a pilot, where they pay; else as their keys say", \
+  X(Pilot, PLAIN, ({kDecides}), "pilot", "", "roulette is chosen by a pilot, where a change of it pays; else it is as its key says", \
     "argmin over strategies of variance times cost", "")
 // clang-format on
 
