@@ -4,7 +4,6 @@
     ./run bench efficiency [SCENE...] [--strategies 'A;B;...'] [--programs P,Q,...]
                            [--times 2,10,60 | --spp N,...] [--rounds N]
                            [--resolution WxH] [--reference-time S] [--json FILE]
-    bench/efficiency.py --test
 
 Candidates are all strategies with all programs ('default' is a strategy; a program may also
 be named with its own strategies, 'P:A'); the first is the baseline. All render in turns,
@@ -192,7 +191,4 @@ def main():
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["--test"]:
-        import efficiency_test
-        efficiency_test.main()
     sys.exit(main())

@@ -1,4 +1,4 @@
-"""Tests of efficiency_statistics.py and exr.py: `bench/efficiency.py --test`.
+"""Tests of efficiency_statistics.py and exr.py: run by ctest as bench/efficiency.
 
 False alarms: the seeds are fixed; were they not, each check of a share would fail by chance
 less than once in 1000, by the binomial distribution.
@@ -9,7 +9,6 @@ import os
 import pathlib
 import random
 import struct
-import sys
 import tempfile
 import unittest
 import zlib
@@ -167,5 +166,5 @@ class ExrTest(unittest.TestCase):
                 self.assertAlmostEqual(expected, found, places=6)
 
 
-def main():
-    unittest.main(module=sys.modules[__name__], argv=["efficiency_test"])
+if __name__ == "__main__":
+    unittest.main()
