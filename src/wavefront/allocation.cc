@@ -32,9 +32,9 @@ constexpr Neighbour kNeighbours[] = {{1, 0, 1},     {-1, 0, 1},     {0, 1, 1},
                                      {1, -2, kFar}, {-1, 2, kFar},  {-1, -2, kFar}};
 
 // The cells of a film, each with the sums of its own pixels.
-class CellGrid {
+class FilmCells {
  public:
-  CellGrid(const FilmAccumulator& film, int side)
+  FilmCells(const FilmAccumulator& film, int side)
       : film_(film),
         side_(side),
         cx0_(film.x0() / side),
@@ -177,7 +177,7 @@ std::vector<PixelRect> CellsOf(const PixelRect& window, Control control) {
 }
 
 std::vector<double> WeighPixels(const FilmAccumulator& film, int side) {
-  const CellGrid grid(film, side);
+  const FilmCells grid(film, side);
   std::vector<double> weights;
   weights.reserve(static_cast<std::size_t>(film.width()) *
                   static_cast<std::size_t>(film.height()));
