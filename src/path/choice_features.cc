@@ -93,6 +93,17 @@ FeatureSet TurnsOn(LightPoints choice) {
   return {};
 }
 
+FeatureSet TurnsOn(LightCandidates choice) {
+  switch (choice) {
+#define X(name, own, also, ...)  \
+  case LightCandidates::k##name: \
+    return Union(LANELIGHT_OWN_##own(k##name##LightCandidates), FeatureSet also);
+    LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)
+#undef X
+  }
+  return {};
+}
+
 FeatureSet TurnsOn(ShadowRoulette choice) {
   switch (choice) {
 #define X(name, own, also, ...) \

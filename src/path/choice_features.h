@@ -14,6 +14,7 @@ FeatureSet TurnsOn(Control choice);
 FeatureSet TurnsOn(Roulette choice);
 FeatureSet TurnsOn(LightSelection choice);
 FeatureSet TurnsOn(LightPoints choice);
+FeatureSet TurnsOn(LightCandidates choice);
 FeatureSet TurnsOn(ShadowRoulette choice);
 FeatureSet TurnsOn(Guiding choice);
 FeatureSet TurnsOn(Decide choice);

@@ -58,6 +58,8 @@ namespace lanelight {
   X(kPathValues, "values of paths, from a training pass")                     \
   X(kRecordsPaths, "a training pass that records what paths find")            \
   X(kSolidAngleLights, "light-points=solid-angle")                            \
+  X(kProjectedLights, "light-points=projected")                               \
+  X(kLightCandidates, "several candidates for each light sample")             \
   X(kGuided, "a guide that proposes directions, from training passes")        \
   X(kDecides, "a strategy chosen by a pilot")                                 \
   X(kRecordsGuide, "a training pass that records what a guide learns from")   \

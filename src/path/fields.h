@@ -109,6 +109,15 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, ls, ({kLights}), kBounce, (), "radiance / pdf of the light sample (selection included); 0 = no light") \
   X(f32, ls_pdf, ({kLights}), kBounce, (), "pdf_sa of that direction, selection included; 0 = delta light") \
   X(f32, light_pmf, ({kLightTree}), kBounce, (), "probability of selecting the light that was hit, then of the one selected") \
+  /* the light sample kept of several candidates */                                       \
+  LANELIGHT_XYZ(X, f32, kept, ({kLightCandidates}), kBounce, (), "its direction")         \
+  X(f32, kept_distance, ({kLightCandidates}), kBounce, (), "its distance")                \
+  LANELIGHT_RGB(X, f32, kept, ({kLightCandidates}), kBounce, (), "its radiance / pdf")    \
+  X(f32, kept_pdf, ({kLightCandidates}), kBounce, (), "its pdf_sa, as a single candidate") \
+  X(u32, kept_light, ({kLightCandidates}), kBounce, (), "its light")                      \
+  X(f32, kept_worth, ({kLightCandidates}), kBounce, (), "what it would add unshadowed, over its density") \
+  X(f32, worth_sum, ({kLightCandidates}), kBounce, (), "the same, summed over the candidates so far") \
+  X(f32, u_candidate, ({kLightCandidates}), kBounce, (), "choice between the candidate kept and the next") \
   /* shadow ray */                                                                        \
   LANELIGHT_RGB(X, f32, sh, ({kLights}), kBounce, (), "radiance the shadow ray carries if unoccluded") \
   /* control variates */                                                                  \

@@ -14,6 +14,8 @@ inline constexpr const char* kRoulettes[] = {LANELIGHT_ROULETTES(X)};
 inline constexpr const char* kLightSelections[] = {LANELIGHT_LIGHT_SELECTIONS(X)};
 inline constexpr const char* kSeenLights[] = {LANELIGHT_SEEN_LIGHTS(X)};
 inline constexpr const char* kLightPoints[] = {LANELIGHT_LIGHT_POINTS(X)};
+inline constexpr const char* kLightCandidateChoices[] = {
+    LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)};
 inline constexpr const char* kEnvironmentPoints[] = {LANELIGHT_ENVIRONMENT_CHOICES(X)};
 inline constexpr const char* kShadowRoulettes[] = {LANELIGHT_SHADOW_ROULETTES(X)};
 inline constexpr const char* kAllocations[] = {LANELIGHT_ALLOCATIONS(X)};

@@ -17,6 +17,9 @@ inline constexpr double kConstantTermination = LANELIGHT_CONSTANT_TERMINATION;
 /// Camera rays per path of seen-lights=apart.
 #define LANELIGHT_SEEN_LIGHT_RAYS 16
 inline constexpr int kSeenLightRays = LANELIGHT_SEEN_LIGHT_RAYS;
+/// Light samples of which light-candidates=resampled keeps one, unless told otherwise.
+#define LANELIGHT_LIGHT_CANDIDATES 4
+inline constexpr std::uint32_t kDefaultLightCandidates = LANELIGHT_LIGHT_CANDIDATES;
 #define LANELIGHT_TEXT(value) LANELIGHT_TEXT_OF(value)
 #define LANELIGHT_TEXT_OF(value) #value
 
@@ -92,7 +95,14 @@ inline constexpr int kSeenLightRays = LANELIGHT_SEEN_LIGHT_RAYS;
   X(Area, PLAIN, ({}), "area", "", "points on emitting triangles and rectangles uniform over the area (default)", \
     "Le / p, p = pmf d^2 / (A |cos|)", "Shirley, Wang and Zimmerman 1996")                \
   X(SolidAngle, PLAIN, ({kSolidAngleLights}), "solid-angle", "", "uniform over the solid angle that they fill", \
-    "Le / p, p = pmf / omega", "Arvo 1995; Urena, Fajardo and King 2013")
+    "Le / p, p = pmf / omega", "Arvo 1995; Urena, Fajardo and King 2013") \
+  X(Projected, PLAIN, ({kProjectedLights}), "projected", "", "the same, warped by the cosine at the surface", \
+    "Le / p, p = pmf b(u) / omega, b bilinear in the cosines at the corners", "Hart et al. 2020")
+
+#define LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)                                              \
+  X(Single, PLAIN, ({}), "single", "", "every light sample is used (default)", "f / p", "") \
+  X(Resampled, PLAIN, ({kLightCandidates}), "resampled", "[:M]", "one of M = " LANELIGHT_TEXT(LANELIGHT_LIGHT_CANDIDATES) " light samples, by what it would add unshadowed", \
+    "f(y) / h(y) 1/M sum h(x_i) / p(x_i), h = f without visibility", "Talbot, Cline and Egbert 2005")
 
 #define LANELIGHT_ENVIRONMENT_CHOICES(X)                                                  \
   X(Plain, PLAIN, ({}), "plain", "", "environment images sampled in proportion to their radiance (default)", \
@@ -139,6 +149,7 @@ LANELIGHT_ENUM(Roulette, LANELIGHT_ROULETTES(X));
 LANELIGHT_ENUM(LightSelection, LANELIGHT_LIGHT_SELECTIONS(X));
 LANELIGHT_ENUM(SeenLights, LANELIGHT_SEEN_LIGHTS(X));
 LANELIGHT_ENUM(LightPoints, LANELIGHT_LIGHT_POINTS(X));
+LANELIGHT_ENUM(LightCandidates, LANELIGHT_LIGHT_CANDIDATE_CHOICES(X));
 LANELIGHT_ENUM(EnvironmentPoints, LANELIGHT_ENVIRONMENT_CHOICES(X));
 LANELIGHT_ENUM(ShadowRoulette, LANELIGHT_SHADOW_ROULETTES(X));
 LANELIGHT_ENUM(Allocation, LANELIGHT_ALLOCATIONS(X));

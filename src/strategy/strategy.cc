@@ -36,6 +36,9 @@ constexpr ChoiceInfo kChoices[] = {
 #define X(enumerator, ...) ROW("light-points", __VA_ARGS__)
     LANELIGHT_LIGHT_POINTS(X)
 #undef X
+#define X(enumerator, ...) ROW("light-candidates", __VA_ARGS__)
+    LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)
+#undef X
 #define X(enumerator, ...) ROW("environment", __VA_ARGS__)
     LANELIGHT_ENVIRONMENT_CHOICES(X)
 #undef X
@@ -77,9 +80,13 @@ std::string RouletteText(const Strategy& s) {
 }
 
 std::string LightText(const Strategy& s) {
-  std::string text =
-      fmt::format(",light-points={},environment={},shadow-roulette={}",
-                  Name(s.light_points), Name(s.environment), Name(s.shadow_roulette));
+  std::string text = fmt::format(",light-points={},light-candidates={}",
+                                 Name(s.light_points), Name(s.light_candidates));
+  if (s.light_candidates == LightCandidates::kResampled) {
+    text += fmt::format(":{}", s.candidates);
+  }
+  text += fmt::format(",environment={},shadow-roulette={}", Name(s.environment),
+                      Name(s.shadow_roulette));
   return s.shadow_floor ? text + fmt::format(":{}", *s.shadow_floor) : text;
 }
 
@@ -116,6 +123,9 @@ const char* Name(LightSelection choice) {
 }
 const char* Name(SeenLights choice) { return kSeenLights[static_cast<int>(choice)]; }
 const char* Name(LightPoints choice) { return kLightPoints[static_cast<int>(choice)]; }
+const char* Name(LightCandidates choice) {
+  return kLightCandidateChoices[static_cast<int>(choice)];
+}
 const char* Name(EnvironmentPoints choice) {
   return kEnvironmentPoints[static_cast<int>(choice)];
 }

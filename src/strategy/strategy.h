@@ -16,6 +16,8 @@ namespace lanelight {
 
 enum class Heuristic : std::uint8_t { kPower, kBalance };
 
+inline constexpr std::uint32_t kMostLightCandidates = 64;
+
 struct Strategy {
   Directions directions = Directions::kMis;
   Heuristic heuristic = Heuristic::kPower;  // of kMis
@@ -34,6 +36,9 @@ struct Strategy {
   LightSelection light_selection = LightSelection::kPower;
   SeenLights seen_lights = SeenLights::kApart;
   LightPoints light_points = LightPoints::kArea;
+  LightCandidates light_candidates = LightCandidates::kSingle;
+  std::uint32_t candidates =
+      kDefaultLightCandidates;  // of kResampled: 2 to kMostLightCandidates
   EnvironmentPoints environment = EnvironmentPoints::kPlain;
   ShadowRoulette shadow_roulette = ShadowRoulette::kNone;
   std::optional<double> shadow_floor;  // of kContribution: least probability of a ray
@@ -73,6 +78,7 @@ enum class StrategyKey {
   kLightSelection,
   kSeenLights,
   kLightPoints,
+  kLightCandidates,
   kEnvironment,
   kShadowRoulette,
   kAllocation,
@@ -123,6 +129,7 @@ const char* Name(Roulette choice);
 const char* Name(LightSelection choice);
 const char* Name(SeenLights choice);
 const char* Name(LightPoints choice);
+const char* Name(LightCandidates choice);
 const char* Name(EnvironmentPoints choice);
 const char* Name(ShadowRoulette choice);
 const char* Name(Allocation choice);

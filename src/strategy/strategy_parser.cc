@@ -15,15 +15,15 @@ namespace {
 
 // By StrategyKey.
 constexpr const char* kKeys[] = {
-    "directions",      "points",          "pairs",       "control",      "c",
-    "roulette",        "light-selection", "seen-lights", "light-points", "environment",
-    "shadow-roulette", "allocation",      "guiding",     "decide"};
+    "directions",  "points",          "pairs",       "control",      "c",
+    "roulette",    "light-selection", "seen-lights", "light-points", "light-candidates",
+    "environment", "shadow-roulette", "allocation",  "guiding",      "decide"};
 static_assert(std::size(kKeys) == static_cast<std::size_t>(StrategyKey::kCount));
 
 constexpr const char kPlain[] =
     "directions=mis:power,points=independent,pairs=none,control=none,c=optimal,"
     "roulette=none,light-selection=power,seen-lights=paths,light-points=area,"
-    "environment=plain,shadow-roulette=none,allocation=uniform,"
+    "light-candidates=single,environment=plain,shadow-roulette=none,allocation=uniform,"
     "guiding=none,decide=none";
 
 class Parser {
@@ -156,6 +156,8 @@ class Parser {
         strategy_.light_points =
             static_cast<LightPoints>(Choose(key, value, kLightPoints));
         return;
+      case StrategyKey::kLightCandidates:
+        return SetLightCandidates(value);
       case StrategyKey::kEnvironment:
         strategy_.environment =
             static_cast<EnvironmentPoints>(Choose(key, value, kEnvironmentPoints));
@@ -196,6 +198,21 @@ class Parser {
     if (parts.size() < 2) return;
     if (strategy_.pairs == Pairs::kNone) Fail("\"none\" of pairs takes no argument");
     strategy_.paired = static_cast<Paired>(Choose("pairs=antithetic", parts[1], kPaired));
+  }
+
+  void SetLightCandidates(std::string_view value) {
+    const auto parts = Parts("light-candidates", value, 2);
+    strategy_.light_candidates = static_cast<LightCandidates>(
+        Choose("light-candidates", parts[0], kLightCandidateChoices));
+    strategy_.candidates = kDefaultLightCandidates;
+    if (parts.size() < 2) return;
+    if (strategy_.light_candidates == LightCandidates::kSingle) {
+      Fail("\"single\" of light-candidates takes no argument");
+    }
+    const double m =
+        Number("light-candidates=resampled", parts[1], 2, kMostLightCandidates);
+    if (m != std::floor(m)) Fail("the number of light candidates must be whole");
+    strategy_.candidates = static_cast<std::uint32_t>(m);
   }
 
   void SetShadowRoulette(std::string_view value) {
@@ -269,6 +286,10 @@ void Apply(const StrategyChanges& changes, Strategy& strategy) {
   if (has(StrategyKey::kLightSelection)) strategy.light_selection = from.light_selection;
   if (has(StrategyKey::kSeenLights)) strategy.seen_lights = from.seen_lights;
   if (has(StrategyKey::kLightPoints)) strategy.light_points = from.light_points;
+  if (has(StrategyKey::kLightCandidates)) {
+    strategy.light_candidates = from.light_candidates;
+    strategy.candidates = from.candidates;
+  }
   if (has(StrategyKey::kEnvironment)) strategy.environment = from.environment;
   if (has(StrategyKey::kShadowRoulette)) {
     strategy.shadow_roulette = from.shadow_roulette;

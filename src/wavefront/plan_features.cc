@@ -44,6 +44,7 @@ void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
   if (f.Has(Feature::kManyLights)) f.Add(TurnsOn(strategy.light_selection));
   if (!f.Has(Feature::kLights)) return;
   if (SamplesFlatLights(f)) f.Add(TurnsOn(strategy.light_points));
+  f.Add(TurnsOn(strategy.light_candidates));
   f.Add(TurnsOn(strategy.shadow_roulette));
 }
 
