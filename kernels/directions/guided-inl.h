@@ -8,8 +8,8 @@
 //               weight w its samples count as w (q / (c g + (1 - c) q)), the guide's as
 //               f |cos| / (c g + (1 - c) q), whose factors c g and (1 - c) q over their
 //               sum add up to 1
-//   unbiased    for any guide, as g > 0 everywhere and c < 1; directions that the guide
-//               proposes on the wrong side end the path
+//   unbiased    for any guide, as c < 1. The guide proposes directions above the surface
+//               only (src/prepare/guide_square.h); what lies below is the material's
 //   variance    bounded by 1 / (1 - c) times the second moment of the material alone;
 //               falls as far as g resembles the light that arrives. Light samples are
 //               weighed against the mixture
@@ -36,8 +36,9 @@ struct GuidedProposal {
   static constexpr bool kScales = true;
   const Guide& guide;
   const PathColumns& path;
-  const Frame& frame;
+  const Frame& frame;  // of shading
   const Slots& slots;
+  Frame above;  // the guide's, on the side that the path sees
   VI cell;
   VF fraction, rest;  // c, 1 - c
 
@@ -46,10 +47,19 @@ struct GuidedProposal {
         path(wave.path),
         frame(shading),
         slots(s),
+        above(GuideFrame(FacingNormal(wave.path, s))),
         cell(Gather(path.guide_cell, slots)),
         fraction(Gather(guide.fraction.data(), cell)),
         rest(hn::Sub(Splat(1.0f), fraction)) {}
 
+  static LANELIGHT_INLINE V3 FacingNormal(const PathColumns& p, const Slots& slots) {
+    const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+    const V3 n = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
+    return IfThenElse(hn::Gt(Dot(n, d), hn::Zero(DF())), -n, n);
+  }
+  LANELIGHT_INLINE VF PdfOfGuide(V3 wi) const {
+    return GuidePdf(guide, cell, above.ToLocal(frame.FromLocal(wi)));
+  }
   LANELIGHT_INLINE VF Mixture(VF guide_pdf, VF material_pdf) const {
     return hn::MulAdd(fraction, guide_pdf, hn::Mul(rest, material_pdf));
   }
@@ -57,7 +67,7 @@ struct GuidedProposal {
   template <class Bsdf>
   LANELIGHT_INLINE VF Pdf(const typename Bsdf::Params&, V3, V3 wi,
                           VF material_pdf) const {
-    return Mixture(GuidePdf(guide, cell, frame.FromLocal(wi)), material_pdf);
+    return Mixture(PdfOfGuide(wi), material_pdf);
   }
 
   template <class Bsdf>
@@ -83,7 +93,7 @@ struct GuidedProposal {
   // What the material has found, as a sample of the mixture.
   LANELIGHT_INLINE BsdfSample Mixed(const BsdfSample& own) const {
     const VF zero = hn::Zero(DF());
-    const VF g = GuidePdf(guide, cell, frame.FromLocal(own.wi));
+    const VF g = PdfOfGuide(own.wi);
     const MF delta = hn::Eq(own.pdf, zero);
     // (c g + (1 - c) q) / q, which neither overflows nor is 0 times infinity.
     const VF ratio =

@@ -2,8 +2,9 @@
 // direction in a cell, a direction of that density.
 //   cell        one step of the tree per level of the deepest lane: permutations in the
 //               upper levels, then two gathers each
-//   density     the square of the direction (a root, an arc tangent), then two gathers
-//   direction   six gathers of bounds, two of the leaf found
+//   density     the square of the direction (a root), then a gather
+//   direction   four gathers of the bounds of rows, four of those of a row's squares: two
+//               cache lines
 #if defined(LANELIGHT_GUIDE_GUIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_GUIDE_GUIDE_INL_H_
 #undef LANELIGHT_GUIDE_GUIDE_INL_H_
@@ -13,7 +14,7 @@
 
 #include <algorithm>
 
-#include "kernels/warp/octahedral-inl.h"
+#include "kernels/guide/square-inl.h"
 #include "src/prepare/guide.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -96,58 +97,73 @@ LANELIGHT_INLINE VI GuideCell(const Guide& guide, const GuideTop& top, V3 p, V3 
   }
 }
 
-/// pdf_sa of direction d, unit, scene; of what is no direction, that of some other.
-LANELIGHT_INLINE VF GuidePdf(const Guide& guide, VI cell, V3 d) {
+/// pdf_sa of a direction in the frame of the path's surface (GuideFrame), unit; 0 below
+/// the surface, and of what is no direction that of some other.
+LANELIGHT_INLINE VF GuidePdf(const Guide& guide, VI cell, V3 local) {
   const DI di;
-  VF s, t;
-  OctahedralSquare(d, &s, &t);
-  const VF squares = Splat(static_cast<float>(kGuideGrid));
+  const GuideSquarePoint at = ToGuideSquare(local);
+  const VF half = Splat(kGuideGrid / 2.0f);
   const VI zero = hn::Zero(di), last = hn::Set(di, kGuideGrid - 1);
   const auto square = [&](VF x) HWY_ATTR {
-    return hn::Min(hn::Max(hn::ConvertTo(di, hn::Mul(x, squares)), zero), last);
+    const VI i = hn::ConvertTo(di, hn::MulAdd(x, half, half));
+    return hn::Min(hn::Max(i, zero), last);
   };
-  static_assert(kGuideGrid == 32 && kGuideLeaves == 64);
-  const VI row = hn::Add(hn::ShiftLeft<5>(cell), square(t));
-  const VI at = hn::Add(hn::ShiftLeft<5>(row), square(s));
-  // A byte, from the word that holds it.
-  const VI four =
-      Gather(reinterpret_cast<const int32_t*>(guide.leaf.data()), hn::ShiftRight<2>(at));
-  const VI shift = hn::ShiftLeft<3>(hn::And(at, hn::Set(di, 3)));
-  const VI leaf = hn::And(hn::Shr(four, shift), hn::Set(di, 255));
-  return Gather(guide.pdf_sa.data(), hn::Add(hn::ShiftLeft<6>(cell), leaf));
+  static_assert(kGuideGrid == 16);
+  const VI row = hn::Add(hn::ShiftLeft<4>(cell), square(at.b));
+  const VI index = hn::Add(hn::ShiftLeft<4>(row), square(at.a));
+  return hn::Mul(Gather(guide.density.data(), index), at.to_solid_angle);
 }
 
+/// One of the kGuideGrid bounds from `first` on that u in [0, 1) is below, with how far u
+/// is from the one before.
+struct GuideBound {
+  VI index;   // 0 to kGuideGrid - 1
+  VF inside;  // in [0, 1]
+  VF mass;    // between the two
+
+  LANELIGHT_INLINE GuideBound(const float* cumulative, VI first, VF u) {
+    const DI di;
+    index = hn::Zero(di);
+    VF low = hn::Zero(DF()), high = Splat(1.0f);
+    for (int32_t step = kGuideGrid / 2; step > 0; step /= 2) {
+      const VF bound = Gather(cumulative + step - 1, hn::Add(first, index));
+      const MF beyond = hn::Le(bound, u);
+      low = hn::IfThenElse(beyond, bound, low);
+      high = hn::IfThenElse(beyond, high, bound);
+      const VI more = hn::IfThenElseZero(hn::RebindMask(di, beyond), hn::Set(di, step));
+      index = hn::Add(index, more);
+    }
+    mass = hn::Sub(high, low);
+    inside = hn::Min(hn::Div(hn::Sub(u, low), mass), Splat(1.0f));
+  }
+};
+
 struct GuideSample {
-  V3 direction;  // unit, scene
+  V3 direction;  // unit, in the frame
   VF pdf_sa;
 };
 
-/// A direction with the density of the cell, u0 and u1 in [0, 1). What is left of u0
-/// once it has chosen a leaf is the first coordinate in its square.
+/// A direction with the density of the cell, u0 and u1 in [0, 1). What is left of them
+/// once they have chosen row and square is the point in the square.
 LANELIGHT_INLINE GuideSample SampleGuide(const Guide& guide, VI cell, VF u0, VF u1) {
-  const DI di;
-  const VF one = Splat(1.0f);
-  const VI base = hn::ShiftLeft<6>(cell);
-  VI leaf = base;
-  VF low = hn::Zero(DF()), high = one;
-  for (int32_t step = kGuideLeaves / 2; step > 0; step /= 2) {
-    const VF bound = Gather(guide.cumulative.data() + step - 1, leaf);
-    const MF beyond = hn::Le(bound, u0);
-    low = hn::IfThenElse(beyond, bound, low);
-    high = hn::IfThenElse(beyond, high, bound);
-    leaf =
-        hn::Add(leaf, hn::IfThenElseZero(hn::RebindMask(di, beyond), hn::Set(di, step)));
-  }
-  const VI square = Gather(guide.square.data(), leaf);
-  const auto part = [&](VI v) HWY_ATTR {
-    return hn::ConvertTo(DF(), hn::And(v, hn::Set(di, 255)));
+  static_assert(kGuideBounds == 16 * 17);
+  const VI rows = hn::Add(hn::ShiftLeft<8>(cell), hn::ShiftLeft<4>(cell));
+  const float* cumulative = guide.cumulative.data();
+  const GuideBound row(cumulative, rows, u0);
+  const VI squares = hn::Add(rows, hn::ShiftLeft<4>(row.index));
+  const GuideBound column(cumulative + kGuideGrid, squares, u1);
+  const VF size = Splat(2.0f / kGuideGrid), one = Splat(1.0f);
+  const auto coordinate = [&](const GuideBound& bound) HWY_ATTR {
+    const VF at = hn::Add(hn::ConvertTo(DF(), bound.index), bound.inside);
+    return hn::MulSub(at, size, one);
   };
-  const VF side = part(hn::ShiftRight<16>(square));
-  const VF inside = hn::Min(hn::Div(hn::Sub(u0, low), hn::Sub(high, low)), one);
-  const VF size = Splat(1.0f / kGuideGrid);
-  const VF s = hn::Mul(hn::MulAdd(inside, side, part(square)), size);
-  const VF t = hn::Mul(hn::MulAdd(u1, side, part(hn::ShiftRight<8>(square))), size);
-  return {OctahedralDirection(s, t), Gather(guide.pdf_sa.data(), leaf)};
+  GuideSample sample;
+  VF to_solid_angle;
+  sample.direction =
+      FromGuideSquare(coordinate(column), coordinate(row), &to_solid_angle);
+  const VF density = hn::Mul(hn::Mul(row.mass, column.mass), Splat(kGuideSquares / 4.0f));
+  sample.pdf_sa = hn::Mul(density, to_solid_angle);
+  return sample;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -39,7 +39,8 @@ void GuideProposals(Wave& wave) {
         if (hn::AllFalse(DF(), hn::Lt(Gather(p.u_guide, slots), fraction))) return;
         const GuideSample sample = SampleGuide(guide, cell, Gather(p.u_bsdf_0, slots),
                                                Gather(p.u_bsdf_1, slots));
-        Scatter3(sample.direction, p.guide_x, p.guide_y, p.guide_z, slots);
+        Scatter3(GuideFrame(n).FromLocal(sample.direction), p.guide_x, p.guide_y,
+                 p.guide_z, slots);
         Scatter(sample.pdf_sa, p.guide_pdf, slots);
       });
 }

@@ -16,7 +16,7 @@ struct GuideBatch {
   const float *point[3] = {}, *normal[3] = {};  // of ProbeGuideCells
   std::uint32_t* cell = nullptr;                // its result, and what the others read
   const float *u0 = nullptr, *u1 = nullptr;     // of ProbeGuideSamples, in [0, 1)
-  float* direction[3] = {};  // its result, and what ProbeGuidePdfs reads; unit
+  float* direction[3] = {};  // its result, and what ProbeGuidePdfs reads: unit, about z
   float* pdf_sa = nullptr;   // result
 };
 

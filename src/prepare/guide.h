@@ -2,25 +2,26 @@
 // then frozen: a density of directions for every cell of space and orientation, in a form
 // that lanes read with few gathers.
 //
-// Space: a binary tree over position and normal, up to kGuideDepth levels. Directions: in
-// each cell a quadtree over the square of the equal-area octahedral map (Clarberg 2008;
-// kernels/warp/octahedral-inl.h), flattened to exactly kGuideLeaves squares, so that
-//   sampling   finds a leaf by its cumulative mass (log2 kGuideLeaves steps), then a
-//   point
-//              in its square
-//   density    finds the leaf of a direction in a grid of kGuideGrid^2 squares
-// A leaf's density is constant: mass / (share of the square * 4 pi).
+// Space: a binary tree over position and normal, up to kGuideDepth levels. Directions: a
+// grid over the square that the hemisphere above the path's own surface is mapped to
+// (src/prepare/guide_square.h). Even masses make the density of the cosine: what the
+// guide knows is the light times the cosine, and no direction lies below the surface.
+//   sampling   finds a row by the cumulative masses of rows, a square by those in the row
+//   density    one gather: mass of the square over its share, times what the map does
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "src/core/aligned.h"
 
 namespace lanelight {
 
-inline constexpr int kGuideLeaves = 64;  // of each cell; exactly
-inline constexpr int kGuideGrid = 32;    // squares along a side: no leaf is smaller
-inline constexpr int kGuideDepth = 20;   // levels of the tree over space
+inline constexpr int kGuideGrid = 16;   // squares along a side
+inline constexpr int kGuideDepth = 20;  // levels of the tree over space
+inline constexpr std::size_t kGuideSquares = std::size_t{kGuideGrid} * kGuideGrid;
+/// Bounds of a cell: of the rows, then of the squares of each row.
+inline constexpr std::size_t kGuideBounds = kGuideGrid + kGuideSquares;
 
 struct Guide {
   struct Node {
@@ -32,12 +33,12 @@ struct Guide {
   };
   AlignedVector<Node> nodes;  // the root is the first; empty where nothing is guided
 
-  // cell * kGuideLeaves + leaf; leaves of a cell in Z order of their squares
-  AlignedVector<float> cumulative;  // mass of the leaves up to it; the last one's is 1
-  AlignedVector<float> pdf_sa;      // > 0 everywhere
-  AlignedVector<std::uint32_t> square;  // x | y << 8 | side << 16, in squares of the grid
-  // (cell * kGuideGrid + y) * kGuideGrid + x: the leaf that covers a square of the grid
-  AlignedVector<std::uint8_t> leaf;
+  // cell * kGuideBounds + row: mass of the rows up to it; and kGuideGrid * (row + 1) +
+  // column further: mass of the squares of the row up to it, of all of the row. The last
+  // one's is 1.
+  AlignedVector<float> cumulative;
+  // cell * kGuideSquares + row * kGuideGrid + column: density over [-1, 1]^2, > 0
+  AlignedVector<float> density;
   // cell: probability with which the guide proposes, in [0, 1); 0 = nothing is known
   AlignedVector<float> fraction;
 

@@ -7,8 +7,8 @@
 
 #include "src/prepare/guide_cell.h"
 #include "src/prepare/guide_fraction.h"
-#include "src/prepare/guide_horizon.h"
 #include "src/prepare/guide_space.h"
+#include "src/prepare/guide_square.h"
 
 namespace lanelight {
 namespace {
@@ -46,24 +46,20 @@ double LargestMass(std::span<const double> masses) {
   return limit;
 }
 
-// A square of the octahedral map beyond its edge is the one that the fold puts there.
-std::size_t SquareAt(int x, int y) {
-  constexpr int n = kGuideGrid;
-  if (x < 0 || x >= n) x = std::clamp(x, 0, n - 1), y = n - 1 - y;
-  if (y < 0 || y >= n) y = std::clamp(y, 0, n - 1), x = n - 1 - x;
-  return static_cast<std::size_t>(y * n + x);
-}
-
 // Over the four squares whose centres are around the direction.
 void Deposit(const GuideRecord& r, double mass, Squares& squares) {
   const double x = double(r.u) / 65536 * kGuideGrid - 0.5;
   const double y = double(r.v) / 65536 * kGuideGrid - 0.5;
-  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-  const double fx = x - x0, fy = y - y0;
-  squares[SquareAt(x0, y0)] += mass * (1 - fx) * (1 - fy);
-  squares[SquareAt(x0 + 1, y0)] += mass * fx * (1 - fy);
-  squares[SquareAt(x0, y0 + 1)] += mass * (1 - fx) * fy;
-  squares[SquareAt(x0 + 1, y0 + 1)] += mass * fx * fy;
+  const double left = std::floor(x), low = std::floor(y), fx = x - left, fy = y - low;
+  const auto square = [](double i, double j) {
+    const double last = kGuideGrid - 1;  // beyond it is the horizon
+    return static_cast<std::size_t>(std::clamp(j, 0.0, last) * kGuideGrid +
+                                    std::clamp(i, 0.0, last));
+  };
+  squares[square(left, low)] += mass * (1 - fx) * (1 - fy);
+  squares[square(left + 1, low)] += mass * fx * (1 - fy);
+  squares[square(left, low + 1)] += mass * (1 - fx) * fy;
+  squares[square(left + 1, low + 1)] += mass * fx * fy;
 }
 
 class Builder {
@@ -80,7 +76,7 @@ class Builder {
 
   Guide Build(GuideSummary* summary) {
     Known root;
-    root.squares.fill(1.0 / kGuideSquares);
+    root.squares = CosineMasses();
     Visit(0, root);
     if (summary != nullptr) {
       const double n = std::max<double>(double(records_.size()), 1);
@@ -110,7 +106,7 @@ class Builder {
     double sum = 0, squares = 0;
     for (std::size_t i = node.begin; i < node.end; ++i) {
       const double mass = masses_[i];
-      if (!(mass > 0)) continue;
+      if (!(mass > 0) || !(records_[i].cosine > 0)) continue;
       sum += mass, squares += mass * mass;
       Deposit(records_[i], mass, own);
       fraction.Add(records_[i]);
@@ -145,9 +141,8 @@ class Builder {
     const auto [fraction, gain] = known.fraction.Best(known.effective);
     fractions_ += fraction * double(node.count());
     gains_ += gain * double(node.count());
-    Squares squares = known.squares;
-    LeaveOutBehind({records_.data() + node.begin, node.count()}, squares);
-    return AppendGuideCell(squares, settings_.even, static_cast<float>(fraction), guide_);
+    return AppendGuideCell(known.squares, settings_.even, static_cast<float>(fraction),
+                           guide_);
   }
 
   std::vector<GuideRecord>& records_;

@@ -9,8 +9,8 @@
 namespace lanelight {
 
 struct GuideSettings {
-  std::size_t cell_records = 400;   // a cell with more is divided
-  std::size_t most_cells = 32'768;  // 1.8 KB each: 59 MB
+  std::size_t cell_records = 1000;  // a cell with more is divided
+  std::size_t most_cells = 28'000;  // 2.1 KB each: 59 MB
   double even = 0.05;               // AppendGuideCell
   /// Records that the cell around counts for: where there are fewer, or a few bright ones
   /// are all that there is, a cell is much like what surrounds it.

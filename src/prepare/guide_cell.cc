@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "src/core/check.h"
+#include "src/prepare/guide_square.h"
 
 namespace lanelight {
 namespace {
 
 static_assert((kGuideLeaves - 1) % 3 == 0, "a split makes three leaves more");
-static_assert(kGuideGrid == 32, "Z order of up to 8 bits; masses of a pyramid below");
+static_assert(kGuideGrid == 16, "Z order of up to 8 bits; masses of a pyramid below");
 
 struct Leaf {
   std::uint32_t x = 0, y = 0, side = kGuideGrid;  // in squares of the grid
@@ -58,8 +59,13 @@ std::vector<double> Blend(std::span<const double, kGuideSquares> masses, double 
   std::vector<double> blend(masses.begin(), masses.end());
   double sum = 0;
   // Over the largest first: neither the sum nor a quotient overflows or vanishes.
-  for (double& m : blend) sum += (m = largest > 0 ? m / largest : 1);
-  for (double& m : blend) m = (1 - even) * m / sum + even / kGuideSquares;
+  const auto& cosine = CosineMasses();
+  for (std::size_t s = 0; s < kGuideSquares; ++s) {
+    sum += blend[s] = largest > 0 ? blend[s] / largest : cosine[s];
+  }
+  for (std::size_t s = 0; s < kGuideSquares; ++s) {
+    blend[s] = (1 - even) * blend[s] / sum + even * cosine[s];
+  }
   return blend;
 }
 
@@ -98,38 +104,54 @@ std::vector<Leaf> Divide(const Pyramid& pyramid) {
   return leaves;
 }
 
-// A leaf's density is that with which kernels really find it: their numbers are multiples
-// of kStep, and so are the bounds between leaves.
-constexpr double kStep = 1.0 / (1 << 24);
-
-void AppendLeaves(const std::vector<Leaf>& leaves, Guide& guide) {
-  double sum = 0, before = 0, total = 0;
-  for (const Leaf& leaf : leaves) total += leaf.mass;
+// What the leaves say of the squares: within a leaf, the cosine.
+std::vector<double> Flatten(const std::vector<Leaf>& leaves) {
+  const Pyramid cosine({CosineMasses().begin(), CosineMasses().end()});
+  std::vector<double> squares(kGuideSquares);
   for (const Leaf& leaf : leaves) {
-    sum += leaf.mass;
-    const bool last = &leaf == &leaves.back();
-    const double bound = last ? 1 : std::round(sum / total / kStep) * kStep;
-    LL_CHECK_GT(bound, before);
-    const double share = double(leaf.side) * leaf.side / double(kGuideSquares);
-    guide.cumulative.push_back(static_cast<float>(bound));
-    guide.pdf_sa.push_back(
-        static_cast<float>((bound - before) / (share * 4 * std::numbers::pi)));
-    guide.square.push_back(leaf.x | leaf.y << 8 | leaf.side << 16);
-    before = bound;
-  }
-}
-
-void AppendGrid(const std::vector<Leaf>& leaves, Guide& guide) {
-  std::array<std::uint8_t, kGuideSquares> grid{};
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const Leaf& leaf = leaves[i];
+    const double scale = leaf.mass / cosine.Mass(leaf.x, leaf.y, leaf.side);
     for (std::uint32_t y = leaf.y; y < leaf.y + leaf.side; ++y) {
       for (std::uint32_t x = leaf.x; x < leaf.x + leaf.side; ++x) {
-        grid[std::size_t{y} * kGuideGrid + x] = static_cast<std::uint8_t>(i);
+        const std::size_t s = std::size_t{y} * kGuideGrid + x;
+        squares[s] = scale * CosineMasses()[s];
       }
     }
   }
-  guide.leaf.insert(guide.leaf.end(), grid.begin(), grid.end());
+  return squares;
+}
+
+// Kernels find squares with the densities that they really have: their numbers are
+// multiples of kStep, and so are the bounds.
+constexpr double kStep = 1.0 / (1 << 24);
+using Bounds = std::array<double, kGuideGrid>;
+
+Bounds BoundsOf(const double* masses) {
+  Bounds bounds;
+  double sum = 0, total = 0, before = 0;
+  for (std::size_t i = 0; i < kGuideGrid; ++i) total += masses[i];
+  for (std::size_t i = 0; i < kGuideGrid; ++i) {
+    sum += masses[i];
+    bounds[i] = i + 1 == kGuideGrid ? 1 : std::round(sum / total / kStep) * kStep;
+    LL_CHECK_GT(bounds[i], before);
+    before = bounds[i];
+  }
+  return bounds;
+}
+
+void Append(const Bounds& bounds, Guide& guide) {
+  for (double bound : bounds) guide.cumulative.push_back(static_cast<float>(bound));
+}
+
+void AppendSquares(const std::vector<double>& squares, Guide& guide) {
+  Bounds rows;
+  for (std::size_t y = 0; y < kGuideGrid; ++y) {
+    const double* row = &squares[y * kGuideGrid];
+    rows[y] = std::accumulate(row, row + kGuideGrid, 0.0);
+  }
+  Append(BoundsOf(rows.data()), guide);
+  for (std::size_t y = 0; y < kGuideGrid; ++y) {
+    Append(BoundsOf(&squares[y * kGuideGrid]), guide);
+  }
 }
 
 }  // namespace
@@ -139,10 +161,25 @@ std::uint32_t AppendGuideCell(std::span<const double, kGuideSquares> masses, dou
   LL_CHECK(even >= 0.01 && even <= 1);
   LL_CHECK(fraction >= 0 && fraction < 1);
   const std::vector<Leaf> leaves = Divide(Pyramid(Blend(masses, even)));
-  AppendLeaves(leaves, guide);
-  AppendGrid(leaves, guide);
+  AppendSquares(Flatten(leaves), guide);
   guide.fraction.push_back(fraction);
-  return static_cast<std::uint32_t>(guide.cells() - 1);
+  const auto cell = static_cast<std::uint32_t>(guide.cells() - 1);
+  guide.density.resize(guide.cells() * kGuideSquares);
+  SetGuideDensities(guide, cell);
+  return cell;
+}
+
+void SetGuideDensities(Guide& guide, std::uint32_t cell) {
+  const float* rows = &guide.cumulative[cell * kGuideBounds];
+  for (std::size_t y = 0; y < kGuideGrid; ++y) {
+    const float* row = rows + kGuideGrid * (y + 1);
+    const double height = double{rows[y]} - (y > 0 ? double{rows[y - 1]} : 0);
+    for (std::size_t x = 0; x < kGuideGrid; ++x) {
+      const double width = double{row[x]} - (x > 0 ? double{row[x - 1]} : 0);
+      guide.density[cell * kGuideSquares + y * kGuideGrid + x] =
+          static_cast<float>(height * width * (kGuideSquares / 4.0));
+    }
+  }
 }
 
 Guide UnknowingGuide() {

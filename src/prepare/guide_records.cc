@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "src/core/check.h"
-#include "src/image/octahedral.h"
+#include "src/prepare/guide_square.h"
 
 namespace lanelight {
 namespace {
@@ -40,14 +41,18 @@ GuideRecord RecordOf(const Ray& ray, double radiance, const Guide& guide) {
   GuideRecord r;
   r.from = ray.from;
   r.normal = UnpackDirection(ray.normal);
-  const Vec3f d = UnpackDirection(ray.toward);
-  const auto [u, v] = DirectionToOctahedral(VecCast<double>(d));
-  r.u = Fixed(u), r.v = Fixed(v);
+  const GuideSquarePoint at = ToGuideSquare(VecCast<double>(r.normal),
+                                            VecCast<double>(UnpackDirection(ray.toward)));
+  const bool above = at.to_solid_angle > 0;
+  const double pdf = double{ray.pdf};
+  r.u = Fixed(at.u), r.v = Fixed(at.v);
   r.radiance = static_cast<float>(radiance);
+  r.cosine = above ? static_cast<float>(at.cosine / std::numbers::pi / pdf) : 0;
   const std::uint32_t cell = GuideCellAt(guide, r.from, r.normal);
   const double c = double{guide.fraction[cell]};
   if (c == 0) return r;
-  const double g = double{GuidePdf(guide, cell, r.u, r.v)} / double{ray.pdf};
+  const double g =
+      above ? double{GuideDensity(guide, cell, r.u, r.v)} * at.to_solid_angle / pdf : 0;
   // q = c g + (1 - c) p; rounding at the borders of cells must not make p negative.
   r.guide = static_cast<float>(std::min(g, 1 / c));
   r.material = static_cast<float>(std::max(0.0, 1 - c * g) / (1 - c));
@@ -78,12 +83,11 @@ std::uint32_t GuideCellAt(const Guide& guide, Vec3f point, Vec3f normal) {
   }
 }
 
-float GuidePdf(const Guide& guide, std::uint32_t cell, std::uint16_t u, std::uint16_t v) {
-  static_assert(kGuideGrid == 32);
-  const std::size_t square = (std::size_t{v} >> 11) * kGuideGrid + (std::size_t{u} >> 11);
-  const std::size_t leaf =
-      guide.leaf[std::size_t{cell} * kGuideGrid * kGuideGrid + square];
-  return guide.pdf_sa[std::size_t{cell} * kGuideLeaves + leaf];
+float GuideDensity(const Guide& guide, std::uint32_t cell, std::uint16_t u,
+                   std::uint16_t v) {
+  static_assert(kGuideGrid == 16);
+  const std::size_t square = (std::size_t{v} >> 12) * kGuideGrid + (std::size_t{u} >> 12);
+  return guide.density[cell * kGuideSquares + square];
 }
 
 std::uint64_t ReadGuideRecords(std::span<const float> planes, const Guide& guide,

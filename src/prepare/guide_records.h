@@ -17,8 +17,9 @@ namespace lanelight {
 struct GuideRecord {
   Vec3f from;          // where it starts
   Vec3f normal;        // there, on the side that the path came from
-  std::uint16_t u, v;  // direction: point of the octahedral square, in 2^-16
+  std::uint16_t u, v;  // direction: point of the cell's square, in 2^-16
   float radiance;      // estimate of what arrives, >= 0, finite
+  float cosine = 1;    // density of the cosine / q; 0: below the surface, no point
   float material = 1;  // p / q
   float guide = 0;     // g / q; 0: the pass knew of no guide there
 
@@ -38,8 +39,9 @@ Vec3f UnpackDirection(std::uint32_t packed);
 /// The cell of a point and a normal, as kernels find it.
 std::uint32_t GuideCellAt(const Guide& guide, Vec3f point, Vec3f normal);
 
-/// Density over solid angle of a direction in a cell, by the point of the square.
-float GuidePdf(const Guide& guide, std::uint32_t cell, std::uint16_t u, std::uint16_t v);
+/// Density over [-1, 1]^2 at a point of a cell's square, in 2^-16.
+float GuideDensity(const Guide& guide, std::uint32_t cell, std::uint16_t u,
+                   std::uint16_t v);
 
 /// Appends the rays of samples, kGuidePlanes values each, that `guide` (of which nothing
 /// may be known) took part in. Leaves out what is not a ray: specular ones, and what is

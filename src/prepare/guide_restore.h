@@ -8,10 +8,10 @@
 
 namespace lanelight {
 
-/// Completes `guide`, of which nodes, squares, cumulative masses and fractions are set:
-/// densities and grids follow. Returns what kernels could not live with, in a few words;
-/// empty if nothing: then nodes are a tree of at most kGuideDepth levels whose leaves
-/// name cells, and the squares of each cell cover the grid once.
+/// Completes `guide`, of which nodes, cumulative masses and fractions are set: densities
+/// follow. Returns what kernels could not live with, in a few words; empty if nothing:
+/// then nodes are a tree of at most kGuideDepth levels whose leaves name cells, and every
+/// square of a cell has a positive mass.
 std::string CompleteGuide(Guide& guide);
 
 }  // namespace lanelight

@@ -46,18 +46,16 @@ std::vector<TrainedTable> TakeGuide(const Guide& guide) {
     at.push_back(double(node.at));
     next.push_back(node.next);
   }
-  return {{"guide_at", "by node: where it divides its axis", std::move(at)},
-          {"guide_next", "by node: axis | (first child, or cell) << 3; axis 7: a leaf",
-           std::move(next)},
-          {"guide_square",
-           "by cell and leaf: x | y << 8 | side << 16",
-           {guide.square.begin(), guide.square.end()}},
-          {"guide_cumulative",
-           "by cell and leaf: mass of the leaves up to it",
-           {guide.cumulative.begin(), guide.cumulative.end()}},
-          {"guide_fraction",
-           "by cell: with which probability it proposes",
-           {guide.fraction.begin(), guide.fraction.end()}}};
+  return {
+      {"guide_at", "by node: where it divides its axis", std::move(at)},
+      {"guide_next", "by node: axis | (first child, or cell) << 3; axis 7: a leaf",
+       std::move(next)},
+      {"guide_cumulative",
+       "by cell: mass of the rows of the square up to each; then by row, of its squares",
+       {guide.cumulative.begin(), guide.cumulative.end()}},
+      {"guide_fraction",
+       "by cell: with which probability it proposes",
+       {guide.fraction.begin(), guide.fraction.end()}}};
 }
 
 void PutGuide(const std::vector<TrainedTable>& trained, Guide& out) {
@@ -69,9 +67,6 @@ void PutGuide(const std::vector<TrainedTable>& trained, Guide& out) {
   }
   for (std::size_t i = 0; i < at.size(); ++i) {
     guide.nodes.push_back({static_cast<float>(at[i]), Whole(next[i], "guide_next")});
-  }
-  for (double square : ValuesOf(trained, "guide_square")) {
-    guide.square.push_back(Whole(square, "guide_square"));
   }
   PutFloats(ValuesOf(trained, "guide_cumulative"), guide.cumulative);
   PutFloats(ValuesOf(trained, "guide_fraction"), guide.fraction);

@@ -7,6 +7,7 @@
 
 #include "kernels/stages.h"
 #include "src/image/octahedral.h"
+#include "src/prepare/guide_square.h"
 #include "src/prepare/tables.h"
 #include "src/stat/hypothesis.h"
 #include "tests/guide/random_guide.h"
@@ -35,10 +36,11 @@ struct GuidedPaths {
   StrategyTables tables;
   WaveFixture fixture;
   std::uint32_t count;
+  Vec3d seen_from;
 
   GuidedPaths(const TestMaterial& material, Vec3d wo, unsigned seed,
               std::uint32_t paths = kPaths)
-      : fixture(scene, paths), count(paths) {
+      : fixture(scene, paths), count(paths), seen_from(wo) {
     scene.materials = material.table;
     tables.guide = RandomGuide({.seed = seed, .levels = 0, .decades = 3});
     fixture.run.tables = &tables;
@@ -83,52 +85,81 @@ struct GuidedPaths {
     return {path().ls_x[i], path().ls_y[i], path().ls_z[i]};
   }
   double Fraction() const { return tables.guide.fraction[0]; }
-  double GuideDensity(std::size_t square) const {
-    return tables.guide.pdf_sa[tables.guide.leaf[square]];
+  // pdf_sa of the guide; the surface seen from above or from below.
+  double GuideDensity(Vec3d d) const {
+    const GuideSquarePoint at = Point(d);
+    if (!(at.to_solid_angle > 0)) return 0;
+    return double{tables.guide.density[SquareOf(d)]} * at.to_solid_angle;
   }
-  double GuideDensity(Vec3d d) const { return GuideDensity(SquareOf(d)); }
+  GuideSquarePoint Point(Vec3d d) const {
+    return ToGuideSquare({0, 0, seen_from.z > 0 ? 1.0 : -1.0}, d);
+  }
   double Mixture(double guide, double material) const {
     return Fraction() * guide + (1 - Fraction()) * material;
   }
-  static std::size_t SquareOf(Vec3d d) {
-    const auto [s, t] = DirectionToOctahedral(d);
+  std::size_t SquareOf(Vec3d d) const {
+    const GuideSquarePoint at = Point(d);
     const auto part = [](double x) {
       return std::min(static_cast<std::size_t>(x * kGuideGrid),
                       std::size_t{kGuideGrid - 1});
     };
-    return part(t) * kGuideGrid + part(s);
+    return part(at.v) * kGuideGrid + part(at.u);
+  }
+  // Squares above, then those below.
+  std::size_t BinOf(Vec3d d) const {
+    return SquareOf(d) + (Point(d).to_solid_angle > 0 ? 0 : kGuideSquares);
   }
 };
+constexpr std::size_t kBins = 2 * kGuideSquares;
 
-// Expected numbers of paths that scatter into each square, and of the others.
-std::vector<double> Expected(const GuidedPaths& paths, const TestMaterial& m, Vec3d wo) {
-  constexpr std::uint32_t kSub = 16, kSide = kSub * kGuideGrid;
-  ProbeBatch batch(kSide * kSide);
+// Adds f(direction, value, material's pdf) times solid angle to the bins of directions.
+template <class F>
+void Integrate(const GuidedPaths& paths, const TestMaterial& m, Vec3d wo,
+               const std::vector<Vec3d>& directions, std::vector<double>& bins, F f) {
+  ProbeBatch batch(static_cast<std::uint32_t>(directions.size()));
   batch.SetWo(wo);
-  for (std::uint32_t i = 0; i < batch.n; ++i) {
-    batch.SetWi(
-        i, OctahedralToDirection((i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide));
-  }
+  for (std::uint32_t i = 0; i < batch.n; ++i) batch.SetWi(i, directions[i]);
   batch.Eval(m);
-  std::vector<double> expected(kGuideSquares + 1);
-  double rest = kPaths;
   for (std::uint32_t i = 0; i < batch.n; ++i) {
     if (!(batch.value[0][i] > 0)) continue;
-    const std::size_t square = i / kSide / kSub * kGuideGrid + i % kSide / kSub;
-    const double density = paths.Mixture(paths.GuideDensity(square), batch.pdf[i]);
-    const double count = kPaths * density * 4 * std::numbers::pi / batch.n;
-    expected[square] += count;
-    rest -= count;
+    bins[paths.BinOf(directions[i])] += f(directions[i], double(batch.pdf[i])) / batch.n;
   }
-  expected.back() = std::max(rest, 0.0);
+}
+
+// Expected numbers of paths that scatter into each bin, and of the others: the guide's
+// part over the square, where it jumps at borders only; the material's over the sphere,
+// where it is bounded.
+std::vector<double> Expected(const GuidedPaths& paths, const TestMaterial& m, Vec3d wo) {
+  constexpr std::uint32_t kSide = 16 * kGuideGrid, kOctahedral = 32 * kGuideGrid;
+  std::vector<Vec3d> above, all;
+  for (std::uint32_t k = 0; k < kSide * kSide; ++k) {
+    above.push_back(FromGuideSquare({0, 0, paths.seen_from.z > 0 ? 1.0 : -1.0},
+                                    (k % kSide + 0.5) / kSide,
+                                    (k / kSide + 0.5) / kSide));
+  }
+  for (std::uint32_t k = 0; k < kOctahedral * kOctahedral; ++k) {
+    all.push_back(OctahedralToDirection((k % kOctahedral + 0.5) / kOctahedral,
+                                        (k / kOctahedral + 0.5) / kOctahedral));
+  }
+  std::vector<double> expected(kBins + 1);
+  const double c = paths.Fraction();
+  Integrate(paths, m, wo, above, expected, [&](Vec3d d, double) {
+    return c * kPaths * 4 * paths.GuideDensity(d) / paths.Point(d).to_solid_angle;
+  });
+  Integrate(paths, m, wo, all, expected, [&](Vec3d, double pdf) {
+    return (1 - c) * kPaths * 4 * std::numbers::pi * pdf;
+  });
+  double sum = 0;
+  for (double e : expected) sum += e;
+  expected.back() = std::max(kPaths - sum, 0.0);
   return expected;
 }
 
 std::vector<double> Observed(const GuidedPaths& paths) {
-  std::vector<double> counts(kGuideSquares + 1);
+  std::vector<double> counts(kBins + 1);
   for (std::uint32_t i = 0; i < kPaths; ++i) {
     const bool found = paths.path().bsdf_pdf[i] > 0 && paths.path().beta_r[i] > 0;
-    counts[found ? paths.SquareOf(paths.Direction(i)) : kGuideSquares] += 1;
+    counts[found ? paths.BinOf(paths.Direction(i)) : kBins] += 1;
   }
   return counts;
 }
@@ -236,6 +267,7 @@ TEST_CASE("a guide takes nothing from delta lobes", "[guide][stat]") {
     double energy[2], error[2];
     for (const bool guided : {false, true}) {
       GuidedPaths paths(m, wo, 43);
+      paths.tables.guide.fraction[0] = 0.5f;
       paths.Shade(m.kind, guided);
       double sum = 0, squares = 0;
       for (std::uint32_t i = 0; i < kPaths; ++i) {

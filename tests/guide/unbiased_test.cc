@@ -141,11 +141,11 @@ TEST_CASE("guided: planted errors of a guide are found", "[guide]") {
   };
   CHECK(same(Lopsided()));
   Guide dense = Lopsided();  // the density off by 1 %
-  for (float& pdf : dense.pdf_sa) pdf *= 1.01f;
+  for (float& density : dense.density) density *= 1.01f;
   CHECK_FALSE(same(dense));
   Guide stale = Lopsided();  // the density of the neighbouring cell
-  std::rotate(stale.pdf_sa.begin(), stale.pdf_sa.begin() + kGuideLeaves,
-              stale.pdf_sa.end());
+  std::rotate(stale.density.begin(), stale.density.begin() + kGuideSquares,
+              stale.density.end());
   CHECK_FALSE(same(stale));
 }
 

@@ -3,9 +3,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
+
+#include "src/prepare/guide_square.h"
 
 namespace lanelight {
 namespace {
@@ -26,37 +27,37 @@ Masses Lopsided(unsigned seed, double decades) {
   return masses;
 }
 
-// What must hold for any cell.
-void CheckCell(const Guide& guide, std::uint32_t cell) {
-  REQUIRE(guide.cumulative.size() == guide.cells() * kGuideLeaves);
-  REQUIRE(guide.leaf.size() == guide.cells() * kGuideSquares);
-  double before = 0, integral = 0;
-  std::size_t covered = 0;
-  for (std::uint32_t i = 0; i < kGuideLeaves; ++i) {
-    const std::size_t at = std::size_t{cell} * kGuideLeaves + i;
-    const std::uint32_t square = guide.square[at];
-    const std::uint32_t x = square & 255, y = square >> 8 & 255, side = square >> 16;
-    const double share = double(side) * side / double(kGuideSquares);
-    const double mass = double{guide.cumulative[at]} - before;
-    REQUIRE(guide.pdf_sa[at] > 0);
-    CHECK(guide.pdf_sa[at] * share * 4 * std::numbers::pi ==
-          Approx(mass).epsilon(1e-6).margin(0));
-    integral += guide.pdf_sa[at] * share * 4 * std::numbers::pi;
-    before = guide.cumulative[at];
-    for (std::uint32_t v = y; v < y + side; ++v) {
-      for (std::uint32_t u = x; u < x + side; ++u, ++covered) {
-        REQUIRE(guide.leaf[(std::size_t{cell} * kGuideGrid + v) * kGuideGrid + u] == i);
-      }
+// Masses of a cell's squares, by its bounds.
+Masses MassesOf(const Guide& guide, std::uint32_t cell) {
+  const float* rows = &guide.cumulative[cell * kGuideBounds];
+  Masses masses(kGuideSquares);
+  for (std::size_t y = 0; y < kGuideGrid; ++y) {
+    const float* row = rows + kGuideGrid * (y + 1);
+    const double height = double{rows[y]} - (y > 0 ? double{rows[y - 1]} : 0);
+    for (std::size_t x = 0; x < kGuideGrid; ++x) {
+      const double width = double{row[x]} - (x > 0 ? double{row[x - 1]} : 0);
+      masses[y * kGuideGrid + x] = height * width;
     }
   }
-  CHECK(covered == kGuideSquares);
-  CHECK(guide.cumulative[std::size_t{cell} * kGuideLeaves + kGuideLeaves - 1] == 1.0f);
-  CHECK(integral == Approx(1).epsilon(1e-6));
+  return masses;
 }
 
-TEST_CASE(
-    "guide cells: leaves cover the square once, their densities are what sampling does",
-    "[guide]") {
+// What must hold for any cell.
+void CheckCell(const Guide& guide, std::uint32_t cell) {
+  REQUIRE(guide.cumulative.size() == guide.cells() * kGuideBounds);
+  REQUIRE(guide.density.size() == guide.cells() * kGuideSquares);
+  const Masses masses = MassesOf(guide, cell);
+  double sum = 0;
+  for (std::size_t s = 0; s < kGuideSquares; ++s) {
+    const double density = double{guide.density[cell * kGuideSquares + s]};
+    REQUIRE(masses[s] > 0);
+    CHECK(density * 4 / kGuideSquares == Approx(masses[s]).epsilon(1e-6).margin(0));
+    sum += masses[s];
+  }
+  CHECK(sum == Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("guide cells: densities are what sampling does", "[guide]") {
   Guide guide;
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const double even = seed % 2 == 0 ? 0.01 : 0.05;
@@ -69,56 +70,53 @@ TEST_CASE("guide cells: extremes of masses", "[guide]") {
   Guide guide;
   Masses masses(kGuideSquares, 0.0);
   const std::uint32_t none = Append(masses, 0.05, 0, guide);
-  for (std::size_t at = 0; at < kGuideLeaves; ++at) {  // 8 x 8 equal squares
-    CHECK(guide.square[at] >> 16 == 4);
-    CHECK(guide.pdf_sa[at] == Approx(0.25 / std::numbers::pi));
+  const Masses even = MassesOf(guide, none);
+  for (std::size_t s = 0; s < kGuideSquares; ++s) {
+    CHECK(even[s] == Approx(CosineMasses()[s]).epsilon(1e-5));
   }
-  masses[777] = 1e308;  // one bright record, and next to it what a double can hold
-  masses[776] = 1e308;
+  masses[77] = 1e308;  // one bright record, and next to it what a double can hold
+  masses[76] = 1e308;
   masses[0] = 5e-324;
   const std::uint32_t bright = Append(masses, 0.05, 0.9f, guide);
   masses.assign(kGuideSquares, 5e-324);
   const std::uint32_t faint = Append(masses, 0.05, 0.9f, guide);
   for (const std::uint32_t cell : {none, bright, faint}) CheckCell(guide, cell);
-  const std::uint8_t leaf = guide.leaf[bright * kGuideSquares + 777];
-  const std::size_t at = bright * kGuideLeaves + leaf;
-  CHECK(guide.square[at] == (777 % kGuideGrid | 777 / kGuideGrid << 8 | 1 << 16));
-  CHECK(guide.pdf_sa[at] * 4 * std::numbers::pi / kGuideSquares ==
-        Approx(0.95 / 2 + 0.05 / kGuideSquares).epsilon(1e-4));
+  CHECK(MassesOf(guide, bright)[77] ==
+        Approx(0.95 / 2 + 0.05 * CosineMasses()[77]).epsilon(1e-4));
 }
 
-// Mass of the block of squares at x, y: its own share of 0.95, and the even rest.
-double Blended(const Masses& masses, std::uint32_t x, std::uint32_t y,
-               std::uint32_t side) {
-  double sum = 0, inside = 0;
-  for (double m : masses) sum += m;
-  for (std::uint32_t v = y; v < y + side; ++v) {
-    for (std::uint32_t u = x; u < x + side; ++u) inside += masses[v * kGuideGrid + u];
-  }
-  return 0.95 * inside / sum + 0.05 * side * side / double(kGuideSquares);
-}
-
-TEST_CASE("guide cells: no leaf that could be split is heavier than one that was",
-          "[guide]") {
+TEST_CASE("guide cells: squares of little mass are taken together", "[guide]") {
+  // Within a leaf the density is the cosine's: count how many there are, and how heavy.
   Guide guide;
   const Masses masses = Lopsided(99, 6);
   Append(masses, 0.05, 0.5f, guide);
-  double heaviest_whole = 0, lightest_split = 1;
-  for (std::uint32_t side = 2; side <= kGuideGrid; side *= 2) {
-    for (std::uint32_t y = 0; y < kGuideGrid; y += side) {
-      for (std::uint32_t x = 0; x < kGuideGrid; x += side) {
-        const std::uint32_t leaf = guide.square[guide.leaf[y * kGuideGrid + x]];
-        const double mass = Blended(masses, x, y, side);
-        if (leaf >> 16 == side) heaviest_whole = std::max(heaviest_whole, mass);
-        if (leaf >> 16 < side) lightest_split = std::min(lightest_split, mass);
+  const Masses flat = MassesOf(guide, 0);
+  const auto quotient = [&](std::size_t s) { return flat[s] / CosineMasses()[s]; };
+  double heaviest_joined = 0, sum = 0;
+  for (double m : masses) sum += m;
+  std::size_t alone = 0;
+  for (std::size_t y = 0; y < kGuideGrid; y += 2) {
+    for (std::size_t x = 0; x < kGuideGrid; x += 2) {
+      const std::size_t s = y * kGuideGrid + x;
+      const bool joined = std::abs(quotient(s) / quotient(s + 1) - 1) < 1e-3;
+      double block = 0;
+      for (std::size_t q : {s, s + 1, s + kGuideGrid, s + kGuideGrid + 1}) {
+        block += masses[q] / sum;
+        // A square of its own has its own mass.
+        const double own = 0.95 * masses[q] / sum + 0.05 * CosineMasses()[q];
+        if (!joined) CHECK(flat[q] == Approx(own).epsilon(1e-3));
       }
+      alone += joined ? 0 : 1;
+      if (joined) heaviest_joined = std::max(heaviest_joined, block);
     }
   }
-  CHECK(heaviest_whole > 0);
-  CHECK(heaviest_whole <= lightest_split * (1 + 1e-12));
+  // 21 splits make 64 leaves; the first five of them cannot reach single squares.
+  CHECK(alone >= 3);
+  CHECK(alone <= 16);
+  CHECK(heaviest_joined < 1.0 / 16);
 }
 
-TEST_CASE("guide cells: what knows nothing is even and never proposes", "[guide]") {
+TEST_CASE("guide cells: what knows nothing is the cosine and never proposes", "[guide]") {
   const Guide guide = UnknowingGuide();
   CheckCell(guide, 0);
   REQUIRE(guide.nodes.size() == 1);
