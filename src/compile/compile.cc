@@ -15,7 +15,7 @@
 #include "src/compile/placement.h"
 #include "src/compile/quadrics.h"
 #include "src/compile/textures.h"
-#include "src/compile/texture_table.h"
+#include "src/compile/texture_programs.h"
 
 namespace lanelight {
 namespace {

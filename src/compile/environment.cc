@@ -9,7 +9,7 @@
 #include "src/core/error_text.h"
 #include "src/image/octahedral.h"
 #include "src/compile/environment_table.h"
-#include "src/compile/texture_table.h"
+#include "src/compile/texture_programs.h"
 
 namespace lanelight {
 namespace {

@@ -6,7 +6,7 @@
 #include "src/core/error.h"
 #include "src/core/error_text.h"
 #include "src/core/parallel.h"
-#include "src/compile/texture_table.h"
+#include "src/compile/texture_programs.h"
 
 namespace lanelight {
 namespace {

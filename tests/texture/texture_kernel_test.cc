@@ -43,7 +43,7 @@ HWY_AFTER_NAMESPACE();
 #include "kernels/simd/target.h"
 #include "tests/reference/texture.h"
 #include "tests/texture/texture_files.h"
-#include "src/compile/texture_table.h"
+#include "src/compile/texture_programs.h"
 
 namespace lanelight {
 

@@ -10,7 +10,7 @@
 #include "src/path/stage.h"
 #include "tests/reference/texture.h"
 #include "tests/texture/texture_files.h"
-#include "src/compile/texture_table.h"
+#include "src/compile/texture_programs.h"
 
 namespace lanelight {
 

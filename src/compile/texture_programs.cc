@@ -1,4 +1,4 @@
-#include "src/compile/texture_table.h"
+#include "src/compile/texture_programs.h"
 
 #include <map>
 #include <set>

@@ -1,5 +1,5 @@
 // Compiling textures: sharing, channels, errors with their place.
-#include "src/compile/texture_table.h"
+#include "src/compile/texture_programs.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
