@@ -1,0 +1,16 @@
+// Shapes that emit, as lights.
+#pragma once
+
+#include "src/compile/geometry.h"
+#include "src/compile/light_list.h"
+#include "src/compile/placement.h"
+#include "src/scene/description.h"
+
+namespace lanelight {
+
+/// Adds a light for each emitting triangle, rectangle of two triangles, sphere and disk,
+/// and sets the `light` of its records in `geometry`.
+void CompileAreaLights(const SceneDescription& description, const Placement& placement,
+                       CompiledGeometry& geometry, LightList& lights);
+
+}  // namespace lanelight
