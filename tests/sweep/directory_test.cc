@@ -1,0 +1,91 @@
+// `lanelight sweep` where its directory does not behave.
+#include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include "src/cli/exit_codes.h"
+#include "tests/sweep/sweep_folder.h"
+#include "tests/sweep/sweep_process.h"
+
+namespace lanelight::sweep_process {
+namespace {
+
+using Catch::Contains;
+namespace fs = std::filesystem;
+
+}  // namespace
+
+TEST_CASE("sweep: a directory that cannot be written", "[sweep][cli]") {
+  const TempDirectory directory;
+  const std::string file = WriteSweep(directory), out = directory / "out";
+  REQUIRE(Sweep(file, out, {"--part", "1/2"}).exit_code == kExitGood);
+  const auto before = CellPixels(out);
+  using fs::perms;
+  const auto read_only = perms::owner_read | perms::owner_exec | perms::group_read |
+                         perms::group_exec | perms::others_read | perms::others_exec;
+  fs::permissions(directory.path(), read_only);
+  fs::permissions(out, read_only);
+  fs::permissions(out + "/cells", read_only);
+  ProcessOptions options;
+  // The superuser may write anywhere.
+  if (geteuid() == 0) options.prepare = [] { [[maybe_unused]] int r = setuid(65534); };
+  const ProcessResult r = Sweep(file, out, {}, options);
+  INFO(r.err);
+  CHECK(r.exit_code == kExitBadInput);
+  CHECK_THAT(r.err, Contains("cannot write '" + out) && Contains("Permission denied"));
+  CHECK(SamePixels(CellPixels(out), before));
+  fs::permissions(directory.path(), perms::owner_all);
+  fs::permissions(out, perms::owner_all);
+  fs::permissions(out + "/cells", perms::owner_all);
+  CHECK(RenderedBy(Sweep(file, out)) == kSweepCells / 2);
+}
+
+TEST_CASE("sweep: a directory that vanishes ends the sweep", "[sweep][cli]") {
+  const TempDirectory directory;
+  const std::string file = WriteSweep(directory), out = directory / "out";
+  ProcessOptions options;
+  options.temp_directory = directory.path();
+  options.trigger = "sweep: 4 of 22";
+  options.action = [&](int) { fs::rename(out, directory / "away"); };
+  const ProcessResult r = Sweep(file, out, {}, options);
+  INFO(r.err);
+  CHECK(r.exit_code == kExitBadInput);
+  CHECK_THAT(r.err, Contains("no directory '" + out + "/cells'"));
+  CHECK_FALSE(fs::exists(out));  // not made anew
+  // What there was is whole, and goes on elsewhere.
+  const int done = static_cast<int>(DoneCells(directory / "away").size());
+  CHECK(done >= 3);
+  CHECK(RenderedBy(Sweep(file, directory / "away")) == kSweepCells - done);
+  CHECK(Rubbish(directory / "away").empty());
+}
+
+TEST_CASE("sweep: a file system without locks needs parts", "[sweep][cli]") {
+  const TempDirectory directory;
+  const std::string file = WriteSweep(directory), out = directory / "out";
+  ProcessOptions options;
+  // fcntl(F_OFD_SETLK) fails as it does there.
+  options.prepare = [] {
+    sock_filter code[] = {
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_fcntl, 0, 3),
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args[1])),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, F_OFD_SETLK, 0, 1),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOLCK),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+    };
+    const sock_fprog program = {sizeof(code) / sizeof(code[0]), code};
+    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) _exit(126);
+    if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0) _exit(126);
+  };
+  const ProcessResult r = Sweep(file, out, {}, options);
+  CHECK(r.exit_code == kExitBadInput);
+  CHECK_THAT(r.err, Contains("has no locks") && Contains("--part I/N"));
+  CHECK(RenderedBy(Sweep(file, out, {"--part", "1/2"}, options)) == 11);
+  CHECK(RenderedBy(Sweep(file, out, {"--part", "2/2"}, options)) == 11);
+}
+
+}  // namespace lanelight::sweep_process
