@@ -1,0 +1,53 @@
+// What a run renders next: parts after which it may look at its error, give pixels other
+// shares of the samples, keep its state, or end.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "src/wavefront/error_looks.h"
+#include "src/wavefront/run_setting.h"
+#include "src/wavefront/run_watch.h"
+#include "src/wavefront/schedule.h"
+
+namespace lanelight {
+
+/// Samples of every pixel from `begin` up to `end`, in tasks of `per_task`; indices in
+/// kernels begin with `first`.
+struct RunPart {
+  std::uint64_t first = 0, begin = 0, end = 0;
+  std::uint32_t per_task = 1;
+  std::chrono::steady_clock::time_point start;
+};
+
+class RunParts {
+ public:
+  /// Refers to all of these for as long as it lives.
+  RunParts(const RunSetting& setting, ErrorLooks& looks, RunWatch& watch)
+      : setting_(setting), looks_(looks), watch_(watch) {}
+
+  /// Before the first part, after any training.
+  void Start();
+  /// After Start: the films have samples already.
+  void GoOn();
+  /// What to render next; nothing once the render is done.
+  std::optional<RunPart> Next();
+  /// A part has been rendered to its end.
+  void Finish(const RunPart& part);
+
+ private:
+  std::uint64_t NextDecision(std::uint64_t done) const;
+  void AllocateIfDue();
+  Pace::Tasks PaceTasks() const;
+  Round NextRound() const;
+  void TimeFit();
+
+  const RunSetting& setting_;
+  ErrorLooks& looks_;
+  RunWatch& watch_;
+  std::optional<Pace> pace_;  // with a time budget
+  bool allocated_ = false;    // samples, by their weights
+};
+
+}  // namespace lanelight

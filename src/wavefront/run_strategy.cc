@@ -1,0 +1,135 @@
+#include "src/wavefront/run_strategy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "src/scene/rendered_pixels.h"
+#include "src/wavefront/plan_features.h"
+#include "src/wavefront/profile.h"
+#include "src/wavefront/run_setting.h"
+#include "src/wavefront/sample_rate.h"
+#include "src/wavefront/stop_watcher.h"
+
+namespace lanelight {
+namespace {
+
+// The seed of kernels: another one after each kSamplesPerSeed samples.
+std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
+  const std::uint64_t turn = first_sample / kSamplesPerSeed * 0x9e3779b97f4a7c15u;
+  return static_cast<std::uint32_t>(seed ^ (seed >> 32) ^ (turn >> 32));
+}
+
+}  // namespace
+
+RunStrategy::RunStrategy(const CompiledScene& scene, const Plan& plan,
+                         const RunOptions& options, Crew& crew, const RunClock& clock)
+    : scene_(scene),
+      plan_(plan),
+      options_(options),
+      crew_(crew),
+      clock_(clock),
+      tables_(MakeStrategyTables(scene)),
+      run_(Parameters()) {}
+
+RunParameters RunStrategy::Parameters() const {
+  RunParameters run = MakeRunParameters(scene_, plan_);
+  run.seed = SeedOf(options_.seed, 0);
+  run.spp =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(options_.spp, kSamplesPerSeed));
+  run.tables = &tables_;
+  return run;
+}
+
+void RunStrategy::BeginWith(std::uint64_t first) {
+  run_.seed = SeedOf(options_.seed, first);
+}
+
+void RunStrategy::PlanTraining() {
+  if (NeedsTraining()) planned_samples_ = PlannedSamples();
+}
+
+std::uint64_t RunStrategy::PlannedSamples() const {
+  if (options_.planned_samples > 0) return options_.planned_samples;
+  const std::uint64_t pixels = RenderedPixels(scene_.film).pixels();
+  const bool decides = plan_.features.Has(Feature::kDecides);
+  if (decides && options_.seconds > 0) {
+    const StopWatcher watcher(options_.stop);
+    return SamplesWithin(options_.seconds, scene_, plan_.options, run_, &watcher);
+  }
+  return decides ? DecidedBy(pixels) : std::max(pixels * kPilotSpp, kLeastPilot);
+}
+
+void RunStrategy::Train() {
+  if (!NeedsTraining()) return;
+  TrainingOptions options;
+  options.planned_samples = planned_samples_;
+  options.keep_roulette = options_.keep_roulette;
+  // Ranks train for themselves and have to agree: their clocks would not.
+  if (options_.spp == 0 && !options_.samples_needed && crew_.ranks() == 1) {
+    options.seconds = options_.seconds;
+  }
+  options.stop = options_.stop;
+  training_ = lanelight::Train({scene_, plan_, run_, options, tables_});
+  training_.seconds = clock_.Seconds();
+  training_.cpu_seconds = clock_.CpuSeconds();
+  // What was cut short is trained anew when the run goes on.
+  if (!Interrupted(options_, crew_)) UseTraining();
+}
+
+void RunStrategy::TrainLike(const CrewStart& start) {
+  planned_samples_ = start.planned_samples;
+  if (!start.restored) Train();
+  if (!start.trained) return;
+  TrainingOutcome training;
+  training.changes = start.changes;
+  Restore(std::move(training), start.tables);
+}
+
+void RunStrategy::Restore(TrainingOutcome training,
+                          const std::vector<TrainedTable>& tables) {
+  training_ = std::move(training);
+  PutTraining(tables, tables_);
+  UseTraining();
+}
+
+// The image may be rendered with another roulette then.
+void RunStrategy::UseTraining() {
+  trained_ = true;
+  PlanOptions changed = plan_.options;
+  changed.Change(training_.changes);
+  if (PlannedStrategy(scene_, changed) == scene_.strategy) return;
+  plan_ = MakePlan(scene_, changed);
+  run_ = Parameters();
+}
+
+std::vector<TrainedTable> RunStrategy::Tables() const {
+  return trained_ ? TakeTraining(tables_) : std::vector<TrainedTable>();
+}
+
+void RunStrategy::Describe(RunResult& result) const {
+  result.pilot_seconds = training_.seconds;
+  result.pilot_cpu_seconds = training_.cpu_seconds;
+  result.pilot_samples = training_.samples;
+  result.pilot_rays = training_.rays;
+  result.pilot_note = training_.note;
+  result.pilot_changes = training_.changes;
+  result.roulette = PlannedStrategy(scene_, plan_.options).roulette;
+  result.stages = EmptyProfiles(plan_);
+  result.bytes_in_flight = plan_.wavefront * plan_.bytes_per_path;
+}
+
+// Another processor or library might learn other numbers.
+void RunStrategy::Agree() const {
+  if (crew_.ranks() == 1) return;
+  const std::string own = trained_ ? Fingerprint(training_, Tables()) : "nothing";
+  crew_.Agree("has learned something else before the image", own,
+              [&](const std::string& leaders, const std::string& its) {
+                if (leaders == its || Interrupted(options_, crew_)) return std::string();
+                return fmt::format("\n  rank 0: {}\n  it:     {}", leaders, its);
+              });
+}
+
+}  // namespace lanelight
