@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-class TaskWatcher;  // src/wavefront/tasks.h
+class TaskWatcher;  // src/wavefront/task_watcher.h
 
 /// By the speed of a few thousand samples with roulette on the throughput, in this
 /// process; rounded down to a power of two, so that runs on one machine mostly agree. At

@@ -1,22 +1,20 @@
-// The work of a run: (tile x sample range) tasks over threads, each with a wavefront of
-// its own, merged into the films in their order.
+// The work of a run: (tile x sample range) tasks over threads (task_runner.h), merged
+// into the films in their order.
 #pragma once
 
 #include <atomic>
-#include <memory>
 #include <mutex>
 #include <vector>
 
-#include "src/wavefront/allocation.h"
 #include "src/wavefront/crew.h"
 #include "src/wavefront/films.h"
 #include "src/wavefront/hand_out.h"
 #include "src/wavefront/run.h"
 #include "src/wavefront/schedule.h"
-#include "src/wavefront/seen_lights.h"
+#include "src/wavefront/share.h"
+#include "src/wavefront/task_runner.h"
 #include "src/wavefront/task_watcher.h"
 #include "src/wavefront/tiles.h"
-#include "src/wavefront/workspace.h"
 
 namespace lanelight {
 
@@ -73,38 +71,27 @@ class Tasks {
   void AddCounts(RunResult& result);
 
  private:
-  struct Range {
-    std::uint64_t begin = 0, end = 0;  // samples of a pixel
-  };
   std::uint64_t Goal(std::size_t tile, std::uint64_t limit) const {
     return shares_.empty() ? limit : shares_[tile].Samples(limit);
   }
   bool InChunks(std::uint64_t limit) const;
-  void UseWindows(std::uint64_t planned_spp);
-  void DivideUnevenTiles(const FilmAccumulator& film);
-  PixelRect Place(std::size_t tile) const;
+  std::vector<TileRange> Chunks(std::uint64_t limit) const;
   void RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& films);
-  Workspace& ThreadWorkspace();
-  bool RunTask(std::size_t tile, const Range& range, const TaskWatcher& watcher,
-               TaskSamples& out);
-  void SeeLights(std::size_t tile, const TileWork& work, TaskSamples& out,
-                 StageClock* clock);
+  void MergeChunks(const std::vector<TileRange>& chunks, Films& films);
+  bool RunTask(const TileRange& range, const TaskWatcher& watcher, TaskSamples& out);
   void Merge(std::size_t tile, TaskSamples& task, Films& films);
 
   const CompiledScene& scene_;
-  const Plan& plan_;
-  const RunParameters& run_;
   const RunOptions& options_;
   std::uint64_t planned_spp_;
   TilePartition partition_;
   std::uint64_t pixel_count_ = 0;
-  std::uint64_t first_ = 0;                      // of the current round
-  std::uint32_t per_task_ = 1;                   // of the current round
-  std::vector<std::uint64_t> done_;              // samples per pixel of each tile
-  std::vector<Share> shares_;                    // of each tile; empty: all the same
-  std::unique_ptr<SeenLightEdges> seen_lights_;  // null: not apart
-  bool begun_ = false;
-  std::vector<std::unique_ptr<Workspace>> workspaces_;
+  std::uint64_t first_ = 0;          // of the current round
+  std::uint32_t per_task_ = 1;       // of the current round
+  std::vector<std::uint64_t> done_;  // samples per pixel of each tile
+  std::vector<Share> shares_;        // of each tile; empty: all the same
+  TaskRunner runner_;
+  bool begun_ = false;  // the runner knows the tiles
   std::vector<TaskSamples> buffers_;
   std::atomic<std::uint64_t> taken_{0};
   RunCounts counts_;

@@ -10,7 +10,7 @@
 
 namespace lanelight {
 
-class TaskWatcher;  // src/wavefront/tasks.h
+class TaskWatcher;  // src/wavefront/task_watcher.h
 
 /// Pixels of a pass, and samples of each: at least four, so that it shows the
 /// variance within a pixel.
