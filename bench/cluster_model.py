@@ -158,7 +158,7 @@ def handed_out(machine, scene, core_seconds, side=TILE):
     k, nodes, cores = machine.k, machine.nodes, machine.cores
     tiles = scene.tiles(side)
     total = sum(tiles)
-    # A round is as long as src/ranks/mpi.cc makes it, unless a range would be too long.
+    # A round is as long as src/ranks/mpi_crew.cc makes it, unless a range would be too long.
     mean = min(k["longest_range"] * total / len(tiles) / max(tiles),
                k["round"] * nodes * cores / len(tiles), core_seconds / len(tiles))
     cost = [t / total * mean * len(tiles) for t in tiles]

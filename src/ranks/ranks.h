@@ -1,6 +1,6 @@
 // The processes (ranks) that were started together, from the first line of main to the
-// last. There are two of these: alone.cc, and mpi.cc, the only file that knows MPI; a
-// program is linked with one of them.
+// last. There are two of these: alone.cc, and mpi.cc with all other files of this folder;
+// a program is linked with one of them.
 #pragma once
 
 #include <memory>
