@@ -1,0 +1,84 @@
+#include "tests/wavefront/resume_fixture.h"
+
+#include <random>
+
+#include "src/estimate/target.h"
+
+namespace lanelight::resume {
+namespace {
+
+const char* kScene = R"(
+LookAt 0 2 -6  0 0.8 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 70 "integer yresolution" 37
+Integrator "path" "integer maxdepth" 4
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ]
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
+  Translate -2 3 0
+  Shape "sphere" "float radius" 0.3
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ 0.6 0.5 0.4 ]
+AttributeBegin
+  Rotate -90 1 0 0
+  Shape "plane"
+AttributeEnd
+Shape "sphere" "float radius" 0.8
+)";
+
+}  // namespace
+
+Rendered Render(const Request& request) {
+  const ThreadLimit limit(request.threads);
+  CompiledScene scene = PrepareScene(ParseSceneText(kScene, "test.pbrt", "."), {});
+  Strategy strategy = scene.strategy;
+  ApplyStrategy(request.strategy, {}, strategy);
+  UseStrategy(strategy, scene);
+  PlanOptions plan_options;
+  plan_options.max_depth = 4;
+  plan_options.wavefront = request.wavefront;
+  const Plan plan = MakePlan(scene, plan_options);
+  Rendered out{
+      FilmAccumulator(0, 0, kWidth, kHeight, GroupsOf(strategy), false), {}, plan};
+  RunOptions options;
+  options.spp = request.spp;
+  options.seed = request.seed;
+  options.keep_roulette = request.keep_roulette;
+  options.keeper = request.keeper;
+  options.stop = request.stop;
+  if (request.target > 0) {
+    options.samples_needed = [&](std::uint64_t done) {
+      return SamplesNeeded({request.target, 0}, EstimateError(out.film), done);
+    };
+  }
+  out.result = Run(scene, plan, options, out.film);
+  return out;
+}
+
+bool Same(const RunResult& a, const RunResult& b) {
+  return a.samples == b.samples && a.rays_closest == b.rays_closest &&
+         a.rays_shadow == b.rays_shadow && a.health.Total() == b.health.Total() &&
+         a.pilot_samples == b.pilot_samples && a.pilot_rays == b.pilot_rays &&
+         a.pilot_note == b.pilot_note && a.roulette == b.roulette && a.looks == b.looks;
+}
+
+Rendered RenderInParts(const Request& request, const std::vector<Request>& ends,
+                       Rest& rest, int& pauses, unsigned seed) {
+  std::mt19937 random(seed);
+  for (int run = 0;; ++run) {
+    const bool last = run >= 12;
+    Request part = last || ends.empty() ? request : ends[random() % ends.size()];
+    // The last one is looked at while it goes on, the others end there.
+    Pauser pauser(rest, 1 + static_cast<int>(random() % 8), !last);
+    part.threads = 1 + static_cast<int>(random() % 3);
+    part.wavefront = random() % 2 == 0 ? 0 : 300;
+    part.keeper = &pauser;
+    part.stop = &pauser.stop();
+    Rendered out = Render(part);
+    pauses += out.result.stop_reason == StopReason::kInterrupted;
+    if (last) return out;
+  }
+}
+
+}  // namespace lanelight::resume

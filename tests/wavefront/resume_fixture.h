@@ -1,0 +1,85 @@
+// Runs that are put down and picked up again, with what they leave in memory.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "src/wavefront/run_state.h"
+#include "tests/wavefront/kept_state.h"
+#include "tests/wavefront/render_fixture.h"
+
+namespace lanelight::resume {
+
+inline constexpr int kWidth = 70, kHeight = 37;  // of the image
+
+/// What a run leaves.
+struct Rest {
+  bool taken = false;
+  std::vector<KeptColumn> columns;
+  RunCounts counts;
+  bool trained = false;
+  TrainingOutcome training;
+  std::vector<TrainedTable> tables;
+};
+
+/// Puts the run down once it has been asked so often, and lets it end there or go on.
+class Pauser : public RunKeeper {
+ public:
+  Pauser(Rest& rest, int patience, bool stops)
+      : rest_(rest), patience_(patience), stops_(stops) {}
+
+  bool Restore(RunState& state) override {
+    if (!rest_.taken) return false;
+    PutColumns(rest_.columns, state.films);
+    state.counts = rest_.counts;
+    state.trained = rest_.trained;
+    state.training = rest_.training;
+    state.tables = rest_.tables;
+    return true;
+  }
+  bool Due() const override { return asked_.fetch_add(1) >= patience_; }
+  void Keep(RunState& state) override {
+    rest_ = {true,          CopyColumns(state.films), state.counts,
+             state.trained, state.training,           state.tables};
+    kept_ += 1;
+    asked_ = 0;
+    if (stops_) stop_ = true;
+  }
+
+  const std::atomic<bool>& stop() const { return stop_; }
+  int kept() const { return kept_; }
+
+ private:
+  Rest& rest_;
+  int patience_;
+  bool stops_;
+  mutable std::atomic<int> asked_{0};
+  int kept_ = 0;
+  std::atomic<bool> stop_{false};
+};
+
+struct Request {
+  std::string strategy;
+  std::uint64_t spp = 0, seed = 1;
+  double target = 0;
+  int threads = 2;
+  std::uint32_t wavefront = 0;
+  RunKeeper* keeper = nullptr;
+  const std::atomic<bool>* stop = nullptr;
+  bool keep_roulette = true;
+};
+
+/// A small scene: several tiles, whatever their size, and a few that are cut off.
+Rendered Render(const Request& request);
+
+/// In all but what clocks say.
+bool Same(const RunResult& a, const RunResult& b);
+
+/// Renders from rest to rest until `request` is met. The runs on the way want anything of
+/// `ends`; `pauses` counts those that were stopped.
+Rendered RenderInParts(const Request& request, const std::vector<Request>& ends,
+                       Rest& rest, int& pauses, unsigned seed);
+
+}  // namespace lanelight::resume
