@@ -12,6 +12,7 @@
 #include "src/wavefront/run_setting.h"
 #include "src/wavefront/sample_rate.h"
 #include "src/wavefront/stop_watcher.h"
+#include "src/wavefront/trained_tables.h"
 
 namespace lanelight {
 namespace {
@@ -91,8 +92,9 @@ void RunStrategy::TrainLike(const CrewStart& start) {
 void RunStrategy::Restore(TrainingOutcome training,
                           const std::vector<TrainedTable>& tables) {
   training_ = std::move(training);
-  PutTraining(tables, tables_);
+  PutTraining(tables, std::uint64_t{run_.width} * run_.height, tables_);
   UseTraining();
+  CheckTrained(plan_, tables_);
 }
 
 // The image may be rendered with another roulette then.

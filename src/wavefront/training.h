@@ -2,7 +2,8 @@
 // strategy learns. A strategy asks for one with a feature that its choice turns on
 // (src/strategy/choices.h); its pass may turn on further features
 // (PlanOptions::training), and with them columns, stages and planes of its own; what it
-// learns goes into StrategyTables. Results do not depend on the number of threads.
+// learns goes into StrategyTables (kept: trained_tables.h). Results do not depend on the
+// number of threads.
 #pragma once
 
 #include <atomic>
@@ -58,11 +59,5 @@ bool NeedsTraining(const Plan& plan);
 
 /// Runs what the plan's strategy asks for.
 TrainingOutcome Train(const TrainingContext& context);
-
-/// What it has put into the tables, to be kept and shipped; and back, into the tables
-/// that MakeStrategyTables has made:
-std::vector<TrainedTable> TakeTraining(const StrategyTables& tables);
-/// throws InputError for tables that are missing or that kernels must not be given.
-void PutTraining(const std::vector<TrainedTable>& trained, StrategyTables& tables);
 
 }  // namespace lanelight

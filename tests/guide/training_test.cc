@@ -8,6 +8,7 @@
 #include "src/prepare/guide_cell.h"
 #include "src/wavefront/guide_tables.h"
 #include "src/wavefront/train_guide.h"
+#include "src/wavefront/trained_tables.h"
 #include "tests/guide/prepared.h"
 
 namespace lanelight {
@@ -29,6 +30,12 @@ TrainedTable& Named(std::vector<TrainedTable>& tables, const std::string& name) 
   }
   FAIL("no table " << name);
   return tables[0];
+}
+
+// Puts tables back, into `tables`.
+void PutBack(const std::vector<TrainedTable>& trained, const Prepared& room,
+             StrategyTables& tables) {
+  PutTraining(trained, std::uint64_t{room.run.width} * room.run.height, tables);
 }
 
 }  // namespace
@@ -97,7 +104,7 @@ TEST_CASE("a guide is kept and comes back with the same bits", "[guide]") {
   room.TrainWith(400'000);
   const Guide& guide = room.tables.guide;
   StrategyTables back = MakeStrategyTables(room.scene);
-  PutTraining(TakeTraining(room.tables), back);
+  PutBack(TakeTraining(room.tables), room, back);
   const auto same = [](const auto& a, const auto& b) {
     return a.size() == b.size() &&
            std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
@@ -136,16 +143,16 @@ TEST_CASE("kernels get no broken guide", "[guide]") {
     std::vector<TrainedTable> bad = good;
     Named(bad, fault.table).values[fault.at] = fault.value;
     StrategyTables tables = MakeStrategyTables(room.scene);
-    CHECK_THROWS_AS(PutTraining(bad, tables), InputError);
+    CHECK_THROWS_AS(PutBack(bad, room, tables), InputError);
   }
   for (const char* table :
        {"guide_at", "guide_next", "guide_cumulative", "guide_fraction"}) {
     std::vector<TrainedTable> bad = good;
     Named(bad, table).values.pop_back();
     StrategyTables tables = MakeStrategyTables(room.scene);
-    CHECK_THROWS_AS(PutTraining(bad, tables), InputError);
+    CHECK_THROWS_AS(PutBack(bad, room, tables), InputError);
     Named(bad, table).name = "gone";
-    CHECK_THROWS_AS(PutTraining(bad, tables), InputError);
+    CHECK_THROWS_AS(PutBack(bad, room, tables), InputError);
   }
 }
 

@@ -7,7 +7,7 @@
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
 #include "src/prepare/tables.h"
-#include "src/wavefront/training.h"
+#include "src/wavefront/trained_tables.h"
 #include "tests/control/control_scenes.h"
 #include "tests/support/wave_fixture.h"
 
@@ -144,7 +144,7 @@ TEST_CASE("what shadow rays are worth is kept and put back", "[roulette]") {
   StrategyTables tables, back;
   CHECK(TakeTraining(tables).size() == 4);
   tables.shadow_worth.inverse = {0.5f, 3, 1e-7f};
-  PutTraining(TakeTraining(tables), back);
+  PutTraining(TakeTraining(tables), 1, back);
   CHECK(back.shadow_worth.inverse == tables.shadow_worth.inverse);
 }
 

@@ -1,0 +1,90 @@
+// What a training has learned comes back; tables that kernels must not be given do not.
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "src/core/error.h"
+#include "src/wavefront/trained_tables.h"
+
+namespace lanelight {
+namespace {
+
+using Catch::Contains;
+
+constexpr std::uint64_t kPixels = 6;
+
+// Of a grid of two cells; every value is another one.
+StrategyTables SmallTables() {
+  StrategyTables tables;
+  PathValues& p = tables.path_values;
+  p.grid.size[1] = 2;
+  p.scale = 0.75f;
+  float next = 0.125f;
+  const auto fill = [&next](AlignedVector<float>& values, std::size_t size) {
+    values.resize(size);
+    for (float& v : values) v = next += 0.5f;
+  };
+  fill(p.survive, p.grid.cells());
+  fill(p.split, p.grid.cells());
+  fill(p.inverse_pixel, 3 * kPixels);
+  fill(tables.shadow_worth.inverse, 3 * kPixels);
+  return tables;
+}
+
+std::string ErrorOf(const std::vector<TrainedTable>& trained, std::uint64_t pixels) {
+  StrategyTables tables;
+  try {
+    PutTraining(trained, pixels, tables);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("trained tables come back with the same bits", "[state]") {
+  const StrategyTables tables = SmallTables();
+  StrategyTables back;
+  PutTraining(TakeTraining(tables), kPixels, back);
+  CHECK(back.path_values.grid.size[1] == 2);
+  CHECK(back.path_values.scale == 0.75f);
+  CHECK(back.path_values.survive == tables.path_values.survive);
+  CHECK(back.path_values.split == tables.path_values.split);
+  CHECK(back.path_values.inverse_pixel == tables.path_values.inverse_pixel);
+  CHECK(back.shadow_worth.inverse == tables.shadow_worth.inverse);
+  // Nothing has been learned.
+  CHECK(ErrorOf(TakeTraining(StrategyTables()), kPixels) == "");
+}
+
+TEST_CASE("a trained table of the wrong size is named, with the right one", "[state]") {
+  const std::vector<TrainedTable> good = TakeTraining(SmallTables());
+  REQUIRE(good.size() == 5);
+  using Values = std::vector<double>;
+  const std::function<void(Values&)> faults[] = {
+      [](Values& v) { v.pop_back(); }, [](Values& v) { v.push_back(1); },
+      [](Values& v) { v.resize(3); }, [](Values& v) { v.resize(1000, 1); }};
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    for (const auto& fault : faults) {
+      std::vector<TrainedTable> bad = good;
+      fault(bad[i].values);
+      const std::size_t size = good[i].values.size();
+      CHECK_THAT(ErrorOf(bad, kPixels),
+                 Contains("table '" + good[i].name + "' has " +
+                          std::to_string(bad[i].values.size()) +
+                          " values: " + std::to_string(size) + " are right"));
+    }
+  }
+  CHECK(ErrorOf(good, kPixels) == "");
+  // Of another image.
+  CHECK_THAT(ErrorOf(good, 7), Contains("'path_values_inverse' has 18 values: 21 are"));
+}
+
+TEST_CASE("a per-pixel table that is empty is wrong where cells are not", "[state]") {
+  std::vector<TrainedTable> bad = TakeTraining(SmallTables());
+  bad[3].values.clear();
+  CHECK_THAT(ErrorOf(bad, kPixels),
+             Contains("'path_values_inverse' has 0 values: 18 are right, 3 for each of "
+                      "the 6 pixels of the full image"));
+}
+
+}  // namespace lanelight
