@@ -102,6 +102,7 @@ void AddCommands(CLI::App& root, Crew& crew, Command& chosen) {
   root.require_subcommand(1);
   AddRenderCommand(root, crew, chosen);
   AddAdviseCommand(root, chosen);
+  AddGuideCommand(root, chosen);
   AddPlanCommand(root, chosen);
   AddProfileCommand(root, chosen);
   AddInfoCommand(root, chosen);

@@ -15,6 +15,7 @@ using Command = std::function<int()>;
 /// `crew`: who renders; it must outlive the command.
 void AddRenderCommand(CLI::App& root, Crew& crew, Command& chosen);
 void AddAdviseCommand(CLI::App& root, Command& chosen);
+void AddGuideCommand(CLI::App& root, Command& chosen);
 void AddPlanCommand(CLI::App& root, Command& chosen);
 void AddProfileCommand(CLI::App& root, Command& chosen);
 void AddInfoCommand(CLI::App& root, Command& chosen);
