@@ -14,7 +14,7 @@ struct GuideSettings {
   double even = 0.05;               // AppendGuideCell
   /// Records that the cell around counts for: where there are fewer, or a few bright ones
   /// are all that there is, a cell is much like what surrounds it.
-  double borrowed = 24;
+  double borrowed = 200;
 };
 
 /// What came out, for a note.

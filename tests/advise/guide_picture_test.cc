@@ -73,9 +73,9 @@ TEST_CASE("pixels without a guide are refused", "[guide]") {
   CHECK_THROWS_AS(PictureOfGuide(box, options), InputError);
   options.x = -1;
   CHECK_THROWS_AS(PictureOfGuide(box, options), InputError);
-  // The sky.
+  // What is behind everything.
   options.x = options.y = 0;
-  CHECK_THROWS_AS(PictureOfGuide(Scene("sun-sky.pbrt"), options), InputError);
+  CHECK_THROWS_AS(PictureOfGuide(Scene("furnace.pbrt"), options), InputError);
 }
 
 }  // namespace lanelight
