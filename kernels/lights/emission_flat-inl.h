@@ -6,9 +6,10 @@
 #define LANELIGHT_LIGHTS_EMISSION_FLAT_INL_H_
 #endif
 
-#include "kernels/lights/geometry-inl.h"
+#include "kernels/lights/flat-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
+#include "src/strategy/choices.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -44,13 +45,26 @@ HWY_INLINE const Queue& HitsOf(Wave& wave, LightShape shape) {
   });
 }
 
-/// Shape has kShape and SolidAngle(scene, light, prim, from), with which its stage
-/// samples.
-template <class Shape, bool kMis, bool kSolidAngle>
-HWY_INLINE void EmissionOfFlat(Wave& wave) {
+/// Density with which the light of a triangle that was hit is sampled there, by solid
+/// angle where that is not too small; `by_area`: the density otherwise. The origin of the
+/// ray is the point that was lit, but for rounding.
+template <LightPoints kPoints, class Seen>
+HWY_INLINE VF PdfAtHit(const PathColumns& p, const Slots& slots, const Seen& seen, VF pmf,
+                       VF by_area) {
+  VF pdf = hn::Div(pmf, seen.omega);
+  if constexpr (kPoints == LightPoints::kProjected) {
+    const Bilinear weights =
+        seen.Weights(Gather3(p.start_n_x, p.start_n_y, p.start_n_z, slots));
+    pdf = hn::Mul(pdf, weights.Pdf(seen.Square(p, slots)));
+  }
+  return hn::IfThenElse(BySolidAngle(seen.omega), pdf, by_area);
+}
+
+template <LightShape kShape, bool kMis, LightPoints kPoints>
+void EmissionOfFlat(Wave& wave) {
   const PathColumns& p = wave.path;
   const CompiledScene& scene = *wave.scene;
-  const Queue& mine = HitsOf(wave, Shape::kShape);
+  const Queue& mine = HitsOf(wave, kShape);
   ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI prim = Gather(p.prim, slots);
     const Lights light(scene, LightOfTriangle(scene, prim));
@@ -62,16 +76,34 @@ HWY_INLINE void EmissionOfFlat(Wave& wave) {
       const VF t = Gather(p.t, slots), pmf = light.Pmf(p, slots);
       VF pdf =
           hn::Div(hn::Mul(hn::Mul(pmf, t), t), hn::Mul(light.Area(), hn::Abs(cosine)));
-      if constexpr (kSolidAngle) {
-        // The origin of the ray is the point that was lit, but for rounding.
-        const VF omega =
-            Shape::SolidAngle(light, triangle, Gather3(p.o_x, p.o_y, p.o_z, slots));
-        pdf = hn::IfThenElse(BySolidAngle(omega), hn::Div(pmf, omega), pdf);
+      if constexpr (kPoints != LightPoints::kArea) {
+        const V3 from = Gather3(p.o_x, p.o_y, p.o_z, slots);
+        if constexpr (kShape == LightShape::kTriangle) {
+          const SeenTriangle seen(triangle, from);
+          pdf = PdfAtHit<kPoints>(p, slots, seen, pmf, pdf);
+        } else {
+          const LightRectangle rectangle(light);
+          const SeenRectangle seen(rectangle, from);
+          pdf = PdfAtHit<kPoints>(p, slots, seen, pmf, pdf);
+        }
       }
       weight = EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots), pdf);
     }
     AddRadiance(p, slots, IfThenElseZero(facing, Mul(light.Radiance(), weight)));
   });
+}
+
+template <LightShape kShape>
+StageFn ResolveEmissionOfFlat(const FeatureSet& features) {
+  using enum LightPoints;
+  if (!features.Has(Feature::kMis)) return EmissionOfFlat<kShape, false, kArea>;
+  if (features.Has(Feature::kProjectedHits)) {
+    return EmissionOfFlat<kShape, true, kProjected>;
+  }
+  if (features.Has(Feature::kSolidAngleLights)) {
+    return EmissionOfFlat<kShape, true, kSolidAngle>;
+  }
+  return EmissionOfFlat<kShape, true, kArea>;
 }
 
 }  // namespace HWY_NAMESPACE

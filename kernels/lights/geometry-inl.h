@@ -43,6 +43,10 @@ struct LightRectangle {
   LANELIGHT_INLINE LocalRectangle From(V3 p) const {
     return {corner - p, along_x, along_y, n, size_x, size_y};
   }
+  /// x, y: distances from the corner along the sides.
+  LANELIGHT_INLINE V3 At(VF x, VF y) const {
+    return MulAdd(along_x, x, MulAdd(along_y, y, corner));
+  }
 };
 
 /// True where a triangle or rectangle is sampled by its solid angle; else by area.

@@ -19,8 +19,9 @@ inline Stage SampleLightStage(const char* name, const char* meaning, Feature sha
           meaning,
           QueueId::kLit,
           needs,
-          fields::kPoint | FieldSet{Field::u_light_0, Field::u_light_1, Field::ls_light,
-                                    Field::light_pmf},
+          fields::kPoint | fields::kNormal |
+              FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::u_light_0,
+                       Field::u_light_1, Field::ls_light, Field::light_pmf},
           fields::kLightSample,
           resolve};
 }
@@ -33,7 +34,7 @@ inline Stage EmissionStage(const char* name, const char* meaning, Feature shape,
           QueueId::kHit,
           {shape},
           fields::kRay | fields::kHit | fields::kThroughput | fields::kRadiance |
-              FieldSet{Field::bsdf_pdf},
+              fields::kStartNormal | FieldSet{Field::bsdf_pdf},
           fields::kRadiance,
           resolve};
 }

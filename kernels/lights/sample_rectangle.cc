@@ -1,11 +1,9 @@
-// Light samples on emitting rectangles: uniform over the area, or over the solid angle
-// (light-points=solid-angle) where that is not too small.
-//   density     pdf_area = pmf / area, pdf_sa = pdf_area d^2 / |cos|; or
-//               pdf_sa = pmf / omega
+// Light samples on emitting rectangles: by area, solid angle or that and the cosine at
+// the receiver, as sample_triangle.cc says.
 //   variance    nothing is spent on a choice between the halves, so the strata of
-//               sample points stay whole. By solid angle no noise is left of the
-//               distance and of the cosine at the light
-//   cost        by solid angle, two arctangents and a sine more
+//               sample points stay whole
+//   cost        by solid angle, two arctangents and a sine more; of the warp, as much as
+//               for triangles
 //   source      Urena, Fajardo and King 2013 (kernels/warp/spherical_rectangle-inl.h)
 #include "kernels/targets.h"
 
@@ -14,52 +12,51 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "kernels/lights/geometry-inl.h"
-#include "kernels/queue/batch-inl.h"
-#include "kernels/warp/spherical_rectangle-inl.h"
+#include "kernels/lights/sample_flat-inl.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-template <bool kSolidAngle>
-HWY_INLINE void SampleRectangle(const PathColumns& p, const StoreSlots& slots,
-                                const Lights& light) {
-  const LightRectangle rectangle(light);
-  const VF u0 = Gather(p.u_light_0, slots), u1 = Gather(p.u_light_1, slots);
-  RectanglePoint at = {hn::Mul(u0, rectangle.size_x), hn::Mul(u1, rectangle.size_y)};
-  VF omega = Splat(0);
-  if constexpr (kSolidAngle) {
-    const LocalRectangle local = rectangle.From(Gather3(p.p_x, p.p_y, p.p_z, slots));
-    omega = local.SolidAngle(rectangle.size_x, rectangle.size_y);
-    const RectanglePoint seen = SampleSphericalRectangle(local, omega, u0, u1);
-    at.x = hn::IfThenElse(BySolidAngle(omega), seen.x, at.x);
-    at.y = hn::IfThenElse(BySolidAngle(omega), seen.y, at.y);
-  }
-  const V3 q =
-      MulAdd(rectangle.along_x, at.x, MulAdd(rectangle.along_y, at.y, rectangle.corner));
-  const ShadowRay ray(p, slots, q, rectangle.n);
-  const VF pmf = light.Pmf(p, slots);
-  VF pdf_sa = ray.PdfSa(hn::Div(pmf, light.Area()));
-  if constexpr (kSolidAngle) {
-    pdf_sa = hn::IfThenElse(BySolidAngle(omega), hn::Div(pmf, omega), pdf_sa);
-  }
-  StoreShadowRay(p, slots, ray, pdf_sa, light.Radiance(), light.TwoSided());
-}
+// What a sample needs of the lights of a batch.
+struct RectangleEmitters {
+  LightRectangle rectangle;
+  V3 radiance;
+  VF pmf, area;
+  MF two_sided;
 
-template <bool kMany, bool kSolidAngle>
-void SampleRectangleLight(Wave& wave) {
-  ForEachLit<kMany>(
-      wave, LightShape::kRectangle, [&](const StoreSlots& slots, VI index) HWY_ATTR {
-        SampleRectangle<kSolidAngle>(wave.path, slots, Lights(*wave.scene, index));
-      });
-}
+  HWY_INLINE RectangleEmitters(const Lights& light, VF selection)
+      : rectangle(light),
+        radiance(light.Radiance()),
+        pmf(selection),
+        area(light.Area()),
+        two_sided(light.TwoSided()) {}
 
-void SampleRectangleAreaOne(Wave& wave) { SampleRectangleLight<false, false>(wave); }
-void SampleRectangleAreaMany(Wave& wave) { SampleRectangleLight<true, false>(wave); }
-void SampleRectangleAngleOne(Wave& wave) { SampleRectangleLight<false, true>(wave); }
-void SampleRectangleAngleMany(Wave& wave) { SampleRectangleLight<true, true>(wave); }
+  HWY_INLINE V3 normal() const { return rectangle.n; }
+  HWY_INLINE MF TwoSided() const { return two_sided; }
+  HWY_INLINE SeenRectangle SeenFrom(V3 p) const { return {rectangle, p}; }
+  HWY_INLINE V3 ByArea(VF u0, VF u1) const {
+    return rectangle.At(hn::Mul(u0, rectangle.size_x), hn::Mul(u1, rectangle.size_y));
+  }
+};
+
+struct RectangleSampling {
+  template <bool kMany, LightPoints kPoints>
+  static void Sample(Wave& wave) {
+    const PathColumns& p = wave.path;
+    ForEachLit<kMany>(wave, LightShape::kRectangle,
+                      [&](const StoreSlots& slots, VI index) HWY_ATTR {
+                        const Lights light(*wave.scene, index);
+                        SampleFlatLight<kPoints>(
+                            p, slots, RectangleEmitters(light, light.Pmf(p, slots)));
+                      });
+  }
+};
+
+StageFn ResolveSampleRectangle(const FeatureSet& features) {
+  return ResolveSampleFlat<RectangleSampling>(features);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -70,22 +67,12 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(SampleRectangleAreaOne);
-HWY_EXPORT(SampleRectangleAreaMany);
-HWY_EXPORT(SampleRectangleAngleOne);
-HWY_EXPORT(SampleRectangleAngleMany);
+HWY_EXPORT(ResolveSampleRectangle);
 
 Stage SampleRectangleLightStage() {
   return SampleLightStage("light_rectangle", "samples emitting rectangles",
-                          Feature::kRectangleLights,
-                          [](const FeatureSet& features) -> StageFn {
-                            const bool many = features.Has(Feature::kManyLights);
-                            if (features.Has(Feature::kSolidAngleLights)) {
-                              return many ? HWY_DYNAMIC_DISPATCH(SampleRectangleAngleMany)
-                                          : HWY_DYNAMIC_DISPATCH(SampleRectangleAngleOne);
-                            }
-                            return many ? HWY_DYNAMIC_DISPATCH(SampleRectangleAreaMany)
-                                        : HWY_DYNAMIC_DISPATCH(SampleRectangleAreaOne);
+                          Feature::kRectangleLights, [](const FeatureSet& features) {
+                            return HWY_DYNAMIC_DISPATCH(ResolveSampleRectangle)(features);
                           });
 }
 

@@ -1,10 +1,12 @@
 // Light samples on emitting triangles: uniform over the area, or over the solid angle
-// (light-points=solid-angle) where that is not too small.
+// (light-points=solid-angle) where that is not too small, or over that with a warp by the
+// cosine at the receiver (light-points=projected).
 //   density     pdf_area = pmf / area, pdf_sa = pdf_area d^2 / |cos|; or
-//               pdf_sa = pmf / omega
+//               pdf_sa = pmf / omega; or pdf_sa = pmf b(u) / omega (flat-inl.h)
 //   variance    by solid angle no noise is left of the distance and of the cosine at
-//               the light
-//   cost        by solid angle, an arctangent and a sine more
+//               the light; by the warp little of the cosine at the receiver
+//   cost        by solid angle, an arctangent and a sine more; of the warp, three roots
+//               and four divisions, and at hits an arctangent and five roots
 //   source      Turk 1990, "Generating Random Points in Triangles" (square-root warp);
 //               Arvo 1995 (kernels/warp/spherical_triangle-inl.h)
 #include "kernels/targets.h"
@@ -14,9 +16,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "kernels/lights/geometry-inl.h"
-#include "kernels/queue/batch-inl.h"
-#include "kernels/warp/spherical_triangle-inl.h"
+#include "kernels/lights/sample_flat-inl.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -37,6 +37,17 @@ struct TriangleEmitters {
         pmf(selection),
         area(light.Area()),
         two_sided(light.I(offsetof(LightRecord, two_sided))) {}
+
+  HWY_INLINE V3 normal() const { return triangle.n; }
+  HWY_INLINE MF TwoSided() const {
+    return hn::RebindMask(DF(), hn::Ne(two_sided, hn::Zero(DI())));
+  }
+  HWY_INLINE SeenTriangle SeenFrom(V3 p) const { return {triangle, p}; }
+  HWY_INLINE V3 ByArea(VF u0, VF u1) const {
+    const VF root = hn::Sqrt(u0);
+    const VF b1 = hn::Sub(Splat(1.0f), root), b2 = hn::Mul(root, u1);
+    return MulAdd(triangle.e1, b1, MulAdd(triangle.e2, b2, triangle.p0));
+  }
 
   /// One for each of the scene's lights, which fit into a vector.
   HWY_INLINE static TriangleEmitters All(const CompiledScene& scene) {
@@ -71,70 +82,33 @@ struct TriangleEmitters {
   }
 };
 
-HWY_INLINE V3 UniformPoint(const LightTriangle& triangle, VF u0, VF u1) {
-  const VF root = hn::Sqrt(u0);
-  const VF b1 = hn::Sub(Splat(1.0f), root), b2 = hn::Mul(root, u1);
-  return MulAdd(triangle.e1, b1, MulAdd(triangle.e2, b2, triangle.p0));
-}
-
-// Where the direction through a triangle meets its plane. Rounding at a grazing angle
-// must not put it farther away than the farthest corner.
-HWY_INLINE V3 PointBehind(const LightTriangle& triangle, V3 from, V3 direction) {
-  const V3 p0 = triangle.p0 - from;
-  const V3 p1 = p0 + triangle.e1, p2 = p0 + triangle.e2;
-  const VF far2 = hn::Max(Dot(p0, p0), hn::Max(Dot(p1, p1), Dot(p2, p2)));
-  const VF distance = hn::Abs(hn::Div(Dot(p0, triangle.n), Dot(direction, triangle.n)));
-  return MulAdd(direction, hn::Min(distance, hn::Sqrt(far2)), from);
-}
-
-template <bool kSolidAngle>
-HWY_INLINE void SampleEmitters(const PathColumns& p, const StoreSlots& slots,
-                               const TriangleEmitters& light) {
-  const LightTriangle& triangle = light.triangle;
-  const VF u0 = Gather(p.u_light_0, slots), u1 = Gather(p.u_light_1, slots);
-  V3 q = UniformPoint(triangle, u0, u1);
-  VF omega = Splat(0);
-  if constexpr (kSolidAngle) {
-    const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
-    const SphericalTriangle seen(triangle.p0 - from, triangle.e1, triangle.e2);
-    omega = seen.SolidAngle();
-    const V3 direction = SampleSphericalTriangle(seen, omega, u0, u1);
-    q = IfThenElse(BySolidAngle(omega), PointBehind(triangle, from, direction), q);
+struct TriangleSampling {
+  template <bool kMany, LightPoints kPoints>
+  static void Sample(Wave& wave) {
+    const PathColumns& p = wave.path;
+    const CompiledScene& scene = *wave.scene;
+    if (scene.lights.lights.size() <= hn::Lanes(DF()) && p.light_pmf == nullptr) {
+      // Records are read once per call; batches choose among them in registers.
+      const TriangleEmitters all = TriangleEmitters::All(scene);
+      ForEachLit<kMany>(wave, LightShape::kTriangle,
+                        [&](const StoreSlots& slots, VI index) HWY_ATTR {
+                          SampleFlatLight<kPoints>(p, slots, all.Choose(index));
+                        });
+      return;
+    }
+    ForEachLit<kMany>(
+        wave, LightShape::kTriangle, [&](const StoreSlots& slots, VI index) HWY_ATTR {
+          const Lights light(scene, index);
+          SampleFlatLight<kPoints>(
+              p, slots,
+              TriangleEmitters(scene, light, light.Primitive(), light.Pmf(p, slots)));
+        });
   }
-  const ShadowRay ray(p, slots, q, triangle.n);
-  VF pdf_sa = ray.PdfSa(hn::Div(light.pmf, light.area));
-  if constexpr (kSolidAngle) {
-    pdf_sa = hn::IfThenElse(BySolidAngle(omega), hn::Div(light.pmf, omega), pdf_sa);
-  }
-  const MF two_sided = hn::RebindMask(DF(), hn::Ne(light.two_sided, hn::Zero(DI())));
-  StoreShadowRay(p, slots, ray, pdf_sa, light.radiance, two_sided);
-}
+};
 
-template <bool kMany, bool kSolidAngle>
-void SampleTriangleLight(Wave& wave) {
-  const PathColumns& p = wave.path;
-  const CompiledScene& scene = *wave.scene;
-  if (scene.lights.lights.size() <= hn::Lanes(DF()) && p.light_pmf == nullptr) {
-    // Records are read once per call; batches choose among them in registers.
-    const TriangleEmitters all = TriangleEmitters::All(scene);
-    ForEachLit<kMany>(wave, LightShape::kTriangle,
-                      [&](const StoreSlots& slots, VI index) HWY_ATTR {
-                        SampleEmitters<kSolidAngle>(p, slots, all.Choose(index));
-                      });
-    return;
-  }
-  ForEachLit<kMany>(
-      wave, LightShape::kTriangle, [&](const StoreSlots& slots, VI index) HWY_ATTR {
-        const Lights light(scene, index);
-        SampleEmitters<kSolidAngle>(
-            p, slots, {scene, light, light.Primitive(), light.Pmf(p, slots)});
-      });
+StageFn ResolveSampleTriangle(const FeatureSet& features) {
+  return ResolveSampleFlat<TriangleSampling>(features);
 }
-
-void SampleTriangleLightOne(Wave& wave) { SampleTriangleLight<false, false>(wave); }
-void SampleTriangleLightMany(Wave& wave) { SampleTriangleLight<true, false>(wave); }
-void SampleTriangleAngleOne(Wave& wave) { SampleTriangleLight<false, true>(wave); }
-void SampleTriangleAngleMany(Wave& wave) { SampleTriangleLight<true, true>(wave); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -145,22 +119,12 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(SampleTriangleLightOne);
-HWY_EXPORT(SampleTriangleLightMany);
-HWY_EXPORT(SampleTriangleAngleOne);
-HWY_EXPORT(SampleTriangleAngleMany);
+HWY_EXPORT(ResolveSampleTriangle);
 
 Stage SampleTriangleLightStage() {
   return SampleLightStage("light_triangle", "samples emitting triangles",
-                          Feature::kTriangleLights,
-                          [](const FeatureSet& features) -> StageFn {
-                            const bool many = features.Has(Feature::kManyLights);
-                            if (features.Has(Feature::kSolidAngleLights)) {
-                              return many ? HWY_DYNAMIC_DISPATCH(SampleTriangleAngleMany)
-                                          : HWY_DYNAMIC_DISPATCH(SampleTriangleAngleOne);
-                            }
-                            return many ? HWY_DYNAMIC_DISPATCH(SampleTriangleLightMany)
-                                        : HWY_DYNAMIC_DISPATCH(SampleTriangleLightOne);
+                          Feature::kTriangleLights, [](const FeatureSet& features) {
+                            return HWY_DYNAMIC_DISPATCH(ResolveSampleTriangle)(features);
                           });
 }
 

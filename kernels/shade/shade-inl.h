@@ -145,6 +145,12 @@ struct Shader : SurfaceReader<Bsdf> {
     if (Lighting::kWeighs || path.bsdf_pdf != nullptr) {  // or somebody keeps records
       Scatter(sample.pdf, path.bsdf_pdf, slots);
     }
+    if constexpr (Lighting::kWeighs && !Bsdf::kSpecular) {
+      if (path.start_n_x != nullptr) {  // hits are weighed against what it makes likely
+        const V3 facing = Mul(frame.n, hn::CopySign(Splat(1.0f), wo.z));
+        Scatter3(facing, path.start_n_x, path.start_n_y, path.start_n_z, slots);
+      }
+    }
     const V3 carried = IfThenElseZero(alive, Mul(beta, sample.weight));
     Scatter3(o, path.o_x, path.o_y, path.o_z, slots);
     Scatter3(d, path.d_x, path.d_y, path.d_z, slots);

@@ -23,7 +23,7 @@ inline Stage MakeShadeStage(const char* name, const char* meaning, ShadeKind kin
           {ShadeFeature(kind), Feature::kScatters},
           identity | direction | kThroughput | kPoint | kNormal | kTangent | kParameters |
               points | kGuideProposal | kLightSample | FieldSet{Field::eta_scale},
-          kRay | kThroughput | kShadow | history,
+          kRay | kThroughput | kShadow | kStartNormal | history,
           resolve};
 }
 

@@ -82,12 +82,14 @@ struct LocalRectangle {
     return hn::Mul(Splat(2.0f), Atan2(hn::Abs(imaginary), real));
   }
 
+  /// Direction to (x, y, z).
+  LANELIGHT_INLINE V3 Unit(VF x, VF y) const {
+    return Mul(V3{x, y, z}, InverseDistance(x, y));
+  }
+
  private:
   LANELIGHT_INLINE VF InverseDistance(VF x, VF y) const {
     return Rsqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, Sqr(z))));
-  }
-  LANELIGHT_INLINE V3 Unit(VF x, VF y) const {
-    return Mul(V3{x, y, z}, InverseDistance(x, y));
   }
 };
 

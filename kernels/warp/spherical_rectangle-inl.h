@@ -18,6 +18,7 @@
 #define LANELIGHT_WARP_SPHERICAL_RECTANGLE_INL_H_
 #endif
 
+#include "kernels/warp/bilinear-inl.h"
 #include "kernels/warp/solid_angle-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -87,30 +88,67 @@ struct RectanglePoint {
   VF x, y;
 };
 
-/// For u0, u1 in [0, 1); omega: the solid angle, positive.
-LANELIGHT_INLINE RectanglePoint SampleSphericalRectangle(const LocalRectangle& rectangle,
-                                                         VF omega, VF u0, VF u1) {
-  LocalRectangle r = rectangle;
-  // How far from the foot of the receiver; negative over it.
-  const MF swap = hn::Gt(hn::Max(r.x0, hn::Neg(r.x1)), hn::Max(r.y0, hn::Neg(r.y1)));
-  const auto exchange = [&](VF* a, VF* b) HWY_ATTR {
+/// True where u0 goes along y: compared is how far the sides are from the foot of the
+/// receiver, which over it is negative.
+LANELIGHT_INLINE MF SwapsSides(const LocalRectangle& r) {
+  return hn::Gt(hn::Max(r.x0, hn::Neg(r.x1)), hn::Max(r.y0, hn::Neg(r.y1)));
+}
+
+/// A rectangle with u0 along x, in units of the longest distance, so that products of
+/// lengths stay in range.
+struct OrientedRectangle {
+  LocalRectangle r;
+  MF swap;
+  VF reach, scale;
+
+  LANELIGHT_INLINE explicit OrientedRectangle(const LocalRectangle& rectangle)
+      : r(rectangle), swap(SwapsSides(rectangle)) {
+    Exchange(&r.x0, &r.y0);
+    Exchange(&r.x1, &r.y1);
+    reach = hn::Max(hn::Max(hn::Abs(r.x0), hn::Abs(r.x1)),
+                    hn::Max(hn::Max(hn::Abs(r.y0), hn::Abs(r.y1)), r.z));
+    scale = hn::Div(Splat(1.0f), reach);
+    for (VF* v : {&r.x0, &r.x1, &r.y0, &r.y1, &r.z}) *v = hn::Mul(*v, scale);
+  }
+  LANELIGHT_INLINE void Exchange(VF* a, VF* b) const {
     const VF first = hn::IfThenElse(swap, *b, *a);
     *b = hn::IfThenElse(swap, *a, *b);
     *a = first;
-  };
-  exchange(&r.x0, &r.y0);
-  exchange(&r.x1, &r.y1);
-  // In units of the longest distance, so that products of lengths stay in range.
-  const VF reach = hn::Max(hn::Max(hn::Abs(r.x0), hn::Abs(r.x1)),
-                           hn::Max(hn::Max(hn::Abs(r.y0), hn::Abs(r.y1)), r.z));
-  const VF scale = hn::Div(Splat(1.0f), reach);
-  for (VF* v : {&r.x0, &r.x1, &r.y0, &r.y1, &r.z}) *v = hn::Mul(*v, scale);
-  const VF x = CutRectangle(r, omega, u0);
-  const VF y = SampleArc(r, hn::MulAdd(x, x, Sqr(r.z)), u1);
-  RectanglePoint out = {hn::Mul(hn::Sub(x, r.x0), reach),
-                        hn::Mul(hn::Sub(y, r.y0), reach)};
-  exchange(&out.x, &out.y);
+  }
+};
+
+/// For u0, u1 in [0, 1); omega: the solid angle, positive.
+LANELIGHT_INLINE RectanglePoint SampleSphericalRectangle(const LocalRectangle& rectangle,
+                                                         VF omega, VF u0, VF u1) {
+  const OrientedRectangle o(rectangle);
+  const VF x = CutRectangle(o.r, omega, u0);
+  const VF y = SampleArc(o.r, hn::MulAdd(x, x, Sqr(o.r.z)), u1);
+  RectanglePoint out = {hn::Mul(hn::Sub(x, o.r.x0), o.reach),
+                        hn::Mul(hn::Sub(y, o.r.y0), o.reach)};
+  o.Exchange(&out.x, &out.y);
   return out;
+}
+
+/// u0, u1 with which SampleSphericalRectangle finds the point.
+LANELIGHT_INLINE UnitSquarePoint InvertSphericalRectangle(const LocalRectangle& rectangle,
+                                                          VF omega, RectanglePoint at) {
+  const OrientedRectangle o(rectangle);
+  const LocalRectangle& r = o.r;
+  const VF zero = hn::Zero(DF()), one = Splat(1.0f);
+  o.Exchange(&at.x, &at.y);
+  const VF width = hn::Sub(r.x1, r.x0), height = hn::Sub(r.y1, r.y0);
+  const VF dx = hn::Min(hn::Max(hn::Mul(at.x, o.scale), zero), width);
+  const VF dy = hn::Min(hn::Max(hn::Mul(at.y, o.scale), zero), height);
+  const VF x = hn::Add(r.x0, dx), y = hn::Add(r.y0, dy);
+  LocalRectangle first = r;
+  first.x1 = x;
+  const VF u0 = hn::Min(hn::Div(first.SolidAngle(dx, height), omega), one);
+  const VF far2 = hn::MulAdd(x, x, Sqr(r.z));
+  const auto distance = [&](VF v) HWY_ATTR { return hn::Sqrt(hn::MulAdd(v, v, far2)); };
+  const VF r0 = distance(r.y0), r1 = distance(r.y1), here = distance(y);
+  const VF part = hn::Mul(CrossedDifference(r.y0, r0, y, here, far2), r1);
+  const VF whole = hn::Mul(CrossedDifference(r.y0, r0, r.y1, r1, far2), here);
+  return {u0, hn::Min(hn::Div(part, hn::Max(whole, Splat(1e-37f))), one)};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -17,6 +17,7 @@
 #define LANELIGHT_WARP_SPHERICAL_TRIANGLE_INL_H_
 #endif
 
+#include "kernels/warp/bilinear-inl.h"
 #include "kernels/warp/solid_angle-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -33,14 +34,46 @@ LANELIGHT_INLINE V3 SampleSphericalTriangle(const SphericalTriangle& t, VF omega
   const VF b = hn::Mul(t.one_and_01, h.sin);
   const V3 m = MulAdd(t.v0, a, Mul(t.v2, b));
   const VF along = hn::Div(hn::Mul(Splat(2.0f), Dot(m, t.v0)), Dot(m, m));
-  const V3 step = Mul(m, along) - (t.v0 + t.v1);  // from v1 to w
+  const V3 turned = Mul(m, along);
+  const V3 step = turned - (t.v0 + t.v1);  // from v1 to w
+  const V3 sum = turned + (t.v1 - t.v0);   // of v1 and w
   // 1 - cosine to v1: of w, and of the sample.
   const VF far = hn::Mul(Splat(0.5f), Dot(step, step)), near = hn::Mul(u1, far);
-  const VF two = Splat(2.0f);
-  const VF ratio = hn::Div(hn::Mul(u1, hn::Sub(two, near)), hn::Sub(two, far));
+  // 1 + the cosine, likewise: nothing is left of it where w is opposite to v1.
+  const VF far_rest = hn::Mul(Splat(0.5f), Dot(sum, sum));
+  const VF near_rest = hn::MulAdd(far, hn::Sub(Splat(1.0f), u1), far_rest);
+  const VF ratio = hn::Div(hn::Mul(u1, near_rest), far_rest);
   const VF sine = SafeSqrt(ratio);  // of the sample over that of w
   const VF rest = hn::MulAdd(sine, far, hn::Sub(Splat(1.0f), near));
   return MulAdd(t.v1, rest, Mul(step, sine));
+}
+
+/// u0, u1 with which SampleSphericalTriangle finds the point of barycentric weights b1,
+/// b2 of corners 1 and 2. The line from corner 1 through it cuts off u0; lengths are in
+/// units of the distance of that corner.
+LANELIGHT_INLINE UnitSquarePoint InvertSphericalTriangle(V3 to_corner, V3 e1, V3 e2,
+                                                         VF omega, VF b1, VF b2) {
+  const VF zero = hn::Zero(DF()), one = Splat(1.0f), tiny = Splat(1e-30f);
+  const VF away = hn::Min(hn::Max(hn::Sub(one, b1), tiny), one);
+  const VF cut = hn::Min(hn::Max(hn::Div(b2, away), zero), one);
+  const SphericalTriangle first(to_corner, e1, Mul(e2, cut));
+  const VF u0 = hn::Min(hn::Div(first.SolidAngle(), omega), one);
+  const V3 corner = to_corner + e1;
+  const VF unit = Rsqrt(Dot(corner, corner));
+  const V3 a = Mul(corner, unit), along = Mul(MulAdd(e2, cut, -e1), unit);
+  const V3 cross = Cross(a, along);
+  const VF cross2 = Dot(cross, cross);
+  // 1 - the cosine of the angle between a and a + part * along.
+  const auto versine = [&](VF part) HWY_ATTR {
+    const V3 to = MulAdd(along, part, a);
+    const VF length = hn::Sqrt(Dot(to, to)), dot = Dot(a, to);
+    const VF difference = hn::Sub(length, dot);
+    const VF squares = hn::Div(hn::Mul(Sqr(part), cross2), hn::Add(length, dot));
+    const MF acute = hn::Gt(dot, zero);
+    return hn::Div(hn::IfThenElse(acute, squares, difference), hn::Max(length, tiny));
+  };
+  const VF u1 = hn::Div(versine(away), hn::Max(versine(one), tiny));
+  return {u0, hn::Min(u1, one)};
 }
 
 }  // namespace HWY_NAMESPACE

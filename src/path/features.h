@@ -59,6 +59,7 @@ namespace lanelight {
   X(kRecordsPaths, "a training pass that records what paths find")            \
   X(kSolidAngleLights, "light-points=solid-angle")                            \
   X(kProjectedLights, "light-points=projected")                               \
+  X(kProjectedHits, "light-points=projected, and hits weighed against it")    \
   X(kLightCandidates, "several candidates for each light sample")             \
   X(kGuided, "a guide that proposes directions, from training passes")        \
   X(kDecides, "a strategy chosen by a pilot")                                 \

@@ -65,6 +65,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, beta, ({}), kPath, (1.0f), "throughput")                          \
   LANELIGHT_RGB(X, f32, l, ({}), kGathered, (0.0f), "radiance gathered so far")           \
   X(f32, bsdf_pdf, ({kMis, kRecordsGuide}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
+  LANELIGHT_XYZ(X, f32, start_n, ({kProjectedHits}), kRay, (0.0f), "shading normal where the ray starts, on the side that the path came from") \
   X(f32, eta_scale, ({kRefraction, kGuided}), kPath, (1.0f), "product of eta^2 of refractions, and of densities over the material's: undone by roulette") \
   /* film sample points */                                                                \
   LANELIGHT_2(X, f32, u_film, ({}), kCamera, (), "position in the pixel")               \
@@ -226,6 +227,8 @@ inline const FieldSet kRadiance = {Field::l_r, Field::l_g, Field::l_b};
 inline const FieldSet kPoint = {Field::p_x, Field::p_y, Field::p_z, Field::p_error};
 inline const FieldSet kNormal = {Field::ng_x, Field::ng_y, Field::ng_z,
                                  Field::ns_x, Field::ns_y, Field::ns_z};
+inline const FieldSet kStartNormal = {Field::start_n_x, Field::start_n_y,
+                                      Field::start_n_z};
 inline const FieldSet kTangent = {Field::tg_x, Field::tg_y, Field::tg_z};
 inline const FieldSet kUv = {Field::uv_u, Field::uv_v};
 inline const FieldSet kParameters = {Field::color0_r, Field::color0_g, Field::color0_b,

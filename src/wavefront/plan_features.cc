@@ -44,6 +44,11 @@ void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
   if (f.Has(Feature::kManyLights)) f.Add(TurnsOn(strategy.light_selection));
   if (!f.Has(Feature::kLights)) return;
   if (SamplesFlatLights(f)) f.Add(TurnsOn(strategy.light_points));
+  // directions=light counts no hit of what it samples.
+  if (f.Has(Feature::kProjectedLights) && f.Has(Feature::kMis) &&
+      strategy.directions == Directions::kMis) {
+    f.Add(Feature::kProjectedHits);
+  }
   f.Add(TurnsOn(strategy.light_candidates));
   f.Add(TurnsOn(strategy.shadow_roulette));
 }

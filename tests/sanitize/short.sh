@@ -64,6 +64,7 @@ for strategy in guiding=radiance guiding=radiance,roulette=adjoint \
 done
 render veach-mis.pbrt --resolution 24x18 --spp 16 --strategy decide=pilot
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=solid-angle
+render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=projected
 
 render glass.pbrt --resolution 64x48 --spp 4 --aov --png --crop 3,5,50,40 --depth half \
   --json "$out/report.json" --build fast

@@ -138,11 +138,30 @@ TEST_CASE("stages leave out what a scene does not have", "[shade][stage]") {
       // Null columns: touching one would end the test program.
       p.ns_x = p.ns_y = p.ns_z = p.tg_x = p.tg_y = p.tg_z = p.bsdf_pdf = nullptr;
       p.ls_x = p.ls_y = p.ls_z = p.ls_r = p.ls_g = p.ls_b = p.ls_pdf = nullptr;
+      p.start_n_x = p.start_n_y = p.start_n_z = nullptr;
       p.sh_r = p.sh_g = p.sh_b = nullptr;
       f.Run({Feature::kScatters}, f.All());
       CHECK(f.Slots(QueueId::kShadow).empty());
       CHECK(f.Slots(QueueId::kScattered).size() + f.Slots(QueueId::kDone).size() ==
             kPaths);
+    }
+  });
+}
+
+TEST_CASE("bounces keep the normal on the side they come from", "[shade][stage]") {
+  ForEachTarget([](const std::string& target) {
+    for (const TestMaterial& m : TestMaterials()) {
+      if (HasTrait(m.kind, kSpecularOnly)) continue;  // no light sample competes
+      ShadeFixture f(m);
+      const ShadeFixture before(m);
+      f.Run(kAll, f.All());
+      const PathColumns &p = f.fixture.wave.path, &q = before.fixture.wave.path;
+      for (std::uint32_t i = 0; i < kPaths; ++i) {
+        INFO(target << ", path " << i);
+        const Vec3d n = At(q.ns_x, q.ns_y, q.ns_z, i);
+        const double side = Dot(At(q.d_x, q.d_y, q.d_z, i), n) < 0 ? 1 : -1;
+        CHECK(At(p.start_n_x, p.start_n_y, p.start_n_z, i) == n * side);
+      }
     }
   });
 }

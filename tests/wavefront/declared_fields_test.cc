@@ -227,6 +227,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "points=cmj,control=ambient"},
       {kAllStagesScene, "points=pmj02,control=analytic,roulette=luminance"},
       {kAllStagesScene, "points=lattice,control=regression,roulette=constant"},
+      {kAllStagesScene, "points=sobol,light-points=projected"},
       {kAllStagesScene,
        "points=stratified,directions=light,shadow-roulette=contribution"},
       {kAllStagesScene, "roulette=adjoint"},

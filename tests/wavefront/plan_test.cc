@@ -22,9 +22,11 @@ const std::string kTriangle =
     "\"integer indices\" [ 0 1 2 ]\n";
 const std::string kPointLight = "LightSource \"point\" \"rgb I\" [ 1 1 1 ]\n";
 
-Plan PlanOf(const std::string& world, std::uint32_t max_depth = 5) {
+Plan PlanOf(const std::string& world, std::uint32_t max_depth = 5,
+            const std::string& strategy = "") {
   SceneDescription description =
       ParseSceneText(kHead + "WorldBegin\n" + world, "test.pbrt", ".");
+  if (!strategy.empty()) ApplyStrategy(strategy, {}, description.strategy);
   description.strategy.points = Points::kIndependent;
   const CompiledScene scene = PrepareScene(description);
   PlanOptions options;
@@ -98,6 +100,18 @@ TEST_CASE("plan: each thing a scene adds brings its stages and columns", "[plan]
   CHECK(IsLive(area, Field::bsdf_pdf));
   CHECK(StageNames(PlanOf("LightSource \"infinite\"\n" + kTriangle)).count("escape"));
   CHECK(IsLive(PlanOf("Material \"dielectric\"\n" + base), Field::eta_scale));
+}
+
+TEST_CASE("plan: hits need a normal of projected light samples alone", "[plan]") {
+  const auto has = [](const std::string& world, const char* strategy) {
+    return IsLive(PlanOf(world + kTriangle, 5, strategy), Field::start_n_x);
+  };
+  const std::string lamp = "AreaLightSource \"diffuse\"\n";
+  CHECK(has(lamp, "light-points=projected"));
+  CHECK_FALSE(has(lamp, "light-points=projected,directions=light"));
+  CHECK_FALSE(has(lamp, "light-points=projected,directions=bsdf"));
+  CHECK_FALSE(has(lamp, "light-points=solid-angle"));
+  CHECK_FALSE(has(kPointLight, "light-points=projected"));
 }
 
 TEST_CASE("plan: small depths need neither roulette nor shading", "[plan]") {
