@@ -47,7 +47,12 @@ HWY_INLINE void SampleFlatLight(const PathColumns& p, const StoreSlots& slots,
   const ShadowRay ray(p, slots, q, light.normal());
   VF pdf_sa = ray.PdfSa(hn::Div(light.pmf, light.area));
   if constexpr (kPoints != LightPoints::kArea) {
-    pdf_sa = hn::IfThenElse(by_angle, angle_pdf, pdf_sa);
+    // A receiver on the light itself would find it all around, half a sphere of it: the
+    // ray then starts within the clearance at which it ends, and seems to come from the
+    // other side.
+    const V3 away = Gather3(p.p_x, p.p_y, p.p_z, slots) - q;
+    const MF clear = hn::Gt(hn::Mul(Dot(light.normal(), away), ray.cos_light), Splat(0));
+    pdf_sa = hn::IfThenElseZero(clear, hn::IfThenElse(by_angle, angle_pdf, pdf_sa));
   }
   StoreShadowRay(p, slots, ray, pdf_sa, light.radiance, light.TwoSided());
 }

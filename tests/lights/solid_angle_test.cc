@@ -187,6 +187,24 @@ TEST_CASE("a light does not shine backwards by solid angle", "[lights]") {
   }
 }
 
+TEST_CASE("lights do not light themselves", "[lights]") {
+  // Around the receiver, at a height that is rounding: p_error is 1e-8 here.
+  for (const Feature points : {Feature::kSolidAngleLights, Feature::kProjectedLights}) {
+    for (const bool rectangle : {true, false}) {
+      for (const bool two_sided : {true, false}) {
+        for (const double height : {0.0, 1e-8, -1e-8}) {
+          const Flat f = {"", {-0.25, -0.25, height}, {1, 0, 0}, {0, 1, 0}, rectangle};
+          const Draw draw(f, 259, {points}, two_sided);
+          CAPTURE(rectangle, two_sided, height);
+          for (std::uint32_t i = 0; i < 259; ++i) {
+            CHECK(draw.fixture.wave.path.ls_r[i] == 0);
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("no bad numbers in the plane and at the corners of a light", "[lights]") {
   for (const bool rectangle : {true, false}) {
     for (const Vec3d corner : {Vec3d{0, 0, 0}, Vec3d{-0.5, 0, 0}, Vec3d{1, 1, 0},
