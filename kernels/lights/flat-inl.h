@@ -4,10 +4,11 @@
 //               cosines at the corners of the light, but at least a tenth of the largest
 //               among them and the one in the light's middle
 //   floor       keeps the density of what lies below the receiver, which surfaces that
-//               transmit see, above a thirteenth of that by solid angle alone: weights of
-//               such light are at most 7.75 times as large. Measured from the largest
-//               cosine it leaves grazing lights their warp; with the middle's it leaves
-//               lights alone that surround the receiver, whose corners say nothing
+//               transmit see, above an eighth of that by solid angle alone: weights of
+//               such light are at most 7.75 times as large (six times the error under a
+//               leaf that a window crosses). Measured from the largest cosine it leaves
+//               grazing lights their warp; with the middle's it leaves lights alone that
+//               surround the receiver, whose corners say nothing
 //   below       a light that the receiver's normal does not see at all is not warped
 //   source      Hart et al. 2020 (kernels/warp/bilinear-inl.h)
 #if defined(LANELIGHT_LIGHTS_FLAT_INL_H_) == defined(HWY_TARGET_TOGGLE)
