@@ -61,6 +61,7 @@ namespace lanelight {
   X(FirstBounce)                               \
   X(GuideProposals)                            \
   X(Route)                                     \
+  X(BeginCandidates)                           \
   X(SelectLight)                               \
   X(SelectLightTree)                           \
   X(SampleTriangleLight)                       \
@@ -72,6 +73,8 @@ namespace lanelight {
   X(SampleDistantLight)                        \
   X(SampleInfiniteConstant)                    \
   X(SampleInfiniteImage)                       \
+  X(Consider)                                  \
+  X(KeepCandidate)                             \
   X(AnalyticDiffuse)                           \
   X(AnalyticTransmission)                      \
   X(AmbientDiffuse)                            \

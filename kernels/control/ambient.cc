@@ -57,6 +57,9 @@ HWY_INLINE V3 SampledAmbient(const Wave& wave, const DiffuseVertex<Bsdf>& vertex
   const VF pdf = Gather(path.ls_pdf, slots);
   const MF usable = hn::And(is_ambient, hn::Gt(pdf, Splat(0)));
   VF weight = hn::Div(Splat(1.0f), hn::IfThenElse(usable, pdf, Splat(1.0f)));
+  // The radiance of a candidate that was kept has this factor.
+  if (path.kept_worth != nullptr)
+    weight = hn::Mul(weight, Gather(path.kept_worth, slots));
   if (wave.run->features.Has(Feature::kMis)) {
     const Proposal proposal(wave, vertex.frame, slots);
     const V3 wi = vertex.frame.ToLocal(direction);

@@ -16,7 +16,8 @@ inline Stage SurfaceControlStage(const char* name, const char* meaning, Feature 
           {control, ShadeFeature(kind), Feature::kScatters},
           direction | kThroughput | kRadiance | kPoint | kNormal | kParameters |
               kLightSample | kControl |
-              FieldSet{Field::material, Field::ls_light, Field::guide_cell},
+              FieldSet{Field::material, Field::ls_light, Field::guide_cell,
+                       Field::kept_worth},
           kRadiance | kControl,
           resolve};
 }

@@ -125,6 +125,10 @@ LANELIGHT_INLINE void FillBounceBatches(Wave& wave) {
           Draw<Policy, kPlain, true>(run, drawer, Dimension::kShadow, p.u_shadow,
                                      nullptr);
         }
+        if (p.u_candidate != nullptr) {
+          Draw<Policy, kPlain, true>(run, drawer, Dimension::kCandidate, p.u_candidate,
+                                     nullptr);
+        }
       });
 }
 

@@ -32,8 +32,11 @@ std::string Features(const FeatureSet& features) {
 
 std::string Stages(const Plan& plan) {
   std::string text = fmt::format("stages ({}), in order:\n", plan.stages.size());
-  for (const PlannedStage& s : plan.stages) {
-    text += fmt::format("  {:<22} {}\n", s.stage.name, s.stage.meaning);
+  for (std::size_t i = 0; i < plan.stages.size(); ++i) {
+    const Stage& s = plan.stages[i].stage;
+    const bool repeated = i >= plan.first_repeated && i < plan.last_repeated;
+    text += fmt::format("  {:<22} {}{}\n", s.name, s.meaning,
+                        repeated ? ", once for each candidate" : "");
   }
   text += fmt::format("\nstages left out ({}):\n", plan.omitted.size());
   for (const OmittedStage& s : plan.omitted) {

@@ -20,12 +20,10 @@ enum class Dimension : std::uint32_t {
   kLobe = 9,    // 1: choice of lobe
   kGuide = 10,  // 1: choice between guide and material
   // 16 to 23: light samples
-  kLight = 16,            // 2: point on the light
-  kSelect = 17,           // 1: choice of light
-  kShadow = 18,           // 1: whether a shadow ray is traced
-  kCandidate = 19,        // 1: choice between light candidates
-  kCandidateLight = 20,   // 2: points of all but the first of them
-  kCandidateSelect = 21,  // 1: lights of all but the first of them
+  kLight = 16,      // 2: point on the light
+  kSelect = 17,     // 1: choice of light
+  kShadow = 18,     // 1: whether a shadow ray is traced
+  kCandidate = 19,  // 1: choice between light candidates
   // 24 to 31: whether a path goes on
   kRoulette = 24,  // 1: survival, or how many copies
   // 32 to 47: materials; one per level of mixes in mixes

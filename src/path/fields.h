@@ -116,8 +116,8 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, kept, ({kLightCandidates}), kBounce, (), "its radiance / pdf")    \
   X(f32, kept_pdf, ({kLightCandidates}), kBounce, (), "its pdf_sa, as a single candidate") \
   X(u32, kept_light, ({kLightCandidates}), kBounce, (), "its light")                      \
-  X(f32, kept_worth, ({kLightCandidates}), kBounce, (), "what it would add unshadowed, over its density") \
-  X(f32, worth_sum, ({kLightCandidates}), kBounce, (), "the same, summed over the candidates so far") \
+  X(f32, kept_worth, ({kLightCandidates}), kBounce, (), "luminance that it would add unshadowed; in the end, the factor on its radiance") \
+  X(f32, worth_sum, ({kLightCandidates}), kBounce, (), "the same luminance, summed over the candidates so far") \
   X(f32, u_candidate, ({kLightCandidates}), kBounce, (), "choice between the candidate kept and the next") \
   /* shadow ray */                                                                        \
   LANELIGHT_RGB(X, f32, sh, ({kLights}), kBounce, (), "radiance the shadow ray carries if unoccluded") \
@@ -235,12 +235,16 @@ inline const FieldSet kParameters = {Field::color0_r, Field::color0_g, Field::co
                                      Field::color1_r, Field::color1_g, Field::color1_b,
                                      Field::alpha_x,  Field::alpha_y};
 inline const FieldSet kBouncePoints = {
-    Field::u_lobe,     Field::u_bsdf_0,  Field::u_bsdf_1,
-    Field::u_select,   Field::u_light_0, Field::u_light_1,
-    Field::u_roulette, Field::u_guide,   Field::u_shadow};
+    Field::u_lobe,    Field::u_bsdf_0,   Field::u_bsdf_1,   Field::u_select,
+    Field::u_light_0, Field::u_light_1,  Field::u_roulette, Field::u_guide,
+    Field::u_shadow,  Field::u_candidate};
 inline const FieldSet kLightSample = {Field::ls_x,        Field::ls_y,  Field::ls_z,
                                       Field::ls_distance, Field::ls_r,  Field::ls_g,
                                       Field::ls_b,        Field::ls_pdf};
+inline const FieldSet kKeptSample = {
+    Field::kept_x,     Field::kept_y,    Field::kept_z, Field::kept_distance,
+    Field::kept_r,     Field::kept_g,    Field::kept_b, Field::kept_pdf,
+    Field::kept_light, Field::kept_worth};
 inline const FieldSet kAov = {
     Field::aov_albedo_r, Field::aov_albedo_g, Field::aov_albedo_b, Field::aov_n_x,
     Field::aov_n_y,      Field::aov_n_z,      Field::aov_depth};

@@ -58,6 +58,7 @@ struct RunParameters {
   MisParameters mis;
   RouletteParameters roulette;
   float control_coefficient = 1;
+  std::uint32_t candidates = 1;  // light samples of which one is kept
   const StrategyTables* tables = nullptr;
 };
 

@@ -51,4 +51,8 @@ RouletteParameters MakeRouletteParameters(const Strategy& strategy) {
           strategy.First()};
 }
 
+std::uint32_t CandidatesOf(const Strategy& strategy, const FeatureSet& features) {
+  return features.Has(Feature::kLightCandidates) ? strategy.candidates : 1;
+}
+
 }  // namespace lanelight

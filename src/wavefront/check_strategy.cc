@@ -83,6 +83,11 @@ void NoteLights(const Checked& c) {
     c.Note(std::string("light-points=") + Name(s.light_points),
            ": no triangle or rectangle that emits is sampled");
   }
+  if (s.light_candidates != LightCandidates::kSingle && !SamplesOfLightDiffer(c.plan)) {
+    c.Note("light-candidates=resampled", c.plan.Has(Feature::kLights)
+                                             ? ": all samples of the only light are alike"
+                                             : ": no light is sampled");
+  }
   if (s.directions == Directions::kLight && !c.scene.Has(Feature::kLights)) {
     c.notes.push_back(
         "directions=light: there is no light to sample, only what the camera "

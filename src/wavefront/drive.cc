@@ -17,6 +17,18 @@ void StartWave(Wave& wave) {
   }
 }
 
+// Stages [begin, end) of the plan, where they have anything to do.
+void RunStages(Wave& wave, const Plan& plan, std::size_t begin, std::size_t end,
+               StageClock* clock) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const PlannedStage& planned = plan.stages[i];
+    if (wave.queue(planned.stage.input).size == 0) continue;
+    wave.lanes = {};
+    planned.kernel(wave);
+    if (clock) clock->Finish(i, wave.lanes.items, wave.lanes.vectors);
+  }
+}
+
 }  // namespace
 
 std::uint32_t SamplesTogether(const CompiledScene& scene, const Plan& plan) {
@@ -38,13 +50,11 @@ bool Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
   while (!wave.work.Done() || wave.queue(QueueId::kScattered).size > 0) {
     StartWave(wave);
     if (clock) clock->StartWave();
-    for (std::size_t i = 0; i < plan.stages.size(); ++i) {
-      const PlannedStage& planned = plan.stages[i];
-      if (wave.queue(planned.stage.input).size == 0) continue;
-      wave.lanes = {};
-      planned.kernel(wave);
-      if (clock) clock->Finish(i, wave.lanes.items, wave.lanes.vectors);
+    RunStages(wave, plan, 0, plan.first_repeated, clock);
+    for (std::uint32_t c = 0; c < wave.run->candidates; ++c) {
+      RunStages(wave, plan, plan.first_repeated, plan.last_repeated, clock);
     }
+    RunStages(wave, plan, plan.last_repeated, plan.stages.size(), clock);
     if (watcher != nullptr && watcher->PutsDown()) return false;
   }
   return true;

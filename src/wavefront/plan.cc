@@ -46,6 +46,22 @@ void CheckReadsAreWritten(const Plan& plan) {
   }
 }
 
+// What lies between the first and the last stage of light candidates (light_candidates,
+// light_keep: kernels/lights/candidates.cc) is run for each of them.
+void FindRepeated(Plan& plan) {
+  if (!plan.features.Has(Feature::kLightCandidates)) return;
+  const auto resamples = [](const PlannedStage& planned) {
+    return planned.stage.needs.Has(Feature::kLightCandidates);
+  };
+  const auto& stages = plan.stages;
+  const auto first = std::find_if(stages.begin(), stages.end(), resamples);
+  const auto last = std::find_if(stages.rbegin(), stages.rend(), resamples);
+  LL_CHECK(first != stages.end());
+  plan.first_repeated = static_cast<std::size_t>(first - stages.begin()) + 1;
+  plan.last_repeated = static_cast<std::size_t>(stages.rend() - last) - 1;
+  LL_CHECK_LT(plan.first_repeated, plan.last_repeated);
+}
+
 // Paths whose live columns and queues fill about half of one core's second-level cache,
 // leaving the rest to the scene: the stages stream the columns once per bounce.
 std::uint32_t WavefrontForCache(std::size_t bytes_per_path) {
@@ -81,6 +97,7 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
     (live ? plan.live_fields : plan.absent_fields).push_back(field);
   }
   CheckReadsAreWritten(plan);
+  FindRepeated(plan);
   plan.bytes_per_path = plan.live_fields.size() * sizeof(float);
   // New samples start only while the live paths fit (kernels/generate/generate.cc), and
   // slots are taken from the top of a stack, so most of the room for copies is seldom

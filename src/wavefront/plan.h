@@ -46,6 +46,9 @@ struct OmittedStage {
 struct Plan {
   FeatureSet features;               // of scene and options together
   std::vector<PlannedStage> stages;  // in execution order
+  /// Of them, [first, last) make and consider one candidate of a light sample: run once
+  /// for each (RunParameters::candidates). None where light samples are not resampled.
+  std::size_t first_repeated = 0, last_repeated = 0;
   std::vector<OmittedStage> omitted;
   std::vector<Field> live_fields, absent_fields;
   std::size_t bytes_per_path = 0;

@@ -49,7 +49,7 @@ void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
       strategy.directions == Directions::kMis) {
     f.Add(Feature::kProjectedHits);
   }
-  f.Add(TurnsOn(strategy.light_candidates));
+  if (SamplesOfLightDiffer(f)) f.Add(TurnsOn(strategy.light_candidates));
   f.Add(TurnsOn(strategy.shadow_roulette));
 }
 
@@ -66,6 +66,10 @@ void AddControl(const Strategy& strategy, FeatureSet& f) {
 bool SamplesFlatLights(const FeatureSet& f) {
   return f.Has(Feature::kSampledHittableLights) &&
          f.HasAny({Feature::kTriangleLights, Feature::kRectangleLights});
+}
+
+bool SamplesOfLightDiffer(const FeatureSet& f) {
+  return f.Has(Feature::kManyLights) || (f.Has(Feature::kLights) && !HasDeltaLights(f));
 }
 
 FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) {

@@ -14,4 +14,7 @@ Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options)
 /// Light samples of triangles or rectangles are taken in a plan of these features.
 bool SamplesFlatLights(const FeatureSet& features);
 
+/// Light samples of a vertex are not all the same in a plan of these features.
+bool SamplesOfLightDiffer(const FeatureSet& features);
+
 }  // namespace lanelight

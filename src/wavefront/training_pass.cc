@@ -71,6 +71,7 @@ class Pass {
     if (!OwnPoints(scene, plan.options)) run.points.group_shift = 0;
     run.pairs = MakePairParameters(strategy);
     run.roulette = MakeRouletteParameters(strategy);
+    run.candidates = CandidatesOf(strategy, plan.features);
     run.features = plan.features;
     run.planes = SamplePlanes(plan.features);
     return run;

@@ -50,6 +50,7 @@ RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan) {
   run.mis = MakeMisParameters(strategy);
   run.roulette = MakeRouletteParameters(strategy);
   run.control_coefficient = static_cast<float>(strategy.coefficient.value_or(1));
+  run.candidates = CandidatesOf(strategy, plan.features);
   run.max_depth = plan.options.max_depth;
   run.exposure = static_cast<float>(scene.film.imaging_ratio);
   run.features = plan.features;

@@ -230,6 +230,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "points=sobol,light-points=projected"},
       {kAllStagesScene,
        "points=stratified,directions=light,shadow-roulette=contribution"},
+      {kAllStagesScene, "light-candidates=resampled,control=ambient"},
       {kAllStagesScene, "roulette=adjoint"},
       {kAllStagesScene, "roulette=efficiency"},
       {kAllStagesScene, "points=sobol,guiding=radiance", true},

@@ -1,0 +1,106 @@
+// light-candidates=resampled:M: of M light samples of a vertex one is kept, and traced.
+// The stages between the two of this file make and consider one candidate; the driver
+// runs them M times (src/wavefront/drive.cc).
+//   estimator   f(y) V(y) / v(y) 1/M sum v(x_i), y = x_i with probability in proportion
+//               to its worth v(x_i): what it would add unshadowed, over its density p
+//               (kernels/shade/consider.cc)
+//   candidates  the first has the numbers of the sample points; each further one those of
+//               the one before, shifted by a constant step modulo 1: every candidate by
+//               itself is distributed as a single light sample is, and together they fill
+//               the lights evenly
+//   density     ls_pdf stays that of one candidate: each is weighted against scattered
+//               rays as a single light sample would be, and resampling estimates the mean
+//               of such terms, whose expectation is that of each
+//   unbiased    v > 0 wherever a candidate may add light; candidates may depend on each
+//               other: given them, the expectation of the estimator is the mean of their
+//               own f V / p
+//   variance    that of f / p falls with M, down to that of the visibility and of what v
+//               leaves out. One shadow ray at most, and more often one than without: a
+//               sample that adds light is found more often
+//   cost        per further candidate a light sample and an evaluation of the material
+//   source      Talbot, Cline and Egbert 2005; reservoir: Chao 1982; steps: Roberts 2018
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/lights/candidates.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/simd/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+void BeginCandidates(Wave& wave) {
+  ForEachBatch(wave, wave.queue(QueueId::kLit),
+               [&](const StoreSlots& slots, MF)
+                   HWY_ATTR { Scatter(hn::Zero(DF()), wave.path.worth_sum, slots); });
+}
+
+// Puts the kept sample where a single one would be. Where no candidate could add light
+// the last one stays, which carries none. The factor stays in kept_worth for those who
+// need the density without the radiance (kernels/control/ambient.cc).
+void KeepCandidate(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const VF inverse_count = Splat(1.0f / static_cast<float>(wave.run->candidates));
+  ForEachBatch(
+      wave, wave.queue(QueueId::kLit), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const VF sum = Gather(p.worth_sum, slots);
+        const MF any = hn::Gt(sum, hn::Zero(DF()));
+        const auto put = [&](const float* kept, float* out) HWY_ATTR {
+          Scatter(hn::IfThenElse(any, Gather(kept, slots), Gather(out, slots)), out,
+                  slots);
+        };
+        const VF worth = hn::IfThenElse(any, Gather(p.kept_worth, slots), Splat(1.0f));
+        const VF factor = hn::Div(hn::Mul(sum, inverse_count), worth);
+        const V3 light = Mul(Gather3(p.kept_r, p.kept_g, p.kept_b, slots), factor);
+        Scatter3(IfThenElseZero(any, light), p.ls_r, p.ls_g, p.ls_b, slots);
+        Scatter(factor, p.kept_worth, slots);
+        put(p.kept_x, p.ls_x), put(p.kept_y, p.ls_y), put(p.kept_z, p.ls_z);
+        put(p.kept_distance, p.ls_distance);
+        put(p.kept_pdf, p.ls_pdf);
+        if (p.ls_light == nullptr) return;  // there is but one
+        put(reinterpret_cast<const float*>(p.kept_light),
+            reinterpret_cast<float*>(p.ls_light));
+      });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(BeginCandidates);
+HWY_EXPORT(KeepCandidate);
+
+Stage BeginCandidatesStage() {
+  return {
+      "light_candidates",
+      "begins with the candidates of light samples",
+      QueueId::kLit,
+      {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
+      {},
+      {Field::worth_sum},
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(BeginCandidates); }};
+}
+
+Stage KeepCandidateStage() {
+  return {
+      "light_keep",
+      "takes the candidate that was kept",
+      QueueId::kLit,
+      {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
+      fields::kKeptSample | fields::kLightSample |
+          FieldSet{Field::worth_sum, Field::ls_light},
+      fields::kLightSample | FieldSet{Field::ls_light, Field::kept_worth},
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(KeepCandidate); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE
