@@ -27,8 +27,15 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
   const std::string limit = r.stop_reason == StopReason::kInterrupted ? "interruption"
                             : r.stop_reason == StopReason::kTime      ? "--time"
                                                                       : "--spp";
-  PrintError(fmt::format("error: the target was not reached before the end by {}: {}",
-                         limit, ErrorText(report.error)));
+  const double spp = double(r.samples) / double(job.window.pixels());
+  PrintError(
+      r.stop_reason == StopReason::kHopeless
+          ? fmt::format("error: the target cannot be shown to be reached, however many "
+                        "samples there are; ended after {:.0f} per pixel, {:.0f} times "
+                        "what the estimate asks for: {}",
+                        spp, kHopeless, ErrorText(report.error))
+          : fmt::format("error: the target was not reached before the end by {}: {}",
+                        limit, ErrorText(report.error)));
   return kExitTargetMissed;
 }
 

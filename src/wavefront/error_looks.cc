@@ -34,7 +34,8 @@ void ErrorLooks::LookIfDue(std::uint64_t done) {
   if (!setting_.tasks.IsAt(done) || !IsLook(done)) return;
   setting_.films.film().FitControl();
   needed_ = setting_.options.samples_needed(done);
-  reached_ = needed_ <= double(done);
+  hopeless_ = needed_ < 0;
+  reached_ = !hopeless_ && needed_ <= double(done);
 }
 
 }  // namespace lanelight

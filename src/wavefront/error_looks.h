@@ -29,6 +29,8 @@ class ErrorLooks {
   double needed() const { return needed_; }
   /// No more are needed.
   bool reached() const { return reached_; }
+  /// No number of them will do.
+  bool hopeless() const { return hopeless_; }
 
  private:
   bool IsLook(std::uint64_t done) const;
@@ -36,7 +38,7 @@ class ErrorLooks {
 
   const RunSetting& setting_;
   double needed_ = INFINITY;
-  bool reached_ = false;
+  bool reached_ = false, hopeless_ = false;
 };
 
 }  // namespace lanelight

@@ -158,7 +158,8 @@ RunResult Runner::Result() {
 }  // namespace
 
 const char* Name(StopReason reason) {
-  static constexpr const char* kNames[] = {"samples", "time", "target", "interrupted"};
+  static constexpr const char* kNames[] = {"samples", "time", "target", "interrupted",
+                                           "hopeless"};
   return kNames[static_cast<int>(reason)];
 }
 

@@ -49,7 +49,8 @@ struct RunOptions {
   double seconds = 0;
   /// If set, the render looks at itself at certain numbers of samples per pixel
   /// (src/wavefront/schedule.h), and ends once this returns `done` or less: how many the
-  /// image is estimated to need, of which `done` are in the film.
+  /// image is estimated to need, of which `done` are in the film; below 0: no number will
+  /// do.
   std::function<double(std::uint64_t done)> samples_needed;
   std::uint64_t seed = 0;
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
@@ -122,8 +123,8 @@ struct RunTrace {
   std::vector<ThreadTrace> threads;
 };
 
-enum class StopReason { kSamples, kTime, kTarget, kInterrupted };
-/// "samples", "time", "target", "interrupted".
+enum class StopReason { kSamples, kTime, kTarget, kInterrupted, kHopeless };
+/// "samples", "time", "target", "interrupted", "hopeless".
 const char* Name(StopReason reason);
 
 struct RunResult {

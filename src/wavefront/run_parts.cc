@@ -20,7 +20,8 @@ void RunParts::GoOn() {
 
 std::optional<RunPart> RunParts::Next() {
   const std::uint64_t done = setting_.tasks.Done(), limit = setting_.limit();
-  if (done >= limit || watch_.Ended() || looks_.reached()) return std::nullopt;
+  if (done >= limit || watch_.Ended() || looks_.reached() || looks_.hopeless())
+    return std::nullopt;
   const Round round = NextRound();
   RunPart part;
   part.begin = done;

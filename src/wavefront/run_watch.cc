@@ -41,6 +41,7 @@ bool RunWatch::PutsDown() const {
 
 StopReason RunWatch::Reason() const {
   if (looks_.reached()) return StopReason::kTarget;
+  if (looks_.hopeless()) return StopReason::kHopeless;
   // Only what has left samples out counts: a signal may come after the last one.
   if (setting_.tasks.Done() >= setting_.limit()) return StopReason::kSamples;
   return Interrupted() ? StopReason::kInterrupted : StopReason::kTime;

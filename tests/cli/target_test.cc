@@ -71,6 +71,33 @@ TEST_CASE("a target that is not reached exits with 5, and the image is there", "
   CHECK_THAT(quiet.process.err, Contains("target was not reached"));
 }
 
+TEST_CASE("a target that no number of samples can show ends the render", "[cli]") {
+  // One pixel carries all of the error, however often it is sampled.
+  TempDirectory directory;
+  const std::string scene = directory / "dot.pbrt", json = directory / "dot.json";
+  std::ofstream(scene) << R"(
+LookAt 0 0 -6  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 16 "integer yresolution" 12
+PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
+WorldBegin
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
+  Translate 0.2 0.2 0
+  Shape "sphere" "float radius" 0.02
+AttributeEnd
+)";
+  const ProcessResult r =
+      RunLanelight({"render", scene, "-o", directory / "dot.exr", "--json", json,
+                    "--target-relmse", "0.1", "--strategy", "seen-lights=paths"});
+  CHECK(r.exit_code == kExitTargetMissed);
+  CHECK_THAT(r.err, Contains("cannot be shown to be reached") && Contains("per pixel") &&
+                        Contains("few pixels carry it"));
+  std::ifstream in(json);
+  CHECK(nlohmann::json::parse(in).at("stop_reason") == "hopeless");
+  CHECK(ReadExr(directory / "dot.exr").width == 16);
+}
+
 TEST_CASE("an interrupted render misses its target", "[cli]") {
   TempDirectory directory;
   ProcessOptions interrupt;
