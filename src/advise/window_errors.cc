@@ -14,8 +14,7 @@
 namespace lanelight {
 namespace {
 
-constexpr int kSide = 8;
-constexpr std::uint64_t kSpp = 128;
+constexpr std::uint64_t kLeastSpp = 128, kMostSpp = 2048;
 // Pilot passes inside a window's run, which a long render has too but hardly notices: so
 // many times the window's samples are what they take a share of.
 constexpr std::uint64_t kPlannedRuns = 12;
@@ -53,9 +52,15 @@ double Limit(std::vector<double> values) {
 
 }  // namespace
 
-WindowSequence::WindowSequence(const PixelRect& image)
+std::uint64_t WindowSpp(double render_spp) {
+  std::uint64_t spp = kLeastSpp;
+  while (spp < kMostSpp && 4 * double(spp) <= render_spp) spp *= 4;
+  return spp;
+}
+
+WindowSequence::WindowSequence(const PixelRect& image, int side)
     : image_(image),
-      side_(std::min({kSide, image.width(), image.height()})),
+      side_(std::min({side, image.width(), image.height()})),
       columns_(image.width() / side_),
       rows_(image.height() / side_) {}
 
@@ -74,11 +79,12 @@ std::vector<PixelRect> WindowSequence::Next(std::size_t count) {
 }
 
 WindowRenderer::WindowRenderer(Job& job, std::vector<Strategy> strategies,
-                               const std::atomic<bool>* stop)
+                               const std::atomic<bool>* stop, std::uint64_t spp)
     : job_(job),
       strategies_(std::move(strategies)),
       stop_(stop),
-      sequence_(job.window),
+      spp_(spp),
+      sequence_(job.window, static_cast<int>(std::sqrt(kWindowSamples / double(spp)))),
       seed_(job.seed) {}
 
 WindowRenderer::Rendered WindowRenderer::Render(const Strategy& strategy,
@@ -91,12 +97,12 @@ WindowRenderer::Rendered WindowRenderer::Render(const Strategy& strategy,
   const int side = windows.front().width(), count = static_cast<int>(windows.size());
   FilmAccumulator film(0, 0, side * count, side, GroupsOf(strategy), false);
   RunOptions options;
-  options.spp = kSpp;
+  options.spp = spp_;
   options.seed = seed_;
   options.stop = stop_;
   options.profile = false;
   options.windows = windows;
-  options.planned_samples = kPlannedRuns * kSpp * planned *
+  options.planned_samples = kPlannedRuns * spp_ * planned *
                             static_cast<std::uint64_t>(side) *
                             static_cast<std::uint64_t>(side);
   const double start = CpuSeconds();

@@ -11,12 +11,13 @@
 
 namespace lanelight {
 
-/// Windows of at most 8 x 8 pixels spread evenly over a window of the image: the cells of
+/// Square windows spread evenly over a window of the image: the cells of
 /// a grid, in the order of a two-dimensional additive recurrence (the golden ratio's
 /// generalisation, Roberts 2018), so that any number of consecutive ones covers it.
 class WindowSequence {
  public:
-  explicit WindowSequence(const PixelRect& image);
+  /// `side` pixels wide, or less where the image is smaller.
+  explicit WindowSequence(const PixelRect& image, int side = 8);
   /// The next `count`; cells repeat once all have been given about once.
   std::vector<PixelRect> Next(std::size_t count);
 
@@ -26,17 +27,22 @@ class WindowSequence {
   std::uint64_t index_ = 0;
 };
 
-/// Samples of a window of 8 x 8 pixels.
+/// Samples of a window, whatever its shape.
 inline constexpr double kWindowSamples = 8 * 8 * 128;
 
-/// Renders windows with strategies of the job's scene. A window of 8 x 8 pixels has 128
-/// samples per pixel, in four randomisations of 32: what strata gain beyond that is not
-/// seen.
+/// Samples per pixel of windows that stand for a render of so many: 128 (8 x 8 pixels),
+/// 512 (4 x 4) or 2048 (2 x 2), not more than the render if it has 128. A strategy's
+/// samples come in four randomisations, and what strata gain within one grows with its
+/// length: shorter ones would favour what spoils strata and is cheap.
+std::uint64_t WindowSpp(double render_spp);
+
+/// Renders windows with strategies of the job's scene.
 class WindowRenderer {
  public:
-  /// `strategies` by index; all must be such that the scene takes them.
+  /// `strategies` by index; all must be such that the scene takes them. `spp`: of
+  /// WindowSpp.
   WindowRenderer(Job& job, std::vector<Strategy> strategies,
-                 const std::atomic<bool>* stop);
+                 const std::atomic<bool>* stop, std::uint64_t spp = 128);
 
   /// As MeasureRound asks, in four to eight batches. Errors are estimated variances
   /// relative to the squared mean of the pixel over all candidates of the round +
@@ -58,6 +64,7 @@ class WindowRenderer {
   Job& job_;
   std::vector<Strategy> strategies_;
   const std::atomic<bool>* stop_;
+  std::uint64_t spp_;
   WindowSequence sequence_;
   std::uint64_t seed_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
