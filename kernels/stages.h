@@ -48,8 +48,10 @@ namespace lanelight {
   X(Vertices)                                  \
   X(RecordVertex)                              \
   X(RecordStart)                               \
+  X(UnsplitBefore)                             \
   X(AdjointRoulette)                           \
   X(EfficiencyRoulette)                        \
+  X(UnsplitAfter)                              \
   X(IndependentBounce)                         \
   X(StratifiedBounce)                          \
   X(CmjBounce)                                 \
@@ -89,11 +91,13 @@ namespace lanelight {
   X(Connect)                                   \
   X(AmbientScattered)                          \
   X(RecordDecision)                            \
+  X(UnsplitDecision)                           \
   X(RecordRay)                                 \
   X(ConstantRoulette)                          \
   X(ThroughputRoulette)                        \
   X(LuminanceRoulette)                         \
   X(RecordPath)                                \
+  X(UnsplitPath)                               \
   X(RecordRays)                                \
   X(Accumulate)                                \
   X(Pack)

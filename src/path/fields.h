@@ -130,9 +130,14 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_4(X, u32, cell, ({kRecordsPaths}), kPath, (kNoCell), "cache cell of vertex 0, 1, 2, 3; 0xffffffff = none") \
   LANELIGHT_4(X, f32, at, ({kRecordsPaths}), kPath, (0.0f), "luminance of the throughput there") \
   LANELIGHT_4(X, f32, got, ({kRecordsPaths}), kPath, (0.0f), "luminance gathered before it") \
-  X(f32, risk_0, ({kRecordsPaths}), kPath, (0.0f), "second moments that roulette would add (kernels/roulette/record.cc)") \
-  X(f32, risk_1, ({kRecordsPaths}), kPath, (0.0f), "second moments, linear part")         \
-  X(f32, risk_2, ({kRecordsPaths}), kPath, (0.0f), "second moments, constant part")       \
+  X(f32, risk_0, ({kRecordsPaths, kRecordsUnsplit}), kPath, (0.0f), "second moments that roulette would add (kernels/roulette/record.cc)") \
+  X(f32, risk_1, ({kRecordsPaths, kRecordsUnsplit}), kPath, (0.0f), "second moments, linear part")         \
+  X(f32, risk_2, ({kRecordsPaths, kRecordsUnsplit}), kPath, (0.0f), "second moments, constant part")       \
+  /* training pass with splitting: what the path would be without (kernels/roulette/unsplit.cc) */ \
+  X(f32, copy_weight, ({kRecordsUnsplit}), kPath, (1.0f), "product of 1/r of its decisions so far") \
+  X(f32, decided_at, ({kRecordsUnsplit}), kPath, (-1.0f), "brightness of the throughput before the last decision; below 0 once it has survived it") \
+  X(f32, unsplit, ({kRecordsUnsplit}), kPath, (0.0f), "brightness gathered up to its last decision, without weights of copies") \
+  X(f32, unsplit_l, ({kRecordsUnsplit}), kGathered, (0.0f), "brightness of the gathered radiance at that time") \
   /* training pass of a guide: the first rays of a path that scattered, by number */      \
   LANELIGHT_4(X, f32, from_x, ({kRecordsGuide}), kPath, (0.0f), "where ray 0, 1, 2, 3 starts") \
   LANELIGHT_4(X, f32, from_y, ({kRecordsGuide}), kPath, (0.0f), "where it starts")        \
@@ -257,6 +262,8 @@ inline const FieldSet kVertices = {Field::cell_0, Field::cell_1, Field::cell_2,
                                    Field::cell_3, Field::at_0,   Field::at_1,
                                    Field::at_2,   Field::at_3,   Field::got_0,
                                    Field::got_1,  Field::got_2,  Field::got_3};
+inline const FieldSet kUnsplit = {Field::copy_weight, Field::decided_at, Field::unsplit,
+                                  Field::unsplit_l};
 inline const FieldSet kRisk = {Field::risk_0, Field::risk_1, Field::risk_2};
 }  // namespace fields
 

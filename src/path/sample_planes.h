@@ -19,7 +19,8 @@ inline constexpr int kRecordedVertices = 4;
   X(Difference, 3, ({kControlDifference}), true, "h - E[h] of a control variate")         \
   X(Numbers, 6, ({kRegressionControl}), false, "that drove the first bounce, and position in the pixel") \
   X(Record, 3 * kRecordedVertices + 5, ({kRecordsPaths}), false, "cell, throughput, gathered of each vertex; gathered at the end; depth; the three sums of the risk") \
-  X(GuideRecord, 8 * kRecordedVertices + 1, ({kRecordsGuide}), false, "of each scattered ray: start (3), normal, direction, pdf_sa, throughput, gathered before; gathered at the end")
+  X(GuideRecord, 8 * kRecordedVertices + 1, ({kRecordsGuide}), false, "of each scattered ray: start (3), normal, direction, pdf_sa, throughput, gathered before; gathered at the end") \
+  X(Unsplit, 2, ({kRecordsUnsplit}), true, "brightness gathered; what its square would be with roulette on the throughput instead of splitting")
 // clang-format on
 
 enum class PlaneGroup : std::uint8_t {
@@ -56,7 +57,7 @@ class SamplePlanes {
   static bool Sums(PlaneGroup group);
 
  private:
-  int first_[kNumPlaneGroups] = {0, -1, -1, -1, -1, -1};
+  int first_[kNumPlaneGroups] = {0, -1, -1, -1, -1, -1, -1};
   int count_ = kColorPlanes;
 };
 

@@ -44,6 +44,24 @@ double RobustMean(std::vector<double> values) {
 
 double PilotMeasure::Score() const { return cost * RobustMean(variances); }
 
+PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual) {
+  LL_CHECK_EQ(other.variances.size(), usual.variances.size());
+  const auto sum = [](const PilotMeasure& m) {
+    return std::accumulate(m.variances.begin(), m.variances.end(), 0.0);
+  };
+  constexpr double kMost = 100;
+  const double others = sum(other), usuals = sum(usual);
+  if (others <= 0 && usuals <= 0) return {};
+  if (usuals <= 0) return {-kMost, 0};
+  if (others <= 0) return {kMost, 0};
+  double squares = 0;
+  for (std::size_t i = 0; i < other.variances.size(); ++i) {
+    const double d = other.variances[i] / others - usual.variances[i] / usuals;
+    squares += d * d;
+  }
+  return {std::log(usual.cost * usuals / (other.cost * others)), std::sqrt(squares)};
+}
+
 bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, double margin,
                      double standard_errors) {
   const std::vector<PixelScores> pixels = Pixels(other, usual);

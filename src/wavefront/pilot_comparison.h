@@ -23,6 +23,16 @@ struct PilotMeasure {
 bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, double margin,
                      double standard_errors = 2);
 
+/// How many times as efficient another strategy is, by all pixels.
+struct PilotGain {
+  double log = 0;             // natural
+  double standard_error = 0;  // of it, by the scatter of both over the pixels
+};
+/// Both have the same pixels. None without error in either; the least number if nothing
+/// of the usual error was seen (variances may be negative), and the largest if none of
+/// the other's.
+PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual);
+
 /// How many of n values, sorted, count: all but the worst thousandth, and at least one is
 /// left out of 16. A single bright sample would decide alone.
 std::size_t KeptOf(std::size_t n);

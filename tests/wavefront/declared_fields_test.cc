@@ -41,7 +41,9 @@ class Checker {
     options.max_depth = 5;
     options.wavefront = 300;
     options.aov = !c.records;
-    if (c.records) {
+    if (c.records && s.Splits()) {
+      options.training = FeatureSet{Feature::kRecordsUnsplit};
+    } else if (c.records) {
       options.training = FeatureSet{Feature::kRecordsPaths, Feature::kRecordsGuide,
                                     Feature::kOtherEvents};
       options.changes = "roulette=throughput";
@@ -234,6 +236,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "roulette=adjoint"},
       {kAllStagesScene, "roulette=efficiency"},
       {kAllStagesScene, "points=sobol,guiding=radiance", true},
+      {kAllStagesScene, "roulette=adjoint", true},
       {kOtherStagesScene, "points=sobol"},
       {kOtherStagesScene, "directions=bsdf,pairs=antithetic"}};
   std::set<std::string> stages;

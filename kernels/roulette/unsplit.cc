@@ -1,0 +1,196 @@
+// A pilot pass with splitting, which records what the same paths would bring with
+// roulette on the throughput. Every copy of a path is distributed like a path that is
+// alone, and carries w, the product of 1/r of the decisions so far; a path that a
+// decision has ended is worth nothing, and those that survive it count for it. So, for
+// any f of a path,
+//   E[sum over the copies of w f(copy)] = E[f(path)] without any roulette
+// and with f the second moment by roulette on the throughput (record.cc has the formula),
+//   f = L^2 + sum over its decisions of W (1/s - 1) (L - g)^2
+// of throughput, L and g as they were without w, the pass tells that moment with no path
+// of the other strategy traced. Where splitting pays, its copies have met the bright
+// samples that decide, many times more often and with weights as much smaller, and the
+// two moments are compared on the same ones.
+//
+// Moments are about the brightness of the pixel that the training has found: about zero,
+// what the sums of w scatter around 1 would drown a variance far below the mean's square.
+//
+// L in terms of what is gathered: between two decisions l grows by w times what the path
+// alone would gather. A copy begins with no l of its own, but with L.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/roulette/unsplit.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/roulette/cell-inl.h"
+#include "src/prepare/tables.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// 3 sqrt(3): ImageGuess::Inverse is 1 / (3 sqrt(3) channel color).
+inline constexpr float kBrightnessOfInverse = 5.1961524f;
+
+LANELIGHT_INLINE VF Gathered(const Wave& wave, const Slots& slots) {
+  const PathColumns& p = wave.path;
+  return Brightness(wave.run->tables->path_values, Gather3(p.l_r, p.l_g, p.l_b, slots));
+}
+
+LANELIGHT_INLINE VF Sent(const Wave& wave, const Slots& slots) {
+  const PathColumns& p = wave.path;
+  return Brightness(wave.run->tables->path_values,
+                    Gather3(p.beta_r, p.beta_g, p.beta_b, slots));
+}
+
+// What the path would have gathered alone.
+LANELIGHT_INLINE VF Alone(const PathColumns& p, const Slots& slots, VF gathered) {
+  const VF since = hn::Sub(gathered, Gather(p.unsplit_l, slots));
+  return hn::Add(Gather(p.unsplit, slots), hn::Div(since, Gather(p.copy_weight, slots)));
+}
+
+// Of the pixel, by PathValues::inverse_pixel, in terms of what paths gather: about what
+// moments are taken (MomentsAbout in src/wavefront/unsplit_variances.h).
+LANELIGHT_INLINE VF AboutWhat(const Wave& wave, const Slots& slots) {
+  const float* inverse = wave.run->tables->path_values.inverse_pixel.data();
+  const VI at = hn::Mul(Gather(wave.path.pixel, slots), hn::Set(DI(), 3));
+  const V3 weights = Gather3(inverse, inverse + 1, inverse + 2, at);
+  const VF one = Splat(1.0f);
+  const VF sum = hn::Add(hn::Add(hn::Div(one, weights.x), hn::Div(one, weights.y)),
+                         hn::Div(one, weights.z));
+  const VF about = hn::Div(sum, Splat(kBrightnessOfInverse * wave.run->exposure));
+  // Of a black image nothing is known.
+  return hn::IfThenElseZero(hn::Gt(weights.x, hn::Zero(DF())), about);
+}
+
+void UnsplitBefore(Wave& wave) {
+  const PathColumns& p = wave.path;
+  ForEachBatch(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots, MF) HWY_ATTR {
+    const VF gathered = Gathered(wave, slots);
+    Scatter(Alone(p, slots, gathered), p.unsplit, slots);
+    Scatter(gathered, p.unsplit_l, slots);
+    Scatter(Sent(wave, slots), p.decided_at, slots);
+  });
+}
+
+void UnsplitAfter(Wave& wave) {
+  const PathColumns& p = wave.path;
+  ForEachBatch(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots, MF) HWY_ATTR {
+    const VF before = Gather(p.decided_at, slots), zero = hn::Zero(DF());
+    // A path that carries nothing brings nothing, whatever its weight.
+    const VF factor = hn::IfThenElse(hn::Gt(before, zero),
+                                     hn::Div(Sent(wave, slots), before), Splat(1.0f));
+    Scatter(hn::Mul(Gather(p.copy_weight, slots), factor), p.copy_weight, slots);
+    Scatter(Splat(-1.0f), p.decided_at, slots);
+  });
+}
+
+void UnsplitDecision(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const VI before = hn::Set(DI(), kThroughputFirst - 1);
+  ForEachBatch(
+      wave, wave.queue(QueueId::kScattered), [&](const Slots& slots, MF) HWY_ATTR {
+        const VF one = Splat(1.0f), risk = Gather(p.risk_0, slots);
+        const VF weight = hn::Add(one, risk);
+        VF s = hn::Div(MaxComponent(Gather3(p.beta_r, p.beta_g, p.beta_b, slots)),
+                       Gather(p.copy_weight, slots));
+        // The throughput that a survivor of the decisions before would have.
+        s = hn::Mul(s, weight);
+        if (p.eta_scale != nullptr) s = hn::Mul(s, Gather(p.eta_scale, slots));
+        const MF late = hn::RebindMask(DF(), hn::Gt(Gather(p.depth, slots), before));
+        s = hn::Min(hn::IfThenElse(late, s, one), one);
+        const VF g = Alone(p, slots, Gathered(wave, slots));
+        const VF a = hn::Mul(weight, hn::Sub(hn::Div(one, s), one));
+        const VF ag = hn::Mul(a, g);
+        Scatter(hn::Add(risk, a), p.risk_0, slots);
+        Scatter(hn::Add(Gather(p.risk_1, slots), ag), p.risk_1, slots);
+        Scatter(hn::MulAdd(ag, g, Gather(p.risk_2, slots)), p.risk_2, slots);
+      });
+}
+
+// In the order of PlaneGroup::kUnsplit; both are sums over the copies.
+void UnsplitPath(Wave& wave) {
+  const PathColumns& p = wave.path;
+  float* const plane =
+      wave.buffer.samples +
+      std::size_t(wave.run->planes.First(PlaneGroup::kUnsplit)) * wave.buffer.stride;
+  ForEachBatch(wave, wave.queue(QueueId::kDone), [&](const Slots& slots, MF) HWY_ATTR {
+    const VI output = Gather(p.output, slots);
+    const VF zero = hn::Zero(DF()), gathered = Gathered(wave, slots);
+    const VF end = Alone(p, slots, gathered), square = hn::Mul(end, end);
+    VF added = hn::MulAdd(square, Gather(p.risk_0, slots), Gather(p.risk_2, slots));
+    added = hn::NegMulAdd(hn::Add(end, end), Gather(p.risk_1, slots), added);
+    // What rounding could have made is none; nor is what is not a number, of a path that
+    // carries nothing.
+    added = hn::IfThenElseZero(hn::Gt(added, hn::Mul(square, Splat(1e-5f))), added);
+    const VF off = hn::Sub(end, AboutWhat(wave, slots));
+    const VF moment = hn::Mul(hn::MulAdd(off, off, added), Gather(p.copy_weight, slots));
+    const MF ended = hn::Ge(Gather(p.decided_at, slots), zero);
+    Scatter(gathered, plane, output);
+    Scatter(hn::IfThenElse(ended, zero, moment), plane + wave.buffer.stride, output);
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(UnsplitBefore);
+HWY_EXPORT(UnsplitAfter);
+HWY_EXPORT(UnsplitDecision);
+HWY_EXPORT(UnsplitPath);
+
+namespace {
+const FieldSet kTransport =
+    fields::kThroughput | fields::kRadiance | fields::kUnsplit | fields::kRisk;
+}  // namespace
+
+Stage UnsplitBeforeStage() {
+  return {
+      "unsplit_before",
+      "what a pilot path would be alone, before it may split",
+      QueueId::kVertex,
+      {Feature::kRecordsUnsplit, Feature::kSplitting},
+      fields::kThroughput | fields::kRadiance | fields::kUnsplit,
+      FieldSet{Field::unsplit, Field::unsplit_l, Field::decided_at},
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(UnsplitBefore); }};
+}
+Stage UnsplitAfterStage() {
+  return {
+      "unsplit_after",
+      "the weight of a pilot path that has been decided on",
+      QueueId::kVertex,
+      {Feature::kRecordsUnsplit, Feature::kSplitting},
+      fields::kThroughput | FieldSet{Field::copy_weight, Field::decided_at},
+      FieldSet{Field::copy_weight, Field::decided_at},
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(UnsplitAfter); }};
+}
+Stage UnsplitDecisionStage() {
+  return {
+      "unsplit_decision",
+      "what roulette would add to the second moment of a pilot path that splits",
+      QueueId::kScattered,
+      {Feature::kRecordsUnsplit, Feature::kSplitting},
+      kTransport | FieldSet{Field::depth, Field::eta_scale},
+      fields::kRisk,
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(UnsplitDecision); }};
+}
+Stage UnsplitPathStage() {
+  return {"unsplit_path",
+          "writes what a finished pilot path would have brought without splitting",
+          QueueId::kDone,
+          {Feature::kRecordsUnsplit, Feature::kSplitting},
+          kTransport | FieldSet{Field::output, Field::pixel},
+          {},
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(UnsplitPath); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE
