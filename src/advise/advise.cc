@@ -11,10 +11,6 @@
 #include "src/advise/candidates.h"
 #include "src/advise/rare_samples.h"
 #include "src/advise/window_errors.h"
-#include "src/prepare/tables.h"
-#include "src/wavefront/sample_rate.h"
-#include "src/wavefront/stop_watcher.h"
-#include "src/wavefront/wavefront.h"
 
 namespace lanelight {
 namespace {
@@ -40,7 +36,6 @@ class Adviser {
   Advice Run() {
     const auto start = std::chrono::steady_clock::now();
     const double budget = options_.share * options_.seconds;
-    spp_ = WindowSpp(RenderSpp());
     std::vector<Candidate> all = CandidatesFor(job_.scene, job_.plan.options);
     const std::size_t single = Compare(all, budget * kSingleChanges, "");
     Candidate best = all[single];
@@ -62,17 +57,6 @@ class Adviser {
   }
 
  private:
-  // Samples per pixel of the render to come, about, whatever its strategy.
-  double RenderSpp() {
-    const StrategyTables tables = MakeStrategyTables(job_.scene);
-    RunParameters run = MakeRunParameters(job_.scene, job_.plan);
-    run.tables = &tables;
-    const StopWatcher watcher(options_.stop);
-    return double(SamplesWithin(options_.seconds, job_.scene, job_.plan.options, run,
-                                &watcher)) /
-           double(job_.window.pixels());
-  }
-
   // Runs the pilot over those that the scene takes, the first being the default; returns
   // the index of the best and appends all of them to the advice.
   std::size_t Compare(const std::vector<Candidate>& all, double seconds,
@@ -89,7 +73,7 @@ class Adviser {
     HalvingOptions halving;
     halving.seconds = seconds;
     const HalvingResult result =
-        Halve(margins, WindowRenderer(job_, strategies, options_.stop, spp_), halving);
+        Halve(margins, WindowRenderer(job_, strategies, options_.stop), halving);
     advice_.pilot_seconds += result.seconds;
     advice_.interrupted |= result.interrupted;
     double windows = 0;
@@ -233,7 +217,6 @@ class Adviser {
   Job& job_;
   const AdviceOptions& options_;
   Advice advice_;
-  std::uint64_t spp_ = 0;      // of windows
   double sample_seconds_ = 0;  // wall clock of one sample in the windows; 0: not known
 };
 

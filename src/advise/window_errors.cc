@@ -14,10 +14,15 @@
 namespace lanelight {
 namespace {
 
-constexpr std::uint64_t kLeastSpp = 128, kMostSpp = 2048;
+constexpr int kSide = 8;
+constexpr std::uint64_t kSpp = 128;
 // Pilot passes inside a window's run, which a long render has too but hardly notices: so
 // many times the window's samples are what they take a share of.
 constexpr std::uint64_t kPlannedRuns = 12;
+// A run that renders next to nothing: samples per pixel of one window; what its pilot is
+// sized for. And what is left of a run's time at least without it.
+constexpr std::uint64_t kSetUpSpp = 4, kSetUpPlanned = 64;
+constexpr double kLeastShare = 0.25;
 // The robust error leaves out this share of the pixels of a round.
 constexpr double kTrimmed = 0.02;
 
@@ -52,15 +57,9 @@ double Limit(std::vector<double> values) {
 
 }  // namespace
 
-std::uint64_t WindowSpp(double render_spp) {
-  std::uint64_t spp = kLeastSpp;
-  while (spp < kMostSpp && 4 * double(spp) <= render_spp) spp *= 4;
-  return spp;
-}
-
-WindowSequence::WindowSequence(const PixelRect& image, int side)
+WindowSequence::WindowSequence(const PixelRect& image)
     : image_(image),
-      side_(std::min({side, image.width(), image.height()})),
+      side_(std::min({kSide, image.width(), image.height()})),
       columns_(image.width() / side_),
       rows_(image.height() / side_) {}
 
@@ -79,38 +78,57 @@ std::vector<PixelRect> WindowSequence::Next(std::size_t count) {
 }
 
 WindowRenderer::WindowRenderer(Job& job, std::vector<Strategy> strategies,
-                               const std::atomic<bool>* stop, std::uint64_t spp)
+                               const std::atomic<bool>* stop)
     : job_(job),
       strategies_(std::move(strategies)),
       stop_(stop),
-      spp_(spp),
-      sequence_(job.window, static_cast<int>(std::sqrt(kWindowSamples / double(spp)))),
-      seed_(job.seed) {}
+      sequence_(job.window),
+      seed_(job.seed),
+      set_up_(strategies_.size(), INFINITY) {}
 
-WindowRenderer::Rendered WindowRenderer::Render(const Strategy& strategy,
-                                                const std::vector<PixelRect>& windows,
-                                                std::size_t planned) {
-  UseStrategy(strategy, job_.scene);
-  PlanOptions plan_options = job_.plan.options;
-  plan_options.aov = false;
-  const Plan plan = MakePlan(job_.scene, plan_options);
+FilmAccumulator WindowRenderer::FilmOf(const std::vector<PixelRect>& windows) const {
   const int side = windows.front().width(), count = static_cast<int>(windows.size());
-  FilmAccumulator film(0, 0, side * count, side, GroupsOf(strategy), false);
+  return FilmAccumulator(0, 0, side * count, side, GroupsOf(job_.scene.strategy), false);
+}
+
+double WindowRenderer::RunWindows(const Plan& plan, const std::vector<PixelRect>& windows,
+                                  std::uint64_t spp, std::uint64_t planned_samples,
+                                  FilmAccumulator& film) {
   RunOptions options;
-  options.spp = spp_;
+  options.spp = spp;
   options.seed = seed_;
   options.stop = stop_;
   options.profile = false;
   options.windows = windows;
-  options.planned_samples = kPlannedRuns * spp_ * planned *
-                            static_cast<std::uint64_t>(side) *
-                            static_cast<std::uint64_t>(side);
+  options.planned_samples = planned_samples;
   const double start = CpuSeconds();
   const RunResult run = Run(job_.scene, plan, options, film);
-  Rendered out;
-  double seconds = CpuSeconds() - start;
+  const double seconds = CpuSeconds() - start;
   // The share of pilot passes is not the strategy's cost in a long render.
-  if (run.seconds > 0) seconds *= 1 - run.pilot_seconds / run.seconds;
+  return run.seconds > 0 ? seconds * (1 - run.pilot_seconds / run.seconds) : seconds;
+}
+
+WindowRenderer::Rendered WindowRenderer::Render(std::size_t strategy,
+                                                const std::vector<PixelRect>& windows,
+                                                std::size_t planned) {
+  UseStrategy(strategies_[strategy], job_.scene);
+  PlanOptions plan_options = job_.plan.options;
+  plan_options.aov = false;
+  const Plan plan = MakePlan(job_.scene, plan_options);
+  // Nor is what a run takes before its first sample, and with caches that another
+  // strategy has filled: on fast scenes that is as much as a window takes, the same for
+  // all strategies, and hides what the slow ones cost.
+  const std::vector<PixelRect> one = {windows.front()};
+  FilmAccumulator next_to_nothing = FilmOf(one);
+  const double set_up = RunWindows(plan, one, kSetUpSpp, kSetUpPlanned, next_to_nothing);
+  set_up_[strategy] = std::min(set_up_[strategy], set_up);
+  FilmAccumulator film = FilmOf(windows);
+  const int side = film.height();
+  const double whole = RunWindows(
+      plan, windows, kSpp,
+      kPlannedRuns * kSpp * planned * static_cast<std::uint64_t>(side * side), film);
+  Rendered out;
+  const double seconds = std::max(whole - set_up_[strategy], kLeastShare * whole);
   out.seconds.assign(windows.size(), seconds / double(windows.size()));
   for (int x = 0; x < film.width(); ++x) {
     for (int y = 0; y < side; ++y) {
@@ -133,7 +151,7 @@ std::vector<WindowErrors> WindowRenderer::operator()(
     const std::vector<PixelRect> batch(rects.begin() + b * windows / batches,
                                        rects.begin() + (b + 1) * windows / batches);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      Rendered part = Render(strategies_[candidates[i]], batch, windows);
+      Rendered part = Render(candidates[i], batch, windows);
       if (stop_ != nullptr && *stop_) return {};
       Append(part.mean, rendered[i].mean);
       Append(part.variance, rendered[i].variance);

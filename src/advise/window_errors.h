@@ -11,13 +11,12 @@
 
 namespace lanelight {
 
-/// Square windows spread evenly over a window of the image: the cells of
+/// Windows of at most 8 x 8 pixels spread evenly over a window of the image: the cells of
 /// a grid, in the order of a two-dimensional additive recurrence (the golden ratio's
 /// generalisation, Roberts 2018), so that any number of consecutive ones covers it.
 class WindowSequence {
  public:
-  /// `side` pixels wide, or less where the image is smaller.
-  explicit WindowSequence(const PixelRect& image, int side = 8);
+  explicit WindowSequence(const PixelRect& image);
   /// The next `count`; cells repeat once all have been given about once.
   std::vector<PixelRect> Next(std::size_t count);
 
@@ -27,22 +26,17 @@ class WindowSequence {
   std::uint64_t index_ = 0;
 };
 
-/// Samples of a window, whatever its shape.
+/// Samples of a window of 8 x 8 pixels.
 inline constexpr double kWindowSamples = 8 * 8 * 128;
 
-/// Samples per pixel of windows that stand for a render of so many: 128 (8 x 8 pixels),
-/// 512 (4 x 4) or 2048 (2 x 2), not more than the render if it has 128. A strategy's
-/// samples come in four randomisations, and what strata gain within one grows with its
-/// length: shorter ones would favour what spoils strata and is cheap.
-std::uint64_t WindowSpp(double render_spp);
-
-/// Renders windows with strategies of the job's scene.
+/// Renders windows with strategies of the job's scene. A window of 8 x 8 pixels has 128
+/// samples per pixel, in four randomisations of 32: what strata gain beyond that is not
+/// seen.
 class WindowRenderer {
  public:
-  /// `strategies` by index; all must be such that the scene takes them. `spp`: of
-  /// WindowSpp.
+  /// `strategies` by index; all must be such that the scene takes them.
   WindowRenderer(Job& job, std::vector<Strategy> strategies,
-                 const std::atomic<bool>* stop, std::uint64_t spp = 128);
+                 const std::atomic<bool>* stop);
 
   /// As MeasureRound asks, in four to eight batches. Errors are estimated variances
   /// relative to the squared mean of the pixel over all candidates of the round +
@@ -57,16 +51,23 @@ class WindowRenderer {
     std::vector<double> seconds;         // by window
     std::vector<std::size_t> batch;
   };
-  /// `planned`: windows of the round.
-  Rendered Render(const Strategy& strategy, const std::vector<PixelRect>& windows,
+  /// With one of the strategies. `planned`: windows of the round.
+  Rendered Render(std::size_t strategy, const std::vector<PixelRect>& windows,
                   std::size_t planned);
+  /// Renders windows side by side; returns the processor time that it took, without
+  /// pilots.
+  double RunWindows(const Plan& plan, const std::vector<PixelRect>& windows,
+                    std::uint64_t spp, std::uint64_t planned_samples,
+                    FilmAccumulator& film);
+  FilmAccumulator FilmOf(const std::vector<PixelRect>& windows) const;
 
   Job& job_;
   std::vector<Strategy> strategies_;
   const std::atomic<bool>* stop_;
-  std::uint64_t spp_;
   WindowSequence sequence_;
   std::uint64_t seed_;
+  std::vector<double>
+      set_up_;  // seconds of a run that renders next to nothing; the least
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 

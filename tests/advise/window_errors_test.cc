@@ -46,27 +46,6 @@ TEST_CASE("windows cover the image evenly", "[study]") {
   for (const PixelRect& w : narrow.Next(10)) CHECK((w.width() == 5 && w.height() == 5));
 }
 
-TEST_CASE("windows have strata as long as those of the render", "[study]") {
-  CHECK(WindowSpp(1) == 128);
-  CHECK(WindowSpp(511) == 128);
-  CHECK(WindowSpp(512) == 512);
-  CHECK(WindowSpp(2047) == 512);
-  CHECK(WindowSpp(1e6) == 2048);
-  Job job = SmallBox();
-  // Errors are those of as many samples: Sobol' points converge faster than 1 / n.
-  const auto mean_error = [&](std::uint64_t spp) {
-    WindowRenderer renderer(job, {job.scene.strategy}, nullptr, spp);
-    double elapsed = 0, mean = 0;
-    const auto measured = renderer({0}, 64, elapsed);
-    REQUIRE(measured[0].all.size() == 64);
-    for (double e : measured[0].robust) mean += e / 64;
-    return mean;
-  };
-  // A factor of 16 at least, beside chance: 64 windows of 4 to 64 pixels scatter by
-  // less than a factor of 1.5.
-  CHECK(mean_error(128) / mean_error(2048) > 16 / 1.5);
-}
-
 TEST_CASE("windows have the samples that the whole image has there", "[study]") {
   Job job = SmallBox();
   const std::vector<PixelRect> windows = {{8, 16, 16, 24}, {56, 40, 64, 48}};
