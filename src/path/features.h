@@ -64,7 +64,7 @@ namespace lanelight {
   X(kGuided, "a guide that proposes directions, from training passes")        \
   X(kDecides, "a strategy chosen by a pilot")                                 \
   X(kRecordsGuide, "a training pass that records what a guide learns from")   \
-  X(kRecordsUnsplit, "a training pass that records what paths would bring unsplit") \
+  X(kRecordsUnsplit, "a training pass: what paths would bring unsplit")       \
   X(kControl, "a control variate (samples may be negative)")                  \
   X(kControlDifference, "a control variate with an estimated coefficient")
 
