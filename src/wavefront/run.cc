@@ -55,7 +55,6 @@ class Runner {
   RunResult Result();
 
   RunClock clock_;
-  TickScale ticks_;
   OneProcess alone_;
   Crew& crew_;
   RunStrategy strategy_;
@@ -65,6 +64,7 @@ class Runner {
   ErrorLooks looks_;
   RunWatch watch_;
   RunParts parts_;
+  TickScale ticks_;  // the last to be made: a trace begins when the run does
 };
 
 // Starts the clock, and trains the strategy or goes on where a run was put down.

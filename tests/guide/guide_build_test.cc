@@ -120,7 +120,7 @@ TEST_CASE("one bright record does not own its cell", "[guide]") {
   for (const double bright : {1e6, 1e29}) {
     std::vector<GuideRecord> spoilt = records;
     spoilt[7].radiance = static_cast<float>(bright);
-    const Guide guide = BuildGuide(spoilt, {});
+    const Guide guide = BuildGuide(spoilt, kLargeCells);
     REQUIRE(guide.cells() == 1);
     CHECK(Share(guide, {0.5f, 0.5f, 0}, square) < 1.5 / 16);
     CHECK(Share(guide, {0.5f, 0.5f, 0}, square) > 1.5 / kGuideSquares);
