@@ -65,6 +65,9 @@ done
 render veach-mis.pbrt --resolution 24x18 --spp 16 --strategy decide=pilot
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=solid-angle
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=projected
+render many-lights.pbrt --resolution 81x61 --spp 8 --strategy light-candidates=resampled:3
+expect 0 guide cornell-box.pbrt --resolution 81x61 --pixel 40,50 --samples 1e6 \
+  -o "$out/guide.png"
 
 render glass.pbrt --resolution 64x48 --spp 4 --aov --png --crop 3,5,50,40 --depth half \
   --json "$out/report.json" --build fast
