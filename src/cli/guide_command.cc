@@ -14,6 +14,7 @@
 #include "src/cli/scene_options.h"
 #include "src/core/parallel.h"
 #include "src/image/png.h"
+#include "src/render/saving.h"
 
 namespace lanelight {
 namespace {
@@ -41,6 +42,7 @@ std::string Text(const GuidePicture& p, const std::string& output) {
 int RunGuide(const GuideCommandOptions& options) {
   ForceTarget(options.scene.target);
   const ThreadLimit threads(options.scene.threads);
+  CheckOutputPaths({options.output}, options.scene.scene);
   const Job job = PrepareJob(options.scene.scene, options.scene.settings);
   const InterruptGuard interrupt;
   GuidePictureOptions picture;
