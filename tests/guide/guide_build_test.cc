@@ -113,6 +113,26 @@ TEST_CASE("a guide has learned radiance over twelve decades", "[guide]") {
   }
 }
 
+TEST_CASE("a direction is learned by the four squares around it", "[guide]") {
+  // A quarter of a square beyond the middle of column 5, an eighth beyond that of row 9.
+  // (Both are exact in the 16 bits of a record.)
+  std::vector<GuideRecord> records =
+      FloorRecords(1000, 1, [](Vec3d, Vec3d) { return 1.0; });
+  for (GuideRecord& r : records) {
+    r.u = Fixed((5.5 + 0.25) / kGuideGrid), r.v = Fixed((9.5 + 0.125) / kGuideGrid);
+  }
+  const Guide guide = BuildGuide(records, {4000, 1000, 0.05, 1e-9});
+  const double shares[2][2] = {{0.75 * 0.875, 0.25 * 0.875},
+                               {0.75 * 0.125, 0.25 * 0.125}};
+  for (std::size_t j = 0; j < 2; ++j) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::size_t square = (9 + j) * kGuideGrid + 5 + i;
+      CHECK(Share(guide, {0.5f, 0.5f, 0}, square) ==
+            Approx(0.95 * shares[j][i] + 0.05 * CosineMasses()[square]).epsilon(1e-3));
+    }
+  }
+}
+
 TEST_CASE("one bright record does not own its cell", "[guide]") {
   std::vector<GuideRecord> records =
       FloorRecords(300, 1, [](Vec3d, Vec3d) { return 1.0; });
