@@ -7,30 +7,11 @@
 #include "src/estimate/target.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/wavefront/schedule.h"
+#include "tests/wavefront/lamp_scene.h"
 #include "tests/wavefront/render_fixture.h"
 
 namespace lanelight {
 namespace {
-
-const char* kScene = R"(
-LookAt 0 2 -6  0 0.8 0  0 1 0
-Camera "perspective" "float fov" 40
-Film "rgb" "integer xresolution" 37 "integer yresolution" 29
-Integrator "path" "integer maxdepth" 3
-WorldBegin
-LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ]
-AttributeBegin
-  AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
-  Translate -2 3 0
-  Shape "sphere" "float radius" 0.3
-AttributeEnd
-Material "diffuse" "rgb reflectance" [ 0.6 0.5 0.4 ]
-AttributeBegin
-  Rotate -90 1 0 0
-  Shape "plane"
-AttributeEnd
-Shape "sphere" "float radius" 0.8
-)";
 
 struct OpenEnded {
   std::string strategy = "points=sobol";
@@ -43,7 +24,8 @@ struct OpenEnded {
 
 Rendered Render(const OpenEnded& o) {
   const ThreadLimit limit(o.threads);
-  CompiledScene scene = PrepareScene(ParseSceneText(kScene, "test.pbrt", "."), {});
+  CompiledScene scene =
+      PrepareScene(ParseSceneText(LampScene(37, 29, 3), "test.pbrt", "."), {});
   Strategy strategy = scene.strategy;
   ApplyStrategy(o.strategy, {}, strategy);
   UseStrategy(strategy, scene);
@@ -160,7 +142,8 @@ TEST_CASE("a render of a million samples has variances whenever it is stopped",
     for (const char* pairs : {"", ",pairs=antithetic"}) {
       CAPTURE(points, pairs);
       const ThreadLimit limit(2);
-      CompiledScene scene = PrepareScene(ParseSceneText(kScene, "test.pbrt", "."), {});
+      CompiledScene scene =
+          PrepareScene(ParseSceneText(LampScene(37, 29, 3), "test.pbrt", "."), {});
       Strategy strategy = scene.strategy;
       ApplyStrategy("points=" + points + pairs, {}, strategy);
       UseStrategy(strategy, scene);
@@ -199,7 +182,7 @@ TEST_CASE("stopping at the target keeps the image unbiased", "[open_ended]") {
   t.sampler = Points::kSobol;
   t.spp = 8192;
   t.seed = 99;
-  const Rendered truth = RenderText(kScene, t);
+  const Rendered truth = RenderText(LampScene(37, 29, 3), t);
   const Rgb mean = ImageMean(truth.film), error = ImageStandardError(truth.film);
   for (const char* strategy : {"points=sobol", "points=cmj", "points=lattice"}) {
     Rgb sum, square;

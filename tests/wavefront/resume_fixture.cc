@@ -3,35 +3,13 @@
 #include <random>
 
 #include "src/estimate/target.h"
+#include "tests/wavefront/lamp_scene.h"
 
 namespace lanelight::resume {
-namespace {
-
-const char* kScene = R"(
-LookAt 0 2 -6  0 0.8 0  0 1 0
-Camera "perspective" "float fov" 40
-Film "rgb" "integer xresolution" 70 "integer yresolution" 37
-Integrator "path" "integer maxdepth" 4
-WorldBegin
-LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ]
-AttributeBegin
-  AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
-  Translate -2 3 0
-  Shape "sphere" "float radius" 0.3
-AttributeEnd
-Material "diffuse" "rgb reflectance" [ 0.6 0.5 0.4 ]
-AttributeBegin
-  Rotate -90 1 0 0
-  Shape "plane"
-AttributeEnd
-Shape "sphere" "float radius" 0.8
-)";
-
-}  // namespace
-
 Rendered Render(const Request& request) {
   const ThreadLimit limit(request.threads);
-  CompiledScene scene = PrepareScene(ParseSceneText(kScene, "test.pbrt", "."), {});
+  CompiledScene scene =
+      PrepareScene(ParseSceneText(LampScene(kWidth, kHeight, 4), "test.pbrt", "."), {});
   Strategy strategy = scene.strategy;
   ApplyStrategy(request.strategy, {}, strategy);
   UseStrategy(strategy, scene);
