@@ -13,7 +13,7 @@ namespace lanelight {
 struct CompiledScene;  // src/compiled/scene.h
 
 // Queues hold path slots. One writer stage appends, one or more readers consume; the
-// driver (src/wavefront/tasks.cc) clears them.
+// driver (src/wavefront/drive.cc) clears them.
 // X(name, meaning)
 #define LANELIGHT_QUEUES(X)                                   \
   X(kFree, "slots without a path")                            \
