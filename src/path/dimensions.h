@@ -16,9 +16,10 @@ enum class Dimension : std::uint32_t {
   kFilm = 0,  // 2: position in the pixel
   kLens = 1,  // 2: position on the lens
   // 8 to 15: where a path goes
-  kBsdf = 8,    // 2: direction
-  kLobe = 9,    // 1: choice of lobe
-  kGuide = 10,  // 1: choice between guide and material
+  kBsdf = 8,     // 2: direction
+  kLobe = 9,     // 1: choice of lobe
+  kGuide = 10,   // 1: choice between guide and material
+  kMedium = 11,  // 2: distance in a medium, choice of channel
   // 16 to 23: light samples
   kLight = 16,      // 2: point on the light
   kSelect = 17,     // 1: choice of light

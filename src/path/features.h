@@ -18,6 +18,8 @@ namespace lanelight {
   X(kDisks, "disks")                                                          \
   X(kPlanes, "infinite planes")                                               \
   X(kLargeSpheres, "spheres much larger than the camera's distance to them")  \
+  X(kClippedSpheres, "spheres and disks of which a part is there")            \
+  X(kCylinders, "cylinders")                                                  \
   X(kInstances, "object instances")                                           \
   X(kVertexNormals, "interpolated vertex normals")                            \
   X(kUv, "surface coordinates (a texture is looked up)")                      \
@@ -25,10 +27,21 @@ namespace lanelight {
   X(kTextures, "textured material parameters")                                \
   X(kTexturedRoughness, "textured roughness")                                 \
   X(kTexturedColor1, "a textured second colour parameter")                    \
+  X(kTexturedCoat, "textured layers of a coat")                               \
+  X(kTexturePlaces, "textures that depend on where a point is")               \
+  X(kTextureFootprints, "textures filtered over the footprint of a pixel")    \
+  X(kBumps, "displacement textures, shaded as bumps")                         \
+  X(kNormalMaps, "normal maps")                                               \
   X(kAlpha, "alpha cut-outs")                                                 \
   X(kMix, "mix materials")                                                    \
   X(kRefraction, "a refracting interface (roulette must know eta)")           \
   X(kOtherEvents, "events beside surfaces, such as points in a medium")       \
+  X(kMedia, "participating media")                                            \
+  X(kMediumGrids, "media whose density varies")                               \
+  X(kMediumEmission, "media that emit light")                                 \
+  X(kMediumChanges, "surfaces that have media beside them")                   \
+  X(kInterfaces, "surfaces that only bound a medium")                         \
+  X(kOpaqueShadows, "shadow rays that any surface stops")                     \
   X(kLights, "light that is sampled")                                         \
   X(kManyLights, "more than one light")                                       \
   X(kTriangleLights, "emitting triangles")                                    \
@@ -38,6 +51,9 @@ namespace lanelight {
   X(kPointLights, "point lights")                                             \
   X(kSpotLights, "spot lights")                                               \
   X(kDistantLights, "distant lights")                                         \
+  X(kImageLights, "point lights with an image of their directions")           \
+  X(kEmissionImages, "emitting shapes with an image")                         \
+  X(kPortals, "an environment seen through a portal")                         \
   X(kInfiniteConstant, "constant environment")                                \
   X(kInfiniteImage, "environment image")                                      \
   X(kAreaLights, "emitting shapes")                                           \
@@ -46,10 +62,13 @@ namespace lanelight {
   X(kScatters, "paths of more than zero bounces (maximum depth > 0)")         \
   X(kPerspective, "a perspective camera")                                     \
   X(kOrthographic, "an orthographic camera")                                  \
+  X(kSphericalCamera, "a spherical camera")                                   \
+  X(kRealisticCamera, "a camera with a lens system")                          \
   X(kLens, "a thin lens")                                                     \
   X(kFiltered, "a pixel filter other than the box")                           \
   X(kSignedFilter, "a pixel filter with negative lobes")                      \
   X(kAov, "auxiliary output (--aov)")                                         \
+  X(kAovGeometry, "auxiliary output of positions and surface coordinates")    \
   X(kSampledHittableLights, "light samples of lights that rays can hit")      \
   X(kLightTable, "light-selection=power or uniform")                          \
   X(kLightTree, "light-selection=tree")                                       \

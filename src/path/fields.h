@@ -81,8 +81,10 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_XYZ(X, f32, p, ({kScatters, kAov}), kSurface, (), "hit point")              \
   X(f32, p_error, ({kScatters, kAov}), kSurface, (), "offset along ng that clears the rounding error of p") \
   LANELIGHT_XYZ(X, f32, ng, ({kScatters, kAov}), kSurface, (), "geometric normal, unit, emitting side") \
-  LANELIGHT_XYZ(X, f32, ns, ({kVertexNormals}), kSurface, (), "shading normal, unit")   \
-  LANELIGHT_XYZ(X, f32, tg, ({kTangents}), kSurface, (), "dp/du, not normalised")       \
+  LANELIGHT_XYZ(X, f32, ns, ({kVertexNormals, kBumps, kNormalMaps}), kSurface, (), "shading normal, unit")   \
+  LANELIGHT_XYZ(X, f32, tg, ({kTangents, kBumps, kNormalMaps, kTextureFootprints}), kSurface, (), "dp/du, not normalised")       \
+  LANELIGHT_XYZ(X, f32, tv, ({kBumps, kTextureFootprints}), kSurface, (), "dp/dv, not normalised")       \
+  LANELIGHT_2(X, f32, spread, ({kTextureFootprints}), kSurface, (), "footprint of a pixel in surface coordinates: largest step of u, of v") \
   X(f32, uv_u, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(f32, uv_v, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(u32, material, ({kScatters, kAov}), kSurface, (), "material index")                 \
@@ -91,6 +93,10 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, color1, ({kTexturedColor1}), kSurface, (), "second colour parameter") \
   X(f32, alpha_x, ({kTexturedRoughness}), kSurface, (), "GGX alpha along the tangent")  \
   X(f32, alpha_y, ({kTexturedRoughness}), kSurface, (), "GGX alpha across it")          \
+  X(f32, coat_thickness, ({kTexturedCoat}), kSurface, (), "thickness of a coat") \
+  X(f32, coat_g, ({kTexturedCoat}), kSurface, (), "asymmetry of the medium in a coat") \
+  LANELIGHT_RGB(X, f32, coat_albedo, ({kTexturedCoat}), kSurface, (), "albedo of the medium in a coat") \
+  LANELIGHT_2(X, f32, alpha2, ({kTexturedCoat}), kSurface, (), "GGX alpha of the metal under a coat") \
   /* sample points of the bounce */                                                       \
   X(f32, u_lobe, (KindsWith(kChoosesLobe)), kBounce, (), "choice of lobe")              \
   LANELIGHT_2(X, f32, u_bsdf, ({kScatters}), kBounce, (), "direction")                  \
@@ -103,6 +109,21 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(u32, guide_cell, ({kGuided}), kBounce, (), "cell of the guide at the hit point")    \
   LANELIGHT_XYZ(X, f32, guide, ({kGuided}), kBounce, (), "direction that the guide proposes, unit, scene") \
   X(f32, guide_pdf, ({kGuided}), kBounce, (), "pdf_sa of that direction, by the guide alone") \
+  /* media (src/compiled/media.h) */                                                      \
+  X(u32, medium, ({kMedia}), kPath, (), "medium that the ray is in; 0xffffffff = none")  \
+  LANELIGHT_2(X, f32, u_medium, ({kMedia}), kPath, (), "distance in the medium along the ray, choice of colour channel") \
+  X(f32, passed, ({kInterfaces}), kPath, (0.0f), "distance from where the ray was scattered to its origin, through interfaces") \
+  X(u32, crossings, ({kInterfaces}), kPath, (0u), "interfaces that the path went through") \
+  LANELIGHT_RGB(X, f32, odds, ({kInterfaces}), kPath, (1.0f), "per channel: density of the way through interfaces, had it been chosen, over that of the chosen one") \
+  LANELIGHT_XYZ(X, f32, sh_o, ({kInterfaces}), kBounce, (), "origin of the rest of a shadow ray") \
+  LANELIGHT_XYZ(X, f32, sh_n, ({kInterfaces}), kBounce, (), "normal where it meets a surface") \
+  LANELIGHT_XYZ(X, f32, sh_p, ({kInterfaces}), kBounce, (), "point where it does")         \
+  X(f32, sh_p_error, ({kInterfaces}), kBounce, (), "offset that clears its rounding error") \
+  X(f32, sh_left, ({kInterfaces}), kBounce, (), "length of the rest")                     \
+  X(f32, sh_t, ({kInterfaces}), kBounce, (), "distance of the surface")                   \
+  X(u32, sh_prim, ({kInterfaces}), kBounce, (), "primitive of the surface")               \
+  X(u32, sh_material, ({kInterfaces}), kBounce, (), "its material")                       \
+  X(u32, sh_medium, ({kInterfaces}), kBounce, (), "medium that the rest starts in")       \
   /* light sample */                                                                      \
   X(u32, ls_light, ({kManyLights}), kBounce, (), "selected light")                      \
   LANELIGHT_XYZ(X, f32, ls, ({kLights}), kBounce, (), "unit direction to the light")    \
@@ -235,6 +256,8 @@ inline const FieldSet kNormal = {Field::ng_x, Field::ng_y, Field::ng_z,
 inline const FieldSet kStartNormal = {Field::start_n_x, Field::start_n_y,
                                       Field::start_n_z};
 inline const FieldSet kTangent = {Field::tg_x, Field::tg_y, Field::tg_z};
+inline const FieldSet kTangents = {Field::tg_x, Field::tg_y, Field::tg_z,
+                                   Field::tv_x, Field::tv_y, Field::tv_z};
 inline const FieldSet kUv = {Field::uv_u, Field::uv_v};
 inline const FieldSet kParameters = {Field::color0_r, Field::color0_g, Field::color0_b,
                                      Field::color1_r, Field::color1_g, Field::color1_b,

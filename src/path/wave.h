@@ -27,6 +27,7 @@ struct CompiledScene;  // src/compiled/scene.h
   X(kLit, "surfaces that connect to a light")                 \
   X(kShadow, "paths with a shadow ray in ls_* carrying sh_*") \
   X(kScattered, "paths with a new ray after shading")         \
+  X(kPassed, "paths that go through an interface")            \
   X(kDone, "paths whose radiance is complete")                \
   X(kScratch, "filtered sub-queue, valid inside one stage call")
 

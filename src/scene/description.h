@@ -32,13 +32,33 @@ struct FloatValue {
   Index texture = kNone;
 };
 
-enum class TextureKind { kConstant, kScale, kMix, kCheckerboard, kImage };
+enum class TextureKind {
+  kConstant,
+  kScale,
+  kMix,
+  kCheckerboard,
+  kImage,
+  kDirectionMix,
+  kDots,
+  kFbm,
+  kWrinkled,
+  kWindy,
+  kMarble,
+  kBilinear
+};
 enum class WrapMode { kRepeat, kClamp, kBlack, kOctahedralSphere };
 enum class Encoding { kSrgb, kLinear, kGamma };
 
-/// uv' = (su*u + du, sv*v + dv)   (pbrt "uv" mapping).
+/// Where texture coordinates come from: of the surface, or of the place.
+enum class MappingKind { kUv, kSpherical, kCylindrical, kPlanar };
+enum class ImageFilter { kPoint, kBilinear, kTrilinear, kEwa };
+
+/// kUv: uv' = (su*u + du, sv*v + dv). kPlanar: uv' = (p.v1 + du, p.v2 + dv), p the point
+/// in texture space.
 struct UvMapping {
   double su = 1, sv = 1, du = 0, dv = 0;
+  MappingKind kind = MappingKind::kUv;
+  Vec3d v1{1, 0, 0}, v2{0, 1, 0};  // kPlanar
 };
 
 /// Float textures are stored as grey colours (r = g = b).
@@ -58,6 +78,16 @@ struct Texture {
   double scale = 1;
   bool invert = false;   // 1 - scale * value, negative results cut at 0 (as pbrt)
   bool bilinear = true;  // false: nearest
+  ImageFilter filter = ImageFilter::kBilinear;
+  double max_anisotropy = 8;     // kEwa
+  Transform texture_from_world;  // of mappings and patterns of the place
+  int dimension = 2;             // kCheckerboard: 2 or 3
+  int octaves = 8;               // kFbm, kWrinkled, kMarble
+  double roughness = 0.5;        // the same: falloff from octave to octave
+  double noise_scale = 1;        // kMarble
+  double variation = 0.2;        // kMarble
+  Vec3d direction{0, 1, 0};      // kDirectionMix, in the world
+  ColorValue corners[4];         // kBilinear: v00, v01, v10, v11
 };
 
 /// Diffuse scattering models of the founding paper (README, "Diffuse models").
@@ -97,9 +127,15 @@ struct Material {
   double thickness = 0.01;  // coats
   double coat_g = 0;
   Rgb coat_albedo;  // coats: scattering albedo of the medium between
+  // The same where they are textured; kNone: as above.
+  Index thickness_texture = kNone, coat_g_texture = kNone, coat_albedo_texture = kNone;
   int coat_max_depth = 10, coat_samples = 1;
   Index mix[2] = {kNone, kNone};
   FloatValue mix_amount{0.5, kNone};  // weight of mix[1]
+  /// Shaded as a bump map: height in the world's units; neither texture nor constant:
+  /// flat.
+  FloatValue displacement;
+  std::string normal_map;  // resolved path; empty: none
 };
 
 /// Object-space triangles. Normals and uvs are per vertex, or empty.
@@ -110,7 +146,13 @@ struct TriangleMesh {
   std::vector<std::uint32_t> indices;  // 3 per triangle, all < positions.size()
 };
 
-enum class ShapeKind { kMesh, kSphere, kDisk, kPlane };
+enum class ShapeKind { kMesh, kSphere, kDisk, kPlane, kCylinder };
+
+/// On each side of a surface; kNone: nothing is there.
+struct MediumInterface {
+  bool given = false;  // else the surface changes nothing
+  Index inside = kNone, outside = kNone;
+};
 
 struct Shape {
   ShapeKind kind = ShapeKind::kMesh;
@@ -124,6 +166,9 @@ struct Shape {
   double radius = 1;                         // kSphere, kDisk
   double inner_radius = 0;                   // kDisk
   double height = 0;                         // kDisk: object-space z; normal +z
+  double z_min = -1, z_max = 1;              // kSphere, kCylinder
+  double phi_max = 360;                      // degrees, the same and kDisk
+  MediumInterface media;
   // kPlane: infinite, through the object-space origin, normal +z, uv = (x, y).
 };
 
@@ -147,9 +192,11 @@ struct AreaLight {
   double scale = 1;
   double power = -1;
   bool two_sided = false;
+  std::string
+      image_path;  // of emitted radiance over the surface coordinates; empty: none
 };
 
-enum class LightKind { kPoint, kSpot, kDistant, kInfinite };
+enum class LightKind { kPoint, kSpot, kDistant, kInfinite, kGoniometric, kProjection };
 
 /// Intensities include every scale, power and illuminance parameter of the file.
 struct Light {
@@ -163,10 +210,14 @@ struct Light {
   double cone_angle = 30, cone_delta = 5;  // kSpot, degrees
   std::string image_path;                  // kInfinite: equal-area octahedral map, square
   double image_scale = 1;
-  double illuminance = -1;  // kInfinite: if > 0, rescale to this illuminance on +z
+  double illuminance = -1;    // kInfinite: if > 0, rescale to this illuminance on +z
+  double power = -1;          // kGoniometric, kProjection: if > 0, rescale to this power
+  double fov = 90;            // kProjection, degrees, of the shorter side
+  std::vector<Vec3d> portal;  // kInfinite: four corners in the world; empty: none
 };
 
-enum class CameraKind { kPerspective, kOrthographic };
+enum class CameraKind { kPerspective, kOrthographic, kSpherical, kRealistic };
+enum class SphericalMapping { kEqualArea, kEquirectangular };
 struct Camera {
   CameraKind kind = CameraKind::kPerspective;
   SourceLocation where;
@@ -175,6 +226,11 @@ struct Camera {
   double lens_radius = 0, focal_distance = 1e6;
   double frame_aspect = 0;                 // 0: from the resolution
   double screen_window[4] = {0, 0, 0, 0};  // x0 x1 y0 y1; all 0: from the aspect
+  SphericalMapping mapping = SphericalMapping::kEqualArea;
+  std::vector<double> lens;      // kRealistic: curvature, thickness, eta, aperture; mm
+  double aperture_diameter = 1;  // kRealistic, mm
+  std::string aperture;          // kRealistic: built-in shape or resolved path
+  Index medium = kNone;          // that it stands in
 };
 
 enum class FilterKind { kBox, kTriangle, kGaussian, kMitchell, kLanczos };
@@ -204,10 +260,26 @@ struct Integrator {
   SourceLocation strategy_where;
 };
 
-/// Something that was read and deliberately not used.
+/// Something that was read and deliberately not used. `changes_image`: what is rendered
+/// is visibly not what the file asks for.
 struct Note {
   SourceLocation where;
   std::string message;
+  bool changes_image = false;
+};
+
+enum class MediumKind { kHomogeneous, kUniformGrid, kRgbGrid, kCloud, kNanoVdb };
+
+/// A participating medium. Coefficients are per unit of length of the world, scales of
+/// the file included.
+struct Medium {
+  MediumKind kind = MediumKind::kHomogeneous;
+  std::string name;
+  SourceLocation where;
+  Rgb sigma_a{1, 1, 1}, sigma_s{1, 1, 1};
+  Rgb emission;  // radiance of the blackbody limit: sigma_a * emission per length
+  double g = 0;  // Henyey-Greenstein
+  Transform world_from_medium;
 };
 
 struct SceneDescription {
@@ -220,6 +292,7 @@ struct SceneDescription {
   Strategy strategy;                // of Sampler and Integrator together
   std::vector<Texture> textures;    // a texture refers only to earlier ones
   std::vector<Material> materials;  // a mix refers only to earlier ones
+  std::vector<Medium> media;
   std::vector<AreaLight> area_lights;
   std::vector<Light> lights;
   std::vector<Shape> shapes;  // world space
