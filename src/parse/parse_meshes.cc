@@ -3,8 +3,7 @@
 
 #include "src/core/parallel.h"
 #include "src/parse/parse_state.h"
-#include "src/parse/ply.h"
-#include "src/core/suggest.h"
+#include "src/parse/ply_repair.h"
 
 namespace lanelight {
 namespace {
@@ -12,7 +11,7 @@ namespace {
 struct LoadedMesh {
   const MeshRequest* first = nullptr;  // who asked for it first
   std::shared_ptr<const TriangleMesh> mesh;
-  std::size_t bent_quads = 0;
+  std::vector<std::string> notes;
 };
 
 // Errors inside the file are reported at the scene's line, with the place in the file.
@@ -32,7 +31,7 @@ void Load(const ParseState& state, LoadedMesh* out) {
   const MeshRequest& request = *out->first;
   PlyMesh ply =
       Parse(ReadSceneFile(state, request.path, request.where, "the mesh file"), request);
-  out->bent_quads = ply.bent_quads;
+  out->notes = PlyNotes(ply, request.path);
   out->mesh = std::make_shared<const TriangleMesh>(std::move(ply.mesh));
 }
 
@@ -43,7 +42,7 @@ void LoadMeshes(ParseState& state) {
   std::vector<LoadedMesh> files;
   for (const MeshRequest& request : state.meshes) {
     if (position.emplace(request.path, files.size()).second) {
-      files.push_back({&request, nullptr, 0});
+      files.push_back({&request, nullptr, {}});
     }
   }
   // Errors are collected, so that the first one in the scene is reported on every run.
@@ -59,10 +58,7 @@ void LoadMeshes(ParseState& state) {
     if (failure) throw *failure;
   }
   for (const LoadedMesh& file : files) {
-    if (file.bent_quads == 0) continue;
-    state.AddNote(file.first->where,
-                  fmt::format("{} quads of {} are not flat; each becomes two triangles",
-                              file.bent_quads, Quoted(file.first->path)));
+    for (const std::string& note : file.notes) state.AddNote(file.first->where, note);
   }
   for (const MeshRequest& request : state.meshes) {
     std::vector<Shape>& shapes = request.object == kNone

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "src/parse/ply_reader.h"
+#include "src/parse/ply_repair.h"
 #include "src/parse/quad.h"
 
 namespace lanelight {
@@ -37,6 +38,7 @@ int SlotOf(const PlyProperty& property) {
 // A quad found among the faces: where its two triangles start in the index list.
 struct Faces {
   std::vector<std::size_t> quads;
+  std::size_t others = 0;  // of neither 3 nor 4 corners
   bool found = false;
 };
 
@@ -119,7 +121,7 @@ class BodyReader {
     if (layout.has_normals()) mesh_.normals.reserve(element.count);
     if (layout.has_uvs()) mesh_.uvs.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      const std::array<double, kSlots + 1> v = ReadVertex(element, layout, i);
+      const std::array<double, kSlots + 1> v = ReadVertex(element, layout);
       mesh_.positions.push_back({v[kX], v[kY], v[kZ]});
       if (layout.has_normals()) mesh_.normals.push_back({v[kNx], v[kNy], v[kNz]});
       if (layout.has_uvs()) mesh_.uvs.push_back({v[kU], v[kV]});
@@ -127,19 +129,14 @@ class BodyReader {
   }
 
   std::array<double, kSlots + 1> ReadVertex(const PlyElement& element,
-                                            const VertexLayout& layout, std::uint64_t i) {
+                                            const VertexLayout& layout) {
     std::array<double, kSlots + 1> v{};
     for (std::size_t p = 0; p < layout.slots.size(); ++p) {
       if (layout.slots[p] == kSkip) {
         SkipProperty(element.properties[p]);
         continue;
       }
-      const double value = reader_.Read(element.properties[p].type);
-      if (!std::isfinite(value)) {
-        reader_.Fail(fmt::format("property {} of PLY vertex {} is not finite",
-                                 Quoted(element.properties[p].name), i));
-      }
-      v[layout.slots[p]] = value;
+      v[layout.slots[p]] = reader_.Read(element.properties[p].type);
     }
     return v;
   }
@@ -171,8 +168,9 @@ class BodyReader {
   void ReadCorners(const PlyProperty& list, std::uint64_t face) {
     const std::uint64_t n = ReadCount(list);
     if (n != 3 && n != 4) {
-      reader_.Fail(
-          fmt::format("PLY face {} has {} corners; supported: 3 and 4", face, n));
+      ++faces_.others;
+      for (std::uint64_t i = 0; i < n; ++i) reader_.Read(list.type);
+      return;
     }
     std::array<std::uint32_t, 4> corner{};
     for (std::uint64_t i = 0; i < n; ++i) {
@@ -192,7 +190,9 @@ class BodyReader {
   // Only now, because faces may stand before vertices.
   void CheckIndices() {
     if (mesh_.positions.empty()) reader_.Fail("the PLY file has no vertices");
-    if (mesh_.indices.empty()) reader_.Fail("the PLY file has no faces");
+    if (mesh_.indices.empty()) {
+      reader_.Fail("the PLY file has no faces of 3 or 4 corners");
+    }
     for (std::uint32_t index : mesh_.indices) {
       if (index < mesh_.positions.size()) continue;
       reader_.Fail(
@@ -241,6 +241,11 @@ class BodyReader {
       for (int i = 0; i < 6; ++i) index[i] = ring[split.corners[i]];
     }
     result.mesh = std::move(mesh_);
+    result.other_faces = faces_.others;
+    RepairPly(&result);
+    if (result.mesh.indices.empty()) {
+      reader_.Fail("no face of the PLY file has corners with finite coordinates");
+    }
     return result;
   }
 

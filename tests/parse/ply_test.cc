@@ -212,12 +212,7 @@ TEST_CASE("binary files with impossible content", "[parse][ply]") {
   }
 }
 
-TEST_CASE("binary values that are not finite or not indices", "[parse][ply]") {
-  PlyWriter nan(PlyWriter::kBig, kPlain);
-  for (int i = 0; i < 9; ++i) nan.Add(i == 7 ? NAN : 1.f);
-  nan.Add<std::uint8_t>(3).Add(0).Add(1).Add(2);
-  CHECK(ErrorOf(nan.bytes()).find("property \"y\" of PLY vertex 2 is not finite") !=
-        std::string::npos);
+TEST_CASE("binary values that are not indices", "[parse][ply]") {
   PlyWriter index(PlyWriter::kLittle, kPlain);
   for (int i = 0; i < 9; ++i) index.Add(1.f);
   index.Add<std::uint8_t>(3).Add(0).Add(-1).Add(2);
