@@ -65,5 +65,6 @@ void InterpretShape(ParseState& state, const std::string& type, ParamSet& params
 // interpret_mesh.cc -----------------------------------------------------------------
 std::shared_ptr<const TriangleMesh> InterpretTriangleMesh(ParamSet& params);
 std::shared_ptr<const TriangleMesh> InterpretBilinearMesh(ParamSet& params);
+std::shared_ptr<const TriangleMesh> InterpretLoopSubdivision(ParamSet& params);
 
 }  // namespace lanelight

@@ -1,8 +1,9 @@
 // Meshes whose vertices stand in the scene file.
-#include <limits>
+#include <cmath>
 
+#include "src/parse/bilinear_patch.h"
 #include "src/parse/interpret.h"
-#include "src/parse/quad.h"
+#include "src/parse/loop_subdivision.h"
 
 namespace lanelight {
 namespace {
@@ -22,13 +23,8 @@ void CheckCount(const ParamSet& params, const Param* param, std::size_t found,
   params.Fail(*param, fmt::format("{} values for {} vertices", found, vertices));
 }
 
-// P, N, uv and indices with `corners` indices per face.
-TriangleMesh ReadVertices(ParamSet& params, std::size_t corners) {
-  TriangleMesh mesh;
-  const Param* p = params.Find("P", {ParamType::kPoint3});
-  if (p == nullptr)
-    throw InputError(params.where(), params.object() + " has no \"point3 P\"");
-  mesh.positions = Triples(p);
+// N and uv, where there are any.
+void ReadAttributes(ParamSet& params, TriangleMesh& mesh) {
   const Param* n = params.Find("N", {ParamType::kNormal});
   mesh.normals = Triples(n);
   CheckCount(params, n, mesh.normals.size(), mesh.positions.size());
@@ -38,6 +34,15 @@ TriangleMesh ReadVertices(ParamSet& params, std::size_t corners) {
     }
     CheckCount(params, uv, mesh.uvs.size(), mesh.positions.size());
   }
+}
+
+// P, and indices with `corners` of them per face.
+TriangleMesh ReadFaces(ParamSet& params, std::size_t corners) {
+  TriangleMesh mesh;
+  const Param* p = params.Find("P", {ParamType::kPoint3});
+  if (p == nullptr)
+    throw InputError(params.where(), params.object() + " has no \"point3 P\"");
+  mesh.positions = Triples(p);
   const Param* indices = params.Find("indices", {ParamType::kInteger});
   if (indices == nullptr) {
     if (mesh.positions.size() != corners) {
@@ -67,52 +72,65 @@ TriangleMesh ReadVertices(ParamSet& params, std::size_t corners) {
   return mesh;
 }
 
-// Two triangles for the patch with corners p00, p10, p01, p11; vertices are not shared,
-// so that a patch without uvs can have pbrt's default: the corners of the unit square.
-void AddPatch(const ParamSet& params, const TriangleMesh& in, std::size_t first,
-              TriangleMesh* out) {
-  constexpr int kRing[4] = {0, 1, 3, 2};
-  constexpr std::array<double, 2> kDefaultUv[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  const auto base = static_cast<std::uint32_t>(out->positions.size());
-  std::array<Vec3d, 4> ring;
-  for (int i = 0; i < 4; ++i) {
-    const std::uint32_t vertex = in.indices[first + kRing[i]];
-    ring[i] = in.positions[vertex];
-    out->positions.push_back(ring[i]);
-    if (!in.normals.empty()) out->normals.push_back(in.normals[vertex]);
-    out->uvs.push_back(in.uvs.empty() ? kDefaultUv[i] : in.uvs[vertex]);
+// The patch whose indices begin at `first`.
+BilinearPatch PatchOf(const TriangleMesh& in, std::size_t first) {
+  BilinearPatch patch;
+  if (!in.normals.empty()) patch.n.emplace();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::uint32_t vertex = in.indices[first + k];
+    patch.p[k] = in.positions[vertex];
+    if (patch.n) (*patch.n)[k] = in.normals[vertex];
+    if (!in.uvs.empty()) patch.uv[k] = in.uvs[vertex];
   }
-  const QuadSplit split = SplitQuad(ring);
-  if (!split.is_flat || !split.is_simple) {
-    throw InputError(
-        params.where(),
-        fmt::format("patch {} of {} {}; flat patches without crossing edges are "
-                    "supported",
-                    first / 4, params.object(),
-                    split.is_flat ? "crosses itself" : "is not flat"));
-  }
-  for (int corner : split.corners) {
-    out->indices.push_back(base + static_cast<std::uint32_t>(corner));
-  }
+  return patch;
+}
+
+// Beyond that a level that was mistyped would fill the memory.
+constexpr double kMostTriangles = 1e8;
+
+int SubdivisionLevels(ParamSet& params, std::size_t faces) {
+  constexpr int kMost = 12;
+  const int levels = params.Integer("levels", 3, 0, kMost);
+  const double triangles = std::ldexp(static_cast<double>(faces), 2 * levels);
+  if (triangles <= kMostTriangles) return levels;
+  params.Fail(
+      *params.Find("levels", {}),
+      fmt::format("{} levels make {:g} triangles of {}; at most {:g} are supported",
+                  levels, triangles, faces, kMostTriangles));
 }
 
 }  // namespace
 
 std::shared_ptr<const TriangleMesh> InterpretTriangleMesh(ParamSet& params) {
-  auto mesh = std::make_shared<TriangleMesh>(ReadVertices(params, 3));
+  auto mesh = std::make_shared<TriangleMesh>(ReadFaces(params, 3));
+  ReadAttributes(params, *mesh);
   params.Ignore("S", "tangents follow from the uvs");
   params.Ignore("faceIndices", "only ptex textures need it");
   return mesh;
 }
 
 std::shared_ptr<const TriangleMesh> InterpretBilinearMesh(ParamSet& params) {
-  const TriangleMesh in = ReadVertices(params, 4);
+  TriangleMesh in = ReadFaces(params, 4);
+  ReadAttributes(params, in);
   auto mesh = std::make_shared<TriangleMesh>();
-  for (std::size_t i = 0; i < in.indices.size(); i += 4)
-    AddPatch(params, in, i, mesh.get());
+  for (std::size_t i = 0; i < in.indices.size(); i += 4) {
+    AddPatch(PatchOf(in, i), mesh.get());
+  }
   params.Ignore("emissionfilename", "patches do not sample an image");
   params.Ignore("faceIndices", "only ptex textures need it");
   return mesh;
+}
+
+std::shared_ptr<const TriangleMesh> InterpretLoopSubdivision(ParamSet& params) {
+  const TriangleMesh control = ReadFaces(params, 3);
+  const int levels = SubdivisionLevels(params, control.indices.size() / 3);
+  params.Choice("scheme", {"loop"});
+  const std::string problem = SubdivisionProblem(control);
+  if (!problem.empty()) {
+    throw InputError(params.where(), fmt::format("{} cannot be subdivided: {}",
+                                                 params.object(), problem));
+  }
+  return std::make_shared<TriangleMesh>(LoopSubdivide(control, levels));
 }
 
 }  // namespace lanelight

@@ -9,9 +9,9 @@ namespace {
 constexpr double kHuge = 1e30;
 constexpr double kTiny = 1e-30;
 
-const std::vector<std::string> kShapeNames = {"sphere",  "disk",         "trianglemesh",
-                                              "plymesh", "bilinearmesh", "plane"};
-const std::vector<std::string> kForeignShapes = {"cylinder", "curve", "loopsubdiv"};
+const std::vector<std::string> kShapeNames = {
+    "sphere", "disk", "trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "plane"};
+const std::vector<std::string> kForeignShapes = {"cylinder", "curve"};
 
 void ReadPhi(ParamSet& params) {
   const double phi = params.Float("phimax", 360, 0, kHuge);
@@ -77,6 +77,8 @@ void ReadGeometry(ParseState& state, const std::string& type, ParamSet& params,
     shape->mesh = InterpretTriangleMesh(params);
   } else if (type == "bilinearmesh") {
     shape->mesh = InterpretBilinearMesh(params);
+  } else if (type == "loopsubdiv") {
+    shape->mesh = InterpretLoopSubdivision(params);
   } else {
     ReadPly(state, params);
   }
