@@ -58,7 +58,7 @@ Seen SeenMesh(const PlacedShape& placed, const Box& box, Vec3d eye) {
   if (!(Length(outside) * kMeshRange < reach)) return {reach, box};
   Seen near{kInfinity, {}};
   Vec3d nearest;
-  for (const Vec3d& vertex : placed.shape->mesh->positions) {
+  for (const Vec3d& vertex : placed.mesh->positions) {
     const Vec3d p = placed.transform.Point(vertex);
     const double distance = Length(p - eye);
     // Of one that the eye lies on it sees nothing.

@@ -22,7 +22,7 @@ struct Job {
 };
 
 std::size_t NumTriangles(const PlacedShape& placed) {
-  return placed.shape->mesh->indices.size() / 3;
+  return placed.mesh->indices.size() / 3;
 }
 
 std::uint32_t MaterialOf(const PlacedShape& placed,
@@ -73,7 +73,7 @@ void CompileMeshes(const std::vector<Job>& jobs,
                    const GeometryOptions& options, CompiledGeometry& out) {
   const std::size_t n = jobs.empty() ? 0 : jobs.back().range->end;
   const bool normals = std::any_of(jobs.begin(), jobs.end(), [](const Job& job) {
-    return !job.placed->shape->mesh->normals.empty();
+    return !job.placed->mesh->normals.empty();
   });
   Geometry& g = out.geometry;
   g.triangles.resize(n);

@@ -29,7 +29,7 @@ class MeshCompiler {
  public:
   MeshCompiler(const PlacedShape& placed, const Frame& frame, std::uint32_t material,
                const MeshOutput& out)
-      : mesh_(*placed.shape->mesh),
+      : mesh_(*placed.mesh),
         t_(frame.After(placed.transform)),
         out_(out),
         reverse_(placed.shape->reverse_orientation),
@@ -126,7 +126,7 @@ bool MeshCompiler::Compile(std::size_t i) const {
 
 bool CompileMesh(const PlacedShape& placed, const Frame& frame, std::uint32_t material,
                  const MeshOutput& out) {
-  const TriangleMesh& mesh = *placed.shape->mesh;
+  const TriangleMesh& mesh = *placed.mesh;
   LL_CHECK(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
   LL_CHECK(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());
   LL_CHECK_EQ(mesh.indices.size() % 3, 0u);

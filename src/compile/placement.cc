@@ -6,6 +6,7 @@
 #include "src/core/check.h"
 #include "src/core/parallel.h"
 #include "src/compile/focus.h"
+#include "src/compile/tessellate.h"
 #include "src/compile/textures.h"
 
 namespace lanelight {
@@ -53,13 +54,19 @@ void CheckEmitter(const SceneDescription& d, const Shape& shape,
   if (shape.kind == ShapeKind::kPlane) {
     throw InputError(where,
                      "an infinite plane cannot be an area light; supported are "
-                     "trianglemesh, plymesh, bilinearmesh, sphere and disk");
+                     "all other shapes");
   }
   if (alpha.texture == kNone && alpha.constant <= 0) {
     throw InputError(where,
                      "an area light on a shape with alpha 0 (an invisible light) is not "
                      "supported; use a point, spot or distant light");
   }
+}
+
+std::shared_ptr<const TriangleMesh> MeshOf(const Shape& shape, const Transform& t) {
+  if (shape.kind == ShapeKind::kMesh) return shape.mesh;
+  if (!IsTessellated(shape, t)) return nullptr;
+  return std::make_shared<const TriangleMesh>(Tessellate(shape));
 }
 
 // The shape as it will be compiled, or nothing if it cannot be seen.
@@ -77,13 +84,16 @@ std::optional<PlacedShape> Place(const SceneDescription& d,
   placed.transform =
       instance ? *instance * shape.world_from_object : shape.world_from_object;
   placed.flip = shape.reverse_orientation != shape.world_from_object.SwapsHandedness();
+  placed.mesh = MeshOf(shape, placed.transform);
   return placed;
 }
 
 void AddToWorld(const PlacedShape& placed, Placement& placement) {
+  if (placed.mesh != nullptr) return placement.meshes.push_back(placed);
   switch (placed.shape->kind) {
     case ShapeKind::kMesh:
-      placement.meshes.push_back(placed);
+    case ShapeKind::kCylinder:
+      LL_CHECK(!"a shape of triangles without a mesh");
       break;
     case ShapeKind::kSphere:
       placement.spheres.push_back(placed);
@@ -98,7 +108,9 @@ void AddToWorld(const PlacedShape& placed, Placement& placement) {
 }
 
 bool StaysInObject(const SceneDescription& d, const Shape& shape) {
-  return shape.kind == ShapeKind::kMesh && EmittingLight(d, shape) == kNone;
+  const bool is_mesh =
+      shape.kind == ShapeKind::kMesh || IsTessellated(shape, shape.world_from_object);
+  return is_mesh && EmittingLight(d, shape) == kNone;
 }
 
 // World coordinates and sizes of scenes that can be brought to unit size (frame.cc): the
@@ -125,7 +137,7 @@ bool IsFinite(Vec3d v) {
 // The box of a mesh; nothing if it reaches too far. Vertices that are no numbers to begin
 // with make degenerate triangles, which are left out.
 std::optional<Box> MeshBox(const PlacedShape& placed) {
-  const TriangleMesh& mesh = *placed.shape->mesh;
+  const TriangleMesh& mesh = *placed.mesh;
   Box box;
   for (std::uint32_t i : mesh.indices) {
     LL_CHECK_LT(i, mesh.positions.size());
@@ -140,8 +152,7 @@ std::optional<Box> MeshBox(const PlacedShape& placed) {
 Box UnionOfBoxes(const std::vector<PlacedShape>& shapes) {
   std::vector<std::optional<Box>> boxes(shapes.size());
   ParallelFor(shapes.size(), [&](std::size_t i) {
-    const bool is_mesh = shapes[i].shape->kind == ShapeKind::kMesh;
-    boxes[i] = is_mesh ? MeshBox(shapes[i]) : ShapeBox(shapes[i]);
+    boxes[i] = shapes[i].mesh ? MeshBox(shapes[i]) : ShapeBox(shapes[i]);
   });
   Box all;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -236,10 +247,7 @@ void CheckSize(const SceneDescription& d, const Box& bounds) {
 Box ShapeBox(const PlacedShape& placed) {
   const Shape& shape = *placed.shape;
   Box box;
-  if (shape.kind == ShapeKind::kMesh) {
-    LL_CHECK(shape.mesh != nullptr);
-    return MeshBox(placed).value_or(box);
-  }
+  if (placed.mesh != nullptr) return MeshBox(placed).value_or(box);
   if (shape.kind == ShapeKind::kPlane) return box;
   const double r = shape.radius;
   const double z = shape.kind == ShapeKind::kSphere ? r : 0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "src/compile/frame.h"
@@ -14,13 +15,15 @@ namespace lanelight {
 /// A shape and the coordinates it is compiled into (the world, or those of its object).
 struct PlacedShape {
   const Shape* shape = nullptr;
-  Transform transform;         // those coordinates from the shape's own
+  std::shared_ptr<const TriangleMesh> mesh;  // of the shape, or in its place; or null
+  Transform transform;                       // those coordinates from the shape's own
   bool flip = false;           // quadrics: the normal is turned round (see below)
   Index area_light = kNone;    // only if it emits anything
   FloatValue alpha{1, kNone};  // constant textures folded
 };
 
-/// Meshes of an object definition that is instanced, in object coordinates.
+/// Meshes of an object definition that is instanced, in object coordinates; those that
+/// stand for other shapes (src/compile/tessellate.h) too.
 struct PlacedObject {
   std::vector<PlacedShape> meshes;
   Box bounds;
@@ -50,7 +53,8 @@ struct Placement {
 
 /// Meshes, spheres and disks that emit are sampled as lights, which needs world
 /// coordinates; spheres, disks and planes have no instanced form: both kinds are copied
-/// into the world once per instance.
+/// into the world once per instance. Shapes without a record of their own become meshes
+/// (src/compile/tessellate.h).
 Placement PlaceShapes(const SceneDescription& description);
 
 /// Bounds of a shape, or nothing if it has none; the centre is exact.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "src/compile/focus.h"
+#include "src/core/check.h"
 #include "src/core/error.h"
 
 namespace lanelight {
@@ -23,9 +24,6 @@ void CheckRadius(const Shape& shape, const char* kind) {
       fmt::format("{} of radius {}; the radius must be positive", kind, shape.radius));
 }
 
-// Relative error that hand-written matrices are forgiven.
-constexpr double kTolerance = 1e-5;
-
 }  // namespace
 
 bool IsAlphaTested(const PlacedShape& placed) {
@@ -38,12 +36,7 @@ SphereRecord CompileSphere(const PlacedShape& placed, const Frame& frame,
   CheckRadius(shape, "a sphere");
   const Transform t = frame.After(placed.transform);
   const double s = t.UniformScale();
-  if (!(s > 0)) {
-    throw InputError(shape.where,
-                     "a sphere under a transform that is not rotation, translation, "
-                     "mirroring and uniform scale (an ellipsoid) is not supported; use a "
-                     "trianglemesh or plymesh");
-  }
+  LL_CHECK_GT(s, 0);  // else it is tessellated
   SphereRecord record{};
   Store(t.Point({0, 0, 0}), record.center);
   record.radius = static_cast<float>(shape.radius * s);
@@ -90,13 +83,6 @@ DiskRecord CompileDisk(const PlacedShape& placed, const Frame& frame,
   const Transform t = frame.After(placed.transform);
   const Vec3d x = t.Vector({1, 0, 0}), y = t.Vector({0, 1, 0});
   const double s = Length(x);
-  if (std::abs(Length(y) - s) > kTolerance * s ||
-      std::abs(Dot(x, y)) > kTolerance * s * s) {
-    throw InputError(
-        shape.where,
-        "a disk under a transform that makes it an ellipse is not supported; "
-        "use a trianglemesh or plymesh");
-  }
   const Vec3d n = Normalize(t.Normal({0, 0, 1})) * (placed.flip ? -1.0 : 1.0);
   DiskRecord record{};
   Store(t.Point({0, 0, shape.height}), record.center);

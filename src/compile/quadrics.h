@@ -9,8 +9,8 @@
 
 namespace lanelight {
 
-/// Throw InputError if the transform does not keep the shape (an ellipsoid, an elliptic
-/// disk) or a radius is not positive. Lights are left at -1.
+/// Throw InputError if a radius is not positive. The transform keeps the shape (others
+/// are tessellated: src/compile/tessellate.h). Lights are left at -1.
 SphereRecord CompileSphere(const PlacedShape& placed, const Frame& frame,
                            std::uint32_t material);
 DiskRecord CompileDisk(const PlacedShape& placed, const Frame& frame,

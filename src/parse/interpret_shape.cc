@@ -9,31 +9,34 @@ namespace {
 constexpr double kHuge = 1e30;
 constexpr double kTiny = 1e-30;
 
-const std::vector<std::string> kShapeNames = {
-    "sphere", "disk", "trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "plane"};
-const std::vector<std::string> kForeignShapes = {"cylinder", "curve"};
+const std::vector<std::string> kShapeNames = {"sphere",       "disk",    "cylinder",
+                                              "trianglemesh", "plymesh", "bilinearmesh",
+                                              "loopsubdiv",   "plane"};
 
-void ReadPhi(ParamSet& params) {
-  const double phi = params.Float("phimax", 360, 0, kHuge);
-  if (phi < 360) {
-    params.Fail(*params.Find("phimax", {}), fmt::format("a {} cut at {} degrees is not "
-                                                        "supported; 360 is",
-                                                        params.object(), phi));
-  }
+void ReadPhi(ParamSet& params, Shape* shape) {
+  shape->phi_max = std::min(params.Float("phimax", 360, 0, kHuge), 360.0);
+}
+
+// `most`: how far from the middle they can be. pbrt takes them in either order.
+void ReadHeights(ParamSet& params, double absent, double most, Shape* shape) {
+  const double a = std::clamp(params.Float("zmin", -absent), -most, most);
+  const double b = std::clamp(params.Float("zmax", absent), -most, most);
+  shape->z_min = std::min(a, b);
+  shape->z_max = std::max(a, b);
 }
 
 void ReadSphere(ParamSet& params, Shape* shape) {
   shape->kind = ShapeKind::kSphere;
   shape->radius = params.Float("radius", 1, kTiny, kHuge);
-  const double zmin = params.Float("zmin", -shape->radius);
-  const double zmax = params.Float("zmax", shape->radius);
-  // pbrt takes them in either order.
-  if (std::min(zmin, zmax) > -shape->radius || std::max(zmin, zmax) < shape->radius) {
-    const Param* zmin_param = params.Find("zmin", {});
-    params.Fail(zmin_param != nullptr ? *zmin_param : *params.Find("zmax", {}),
-                "a sphere cut in z is not supported; complete spheres are");
-  }
-  ReadPhi(params);
+  ReadHeights(params, shape->radius, shape->radius, shape);
+  ReadPhi(params, shape);
+}
+
+void ReadCylinder(ParamSet& params, Shape* shape) {
+  shape->kind = ShapeKind::kCylinder;
+  shape->radius = params.Float("radius", 1, kTiny, kHuge);
+  ReadHeights(params, 1, kHuge, shape);
+  ReadPhi(params, shape);
 }
 
 void ReadDisk(ParamSet& params, Shape* shape) {
@@ -46,7 +49,7 @@ void ReadDisk(ParamSet& params, Shape* shape) {
                 fmt::format("the inner radius {} is not below the radius {}",
                             shape->inner_radius, shape->radius));
   }
-  ReadPhi(params);
+  ReadPhi(params, shape);
 }
 
 void ReadPly(ParseState& state, ParamSet& params) {
@@ -68,6 +71,7 @@ void ReadGeometry(ParseState& state, const std::string& type, ParamSet& params,
                   Shape* shape) {
   if (type == "sphere") return ReadSphere(params, shape);
   if (type == "disk") return ReadDisk(params, shape);
+  if (type == "cylinder") return ReadCylinder(params, shape);
   if (type == "plane") {
     shape->kind = ShapeKind::kPlane;
     return;
@@ -118,11 +122,12 @@ Index CurrentAreaLight(ParseState& state, const Shape& shape,
 }  // namespace
 
 void InterpretShape(ParseState& state, const std::string& type, ParamSet& params) {
-  if (std::find(kForeignShapes.begin(), kForeignShapes.end(), type) !=
-      kForeignShapes.end()) {
-    return state.Unsupported(params.where(),
-                             fmt::format("shape {} is not supported; supported: {}",
-                                         Quoted(type), QuotedList(kShapeNames)));
+  if (type == "curve") {
+    return state.Unsupported(
+        params.where(),
+        fmt::format("shape \"curve\" is not supported, as hair and curves are not; "
+                    "supported: {}",
+                    QuotedList(kShapeNames)));
   }
   if (std::find(kShapeNames.begin(), kShapeNames.end(), type) == kShapeNames.end()) {
     ThrowUnknown(params.where(), "shape", type, kShapeNames);

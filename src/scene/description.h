@@ -166,8 +166,10 @@ struct Shape {
   double radius = 1;                         // kSphere, kDisk
   double inner_radius = 0;                   // kDisk
   double height = 0;                         // kDisk: object-space z; normal +z
-  double z_min = -1, z_max = 1;              // kSphere, kCylinder
-  double phi_max = 360;                      // degrees, the same and kDisk
+  // What is left of a kSphere, and of a kCylinder, whose values are finite; z_min <= z_max.
+  double z_min = -std::numeric_limits<double>::infinity();
+  double z_max = std::numeric_limits<double>::infinity();
+  double phi_max = 360;  // degrees, at least 0, about +z from +x; of the same and kDisk
   MediumInterface media;
   // kPlane: infinite, through the object-space origin, normal +z, uv = (x, y).
 };

@@ -1,5 +1,7 @@
 #include "tests/reference/geometry.h"
 
+#include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "src/core/check.h"
@@ -30,12 +32,19 @@ void Geometry::AddShape(const Shape& shape, const Transform& world_from_group) {
   out.area_light = shape.area_light;
   out.shape = num_shapes_ - 1;
   out.alpha = shape.alpha;
-  out.normal_sign = shape.reverse_orientation ? -1 : 1;
+  // Normals of round shapes are turned by a mirroring transform of their own as well.
+  const bool turned =
+      shape.reverse_orientation != shape.world_from_object.SwapsHandedness();
+  out.normal_sign = turned ? -1 : 1;
   out.world_from_object = world_from_object;
   out.object_from_world = world_from_object.Inverse();
   out.radius = shape.radius;
   out.inner_radius = shape.inner_radius;
   out.height = shape.height;
+  const double most = shape.kind == ShapeKind::kCylinder ? kInfinity : shape.radius;
+  out.z_min = std::max(shape.z_min, -most);
+  out.z_max = std::min(shape.z_max, most);
+  out.phi_max = shape.phi_max / 360 * (2 * std::numbers::pi);
   primitives_.push_back(out);
 }
 

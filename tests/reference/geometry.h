@@ -1,7 +1,7 @@
 // Brute-force geometry of the reference tracer: every instance is flattened, triangles
-// are in world space, and spheres, disks and planes are intersected in their own object
-// space (an affine map keeps the ray parameter), so no record or bound of the renderer is
-// used.
+// are in world space, and spheres, disks, cylinders and planes are intersected in their
+// own object space (an affine map keeps the ray parameter), so no record, bound or
+// tessellation of the renderer is used.
 #pragma once
 
 #include <array>
@@ -20,22 +20,23 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Value of texture `index` at surface coordinates (u, v).
 using TextureLookup = std::function<Rgb(Index index, double u, double v)>;
 
-/// One triangle, sphere, disk or plane, in the world.
+/// One triangle, sphere, disk, cylinder or plane, in the world.
 struct Primitive {
   ShapeKind kind = ShapeKind::kMesh;
   Index material = kNone;
   Index area_light = kNone;
   int shape = 0;  // which Shape of the scene it is part of
   FloatValue alpha{1, kNone};
-  double normal_sign = 1;  // -1: ReverseOrientation
+  double normal_sign = 1;  // -1: turned round
   // kMesh: one triangle.
   std::array<Vec3d, 3> p;                 // world space
   std::optional<std::array<Vec3d, 3>> n;  // world space, unit, on the outer side
   std::array<std::array<double, 2>, 3> uv = {{{0, 0}, {1, 0}, {1, 1}}};
   Vec3d face_normal;  // unit, on the outer side
-  // kSphere, kDisk, kPlane: in object space.
+  // kSphere, kDisk, kCylinder, kPlane: in object space.
   Transform world_from_object, object_from_world;
   double radius = 1, inner_radius = 0, height = 0;
+  double z_min = -1, z_max = 1, phi_max = 0;  // of what is there; radians
 };
 
 struct Ray {

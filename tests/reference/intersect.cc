@@ -23,6 +23,47 @@ int IntersectTriangle(const Primitive& triangle, const Ray& ray, Hit& hit) {
   return hit.t > 0 && hit.b1 >= 0 && hit.b2 >= 0 && hit.b1 + hit.b2 <= 1;
 }
 
+constexpr double kTurn = 2 * std::numbers::pi;
+
+// The angle about z from x, in [0, 2 pi).
+double PhiOf(Vec3d o) {
+  const double phi = std::atan2(o.y, o.x);
+  return phi < 0 ? phi + kTurn : phi;
+}
+
+// x^2 + y^2 = r^2: the same quadratic as below, in two dimensions.
+int IntersectCylinder(double radius, Vec3d o, Vec3d d, bool origin_on_it, Hit hits[2]) {
+  const double a = d.x * d.x + d.y * d.y, b = o.x * d.x + o.y * d.y;
+  if (a == 0) return 0;
+  if (origin_on_it) {
+    hits[0].t = -2 * b / a;
+    return hits[0].t > 0;
+  }
+  const double nearest = std::abs(o.x * d.y - o.y * d.x) / std::sqrt(a);
+  if (nearest > radius) return 0;
+  const double root = std::sqrt((radius - nearest) * (radius + nearest) / a);
+  int count = 0;
+  for (const double t : {-b / a - root, -b / a + root}) {
+    if (t > 0) hits[count++].t = t;
+  }
+  return count;
+}
+
+// Leaves of `count` hits those where the shape is.
+int KeepParts(const Primitive& shape, Vec3d o, Vec3d d, int count, Hit hits[2]) {
+  int kept = 0;
+  for (int i = 0; i < count; ++i) {
+    const Vec3d p = o + hits[i].t * d;
+    const bool in_phi = shape.phi_max >= kTurn || PhiOf(p) <= shape.phi_max;
+    const bool has_heights = shape.kind != ShapeKind::kDisk;
+    const bool whole = shape.z_min <= -shape.radius && shape.z_max >= shape.radius &&
+                       shape.kind == ShapeKind::kSphere;
+    const bool in_z = !has_heights || whole || (p.z >= shape.z_min && p.z <= shape.z_max);
+    if (in_phi && in_z) hits[kept++] = hits[i];
+  }
+  return kept;
+}
+
 // |o + t d|^2 = r^2, i.e. a t^2 + 2 b t + c = 0. The discriminant is taken from the point
 // of the line nearest to the centre, which stays exact when the sphere is far away.
 int IntersectSphere(double radius, Vec3d o, Vec3d d, bool origin_on_it, Hit hits[2]) {
@@ -80,20 +121,27 @@ SurfacePoint DescribeTriangle(const Primitive& triangle, const Hit& hit) {
   return out;
 }
 
-// u = phi / 2 pi around z, v from the south pole (0) to the north pole (1); disks: v from
-// the rim (0) to the inner edge (1), as in pbrt.
+// u = phi / phi_max around z, v from the lowest polar angle (0) to the highest (1), or
+// along the axis; disks: v from the rim (0) to the inner edge (1), as in pbrt.
 SurfacePoint DescribeQuadric(const Primitive& shape, Vec3d o) {
   SurfacePoint out;
   Vec3d normal = {0, 0, 1}, dpdu = {1, 0, 0};
-  const double phi = std::atan2(o.y, o.x);
-  const double turns =
-      phi < 0 ? phi / (2 * std::numbers::pi) + 1 : phi / (2 * std::numbers::pi);
+  const double turns = PhiOf(o) / shape.phi_max;
   if (shape.kind == ShapeKind::kSphere) {
     o = Normalize(o) * shape.radius;
     normal = o / shape.radius;
     dpdu = {-o.y, o.x, 0};
     out.u = turns;
-    out.v = 1 - std::acos(std::clamp(normal.z, -1.0, 1.0)) / std::numbers::pi;
+    const auto polar = [](double z) { return std::acos(std::clamp(z, -1.0, 1.0)); };
+    const double low = polar(shape.z_min / shape.radius);
+    const double high = polar(shape.z_max / shape.radius);
+    out.v = (polar(normal.z) - low) / (high - low);
+  } else if (shape.kind == ShapeKind::kCylinder) {
+    normal = Normalize(Vec3d{o.x, o.y, 0});
+    o = {shape.radius * normal.x, shape.radius * normal.y, o.z};
+    dpdu = {-o.y, o.x, 0};
+    out.u = turns;
+    out.v = (o.z - shape.z_min) / (shape.z_max - shape.z_min);
   } else if (shape.kind == ShapeKind::kDisk) {
     o.z = shape.height;
     dpdu = {-o.y, o.x, 0};
@@ -120,10 +168,18 @@ int IntersectPrimitive(const Primitive& primitive, const Ray& ray, bool origin_o
   }
   const Vec3d o = primitive.object_from_world.Point(ray.o);
   const Vec3d d = primitive.object_from_world.Vector(ray.d);
-  if (primitive.kind == ShapeKind::kSphere) {
-    return IntersectSphere(primitive.radius, o, d, origin_on_it, hits);
+  if (primitive.kind == ShapeKind::kPlane) {
+    return origin_on_it ? 0 : IntersectFlat(primitive, o, d, hits[0]);
   }
-  return origin_on_it ? 0 : IntersectFlat(primitive, o, d, hits[0]);
+  int count = 0;
+  if (primitive.kind == ShapeKind::kSphere) {
+    count = IntersectSphere(primitive.radius, o, d, origin_on_it, hits);
+  } else if (primitive.kind == ShapeKind::kCylinder) {
+    count = IntersectCylinder(primitive.radius, o, d, origin_on_it, hits);
+  } else {
+    count = origin_on_it ? 0 : IntersectFlat(primitive, o, d, hits[0]);
+  }
+  return KeepParts(primitive, o, d, count, hits);
 }
 
 SurfacePoint Geometry::Describe(const Ray& ray, const Hit& hit) const {

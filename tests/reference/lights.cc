@@ -33,14 +33,19 @@ std::pair<Vec3d, Vec3d> SamplePoint(const Primitive& shape, Random& random) {
     return {p[0] + a * (p[1] - p[0]) + b * (p[2] - p[0]), normal};
   }
   Vec3d o, n = {0, 0, 1};
+  const double phi = shape.phi_max * random.Uniform();
+  const double z = shape.z_min + (shape.z_max - shape.z_min) * random.Uniform();
   if (shape.kind == ShapeKind::kSphere) {
-    n = UniformOnSphere(random);
-    o = shape.radius * n;
+    const double across = std::sqrt(std::max(0.0, shape.radius * shape.radius - z * z));
+    o = {across * std::cos(phi), across * std::sin(phi), z};
+    n = o / shape.radius;
+  } else if (shape.kind == ShapeKind::kCylinder) {
+    n = {std::cos(phi), std::sin(phi), 0};
+    o = {shape.radius * n.x, shape.radius * n.y, z};
   } else {
     // Between r0 and r1 the area inside radius r grows as r^2.
     const double r0 = shape.inner_radius, r1 = shape.radius;
     const double r = std::sqrt(r0 * r0 + random.Uniform() * (r1 * r1 - r0 * r0));
-    const double phi = 2 * kPi * random.Uniform();
     o = {r * std::cos(phi), r * std::sin(phi), shape.height};
   }
   const Vec3d normal = Normalize(shape.world_from_object.Normal(n));
@@ -65,8 +70,10 @@ double PrimitiveArea(const Primitive& shape) {
   LL_CHECK(scale > 0);
   LL_CHECK(shape.kind != ShapeKind::kPlane);
   const double r = shape.radius, inner = shape.inner_radius;
-  const double unit =
-      shape.kind == ShapeKind::kSphere ? 4 * kPi * r * r : kPi * (r * r - inner * inner);
+  // The lateral area of a cylinder is that of the sphere inside, slice by slice.
+  const double unit = shape.kind == ShapeKind::kDisk
+                          ? shape.phi_max / 2 * (r * r - inner * inner)
+                          : shape.phi_max * r * (shape.z_max - shape.z_min);
   return unit * scale * scale;
 }
 
