@@ -99,6 +99,10 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
   CHECK(features("mirror-wall.pbrt")
             .HasAll({Feature::kDiskLights, Feature::kConductorSmooth,
                      Feature::kConductorRough}));
+  CHECK(features("shapes.pbrt")
+            .HasAll({Feature::kTriangles, Feature::kVertexNormals, Feature::kUv,
+                     Feature::kTriangleLights, Feature::kDielectricSmooth}));
+  CHECK_FALSE(features("shapes.pbrt").HasAny({Feature::kSpheres, Feature::kDisks}));
   CHECK(features("stiff/roughness-1e-4.pbrt")
             .HasAll({Feature::kConductorRough, Feature::kConductorSmooth}));
 }
