@@ -140,7 +140,8 @@ CompiledScene CompileScene(const SceneDescription& description,
   ParallelInvoke(
       [&] {
         scene.textures = CompileTextures(
-            KeepUsedTextures(description.textures, UsedTextures(materials, placement)));
+            KeepUsedTextures(description.textures, UsedTextures(materials, placement)),
+            &scene.notes);
       },
       [&] { compiled = CompileGeometry(placement, materials.index, geometry_options); });
 

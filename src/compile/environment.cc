@@ -31,15 +31,14 @@ std::array<int, 3> ColorChannels(const Light& light, const Image& image) {
 }
 
 // Values of an image that cannot be emitted.
-struct Negatives {
-  std::size_t count = 0;
+struct BadValues {
+  std::size_t negative = 0, not_a_number = 0;
   float least = 0;
 };
 
 // Linear radiance as stored, before any scale. Negative values, which filters leave in
-// photographs, become zero, as in pbrt.
-AlignedVector<float> ReadTexels(const Light& light, const Image& image,
-                                Negatives& negatives) {
+// photographs, become zero, as in pbrt; so does what is not a number.
+AlignedVector<float> ReadTexels(const Light& light, const Image& image, BadValues& bad) {
   const std::array<int, 3> channels = ColorChannels(light, image);
   const std::size_t texels = static_cast<std::size_t>(image.width) * image.height;
   std::vector<float> decode(256);
@@ -53,18 +52,32 @@ AlignedVector<float> ReadTexels(const Light& light, const Image& image,
       const std::size_t at = i * static_cast<std::size_t>(image.channels) +
                              static_cast<std::size_t>(channels[c]);
       const float v = image.is_bytes() ? decode[image.bytes[at]] : image.pixels[at];
-      if (!std::isfinite(v)) {
+      if (std::isinf(v)) {
         Fail(light, fmt::format("the value {} at pixel ({}, {}); only finite radiance is "
                                 "supported",
                                 v, i % static_cast<std::size_t>(image.width),
                                 i / static_cast<std::size_t>(image.width)));
       }
-      rgb[3 * i + c] = std::max(v, 0.0f);
-      negatives.count += v < 0;
-      negatives.least = std::min(negatives.least, v);
+      rgb[3 * i + c] = v > 0 ? v : 0;
+      bad.not_a_number += std::isnan(v);
+      bad.negative += v < 0;
+      bad.least = v < bad.least ? v : bad.least;
     }
   }
   return rgb;
+}
+
+void NoteBad(const Light& light, const BadValues& bad, std::size_t values,
+             std::vector<Note>& notes) {
+  const auto add = [&](std::size_t count, const std::string& what) {
+    if (count == 0) return;
+    notes.push_back(
+        {light.where, fmt::format("{} of {} values of the environment image are {} and "
+                                  "count as 0",
+                                  count, values, what)});
+  };
+  add(bad.negative, fmt::format("negative (the least is {})", bad.least));
+  add(bad.not_a_number, "not a number");
 }
 
 double TexelLuminance(const AlignedVector<float>& rgb, std::size_t i) {
@@ -125,15 +138,9 @@ Environment CompileEnvironment(const Light& light, const Image& image,
   }
   Environment environment;
   environment.size = image.width;
-  Negatives negatives;
-  environment.rgb = ReadTexels(light, image, negatives);
-  if (negatives.count > 0 && notes != nullptr) {
-    notes->push_back({light.where, fmt::format("{} of {} values of the environment image "
-                                               "are negative (the least is {}) and count "
-                                               "as 0",
-                                               negatives.count, environment.rgb.size(),
-                                               negatives.least)});
-  }
+  BadValues bad;
+  environment.rgb = ReadTexels(light, image, bad);
+  if (notes != nullptr) NoteBad(light, bad, environment.rgb.size(), *notes);
   StoreRotation(light, environment);
   double scale = light.image_scale;
   if (light.illuminance > 0) {

@@ -7,6 +7,7 @@
 #include "src/core/error_text.h"
 #include "src/core/parallel.h"
 #include "src/compile/texture_programs.h"
+#include "src/image/repair.h"
 
 namespace lanelight {
 namespace {
@@ -70,10 +71,6 @@ TextureImage PackFloats(const Image& image, const ChannelChoice& channel,
     for (int c = 0; c < 3; ++c) {
       const std::size_t at = i * image.channels + channel.rgb[c];
       rgb[c] = image.is_bytes() ? decoded[image.bytes[at]] : image.pixels[at];
-      if (!std::isfinite(rgb[c])) {
-        throw InputError(fmt::format("{}: the value at row {}, column {} is not finite",
-                                     key.path, i / image.width, i % image.width));
-      }
     }
     const float mean = (rgb[0] + rgb[1] + rgb[2]) / 3;
     for (int c = 0; c < 3; ++c) out.rgb[3 * i + c] = channel.mean ? mean : rgb[c];
@@ -111,13 +108,15 @@ TextureImageLoader::TextureImageLoader(const std::vector<Texture>& textures) {
   }
 }
 
-void TextureImageLoader::Load(TextureTable& table) {
+void TextureImageLoader::Load(TextureTable& table, std::vector<Note>* notes) {
   std::vector<File*> files;
   for (auto& [path, file] : files_) files.push_back(&file);
   ParallelFor(files.size(), [&](std::size_t i) {
     File& file = *files[i];
     AtPlace(*file.first_use, [&] { file.image = ReadImage(file.first_use->path); });
+    file.repaired = ReplaceNotFinite(&file.image);
   });
+  if (notes != nullptr) NoteRepaired(*notes);
   std::vector<int> decode(keys_.size());
   for (std::size_t i = 0; i < keys_.size(); ++i)
     decode[i] = DecodeOffset(keys_[i], table);
@@ -128,6 +127,18 @@ void TextureImageLoader::Load(TextureTable& table) {
             [&] { table.images[i] = PackImage(file.image, keys_[i], decode[i]); });
   });
   files_.clear();  // the packed tables are all that is needed from here on
+}
+
+void TextureImageLoader::NoteRepaired(std::vector<Note>& notes) const {
+  for (const auto& [path, file] : files_) {
+    if (file.repaired == 0) continue;
+    notes.push_back(
+        {file.first_use->where,
+         fmt::format("texture \"{}\": {} of {} values of {} are not finite; what is not "
+                     "a number counts as 0, what is infinite as {}",
+                     file.first_use->name, file.repaired, file.image.pixels.size(), path,
+                     kLargestHalf)});
+  }
 }
 
 std::int32_t TextureImageLoader::ImageIndex(const Texture& texture) const {

@@ -30,8 +30,9 @@ class TextureImageLoader {
  public:
   explicit TextureImageLoader(const std::vector<Texture>& textures);
 
-  /// Reads and packs all of them, in parallel, into table.images and table.decode.
-  void Load(TextureTable& table);
+  /// Reads and packs all of them, in parallel, into table.images and table.decode. Notes
+  /// files with values that are not finite.
+  void Load(TextureTable& table, std::vector<Note>* notes);
 
   /// Index into table.images for an image texture of the list.
   std::int32_t ImageIndex(const Texture& texture) const;
@@ -40,7 +41,9 @@ class TextureImageLoader {
   struct File {
     const Texture* first_use;
     Image image;
+    std::size_t repaired = 0;  // values that are not finite
   };
+  void NoteRepaired(std::vector<Note>& notes) const;
   int DecodeOffset(const ImageKey& key, TextureTable& table);
 
   std::map<std::string, File> files_;

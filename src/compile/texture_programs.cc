@@ -100,10 +100,11 @@ class ProgramBuilder {
 
 }  // namespace
 
-TextureTable CompileTextures(const std::vector<Texture>& textures) {
+TextureTable CompileTextures(const std::vector<Texture>& textures,
+                             std::vector<Note>* notes) {
   TextureTable table;
   TextureImageLoader images(textures);
-  images.Load(table);
+  images.Load(table, notes);
   ProgramBuilder builder(textures, images, table);
   for (std::size_t i = 0; i < textures.size(); ++i) builder.Build(static_cast<Index>(i));
   return table;

@@ -11,8 +11,9 @@ namespace lanelight {
 /// once, in parallel. Semantics are those of pbrt-v4 (scale before invert, negative
 /// results cut at 0, a float texture reads alpha if there is any below 1, else the mean
 /// of colour), without its mip levels: level 0 is sampled. Throws InputError naming the
-/// texture's place and the file.
-TextureTable CompileTextures(const std::vector<Texture>& textures);
+/// texture's place and the file. Files with values that are not finite leave a note.
+TextureTable CompileTextures(const std::vector<Texture>& textures,
+                             std::vector<Note>* notes = nullptr);
 
 /// Decoded value of byte `b` (0..255) for an encoding.
 double DecodeByte(int b, Encoding encoding, double gamma);

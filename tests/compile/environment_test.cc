@@ -136,6 +136,17 @@ TEST_CASE("compile: negative values of an environment are told", "[scene][compil
   CHECK(e.rgb[3 * 3] == 0);
 }
 
+TEST_CASE("compile: a value that is not a number darkens one texel", "[scene][compile]") {
+  Image image = Grey(2, 1);
+  image.At(1, 0, 2) = std::nanf("");
+  std::vector<Note> notes;
+  const Environment e = CompileEnvironment(Infinite(), image, &notes);
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].message ==
+        "1 of 12 values of the environment image are not a number and count as 0");
+  for (std::size_t i = 0; i < 12; ++i) CHECK(e.rgb[i] == (i == 5 ? 0 : 1));
+}
+
 TEST_CASE("compile: images that are no environments", "[scene][compile]") {
   CHECK_THROWS_WITH(CompileEnvironment(Infinite(), MakeImage(4, 2, {"R", "G", "B"})),
                     Catch::Contains("scene.pbrt:40:1") && Catch::Contains("4 x 2") &&

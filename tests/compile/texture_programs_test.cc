@@ -72,16 +72,34 @@ TEST_CASE("textures that cannot be loaded name their place and file", "[texture]
                                               Catch::Contains("texture \"image\"") &&
                                               Catch::Contains("absent.png") &&
                                               Catch::Contains("No such file"));
-  Image image = MakeImage(2, 2, {"R", "G", "B"});
-  image.At(1, 0, 2) = std::nanf("");
-  t.path = folder.File("nan.pfm");
-  WritePfm(t.path, image);
-  CHECK_THROWS_WITH(CompileTextures({t}),
-                    Catch::Contains("nan.pfm") && Catch::Contains("row 0, column 1"));
   t.path = folder.File("depth.exr");
   WriteExr(t.path, 1, 1, {{"X", {1}}, {"Z", {1}}});
   CHECK_THROWS_WITH(CompileTextures({t}),
                     Catch::Contains("needs the channels R, G, B or Y"));
+}
+
+TEST_CASE("texels that are not finite cost themselves and a note", "[texture]") {
+  const TemporaryFolder folder;
+  Image image = MakeImage(2, 2, {"R", "G", "B"});
+  image.pixels.assign(12, 0.5f);
+  image.At(1, 0, 2) = std::nanf("");
+  image.At(0, 1, 0) = -std::numeric_limits<float>::infinity();
+  image.At(0, 1, 1) = std::numeric_limits<float>::infinity();
+  const Texture t = At(ImageTexture(folder.File("bad.pfm")), 42);
+  WritePfm(t.path, image);
+  std::vector<Note> notes;
+  const TextureTable table = CompileTextures({t}, &notes);
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].where.line == 42);
+  CHECK(notes[0].message.starts_with("texture \"image\": 3 of 12 values of "));
+  const auto& rgb = table.images.at(0).rgb;
+  for (std::size_t i = 0; i < 12; ++i) {
+    CHECK(rgb[i] == (i == 5 ? 0 : i == 6 ? -65504 : i == 7 ? 65504 : 0.5f));
+  }
+  image.pixels.assign(12, 0.5f);
+  WritePfm(t.path, image);
+  CompileTextures({t}, &notes);
+  CHECK(notes.size() == 1);
 }
 
 TEST_CASE("a texture may combine only so many others", "[texture]") {
