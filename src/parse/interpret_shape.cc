@@ -59,12 +59,17 @@ void ReadPly(ParseState& state, ParamSet& params) {
   }
   const std::string name = params.String("filename", "");
   if (name.empty()) params.Fail(*file, "the file name is empty");
-  for (const char* ignored : {"displacement", "displacement.edgelength",
-                              "displacement.uvscale", "edgelength"}) {
-    params.Ignore(ignored, "displacement is not supported");
+  MeshRequest request{ResolvePath(state, name), file->where, state.open_object,
+                      state.OpenShapes().size()};
+  if (params.Find("displacement", {ParamType::kTexture}) != nullptr) {
+    const FloatValue height = TexturedFloat(state, params, "displacement", 0, 0, 0);
+    request.displacement = height.texture;
   }
-  state.meshes.push_back({ResolvePath(state, name), file->where, state.open_object,
-                          state.OpenShapes().size()});
+  for (const char* foreign : {"displacement.uvscale", "edgelength"}) {
+    params.Ignore(foreign, "pbrt-v4 has no such parameter");
+  }
+  request.edge_length = params.Float("displacement.edgelength", 1, kTiny, kHuge);
+  state.meshes.push_back(std::move(request));
 }
 
 void ReadGeometry(ParseState& state, const std::string& type, ParamSet& params,

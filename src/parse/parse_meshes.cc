@@ -1,7 +1,10 @@
 // Mesh files, after the text: every file once, all in parallel.
 #include <optional>
 
+#include "src/core/error_text.h"
 #include "src/core/parallel.h"
+#include "src/core/suggest.h"
+#include "src/parse/displace.h"
 #include "src/parse/parse_state.h"
 #include "src/parse/ply_repair.h"
 
@@ -35,6 +38,29 @@ void Load(const ParseState& state, LoadedMesh* out) {
   out->mesh = std::make_shared<const TriangleMesh>(std::move(ply.mesh));
 }
 
+void DisplaceMesh(ParseState& state, const MeshRequest& request, Shape* shape) {
+  const std::vector<Texture>& textures = state.scene.textures;
+  const std::string problem = HeightTexture::Problem(textures, request.displacement);
+  if (!problem.empty()) {
+    state.scene.notes.push_back(
+        {request.where, "this mesh is not displaced: " + problem, true});
+    return;
+  }
+  if (shape->mesh->uvs.empty()) {
+    throw InputError(
+        request.where,
+        fmt::format("{} has no texture coordinates, which displacement needs",
+                    Quoted(request.path)));
+  }
+  const HeightTexture height(textures, request.displacement);
+  try {
+    shape->mesh = std::make_shared<const TriangleMesh>(
+        Displace(*shape->mesh, shape->world_from_object, request.edge_length, height));
+  } catch (const InputError& error) {
+    throw InputError(request.where, WithoutPrefix(error));
+  }
+}
+
 }  // namespace
 
 void LoadMeshes(ParseState& state) {
@@ -64,7 +90,9 @@ void LoadMeshes(ParseState& state) {
     std::vector<Shape>& shapes = request.object == kNone
                                      ? state.scene.shapes
                                      : state.scene.objects[request.object].shapes;
-    shapes[request.shape].mesh = files[position[request.path]].mesh;
+    Shape& shape = shapes[request.shape];
+    shape.mesh = files[position[request.path]].mesh;
+    if (request.displacement != kNone) DisplaceMesh(state, request, &shape);
   }
 }
 

@@ -44,6 +44,8 @@ struct MeshRequest {
   SourceLocation where;
   Index object = kNone;
   std::size_t shape = 0;
+  Index displacement = kNone;  // a float texture
+  double edge_length = 1;      // of displaced triangles at most, in the world
 };
 
 struct OpenFile {

@@ -1,0 +1,210 @@
+// Meshes that textures displace, and the textures as evaluated for that.
+#include "src/parse/displace.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "src/parse/mesh_edges.h"
+#include "tests/parse/parse_text.h"
+#include "tests/reference/random.h"
+#include "tests/reference/texture.h"
+#include "tests/texture/texture_files.h"
+
+namespace lanelight {
+namespace {
+
+Texture FloatTexture(TextureKind kind) {
+  Texture t;
+  t.kind = kind;
+  t.name = "height";
+  t.is_float = true;
+  return t;
+}
+
+Texture Constant(double value) {
+  Texture t = FloatTexture(TextureKind::kConstant);
+  t.value = {value, value, value};
+  return t;
+}
+
+Texture FromFile(const std::string& path, WrapMode wrap, bool bilinear) {
+  Texture t = FloatTexture(TextureKind::kImage);
+  t.path = path;
+  t.wrap = wrap;
+  t.bilinear = bilinear;
+  t.encoding = Encoding::kLinear;
+  t.mapping = {1.7, -2.3, 0.2, 0.4};
+  return t;
+}
+
+TEST_CASE("heights are what the reference makes of the same textures", "[parse]") {
+  const TemporaryFolder folder;
+  WritePfm(folder.File("grey.pfm"), RandomFloats(5, 3, 1, 1));
+  WritePfm(folder.File("color.pfm"), RandomFloats(4, 6, 3, 2));
+  std::ofstream(folder.File("bytes.tga"), std::ios::binary) << RandomTga(7, 4, 24, 3);
+  std::ofstream(folder.File("alpha.tga"), std::ios::binary) << RandomTga(3, 4, 32, 4);
+  std::vector<Texture> textures = {Constant(0.7)};
+  for (const char* file : {"grey.pfm", "color.pfm", "bytes.tga", "alpha.tga"}) {
+    for (const WrapMode wrap : {WrapMode::kRepeat, WrapMode::kClamp, WrapMode::kBlack}) {
+      textures.push_back(FromFile(folder.File(file), wrap, wrap != WrapMode::kClamp));
+    }
+  }
+  textures[1].scale = 1.5;
+  textures[1].invert = true;
+  textures[7].encoding = Encoding::kSrgb;
+  textures[8].encoding = Encoding::kGamma;
+  Texture mix = FloatTexture(TextureKind::kMix);
+  mix.tex1.texture = 2, mix.tex2.constant = {0.3, 0.3, 0.3}, mix.amount.texture = 8;
+  textures.push_back(mix);
+  Texture checks = FloatTexture(TextureKind::kCheckerboard);
+  checks.tex1.texture = 3, checks.tex2.texture = 13, checks.mapping = {5, 3, 0.1, 0.2};
+  textures.push_back(checks);
+  Texture scale = FloatTexture(TextureKind::kScale);
+  scale.tex1.texture = 14, scale.amount.constant = -2;
+  textures.push_back(scale);
+
+  const reference::Textures truth(textures);
+  reference::Random random(3);
+  for (Index i = 0; i < static_cast<Index>(textures.size()); ++i) {
+    REQUIRE(HeightTexture::Problem(textures, i) == "");
+    const HeightTexture height(textures, i);
+    double most = 0;
+    for (int k = 0; k < 200; ++k) {
+      const double u = 4 * random.Uniform() - 2, v = 4 * random.Uniform() - 2;
+      most = std::max(most, std::abs(height.At(u, v) - truth.Eval(i, u, v).x));
+    }
+    CAPTURE(i);
+    CHECK(most < 1e-6);
+  }
+}
+
+TEST_CASE("textures that heights cannot come from", "[parse]") {
+  Texture scale = FloatTexture(TextureKind::kScale);
+  scale.tex1.texture = 0;
+  Texture placed = FloatTexture(TextureKind::kCheckerboard);
+  placed.mapping.kind = MappingKind::kSpherical;
+  const std::vector<Texture> textures = {FloatTexture(TextureKind::kFbm), scale, placed};
+  for (Index i = 0; i < 3; ++i) {
+    CHECK(HeightTexture::Problem(textures, i).find("texture \"height\" is not one of") ==
+          0);
+  }
+}
+
+// The unit square in the plane z = 0, u = x and v = y.
+TriangleMesh Square() {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+
+double LongestSide(const TriangleMesh& mesh, const Transform& t) {
+  double longest = 0;
+  for (const MeshEdge& edge : FindEdges(mesh).edges) {
+    longest = std::max(longest, Length(t.Vector(mesh.positions[edge.ends[0]] -
+                                                mesh.positions[edge.ends[1]])));
+  }
+  return longest;
+}
+
+TEST_CASE("displaced: sides are short enough, and there are no cracks", "[parse]") {
+  const std::vector<Texture> textures = {Constant(0.25)};
+  const HeightTexture height(textures, 0);
+  for (const Transform& t : {Transform(), Transform::Scale({3, 1, 1})}) {
+    const TriangleMesh out = Displace(Square(), t, 0.3, height);
+    CHECK(LongestSide(out, t) < 0.3);
+    CHECK(LongestSide(out, t) > 0.12);
+    const MeshEdges edges = FindEdges(out);
+    CHECK(edges.problem == "");
+    double outline = 0, area = 0;
+    for (const MeshEdge& edge : edges.edges) {
+      if (edge.faces > 1) continue;
+      outline += Length(out.positions[edge.ends[0]] - out.positions[edge.ends[1]]);
+    }
+    for (std::size_t i = 0; i < out.indices.size(); i += 3) {
+      const Vec3d p = out.positions[out.indices[i]];
+      area += Cross(out.positions[out.indices[i + 1]] - p,
+                    out.positions[out.indices[i + 2]] - p)
+                  .z /
+              2;
+    }
+    CHECK(outline == Approx(4));
+    CHECK(area == Approx(1));
+    for (std::size_t i = 0; i < out.positions.size(); ++i) {
+      CHECK(out.positions[i].z == 0.25);
+      CHECK(out.uvs[i][0] == out.positions[i].x);
+      CHECK(out.normals[i] == Vec3d{0, 0, 1});
+    }
+  }
+}
+
+TEST_CASE("displaced: along given normals, by the texture, with new normals", "[parse]") {
+  // A ramp: the image's two texels, one above the other, and linear in between.
+  const TemporaryFolder folder;
+  Image ramp = MakeImage(1, 2, {"Y"});
+  ramp.At(0, 0, 0) = 1;
+  WritePfm(folder.File("ramp.pfm"), ramp);
+  std::vector<Texture> textures = {
+      FromFile(folder.File("ramp.pfm"), WrapMode::kClamp, true)};
+  textures[0].mapping = {1, 0.5, 0, 0.25};  // from one texel's middle to the other's
+  TriangleMesh mesh = Square();
+  mesh.normals.assign(4, {0, 0, -2});
+  const TriangleMesh out = Displace(mesh, Transform(), 0.2, HeightTexture(textures, 0));
+  double off = 0, turned = 0;
+  for (std::size_t i = 0; i < out.positions.size(); ++i) {
+    // Vertices of the file keep the length of their normals, others have unit ones.
+    const double reach = i < 4 ? 2 : 1;
+    off = std::max(off, std::abs(out.positions[i].z + reach * out.positions[i].y));
+  }
+  CHECK(off < 1e-7);
+  mesh.normals.assign(4, {0, 0, -1});
+  const TriangleMesh unit = Displace(mesh, Transform(), 0.2, HeightTexture(textures, 0));
+  for (const Vec3d& n : unit.normals) {
+    turned = std::max(turned, Length(n - Normalize(Vec3d{0, 1, 1})));
+  }
+  CHECK(turned < 1e-6);
+}
+
+TEST_CASE("displaced: too fine is refused before it fills the memory", "[parse]") {
+  const std::vector<Texture> textures = {Constant(0.25)};
+  CHECK_THROWS_WITH(Displace(Square(), Transform(), 1e-6, HeightTexture(textures, 0)),
+                    Catch::Contains("displacement makes more than 50000000 triangles"));
+}
+
+TEST_CASE("displaced meshes of a scene", "[parse]") {
+  const TemporaryFolder folder;
+  const char kHead[] =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\n";
+  const char kFaces[] =
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  std::ofstream(folder.File("uv.ply"))
+      << kHead << "property float u\nproperty float v\n"
+      << kFaces << "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n";
+  std::ofstream(folder.File("plain.ply"))
+      << kHead << kFaces << "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const auto parse = [&](const std::string& shape) {
+    return ParseSceneText(
+        "WorldBegin Texture \"h\" \"float\" \"constant\" \"float value\" 0.5\n" + shape,
+        "main.pbrt", std::filesystem::path(folder.File("uv.ply")).parent_path().string());
+  };
+  const std::string displaced =
+      "\"texture displacement\" \"h\" \"float displacement.edgelength\" 0.4";
+  // The same file, displaced and as it is.
+  const SceneDescription scene =
+      parse("Shape \"plymesh\" \"string filename\" \"uv.ply\" " + displaced +
+            "\nShape \"plymesh\" \"string filename\" \"uv.ply\"");
+  CHECK(scene.notes.empty());
+  CHECK(scene.shapes[0].mesh->indices.size() > 3 * 10);
+  for (const Vec3d& p : scene.shapes[0].mesh->positions) CHECK(p.z == 0.5);
+  CHECK(scene.shapes[1].mesh->indices.size() == 3);
+  CHECK_THROWS_WITH(
+      parse("Shape \"plymesh\" \"string filename\" \"plain.ply\" " + displaced),
+      Catch::StartsWith("main.pbrt:2:17: error: ") &&
+          Catch::Contains("no texture coordinates"));
+}
+
+}  // namespace
+}  // namespace lanelight
