@@ -6,6 +6,7 @@
 #include "src/core/check.h"
 #include "src/core/parallel.h"
 #include "src/compile/focus.h"
+#include "src/compile/seen_tolerance.h"
 #include "src/compile/tessellate.h"
 #include "src/compile/textures.h"
 
@@ -63,10 +64,12 @@ void CheckEmitter(const SceneDescription& d, const Shape& shape,
   }
 }
 
-std::shared_ptr<const TriangleMesh> MeshOf(const Shape& shape, const Transform& t) {
-  if (shape.kind == ShapeKind::kMesh) return shape.mesh;
-  if (!IsTessellated(shape, t)) return nullptr;
-  return std::make_shared<const TriangleMesh>(Tessellate(shape));
+// Sets the mesh of a mesh, or in place of what is tessellated.
+void SetMesh(double tolerance, PlacedShape* placed) {
+  const Shape& shape = *placed->shape;
+  if (shape.kind == ShapeKind::kMesh) placed->mesh = shape.mesh;
+  if (!IsTessellated(shape, placed->transform)) return;
+  placed->mesh = std::make_shared<const TriangleMesh>(Tessellate(shape, tolerance));
 }
 
 // The shape as it will be compiled, or nothing if it cannot be seen.
@@ -84,11 +87,11 @@ std::optional<PlacedShape> Place(const SceneDescription& d,
   placed.transform =
       instance ? *instance * shape.world_from_object : shape.world_from_object;
   placed.flip = shape.reverse_orientation != shape.world_from_object.SwapsHandedness();
-  placed.mesh = MeshOf(shape, placed.transform);
   return placed;
 }
 
-void AddToWorld(const PlacedShape& placed, Placement& placement) {
+void AddToWorld(const SceneDescription& d, PlacedShape placed, Placement& placement) {
+  SetMesh(SeenTolerance(placed, d.camera, d.film), &placed);
   if (placed.mesh != nullptr) return placement.meshes.push_back(placed);
   switch (placed.shape->kind) {
     case ShapeKind::kMesh:
@@ -187,7 +190,7 @@ void CopyIntoWorld(const SceneDescription& d, const TextureConstants& constants,
   for (const Shape& shape : object.shapes) {
     if (StaysInObject(d, shape)) continue;
     if (const auto p = Place(d, constants, shape, &world_from_object)) {
-      AddToWorld(*p, placement);
+      AddToWorld(d, *p, placement);
     }
   }
 }
@@ -197,7 +200,8 @@ PlacedObject PlaceObject(const SceneDescription& d, const TextureConstants& cons
   PlacedObject placed;
   for (const Shape& shape : object.shapes) {
     if (!StaysInObject(d, shape)) continue;
-    if (const auto p = Place(d, constants, shape, nullptr)) {
+    if (auto p = Place(d, constants, shape, nullptr)) {
+      SetMesh(kOfObjects, &*p);
       placed.meshes.push_back(*p);
     }
   }
@@ -267,7 +271,7 @@ Placement PlaceShapes(const SceneDescription& d) {
   const TextureConstants constants(d.textures);
   Placement placement;
   for (const Shape& shape : d.shapes) {
-    if (const auto p = Place(d, constants, shape, nullptr)) AddToWorld(*p, placement);
+    if (const auto p = Place(d, constants, shape, nullptr)) AddToWorld(d, *p, placement);
   }
   PlaceInstances(d, constants, placement);
   placement.bounds.Add(UnionOfBoxes(placement.meshes));

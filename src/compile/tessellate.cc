@@ -14,7 +14,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kLongest = 64;
 constexpr double kMostRows = 256;
 // Around poles and centres, where a triangle's u is off by half of its own.
-constexpr int kLeastColumns = 256;
+constexpr int kLeastColumns = 64;
 // What hand-written matrices are forgiven, relatively.
 constexpr double kRoundTolerance = 1e-5;
 
@@ -91,9 +91,9 @@ class Grid {
   TriangleMesh mesh_;
 };
 
-TriangleMesh TessellateCylinder(const Shape& shape) {
+TriangleMesh TessellateCylinder(const Shape& shape, double tolerance) {
   const double phi_max = shape.phi_max / 180 * kPi;
-  const int columns = StepsOf(phi_max, kCylinderTolerance);
+  const int columns = StepsOf(phi_max, tolerance);
   const double width = shape.radius * phi_max / columns;
   const double height = shape.z_max - shape.z_min;
   const double wanted = width > 0 ? std::ceil(height / (kLongest * width)) : 1;
@@ -104,14 +104,14 @@ TriangleMesh TessellateCylinder(const Shape& shape) {
   });
 }
 
-TriangleMesh TessellateSphere(const Shape& shape) {
+TriangleMesh TessellateSphere(const Shape& shape, double tolerance) {
   const double r = shape.radius;
   const double first = std::acos(std::clamp(shape.z_min / r, -1.0, 1.0));
   const double last = std::acos(std::clamp(shape.z_max / r, -1.0, 1.0));
   // A triangle's distance adds up from both directions.
   const int columns =
-      std::max(kLeastColumns, StepsOf(shape.phi_max / 180 * kPi, kSphereTolerance / 2));
-  const int rows = StepsOf(first - last, kSphereTolerance / 2);
+      std::max(kLeastColumns, StepsOf(shape.phi_max / 180 * kPi, tolerance / 2));
+  const int rows = StepsOf(first - last, tolerance / 2);
   return Grid(shape, columns, rows).Make([&](double v) {
     const double theta = v == 1 ? last : first + v * (last - first);
     const bool is_pole = theta == 0 || theta == kPi;
@@ -120,9 +120,9 @@ TriangleMesh TessellateSphere(const Shape& shape) {
   });
 }
 
-TriangleMesh TessellateDisk(const Shape& shape) {
+TriangleMesh TessellateDisk(const Shape& shape, double tolerance) {
   const int columns =
-      std::max(kLeastColumns, StepsOf(shape.phi_max / 180 * kPi, kCylinderTolerance));
+      std::max(kLeastColumns, StepsOf(shape.phi_max / 180 * kPi, tolerance));
   return Grid(shape, columns, 1).Make([&](double v) {
     return Grid::Row{v == 0 ? shape.radius : shape.inner_radius, shape.height, 0, 1};
   });
@@ -146,12 +146,12 @@ bool IsTessellated(const Shape& shape, const Transform& transform) {
   return false;
 }
 
-TriangleMesh Tessellate(const Shape& shape) {
+TriangleMesh Tessellate(const Shape& shape, double tolerance) {
   LL_CHECK_GT(shape.radius, 0);
-  if (shape.kind == ShapeKind::kSphere) return TessellateSphere(shape);
-  if (shape.kind == ShapeKind::kDisk) return TessellateDisk(shape);
+  if (shape.kind == ShapeKind::kSphere) return TessellateSphere(shape, tolerance);
+  if (shape.kind == ShapeKind::kDisk) return TessellateDisk(shape, tolerance);
   LL_CHECK(shape.kind == ShapeKind::kCylinder);
-  return TessellateCylinder(shape);
+  return TessellateCylinder(shape, tolerance);
 }
 
 }  // namespace lanelight

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/compile/seen_tolerance.h"
 #include "tests/compile/testing.h"
 
 namespace lanelight {
@@ -91,12 +92,18 @@ const std::vector<Shape>& RoundShapes() {
   return shapes;
 }
 
-TEST_CASE("tessellation: within the stated tolerance, inside", "[compile]") {
+std::vector<std::pair<Shape, double>> RoundCases() {
+  std::vector<std::pair<Shape, double>> cases;
   for (const Shape& shape : RoundShapes()) {
-    CAPTURE(static_cast<int>(shape.kind), shape.radius, shape.phi_max);
-    const TriangleMesh mesh = Tessellate(shape);
-    const double tolerance =
-        shape.kind == ShapeKind::kSphere ? kSphereTolerance : kCylinderTolerance;
+    for (const double tolerance : {1e-3, 4e-5}) cases.emplace_back(shape, tolerance);
+  }
+  return cases;
+}
+
+TEST_CASE("tessellation: within the stated tolerance, inside", "[compile]") {
+  for (const auto& [shape, tolerance] : RoundCases()) {
+    CAPTURE(static_cast<int>(shape.kind), shape.radius, shape.phi_max, tolerance);
+    const TriangleMesh mesh = Tessellate(shape, tolerance);
     double least = 0, most = -1;
     for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
       for (const auto& w :
@@ -116,9 +123,9 @@ TEST_CASE("tessellation: within the stated tolerance, inside", "[compile]") {
 }
 
 TEST_CASE("tessellation: normals and coordinates are pbrt's", "[compile]") {
-  for (const Shape& shape : RoundShapes()) {
-    CAPTURE(static_cast<int>(shape.kind), shape.radius, shape.phi_max);
-    const TriangleMesh mesh = Tessellate(shape);
+  for (const auto& [shape, tolerance] : RoundCases()) {
+    CAPTURE(static_cast<int>(shape.kind), shape.radius, shape.phi_max, tolerance);
+    const TriangleMesh mesh = Tessellate(shape, tolerance);
     double normal = 0, uv = 0;
     int wrong_side = 0;
     for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
@@ -138,7 +145,7 @@ TEST_CASE("tessellation: normals and coordinates are pbrt's", "[compile]") {
     }
     CHECK(wrong_side == 0);
     CHECK(normal < 1e-12);
-    CHECK(uv < 2e-3);
+    CHECK(uv < 0.5 / 64);
   }
 }
 
@@ -163,12 +170,12 @@ TEST_CASE("tessellation: areas, so that nothing is missing or double", "[compile
     const double exact = shape.kind == ShapeKind::kDisk
                              ? part(shape) / 2 * (r * r - inner * inner)
                              : part(shape) * r * (z_max - shape.z_min);
-    CHECK(AreaOf(Tessellate(shape)) == Approx(exact).epsilon(3e-4));
+    CHECK(AreaOf(Tessellate(shape, 1e-4)) == Approx(exact).epsilon(3e-4));
   }
 }
 
 TEST_CASE("tessellation: a closed shape has no seam", "[compile]") {
-  const TriangleMesh mesh = Tessellate(Cylinder(1, 0, 1, 360));
+  const TriangleMesh mesh = Tessellate(Cylinder(1, 0, 1, 360), 1e-4);
   std::size_t end = 0;
   while (mesh.uvs[end][0] < 1) ++end;
   CHECK(mesh.uvs[0][0] == 0);
@@ -215,6 +222,37 @@ TEST_CASE("tessellation: only what has no exact form", "[compile]") {
   const CompiledScene scene = PrepareScene(d);
   CHECK(scene.geometry.spheres.size() == 1);
   CHECK(scene.geometry.triangles.size() > 1000);
+}
+
+TEST_CASE("tessellation: as fine as the camera sees it", "[compile]") {
+  for (const double unit : {1e-6, 1.0, 1e6}) {
+    CAPTURE(unit);
+    SceneDescription d;
+    d.film.width = 200;
+    d.film.height = 100;
+    d.camera.fov = 90;
+    d.camera.world_from_camera = Transform::Translate({0, 0, 5 * unit});
+    const auto tolerance = [&](const Shape& shape, double distance) {
+      PlacedShape placed;
+      placed.shape = &shape;
+      placed.transform = Transform::Translate({0, 0, (5 + distance + 3) * unit}) *
+                         Transform::Scale({unit, 2 * unit, unit});
+      return SeenTolerance(placed, d.camera, d.film);
+    };
+    const Shape tube = Cylinder(1.5, 0, 0, 360), ball = PartOfSphere(1.5, 0, 1, 360);
+    // Largest radius 3; a pixel is 1/50 of the distance.
+    CHECK(tolerance(tube, 1) == Approx(0.02 / 50 / 3));
+    CHECK(tolerance(ball, 2) == Approx(0.02 / 50 / 3 * 2));
+    CHECK(tolerance(tube, 50) == kCoarsest);
+    CHECK(tolerance(tube, 1e-3) == kFinestCylinder);
+    CHECK(tolerance(ball, 0) == kFinestSphere);
+    d.camera.kind = CameraKind::kOrthographic;
+    d.camera.world_from_camera = Transform::Scale({unit, unit, unit});
+    const double window[4] = {-1, 1, -0.5, 0.5};
+    std::copy(window, window + 4, d.camera.screen_window);
+    CHECK(tolerance(tube, 1) == Approx(0.02 / 100 / 3));
+    CHECK(tolerance(tube, 70) == Approx(0.02 / 100 / 3));
+  }
 }
 
 TEST_CASE("tessellation: nothing is left of some shapes", "[compile]") {
