@@ -25,26 +25,32 @@ void ReadHeights(ParamSet& params, double absent, double most, Shape* shape) {
   shape->z_max = std::max(a, b);
 }
 
+// Nothing can be seen of a sphere, disk or cylinder of radius 0.
+bool IsVisible(const Shape& shape) {
+  return shape.kind == ShapeKind::kMesh || shape.kind == ShapeKind::kPlane ||
+         shape.radius > 0;
+}
+
 void ReadSphere(ParamSet& params, Shape* shape) {
   shape->kind = ShapeKind::kSphere;
-  shape->radius = params.Float("radius", 1, kTiny, kHuge);
+  shape->radius = params.Float("radius", 1, 0, kHuge);
   ReadHeights(params, shape->radius, shape->radius, shape);
   ReadPhi(params, shape);
 }
 
 void ReadCylinder(ParamSet& params, Shape* shape) {
   shape->kind = ShapeKind::kCylinder;
-  shape->radius = params.Float("radius", 1, kTiny, kHuge);
+  shape->radius = params.Float("radius", 1, 0, kHuge);
   ReadHeights(params, 1, kHuge, shape);
   ReadPhi(params, shape);
 }
 
 void ReadDisk(ParamSet& params, Shape* shape) {
   shape->kind = ShapeKind::kDisk;
-  shape->radius = params.Float("radius", 1, kTiny, kHuge);
+  shape->radius = params.Float("radius", 1, 0, kHuge);
   shape->inner_radius = params.Float("innerradius", 0, 0, kHuge);
   shape->height = params.Float("height", 0, -kHuge, kHuge);
-  if (shape->inner_radius >= shape->radius) {
+  if (shape->inner_radius >= shape->radius && shape->radius > 0) {
     params.Fail(*params.Find("innerradius", {}),
                 fmt::format("the inner radius {} is not below the radius {}",
                             shape->inner_radius, shape->radius));
@@ -145,6 +151,10 @@ void InterpretShape(ParseState& state, const std::string& type, ParamSet& params
   ReadGeometry(state, type, params, &shape);
   shape.alpha = TexturedFloat(state, params, "alpha", 1, 0, 1);
   params.CheckAllUsed();
+  if (!IsVisible(shape)) {
+    return state.AddNote(shape.where,
+                         fmt::format("left out {}: its radius is 0", params.object()));
+  }
   shape.area_light = CurrentAreaLight(state, shape, params.where());
   state.OpenShapes().push_back(std::move(shape));
 }

@@ -25,6 +25,32 @@ TEST_CASE("spheres, disks, planes", "[parse]") {
   CHECK(ParseShape("\"plane\" \"float alpha\" 0.5").kind == ShapeKind::kPlane);
 }
 
+TEST_CASE("parts of round shapes", "[parse]") {
+  const Shape tube = ParseShape("\"cylinder\" \"float phimax\" 90");
+  CHECK(tube.kind == ShapeKind::kCylinder);
+  CHECK(tube.radius == 1);
+  CHECK(tube.z_min == -1);
+  CHECK(tube.z_max == 1);
+  CHECK(tube.phi_max == 90);
+  // In either order, and cut off at the sphere itself.
+  const Shape bowl = ParseShape(
+      "\"sphere\" \"float radius\" 2 \"float zmin\" 1.5 \"float zmax\" -9 "
+      "\"float phimax\" 400");
+  CHECK(bowl.z_min == -2);
+  CHECK(bowl.z_max == 1.5);
+  CHECK(bowl.phi_max == 360);
+  CHECK(ParseShape("\"disk\" \"float phimax\" 20").phi_max == 20);
+}
+
+TEST_CASE("round shapes of radius 0 are left out", "[parse]") {
+  for (const char* type : {"sphere", "disk", "cylinder"}) {
+    const SceneDescription scene =
+        ParseWorld(std::string("Shape \"") + type + "\" \"float radius\" 0");
+    CHECK(scene.shapes.empty());
+    CHECK(HasNote(scene, "its radius is 0"));
+  }
+}
+
 TEST_CASE("triangle meshes", "[parse]") {
   const Shape shape = ParseShape(R"("trianglemesh"
     "point3 P" [ 0 0 0  1 0 0  1 1 0  0 1 0 ]
