@@ -84,6 +84,14 @@ void RunOption(ParseState& state, Statement& statement) {
                     "string, true or false",
                     value.Describe(), Quoted(name)));
   }
+  if (name == "displacementedgescale") {
+    if (value.kind != TokenKind::kNumber || !(value.number > 0)) {
+      throw InputError(statement.lexer.Where(value),
+                       "option \"displacementedgescale\" takes a number above 0");
+    }
+    state.edge_scale = value.number;
+    return;
+  }
   if (name != "seed") {
     state.AddNote(where, fmt::format("option {} has no effect", Quoted(name)));
     return;

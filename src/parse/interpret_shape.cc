@@ -74,7 +74,8 @@ void ReadPly(ParseState& state, ParamSet& params) {
   for (const char* foreign : {"displacement.uvscale", "edgelength"}) {
     params.Ignore(foreign, "pbrt-v4 has no such parameter");
   }
-  request.edge_length = params.Float("displacement.edgelength", 1, kTiny, kHuge);
+  request.edge_length =
+      params.Float("displacement.edgelength", 1, kTiny, kHuge) * state.edge_scale;
   state.meshes.push_back(std::move(request));
 }
 

@@ -69,6 +69,7 @@ struct ParseState {
   std::vector<MeshRequest> meshes;
   double exposure_seconds = 1;  // from the camera's shutter
   double iso = 100;             // of the film
+  double edge_scale = 1;        // Option "displacementedgescale"
   std::set<std::string> noted;
 
   void AddNote(const SourceLocation& where, const std::string& message) {
