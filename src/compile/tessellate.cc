@@ -96,6 +96,7 @@ TriangleMesh TessellateCylinder(const Shape& shape, double tolerance) {
   const int columns = StepsOf(phi_max, tolerance);
   const double width = shape.radius * phi_max / columns;
   const double height = shape.z_max - shape.z_min;
+  LL_CHECK(std::isfinite(height));
   const double wanted = width > 0 ? std::ceil(height / (kLongest * width)) : 1;
   const int rows = static_cast<int>(std::clamp(wanted, 1.0, kMostRows));
   return Grid(shape, columns, rows).Make([&](double v) {

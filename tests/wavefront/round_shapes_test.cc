@@ -82,6 +82,34 @@ SceneDescription Lit() {
   return b.Build();
 }
 
+// An object of a glass tube, whose own transform mirrors it, and a bowl that shows two
+// sides; once as it is, once squeezed and mirrored.
+SceneDescription Instanced() {
+  SceneBuilder b(8, 8);
+  b.Depth(5).Perspective({0, -6, 4}, {0, 0, 0.5}, {0, 0, 1}, 36);
+  Material leaf;
+  leaf.kind = MaterialKind::kDiffuseTransmission;
+  leaf.reflectance.constant = {0.7, 0.1, 0.1};
+  leaf.transmittance.constant = {0.1, 0.1, 0.7};
+  Shape& tube = Add(b, ShapeKind::kCylinder,
+                    Turned({-0.6, 0, 0.6}, 70, {1, 0, 0}) * Transform::Scale({-1, 1, 1}),
+                    b.AddDielectric(1.5));
+  tube.radius = 0.5, tube.z_min = -0.8, tube.z_max = 0.6, tube.phi_max = 280;
+  Shape& bowl = Add(b, ShapeKind::kSphere, Turned({0.6, 0, 0.5}, 150, {1, 0, 0}),
+                    b.AddMaterial(leaf));
+  bowl.radius = 0.5, bowl.z_max = 0.2, bowl.reverse_orientation = true;
+  b.scene().objects.push_back({"round", b.scene().shapes});
+  b.scene().shapes.clear();
+  b.scene().instances = {
+      {0, Transform::Translate({-0.8, 0, 0}), {}},
+      {0, Transform::Translate({1, 0.5, 0}) * Transform::Scale({0.8, -0.8, 1.2}), {}}};
+  b.AddPlane({0, 0, 0}, {0, 0, 1}, b.AddDiffuse(Grey(0.5)));
+  b.AddQuad({-2, -2, 4}, {0, 3, 0}, {3, 0, 0}, b.AddDiffuse(Grey(0)),
+            b.AddEmission({6, 6, 5}));
+  b.AddEnvironment({0.2, 0.35, 0.5});
+  return b.Build();
+}
+
 void CheckAgreement(const SceneDescription& scene, int samples, double detectable) {
   const auto result = CompareWithReference(scene, static_cast<std::uint64_t>(samples),
                                            samples, kTolerance);
@@ -94,6 +122,12 @@ void CheckAgreement(const SceneDescription& scene, int samples, double detectabl
 
 TEST_CASE("wavefront agrees on parts of round shapes", "[agreement]") {
   CheckAgreement(Still(), 4096, 0.05);
+}
+
+TEST_CASE("wavefront agrees on instances of round shapes", "[agreement]") {
+  const SceneDescription scene = Instanced();
+  CHECK(PrepareScene(scene).geometry.instances.size() == 2);
+  CheckAgreement(scene, 4096, 0.03);
 }
 
 TEST_CASE("wavefront agrees on round shapes that emit", "[agreement]") {
