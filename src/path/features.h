@@ -18,8 +18,6 @@ namespace lanelight {
   X(kDisks, "disks")                                                          \
   X(kPlanes, "infinite planes")                                               \
   X(kLargeSpheres, "spheres much larger than the camera's distance to them")  \
-  X(kClippedSpheres, "spheres and disks of which a part is there")            \
-  X(kCylinders, "cylinders")                                                  \
   X(kInstances, "object instances")                                           \
   X(kVertexNormals, "interpolated vertex normals")                            \
   X(kUv, "surface coordinates (a texture is looked up)")                      \
