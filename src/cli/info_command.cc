@@ -8,6 +8,7 @@
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/core/parallel.h"
+#include "src/parse/format.h"
 #include "src/render/memory.h"
 #include "src/render/report.h"
 
@@ -17,7 +18,7 @@ namespace {
 struct InfoOptions {
   std::string target;
   int threads = 0;
-  bool json = false;
+  bool json = false, format = false;
 };
 
 std::vector<std::pair<std::string, std::string>> Versions() {
@@ -65,9 +66,18 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
       ->check(CLI::Range(0, 1024).description(""))
       ->type_name("T");
   command->add_flag("--json", options->json, "Print JSON");
-  command->footer("\nExample:\n  lanelight info --target AVX2");
+  command->add_flag("--format", options->format,
+                    "Print what becomes of every directive and parameter of pbrt-v4's "
+                    "file format, as Markdown");
+  command->footer(
+      "\nExamples:\n  lanelight info --target AVX2\n"
+      "  lanelight info --format");
   command->callback([options, &chosen] {
     chosen = [options] {
+      if (options->format) {
+        Print(FormatDocument());
+        return kExitGood;
+      }
       ForceTarget(options->target);
       const ThreadLimit threads(options->threads);
       Print(options->json ? JsonText() : Text());

@@ -50,7 +50,7 @@ void RunAttribute(ParseState&, Statement&);
 void RunReverseOrientation(ParseState&, Statement&);
 void RunColorSpace(ParseState&, Statement&);
 
-// directives_object.cc
+// directives_object.cc, option.cc
 void RunCamera(ParseState&, Statement&);
 void RunFilm(ParseState&, Statement&);
 void RunPixelFilter(ParseState&, Statement&);

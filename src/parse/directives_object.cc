@@ -1,4 +1,5 @@
 #include "src/parse/directives.h"
+#include "src/parse/format.h"
 #include "src/parse/interpret.h"
 #include "src/core/suggest.h"
 
@@ -10,11 +11,23 @@ struct TypedObject {
   ParamSet params;
 };
 
+// InputError for what the table of the format refuses with a reason. Where unsupported
+// things are to be skipped, the interpreters say what happens instead.
+void CheckRefused(const ParseState& state, const SourceLocation& where,
+                  std::string_view directive, std::string_view kind,
+                  const std::string& type) {
+  const std::string_view why = WhyRefused(directive, type);
+  if (why.empty() || state.options.skip_unsupported) return;
+  throw InputError(where,
+                   fmt::format("{} {} is not supported: {}", kind, Quoted(type), why));
+}
+
 // Reads "type" and parameters; the type's own place is where errors about it point.
 TypedObject ReadObject(ParseState& state, Statement& statement, const char* kind,
                        std::shared_ptr<const ParamList> inherited = nullptr) {
   const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
   std::string type = statement.String();
+  CheckRefused(state, where, statement.token.text, kind, type);
   ParamList own = ReadParams(statement.lexer, state.graphics.color_space);
   ParamSet params(fmt::format("{} {}", kind, Quoted(type)), where, std::move(own),
                   std::move(inherited), &state.scene.notes);
@@ -48,61 +61,26 @@ void RunIntegrator(ParseState& state, Statement& statement) {
   InterpretIntegrator(state, object.type, object.params);
 }
 
+// Every parameter of the table is noted; anything else is unknown.
 void RunAccelerator(ParseState& state, Statement& statement) {
-  const TypedObject object = ReadObject(state, statement, "accelerator");
-  state.AddNote(statement.where(), "Accelerator has no effect: there is one kind");
-}
-
-// `Option "name" value` or `Option "type name" value`.
-void RunOption(ParseState& state, Statement& statement) {
-  static const std::vector<std::string> kOptions = {"disablepixeljitter",
-                                                    "disabletexturefiltering",
-                                                    "disablewavelengthjitter",
-                                                    "displacementedgescale",
-                                                    "forcediffuse",
-                                                    "msereferenceimage",
-                                                    "msereferenceout",
-                                                    "pixelstats",
-                                                    "rendercoordsys",
-                                                    "seed",
-                                                    "stats",
-                                                    "wavefront"};
-  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
-  std::string name = statement.String();
-  name = name.substr(name.find_last_of(' ') + 1);
-  const Token value = statement.lexer.Next();
-  if (std::find(kOptions.begin(), kOptions.end(), name) == kOptions.end()) {
-    ThrowUnknown(where, "option", name, kOptions);
-  }
-  const bool fits = value.kind == TokenKind::kNumber ||
-                    value.kind == TokenKind::kString || value.text == "true" ||
-                    value.text == "false";
-  if (!fits) {
-    throw InputError(
-        statement.lexer.Where(value),
-        fmt::format("found {} as the value of option {}; it takes a number, a "
-                    "string, true or false",
-                    value.Describe(), Quoted(name)));
-  }
-  if (name == "displacementedgescale") {
-    if (value.kind != TokenKind::kNumber || !(value.number > 0)) {
-      throw InputError(statement.lexer.Where(value),
-                       "option \"displacementedgescale\" takes a number above 0");
+  TypedObject object = ReadObject(state, statement, "accelerator");
+  std::vector<std::string> types;
+  bool known = false;
+  for (const FormatObject& o : PbrtFormat()) {
+    if (o.directive != std::string("Accelerator")) continue;
+    types.emplace_back(o.type);
+    if (object.type != o.type) continue;
+    known = true;
+    for (const FormatLine& line : o.lines) {
+      const std::string_view parameter = line.parameter;
+      object.params.Ignore(parameter.substr(parameter.rfind(' ') + 1), line.why);
     }
-    state.edge_scale = value.number;
-    return;
   }
-  if (name != "seed") {
-    state.AddNote(where, fmt::format("option {} has no effect", Quoted(name)));
-    return;
-  }
-  if (value.kind != TokenKind::kNumber || value.number < 0 ||
-      value.number > 4294967295.0 ||
-      value.number != static_cast<double>(static_cast<std::uint64_t>(value.number))) {
-    throw InputError(statement.lexer.Where(value),
-                     "option \"seed\" takes an integer from 0 to 4294967295");
-  }
-  state.scene.sampler.seed = static_cast<std::uint64_t>(value.number);
+  if (!known) ThrowUnknown(object.params.where(), "accelerator", object.type, types);
+  object.params.CheckAllUsed();
+  state.AddNote(statement.where(),
+                fmt::format("accelerator {} has no effect: there is one kind",
+                            Quoted(object.type)));
 }
 
 void RunMaterial(ParseState& state, Statement& statement) {
@@ -125,6 +103,7 @@ void RunMakeNamedMaterial(ParseState& state, Statement& statement) {
     throw InputError(where,
                      fmt::format("material {} has no \"string type\"", Quoted(name)));
   }
+  CheckRefused(state, where, "Material", "material", type);
   state.materials[name] = InterpretMaterial(state, name, type, params);
 }
 

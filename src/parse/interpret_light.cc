@@ -153,7 +153,8 @@ Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& p
   params.CheckAllUsed();
   CheckEmission(params, light.radiance * light.scale);
   if (file != nullptr) {
-    state.Unsupported(file->where, "area lights with an image are not supported");
+    state.Unsupported(file->where,
+                      "parameter \"filename\" of area lights is not supported");
     return kNone;
   }
   state.scene.area_lights.push_back(light);

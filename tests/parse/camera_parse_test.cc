@@ -123,7 +123,7 @@ TEST_CASE("accelerator, options and color space are noted", "[parse]") {
     Option "string rendercoordsys" "world"
     ColorSpace "rec2020"
     Film "rgb")");
-  CHECK(HasNote(scene, "Accelerator has no effect"));
+  CHECK(HasNote(scene, "accelerator \"bvh\" has no effect"));
   CHECK(HasNote(scene, "option \"disablepixeljitter\" has no effect"));
   CHECK(HasNote(scene, "option \"rendercoordsys\" has no effect"));
   CHECK(HasNote(scene, "written in linear sRGB"));

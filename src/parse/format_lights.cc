@@ -1,0 +1,69 @@
+// Lights.
+#include "src/parse/format.h"
+
+namespace lanelight {
+
+FormatTable LightFormat() {
+  using enum FormatStatus;
+  const FormatLine scale = {"float scale", kRendered};
+  const FormatLine power = {"float power", kRendered};
+  const FormatLine from = {"point3 from", kRendered, "", "[ 0 3 0 ]"};
+  const FormatLine to = {"point3 to", kRendered, "", "[ 0 -1 2 ]"};
+  const FormatLine intensity = {"rgb|spectrum|blackbody I", kRendered};
+  const FormatLine radiance = {"rgb|spectrum|blackbody L", kRendered};
+  return {
+      {"LightSource", "point", kRendered, "", {intensity, from, scale, power}},
+      {"LightSource",
+       "spot",
+       kRendered,
+       "",
+       {intensity,
+        from,
+        to,
+        {"float coneangle", kRendered, "", "40"},
+        {"float conedeltaangle", kRendered, "", "10"},
+        scale,
+        power}},
+      {"LightSource",
+       "distant",
+       kRendered,
+       "",
+       {radiance, from, to, {"float illuminance", kRendered}, scale}},
+      {"LightSource",
+       "infinite",
+       kRendered,
+       "",
+       {radiance,
+        {"string filename", kRendered, "", "\"format-image.pfm\""},
+        {"float illuminance", kRendered},
+        scale,
+        {"point3 portal", kRefused, "", "[ -1 2 -1  1 2 -1  1 2 1  -1 2 1 ]"}}},
+      {"LightSource",
+       "goniometric",
+       kRefused,
+       "",
+       {{"string filename", kRefused, "", "\"format-image.pfm\"", true},
+        {"rgb|spectrum|blackbody I", kRefused},
+        {"float scale", kRefused},
+        {"float power", kRefused}}},
+      {"LightSource",
+       "projection",
+       kRefused,
+       "",
+       {{"string filename", kRefused, "", "\"format-image.pfm\"", true},
+        {"float fov", kRefused, "", "40"},
+        {"float scale", kRefused},
+        {"float power", kRefused}}},
+      {"AreaLightSource",
+       "diffuse",
+       kRendered,
+       "",
+       {radiance,
+        scale,
+        power,
+        {"bool twosided", kRendered},
+        {"string filename", kRefused, "", "\"format-image.pfm\""}}},
+  };
+}
+
+}  // namespace lanelight

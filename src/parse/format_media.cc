@@ -1,0 +1,84 @@
+// Participating media.
+#include "src/parse/format.h"
+
+namespace lanelight {
+namespace {
+
+using enum FormatStatus;
+using Lines = std::vector<FormatLine>;
+
+constexpr const char* kEight = "[ 0 1 0 1  1 0 1 0 ]";
+
+Lines Grid(Lines lines, FormatStatus s) {
+  const Lines size = {{"integer nx", s, "", "2", true},
+                      {"integer ny", s, "", "2", true},
+                      {"integer nz", s, "", "2", true},
+                      {"point3 p0", s, "", "[ -1 -1 -1 ]"},
+                      {"point3 p1", s, "", "[ 1 1 1 ]"}};
+  lines.insert(lines.end(), size.begin(), size.end());
+  return lines;
+}
+
+Lines Temperature(Lines lines, FormatStatus s) {
+  const Lines more = {{"float temperaturescale", s},
+                      {"float temperatureoffset", s},
+                      {"float temperaturecutoff", s}};
+  lines.insert(lines.end(), more.begin(), more.end());
+  return lines;
+}
+
+Lines Coefficients(Lines lines, FormatStatus s) {
+  const Lines more = {{"rgb|spectrum sigma_a", s},
+                      {"rgb|spectrum sigma_s", s},
+                      {"float scale", s},
+                      {"float g", s}};
+  lines.insert(lines.end(), more.begin(), more.end());
+  return lines;
+}
+
+}  // namespace
+
+FormatTable MediumFormat() {
+  return {
+      {"MakeNamedMedium", "homogeneous", kRefused, "",
+       Coefficients({{"string preset", kRefused, "", "\"Wholemilk\""},
+                     {"rgb|spectrum|blackbody Le", kRefused},
+                     {"float Lescale", kRefused}},
+                    kRefused)},
+      {"MakeNamedMedium", "uniformgrid", kRefused, "",
+       Coefficients(Temperature(Grid({{"float density", kRefused, "", kEight, true},
+                                      {"float temperature", kRefused, "", kEight},
+                                      {"rgb|spectrum|blackbody Le", kRefused},
+                                      {"float Lescale", kRefused, "", kEight}},
+                                     kRefused),
+                                kRefused),
+                    kRefused)},
+      {"MakeNamedMedium", "rgbgrid", kRefused, "",
+       Grid({{"rgb sigma_a", kRefused},
+             {"rgb sigma_s", kRefused},
+             {"rgb Le", kRefused},
+             {"float Lescale", kRefused},
+             {"float scale", kRefused},
+             {"float g", kRefused}},
+            kRefused)},
+      {"MakeNamedMedium",
+       "cloud",
+       kRefused,
+       "",
+       {{"rgb|spectrum sigma_a", kRefused},
+        {"rgb|spectrum sigma_s", kRefused},
+        {"float g", kRefused},
+        {"float density", kRefused},
+        {"float wispiness", kRefused},
+        {"float frequency", kRefused},
+        {"point3 p0", kRefused, "", "[ -1 -1 -1 ]"},
+        {"point3 p1", kRefused, "", "[ 1 1 1 ]"}}},
+      {"MakeNamedMedium", "nanovdb", kRefused, "",
+       Coefficients(Temperature({{"string filename", kRefused, "", "\"a.nvdb\"", true},
+                                 {"float LeScale", kRefused}},
+                                kRefused),
+                    kRefused)},
+  };
+}
+
+}  // namespace lanelight
