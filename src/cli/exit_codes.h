@@ -12,6 +12,7 @@ enum ExitCode : int {
   kExitTargetMissed = 5,    // render: the image was written, above the target error
   kExitInterrupted = 6,     // a signal came; what was done is kept, to go on from
   kExitStressFailed = 7,    // stress: a case failed
+  kExitImageDiffers = 8,    // render: the image is not what the scene file asks for
 };
 
 }  // namespace lanelight

@@ -7,10 +7,12 @@
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/scene_options.h"
+#include "src/cli/summary.h"
 #include "src/core/parallel.h"
 #include "src/prepare/groups.h"
 #include "src/render/job.h"
 #include "src/render/report.h"
+#include "src/scene/image_changes.h"
 
 namespace lanelight {
 namespace {
@@ -88,14 +90,15 @@ std::string Text(const Job& job, const std::string& scene) {
                      plan.options.max_depth, ToText(job.scene.strategy),
                      PointsText(job.scene.strategy, job.spp)) +
          Notes(plan) + "the scene and options have:\n" + Features(plan.features) + "\n" +
-         Stages(plan) + "\n" + Fields(plan);
+         Stages(plan) + "\n" + Fields(plan) + DiffersRow(job.description.notes);
 }
 
 std::string JsonText(const Job& job, const std::string& scene) {
   nlohmann::json out = {{"schema", kReportSchema},
                         {"scene", scene},
                         {"target", TargetJson()},
-                        {"plan", ToJson(job.plan)}};
+                        {"plan", ToJson(job.plan)},
+                        {"differs", CountImageChanges(job.description.notes) > 0}};
   return out.dump(2) + "\n";
 }
 

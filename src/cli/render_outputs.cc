@@ -7,6 +7,7 @@
 #include "src/cli/summary.h"
 #include "src/cli/validators.h"
 #include "src/render/saving.h"
+#include "src/scene/image_changes.h"
 
 namespace lanelight {
 namespace {
@@ -47,6 +48,14 @@ void PrintUnsampled(const RenderReport& report, const Job& job,
       "warning: {} of {} pixels have no sample and are black: the render was stopped "
       "before, or paths there do not end (the maximum depth is {})",
       report.unsampled_pixels, job.window.pixels(), job.plan.options.max_depth));
+}
+
+// The summary says it in its last line.
+int CheckImageChanges(const Job& job, const RenderOutputs& options) {
+  const std::string text = ImageChangesText(job.description.notes);
+  if (text.empty()) return kExitGood;
+  if (options.quiet || options.targets.json == "-") PrintError("warning: " + text);
+  return kExitImageDiffers;
 }
 
 }  // namespace
@@ -161,7 +170,8 @@ int PrintRendering(const Rendering& rendering, const Job& job,
     PrintError("interrupted: go on with --resume '" + checkpoint.path + "'");
     return kExitInterrupted;
   }
-  return CheckAmount(report, job, options.quiet);
+  const int code = CheckAmount(report, job, options.quiet);
+  return code == kExitGood ? CheckImageChanges(job, options) : code;
 }
 
 RenderHooks PrintingHooks(ProgressPrinter& progress, const std::atomic<bool>& stop) {

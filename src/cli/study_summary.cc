@@ -118,7 +118,7 @@ std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
              "\nto target: processor time to a relative MSE of {:.3g}; * "
              "extrapolated\n\n",
              analysis.target_relmse) +
-         Wrap(analysis.verdict);
+         Wrap(analysis.verdict) + (runs.differs.empty() ? "" : Wrap(runs.differs));
 }
 
 }  // namespace lanelight

@@ -6,6 +6,7 @@
 #include "kernels/simd/target.h"
 #include "src/cli/progress.h"
 #include "src/core/parallel.h"
+#include "src/scene/image_changes.h"
 
 namespace lanelight {
 namespace {
@@ -112,6 +113,11 @@ std::string MergeSummaryText(const RenderReport& report, const MergedRender& mer
   return text + Row("health", HealthText(r.health));
 }
 
+std::string DiffersRow(const std::vector<Note>& notes) {
+  const std::string text = ImageChangesText(notes);
+  return text.empty() ? text : "\n" + Row("differs", text);
+}
+
 std::string SummaryText(const RenderReport& report, const Job& job) {
   const RunResult& r = report.result;
   std::string text =
@@ -139,7 +145,7 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
               fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes",
                           CurrentTarget(), CurrentLanes(), MaxThreads(),
                           job.plan.wavefront, job.plan.bytes_per_path));
-  return text + "\n" + StageTable(r);
+  return text + "\n" + StageTable(r) + DiffersRow(job.description.notes);
 }
 
 }  // namespace lanelight

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "src/render/merge.h"
 #include "src/render/report.h"
@@ -13,6 +14,9 @@ std::string MergeSummaryText(const RenderReport& report, const MergedRender& mer
 
 /// Output paths, speed, estimated error, health, times, and the cost of each stage.
 std::string SummaryText(const RenderReport& report, const Job& job);
+
+/// That the image is not what the scene file asks for, and why; empty if it is.
+std::string DiffersRow(const std::vector<Note>& notes);
 
 /// One row per stage: calls, items, lane occupancy, thread seconds, share, ns per item.
 std::string StageTable(const RunResult& result);

@@ -69,6 +69,12 @@ void PrintOutcome(const SweepOutcome& o, const SweepOptions& options) {
                     "not; run the sweep on one that has them too",
                     o.without_target));
   }
+  if (o.differing > 0) {
+    PrintError(
+        fmt::format("warning: the images of {} cells are not what their scene files ask "
+                    "for (the notes of their reports say why)",
+                    o.differing));
+  }
   if (o.invalid_samples > 0) {
     PrintError(fmt::format("error: {} samples were invalid and count as zero",
                            o.invalid_samples));

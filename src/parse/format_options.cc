@@ -202,7 +202,7 @@ void AddOptions(FormatTable& table) {
         {"bool disablepixeljitter", kNoted, "rays are always spread over the pixel"},
         {"bool disabletexturefiltering", kNoted, "textures are looked up at points"},
         {"bool disablewavelengthjitter", kNoted, "there are no wavelengths"},
-        {"float displacementedgescale", kRendered, "", "2"},
+        {"float displacementedgescale", kRendered},
         {"bool forcediffuse", kNoted, "materials stay what they are"},
         {"string msereferenceimage", kNoted, "`lanelight compare` does it", "\"a.exr\""},
         {"string msereferenceout", kNoted, "`lanelight compare` does it", "\"a.txt\""},

@@ -187,7 +187,8 @@ Index InterpretMaterial(ParseState& state, const std::string& name,
     state.AddNote(params.where(),
                   fmt::format("skipped: material {} is not supported; a grey "
                               "diffuse one replaces it",
-                              Quoted(type)));
+                              Quoted(type)),
+                  true);
   } else {
     const auto known = kMaterials.find(type);
     if (known != kMaterials.end()) {
@@ -200,8 +201,8 @@ Index InterpretMaterial(ParseState& state, const std::string& name,
       ThrowUnknown(params.where(), "material", type, Names(kMaterials));
     }
     ReadKind(state, params, &material);
-    params.Ignore("displacement", "displacement is not supported");
-    params.Ignore("normalmap", "normal maps are not supported");
+    params.IgnoreVisible("displacement", "displacement is not supported");
+    params.IgnoreVisible("normalmap", "normal maps are not supported");
     params.Find("type", {ParamType::kString});  // of MakeNamedMaterial, or superfluous
     params.CheckAllUsed();
   }

@@ -116,7 +116,7 @@ std::shared_ptr<const TriangleMesh> InterpretBilinearMesh(ParamSet& params) {
   for (std::size_t i = 0; i < in.indices.size(); i += 4) {
     AddPatch(PatchOf(in, i), mesh.get());
   }
-  params.Ignore("emissionfilename", "patches do not sample an image");
+  params.IgnoreVisible("emissionfilename", "patches do not sample an image");
   params.Ignore("faceIndices", "only ptex textures need it");
   return mesh;
 }

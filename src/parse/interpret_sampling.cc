@@ -97,7 +97,8 @@ void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& p
   if (found == nullptr) ThrowUnknown(params.where(), "integrator", type, names);
   if (type != "path") {
     state.AddNote(params.where(),
-                  fmt::format("integrator {} is replaced by \"path\"", Quoted(type)));
+                  fmt::format("integrator {} is replaced by \"path\"", Quoted(type)),
+                  type == "ambientocclusion" || type == "function");
   }
   state.scene.integrator.max_depth = params.Integer("maxdepth", 5, 0, 1000000);
   if (type == "path" || type == "volpath") InterpretLightSampler(state, params);
@@ -106,7 +107,10 @@ void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& p
     state.scene.integrator.strategy_where = params.where();
   }
   for (const char* name : found->ignored) {
-    params.Ignore(name, "the path integrator here does not have it");
+    // Paths that are made rougher lose their caustics; others only find them otherwise.
+    const bool visible = name == std::string_view("regularize");
+    const char* why = "the path integrator here does not have it";
+    visible ? params.IgnoreVisible(name, why) : params.Ignore(name, why);
   }
   params.CheckAllUsed();
 }

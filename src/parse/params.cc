@@ -123,11 +123,24 @@ int ParamSet::Choice(std::string_view name, const std::vector<std::string>& choi
   return static_cast<int>(it - choices.begin());
 }
 
-void ParamSet::Ignore(std::string_view name, const std::string& why) {
+void ParamSet::NoteIgnored(std::string_view name, const std::string& why,
+                           bool changes_image) {
   const Param* param = Find(name, {});
   if (param == nullptr) return;
-  notes_->push_back({param->where, fmt::format("parameter {} of {} has no effect: {}",
-                                               Quoted(name), object_, why)});
+  const bool asks = param->type != ParamType::kBool || param->bools[0];
+  if (changes_image && !asks) return;
+  notes_->push_back(
+      {param->where,
+       fmt::format("parameter {} of {} has no effect: {}", Quoted(name), object_, why),
+       changes_image});
+}
+
+void ParamSet::Ignore(std::string_view name, const std::string& why) {
+  NoteIgnored(name, why, false);
+}
+
+void ParamSet::IgnoreVisible(std::string_view name, const std::string& why) {
+  NoteIgnored(name, why, true);
 }
 
 void ParamSet::CheckAllUsed() {

@@ -77,6 +77,9 @@ class ParamSet {
 
   /// Accepts the parameter whatever its type, notes that it has no effect, and `why`.
   void Ignore(std::string_view name, const std::string& why);
+  /// The same where the image then is visibly not what the file asks for. "false" asks
+  /// for nothing and is not noted.
+  void IgnoreVisible(std::string_view name, const std::string& why);
 
   /// Throws InputError for an own parameter that nobody asked for. Call it last.
   void CheckAllUsed();
@@ -85,6 +88,7 @@ class ParamSet {
   [[noreturn]] void Fail(const Param& param, const std::string& message) const;
 
  private:
+  void NoteIgnored(std::string_view name, const std::string& why, bool changes_image);
   const Param* Single(std::string_view name, ParamType type);
 
   std::string object_;

@@ -35,7 +35,7 @@ void ParseState::Unsupported(const SourceLocation& where, const std::string& mes
   if (!options.skip_unsupported) {
     throw InputError(where, message + " (--skip-unsupported goes on without it)");
   }
-  AddNote(where, "skipped: " + message);
+  AddNote(where, "skipped: " + message, true);
 }
 
 std::string ReadWholeFile(const std::string& path, const SourceLocation& where,

@@ -72,8 +72,9 @@ struct ParseState {
   double edge_scale = 1;        // Option "displacementedgescale"
   std::set<std::string> noted;
 
-  void AddNote(const SourceLocation& where, const std::string& message) {
-    scene.notes.push_back({where, message});
+  void AddNote(const SourceLocation& where, const std::string& message,
+               bool changes_image = false) {
+    scene.notes.push_back({where, message, changes_image});
   }
   /// Adds the note unless the same message was noted before.
   void AddNoteOnce(const SourceLocation& where, const std::string& message) {

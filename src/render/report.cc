@@ -6,6 +6,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/core/parallel.h"
+#include "src/scene/image_changes.h"
 
 namespace lanelight {
 namespace {
@@ -67,10 +68,12 @@ Json SettingsJson(const Job& job, bool half) {
 Json NotesJson(const Job& job) {
   Json out = Json::array();
   for (const Note& note : job.description.notes) {
-    out.push_back({{"where", note.where.ToString()}, {"message", note.message}});
+    out.push_back({{"where", note.where.ToString()},
+                   {"message", note.message},
+                   {"changes_image", note.changes_image}});
   }
   for (const std::string& note : job.plan.notes) {
-    out.push_back({{"where", "strategy"}, {"message", note}});
+    out.push_back({{"where", "strategy"}, {"message", note}, {"changes_image", false}});
   }
   return out;
 }
@@ -132,6 +135,7 @@ Json HeadJson(const Job& job, const std::string& scene, bool half) {
           {"settings", SettingsJson(job, half)},
           {"target", TargetJson()},
           {"notes", NotesJson(job)},
+          {"differs", CountImageChanges(job.description.notes) > 0},
           {"versions", versions}};
 }
 

@@ -48,7 +48,8 @@ struct SceneRuns {
   PixelRect window;
   double load_seconds = 0, build_seconds = 0;
   std::vector<std::string> notes;
-  std::string folder;  // state and images
+  std::string differs;  // not empty: the images are not what the scene file asks for
+  std::string folder;   // state and images
   Reference reference;
   std::vector<StrategyRuns> strategies;
   std::vector<DiffuseModel> diffuse;

@@ -4,6 +4,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/image/colors.h"
+#include "src/scene/image_changes.h"
 #include "src/study/errors.h"
 #include "src/estimate/estimate.h"
 #include "src/study/schedule.h"
@@ -70,6 +71,7 @@ void SceneRunner::Prepare() {
   for (const Note& note : job_.description.notes) {
     scene_.notes.push_back(note.where.ToString() + ": " + note.message);
   }
+  scene_.differs = ImageChangesText(job_.description.notes);
   // Before anything is written: a wrong file leaves nothing behind.
   if (!options_.references.empty()) {
     scene_.reference = ReadReference(options_.references, job_.window, scene_.full_width,

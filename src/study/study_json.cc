@@ -180,6 +180,7 @@ Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
                     {"build", runs.build_seconds},
                     {"reference", runs.reference.seconds}};
   out["notes"] = runs.notes;
+  out["differs"] = Text(runs.differs);
   out["reference"] = ReferenceJson(runs, analysis);
   out["baseline"] = analysis.baseline;
   out["counts"] = options.spp;

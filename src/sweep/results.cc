@@ -158,6 +158,7 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome
     if (record.state == CellState::kDone) {
       outcome.invalid_samples +=
           cells.back()["measured"]["invalid_samples"].get<std::uint64_t>();
+      outcome.differing += record.report.value("differs", false);
     }
     if (record.state == CellState::kFailed) {
       outcome.failures.push_back({cell.name, record.message});

@@ -43,6 +43,7 @@ struct SweepOutcome {
   std::vector<CellFailure> failures;     // of the whole sweep, by index
   std::vector<std::string> other_cells;  // in the directory, and not of this sweep
   std::uint64_t invalid_samples = 0;     // of all cells that are done
+  std::size_t differing = 0;             // the same: not what their files ask for
   bool interrupted = false;
 };
 

@@ -50,11 +50,71 @@ TEST_CASE("dropped triangles and dead lights are said on standard error", "[cli]
   REQUIRE(notes.size() == 2);
   CHECK(notes[0].at("message") == kDead);
   CHECK(notes[1].at("message") == kDropped);
+  CHECK(notes[1].at("changes_image") == false);
   CHECK_THAT(notes[1].at("where").get<std::string>(), Contains(":11:"));
 
   const ProcessResult quiet =
       RunLanelight({"render", scene, "-o", directory / "r.exr", "--quiet"});
   CHECK(quiet.err.empty());
+}
+
+// A scene whose file asks for what is left out.
+std::string MotionScene(const TempDirectory& directory) {
+  return WriteText(directory / "moves.pbrt", R"(Camera "perspective"
+Film "rgb" "integer xresolution" 4 "integer yresolution" 4
+Sampler "independent" "integer pixelsamples" 2
+WorldBegin
+LightSource "point" "point3 from" [ 0 3 0 ]
+ActiveTransform EndTime
+Translate 0 0 1
+ActiveTransform All
+Shape "sphere"
+)");
+}
+
+constexpr const char* kDiffers =
+    "the image is not what the scene file asks for: skipped: "
+    "ActiveTransform";
+
+TEST_CASE("an image that is not what the file asks for has an exit code", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = MotionScene(directory), json = directory / "r.json";
+  const ProcessResult r = RunLanelight(
+      {"render", scene, "-o", directory / "r.exr", "--json", json, "--skip-unsupported"});
+  INFO(r.out << r.err);
+  CHECK(r.exit_code == kExitImageDiffers);
+  const std::string last = r.out.substr(r.out.rfind('\n', r.out.size() - 2) + 1);
+  CHECK_THAT(last, Contains("differs") && Contains(kDiffers));
+  std::ifstream in(json);
+  const nlohmann::json report = nlohmann::json::parse(in);
+  CHECK(report.at("differs") == true);
+  CHECK(report.at("notes").at(0).at("changes_image") == true);
+
+  const ProcessResult quiet = RunLanelight(
+      {"render", scene, "-o", directory / "r.exr", "--quiet", "--skip-unsupported"});
+  CHECK(quiet.exit_code == kExitImageDiffers);
+  CHECK_THAT(quiet.err, Contains(kDiffers));
+  const ProcessResult plan = RunLanelight({"plan", scene, "--skip-unsupported"});
+  CHECK(plan.exit_code == kExitGood);
+  CHECK_THAT(plan.out, Contains(kDiffers));
+}
+
+TEST_CASE("a study and a sweep say that images are not what the file asks for", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = MotionScene(directory), out = directory / "study";
+  const ProcessResult study =
+      RunLanelight({"study", scene, "--out", out, "--strategies", "default;points=cmj",
+                    "--spp", "1", "--repetitions", "2", "--skip-unsupported"});
+  INFO(study.out << study.err);
+  CHECK(study.exit_code == kExitGood);
+  CHECK_THAT(study.out, Contains("not what the scene file asks for"));
+  const std::string file = WriteText(directory / "sweep.toml",
+                                     "[grid]\nscene = [\"moves.pbrt\"]\nspp = [1, "
+                                     "2]\n[settings]\nskip-unsupported = true\n");
+  const ProcessResult sweep = RunLanelight({"sweep", file, "--out", directory / "sweep"});
+  INFO(sweep.out << sweep.err);
+  CHECK(sweep.exit_code == kExitGood);
+  CHECK_THAT(sweep.err, Contains("the images of 2 cells are not what"));
 }
 
 TEST_CASE("a study keeps the notes of compiling", "[cli]") {
