@@ -22,6 +22,7 @@ struct ExrOptions {
   int x0 = 0, y0 = 0;                   // data window origin
   int full_width = 0, full_height = 0;  // display window; 0: the data's own size
   std::map<std::string, ImageAttribute> attributes;
+  std::string color_space = "srgb";  // of R, G, B; another one is said by chromaticities
 };
 
 /// Writes the file atomically: the old file stays until the new one is complete. ZIP

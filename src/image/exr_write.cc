@@ -5,6 +5,7 @@
 #include <ImfIO.h>
 #include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <half.h>
 
@@ -16,6 +17,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/image/atomic_file.h"
+#include "src/image/color_spaces.h"
 #include "src/image/exr.h"
 
 namespace lanelight {
@@ -77,6 +79,15 @@ Imf::Header MakeHeader(int width, int height, const std::vector<ExrPlane>& plane
                              Imf::Channel(half_float ? Imf::HALF : Imf::FLOAT));
   }
   for (const auto& [name, value] : options.attributes) AddAttribute(header, name, value);
+  if (options.color_space != "srgb") {
+    const ColorSpace& space = FindColorSpace(options.color_space);
+    const auto point = [](Chromaticity c) {
+      return Imath::V2f(static_cast<float>(c.x), static_cast<float>(c.y));
+    };
+    Imf::addChromaticities(header,
+                           Imf::Chromaticities(point(space.red), point(space.green),
+                                               point(space.blue), point(space.white)));
+  }
   return header;
 }
 

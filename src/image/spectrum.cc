@@ -6,6 +6,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/image/color_matrix.h"
+#include "src/image/color_spaces.h"
 #include "src/image/spectrum_data.h"
 #include "src/image/spectrum_integral.h"
 
@@ -183,25 +184,13 @@ std::vector<std::string> NamedSpectra() {
   return names;
 }
 
-Rgb ToSrgb(const std::string& color_space, Rgb color) {
+Rgb ToSrgb(const std::string& color_space, Rgb color, SpectrumUse use) {
   if (color_space == "srgb") return color;
-  ColorMatrix xyz_from_rgb;
-  if (color_space == "dci-p3") {
-    xyz_from_rgb = XyzFromPrimaries({0.68, 0.32}, {0.265, 0.69}, {0.15, 0.06}, kD65White);
-  } else if (color_space == "rec2020") {
-    xyz_from_rgb =
-        XyzFromPrimaries({0.708, 0.292}, {0.17, 0.797}, {0.131, 0.046}, kD65White);
-  } else if (color_space == "aces2065-1") {
-    xyz_from_rgb =
-        XyzFromPrimaries({0.7347, 0.2653}, {0, 1}, {0.0001, -0.077}, {0.32168, 0.33767});
-  } else {
-    throw InputError("unknown color space \"" + color_space +
-                     "\"; supported: srgb, dci-p3, rec2020, aces2065-1");
-  }
-  const ColorMatrix srgb_from_xyz = Inverse(XyzFromSrgb());
-  const Rgb white = srgb_from_xyz * (xyz_from_rgb * Rgb{1, 1, 1});
-  const Rgb raw = srgb_from_xyz * (xyz_from_rgb * color);
-  return ClampZero({raw.x / white.x, raw.y / white.y, raw.z / white.z});
+  const ColorMatrix srgb = SrgbFrom(FindColorSpace(color_space));
+  const Rgb raw = srgb * color;
+  if (use == SpectrumUse::kIlluminant) return raw;
+  const Rgb white = srgb * Rgb{1, 1, 1};
+  return {raw.x / white.x, raw.y / white.y, raw.z / white.z};
 }
 
 }  // namespace lanelight

@@ -63,8 +63,10 @@ ComplexIor ComplexIorFromSamples(const std::vector<double>& eta_nm,
 bool NamedGlassEta(const std::string& name, double* eta);
 
 /// Converts a linear colour of a pbrt colour space ("srgb", "dci-p3", "rec2020",
-/// "aces2065-1") to linear sRGB; throws InputError that lists the names otherwise.
-/// The white of the space becomes (1, 1, 1); negative channels (outside sRGB) become 0.
-Rgb ToSrgb(const std::string& color_space, Rgb color);
+/// "aces2065-1") to linear sRGB; throws InputError that lists the names otherwise. Light
+/// keeps its colour; of anything else the space's white becomes (1, 1, 1), because a
+/// white reflectance is white in any light. Colours outside sRGB have channels below 0
+/// (above 1 only beside one below 0).
+Rgb ToSrgb(const std::string& color_space, Rgb color, SpectrumUse use);
 
 }  // namespace lanelight

@@ -52,14 +52,18 @@ void AddFilms(FormatTable& table) {
       {"float iso", kRendered, "", "200"},
       {"float diagonal", kNoted, "only the realistic camera needs it"},
       {"bool savefp16", kNoted, "`--depth` chooses half or float", "false"},
-      {"string sensor", kNoted, "the film records linear sRGB directly", "\"cie1931\""},
-      {"float whitebalance", kNoted, "the film records linear sRGB directly", "5000"},
-      {"float maxcomponentvalue", kNoted, "samples are not clamped", "10"},
+      {"string sensor", kRendered, "", "\"cie1931\""},
+      {"string sensor", kNoted,
+       "as `cie1931`, balanced: saturated colours differ a little", "\"canon_eos_5d\""},
+      {"float whitebalance", kRendered, "", "5000"},
+      {"float maxcomponentvalue", kRendered, "", "10"},
   };
   table.push_back({"Film", "rgb", kRendered, "", rgb});
-  table.push_back({"Film", "gbuffer", kNoted, "taken as `rgb`; `--aov` writes more",
-                   With({{"string coordinatesystem", kNoted,
-                          "`--aov` chooses what is written", "\"world\""}},
+  table.push_back({"Film", "gbuffer", kNoted,
+                   "writes what `--aov` does: albedo, shading normal, depth",
+                   With({{"string coordinatesystem", kNoted, "normals are in the world's",
+                          "\"camera\""},
+                         {"string coordinatesystem", kRendered, "", "\"world\""}},
                         rgb)});
   table.push_back(
       {"Film",
@@ -199,7 +203,7 @@ void AddOptions(FormatTable& table) {
        kRendered,
        "",
        {{"integer seed", kRendered},
-        {"bool disablepixeljitter", kNoted, "rays are always spread over the pixel"},
+        {"bool disablepixeljitter", kRendered},
         {"bool disabletexturefiltering", kNoted, "textures are looked up at points"},
         {"bool disablewavelengthjitter", kNoted, "there are no wavelengths"},
         {"float displacementedgescale", kRendered},

@@ -43,6 +43,11 @@ double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
 void ConductorIor(ParseState& state, ParamSet& params, const std::string& prefix,
                   ColorValue* eta, ColorValue* k);
 
+// interpret_camera.cc ---------------------------------------------------------------
+/// A parameter with exactly `count` numbers, or null; another count is an InputError.
+const Param* NumberArray(ParamSet& params, std::string_view name, ParamType type,
+                         std::size_t count);
+
 // One per concept -------------------------------------------------------------------
 void InterpretCamera(ParseState& state, const std::string& type, ParamSet& params);
 void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params);

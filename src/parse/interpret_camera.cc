@@ -1,4 +1,4 @@
-// Camera, film and pixel filter.
+// Camera and pixel filter.
 #include <cmath>
 #include <limits>
 
@@ -8,11 +8,10 @@
 namespace lanelight {
 namespace {
 
-constexpr double kHuge = 1e30;       // of lengths that have no natural limit
-constexpr int kLargestSide = 65536;  // pixels
-constexpr double kMostPixels = 1 << 30;
+constexpr double kHuge = 1e30;  // of lengths that have no natural limit
 
-// "float name" with exactly `count` numbers, or null.
+}  // namespace
+
 const Param* NumberArray(ParamSet& params, std::string_view name, ParamType type,
                          std::size_t count) {
   const Param* param = params.Find(name, {type});
@@ -22,6 +21,8 @@ const Param* NumberArray(ParamSet& params, std::string_view name, ParamType type
   }
   return param;
 }
+
+namespace {
 
 void ReadWindow(ParamSet& params, Camera* camera) {
   camera->frame_aspect = params.Float("frameaspectratio", 0, 1e-6, 1e6);
@@ -46,32 +47,6 @@ void ReadShutter(ParseState& state, ParamSet& params) {
   state.exposure_seconds = close - open;
 }
 
-// cropwindow: part of the image, 0 to 1; pixels x0 <= x < x1 as ceil(x0 * width).
-void ReadCrop(ParamSet& params, Film* film) {
-  const Param* part = NumberArray(params, "cropwindow", ParamType::kFloat, 4);
-  const Param* pixels = NumberArray(params, "pixelbounds", ParamType::kInteger, 4);
-  if (part == nullptr && pixels == nullptr) return;
-  if (part != nullptr && pixels != nullptr) {
-    params.Fail(*part, "cropwindow and pixelbounds exclude each other");
-  }
-  const Param& param = part != nullptr ? *part : *pixels;
-  int crop[4];
-  for (int i = 0; i < 4; ++i) {
-    const int side = i < 2 ? film->width : film->height;
-    const double low = 0, high = part != nullptr ? 1 : side;
-    const double value = param.numbers[i];
-    if (value < low || value > high) {
-      params.Fail(param,
-                  fmt::format("the value {} is outside {} to {}", value, low, high));
-    }
-    crop[i] = static_cast<int>(part != nullptr ? std::ceil(value * side) : value);
-  }
-  if (crop[0] >= crop[1] || crop[2] >= crop[3]) {
-    params.Fail(param, "no pixel is left; it takes x0 x1 y0 y1 with x0 < x1, y0 < y1");
-  }
-  std::copy(crop, crop + 4, film->crop);
-}
-
 }  // namespace
 
 void InterpretCamera(ParseState& state, const std::string& type, ParamSet& params) {
@@ -93,39 +68,6 @@ void InterpretCamera(ParseState& state, const std::string& type, ParamSet& param
   ReadShutter(state, params);
   params.CheckAllUsed();
   state.scene.camera = camera;
-}
-
-void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params) {
-  if (type == "gbuffer") {
-    state.AddNote(params.where(), "film \"gbuffer\" is taken as \"rgb\"");
-    params.Ignore("coordinatesystem", "--aov chooses what is written");
-  } else if (type != "rgb") {
-    ThrowUnknown(params.where(), "film", type, {"rgb", "gbuffer"});
-  }
-  Film film;
-  film.width = params.Integer("xresolution", 1280, 1, kLargestSide);
-  film.height = params.Integer("yresolution", 720, 1, kLargestSide);
-  if (static_cast<double>(film.width) * film.height > kMostPixels) {
-    throw InputError(params.where(),
-                     fmt::format("{} x {} pixels; at most {} are supported", film.width,
-                                 film.height, kMostPixels));
-  }
-  film.filename = params.String("filename", film.filename);
-  ReadCrop(params, &film);
-  state.iso = params.Float("iso", 100, 1e-6, 1e9);
-  params.Ignore("savefp16", "--depth chooses half or float");
-  params.Ignore("diagonal", "only the realistic camera needs it");
-  params.Ignore("sensor", "the film records linear sRGB directly");
-  params.Ignore("whitebalance", "the film records linear sRGB directly");
-  params.Ignore("maxcomponentvalue", "samples are not clamped");
-  params.CheckAllUsed();
-  if (state.graphics.color_space != "srgb") {
-    state.AddNote(params.where(),
-                  "the image is written in linear sRGB, not in the film's "
-                  "color space " +
-                      Quoted(state.graphics.color_space));
-  }
-  state.scene.film = film;
 }
 
 void InterpretFilter(ParseState& state, const std::string& type, ParamSet& params) {

@@ -30,7 +30,7 @@ Rgb RgbOf(const ParamSet& params, const Param& param, SpectrumUse use) {
   }
   const Rgb rgb = {param.numbers[0], param.numbers[1], param.numbers[2]};
   if (param.color_space == "srgb") return rgb;
-  return At(params, param, [&] { return ToSrgb(param.color_space, rgb); });
+  return At(params, param, [&] { return ToSrgb(param.color_space, rgb, use); });
 }
 
 Rgb BlackbodyOf(const ParamSet& params, const Param& param, SpectrumUse use) {
@@ -74,6 +74,8 @@ Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
                   "colour outside the sRGB gamut: negative components become 0");
     color = Max(color, Rgb{});
   }
+  // Beside a component below 0, in a colour of another space that sRGB has not.
+  if (use == SpectrumUse::kAlbedo) color = Min(color, Rgb{1, 1, 1});
   return color;
 }
 

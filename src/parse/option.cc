@@ -100,9 +100,14 @@ void RunOption(ParseState& state, Statement& statement) {
   CheckType(option, parameter.substr(0, parameter.find(' ')));
   if (option.name == "seed") return SetSeed(state, option);
   if (option.name == "displacementedgescale") return SetEdgeScale(state, option);
+  if (option.name == "disablepixeljitter") {
+    state.pixel_centers = option.value.text == "true";
+    return;
+  }
   if (option.value.text == "false") return;  // what is the case anyway
-  state.AddNote(option.where, fmt::format("option {} has no effect: {}",
-                                          Quoted(option.name), line.why));
+  state.AddNote(option.where,
+                fmt::format("option {} has no effect: {}", Quoted(option.name), line.why),
+                option.name == "forcediffuse");
 }
 
 }  // namespace lanelight

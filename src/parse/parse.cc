@@ -10,6 +10,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Camera rays through the centres of pixels and lens, as pbrt's disablepixeljitter: a box
+// that is as good as a point, since film coordinates in float32 are no finer.
+void UsePixelCenters(SceneDescription& scene) {
+  scene.filter = {};
+  scene.filter.kind = FilterKind::kBox;
+  scene.filter.x_radius = scene.filter.y_radius = 1e-6;
+  scene.camera.lens_radius = 0;
+}
+
 // After the last directive: everything must be closed, and the scene is completed with
 // what depends on several directives.
 SceneDescription Finish(ParseState& state, const SourceLocation& end) {
@@ -24,6 +33,7 @@ SceneDescription Finish(ParseState& state, const SourceLocation& end) {
     throw InputError(end, "the file ends without WorldBegin, so it describes no scene");
   }
   state.scene.film.imaging_ratio = state.exposure_seconds * state.iso / 100;
+  if (state.pixel_centers) UsePixelCenters(state.scene);
   const Integrator& integrator = state.scene.integrator;
   ApplyStrategy(integrator.strategy, integrator.strategy_where, state.scene.strategy);
   LoadMeshes(state);

@@ -70,6 +70,7 @@ struct ParseState {
   double exposure_seconds = 1;  // from the camera's shutter
   double iso = 100;             // of the film
   double edge_scale = 1;        // Option "displacementedgescale"
+  bool pixel_centers = false;   // Option "disablepixeljitter"
   std::set<std::string> noted;
 
   void AddNote(const SourceLocation& where, const std::string& message,

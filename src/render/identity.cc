@@ -34,6 +34,7 @@ Json IdentityOf(const Job& job) {
           {"strategy", ToText(job.scene.strategy)},
           {"scattering", scattering},
           {"aov", job.plan.options.aov},
+          {"color_space", film.color_space},
           {"skip_unsupported", job.settings.skip_unsupported},
           {"target", CurrentTarget()},
           {"version", FullVersion()}};

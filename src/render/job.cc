@@ -54,9 +54,11 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   return job;
 }
 
-Job PrepareJob(SceneDescription description, const RenderSettings& settings) {
+Job PrepareJob(SceneDescription description, const RenderSettings& asked) {
   Job job;
-  job.settings = settings;
+  job.settings = asked;
+  job.settings.aov = asked.aov || description.film.auxiliary;
+  const RenderSettings& settings = job.settings;
   job.description = std::move(description);
   Stopwatch watch;
   ApplySettings(settings, job.description);

@@ -8,6 +8,7 @@
 
 #include "src/core/error.h"
 #include "src/estimate/estimate.h"
+#include "src/image/spectrum.h"
 #include "src/image/variance_unit.h"
 
 namespace lanelight {
@@ -112,6 +113,7 @@ ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts
   const std::string strategy = identity.at("strategy");
   ExrOptions options;
   options.half = half;
+  options.color_space = identity.value("color_space", std::string("srgb"));
   options.x0 = crop[0];
   options.y0 = crop[1];
   options.full_width = resolution[0];
@@ -130,10 +132,10 @@ ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts
   return options;
 }
 
-Image FilmImage(const FilmAccumulator& film) {
+Image FilmImage(const FilmAccumulator& film, const std::string& color_space) {
   Image image = MakeImage(film.width(), film.height(), {"R", "G", "B"});
   ForEachPixel(film, [&](std::size_t i, int x, int y) {
-    const Rgb mean = film.Mean(x, y);
+    const Rgb mean = ToSrgb(color_space, film.Mean(x, y), SpectrumUse::kUnbounded);
     for (int c = 0; c < 3; ++c) image.pixels[3 * i + c] = static_cast<float>(mean[c]);
   });
   return image;

@@ -29,7 +29,8 @@ std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale);
 ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts,
                          const FilmAccumulator& film, bool half);
 
-/// R, G, B of the film, for the PNG.
-Image FilmImage(const FilmAccumulator& film);
+/// R, G, B of the film, which holds a color space (src/image/color_spaces.h), in linear
+/// sRGB: for the PNG. The space's white is white there.
+Image FilmImage(const FilmAccumulator& film, const std::string& color_space = "srgb");
 
 }  // namespace lanelight

@@ -26,7 +26,8 @@ void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
   });
   report.png = targets.png;
   saver.Save(report.png, [&](const std::string& path) {
-    WritePng(path, FilmImage(film), targets.exposure);
+    WritePng(path, FilmImage(film, identity.value("color_space", std::string("srgb"))),
+             targets.exposure);
   });
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   report.write_seconds = taken.count();

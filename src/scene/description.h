@@ -14,6 +14,7 @@
 #include "src/core/error.h"
 #include "src/core/transform.h"
 #include "src/core/vec.h"
+#include "src/image/film_response.h"
 
 namespace lanelight {
 
@@ -249,6 +250,9 @@ struct Film {
   int crop[4] = {0, 0, 0, 0};  // pixel bounds x0 x1 y0 y1; all 0: whole image
   std::string filename = "lanelight.exr";
   double imaging_ratio = 1;  // exposure time * ISO / 100
+  FilmResponse response;
+  std::string color_space = "srgb";  // of the image
+  bool auxiliary = false;            // a gbuffer: with what --aov writes
 };
 
 struct Sampler {

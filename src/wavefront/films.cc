@@ -13,7 +13,26 @@ Films::Films(const SamplePlanes& planes, double coefficient, FilmAccumulator& fi
                       coefficient);
 }
 
+void Films::UseResponse(const FilmResponse& response) {
+  if (!response.IsIdentity()) response_ = response;
+}
+
+// Differences of control variates are light as well.
+void Films::Respond(const TileSamples& tile) const {
+  const std::size_t count = tile.pixels.size() * tile.count;
+  for (const PlaneGroup group : {PlaneGroup::kColor, PlaneGroup::kDifference}) {
+    if (!planes_.Has(group)) continue;
+    float* const first = tile.values + std::size_t(planes_.First(group)) * count;
+    const ColorPlanes planes = {first, first + count, first + 2 * count};
+    if (group == PlaneGroup::kColor && response_->limits()) {
+      LimitColors(*response_, planes, count);
+    }
+    ConvertColors(*response_, planes, count);
+  }
+}
+
 void Films::Add(const TileSamples& tile) {
+  if (response_) Respond(tile);
   const std::vector<std::uint32_t>& pixels = tile.pixels;
   const std::size_t stride = pixels.size() * tile.count;
   if (regression_) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/image/accumulator.h"
+#include "src/image/film_response.h"
 #include "src/image/pixel_rect.h"
 #include "src/image/regression_film.h"
 #include "src/path/sample_planes.h"
@@ -28,8 +29,12 @@ class Films {
   Films(const SamplePlanes& planes, double coefficient, FilmAccumulator& film);
 
   /// Adds samples, each pixel's in order. Safe for different tiles from different
-  /// threads. Values are changed where a control variate corrects them.
+  /// threads. Values are changed where a control variate corrects them, or the film
+  /// responds otherwise than in linear sRGB.
   void Add(const TileSamples& tile);
+
+  /// From here on (before any sample) the film responds to light like this.
+  void UseResponse(const FilmResponse& response);
 
   /// From here on (before any sample) pixels have weights (src/wavefront/allocation.h).
   void UseWeights();
@@ -50,10 +55,13 @@ class Films {
   FilmAccumulator& film() { return film_; }
 
  private:
+  void Respond(const TileSamples& tile) const;
+
   SamplePlanes planes_;
   FilmAccumulator& film_;
   std::optional<RegressionFilm> regression_;
   std::vector<double> weights_;
+  std::optional<FilmResponse> response_;
 };
 
 }  // namespace lanelight

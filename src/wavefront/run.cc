@@ -36,6 +36,7 @@ class Runner {
         watch_(setting_, looks_),
         parts_(setting_, looks_, watch_) {
     LL_CHECK(film.groups() == GroupsOf(scene.strategy));
+    films_.UseResponse(scene.film.response);
     LL_CHECK(options.windows.empty() || crew_.ranks() == 1);
     if (!setting_.allocates()) return;
     LL_CHECK_EQ(tasks_.pixels(), RenderedPixels(scene.film).pixels());  // no part

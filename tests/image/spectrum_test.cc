@@ -209,12 +209,14 @@ TEST_CASE("bad spectra are refused with a reason", "[spectrum]") {
 TEST_CASE("colour spaces keep white and reach sRGB", "[spectrum]") {
   for (const std::string space : {"srgb", "dci-p3", "rec2020", "aces2065-1"}) {
     INFO(space);
-    CheckNear(ToSrgb(space, {0.5, 0.5, 0.5}), {0.5, 0.5, 0.5}, 1e-12);
+    CheckNear(ToSrgb(space, {0.5, 0.5, 0.5}, SpectrumUse::kAlbedo), {0.5, 0.5, 0.5},
+              1e-12);
   }
   // Rec. 2020 red in sRGB: (1.6605, -0.1246, -0.0182) (ITU-R BT.2407).
-  CheckNear(ToSrgb("rec2020", {1, 0, 0}), {1.6605, 0, 0}, 2e-3);
-  CheckNear(ToSrgb("srgb", {0.1, 0.2, 0.3}), {0.1, 0.2, 0.3}, 0);
-  CHECK_THROWS_WITH(ToSrgb("cmyk", {}), Catch::Contains("dci-p3"));
+  CheckNear(ToSrgb("rec2020", {1, 0, 0}, SpectrumUse::kAlbedo),
+            {1.6605, -0.1246, -0.0182}, 2e-3);
+  CheckNear(ToSrgb("srgb", {0.1, 0.2, 0.3}, SpectrumUse::kAlbedo), {0.1, 0.2, 0.3}, 0);
+  CHECK_THROWS_WITH(ToSrgb("cmyk", {}, SpectrumUse::kAlbedo), Catch::Contains("dci-p3"));
 }
 
 }  // namespace lanelight

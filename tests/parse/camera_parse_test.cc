@@ -1,6 +1,8 @@
 // Camera, film, filter, sampler, integrator, options.
 #include <catch2/catch.hpp>
 
+#include "src/image/color_spaces.h"
+#include "src/scene/image_changes.h"
 #include "tests/parse/parse_text.h"
 
 namespace lanelight {
@@ -53,13 +55,14 @@ TEST_CASE("film size, crop and ignored sensor", "[parse]") {
   CHECK(scene.film.crop[0] == 26);  // ceil(25.25)
   CHECK(scene.film.crop[1] == 51);
   CHECK(scene.film.crop[3] == 50);
-  CHECK(scene.notes.size() == 3);
-  CHECK(HasNote(scene, "\"sensor\" of film \"rgb\" has no effect"));
+  CHECK(scene.notes.size() == 2);
+  CHECK(HasNote(scene, "\"savefp16\" of film \"rgb\" has no effect"));
   const SceneDescription bounds = ParseOptionsBlock(R"(
     Film "gbuffer" "integer pixelbounds" [ 3 9 4 8 ])");
   CHECK(bounds.film.crop[0] == 3);
   CHECK(bounds.film.crop[3] == 8);
-  CHECK(HasNote(bounds, "taken as \"rgb\""));
+  CHECK(HasNote(bounds, "writes what --aov does"));
+  CHECK(bounds.film.auxiliary);
 }
 
 TEST_CASE("pixel filters have their own default radii", "[parse]") {
@@ -119,14 +122,53 @@ TEST_CASE("integrators", "[parse]") {
 TEST_CASE("accelerator, options and color space are noted", "[parse]") {
   const auto scene = ParseOptionsBlock(R"(
     Accelerator "bvh" "string splitmethod" "sah"
-    Option "disablepixeljitter" true
-    Option "string rendercoordsys" "world"
-    ColorSpace "rec2020"
-    Film "rgb")");
+    Option "forcediffuse" true
+    Option "string rendercoordsys" "world")");
   CHECK(HasNote(scene, "accelerator \"bvh\" has no effect"));
-  CHECK(HasNote(scene, "option \"disablepixeljitter\" has no effect"));
+  CHECK(HasNote(scene, "option \"forcediffuse\" has no effect"));
   CHECK(HasNote(scene, "option \"rendercoordsys\" has no effect"));
-  CHECK(HasNote(scene, "written in linear sRGB"));
+  CHECK(CountImageChanges(scene.notes) == 1);
+}
+
+TEST_CASE("disablepixeljitter looks through the centres of pixels", "[parse]") {
+  const auto scene = ParseOptionsBlock(R"(
+    Camera "perspective" "float lensradius" 0.1
+    PixelFilter "gaussian"
+    Option "bool disablepixeljitter" [ true ])");
+  CHECK(scene.notes.empty());
+  CHECK(scene.filter.kind == FilterKind::kBox);
+  CHECK(scene.filter.x_radius <= 1e-6);
+  CHECK(scene.camera.lens_radius == 0);
+  CHECK(ParseOptionsBlock("Option \"disablepixeljitter\" false").filter.kind ==
+        FilterKind::kGaussian);
+}
+
+TEST_CASE("a film has a color space, a white balance and a limit", "[parse]") {
+  const Film plain = ParseOptionsBlock("Film \"rgb\" \"string sensor\" \"cie1931\"").film;
+  CHECK(plain.response.IsIdentity());
+  const auto scene = ParseOptionsBlock(R"(
+    ColorSpace "rec2020"
+    Film "rgb" "float whitebalance" 4500 "float maxcomponentvalue" 7)");
+  CHECK(scene.notes.empty());
+  CHECK(scene.film.color_space == "rec2020");
+  CHECK(scene.film.response.max_component == 7);
+  // What has the colour of the balance's white is grey.
+  const Vec3d light = Inverse(XyzFromSrgb()) * WhiteOfTemperature(4500).Xyz();
+  const Vec3d seen = scene.film.response.matrix * light;
+  CHECK(seen.x == Approx(1));
+  CHECK(seen.y == Approx(1));
+  CHECK(seen.z == Approx(1));
+  // A named camera is balanced anyway.
+  const auto camera = ParseOptionsBlock("Film \"rgb\" \"string sensor\" \"nikon_d850\"");
+  CHECK(HasNote(camera, "sensor \"nikon_d850\" is taken as \"cie1931\""));
+  CHECK(CountImageChanges(camera.notes) == 0);
+  const Vec3d grey = camera.film.response.matrix * Vec3d{1, 1, 1};
+  CHECK(grey.x == Approx(1).margin(5e-3));
+  CHECK(grey.z == Approx(1).margin(5e-3));
+  CHECK_THROWS_WITH(ParseOptionsBlock("Film \"rgb\" \"string sensor\" \"nikon_d580\""),
+                    Catch::Contains("did you mean \"nikon_d850\""));
+  CHECK_THROWS_WITH(ParseOptionsBlock("Film \"rgb\" \"float whitebalance\" 500"),
+                    Catch::Contains("2000 to 25000"));
 }
 
 }  // namespace

@@ -100,7 +100,8 @@ TEST_CASE("rgb is converted from its color space", "[parse]") {
       ColorSpace "srgb"
       LightSource "point" "rgb I" [ 0.2 0.3 0.4 ]
     AttributeEnd)");
-  CheckColor(scene.lights[0].emission, ToSrgb("rec2020", {0.2, 0.3, 0.4}));
+  CheckColor(scene.lights[0].emission,
+             ToSrgb("rec2020", {0.2, 0.3, 0.4}, SpectrumUse::kIlluminant));
   CheckColor(scene.lights[1].emission, {0.2, 0.3, 0.4});
   CHECK(scene.lights[0].emission.x != Approx(0.2).epsilon(1e-3));
 }

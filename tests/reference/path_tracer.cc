@@ -1,5 +1,7 @@
 #include "tests/reference/path_tracer.h"
 
+#include <algorithm>
+
 #include "src/core/check.h"
 #include "src/core/parallel.h"
 #include "tests/reference/camera.h"
@@ -91,6 +93,25 @@ Rgb ReferenceRadiance(const SceneDescription& scene, const reference::Geometry& 
   return reference::Tracer{scene, geometry, lights, options, random}.Trace(ray);
 }
 
+namespace {
+
+// What the film makes of radiance: exposure, the limit on X, Y and Z (of sRGB's primaries
+// and white as IEC 61966-2-1 rounds them), then the image's primaries.
+Rgb OnFilm(const Film& film, Rgb radiance) {
+  Rgb v = film.imaging_ratio * radiance;
+  const double x = 0.4124 * v.x + 0.3576 * v.y + 0.1805 * v.z;
+  const double y = 0.2126 * v.x + 0.7152 * v.y + 0.0722 * v.z;
+  const double z = 0.0193 * v.x + 0.1192 * v.y + 0.9505 * v.z;
+  const double most = std::max({x, y, z});
+  if (most > film.response.max_component) v = v * (film.response.max_component / most);
+  const Vec3d* m = film.response.matrix.row;
+  return {m[0].x * v.x + m[0].y * v.y + m[0].z * v.z,
+          m[1].x * v.x + m[1].y * v.y + m[1].z * v.z,
+          m[2].x * v.x + m[2].y * v.y + m[2].z * v.z};
+}
+
+}  // namespace
+
 ReferenceImage RenderReference(const SceneDescription& scene,
                                const ReferenceOptions& options) {
   LL_CHECK_GE(options.samples, 2);
@@ -117,8 +138,8 @@ ReferenceImage RenderReference(const SceneDescription& scene,
       const double fy =
           y + 0.5 + reference::SampleFilter(scene.filter, scene.filter.y_radius, random);
       const reference::Ray ray = reference::CameraRay(scene.camera, film, fx, fy, random);
-      const Rgb value = film.imaging_ratio *
-                        ReferenceRadiance(scene, geometry, lights, ray, options, random);
+      const Rgb value =
+          OnFilm(film, ReferenceRadiance(scene, geometry, lights, ray, options, random));
       const Rgb delta = value - mean;
       mean += delta / s;
       squares += delta * (value - mean);

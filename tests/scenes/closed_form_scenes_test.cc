@@ -37,6 +37,7 @@ void CheckConstant(const std::string& name, int size, std::uint64_t spp, double 
 TEST_CASE("own scenes: furnace and closed rooms keep the balance", "[scenes]") {
   CheckConstant("furnace", 24, 256, 1, 0.02);
   CheckConstant("closed-room", 16, 256, 2, 0.02);
+  CheckConstant("white-balance", 16, 64, 1, 0.02);
   CheckConstant("stiff/albedo-0.999", 4, 128, 1000, 0.2);
 }
 

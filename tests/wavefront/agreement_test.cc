@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/simd/target.h"
+#include "src/image/color_spaces.h"
 #include "tests/wavefront/agreement.h"
 
 namespace lanelight::test {
@@ -18,6 +19,7 @@ SceneDescription MixedScene() {
   SceneBuilder b(8, 8);
   b.Depth(3).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 30);
   b.scene().film.imaging_ratio = 0.7;
+  b.scene().film.response.matrix = FilmMatrix(FindColorSpace("rec2020"), 4200);
   b.scene().filter.kind = FilterKind::kGaussian;
   b.scene().filter.x_radius = b.scene().filter.y_radius = 1.5;
   b.Lens(0.05, 5);

@@ -1,0 +1,120 @@
+// Film: its size, its part that is rendered, and what it makes of light.
+#include <algorithm>
+#include <cmath>
+
+#include "src/core/suggest.h"
+#include "src/image/color_spaces.h"
+#include "src/parse/interpret.h"
+
+namespace lanelight {
+namespace {
+
+constexpr int kLargestSide = 65536;  // pixels
+constexpr double kMostPixels = 1 << 30;
+
+const std::vector<std::string> kCameras = {
+    "canon_eos_100d", "canon_eos_1dx_mkii", "canon_eos_200d",     "canon_eos_200d_mkii",
+    "canon_eos_5d",   "canon_eos_5d_mkii",  "canon_eos_5d_mkiii", "canon_eos_5d_mkiv",
+    "canon_eos_5ds",  "canon_eos_m",        "hasselblad_l1d_20c", "nikon_d810",
+    "nikon_d850",     "sony_ilce_6400",     "sony_ilce_7m3",      "sony_ilce_7rm3",
+    "sony_ilce_9"};
+
+// cropwindow: part of the image, 0 to 1; pixels x0 <= x < x1 as ceil(x0 * width).
+void ReadCrop(ParamSet& params, Film* film) {
+  const Param* part = NumberArray(params, "cropwindow", ParamType::kFloat, 4);
+  const Param* pixels = NumberArray(params, "pixelbounds", ParamType::kInteger, 4);
+  if (part == nullptr && pixels == nullptr) return;
+  if (part != nullptr && pixels != nullptr) {
+    params.Fail(*part, "cropwindow and pixelbounds exclude each other");
+  }
+  const Param& param = part != nullptr ? *part : *pixels;
+  int crop[4];
+  for (int i = 0; i < 4; ++i) {
+    const int side = i < 2 ? film->width : film->height;
+    const double low = 0, high = part != nullptr ? 1 : side;
+    const double value = param.numbers[i];
+    if (value < low || value > high) {
+      params.Fail(param,
+                  fmt::format("the value {} is outside {} to {}", value, low, high));
+    }
+    crop[i] = static_cast<int>(part != nullptr ? std::ceil(value * side) : value);
+  }
+  if (crop[0] >= crop[1] || crop[2] >= crop[3]) {
+    params.Fail(param, "no pixel is left; it takes x0 x1 y0 y1 with x0 < x1, y0 < y1");
+  }
+  std::copy(crop, crop + 4, film->crop);
+}
+
+// What pbrt-v4's sensors make of light, as far as colours of three numbers go: the
+// observer of CIE 1931, balanced by the Bradford transform. A named camera balances at
+// 6500 K where the file says nothing; its response curves are not in this project.
+void ReadSensor(ParseState& state, ParamSet& params, Film* film) {
+  const std::string sensor = params.String("sensor", "cie1931");
+  double kelvin = params.Float("whitebalance", 0);
+  const Param* balance = params.Find("whitebalance", {});
+  if (kelvin != 0 && !(kelvin >= kLeastWhiteKelvin && kelvin <= kMostWhiteKelvin)) {
+    params.Fail(*balance,
+                fmt::format("the temperature {} is not 0 (none) and outside {} to {} "
+                            "kelvin",
+                            kelvin, kLeastWhiteKelvin, kMostWhiteKelvin));
+  }
+  if (sensor != "cie1931") {
+    const SourceLocation& where = params.Find("sensor", {})->where;
+    if (std::find(kCameras.begin(), kCameras.end(), sensor) == kCameras.end()) {
+      std::vector<std::string> known = kCameras;
+      known.insert(known.begin(), "cie1931");
+      ThrowUnknown(where, "sensor", sensor, known);
+    }
+    state.AddNote(where, fmt::format("sensor {} is taken as \"cie1931\" with the white "
+                                     "balance of the camera: greys are the same, "
+                                     "saturated colours differ a little",
+                                     Quoted(sensor)));
+    if (kelvin == 0) kelvin = 6500;
+  }
+  film->color_space = state.graphics.color_space;
+  film->response.matrix = FilmMatrix(FindColorSpace(film->color_space), kelvin);
+  film->response.max_component =
+      params.Float("maxcomponentvalue", film->response.max_component, 1e-30, 1e30);
+}
+
+// pbrt writes more than --aov does, and in the camera's coordinates by default.
+void ReadGbuffer(ParseState& state, ParamSet& params, Film* film) {
+  film->auxiliary = true;
+  state.AddNote(params.where(),
+                "film \"gbuffer\" writes what --aov does (albedo, shading normal in the "
+                "world, depth), not positions, geometric normals, surface coordinates "
+                "and derivatives of the depth");
+  const int system = params.Choice("coordinatesystem", {"camera", "world"});
+  const Param* given = params.Find("coordinatesystem", {});
+  if (given == nullptr || system == 1) return;
+  state.AddNote(given->where,
+                "parameter \"coordinatesystem\" has no effect: normals are in the "
+                "world's coordinates");
+}
+
+}  // namespace
+
+void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params) {
+  if (type != "rgb" && type != "gbuffer") {
+    ThrowUnknown(params.where(), "film", type, {"rgb", "gbuffer"});
+  }
+  Film film;
+  if (type == "gbuffer") ReadGbuffer(state, params, &film);
+  film.width = params.Integer("xresolution", 1280, 1, kLargestSide);
+  film.height = params.Integer("yresolution", 720, 1, kLargestSide);
+  if (static_cast<double>(film.width) * film.height > kMostPixels) {
+    throw InputError(params.where(),
+                     fmt::format("{} x {} pixels; at most {} are supported", film.width,
+                                 film.height, kMostPixels));
+  }
+  film.filename = params.String("filename", film.filename);
+  ReadCrop(params, &film);
+  state.iso = params.Float("iso", 100, 1e-6, 1e9);
+  params.Ignore("savefp16", "--depth chooses half or float");
+  params.Ignore("diagonal", "only the realistic camera needs it");
+  ReadSensor(state, params, &film);
+  params.CheckAllUsed();
+  state.scene.film = film;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,108 @@
+// Whole renders with a film that responds otherwise than in linear sRGB: the samples are
+// the same, and so is what the film holds, up to the response.
+#include <catch2/catch.hpp>
+
+#include "src/image/color_spaces.h"
+#include "src/parse/parse.h"
+#include "src/render/job.h"
+
+namespace lanelight {
+namespace {
+
+constexpr const char* kRoom = R"(
+LookAt 0 1 -4  0 1 0  0 1 0
+Camera "perspective"
+Film "rgb" "integer xresolution" 12 "integer yresolution" 12
+Sampler "sobol"
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.2 0.3 0.6 ]
+Material "diffuse" "rgb reflectance" [ 0.8 0.3 0.1 ]
+Shape "plane"
+Translate 0 1 0
+AreaLightSource "diffuse" "rgb L" [ 9 6 3 ]
+Shape "sphere" "float radius" 1.2
+)";
+
+struct Rendered {
+  Job job;
+  FilmAccumulator film;
+};
+
+Rendered RenderWith(const FilmResponse& response, const std::string& strategy) {
+  SceneDescription scene = ParseSceneText(kRoom, "room.pbrt", ".");
+  scene.film.response = response;
+  RenderSettings settings;
+  settings.spp = 16;
+  settings.strategy = ParseStrategy(strategy, {});
+  Job job = PrepareJob(std::move(scene), settings);
+  FilmAccumulator film = MakeFilm(job);
+  RunJob(job, film);
+  return {std::move(job), std::move(film)};
+}
+
+FilmResponse Balanced() { return {FilmMatrix(FindColorSpace("rec2020"), 3500)}; }
+
+// The film's means are the matrix times what they are without.
+TEST_CASE("film response: means of a render", "[film]") {
+  for (const char* strategy : {"", "control=ambient,c=1", "seen-lights=paths"}) {
+    INFO(strategy);
+    const Rendered plain = RenderWith({}, strategy);
+    const Rendered balanced = RenderWith(Balanced(), strategy);
+    double largest = 0;
+    for (int y = 0; y < 12; ++y) {
+      for (int x = 0; x < 12; ++x) {
+        const Rgb expected = Balanced().matrix * plain.film.Mean(x, y);
+        const Rgb found = balanced.film.Mean(x, y);
+        for (int c = 0; c < 3; ++c) {
+          CHECK(found[c] == Approx(expected[c]).epsilon(1e-5).margin(1e-6));
+        }
+        largest = std::max(largest, std::abs(found.x - plain.film.Mean(x, y).x));
+        CHECK(balanced.film.Samples(x, y) == 16);
+      }
+    }
+    CHECK(largest > 0.05);  // it does something
+  }
+}
+
+// Variances are of what the film holds: by the scatter of the converted replicates, which
+// those of the channels alone do not tell.
+TEST_CASE("film response: variances are of what is written", "[film]") {
+  FilmResponse sum;  // all channels hold R + G + B
+  sum.matrix = {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
+  const Rendered added = RenderWith(sum, "");
+  FilmResponse twice;
+  twice.matrix = {{{2, 0, 0}, {0, 2, 0}, {0, 0, 2}}};
+  const Rendered doubled = RenderWith(twice, ""), plain = RenderWith({}, "");
+  double sums = 0, parts = 0;
+  for (int y = 0; y < 12; ++y) {
+    for (int x = 0; x < 12; ++x) {
+      const Rgb v = plain.film.Variance(x, y), d = doubled.film.Variance(x, y);
+      for (int c = 0; c < 3; ++c) CHECK(d[c] == Approx(4 * v[c]).margin(1e-12));
+      sums += added.film.Variance(x, y).x;
+      parts += v.x + v.y + v.z;
+    }
+  }
+  // Channels of one path go up and down together.
+  CHECK(sums > 1.2 * parts);
+}
+
+TEST_CASE("film response: no sample is above the limit", "[film]") {
+  FilmResponse limited;
+  limited.max_component = 1.5;
+  const Rendered render = RenderWith(limited, "seen-lights=paths");
+  const Rendered plain = RenderWith({}, "seen-lights=paths");
+  double most = 0, before = 0;
+  for (int y = 0; y < 12; ++y) {
+    for (int x = 0; x < 12; ++x) {
+      const Vec3d xyz = XyzFromSrgb() * render.film.Mean(x, y);
+      most = std::max({most, xyz.x, xyz.y, xyz.z});
+      before = std::max(before, (XyzFromSrgb() * plain.film.Mean(x, y)).y);
+    }
+  }
+  CHECK(before > 3);  // the lamp
+  CHECK(most <= 1.5 * (1 + 1e-6));
+  CHECK(most > 1.4);
+}
+
+}  // namespace
+}  // namespace lanelight
