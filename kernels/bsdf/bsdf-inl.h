@@ -64,7 +64,9 @@ struct BsdfSample {
 struct MaterialSource {
   const MaterialTable* table;
   const float *color0_r, *color0_g, *color0_b, *alpha_x, *alpha_y;
-  bool color_by_path, alpha_by_path;
+  const float *color1_r, *color1_g, *color1_b;
+  const float *alpha2_x, *alpha2_y, *coat_thickness;
+  bool color_by_path, alpha_by_path, color1_by_path, coat_by_path;
 };
 
 LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
@@ -74,6 +76,14 @@ LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
           t.color0_b.data(),
           t.alpha_x.data(),
           t.alpha_y.data(),
+          t.color1_r.data(),
+          t.color1_g.data(),
+          t.color1_b.data(),
+          t.alpha2_x.data(),
+          t.alpha2_y.data(),
+          t.coat_thickness.data(),
+          false,
+          false,
           false,
           false};
 }
@@ -94,14 +104,27 @@ struct MaterialInputs {
   /// Clamped to [0, 1], as a reflectance must be (a texture may hold anything).
   LANELIGHT_INLINE V3 Reflectance() const { return Clamp01(Color0()); }
   LANELIGHT_INLINE V3 Color1() const {
-    const MaterialTable& t = *source.table;
-    return LookUp3(t.color1_r, t.color1_g, t.color1_b);
+    const MaterialSource& s = source;
+    return s.color1_by_path
+               ? Gather3(s.color1_r, s.color1_g, s.color1_b, slot)
+               : LookUp3(s.table->color1_r, s.table->color1_g, s.table->color1_b);
   }
   LANELIGHT_INLINE VF AlphaX() const {
-    return Alpha(source.alpha_x, source.table->alpha_x);
+    return Varying(source.alpha_by_path, source.alpha_x, source.table->alpha_x);
   }
   LANELIGHT_INLINE VF AlphaY() const {
-    return Alpha(source.alpha_y, source.table->alpha_y);
+    return Varying(source.alpha_by_path, source.alpha_y, source.table->alpha_y);
+  }
+  /// Of the metal below a coat.
+  LANELIGHT_INLINE VF Alpha2X() const {
+    return Varying(source.coat_by_path, source.alpha2_x, source.table->alpha2_x);
+  }
+  LANELIGHT_INLINE VF Alpha2Y() const {
+    return Varying(source.coat_by_path, source.alpha2_y, source.table->alpha2_y);
+  }
+  LANELIGHT_INLINE VF CoatThickness() const {
+    return Varying(source.coat_by_path, source.coat_thickness,
+                   source.table->coat_thickness);
   }
   LANELIGHT_INLINE VF Float(const AlignedVector<float>& column) const {
     return Lookup(column, material);
@@ -119,9 +142,9 @@ struct MaterialInputs {
   }
 
  private:
-  LANELIGHT_INLINE VF Alpha(const float* by_path,
-                            const AlignedVector<float>& column) const {
-    return source.alpha_by_path ? Gather(by_path, slot) : Lookup(column, material);
+  LANELIGHT_INLINE VF Varying(bool varies, const float* by_path,
+                              const AlignedVector<float>& column) const {
+    return varies ? Gather(by_path, slot) : Lookup(column, material);
   }
   LANELIGHT_INLINE V3 LookUp3(const AlignedVector<float>& x,
                               const AlignedVector<float>& y,

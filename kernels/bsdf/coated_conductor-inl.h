@@ -43,9 +43,8 @@ struct CoatedConductorBsdf {
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     const MaterialTable& t = *in.source.table;
     return {{Layer::FromAlpha(in.AlphaX(), in.AlphaY()), in.Float(t.eta)},
-            {Layer::FromAlpha(in.Float(t.alpha2_x), in.Float(t.alpha2_y)), in.Color0(),
-             in.Color1()},
-            in.Float(t.coat_thickness),
+            {Layer::FromAlpha(in.Alpha2X(), in.Alpha2Y()), in.Color0(), in.Color1()},
+            in.CoatThickness(),
             in.Int(t.coat_depth),
             in.random};
   }

@@ -15,6 +15,7 @@
 #endif
 
 #include "kernels/bsdf/bsdf-inl.h"
+#include "kernels/bsdf/coat_grid-inl.h"
 #include "kernels/bsdf/ggx-inl.h"
 #include "kernels/warp/hemisphere-inl.h"
 #include "src/compiled/scene.h"
@@ -29,8 +30,11 @@ struct CoatedBase {
   VF inverse_eta2, escape, eta;
 
   LANELIGHT_INLINE static CoatedBase Load(const MaterialInputs& in) {
+    return Load(in, in.Float(in.source.table->coat_internal));
+  }
+  LANELIGHT_INLINE static CoatedBase Load(const MaterialInputs& in, VF internal) {
     const MaterialTable& t = *in.source.table;
-    const VF internal = in.Float(t.coat_internal), eta = in.Float(t.eta);
+    const VF eta = in.Float(t.eta);
     const V3 rho = in.Reflectance();
     const VI one = hn::Set(DI(), 1);
     const VI bounces = hn::ShiftRight<1>(hn::Add(in.Int(t.coat_depth), one));
@@ -89,7 +93,11 @@ struct CoatedDiffuseSmoothBsdf {
     VF thickness;
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    return {CoatedBase::Load(in), in.Float(in.source.table->coat_thickness)};
+    if (!in.source.coat_by_path) {
+      return {CoatedBase::Load(in), in.Float(in.source.table->coat_thickness)};
+    }
+    const VF internal = CoatCell::Of(in).Internal(*in.source.table);
+    return {CoatedBase::Load(in, internal), in.CoatThickness()};
   }
   LANELIGHT_INLINE static VF Transmittance(const Params& m, const Interface& at) {
     const VF slant = hn::Div(m.thickness, hn::Max(at.cos_t, Splat(1e-6f)));
@@ -129,7 +137,8 @@ struct CoatedDiffuseSmoothBsdf {
 };
 
 /// GGX coat: one continuous mixture of the coat's reflection (visible normals) and the
-/// cosine lobe of the base. T comes from the table of its material.
+/// cosine lobe of the base. T comes from the table of its material, or from a grid of
+/// tables in scenes where layers of coats are textured.
 struct CoatedDiffuseRoughBsdf {
   static constexpr bool kSpecular = false;
   static constexpr bool kAnisotropic = true;
@@ -145,11 +154,23 @@ struct CoatedDiffuseRoughBsdf {
     Ggx ggx;
     const float* table;
     VI offset;
+    bool varies;  // `cell` is used instead of `offset`
+    CoatCell cell;
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     const MaterialTable& t = *in.source.table;
-    return {CoatedBase::Load(in), Ggx::FromAlpha(in.AlphaX(), in.AlphaY()),
-            t.coat_transmittance.data(), in.Int(t.coat)};
+    Params m;
+    m.ggx = Ggx::FromAlpha(in.AlphaX(), in.AlphaY());
+    m.table = t.coat_transmittance.data();
+    m.varies = in.source.coat_by_path;
+    if (m.varies) {
+      m.cell = CoatCell::Of(in);
+      m.base = CoatedBase::Load(in, m.cell.Internal(t));
+    } else {
+      m.offset = in.Int(t.coat);
+      m.base = CoatedBase::Load(in);
+    }
+    return m;
   }
   LANELIGHT_INLINE static VF Transmittance(const Params& m, VF mu) {
     const DF df;
@@ -157,9 +178,11 @@ struct CoatedDiffuseRoughBsdf {
     const VF at =
         hn::Min(hn::Mul(mu, Splat(kCoatTableSize - 1.0f)), Splat(kCoatTableSize - 1.0f));
     const VI cell = hn::Min(hn::ConvertTo(di, at), hn::Set(di, kCoatTableSize - 2));
+    const VF part = hn::Sub(at, hn::ConvertTo(df, cell));
+    if (m.varies) return m.cell.Transmittance(m.table, cell, part);
     const VI index = hn::Add(m.offset, cell);
     const VF low = Gather(m.table, index), high = Gather(m.table + 1, index);
-    return hn::MulAdd(hn::Sub(at, hn::ConvertTo(df, cell)), hn::Sub(high, low), low);
+    return hn::MulAdd(part, hn::Sub(high, low), low);
   }
 
   /// Both directions on the upper side; n = their half vector.

@@ -64,6 +64,23 @@ struct SurfaceReader {
       source.alpha_x = path.alpha_x;
       source.alpha_y = path.alpha_y;
     }
+    UseTexturedLayers();
+  }
+
+  HWY_INLINE void UseTexturedLayers() {
+    const PathColumns& path = wave.path;
+    source.color1_by_path = path.color1_r != nullptr;
+    source.coat_by_path = path.coat_thickness != nullptr;
+    if (source.color1_by_path) {
+      source.color1_r = path.color1_r;
+      source.color1_g = path.color1_g;
+      source.color1_b = path.color1_b;
+    }
+    if (source.coat_by_path) {
+      source.alpha2_x = path.alpha2_0;
+      source.alpha2_y = path.alpha2_1;
+      source.coat_thickness = path.coat_thickness;
+    }
   }
 
   HWY_INLINE Frame ShadingFrame(V3 ng, const Slots& slots) const {

@@ -20,16 +20,25 @@ namespace HWY_NAMESPACE {
 
 // Weight of the second material, from its texture where it has one (then the scene has
 // texture coordinates: compile sees to it).
+template <bool kPlaces>
 HWY_INLINE VF MixAmount(const Wave& wave, const Slots& slots, VI material) {
   const MaterialTable& m = wave.scene->materials;
+  const PathColumns& path = wave.path;
   const VF constant = Gather(m.alpha_x.data(), material);
-  if (wave.path.uv_u == nullptr) return constant;
-  return EvalAlpha(wave.scene->textures, Gather(m.alpha_x_texture.data(), material),
-                   Gather(wave.path.uv_u, slots), Gather(wave.path.uv_v, slots),
-                   constant);
+  if (path.uv_u == nullptr) return constant;
+  const VI id = Gather(m.alpha_x_texture.data(), material);
+  const UvPoint uv = {Gather(path.uv_u, slots), Gather(path.uv_v, slots)};
+  if constexpr (kPlaces) {
+    const PlacedPoint at = {uv.u, uv.v, Gather3(path.p_x, path.p_y, path.p_z, slots),
+                            Gather3(path.ng_x, path.ng_y, path.ng_z, slots)};
+    return EvalFloats(wave.scene->textures, id, at, constant);
+  } else {
+    return EvalFloats(wave.scene->textures, id, uv, constant);
+  }
 }
 
-void Mix(Wave& wave) {
+template <bool kPlaces>
+HWY_INLINE void Mix(Wave& wave) {
   const MaterialTable& m = wave.scene->materials;
   const DI di;
   const VI mix_kind = hn::Set(di, static_cast<int32_t>(ShadeKind::kMix));
@@ -39,7 +48,7 @@ void Mix(Wave& wave) {
     for (uint32_t round = 0;; ++round) {
       const auto is_mix = hn::Eq(Gather(m.kind.data(), material), mix_kind);
       if (hn::AllFalse(di, is_mix)) break;
-      const VF amount = MixAmount(wave, slots, material);
+      const VF amount = MixAmount<kPlaces>(wave, slots, material);
       // Levels beyond those that have a dimension draw with another seed.
       const VU key =
           KeyOf(wave.path, Dimension::kMix, depth, slots, round % kMixDimensions);
@@ -56,6 +65,9 @@ void Mix(Wave& wave) {
   });
 }
 
+void MixByUv(Wave& wave) { Mix<false>(wave); }
+void MixByPlace(Wave& wave) { Mix<true>(wave); }
+
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
 HWY_AFTER_NAMESPACE();
@@ -65,7 +77,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(Mix);
+HWY_EXPORT(MixByUv);
+HWY_EXPORT(MixByPlace);
 
 Stage MixStage() {
   return {"mix",
@@ -74,9 +87,13 @@ Stage MixStage() {
           {Feature::kMix, Feature::kScatters},
           FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
                    Field::material} |
-              fields::kUv,
+              fields::kUv | fields::kPoint | fields::kNormal,
           {Field::material},
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Mix); }};
+          [](const FeatureSet& features) -> StageFn {
+            return features.Has(Feature::kTexturePlaces)
+                       ? HWY_DYNAMIC_DISPATCH(MixByPlace)
+                       : HWY_DYNAMIC_DISPATCH(MixByUv);
+          }};
 }
 
 }  // namespace lanelight

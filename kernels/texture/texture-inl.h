@@ -9,7 +9,8 @@
 #define LANELIGHT_TEXTURE_TEXTURE_INL_H_
 #endif
 
-#include "kernels/simd/vec3-inl.h"
+#include "kernels/texture/coated_base-inl.h"
+#include "kernels/texture/patterns-inl.h"
 #include "src/compiled/texture_table.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -136,21 +137,16 @@ LANELIGHT_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node
   return {hn::Max(color.x, zero), hn::Max(color.y, zero), hn::Max(color.z, zero)};
 }
 
-/// Lanes whose cell (floor(s), floor(t)) shows the first colour: even sum.
-LANELIGHT_INLINE MF EvenCell(VF s, VF t) {
-  // Parity without integers, so that it holds for every float: the sum of the parities is
-  // 0, 1 or 2.
-  const VF half = Splat(0.5f), two = Splat(2.0f);
-  const VF cell_s = hn::Floor(s), cell_t = hn::Floor(t);
-  const VF odd_s = hn::NegMulAdd(two, hn::Floor(hn::Mul(cell_s, half)), cell_s);
-  const VF odd_t = hn::NegMulAdd(two, hn::Floor(hn::Mul(cell_t, half)), cell_t);
-  return hn::Eq(odd_s, odd_t);
+/// Between four corners, v00, v01, v10 and v11 of (s, t).
+LANELIGHT_INLINE V3 Bilinear(const V3 corner[4], VF s, VF t) {
+  return Lerp(Lerp(corner[0], corner[1], t), Lerp(corner[2], corner[3], t), s);
 }
 
-/// Value of one texture at (u, v) in every lane. Errors against real arithmetic come from
-/// rounding s = u * su + du to float: up to |s| * 6e-8 of a repeat, times the slope.
-inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture, VF u,
-                                   VF v) {
+/// Value of one texture at a point in every lane. Errors against real arithmetic come
+/// from rounding s = u * su + du to float: up to |s| * 6e-8 of a repeat, times the slope.
+template <class Point>
+inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
+                                   const Point& at) {
   const TextureProgram program = table.programs[texture];
   V3 value[kMaxTextureNodes];
   for (int32_t i = 0; i < program.count; ++i) {
@@ -160,8 +156,7 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture, V
       return node.operand[slot] >= 0 ? value[node.operand[slot]]
                                      : Splat3(c[0], c[1], c[2]);
     };
-    const VF s = hn::MulAdd(u, Splat(node.su), Splat(node.du));
-    const VF t = hn::MulAdd(v, Splat(node.sv), Splat(node.dv));
+    const TexturePair st = MapPoint(node, at);
     switch (node.kind) {
       case TextureKind::kConstant:
         value[i] = operand(0);
@@ -172,11 +167,44 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture, V
       case TextureKind::kMix:
         value[i] = Lerp(operand(0), operand(1), operand(2).x);
         break;
-      case TextureKind::kCheckerboard:
-        value[i] = IfThenElse(EvenCell(s, t), operand(0), operand(1));
+      case TextureKind::kCheckerboard: {
+        MF even = EvenCell(st.s, st.t);
+        if constexpr (Point::kHasPlace) {
+          if (node.solid) even = EvenCell(PlaceOf(node, at.p));
+        }
+        value[i] = IfThenElse(even, operand(0), operand(1));
         break;
+      }
       case TextureKind::kImage:
-        value[i] = EvalImage(table, node, s, t);
+        value[i] = EvalImage(table, node, st.s, st.t);
+        break;
+      case TextureKind::kDots:
+        // pbrt-v4 shows its parameter "inside" outside of the dots, and the reverse.
+        value[i] = IfThenElse(InsideDot(st.s, st.t), operand(1), operand(0));
+        break;
+      case TextureKind::kBilinear: {
+        const V3 corners[4] = {operand(0), operand(1), operand(2), operand(3)};
+        value[i] = Bilinear(corners, st.s, st.t);
+        break;
+      }
+      case TextureKind::kMetalExtinction:
+        value[i] = Mul(MetalExtinction(operand(0)), operand(2).x);
+        break;
+      case TextureKind::kCoatedBase:
+        value[i] = CoatedBaseColor(table.fits.data() + node.fit, operand(0));
+        break;
+      case TextureKind::kDirectionMix:
+        if constexpr (Point::kHasPlace) {
+          const float* d = node.place[0];
+          const VF facing = hn::Abs(Dot(at.n, Splat3(d[0], d[1], d[2])));
+          value[i] = Lerp(operand(1), operand(0), facing);
+        }
+        break;
+      case TextureKind::kFbm:
+      case TextureKind::kWrinkled:
+      case TextureKind::kWindy:
+      case TextureKind::kMarble:
+        if constexpr (Point::kHasPlace) value[i] = EvalPattern(node, at.p);
         break;
     }
   }
@@ -184,7 +212,8 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture, V
 }
 
 /// Values of the lanes' own textures; lanes whose id is negative keep `constant`.
-LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v,
+template <class Point>
+LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, const Point& at,
                                  V3 constant) {
   const DF df;
   const DI di;
@@ -194,24 +223,29 @@ LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v,
     const auto same = hn::Eq(ids, hn::Set(di, id));
     const MF mine = hn::RebindMask(df, same);
     // The other lanes look at one texel: theirs would be fetched for nothing.
-    const V3 value =
-        EvalTexture(table, id, hn::IfThenElseZero(mine, u), hn::IfThenElseZero(mine, v));
+    const V3 value = EvalTexture(table, id, at.Only(mine));
     constant = IfThenElse(mine, value, constant);
     pending = hn::AndNot(same, pending);
   }
   return constant;
 }
+LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v,
+                                 V3 constant) {
+  return EvalTextures(table, ids, UvPoint{u, v}, constant);
+}
 
-/// Alpha of the lanes' cut-outs, where their id is not negative, else `constant`.
-LANELIGHT_INLINE VF EvalAlpha(const TextureTable& table, VI ids, VF u, VF v,
-                              VF constant) {
-  return EvalTextures(table, ids, u, v, {constant, constant, constant}).x;
+/// Value of the lanes' float textures, where their id is not negative, else `constant`.
+template <class Point>
+LANELIGHT_INLINE VF EvalFloats(const TextureTable& table, VI ids, const Point& at,
+                               VF constant) {
+  return EvalTextures(table, ids, at, {constant, constant, constant}).x;
 }
 
 /// Alpha of a single hit, for kernels that hold one ray.
 LANELIGHT_INLINE float EvalAlphaAt(const TextureTable& table, int32_t id, float u,
                                    float v, float constant) {
-  return id < 0 ? constant : hn::GetLane(EvalTexture(table, id, Splat(u), Splat(v)).x);
+  if (id < 0) return constant;
+  return hn::GetLane(EvalTexture(table, id, UvPoint{Splat(u), Splat(v)}).x);
 }
 
 }  // namespace HWY_NAMESPACE

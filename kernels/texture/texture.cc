@@ -38,7 +38,8 @@ HWY_INLINE V3 ClampColor(V3 c, VF limit) {
 
 // GGX alpha: the constant, or from the texture as the material asks. pbrt's floor of
 // 1e-4.
-HWY_INLINE VF Alpha(const CompiledScene& scene, VI material, VF u, VF v,
+template <class Point>
+HWY_INLINE VF Alpha(const CompiledScene& scene, VI material, const Point& at,
                     const AlignedVector<float>& constants,
                     const AlignedVector<int32_t>& textures) {
   const DI di;
@@ -46,8 +47,7 @@ HWY_INLINE VF Alpha(const CompiledScene& scene, VI material, VF u, VF v,
   const VF constant = Lookup(constants, material);
   const auto textured = hn::Gt(id, hn::Set(di, -1));
   if (hn::AllFalse(di, textured)) return constant;
-  const VF roughness =
-      hn::Max(EvalAlpha(scene.textures, id, u, v, constant), Splat(0.0f));
+  const VF roughness = hn::Max(EvalFloats(scene.textures, id, at, constant), Splat(0.0f));
   const VI remap = Lookup(scene.materials.alpha_remap, material);
   const auto remapped = hn::RebindMask(DF(), hn::Ne(remap, hn::Zero(di)));
   const VF alpha = hn::IfThenElse(remapped, hn::Sqrt(roughness), roughness);
@@ -55,43 +55,97 @@ HWY_INLINE VF Alpha(const CompiledScene& scene, VI material, VF u, VF v,
                         constant);
 }
 
+// The colours and the roughness of a batch at `at`.
+template <bool kRoughness, bool kColor1, class Point>
+HWY_INLINE void EvalParameters(const CompiledScene& scene, const PathColumns& path,
+                               const StoreSlots& slots, VI material, const Point& at) {
+  const MaterialTable& m = scene.materials;
+  const VF limit = ColorLimit(m, material);
+  const V3 color0 =
+      EvalTextures(scene.textures, Lookup(m.color0_texture, material), at,
+                   V3{Lookup(m.color0_r, material), Lookup(m.color0_g, material),
+                      Lookup(m.color0_b, material)});
+  Scatter3(ClampColor(color0, limit), path.color0_r, path.color0_g, path.color0_b, slots);
+  if constexpr (kColor1) {
+    const V3 color1 =
+        EvalTextures(scene.textures, Lookup(m.color1_texture, material), at,
+                     V3{Lookup(m.color1_r, material), Lookup(m.color1_g, material),
+                        Lookup(m.color1_b, material)});
+    Scatter3(ClampColor(color1, limit), path.color1_r, path.color1_g, path.color1_b,
+             slots);
+  }
+  if constexpr (kRoughness) {
+    Scatter(Alpha(scene, material, at, m.alpha_x, m.alpha_x_texture), path.alpha_x,
+            slots);
+    Scatter(Alpha(scene, material, at, m.alpha_y, m.alpha_y_texture), path.alpha_y,
+            slots);
+  }
+}
+
 template <bool kRoughness, bool kColor1>
 HWY_INLINE void Textures(Wave& wave) {
-  const CompiledScene& scene = *wave.scene;
-  const MaterialTable& m = scene.materials;
-  PathColumns& path = wave.path;
+  const PathColumns& path = wave.path;
   ForEachBatch(
       wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
         const VI material = Gather(path.material, slots);
-        const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
-        const VF limit = ColorLimit(m, material);
-        const V3 color0 =
-            EvalTextures(scene.textures, Lookup(m.color0_texture, material), u, v,
-                         V3{Lookup(m.color0_r, material), Lookup(m.color0_g, material),
-                            Lookup(m.color0_b, material)});
-        Scatter3(ClampColor(color0, limit), path.color0_r, path.color0_g, path.color0_b,
-                 slots);
-        if constexpr (kColor1) {
-          const V3 color1 =
-              EvalTextures(scene.textures, Lookup(m.color1_texture, material), u, v,
-                           V3{Lookup(m.color1_r, material), Lookup(m.color1_g, material),
-                              Lookup(m.color1_b, material)});
-          Scatter3(ClampColor(color1, limit), path.color1_r, path.color1_g, path.color1_b,
-                   slots);
-        }
-        if constexpr (kRoughness) {
-          Scatter(Alpha(scene, material, u, v, m.alpha_x, m.alpha_x_texture),
-                  path.alpha_x, slots);
-          Scatter(Alpha(scene, material, u, v, m.alpha_y, m.alpha_y_texture),
-                  path.alpha_y, slots);
-        }
+        const UvPoint at = {Gather(path.uv_u, slots), Gather(path.uv_v, slots)};
+        EvalParameters<kRoughness, kColor1>(*wave.scene, path, slots, material, at);
       });
 }
 
 void TexturesColor(Wave& wave) { Textures<false, false>(wave); }
 void TexturesRoughness(Wave& wave) { Textures<true, false>(wave); }
 void TexturesColor1(Wave& wave) { Textures<false, true>(wave); }
-void TexturesAll(Wave& wave) { Textures<true, true>(wave); }
+void TexturesBoth(Wave& wave) { Textures<true, true>(wave); }
+
+// The layers of coats.
+template <class Point>
+HWY_INLINE void EvalCoat(const CompiledScene& scene, const PathColumns& path,
+                         const StoreSlots& slots, VI material, const Point& at) {
+  const MaterialTable& m = scene.materials;
+  Scatter(Alpha(scene, material, at, m.alpha2_x, m.alpha2_x_texture), path.alpha2_0,
+          slots);
+  Scatter(Alpha(scene, material, at, m.alpha2_y, m.alpha2_y_texture), path.alpha2_1,
+          slots);
+  const VF thickness = EvalFloats(scene.textures, Lookup(m.thickness_texture, material),
+                                  at, Lookup(m.coat_thickness, material));
+  Scatter(hn::Max(thickness, hn::Zero(DF())), path.coat_thickness, slots);
+}
+
+// Everything that the plan has columns for, at places: for the few scenes that need it.
+template <bool kPlaces>
+HWY_INLINE void AllTextures(Wave& wave) {
+  const CompiledScene& scene = *wave.scene;
+  const PathColumns& path = wave.path;
+  const auto point = [&](const StoreSlots& slots) HWY_ATTR {
+    const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
+    if constexpr (kPlaces) {
+      return PlacedPoint{u, v, Gather3(path.p_x, path.p_y, path.p_z, slots),
+                         Gather3(path.ng_x, path.ng_y, path.ng_z, slots)};
+    } else {
+      return UvPoint{u, v};
+    }
+  };
+  ForEachBatch(wave, wave.queue(QueueId::kSurface),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const VI material = Gather(path.material, slots);
+                 const auto at = point(slots);
+                 if (path.alpha_x != nullptr && path.color1_r != nullptr) {
+                   EvalParameters<true, true>(scene, path, slots, material, at);
+                 } else if (path.alpha_x != nullptr) {
+                   EvalParameters<true, false>(scene, path, slots, material, at);
+                 } else if (path.color1_r != nullptr) {
+                   EvalParameters<false, true>(scene, path, slots, material, at);
+                 } else {
+                   EvalParameters<false, false>(scene, path, slots, material, at);
+                 }
+                 if (path.coat_thickness != nullptr)
+                   EvalCoat(scene, path, slots, material, at);
+               });
+}
+
+void TexturesCoat(Wave& wave) { AllTextures<false>(wave); }
+void TexturesPlaces(Wave& wave) { AllTextures<true>(wave); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -107,20 +161,28 @@ namespace lanelight {
 HWY_EXPORT(TexturesColor);
 HWY_EXPORT(TexturesRoughness);
 HWY_EXPORT(TexturesColor1);
-HWY_EXPORT(TexturesAll);
+HWY_EXPORT(TexturesBoth);
+HWY_EXPORT(TexturesCoat);
+HWY_EXPORT(TexturesPlaces);
 
 Stage TextureStage() {
   return {"texture",
           "textured material parameters of surface hits",
           QueueId::kSurface,
           {Feature::kTextures},
-          FieldSet{Field::material} | fields::kUv,
+          FieldSet{Field::material} | fields::kUv | fields::kPoint | fields::kNormal,
           fields::kParameters,
           [](const FeatureSet& features) -> StageFn {
             LL_CHECK(features.Has(Feature::kUv));
+            if (features.Has(Feature::kTexturePlaces)) {
+              return HWY_DYNAMIC_DISPATCH(TexturesPlaces);
+            }
+            if (features.Has(Feature::kTexturedCoat)) {
+              return HWY_DYNAMIC_DISPATCH(TexturesCoat);
+            }
             const bool roughness = features.Has(Feature::kTexturedRoughness);
             const bool color1 = features.Has(Feature::kTexturedColor1);
-            if (roughness && color1) return HWY_DYNAMIC_DISPATCH(TexturesAll);
+            if (roughness && color1) return HWY_DYNAMIC_DISPATCH(TexturesBoth);
             if (roughness) return HWY_DYNAMIC_DISPATCH(TexturesRoughness);
             if (color1) return HWY_DYNAMIC_DISPATCH(TexturesColor1);
             return HWY_DYNAMIC_DISPATCH(TexturesColor);

@@ -30,6 +30,10 @@ double CoatedResponse(double rho, double internal, int bounces) {
 Rgb EffectiveCoatBase(Rgb rgb, double internal, int bounces) {
   if (rgb.x == rgb.y && rgb.y == rgb.z) return rgb;
   const Spectrum base = ReflectanceOfRgb(Max(Min(rgb, {1, 1, 1}), {0, 0, 0}));
+  return EffectiveCoatBase(rgb, base, internal, bounces);
+}
+
+Rgb EffectiveCoatBase(Rgb rgb, const Spectrum& base, double internal, int bounces) {
   const Rgb fitted = ColorUnderD65(base);
   const Rgb response = ColorUnderD65(
       [&](double nm) { return CoatedResponse(base(nm), internal, bounces); });

@@ -90,6 +90,20 @@ void MakeAlpha(const Placement& placement, const CompiledGeometry& compiled,
   SetAlphas(placement.large_spheres, ranges.large_spheres, scene);
 }
 
+// Cut-outs are looked up during intersection, by surface coordinates alone.
+void RequireUvAlpha(const SceneDescription& description, const Placement& placement,
+                    const TextureTable& textures) {
+  ForEachShape(placement, [&](const PlacedShape& placed) {
+    const Index alpha = placed.alpha.texture;
+    if (alpha == kNone || !textures.programs[alpha].uses_place) return;
+    throw InputError(placed.shape->where,
+                     fmt::format("the \"alpha\" of a shape uses texture \"{}\", which "
+                                 "depends on places in space; supported are textures of "
+                                 "surface coordinates (\"mapping\" \"uv\")",
+                                 description.textures[alpha].name));
+  });
+}
+
 void NoteDropped(const std::vector<PlacedShape>& shapes,
                  const std::vector<MeshRange>& ranges, std::vector<Note>& notes) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -139,12 +153,23 @@ CompiledScene CompileScene(const SceneDescription& description,
   CompiledGeometry compiled;
   ParallelInvoke(
       [&] {
+        std::vector<Texture> textures = description.textures;
+        textures.insert(textures.end(), materials.derived.begin(),
+                        materials.derived.end());
         scene.textures = CompileTextures(
-            KeepUsedTextures(description.textures, UsedTextures(materials, placement)),
+            KeepUsedTextures(textures, UsedTextures(materials, placement)),
+            Transform::Translate(scene.center) *
+                Transform::Scale(Vec3d{1, 1, 1} / scene.scale),
             &scene.notes);
       },
       [&] { compiled = CompileGeometry(placement, materials.index, geometry_options); });
 
+  const auto& programs = scene.textures.programs;
+  if (std::any_of(programs.begin(), programs.end(),
+                  [](const TextureProgram& p) { return p.uses_place; })) {
+    scene.features.Add(Feature::kTexturePlaces);
+    RequireUvAlpha(description, placement, scene.textures);
+  }
   scene.lights = CompileLights(description, placement, compiled, scene.notes);
   MakeAlpha(placement, compiled, scene);
   NoteLargeEmitters(placement, scene.notes);

@@ -17,8 +17,17 @@ void AddRoughness(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   }
   const bool anisotropic = m.alpha_x_texture[i] != m.alpha_y_texture[i] ||
                            (m.alpha_x_texture[i] < 0 && m.alpha_x[i] != m.alpha_y[i]) ||
-                           m.alpha2_x[i] != m.alpha2_y[i];
+                           m.alpha2_x_texture[i] != m.alpha2_y_texture[i] ||
+                           (m.alpha2_x_texture[i] < 0 && m.alpha2_x[i] != m.alpha2_y[i]);
   if (anisotropic) features.Add(Feature::kTangents);
+}
+
+void AddCoat(const MaterialTable& m, std::size_t i, FeatureSet& features) {
+  const bool varies = m.coat_alphas[i] > 1 || m.thickness_texture[i] >= 0 ||
+                      m.alpha2_x_texture[i] >= 0 || m.alpha2_y_texture[i] >= 0;
+  if (varies) {
+    features.Add({Feature::kTextures, Feature::kTexturedCoat, Feature::kUv});
+  }
 }
 
 void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
@@ -26,6 +35,7 @@ void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   features.Add(ShadeFeature(kind));
   if (HasTrait(kind, kRefracting)) features.Add(Feature::kRefraction);
   if (HasTrait(kind, kMicrofacets)) AddRoughness(m, i, features);
+  if (m.coat[i] >= 0) AddCoat(m, i, features);
   if (m.color0_texture[i] >= 0 || m.color1_texture[i] >= 0) {
     features.Add(Feature::kTextures);
     features.Add(Feature::kUv);

@@ -1,6 +1,7 @@
 #include "src/compile/material_row.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <vector>
 
@@ -32,33 +33,36 @@ void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out) {
   add(t.color1_b, row.color1.constant.z);
   t.alpha_x.push_back(RoughAlpha(row, row.alpha_x.constant));
   t.alpha_y.push_back(RoughAlpha(row, row.alpha_y.constant));
-  t.alpha2_x.push_back(RoughAlpha(row, row.alpha2_x));
-  t.alpha2_y.push_back(RoughAlpha(row, row.alpha2_y));
+  t.alpha2_x.push_back(RoughAlpha(row, row.alpha2_x.constant));
+  t.alpha2_y.push_back(RoughAlpha(row, row.alpha2_y.constant));
   add(t.eta, row.eta);
-  t.coat.push_back(row.coat < 0 ? -1 : row.coat * kCoatTableSize);
+  t.coat.push_back(row.coat);
   t.coat_internal.push_back(0);
-  add(t.coat_thickness, row.coat_thickness);
+  add(t.coat_thickness, row.coat_thickness.constant);
+  t.coat_alphas.push_back(1);
+  t.coat_depths.push_back(1);
   t.coat_depth.push_back(row.coat_depth);
   t.color0_texture.push_back(row.color0.texture);
   t.color1_texture.push_back(row.color1.texture);
   t.alpha_x_texture.push_back(row.alpha_x.texture);
   t.alpha_y_texture.push_back(row.alpha_y.texture);
+  t.alpha2_x_texture.push_back(row.alpha2_x.texture);
+  t.alpha2_y_texture.push_back(row.alpha2_y.texture);
+  t.thickness_texture.push_back(row.coat_thickness.texture);
   t.alpha_remap.push_back(row.remap ? 1 : 0);
   t.mix0.push_back(row.mix[0]);
   t.mix1.push_back(row.mix[1]);
   t.names.push_back(row.name);
-  for (Index texture : {row.color0.texture, row.color1.texture, row.alpha_x.texture,
-                        row.alpha_y.texture}) {
+  for (Index texture :
+       {row.color0.texture, row.color1.texture, row.alpha_x.texture, row.alpha_y.texture,
+        row.alpha2_x.texture, row.alpha2_y.texture, row.coat_thickness.texture}) {
     if (texture != kNone) out.textures.push_back(texture);
   }
 }
 
 namespace {
 
-// The base below a coat acts on light as a spectrum; see coat_color.h. Textured colours
-// stay as they are: the correction is no linear map, so it would have to follow the
-// filter and the arithmetic of textures, and images of real surfaces change by less than
-// 1 %.
+// The base below a coat acts on light as a spectrum; see coat_color.h.
 void SetBaseColor(MaterialTable& table, std::size_t i) {
   const auto kind = static_cast<ShadeKind>(table.kind[i]);
   const bool diffuse_base =
@@ -74,21 +78,76 @@ void SetBaseColor(MaterialTable& table, std::size_t i) {
 
 }  // namespace
 
+namespace {
+
+// Where a coat varies, the colour of its base is corrected for this node of the roughness
+// (alpha 1/3) and a clear medium: the correction is small, and changes little with both.
+constexpr int kTypicalAlpha = 6;
+
+// Roughnesses of the tables of a coat, and thicknesses; see kCoatAlphas.
+std::vector<double> Alphas(const Coat& coat) {
+  if (coat.alpha) return {*coat.alpha};
+  std::vector<double> alphas;
+  for (int i = 0; i + 1 < kCoatAlphas; ++i) {
+    const double part = i / (kCoatAlphas - 1.0);
+    alphas.push_back(part / (1 - part));
+  }
+  alphas.push_back(kRoughestCoat);
+  return alphas;
+}
+
+std::vector<double> Thicknesses(const Coat& coat) {
+  if (coat.thickness) return {*coat.thickness};
+  std::vector<double> thicknesses;
+  for (int i = 0; i + 1 < kCoatDepths; ++i) {
+    const double part = i / (kCoatDepths - 1.0);
+    thicknesses.push_back(-std::log1p(-part * part));
+  }
+  thicknesses.push_back(1e3);  // nothing passes
+  return thicknesses;
+}
+
+struct PlannedTable {
+  double alpha, eta, thickness;
+};
+
+// The first table of every coat; appends its tables to the list.
+std::vector<std::size_t> PlanTables(const std::map<Coat, std::int32_t>& coats,
+                                    std::vector<PlannedTable>& tables) {
+  std::vector<std::size_t> first(coats.size());
+  for (const auto& [coat, at] : coats) {
+    first[static_cast<std::size_t>(at)] = tables.size();
+    for (double thickness : Thicknesses(coat)) {
+      for (double alpha : Alphas(coat)) tables.push_back({alpha, coat.eta, thickness});
+    }
+  }
+  return first;
+}
+
+}  // namespace
+
 void AddCoatTables(const std::map<Coat, std::int32_t>& coats, MaterialTable& table) {
-  std::vector<Coat> list(coats.size());
-  for (const auto& [coat, at] : coats) list[static_cast<std::size_t>(at)] = coat;
-  std::vector<CoatTable> tables(list.size());
-  ParallelFor(list.size(),
-              [&](std::size_t i) { tables[i] = std::apply(ComputeCoatTable, list[i]); });
+  std::vector<PlannedTable> planned;
+  const std::vector<std::size_t> first = PlanTables(coats, planned);
+  std::vector<CoatTable> tables(planned.size());
+  ParallelFor(planned.size(), [&](std::size_t i) {
+    tables[i] = ComputeCoatTable(planned[i].alpha, planned[i].eta, planned[i].thickness);
+  });
   for (const CoatTable& t : tables) {
     table.coat_transmittance.insert(table.coat_transmittance.end(),
                                     std::begin(t.transmittance),
                                     std::end(t.transmittance));
+    table.coat_internals.push_back(t.internal_reflectance);
   }
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (table.coat[i] < 0) continue;
-    const auto at = static_cast<std::size_t>(table.coat[i] / kCoatTableSize);
-    table.coat_internal[i] = tables[at].internal_reflectance;
+    const std::size_t at = first[static_cast<std::size_t>(table.coat[i])];
+    table.coat[i] = static_cast<std::int32_t>(at) * kCoatTableSize;
+    const bool alphas = table.alpha_x_texture[i] >= 0 || table.alpha_y_texture[i] >= 0;
+    table.coat_alphas[i] = alphas ? kCoatAlphas : 1;
+    table.coat_depths[i] = table.thickness_texture[i] >= 0 ? kCoatDepths : 1;
+    const std::size_t typical = at + (alphas ? kTypicalAlpha : 0);
+    table.coat_internal[i] = tables[typical].internal_reflectance;
     SetBaseColor(table, i);
   }
 }

@@ -1,10 +1,11 @@
 // One material on its way into MaterialTable.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
-#include <tuple>
 
 #include "src/compile/materials.h"
 #include "src/compiled/scene.h"
@@ -20,23 +21,29 @@ inline constexpr double kMinAlpha = 1e-4;
 struct MaterialRow {
   ShadeKind kind = ShadeKind::kDiffuse;
   ColorValue color0, color1;
-  FloatValue alpha_x, alpha_y;
-  double alpha2_x = 0, alpha2_y = 0, eta = 1;
+  FloatValue alpha_x, alpha_y, alpha2_x, alpha2_y;
+  double eta = 1;
   std::int32_t coat = -1;  // index of the coat, not yet an offset
-  double coat_thickness = 0;
+  FloatValue coat_thickness;
   std::uint32_t coat_depth = 0;
   bool remap = false;
   std::int32_t mix[2] = {-1, -1};
   std::string name;
 };
 
-/// Coats that are equal share a table.
-using Coat = std::tuple<double, double, double>;  // alpha, eta, thickness
+/// What the tables of a coat depend on; coats that are equal share them. No alpha or no
+/// thickness: it is textured.
+struct Coat {
+  std::optional<double> alpha;
+  double eta = 1;
+  std::optional<double> thickness;
+  friend auto operator<=>(const Coat&, const Coat&) = default;
+};
 
 /// Appends the row to every column, and its textures to the list of those in use.
 void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out);
 
-/// Computes the table of every coat, in parallel, and completes the rows that have one.
+/// Computes the tables of every coat, in parallel, and completes the rows that have one.
 void AddCoatTables(const std::map<Coat, std::int32_t>& coats, MaterialTable& table);
 
 }  // namespace lanelight

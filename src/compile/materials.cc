@@ -41,6 +41,9 @@ class Builder {
   ColorValue Color(const ColorValue& v) const { return constants_.Fold(v); }
   FloatValue Alpha(const FloatValue& v, bool remap) const;
   ColorValue Reflectance(const ColorValue& v) const;
+  ColorValue Derived(TextureKind kind, const ColorValue& from, double amount);
+  ColorValue Scaled(const ColorValue& value, double scale);
+  void CorrectBase(MaterialTable& table, std::size_t i);
 
   const SceneDescription& d_;
   const CompileOptions& options_;
@@ -48,6 +51,7 @@ class Builder {
   std::vector<std::int32_t> index_;
   std::vector<MaterialRow> rows_;
   std::map<Coat, std::int32_t> coats_;
+  std::vector<Texture> derived_;
 };
 
 bool IsTextured(const ColorValue& v) { return v.texture != kNone; }
@@ -94,24 +98,35 @@ void Builder::Diffuse(const Material& m, MaterialRow& row) {
 void Builder::Metal(const Material& m, double eta_above, MaterialRow& row) {
   if (m.has_reflectance) {
     const ColorValue reflectance = Color(m.reflectance);
+    row.color0 = {Rgb{1, 1, 1} / eta_above, kNone};
     if (IsTextured(reflectance)) {
-      Unsupported(m,
-                  "a textured \"reflectance\" of a conductor is not supported; give a "
-                  "constant reflectance, or \"eta\" and \"k\"");
+      row.color1 = Derived(TextureKind::kMetalExtinction, reflectance, 1 / eta_above);
+      return;
     }
     const Rgb r = Clamped(reflectance.constant, kMaxMetalReflectance);
     const auto k = [](double x) { return 2 * std::sqrt(x / (1 - x)); };
-    row.color0 = {{1, 1, 1}, kNone};
-    row.color1 = {{k(r.x), k(r.y), k(r.z)}, kNone};
+    row.color1 = {Rgb{k(r.x), k(r.y), k(r.z)} / eta_above, kNone};
   } else {
-    row.color0 = Color(m.eta);
-    row.color1 = Color(m.k);
-    if (IsTextured(row.color0) || IsTextured(row.color1)) {
-      Unsupported(m, "textured \"eta\" or \"k\" are not supported; give constants");
-    }
+    row.color0 = Scaled(Color(m.eta), 1 / eta_above);
+    row.color1 = Scaled(Color(m.k), 1 / eta_above);
   }
-  row.color0.constant *= 1 / eta_above;
-  row.color1.constant *= 1 / eta_above;
+}
+
+// A texture made of another one; its index goes on where those of the file end.
+ColorValue Builder::Derived(TextureKind kind, const ColorValue& from, double amount) {
+  Texture texture;
+  texture.kind = kind;
+  texture.name = d_.textures[static_cast<std::size_t>(from.texture)].name;
+  texture.where = d_.textures[static_cast<std::size_t>(from.texture)].where;
+  texture.tex1 = from;
+  texture.amount.constant = amount;
+  derived_.push_back(std::move(texture));
+  return {{}, static_cast<Index>(d_.textures.size() + derived_.size()) - 1};
+}
+
+ColorValue Builder::Scaled(const ColorValue& value, double scale) {
+  if (!IsTextured(value)) return {value.constant * scale, kNone};
+  return scale == 1 ? value : Derived(TextureKind::kScale, value, scale);
 }
 
 FloatValue Builder::Alpha(const FloatValue& v, bool remap) const {
@@ -141,17 +156,17 @@ void Builder::CoatOf(const Material& m, MaterialRow& row) {
                                m.coat_albedo.x, m.coat_albedo.y, m.coat_albedo.z));
   }
   Interface(m, row);
-  if (IsTextured(row.alpha_x) || IsTextured(row.alpha_y)) {
-    Unsupported(m, "a textured roughness of a coat is not supported; give a constant");
+  row.coat_thickness = constants_.Fold(FloatValue{m.thickness, m.thickness_texture});
+  Coat coat = {std::nullopt, m.interface_eta, std::nullopt};
+  if (IsSmooth(row)) {
+    coat.alpha = 0;
+  } else if (!IsTextured(row.alpha_x) && !IsTextured(row.alpha_y)) {
+    coat.alpha = std::sqrt(std::max(row.alpha_x.constant, kMinAlpha) *
+                           std::max(row.alpha_y.constant, kMinAlpha));
   }
-  const double alpha = IsSmooth(row)
-                           ? 0
-                           : std::sqrt(std::max(row.alpha_x.constant, kMinAlpha) *
-                                       std::max(row.alpha_y.constant, kMinAlpha));
+  if (!IsTextured(row.coat_thickness)) coat.thickness = row.coat_thickness.constant;
   const auto next = static_cast<std::int32_t>(coats_.size());
-  row.coat =
-      coats_.try_emplace({alpha, m.interface_eta, m.thickness}, next).first->second;
-  row.coat_thickness = m.thickness;
+  row.coat = coats_.try_emplace(coat, next).first->second;
   row.coat_depth = static_cast<std::uint32_t>(m.coat_max_depth);
 }
 
@@ -188,24 +203,14 @@ MaterialRow Builder::MakeRow(const Material& m) {
     case MaterialKind::kCoatedConductor: {
       CoatOf(m, row);
       Metal(m, m.interface_eta, row);
-      const FloatValue x = Alpha(m.conductor_uroughness, m.remap_roughness);
-      const FloatValue y = Alpha(m.conductor_vroughness, m.remap_roughness);
-      if (IsTextured(x) || IsTextured(y)) {
-        Unsupported(m,
-                    "a textured roughness of a metal below a coat is not supported; "
-                    "give a constant");
-      }
-      row.alpha2_x = x.constant;
-      row.alpha2_y = y.constant;
+      row.alpha2_x = Alpha(m.conductor_uroughness, m.remap_roughness);
+      row.alpha2_y = Alpha(m.conductor_vroughness, m.remap_roughness);
       row.kind = ShadeKind::kCoatedConductor;
       break;
     }
     case MaterialKind::kDiffuseTransmission:
       row.color0 = Reflectance(m.reflectance);
       row.color1 = Reflectance(m.transmittance);
-      if (IsTextured(row.color1)) {
-        Unsupported(m, "a textured \"transmittance\" is not supported; give a constant");
-      }
       row.kind = ShadeKind::kDiffuseTransmission;
       break;
     case MaterialKind::kMix:
@@ -284,7 +289,24 @@ CompiledMaterials Builder::Finish() {
   out.index = index_;
   for (const MaterialRow& row : rows_) AddMaterialRow(row, out);
   AddCoatTables(coats_, out.table);
+  for (std::size_t i = 0; i < out.table.size(); ++i) CorrectBase(out.table, i);
+  for (const Texture& t : derived_) {
+    out.textures.push_back(static_cast<Index>(d_.textures.size() + out.derived.size()));
+    out.derived.push_back(t);
+  }
   return out;
+}
+
+// Textured colours below a coat, as SetBaseColor (material_row.cc) does with constants.
+void Builder::CorrectBase(MaterialTable& table, std::size_t i) {
+  const auto kind = static_cast<ShadeKind>(table.kind[i]);
+  const bool diffuse_base =
+      kind == ShadeKind::kCoatedDiffuseSmooth || kind == ShadeKind::kCoatedDiffuseRough;
+  if (!diffuse_base || table.color0_texture[i] < 0) return;
+  const ColorValue color = {{}, table.color0_texture[i]};
+  table.color0_texture[i] =
+      Derived(TextureKind::kCoatedBase, color, table.coat_internal[i]).texture;
+  derived_.back().octaves = static_cast<int>((table.coat_depth[i] + 1) / 2);
 }
 
 }  // namespace

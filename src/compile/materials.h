@@ -14,6 +14,7 @@ struct CompiledMaterials {
   MaterialTable table;              // only materials that are used
   std::vector<std::int32_t> index;  // of each described material in it; -1 = unused
   std::vector<Index> textures;      // that the table refers to
+  std::vector<Texture> derived;     // made for it; their indices follow the description's
 };
 
 /// `used`: material indices that shapes refer to. Mixes bring in what they mix; a mix

@@ -1,11 +1,16 @@
 #include "src/compile/texture_programs.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/compile/coat_fit.h"
 #include "src/compile/texture_images.h"
+#include "src/compile/texture_places.h"
 
 namespace lanelight {
 namespace {
@@ -14,16 +19,22 @@ namespace {
 class ProgramBuilder {
  public:
   ProgramBuilder(const std::vector<Texture>& textures, const TextureImageLoader& images,
-                 TextureTable& table)
-      : textures_(textures), images_(images), table_(table) {}
+                 const Transform& world_from_scene, TextureTable& table)
+      : textures_(textures),
+        images_(images),
+        world_from_scene_(world_from_scene),
+        table_(table) {}
 
   void Build(Index texture) {
     register_of_.clear();
     const std::set<Index> used = Reachable(texture);
     const std::size_t begin = table_.nodes.size();
     for (Index t : used) AddNode(t);
+    const bool uses_place = std::any_of(used.begin(), used.end(),
+                                        [&](Index t) { return UsesPlace(textures_[t]); });
     table_.programs.push_back({static_cast<std::int32_t>(begin),
-                               static_cast<std::int32_t>(table_.nodes.size() - begin)});
+                               static_cast<std::int32_t>(table_.nodes.size() - begin),
+                               uses_place});
   }
 
  private:
@@ -52,8 +63,18 @@ class ProgramBuilder {
   }
 
   static bool HasOperands(const Texture& t) {
-    return t.kind == TextureKind::kScale || t.kind == TextureKind::kMix ||
-           t.kind == TextureKind::kCheckerboard;
+    switch (t.kind) {
+      case TextureKind::kScale:
+      case TextureKind::kMix:
+      case TextureKind::kCheckerboard:
+      case TextureKind::kDirectionMix:
+      case TextureKind::kDots:
+      case TextureKind::kMetalExtinction:
+      case TextureKind::kCoatedBase:
+        return true;
+      default:
+        return false;
+    }
   }
 
   void AddNode(Index index) {
@@ -67,10 +88,17 @@ class ProgramBuilder {
       const double amount = t.amount.constant;
       SetOperand(node, 2, t.amount.texture, {amount, amount, amount});
     }
+    for (int i = 0; t.kind == TextureKind::kBilinear && i < 4; ++i) {
+      SetConstant(node, i, t.corners[i].constant);
+    }
     node.su = static_cast<float>(t.mapping.su),
     node.sv = static_cast<float>(t.mapping.sv);
     node.du = static_cast<float>(t.mapping.du),
     node.dv = static_cast<float>(t.mapping.dv);
+    SetPlace(t, world_from_scene_, node);
+    if (t.kind == TextureKind::kCoatedBase) {
+      node.fit = CoatFitOffset(t.amount.constant, t.octaves);
+    }
     if (t.kind == TextureKind::kImage) {
       node.image = images_.ImageIndex(t);
       node.wrap = t.wrap;
@@ -80,6 +108,19 @@ class ProgramBuilder {
     }
     register_of_[index] = static_cast<std::int32_t>(register_of_.size());
     table_.nodes.push_back(node);
+  }
+
+  // Coats that are nearly alike share a table: the correction is small, so that two
+  // digits of what it depends on are plenty.
+  std::int32_t CoatFitOffset(double internal, int bounces) {
+    const int hundredths = static_cast<int>(std::lround(internal * 100));
+    const auto at = static_cast<std::int32_t>(table_.fits.size());
+    const auto [it, is_new] = fits_.try_emplace({hundredths, bounces}, at);
+    if (is_new) {
+      const std::vector<float> fit = coat_fits_.Table(hundredths / 100.0, bounces);
+      table_.fits.insert(table_.fits.end(), fit.begin(), fit.end());
+    }
+    return it->second;
   }
 
   void SetOperand(TextureNode& node, int slot, Index texture, const Rgb& constant) {
@@ -94,18 +135,22 @@ class ProgramBuilder {
 
   const std::vector<Texture>& textures_;
   const TextureImageLoader& images_;
+  const Transform& world_from_scene_;
   TextureTable& table_;
   std::map<Index, std::int32_t> register_of_;
+  std::map<std::pair<int, int>, std::int32_t> fits_;
+  CoatFits coat_fits_;
 };
 
 }  // namespace
 
 TextureTable CompileTextures(const std::vector<Texture>& textures,
+                             const Transform& world_from_scene,
                              std::vector<Note>* notes) {
   TextureTable table;
   TextureImageLoader images(textures);
   images.Load(table, notes);
-  ProgramBuilder builder(textures, images, table);
+  ProgramBuilder builder(textures, images, world_from_scene, table);
   for (std::size_t i = 0; i < textures.size(); ++i) builder.Build(static_cast<Index>(i));
   return table;
 }

@@ -40,9 +40,8 @@ std::optional<Rgb> TextureConstants::ConstantOf(const Texture& t) const {
       if (a && b && w) return *a * (1 - *w) + *b * *w;
       return std::nullopt;
     }
-    case TextureKind::kCheckerboard:
-    case TextureKind::kImage:
-      return std::nullopt;
+    default:
+      return std::nullopt;  // depends on the point
   }
   return std::nullopt;
 }

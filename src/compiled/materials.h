@@ -14,6 +14,13 @@ namespace lanelight {
 /// mu = |cos theta| at (i / (kCoatTableSize - 1)); see src/compile/coat_table.h.
 inline constexpr int kCoatTableSize = 64;
 
+/// Nodes of the tables of a coat whose roughness varies: alpha / (1 + alpha) = i /
+/// (kCoatAlphas - 1), the last one kRoughestCoat; and of one whose thickness varies:
+/// sqrt(1 - exp(-thickness)) = i / (kCoatDepths - 1), so that they lie close where a coat
+/// is nearly clear and what it absorbs rises steeply.
+inline constexpr int kCoatAlphas = 25, kCoatDepths = 13;
+inline constexpr float kRoughestCoat = 1e4f;
+
 /// One column per parameter, one entry per material. A texture index >= 0 replaces the
 /// constant. What color0 and color1 are depends on the kind:
 ///   diffuse*, coateddiffuse*: color0 = reflectance
@@ -31,12 +38,17 @@ struct MaterialTable {
   AlignedVector<std::int32_t> coat;     // offset of its table in coat_transmittance, -1
   AlignedVector<float> coat_internal;   // mean internal reflectance under the coat
   AlignedVector<float> coat_thickness;  // of a coat: the medium absorbs exp(-t / cos)
+  // Where they vary, a coat has a grid of tables: 1 or kCoatAlphas over the roughness for
+  // each of 1 or kCoatDepths over the thickness.
+  AlignedVector<std::int32_t> coat_alphas, coat_depths;
   AlignedVector<std::uint32_t> coat_depth;  // layer crossings at most (pbrt's maxdepth)
   AlignedVector<std::int32_t> color0_texture, color1_texture;
   AlignedVector<std::int32_t> alpha_x_texture, alpha_y_texture;
+  AlignedVector<std::int32_t> alpha2_x_texture, alpha2_y_texture, thickness_texture;
   AlignedVector<std::uint32_t> alpha_remap;  // 1: textured roughness goes through sqrt
   AlignedVector<std::int32_t> mix0, mix1;
-  AlignedVector<float> coat_transmittance;  // kCoatTableSize per distinct coat
+  AlignedVector<float> coat_transmittance;  // kCoatTableSize per table
+  AlignedVector<float> coat_internals;      // per table; used where coats vary
   std::vector<std::string> names;
   std::size_t size() const { return kind.size(); }
 };

@@ -29,10 +29,17 @@ struct TextureImage {
 /// -1 is the constant beside it.
 struct TextureNode {
   TextureKind kind = TextureKind::kConstant;
-  std::int32_t operand[3] = {-1, -1, -1};  // tex1, tex2, amount
-  float constant[3][3] = {};               // of tex1 (kConstant: the value), tex2, amount
-  float su = 1, sv = 1, du = 0, dv = 0;    // uv mapping
-  std::int32_t image = -1;                 // kImage: index into TextureTable::images
+  std::int32_t operand[4] = {-1, -1, -1, -1};  // tex1, tex2, amount; or four corners
+  float constant[4][3] = {};             // of tex1 (kConstant: the value), tex2, amount
+  float su = 1, sv = 1, du = 0, dv = 0;  // uv mapping
+  MappingKind mapping = MappingKind::kUv;
+  float place[3][4] = {};  // rows times (p, 1), p of the scene: where a pattern is looked
+                           // up, or a mapping begins; kDirectionMix: row 0 times normal
+  std::int32_t octaves = 0;            // kFbm, kWrinkled, kMarble
+  float roughness = 0, variation = 0;  // the same; kMarble
+  bool solid = false;                  // kCheckerboard: of three dimensions
+  std::int32_t fit = -1;               // kCoatedBase: offset into TextureTable::fits
+  std::int32_t image = -1;             // kImage: index into TextureTable::images
   WrapMode wrap = WrapMode::kRepeat;
   bool bilinear = true;
   bool invert = false;  // max(0, 1 - scale * texel)
@@ -42,6 +49,7 @@ struct TextureNode {
 /// The nodes [begin, begin + count) of TextureTable::nodes; the last one is the result.
 struct TextureProgram {
   std::int32_t begin = 0, count = 0;
+  bool uses_place = false;  // depends on the place or the normal, not on (u, v) alone
 };
 
 struct TextureTable {
@@ -49,6 +57,7 @@ struct TextureTable {
   std::vector<TextureNode> nodes;
   std::vector<TextureImage> images;  // each file once per use
   AlignedVector<float> decode;       // 256 linear values per encoding in use
+  AlignedVector<float> fits;         // src/compile/coat_fit.h
   std::size_t size() const { return programs.size(); }
 };
 

@@ -63,15 +63,6 @@ void ReadConductor(ParseState& state, ParamSet& params, const std::string& prefi
       TexturedColor(state, params, "reflectance", {0.5, 0.5, 0.5}, SpectrumUse::kAlbedo);
 }
 
-double Untextured(ParamSet& params, std::string_view name, double absent, double low,
-                  double high) {
-  const Param* param = params.Find(name, {ParamType::kFloat, ParamType::kTexture});
-  if (param != nullptr && param->type == ParamType::kTexture) {
-    params.Fail(*param, "this parameter cannot be textured; supported: a float");
-  }
-  return params.Float(name, absent, low, high);
-}
-
 // What coateddiffuse and coatedconductor share: the medium between the layers and the
 // depth of the random walk.
 void ReadCoat(ParseState& state, ParamSet& params, const std::string& prefix,
@@ -79,8 +70,11 @@ void ReadCoat(ParseState& state, ParamSet& params, const std::string& prefix,
   material->interface_eta = DielectricEta(state, params, prefix + "eta", 1.5);
   ReadRoughness(state, params, prefix, &material->uroughness, &material->vroughness);
   material->remap_roughness = params.Bool("remaproughness", true);
-  material->thickness = Untextured(params, "thickness", 0.01, 0, 1e6);
-  material->coat_g = Untextured(params, "g", 0, -0.9999, 0.9999);
+  const FloatValue thickness = TexturedFloat(state, params, "thickness", 0.01, 0, 1e6);
+  material->thickness = thickness.constant;
+  material->thickness_texture = thickness.texture;
+  // Without a scattering medium it means nothing, textured or not.
+  material->coat_g = TexturedFloat(state, params, "g", 0, -0.9999, 0.9999).constant;
   const ColorValue albedo =
       TexturedColor(state, params, "albedo", {0, 0, 0}, SpectrumUse::kAlbedo);
   if (albedo.texture != kNone) {

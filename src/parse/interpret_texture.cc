@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "src/parse/interpret.h"
 #include "src/core/suggest.h"
@@ -7,6 +8,13 @@ namespace lanelight {
 namespace {
 
 constexpr double kHuge = 1e30;
+
+Vec3d VectorOf(ParamSet& params, std::string_view name, Vec3d absent) {
+  const Param* param = params.Find(name, {ParamType::kVector3});
+  if (param == nullptr) return absent;
+  if (param->numbers.size() != 3) params.Fail(*param, "one vector is wanted");
+  return {param->numbers[0], param->numbers[1], param->numbers[2]};
+}
 
 // A texture operand: colour or number, stored as a colour either way.
 ColorValue Operand(ParseState& state, ParamSet& params, std::string_view name,
@@ -20,11 +28,17 @@ ColorValue Operand(ParseState& state, ParamSet& params, std::string_view name,
 }
 
 void ReadMapping(ParamSet& params, UvMapping* mapping) {
-  params.Choice("mapping", {"uv"});
+  constexpr MappingKind kMappings[] = {MappingKind::kUv, MappingKind::kSpherical,
+                                       MappingKind::kCylindrical, MappingKind::kPlanar};
+  mapping->kind =
+      kMappings[params.Choice("mapping", {"uv", "spherical", "cylindrical", "planar"})];
+  // All are read whatever the mapping: pbrt takes no notice of the others.
   mapping->su = params.Float("uscale", 1, -kHuge, kHuge);
   mapping->sv = params.Float("vscale", 1, -kHuge, kHuge);
   mapping->du = params.Float("udelta", 0, -kHuge, kHuge);
   mapping->dv = params.Float("vdelta", 0, -kHuge, kHuge);
+  mapping->v1 = VectorOf(params, "v1", {1, 0, 0});
+  mapping->v2 = VectorOf(params, "v2", {0, 1, 0});
 }
 
 // "sRGB", "linear" or "gamma <number>".
@@ -84,54 +98,128 @@ void ReadImage(ParseState& state, ParamSet& params, Texture* texture) {
 }
 
 void ReadCheckerboard(ParseState& state, ParamSet& params, Texture* texture) {
-  const int dimension = params.Integer("dimension", 2, 2, 3);
-  if (dimension == 3) {
-    params.Fail(*params.Find("dimension", {}),
-                "3-dimensional checkerboards are not "
-                "supported; 2 is");
-  }
+  texture->dimension = params.Integer("dimension", 2, 2, 3);
   texture->tex1 = Operand(state, params, "tex1", 1, texture->is_float);
   texture->tex2 = Operand(state, params, "tex2", 0, texture->is_float);
   ReadMapping(params, &texture->mapping);
+}
+
+void ReadConstant(ParseState& state, ParamSet& params, Texture* texture) {
+  const Param* value = params.Find(
+      "value", texture->is_float
+                   ? std::initializer_list<ParamType>{ParamType::kFloat}
+                   : std::initializer_list<ParamType>{
+                         ParamType::kRgb, ParamType::kSpectrum, ParamType::kBlackbody});
+  texture->value = value == nullptr
+                       ? Rgb{1, 1, 1}
+                       : Operand(state, params, "value", 1, texture->is_float).constant;
+}
+
+void ReadScale(ParseState& state, ParamSet& params, Texture* texture) {
+  texture->tex1 = Operand(state, params, "tex", 1, texture->is_float);
+  texture->amount = TexturedFloat(state, params, "scale", 1, -kHuge, kHuge);
+}
+
+void ReadMix(ParseState& state, ParamSet& params, Texture* texture) {
+  texture->tex1 = Operand(state, params, "tex1", 0, texture->is_float);
+  texture->tex2 = Operand(state, params, "tex2", 1, texture->is_float);
+  texture->amount = TexturedFloat(state, params, "amount", 0.5, 0, 1);
+}
+
+void ReadDirectionMix(ParseState& state, ParamSet& params, Texture* texture) {
+  texture->tex1 = Operand(state, params, "tex1", 0, texture->is_float);
+  texture->tex2 = Operand(state, params, "tex2", 1, texture->is_float);
+  const Vec3d direction = state.graphics.ctm.Vector(VectorOf(params, "dir", {0, 1, 0}));
+  if (direction == Vec3d{}) {
+    throw InputError(params.where(), params.object() + " has the direction 0 0 0");
+  }
+  texture->direction = Normalize(direction);
+}
+
+void ReadDots(ParseState& state, ParamSet& params, Texture* texture) {
+  texture->tex1 = Operand(state, params, "inside", 1, texture->is_float);
+  texture->tex2 = Operand(state, params, "outside", 0, texture->is_float);
+  ReadMapping(params, &texture->mapping);
+}
+
+// pbrt takes constants at the corners, no textures.
+void ReadBilinear(ParseState& state, ParamSet& params, Texture* texture) {
+  constexpr const char* kCorners[] = {"v00", "v01", "v10", "v11"};
+  for (int i = 0; i < 4; ++i) {
+    texture->corners[i] = Operand(state, params, kCorners[i], i % 2, texture->is_float);
+    if (texture->corners[i].texture == kNone) continue;
+    params.Fail(*params.Find(kCorners[i], {}), "a corner takes a constant, no texture");
+  }
+  ReadMapping(params, &texture->mapping);
+}
+
+constexpr int kMostOctaves = 64;
+
+void ReadOctaves(ParseState&, ParamSet& params, Texture* texture) {
+  texture->octaves = params.Integer("octaves", 8, 0, kMostOctaves);
+  texture->roughness = params.Float("roughness", 0.5, -kHuge, kHuge);
+}
+
+void ReadMarble(ParseState& state, ParamSet& params, Texture* texture) {
+  ReadOctaves(state, params, texture);
+  texture->noise_scale = params.Float("scale", 1, -kHuge, kHuge);
+  texture->variation = params.Float("variation", 0.2, -kHuge, kHuge);
+}
+
+void ReadNothing(ParseState&, ParamSet&, Texture*) {}
+
+struct TextureType {
+  TextureKind kind;
+  void (*read)(ParseState&, ParamSet&, Texture*);
+  bool as_float = true, as_spectrum = true;  // pbrt has it as
+};
+
+const std::map<std::string, TextureType>& TextureTypes() {
+  static const std::map<std::string, TextureType> types = {
+      {"constant", {TextureKind::kConstant, ReadConstant}},
+      {"scale", {TextureKind::kScale, ReadScale}},
+      {"mix", {TextureKind::kMix, ReadMix}},
+      {"directionmix", {TextureKind::kDirectionMix, ReadDirectionMix}},
+      {"bilerp", {TextureKind::kBilinear, ReadBilinear}},
+      {"imagemap", {TextureKind::kImage, ReadImage}},
+      {"checkerboard", {TextureKind::kCheckerboard, ReadCheckerboard}},
+      {"dots", {TextureKind::kDots, ReadDots}},
+      {"fbm", {TextureKind::kFbm, ReadOctaves, true, false}},
+      {"wrinkled", {TextureKind::kWrinkled, ReadOctaves, true, false}},
+      {"windy", {TextureKind::kWindy, ReadNothing, true, false}},
+      {"marble", {TextureKind::kMarble, ReadMarble, false, true}}};
+  return types;
+}
+
+const TextureType& FindType(const std::string& name, bool is_float,
+                            const SourceLocation& where) {
+  const auto found = TextureTypes().find(name);
+  const auto fits = [&](const TextureType& type) {
+    return is_float ? type.as_float : type.as_spectrum;
+  };
+  if (found != TextureTypes().end() && fits(found->second)) return found->second;
+  if (name == "ptex") {
+    throw InputError(where, "texture \"ptex\": Ptex files are not supported");
+  }
+  std::vector<std::string> names;
+  for (const auto& [other, type] : TextureTypes()) {
+    if (fits(type)) names.push_back(other);
+  }
+  ThrowUnknown(where, is_float ? "float texture" : "spectrum texture", name, names);
 }
 
 }  // namespace
 
 void InterpretTexture(ParseState& state, const std::string& name, bool is_float,
                       const std::string& type, ParamSet& params) {
+  const TextureType& found = FindType(type, is_float, params.where());
   Texture texture;
+  texture.kind = found.kind;
   texture.name = name;
   texture.where = params.where();
   texture.is_float = is_float;
-  if (type == "constant") {
-    texture.kind = TextureKind::kConstant;
-    const Param* value = params.Find(
-        "value", is_float
-                     ? std::initializer_list<ParamType>{ParamType::kFloat}
-                     : std::initializer_list<ParamType>{
-                           ParamType::kRgb, ParamType::kSpectrum, ParamType::kBlackbody});
-    texture.value = value == nullptr
-                        ? Rgb{1, 1, 1}
-                        : Operand(state, params, "value", 1, is_float).constant;
-  } else if (type == "scale") {
-    texture.kind = TextureKind::kScale;
-    texture.tex1 = Operand(state, params, "tex", 1, is_float);
-    texture.amount = TexturedFloat(state, params, "scale", 1, -kHuge, kHuge);
-  } else if (type == "mix") {
-    texture.kind = TextureKind::kMix;
-    texture.tex1 = Operand(state, params, "tex1", 0, is_float);
-    texture.tex2 = Operand(state, params, "tex2", 1, is_float);
-    texture.amount = TexturedFloat(state, params, "amount", 0.5, 0, 1);
-  } else if (type == "checkerboard") {
-    texture.kind = TextureKind::kCheckerboard;
-    ReadCheckerboard(state, params, &texture);
-  } else if (type == "imagemap") {
-    texture.kind = TextureKind::kImage;
-    ReadImage(state, params, &texture);
-  } else {
-    ThrowUnknown(params.where(), "texture", type,
-                 {"constant", "scale", "mix", "checkerboard", "imagemap"});
-  }
+  texture.texture_from_world = state.graphics.ctm.Inverse();
+  found.read(state, params, &texture);
   params.CheckAllUsed();
   const Index index = static_cast<Index>(state.scene.textures.size());
   (is_float ? state.float_textures : state.color_textures)[name] = index;

@@ -94,8 +94,6 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(f32, alpha_x, ({kTexturedRoughness}), kSurface, (), "GGX alpha along the tangent")  \
   X(f32, alpha_y, ({kTexturedRoughness}), kSurface, (), "GGX alpha across it")          \
   X(f32, coat_thickness, ({kTexturedCoat}), kSurface, (), "thickness of a coat") \
-  X(f32, coat_g, ({kTexturedCoat}), kSurface, (), "asymmetry of the medium in a coat") \
-  LANELIGHT_RGB(X, f32, coat_albedo, ({kTexturedCoat}), kSurface, (), "albedo of the medium in a coat") \
   LANELIGHT_2(X, f32, alpha2, ({kTexturedCoat}), kSurface, (), "GGX alpha of the metal under a coat") \
   /* sample points of the bounce */                                                       \
   X(f32, u_lobe, (KindsWith(kChoosesLobe)), kBounce, (), "choice of lobe")              \
@@ -259,9 +257,10 @@ inline const FieldSet kTangent = {Field::tg_x, Field::tg_y, Field::tg_z};
 inline const FieldSet kTangents = {Field::tg_x, Field::tg_y, Field::tg_z,
                                    Field::tv_x, Field::tv_y, Field::tv_z};
 inline const FieldSet kUv = {Field::uv_u, Field::uv_v};
-inline const FieldSet kParameters = {Field::color0_r, Field::color0_g, Field::color0_b,
-                                     Field::color1_r, Field::color1_g, Field::color1_b,
-                                     Field::alpha_x,  Field::alpha_y};
+inline const FieldSet kParameters = {
+    Field::color0_r, Field::color0_g, Field::color0_b,      Field::color1_r,
+    Field::color1_g, Field::color1_b, Field::alpha_x,       Field::alpha_y,
+    Field::alpha2_0, Field::alpha2_1, Field::coat_thickness};
 inline const FieldSet kBouncePoints = {
     Field::u_lobe,    Field::u_bsdf_0,   Field::u_bsdf_1,   Field::u_select,
     Field::u_light_0, Field::u_light_1,  Field::u_roulette, Field::u_guide,

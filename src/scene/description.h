@@ -45,7 +45,12 @@ enum class TextureKind {
   kWrinkled,
   kWindy,
   kMarble,
-  kBilinear
+  kBilinear,
+  // Not of a file; made of other textures when materials are compiled:
+  kMetalExtinction,  // k of a metal of index 1 whose reflectance head-on is tex1, times
+                     // amount
+  kCoatedBase  // colour of tex1 below a coat (src/compile/coat_color.h); amount: its
+               // internal reflectance, octaves: bounces off the base
 };
 enum class WrapMode { kRepeat, kClamp, kBlack, kOctahedralSphere };
 enum class Encoding { kSrgb, kLinear, kGamma };
@@ -69,9 +74,10 @@ struct Texture {
   SourceLocation where;
   bool is_float = false;
   Rgb value;              // kConstant
-  ColorValue tex1, tex2;  // kScale uses tex1; kMix and kCheckerboard use both
+  ColorValue tex1, tex2;  // kScale uses tex1; kMix, kCheckerboard and kDirectionMix both;
+                          // kDots: inside, outside
   FloatValue amount;      // kScale: factor; kMix: weight of tex2
-  UvMapping mapping;      // kCheckerboard, kImage
+  UvMapping mapping;      // kCheckerboard, kImage, kDots, kBilinear
   std::string path;       // kImage: resolved path
   WrapMode wrap = WrapMode::kRepeat;
   Encoding encoding = Encoding::kSrgb;  // of 8-bit files
@@ -127,9 +133,8 @@ struct Material {
   bool remap_roughness = true;
   double thickness = 0.01;  // coats
   double coat_g = 0;
-  Rgb coat_albedo;  // coats: scattering albedo of the medium between
-  // The same where they are textured; kNone: as above.
-  Index thickness_texture = kNone, coat_g_texture = kNone, coat_albedo_texture = kNone;
+  Rgb coat_albedo;                  // coats: scattering albedo of the medium between
+  Index thickness_texture = kNone;  // replaces `thickness`
   int coat_max_depth = 10, coat_samples = 1;
   Index mix[2] = {kNone, kNone};
   FloatValue mix_amount{0.5, kNone};  // weight of mix[1]

@@ -16,7 +16,8 @@ bool HasSurfaces(const FeatureSet& f) {
 void RemoveScattering(FeatureSet& f) {
   f.Remove({Feature::kLights, Feature::kManyLights, Feature::kMis, Feature::kRefraction});
   f.Remove({Feature::kTextures, Feature::kUv, Feature::kTangents, Feature::kVertexNormals,
-            Feature::kTexturedRoughness, Feature::kMix});
+            Feature::kTexturedRoughness, Feature::kTexturedColor1, Feature::kTexturedCoat,
+            Feature::kTexturePlaces, Feature::kMix});
 }
 
 // A surface follows directions that are not its own choice.

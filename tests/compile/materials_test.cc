@@ -122,8 +122,14 @@ TEST_CASE("compile: conductors", "[scene][compile]") {
   AddTexture(d, Checker());
   m.reflectance.texture = 0;
   AddMaterial(d, m);
-  CHECK_THROWS_WITH(CompileMaterials(d, {0}, {}), Catch::Contains("scene.pbrt:100:1") &&
-                                                      Catch::Contains("reflectance"));
+  // A textured one becomes a texture of k.
+  const CompiledMaterials textured = CompileMaterials(d, {0}, {});
+  REQUIRE(textured.derived.size() == 1);
+  CHECK(textured.table.color1_texture[0] == 1);
+  CHECK(textured.table.color0_texture[0] == kNone);
+  CHECK(textured.table.color0_r[0] == 1);
+  CHECK(textured.derived[0].kind == TextureKind::kMetalExtinction);
+  CHECK(textured.derived[0].tex1.texture == 0);
 }
 
 TEST_CASE("compile: coats", "[scene][compile]") {
@@ -234,26 +240,43 @@ TEST_CASE("compile: mixes", "[scene][compile]") {
   CHECK_THROWS_WITH(CompileMaterials(d, {3}, {}), Catch::Contains("interface"));
 }
 
-TEST_CASE("compile: what a material cannot have", "[scene][compile]") {
+TEST_CASE("compile: textured layers of coats", "[scene][compile]") {
   SceneDescription d;
   AddTexture(d, Checker());
-  Material m = OfKind(MaterialKind::kConductor);
-  m.k.texture = 0;
-  AddMaterial(d, m);
-  m = OfKind(MaterialKind::kDiffuseTransmission);
-  m.transmittance.texture = 0;
-  AddMaterial(d, m);
-  m = OfKind(MaterialKind::kCoatedDiffuse);
-  m.uroughness.texture = 0;
-  AddMaterial(d, m);
-  m = OfKind(MaterialKind::kCoatedConductor);
-  m.conductor_vroughness.texture = 0;
-  AddMaterial(d, m);
-  CHECK_THROWS_WITH(CompileMaterials(d, {0}, {}), Catch::Contains("\"k\""));
-  CHECK_THROWS_WITH(CompileMaterials(d, {1}, {}), Catch::Contains("transmittance"));
-  CHECK_THROWS_WITH(CompileMaterials(d, {2}, {}), Catch::Contains("roughness of a coat"));
-  CHECK_THROWS_WITH(CompileMaterials(d, {3}, {}), Catch::Contains("below a coat"));
-  CHECK_NOTHROW(CompileMaterials(d, {}, {}));  // unused ones may be anything
+  Material m = OfKind(MaterialKind::kCoatedDiffuse);
+  m.remap_roughness = false;
+  m.uroughness.texture = m.vroughness.texture = 0;
+  AddMaterial(d, m);  // 0
+  m.thickness_texture = 0;
+  AddMaterial(d, m);  // 1
+  m.uroughness = m.vroughness = {0.3, kNone};
+  AddMaterial(d, m);  // 2
+  m.reflectance.texture = 0;
+  AddMaterial(d, m);  // 3
+  const CompiledMaterials c = CompileMaterials(d, {0, 1, 2, 3}, {});
+  const MaterialTable& t = c.table;
+  const auto grid = [&](std::size_t i) {
+    return std::pair{int(t.coat_alphas[i]), int(t.coat_depths[i])};
+  };
+  CHECK(grid(0) == std::pair{kCoatAlphas, 1});
+  CHECK(grid(1) == std::pair{kCoatAlphas, kCoatDepths});
+  CHECK(grid(2) == std::pair{1, kCoatDepths});
+  CHECK(t.coat[2] == t.coat[3]);
+  const std::size_t tables = kCoatAlphas * (1 + kCoatDepths) + kCoatDepths;
+  CHECK(t.coat_internals.size() == tables);
+  CHECK(t.coat_transmittance.size() == tables * kCoatTableSize);
+  // alpha / (1 + alpha) = 6/24.
+  const CoatTable third = ComputeCoatTable(1 / 3.0, 1.5, 0.01);
+  const auto first = static_cast<std::size_t>(t.coat[0]) / kCoatTableSize;
+  CHECK(t.coat_internals[first + 6] == Approx(third.internal_reflectance));
+  // The clear one is the first of those over the thickness.
+  const CoatTable clear = ComputeCoatTable(0.3, 1.5, 0);
+  const auto second = static_cast<std::size_t>(t.coat[2]) / kCoatTableSize;
+  CHECK(t.coat_internals[second] == clear.internal_reflectance);
+  REQUIRE(c.derived.size() == 1);  // the colour of the base of 3
+  CHECK(c.derived[0].kind == TextureKind::kCoatedBase);
+  CHECK(c.derived[0].octaves == 5);
+  CHECK(t.color0_texture[3] == 1);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ bool Geometry::AlphaAccepts(const Ray& ray, const Hit& hit, Random& random) cons
   if (alpha.texture != kNone) {
     LL_CHECK(texture_ != nullptr);
     const SurfacePoint at = Describe(ray, hit);
-    value = texture_(alpha.texture, at.u, at.v).x;
+    value = texture_(alpha.texture, {at.u, at.v, at.p, at.ng}).x;
   }
   return value >= 1 || random.Uniform() < value;
 }

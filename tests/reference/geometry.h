@@ -17,8 +17,14 @@ namespace lanelight::reference {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Value of texture `index` at surface coordinates (u, v).
-using TextureLookup = std::function<Rgb(Index index, double u, double v)>;
+/// Where a texture is looked up; p and n (unit, either way) in the world.
+struct TexturePoint {
+  double u = 0, v = 0;
+  Vec3d p, n;
+};
+
+/// Value of texture `index` at a point.
+using TextureLookup = std::function<Rgb(Index index, const TexturePoint& at)>;
 
 /// One triangle, sphere, disk, cylinder or plane, in the world.
 struct Primitive {

@@ -12,14 +12,14 @@ struct Lookup {
   Rgb Color(const ColorValue& value) const {
     if (value.texture == kNone) return value.constant;
     LL_CHECK(texture != nullptr);
-    return texture(value.texture, at.u, at.v);
+    return texture(value.texture, {at.u, at.v, at.p, at.ng});
   }
   double Float(const FloatValue& value) const {
     return Color({{value.constant, 0, 0}, value.texture}).x;
   }
   double Alpha(const FloatValue& roughness, bool remap) const {
     const double r = Float(roughness);
-    return remap ? std::sqrt(r) : r;
+    return remap ? std::sqrt(std::max(r, 0.0)) : std::max(r, 0.0);
   }
   Ggx Distribution(const FloatValue& u, const FloatValue& v, bool remap) const {
     Ggx ggx = {Alpha(u, remap), Alpha(v, remap)};
@@ -68,7 +68,7 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
   out.interface = look.Distribution(m->uroughness, m->vroughness, m->remap_roughness);
   out.metal = look.Distribution(m->conductor_uroughness, m->conductor_vroughness,
                                 m->remap_roughness);
-  out.thickness = m->thickness;
+  out.thickness = std::max(look.Float({m->thickness, m->thickness_texture}), 0.0);
   out.coat_max_depth = m->coat_max_depth;
   if (m->kind == MaterialKind::kConductor || m->kind == MaterialKind::kCoatedConductor) {
     const bool given = m->has_reflectance;

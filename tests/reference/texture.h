@@ -1,13 +1,18 @@
 // The scalar twin of kernels/texture: recursion, double precision, its own formulas.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "src/core/check.h"
 #include "src/image/image.h"
 #include "src/scene/description.h"
+#include "tests/reference/geometry.h"
+#include "tests/reference/pattern.h"
 
 namespace lanelight::reference {
 
@@ -22,37 +27,79 @@ class Textures {
     }
   }
 
-  /// Value of a texture at surface coordinates (u, v).
-  Rgb Eval(Index index, double u, double v) const {
+  /// Value of a texture at surface coordinates (u, v), if it does not depend on places.
+  Rgb Eval(Index index, double u, double v) const { return Eval(index, {u, v, {}, {}}); }
+
+  /// Value of a texture at a point.
+  Rgb Eval(Index index, const TexturePoint& at) const {
     const Texture& t = textures_[index];
+    const auto child = [&](const ColorValue& c) {
+      return c.texture == kNone ? c.constant : Eval(c.texture, at);
+    };
+    const double amount =
+        t.amount.texture == kNone ? t.amount.constant : Eval(t.amount.texture, at).x;
+    const Vec3d q = t.texture_from_world.Point(at.p);
+    const auto [s, v] = Coordinates(t, at, q);
     switch (t.kind) {
       case TextureKind::kConstant:
         return t.value;
       case TextureKind::kScale:
-        return Child(t.tex1, u, v) * Child(t.amount, u, v);
-      case TextureKind::kMix: {
-        const double a = Child(t.amount, u, v);
-        return (1 - a) * Child(t.tex1, u, v) + a * Child(t.tex2, u, v);
-      }
+        return child(t.tex1) * amount;
+      case TextureKind::kMix:
+        return (1 - amount) * child(t.tex1) + amount * child(t.tex2);
       case TextureKind::kCheckerboard: {
-        const double cells = std::floor(S(t, u)) + std::floor(T(t, v));
-        return std::fmod(std::abs(cells), 2) == 0 ? Child(t.tex1, u, v)
-                                                  : Child(t.tex2, u, v);
+        const double cells = t.dimension == 2
+                                 ? std::floor(s) + std::floor(v)
+                                 : std::floor(q.x) + std::floor(q.y) + std::floor(q.z);
+        return child(std::fmod(std::abs(cells), 2) == 0 ? t.tex1 : t.tex2);
       }
       case TextureKind::kImage:
-        return EvalImage(t, S(t, u), T(t, v));
+        return EvalImage(t, s, v);
+      case TextureKind::kDirectionMix: {
+        const double facing = std::abs(Dot(at.n, t.direction));
+        return facing * child(t.tex1) + (1 - facing) * child(t.tex2);
+      }
+      case TextureKind::kDots:  // pbrt's "inside" is what the dots lie on
+        return child(IsInDot(s, v) ? t.tex2 : t.tex1);
+      case TextureKind::kBilinear:
+        return (1 - s) * (1 - v) * t.corners[0].constant +
+               (1 - s) * v * t.corners[1].constant + s * (1 - v) * t.corners[2].constant +
+               s * v * t.corners[3].constant;
+      case TextureKind::kFbm:
+        return Rgb{1, 1, 1} * Fbm(q, t.octaves, t.roughness);
+      case TextureKind::kWrinkled:
+        return Rgb{1, 1, 1} * Wrinkled(q, t.octaves, t.roughness);
+      case TextureKind::kWindy:
+        return Rgb{1, 1, 1} * Windy(q);
+      case TextureKind::kMarble:
+        return MarbleColor(t.noise_scale * q, t.octaves, t.roughness, t.variation);
+      case TextureKind::kMetalExtinction:
+      case TextureKind::kCoatedBase:
+        break;  // of compiled scenes alone
     }
+    LL_CHECK(!"a texture of this kind is in no file");
     return {};
   }
 
  private:
-  static double S(const Texture& t, double u) { return t.mapping.su * u + t.mapping.du; }
-  static double T(const Texture& t, double v) { return t.mapping.sv * v + t.mapping.dv; }
-  Rgb Child(const ColorValue& c, double u, double v) const {
-    return c.texture == kNone ? c.constant : Eval(c.texture, u, v);
-  }
-  double Child(const FloatValue& f, double u, double v) const {
-    return f.texture == kNone ? f.constant : Eval(f.texture, u, v).x;
+  // The coordinates that a mapping gives; q: the point in the space of the texture.
+  static std::array<double, 2> Coordinates(const Texture& t, const TexturePoint& at,
+                                           Vec3d q) {
+    const UvMapping& m = t.mapping;
+    constexpr double kTurn = 2 * std::numbers::pi;
+    double turns = std::atan2(q.y, q.x) / kTurn;
+    switch (m.kind) {
+      case MappingKind::kUv:
+        return {m.su * at.u + m.du, m.sv * at.v + m.dv};
+      case MappingKind::kSpherical:
+        return {std::acos(q.z / Length(q)) / std::numbers::pi,
+                turns < 0 ? turns + 1 : turns};
+      case MappingKind::kCylindrical:
+        return {turns + 0.5, q.z};
+      case MappingKind::kPlanar:
+        return {Dot(q, m.v1) + m.du, Dot(q, m.v2) + m.dv};
+    }
+    return {};
   }
 
   // The image is a grid of samples at texel centres; row 0 is at the top, where v = 1.

@@ -41,8 +41,8 @@ inline stat::ImageTestResult CompareWithReference(const SceneDescription& scene,
                                                   double tolerance = kFloatTolerance) {
   const reference::Textures textures(scene.textures);
   auto options = Options(ReferenceEstimator::kLightSampling, reference_spp);
-  options.texture = [&](Index index, double u, double v) {
-    return textures.Eval(index, u, v);
+  options.texture = [&](Index index, const reference::TexturePoint& at) {
+    return textures.Eval(index, at);
   };
   return stat::CompareMeans(RenderWavefront(scene, wavefront_spp),
                             Estimate(RenderReference(scene, options)),

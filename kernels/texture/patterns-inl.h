@@ -1,0 +1,95 @@
+// Procedural textures, of surface coordinates or of places.
+#if defined(LANELIGHT_TEXTURE_PATTERNS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_TEXTURE_PATTERNS_INL_H_
+#undef LANELIGHT_TEXTURE_PATTERNS_INL_H_
+#else
+#define LANELIGHT_TEXTURE_PATTERNS_INL_H_
+#endif
+
+#include "kernels/texture/mapping-inl.h"
+#include "kernels/texture/marble_colors.h"
+#include "kernels/texture/noise-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// 1 where floor(x) is odd, else 0. Without integers, so that it holds for every float.
+LANELIGHT_INLINE VF OddCell(VF x) {
+  const VF cell = hn::Floor(x);
+  return hn::NegMulAdd(Splat(2.0f), hn::Floor(hn::Mul(cell, Splat(0.5f))), cell);
+}
+
+/// Lanes whose cell (floor(s), floor(t)) shows the first colour: even sum.
+LANELIGHT_INLINE MF EvenCell(VF s, VF t) { return hn::Eq(OddCell(s), OddCell(t)); }
+
+/// The same in three dimensions.
+LANELIGHT_INLINE MF EvenCell(V3 q) {
+  const MF odd = hn::Eq(OddCell(q.x), OddCell(q.y));
+  return hn::Eq(hn::IfThenZeroElse(odd, Splat(1.0f)), OddCell(q.z));
+}
+
+/// Lanes inside of a dot: in half of the unit cells around integers there is one of
+/// radius 0.35, shifted as far as the cell has room, all by the noise of the cell.
+inline HWY_NOINLINE MF InsideDot(VF s, VF t) {
+  const VF half = Splat(0.5f), room = Splat(0.15f);
+  const VF cell_s = hn::Floor(hn::Add(s, half)), cell_t = hn::Floor(hn::Add(t, half));
+  const auto noise = [&](float a, float b) HWY_ATTR {
+    return Noise({hn::Add(cell_s, Splat(a)), hn::Add(cell_t, Splat(b)), half});
+  };
+  const VF ds = hn::Sub(s, hn::MulAdd(room, noise(1.5f, 2.8f), cell_s));
+  const VF dt = hn::Sub(t, hn::MulAdd(room, noise(4.5f, 9.8f), cell_t));
+  const MF near = hn::Lt(hn::MulAdd(ds, ds, hn::Mul(dt, dt)), Splat(0.35f * 0.35f));
+  return hn::And(near, hn::Gt(noise(0.5f, 0.5f), hn::Zero(DF())));
+}
+
+/// Waves whose height varies by a wind of a tenth of their frequency.
+LANELIGHT_INLINE VF Windy(V3 q) {
+  const VF wind = FBm(Mul(q, Splat(0.1f)), 3, 0.5f);
+  return hn::Mul(hn::Abs(wind), FBm(q, 6, 0.5f));
+}
+
+/// Colour of marble, by de Casteljau's scheme; q is scaled.
+inline HWY_NOINLINE V3 Marble(V3 q, int32_t octaves, float roughness, float variation) {
+  const DI di;
+  const DF df;
+  const VF phase = hn::MulAdd(Splat(variation), FBm(q, octaves, roughness), q.y);
+  const VF turns = hn::Mul(phase, Splat(0.159154943f));
+  const VF sine = SinCos2Pi(hn::Sub(turns, hn::Floor(turns))).sin;
+  const VF half = Splat(0.5f);
+  const VF x = hn::Mul(hn::MulAdd(half, sine, half), Splat(float{kMarbleSegments}));
+  const VI last = hn::Set(di, kMarbleSegments - 1);
+  const VI first = hn::Max(hn::Min(hn::ConvertTo(di, x), last), hn::Zero(di));
+  const VF t = hn::Sub(x, hn::ConvertTo(df, first)), rest = hn::Sub(Splat(1.0f), t);
+  V3 point[4];
+  for (int i = 0; i < 4; ++i) {
+    point[i] = GatherRecord3(kMarbleColors[0], 3, 3 * i, first);
+  }
+  for (int order = 3; order > 0; --order) {
+    for (int i = 0; i < order; ++i) point[i] = Mul(point[i], rest) + Mul(point[i + 1], t);
+  }
+  return Mul(point[0], Splat(1.5f));
+}
+
+/// The patterns of a place. Grey for those that pbrt has as float textures only.
+LANELIGHT_INLINE V3 EvalPattern(const TextureNode& node, V3 p) {
+  const V3 q = PlaceOf(node, p);
+  if (node.kind == TextureKind::kMarble) {
+    return Marble(q, node.octaves, node.roughness, node.variation);
+  }
+  VF value;
+  if (node.kind == TextureKind::kFbm) {
+    value = FBm(q, node.octaves, node.roughness);
+  } else if (node.kind == TextureKind::kWrinkled) {
+    value = Turbulence(q, node.octaves, node.roughness);
+  } else {
+    value = Windy(q);
+  }
+  return {value, value, value};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif
