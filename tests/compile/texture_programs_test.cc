@@ -88,7 +88,7 @@ TEST_CASE("texels that are not finite cost themselves and a note", "[texture]") 
   const Texture t = At(ImageTexture(folder.File("bad.pfm")), 42);
   WritePfm(t.path, image);
   std::vector<Note> notes;
-  const TextureTable table = CompileTextures({t}, &notes);
+  const TextureTable table = CompileTextures({t}, {}, &notes);
   REQUIRE(notes.size() == 1);
   CHECK(notes[0].where.line == 42);
   CHECK(notes[0].message.starts_with("texture \"image\": 3 of 12 values of "));
@@ -98,7 +98,7 @@ TEST_CASE("texels that are not finite cost themselves and a note", "[texture]") 
   }
   image.pixels.assign(12, 0.5f);
   WritePfm(t.path, image);
-  CompileTextures({t}, &notes);
+  CompileTextures({t}, {}, &notes);
   CHECK(notes.size() == 1);
 }
 

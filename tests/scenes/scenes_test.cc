@@ -103,6 +103,12 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
             .HasAll({Feature::kTriangles, Feature::kVertexNormals, Feature::kUv,
                      Feature::kTriangleLights, Feature::kDielectricSmooth}));
   CHECK_FALSE(features("shapes.pbrt").HasAny({Feature::kSpheres, Feature::kDisks}));
+  CHECK(features("patterns.pbrt")
+            .HasAll({Feature::kTexturePlaces, Feature::kTexturedRoughness,
+                     Feature::kCoatedDiffuseSmooth}));
+  CHECK(features("textured-layers.pbrt")
+            .HasAll({Feature::kTexturedColor1, Feature::kTexturedCoat,
+                     Feature::kCoatedConductor, Feature::kDiffuseTransmission}));
   CHECK(features("stiff/roughness-1e-4.pbrt")
             .HasAll({Feature::kConductorRough, Feature::kConductorSmooth}));
 }
