@@ -27,8 +27,7 @@ HWY_INLINE MF HasTrait(VI kind, ShadeTraits trait) {
 
 // Reflectance of a material seen head-on: color0 for the diffuse kinds, normal-incidence
 // Fresnel ((eta-1)^2 + k^2) / ((eta+1)^2 + k^2) for metals, white for clear interfaces.
-HWY_INLINE V3 AlbedoOf(const MaterialTable& m, VI kind, VI material, V3 color0) {
-  const V3 k = Gather3(m.color1_r.data(), m.color1_g.data(), m.color1_b.data(), material);
+HWY_INLINE V3 AlbedoOf(VI kind, V3 color0, V3 k) {
   const auto fresnel = [](VF n, VF kk) HWY_ATTR {
     const VF k2 = hn::Mul(kk, kk);
     const VF a = hn::Sub(n, Splat(1.0f)), b = hn::Add(n, Splat(1.0f));
@@ -53,8 +52,12 @@ void Aov(Wave& wave) {
     const V3 color0 = kTextures ? Gather3(p.color0_r, p.color0_g, p.color0_b, slots)
                                 : Gather3(m.color0_r.data(), m.color0_g.data(),
                                           m.color0_b.data(), material);
-    Scatter3(AlbedoOf(m, Gather(m.kind.data(), material), material, color0),
-             p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, slots);
+    const V3 color1 =
+        p.color1_r != nullptr
+            ? Gather3(p.color1_r, p.color1_g, p.color1_b, slots)
+            : Gather3(m.color1_r.data(), m.color1_g.data(), m.color1_b.data(), material);
+    Scatter3(AlbedoOf(Gather(m.kind.data(), material), color0, color1), p.aov_albedo_r,
+             p.aov_albedo_g, p.aov_albedo_b, slots);
     const V3 n = kNormals ? Gather3(p.ns_x, p.ns_y, p.ns_z, slots)
                           : Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
     Scatter3(n, p.aov_n_x, p.aov_n_y, p.aov_n_z, slots);

@@ -61,6 +61,7 @@ void FillHits(WaveFixture& f, std::uint32_t materials) {
     p.ns_x[i] = -1.0f - i, p.ns_y[i] = -2.0f - i, p.ns_z[i] = -3.0f - i;
     p.color0_r[i] = 0.9f - 0.01f * i, p.color0_g[i] = 0.8f - 0.01f * i;
     p.color0_b[i] = 0.7f - 0.005f * i;
+    p.color1_r[i] = 1.5f + i, p.color1_g[i] = 2.0f + i, p.color1_b[i] = 3.0f + i;
     for (float* aov : {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
                        p.aov_n_y, p.aov_n_z, p.aov_depth}) {
       aov[i] = kUntouched;
@@ -84,9 +85,13 @@ void CheckHit(const PathColumns& p, const MaterialTable& m, std::uint32_t i,
   const float r = textured ? p.color0_r[i] : m.color0_r[id];
   const float g = textured ? p.color0_g[i] : m.color0_g[id];
   const float b = textured ? p.color0_b[i] : m.color0_b[id];
-  CHECK(p.aov_albedo_r[i] == Approx(Albedo(kind, r, m.color1_r[id])).epsilon(1e-6));
-  CHECK(p.aov_albedo_g[i] == Approx(Albedo(kind, g, m.color1_g[id])).epsilon(1e-6));
-  CHECK(p.aov_albedo_b[i] == Approx(Albedo(kind, b, m.color1_b[id])).epsilon(1e-6));
+  const bool second = features.Has(Feature::kTexturedColor1);
+  const float k[] = {second ? p.color1_r[i] : m.color1_r[id],
+                     second ? p.color1_g[i] : m.color1_g[id],
+                     second ? p.color1_b[i] : m.color1_b[id]};
+  CHECK(p.aov_albedo_r[i] == Approx(Albedo(kind, r, k[0])).epsilon(1e-6));
+  CHECK(p.aov_albedo_g[i] == Approx(Albedo(kind, g, k[1])).epsilon(1e-6));
+  CHECK(p.aov_albedo_b[i] == Approx(Albedo(kind, b, k[2])).epsilon(1e-6));
   const bool shading = features.Has(Feature::kVertexNormals);
   CHECK(p.aov_n_x[i] == (shading ? p.ns_x[i] : p.ng_x[i]));
   CHECK(p.aov_n_y[i] == (shading ? p.ns_y[i] : p.ng_y[i]));
@@ -102,13 +107,15 @@ TEST_CASE("aov: albedo of every kind, normal and depth, at the first hit alone",
   const FeatureSet variants[] = {{},
                                  {Feature::kVertexNormals},
                                  {Feature::kTextures},
-                                 {Feature::kTextures, Feature::kVertexNormals}};
+                                 {Feature::kTextures, Feature::kVertexNormals},
+                                 {Feature::kTextures, Feature::kTexturedColor1}};
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     for (const FeatureSet& features : variants) {
       CAPTURE(target, features.Has(Feature::kTextures));
       WaveFixture f(scene, kPaths);
       FillHits(f, static_cast<std::uint32_t>(scene.materials.size()));
+      if (!features.Has(Feature::kTexturedColor1)) f.wave.path.color1_r = nullptr;
       f.Run(AovStage(), features);
       for (std::uint32_t i = 0; i < kPaths; ++i) {
         CheckHit(f.wave.path, scene.materials, i, features);

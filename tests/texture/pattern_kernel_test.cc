@@ -241,6 +241,46 @@ TEST_CASE("colours below a coat are corrected as constants are", "[texture][coat
   ForceTarget("");
 }
 
+TEST_CASE("the table of colours below a coat is interpolated linearly",
+          "[texture][coat]") {
+  // A correction that is linear in the colour comes out exactly, in every tetrahedron.
+  Texture color = Named("colour", TextureKind::kBilinear);
+  color.corners[1].constant = {0.9, 0.3, 0.1};
+  color.corners[2].constant = {0.2, 0.8, 0.6};
+  color.corners[3].constant = {0.4, 0.1, 1};
+  Texture below = Named("below", TextureKind::kCoatedBase);
+  below.tex1.texture = 0;
+  below.amount.constant = 0.5;
+  below.octaves = 1;
+  const std::vector<Texture> textures = {color, below};
+  TextureTable table = CompileTextures(textures);
+  const auto change = [](Rgb c) {
+    return Rgb{0.2 - 0.1 * c.x + 0.05 * c.y, 0.1 + 0.1 * c.z,
+               0.1 + 0.2 * c.x - 0.1 * c.z};
+  };
+  for (std::size_t i = 0; i < table.fits.size() / 3; ++i) {
+    const Rgb node = {(i % 9) / 8.0, (i / 9 % 9) / 8.0, (i / 81) / 8.0};
+    for (int c = 0; c < 3; ++c) {
+      table.fits[3 * i + c] = static_cast<float>(change(node)[c]);
+    }
+  }
+  std::vector<float> points = RandomPoints(3), rgb(3 * kPoints);
+  for (std::size_t i = 0; i < 2 * kPoints; ++i) points[i] -= std::floor(points[i]);
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    HWY_DYNAMIC_DISPATCH(EvalPlaces)(table, 1, points.data(), rgb.data(), kPoints);
+    double worst = 0;
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      const Rgb was = reference::Textures(textures).Eval(0, PointOf(points, i));
+      const Rgb got = {rgb[i], rgb[kPoints + i], rgb[2 * kPoints + i]};
+      worst = std::max(worst, Distance(got, was + change(was)));
+    }
+    INFO(target);
+    CHECK(worst < 1e-6);
+  }
+  ForceTarget("");
+}
+
 }  // namespace lanelight
 
 #endif  // HWY_ONCE
