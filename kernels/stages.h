@@ -42,7 +42,10 @@ namespace lanelight {
   X(SurfaceDisk)                               \
   X(SurfacePlane)                              \
   X(SurfaceLargeSphere)                        \
+  X(Footprints)                                \
   X(Mix)                                       \
+  X(Bumps)                                     \
+  X(NormalMaps)                                \
   X(Texture)                                   \
   X(Aov)                                       \
   X(Vertices)                                  \

@@ -87,13 +87,13 @@ HWY_EXPORT(AovTexturesNormals);
 namespace {
 
 StageFn ResolveAov(const FeatureSet& features) {
+  const bool normals =
+      features.HasAny({Feature::kVertexNormals, Feature::kBumps, Feature::kNormalMaps});
   if (features.Has(Feature::kTextures)) {
-    return features.Has(Feature::kVertexNormals)
-               ? HWY_DYNAMIC_DISPATCH(AovTexturesNormals)
-               : HWY_DYNAMIC_DISPATCH(AovTextures);
+    return normals ? HWY_DYNAMIC_DISPATCH(AovTexturesNormals)
+                   : HWY_DYNAMIC_DISPATCH(AovTextures);
   }
-  return features.Has(Feature::kVertexNormals) ? HWY_DYNAMIC_DISPATCH(AovNormals)
-                                               : HWY_DYNAMIC_DISPATCH(AovPlain);
+  return normals ? HWY_DYNAMIC_DISPATCH(AovNormals) : HWY_DYNAMIC_DISPATCH(AovPlain);
 }
 
 }  // namespace

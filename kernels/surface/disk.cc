@@ -53,6 +53,13 @@ HWY_INLINE void DiskBatch(const Wave& wave, const StoreSlots& slots) {
       const V3 around = MulAdd(v_axis, x, Mul(u_axis, hn::Neg(y)));
       const V3 tangent = Mul(around, Splat(2 * std::numbers::pi_v<float>));
       Scatter3(TangentOr(tangent, n), path.tg_x, path.tg_y, path.tg_z, slots);
+      if (path.tv_x != nullptr) {
+        // From the rim, v = 0, to the inner edge, v = 1.
+        const VF width = hn::Sub(radius, Gather(&records->inner_radius, at));
+        const VF distance2 = hn::MulAdd(x, x, hn::Mul(y, y));
+        const V3 outward = Mul(MulAdd(u_axis, x, Mul(v_axis, y)), Rsqrt(distance2));
+        StoreBitangent(path, slots, Mul(outward, hn::Neg(width)), n);
+      }
     }
   }
 }

@@ -83,6 +83,10 @@ HWY_INLINE void LargeSphereBatch(const Wave& wave, const StoreSlots& slots) {
       const VF scale = hn::Div(Splat(2 * std::numbers::pi_v<float>), s.curvature);
       Scatter3(TangentOr(Mul(around, scale), out), path.tg_x, path.tg_y, path.tg_z,
                slots);
+      if (path.tv_x != nullptr) {
+        const VF radius = hn::Div(Splat(1.0f), s.curvature);
+        StoreBitangent(path, slots, SphereBitangent(out, z_axis, radius), out);
+      }
     }
   }
 }

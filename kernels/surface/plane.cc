@@ -48,6 +48,11 @@ HWY_INLINE void PlaneBatch(const Wave& wave, const StoreSlots& slots) {
       const VF length = Dot(across, u_axis);
       const V3 tangent = Mul(across, hn::Div(Splat(1.0f), length));
       Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
+      if (path.tv_x != nullptr) {
+        const V3 across_u = Cross(u_axis, n);
+        const VF inverse = hn::Div(Splat(1.0f), Dot(across_u, v_axis));
+        StoreBitangent(path, slots, Mul(across_u, inverse), n);
+      }
     }
   }
 }

@@ -68,6 +68,9 @@ HWY_INLINE void SphereBatch(const Wave& wave, const StoreSlots& slots) {
       const VF scale = hn::Mul(s.radius, Splat(2 * std::numbers::pi_v<float>));
       Scatter3(TangentOr(Mul(around, scale), out), path.tg_x, path.tg_y, path.tg_z,
                slots);
+      if (path.tv_x != nullptr) {
+        StoreBitangent(path, slots, SphereBitangent(out, z_axis, s.radius), out);
+      }
     }
   }
 }

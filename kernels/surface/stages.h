@@ -11,11 +11,35 @@ Stage SurfaceSphereStage();
 Stage SurfaceDiskStage();
 Stage SurfacePlaneStage();
 Stage SurfaceLargeSphereStage();
+// What is made of that before materials are looked up.
+Stage FootprintsStage();
+Stage BumpsStage();
+Stage NormalMapsStage();
 
 /// What every surface stage writes (where the columns exist).
 inline FieldSet SurfaceFields() {
-  return fields::kPoint | fields::kNormal | fields::kTangent | fields::kUv |
+  return fields::kPoint | fields::kNormal | fields::kTangents | fields::kUv |
          FieldSet{Field::material};
+}
+
+/// Whether a kernel writes shading normals: those of vertices, or what a map changes.
+inline bool WantsNormals(const FeatureSet& features) {
+  return features.HasAny(
+      {Feature::kVertexNormals, Feature::kBumps, Feature::kNormalMaps});
+}
+/// Whether a kernel writes tangents: dp/du, and dp/dv where the column exists.
+inline bool WantsTangents(const FeatureSet& features) {
+  return features.HasAny({Feature::kTangents, Feature::kBumps, Feature::kNormalMaps,
+                          Feature::kTextureFootprints});
+}
+
+/// What stages that give a surface another shading normal read and write.
+inline FieldSet ReliefReads() {
+  return fields::kNormal | fields::kTangents | fields::kUv |
+         FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material};
+}
+inline FieldSet ReliefWrites() {
+  return fields::kTangent | FieldSet{Field::ns_x, Field::ns_y, Field::ns_z};
 }
 
 }  // namespace lanelight

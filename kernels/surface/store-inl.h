@@ -6,11 +6,13 @@
 #define LANELIGHT_SURFACE_STORE_INL_H_
 #endif
 
+#include <limits>
 #include <numbers>
 
 #include "hwy/contrib/math/math-inl.h"
 #include "kernels/queue/filter-inl.h"
 #include "kernels/surface/point-inl.h"
+#include "kernels/surface/stages.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -71,16 +73,34 @@ LANELIGHT_INLINE V3 TangentOr(V3 tangent, V3 n) {
   return IfThenElse(hn::Gt(length2, hn::Zero(DF())), tangent, FrameFromNormal(n).s);
 }
 
+/// Writes dp/dv, or where it vanishes or is unbounded, a direction across n.
+LANELIGHT_INLINE void StoreBitangent(const PathColumns& path, const StoreSlots& slots,
+                                     V3 bitangent, V3 n) {
+  const VF length2 = Dot(bitangent, bitangent);
+  const MF usable = hn::And(hn::Gt(length2, hn::Zero(DF())),
+                            hn::Lt(length2, Splat(std::numeric_limits<float>::max())));
+  Scatter3(IfThenElse(usable, bitangent, FrameFromNormal(n).t), path.tv_x, path.tv_y,
+           path.tv_z, slots);
+}
+
+/// dp/dv of a sphere, v = 0 at the pole -z_axis, 1 at z_axis, at the unit vector `out`
+/// from its centre: along the meridian, half a turn long. Not finite at the poles.
+LANELIGHT_INLINE V3 SphereBitangent(V3 out, V3 z_axis, VF radius) {
+  const V3 up = MulAdd(out, hn::Neg(Dot(out, z_axis)), z_axis);
+  return Mul(
+      up, hn::Mul(hn::Mul(radius, Splat(std::numbers::pi_v<float>)), Rsqrt(Dot(up, up))));
+}
+
 /// The variant of a kernel for the features; `Kernel` is a template over whether vertex
 /// normals, tangents and surface coordinates are wanted.
 template <template <bool, bool, bool> class Kernel, bool... kChosen>
 StageFn ChooseVariant(const FeatureSet& features) {
-  constexpr Feature kOrder[] = {Feature::kVertexNormals, Feature::kTangents,
-                                Feature::kUv};
   if constexpr (sizeof...(kChosen) == 3) {
     return Kernel<kChosen...>::Run;
   } else {
-    return features.Has(kOrder[sizeof...(kChosen)])
+    const bool wanted[] = {WantsNormals(features), WantsTangents(features),
+                           features.Has(Feature::kUv)};
+    return wanted[sizeof...(kChosen)]
                ? ChooseVariant<Kernel, kChosen..., true>(features)
                : ChooseVariant<Kernel, kChosen..., false>(features);
   }

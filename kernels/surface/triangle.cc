@@ -10,6 +10,7 @@
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/instance-inl.h"
 #include "kernels/surface/point-inl.h"
+#include "kernels/surface/stages.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -90,6 +91,12 @@ HWY_INLINE UvLanes LoadUvs(const Geometry& geometry, VI prim) {
   return {{first[0], first[2], last[2]}, {first[1], first[3], last[3]}};
 }
 
+// 0 < |v| < 1e15
+HWY_INLINE MF IsUsable(V3 v) {
+  const VF length2 = Dot(v, v);
+  return hn::And(hn::Gt(length2, hn::Zero(DF())), hn::Lt(length2, Splat(1e30f)));
+}
+
 // dp/du in the space of the triangle: solves e_i = du_i dp/du + dv_i dp/dv. Where the
 // coordinates are degenerate, any direction across the face normal.
 HWY_INLINE V3 Tangent(const UvLanes& uv, V3 e1, V3 e2, V3 face) {
@@ -100,9 +107,19 @@ HWY_INLINE V3 Tangent(const UvLanes& uv, V3 e1, V3 e2, V3 face) {
                      DifferenceOfProducts(dv2, e1.y, dv1, e2.y),
                      DifferenceOfProducts(dv2, e1.z, dv1, e2.z)};
   const V3 tangent = Mul(scaled, hn::Div(Splat(1.0f), det));
-  const VF length2 = Dot(tangent, tangent);
-  const MF good = hn::And(hn::Gt(length2, hn::Zero(DF())), hn::Lt(length2, Splat(1e30f)));
-  return IfThenElse(good, tangent, FrameFromNormal(face).s);
+  return IfThenElse(IsUsable(tangent), tangent, FrameFromNormal(face).s);
+}
+
+// dp/dv likewise.
+HWY_INLINE V3 Bitangent(const UvLanes& uv, V3 e1, V3 e2, V3 face) {
+  const VF du1 = hn::Sub(uv.u[1], uv.u[0]), dv1 = hn::Sub(uv.v[1], uv.v[0]);
+  const VF du2 = hn::Sub(uv.u[2], uv.u[0]), dv2 = hn::Sub(uv.v[2], uv.v[0]);
+  const VF det = DifferenceOfProducts(du1, dv2, dv1, du2);
+  const V3 scaled = {DifferenceOfProducts(du1, e2.x, du2, e1.x),
+                     DifferenceOfProducts(du1, e2.y, du2, e1.y),
+                     DifferenceOfProducts(du1, e2.z, du2, e1.z)};
+  const V3 bitangent = Mul(scaled, hn::Div(Splat(1.0f), det));
+  return IfThenElse(IsUsable(bitangent), bitangent, FrameFromNormal(face).t);
 }
 
 // Largest |coordinate| of the edges.
@@ -110,7 +127,9 @@ HWY_INLINE VF SizeOf(V3 e1, V3 e2) {
   return hn::Max(MaxComponent(Abs(e1)), MaxComponent(Abs(e2)));
 }
 
-template <bool kNormals, bool kTangents, bool kUv, bool kInstances>
+// kFaceNormals: no mesh has normals, and shading normals, which a map will change, are
+// those of the faces.
+template <bool kNormals, bool kTangents, bool kUv, bool kInstances, bool kFaceNormals>
 HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
@@ -133,7 +152,8 @@ HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
     error = RoundingError(p, ng, SizeOf(e1, e2));
   }
   if constexpr (kNormals) {
-    V3 ns = VertexNormal(geometry, tri, face);
+    V3 ns = face;
+    if constexpr (!kFaceNormals) ns = VertexNormal(geometry, tri, face);
     if constexpr (kInstances) ns = maps.object_from_scene.Transposed(ns);
     ns = Normalize(ns);
     Scatter3(ns, path.ns_x, path.ns_y, path.ns_z, slots);
@@ -156,35 +176,49 @@ HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
     }
     if constexpr (kTangents) {
       V3 tangent = Tangent(uv, e1, e2, face);
+      if (path.tv_x != nullptr) {
+        V3 bitangent = Bitangent(uv, e1, e2, face);
+        if constexpr (kInstances) bitangent = maps.scene_from_object.Vector(bitangent);
+        Scatter3(bitangent, path.tv_x, path.tv_y, path.tv_z, slots);
+      }
       if constexpr (kInstances) tangent = maps.scene_from_object.Vector(tangent);
       Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
     }
   }
 }
 
-template <bool kNormals, bool kTangents, bool kUv, bool kInstances>
+template <bool kNormals, bool kTangents, bool kUv, bool kInstances,
+          bool kFaceNormals = false>
 void SurfaceTriangle(Wave& wave) {
   const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface), 0,
                                        wave.scene->geometry.ranges.spheres);
   ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
-    SurfaceBatch<kNormals, kTangents, kUv, kInstances>(wave, slots);
+    SurfaceBatch<kNormals, kTangents, kUv, kInstances, kFaceNormals>(wave, slots);
   });
 }
 
 // Picks the template variant, one feature at a time.
 template <bool... kChosen>
 StageFn Choose(const FeatureSet& features) {
-  constexpr Feature kOrder[] = {Feature::kVertexNormals, Feature::kTangents, Feature::kUv,
-                                Feature::kInstances};
   if constexpr (sizeof...(kChosen) == 4) {
     return SurfaceTriangle<kChosen...>;
   } else {
-    return features.Has(kOrder[sizeof...(kChosen)]) ? Choose<kChosen..., true>(features)
-                                                    : Choose<kChosen..., false>(features);
+    const bool wanted[] = {features.Has(Feature::kVertexNormals), WantsTangents(features),
+                           features.Has(Feature::kUv), features.Has(Feature::kInstances)};
+    return wanted[sizeof...(kChosen)] ? Choose<kChosen..., true>(features)
+                                      : Choose<kChosen..., false>(features);
   }
 }
 
-StageFn ChooseSurfaceTriangle(const FeatureSet& features) { return Choose<>(features); }
+StageFn ChooseSurfaceTriangle(const FeatureSet& features) {
+  if (WantsNormals(features) && !features.Has(Feature::kVertexNormals)) {
+    // What changes normals needs tangents and surface coordinates.
+    return features.Has(Feature::kInstances)
+               ? SurfaceTriangle<true, true, true, true, true>
+               : SurfaceTriangle<true, true, true, false, true>;
+  }
+  return Choose<>(features);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight

@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 
 /// A point for textures that depend on its surface coordinates alone.
 struct UvPoint {
-  static constexpr bool kHasPlace = false;
+  static constexpr bool kHasPlace = false, kHasFootprint = false;
   VF u, v;
 
   /// The lanes of `mine`; the others look at one place.
@@ -27,7 +27,7 @@ struct UvPoint {
 
 /// A point for all textures: p of the scene, n the geometric normal (unit, either way).
 struct PlacedPoint {
-  static constexpr bool kHasPlace = true;
+  static constexpr bool kHasPlace = true, kHasFootprint = false;
   VF u, v;
   V3 p, n;
 

@@ -25,18 +25,17 @@ struct TexelPair {
 
 LANELIGHT_INLINE VF Fraction(VF x) { return hn::Sub(x, hn::Floor(x)); }
 
-LANELIGHT_INLINE VI ClampIndex(VI i, int32_t size) {
+LANELIGHT_INLINE VI ClampIndex(VI i, VI size) {
   const DI di;
-  return hn::Min(hn::Max(i, hn::Zero(di)), hn::Set(di, size - 1));
+  return hn::Min(hn::Max(i, hn::Zero(di)), hn::Sub(size, hn::Set(di, 1)));
 }
 
-/// The texels around coordinate s of an axis with `size` texels, whose centres are at
-/// (i + 0.5) / size; `flip` counts from the other end (1 - s). Nearest lookups have
+/// The texels around coordinate s of an axis with n texels, whose centres are at
+/// (i + 0.5) / n; `flip` counts from the other end (1 - s). Nearest lookups have
 /// weight 0 and use i0.
-LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, int32_t size,
-                                      const TextureNode& node) {
+LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, VF n, const TextureNode& node) {
   const DI di;
-  const VF n = Splat(static_cast<float>(size)), one = Splat(1.0f);
+  const VF one = Splat(1.0f);
   VF x;
   if (node.wrap == WrapMode::kRepeat) {
     // Flipping after the fraction is taken loses nothing when s is large.
@@ -58,14 +57,12 @@ LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, int32_t size,
   return {i0, hn::Add(i0, hn::Set(di, 1)), node.bilinear ? hn::Sub(x, low) : Splat(0.0f)};
 }
 
-/// Texel index of column i, row j after wrapping; clears `inside` where the wrap mode
-/// makes the texel black. The octahedral map continues across an edge of the square with
-/// the texels of the same edge, mirrored about its middle.
-LANELIGHT_INLINE VI WrappedIndex(const TextureImage& image, WrapMode wrap, VI i, VI j,
-                                 MF& inside) {
+/// Texel index of column i, row j of w x h after wrapping; clears `inside` where the wrap
+/// mode makes the texel black. The octahedral map continues across an edge of the square
+/// with the texels of the same edge, mirrored about its middle.
+LANELIGHT_INLINE VI WrappedIndex(VI w, VI h, WrapMode wrap, VI i, VI j, MF& inside) {
   const DI di;
   const DF df;
-  const VI w = hn::Set(di, image.width), h = hn::Set(di, image.height);
   const VI zero = hn::Zero(di), one = hn::Set(di, 1);
   if (wrap == WrapMode::kRepeat) {
     // i is in [-1, w]
@@ -81,12 +78,12 @@ LANELIGHT_INLINE VI WrappedIndex(const TextureImage& image, WrapMode wrap, VI i,
     const VI last_i = hn::Sub(w, one), last_j = hn::Sub(h, one);
     const auto out_i = hn::Or(hn::Lt(i, zero), hn::Gt(i, last_i));
     j = hn::IfThenElse(out_i, hn::Sub(last_j, j), j);
-    i = ClampIndex(i, image.width);
+    i = ClampIndex(i, w);
     const auto out_j = hn::Or(hn::Lt(j, zero), hn::Gt(j, last_j));
     i = hn::IfThenElse(out_j, hn::Sub(last_i, i), i);
   }
-  i = ClampIndex(i, image.width);
-  j = ClampIndex(j, image.height);
+  i = ClampIndex(i, w);
+  j = ClampIndex(j, h);
   return hn::Add(hn::Mul(j, w), i);
 }
 
@@ -108,9 +105,11 @@ LANELIGHT_INLINE V3 LoadTexels(const TextureTable& table, const TextureImage& im
 LANELIGHT_INLINE V3 Texel(const TextureTable& table, const TextureNode& node, VI i,
                           VI j) {
   const DF df;
+  const DI di;
   const TextureImage& image = table.images[node.image];
+  const VI w = hn::Set(di, image.width), h = hn::Set(di, image.height);
   MF inside = hn::FirstN(df, hn::Lanes(df));
-  const V3 color = LoadTexels(table, image, WrappedIndex(image, node.wrap, i, j, inside));
+  const V3 color = LoadTexels(table, image, WrappedIndex(w, h, node.wrap, i, j, inside));
   return node.wrap == WrapMode::kBlack ? IfThenElseZero(inside, color) : color;
 }
 
@@ -119,11 +118,20 @@ LANELIGHT_INLINE V3 Lerp(V3 a, V3 b, VF t) {
   return Mul(a, hn::Sub(Splat(1.0f), t)) + Mul(b, t);
 }
 
+/// What a node makes of a texel.
+LANELIGHT_INLINE V3 FinishTexel(const TextureNode& node, V3 color) {
+  color = Mul(color, Splat(node.scale));
+  if (node.invert) color = Splat3(1, 1, 1) - color;
+  const VF zero = Splat(0.0f);
+  return {hn::Max(color.x, zero), hn::Max(color.y, zero), hn::Max(color.z, zero)};
+}
+
 LANELIGHT_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node, VF s,
                               VF t) {
   const TextureImage& image = table.images[node.image];
-  const TexelPair x = FindTexels(s, false, image.width, node);
-  const TexelPair y = FindTexels(t, true, image.height, node);
+  const VF w = Splat(static_cast<float>(image.width));
+  const VF h = Splat(static_cast<float>(image.height));
+  const TexelPair x = FindTexels(s, false, w, node), y = FindTexels(t, true, h, node);
   V3 color = Texel(table, node, x.i0, y.i0);
   if (node.bilinear) {
     const V3 top = Lerp(color, Texel(table, node, x.i1, y.i0), x.weight);
@@ -131,10 +139,7 @@ LANELIGHT_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node
         Lerp(Texel(table, node, x.i0, y.i1), Texel(table, node, x.i1, y.i1), x.weight);
     color = Lerp(top, bottom, y.weight);
   }
-  color = Mul(color, Splat(node.scale));
-  if (node.invert) color = Splat3(1, 1, 1) - color;
-  const VF zero = Splat(0.0f);
-  return {hn::Max(color.x, zero), hn::Max(color.y, zero), hn::Max(color.z, zero)};
+  return FinishTexel(node, color);
 }
 
 /// Between four corners, v00, v01, v10 and v11 of (s, t).
@@ -142,7 +147,8 @@ LANELIGHT_INLINE V3 Bilinear(const V3 corner[4], VF s, VF t) {
   return Lerp(Lerp(corner[0], corner[1], t), Lerp(corner[2], corner[3], t), s);
 }
 
-/// Value of one texture at a point in every lane. Errors against real arithmetic come
+/// Value of one texture at a point in every lane, filtered where that has a footprint
+/// (levels-inl.h). Errors against real arithmetic come
 /// from rounding s = u * su + du to float: up to |s| * 6e-8 of a repeat, times the slope.
 template <class Point>
 inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
@@ -176,6 +182,15 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
         break;
       }
       case TextureKind::kImage:
+        if constexpr (Point::kHasFootprint) {
+          if (node.filter >= ImageFilter::kTrilinear) {
+            // Of other mappings the footprint is not known.
+            const bool by_uv = node.mapping == MappingKind::kUv;
+            const auto spread = by_uv ? at.spread : at.spread.Only(hn::FirstN(DF(), 0));
+            value[i] = EvalFiltered(table, node, st.s, st.t, spread);
+            break;
+          }
+        }
         value[i] = EvalImage(table, node, st.s, st.t);
         break;
       case TextureKind::kDots:

@@ -8,7 +8,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/queue/batch-inl.h"
-#include "kernels/texture/texture-inl.h"
+#include "kernels/texture/levels-inl.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -112,18 +112,22 @@ HWY_INLINE void EvalCoat(const CompiledScene& scene, const PathColumns& path,
   Scatter(hn::Max(thickness, hn::Zero(DF())), path.coat_thickness, slots);
 }
 
-// Everything that the plan has columns for, at places: for the few scenes that need it.
-template <bool kPlaces>
+// Everything that the plan has columns for: for the few scenes that need it.
+template <class Point>
 HWY_INLINE void AllTextures(Wave& wave) {
   const CompiledScene& scene = *wave.scene;
   const PathColumns& path = wave.path;
   const auto point = [&](const StoreSlots& slots) HWY_ATTR {
     const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
-    if constexpr (kPlaces) {
-      return PlacedPoint{u, v, Gather3(path.p_x, path.p_y, path.p_z, slots),
-                         Gather3(path.ng_x, path.ng_y, path.ng_z, slots)};
+    if constexpr (Point::kHasPlace) {
+      Point at;
+      at.u = u, at.v = v;
+      at.p = Gather3(path.p_x, path.p_y, path.p_z, slots);
+      at.n = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+      if constexpr (Point::kHasFootprint) at.spread = LoadFootprint(path, slots);
+      return at;
     } else {
-      return UvPoint{u, v};
+      return Point{u, v};
     }
   };
   ForEachBatch(wave, wave.queue(QueueId::kSurface),
@@ -144,8 +148,9 @@ HWY_INLINE void AllTextures(Wave& wave) {
                });
 }
 
-void TexturesCoat(Wave& wave) { AllTextures<false>(wave); }
-void TexturesPlaces(Wave& wave) { AllTextures<true>(wave); }
+void TexturesCoat(Wave& wave) { AllTextures<UvPoint>(wave); }
+void TexturesPlaces(Wave& wave) { AllTextures<PlacedPoint>(wave); }
+void TexturesFiltered(Wave& wave) { AllTextures<FilteredPoint>(wave); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -164,16 +169,21 @@ HWY_EXPORT(TexturesColor1);
 HWY_EXPORT(TexturesBoth);
 HWY_EXPORT(TexturesCoat);
 HWY_EXPORT(TexturesPlaces);
+HWY_EXPORT(TexturesFiltered);
 
 Stage TextureStage() {
   return {"texture",
           "textured material parameters of surface hits",
           QueueId::kSurface,
           {Feature::kTextures},
-          FieldSet{Field::material} | fields::kUv | fields::kPoint | fields::kNormal,
+          FieldSet{Field::material} | fields::kUv | fields::kPoint | fields::kNormal |
+              fields::kSpread,
           fields::kParameters,
           [](const FeatureSet& features) -> StageFn {
             LL_CHECK(features.Has(Feature::kUv));
+            if (features.Has(Feature::kTextureFootprints)) {
+              return HWY_DYNAMIC_DISPATCH(TexturesFiltered);
+            }
             if (features.Has(Feature::kTexturePlaces)) {
               return HWY_DYNAMIC_DISPATCH(TexturesPlaces);
             }

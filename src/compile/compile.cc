@@ -9,6 +9,7 @@
 #include "src/compile/features.h"
 #include "src/compile/filter.h"
 #include "src/compile/focus.h"
+#include "src/compile/footprint.h"
 #include "src/compile/geometry.h"
 #include "src/compile/lights.h"
 #include "src/compile/materials.h"
@@ -143,6 +144,8 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.center = placement.frame.center;
   scene.scale = placement.frame.scale;
   scene.camera = CompileCamera(description.camera, description.film, placement.frame);
+  scene.footprint = CompileFootprint(scene.camera, description.camera, description.film,
+                                     description.sampler.spp);
 
   CompiledMaterials materials =
       CompileMaterials(description, UsedMaterials(placement), options);

@@ -41,6 +41,12 @@ void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
     features.Add(Feature::kUv);
   }
   if (m.color1_texture[i] >= 0) features.Add(Feature::kTexturedColor1);
+  if (!m.displacement_texture.empty()) {
+    features.Add({Feature::kBumps, Feature::kTextureFootprints, Feature::kUv});
+  }
+  if (!m.normal_map_texture.empty()) {
+    features.Add({Feature::kNormalMaps, Feature::kUv});
+  }
   // A mix weight is looked up by the mix stage itself.
   if (kind == ShadeKind::kMix && m.alpha_x_texture[i] >= 0) features.Add(Feature::kUv);
 }
@@ -91,6 +97,13 @@ void AddLights(const LightTable& lights, FeatureSet& features) {
   }
 }
 
+bool FiltersTextures(const TextureTable& textures) {
+  return std::any_of(
+      textures.nodes.begin(), textures.nodes.end(), [](const TextureNode& node) {
+        return node.kind == TextureKind::kImage && node.filter >= ImageFilter::kTrilinear;
+      });
+}
+
 bool HasNonSpecular(const MaterialTable& materials) {
   return std::any_of(materials.kind.begin(), materials.kind.end(), [](std::uint32_t k) {
     const auto kind = static_cast<ShadeKind>(k);
@@ -126,6 +139,10 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
   if (!g.large_spheres.empty()) features.Add(Feature::kLargeSpheres);
   if (!g.instances.empty()) features.Add(Feature::kInstances);
   if (!g.normals.empty()) features.Add(Feature::kVertexNormals);
+  // Cut-outs and weights of mixes are looked up unfiltered.
+  if (features.Has(Feature::kTextures) && FiltersTextures(scene.textures)) {
+    features.Add(Feature::kTextureFootprints);
+  }
   AddLights(scene.lights, features);
   if (features.HasAny({Feature::kAreaLights, Feature::kInfiniteLights}) &&
       HasNonSpecular(scene.materials)) {

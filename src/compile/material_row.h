@@ -8,6 +8,7 @@
 #include <string>
 
 #include "src/compile/materials.h"
+#include "src/compile/relief.h"
 #include "src/compiled/scene.h"
 #include "src/scene/description.h"
 
@@ -28,6 +29,7 @@ struct MaterialRow {
   std::uint32_t coat_depth = 0;
   bool remap = false;
   std::int32_t mix[2] = {-1, -1};
+  Relief relief;
   std::string name;
 };
 

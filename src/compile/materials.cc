@@ -23,6 +23,7 @@ class Builder {
       : d_(d),
         options_(options),
         constants_(d.textures),
+        reliefs_(d.textures, derived_),
         index_(d.materials.size(), -1) {}
 
   void Add(Index material);
@@ -48,10 +49,11 @@ class Builder {
   const SceneDescription& d_;
   const CompileOptions& options_;
   const TextureConstants constants_;
+  std::vector<Texture> derived_;
+  Reliefs reliefs_;
   std::vector<std::int32_t> index_;
   std::vector<MaterialRow> rows_;
   std::map<Coat, std::int32_t> coats_;
-  std::vector<Texture> derived_;
 };
 
 bool IsTextured(const ColorValue& v) { return v.texture != kNone; }
@@ -255,6 +257,7 @@ std::int32_t Builder::Compile(const Material& m, const std::vector<Index>& sides
   if (m.kind == MaterialKind::kMix) return Mix(m, sides);
   MaterialRow row = MakeRow(m);
   row.name = m.name;
+  row.relief = reliefs_.Of(m, constants_);
   return Push(std::move(row));
 }
 
@@ -294,6 +297,7 @@ CompiledMaterials Builder::Finish() {
     out.textures.push_back(static_cast<Index>(d_.textures.size() + out.derived.size()));
     out.derived.push_back(t);
   }
+  DropUnusedReliefs(out.table);
   return out;
 }
 

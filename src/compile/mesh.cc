@@ -36,7 +36,10 @@ class MeshCompiler {
         turned_(reverse_ != t_.SwapsHandedness()) {
     model_.material = material;
     model_.light = -1;
-    model_.flags = IsAlphaTested(placed) ? kAlphaTested : 0;
+    // Round shapes that have become triangles have dp/dv of their own, as in pbrt.
+    const bool given = placed.shape->kind == ShapeKind::kMesh && !mesh_.normals.empty();
+    model_.flags =
+        (IsAlphaTested(placed) ? kAlphaTested : 0) | (given ? kMeshNormals : 0);
   }
 
   /// Returns true if the triangle has vertex normals of its own.

@@ -6,6 +6,7 @@
 #include "src/core/error.h"
 #include "src/core/error_text.h"
 #include "src/core/parallel.h"
+#include "src/compile/mip_levels.h"
 #include "src/compile/texture_programs.h"
 #include "src/image/repair.h"
 
@@ -105,6 +106,7 @@ TextureImageLoader::TextureImageLoader(const std::vector<Texture>& textures) {
     if (t.kind != TextureKind::kImage) continue;
     files_.try_emplace(t.path, File{&t, {}});
     if (index_.try_emplace(KeyOf(t), keys_.size()).second) keys_.push_back(KeyOf(t));
+    if (t.filter >= ImageFilter::kTrilinear) filtered_.insert(index_.at(KeyOf(t)));
   }
 }
 
@@ -125,6 +127,9 @@ void TextureImageLoader::Load(TextureTable& table, std::vector<Note>* notes) {
     const File& file = files_.at(keys_[i].path);
     AtPlace(*file.first_use,
             [&] { table.images[i] = PackImage(file.image, keys_[i], decode[i]); });
+    if (filtered_.count(i) > 0) {
+      AddMipLevels(table.decode.data() + decode[i], table.images[i]);
+    }
   });
   files_.clear();  // the packed tables are all that is needed from here on
 }

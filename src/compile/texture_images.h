@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -49,6 +50,7 @@ class TextureImageLoader {
   std::map<std::string, File> files_;
   std::map<ImageKey, std::size_t> index_;
   std::vector<ImageKey> keys_;
+  std::set<std::size_t> filtered_;  // those that a texture filters: they get a pyramid
   std::map<std::pair<Encoding, double>, int> decode_;
 };
 

@@ -103,6 +103,8 @@ class ProgramBuilder {
       node.image = images_.ImageIndex(t);
       node.wrap = t.wrap;
       node.bilinear = t.bilinear;
+      node.filter = t.filter;
+      node.max_anisotropy = static_cast<float>(t.max_anisotropy);
       node.invert = t.invert;
       node.scale = static_cast<float>(t.scale);
     }

@@ -47,6 +47,8 @@ struct MaterialTable {
   AlignedVector<std::int32_t> alpha2_x_texture, alpha2_y_texture, thickness_texture;
   AlignedVector<std::uint32_t> alpha_remap;  // 1: textured roughness goes through sqrt
   AlignedVector<std::int32_t> mix0, mix1;
+  // Heights, and normal maps: a texture or -1; empty where no material has one.
+  AlignedVector<std::int32_t> displacement_texture, normal_map_texture;
   AlignedVector<float> coat_transmittance;  // kCoatTableSize per table
   AlignedVector<float> coat_internals;      // per table; used where coats vary
   std::vector<std::string> names;

@@ -8,6 +8,7 @@
 
 #include "src/accel/accel.h"
 #include "src/compiled/camera.h"
+#include "src/compiled/footprint.h"
 #include "src/compiled/lights.h"
 #include "src/compiled/materials.h"
 #include "src/compiled/texture_table.h"
@@ -33,6 +34,7 @@ struct CompiledScene {
   LightTable lights;
   CompiledCamera camera;
   CompiledFilter filter;
+  PixelFootprint footprint;
   Film film;
   Integrator integrator;
   Strategy strategy;        // what UseStrategy has prepared the light tables for

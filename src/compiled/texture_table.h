@@ -18,11 +18,17 @@ inline constexpr int kMaxTextureNodes = 32;
 /// 8-bit images keep their bytes: one 32-bit word per texel, R in the low byte, and a
 /// decode table of 256 entries; float images have three floats per texel. Row 0 is the
 /// top. Images of float textures hold the one value of a texel three times.
+///
+/// A pyramid follows the image itself in the same array where a texture asks for one
+/// (src/compile/mip_levels.h).
 struct TextureImage {
   std::int32_t width = 0, height = 0;
   AlignedVector<std::uint32_t> rgba8;  // width * height, or empty
   AlignedVector<float> rgb;            // 3 * width * height, or empty
   std::int32_t decode = 0;             // offset into TextureTable::decode (8-bit images)
+  // Per level of the pyramid, the image itself first: size, and its first texel. Empty
+  // without one.
+  AlignedVector<std::int32_t> level_width, level_height, level_begin;
 };
 
 /// One node. An operand >= 0 is the value of that earlier node of the same program;
@@ -42,7 +48,9 @@ struct TextureNode {
   std::int32_t image = -1;             // kImage: index into TextureTable::images
   WrapMode wrap = WrapMode::kRepeat;
   bool bilinear = true;
-  bool invert = false;  // max(0, 1 - scale * texel)
+  ImageFilter filter = ImageFilter::kBilinear;  // kTrilinear, kEwa: the image has levels
+  float max_anisotropy = 8;                     // kEwa
+  bool invert = false;                          // max(0, 1 - scale * texel)
   float scale = 1;
 };
 

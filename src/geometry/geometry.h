@@ -27,10 +27,13 @@ struct TriangleRecord {
   float p[3][3];
   std::uint32_t material;
   std::int32_t light;   // index into LightTable::lights, -1 = not emitting
-  std::uint32_t flags;  // kAlphaTested: bit 0
+  std::uint32_t flags;  // kAlphaTested: bit 0, kMeshNormals: bit 1
 };
 static_assert(sizeof(TriangleRecord) == 48);
 inline constexpr std::uint32_t kAlphaTested = 1;
+/// The file gives normals of the mesh: bumps then have other axes (kernels/surface/
+/// bumps.cc).
+inline constexpr std::uint32_t kMeshNormals = 2;
 
 /// Sphere record: 16 words. `normal_sign` -1: normal points inward (ReverseOrientation).
 struct SphereRecord {

@@ -7,6 +7,7 @@
 namespace lanelight {
 namespace {
 
+constexpr double kHuge = 1e30;
 constexpr double kRoughest = 1e4;  // of roughness parameters; alpha above 1 is legal
 
 const std::map<std::string, MaterialKind> kMaterials = {
@@ -168,6 +169,28 @@ void ReadKind(ParseState& state, ParamSet& params, Material* material) {
   }
 }
 
+// Materials that do not scatter themselves have no normal to change.
+void ReadRelief(ParseState& state, ParamSet& params, Material* material) {
+  if (material->kind == MaterialKind::kMix ||
+      material->kind == MaterialKind::kInterface) {
+    const char* why = material->kind == MaterialKind::kMix
+                          ? "a mix has the relief of the materials that it mixes"
+                          : "an interface has no surface of its own";
+    params.Ignore("displacement", why);
+    params.Ignore("normalmap", why);
+    return;
+  }
+  material->displacement = TexturedFloat(state, params, "displacement", 0, -kHuge, kHuge);
+  const Param* map = params.Find("normalmap", {ParamType::kString});
+  if (map == nullptr) return;
+  const std::string name = params.String("normalmap", "");
+  if (name.empty()) params.Fail(*map, "the file name is empty");
+  material->normal_map = ResolvePath(state, name);
+  if (params.Find("displacement", {}) != nullptr) {
+    params.Ignore("displacement", "the normal map counts");
+  }
+}
+
 }  // namespace
 
 Index InterpretMaterial(ParseState& state, const std::string& name,
@@ -195,8 +218,7 @@ Index InterpretMaterial(ParseState& state, const std::string& name,
       ThrowUnknown(params.where(), "material", type, Names(kMaterials));
     }
     ReadKind(state, params, &material);
-    params.IgnoreVisible("displacement", "displacement is not supported");
-    params.IgnoreVisible("normalmap", "normal maps are not supported");
+    ReadRelief(state, params, &material);
     params.Find("type", {ParamType::kString});  // of MakeNamedMaterial, or superfluous
     params.CheckAllUsed();
   }

@@ -82,15 +82,13 @@ void ReadImage(ParseState& state, ParamSet& params, Texture* texture) {
                                  WrapMode::kOctahedralSphere};
   texture->wrap =
       kWraps[params.Choice("wrap", {"repeat", "clamp", "black", "octahedralsphere"})];
-  const int filter =
-      params.Choice("filter", {"bilinear", "point", "trilinear", "ewa", "EWA"});
-  texture->bilinear = filter != 1;
-  if (filter > 1) {
-    state.AddNoteOnce(params.where(),
-                      "texture filters \"trilinear\" and \"ewa\" are taken as "
-                      "\"bilinear\"");
-  }
-  params.Ignore("maxanisotropy", "there is no anisotropic filter");
+  constexpr ImageFilter kFilters[] = {ImageFilter::kBilinear, ImageFilter::kPoint,
+                                      ImageFilter::kTrilinear, ImageFilter::kEwa,
+                                      ImageFilter::kEwa};
+  texture->filter =
+      kFilters[params.Choice("filter", {"bilinear", "point", "trilinear", "ewa", "EWA"})];
+  texture->bilinear = texture->filter != ImageFilter::kPoint;
+  texture->max_anisotropy = params.Float("maxanisotropy", 8, 1, 64);
   texture->scale = params.Float("scale", 1, -kHuge, kHuge);
   texture->invert = params.Bool("invert", false);
   ReadEncoding(params, texture);

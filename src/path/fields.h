@@ -84,7 +84,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_XYZ(X, f32, ns, ({kVertexNormals, kBumps, kNormalMaps}), kSurface, (), "shading normal, unit")   \
   LANELIGHT_XYZ(X, f32, tg, ({kTangents, kBumps, kNormalMaps, kTextureFootprints}), kSurface, (), "dp/du, not normalised")       \
   LANELIGHT_XYZ(X, f32, tv, ({kBumps, kTextureFootprints}), kSurface, (), "dp/dv, not normalised")       \
-  LANELIGHT_2(X, f32, spread, ({kTextureFootprints}), kSurface, (), "footprint of a pixel in surface coordinates: largest step of u, of v") \
+  LANELIGHT_4(X, f32, spread, ({kTextureFootprints}), kSurface, (), "footprint of a pixel in surface coordinates: du/dx, du/dy, dv/dx, dv/dy (src/compiled/footprint.h)") \
   X(f32, uv_u, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(f32, uv_v, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(u32, material, ({kScatters, kAov}), kSurface, (), "material index")                 \
@@ -257,6 +257,8 @@ inline const FieldSet kTangent = {Field::tg_x, Field::tg_y, Field::tg_z};
 inline const FieldSet kTangents = {Field::tg_x, Field::tg_y, Field::tg_z,
                                    Field::tv_x, Field::tv_y, Field::tv_z};
 inline const FieldSet kUv = {Field::uv_u, Field::uv_v};
+inline const FieldSet kSpread = {Field::spread_0, Field::spread_1, Field::spread_2,
+                                 Field::spread_3};
 inline const FieldSet kParameters = {
     Field::color0_r, Field::color0_g, Field::color0_b,      Field::color1_r,
     Field::color1_g, Field::color1_b, Field::alpha_x,       Field::alpha_y,

@@ -121,7 +121,13 @@ TEST_CASE("mix, interface, named materials", "[parse]") {
     NamedMaterial "m" Shape "sphere"
     Material "interface" AreaLightSource "diffuse" Shape "sphere"
     Material "none" Shape "sphere"
-    Material "diffuse" "string normalmap" "n.png")");
+    Texture "bumps" "float" "checkerboard"
+    MakeNamedMaterial "rough" "string type" "conductor" "texture displacement" "bumps"
+    NamedMaterial "rough" Shape "sphere"
+    Material "diffuse" "string normalmap" "n.png" "texture displacement" "bumps"
+    Shape "sphere"
+    MakeNamedMaterial "n" "string type" "mix" "string materials" [ "a" "b" ]
+      "texture displacement" "bumps")");
   const Material& mix = scene.materials[scene.shapes[0].material];
   CHECK(mix.kind == MaterialKind::kMix);
   CHECK(mix.name == "m");
@@ -131,7 +137,13 @@ TEST_CASE("mix, interface, named materials", "[parse]") {
   CHECK(scene.materials[scene.shapes[1].material].kind == MaterialKind::kInterface);
   CHECK(scene.shapes[1].area_light == kNone);
   CHECK(scene.materials[scene.shapes[2].material].kind == MaterialKind::kInterface);
-  CHECK(HasNote(scene, "\"normalmap\" of material \"diffuse\" has no effect"));
+  const Material& rough = scene.materials[scene.shapes[3].material];
+  CHECK(rough.displacement.texture == 0);
+  CHECK(rough.normal_map.empty());
+  const Material& mapped = scene.materials[scene.shapes[4].material];
+  CHECK(mapped.normal_map.ends_with("n.png"));
+  CHECK(HasNote(scene, "the normal map counts"));
+  CHECK(HasNote(scene, "a mix has the relief of the materials that it mixes"));
 }
 
 TEST_CASE("textures", "[parse]") {
@@ -188,11 +200,12 @@ TEST_CASE("image textures", "[parse]") {
   CHECK(b.invert);
   CHECK_FALSE(scene.textures[2].bilinear);
   CHECK(scene.textures[2].encoding == Encoding::kLinear);
-  int filter_notes = 0;
-  for (const Note& note : scene.notes) {
-    filter_notes += note.message.find("trilinear") != std::string::npos;
-  }
-  CHECK(filter_notes == 1);
+  CHECK(scene.textures[0].filter == ImageFilter::kBilinear);
+  CHECK(b.filter == ImageFilter::kTrilinear);
+  CHECK(b.max_anisotropy == 4);
+  CHECK(scene.textures[2].filter == ImageFilter::kPoint);
+  CHECK(scene.textures[3].filter == ImageFilter::kEwa);
+  CHECK(scene.notes.empty());
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ namespace lanelight::reference {
 
 /// A material with its textures looked up at one point.
 struct LocalMaterial {
+  const Material* source = nullptr;  // of the scene, after mixes
   MaterialKind kind = MaterialKind::kDiffuse;
   Scattering scattering = Scattering::kLambertian;
   Rgb reflectance, transmittance;

@@ -24,7 +24,9 @@ void Geometry::AddShape(const Shape& shape, const Transform& world_from_group) {
     return;
   const Transform world_from_object = world_from_group * shape.world_from_object;
   ++num_shapes_;
-  if (shape.kind == ShapeKind::kMesh) return AddTriangles(shape, world_from_object);
+  if (shape.kind == ShapeKind::kMesh) {
+    return AddTriangles(shape, world_from_object, world_from_group.SwapsHandedness());
+  }
   LL_CHECK(!(emits && shape.kind == ShapeKind::kPlane));
   Primitive out;
   out.kind = shape.kind;
@@ -48,7 +50,8 @@ void Geometry::AddShape(const Shape& shape, const Transform& world_from_group) {
   primitives_.push_back(out);
 }
 
-void Geometry::AddTriangles(const Shape& shape, const Transform& world_from_object) {
+void Geometry::AddTriangles(const Shape& shape, const Transform& world_from_object,
+                            bool mirrored) {
   const TriangleMesh& mesh = *shape.mesh;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     Primitive out;
@@ -72,7 +75,10 @@ void Geometry::AddTriangles(const Shape& shape, const Transform& world_from_obje
     // The outer side is that of the object-space normal, also under a mirroring map.
     const Vec3d face = Cross(object[1] - object[0], object[2] - object[0]);
     out.face_normal = out.normal_sign * Normalize(world_from_object.Normal(face));
-    if (!mesh.normals.empty()) out.n = normals;
+    if (!mesh.normals.empty()) {
+      out.n = normals;
+      out.mesh_side = mirrored ? -1 : 1;
+    }
     primitives_.push_back(out);
   }
 }

@@ -38,7 +38,8 @@ struct Primitive {
   std::array<Vec3d, 3> p;                 // world space
   std::optional<std::array<Vec3d, 3>> n;  // world space, unit, on the outer side
   std::array<std::array<double, 2>, 3> uv = {{{0, 0}, {1, 0}, {1, 1}}};
-  Vec3d face_normal;  // unit, on the outer side
+  Vec3d face_normal;     // unit, on the outer side
+  double mesh_side = 0;  // SurfacePoint
   // kSphere, kDisk, kCylinder, kPlane: in object space.
   Transform world_from_object, object_from_world;
   double radius = 1, inner_radius = 0, height = 0;
@@ -60,7 +61,10 @@ struct Hit {
 struct SurfacePoint {
   Vec3d p;
   Vec3d ng, ns;  // unit, outer side; ng agrees in side with ns where ns is interpolated
-  Vec3d dpdu;    // not normalised
+  Vec3d dpdu, dpdv;  // not normalised
+  // Meshes with normals: 1, or -1 where an instance mirrors them; else 0. Bumps on them
+  // take ns x dpdu, in the space of the mesh, for dpdv (pbrt-v4).
+  double mesh_side = 0;
   double u = 0, v = 0;
 };
 
@@ -79,7 +83,8 @@ class Geometry {
 
  private:
   void AddShape(const Shape& shape, const Transform& world_from_group);
-  void AddTriangles(const Shape& shape, const Transform& world_from_object);
+  void AddTriangles(const Shape& shape, const Transform& world_from_object,
+                    bool mirrored);
   bool AlphaAccepts(const Ray& ray, const Hit& hit, Random& random) const;
   void TestPrimitive(const Ray& ray, int index, double t_max, Random& random,
                      Hit& nearest) const;

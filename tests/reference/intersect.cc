@@ -117,7 +117,11 @@ SurfacePoint DescribeTriangle(const Primitive& triangle, const Hit& hit) {
   const double du2 = triangle.uv[2][0] - triangle.uv[0][0];
   const double dv2 = triangle.uv[2][1] - triangle.uv[0][1];
   const double det = du1 * dv2 - du2 * dv1;
-  if (det != 0) out.dpdu = (dv2 * e1 - dv1 * e2) / det;
+  if (det != 0) {
+    out.dpdu = (dv2 * e1 - dv1 * e2) / det;
+    out.dpdv = (du1 * e2 - du2 * e1) / det;
+  }
+  out.mesh_side = triangle.mesh_side;
   return out;
 }
 
@@ -125,26 +129,31 @@ SurfacePoint DescribeTriangle(const Primitive& triangle, const Hit& hit) {
 // along the axis; disks: v from the rim (0) to the inner edge (1), as in pbrt.
 SurfacePoint DescribeQuadric(const Primitive& shape, Vec3d o) {
   SurfacePoint out;
-  Vec3d normal = {0, 0, 1}, dpdu = {1, 0, 0};
+  Vec3d normal = {0, 0, 1}, dpdu = {1, 0, 0}, dpdv = {0, 1, 0};
   const double turns = PhiOf(o) / shape.phi_max;
   if (shape.kind == ShapeKind::kSphere) {
     o = Normalize(o) * shape.radius;
     normal = o / shape.radius;
-    dpdu = {-o.y, o.x, 0};
+    dpdu = Vec3d{-o.y, o.x, 0} * shape.phi_max;
+    const double across = std::hypot(o.x, o.y);
     out.u = turns;
     const auto polar = [](double z) { return std::acos(std::clamp(z, -1.0, 1.0)); };
     const double low = polar(shape.z_min / shape.radius);
     const double high = polar(shape.z_max / shape.radius);
+    dpdv = Vec3d{-o.z * o.x / across, -o.z * o.y / across, across} * (low - high);
     out.v = (polar(normal.z) - low) / (high - low);
   } else if (shape.kind == ShapeKind::kCylinder) {
     normal = Normalize(Vec3d{o.x, o.y, 0});
     o = {shape.radius * normal.x, shape.radius * normal.y, o.z};
-    dpdu = {-o.y, o.x, 0};
+    dpdu = Vec3d{-o.y, o.x, 0} * shape.phi_max;
+    dpdv = {0, 0, shape.z_max - shape.z_min};
     out.u = turns;
     out.v = (o.z - shape.z_min) / (shape.z_max - shape.z_min);
   } else if (shape.kind == ShapeKind::kDisk) {
     o.z = shape.height;
-    dpdu = {-o.y, o.x, 0};
+    dpdu = Vec3d{-o.y, o.x, 0} * shape.phi_max;
+    dpdv = Vec3d{-o.x, -o.y, 0} *
+           ((shape.radius - shape.inner_radius) / std::hypot(o.x, o.y));
     out.u = turns;
     out.v = (shape.radius - std::hypot(o.x, o.y)) / (shape.radius - shape.inner_radius);
   } else {
@@ -156,6 +165,7 @@ SurfacePoint DescribeQuadric(const Primitive& shape, Vec3d o) {
   out.ng = shape.normal_sign * Normalize(shape.world_from_object.Normal(normal));
   out.ns = out.ng;
   out.dpdu = shape.world_from_object.Vector(dpdu);
+  out.dpdv = shape.world_from_object.Vector(dpdv);
   return out;
 }
 

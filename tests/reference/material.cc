@@ -60,6 +60,7 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
                     m->kind == MaterialKind::kCoatedConductor;
   LL_CHECK(!coat || m->coat_albedo == Rgb{});
   LocalMaterial out;
+  out.source = m;
   out.kind = m->kind;
   out.scattering = m->scattering;
   out.reflectance = Clamp(look.Color(m->reflectance), 0, 1);

@@ -7,6 +7,7 @@
 #include "tests/reference/camera.h"
 #include "tests/reference/frame.h"
 #include "tests/reference/material.h"
+#include "tests/reference/relief.h"
 
 namespace lanelight {
 namespace reference {
@@ -73,7 +74,9 @@ Rgb Tracer::Trace(Ray ray) const {
     if (depth++ == max_depth) return sum;
     const LocalMaterial material =
         EvaluateMaterial(scene, index, at, options.texture, random);
-    const Frame frame = MakeFrame(at.ns, at.dpdu);
+    const SurfacePoint shaded = WithRelief(scene, *material.source, at, -ray.d,
+                                           options.texture, options.normal_map);
+    const Frame frame = MakeFrame(shaded.ns, shaded.dpdu);
     const Vec3d wo = frame.ToLocal(-ray.d);
     sum += beta * Direct(at, hit.primitive, material, frame, wo);
     const auto next = SampleBsdf(material, wo, random);

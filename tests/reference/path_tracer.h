@@ -11,6 +11,7 @@
 #include "src/scene/description.h"
 #include "tests/reference/geometry.h"
 #include "tests/reference/lights.h"
+#include "tests/reference/relief.h"
 
 namespace lanelight {
 
@@ -34,6 +35,7 @@ struct ReferenceOptions {
   std::uint64_t seed = 1;
   std::optional<int> max_depth;              // overrides the scene's
   reference::TextureLookup texture;          // needed if the scene has textures
+  reference::NormalMapLookup normal_map;     // needed if it has normal maps
   reference::EnvironmentLookup environment;  // needed if it has environment images
 };
 

@@ -186,6 +186,16 @@ class Textures {
   std::map<std::string, Image> images_;
 };
 
+/// Value of a normal map at (u, v), as it is in the file; loads it each time.
+inline Rgb NormalMap(const std::string& path, double u, double v) {
+  Texture image;
+  image.kind = TextureKind::kImage;
+  image.path = path;
+  image.encoding = Encoding::kLinear;
+  const std::vector<Texture> textures = {image};
+  return Textures(textures).Eval(0, u, v);
+}
+
 /// Value of texture `index` at (u, v); loads the images each time.
 inline Rgb EvalTexture(const std::vector<Texture>& textures, Index index, double u,
                        double v) {

@@ -44,6 +44,9 @@ inline stat::ImageTestResult CompareWithReference(const SceneDescription& scene,
   options.texture = [&](Index index, const reference::TexturePoint& at) {
     return textures.Eval(index, at);
   };
+  options.normal_map = [](const std::string& path, double u, double v) {
+    return reference::NormalMap(path, u, v);
+  };
   return stat::CompareMeans(RenderWavefront(scene, wavefront_spp),
                             Estimate(RenderReference(scene, options)),
                             {4, 1e-6, tolerance, 1e-7});

@@ -3,7 +3,7 @@
 
 namespace lanelight {
 
-/// All shapes, lights of several kinds, many materials, a texture.
+/// All shapes, lights of several kinds, many materials, a texture, bumps.
 inline constexpr const char* kAllStagesScene = R"(
 LookAt 0 2 -6  0 0.8 0  0 1 0
 Camera "perspective" "float fov" 40
@@ -35,7 +35,8 @@ AttributeBegin
     "integer indices" [ 0 2 1 0 3 2 ]
 AttributeEnd
 Texture "checks" "spectrum" "checkerboard" "rgb tex1" [ 0.8 0.2 0.1 ] "rgb tex2" [ 0.1 0.2 0.3 ]
-Material "diffuse" "texture reflectance" "checks"
+Texture "steps" "float" "checkerboard" "float tex1" 0.01
+Material "diffuse" "texture reflectance" "checks" "texture displacement" "steps"
 Shape "trianglemesh" "point3 P" [ -5 0 -5  5 0 -5  5 0 5  -5 0 5 ]
   "point2 uv" [ 0 0 4 0 4 4 0 4 ] "integer indices" [ 0 2 1 0 3 2 ]
 Material "dielectric" "float eta" 1.5
@@ -87,7 +88,8 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2.5  -3 3 2.5 ]
 )";
 
 /// What the other one lacks: an environment image (sky.pfm), mixed materials, the other
-/// diffuse models, a lens, instances, a cut-out, a sphere far larger than its distance.
+/// diffuse models, a normal map (the same file), a lens, instances, a cut-out, a sphere
+/// far larger than its distance.
 inline constexpr const char* kOtherStagesScene = R"(
 LookAt 0 2 -6  0 0.8 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -3 3 -3 3 ] "float lensradius" 0.05 "float focaldistance" 6
@@ -98,6 +100,7 @@ WorldBegin
 LightSource "infinite" "string filename" "sky.pfm"
 LightSource "point" "point3 from" [ 2 4 -2 ] "rgb I" [ 9 9 9 ]
 MakeNamedMaterial "even" "string type" "diffuse" "string scattering" "uniform"
+  "string normalmap" "sky.pfm"
 MakeNamedMaterial "narrow" "string type" "diffuse" "string scattering" "insphere"
 MakeNamedMaterial "both" "string type" "mix" "string materials" [ "even" "narrow" ]
 Texture "holes" "float" "checkerboard" "float tex1" 1 "float tex2" 0

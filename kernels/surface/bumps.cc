@@ -1,0 +1,152 @@
+// Bump maps: the shading normal of a surface that is moved along its normal by the height
+// h(u, v) of the material's displacement texture, without moving the surface (Blinn 1978,
+// "Simulation of Wrinkled Surfaces"), with the conventions of pbrt-v4:
+//   dp'/du = dp/du + (h(u + du, v) - h(u, v)) / du n,   likewise dp'/dv;
+// the steps du, dv are half of the pixel's footprint, |du/dx| + |du/dy| over 2, or 0.0005
+// where that is zero; the normal is their cross product, on the side of the geometric
+// one. On meshes with vertex normals n is the interpolated normal, dp/du its part across
+// n, and n x dp/du stands for dp/dv, whatever the length of that.
+//
+// pbrt-v4 adds h dn/du to dp'/du. It is left out here: it changes the slopes in the
+// ratio of the height to the radius of curvature, and needs six more numbers per hit.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/surface/bumps.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/surface/instance-inl.h"
+#include "kernels/surface/relief-inl.h"
+#include "kernels/texture/levels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// The surface before it is bumped.
+struct BumpAxes {
+  V3 n, u, v;  // normal, dp/du, dp/dv
+};
+
+// Lanes that lie on a triangle of a mesh with normals.
+HWY_INLINE MF OnMeshWithNormals(const Geometry& geometry, VI prim) {
+  const DI di;
+  if (geometry.triangles.empty()) return hn::FirstN(DF(), 0);
+  const auto end = static_cast<int32_t>(geometry.ranges.spheres);
+  const auto triangle = hn::Lt(prim, hn::Set(di, end));
+  const VI at = hn::Mul(hn::IfThenElseZero(triangle, prim), hn::Set(di, 12));
+  const VI flags = Gather(&geometry.triangles.data()->flags, at);
+  const VI given = hn::And(flags, hn::Set(di, static_cast<int32_t>(kMeshNormals)));
+  return hn::RebindMask(DF(), hn::And(triangle, hn::Ne(given, hn::Zero(di))));
+}
+
+// -1 where the instance mirrors: n x dp/du is taken in the space of the mesh.
+template <bool kInstances>
+HWY_INLINE VF Handedness(const Wave& wave, const StoreSlots& slots) {
+  if constexpr (kInstances) {
+    const InstanceMaps maps =
+        GatherMaps(wave.scene->geometry.instances, Gather(wave.path.inst, slots));
+    const Map34& m = maps.scene_from_object;
+    return hn::CopySign(Splat(1.0f), Dot(m.row[0], Cross(m.row[1], m.row[2])));
+  }
+  return Splat(1.0f);
+}
+
+template <bool kInstances>
+HWY_INLINE BumpAxes LoadAxes(const Wave& wave, const StoreSlots& slots) {
+  const PathColumns& path = wave.path;
+  const V3 n = Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
+  const V3 tg = Gather3(path.tg_x, path.tg_y, path.tg_z, slots);
+  const V3 tv = Gather3(path.tv_x, path.tv_y, path.tv_z, slots);
+  const V3 flat = MulAdd(n, hn::Neg(Dot(n, tg)), tg);
+  const V3 across = Mul(Cross(n, tg), Handedness<kInstances>(wave, slots));
+  const MF square = OnMeshWithNormals(wave.scene->geometry, Gather(path.prim, slots));
+  return {n, IfThenElse(square, flat, tg), IfThenElse(square, across, tv)};
+}
+
+// Half of what the two steps cover; large coordinates need steps that floats resolve.
+HWY_INLINE VF Step(VF d0, VF d1, VF at) {
+  const VF half = hn::Mul(Splat(0.5f), hn::Add(hn::Abs(d0), hn::Abs(d1)));
+  const VF step = hn::IfThenElse(hn::Gt(half, hn::Zero(DF())), half, Splat(0.0005f));
+  return hn::Max(step, hn::Mul(Splat(0x1p-17f), hn::Max(hn::Abs(at), Splat(1.0f))));
+}
+
+// Slope of the height per unit of u and v, in scene units.
+struct Slopes {
+  VF u, v;
+};
+HWY_INLINE Slopes LoadSlopes(const Wave& wave, const StoreSlots& slots, VI texture) {
+  const PathColumns& path = wave.path;
+  const TextureTable& table = wave.scene->textures;
+  const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
+  const Footprint spread = LoadFootprint(path, slots);
+  const VF next_u = hn::Add(u, Step(spread.dudx, spread.dudy, u));
+  const VF next_v = hn::Add(v, Step(spread.dvdx, spread.dvdy, v));
+  const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
+  const V3 n = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+  const V3 tg = Gather3(path.tg_x, path.tg_y, path.tg_z, slots);
+  const V3 tv = Gather3(path.tv_x, path.tv_y, path.tv_z, slots);
+  const auto height = [&](VF at_u, VF at_v) HWY_ATTR {
+    const V3 at = MulAdd(tg, hn::Sub(at_u, u), MulAdd(tv, hn::Sub(at_v, v), p));
+    return EvalFloats(table, texture, FilteredPoint{at_u, at_v, at, n, spread},
+                      hn::Zero(DF()));
+  };
+  const VF here = height(u, v), scale = Splat(static_cast<float>(wave.scene->scale));
+  const VF rise_u = hn::Sub(height(next_u, v), here);
+  const VF rise_v = hn::Sub(height(u, next_v), here);
+  return {hn::Mul(scale, hn::Div(rise_u, hn::Sub(next_u, u))),
+          hn::Mul(scale, hn::Div(rise_v, hn::Sub(next_v, v)))};
+}
+
+template <bool kInstances>
+void Bumps(Wave& wave) {
+  const AlignedVector<int32_t>& textures = wave.scene->materials.displacement_texture;
+  const PathColumns& path = wave.path;
+  ForEachBatch(wave, WithTexture(wave, textures),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const VI texture = Lookup(textures, Gather(path.material, slots));
+                 const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+                 const BumpAxes axes = LoadAxes<kInstances>(wave, slots);
+                 const Slopes slope = LoadSlopes(wave, slots, texture);
+                 // Their lengths do not matter, and products of small ones would
+                 // underflow.
+                 const V3 along_u = MulAdd(axes.n, slope.u, axes.u);
+                 const V3 along_v = MulAdd(axes.n, slope.v, axes.v);
+                 const V3 n = Normalize(Cross(Normalize(along_u), Normalize(along_v)));
+                 StoreNormal(wave, slots, Sided(n, ng, axes.n), ng, along_u);
+               });
+}
+
+void BumpsPlain(Wave& wave) { Bumps<false>(wave); }
+void BumpsInstances(Wave& wave) { Bumps<true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/surface/stages.h"
+
+namespace lanelight {
+HWY_EXPORT(BumpsPlain);
+HWY_EXPORT(BumpsInstances);
+
+Stage BumpsStage() {
+  return {"bumps",
+          "shading normals of displacement textures",
+          QueueId::kSurface,
+          {Feature::kBumps, Feature::kScatters},
+          ReliefReads() | fields::kSpread | FieldSet{Field::prim, Field::inst},
+          ReliefWrites(),
+          [](const FeatureSet& features) -> StageFn {
+            return features.Has(Feature::kInstances)
+                       ? HWY_DYNAMIC_DISPATCH(BumpsInstances)
+                       : HWY_DYNAMIC_DISPATCH(BumpsPlain);
+          }};
+}
+
+}  // namespace lanelight
+#endif

@@ -1,0 +1,66 @@
+// Normal maps: the texel c holds the shading normal 2 c - 1 in the frame of dp/du across
+// the normal, n x dp/du, and the normal, as in pbrt-v4 (bilinear, repeated, no levels).
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/surface/normal_maps.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/surface/relief-inl.h"
+#include "kernels/texture/texture-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// dp/du across n, unit; any direction across it where there is none.
+HWY_INLINE V3 UnitTangent(V3 n, V3 tangent) {
+  const V3 flat = MulAdd(n, hn::Neg(Dot(n, tangent)), tangent);
+  const VF length2 = Dot(flat, flat);
+  const MF usable = hn::Gt(length2, hn::Mul(Splat(1e-10f), Dot(tangent, tangent)));
+  return IfThenElse(usable, Mul(flat, Rsqrt(length2)), FrameFromNormal(n).s);
+}
+
+void NormalMaps(Wave& wave) {
+  const AlignedVector<int32_t>& textures = wave.scene->materials.normal_map_texture;
+  const PathColumns& path = wave.path;
+  ForEachBatch(
+      wave, WithTexture(wave, textures), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const VI texture = Lookup(textures, Gather(path.material, slots));
+        const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+        const V3 ns = Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
+        const V3 x = UnitTangent(ns, Gather3(path.tg_x, path.tg_y, path.tg_z, slots));
+        const V3 color =
+            EvalTextures(wave.scene->textures, texture, Gather(path.uv_u, slots),
+                         Gather(path.uv_v, slots), Splat3(0, 0, 0));
+        const V3 local = Normalize(Mul(color, Splat(2.0f)) - Splat3(1, 1, 1));
+        const V3 n = Frame{x, Cross(ns, x), ns}.FromLocal(local);
+        StoreNormal(wave, slots, Sided(n, ng, ns), ng, x);
+      });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/surface/stages.h"
+
+namespace lanelight {
+HWY_EXPORT(NormalMaps);
+
+Stage NormalMapsStage() {
+  return {"normal_maps",
+          "shading normals of normal maps",
+          QueueId::kSurface,
+          {Feature::kNormalMaps, Feature::kScatters},
+          ReliefReads(),
+          ReliefWrites(),
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(NormalMaps); }};
+}
+
+}  // namespace lanelight
+#endif

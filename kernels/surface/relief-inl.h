@@ -1,0 +1,100 @@
+// Shading normals that a texture gives, made valid.
+//
+// A normal of its own makes two kinds of directions impossible that a real surface would
+// never show: facets that look away from the viewer, and reflections that go into the
+// surface. pbrt-v4 follows both: paths enter what is solid and are lost, which is black.
+// Here
+// - a normal that faces away from the viewer is turned toward him, in the plane of the
+//   two, until it is seen at a grazing angle (cosine kLeastCosine): of a real bump such a
+//   facet is hidden by its neighbours;
+// - of materials that only mirror or refract (metals, glass), a normal is turned so far
+//   that the mirrored viewer is above the surface. This is what the Iray renderer does
+//   for all materials (Keller, Waechter, Raab, Seibert, van Antwerpen, Korndoerfer and
+//   Kettner 2017, "The Iray Light Transport Simulation and Rendering System").
+// Elsewhere normals and images are those of pbrt-v4. Light that a diffuse bump scatters
+// below the horizon of the surface goes on there, as in pbrt-v4; at a tilt of theta that
+// is (1 - cos theta) / 2 of it.
+#if defined(LANELIGHT_SURFACE_RELIEF_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_SURFACE_RELIEF_INL_H_
+#undef LANELIGHT_SURFACE_RELIEF_INL_H_
+#else
+#define LANELIGHT_SURFACE_RELIEF_INL_H_
+#endif
+
+#include "kernels/queue/filter-inl.h"
+#include "kernels/simd/vec3-inl.h"
+#include "src/compiled/scene.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Least cosine of the viewer to a normal, and of the mirrored viewer to the surface.
+inline constexpr float kLeastCosine = 1.0f / 64;
+
+/// The hits whose material has an entry >= 0 in `textures`.
+HWY_INLINE const Queue& WithTexture(Wave& wave, const AlignedVector<int32_t>& textures) {
+  const uint32_t* materials = wave.path.material;
+  return FilterQueue(wave, wave.queue(QueueId::kSurface),
+                     [&](const Slots& slots) HWY_ATTR {
+                       const VI id = Lookup(textures, Gather(materials, slots));
+                       return hn::RebindMask(DF(), hn::Gt(id, hn::Set(DI(), -1)));
+                     });
+}
+
+/// Lanes whose material only mirrors or refracts.
+HWY_INLINE MF MirrorsOrRefracts(const MaterialTable& table, VI material) {
+  const VI kind = Lookup(table.kind, material);
+  MF mask = hn::FirstN(DF(), 0);
+  for (int k = 0; k < kNumShadeKinds; ++k) {
+    const auto shade_kind = static_cast<ShadeKind>(k);
+    if (!HasTrait(shade_kind, kMetallic) && !HasTrait(shade_kind, kClear)) continue;
+    mask = hn::Or(mask, hn::RebindMask(DF(), hn::Eq(kind, hn::Set(DI(), k))));
+  }
+  return mask;
+}
+
+/// Unit normal on the side of the geometric one; `before` where it is not finite.
+HWY_INLINE V3 Sided(V3 n, V3 ng, V3 before) {
+  const VF length2 = Dot(n, n);
+  const MF good = hn::And(hn::Gt(length2, Splat(0.5f)), hn::Lt(length2, Splat(2.0f)));
+  n = IfThenElse(good, n, before);
+  return Mul(n, hn::CopySign(Splat(1.0f), Dot(n, ng)));
+}
+
+/// `n`, a unit normal on the side of `ng`, turned as said above; `wo` leads to the viewer
+/// and may be on either side.
+HWY_INLINE V3 KeepInView(V3 n, V3 ng, V3 wo, MF mirrors) {
+  const VF least = Splat(kLeastCosine);
+  wo = Mul(wo, hn::CopySign(Splat(1.0f), Dot(ng, wo)));
+  const VF cosine = Dot(n, wo);
+  const V3 across = MulAdd(wo, hn::Neg(cosine), n);
+  const float sine = 0.99987792f;  // sqrt(1 - kLeastCosine^2)
+  const V3 grazed =
+      MulAdd(across, hn::Mul(Splat(sine), Rsqrt(Dot(across, across))), Mul(wo, least));
+  n = IfThenElse(hn::Lt(cosine, least), grazed, n);
+  // The mirrored viewer, lifted to the least height or that of the viewer himself.
+  const V3 mirrored = MulAdd(n, hn::Mul(Splat(2.0f), Dot(n, wo)), -wo);
+  const VF height = Dot(mirrored, ng), wanted = hn::Min(least, Dot(wo, ng));
+  const V3 lifted = Normalize(MulAdd(ng, hn::Sub(wanted, height), mirrored));
+  const MF low = hn::And(mirrors, hn::Lt(height, wanted));
+  return IfThenElse(low, Normalize(lifted + wo), n);
+}
+
+/// Writes the normal, with what FrameFromTangent (kernels/shade) makes its frame of.
+HWY_INLINE void StoreNormal(const Wave& wave, const StoreSlots& slots, V3 n, V3 ng,
+                            V3 tangent) {
+  const PathColumns& path = wave.path;
+  const V3 wo = -Gather3(path.d_x, path.d_y, path.d_z, slots);
+  const MF mirrors =
+      MirrorsOrRefracts(wave.scene->materials, Gather(path.material, slots));
+  Scatter3(KeepInView(n, ng, wo, mirrors), path.ns_x, path.ns_y, path.ns_z, slots);
+  Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,147 @@
+// Images through their pyramids, over the footprint of a pixel: `trilinear` (Williams
+// 1983, "Pyramidal Parametrics") takes the level at which the longer side of the
+// footprint, twice, is a texel, and its neighbour. `ewa` takes the level of the shorter
+// axis and averages along the longer one, in steps of the shorter, with the Gaussian
+// weights of Heckbert's ellipse (McCormack, Perry, Farkas and Jouppi 1999, "Feline: Fast
+// Elliptical Lines for Anisotropic Texture Mapping"); `maxanisotropy` bounds their ratio.
+#if defined(LANELIGHT_TEXTURE_LEVELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_TEXTURE_LEVELS_INL_H_
+#undef LANELIGHT_TEXTURE_LEVELS_INL_H_
+#else
+#define LANELIGHT_TEXTURE_LEVELS_INL_H_
+#endif
+
+#include "hwy/contrib/math/math-inl.h"
+#include "kernels/queue/slots-inl.h"
+#include "kernels/texture/texture-inl.h"
+#include "src/path/fields.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Steps in surface coordinates from one pixel to the next.
+struct Footprint {
+  VF dudx, dudy, dvdx, dvdy;
+
+  LANELIGHT_INLINE Footprint Only(MF mask) const {
+    return {hn::IfThenElseZero(mask, dudx), hn::IfThenElseZero(mask, dudy),
+            hn::IfThenElseZero(mask, dvdx), hn::IfThenElseZero(mask, dvdy)};
+  }
+};
+
+LANELIGHT_INLINE Footprint LoadFootprint(const PathColumns& path, const Slots& slots) {
+  return {Gather(path.spread_0, slots), Gather(path.spread_1, slots),
+          Gather(path.spread_2, slots), Gather(path.spread_3, slots)};
+}
+
+/// A point for all textures, images of which are filtered; p and n as in PlacedPoint.
+struct FilteredPoint {
+  static constexpr bool kHasPlace = true, kHasFootprint = true;
+  VF u, v;
+  V3 p, n;
+  Footprint spread;
+
+  LANELIGHT_INLINE FilteredPoint Only(MF mine) const {
+    return {hn::IfThenElseZero(mine, u), hn::IfThenElseZero(mine, v),
+            IfThenElseZero(mine, p), n, spread.Only(mine)};
+  }
+};
+
+/// Bilinear lookup in the lanes' own levels.
+LANELIGHT_INLINE V3 EvalLevel(const TextureTable& table, const TextureNode& node,
+                              VI level, VF s, VF t) {
+  const DF df;
+  const TextureImage& image = table.images[node.image];
+  const VI w = Lookup(image.level_width, level), h = Lookup(image.level_height, level);
+  const VI begin = Lookup(image.level_begin, level);
+  const TexelPair x = FindTexels(s, false, hn::ConvertTo(df, w), node);
+  const TexelPair y = FindTexels(t, true, hn::ConvertTo(df, h), node);
+  const auto texel = [&](VI i, VI j) HWY_ATTR {
+    MF inside = hn::FirstN(df, hn::Lanes(df));
+    const VI index = hn::Add(begin, WrappedIndex(w, h, node.wrap, i, j, inside));
+    return IfThenElseZero(inside, LoadTexels(table, image, index));
+  };
+  const V3 top = Lerp(texel(x.i0, y.i0), texel(x.i1, y.i0), x.weight);
+  const V3 bottom = Lerp(texel(x.i0, y.i1), texel(x.i1, y.i1), x.weight);
+  return Lerp(top, bottom, y.weight);
+}
+
+/// Between the two levels around that in which a texel is `width` texels of the image.
+LANELIGHT_INLINE V3 EvalTrilinear(const TextureTable& table, const TextureNode& node,
+                                  VF width, VF s, VF t) {
+  const DF df;
+  const DI di;
+  const auto last = static_cast<int32_t>(table.images[node.image].level_begin.size()) - 1;
+  const VF level =
+      hn::Min(hn::Log2(df, hn::Max(width, Splat(1.0f))), Splat(static_cast<float>(last)));
+  const VF low = hn::Floor(level), weight = hn::Sub(level, low);
+  const VI index = hn::ConvertTo(di, low);
+  const V3 color = EvalLevel(table, node, index, s, t);
+  if (hn::AllTrue(df, hn::Eq(weight, hn::Zero(df)))) return color;
+  const VI next = hn::Min(hn::Add(index, hn::Set(di, 1)), hn::Set(di, last));
+  return Lerp(color, EvalLevel(table, node, next, s, t), weight);
+}
+
+/// Steps in texels of the image, `x` and `y` those of a pixel.
+struct TexelSteps {
+  VF s_x, t_x, s_y, t_y;
+};
+
+LANELIGHT_INLINE V3 EvalAlongLine(const TextureTable& table, const TextureNode& node,
+                                  const TextureImage& image, const TexelSteps& d, VF s,
+                                  VF t) {
+  const DF df;
+  const VF one = Splat(1.0f), two = Splat(2.0f);
+  const VF x = hn::Sqrt(hn::MulAdd(d.s_x, d.s_x, hn::Mul(d.t_x, d.t_x)));
+  const VF y = hn::Sqrt(hn::MulAdd(d.s_y, d.s_y, hn::Mul(d.t_y, d.t_y)));
+  const MF along_x = hn::Ge(x, y);
+  const VF longer = hn::Max(hn::Max(x, y), Splat(1e-20f));
+  const VF shorter =
+      hn::Max(hn::Min(x, y), hn::Mul(longer, Splat(1 / node.max_anisotropy)));
+  // A texel is the least that a step must cover.
+  const VF count = hn::Min(hn::Ceil(hn::Div(longer, hn::Max(shorter, one))),
+                           Splat(std::ceil(node.max_anisotropy)));
+  const VF steps = hn::Max(count, one);
+  const VF ds = hn::Mul(hn::IfThenElse(along_x, d.s_x, d.s_y),
+                        Splat(1.0f / static_cast<float>(image.width)));
+  const VF dt = hn::Mul(hn::IfThenElse(along_x, d.t_x, d.t_y),
+                        Splat(1.0f / static_cast<float>(image.height)));
+  const float most = hn::GetLane(hn::MaxOfLanes(df, steps));
+  V3 sum = Splat3(0, 0, 0);
+  VF weights = hn::Zero(df);
+  for (float k = 0; k < most; ++k) {
+    const VF at = hn::Sub(hn::Div(Splat(2 * k + 1), steps), one);  // -1 .. 1
+    const VF bell = hn::Sub(hn::Exp(df, hn::Neg(hn::Mul(two, hn::Mul(at, at)))),
+                            Splat(0.13533528f));  // exp(-2)
+    const VF weight = hn::IfThenElseZero(hn::Lt(Splat(k), steps), bell);
+    const V3 color =
+        EvalTrilinear(table, node, shorter, hn::MulAdd(ds, at, s), hn::MulAdd(dt, at, t));
+    sum = MulAdd(color, weight, sum);
+    weights = hn::Add(weights, weight);
+  }
+  return Mul(sum, hn::Div(one, weights));
+}
+
+/// The image of a node that has levels, at (s, t), over a footprint.
+inline HWY_NOINLINE V3 EvalFiltered(const TextureTable& table, const TextureNode& node,
+                                    VF s, VF t, const Footprint& f) {
+  const TextureImage& image = table.images[node.image];
+  const VF w = Splat(node.su * static_cast<float>(image.width));
+  const VF h = Splat(node.sv * static_cast<float>(image.height));
+  const TexelSteps d = {hn::Mul(f.dudx, w), hn::Mul(f.dvdx, h), hn::Mul(f.dudy, w),
+                        hn::Mul(f.dvdy, h)};
+  if (node.filter == ImageFilter::kEwa) {
+    return FinishTexel(node, EvalAlongLine(table, node, image, d, s, t));
+  }
+  const VF longest = hn::Max(hn::Max(hn::Abs(d.s_x), hn::Abs(d.t_x)),
+                             hn::Max(hn::Abs(d.s_y), hn::Abs(d.t_y)));
+  const VF width = hn::Add(longest, longest);
+  return FinishTexel(node, EvalTrilinear(table, node, width, s, t));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

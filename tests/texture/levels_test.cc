@@ -1,0 +1,197 @@
+// Pyramids against averages over areas, and lookups in them against closed forms.
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "kernels/simd/target.h"
+#include "kernels/stages.h"
+#include "src/compile/mip_levels.h"
+#include "src/compile/texture_programs.h"
+#include "tests/surface/relief_files.h"
+#include "tests/support/wave_fixture.h"
+
+namespace lanelight {
+namespace {
+
+// 256 linear values, as of an image of linear bytes.
+std::vector<float> LinearBytes() {
+  std::vector<float> decode(256);
+  for (int i = 0; i < 256; ++i) decode[static_cast<std::size_t>(i)] = i / 255.0f;
+  return decode;
+}
+
+TextureImage Floats(int width, int height) {
+  TextureImage image;
+  image.width = width;
+  image.height = height;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> uniform(0, 2);
+  for (int i = 0; i < 3 * width * height; ++i) image.rgb.push_back(uniform(random));
+  return image;
+}
+
+double Mean(const TextureImage& image, std::size_t level, int channel) {
+  double sum = 0;
+  const int n = image.level_width[level] * image.level_height[level];
+  for (int i = 0; i < n; ++i) {
+    sum += image.rgb[3 * static_cast<std::size_t>(image.level_begin[level] + i) +
+                     static_cast<std::size_t>(channel)];
+  }
+  return sum / n;
+}
+
+// One material whose reflectance is the texture; the colours that the stage gives to
+// points with a footprint.
+struct Lookups {
+  CompiledScene scene;
+  TemporaryFolder folder;
+
+  Lookups(int size, const std::function<double(double, double)>& f, ImageFilter filter,
+          double max_anisotropy = 8) {
+    WriteGreyImage(folder.File("i.exr"), size, f);
+    Texture texture = ImageTexture(folder.File("i.exr"));
+    texture.filter = filter;
+    texture.max_anisotropy = max_anisotropy;
+    scene.textures = CompileTextures({texture});
+    MaterialTable& m = scene.materials;
+    m.kind = {0};
+    m.color0_r = m.color0_g = m.color0_b = {0.5f};
+    m.color0_texture = {0};
+  }
+  struct Point {
+    float u, v, dudx = 0, dudy = 0, dvdx = 0, dvdy = 0;
+  };
+  std::vector<float> Eval(const std::vector<Point>& points) {
+    const auto n = static_cast<std::uint32_t>(points.size());
+    WaveFixture f(scene, n);
+    PathColumns& p = f.wave.path;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      p.material[i] = 0;
+      p.uv_u[i] = points[i].u, p.uv_v[i] = points[i].v;
+      p.spread_0[i] = points[i].dudx, p.spread_1[i] = points[i].dudy;
+      p.spread_2[i] = points[i].dvdx, p.spread_3[i] = points[i].dvdy;
+    }
+    f.QueueAll(QueueId::kSurface, n);
+    f.Run(TextureStage(),
+          {Feature::kTextures, Feature::kUv, Feature::kTextureFootprints});
+    return {p.color0_r, p.color0_r + n};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("levels are averages over areas", "[texture][levels]") {
+  const std::vector<float> decode = LinearBytes();
+  SECTION("powers of two: over 2 x 2 texels") {
+    TextureImage image = Floats(8, 4);
+    AddMipLevels(decode.data(), image);
+    REQUIRE(image.level_width == AlignedVector<std::int32_t>{8, 4, 2, 1});
+    REQUIRE(image.level_height == AlignedVector<std::int32_t>{4, 2, 1, 1});
+    REQUIRE(image.level_begin == AlignedVector<std::int32_t>{0, 32, 40, 42});
+    for (int j = 0; j < 2; ++j) {
+      for (int i = 0; i < 4; ++i) {
+        float sum = 0;
+        for (int k = 0; k < 4; ++k) {
+          sum += image.rgb[static_cast<std::size_t>(
+              3 * ((2 * j + k / 2) * 8 + 2 * i + k % 2) + 1)];
+        }
+        CHECK(image.rgb[static_cast<std::size_t>(3 * (32 + j * 4 + i) + 1)] ==
+              Approx(sum / 4).epsilon(1e-6));
+      }
+    }
+  }
+  SECTION("any size: the mean stays, and bounds hold") {
+    for (const auto& [w, h] : {std::pair{7, 5}, {1, 9}, {13, 2}, {100, 37}}) {
+      CAPTURE(w, h);
+      TextureImage image = Floats(w, h);
+      AddMipLevels(decode.data(), image);
+      for (std::size_t l = 1; l < image.level_begin.size(); ++l) {
+        CHECK(image.level_width[l] == std::max(1, image.level_width[l - 1] / 2));
+        for (int c = 0; c < 3; ++c) {
+          CHECK(Mean(image, l, c) == Approx(Mean(image, 0, c)).epsilon(1e-5));
+        }
+      }
+      CHECK(image.level_width.back() * image.level_height.back() == 1);
+    }
+  }
+  SECTION("bytes: rounded to the nearest, once") {
+    TextureImage image;
+    image.width = image.height = 16;
+    std::mt19937 random(6);
+    double sum = 0;
+    for (int i = 0; i < 256; ++i) {
+      image.rgba8.push_back(random() & 255);
+      sum += image.rgba8.back() / 255.0;
+    }
+    AddMipLevels(decode.data(), image);
+    REQUIRE(image.rgba8.size() == 256 + 64 + 16 + 4 + 1);
+    CHECK(std::abs((image.rgba8.back() & 255) / 255.0 - sum / 256) < 0.5001 / 255);
+  }
+}
+
+TEST_CASE("without a footprint filters look at the image itself", "[texture][levels]") {
+  const auto f = [](double u, double v) { return 0.2 + 0.5 * u + 0.1 * v; };
+  for (const ImageFilter filter : {ImageFilter::kTrilinear, ImageFilter::kEwa}) {
+    Lookups lookups(32, f, filter);
+    for (const float u : {0.1f, 0.5f, 0.77f}) {
+      CHECK(lookups.Eval({{u, 0.3f}})[0] == Approx(f(u, 0.3)).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("trilinear: level log2 of twice the longest step", "[texture][levels]") {
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    CAPTURE(target);
+    // Columns of 0 and 1 in turn: level 0 is 0 or 1 at texel centres, all others 1/2.
+    Lookups lookups(
+        64, [](double u, double) { return static_cast<int>(u * 64) % 2; },
+        ImageFilter::kTrilinear);
+    const float centre = 33.5f / 64, texel = 1.0f / 64;
+    const auto c = lookups.Eval({{centre, 0.5f, texel / 2},  // one texel
+                                 {centre, 0.5f, 0, texel},   // two: level 1
+                                 {centre, 0.5f, 0, 0, texel * 0.70710678f},  // 2^0.5
+                                 {centre, 0.5f, 0, 0, 0, 10},
+                                 {centre, 0.5f, 1e8f},
+                                 {centre, 0.5f, -texel}});
+    CHECK(c[0] == Approx(1).margin(1e-4));
+    CHECK(c[1] == Approx(0.5).margin(1e-4));
+    CHECK(c[2] == Approx(0.75).margin(1e-3));
+    CHECK(c[3] == Approx(0.5).margin(1e-4));
+    CHECK(c[4] == Approx(0.5).margin(1e-4));
+    CHECK(c[5] == Approx(0.5).margin(1e-4));
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("ewa keeps what lies across the long axis", "[texture][levels]") {
+  const auto stripes = [](double u, double) { return static_cast<int>(u * 64) / 8 % 2; };
+  const float texel = 1.0f / 64, u = 12.0f / 64;  // middle of a bright stripe
+  const Lookups::Point along = {u, 0.5f, texel / 2, 0, 0, 8 * texel};
+  const Lookups::Point across = {u, 0.5f, 16 * texel, 0, 0, texel};
+  Lookups ewa(64, stripes, ImageFilter::kEwa, 16);
+  Lookups trilinear(64, stripes, ImageFilter::kTrilinear);
+  CHECK(ewa.Eval({along})[0] == Approx(1).margin(1e-3));
+  CHECK(trilinear.Eval({along})[0] < 0.6f);
+  CHECK(ewa.Eval({across})[0] == Approx(0.5).margin(0.1));
+  // Bounded anisotropy blurs, and the mean over a period stays.
+  Lookups isotropic(64, stripes, ImageFilter::kEwa, 1);
+  const Lookups::Point longer = {u, 0.5f, texel / 2, 0, 0, 16 * texel};
+  CHECK(isotropic.Eval({longer})[0] < 0.8f);
+  CHECK(ewa.Eval({longer})[0] > 0.9f);
+  std::vector<Lookups::Point> period;
+  for (int i = 0; i < 256; ++i) {
+    period.push_back({static_cast<float>(i) / 256, 0.4f, 3 * texel, texel, 0, 2 * texel});
+  }
+  const std::vector<float> all = ewa.Eval(period);
+  CHECK(std::accumulate(all.begin(), all.end(), 0.0) / 256 == Approx(0.5).epsilon(1e-4));
+}
+
+TEST_CASE("images get levels only where a filter asks", "[texture][levels]") {
+  Lookups plain(16, [](double u, double) { return u; }, ImageFilter::kBilinear);
+  CHECK(plain.scene.textures.images[0].level_begin.empty());
+  CHECK(plain.scene.textures.images[0].rgb.size() == 3 * 256);
+  Lookups filtered(16, [](double u, double) { return u; }, ImageFilter::kTrilinear);
+  CHECK(filtered.scene.textures.images[0].level_begin.size() == 5);
+}
+
+}  // namespace lanelight
