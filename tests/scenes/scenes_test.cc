@@ -81,6 +81,9 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
   CHECK(features("closed-room.pbrt")
             .HasAll({Feature::kSphereLights, Feature::kRectangleLights,
                      Feature::kDiskLights}));
+  CHECK(
+      features("relief.pbrt")
+          .HasAll({Feature::kBumps, Feature::kNormalMaps, Feature::kTextureFootprints}));
   CHECK(features("instances.pbrt").Has(Feature::kInstances));
   CHECK(
       features("sun-sky.pbrt")
@@ -140,6 +143,23 @@ TEST_CASE("own scenes: generated meshes can be read", "[scenes]") {
                       .c_str()) == 0);
   CHECK(ReadText(folder / "soup.ply") == first);
   CHECK(std::system((script + "soup --size 2 2> /dev/null").c_str()) != 0);
+  fs::remove_all(folder);
+}
+
+TEST_CASE("own scenes: images are what scenes/parts/maps writes", "[scenes]") {
+  if (std::system("python3 --version > /dev/null 2>&1") != 0) {
+    WARN("skipped: no python3");
+    return;
+  }
+  const fs::path parts = fs::path(LANELIGHT_SOURCE_DIR) / "scenes" / "parts";
+  const fs::path folder = fs::temp_directory_path() / "lanelight_maps_test";
+  fs::remove_all(folder);
+  REQUIRE(
+      std::system(("python3 " + (parts / "maps").string() + " --out " + folder.string())
+                      .c_str()) == 0);
+  for (const char* name : {"ripples.tga", "dents.tga", "tiles.tga"}) {
+    CHECK(ReadText(folder / name) == ReadText(parts / name));
+  }
   fs::remove_all(folder);
 }
 
