@@ -65,6 +65,27 @@ SceneDescription ReliefScene(const TemporaryFolder& folder, double height = 1) {
   return b.Build();
 }
 
+// A floor with an image of noise, of which a pixel sees many texels.
+SceneDescription NoisyFloor(const TemporaryFolder& folder, ImageFilter filter) {
+  std::uint32_t state = 1;
+  WriteGreyImage(folder.File("noise.exr"), 64, [&](double, double) {
+    state = state * 1664525u + 1013904223u;
+    return state >> 31;
+  });
+  SceneBuilder b(12, 12);
+  b.Depth(1).Perspective({0, -6, 3}, {0, 0, 0}, {0, 0, 1}, 40);
+  b.scene().sampler.spp = 1;  // footprints of whole pixels
+  Texture texture = ImageTexture(folder.File("noise.exr"));
+  texture.filter = filter;
+  texture.mapping.su = texture.mapping.sv = 8;
+  b.scene().textures.push_back(texture);
+  Material m;
+  m.reflectance.texture = 0;
+  b.AddQuad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}, b.AddMaterial(m));
+  b.AddDistant({0, 0, 1}, Grey(2));
+  return b.Build();
+}
+
 }  // namespace
 
 TEST_CASE("bump and normal maps agree with the reference", "[relief][agreement]") {
@@ -105,6 +126,35 @@ TEST_CASE("a white bumped ball in a white world stays nearly white", "[relief]")
   // again sooner or later; 40 bounces see the most of it.
   CHECK(mean > 0.985);
   CHECK(mean < 1.001);
+}
+
+TEST_CASE("filtered images have the mean and little of the noise", "[relief]") {
+  const TemporaryFolder folder;
+  TestRender options;
+  options.spp = 1024;
+  const auto render = [&](ImageFilter filter) {
+    return RenderDescription(NoisyFloor(folder, filter), options).film;
+  };
+  const auto bilinear = render(ImageFilter::kBilinear);
+  const Rgb noise = ImageStandardError(bilinear);
+  for (const ImageFilter filter : {ImageFilter::kTrilinear, ImageFilter::kEwa}) {
+    const auto filtered = render(filter);
+    CAPTURE(filter, noise.x, ImageMean(bilinear).x, ImageMean(filtered).x);
+    // Six standard errors: false alarms in 2e-9.
+    CHECK(std::abs(ImageMean(filtered).x - ImageMean(bilinear).x) < 6 * noise.x);
+    CHECK(ImageStandardError(filtered).x < noise.x / 3);
+  }
+}
+
+TEST_CASE("footprints exist where an image is filtered", "[relief][plan]") {
+  const TemporaryFolder folder;
+  const auto plan = [&](ImageFilter filter) {
+    return MakePlan(PrepareScene(NoisyFloor(folder, filter)), {});
+  };
+  CHECK_FALSE(plan(ImageFilter::kBilinear).features.Has(Feature::kTextureFootprints));
+  CHECK_FALSE(plan(ImageFilter::kPoint).features.Has(Feature::kTextureFootprints));
+  CHECK(plan(ImageFilter::kTrilinear).features.Has(Feature::kTextureFootprints));
+  CHECK(plan(ImageFilter::kEwa).features.Has(Feature::kTextureFootprints));
 }
 
 TEST_CASE("scenes without relief have nothing of it", "[relief][plan]") {
