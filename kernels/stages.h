@@ -76,8 +76,11 @@ namespace lanelight {
   X(SamplePointLight)                          \
   X(SampleSpotLight)                           \
   X(SampleDistantLight)                        \
+  X(SampleImageLight)                          \
   X(SampleInfiniteConstant)                    \
   X(SampleInfiniteImage)                       \
+  X(SamplePortalLight)                         \
+  X(EmissionImageSamples)                      \
   X(Consider)                                  \
   X(KeepCandidate)                             \
   X(AnalyticDiffuse)                           \

@@ -140,6 +140,7 @@ LANELIGHT_INLINE AreaLight AreaLightsAt(const CompiledScene& scene, V3 p, VF p_e
   AreaLight sum = {zero, zero, hn::Lt(zero.x, zero.x)};
   for (std::size_t i = 0; i < scene.lights.lights.size(); ++i) {
     const LightRecord& light = scene.lights.lights[i];
+    if (light.image != 0) continue;  // its radiance is not the same everywhere
     TwoSides one = {zero.x, zero.x};
     MF takes_part;
     switch (static_cast<LightShape>(light.shape)) {

@@ -6,6 +6,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "kernels/lights/emission_image-inl.h"
 #include "kernels/lights/geometry-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
@@ -14,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-template <bool kMis>
+template <bool kMis, bool kImages>
 void EmissionDisk(Wave& wave) {
   const PathColumns& p = wave.path;
   const CompiledScene& scene = *wave.scene;
@@ -48,12 +49,27 @@ void EmissionDisk(Wave& wave) {
                              hn::Mul(light.Area(), hn::Abs(cosine)));
       weight = EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots), pdf);
     }
-    AddRadiance(p, slots, IfThenElseZero(facing, Mul(light.Radiance(), weight)));
+    V3 radiance = light.Radiance();
+    if constexpr (kImages) {
+      radiance = Mul(
+          radiance,
+          ImageAt(scene, light,
+                  DiskUv(scene, prim, disk,
+                         MulAdd(Gather3(p.d_x, p.d_y, p.d_z, slots), Gather(p.t, slots),
+                                Gather3(p.o_x, p.o_y, p.o_z, slots)) -
+                             disk.center)));
+    }
+    AddRadiance(p, slots, IfThenElseZero(facing, Mul(radiance, weight)));
   });
 }
 
-void EmissionDiskMis(Wave& wave) { EmissionDisk<true>(wave); }
-void EmissionDiskPlain(Wave& wave) { EmissionDisk<false>(wave); }
+StageFn ResolveEmissionDisk(const FeatureSet& features) {
+  const bool images = features.Has(Feature::kEmissionImages);
+  if (features.Has(Feature::kMis)) {
+    return images ? EmissionDisk<true, true> : EmissionDisk<true, false>;
+  }
+  return images ? EmissionDisk<false, true> : EmissionDisk<false, false>;
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -64,15 +80,12 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(EmissionDiskMis);
-HWY_EXPORT(EmissionDiskPlain);
+HWY_EXPORT(ResolveEmissionDisk);
 
 Stage EmissionDiskStage() {
   return EmissionStage("emission_disk", "adds the emission of hit disks",
-                       Feature::kDiskLights, [](const FeatureSet& features) -> StageFn {
-                         return features.Has(Feature::kMis)
-                                    ? HWY_DYNAMIC_DISPATCH(EmissionDiskMis)
-                                    : HWY_DYNAMIC_DISPATCH(EmissionDiskPlain);
+                       Feature::kDiskLights, [](const FeatureSet& features) {
+                         return HWY_DYNAMIC_DISPATCH(ResolveEmissionDisk)(features);
                        });
 }
 

@@ -6,6 +6,7 @@
 #define LANELIGHT_LIGHTS_EMISSION_FLAT_INL_H_
 #endif
 
+#include "kernels/lights/emission_image-inl.h"
 #include "kernels/lights/flat-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
@@ -60,7 +61,7 @@ HWY_INLINE VF PdfAtHit(const PathColumns& p, const Slots& slots, const Seen& see
   return hn::IfThenElse(BySolidAngle(seen.omega), pdf, by_area);
 }
 
-template <LightShape kShape, bool kMis, LightPoints kPoints>
+template <LightShape kShape, bool kMis, LightPoints kPoints, bool kImages>
 void EmissionOfFlat(Wave& wave) {
   const PathColumns& p = wave.path;
   const CompiledScene& scene = *wave.scene;
@@ -89,21 +90,34 @@ void EmissionOfFlat(Wave& wave) {
       }
       weight = EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots), pdf);
     }
-    AddRadiance(p, slots, IfThenElseZero(facing, Mul(light.Radiance(), weight)));
+    V3 radiance = light.Radiance();
+    if constexpr (kImages) {
+      const LightUv at =
+          TriangleUv(scene.geometry, prim, Gather(p.b1, slots), Gather(p.b2, slots));
+      radiance = Mul(radiance, ImageAt(scene, light, at));
+    }
+    AddRadiance(p, slots, IfThenElseZero(facing, Mul(radiance, weight)));
   });
+}
+
+template <LightShape kShape, bool kImages>
+StageFn ResolveEmissionByPoints(const FeatureSet& features) {
+  using enum LightPoints;
+  if (!features.Has(Feature::kMis)) return EmissionOfFlat<kShape, false, kArea, kImages>;
+  if (features.Has(Feature::kProjectedHits)) {
+    return EmissionOfFlat<kShape, true, kProjected, kImages>;
+  }
+  if (features.Has(Feature::kSolidAngleLights)) {
+    return EmissionOfFlat<kShape, true, kSolidAngle, kImages>;
+  }
+  return EmissionOfFlat<kShape, true, kArea, kImages>;
 }
 
 template <LightShape kShape>
 StageFn ResolveEmissionOfFlat(const FeatureSet& features) {
-  using enum LightPoints;
-  if (!features.Has(Feature::kMis)) return EmissionOfFlat<kShape, false, kArea>;
-  if (features.Has(Feature::kProjectedHits)) {
-    return EmissionOfFlat<kShape, true, kProjected>;
-  }
-  if (features.Has(Feature::kSolidAngleLights)) {
-    return EmissionOfFlat<kShape, true, kSolidAngle>;
-  }
-  return EmissionOfFlat<kShape, true, kArea>;
+  return features.Has(Feature::kEmissionImages)
+             ? ResolveEmissionByPoints<kShape, true>(features)
+             : ResolveEmissionByPoints<kShape, false>(features);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -6,6 +6,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "kernels/lights/emission_image-inl.h"
 #include "kernels/lights/geometry-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
@@ -14,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-template <bool kMis>
+template <bool kMis, bool kImages>
 void EmissionSphere(Wave& wave) {
   const PathColumns& p = wave.path;
   const CompiledScene& scene = *wave.scene;
@@ -59,12 +60,23 @@ void EmissionSphere(Wave& wave) {
           EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
                          hn::IfThenElse(OutsideSphere(sphere.radius, d2), cone, area));
     }
-    AddRadiance(p, slots, IfThenElseZero(facing, Mul(light.Radiance(), weight)));
+    V3 radiance = light.Radiance();
+    if constexpr (kImages) {
+      radiance =
+          Mul(radiance,
+              ImageAt(scene, light, SphereUv(scene, prim, Mul(n, sphere.normal_sign))));
+    }
+    AddRadiance(p, slots, IfThenElseZero(facing, Mul(radiance, weight)));
   });
 }
 
-void EmissionSphereMis(Wave& wave) { EmissionSphere<true>(wave); }
-void EmissionSpherePlain(Wave& wave) { EmissionSphere<false>(wave); }
+StageFn ResolveEmissionSphere(const FeatureSet& features) {
+  const bool images = features.Has(Feature::kEmissionImages);
+  if (features.Has(Feature::kMis)) {
+    return images ? EmissionSphere<true, true> : EmissionSphere<true, false>;
+  }
+  return images ? EmissionSphere<false, true> : EmissionSphere<false, false>;
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -75,15 +87,12 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(EmissionSphereMis);
-HWY_EXPORT(EmissionSpherePlain);
+HWY_EXPORT(ResolveEmissionSphere);
 
 Stage EmissionSphereStage() {
   return EmissionStage("emission_sphere", "adds the emission of hit spheres",
-                       Feature::kSphereLights, [](const FeatureSet& features) -> StageFn {
-                         return features.Has(Feature::kMis)
-                                    ? HWY_DYNAMIC_DISPATCH(EmissionSphereMis)
-                                    : HWY_DYNAMIC_DISPATCH(EmissionSpherePlain);
+                       Feature::kSphereLights, [](const FeatureSet& features) {
+                         return HWY_DYNAMIC_DISPATCH(ResolveEmissionSphere)(features);
                        });
 }
 

@@ -7,6 +7,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/lights/environment-inl.h"
+#include "kernels/lights/portal-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
 
@@ -14,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-template <bool kMis>
+template <bool kMis, bool kPortals>
 void Escape(Wave& wave) {
   const PathColumns& p = wave.path;
   const LightTable& table = wave.scene->lights;
@@ -33,6 +34,14 @@ void Escape(Wave& wave) {
             radiance = s.radiance;
             pdf = s.pdf_sa;
           }
+          if constexpr (kPortals) {
+            if (light.shape == static_cast<uint32_t>(LightShape::kPortal)) {
+              const V3 from = Gather3(p.o_x, p.o_y, p.o_z, slots);
+              const PortalSample s = LookThrough(table.portals[light.image], from, d);
+              radiance = s.radiance;
+              pdf = s.pdf_sa;
+            }
+          }
           if constexpr (kMis) {
             radiance =
                 Mul(radiance, EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
@@ -44,8 +53,12 @@ void Escape(Wave& wave) {
       });
 }
 
-void EscapeMis(Wave& wave) { Escape<true>(wave); }
-void EscapePlain(Wave& wave) { Escape<false>(wave); }
+StageFn ResolveEscape(const FeatureSet& features) {
+  const bool portals = features.Has(Feature::kPortals);
+  if (features.Has(Feature::kMis))
+    return portals ? Escape<true, true> : Escape<true, false>;
+  return portals ? Escape<false, true> : Escape<false, false>;
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -56,8 +69,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(EscapeMis);
-HWY_EXPORT(EscapePlain);
+HWY_EXPORT(ResolveEscape);
 
 Stage EscapeStage() {
   return {
@@ -68,8 +80,7 @@ Stage EscapeStage() {
       fields::kRay | fields::kThroughput | fields::kRadiance | FieldSet{Field::bsdf_pdf},
       fields::kRadiance,
       [](const FeatureSet& features) -> StageFn {
-        return features.Has(Feature::kMis) ? HWY_DYNAMIC_DISPATCH(EscapeMis)
-                                           : HWY_DYNAMIC_DISPATCH(EscapePlain);
+        return HWY_DYNAMIC_DISPATCH(ResolveEscape)(features);
       }};
 }
 

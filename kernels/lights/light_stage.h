@@ -8,7 +8,7 @@ namespace lanelight {
 /// Lights that a ray can hit are sampled only if the strategy wants it.
 inline constexpr bool IsHittable(Feature shape) {
   return shape != Feature::kPointLights && shape != Feature::kSpotLights &&
-         shape != Feature::kDistantLights;
+         shape != Feature::kDistantLights && shape != Feature::kImageLights;
 }
 
 inline Stage SampleLightStage(const char* name, const char* meaning, Feature shape,

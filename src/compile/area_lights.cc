@@ -18,12 +18,21 @@ constexpr double kAreaTolerance = 1e-4;
 class AreaLightCompiler {
  public:
   AreaLightCompiler(const SceneDescription& d, const Placement& placement,
-                    CompiledGeometry& geometry, LightList& lights)
-      : d_(d), placement_(placement), compiled_(geometry), lights_(lights) {}
+                    CompiledGeometry& geometry, LightImageTable& images,
+                    LightList& lights)
+      : d_(d), placement_(placement), compiled_(geometry), lights_(lights) {
+    LoadImages(images);
+  }
 
   void AddShapes();
 
  private:
+  void LoadImages(LightImageTable& images);
+  bool Shines(const PlacedShape& placed) const;
+  std::int32_t Push(const LightRecord& record, Rgb mean);
+  Rgb MeanOf(const PlacedShape& placed) const {
+    return means_[static_cast<std::size_t>(placed.area_light)];
+  }
   Rgb Radiance(const PlacedShape& placed, double scene_area) const;
   LightRecord AreaRecord(LightShape shape, const PlacedShape& placed, Rgb radiance,
                          double area, std::uint32_t primitive) const;
@@ -39,21 +48,51 @@ class AreaLightCompiler {
   const Placement& placement_;
   CompiledGeometry& compiled_;
   LightList& lights_;
+  // Of each area light: its image or 0, and the image's mean (else 1).
+  std::vector<std::uint32_t> images_;
+  std::vector<Rgb> means_;
 };
 
 const AreaLight& AreaLightOf(const SceneDescription& d, const PlacedShape& placed) {
   return d.area_lights[static_cast<std::size_t>(placed.area_light)];
 }
 
-// Radiance of a shape of that total area in scene units.
+void AreaLightCompiler::LoadImages(LightImageTable& images) {
+  images_.assign(d_.area_lights.size(), 0);
+  means_.assign(d_.area_lights.size(), Rgb{1, 1, 1});
+  const auto load = [&](const std::vector<PlacedShape>& shapes) {
+    for (const PlacedShape& placed : shapes) {
+      if (placed.area_light == kNone) continue;
+      const auto i = static_cast<std::size_t>(placed.area_light);
+      const AreaLight& light = d_.area_lights[i];
+      if (light.image_path.empty() || images_[i] != 0) continue;
+      const LightImage image =
+          images.Load({light.where, "area light's image", light.image_path},
+                      LightImageTable::Use::kColor);
+      images_[i] = images.Add(image);
+      means_[i] = images.Mean(image);
+    }
+  };
+  load(placement_.meshes);
+  load(placement_.spheres);
+  load(placement_.disks);
+}
+
+// False for shapes that do not emit or whose image is black.
+bool AreaLightCompiler::Shines(const PlacedShape& placed) const {
+  return placed.area_light != kNone && Luminance(MeanOf(placed)) > 0;
+}
+
+// Radiance of a shape of that total area in scene units; with an image, of its texels of
+// value 1.
 Rgb AreaLightCompiler::Radiance(const PlacedShape& placed, double scene_area) const {
   const AreaLight& light = AreaLightOf(d_, placed);
   const Rgb radiance = light.radiance * light.scale;
   if (!(light.power > 0)) return radiance;
   const double scale = placement_.frame.scale;
   const double area = scene_area / scale / scale;  // in the file's units
-  return radiance *
-         (light.power / (kPi * area * (light.two_sided ? 2 : 1) * Luminance(radiance)));
+  return radiance * (light.power / (kPi * area * (light.two_sided ? 2 : 1) *
+                                    Luminance(radiance * MeanOf(placed))));
 }
 
 LightRecord AreaLightCompiler::AreaRecord(LightShape shape, const PlacedShape& placed,
@@ -63,13 +102,15 @@ LightRecord AreaLightCompiler::AreaRecord(LightShape shape, const PlacedShape& p
   record.two_sided = AreaLightOf(d_, placed).two_sided ? 1 : 0;
   record.area = static_cast<float>(area);
   record.primitive = primitive;
+  record.image = images_[static_cast<std::size_t>(placed.area_light)];
   Store(radiance, record.radiance);
   return record;
 }
 
-double AreaPower(const LightRecord& record) {
+std::int32_t AreaLightCompiler::Push(const LightRecord& record, Rgb mean) {
   const Rgb l = {record.radiance[0], record.radiance[1], record.radiance[2]};
-  return kPi * record.area * Luminance(l) * (record.two_sided ? 2 : 1);
+  return lights_.Push(
+      record, kPi * record.area * Luminance(l * mean) * (record.two_sided ? 2 : 1));
 }
 
 double RoundedArea(const TriangleRecord& t) {
@@ -89,7 +130,7 @@ void AreaLightCompiler::EmittingTriangle(const PlacedShape& placed, Rgb radiance
   const double rounded = RoundedArea(triangle);
   const LightRecord record = AreaRecord(
       LightShape::kTriangle, placed, radiance * CorrectionOf(area, rounded), rounded, i);
-  triangle.light = lights_.Push(record, AreaPower(record));
+  triangle.light = Push(record, MeanOf(placed));
 }
 
 void AreaLightCompiler::EmittingRectangle(const PlacedShape& placed, Rgb radiance,
@@ -104,7 +145,7 @@ void AreaLightCompiler::EmittingRectangle(const PlacedShape& placed, Rgb radianc
   Store(r.x_side / x, record.direction);
   Store(r.y_side / y, record.side);
   record.size[0] = static_cast<float>(x), record.size[1] = static_cast<float>(y);
-  const std::int32_t light = lights_.Push(record, AreaPower(record));
+  const std::int32_t light = Push(record, MeanOf(placed));
   for (const std::uint32_t i : {r.first, r.second}) {
     compiled_.geometry.triangles[begin + i].light = light;
   }
@@ -136,7 +177,7 @@ void AreaLightCompiler::EmittingSphere(const PlacedShape& placed, std::size_t i)
       compiled_.geometry.ranges.spheres + static_cast<std::uint32_t>(i);
   const LightRecord record =
       AreaRecord(LightShape::kSphere, placed, Radiance(placed, area), area, primitive);
-  sphere.light = lights_.Push(record, AreaPower(record));
+  sphere.light = Push(record, MeanOf(placed));
 }
 
 void AreaLightCompiler::EmittingDisk(const PlacedShape& placed, std::size_t i) {
@@ -146,28 +187,28 @@ void AreaLightCompiler::EmittingDisk(const PlacedShape& placed, std::size_t i) {
   const auto primitive = compiled_.geometry.ranges.disks + static_cast<std::uint32_t>(i);
   const LightRecord record =
       AreaRecord(LightShape::kDisk, placed, Radiance(placed, area), area, primitive);
-  disk.light = lights_.Push(record, AreaPower(record));
+  disk.light = Push(record, MeanOf(placed));
 }
 
 void AreaLightCompiler::AddShapes() {
   for (std::size_t i = 0; i < placement_.meshes.size(); ++i) {
-    if (placement_.meshes[i].area_light == kNone) continue;
+    if (!Shines(placement_.meshes[i])) continue;
     EmittingMesh(placement_.meshes[i], compiled_.meshes[i]);
   }
   for (std::size_t i = 0; i < placement_.spheres.size(); ++i) {
-    if (placement_.spheres[i].area_light != kNone)
-      EmittingSphere(placement_.spheres[i], i);
+    if (Shines(placement_.spheres[i])) EmittingSphere(placement_.spheres[i], i);
   }
   for (std::size_t i = 0; i < placement_.disks.size(); ++i) {
-    if (placement_.disks[i].area_light != kNone) EmittingDisk(placement_.disks[i], i);
+    if (Shines(placement_.disks[i])) EmittingDisk(placement_.disks[i], i);
   }
 }
 
 }  // namespace
 
 void CompileAreaLights(const SceneDescription& description, const Placement& placement,
-                       CompiledGeometry& geometry, LightList& lights) {
-  AreaLightCompiler(description, placement, geometry, lights).AddShapes();
+                       CompiledGeometry& geometry, LightImageTable& images,
+                       LightList& lights) {
+  AreaLightCompiler(description, placement, geometry, images, lights).AddShapes();
 }
 
 }  // namespace lanelight

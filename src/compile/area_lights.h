@@ -3,14 +3,17 @@
 
 #include "src/compile/geometry.h"
 #include "src/compile/light_list.h"
+#include "src/compile/light_texels.h"
 #include "src/compile/placement.h"
 #include "src/scene/description.h"
 
 namespace lanelight {
 
 /// Adds a light for each emitting triangle, rectangle of two triangles, sphere and disk,
-/// and sets the `light` of its records in `geometry`.
+/// and sets the `light` of its records in `geometry`. Throws InputError at the light for
+/// images that cannot be used.
 void CompileAreaLights(const SceneDescription& description, const Placement& placement,
-                       CompiledGeometry& geometry, LightList& lights);
+                       CompiledGeometry& geometry, LightImageTable& images,
+                       LightList& lights);
 
 }  // namespace lanelight

@@ -120,6 +120,11 @@ void NoteDropped(const std::vector<PlacedShape>& shapes,
   }
 }
 
+bool HasEmissionImages(const SceneDescription& description) {
+  return std::any_of(description.area_lights.begin(), description.area_lights.end(),
+                     [](const AreaLight& light) { return !light.image_path.empty(); });
+}
+
 // A render of nothing is a black image, or one of the environment, but seldom what was
 // meant.
 void NoteNothingToHit(const SceneDescription& description, CompiledScene& scene) {
@@ -151,7 +156,8 @@ CompiledScene CompileScene(const SceneDescription& description,
       CompileMaterials(description, UsedMaterials(placement), options);
   scene.features = MaterialFeatures(materials.table, placement);
   const GeometryOptions geometry_options = {
-      .uvs = scene.features.HasAny({Feature::kUv, Feature::kTangents})};
+      .uvs = scene.features.HasAny({Feature::kUv, Feature::kTangents}) ||
+             HasEmissionImages(description)};
 
   CompiledGeometry compiled;
   ParallelInvoke(

@@ -9,62 +9,17 @@
 #include "src/core/error_text.h"
 #include "src/image/octahedral.h"
 #include "src/compile/environment_table.h"
-#include "src/compile/texture_programs.h"
+#include "src/compile/light_texels.h"
 
 namespace lanelight {
 namespace {
 
+LightFile FileOf(const Light& light) {
+  return {light.where, "environment image", light.image_path};
+}
+
 [[noreturn]] void Fail(const Light& light, const std::string& message) {
-  throw InputError(light.where, fmt::format("environment image \"{}\": {}",
-                                            light.image_path, message));
-}
-
-// Channels to read as red, green and blue.
-std::array<int, 3> ColorChannels(const Light& light, const Image& image) {
-  if (image.channels <= 2) return {0, 0, 0};
-  const std::array<int, 3> rgb = {image.FindChannel("R"), image.FindChannel("G"),
-                                  image.FindChannel("B")};
-  if (std::any_of(rgb.begin(), rgb.end(), [](int c) { return c < 0; })) {
-    Fail(light, "no channels R, G and B (or a single one)");
-  }
-  return rgb;
-}
-
-// Values of an image that cannot be emitted.
-struct BadValues {
-  std::size_t negative = 0, not_a_number = 0;
-  float least = 0;
-};
-
-// Linear radiance as stored, before any scale. Negative values, which filters leave in
-// photographs, become zero, as in pbrt; so does what is not a number.
-AlignedVector<float> ReadTexels(const Light& light, const Image& image, BadValues& bad) {
-  const std::array<int, 3> channels = ColorChannels(light, image);
-  const std::size_t texels = static_cast<std::size_t>(image.width) * image.height;
-  std::vector<float> decode(256);
-  for (int i = 0; i < 256; ++i) {
-    decode[static_cast<std::size_t>(i)] =
-        static_cast<float>(DecodeByte(i, Encoding::kSrgb, 0));
-  }
-  AlignedVector<float> rgb(3 * texels);
-  for (std::size_t i = 0; i < texels; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t at = i * static_cast<std::size_t>(image.channels) +
-                             static_cast<std::size_t>(channels[c]);
-      const float v = image.is_bytes() ? decode[image.bytes[at]] : image.pixels[at];
-      if (std::isinf(v)) {
-        Fail(light, fmt::format("the value {} at pixel ({}, {}); only finite radiance is "
-                                "supported",
-                                v, i % static_cast<std::size_t>(image.width),
-                                i / static_cast<std::size_t>(image.width)));
-      }
-      rgb[3 * i + c] = v > 0 ? v : 0;
-      bad.not_a_number += std::isnan(v);
-      bad.negative += v < 0;
-      bad.least = v < bad.least ? v : bad.least;
-    }
-  }
-  return rgb;
+  FailAtLight(FileOf(light), message);
 }
 
 void NoteBad(const Light& light, const BadValues& bad, std::size_t values,
@@ -138,9 +93,7 @@ Environment CompileEnvironment(const Light& light, const Image& image,
   }
   Environment environment;
   environment.size = image.width;
-  BadValues bad;
-  environment.rgb = ReadTexels(light, image, bad);
-  if (notes != nullptr) NoteBad(light, bad, environment.rgb.size(), *notes);
+  environment.rgb = LightTexels(FileOf(light), image, notes);
   StoreRotation(light, environment);
   double scale = light.image_scale;
   if (light.illuminance > 0) {

@@ -79,6 +79,11 @@ Feature FeatureOf(LightShape shape) {
       return Feature::kInfiniteConstant;
     case LightShape::kInfiniteImage:
       return Feature::kInfiniteImage;
+    case LightShape::kPortal:
+      return Feature::kPortals;
+    case LightShape::kGoniometric:
+    case LightShape::kProjection:
+      return Feature::kImageLights;
   }
   LL_CHECK(!"unknown shape of light");
   return Feature::kCount;
@@ -87,6 +92,8 @@ Feature FeatureOf(LightShape shape) {
 void AddLights(const LightTable& lights, FeatureSet& features) {
   for (const LightRecord& light : lights.lights) {
     features.Add(FeatureOf(static_cast<LightShape>(light.shape)));
+    // Point lights with an image have no area.
+    if (light.image != 0 && light.area > 0) features.Add(Feature::kEmissionImages);
   }
   if (!lights.lights.empty()) features.Add(Feature::kLights);
   if (lights.lights.size() > 1) features.Add(Feature::kManyLights);

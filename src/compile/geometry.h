@@ -37,7 +37,7 @@ struct CompiledGeometry {
 };
 
 struct GeometryOptions {
-  bool uvs = false;  // kUv or kTangents: keep texture coordinates
+  bool uvs = false;  // something looks at texture coordinates: keep them
 };
 
 /// `material_index` maps described to compiled materials. Lights are left at -1.

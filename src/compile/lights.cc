@@ -9,7 +9,10 @@
 #include "src/core/error.h"
 #include "src/compile/area_lights.h"
 #include "src/compile/environment.h"
+#include "src/compile/image_lights.h"
 #include "src/compile/light_list.h"
+#include "src/compile/light_texels.h"
+#include "src/compile/portal.h"
 
 namespace lanelight {
 namespace {
@@ -24,10 +27,12 @@ bool IsBlack(Rgb c) { return !(c.x > 0 || c.y > 0 || c.z > 0); }
 // Lights that are no shapes.
 class LightCompiler {
  public:
-  LightCompiler(const Placement& placement, LightList& lights, std::vector<Note>& notes)
+  LightCompiler(const Placement& placement, LightList& lights, LightImageTable& images,
+                std::vector<Note>& notes)
       : frame_(placement.frame),
         radius_(placement.bounds.HalfDiagonal() * placement.frame.scale),
         lights_(lights),
+        images_(images),
         notes_(notes) {}
 
   void Add(const Light& light);
@@ -47,6 +52,7 @@ class LightCompiler {
   const Frame& frame_;
   const double radius_;
   LightList& lights_;
+  LightImageTable& images_;
   std::vector<Note>& notes_;
 };
 
@@ -105,6 +111,7 @@ void LightCompiler::Distant(const Light& light) {
 }
 
 void LightCompiler::Infinite(const Light& light) {
+  if (!light.portal.empty()) return AddPortalLight(light, frame_, notes_, lights_);
   const bool image = !light.image_path.empty();
   LightRecord record =
       EmptyRecord(image ? LightShape::kInfiniteImage : LightShape::kInfiniteConstant);
@@ -140,6 +147,12 @@ void LightCompiler::Add(const Light& light) {
     case LightKind::kInfinite:
       Infinite(light);
       break;
+    case LightKind::kGoniometric:
+      AddGoniometric(light, frame_, images_, lights_);
+      break;
+    case LightKind::kProjection:
+      AddProjection(light, frame_, images_, lights_);
+      break;
   }
 }
 
@@ -157,8 +170,9 @@ void ApplyFloor(std::vector<double>& weights) {
 LightTable CompileLights(const SceneDescription& description, const Placement& placement,
                          CompiledGeometry& geometry, std::vector<Note>& notes) {
   LightList lights;
-  CompileAreaLights(description, placement, geometry, lights);
-  LightCompiler compiler(placement, lights, notes);
+  LightImageTable images(lights.table, notes);
+  CompileAreaLights(description, placement, geometry, images, lights);
+  LightCompiler compiler(placement, lights, images, notes);
   for (const Light& light : description.lights) compiler.Add(light);
   if (!lights.table.lights.empty()) ApplyFloor(lights.power);
   lights.table.power = std::move(lights.power);

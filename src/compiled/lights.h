@@ -17,7 +17,10 @@ enum class LightShape : std::uint32_t {
   kDistant,
   kInfiniteConstant,
   kInfiniteImage,
-  kRectangle  // two triangles of a mesh, which rays hit
+  kRectangle,  // two triangles of a mesh, which rays hit
+  kGoniometric,
+  kProjection,
+  kPortal
 };
 
 /// Light record: 24 words. Emitters in instances are copied into the world at compile.
@@ -27,22 +30,40 @@ struct LightRecord {
   float pmf;                 // probability of being selected
   float area;                // scene units; 0 for lights without area
   float radiance[3];         // radiance; point/spot: intensity in scene units (W/sr times
-                             // scale^2); distant: irradiance on a facing surface
+                             // scale^2); distant: irradiance on a facing surface. With
+                             // an image: what a texel of 1 stands for
   std::uint32_t primitive;   // id of the emitting primitive
-  float position[3];         // point, spot; rectangle: a corner
+  float position[3];         // point, spot, goniometric, projection; rectangle: a corner
   std::int32_t environment;  // index into LightTable::environments, or -1
-  float direction[3];        // spot: axis, pointing away from the light; distant: unit,
-                             // pointing TOWARD the light; rectangle: unit, along a side
-                             // that begins at `position`
+  float direction[3];  // spot, projection: axis, away from the light; distant: unit,
+                       // pointing TOWARD the light; rectangle: unit, along a side
+                       // that begins at `position`
   // Spot: 1 - cos of the cone and of where its falloff begins, exact for narrow cones.
+  // Projection: the first of the cone around the picture.
   float versine_total, versine_falloff;
   float side[3];  // rectangle: unit, along the other side; its normal, on the side that
                   // emits, is cross(direction, side)
   float size[2];  // rectangle: lengths of the two sides
   std::uint32_t second_primitive;  // rectangle: the other triangle
-  std::uint32_t pad;
+  std::uint32_t image;  // index into LightTable::images, 0 if it has none; portals: into
+                        // LightTable::portals
 };
 static_assert(sizeof(LightRecord) == 96);
+
+/// Image that a light shines with: 16 words. Texels are linear and not negative, row 0 at
+/// the top, in LightTable::texels. A direction w away from the light is (x, y, z) = (dot(
+/// x_axis, w), ...) for it:
+///   goniometric   equal-area octahedral map of (x, y, z); pbrt-v4 has the light's own z
+///                 for the map's y, and the reverse
+///   projection    (s, t) = (1 + (x, y) / z) / 2 for z > 0, t downwards
+///   area lights   (s, t) = (u, 1 - v) of the surface coordinates; no axes
+struct LightImage {
+  std::int32_t first;  // texel
+  std::int32_t width, height;
+  float x_axis[3], y_axis[3], z_axis[3];  // in the scene
+  std::uint32_t pad[4];
+};
+static_assert(sizeof(LightImage) == 64);
 
 /// Environment image: size x size equal-area octahedral map (Clarberg 2008; pbrt-v4).
 /// Texel probabilities are proportional to luminance; pdf_sa = p * size^2 / (4 pi).
@@ -60,6 +81,21 @@ struct Environment {
   AlignedVector<std::int32_t> row_guide;     // 2^guide_bits + 1
   AlignedVector<std::int32_t> column_guide;  // 2^guide_bits + 1 per row
   float light_from_scene[9];                 // rotation, row-major
+};
+
+/// Environment that is seen through a rectangular portal only (Bitterli, Novak and Jarosz
+/// 2015, "Portal-Masked Environment Map Sampling"; pbrt-v4). A direction has the
+/// components (x, y, z) along the portal's sides and its normal; (s, t) = (atan(x / z),
+/// atan(y / z)) / pi + 1/2 for z > 0: from any point the portal is a rectangle of the
+/// square of (s, t). Radiance and the density's weight are constant over each texel.
+struct Portal {
+  std::int32_t size = 0;
+  AlignedVector<float> rgb;  // 3 per texel, scaled; row by row, t upwards
+  // Sums of the weights (luminance times solid angle per (s, t)) of all texels before a
+  // column and a row: (size + 1)^2, row by row.
+  AlignedVector<double> sums;
+  float x_axis[3], y_axis[3], z_axis[3];  // unit, scene
+  float low[3], high[3];                  // opposite corners, scene
 };
 
 /// Node of a tree of lights, 16 words. The two children of an inner node are neighbours.
@@ -91,6 +127,10 @@ struct LightTable {
   AlignedVector<float> alias_q;        // Walker-Vose table over lights: with u*n = i + f,
   AlignedVector<std::uint32_t> alias;  // pick i if f < alias_q[i], else alias[i]
   std::vector<Environment> environments;
+  std::vector<Portal> portals;
+  AlignedVector<LightImage> images;  // the first is white: of lights without one
+  AlignedVector<float> texels;       // 3 each, of all images
+  bool has_goniometric = false, has_projection = false;
   std::vector<std::uint32_t> infinite;  // indices of lights that escaped rays see
   LightTree tree;                       // light-selection=tree only
 };

@@ -78,6 +78,20 @@ void ReadDistant(ParseState& state, ParamSet& params, Light* light) {
                     (illuminance > 0 ? scale * illuminance : scale);
 }
 
+// Corners in the world, whatever the light's transform is.
+void ReadPortal(ParamSet& params, Light* light) {
+  const Param* portal = params.Find("portal", {ParamType::kPoint3});
+  if (portal == nullptr || portal->numbers.empty()) return;
+  if (portal->numbers.size() != 12) {
+    params.Fail(*portal,
+                fmt::format("{} numbers; it takes four points", portal->numbers.size()));
+  }
+  for (std::size_t i = 0; i < 12; i += 3) {
+    light->portal.push_back(
+        {portal->numbers[i], portal->numbers[i + 1], portal->numbers[i + 2]});
+  }
+}
+
 void ReadInfinite(ParseState& state, ParamSet& params, Light* light) {
   light->kind = LightKind::kInfinite;
   const double scale = params.Float("scale", 1, 0, kHuge);
@@ -99,12 +113,35 @@ void ReadInfinite(ParseState& state, ParamSet& params, Light* light) {
     light->illuminance = illuminance > 0 ? illuminance : -1;
     light->emission = kWhite;
   }
-  const Param* portal = params.Find("portal", {ParamType::kPoint3});
-  if (portal != nullptr) {
-    state.Unsupported(portal->where,
-                      "parameter \"portal\" of infinite lights is not "
-                      "supported");
+  ReadPortal(params, light);
+}
+
+std::string ImageFile(ParseState& state, ParamSet& params, Light* light) {
+  const Param* file = params.Find("filename", {ParamType::kString});
+  const std::string name = params.String("filename", "");
+  if (file == nullptr || name.empty()) {
+    throw InputError(params.where(),
+                     params.object() + " needs an image, \"string filename\"");
   }
+  light->where = file->where;  // what a missing image is reported at
+  return ResolvePath(state, name);
+}
+
+// What its power comes to depends on the image.
+void ReadGoniometric(ParseState& state, ParamSet& params, Light* light) {
+  light->kind = LightKind::kGoniometric;
+  light->emission = PlainColor(state, params, "I", kWhite, SpectrumUse::kIlluminant) *
+                    params.Float("scale", 1, 0, kHuge);
+  light->power = Target(params, "power");
+  light->image_path = ImageFile(state, params, light);
+}
+
+void ReadProjection(ParseState& state, ParamSet& params, Light* light) {
+  light->kind = LightKind::kProjection;
+  light->emission = kWhite * params.Float("scale", 1, 0, kHuge);
+  light->power = Target(params, "power");
+  light->fov = params.Float("fov", 90, 1e-6, 179.999);
+  light->image_path = ImageFile(state, params, light);
 }
 
 void CheckEmission(const ParamSet& params, Rgb emission) {
@@ -127,13 +164,13 @@ void InterpretLight(ParseState& state, const std::string& type, ParamSet& params
     ReadDistant(state, params, &light);
   } else if (type == "infinite") {
     ReadInfinite(state, params, &light);
-  } else if (type == "goniometric" || type == "projection") {
-    return state.Unsupported(
-        params.where(), fmt::format("light {} is not supported; supported: \"point\", "
-                                    "\"spot\", \"distant\", \"infinite\"",
-                                    Quoted(type)));
+  } else if (type == "goniometric") {
+    ReadGoniometric(state, params, &light);
+  } else if (type == "projection") {
+    ReadProjection(state, params, &light);
   } else {
-    ThrowUnknown(params.where(), "light", type, {"point", "spot", "distant", "infinite"});
+    ThrowUnknown(params.where(), "light", type,
+                 {"point", "spot", "distant", "infinite", "goniometric", "projection"});
   }
   params.CheckAllUsed();
   CheckEmission(params, light.emission);
@@ -149,14 +186,17 @@ Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& p
   light.power = Target(params, "power");
   if (light.power <= 0) light.power = -1;
   light.two_sided = params.Bool("twosided", false);
-  const Param* file = params.Find("filename", {ParamType::kString});
+  if (const Param* file = params.Find("filename", {ParamType::kString})) {
+    if (params.Find("L", {}) != nullptr) {
+      params.Fail(*file, "\"filename\" and \"L\" exclude each other");
+    }
+    const std::string name = params.String("filename", "");
+    if (name.empty()) params.Fail(*file, "the file name is empty");
+    light.image_path = ResolvePath(state, name);
+    light.where = file->where;  // what a missing image is reported at
+  }
   params.CheckAllUsed();
   CheckEmission(params, light.radiance * light.scale);
-  if (file != nullptr) {
-    state.Unsupported(file->where,
-                      "parameter \"filename\" of area lights is not supported");
-    return kNone;
-  }
   state.scene.area_lights.push_back(light);
   return static_cast<Index>(state.scene.area_lights.size()) - 1;
 }

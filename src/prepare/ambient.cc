@@ -104,7 +104,9 @@ std::vector<AmbientLight> MakeAmbientLights(const CompiledScene& scene) {
     AmbientLight& ambient = out.emplace_back();
     ambient.light = index;
     std::array<Harmonics, 3> radiance = {};
-    if (record.environment < 0) {
+    if (record.shape == static_cast<std::uint32_t>(LightShape::kPortal)) {
+      // Another sky from every point: it takes no part.
+    } else if (record.environment < 0) {
       for (std::size_t c = 0; c < 3; ++c) radiance[c][0] = record.radiance[c];
     } else {
       const Environment& e =

@@ -115,6 +115,7 @@ Bounds BoundsOf(const Geometry& g, const LightRecord& light) {
       if (!light.two_sided) b.cone = {Normalize(n), 0};
       break;
     }
+    case LightShape::kProjection:
     case LightShape::kSpot: {
       b.Add(ToVec(light.position));
       const double width =
@@ -131,7 +132,7 @@ Bounds BoundsOf(const Geometry& g, const LightRecord& light) {
 bool HasPlace(const LightRecord& light) {
   const auto shape = static_cast<LightShape>(light.shape);
   return shape != LightShape::kDistant && shape != LightShape::kInfiniteConstant &&
-         shape != LightShape::kInfiniteImage;
+         shape != LightShape::kInfiniteImage && shape != LightShape::kPortal;
 }
 
 class Builder {

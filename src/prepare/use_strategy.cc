@@ -9,7 +9,8 @@ namespace {
 
 bool IsHittable(const LightRecord& light) {
   const auto shape = static_cast<LightShape>(light.shape);
-  return shape != LightShape::kPoint && shape != LightShape::kSpot &&
+  return shape != LightShape::kGoniometric && shape != LightShape::kProjection &&
+         shape != LightShape::kPoint && shape != LightShape::kSpot &&
          shape != LightShape::kDistant;
 }
 

@@ -32,7 +32,8 @@ bool CanGuide(const Strategy& strategy, const FeatureSet& f) {
 }
 
 bool HasDeltaLights(const FeatureSet& f) {
-  return f.HasAny({Feature::kPointLights, Feature::kSpotLights, Feature::kDistantLights});
+  return f.HasAny({Feature::kPointLights, Feature::kSpotLights, Feature::kDistantLights,
+                   Feature::kImageLights});
 }
 
 void AddLightSampling(const Strategy& strategy, FeatureSet& f) {

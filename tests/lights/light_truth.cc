@@ -330,6 +330,10 @@ SeenLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from,
       seen.distance = std::numeric_limits<double>::infinity();
       seen.radiance = ToVec(light.radiance);
       return seen;
+    case LightShape::kGoniometric:  // image_lights_test.cc
+    case LightShape::kProjection:
+    case LightShape::kPortal:
+      break;
   }
   seen.radiance = ToVec(light.radiance);
   return seen;

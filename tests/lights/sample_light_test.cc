@@ -7,6 +7,7 @@
 
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
+#include "src/core/check.h"
 #include "tests/lights/light_truth.h"
 #include "tests/support/wave_fixture.h"
 
@@ -36,6 +37,10 @@ Stage StageOf(LightShape shape) {
       return SampleInfiniteConstantStage();
     case LightShape::kInfiniteImage:
       break;
+    case LightShape::kGoniometric:  // image_lights_test.cc
+    case LightShape::kProjection:
+    case LightShape::kPortal:
+      LL_CHECK(false);
   }
   return SampleInfiniteImageStage();
 }

@@ -136,7 +136,6 @@ TEST_CASE("unsupported things can be skipped", "[parse]") {
   const std::string text = R"(
     MakeNamedMedium "fog" "string type" "homogeneous"
     MediumInterface "fog" ""
-    LightSource "projection" "string filename" "a.png"
     Shape "curve" "point3 P" [ 0 0 0 ]
     Material "hair" "float beta_m" 0.3
     ActiveTransform EndTime Translate 1 0 0 ActiveTransform All
@@ -145,7 +144,7 @@ TEST_CASE("unsupported things can be skipped", "[parse]") {
   const SceneDescription scene = ParseWorld(text, true);
   CHECK(scene.shapes.size() == 1);
   CHECK(scene.lights.empty());
-  CHECK(scene.notes.size() == 6);
+  CHECK(scene.notes.size() == 5);
   CHECK(Near(Origin(scene.shapes[0]), {0, 0, 0}));
   CHECK_NOTHROW(ParseWorld("MediumInterface \"\" \"\""));
 }

@@ -106,6 +106,39 @@ TEST_CASE("rgb is converted from its color space", "[parse]") {
   CHECK(scene.lights[0].emission.x != Approx(0.2).epsilon(1e-3));
 }
 
+TEST_CASE("lights with an image", "[parse]") {
+  const Light map = ParseLight(
+      "\"goniometric\" \"string filename\" \"lamp.exr\" \"rgb I\" [ 1 2 3 ] "
+      "\"float scale\" 2 \"float power\" 60");
+  CHECK(map.kind == LightKind::kGoniometric);
+  CHECK(map.image_path == "./lamp.exr");
+  CHECK(map.power == 60);
+  CheckColor(map.emission, {2, 4, 6});
+  const Light slide =
+      ParseLight("\"projection\" \"string filename\" \"slide.png\" \"float fov\" 30");
+  CHECK(slide.kind == LightKind::kProjection);
+  CHECK(slide.fov == 30);
+  CHECK(slide.power == -1);
+  CheckColor(slide.emission, {1, 1, 1});
+  const Light sky = ParseLight(
+      "\"infinite\" \"rgb L\" [ 1 1 1 ] \"point3 portal\" [ 0 0 0  0 1 0  2 1 0  2 0 0 "
+      "]");
+  REQUIRE(sky.portal.size() == 4);
+  CHECK(sky.portal[2] == Vec3d{2, 1, 0});
+  const SceneDescription scene = ParseWorld(R"(
+    AreaLightSource "diffuse" "string filename" "screen.png" "float scale" 3
+    Shape "sphere")");
+  REQUIRE(scene.area_lights.size() == 1);
+  CHECK(scene.area_lights[0].image_path == "./screen.png");
+  CHECK(scene.area_lights[0].radiance == Rgb{1, 1, 1});
+  CHECK_THROWS_AS(ParseWorld("AreaLightSource \"diffuse\" \"rgb L\" [ 1 1 1 ] "
+                             "\"string filename\" \"a.exr\""),
+                  InputError);
+  CHECK_THROWS_AS(ParseLight("\"projection\" \"string filename\" \"a.exr\" \"rgb I\" "
+                             "[ 1 1 1 ]"),
+                  InputError);  // as in pbrt
+}
+
 TEST_CASE("area lights", "[parse]") {
   const SceneDescription scene = ParseWorld(R"(
     AreaLightSource "diffuse" "rgb L" [ 1 2 3 ] "float scale" 2 "bool twosided" true

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/core/check.h"
+#include "src/image/octahedral.h"
 
 namespace lanelight::reference {
 namespace {
@@ -96,22 +97,108 @@ Lights::Lights(const SceneDescription& scene, const Geometry& geometry,
       radiance *=
           light.power / (kPi * sides * shape_area[shape.shape] * Luminance(radiance));
     }
+    Index image = kNone;
+    if (!light.image_path.empty()) {
+      LL_CHECK(light.power <= 0);
+      image = AddImage(light.image_path, WrapMode::kClamp, true);
+    }
     emitter_of_.back() = static_cast<int>(emitters_.size());
-    emitters_.push_back({i, PrimitiveArea(shape), radiance, light.two_sided});
+    emitters_.push_back({i, PrimitiveArea(shape), radiance, light.two_sided, image});
   }
   for (Index i = 0; i < static_cast<Index>(scene.lights.size()); ++i) {
-    if (scene.lights[i].kind == LightKind::kInfinite) infinite_.push_back(i);
+    const Light& light = scene.lights[i];
+    if (light.kind == LightKind::kInfinite) infinite_.push_back(i);
+    const bool portal = !light.portal.empty();
+    const bool directions = light.kind == LightKind::kGoniometric || portal;
+    const bool mine = directions || light.kind == LightKind::kProjection;
+    light_images_.push_back(kNone);
+    if (!mine || light.image_path.empty()) continue;
+    LL_CHECK(light.power <= 0);
+    light_images_.back() =
+        AddImage(light.image_path,
+                 directions ? WrapMode::kOctahedralSphere : WrapMode::kClamp, portal);
   }
+  textures_ = std::make_unique<Textures>(images_);
+}
+
+Index Lights::AddImage(const std::string& path, WrapMode wrap, bool bilinear) {
+  Texture image;
+  image.kind = TextureKind::kImage;
+  image.path = path;
+  image.wrap = wrap;
+  image.bilinear = bilinear;
+  images_.push_back(image);
+  return static_cast<Index>(images_.size()) - 1;
+}
+
+Rgb Lights::EmittedAt(const Emitter& emitter, double u, double v) const {
+  if (emitter.image == kNone) return emitter.radiance;
+  return emitter.radiance * textures_->Eval(emitter.image, u, v);
 }
 
 Rgb Lights::Emitted(int primitive, const SurfacePoint& at, Vec3d toward) const {
   if (emitter_of_[primitive] == kNone) return {};
   const Emitter& emitter = emitters_[emitter_of_[primitive]];
-  return emitter.two_sided || Dot(at.ng, toward) > 0 ? emitter.radiance : Rgb{};
+  return emitter.two_sided || Dot(at.ng, toward) > 0 ? EmittedAt(emitter, at.u, at.v)
+                                                     : Rgb{};
 }
 
-Rgb Lights::InfiniteRadiance(Index index, Vec3d toward) const {
+// Whether a ray leaves through the rectangle, on the side that its corners turn to the
+// left around.
+bool PassesThrough(const std::vector<Vec3d>& corners, Vec3d p, Vec3d d) {
+  const Vec3d x = corners[3] - corners[0], y = corners[1] - corners[0], n = Cross(x, y);
+  const double ahead = Dot(corners[0] - p, n);
+  if (!(Dot(d, n) > 0 && ahead > 0)) return false;
+  const Vec3d q = p + d * (ahead / Dot(d, n)) - corners[0];
+  const double a = Dot(q, x) / Dot(x, x), b = Dot(q, y) / Dot(y, y);
+  return a >= 0 && a <= 1 && b >= 0 && b <= 1;
+}
+
+// The map at the middle of a cell of angles about the portal's axes.
+Rgb Lights::PortalRadiance(const Light& light, Index image, Vec3d p, Vec3d toward) const {
+  if (!PassesThrough(light.portal, p, toward)) return {};
+  if (image == kNone) return light.emission;
+  const Vec3d x = Normalize(light.portal[3] - light.portal[0]);
+  const Vec3d y = Normalize(light.portal[1] - light.portal[0]), z = Cross(x, y);
+  const int n = textures_->Size(image);
+  const auto middle = [&](double along) {
+    const double turn = std::atan2(along, Dot(toward, z)) / kPi + 0.5;
+    return std::tan(((std::floor(turn * n) + 0.5) / n - 0.5) * kPi);
+  };
+  const Vec3d w = x * middle(Dot(toward, x)) + y * middle(Dot(toward, y)) + z;
+  const Vec3d local = Normalize(light.world_from_light.Inverse().Vector(w));
+  const auto [s, t] = DirectionToOctahedral(local);
+  return textures_->Eval(image, s, 1 - t) * light.image_scale;
+}
+
+Rgb Lights::PointIntensity(Index index, Vec3d away) const {
   const Light& light = scene_.lights[index];
+  const Vec3d d = Normalize(light.world_from_light.Inverse().Vector(away));
+  if (light.kind == LightKind::kGoniometric) {
+    const auto [s, t] = DirectionToOctahedral({d.x, d.z, d.y});
+    const Rgb value = textures_->Eval(light_images_[index], s, 1 - t);
+    return light.emission * ((value.x + value.y + value.z) / 3);
+  }
+  if (light.kind == LightKind::kProjection) {
+    const auto [width, height] = textures_->Resolution(light_images_[index]);
+    const double unit = std::tan(light.fov * kPi / 360) / std::min(width, height);
+    const double s = d.x / d.z / (unit * width), t = d.y / d.z / (unit * height);
+    if (!(d.z > 0) || std::abs(s) > 1 || std::abs(t) > 1) return {};
+    return light.emission *
+           textures_->Eval(light_images_[index], (1 + s) / 2, (1 + t) / 2);
+  }
+  if (light.kind == LightKind::kPoint) return light.emission;
+  const Vec3d axis = Normalize(light.to - light.from);
+  return light.emission *
+         SpotFalloff(Dot(axis, d), std::cos(light.cone_angle * kPi / 180),
+                     std::cos((light.cone_angle - light.cone_delta) * kPi / 180));
+}
+
+Rgb Lights::InfiniteRadiance(Index index, Vec3d p, Vec3d toward) const {
+  const Light& light = scene_.lights[index];
+  if (!light.portal.empty()) {
+    return PortalRadiance(light, light_images_[index], p, toward);
+  }
   if (light.image_path.empty()) return light.emission;
   LL_CHECK(environment_ != nullptr);
   LL_CHECK(light.illuminance <= 0);
@@ -119,15 +206,16 @@ Rgb Lights::InfiniteRadiance(Index index, Vec3d toward) const {
   return environment_(index, local) * light.image_scale;
 }
 
-Rgb Lights::Environment(Vec3d toward) const {
+Rgb Lights::Environment(Vec3d p, Vec3d toward) const {
   Rgb sum;
-  for (Index index : infinite_) sum += InfiniteRadiance(index, toward);
+  for (Index index : infinite_) sum += InfiniteRadiance(index, p, toward);
   return sum;
 }
 
 std::vector<LightConnection> Lights::DeltaLights(Vec3d p) const {
   std::vector<LightConnection> out;
-  for (const Light& light : scene_.lights) {
+  for (Index i = 0; i < static_cast<Index>(scene_.lights.size()); ++i) {
+    const Light& light = scene_.lights[i];
     const Transform& world = light.world_from_light;
     if (light.kind == LightKind::kInfinite) continue;
     if (light.kind == LightKind::kDistant) {
@@ -137,18 +225,25 @@ std::vector<LightConnection> Lights::DeltaLights(Vec3d p) const {
     }
     const Vec3d delta = world.Point(light.from) - p;
     const double distance = Length(delta);
-    Rgb irradiance = light.emission / (distance * distance);
-    if (light.kind == LightKind::kSpot) {
-      const Vec3d axis = Normalize(light.to - light.from);
-      const double cosine = Dot(axis, Normalize(world.Inverse().Vector(-delta)));
-      irradiance *=
-          SpotFalloff(cosine, std::cos(light.cone_angle * kPi / 180),
-                      std::cos((light.cone_angle - light.cone_delta) * kPi / 180));
-    }
+    const Rgb irradiance = PointIntensity(i, -delta) / (distance * distance);
     if (irradiance == Rgb{}) continue;
     out.push_back({delta / distance, distance, irradiance});
   }
   return out;
+}
+
+// Where the ray meets the emitter at that distance.
+Rgb Lights::ImageAt(const Emitter& emitter, const Ray& ray, double distance) const {
+  Hit hits[2];
+  const Primitive& shape = geometry_.primitives()[emitter.primitive];
+  const int count = IntersectPrimitive(shape, ray, false, hits);
+  if (count == 0) return {};  // at an edge
+  const bool second =
+      count > 1 && std::abs(hits[1].t - distance) < std::abs(hits[0].t - distance);
+  Hit hit = hits[second ? 1 : 0];
+  hit.primitive = emitter.primitive;
+  const SurfacePoint at = geometry_.Describe(ray, hit);
+  return EmittedAt(emitter, at.u, at.v);
 }
 
 LightConnection Lights::SampleEmitter(const Emitter& emitter, Vec3d p,
@@ -160,9 +255,11 @@ LightConnection Lights::SampleEmitter(const Emitter& emitter, Vec3d p,
   LightConnection out = {delta / distance, distance, {}};
   const double cosine = -Dot(normal, out.toward);
   if (!(distance > 0) || (cosine <= 0 && !emitter.two_sided)) return out;
+  Rgb radiance = emitter.radiance;
+  if (emitter.image != kNone)
+    radiance = ImageAt(emitter, {p, out.toward, kNone}, distance);
   // domega = cos dA / distance^2.
-  out.radiance =
-      emitter.radiance * (std::abs(cosine) * emitter.area / (distance * distance));
+  out.radiance = radiance * (std::abs(cosine) * emitter.area / (distance * distance));
   return out;
 }
 
@@ -174,7 +271,7 @@ std::vector<LightConnection> Lights::AreaLights(Vec3d p, Random& random) const {
   }
   for (Index index : infinite_) {
     const Vec3d toward = UniformOnSphere(random);
-    out.push_back({toward, kInfinity, 4 * kPi * InfiniteRadiance(index, toward)});
+    out.push_back({toward, kInfinity, 4 * kPi * InfiniteRadiance(index, p, toward)});
   }
   return out;
 }

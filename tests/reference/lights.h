@@ -3,9 +3,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "tests/reference/geometry.h"
+#include "tests/reference/texture.h"
 
 namespace lanelight::reference {
 
@@ -28,9 +31,9 @@ class Lights {
 
   /// Radiance that the primitive emits at `at` towards `toward` (unit).
   Rgb Emitted(int primitive, const SurfacePoint& at, Vec3d toward) const;
-  /// Radiance of all environments from direction `toward`.
-  Rgb Environment(Vec3d toward) const;
-  /// One connection per point, spot and distant light, dark ones left out.
+  /// Radiance of all environments that arrives at p from direction `toward`.
+  Rgb Environment(Vec3d p, Vec3d toward) const;
+  /// One connection per light without a shape that is no environment, dark ones left out.
   std::vector<LightConnection> DeltaLights(Vec3d p) const;
   /// One random point, uniform by area, on every emitter, and one uniform direction to
   /// every environment; points that face away are left out.
@@ -42,9 +45,15 @@ class Lights {
     double area = 0;
     Rgb radiance;
     bool two_sided = false;
+    Index image = kNone;
   };
   LightConnection SampleEmitter(const Emitter& emitter, Vec3d p, Random& random) const;
-  Rgb InfiniteRadiance(Index light, Vec3d toward) const;
+  Rgb InfiniteRadiance(Index light, Vec3d p, Vec3d toward) const;
+  Rgb PortalRadiance(const Light& light, Index image, Vec3d p, Vec3d toward) const;
+  Rgb PointIntensity(Index light, Vec3d away) const;
+  Rgb ImageAt(const Emitter& emitter, const Ray& ray, double distance) const;
+  Rgb EmittedAt(const Emitter& emitter, double u, double v) const;
+  Index AddImage(const std::string& path, WrapMode wrap, bool bilinear);
 
   const SceneDescription& scene_;
   const Geometry& geometry_;
@@ -52,6 +61,9 @@ class Lights {
   std::vector<Emitter> emitters_;
   std::vector<int> emitter_of_;  // per primitive, kNone = dark
   std::vector<Index> infinite_;
+  std::vector<Texture> images_;
+  std::vector<Index> light_images_;     // of each light, kNone = none
+  std::unique_ptr<Textures> textures_;  // of images_
 };
 
 /// World-space area. Throws CheckFailure for a plane or a non-uniformly scaled shape.

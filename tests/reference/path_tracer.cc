@@ -61,7 +61,7 @@ Rgb Tracer::Trace(Ray ray) const {
   for (int depth = 0;;) {
     const Hit hit = geometry.Intersect(ray, kInfinity, random);
     if (hit.primitive == kNone) {
-      if (counts_emission) sum += beta * lights.Environment(ray.d);
+      if (counts_emission) sum += beta * lights.Environment(ray.o, ray.d);
       return sum;
     }
     const SurfacePoint at = geometry.Describe(ray, hit);

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/core/check.h"
@@ -80,6 +81,13 @@ class Textures {
     LL_CHECK(!"a texture of this kind is in no file");
     return {};
   }
+
+  /// Of an image: width and height, and the width of a square one.
+  std::pair<int, int> Resolution(Index index) const {
+    const Image& image = images_.at(textures_[index].path);
+    return {image.width, image.height};
+  }
+  int Size(Index index) const { return Resolution(index).first; }
 
  private:
   // The coordinates that a mapping gives; q: the point in the space of the texture.

@@ -37,7 +37,7 @@ std::string ReadText(const fs::path& path) {
 
 TEST_CASE("own scenes: the header states purpose, needs and closed form", "[scenes]") {
   const auto scenes = OwnScenes();
-  CHECK(scenes.size() >= 22);
+  CHECK(scenes.size() >= 24);
   for (const fs::path& path : scenes) {
     const std::string text = ReadText(path);
     INFO(path);
@@ -112,6 +112,9 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
   CHECK(features("textured-layers.pbrt")
             .HasAll({Feature::kTexturedColor1, Feature::kTexturedCoat,
                      Feature::kCoatedConductor, Feature::kDiffuseTransmission}));
+  CHECK(features("image-lights.pbrt")
+            .HasAll({Feature::kImageLights, Feature::kEmissionImages}));
+  CHECK(features("portal.pbrt").Has(Feature::kPortals));
   CHECK(features("stiff/roughness-1e-4.pbrt")
             .HasAll({Feature::kConductorRough, Feature::kConductorSmooth}));
 }

@@ -15,6 +15,7 @@
 #include "tests/image/temporary_folder.h"
 #include "tests/reference/closed_forms.h"
 #include "src/prepare/prepare_scene.h"
+#include "tests/lights/pictures.h"
 #include "src/stat/hypothesis.h"
 #include "tests/strategy/covering.h"
 #include "tests/wavefront/agreement.h"
@@ -110,8 +111,8 @@ std::string SkyFile() {
   return folder.File("sky.exr");
 }
 
-// Skies, constant and as an image, with a sun of their own and one that is a small, far,
-// bright sphere.
+// Skies, constant, as an image and through a skylight, with a sun of their own and one
+// that is a small, far, bright sphere.
 SceneDescription SkyAndSun() {
   SceneBuilder b(8, 8);
   b.Depth(3).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 36);
@@ -135,10 +136,14 @@ SceneDescription SkyAndSun() {
   b.AddEnvironment({});
   SceneDescription scene = b.Build();
   scene.lights.back().image_path = SkyFile();
+  scene.lights.push_back(scene.lights.back());
+  scene.lights.back().portal = {{-1.5, -1.5, 2}, {-1.5, 1, 2}, {1, 1, 2}, {1, -1.5, 2}};
+  scene.lights.back().image_scale = 2;
   return scene;
 }
 
-// Lights of every shape that has a place, for the selection of lights.
+// Lights of every shape that has a place, some with an image, for the selection of
+// lights.
 SceneDescription ManyLights() {
   SceneBuilder b(8, 8);
   b.Depth(2).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 36);
@@ -154,7 +159,18 @@ SceneDescription ManyLights() {
   }
   b.AddPoint({0, 0, 2}, {0.3, 0.3, 0.3});
   b.AddSpot({1, 0, 2}, {0, 0, 0}, {2, 2, 2}, 30, 10);
-  return b.Build();
+  SceneDescription scene = b.Build();
+  const std::string picture = Picture("emitted.exr", 8, 8, Patchwork);
+  for (std::size_t i = 0; i < 6; ++i) scene.area_lights[i].image_path = picture;
+  for (const LightKind kind : {LightKind::kGoniometric, LightKind::kProjection}) {
+    Light& light = scene.lights.emplace_back();
+    light.kind = kind;
+    light.image_path = picture;
+    light.emission = {0.5, 0.5, 0.5};
+    light.world_from_light =
+        Transform::Translate({-0.5, 0, 2}) * Transform::Rotate(180, {1, 0.1, 0});
+  }
+  return scene;
 }
 
 struct HardScene {

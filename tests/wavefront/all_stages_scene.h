@@ -1,4 +1,4 @@
-// Two scenes that together need every stage.
+// Scenes that together need every stage.
 #pragma once
 
 namespace lanelight {
@@ -87,9 +87,9 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2.5  -3 3 2.5 ]
   "integer indices" [ 0 1 2 0 2 3 ]
 )";
 
-/// What the other one lacks: an environment image (sky.pfm), mixed materials, the other
-/// diffuse models, a normal map (the same file), a lens, instances, a cut-out, a sphere
-/// far larger than its distance.
+/// What the other one lacks: images of lights (sky.pfm) and of environments, one behind a
+/// portal, mixed materials, the other diffuse models, a normal map (the same file), a lens,
+/// instances, a cut-out, a sphere far larger than its distance.
 inline constexpr const char* kOtherStagesScene = R"(
 LookAt 0 2 -6  0 0.8 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -3 3 -3 3 ] "float lensradius" 0.05 "float focaldistance" 6
@@ -98,6 +98,15 @@ PixelFilter "mitchell"
 Integrator "path" "integer maxdepth" 6
 WorldBegin
 LightSource "infinite" "string filename" "sky.pfm"
+LightSource "infinite" "string filename" "sky.pfm"
+  "point3 portal" [ -2 4 -2  2 4 -2  2 4 2  -2 4 2 ]
+LightSource "goniometric" "string filename" "sky.pfm" "rgb I" [ 5 5 5 ]
+LightSource "projection" "string filename" "sky.pfm"
+AttributeBegin
+  AreaLightSource "diffuse" "string filename" "sky.pfm"
+  Translate 2 2 -1
+  Shape "sphere" "float radius" 0.3
+AttributeEnd
 LightSource "point" "point3 from" [ 2 4 -2 ] "rgb I" [ 9 9 9 ]
 MakeNamedMaterial "even" "string type" "diffuse" "string scattering" "uniform"
   "string normalmap" "sky.pfm"
@@ -133,5 +142,4 @@ AttributeBegin
   Shape "sphere" "float radius" 0.7
 AttributeEnd
 )";
-
 }  // namespace lanelight

@@ -1,0 +1,232 @@
+// Environments seen through a portal: look-up, and sampling of what of the map a point
+// sees, by the summed weights of its texels (src/compiled/lights.h, Portal).
+//   density     pdf(s, t) = weight of the texel / weight of the window, both per area;
+//               pdf_sa = pdf(s, t) / (solid angle per area of the square)
+//   window      what the portal covers of the square: a rectangle
+//   source      Bitterli, Novak and Jarosz 2015
+#if defined(LANELIGHT_LIGHTS_PORTAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_LIGHTS_PORTAL_INL_H_
+#undef LANELIGHT_LIGHTS_PORTAL_INL_H_
+#else
+#define LANELIGHT_LIGHTS_PORTAL_INL_H_
+#endif
+
+#include "hwy/contrib/math/math-inl.h"
+#include "kernels/simd/math-inl.h"
+#include "kernels/surface/point-inl.h"
+#include "src/compiled/lights.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+struct PortalPlace {
+  VF s, t;
+  VF solid_angle;  // per area of the square
+  MF ahead;        // towards the outside
+};
+
+struct PortalWindow {
+  VF s0, s1, t0, t1;
+  MF open;
+};
+
+/// `pdf_sa` is 0 and `radiance` black where nothing is seen.
+struct PortalSample {
+  V3 direction, radiance;
+  VF pdf_sa;
+};
+
+LANELIGHT_INLINE V3 LoadV3(const float v[3]) { return Splat3(v[0], v[1], v[2]); }
+
+LANELIGHT_INLINE PortalPlace PlaceOf(const Portal& portal, V3 direction) {
+  const DF df;
+  const V3 w = {Dot(LoadV3(portal.x_axis), direction),
+                Dot(LoadV3(portal.y_axis), direction),
+                Dot(LoadV3(portal.z_axis), direction)};
+  const VF one = Splat(1.0f), half = Splat(0.5f), inv_pi = Splat(kInvPi);
+  const MF ahead = hn::Gt(w.z, Splat(0));
+  const VF inverse = hn::IfThenElseZero(ahead, hn::Div(one, w.z));
+  const VF cosines = hn::Mul(hn::NegMulAdd(w.x, w.x, one), hn::NegMulAdd(w.y, w.y, one));
+  return {hn::MulAdd(hn::Atan(df, hn::Mul(w.x, inverse)), inv_pi, half),
+          hn::MulAdd(hn::Atan(df, hn::Mul(w.y, inverse)), inv_pi, half),
+          hn::Mul(hn::Mul(cosines, inverse), Splat(kPi * kPi)), ahead};
+}
+
+LANELIGHT_INLINE V3 DirectionAt(const Portal& portal, VF s, VF t) {
+  const VF half = Splat(0.5f);
+  const auto [sin_a, cos_a] = SinCos2Pi(hn::Mul(hn::Sub(s, half), half));
+  const auto [sin_b, cos_b] = SinCos2Pi(hn::Mul(hn::Sub(t, half), half));
+  return Normalize(MulAdd(LoadV3(portal.x_axis), hn::Mul(sin_a, cos_b),
+                          MulAdd(LoadV3(portal.y_axis), hn::Mul(cos_a, sin_b),
+                                 Mul(LoadV3(portal.z_axis), hn::Mul(cos_a, cos_b)))));
+}
+
+LANELIGHT_INLINE PortalWindow WindowFrom(const Portal& portal, V3 from) {
+  const PortalPlace low = PlaceOf(portal, Normalize(LoadV3(portal.low) - from));
+  const PortalPlace high = PlaceOf(portal, Normalize(LoadV3(portal.high) - from));
+  const MF wide = hn::And(hn::Lt(low.s, high.s), hn::Lt(low.t, high.t));
+  return {low.s, high.s, low.t, high.t, hn::And(wide, hn::And(low.ahead, high.ahead))};
+}
+
+/// Half a vector of windows, in texels, and the sums of weights inside them.
+class PortalSums {
+ public:
+  LANELIGHT_INLINE PortalSums(const Portal& portal, VD x0, VD x1, VD y0, VD y1)
+      : sums_(portal.sums.data()),
+        size_(hn::Set(DD(), portal.size)),
+        x0_(x0),
+        x1_(x1),
+        y0_(y0),
+        y1_(y1) {}
+
+  struct Point {
+    VD x, y;
+    VD column, row;  // of its texel
+    VD density;      // over the square
+  };
+
+  LANELIGHT_INLINE Point Sample(VD u0, VD u1) const {
+    const VD total = Left(x1_);
+    Point at;
+    at.x = Invert(
+        x0_, x1_, hn::Mul(u0, total), [&](VD x) HWY_ATTR { return Left(x); }, &at.column);
+    const VD next = hn::Add(at.column, hn::Set(DD(), 1.0));
+    const VD whole = Between(at.column, next, y0_, y1_);
+    at.y = Invert(
+        y0_, y1_, hn::Mul(u1, whole),
+        [&](VD y) HWY_ATTR { return Between(at.column, next, y0_, y); }, &at.row);
+    at.density = Density(at.column, at.row);
+    return at;
+  }
+
+  /// Of a point of the window with this texel; 0 where the window is black.
+  LANELIGHT_INLINE VD Density(VD column, VD row) const {
+    const VD one = hn::Set(DD(), 1.0), zero = hn::Zero(DD());
+    const VD total = Left(x1_);
+    const VD mine = Between(column, hn::Add(column, one), row, hn::Add(row, one));
+    const VD density = hn::Div(hn::Mul(mine, hn::Mul(size_, size_)), total);
+    const auto some = hn::And(hn::Gt(mine, zero), hn::Gt(total, zero));
+    return hn::IfThenElseZero(some, density);
+  }
+
+ private:
+  LANELIGHT_INLINE VD Node(VD column, VD row) const {
+    const hn::RebindToSigned<DD> di;
+    const VD at = hn::MulAdd(row, hn::Add(size_, hn::Set(DD(), 1.0)), column);
+    return hn::GatherIndex(DD(), sums_, hn::ConvertTo(di, at));
+  }
+  // Of all to the left of x and below y, both in [0, size].
+  LANELIGHT_INLINE VD Below(VD x, VD y) const {
+    const VD one = hn::Set(DD(), 1.0), last = hn::Sub(size_, one);
+    const VD i = hn::Min(hn::Floor(x), last), j = hn::Min(hn::Floor(y), last);
+    const VD i1 = hn::Add(i, one), j1 = hn::Add(j, one);
+    const VD right = hn::Sub(x, i), above = hn::Sub(y, j);
+    const auto mix = [](VD a, VD b, VD t)
+                         HWY_ATTR { return hn::MulAdd(hn::Sub(b, a), t, a); };
+    return mix(mix(Node(i, j), Node(i1, j), right), mix(Node(i, j1), Node(i1, j1), right),
+               above);
+  }
+  LANELIGHT_INLINE VD Between(VD left, VD right, VD low, VD high) const {
+    return hn::Sub(hn::Sub(Below(right, high), Below(left, high)),
+                   hn::Sub(Below(right, low), Below(left, low)));
+  }
+  LANELIGHT_INLINE VD Left(VD x) const { return Between(x0_, x, y0_, y1_); }
+
+  // Where a sum that grows linearly over each texel reaches `wanted`, between low and
+  // high; `texel`: in which.
+  template <class Sum>
+  LANELIGHT_INLINE VD Invert(VD low, VD high, VD wanted, const Sum& sum,
+                             VD* texel) const {
+    const VD one = hn::Set(DD(), 1.0), half = hn::Set(DD(), 0.5);
+    VD a = hn::Min(hn::Floor(low), hn::Sub(size_, one));
+    VD b = hn::Max(hn::Ceil(high), hn::Add(a, one));
+    for (;;) {
+      const auto open = hn::Gt(hn::Sub(b, a), one);
+      if (hn::AllFalse(DD(), open)) break;
+      const VD middle = hn::Floor(hn::Mul(hn::Add(a, b), half));
+      const auto right = hn::Le(sum(middle), wanted);
+      a = hn::IfThenElse(hn::And(open, right), middle, a);
+      b = hn::IfThenElse(hn::AndNot(right, open), middle, b);
+    }
+    *texel = a;
+    const VD first = hn::Max(a, low), last = hn::Min(b, high);
+    const VD at_first = sum(first), width = hn::Sub(sum(last), at_first);
+    const auto rises = hn::Gt(width, hn::Zero(DD()));
+    const VD share =
+        hn::IfThenElse(rises, hn::Div(hn::Sub(wanted, at_first), width), half);
+    const VD inside = hn::Min(hn::Max(share, hn::Zero(DD())), one);
+    return hn::MulAdd(hn::Sub(last, first), inside, first);
+  }
+
+  const double* sums_;
+  VD size_, x0_, x1_, y0_, y1_;
+};
+
+template <bool kUpper>
+LANELIGHT_INLINE PortalSums SumsOf(const Portal& portal, const PortalWindow& w) {
+  const VD size = hn::Set(DD(), portal.size);
+  const auto texels = [&](VF v) HWY_ATTR {
+    const VF inside = hn::IfThenElse(w.open, v, Splat(0.5f));
+    return hn::Mul(HalfOf<kUpper>(inside), size);
+  };
+  return {portal, texels(w.s0), texels(w.s1), texels(w.t0), texels(w.t1)};
+}
+
+LANELIGHT_INLINE V3 PortalTexel(const Portal& portal, VF column, VF row) {
+  const VF size = Splat(static_cast<float>(portal.size));
+  const DI di;
+  const VI texel = hn::Add(hn::Mul(hn::ConvertTo(di, row), hn::ConvertTo(di, size)),
+                           hn::ConvertTo(di, column));
+  return GatherRecord3(portal.rgb.data(), 3, 0, texel);
+}
+
+/// Direction that `from` sees through the portal, with density proportional to the weight
+/// of its texel.
+LANELIGHT_INLINE PortalSample SamplePortal(const Portal& portal, V3 from, VF u0, VF u1) {
+  const PortalWindow window = WindowFrom(portal, from);
+  const PortalSums low = SumsOf<false>(portal, window),
+                   high = SumsOf<true>(portal, window);
+  const auto a = low.Sample(HalfOf<false>(u0), HalfOf<false>(u1));
+  const auto b = high.Sample(HalfOf<true>(u0), HalfOf<true>(u1));
+  const VF per_texel = Splat(1.0f / static_cast<float>(portal.size));
+  PortalSample out;
+  out.direction = DirectionAt(portal, hn::Mul(FromHalves(a.x, b.x), per_texel),
+                              hn::Mul(FromHalves(a.y, b.y), per_texel));
+  const PortalPlace place = PlaceOf(portal, out.direction);
+  const MF seen = hn::And(window.open, place.ahead);
+  out.pdf_sa = hn::IfThenElseZero(
+      seen, hn::Div(FromHalves(a.density, b.density), place.solid_angle));
+  const V3 rgb =
+      PortalTexel(portal, FromHalves(a.column, b.column), FromHalves(a.row, b.row));
+  out.radiance = IfThenElseZero(seen, rgb);
+  return out;
+}
+
+/// Radiance and density of a direction from `from`.
+LANELIGHT_INLINE PortalSample LookThrough(const Portal& portal, V3 from, V3 direction) {
+  const PortalWindow w = WindowFrom(portal, from);
+  const PortalPlace place = PlaceOf(portal, direction);
+  const auto inside = [](VF v, VF low, VF high)
+                          HWY_ATTR { return hn::And(hn::Ge(v, low), hn::Le(v, high)); };
+  const MF seen =
+      hn::And(hn::And(w.open, place.ahead),
+              hn::And(inside(place.s, w.s0, w.s1), inside(place.t, w.t0, w.t1)));
+  const VF size = Splat(static_cast<float>(portal.size));
+  const auto texel = [&](VF v) HWY_ATTR {
+    const VF at = hn::Min(hn::Floor(hn::Mul(v, size)), hn::Sub(size, Splat(1.0f)));
+    return hn::IfThenElseZero(seen, at);
+  };
+  const VF column = texel(place.s), row = texel(place.t);
+  const VD a =
+      SumsOf<false>(portal, w).Density(HalfOf<false>(column), HalfOf<false>(row));
+  const VD b = SumsOf<true>(portal, w).Density(HalfOf<true>(column), HalfOf<true>(row));
+  return {direction, IfThenElseZero(seen, PortalTexel(portal, column, row)),
+          hn::IfThenElseZero(seen, hn::Div(FromHalves(a, b), place.solid_angle))};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,91 @@
+#include "src/compile/image_lights.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "src/core/error.h"
+
+namespace lanelight {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// An axis of the light in the scene, of unit length.
+Vec3d AxisOf(const Light& light, Vec3d axis) {
+  const double scale = light.world_from_light.UniformScale();
+  if (!(scale > 0)) {
+    throw InputError(light.where,
+                     "a light with an image under a transform that is not rotation, "
+                     "translation, mirroring and uniform scale is not supported");
+  }
+  return light.world_from_light.Vector(axis) / scale;
+}
+
+// Adds the light that `intensity` times the mean of `weight` times the image, integrated
+// over a domain of that size, has the power of; scaled to the power that is asked for.
+void AddWithPower(const Light& light, const Frame& frame, Rgb mean, double size,
+                  LightRecord& record, LightList& lights) {
+  const double unit_power = size * Luminance(mean);
+  Rgb intensity = light.emission;
+  if (light.power > 0) intensity *= light.power / unit_power;
+  intensity *= frame.scale * frame.scale;
+  Store(intensity, record.radiance);
+  Store(frame.Point(light.world_from_light.Point(light.from)), record.position);
+  lights.Push(record, Luminance(intensity * mean) * size);
+}
+
+}  // namespace
+
+void AddGoniometric(const Light& light, const Frame& frame, LightImageTable& images,
+                    LightList& lights) {
+  const LightFile file = {light.where, "goniometric light's image", light.image_path};
+  LightImage image = images.Load(file, LightImageTable::Use::kGrey);
+  if (image.width != image.height) {
+    FailAtLight(file, fmt::format("{} x {} pixels; supported are square equal-area "
+                                  "octahedral maps (pbrt-v4: \"imgtool makeequiarea\" "
+                                  "converts a latitude-longitude map)",
+                                  image.width, image.height));
+  }
+  const Rgb mean = images.Mean(image);
+  if (!(Luminance(mean) > 0)) return;
+  Store(AxisOf(light, {1, 0, 0}), image.x_axis);
+  Store(AxisOf(light, {0, 0, 1}), image.y_axis);
+  Store(AxisOf(light, {0, 1, 0}), image.z_axis);
+  LightRecord record = EmptyRecord(LightShape::kGoniometric);
+  record.image = images.Add(image);
+  lights.table.has_goniometric = true;
+  AddWithPower(light, frame, mean, 4 * kPi, record, lights);
+}
+
+void AddProjection(const Light& light, const Frame& frame, LightImageTable& images,
+                   LightList& lights) {
+  const LightFile file = {light.where, "projection light's image", light.image_path};
+  LightImage image = images.Load(file, LightImageTable::Use::kColor);
+  // Half the sides of the picture at distance 1; the shorter one spans the field of view.
+  const double aspect = static_cast<double>(image.width) / image.height;
+  const double opposite = std::tan(light.fov * (kPi / 360));
+  const double half_x = opposite * std::max(aspect, 1.0);
+  const double half_y = opposite * std::max(1 / aspect, 1.0);
+  // A pixel of the picture fills the solid angle cos^3 dA.
+  const Rgb mean = images.Mean(image, [&](int column, int row) {
+    const double x = half_x * ((2 * column + 1.0) / image.width - 1);
+    const double y = half_y * ((2 * row + 1.0) / image.height - 1);
+    return std::pow(1 + x * x + y * y, -1.5);
+  });
+  if (!(Luminance(mean) > 0)) return;
+  const Vec3d axis = AxisOf(light, {0, 0, 1});
+  Store(AxisOf(light, {1, 0, 0}) / half_x, image.x_axis);
+  Store(AxisOf(light, {0, -1, 0}) / half_y, image.y_axis);
+  Store(axis, image.z_axis);
+  LightRecord record = EmptyRecord(LightShape::kProjection);
+  record.image = images.Add(image);
+  Store(axis, record.direction);
+  // 1 - cos of the corner, for the tree of lights.
+  const double tangent2 = half_x * half_x + half_y * half_y,
+               secant = std::hypot(1, std::sqrt(tangent2));
+  record.versine_total = static_cast<float>(tangent2 / (secant * (1 + secant)));
+  lights.table.has_projection = true;
+  AddWithPower(light, frame, mean, 4 * half_x * half_y, record, lights);
+}
+
+}  // namespace lanelight
