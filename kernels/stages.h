@@ -24,6 +24,8 @@ namespace lanelight {
   X(FirstFilm)                                 \
   X(PerspectiveCamera)                         \
   X(OrthographicCamera)                        \
+  X(SphericalCamera)                           \
+  X(RealisticCamera)                           \
   X(IntersectTriangles)                        \
   X(IntersectSpheres)                          \
   X(IntersectDisks)                            \

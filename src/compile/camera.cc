@@ -5,6 +5,7 @@
 
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/compile/lens_system.h"
 
 namespace lanelight {
 namespace {
@@ -70,6 +71,22 @@ CompiledCamera CompileCamera(const Camera& camera, const Film& film, const Frame
   out.lens_radius = static_cast<float>(camera.lens_radius * unit);
   out.focal_distance = static_cast<float>(camera.focal_distance * unit);
 
+  if (camera.kind == CameraKind::kSpherical) {
+    out.mapping = camera.mapping;
+    out.dx = ToFloat({1.0 / film.width, 0, 0});
+    out.dy = ToFloat({0, 1.0 / film.height, 0});
+    return out;
+  }
+  if (camera.kind == CameraKind::kRealistic) {
+    // The lenses turn the image over.
+    const double aspect = static_cast<double>(film.height) / film.width;
+    const double x = camera.film_diagonal / std::hypot(1, aspect), y = aspect * x;
+    out.base = ToFloat({x / 2, -y / 2, 0});
+    out.dx = ToFloat({-x / film.width, 0, 0});
+    out.dy = ToFloat({0, y / film.height, 0});
+    out.lenses = CompileLenses(camera, unit);
+    return out;
+  }
   // Perspective: the film lies at z = 1. Orthographic: screen units are camera lengths.
   const bool perspective = camera.kind == CameraKind::kPerspective;
   const double k = perspective ? std::tan(camera.fov * (std::numbers::pi / 360)) : unit;

@@ -22,19 +22,6 @@ LightFile FileOf(const Light& light) {
   FailAtLight(FileOf(light), message);
 }
 
-void NoteBad(const Light& light, const BadValues& bad, std::size_t values,
-             std::vector<Note>& notes) {
-  const auto add = [&](std::size_t count, const std::string& what) {
-    if (count == 0) return;
-    notes.push_back(
-        {light.where, fmt::format("{} of {} values of the environment image are {} and "
-                                  "count as 0",
-                                  count, values, what)});
-  };
-  add(bad.negative, fmt::format("negative (the least is {})", bad.least));
-  add(bad.not_a_number, "not a number");
-}
-
 double TexelLuminance(const AlignedVector<float>& rgb, std::size_t i) {
   return Luminance({rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]});
 }

@@ -111,6 +111,21 @@ bool FiltersTextures(const TextureTable& textures) {
       });
 }
 
+Feature FeatureOf(CameraKind camera) {
+  switch (camera) {
+    case CameraKind::kPerspective:
+      return Feature::kPerspective;
+    case CameraKind::kOrthographic:
+      return Feature::kOrthographic;
+    case CameraKind::kSpherical:
+      return Feature::kSphericalCamera;
+    case CameraKind::kRealistic:
+      return Feature::kRealisticCamera;
+  }
+  LL_CHECK(!"unknown camera");
+  return Feature::kCount;
+}
+
 bool HasNonSpecular(const MaterialTable& materials) {
   return std::any_of(materials.kind.begin(), materials.kind.end(), [](std::uint32_t k) {
     const auto kind = static_cast<ShadeKind>(k);
@@ -155,9 +170,11 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
       HasNonSpecular(scene.materials)) {
     features.Add(Feature::kMis);
   }
-  if (scene.camera.lens_radius > 0) features.Add(Feature::kLens);
-  features.Add(scene.camera.kind == CameraKind::kOrthographic ? Feature::kOrthographic
-                                                              : Feature::kPerspective);
+  // Points on the lens.
+  if (scene.camera.lens_radius > 0 || scene.camera.kind == CameraKind::kRealistic) {
+    features.Add(Feature::kLens);
+  }
+  features.Add(FeatureOf(scene.camera.kind));
   if (!scene.filter.is_box) features.Add(Feature::kFiltered);
   if (HasNegative(scene.filter.x_sign) || HasNegative(scene.filter.y_sign)) {
     features.Add(Feature::kSignedFilter);

@@ -1,6 +1,8 @@
 // Camera and pixel filter.
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "src/parse/interpret.h"
 #include "src/core/suggest.h"
@@ -47,11 +49,98 @@ void ReadShutter(ParseState& state, ParamSet& params) {
   state.exposure_seconds = close - open;
 }
 
+// Numbers of a lens file: four per row, `#` begins a comment.
+std::vector<double> ReadLensFile(ParamSet& params, const Param& file,
+                                 const std::string& path) {
+  std::ifstream in(path);
+  if (!in) params.Fail(file, "cannot read the file " + Quoted(path));
+  std::vector<double> numbers;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    for (std::string word; words >> word;) {
+      std::istringstream text(word);
+      double value = 0;
+      if (!(text >> value) || !text.eof() || !std::isfinite(value)) {
+        params.Fail(file,
+                    Quoted(word) + " in the file " + Quoted(path) + " is not a number");
+      }
+      numbers.push_back(value);
+    }
+  }
+  if (numbers.empty() || numbers.size() % 4 != 0) {
+    params.Fail(file, fmt::format("the file {} has {} numbers; it takes rows of four: "
+                                  "radius, thickness, eta, diameter",
+                                  Quoted(path), numbers.size()));
+  }
+  return numbers;
+}
+
+void CheckLenses(ParseState& state, ParamSet& params, const Param& file,
+                 const Camera& camera) {
+  for (std::size_t i = 0; i < camera.lens.size(); i += 4) {
+    const double* row = &camera.lens[i];
+    if (row[1] < 0 || row[2] < 0 || !(row[3] > 0)) {
+      params.Fail(file, fmt::format("row {} of the lens file: thickness and eta must not "
+                                    "be negative, the diameter above 0",
+                                    i / 4 + 1));
+    }
+    if (row[0] == 0 && camera.aperture_diameter > row[3]) {
+      state.AddNote(params.where(),
+                    fmt::format("aperturediameter {} is larger than the stop of the "
+                                "lenses, which has {}",
+                                camera.aperture_diameter, row[3]));
+    }
+  }
+}
+
+void ReadRealistic(ParseState& state, ParamSet& params, Camera& camera) {
+  camera.kind = CameraKind::kRealistic;
+  const Param* file = params.Find("lensfile", {ParamType::kString});
+  const std::string name = params.String("lensfile", "");
+  if (file == nullptr || name.empty()) {
+    throw InputError(params.where(), "a realistic camera needs \"string lensfile\"");
+  }
+  camera.aperture_diameter = params.Float("aperturediameter", 1, 1e-6, kHuge);
+  camera.focal_distance = params.Float("focusdistance", 10, 1e-30, kHuge);
+  camera.aperture = params.String("aperture", "");
+  static constexpr std::string_view kShapes[] = {"", "gaussian", "square", "pentagon",
+                                                 "star"};
+  if (std::find(std::begin(kShapes), std::end(kShapes), camera.aperture) ==
+      std::end(kShapes)) {
+    camera.aperture = ResolvePath(state, camera.aperture);
+  }
+  camera.lens = ReadLensFile(params, *file, ResolvePath(state, name));
+  CheckLenses(state, params, *file, camera);
+  ReadShutter(state, params);
+  params.CheckAllUsed();
+  state.scene.camera = camera;
+}
+
+// All directions: no lens, and all of the film.
+void ReadSpherical(ParseState& state, ParamSet& params, Camera& camera) {
+  camera.kind = CameraKind::kSpherical;
+  const Param* param = params.Find("mapping", {ParamType::kString});
+  const std::string mapping = params.String("mapping", "equalarea");
+  if (mapping == "equirectangular") {
+    camera.mapping = SphericalMapping::kEquirectangular;
+  } else if (mapping != "equalarea") {
+    ThrowUnknown(param->where, "mapping", mapping, {"equalarea", "equirectangular"});
+  }
+  for (const char* name :
+       {"lensradius", "focaldistance", "frameaspectratio", "screenwindow"}) {
+    params.Ignore(name, "a spherical camera has neither lens nor window");
+  }
+  ReadShutter(state, params);
+  params.CheckAllUsed();
+  state.scene.camera = camera;
+}
+
 }  // namespace
 
 void InterpretCamera(ParseState& state, const std::string& type, ParamSet& params) {
   Camera camera;
   camera.where = params.where();
+  camera.film_diagonal = state.scene.camera.film_diagonal;  // of the Film before
   camera.world_from_camera = state.graphics.ctm.Inverse();
   state.coordinate_systems["camera"] = camera.world_from_camera;
   if (type == "perspective") {
@@ -59,8 +148,13 @@ void InterpretCamera(ParseState& state, const std::string& type, ParamSet& param
     camera.fov = params.Float("fov", 90, 1e-6, 179.999);
   } else if (type == "orthographic") {
     camera.kind = CameraKind::kOrthographic;
+  } else if (type == "spherical") {
+    return ReadSpherical(state, params, camera);
+  } else if (type == "realistic") {
+    return ReadRealistic(state, params, camera);
   } else {
-    ThrowUnknown(params.where(), "camera", type, {"perspective", "orthographic"});
+    ThrowUnknown(params.where(), "camera", type,
+                 {"perspective", "orthographic", "spherical", "realistic"});
   }
   camera.lens_radius = params.Float("lensradius", 0, 0, kHuge);
   camera.focal_distance = params.Float("focaldistance", 1e6, 1e-30, kHuge);

@@ -111,7 +111,7 @@ void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params)
   ReadCrop(params, &film);
   state.iso = params.Float("iso", 100, 1e-6, 1e9);
   params.Ignore("savefp16", "--depth chooses half or float");
-  params.Ignore("diagonal", "only the realistic camera needs it");
+  state.scene.camera.film_diagonal = params.Float("diagonal", 35, 1e-3, 1e6);
   ReadSensor(state, params, &film);
   params.CheckAllUsed();
   state.scene.film = film;

@@ -238,6 +238,7 @@ struct Camera {
   std::vector<double> lens;      // kRealistic: curvature, thickness, eta, aperture; mm
   double aperture_diameter = 1;  // kRealistic, mm
   std::string aperture;          // kRealistic: built-in shape or resolved path
+  double film_diagonal = 35;     // kRealistic, mm
   Index medium = kNone;          // that it stands in
 };
 

@@ -60,6 +60,7 @@ class Projector {
         forward_(ToVec(camera.forward)) {}
 
   std::optional<Picture> Project(const Ball& ball) const {
+    if (!HasPlane()) return std::nullopt;
     const bool perspective = camera_.kind == CameraKind::kPerspective;
     Vec3d p = Local(ball.center - ToVec(camera_.origin));
     // Of what lies at the camera there is no picture of a certain size.
@@ -78,6 +79,11 @@ class Projector {
   }
 
  private:
+  // Whether pixels are those of a plane. Others find small lights by chance.
+  bool HasPlane() const {
+    return camera_.kind == CameraKind::kPerspective ||
+           camera_.kind == CameraKind::kOrthographic;
+  }
   Vec3d Local(Vec3d v) const {
     const double volume = Dot(right_, Cross(up_, forward_));
     return {Dot(v, Cross(up_, forward_)) / volume,

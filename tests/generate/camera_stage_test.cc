@@ -24,16 +24,27 @@ struct View {
   CameraKind kind;
   double lens_radius;
   bool screen;  // a window that is not symmetric
+  SphericalMapping mapping = SphericalMapping::kEqualArea;
 };
-constexpr View kViews[] = {{"pinhole", CameraKind::kPerspective, 0, false},
-                           {"shifted pinhole", CameraKind::kPerspective, 0, true},
-                           {"lens", CameraKind::kPerspective, 0.3, false},
-                           {"orthographic", CameraKind::kOrthographic, 0, false},
-                           {"orthographic lens", CameraKind::kOrthographic, 0.3, false}};
+constexpr View kViews[] = {
+    {"pinhole", CameraKind::kPerspective, 0, false},
+    {"shifted pinhole", CameraKind::kPerspective, 0, true},
+    {"lens", CameraKind::kPerspective, 0.3, false},
+    {"orthographic", CameraKind::kOrthographic, 0, false},
+    {"orthographic lens", CameraKind::kOrthographic, 0.3, false},
+    {"spherical", CameraKind::kSpherical, 0, false},
+    {"longitudes", CameraKind::kSpherical, 0, false, SphericalMapping::kEquirectangular}};
+
+Stage StageOf(CameraKind kind) {
+  if (kind == CameraKind::kOrthographic) return OrthographicCameraStage();
+  if (kind == CameraKind::kSpherical) return SphericalCameraStage();
+  return PerspectiveCameraStage();
+}
 
 Camera Describe(const View& view) {
   Camera camera;
   camera.kind = view.kind;
+  camera.mapping = view.mapping;
   camera.fov = 47;
   camera.lens_radius = view.lens_radius;
   camera.focal_distance = 6;
@@ -74,9 +85,7 @@ struct Shot {
       p.u_lens_0[i] = unit(), p.u_lens_1[i] = unit();
     }
     fixture.QueueAll(QueueId::kCamera, kPaths);
-    const bool orthographic = view.kind == CameraKind::kOrthographic;
-    fixture.Run(orthographic ? OrthographicCameraStage() : PerspectiveCameraStage(),
-                FeaturesOf(view, scene.filter));
+    fixture.Run(StageOf(view.kind), FeaturesOf(view, scene.filter));
   }
   // Back in the file's units.
   Vec3d Origin(std::uint32_t i) const {

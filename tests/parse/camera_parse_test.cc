@@ -44,6 +44,33 @@ TEST_CASE("cameras", "[parse]") {
                   InputError);
 }
 
+TEST_CASE("spherical and realistic cameras", "[parse]") {
+  const Camera sphere =
+      ParseOptionsBlock("Camera \"spherical\" \"string mapping\" \"equirectangular\"")
+          .camera;
+  CHECK(sphere.kind == CameraKind::kSpherical);
+  CHECK(sphere.mapping == SphericalMapping::kEquirectangular);
+  CHECK(ParseOptionsBlock("Camera \"spherical\"").camera.mapping ==
+        SphericalMapping::kEqualArea);
+  const std::string lenses = std::string("Camera \"realistic\" \"string lensfile\" \"") +
+                             LANELIGHT_SOURCE_DIR + "/scenes/lenses/doublet.dat\" ";
+  const std::string film = " Film \"rgb\" \"float diagonal\" 28 ";
+  for (const std::string& text :
+       {film + lenses + "\"float aperturediameter\" 12", lenses + film}) {
+    const Camera camera = ParseOptionsBlock(text).camera;
+    CHECK(camera.kind == CameraKind::kRealistic);
+    CHECK(camera.lens.size() == 16);
+    CHECK(camera.lens[5] == 3);
+    CHECK(camera.film_diagonal == 28);
+    CHECK(camera.focal_distance == 10);
+  }
+  CHECK(ParseOptionsBlock(lenses + "\"string aperture\" \"star\"").camera.aperture ==
+        "star");
+  const SceneDescription wide =
+      ParseOptionsBlock(lenses + "\"float aperturediameter\" 60");
+  CHECK(HasNote(wide, "larger than the stop"));
+}
+
 TEST_CASE("film size, crop and ignored sensor", "[parse]") {
   const SceneDescription scene = ParseOptionsBlock(R"(
     Film "rgb" "integer xresolution" 101 "integer yresolution" 50

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "src/core/check.h"
+#include "src/image/octahedral.h"
 
 namespace lanelight::reference {
 namespace {
@@ -42,9 +43,60 @@ double SampleFilter(const Filter& filter, double radius, Random& random) {
   return 0;
 }
 
+CameraRays::CameraRays(const Camera& camera, const Film& film)
+    : camera_(camera), film_(film) {
+  if (camera.kind == CameraKind::kRealistic) lenses_.emplace(camera);
+}
+
+CameraSample CameraRays::Sample(double x, double y, Random& random) const {
+  if (camera_.kind == CameraKind::kSpherical) return Sphere(x, y);
+  if (camera_.kind == CameraKind::kRealistic) return Realistic(x, y, random);
+  return Plane(x, y, random);
+}
+
+CameraSample CameraRays::InWorld(Vec3d origin, Vec3d direction, double weight) const {
+  return {{camera_.world_from_camera.Point(origin),
+           Normalize(camera_.world_from_camera.Vector(direction)), kNone},
+          weight};
+}
+
+// +y is up: the pole of longitudes, and of the octahedral map.
+CameraSample CameraRays::Sphere(double x, double y) const {
+  double s = x / film_.width, t = y / film_.height;
+  if (camera_.mapping == SphericalMapping::kEqualArea) {
+    // Where an edge is crossed at s, the way leads back in at 1 - s.
+    if (s < 0 || s > 1) s = s < 0 ? -s : 2 - s, t = 1 - t;
+    if (t < 0 || t > 1) t = t < 0 ? -t : 2 - t, s = 1 - s;
+    const Vec3d d = OctahedralToDirection(s, t);
+    return InWorld({}, {d.x, d.z, d.y}, 1);
+  }
+  const double theta = kPi * t, phi = 2 * kPi * s;
+  return InWorld(
+      {},
+      {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)},
+      1);
+}
+
+// Towards a point of the whole plane of the rear surface; the film is upside down.
+CameraSample CameraRays::Realistic(double x, double y, Random& random) const {
+  const double per_pixel = camera_.film_diagonal / std::hypot(film_.width, film_.height);
+  const Vec3d film = {per_pixel * (film_.width / 2.0 - x),
+                      per_pixel * (y - film_.height / 2.0), 0};
+  const double side = 2 * 1.3 * lenses_->rear_radius();
+  const Vec3d rear = {side * (random.Uniform() - 0.5), side * (random.Uniform() - 0.5),
+                      lenses_->rear()};
+  const auto ray = lenses_->Trace(film, rear);
+  if (!ray) return {{}, 0};
+  // Irradiance at the film: cos cos dA / distance^2.
+  const double distance = Length(rear - film), cosine = rear.z / distance;
+  const double weight = cosine * cosine * side * side / (distance * distance);
+  return InWorld(ray->o / 1000, ray->d, weight);
+}
+
 // The shorter image axis spans [-1, 1] on a screen, times tan(fov / 2) at depth 1.
-Ray CameraRay(const Camera& camera, const Film& film, double x, double y,
-              Random& random) {
+CameraSample CameraRays::Plane(double x, double y, Random& random) const {
+  const Camera& camera = camera_;
+  const Film& film = film_;
   const double aspect = camera.frame_aspect > 0
                             ? camera.frame_aspect
                             : static_cast<double>(film.width) / film.height;
@@ -75,8 +127,7 @@ Ray CameraRay(const Camera& camera, const Film& film, double x, double y,
     origin += camera.lens_radius * Vec3d{lx, ly, 0};
     direction = focus - origin;
   }
-  return {camera.world_from_camera.Point(origin),
-          Normalize(camera.world_from_camera.Vector(direction)), kNone};
+  return InWorld(origin, direction, 1);
 }
 
 }  // namespace lanelight::reference

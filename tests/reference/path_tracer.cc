@@ -123,6 +123,7 @@ ReferenceImage RenderReference(const SceneDescription& scene,
   if (film.crop[1] > film.crop[0]) std::copy(film.crop, film.crop + 4, crop);
   const reference::Geometry geometry(scene, options.texture);
   const reference::Lights lights(scene, geometry, options.environment);
+  const reference::CameraRays camera(scene.camera, film);
   ReferenceImage image;
   image.width = crop[1] - crop[0];
   image.height = crop[3] - crop[2];
@@ -140,9 +141,12 @@ ReferenceImage RenderReference(const SceneDescription& scene,
           x + 0.5 + reference::SampleFilter(scene.filter, scene.filter.x_radius, random);
       const double fy =
           y + 0.5 + reference::SampleFilter(scene.filter, scene.filter.y_radius, random);
-      const reference::Ray ray = reference::CameraRay(scene.camera, film, fx, fy, random);
-      const Rgb value =
-          OnFilm(film, ReferenceRadiance(scene, geometry, lights, ray, options, random));
+      const reference::CameraSample from = camera.Sample(fx, fy, random);
+      Rgb value;
+      if (from.weight > 0) {
+        value = OnFilm(film, from.weight * ReferenceRadiance(scene, geometry, lights,
+                                                            from.ray, options, random));
+      }
       const Rgb delta = value - mean;
       mean += delta / s;
       squares += delta * (value - mean);

@@ -37,7 +37,7 @@ std::string ReadText(const fs::path& path) {
 
 TEST_CASE("own scenes: the header states purpose, needs and closed form", "[scenes]") {
   const auto scenes = OwnScenes();
-  CHECK(scenes.size() >= 24);
+  CHECK(scenes.size() >= 26);
   for (const fs::path& path : scenes) {
     const std::string text = ReadText(path);
     INFO(path);
@@ -115,6 +115,8 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
   CHECK(features("image-lights.pbrt")
             .HasAll({Feature::kImageLights, Feature::kEmissionImages}));
   CHECK(features("portal.pbrt").Has(Feature::kPortals));
+  CHECK(features("panorama.pbrt").Has(Feature::kSphericalCamera));
+  CHECK(features("lens-system.pbrt").Has(Feature::kRealisticCamera));
   CHECK(features("stiff/roughness-1e-4.pbrt")
             .HasAll({Feature::kConductorRough, Feature::kConductorSmooth}));
 }

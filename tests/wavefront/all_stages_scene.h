@@ -142,4 +142,22 @@ AttributeBegin
   Shape "sphere" "float radius" 0.7
 AttributeEnd
 )";
+/// The cameras that the others lack; the lenses are in lenses.dat.
+inline constexpr const char* kSphericalScene = R"(
+Camera "spherical"
+Film "rgb" "integer xresolution" 32 "integer yresolution" 32
+WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ]
+Shape "sphere" "float radius" 3
+)";
+inline constexpr const char* kLensesScene = R"(
+Camera "realistic" "string lensfile" "lenses.dat" "float aperturediameter" 20
+Film "rgb" "integer xresolution" 32 "integer yresolution" 32
+PixelFilter "mitchell"
+WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ]
+Translate 0 0 10
+Shape "sphere" "float radius" 3
+)";
+
 }  // namespace lanelight

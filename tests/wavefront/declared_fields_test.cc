@@ -222,6 +222,7 @@ void WriteSky(const std::string& path) {
 TEST_CASE("stages touch the columns that they declare", "[plan]") {
   const TemporaryFolder folder;
   WriteSky(folder.File("sky.pfm"));
+  folder.Write("lenses.dat", "60 5 1.5 30  -60 3 1 30  0 50 0 20");
   constexpr Case kCases[] = {
       {kAllStagesScene, "points=independent"},
       {kAllStagesScene, "points=sobol,light-selection=tree,light-points=solid-angle"},
@@ -238,7 +239,9 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "points=sobol,guiding=radiance", true},
       {kAllStagesScene, "roulette=adjoint", true},
       {kOtherStagesScene, "points=sobol"},
-      {kOtherStagesScene, "directions=bsdf,pairs=antithetic"}};
+      {kOtherStagesScene, "directions=bsdf,pairs=antithetic"},
+      {kSphericalScene, "points=sobol"},
+      {kLensesScene, "points=sobol"}};
   std::set<std::string> stages;
   for (const Case& c : kCases) {
     Checker checker(c, folder.File(""));

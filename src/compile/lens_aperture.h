@@ -1,0 +1,13 @@
+// Pictures of apertures, built-in and of files, as pbrt-v4 has them.
+#pragma once
+
+#include "src/compiled/camera.h"
+#include "src/scene/description.h"
+
+namespace lanelight {
+
+/// Stores the camera's aperture unless it is a circle, scaled to the brightness of one.
+/// Throws InputError at the camera for a file that is not a square image or is black.
+void StoreAperture(const Camera& camera, LensSystem& lenses);
+
+}  // namespace lanelight
