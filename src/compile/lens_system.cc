@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "src/core/error.h"
 #include "src/core/parallel.h"
+#include "src/core/vec.h"
 #include "src/compile/lens_aperture.h"
 
 namespace lanelight {
@@ -14,6 +16,16 @@ namespace {
 constexpr int kRings = 64;
 constexpr int kGrid = 96;  // tried points of the rear plane per side
 constexpr double kMillimetres = 1000;
+
+// As LensSurface, in double precision.
+struct LensElement {
+  double z = 0, radius = 0, eta_ratio = 1, aperture = 0;
+};
+
+// A ray in millimetres from the middle of the film; not normalised.
+struct LensPath {
+  Vec3d o, d;
+};
 
 bool PassStop(const LensElement& stop, LensPath& ray) {
   const double t = (stop.z - ray.o.z) / ray.d.z;
@@ -38,6 +50,14 @@ bool PassSurface(const LensElement& e, LensPath& ray) {
   ray.o = q + Vec3d{0, 0, e.z};
   ray.d = e.eta_ratio * d + (e.eta_ratio * cos_i - std::sqrt(1 - sin2_t)) * n;
   return true;
+}
+
+// Through all surfaces, from lower to higher z. False where the ray is stopped: beside an
+// aperture, all taken for circles, or by total reflection.
+bool TraceElements(std::span<const LensElement> elements, LensPath& ray) {
+  return std::all_of(elements.begin(), elements.end(), [&](const LensElement& e) {
+    return e.radius == 0 ? PassStop(e, ray) : PassSurface(e, ray);
+  });
 }
 
 // From the film on. A file goes from the front to the rear; its rows are the radius,
@@ -151,12 +171,6 @@ LensSystem::Pupil PupilOf(const std::vector<LensElement>& elements, double r0,
 }
 
 }  // namespace
-
-bool TraceElements(std::span<const LensElement> elements, LensPath& ray) {
-  return std::all_of(elements.begin(), elements.end(), [&](const LensElement& e) {
-    return e.radius == 0 ? PassStop(e, ray) : PassSurface(e, ray);
-  });
-}
 
 LensSystem CompileLenses(const Camera& camera, double unit) {
   std::vector<LensElement> elements = ElementsOf(camera);
