@@ -31,6 +31,8 @@ namespace lanelight {
   X(IntersectDisks)                            \
   X(IntersectPlanes)                           \
   X(IntersectLargeSpheres)                     \
+  X(MediumDistance)                            \
+  X(MediumTracking)                            \
   X(Split)                                     \
   X(Escape)                                    \
   X(HitLightTree)                              \
@@ -44,6 +46,7 @@ namespace lanelight {
   X(SurfaceDisk)                               \
   X(SurfacePlane)                              \
   X(SurfaceLargeSphere)                        \
+  X(Interfaces)                                \
   X(Footprints)                                \
   X(Mix)                                       \
   X(Bumps)                                     \
@@ -96,6 +99,8 @@ namespace lanelight {
   X(ShadowDisks)                               \
   X(ShadowPlanes)                              \
   X(ShadowLargeSpheres)                        \
+  X(ShadowMedia)                               \
+  X(ShadowThrough)                             \
   X(Connect)                                   \
   X(AmbientScattered)                          \
   X(RecordDecision)                            \
@@ -106,6 +111,8 @@ namespace lanelight {
   X(LuminanceRoulette)                         \
   X(RecordPath)                                \
   X(UnsplitPath)                               \
+  X(EnterMedia)                                \
+  X(PassInterfaces)                            \
   X(RecordRays)                                \
   X(Accumulate)                                \
   X(Pack)

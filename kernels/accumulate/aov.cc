@@ -61,7 +61,9 @@ void Aov(Wave& wave) {
     const V3 n = kNormals ? Gather3(p.ns_x, p.ns_y, p.ns_z, slots)
                           : Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
     Scatter3(n, p.aov_n_x, p.aov_n_y, p.aov_n_z, slots);
-    Scatter(Gather(p.t, slots), p.aov_depth, slots);
+    VF depth = Gather(p.t, slots);
+    if (p.passed != nullptr) depth = hn::Add(depth, Gather(p.passed, slots));
+    Scatter(depth, p.aov_depth, slots);
   });
 }
 

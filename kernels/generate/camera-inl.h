@@ -63,6 +63,9 @@ void Camera(Wave& wave) {
                  Scatter3(o, p.o_x, p.o_y, p.o_z, slots);
                  Scatter3(Normalize(axes.FromLocal(ray.direction)), p.d_x, p.d_y, p.d_z,
                           slots);
+                 if (p.medium != nullptr) {
+                   Scatter(hn::Set(DI(), wave.scene->media.camera), p.medium, slots);
+                 }
                  Push(wave.queue(QueueId::kActive), slots, valid);
                });
 }

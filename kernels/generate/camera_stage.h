@@ -14,7 +14,7 @@ inline Stage MakeCameraStage(const char* name, const char* meaning, Feature proj
       QueueId::kCamera,
       {projection},
       {Field::pixel, Field::u_film_0, Field::u_film_1, Field::u_lens_0, Field::u_lens_1},
-      fields::kRay | fields::WithFirstValue() | FieldSet{Field::weight},
+      fields::kRay | fields::WithFirstValue() | FieldSet{Field::weight, Field::medium},
       resolve};
 }
 

@@ -56,7 +56,7 @@ Stage ShadowDisksStage() {
   return {.name = "shadow_disks",
           .meaning = "drop shadow rays blocked by disks",
           .input = QueueId::kShadow,
-          .needs = {Feature::kDisks, Feature::kLights},
+          .needs = {Feature::kDisks, Feature::kLights, Feature::kOpaqueShadows},
           .reads = ShadowRayFields(),
           .writes = {},
           .resolve = [](const FeatureSet& features) -> StageFn {

@@ -64,7 +64,7 @@ Stage ShadowLargeSpheresStage() {
   return {.name = "shadow_large_spheres",
           .meaning = "drop shadow rays blocked by large spheres",
           .input = QueueId::kShadow,
-          .needs = {Feature::kLargeSpheres, Feature::kLights},
+          .needs = {Feature::kLargeSpheres, Feature::kLights, Feature::kOpaqueShadows},
           .reads = ShadowRayFields(),
           .writes = {},
           .resolve = [](const FeatureSet& features) -> StageFn {

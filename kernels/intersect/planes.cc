@@ -56,7 +56,7 @@ Stage ShadowPlanesStage() {
   return {.name = "shadow_planes",
           .meaning = "drop shadow rays blocked by planes",
           .input = QueueId::kShadow,
-          .needs = {Feature::kPlanes, Feature::kLights},
+          .needs = {Feature::kPlanes, Feature::kLights, Feature::kOpaqueShadows},
           .reads = ShadowRayFields(),
           .writes = {},
           .resolve = [](const FeatureSet& features) -> StageFn {

@@ -74,7 +74,7 @@ Stage ShadowTrianglesStage() {
   return {.name = "shadow_triangles",
           .meaning = "drop shadow rays blocked by triangles",
           .input = QueueId::kShadow,
-          .needs = {Feature::kTriangles, Feature::kLights},
+          .needs = {Feature::kTriangles, Feature::kLights, Feature::kOpaqueShadows},
           .reads = ShadowRayFields() | FieldSet{Field::prim},
           .writes = {},
           .resolve = [](const FeatureSet& features) -> StageFn {

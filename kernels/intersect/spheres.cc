@@ -56,7 +56,7 @@ Stage ShadowSpheresStage() {
   return {.name = "shadow_spheres",
           .meaning = "drop shadow rays blocked by spheres",
           .input = QueueId::kShadow,
-          .needs = {Feature::kSpheres, Feature::kLights},
+          .needs = {Feature::kSpheres, Feature::kLights, Feature::kOpaqueShadows},
           .reads = ShadowRayFields(),
           .writes = {},
           .resolve = [](const FeatureSet& features) -> StageFn {

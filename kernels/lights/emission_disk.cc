@@ -44,7 +44,7 @@ void EmissionDisk(Wave& wave) {
     const MF facing = hn::Or(hn::Gt(cosine, Splat(0)), light.TwoSided());
     VF weight = Splat(1.0f);
     if constexpr (kMis) {
-      const VF t = Gather(p.t, slots);
+      const VF t = HitDistance(p, slots);
       const VF pdf = hn::Div(hn::Mul(hn::Mul(light.Pmf(p, slots), t), t),
                              hn::Mul(light.Area(), hn::Abs(cosine)));
       weight = EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots), pdf);

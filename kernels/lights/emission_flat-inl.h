@@ -74,11 +74,11 @@ void EmissionOfFlat(Wave& wave) {
     const MF facing = hn::Or(hn::Gt(cosine, Splat(0)), light.TwoSided());
     VF weight = Splat(1.0f);
     if constexpr (kMis) {
-      const VF t = Gather(p.t, slots), pmf = light.Pmf(p, slots);
+      const VF t = HitDistance(p, slots), pmf = light.Pmf(p, slots);
       VF pdf =
           hn::Div(hn::Mul(hn::Mul(pmf, t), t), hn::Mul(light.Area(), hn::Abs(cosine)));
       if constexpr (kPoints != LightPoints::kArea) {
-        const V3 from = Gather3(p.o_x, p.o_y, p.o_z, slots);
+        const V3 from = ScatteredFrom(p, slots);
         if constexpr (kShape == LightShape::kTriangle) {
           const SeenTriangle seen(triangle, from);
           pdf = PdfAtHit<kPoints>(p, slots, seen, pmf, pdf);

@@ -40,9 +40,9 @@ void EmissionSphere(Wave& wave) {
     const VI prim = Gather(p.prim, slots);
     const Lights light(scene, light_of(hn::Sub(prim, begin)));
     const LightSphere sphere(scene, prim);
-    const V3 o = Gather3(p.o_x, p.o_y, p.o_z, slots);
+    const V3 o = ScatteredFrom(p, slots);
     const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
-    const VF t = Gather(p.t, slots);
+    const VF t = HitDistance(p, slots);
     const V3 n =
         Mul(MulAdd(d, t, o) - sphere.center, hn::Div(sphere.normal_sign, sphere.radius));
     const VF cosine = hn::Neg(Dot(n, d));

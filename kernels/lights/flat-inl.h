@@ -116,7 +116,7 @@ struct SeenRectangle {
 
   LANELIGHT_INLINE UnitSquarePoint Square(const PathColumns& p,
                                           const Slots& slots) const {
-    const V3 hit = Mul(Gather3(p.d_x, p.d_y, p.d_z, slots), Gather(p.t, slots));
+    const V3 hit = Mul(Gather3(p.d_x, p.d_y, p.d_z, slots), HitDistance(p, slots));
     return InvertSphericalRectangle(view, omega,
                                     {hn::Sub(Dot(hit, rectangle.along_x), view.x0),
                                      hn::Sub(Dot(hit, rectangle.along_y), view.y0)});

@@ -7,6 +7,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "kernels/lights/light-inl.h"
 #include "kernels/lights/tree-inl.h"
 #include "kernels/queue/filter-inl.h"
 #include "src/compiled/scene.h"
@@ -46,7 +47,7 @@ void HitLightTree(Wave& wave) {
       });
   ForEachBatch(wave, mine, [&](const Slots& slots, MF) HWY_ATTR {
     // The origin of the ray is the point that was lit, but for rounding.
-    const V3 from = Gather3(p.o_x, p.o_y, p.o_z, slots);
+    const V3 from = ScatteredFrom(p, slots);
     Scatter(ClimbingProbability(tree, Gather(nodes, Gather(p.prim, slots)), from),
             p.light_pmf, slots);
   });

@@ -103,6 +103,21 @@ LANELIGHT_INLINE void StoreLightSample(const PathColumns& p, const StoreSlots& s
   Scatter(pdf_sa, p.ls_pdf, slots);
 }
 
+/// Distance of a hit from where its ray was scattered: interfaces of media may lie in
+/// between.
+LANELIGHT_INLINE VF HitDistance(const PathColumns& p, const Slots& slots) {
+  const VF t = Gather(p.t, slots);
+  return p.passed == nullptr ? t : hn::Add(t, Gather(p.passed, slots));
+}
+
+/// Where the ray of a path was scattered.
+LANELIGHT_INLINE V3 ScatteredFrom(const PathColumns& p, const Slots& slots) {
+  const V3 o = Gather3(p.o_x, p.o_y, p.o_z, slots);
+  if (p.passed == nullptr) return o;
+  const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+  return MulAdd(d, hn::Neg(Gather(p.passed, slots)), o);
+}
+
 LANELIGHT_INLINE VF SumAbs(V3 v) {
   return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z)));
 }

@@ -34,7 +34,7 @@ inline Stage EmissionStage(const char* name, const char* meaning, Feature shape,
           QueueId::kHit,
           {shape},
           fields::kRay | fields::kHit | fields::kThroughput | fields::kRadiance |
-              fields::kStartNormal | FieldSet{Field::bsdf_pdf},
+              fields::kStartNormal | FieldSet{Field::bsdf_pdf, Field::passed},
           fields::kRadiance,
           resolve};
 }

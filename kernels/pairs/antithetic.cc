@@ -72,6 +72,7 @@ void AntitheticCamera(Wave& wave) {
   ReflectPoint(wave, queue, Dimension::kFilm, p.u_film_0, p.u_film_1);
   // Both coordinates of the concentric map reflected: the opposite point of the lens.
   ReflectPoint(wave, queue, Dimension::kLens, p.u_lens_0, p.u_lens_1);
+  ReflectPoint(wave, queue, Dimension::kCameraMedium, p.u_medium_0, p.u_medium_1);
   CountBatches(wave, queue);
 }
 
@@ -90,6 +91,7 @@ void AntitheticBounce(Wave& wave) {
   ReflectPoint(wave, queue, Dimension::kSelect, p.u_select, nullptr);
   ReflectPoint(wave, queue, Dimension::kLight, p.u_light_0, p.u_light_1);
   ReflectPoint(wave, queue, Dimension::kRoulette, p.u_roulette, nullptr);
+  ReflectPoint(wave, queue, Dimension::kMedium, p.u_medium_0, p.u_medium_1);
   CountBatches(wave, queue);
 }
 
@@ -106,8 +108,8 @@ HWY_EXPORT(AntitheticCamera);
 HWY_EXPORT(AntitheticBounce);
 
 Stage AntitheticCameraStage() {
-  const FieldSet points = {Field::u_film_0, Field::u_film_1, Field::u_lens_0,
-                           Field::u_lens_1};
+  const FieldSet points = {Field::u_film_0, Field::u_film_1,   Field::u_lens_0,
+                           Field::u_lens_1, Field::u_medium_0, Field::u_medium_1};
   return {"antithetic_camera",
           "reflects film and lens points of odd samples",
           QueueId::kCamera,

@@ -91,6 +91,10 @@ LANELIGHT_INLINE void FillCameraBatches(Wave& wave) {
                    Draw<Policy, kPlain, false>(run, drawer, Dimension::kLens, p.u_lens_0,
                                                p.u_lens_1);
                  }
+                 if (p.u_medium_0 != nullptr) {
+                   Draw<Policy, kPlain, false>(run, drawer, Dimension::kCameraMedium,
+                                               p.u_medium_0, p.u_medium_1);
+                 }
                });
 }
 
@@ -128,6 +132,10 @@ LANELIGHT_INLINE void FillBounceBatches(Wave& wave) {
         if (p.u_candidate != nullptr) {
           Draw<Policy, kPlain, true>(run, drawer, Dimension::kCandidate, p.u_candidate,
                                      nullptr);
+        }
+        if (p.u_medium_0 != nullptr) {  // of the ray that follows
+          Draw<Policy, kPlain, false>(run, drawer, Dimension::kMedium, p.u_medium_0,
+                                      p.u_medium_1);
         }
       });
 }

@@ -16,7 +16,8 @@ inline Stage PointsCameraStage(const char* name, Feature policy, ResolveFn resol
           QueueId::kCamera,
           {policy},
           kPointsCounter,
-          {Field::u_film_0, Field::u_film_1, Field::u_lens_0, Field::u_lens_1},
+          {Field::u_film_0, Field::u_film_1, Field::u_lens_0, Field::u_lens_1,
+           Field::u_medium_0, Field::u_medium_1},
           resolve};
 }
 

@@ -7,6 +7,7 @@
 
 #include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/bsdf/diffuse_transmission-inl.h"
+#include "kernels/bsdf/henyey_greenstein-inl.h"
 #include "kernels/probe/bsdf_probe-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,6 +24,8 @@ BsdfProbe ProbeDiffuse(ShadeKind kind) {
       return ProbeOf<DiffuseInSphereBsdf>();
     case ShadeKind::kDiffuseTransmission:
       return ProbeOf<DiffuseTransmissionBsdf>();
+    case ShadeKind::kHenyeyGreenstein:
+      return ProbeOf<HenyeyGreensteinBsdf>();
     default:
       return {};
   }

@@ -19,6 +19,7 @@
 #include "kernels/bsdf/dielectric-inl.h"
 #include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/bsdf/diffuse_transmission-inl.h"
+#include "kernels/bsdf/henyey_greenstein-inl.h"
 #include "kernels/lights/reservoir-inl.h"
 #include "kernels/shade/shade-inl.h"
 

@@ -7,6 +7,8 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include <utility>
+
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
@@ -14,7 +16,14 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-void Limit(Wave& wave) {
+// Where paths go through interfaces of media, stage `interfaces` ends the others.
+template <bool kInterfaces>
+void LimitDepth(Wave& wave) {
+  if constexpr (kInterfaces) {
+    std::swap(wave.queue(QueueId::kHit), wave.queue(QueueId::kSurface));
+    wave.queue(QueueId::kHit).size = 0;
+    return;
+  }
   const VI max_depth = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
   ForEachBatch(
       wave, wave.queue(QueueId::kHit), [&](const Slots& slots, MF valid) HWY_ATTR {
@@ -24,6 +33,9 @@ void Limit(Wave& wave) {
         Push(wave.queue(QueueId::kDone), slots, hn::AndNot(below, valid));
       });
 }
+
+void Limit(Wave& wave) { LimitDepth<false>(wave); }
+void LimitInterfaces(Wave& wave) { LimitDepth<true>(wave); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -35,6 +47,7 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 
 HWY_EXPORT(Limit);
+HWY_EXPORT(LimitInterfaces);
 
 Stage LimitStage() {
   return {"limit",
@@ -43,7 +56,11 @@ Stage LimitStage() {
           {},
           {Field::depth},
           {},
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Limit); }};
+          [](const FeatureSet& features) -> StageFn {
+            return features.Has(Feature::kInterfaces)
+                       ? HWY_DYNAMIC_DISPATCH(LimitInterfaces)
+                       : HWY_DYNAMIC_DISPATCH(Limit);
+          }};
 }
 
 }  // namespace lanelight

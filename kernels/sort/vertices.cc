@@ -1,5 +1,6 @@
-// All that scatters in one queue, surfaces first. Only where something else than a
-// surface can: otherwise kVertex is the surfaces' queue itself (src/path/wave.h).
+// All that scatters in one queue: surfaces after what is in it already. Only where
+// something else than a surface scatters: otherwise kVertex is the surfaces' queue itself
+// (src/path/wave.h).
 #include "kernels/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -14,11 +15,10 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 void Vertices(Wave& wave) {
-  for (const QueueId event : {QueueId::kSurface, QueueId::kMedium}) {
-    ForEachBatch(wave, wave.queue(event), [&](const Slots& slots, MF valid) HWY_ATTR {
-      Push(wave.queue(QueueId::kVertex), slots, valid);
-    });
-  }
+  ForEachBatch(wave, wave.queue(QueueId::kSurface),
+               [&](const Slots& slots, MF valid) HWY_ATTR {
+                 Push(wave.queue(QueueId::kVertex), slots, valid);
+               });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -35,7 +35,7 @@ HWY_EXPORT(Vertices);
 Stage VerticesStage() {
   return {"vertices",
           "brings together all that scatters",
-          QueueId::kActive,
+          QueueId::kSurface,
           {Feature::kOtherEvents, Feature::kScatters},
           {},
           {},

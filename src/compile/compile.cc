@@ -13,6 +13,7 @@
 #include "src/compile/geometry.h"
 #include "src/compile/lights.h"
 #include "src/compile/materials.h"
+#include "src/compile/media.h"
 #include "src/compile/placement.h"
 #include "src/compile/quadrics.h"
 #include "src/compile/textures.h"
@@ -154,6 +155,7 @@ CompiledScene CompileScene(const SceneDescription& description,
 
   CompiledMaterials materials =
       CompileMaterials(description, UsedMaterials(placement), options);
+  scene.media = CompileMedia(description, placement, materials);
   scene.features = MaterialFeatures(materials.table, placement);
   const GeometryOptions geometry_options = {
       .uvs = scene.features.HasAny({Feature::kUv, Feature::kTangents}) ||
@@ -181,6 +183,7 @@ CompiledScene CompileScene(const SceneDescription& description,
   }
   scene.lights = CompileLights(description, placement, compiled, scene.notes);
   MakeAlpha(placement, compiled, scene);
+  PlaceMedia(placement, compiled, scene.media);
   NoteLargeEmitters(placement, scene.notes);
   NoteDropped(placement.meshes, compiled.meshes, scene.notes);
   for (std::size_t o = 0; o < placement.objects.size(); ++o) {

@@ -126,10 +126,20 @@ Feature FeatureOf(CameraKind camera) {
   return Feature::kCount;
 }
 
+void AddMedia(const MediumTable& table, FeatureSet& features) {
+  if (!table.media.empty()) features.Add(Feature::kMedia);
+  if (!table.primitives.empty()) features.Add(Feature::kMediumChanges);
+  if (!table.grids.empty()) features.Add(Feature::kMediumGrids);
+  for (const MediumRecord& medium : table.media) {
+    const float* e = medium.emission;
+    if (e[0] > 0 || e[1] > 0 || e[2] > 0) features.Add(Feature::kMediumEmission);
+  }
+}
+
 bool HasNonSpecular(const MaterialTable& materials) {
   return std::any_of(materials.kind.begin(), materials.kind.end(), [](std::uint32_t k) {
     const auto kind = static_cast<ShadeKind>(k);
-    return kind != ShadeKind::kMix && !HasTrait(kind, kSpecularOnly);
+    return IsShaded(kind) && !HasTrait(kind, kSpecularOnly);
   });
 }
 
@@ -161,6 +171,7 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
   if (!g.large_spheres.empty()) features.Add(Feature::kLargeSpheres);
   if (!g.instances.empty()) features.Add(Feature::kInstances);
   if (!g.normals.empty()) features.Add(Feature::kVertexNormals);
+  AddMedia(scene.media, features);
   // Cut-outs and weights of mixes are looked up unfiltered.
   if (features.Has(Feature::kTextures) && FiltersTextures(scene.textures)) {
     features.Add(Feature::kTextureFootprints);

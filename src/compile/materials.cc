@@ -215,9 +215,11 @@ MaterialRow Builder::MakeRow(const Material& m) {
       row.color1 = Reflectance(m.transmittance);
       row.kind = ShadeKind::kDiffuseTransmission;
       break;
-    case MaterialKind::kMix:
     case MaterialKind::kInterface:
-      LL_CHECK(!"mixes and interfaces have no row of this form");
+      row.kind = ShadeKind::kInterface;
+      break;
+    case MaterialKind::kMix:
+      LL_CHECK(!"mixes have no row of this form");
   }
   return row;
 }

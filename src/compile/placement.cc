@@ -81,7 +81,8 @@ std::optional<PlacedShape> Place(const SceneDescription& d,
   placed.alpha = constants.Fold(shape.alpha);
   placed.area_light = EmittingLight(d, shape);
   if (placed.area_light != kNone) CheckEmitter(d, shape, placed.alpha);
-  if (IsMaterial(d, shape, MaterialKind::kInterface)) return std::nullopt;
+  const bool interface = IsMaterial(d, shape, MaterialKind::kInterface);
+  if (interface && !shape.media.IsTransition()) return std::nullopt;
   if (placed.alpha.texture == kNone && placed.alpha.constant <= 0) return std::nullopt;
   CheckTransform(shape.world_from_object, shape.where, "shape");
   placed.transform =

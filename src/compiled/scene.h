@@ -11,6 +11,7 @@
 #include "src/compiled/footprint.h"
 #include "src/compiled/lights.h"
 #include "src/compiled/materials.h"
+#include "src/compiled/media.h"
 #include "src/compiled/texture_table.h"
 #include "src/core/aligned.h"
 #include "src/core/vec.h"
@@ -31,6 +32,7 @@ struct CompiledScene {
   /// Per primitive, only with kAlpha: texture of the alpha cut-out or -1, and constant.
   AlignedVector<std::int32_t> alpha_texture;
   AlignedVector<float> alpha_constant;
+  MediumTable media;
   LightTable lights;
   CompiledCamera camera;
   CompiledFilter filter;

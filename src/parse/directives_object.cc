@@ -155,15 +155,43 @@ void RunShape(ParseState& state, Statement& statement) {
 }
 
 void RunMakeNamedMedium(ParseState& state, Statement& statement) {
-  const TypedObject object = ReadObject(state, statement, "medium");
-  state.Unsupported(statement.where(), "MakeNamedMedium: media are not supported");
+  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
+  const std::string name = statement.String();
+  ParamList own = ReadParams(statement.lexer, state.graphics.color_space);
+  if (name.empty()) {
+    throw InputError(where, "the empty name is that of empty space; give another");
+  }
+  if (state.media.contains(name)) {
+    throw InputError(where, fmt::format("medium {} is defined twice", Quoted(name)));
+  }
+  ParamSet params(fmt::format("medium {}", Quoted(name)), where, std::move(own),
+                  state.Inherited(AttributeTarget::kMedium), &state.scene.notes);
+  InterpretMedium(state, name, params);
 }
 
+namespace {
+
+// The medium that the next string names; "": empty space.
+Index NextMedium(const ParseState& state, Statement& statement) {
+  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
+  const std::string name = statement.String();
+  if (name.empty()) return kNone;
+  const auto it = state.media.find(name);
+  if (it == state.media.end()) {
+    ThrowUnknown(where, "named medium", name, Names(state.media));
+  }
+  return it->second;
+}
+
+}  // namespace
+
+// One name: the same on both sides.
 void RunMediumInterface(ParseState& state, Statement& statement) {
-  std::string media = statement.String();
-  if (statement.lexer.Peek().kind == TokenKind::kString) media += statement.String();
-  if (media.empty()) return;  // vacuum on both sides
-  state.Unsupported(statement.where(), "MediumInterface: media are not supported");
+  MediumInterface& media = state.graphics.media;
+  media.inside = media.outside = NextMedium(state, statement);
+  if (statement.lexer.Peek().kind == TokenKind::kString) {
+    media.outside = NextMedium(state, statement);
+  }
 }
 
 }  // namespace lanelight

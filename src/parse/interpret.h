@@ -61,6 +61,8 @@ Index InterpretMaterial(ParseState& state, const std::string& name,
 /// Appends the texture `name`.
 void InterpretTexture(ParseState& state, const std::string& name, bool is_float,
                       const std::string& type, ParamSet& params);
+/// Appends the medium `name`.
+void InterpretMedium(ParseState& state, const std::string& name, ParamSet& params);
 void InterpretLight(ParseState& state, const std::string& type, ParamSet& params);
 /// Appends the area light and returns its index, or kNone if it is skipped.
 Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& params);

@@ -142,6 +142,7 @@ void InterpretCamera(ParseState& state, const std::string& type, ParamSet& param
   camera.where = params.where();
   camera.film_diagonal = state.scene.camera.film_diagonal;  // of the Film before
   camera.world_from_camera = state.graphics.ctm.Inverse();
+  camera.medium = state.graphics.media.outside;
   state.coordinate_systems["camera"] = camera.world_from_camera;
   if (type == "perspective") {
     camera.kind = CameraKind::kPerspective;

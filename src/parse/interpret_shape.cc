@@ -149,6 +149,7 @@ void InterpretShape(ParseState& state, const std::string& type, ParamSet& params
   shape.world_from_object = state.graphics.ctm;
   shape.reverse_orientation = state.graphics.reverse_orientation;
   shape.material = CurrentMaterial(state, params.where());
+  shape.media = state.graphics.media;
   ReadGeometry(state, type, params, &shape);
   shape.alpha = TexturedFloat(state, params, "alpha", 1, 0, 1);
   params.CheckAllUsed();

@@ -26,6 +26,7 @@ struct GraphicsState {
   bool transforms_active = true;  // false after `ActiveTransform EndTime`
   Index material = kNone;         // kNone: the default diffuse
   Index area_light = kNone;
+  MediumInterface media;
   std::string color_space = "srgb";
   std::array<std::shared_ptr<const ParamList>, kAttributeTargets> attributes;
 };
@@ -64,7 +65,7 @@ struct ParseState {
   int files_read = 0;
 
   std::map<std::string, Transform> coordinate_systems;
-  std::map<std::string, Index> materials, objects, float_textures, color_textures;
+  std::map<std::string, Index> materials, media, objects, float_textures, color_textures;
   Index default_material = kNone;  // pbrt's grey diffuse, once a shape needs it
   std::vector<MeshRequest> meshes;
   double exposure_seconds = 1;  // from the camera's shutter

@@ -13,8 +13,9 @@ namespace lanelight {
 /// Each is one point of up to four coordinates. The first depth is also the camera's.
 enum class Dimension : std::uint32_t {
   // 0 to 7: the camera
-  kFilm = 0,  // 2: position in the pixel
-  kLens = 1,  // 2: position on the lens
+  kFilm = 0,          // 2: position in the pixel
+  kLens = 1,          // 2: position on the lens
+  kCameraMedium = 2,  // 2: as kMedium, of the camera ray
   // 8 to 15: where a path goes
   kBsdf = 8,     // 2: direction
   kLobe = 9,     // 1: choice of lobe

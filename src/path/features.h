@@ -164,8 +164,9 @@ constexpr Feature ShadeFeature(ShadeKind kind) {
 #define X(name, traits, meaning) Feature::k##name,
       LANELIGHT_SHADE_KINDS(X)
 #undef X
-          Feature::kMix};
-  static_assert(std::size(kFeatures) == kNumShadeKinds + 1);
+          Feature::kMix,
+      Feature::kInterfaces};
+  static_assert(std::size(kFeatures) == kNumShadeKinds + 2);
   return kFeatures[static_cast<int>(kind)];
 }
 

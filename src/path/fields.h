@@ -112,9 +112,10 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_2(X, f32, u_medium, ({kMedia}), kPath, (), "distance in the medium along the ray, choice of colour channel") \
   X(f32, passed, ({kInterfaces}), kPath, (0.0f), "distance from where the ray was scattered to its origin, through interfaces") \
   X(u32, crossings, ({kInterfaces}), kPath, (0u), "interfaces that the path went through") \
-  LANELIGHT_RGB(X, f32, odds, ({kInterfaces}), kPath, (1.0f), "per channel: density of the way through interfaces, had it been chosen, over that of the chosen one") \
+  LANELIGHT_RGB(X, f32, odds, ({kMedia}), kPath, (1.0f), "density of the path, had all of it been sampled for this channel, over the mean of the channels") \
   LANELIGHT_XYZ(X, f32, sh_o, ({kInterfaces}), kBounce, (), "origin of the rest of a shadow ray") \
   LANELIGHT_XYZ(X, f32, sh_n, ({kInterfaces}), kBounce, (), "normal where it meets a surface") \
+  LANELIGHT_XYZ(X, f32, sh_ns, ({kInterfaces}), kBounce, (), "shading normal there")       \
   LANELIGHT_XYZ(X, f32, sh_p, ({kInterfaces}), kBounce, (), "point where it does")         \
   X(f32, sh_p_error, ({kInterfaces}), kBounce, (), "offset that clears its rounding error") \
   X(f32, sh_left, ({kInterfaces}), kBounce, (), "length of the rest")                     \
@@ -264,9 +265,15 @@ inline const FieldSet kParameters = {
     Field::color1_g, Field::color1_b, Field::alpha_x,       Field::alpha_y,
     Field::alpha2_0, Field::alpha2_1, Field::coat_thickness};
 inline const FieldSet kBouncePoints = {
-    Field::u_lobe,    Field::u_bsdf_0,   Field::u_bsdf_1,   Field::u_select,
-    Field::u_light_0, Field::u_light_1,  Field::u_roulette, Field::u_guide,
-    Field::u_shadow,  Field::u_candidate};
+    Field::u_lobe,    Field::u_bsdf_0,    Field::u_bsdf_1,   Field::u_select,
+    Field::u_light_0, Field::u_light_1,   Field::u_roulette, Field::u_guide,
+    Field::u_shadow,  Field::u_candidate, Field::u_medium_0, Field::u_medium_1};
+/// Of the rest of a shadow ray that goes through interfaces.
+inline const FieldSet kShadowRest = {
+    Field::sh_o_x,  Field::sh_o_y,      Field::sh_o_z,     Field::sh_n_x,  Field::sh_n_y,
+    Field::sh_n_z,  Field::sh_ns_x,     Field::sh_ns_y,    Field::sh_ns_z, Field::sh_p_x,
+    Field::sh_p_y,  Field::sh_p_z,      Field::sh_p_error, Field::sh_left, Field::sh_t,
+    Field::sh_prim, Field::sh_material, Field::sh_medium};
 inline const FieldSet kLightSample = {Field::ls_x,        Field::ls_y,  Field::ls_z,
                                       Field::ls_distance, Field::ls_r,  Field::ls_g,
                                       Field::ls_b,        Field::ls_pdf};

@@ -17,6 +17,7 @@ enum ShadeTraits : std::uint32_t {
   kRefracting = 1 << 4,    // roulette must know the relative index
   kMetallic = 1 << 5,      // seen head-on: the Fresnel reflectance of color0, color1
   kClear = 1 << 6,         // seen head-on: white
+  kInMedium = 1 << 7,      // a phase function: of points in a medium, not of surfaces
 };
 
 // X(name, traits, meaning)
@@ -33,7 +34,8 @@ enum ShadeTraits : std::uint32_t {
   X(CoatedDiffuseSmooth, kChoosesLobe, "smooth coated diffuse")                        \
   X(CoatedDiffuseRough, kMicrofacets | kChoosesLobe, "rough coated diffuse")           \
   X(CoatedConductor, kMicrofacets | kChoosesLobe | kSecondColor | kMetallic, "coated conductor") \
-  X(DiffuseTransmission, kChoosesLobe | kSecondColor, "diffuse transmission")
+  X(DiffuseTransmission, kChoosesLobe | kSecondColor, "diffuse transmission")          \
+  X(HenyeyGreenstein, kInMedium, "Henyey-Greenstein phase function")
 // clang-format on
 
 enum class ShadeKind : std::uint32_t {
@@ -41,7 +43,8 @@ enum class ShadeKind : std::uint32_t {
   LANELIGHT_SHADE_KINDS(X)
 #undef X
       kCount,
-  kMix = kCount  // resolved by the mix stage, has no kernel
+  kMix = kCount,  // resolved by the mix stage, has no kernel
+  kInterface      // bounds a medium and does nothing else: paths go through
 };
 inline constexpr int kNumShadeKinds = static_cast<int>(ShadeKind::kCount);
 
@@ -51,10 +54,12 @@ inline constexpr std::uint32_t kTraitsOfShadeKinds[] = {
 #undef X
 };
 
-/// Whether a kind has a trait; a mix, which becomes another kind before, has none.
+/// Whether a kind has a kernel: not a mix, which becomes another kind before.
+constexpr bool IsShaded(ShadeKind kind) { return kind < ShadeKind::kCount; }
+
+/// Whether a kind has a trait; what is not shaded has none.
 constexpr bool HasTrait(ShadeKind kind, ShadeTraits trait) {
-  return kind != ShadeKind::kMix &&
-         (kTraitsOfShadeKinds[static_cast<int>(kind)] & trait) != 0;
+  return IsShaded(kind) && (kTraitsOfShadeKinds[static_cast<int>(kind)] & trait) != 0;
 }
 
 }  // namespace lanelight

@@ -22,7 +22,6 @@ struct CompiledScene;  // src/compiled/scene.h
   X(kMiss, "paths whose ray left the scene")                  \
   X(kHit, "paths whose ray hit something")                    \
   X(kSurface, "hits that will scatter")                       \
-  X(kMedium, "points in a medium that will scatter")          \
   X(kVertex, "all that will scatter: surfaces and others")    \
   X(kLit, "surfaces that connect to a light")                 \
   X(kShadow, "paths with a shadow ray in ls_* carrying sh_*") \
@@ -105,11 +104,23 @@ struct ColumnLists {
   ColumnLists(const PathColumns& path, const FeatureSet& features);
 };
 
+struct Wave;
+using StageFn = void (*)(Wave&);
+
+/// Kernels of the plan that find the nearest surface of a ray, and what it is like there:
+/// for stages that send rays of their own.
+struct RayKernels {
+  static constexpr std::uint32_t kMost = 8;
+  StageFn closest[kMost] = {}, surface[kMost] = {};
+  std::uint32_t num_closest = 0, num_surface = 0;
+};
+
 struct Wave {
   PathColumns path;
   ColumnLists lists;  // of `path`
   const CompiledScene* scene = nullptr;
   const RunParameters* run = nullptr;
+  RayKernels kernels;  // with kInterfaces
   Queue queues[kNumQueues];
   std::uint32_t capacity = 0;
   TileWork work;
@@ -125,7 +136,5 @@ struct Wave {
     return queues[static_cast<int>(id == QueueId::kVertex ? vertices : id)];
   }
 };
-
-using StageFn = void (*)(Wave&);
 
 }  // namespace lanelight

@@ -24,10 +24,12 @@ PairParameters MakePairParameters(const Strategy& strategy) {
   constexpr std::uint64_t kPixel = Bit(Dimension::kFilm) | Bit(Dimension::kLens);
   constexpr std::uint64_t kLight = Bit(Dimension::kSelect) | Bit(Dimension::kLight);
   constexpr std::uint64_t kBsdf = Bit(Dimension::kBsdf) | Bit(Dimension::kLobe);
+  constexpr std::uint64_t kMedium =
+      Bit(Dimension::kCameraMedium) | Bit(Dimension::kMedium);
   constexpr std::uint32_t kEveryDepth = 0xffffffffu;
   switch (strategy.paired) {
     case Paired::kAll:
-      return {kPixel | kLight | kBsdf | Bit(Dimension::kRoulette), kEveryDepth};
+      return {kPixel | kLight | kBsdf | kMedium | Bit(Dimension::kRoulette), kEveryDepth};
     case Paired::kPixel:
       return {kPixel, kEveryDepth};
     case Paired::kLight:

@@ -154,10 +154,12 @@ struct TriangleMesh {
 
 enum class ShapeKind { kMesh, kSphere, kDisk, kPlane, kCylinder };
 
-/// On each side of a surface; kNone: nothing is there.
+/// On each side of a surface; kNone: empty space. Alike on both: the surface changes
+/// nothing, whatever medium it lies in (as pbrt).
 struct MediumInterface {
-  bool given = false;  // else the surface changes nothing
   Index inside = kNone, outside = kNone;
+
+  bool IsTransition() const { return inside != outside; }
 };
 
 struct Shape {
@@ -292,6 +294,12 @@ struct Medium {
   Rgb emission;  // radiance of the blackbody limit: sigma_a * emission per length
   double g = 0;  // Henyey-Greenstein
   Transform world_from_medium;
+  // Of media that vary: a box in their own space, samples at the centres of its voxels, x
+  // fastest. kUniformGrid: densities, factors on the coefficients. kRgbGrid: sigma_a and
+  // sigma_s, six numbers each.
+  Vec3d box_min{0, 0, 0}, box_max{1, 1, 1};
+  int grid_size[3] = {1, 1, 1};
+  std::vector<float> grid;
 };
 
 struct SceneDescription {

@@ -62,6 +62,28 @@ void FindRepeated(Plan& plan) {
   LL_CHECK_LT(plan.first_repeated, plan.last_repeated);
 }
 
+// Shadow rays through interfaces use the kernels of the path's rays. Of a surface they
+// need the point and both normals, nothing else of its columns.
+RayKernels FindRayKernels(const Plan& plan) {
+  RayKernels found;
+  if (!plan.features.Has(Feature::kInterfaces)) return found;
+  FeatureSet bare = plan.features;
+  bare.Remove({Feature::kTangents, Feature::kUv, Feature::kBumps, Feature::kNormalMaps,
+               Feature::kTextureFootprints});
+  for (const PlannedStage& planned : plan.stages) {
+    const Stage& stage = planned.stage;
+    const bool point = stage.writes.Has(Field::p_error);
+    if (stage.input == QueueId::kActive && stage.writes.Has(Field::prim) && !point) {
+      LL_CHECK_LT(found.num_closest, RayKernels::kMost);
+      found.closest[found.num_closest++] = planned.kernel;
+    } else if (stage.input == QueueId::kSurface && point) {
+      LL_CHECK_LT(found.num_surface, RayKernels::kMost);
+      found.surface[found.num_surface++] = stage.resolve(bare);
+    }
+  }
+  return found;
+}
+
 // Paths whose live columns and queues fill about half of one core's second-level cache,
 // leaving the rest to the scene: the stages stream the columns once per bounce.
 std::uint32_t WavefrontForCache(std::size_t bytes_per_path) {
@@ -98,6 +120,7 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
   }
   CheckReadsAreWritten(plan);
   FindRepeated(plan);
+  plan.ray_kernels = FindRayKernels(plan);
   plan.bytes_per_path = plan.live_fields.size() * sizeof(float);
   // New samples start only while the live paths fit (kernels/generate/generate.cc), and
   // slots are taken from the top of a stack, so most of the room for copies is seldom

@@ -49,6 +49,9 @@ struct Plan {
   /// Of them, [first, last) make and consider one candidate of a light sample: run once
   /// for each (RunParameters::candidates). None where light samples are not resampled.
   std::size_t first_repeated = 0, last_repeated = 0;
+  /// Of those that find the nearest surface, for stages that send rays of their own; none
+  /// without kInterfaces.
+  RayKernels ray_kernels;
   std::vector<OmittedStage> omitted;
   std::vector<Field> live_fields, absent_fields;
   std::size_t bytes_per_path = 0;

@@ -78,9 +78,15 @@ bool SamplesOfLightDiffer(const FeatureSet& f) {
 FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) {
   const Strategy strategy = PlannedStrategy(scene, options);
   FeatureSet f = scene.features;
-  if (options.max_depth > 0 && HasSurfaces(f)) {
+  // Media dim what the camera sees, and need a surface's columns to find where they end.
+  const bool media = f.Has(Feature::kMedia);
+  if (media || (options.max_depth > 0 && HasSurfaces(f))) {
     f.Add(Feature::kScatters);
+    if (media) f.Add(Feature::kOtherEvents);
     AddLightSampling(strategy, f);
+    if (f.Has(Feature::kLights) && !f.Has(Feature::kInterfaces)) {
+      f.Add(Feature::kOpaqueShadows);
+    }
     if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
     if (CanGuide(strategy, f)) f.Add(TurnsOn(strategy.guiding));
     f.Add(TurnsOn(strategy.decide));

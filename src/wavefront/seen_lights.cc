@@ -117,6 +117,7 @@ class SeenRanges {
 
 bool SeesLightsApart(const CompiledScene& scene) {
   return scene.strategy.seen_lights == SeenLights::kApart &&
+         !scene.features.Has(Feature::kMedia) &&  // which dim what is seen
          scene.features.HasAny({Feature::kAreaLights, Feature::kInfiniteLights});
 }
 

@@ -78,6 +78,7 @@ Wavefront::Wavefront(const CompiledScene& scene, const Plan& plan,
   }
   wave_.lists = ColumnLists(wave_.path, plan.features);
   if (plan.features.Has(Feature::kOtherEvents)) wave_.vertices = QueueId::kVertex;
+  wave_.kernels = plan.ray_kernels;
   wave_.scene = &scene;
   wave_.run = &run;
   wave_.capacity = plan.slots;

@@ -20,7 +20,8 @@ Geometry::Geometry(const SceneDescription& scene, TextureLookup texture)
 
 void Geometry::AddShape(const Shape& shape, const Transform& world_from_group) {
   const bool emits = shape.area_light != kNone;
-  if (!emits && scene_.materials.at(shape.material).kind == MaterialKind::kInterface)
+  if (!emits && !shape.media.IsTransition() &&
+      scene_.materials.at(shape.material).kind == MaterialKind::kInterface)
     return;
   const Transform world_from_object = world_from_group * shape.world_from_object;
   ++num_shapes_;
@@ -32,6 +33,7 @@ void Geometry::AddShape(const Shape& shape, const Transform& world_from_group) {
   out.kind = shape.kind;
   out.material = shape.material;
   out.area_light = shape.area_light;
+  out.media = shape.media;
   out.shape = num_shapes_ - 1;
   out.alpha = shape.alpha;
   // Normals of round shapes are turned by a mirroring transform of their own as well.
@@ -57,6 +59,7 @@ void Geometry::AddTriangles(const Shape& shape, const Transform& world_from_obje
     Primitive out;
     out.material = shape.material;
     out.area_light = shape.area_light;
+    out.media = shape.media;
     out.shape = num_shapes_ - 1;
     out.alpha = shape.alpha;
     out.normal_sign = shape.reverse_orientation ? -1 : 1;
@@ -114,17 +117,6 @@ Hit Geometry::Intersect(const Ray& ray, double t_max, Random& random) const {
     TestPrimitive(ray, i, t_max, random, nearest);
   }
   return nearest;
-}
-
-bool Geometry::Visible(const Ray& ray, double t_max, Random& random) const {
-  for (int i = 0; i < static_cast<int>(primitives_.size()); ++i) {
-    const Material& material = scene_.materials.at(primitives_[i].material);
-    if (material.kind == MaterialKind::kInterface) continue;
-    Hit hit;
-    TestPrimitive(ray, i, t_max, random, hit);
-    if (hit.primitive != kNone) return false;
-  }
-  return true;
 }
 
 }  // namespace lanelight::reference

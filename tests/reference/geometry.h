@@ -33,6 +33,7 @@ struct Primitive {
   Index area_light = kNone;
   int shape = 0;  // which Shape of the scene it is part of
   FloatValue alpha{1, kNone};
+  MediumInterface media;
   double normal_sign = 1;  // -1: turned round
   // kMesh: one triangle.
   std::array<Vec3d, 3> p;                 // world space
@@ -70,15 +71,13 @@ struct SurfacePoint {
 
 class Geometry {
  public:
-  /// Flattens shapes and instances. Surfaces whose material is `interface` and that do
-  /// not emit are dropped: they do nothing.
+  /// Flattens shapes and instances. Surfaces whose material is `interface` and that
+  /// neither emit nor bound a medium are dropped: they do nothing.
   Geometry(const SceneDescription& scene, TextureLookup texture);
 
   const std::vector<Primitive>& primitives() const { return primitives_; }
   /// Nearest hit in (0, t_max). Surfaces with alpha < 1 are hit with that probability.
   Hit Intersect(const Ray& ray, double t_max, Random& random) const;
-  /// True if nothing but non-scattering surfaces lies in (0, t_max).
-  bool Visible(const Ray& ray, double t_max, Random& random) const;
   SurfacePoint Describe(const Ray& ray, const Hit& hit) const;
 
  private:

@@ -1,12 +1,14 @@
 #include "tests/reference/path_tracer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
 #include "tests/reference/camera.h"
 #include "tests/reference/frame.h"
 #include "tests/reference/material.h"
+#include "tests/reference/media.h"
 #include "tests/reference/relief.h"
 
 namespace lanelight {
@@ -23,33 +25,53 @@ struct Tracer {
   bool samples_lights() const {
     return options.estimator == ReferenceEstimator::kLightSampling;
   }
-  Rgb Connect(const LightConnection& light, const Ray& shadow,
-              const LocalMaterial& material, Vec3d wo, Vec3d wi) const;
-  Rgb Direct(const SurfacePoint& at, int primitive, const LocalMaterial& material,
-             const Frame& frame, Vec3d wo) const;
+  Rgb Unoccluded(Ray shadow, double reach, Index medium) const;
+  Rgb Connect(const LightConnection& light, const Ray& shadow, Rgb scattered,
+              Index medium) const;
+  /// The light that arrives at `p` by connections, weighed by scattered(toward); `medium`
+  /// in direction `toward`, by medium(toward).
+  template <typename Scattered, typename Beyond>
+  Rgb Direct(Vec3d p, int primitive, const Scattered& scattered,
+             const Beyond& medium) const;
   Rgb Trace(Ray ray) const;
 };
 
-Rgb Tracer::Connect(const LightConnection& light, const Ray& shadow,
-                    const LocalMaterial& material, Vec3d wo, Vec3d wi) const {
-  if (light.radiance == Rgb{}) return {};
-  const Rgb scattered = EvaluateCos(material, wo, wi, random);
-  if (scattered == Rgb{}) return {};
-  // The point on an emitting surface must not hide itself.
-  const double reach = light.distance * (1 - 1e-9);
-  return geometry.Visible(shadow, reach, random) ? scattered * light.radiance : Rgb{};
+// What surfaces and media leave on the first `reach` of a ray.
+Rgb Tracer::Unoccluded(Ray shadow, double reach, Index medium) const {
+  Rgb left = {1, 1, 1};
+  for (;;) {
+    const Hit hit = geometry.Intersect(shadow, reach, random);
+    const double length = hit.primitive == kNone ? reach : hit.t;
+    left = left * MediumTransmittance(scene, medium, shadow, length, random);
+    if (hit.primitive == kNone) return left;
+    const Primitive& met = geometry.primitives()[hit.primitive];
+    if (scene.materials[met.material].kind != MaterialKind::kInterface) return {};
+    const SurfacePoint at = geometry.Describe(shadow, hit);
+    medium = MediumBehind(met, at.ng, shadow.d, medium);
+    shadow = {at.p, shadow.d, hit.primitive};
+    reach -= hit.t;
+  }
 }
 
-Rgb Tracer::Direct(const SurfacePoint& at, int primitive, const LocalMaterial& material,
-                   const Frame& frame, Vec3d wo) const {
+Rgb Tracer::Connect(const LightConnection& light, const Ray& shadow, Rgb scattered,
+                    Index medium) const {
+  if (light.radiance == Rgb{} || scattered == Rgb{}) return {};
+  // The point on an emitting surface must not hide itself.
+  const double reach = light.distance * (1 - 1e-9);
+  return scattered * light.radiance * Unoccluded(shadow, reach, medium);
+}
+
+template <typename Scattered, typename Beyond>
+Rgb Tracer::Direct(Vec3d p, int primitive, const Scattered& scattered,
+                   const Beyond& medium) const {
   Rgb sum;
   const auto add = [&](const LightConnection& light) {
-    const Ray shadow = {at.p, light.toward, primitive};
-    sum += Connect(light, shadow, material, wo, frame.ToLocal(light.toward));
+    const Ray shadow = {p, light.toward, primitive};
+    sum += Connect(light, shadow, scattered(light.toward), medium(light.toward));
   };
-  for (const LightConnection& light : lights.DeltaLights(at.p)) add(light);
+  for (const LightConnection& light : lights.DeltaLights(p)) add(light);
   if (samples_lights()) {
-    for (const LightConnection& light : lights.AreaLights(at.p, random)) add(light);
+    for (const LightConnection& light : lights.AreaLights(p, random)) add(light);
   }
   return sum;
 }
@@ -58,16 +80,40 @@ Rgb Tracer::Trace(Ray ray) const {
   const int max_depth = options.max_depth.value_or(scene.integrator.max_depth);
   Rgb beta = {1, 1, 1}, sum;
   bool counts_emission = true;
+  Index medium = scene.camera.medium;
+  // A path through media is one of a single channel.
+  const int channel = scene.media.empty() ? 0 : static_cast<int>(3 * random.Uniform());
+  if (!scene.media.empty()) beta = OnlyChannel(channel);
   for (int depth = 0;;) {
     const Hit hit = geometry.Intersect(ray, kInfinity, random);
+    const Collision collision = NextCollision(scene, medium, ray, hit.t, channel, random);
+    if (collision.t < hit.t) {
+      const Medium& m = scene.media[medium];
+      const double absorbed = Channel(collision.at.sigma_a, channel);
+      const double scattered = Channel(collision.at.sigma_s, channel);
+      // Every collision, of either kind, sees what the medium emits.
+      sum += beta * m.emission * (absorbed / (absorbed + scattered));
+      beta *= scattered / (absorbed + scattered);
+      if (depth++ == max_depth || scattered == 0) return sum;
+      const Vec3d p = ray.o + ray.d * collision.t;
+      const auto phase = [&](Vec3d toward) {
+        return Rgb{1, 1, 1} * PhaseFunction(m.g, Dot(ray.d, toward));
+      };
+      sum += beta * Direct(p, kNone, phase, [&](Vec3d) { return medium; });
+      counts_emission = !samples_lights();
+      ray = {p, SamplePhaseFunction(m.g, ray.d, random), kNone};
+      continue;
+    }
     if (hit.primitive == kNone) {
       if (counts_emission) sum += beta * lights.Environment(ray.o, ray.d);
       return sum;
     }
     const SurfacePoint at = geometry.Describe(ray, hit);
     if (counts_emission) sum += beta * lights.Emitted(hit.primitive, at, -ray.d);
-    const Index index = geometry.primitives()[hit.primitive].material;
+    const Primitive& met = geometry.primitives()[hit.primitive];
+    const Index index = met.material;
     if (scene.materials[index].kind == MaterialKind::kInterface) {
+      medium = MediumBehind(met, at.ng, ray.d, medium);
       ray = {at.p, ray.d, hit.primitive};
       continue;
     }
@@ -78,12 +124,17 @@ Rgb Tracer::Trace(Ray ray) const {
                                            options.texture, options.normal_map);
     const Frame frame = MakeFrame(shaded.ns, shaded.dpdu);
     const Vec3d wo = frame.ToLocal(-ray.d);
-    sum += beta * Direct(at, hit.primitive, material, frame, wo);
+    const auto reflected = [&](Vec3d toward) {
+      return EvaluateCos(material, wo, frame.ToLocal(toward), random);
+    };
+    const auto beyond = [&](Vec3d d) { return MediumBehind(met, at.ng, d, medium); };
+    sum += beta * Direct(at.p, hit.primitive, reflected, beyond);
     const auto next = SampleBsdf(material, wo, random);
     if (!next || next->weight == Rgb{}) return sum;
     beta = beta * next->weight;
     counts_emission = next->specular || !samples_lights();
     ray = {at.p, Normalize(frame.ToWorld(next->wi)), hit.primitive};
+    medium = beyond(ray.d);
   }
 }
 

@@ -1,4 +1,4 @@
-// Another event than a surface, here paths put into kMedium by hand, takes part in all
+// Another event than a surface, here paths put into kVertex by hand, takes part in all
 // that happens where a path scatters, without a change to the stages of surfaces.
 #include <catch2/catch.hpp>
 #include <set>
@@ -27,7 +27,7 @@ void Fill(Wave& wave) {
     wave.path.sample[i] = wave.path.depth[i] = wave.path.branch[i] = 0;
     wave.path.u_bsdf_0[i] = kUndrawn;
     wave.path.material[i] = i % 2;
-    Queue& queue = wave.queue(i % 2 == 0 ? QueueId::kSurface : QueueId::kMedium);
+    Queue& queue = wave.queue(i % 2 == 0 ? QueueId::kSurface : QueueId::kVertex);
     queue.items[queue.size++] = i;
   }
 }

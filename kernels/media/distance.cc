@@ -1,0 +1,131 @@
+// How far rays get in homogeneous media: to a point where they scatter, or to the
+// surface.
+//   density     of scattering at d: sigma_t exp(-sigma_t d), of the channel drawn; of
+//               reaching the surface: exp(-sigma_t t)
+//   estimator   sigma_s T / mean density over channels, and T / mean density
+//   (medium-inl.h) unbiased    a channel that scatters has sigma_t > 0, so one that finds
+//   it is drawn variance    none from T where all channels are alike absorbers   sigma_s
+//   = 0: nothing to find on the way, T counts in full emission    what the medium emits
+//   along the ray is known in closed form, and added interfaces  optical depth left over
+//   is again exponential: the same number goes on source      Novak et al. 2018, "Monte
+//   Carlo Methods for Volumetric Light Transport
+//               Simulation"; Wilkie et al. 2014 (spectral sampling)
+#include "kernels/targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/media/distance.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "hwy/contrib/math/math-inl.h"
+
+#include "kernels/media/event-inl.h"
+#include "kernels/queue/filter-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// The integral of emission T over a length.
+HWY_INLINE V3 EmittedOver(V3 emission, V3 sigma_t, VF length) {
+  const auto one = [&](VF e, VF sigma) HWY_ATTR {
+    const VF depth = hn::Mul(sigma, length);
+    // (1 - exp(-x)) / x cancels for small x; there its series does not.
+    const VF series =
+        hn::MulAdd(depth, hn::MulAdd(depth, Splat(1.0f / 6), Splat(-0.5f)), Splat(1.0f));
+    const VF thick = hn::Div(hn::Sub(Splat(1.0f), Transmittance(sigma, length)), sigma);
+    const VF thin = hn::Mul(length, series);
+    const VF path = hn::IfThenElse(hn::Lt(depth, Splat(0.01f)), thin, thick);
+    return hn::IfThenElseZero(hn::Gt(e, hn::Zero(DF())), hn::Mul(e, path));
+  };
+  return {one(emission.x, sigma_t.x), one(emission.y, sigma_t.y),
+          one(emission.z, sigma_t.z)};
+}
+
+template <bool kInterfaces, bool kEmission>
+HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
+  const DF df;
+  const PathColumns& p = wave.path;
+  const Media medium(wave.scene->media, Gather(p.medium, slots));
+  const V3 sigma_t = medium.SigmaT();
+  const VF t = Gather(p.t, slots), u = Gather(p.u_medium_1, slots);
+  const VF keep = hn::Sub(Splat(1.0f), Gather(p.u_medium_0, slots));
+  Stretch path(p, slots);
+  const V3 before = path.odds;
+  const Channel channel(before, u);
+  const VF drawn = channel.Of(sigma_t);
+  const VF far = Splat(std::numeric_limits<float>::infinity());
+  const MF samples = medium.Scatters();
+  const MF can = hn::And(samples, hn::Gt(drawn, hn::Zero(df)));
+  const VF d = hn::IfThenElse(can, hn::Div(hn::Neg(hn::Log(df, keep)), drawn), far);
+  const MF event = hn::Lt(d, t);
+  if constexpr (kEmission) {
+    const V3 emitted = EmittedOver(medium.Emission(), sigma_t, t);
+    const V3 l = Gather3(p.l_r, p.l_g, p.l_b, slots);
+    Scatter3(l + Mul(path.beta, emitted), p.l_r, p.l_g, p.l_b, slots);
+  }
+  const V3 left = Transmittance(sigma_t, hn::Min(d, t));
+  const V3 sigma_s = medium.SigmaS(), one = Splat3(1, 1, 1);
+  // Absorbers let all rays reach the surface.
+  const V3 passes = IfThenElse(samples, left, one);
+  path.Happen(IfThenElse(event, Mul(left, sigma_s), left),
+              IfThenElse(event, Mul(left, sigma_t), passes));
+  path.Store(p, slots);
+  if constexpr (kInterfaces) {
+    const VF unused = hn::Div(keep, channel.Of(passes));
+    Scatter(hn::Max(hn::Sub(Splat(1.0f), unused), hn::Zero(df)), p.u_medium_0, slots);
+    Scatter(channel.Redrawn(before, path.odds, u), p.u_medium_1, slots);
+  }
+  StoreEvent(p, slots, event, d, medium.I(offsetof(MediumRecord, material)));
+}
+
+template <bool kInterfaces, bool kEmission>
+void MediumDistance(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const bool grids = !wave.scene->media.grids.empty();
+  const Queue& mine =
+      FilterQueue(wave, wave.queue(QueueId::kActive), [&](const Slots& slots) HWY_ATTR {
+        const VI index = Gather(p.medium, slots);
+        const MF inside = IsInMedium(index);
+        return grids ? hn::AndNot(Media(wave.scene->media, index).Varies(), inside)
+                     : inside;
+      });
+  ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
+    Walk<kInterfaces, kEmission>(wave, slots);
+  });
+  LeaveWithEvents(wave);
+}
+
+void DistanceDark(Wave& wave) { MediumDistance<false, false>(wave); }
+void DistanceEmitting(Wave& wave) { MediumDistance<false, true>(wave); }
+void DistanceInterfaces(Wave& wave) { MediumDistance<true, false>(wave); }
+void DistanceAll(Wave& wave) { MediumDistance<true, true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/media/media_stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(DistanceDark);
+HWY_EXPORT(DistanceEmitting);
+HWY_EXPORT(DistanceInterfaces);
+HWY_EXPORT(DistanceAll);
+
+Stage MediumDistanceStage() {
+  return MediumEventStage("medium_distance", "how far rays get in homogeneous media",
+                          Feature::kMedia, [](const FeatureSet& features) -> StageFn {
+                            const bool emits = features.Has(Feature::kMediumEmission);
+                            if (features.Has(Feature::kInterfaces)) {
+                              return emits ? HWY_DYNAMIC_DISPATCH(DistanceAll)
+                                           : HWY_DYNAMIC_DISPATCH(DistanceInterfaces);
+                            }
+                            return emits ? HWY_DYNAMIC_DISPATCH(DistanceEmitting)
+                                         : HWY_DYNAMIC_DISPATCH(DistanceDark);
+                          });
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,64 @@
+// Which medium a scattered ray goes into: what lies on its side of the surface. A ray
+// that scattered in a medium, or on a surface with nothing beside it, stays where it is.
+#include "kernels/targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/media/enter.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/media/medium-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+template <bool kInterfaces>
+void Enter(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const MediumTable& media = wave.scene->media;
+  ForEachBatch(wave, wave.queue(QueueId::kScattered),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+                 const V3 ng = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
+                 const Sides sides(media, Gather(p.prim, slots));
+                 Scatter(sides.Toward(d, ng, Gather(p.medium, slots)), p.medium, slots);
+                 if constexpr (kInterfaces) {
+                   Scatter(hn::Zero(DF()), p.passed, slots);
+                   Scatter(hn::Zero(DI()), p.crossings, slots);
+                 }
+               });
+}
+
+void EnterMediaPlain(Wave& wave) { Enter<false>(wave); }
+void EnterMediaInterfaces(Wave& wave) { Enter<true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(EnterMediaPlain);
+HWY_EXPORT(EnterMediaInterfaces);
+
+Stage EnterMediaStage() {
+  const FieldSet ray = {Field::medium, Field::passed, Field::crossings};
+  return {
+      "enter_media",
+      "which medium scattered rays go into",
+      QueueId::kScattered,
+      {Feature::kMediumChanges, Feature::kScatters},
+      FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::prim} | fields::kNormal | ray,
+      ray,
+      [](const FeatureSet& features) -> StageFn {
+        return features.Has(Feature::kInterfaces)
+                   ? HWY_DYNAMIC_DISPATCH(EnterMediaInterfaces)
+                   : HWY_DYNAMIC_DISPATCH(EnterMediaPlain);
+      }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

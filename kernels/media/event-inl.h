@@ -1,0 +1,84 @@
+// Where a path meets something in a medium: what is stored of it, and how the paths that
+// do leave the queue of rays.
+#if defined(LANELIGHT_MEDIA_EVENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_MEDIA_EVENT_INL_H_
+#undef LANELIGHT_MEDIA_EVENT_INL_H_
+#else
+#define LANELIGHT_MEDIA_EVENT_INL_H_
+#endif
+
+#include "kernels/media/medium-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// What is known of a path, to be changed by what happens to it.
+struct Stretch {
+  V3 beta, odds;
+
+  LANELIGHT_INLINE Stretch(const PathColumns& p, const Slots& slots)
+      : beta(Gather3(p.beta_r, p.beta_g, p.beta_b, slots)),
+        odds(Gather3(p.odds_r, p.odds_g, p.odds_b, slots)) {}
+
+  /// Something of contribution f and densities pdf, both over any common factor.
+  LANELIGHT_INLINE void Happen(V3 f, V3 pdf) {
+    const V3 each = Mul(odds, pdf);
+    const VF scale = hn::Div(Splat(1.0f), MeanChannel(each));
+    beta = Mul(beta, Mul(f, scale));
+    odds = Mul(each, scale);
+  }
+  LANELIGHT_INLINE void Store(const PathColumns& p, const StoreSlots& slots) const {
+    Scatter3(beta, p.beta_r, p.beta_g, p.beta_b, slots);
+    Scatter3(odds, p.odds_r, p.odds_g, p.odds_b, slots);
+  }
+};
+
+/// Where the ray is after `distance`, with a normal that looks back along it; of the
+/// lanes of `event` this is what follows, and t = -1 marks them. The others find their
+/// surface later, which overwrites it.
+LANELIGHT_INLINE void StoreEvent(const PathColumns& p, const StoreSlots& slots, MF event,
+                                 VF distance, VI material) {
+  const DI di;
+  const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots), back = -d;
+  const V3 at = MulAdd(d, distance, Gather3(p.o_x, p.o_y, p.o_z, slots));
+  Scatter3(at, p.p_x, p.p_y, p.p_z, slots);
+  Scatter(hn::Zero(DF()), p.p_error, slots);
+  Scatter3(back, p.ng_x, p.ng_y, p.ng_z, slots);
+  if (p.ns_x != nullptr) Scatter3(back, p.ns_x, p.ns_y, p.ns_z, slots);
+  Scatter(material, p.material, slots);
+  const VI none = hn::Set(di, static_cast<int32_t>(kNoPrimitive));
+  const VI prim = Gather(p.prim, slots);
+  Scatter(hn::IfThenElse(hn::RebindMask(di, event), none, prim), p.prim, slots);
+  Scatter(hn::IfThenElse(event, Splat(-1.0f), Gather(p.t, slots)), p.t, slots);
+}
+
+/// Takes the paths with an event out of kActive: to all that scatters, or to their end
+/// where they may not scatter any more.
+LANELIGHT_INLINE void LeaveWithEvents(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const VI max_depth = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
+  Queue& active = wave.queue(QueueId::kActive);
+  const uint32_t before = active.size;
+  Queue rest = {active.items, 0};  // compacts in place: writes never pass reads
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DF()));
+  PadTail(active);
+  for (uint32_t i = 0; i < before; i += lanes) {
+    const Slots slots(
+        hn::LoadU(DI(), reinterpret_cast<const int32_t*>(active.items) + i));
+    const MF valid = hn::FirstN(DF(), before - i);
+    const MF event = hn::And(valid, hn::Lt(Gather(p.t, slots), hn::Zero(DF())));
+    const MF below = hn::RebindMask(DF(), hn::Lt(Gather(p.depth, slots), max_depth));
+    Push(rest, slots, hn::AndNot(event, valid));
+    Push(wave.queue(QueueId::kVertex), slots, hn::And(event, below));
+    Push(wave.queue(QueueId::kDone), slots, hn::AndNot(below, event));
+  }
+  active.size = rest.size;
+  wave.rays_closest += before - rest.size;  // the others are counted by the stage `split`
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,210 @@
+// Media that vary within a box, for a vector of rays in the same medium: the cells of the
+// majorant grid that rays go through, and what the medium is like at a point.
+#if defined(LANELIGHT_MEDIA_GRID_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_MEDIA_GRID_INL_H_
+#undef LANELIGHT_MEDIA_GRID_INL_H_
+#else
+#define LANELIGHT_MEDIA_GRID_INL_H_
+#endif
+
+#include <limits>
+
+#include "kernels/media/medium-inl.h"
+#include "kernels/simd/rng-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Absorption and scattering at a point.
+struct Coefficients {
+  V3 sigma_a, sigma_s;
+};
+
+/// Linear interpolation along one axis: the two samples and how much of the second.
+struct AxisSamples {
+  VI low;
+  VF weight;
+  MF has_low, has_high;  // they lie in the grid; others are zero
+
+  LANELIGHT_INLINE AxisSamples(VF x, int32_t size) {
+    const DF df;
+    const DI di;
+    const VF at = hn::MulAdd(x, Splat(static_cast<float>(size)), Splat(-0.5f));
+    const VF floor = hn::Floor(at);
+    low = hn::ConvertTo(di, floor);
+    weight = hn::Sub(at, floor);
+    const VI last = hn::Set(di, size - 1), before = hn::Set(di, -1);
+    has_low =
+        hn::RebindMask(df, hn::And(hn::Gt(low, before), hn::Lt(low, hn::Set(di, size))));
+    has_high =
+        hn::RebindMask(df, hn::And(hn::Gt(low, hn::Set(di, -2)), hn::Lt(low, last)));
+  }
+};
+
+/// One grid and the medium it belongs to.
+struct GridMedium {
+  const MediumGrid& grid;
+  const MediumRecord& medium;
+
+  LANELIGHT_INLINE bool IsColored() const { return grid.channels > 1; }
+  /// Majorants of the channels are the cell's value times these.
+  LANELIGHT_INLINE V3 MajorantScale() const {
+    if (IsColored()) return Splat3(1, 1, 1);
+    return Splat3(medium.sigma_t[0], medium.sigma_t[1], medium.sigma_t[2]);
+  }
+  LANELIGHT_INLINE V3 Map(V3 v, bool point) const {
+    const float* m = grid.box_from_scene;
+    const auto row = [&](int r) HWY_ATTR {
+      const VF linear =
+          Dot(V3{Splat(m[4 * r]), Splat(m[4 * r + 1]), Splat(m[4 * r + 2])}, v);
+      return point ? hn::Add(linear, Splat(m[4 * r + 3])) : linear;
+    };
+    return {row(0), row(1), row(2)};
+  }
+  /// At `p` of the box.
+  LANELIGHT_INLINE Coefficients At(V3 p) const {
+    VF v[6];
+    Interpolate(p, v);
+    if (IsColored()) return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+    const float *t = medium.sigma_t, *s = medium.sigma_s;
+    const V3 sigma_t = Mul(Splat3(t[0], t[1], t[2]), v[0]);
+    const V3 sigma_s = Mul(Splat3(s[0], s[1], s[2]), v[0]);
+    return {sigma_t - sigma_s, sigma_s};
+  }
+
+ private:
+  LANELIGHT_INLINE void Interpolate(V3 p, VF* out) const {
+    const DI di;
+    const AxisSamples axes[3] = {AxisSamples(p.x, grid.size[0]),
+                                 AxisSamples(p.y, grid.size[1]),
+                                 AxisSamples(p.z, grid.size[2])};
+    for (int c = 0; c < grid.channels; ++c) out[c] = hn::Zero(DF());
+    for (int corner = 0; corner < 8; ++corner) {
+      VI index = hn::Zero(di);
+      VF weight = Splat(1.0f);
+      MF inside = hn::FirstN(DF(), hn::Lanes(DF()));
+      for (int a = 2; a >= 0; --a) {
+        const bool high = (corner >> a & 1) != 0;
+        const VI at = high ? hn::Add(axes[a].low, hn::Set(di, 1)) : axes[a].low;
+        const VF share = axes[a].weight;
+        index = hn::Add(hn::Mul(index, hn::Set(di, grid.size[a])), at);
+        weight = hn::Mul(weight, high ? share : hn::Sub(Splat(1.0f), share));
+        inside = hn::And(inside, high ? axes[a].has_high : axes[a].has_low);
+      }
+      index = hn::IfThenElseZero(hn::RebindMask(di, inside),
+                                 hn::Mul(index, hn::Set(di, grid.channels)));
+      weight = hn::IfThenElseZero(inside, weight);
+      for (int c = 0; c < grid.channels; ++c) {
+        out[c] = hn::MulAdd(weight, Gather(grid.values.data() + c, index), out[c]);
+      }
+    }
+  }
+};
+
+/// Rays on their way through the cells of a majorant grid (Amanatides and Woo 1987).
+/// Distances are those of the scene.
+struct CellWalk {
+  V3 o, d;      // in the box
+  VF t, end;    // where the ray is, where it leaves the box or ends
+  VF next[3];   // where it crosses into the next cell, along each axis
+  VF delta[3];  // from one crossing to the next
+  VI cell[3], step[3];
+
+  LANELIGHT_INLINE CellWalk(const GridMedium& medium, V3 origin, V3 direction,
+                            VF length) {
+    o = medium.Map(origin, true), d = medium.Map(direction, false);
+    t = hn::Zero(DF()), end = length;
+    const VF from[3] = {o.x, o.y, o.z}, along[3] = {d.x, d.y, d.z};
+    for (int a = 0; a < 3; ++a) Clip(from[a], along[a]);
+    for (int a = 0; a < 3; ++a) Start(a, from[a], along[a]);
+  }
+  LANELIGHT_INLINE MF IsInside() const { return hn::Lt(t, end); }
+  LANELIGHT_INLINE V3 Point(VF at) const { return MulAdd(d, at, o); }
+  LANELIGHT_INLINE VF Majorant(const MediumGrid& grid) const {
+    const DI di;
+    const VI size = hn::Set(di, kMajorantCells), zero = hn::Zero(di);
+    const VI last = hn::Set(di, kMajorantCells - 1);
+    const auto in = [&](int a) HWY_ATTR { return hn::Min(hn::Max(cell[a], zero), last); };
+    const VI index = hn::Add(in(0), hn::Mul(size, hn::Add(in(1), hn::Mul(size, in(2)))));
+    return Gather(grid.majorants.data(), index);
+  }
+  /// Where the ray leaves the cell.
+  LANELIGHT_INLINE VF Exit() const {
+    return hn::Min(end, hn::Min(next[0], hn::Min(next[1], next[2])));
+  }
+  /// Goes on to where it leaves the cell, in the lanes of `mask`.
+  LANELIGHT_INLINE void Cross(MF mask) {
+    const VF exit = Exit();
+    t = hn::IfThenElse(mask, exit, t);
+    for (int a = 0; a < 3; ++a) {
+      const MF crosses = hn::And(mask, hn::Le(next[a], exit));
+      const auto only = hn::RebindMask(DI(), crosses);
+      cell[a] = hn::Add(cell[a], hn::IfThenElseZero(only, step[a]));
+      next[a] = hn::Add(next[a], hn::IfThenElseZero(crosses, delta[a]));
+    }
+  }
+
+ private:
+  LANELIGHT_INLINE void Clip(VF from, VF along) {
+    const VF zero = hn::Zero(DF()), one = Splat(1.0f);
+    const MF moves = hn::Ne(along, zero);
+    const VF inverse = hn::Div(one, along);
+    const VF a = hn::Mul(hn::Neg(from), inverse);
+    const VF b = hn::Mul(hn::Sub(one, from), inverse);
+    const MF within = hn::And(hn::Ge(from, zero), hn::Le(from, one));
+    const VF stays = hn::IfThenElse(within, end, zero);  // no box for the others
+    t = hn::IfThenElse(moves, hn::Max(t, hn::Min(a, b)), t);
+    end = hn::IfThenElse(moves, hn::Min(end, hn::Max(a, b)), stays);
+  }
+  LANELIGHT_INLINE void Start(int a, VF from, VF along) {
+    const DI di;
+    const VF cells = Splat(static_cast<float>(kMajorantCells));
+    const VF at = hn::Mul(hn::MulAdd(along, t, from), cells);
+    const VF floor = hn::Clamp(hn::Floor(at), Splat(0), Splat(kMajorantCells - 1.0f));
+    const MF forward = hn::Gt(along, hn::Zero(DF()));
+    const VF far = Splat(std::numeric_limits<float>::infinity());
+    const MF moves = hn::Ne(along, hn::Zero(DF()));
+    const VF edge = hn::Add(floor, hn::IfThenElseZero(forward, Splat(1.0f)));
+    const VF crossing = hn::Div(hn::Sub(hn::Div(edge, cells), from), along);
+    next[a] = hn::IfThenElse(moves, hn::Max(crossing, t), far);
+    delta[a] = hn::Div(Splat(1.0f / kMajorantCells), hn::Abs(along));
+    cell[a] = hn::ConvertTo(di, floor);
+    step[a] =
+        hn::IfThenElse(hn::RebindMask(di, forward), hn::Set(di, 1), hn::Set(di, -1));
+  }
+};
+
+/// Uniform numbers for walks of any length: hashes of who the path is, where on it, and
+/// of how many were drawn before.
+struct WalkRandom {
+  VU pixel, sample, key, seed;
+
+  LANELIGHT_INLINE WalkRandom(const Wave& wave, const Slots& slots, uint32_t purpose) {
+    const PathColumns& p = wave.path;
+    pixel = AsUnsigned(Gather(p.pixel, slots));
+    sample = AsUnsigned(Gather(p.sample, slots));
+    key = AsUnsigned(Gather(p.depth, slots));
+    seed = SplatU(wave.run->seed ^ purpose);
+    if (p.branch != nullptr) {
+      const VU branch = AsUnsigned(Gather(p.branch, slots));
+      key = hn::Or(key, hn::ShiftLeft<24>(branch));
+    }
+    if (p.crossings != nullptr) {
+      const VU crossings = AsUnsigned(Gather(p.crossings, slots));
+      seed = hn::Add(seed, hn::Mul(crossings, SplatU(0x632be5abu)));
+    }
+  }
+  /// Two independent numbers in [0, 1).
+  LANELIGHT_INLINE void Next(VF* u0, VF* u1) {
+    const U4 bits = Pcg4d({pixel, sample, key, seed});
+    *u0 = ToUnit(bits.x), *u1 = ToUnit(bits.y);
+    seed = hn::Add(seed, SplatU(0x9e3779b9u));
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,90 @@
+// Surfaces that only bound a medium (material "interface"): paths go straight on, and
+// neither scatter nor take part in roulette. Two stages: one takes them out of the
+// surfaces that scatter, ends those of the others that may scatter no more (which stage
+// `limit` left to this one), the other sends them on.
+#include "kernels/targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/media/interfaces.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/media/medium-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+void Interfaces(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const VI max_depth = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
+  Queue& surfaces = wave.queue(QueueId::kSurface);
+  Queue rest = {surfaces.items, 0};  // compacts in place: writes never pass reads
+  ForEachBatch(wave, surfaces, [&](const Slots& slots, MF valid) HWY_ATTR {
+    const MF passes =
+        hn::And(valid, Sides(wave.scene->media, Gather(p.prim, slots)).Passes());
+    const MF stays = hn::AndNot(passes, valid);
+    const MF below = hn::RebindMask(DF(), hn::Lt(Gather(p.depth, slots), max_depth));
+    Push(rest, slots, hn::And(stays, below));
+    Push(wave.queue(QueueId::kDone), slots, hn::AndNot(below, stays));
+    Push(wave.queue(QueueId::kPassed), slots, passes);
+  });
+  surfaces.size = rest.size;
+}
+
+void PassInterfaces(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const MediumTable& media = wave.scene->media;
+  ForEachBatch(wave, wave.queue(QueueId::kPassed),
+               [&](const StoreSlots& slots, MF valid) HWY_ATTR {
+                 const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+                 const V3 ng = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
+                 const V3 at = Gather3(p.p_x, p.p_y, p.p_z, slots);
+                 const V3 o = OffsetOrigin(at, ng, Gather(p.p_error, slots), d);
+                 const Sides sides(media, Gather(p.prim, slots));
+                 Scatter3(o, p.o_x, p.o_y, p.o_z, slots);
+                 Scatter(sides.Toward(d, ng, Gather(p.medium, slots)), p.medium, slots);
+                 const VF length = hn::Add(Gather(p.passed, slots), Gather(p.t, slots));
+                 Scatter(length, p.passed, slots);
+                 const VI one = hn::Set(DI(), 1);
+                 Scatter(hn::Add(Gather(p.crossings, slots), one), p.crossings, slots);
+                 Scatter(Splat(std::numeric_limits<float>::infinity()), p.t, slots);
+                 Push(wave.queue(QueueId::kScattered), slots, valid);
+               });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(Interfaces);
+HWY_EXPORT(PassInterfaces);
+
+Stage InterfacesStage() {
+  return {"interfaces",
+          "takes out the paths that go through interfaces of media",
+          QueueId::kSurface,
+          {Feature::kInterfaces, Feature::kScatters},
+          {Field::prim, Field::depth},
+          {},
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Interfaces); }};
+}
+
+Stage PassInterfacesStage() {
+  const FieldSet ray = {Field::medium, Field::passed, Field::crossings, Field::t};
+  return {
+      "pass_interfaces",
+      "sends paths on behind interfaces of media",
+      QueueId::kPassed,
+      {Feature::kInterfaces, Feature::kScatters},
+      fields::kRay | fields::kPoint | fields::kNormal | ray | FieldSet{Field::prim},
+      fields::kRay | ray,
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(PassInterfaces); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,142 @@
+// What the kernels of participating media share: coefficients, what lies beside surfaces,
+// transmittance.
+//
+// Coefficients are rgb, and a distance can be sampled for one channel only. Paths are
+// sampled from the mean of three densities, p = (p_r + p_g + p_b) / 3, one for each
+// channel that distances could be sampled for all along the path: each distance for a
+// channel that is drawn in proportion to its density of the path so far, its `odds` p_c /
+// p. So the throughput f / p is at most three times that of the best channel, however
+// many events a path has (the balance heuristic over whole paths: Wilkie et al. 2014,
+// "Hero Wavelength Spectral Sampling"; Miller, Georgiev and Jarosz 2019).
+#if defined(LANELIGHT_MEDIA_MEDIUM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_MEDIA_MEDIUM_INL_H_
+#undef LANELIGHT_MEDIA_MEDIUM_INL_H_
+#else
+#define LANELIGHT_MEDIA_MEDIUM_INL_H_
+#endif
+
+#include <cstddef>
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/simd/math-inl.h"
+#include "src/compiled/scene.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Words of MediumRecord, gathered for one medium per lane. Vacuum: any record.
+struct Media {
+  const float* words;
+  VI at;
+
+  LANELIGHT_INLINE Media(const MediumTable& table, VI medium)
+      : words(reinterpret_cast<const float*>(table.media.data())),
+        at(hn::ShiftLeft<4>(hn::Max(medium, hn::Zero(DI())))) {}
+  LANELIGHT_INLINE VF F(std::size_t byte_offset) const {
+    return Gather(words + byte_offset / 4, at);
+  }
+  LANELIGHT_INLINE VI I(std::size_t byte_offset) const {
+    return Gather(reinterpret_cast<const int32_t*>(words) + byte_offset / 4, at);
+  }
+  LANELIGHT_INLINE V3 F3(std::size_t byte_offset) const {
+    return {F(byte_offset), F(byte_offset + 4), F(byte_offset + 8)};
+  }
+  LANELIGHT_INLINE V3 SigmaT() const { return F3(offsetof(MediumRecord, sigma_t)); }
+  LANELIGHT_INLINE V3 SigmaS() const { return F3(offsetof(MediumRecord, sigma_s)); }
+  LANELIGHT_INLINE V3 Emission() const { return F3(offsetof(MediumRecord, emission)); }
+  /// Has a grid.
+  LANELIGHT_INLINE MF Varies() const {
+    return hn::RebindMask(DF(),
+                          hn::Gt(I(offsetof(MediumRecord, grid)), hn::Set(DI(), -1)));
+  }
+  LANELIGHT_INLINE MF Scatters() const {
+    return hn::RebindMask(DF(),
+                          hn::Ne(I(offsetof(MediumRecord, scatters)), hn::Zero(DI())));
+  }
+};
+
+LANELIGHT_INLINE MF IsInMedium(VI medium) {
+  return hn::RebindMask(DF(), hn::Gt(medium, hn::Set(DI(), kVacuum)));
+}
+
+/// What is beside the primitive of each lane.
+struct Sides {
+  const MediumTable& table;
+  VI index;  // of its sides, -1: nothing
+
+  /// `prim` may be kNoPrimitive.
+  LANELIGHT_INLINE Sides(const MediumTable& t, VI prim) : table(t) {
+    const DI di;
+    const VI none = hn::Set(di, -1), zero = hn::Zero(di);
+    const VI found = Gather(t.primitives.data(), hn::Max(prim, zero));
+    index = hn::IfThenElse(hn::Gt(prim, none), found, none);
+  }
+  LANELIGHT_INLINE MF Known() const { return IsInMedium(index); }
+  LANELIGHT_INLINE MF Passes() const {
+    const VI passes = Word(offsetof(MediumSides, passes));
+    return hn::And(Known(), hn::RebindMask(DF(), hn::Ne(passes, hn::Zero(DI()))));
+  }
+  /// The medium in direction d; `here` where the primitive has nothing beside it.
+  LANELIGHT_INLINE VI Toward(V3 d, V3 normal, VI here) const {
+    const DI di;
+    const auto out = hn::RebindMask(di, hn::Gt(Dot(d, normal), hn::Zero(DF())));
+    const VI beyond = hn::IfThenElse(out, Word(offsetof(MediumSides, outside)),
+                                     Word(offsetof(MediumSides, inside)));
+    return hn::IfThenElse(hn::RebindMask(di, Known()), beyond, here);
+  }
+
+ private:
+  LANELIGHT_INLINE VI Word(std::size_t byte_offset) const {
+    const int32_t* words = reinterpret_cast<const int32_t*>(table.sides.data());
+    const VI at = hn::ShiftLeft<2>(hn::Max(index, hn::Zero(DI())));
+    return Gather(words + byte_offset / 4, at);
+  }
+};
+static_assert(sizeof(MediumSides) == 16);
+
+/// exp(-sigma d), 1 where sigma is 0 although d may be infinite.
+LANELIGHT_INLINE VF Transmittance(VF sigma, VF d) {
+  const VF depth = hn::Mul(sigma, d);
+  return hn::IfThenElse(hn::Gt(sigma, hn::Zero(DF())), Exp(hn::Neg(depth)), Splat(1.0f));
+}
+LANELIGHT_INLINE V3 Transmittance(V3 sigma, VF d) {
+  return {Transmittance(sigma.x, d), Transmittance(sigma.y, d),
+          Transmittance(sigma.z, d)};
+}
+
+LANELIGHT_INLINE VF MeanChannel(V3 v) {
+  return hn::Mul(hn::Add(v.x, hn::Add(v.y, v.z)), Splat(1.0f / 3));
+}
+
+/// A channel drawn with the probabilities odds / 3 by u in [0, 1).
+struct Channel {
+  MF first, second;  // neither: the third
+
+  LANELIGHT_INLINE Channel(V3 odds, VF u)
+      : first(hn::Lt(Thrice(u), odds.x)),
+        second(hn::AndNot(first, hn::Lt(Thrice(u), hn::Add(odds.x, odds.y)))) {}
+  LANELIGHT_INLINE VF Of(V3 v) const {
+    return hn::IfThenElse(first, v.x, hn::IfThenElse(second, v.y, v.z));
+  }
+  /// The number that draws the same channel by other odds, and is as uniform, if the odds
+  /// are those that follow from what the channel found.
+  LANELIGHT_INLINE VF Redrawn(V3 before, V3 after, VF u) const {
+    const VF share = hn::Div(hn::Sub(Thrice(u), Below(before)), Of(before));
+    const VF moved = hn::MulAdd(share, Of(after), Below(after));
+    return hn::Clamp(hn::Mul(moved, Splat(1.0f / 3)), Splat(0), Splat(1 - 0x1p-24f));
+  }
+
+ private:
+  LANELIGHT_INLINE static VF Thrice(VF u) { return hn::Mul(u, Splat(3.0f)); }
+  LANELIGHT_INLINE VF Below(V3 odds) const {
+    const VF two = hn::Add(odds.x, odds.y);
+    return hn::IfThenElse(first, Splat(0), hn::IfThenElse(second, odds.x, two));
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,109 @@
+// Media along shadow rays.
+#if defined(LANELIGHT_MEDIA_SHADOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_MEDIA_SHADOW_INL_H_
+#undef LANELIGHT_MEDIA_SHADOW_INL_H_
+#else
+#define LANELIGHT_MEDIA_SHADOW_INL_H_
+#endif
+
+#include "hwy/contrib/math/math-inl.h"
+
+#include "kernels/media/grid-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// The medium that a shadow ray starts in: that of the path, or what lies on the light's
+/// side of the surface.
+template <bool kChanges>
+LANELIGHT_INLINE VI ShadowStartMedium(const Wave& wave, const Slots& slots) {
+  const PathColumns& p = wave.path;
+  const VI here = Gather(p.medium, slots);
+  if constexpr (!kChanges) return here;
+  const V3 ls = Gather3(p.ls_x, p.ls_y, p.ls_z, slots);
+  const V3 ng = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
+  return Sides(wave.scene->media, Gather(p.prim, slots)).Toward(ls, ng, here);
+}
+
+/// What `length` of a medium that varies leaves of a ray, by ratio tracking (Novak, Selle
+/// and Jarosz 2014): each tentative collision leaves 1 - sigma_t / majorant. The majorant
+/// is one for all channels, so that none needs another's weight.
+LANELIGHT_INLINE V3 RatioTracking(const GridMedium& medium, V3 o, V3 d, VF length,
+                                  WalkRandom& random) {
+  CellWalk at(medium, o, d, length);
+  const VF scale = MaxComponent(medium.MajorantScale()), zero = Splat(0);
+  V3 left = Splat3(1, 1, 1);
+  VF u0, u1;
+  random.Next(&u0, &u1);
+  const auto exponential = [](VF u) HWY_ATTR {
+    return hn::Neg(hn::Log(DF(), hn::Sub(Splat(1.0f), u)));
+  };
+  VF depth = exponential(u0);
+  for (;;) {
+    const MF going = hn::And(at.IsInside(), hn::Gt(MaxComponent(left), zero));
+    if (hn::AllFalse(DF(), going)) return left;
+    const VF sigma_m = hn::Mul(scale, at.Majorant(medium.grid));
+    const VF room = hn::Sub(at.Exit(), at.t), needed = hn::Div(depth, sigma_m);
+    const MF collides = hn::And(going, hn::Lt(needed, room));
+    const MF crosses = hn::AndNot(collides, going);
+    depth = hn::IfThenElse(crosses, hn::NegMulAdd(sigma_m, room, depth), depth);
+    at.t = hn::IfThenElse(collides, hn::Add(at.t, needed), at.t);
+    at.Cross(crosses);
+    if (hn::AllFalse(DF(), collides)) continue;
+    random.Next(&u0, &u1);
+    depth = hn::IfThenElse(collides, exponential(u0), depth);
+    const Coefficients c = medium.At(at.Point(at.t));
+    const V3 stays = Mul(c.sigma_a + c.sigma_s, hn::Div(Splat(-1.0f), sigma_m));
+    const V3 after = Mul(left, stays + Splat3(1, 1, 1));
+    left = IfThenElse(
+        collides, IfThenElse(hn::Gt(MaxComponent(after), zero), after, Splat3(0, 0, 0)),
+        left);
+  }
+}
+
+/// Of lanes in media with a grid; 1 for the others.
+LANELIGHT_INLINE V3 GridTransmittance(const Wave& wave, const Slots& slots, VI index,
+                                      V3 o, V3 d, VF length, uint32_t leg) {
+  const MediumTable& table = wave.scene->media;
+  V3 left = Splat3(1, 1, 1);
+  for (std::size_t i = 0; i < table.media.size(); ++i) {
+    if (table.media[i].grid < 0) continue;
+    const auto mine = hn::Eq(index, hn::Set(DI(), static_cast<int32_t>(i)));
+    if (hn::AllFalse(DI(), mine)) continue;
+    const GridMedium medium = {table.grids[static_cast<std::size_t>(table.media[i].grid)],
+                               table.media[i]};
+    WalkRandom random(wave, slots, 0xcc9e2d51u + leg * 0x85ebca6bu);
+    const MF lanes = hn::RebindMask(DF(), mine);
+    const VF own = hn::IfThenElseZero(lanes, length);
+    left = Mul(left, RatioTracking(medium, o, d, own, random));
+  }
+  return left;
+}
+
+/// Takes away from what the shadow ray carries what `length` from o in a medium takes.
+/// Zero where nothing is left, which Connect adds like any other. `leg`: how many such
+/// lengths of the ray came before.
+LANELIGHT_INLINE void DimShadow(const Wave& wave, const StoreSlots& slots, VI index, V3 o,
+                                VF length, uint32_t leg) {
+  const PathColumns& p = wave.path;
+  const MediumTable& table = wave.scene->media;
+  const Media medium(table, index);
+  MF homogeneous = IsInMedium(index);
+  V3 left = Splat3(1, 1, 1);
+  if (!table.grids.empty()) {
+    homogeneous = hn::AndNot(medium.Varies(), homogeneous);
+    const V3 d = Gather3(p.ls_x, p.ls_y, p.ls_z, slots);
+    left = GridTransmittance(wave, slots, index, o, d, length, leg);
+  }
+  const V3 sigma_t = IfThenElseZero(homogeneous, medium.SigmaT());
+  left = Mul(left, Transmittance(sigma_t, length));
+  const V3 sh = Mul(Gather3(p.sh_r, p.sh_g, p.sh_b, slots), left);
+  Scatter3(sh, p.sh_r, p.sh_g, p.sh_b, slots);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

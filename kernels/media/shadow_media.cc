@@ -1,0 +1,60 @@
+// What media leave of shadow rays that no surface stops. Where surfaces can only stop
+// them, all of a shadow ray lies in the medium that it starts in.
+#include "kernels/targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/media/shadow_media.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/media/shadow-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+template <bool kChanges>
+void ShadowMediaOf(Wave& wave) {
+  const PathColumns& p = wave.path;
+  ForEachBatch(wave, wave.queue(QueueId::kShadow),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const VI medium = ShadowStartMedium<kChanges>(wave, slots);
+                 const V3 o = Gather3(p.p_x, p.p_y, p.p_z, slots);
+                 DimShadow(wave, slots, medium, o, Gather(p.ls_distance, slots), 0);
+               });
+}
+
+void ShadowMediaSame(Wave& wave) { ShadowMediaOf<false>(wave); }
+void ShadowMediaSides(Wave& wave) { ShadowMediaOf<true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(ShadowMediaSame);
+HWY_EXPORT(ShadowMediaSides);
+
+Stage ShadowMediaStage() {
+  const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
+  return {
+      "shadow_media",
+      "what media leave of shadow rays",
+      QueueId::kShadow,
+      {Feature::kMedia, Feature::kOpaqueShadows, Feature::kLights, Feature::kScatters},
+      light | fields::kShadow | fields::kNormal | fields::kPoint |
+          FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch} |
+          FieldSet{Field::medium, Field::prim},
+      fields::kShadow,
+      [](const FeatureSet& features) -> StageFn {
+        return features.Has(Feature::kMediumChanges)
+                   ? HWY_DYNAMIC_DISPATCH(ShadowMediaSides)
+                   : HWY_DYNAMIC_DISPATCH(ShadowMediaSame);
+      }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,139 @@
+// Shadow rays where some surfaces only bound a medium: from surface to surface until one
+// is met that stops light, or the light. Each leg uses the stages that find the nearest
+// surface of a path's ray, on columns of the shadow ray in the place of the path's.
+//   orientation  of interfaces is that of their shading normal, hence both are found
+//   cost         a traversal for each interface in between
+#include "kernels/targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/media/shadow_through.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include <utility>
+
+#include "kernels/media/shadow-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// The columns as the intersection and surface stages are to see them.
+HWY_INLINE PathColumns RestAsRay(const PathColumns& p) {
+  PathColumns ray = p;
+  ray.o_x = p.sh_o_x, ray.o_y = p.sh_o_y, ray.o_z = p.sh_o_z;
+  ray.d_x = p.ls_x, ray.d_y = p.ls_y, ray.d_z = p.ls_z;
+  ray.t = p.sh_t, ray.prim = p.sh_prim, ray.material = p.sh_material;
+  ray.p_x = p.sh_p_x, ray.p_y = p.sh_p_y, ray.p_z = p.sh_p_z;
+  ray.p_error = p.sh_p_error;
+  ray.ng_x = p.sh_n_x, ray.ng_y = p.sh_n_y, ray.ng_z = p.sh_n_z;
+  ray.ns_x = p.sh_ns_x, ray.ns_y = p.sh_ns_y, ray.ns_z = p.sh_ns_z;
+  return ray;
+}
+
+HWY_INLINE void BeginRest(Wave& wave) {
+  const PathColumns& p = wave.path;
+  ForEachBatch(wave, wave.queue(QueueId::kShadow),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const V3 at = Gather3(p.p_x, p.p_y, p.p_z, slots);
+                 const V3 ng = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
+                 const V3 ls = Gather3(p.ls_x, p.ls_y, p.ls_z, slots);
+                 const V3 o = OffsetOrigin(at, ng, Gather(p.p_error, slots), ls);
+                 Scatter3(o, p.sh_o_x, p.sh_o_y, p.sh_o_z, slots);
+                 Scatter(Gather(p.ls_distance, slots), p.sh_left, slots);
+                 Scatter(Splat(std::numeric_limits<float>::infinity()), p.sh_t, slots);
+                 Scatter(Gather(p.prim, slots), p.sh_prim, slots);
+                 Scatter(ShadowStartMedium<true>(wave, slots), p.sh_medium, slots);
+               });
+}
+
+// Runs kernels of other stages on the rays of `queue`.
+HWY_INLINE void RunOn(Wave& wave, const PathColumns& columns, QueueId place,
+                      const Queue& queue, const StageFn* kernels, uint32_t count) {
+  const PathColumns path = std::exchange(wave.path, columns);
+  wave.queue(place) = queue;
+  for (uint32_t i = 0; i < count; ++i) kernels[i](wave);
+  wave.path = path;
+}
+
+// Of the rays whose nearest surface is known: those that reach the light go to kShadow,
+// those that meet an interface stay in kActive, with what the way there leaves.
+HWY_INLINE void SortLegs(Wave& wave, uint32_t leg) {
+  const PathColumns& p = wave.path;
+  Queue& legs = wave.queue(QueueId::kActive);
+  Queue rest = {legs.items, 0};  // compacts in place: writes never pass reads
+  ForEachBatch(wave, legs, [&](const StoreSlots& slots, MF valid) HWY_ATTR {
+    const VF left = Gather(p.sh_left, slots), t = Gather(p.sh_t, slots);
+    const MF arrives = hn::Ge(t, left);
+    const MF passes =
+        hn::AndNot(arrives, Sides(wave.scene->media, Gather(p.sh_prim, slots)).Passes());
+    const V3 o = Gather3(p.sh_o_x, p.sh_o_y, p.sh_o_z, slots);
+    DimShadow(wave, slots, Gather(p.sh_medium, slots), o, hn::Min(t, left), leg);
+    Push(wave.queue(QueueId::kShadow), slots, hn::And(valid, arrives));
+    Push(rest, slots, hn::And(valid, passes));
+  });
+  legs.size = rest.size;
+}
+
+// Sends the rays of kActive on behind the interfaces that they have met.
+HWY_INLINE void NextLegs(Wave& wave) {
+  const PathColumns& p = wave.path;
+  ForEachBatch(
+      wave, wave.queue(QueueId::kActive), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const V3 d = Gather3(p.ls_x, p.ls_y, p.ls_z, slots);
+        const V3 n = Gather3(p.sh_n_x, p.sh_n_y, p.sh_n_z, slots);
+        const V3 at = Gather3(p.sh_p_x, p.sh_p_y, p.sh_p_z, slots);
+        const V3 o = OffsetOrigin(at, n, Gather(p.sh_p_error, slots), d);
+        const Sides sides(wave.scene->media, Gather(p.sh_prim, slots));
+        Scatter3(o, p.sh_o_x, p.sh_o_y, p.sh_o_z, slots);
+        Scatter(sides.Toward(d, n, Gather(p.sh_medium, slots)), p.sh_medium, slots);
+        Scatter(hn::Sub(Gather(p.sh_left, slots), Gather(p.sh_t, slots)), p.sh_left,
+                slots);
+        Scatter(Splat(std::numeric_limits<float>::infinity()), p.sh_t, slots);
+      });
+}
+
+void ShadowThrough(Wave& wave) {
+  const PathColumns ray = RestAsRay(wave.path);
+  const RayKernels& kernels = wave.kernels;
+  BeginRest(wave);
+  // Both queues have been consumed (stages `split` and `route`).
+  Queue& legs = wave.queue(QueueId::kActive);
+  const Queue surfaces = wave.queue(QueueId::kSurface);
+  std::swap(wave.queue(QueueId::kShadow), legs);
+  wave.queue(QueueId::kShadow).size = 0;
+  for (uint32_t leg = 0; legs.size > 0; ++leg) {
+    RunOn(wave, ray, QueueId::kActive, legs, kernels.closest, kernels.num_closest);
+    SortLegs(wave, leg);
+    RunOn(wave, ray, QueueId::kSurface, legs, kernels.surface, kernels.num_surface);
+    NextLegs(wave);
+  }
+  wave.queue(QueueId::kSurface) = surfaces;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(ShadowThrough);
+
+Stage ShadowThroughStage() {
+  const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
+  return {
+      "shadow_through",
+      "traces shadow rays through interfaces of media",
+      QueueId::kShadow,
+      {Feature::kInterfaces, Feature::kLights, Feature::kScatters},
+      light | FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch} |
+          fields::kShadow | fields::kPoint | fields::kNormal |
+          FieldSet{Field::medium, Field::prim},
+      fields::kShadow | fields::kShadowRest | FieldSet{Field::b1, Field::b2, Field::inst},
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(ShadowThrough); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,175 @@
+// How far rays get in media that vary: null collisions against the majorants of cells.
+//   density     of tentative collisions: that of a medium with the majorant sigma_m of
+//   the
+//               channel drawn; of each, that it is real: sigma_t / sigma_m
+//   estimator   a real one scatters with sigma_s / sigma_t, a null one goes on; over the
+//               mean density of the channels (medium-inl.h), as real and null ones alike
+//               have the density that the channel would have had
+//   unbiased    sigma_m >= sigma_t everywhere in the cell, which compile sees to
+//   emission    sigma_a Le / sigma_m at each tentative collision
+//   cost        of the majorants along the ray, not of the density
+//   source      Woodcock et al. 1965; Kutz et al. 2017; Miller, Georgiev and Jarosz 2019
+#include "kernels/targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/media/tracking.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "hwy/contrib/math/math-inl.h"
+
+#include "kernels/media/event-inl.h"
+#include "kernels/media/grid-inl.h"
+#include "kernels/queue/filter-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE VF ExponentialOf(VF u) {
+  return hn::Neg(hn::Log(DF(), hn::Sub(Splat(1.0f), u)));
+}
+
+// A walk of a vector of rays: f and the densities of the channels over that of the one
+// drawn, where it ended, and what the medium emitted on the way.
+struct Track {
+  const GridMedium& medium;
+  const Channel& channel;
+  V3 odds;  // before the walk
+  V3 emission = Splat3(0, 0, 0);
+  V3 f = Splat3(1, 1, 1), pdf = Splat3(1, 1, 1);
+  V3 emitted = Splat3(0, 0, 0);
+  MF event = hn::FirstN(DF(), 0);
+
+  // To distance dt of a cell with majorants sigma_m.
+  HWY_INLINE void Pass(MF mask, V3 sigma_m, VF dt) {
+    const VF own = channel.Of(sigma_m);
+    const auto other = [&](VF sigma) HWY_ATTR {
+      const VF power = hn::Mul(hn::Sub(own, sigma), dt);
+      return hn::IfThenElse(mask, Exp(hn::Min(power, Splat(80.0f))), Splat(1.0f));
+    };
+    const V3 relative = {other(sigma_m.x), other(sigma_m.y), other(sigma_m.z)};
+    f = Mul(f, relative);
+    pdf = Mul(pdf, relative);
+  }
+  // A tentative collision at p; true where it is real.
+  HWY_INLINE MF Collide(MF mask, V3 sigma_m, V3 p, VF u) {
+    const Coefficients at = medium.At(p);
+    const V3 sigma_t = at.sigma_a + at.sigma_s, null = sigma_m - sigma_t;
+    const VF own_m = channel.Of(sigma_m), own_t = channel.Of(sigma_t);
+    const V3 candidates = Mul(odds, Mul(pdf, sigma_m));
+    const V3 sent =
+        Mul(Mul(f, at.sigma_a), hn::Div(Splat(1.0f), MeanChannel(candidates)));
+    emitted = emitted + IfThenElseZero(mask, Mul(sent, emission));
+    const MF real = hn::And(mask, hn::Lt(hn::Mul(u, own_m), own_t));
+    const VF rate = hn::Div(Splat(1.0f), own_t);
+    const VF null_rate = hn::Div(Splat(1.0f), channel.Of(null));
+    const MF passes = hn::AndNot(real, mask);
+    const V3 happens_f = IfThenElse(real, Mul(at.sigma_s, rate), Mul(null, null_rate));
+    const V3 happens_p = IfThenElse(real, Mul(sigma_t, rate), Mul(null, null_rate));
+    const MF either = hn::Or(real, passes);
+    f = IfThenElse(either, Mul(f, happens_f), f);
+    pdf = IfThenElse(either, Mul(pdf, happens_p), pdf);
+    return real;
+  }
+  HWY_INLINE void Walk(CellWalk& at, WalkRandom& random, VF depth_left) {
+    const V3 scale = medium.MajorantScale();
+    for (;;) {
+      const MF going = hn::AndNot(event, at.IsInside());
+      if (hn::AllFalse(DF(), going)) return;
+      const V3 sigma_m = Mul(scale, at.Majorant(medium.grid));
+      const VF own = channel.Of(sigma_m), room = hn::Sub(at.Exit(), at.t);
+      const VF needed = hn::Div(depth_left, own);
+      const MF collides = hn::And(going, hn::Lt(needed, room));
+      const VF dt = hn::IfThenElse(collides, needed, room);
+      Pass(going, sigma_m, dt);
+      const MF crosses = hn::AndNot(collides, going);
+      depth_left =
+          hn::IfThenElse(crosses, hn::NegMulAdd(own, dt, depth_left), depth_left);
+      at.t = hn::IfThenElse(collides, hn::Add(at.t, dt), at.t);
+      at.Cross(crosses);
+      VF u0, u1;
+      random.Next(&u0, &u1);
+      if (hn::AllFalse(DF(), collides)) continue;
+      event = hn::Or(event, Collide(collides, sigma_m, at.Point(at.t), u0));
+      depth_left = hn::IfThenElse(collides, ExponentialOf(u1), depth_left);
+    }
+  }
+};
+
+template <bool kEmission>
+HWY_INLINE void TrackBatch(Wave& wave, const GridMedium& medium,
+                           const StoreSlots& slots) {
+  const PathColumns& p = wave.path;
+  const VF t = Gather(p.t, slots), u = Gather(p.u_medium_1, slots);
+  Stretch path(p, slots);
+  const V3 before = path.odds;
+  const Channel channel(before, u);
+  CellWalk at(medium, Gather3(p.o_x, p.o_y, p.o_z, slots),
+              Gather3(p.d_x, p.d_y, p.d_z, slots), t);
+  WalkRandom random(wave, slots, 0x1b873593u);
+  Track track{medium, channel, before};
+  const float* e = medium.medium.emission;
+  if constexpr (kEmission) track.emission = Splat3(e[0], e[1], e[2]);
+  track.Walk(at, random, ExponentialOf(Gather(p.u_medium_0, slots)));
+  if constexpr (kEmission) {
+    const V3 l = Gather3(p.l_r, p.l_g, p.l_b, slots);
+    Scatter3(l + Mul(path.beta, track.emitted), p.l_r, p.l_g, p.l_b, slots);
+  }
+  path.Happen(track.f, track.pdf);
+  path.Store(p, slots);
+  // Whatever comes behind draws anew.
+  VF u0, u1;
+  random.Next(&u0, &u1);
+  Scatter(u0, p.u_medium_0, slots);
+  Scatter(channel.Redrawn(before, path.odds, u), p.u_medium_1, slots);
+  const VI material = hn::Set(DI(), static_cast<int32_t>(medium.medium.material));
+  StoreEvent(p, slots, track.event, at.t, material);
+}
+
+template <bool kEmission>
+void MediumTracking(Wave& wave) {
+  const MediumTable& table = wave.scene->media;
+  for (std::size_t i = 0; i < table.media.size(); ++i) {
+    if (table.media[i].grid < 0) continue;
+    const GridMedium medium = {table.grids[static_cast<std::size_t>(table.media[i].grid)],
+                               table.media[i]};
+    const VI own = hn::Set(DI(), static_cast<int32_t>(i));
+    const Queue& mine =
+        FilterQueue(wave, wave.queue(QueueId::kActive), [&](const Slots& slots) HWY_ATTR {
+          const VI index = Gather(wave.path.medium, slots);
+          return hn::RebindMask(DF(), hn::Eq(index, own));
+        });
+    ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
+      TrackBatch<kEmission>(wave, medium, slots);
+    });
+  }
+  LeaveWithEvents(wave);
+}
+
+void TrackingDark(Wave& wave) { MediumTracking<false>(wave); }
+void TrackingEmitting(Wave& wave) { MediumTracking<true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/media/media_stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(TrackingDark);
+HWY_EXPORT(TrackingEmitting);
+
+Stage MediumTrackingStage() {
+  return MediumEventStage("medium_tracking", "how far rays get in media that vary",
+                          Feature::kMediumGrids,
+                          [](const FeatureSet& features) -> StageFn {
+                            return features.Has(Feature::kMediumEmission)
+                                       ? HWY_DYNAMIC_DISPATCH(TrackingEmitting)
+                                       : HWY_DYNAMIC_DISPATCH(TrackingDark);
+                          });
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,131 @@
+#include "src/compile/media.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "src/compile/material_row.h"
+#include "src/compile/medium_grid.h"
+#include "src/core/check.h"
+
+namespace lanelight {
+namespace {
+
+class Builder {
+ public:
+  Builder(const SceneDescription& d, const Frame& frame, CompiledMaterials& materials)
+      : d_(d), frame_(frame), materials_(materials), index_(d.media.size(), kVacuum) {}
+
+  std::int32_t Use(Index medium);
+  MediumTable Finish() { return std::move(table_); }
+
+ private:
+  const SceneDescription& d_;
+  const Frame& frame_;
+  CompiledMaterials& materials_;
+  std::vector<std::int32_t> index_;
+  MediumTable table_;
+};
+
+std::int32_t PhaseFunction(const Medium& medium, CompiledMaterials& materials) {
+  MaterialRow row;
+  row.kind = ShadeKind::kHenyeyGreenstein;
+  row.eta = medium.g;
+  row.name = medium.name;
+  AddMaterialRow(row, materials);
+  return static_cast<std::int32_t>(materials.table.size()) - 1;
+}
+
+// `c` per unit of scene length.
+void SetPerLength(Rgb c, double scale, float out[3]) {
+  out[0] = static_cast<float>(c.x / scale);
+  out[1] = static_cast<float>(c.y / scale);
+  out[2] = static_cast<float>(c.z / scale);
+}
+
+std::int32_t Builder::Use(Index medium) {
+  if (medium == kNone) return kVacuum;
+  LL_CHECK_LT(static_cast<std::size_t>(medium), index_.size());
+  std::int32_t& at = index_[static_cast<std::size_t>(medium)];
+  if (at != kVacuum) return at;
+  const Medium& m = d_.media[static_cast<std::size_t>(medium)];
+  MediumRecord record = {};
+  SetPerLength(m.sigma_a + m.sigma_s, frame_.scale, record.sigma_t);
+  SetPerLength(m.sigma_s, frame_.scale, record.sigma_s);
+  SetPerLength(m.sigma_a * m.emission, frame_.scale, record.emission);
+  record.scatters = m.sigma_s != Rgb{};
+  record.material = static_cast<std::uint32_t>(PhaseFunction(m, materials_));
+  record.grid = -1;
+  if (m.kind != MediumKind::kHomogeneous) {
+    record.grid = static_cast<std::int32_t>(table_.grids.size());
+    SetPerLength(m.emission, 1, record.emission);
+    table_.grids.push_back(CompileMediumGrid(m, frame_));
+  }
+  table_.media.push_back(record);
+  return at = static_cast<std::int32_t>(table_.media.size()) - 1;
+}
+
+// Calls visit(placed, first, end) for everything placed, with its primitives.
+template <typename Visit>
+void ForEachPlaced(const Placement& placement, const CompiledGeometry* compiled,
+                   const Visit& visit) {
+  const auto meshes = [&](const std::vector<PlacedShape>& shapes,
+                          const std::vector<MeshRange>* ranges) {
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      const MeshRange range = ranges != nullptr ? (*ranges)[i] : MeshRange{};
+      visit(shapes[i], range.begin, range.end);
+    }
+  };
+  const auto single = [&](const std::vector<PlacedShape>& shapes, std::uint32_t first) {
+    for (const PlacedShape& shape : shapes) {
+      visit(shape, first, first + 1);
+      ++first;
+    }
+  };
+  const PrimitiveRanges at = compiled ? compiled->geometry.ranges : PrimitiveRanges{};
+  meshes(placement.meshes, compiled ? &compiled->meshes : nullptr);
+  for (std::size_t o = 0; o < placement.objects.size(); ++o) {
+    meshes(placement.objects[o].meshes, compiled ? &compiled->object_meshes[o] : nullptr);
+  }
+  single(placement.spheres, at.spheres);
+  single(placement.disks, at.disks);
+  single(placement.planes, at.planes);
+  single(placement.large_spheres, at.large_spheres);
+}
+
+}  // namespace
+
+MediumTable CompileMedia(const SceneDescription& d, const Placement& placement,
+                         CompiledMaterials& materials) {
+  Builder builder(d, placement.frame, materials);
+  const std::int32_t camera = builder.Use(d.camera.medium);
+  std::vector<MediumSides> sides;
+  ForEachPlaced(placement, nullptr, [&](const PlacedShape& placed, auto, auto) {
+    const MediumInterface& media = placed.shape->media;
+    if (!media.IsTransition()) return;
+    const bool passes =
+        d.materials[static_cast<std::size_t>(placed.shape->material)].kind ==
+        MaterialKind::kInterface;
+    sides.push_back(
+        {builder.Use(media.inside), builder.Use(media.outside), passes ? 1u : 0u, 0});
+  });
+  MediumTable table = builder.Finish();
+  table.camera = camera;
+  table.sides.assign(sides.begin(), sides.end());
+  return table;
+}
+
+void PlaceMedia(const Placement& placement, const CompiledGeometry& compiled,
+                MediumTable& table) {
+  if (table.sides.empty()) return;
+  table.primitives.assign(compiled.geometry.ranges.end, -1);
+  std::int32_t next = 0;
+  ForEachPlaced(placement, &compiled,
+                [&](const PlacedShape& placed, std::uint32_t begin, std::uint32_t end) {
+                  if (!placed.shape->media.IsTransition()) return;
+                  std::fill(table.primitives.begin() + begin,
+                            table.primitives.begin() + end, next);
+                  ++next;
+                });
+}
+
+}  // namespace lanelight

@@ -1,0 +1,57 @@
+// Participating media as the kernels read them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/core/aligned.h"
+
+namespace lanelight {
+
+/// Instead of the index of a medium: empty space.
+inline constexpr std::int32_t kVacuum = -1;
+
+/// Homogeneous medium: 16 words. Coefficients are per unit of scene length.
+struct MediumRecord {
+  float sigma_t[3];        // extinction: absorption and scattering
+  std::uint32_t material;  // its phase function (MaterialTable)
+  float sigma_s[3];        // scattering
+  std::uint32_t scatters;  // 0: it absorbs only, and no path needs an event in it
+  float emission[3];       // radiance that it emits per length; with a grid, over sigma_a
+  std::int32_t grid;       // -1: the same everywhere
+  float pad[4];
+};
+static_assert(sizeof(MediumRecord) == 64);
+
+/// What lies on both sides of a surface, inside being away from its normal.
+struct MediumSides {
+  std::int32_t inside, outside;  // medium, or kVacuum
+  std::uint32_t passes;          // 1: rays go straight through (material "interface")
+  std::uint32_t pad;
+};
+
+/// Cells of a majorant grid, along each axis.
+inline constexpr std::int32_t kMajorantCells = 16;
+
+/// A medium that varies within a box: samples at the centres of nx * ny * nz voxels, x
+/// fastest, interpolated linearly, zero outside.
+struct MediumGrid {
+  std::int32_t size[3] = {};
+  std::int32_t channels = 1;    // 1: density, a factor on the coefficients of the record;
+                                // 6: sigma_a and sigma_s per unit of scene length
+  AlignedVector<float> values;  // channels per voxel
+  /// Bounds of the density, or of the largest sigma_t, in cells of the box.
+  AlignedVector<float> majorants;
+  float box_from_scene[12] = {};  // row-major 3x4; the box is [0, 1]^3
+};
+
+struct MediumTable {
+  AlignedVector<MediumRecord> media;
+  std::vector<MediumGrid> grids;
+  AlignedVector<MediumSides> sides;        // of each shape that has any
+  AlignedVector<std::int32_t> primitives;  // of each: index of its sides; -1 = the medium
+                                           // goes on behind it; only with kMediumChanges
+  std::int32_t camera = kVacuum;           // that camera rays start in
+};
+
+}  // namespace lanelight

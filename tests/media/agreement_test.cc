@@ -1,0 +1,72 @@
+// Media rendered by the wavefront and by the scalar reference, whose random walks are
+// analog and in one channel at a time: tile by tile, within confidence limits of one
+// family-wise false-alarm budget (1e-6 each image). Each also says how large a bias it
+// would have found.
+#include <catch2/catch.hpp>
+
+#include "kernels/simd/target.h"
+#include "tests/media/scenes.h"
+#include "tests/wavefront/agreement.h"
+
+namespace lanelight::test {
+namespace {
+
+void CheckAgreement(const SceneDescription& scene, std::uint64_t spp, int reference_spp,
+                    double power) {
+  const auto result = CompareWithReference(scene, spp, reference_spp);
+  INFO(result.ToString());
+  CHECK(result.same);
+  CHECK(result.detectable_bias < power);
+}
+
+}  // namespace
+
+TEST_CASE("media: fog around camera and lights", "[media][agreement]") {
+  CheckAgreement(Fog(), 8192, 12000, 0.09);
+}
+
+TEST_CASE("media: clouds within clouds, behind interfaces", "[media][agreement]") {
+  CheckAgreement(NestedClouds(), 4096, 2500, 0.08);
+}
+
+TEST_CASE("media: liquid in glass in fog", "[media][agreement]") {
+  CheckAgreement(FilledGlass(), 4096, 2500, 0.12);
+}
+
+TEST_CASE("media: densities and colours that vary", "[media][agreement]") {
+  CheckAgreement(Smoke(), 4096, 3000, 0.12);
+}
+
+TEST_CASE("media: absorbers only", "[media][agreement]") {
+  SceneDescription scene = NestedClouds();
+  for (Medium& medium : scene.media) medium.sigma_s = {};
+  CheckAgreement(scene, 2048, 2000, 0.08);
+}
+
+TEST_CASE("media: on every target", "[media][agreement]") {
+  const SceneDescription scene = NestedClouds();
+  const auto reference =
+      Estimate(RenderReference(scene, Options(ReferenceEstimator::kLightSampling, 1500)));
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    const auto result = stat::CompareMeans(RenderWavefront(scene, 512), reference,
+                                           {4, 1e-6, kFloatTolerance, 1e-7});
+    INFO(target << ": " << result.ToString());
+    CHECK(result.same);
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("media: the agreement tests would find a bias", "[media][agreement]") {
+  const SceneDescription scene = NestedClouds();
+  const auto reference =
+      Estimate(RenderReference(scene, Options(ReferenceEstimator::kLightSampling, 1500)));
+  SceneDescription thicker = scene;
+  thicker.media[0].sigma_s *= 2.5;
+  CHECK_FALSE(stat::CompareMeans(RenderWavefront(thicker, 4096), reference).same);
+  SceneDescription turned = scene;
+  for (Medium& medium : turned.media) medium.g = -medium.g;
+  CHECK_FALSE(stat::CompareMeans(RenderWavefront(turned, 4096), reference).same);
+}
+
+}  // namespace lanelight::test

@@ -1,0 +1,65 @@
+// Participating media.
+#include <catch2/catch.hpp>
+
+#include "tests/parse/parse_text.h"
+
+namespace lanelight {
+namespace {
+
+Medium ParseMedium(const std::string& text) {
+  return ParseWorld("MakeNamedMedium \"m\" \"string type\" " + text).media.back();
+}
+
+TEST_CASE("homogeneous media", "[parse]") {
+  const Medium medium = ParseMedium(
+      "\"homogeneous\" \"rgb sigma_a\" [ 1 2 3 ] \"rgb sigma_s\" [ 4 5 6 ] "
+      "\"float scale\" 0.5 \"float g\" -0.25 \"rgb Le\" [ 1 0 2 ] \"float Lescale\" 3");
+  CHECK(medium.kind == MediumKind::kHomogeneous);
+  CHECK(medium.name == "m");
+  CHECK(medium.sigma_a == Rgb{0.5, 1, 1.5});
+  CHECK(medium.sigma_s == Rgb{2, 2.5, 3});
+  CHECK(medium.emission == Rgb{3, 0, 6});
+  CHECK(medium.g == -0.25);
+  const Medium milk = ParseMedium("\"homogeneous\"");
+  CHECK(milk.sigma_s == Rgb{2.55, 3.21, 3.77});
+  CHECK(milk.sigma_a == Rgb{0.0011, 0.0024, 0.014});
+  CHECK(ParseMedium("\"homogeneous\" \"string preset\" \"Apple\"").sigma_s ==
+        Rgb{2.29, 2.39, 1.97});
+}
+
+TEST_CASE("media that vary", "[parse]") {
+  const Medium grid = ParseMedium(
+      "\"uniformgrid\" \"integer nx\" 2 \"integer nz\" 2 \"float density\" [ 1 2 3 4 ] "
+      "\"point3 p0\" [ -1 0 0 ] \"rgb sigma_s\" [ 2 2 2 ]");
+  CHECK(grid.kind == MediumKind::kUniformGrid);
+  CHECK(grid.grid == std::vector<float>{1, 2, 3, 4});
+  CHECK(grid.grid_size[1] == 1);
+  CHECK(grid.box_min == Vec3d{-1, 0, 0});
+  CHECK(grid.sigma_a == Rgb{1, 1, 1});
+  const Medium colored = ParseMedium(
+      "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_s\" [ 1 2 3 4 5 6 ] \"float scale\" 2");
+  CHECK(colored.grid == std::vector<float>{2, 2, 2, 2, 4, 6, 2, 2, 2, 8, 10, 12});
+}
+
+TEST_CASE("media beside shapes and around the camera", "[parse]") {
+  const std::string media =
+      "MakeNamedMedium \"a\" \"string type\" \"homogeneous\"\n"
+      "MakeNamedMedium \"b\" \"string type\" \"homogeneous\"\n";
+  const SceneDescription scene =
+      ParseWorld(media +
+                 "MediumInterface \"a\" \"b\" Shape \"sphere\" "
+                 "AttributeBegin MediumInterface \"b\" Shape \"sphere\" AttributeEnd "
+                 "MediumInterface \"\" \"a\" Shape \"sphere\"");
+  CHECK(scene.shapes[0].media.inside == 0);
+  CHECK(scene.shapes[0].media.outside == 1);
+  CHECK_FALSE(scene.shapes[1].media.IsTransition());
+  CHECK(scene.shapes[1].media.inside == 1);
+  CHECK(scene.shapes[2].media.inside == kNone);
+  CHECK(scene.shapes[2].media.outside == 0);
+  const SceneDescription inside = ParseText(
+      media + "MediumInterface \"\" \"b\" Camera \"perspective\" WorldBegin");
+  CHECK(inside.camera.medium == 1);
+}
+
+}  // namespace
+}  // namespace lanelight
