@@ -106,7 +106,7 @@ Stage AovStage() {
           QueueId::kSurface,
           {Feature::kAov, Feature::kScatters},
           fields::kNormal | fields::kParameters |
-              FieldSet{Field::depth, Field::t, Field::material},
+              FieldSet{Field::depth, Field::t, Field::material, Field::passed},
           fields::kAov,
           ResolveAov};
 }

@@ -34,11 +34,15 @@ HWY_INLINE CameraRay ThroughLens(const CompiledCamera& camera, CameraRay ray, VF
   return {origin, focus - origin};
 }
 
-/// What fields.h says that a path begins with.
-HWY_INLINE void StoreFirstValues(const ColumnLists& lists, const StoreSlots& slots) {
+/// What fields.h says that a path begins with, and the medium of the camera.
+HWY_INLINE void StoreFirstValues(const Wave& wave, const StoreSlots& slots) {
+  const ColumnLists& lists = wave.lists;
   for (uint32_t i = 0; i < lists.begun.count; ++i) {
     const VU bits = hn::Set(DU(), lists.first_values[i]);
     Scatter(hn::BitCast(DI(), bits), lists.begun.columns[i], slots);
+  }
+  if (wave.path.medium != nullptr) {
+    Scatter(hn::Set(DI(), wave.scene->media.camera), wave.path.medium, slots);
   }
 }
 
@@ -51,7 +55,7 @@ void Camera(Wave& wave) {
   const Frame axes = {splat(camera.right), splat(camera.up), splat(camera.forward)};
   ForEachBatch(wave, wave.queue(QueueId::kCamera),
                [&](const StoreSlots& slots, MF valid) HWY_ATTR {
-                 StoreFirstValues(wave.lists, slots);
+                 StoreFirstValues(wave, slots);
                  VF x, y;
                  FilmPosition<kBox>(wave, slots, &x, &y);
                  CameraRay ray = Projection::Project(MulAdd(dx, x, MulAdd(dy, y, base)));
@@ -63,9 +67,6 @@ void Camera(Wave& wave) {
                  Scatter3(o, p.o_x, p.o_y, p.o_z, slots);
                  Scatter3(Normalize(axes.FromLocal(ray.direction)), p.d_x, p.d_y, p.d_z,
                           slots);
-                 if (p.medium != nullptr) {
-                   Scatter(hn::Set(DI(), wave.scene->media.camera), p.medium, slots);
-                 }
                  Push(wave.queue(QueueId::kActive), slots, valid);
                });
 }

@@ -26,7 +26,7 @@ HWY_INLINE void LensBatch(Wave& wave, const StoreSlots& slots, MF valid) {
   const CompiledCamera& camera = wave.scene->camera;
   const PathColumns& p = wave.path;
   const auto splat = [](Vec3f v) HWY_ATTR { return Splat3(v.x, v.y, v.z); };
-  StoreFirstValues(wave.lists, slots);
+  StoreFirstValues(wave, slots);
   VF x, y;
   FilmPosition<kBox>(wave, slots, &x, &y);
   const V3 film =

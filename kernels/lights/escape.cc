@@ -36,7 +36,7 @@ void Escape(Wave& wave) {
           }
           if constexpr (kPortals) {
             if (light.shape == static_cast<uint32_t>(LightShape::kPortal)) {
-              const V3 from = Gather3(p.o_x, p.o_y, p.o_z, slots);
+              const V3 from = ScatteredFrom(p, slots);
               const PortalSample s = LookThrough(table.portals[light.image], from, d);
               radiance = s.radiance;
               pdf = s.pdf_sa;

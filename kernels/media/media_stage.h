@@ -11,7 +11,8 @@ inline Stage MediumEventStage(const char* name, const char* meaning, Feature kin
   const FieldSet ray = {Field::medium, Field::u_medium_0, Field::u_medium_1,
                         Field::passed, Field::crossings,  Field::odds_r,
                         Field::odds_g, Field::odds_b,     Field::depth};
-  const FieldSet odds = {Field::u_medium_0, Field::odds_r, Field::odds_g, Field::odds_b};
+  const FieldSet odds = {Field::u_medium_0, Field::u_medium_1, Field::odds_r,
+                         Field::odds_g, Field::odds_b};
   return {name,
           meaning,
           QueueId::kActive,

@@ -41,12 +41,13 @@ HWY_EXPORT(ShadowMediaSides);
 Stage ShadowMediaStage() {
   const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
   return {
-      "shadow_media",
+      "media_dim",
       "what media leave of shadow rays",
       QueueId::kShadow,
       {Feature::kMedia, Feature::kOpaqueShadows, Feature::kLights, Feature::kScatters},
       light | fields::kShadow | fields::kNormal | fields::kPoint |
-          FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch} |
+          FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
+                   Field::crossings} |
           FieldSet{Field::medium, Field::prim},
       fields::kShadow,
       [](const FeatureSet& features) -> StageFn {

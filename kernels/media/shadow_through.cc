@@ -124,11 +124,13 @@ HWY_EXPORT(ShadowThrough);
 Stage ShadowThroughStage() {
   const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
   return {
-      "shadow_through",
+      "media_shadow",
       "traces shadow rays through interfaces of media",
       QueueId::kShadow,
       {Feature::kInterfaces, Feature::kLights, Feature::kScatters},
-      light | FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch} |
+      light |
+          FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
+                   Field::crossings} |
           fields::kShadow | fields::kPoint | fields::kNormal |
           FieldSet{Field::medium, Field::prim},
       fields::kShadow | fields::kShadowRest | FieldSet{Field::b1, Field::b2, Field::inst},

@@ -5,6 +5,7 @@
 
 #include "src/compile/material_row.h"
 #include "src/compile/medium_grid.h"
+#include "src/compile/relief.h"
 #include "src/core/check.h"
 
 namespace lanelight {
@@ -111,6 +112,7 @@ MediumTable CompileMedia(const SceneDescription& d, const Placement& placement,
   MediumTable table = builder.Finish();
   table.camera = camera;
   table.sides.assign(sides.begin(), sides.end());
+  DropUnusedReliefs(materials.table);  // phase functions have none
   return table;
 }
 

@@ -19,7 +19,9 @@ void CheckRefused(const ParseState& state, const SourceLocation& where,
   const std::string_view why = WhyRefused(directive, type);
   if (why.empty() || state.options.skip_unsupported) return;
   throw InputError(where,
-                   fmt::format("{} {} is not supported: {}", kind, Quoted(type), why));
+                   fmt::format("{} {} is not supported: {} (--skip-unsupported goes on "
+                               "without it)",
+                               kind, Quoted(type), why));
 }
 
 // Reads "type" and parameters; the type's own place is where errors about it point.

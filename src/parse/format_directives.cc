@@ -86,7 +86,8 @@ FormatTable DirectiveFormat() {
        kRendered,
        "",
        {{"no names", kRendered, "", "\"\" \"\""},
-        {"names", kRefused, "", "\"fog\" \"\""}}},
+        {"names", kRendered, "",
+         "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" @ \"fog\" \"\""}}},
   };
 }
 

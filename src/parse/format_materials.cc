@@ -11,11 +11,18 @@ constexpr const char* kDispersion = "dispersion is not modelled: eta at 587.6 nm
 constexpr const char* kGlass = "\"glass-BK7\"";
 
 // Of all materials.
+constexpr const char* kImage = "\"format-image.pfm\"";
+
 Lines Relief(Lines lines) {
-  lines.push_back(
-      {"float|texture displacement", kNoted, "displacement is not supported"});
-  lines.push_back(
-      {"string normalmap", kNoted, "normal maps are not supported", "\"n.png\""});
+  lines.push_back({"float|texture displacement", kRendered});
+  lines.push_back({"string normalmap", kRendered, "", kImage});
+  return lines;
+}
+
+Lines NoRelief(Lines lines) {
+  constexpr const char* kWhy = "it has no relief of its own";
+  lines.push_back({"float|texture displacement", kNoted, kWhy});
+  lines.push_back({"string normalmap", kNoted, kWhy, kImage});
   return lines;
 }
 
@@ -34,14 +41,13 @@ Lines Rough(Lines lines) {
 
 // Of a coat or the metal below it, with its prefix; literals live as long as the table.
 Lines CoatRoughness(Lines lines, const std::string& prefix) {
-  constexpr const char* kWhy = "cannot be textured below or in a coat";
   if (prefix == "interface.") {
     lines =
         Roughness(std::move(lines), "float interface.roughness",
                   "float interface.uroughness", "float interface.vroughness", kRendered);
     return Roughness(std::move(lines), "texture interface.roughness",
                      "texture interface.uroughness", "texture interface.vroughness",
-                     kRefused, kWhy);
+                     kRendered);
   }
   if (prefix == "conductor.") {
     lines =
@@ -49,19 +55,19 @@ Lines CoatRoughness(Lines lines, const std::string& prefix) {
                   "float conductor.uroughness", "float conductor.vroughness", kRendered);
     return Roughness(std::move(lines), "texture conductor.roughness",
                      "texture conductor.uroughness", "texture conductor.vroughness",
-                     kRefused, kWhy);
+                     kRendered);
   }
   lines = Roughness(std::move(lines), "float roughness", "float uroughness",
                     "float vroughness", kRendered);
   return Roughness(std::move(lines), "texture roughness", "texture uroughness",
-                   "texture vroughness", kRefused, kWhy);
+                   "texture vroughness", kRendered);
 }
 
 Lines Coat(Lines lines) {
   const Lines coat = {{"float thickness", kRendered},
-                      {"texture thickness", kRefused, "cannot be textured"},
+                      {"texture thickness", kRendered},
                       {"float g", kRendered},
-                      {"texture g", kRefused, "cannot be textured"},
+                      {"texture g", kRendered},
                       {"rgb albedo", kRendered, "", "[ 0 0 0 ]"},
                       {"rgb|spectrum albedo", kRefused, "a coat that scatters"},
                       {"texture albedo", kRefused, "cannot be textured"},
@@ -79,7 +85,7 @@ FormatTable Plain() {
       {"Material", "diffusetransmission", kRendered, "",
        Relief({reflectance,
                {"rgb|spectrum transmittance", kRendered},
-               {"texture transmittance", kRefused, ""},
+               {"texture transmittance", kRendered},
                {"float scale", kRendered}})},
       {"Material", "dielectric", kRendered, "",
        Rough({{"float eta", kRendered, "", "1.3"},
@@ -89,25 +95,25 @@ FormatTable Plain() {
                {"spectrum eta", kNoted, kDispersion, kGlass}})},
       {"Material", "conductor", kRendered, "",
        Rough({{"rgb|spectrum eta", kRendered},
-              {"texture eta", kRefused, ""},
+              {"texture eta", kRendered},
               {"rgb|spectrum k", kRendered},
-              {"texture k", kRefused, ""},
+              {"texture k", kRendered},
               {"rgb|spectrum reflectance", kRendered},
-              {"texture reflectance", kRefused, ""}})},
-      {"Material", "interface", kRendered, "", Relief({})},
+              {"texture reflectance", kRendered}})},
+      {"Material", "interface", kRendered, "", NoRelief({})},
       {"Material", "mix", kRendered, "",
-       Relief({{"string materials", kRendered, "", "[ \"first\" \"second\" ]", true},
-               {"float|texture amount", kRendered}})},
+       NoRelief({{"string materials", kRendered, "", "[ \"first\" \"second\" ]", true},
+                 {"float|texture amount", kRendered}})},
   };
 }
 
 FormatTable Coated() {
   const Lines metal = {{"rgb|spectrum conductor.eta", kRendered},
-                       {"texture conductor.eta", kRefused, ""},
+                       {"texture conductor.eta", kRendered},
                        {"rgb|spectrum conductor.k", kRendered},
-                       {"texture conductor.k", kRefused, ""},
+                       {"texture conductor.k", kRendered},
                        {"rgb|spectrum reflectance", kRendered},
-                       {"texture reflectance", kRefused, ""},
+                       {"texture reflectance", kRendered},
                        {"float interface.eta", kRendered, "", "1.3"},
                        {"spectrum interface.eta", kNoted, kDispersion, kGlass},
                        {"bool remaproughness", kRendered, "", "false"}};

@@ -8,6 +8,8 @@ using enum FormatStatus;
 using Lines = std::vector<FormatLine>;
 
 constexpr const char* kEight = "[ 0 1 0 1  1 0 1 0 ]";
+constexpr const char* kColors =
+    "[ 0 1 0  1 1 0  1 0 0  0 1 1  0 0 0  1 1 1  0 0 1  1 0 1 ]";
 
 Lines Grid(Lines lines, FormatStatus s) {
   const Lines size = {{"integer nx", s, "", "2", true},
@@ -39,28 +41,30 @@ Lines Coefficients(Lines lines, FormatStatus s) {
 }  // namespace
 
 FormatTable MediumFormat() {
+  constexpr FormatStatus kYes = kRendered;
   return {
-      {"MakeNamedMedium", "homogeneous", kRefused, "",
-       Coefficients({{"string preset", kRefused, "", "\"Wholemilk\""},
-                     {"rgb|spectrum|blackbody Le", kRefused},
-                     {"float Lescale", kRefused}},
-                    kRefused)},
-      {"MakeNamedMedium", "uniformgrid", kRefused, "",
-       Coefficients(Temperature(Grid({{"float density", kRefused, "", kEight, true},
+      {"MakeNamedMedium", "homogeneous", kYes, "",
+       Coefficients({{"string preset", kYes, "", "\"Wholemilk\""},
+                     {"rgb|spectrum|blackbody Le", kYes},
+                     {"float Lescale", kYes}},
+                    kYes)},
+      {"MakeNamedMedium", "uniformgrid", kYes, "",
+       Coefficients(Temperature(Grid({{"float density", kYes, "", kEight, true},
                                       {"float temperature", kRefused, "", kEight},
-                                      {"rgb|spectrum|blackbody Le", kRefused},
-                                      {"float Lescale", kRefused, "", kEight}},
-                                     kRefused),
+                                      {"rgb|spectrum|blackbody Le", kYes},
+                                      {"float Lescale", kRefused,
+                                       "one number is rendered", kEight}},
+                                     kYes),
                                 kRefused),
-                    kRefused)},
-      {"MakeNamedMedium", "rgbgrid", kRefused, "",
-       Grid({{"rgb sigma_a", kRefused},
-             {"rgb sigma_s", kRefused},
-             {"rgb Le", kRefused},
-             {"float Lescale", kRefused},
-             {"float scale", kRefused},
-             {"float g", kRefused}},
-            kRefused)},
+                    kYes)},
+      {"MakeNamedMedium", "rgbgrid", kYes, "",
+       Grid({{"rgb sigma_a", kYes, "", kColors},
+             {"rgb sigma_s", kYes, "", kColors, true},
+             {"rgb Le", kRefused, "", kColors},
+             {"float Lescale", kYes},
+             {"float scale", kYes},
+             {"float g", kYes}},
+            kYes)},
       {"MakeNamedMedium",
        "cloud",
        kRefused,

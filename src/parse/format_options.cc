@@ -17,6 +17,7 @@ Lines With(Lines more, const Lines& common) {
 }
 
 void AddCameras(FormatTable& table) {
+  constexpr const char* kNoWindow = "it has neither lens nor window";
   const Lines shutter = {{"float shutteropen", kRendered, "", "0.5"},
                          {"float shutterclose", kRendered, "", "2"}};
   const Lines frame = With({{"float frameaspectratio", kRendered, "", "1.5"},
@@ -27,19 +28,19 @@ void AddCameras(FormatTable& table) {
   table.push_back({"Camera", "perspective", kRendered, "",
                    With({{"float fov", kRendered, "", "40"}}, frame)});
   table.push_back({"Camera", "orthographic", kRendered, "", frame});
-  table.push_back({"Camera",
-                   "spherical",
-                   kRefused,
-                   "",
-                   {{"string mapping", kRefused, "", "\"equirectangular\""}}});
-  table.push_back({"Camera",
-                   "realistic",
-                   kRefused,
-                   "",
-                   {{"string lensfile", kRefused, "", "\"format-lens.dat\"", true},
-                    {"float aperturediameter", kRefused, "", "5"},
-                    {"float focusdistance", kRefused, "", "5"},
-                    {"string aperture", kRefused, "", "\"gaussian\""}}});
+  table.push_back({"Camera", "spherical", kRendered, "",
+                   With({{"string mapping", kRendered, "", "\"equirectangular\""},
+                         {"float frameaspectratio", kNoted, kNoWindow, "1.5"},
+                         {"float screenwindow", kNoted, kNoWindow, "[ -1 1 -0.5 1 ]"},
+                         {"float lensradius", kNoted, kNoWindow, "0.1"},
+                         {"float focaldistance", kNoted, kNoWindow, "5"}},
+                        shutter)});
+  table.push_back({"Camera", "realistic", kRendered, "",
+                   With({{"string lensfile", kRendered, "", "\"format-lens.dat\"", true},
+                         {"float aperturediameter", kRendered, "", "5"},
+                         {"float focusdistance", kRendered, "", "5"},
+                         {"string aperture", kRendered, "", "\"gaussian\""}},
+                        shutter)});
 }
 
 void AddFilms(FormatTable& table) {
@@ -50,7 +51,7 @@ void AddFilms(FormatTable& table) {
       {"integer pixelbounds", kRendered, "", "[ 0 2 0 2 ]"},
       {"string filename", kRendered, "", "\"image.exr\""},
       {"float iso", kRendered, "", "200"},
-      {"float diagonal", kNoted, "only the realistic camera needs it"},
+      {"float diagonal", kRendered},
       {"bool savefp16", kNoted, "`--depth` chooses half or float", "false"},
       {"string sensor", kRendered, "", "\"cie1931\""},
       {"string sensor", kNoted,
@@ -119,7 +120,14 @@ void AddIntegrators(FormatTable& table) {
                      "\"exhaustive\""},
                     {"string strategy", kRendered, "", "\"points=cmj\""},
                     regularize}});
-  table.push_back({"Integrator", "volpath", kNoted, kPath, {depth, lights, regularize}});
+  table.push_back({"Integrator",
+                   "volpath",
+                   kRendered,
+                   "",
+                   {depth,
+                    lights,
+                    regularize,
+                    {"string strategy", kRendered, "", "\"points=cmj\""}}});
   table.push_back({"Integrator",
                    "simplepath",
                    kNoted,

@@ -10,15 +10,15 @@ using Lines = std::vector<FormatLine>;
 // Of all textures that are looked up by surface coordinates.
 Lines Mapped(Lines lines) {
   const Lines mapping = {{"string mapping", kRendered, "", "\"uv\""},
-                         {"string mapping", kRefused, "", "\"spherical\""},
-                         {"string mapping", kRefused, "", "\"cylindrical\""},
-                         {"string mapping", kRefused, "", "\"planar\""},
+                         {"string mapping", kRendered, "", "\"spherical\""},
+                         {"string mapping", kRendered, "", "\"cylindrical\""},
+                         {"string mapping", kRendered, "", "\"planar\""},
                          {"float uscale", kRendered},
                          {"float vscale", kRendered},
                          {"float udelta", kRendered},
                          {"float vdelta", kRendered},
-                         {"vector3 v1", kRefused, "", "[ 1 0 0 ]"},
-                         {"vector3 v2", kRefused, "", "[ 0 1 0 ]"}};
+                         {"vector3 v1", kRendered, "", "[ 1 0 0 ]"},
+                         {"vector3 v2", kRendered, "", "[ 0 1 0 ]"}};
   lines.insert(lines.end(), mapping.begin(), mapping.end());
   return lines;
 }
@@ -27,8 +27,7 @@ FormatLine Operand(const char* name, FormatStatus status = kRendered) {
   return {name, status};
 }
 
-FormatTable Rendered() {
-  constexpr const char* kBilinear = "taken as `bilinear`";
+FormatTable Images() {
   return {
       {"Texture", "constant", kRendered, "", {Operand("float|rgb|spectrum value")}},
       {"Texture",
@@ -46,48 +45,48 @@ FormatTable Rendered() {
        Mapped({Operand("float|rgb|spectrum|texture tex1"),
                Operand("float|rgb|spectrum|texture tex2"),
                {"integer dimension", kRendered, "", "2"},
-               {"integer dimension", kRefused, "", "3"}})},
+               {"integer dimension", kRendered, "", "3"}})},
       {"Texture", "imagemap", kRendered, "",
        Mapped({{"string filename", kRendered, "", "\"format-image.pfm\"", true},
                {"string wrap", kRendered, "", "\"clamp\""},
                {"string filter", kRendered, "", "\"point\""},
                {"string filter", kRendered, "", "\"bilinear\""},
-               {"string filter", kNoted, kBilinear, "\"trilinear\""},
-               {"string filter", kNoted, kBilinear, "\"ewa\""},
-               {"float maxanisotropy", kNoted, "there is no anisotropic filter"},
+               {"string filter", kRendered, "", "\"trilinear\""},
+               {"string filter", kRendered, "", "\"ewa\""},
+               {"float maxanisotropy", kRendered, "", "4"},
                {"string encoding", kRendered, "", "\"linear\""},
                {"float scale", kRendered},
                {"bool invert", kRendered}})},
   };
 }
 
-FormatTable Refused() {
-  const FormatLine octaves = {"integer octaves", kRefused};
-  const FormatLine roughness = {"float roughness", kRefused};
+FormatTable Patterns() {
+  const FormatLine octaves = {"integer octaves", kRendered};
+  const FormatLine roughness = {"float roughness", kRendered};
   return {
       {"Texture",
        "directionmix",
-       kRefused,
+       kRendered,
        "",
-       {Operand("float|rgb|spectrum|texture tex1", kRefused),
-        Operand("float|rgb|spectrum|texture tex2", kRefused),
-        {"vector3 dir", kRefused, "", "[ 0 0 1 ]"}}},
-      {"Texture", "bilerp", kRefused, "",
-       Mapped({Operand("float|rgb|spectrum v00", kRefused),
-               Operand("float|rgb|spectrum v01", kRefused),
-               Operand("float|rgb|spectrum v10", kRefused),
-               Operand("float|rgb|spectrum v11", kRefused)})},
-      {"Texture", "dots", kRefused, "",
-       Mapped({Operand("float|rgb|spectrum|texture inside", kRefused),
-               Operand("float|rgb|spectrum|texture outside", kRefused)})},
-      {"Texture", "fbm", kRefused, "", {octaves, roughness}},
-      {"Texture", "wrinkled", kRefused, "", {octaves, roughness}},
-      {"Texture", "windy", kRefused, "", {}},
+       {Operand("float|rgb|spectrum|texture tex1", kRendered),
+        Operand("float|rgb|spectrum|texture tex2", kRendered),
+        {"vector3 dir", kRendered, "", "[ 0 0 1 ]"}}},
+      {"Texture", "bilerp", kRendered, "",
+       Mapped({Operand("float|rgb|spectrum v00", kRendered),
+               Operand("float|rgb|spectrum v01", kRendered),
+               Operand("float|rgb|spectrum v10", kRendered),
+               Operand("float|rgb|spectrum v11", kRendered)})},
+      {"Texture", "dots", kRendered, "",
+       Mapped({Operand("float|rgb|spectrum|texture inside", kRendered),
+               Operand("float|rgb|spectrum|texture outside", kRendered)})},
+      {"Texture", "fbm", kRendered, "", {octaves, roughness}},
+      {"Texture", "wrinkled", kRendered, "", {octaves, roughness}},
+      {"Texture", "windy", kRendered, "", {}},
       {"Texture",
        "marble",
-       kRefused,
+       kRendered,
        "",
-       {octaves, roughness, {"float scale", kRefused}, {"float variation", kRefused}}},
+       {octaves, roughness, {"float scale", kRendered}, {"float variation", kRendered}}},
       {"Texture",
        "ptex",
        kRefused,
@@ -102,11 +101,8 @@ FormatTable Refused() {
 }  // namespace
 
 FormatTable TextureFormat() {
-  FormatTable table = Rendered();
-  for (FormatObject& object : Refused()) {
-    for (FormatLine& line : object.lines) line.status = kRefused;
-    table.push_back(std::move(object));
-  }
+  FormatTable table = Images();
+  for (FormatObject& object : Patterns()) table.push_back(std::move(object));
   return table;
 }
 

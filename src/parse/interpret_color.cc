@@ -21,6 +21,7 @@ Rgb At(const ParamSet& params, const Param& param, const Fn& convert) {
 }
 
 Rgb RgbOf(const ParamSet& params, const Param& param, SpectrumUse use) {
+  if (param.numbers.size() > 3) params.Fail(param, "more than one value");
   for (double value : param.numbers) {
     if (value < 0) params.Fail(param, fmt::format("the component {} is negative", value));
     if (use == SpectrumUse::kAlbedo && value > 1) {

@@ -95,14 +95,15 @@ void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& p
     names.emplace_back(info.name);
   }
   if (found == nullptr) ThrowUnknown(params.where(), "integrator", type, names);
-  if (type != "path") {
+  const bool ours = type == "path" || type == "volpath";
+  if (!ours) {
     state.AddNote(params.where(),
                   fmt::format("integrator {} is replaced by \"path\"", Quoted(type)),
                   type == "ambientocclusion" || type == "function");
   }
   state.scene.integrator.max_depth = params.Integer("maxdepth", 5, 0, 1000000);
-  if (type == "path" || type == "volpath") InterpretLightSampler(state, params);
-  if (type == "path") {
+  if (ours) {
+    InterpretLightSampler(state, params);
     state.scene.integrator.strategy = params.String("strategy", "");
     state.scene.integrator.strategy_where = params.where();
   }

@@ -124,9 +124,9 @@ void CheckCount(const Param& param) {
                                               "{}",
                                               who, n, tuple));
   }
-  const bool single = param.type == ParamType::kRgb ||
-                      param.type == ParamType::kBlackbody ||
-                      param.type == ParamType::kTexture;
+  // Grids of colours are rgb; who wants one colour says so (ColorOf).
+  const bool single =
+      param.type == ParamType::kBlackbody || param.type == ParamType::kTexture;
   const std::size_t most = single ? std::max(tuple, 1) : values;
   const bool mixed = !param.strings.empty() && (n > 0 || param.strings.size() > 1);
   if (values > most || (param.type == ParamType::kSpectrum && mixed)) {

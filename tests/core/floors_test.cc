@@ -49,6 +49,7 @@ constexpr Floor kFloors[] = {
     {"kernels/guide",      "where light comes from, as learned"},
     {"kernels/directions", "the next direction, and its weight"},
     {"kernels/lights",     "light samples, emission"},
+    {"kernels/media",      "participating media"},
     {"kernels/shade",      "materials, as stages"},
     {"kernels/control",    "control variates"},
     {"kernels/roulette",   "roulette and splitting"},

@@ -29,7 +29,8 @@ constexpr Stage (*kFactories[])() = {ShadeDiffuseStage,
                                      ShadeCoatedDiffuseSmoothStage,
                                      ShadeCoatedDiffuseRoughStage,
                                      ShadeCoatedConductorStage,
-                                     ShadeDiffuseTransmissionStage};
+                                     ShadeDiffuseTransmissionStage,
+                                     ShadeHenyeyGreensteinStage};
 static_assert(std::size(kFactories) == kNumShadeKinds);
 
 bool Transmits(ShadeKind kind) {

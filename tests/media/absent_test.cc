@@ -25,7 +25,7 @@ bool HasColumn(const Plan& plan, Field field) {
 
 constexpr const char* kStages[] = {
     "medium_distance", "medium_tracking", "interfaces",
-    "shadow_media",    "shadow_through",  "enter_media",
+    "media_dim",       "media_shadow",    "enter_media",
     "pass_interfaces", "vertices",        "shade_henyey_greenstein"};
 
 }  // namespace
@@ -49,8 +49,8 @@ TEST_CASE("media: nothing of them where there are none", "[media][plan]") {
 TEST_CASE("media: fog alone needs no interfaces", "[media][plan]") {
   const Plan plan = PlanOf(Fog());
   CHECK(Runs(plan, "medium_distance"));
-  CHECK(Runs(plan, "shadow_media"));
-  for (const char* stage : {"medium_tracking", "interfaces", "shadow_through",
+  CHECK(Runs(plan, "media_dim"));
+  for (const char* stage : {"medium_tracking", "interfaces", "media_shadow",
                             "enter_media", "pass_interfaces"}) {
     INFO(stage);
     CHECK_FALSE(Runs(plan, stage));
@@ -61,9 +61,9 @@ TEST_CASE("media: fog alone needs no interfaces", "[media][plan]") {
 
 TEST_CASE("media: interfaces replace the opaque shadow rays", "[media][plan]") {
   const Plan plan = PlanOf(NestedClouds());
-  CHECK(Runs(plan, "shadow_through"));
+  CHECK(Runs(plan, "media_shadow"));
   CHECK_FALSE(Runs(plan, "shadow_spheres"));
-  CHECK_FALSE(Runs(plan, "shadow_media"));
+  CHECK_FALSE(Runs(plan, "media_dim"));
   CHECK(plan.ray_kernels.num_closest == 3);  // triangles, spheres, the plane
   CHECK(plan.ray_kernels.num_surface == 3);
 }

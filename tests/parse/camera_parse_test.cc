@@ -140,7 +140,8 @@ TEST_CASE("integrators", "[parse]") {
   const auto path = ParseOptionsBlock("Integrator \"path\" \"integer maxdepth\" 65");
   CHECK(path.integrator.max_depth == 65);
   CHECK(path.notes.empty());
-  for (const char* name : {"volpath", "simplepath", "bdpt", "mlt", "sppm"}) {
+  CHECK(ParseOptionsBlock("Integrator \"volpath\"").notes.empty());
+  for (const char* name : {"simplevolpath", "simplepath", "bdpt", "mlt", "sppm"}) {
     CHECK(HasNote(ParseOptionsBlock(std::string("Integrator \"") + name + '"'),
                   "replaced by \"path\""));
   }

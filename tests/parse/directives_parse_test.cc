@@ -144,7 +144,7 @@ TEST_CASE("unsupported things can be skipped", "[parse]") {
   const SceneDescription scene = ParseWorld(text, true);
   CHECK(scene.shapes.size() == 1);
   CHECK(scene.lights.empty());
-  CHECK(scene.notes.size() == 5);
+  CHECK(scene.notes.size() == 3);
   CHECK(Near(Origin(scene.shapes[0]), {0, 0, 0}));
   CHECK_NOTHROW(ParseWorld("MediumInterface \"\" \"\""));
 }

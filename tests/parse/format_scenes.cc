@@ -51,7 +51,8 @@ std::string Statement(const FormatObject& object, const std::string& params,
   const std::string quoted = " \"" + type + "\"";
   if (directive == "Texture") {
     const std::string use = value_type == "float"
-                                ? "\nShape \"sphere\" \"texture alpha\" \"t\""
+                                ? "\nMaterial \"conductor\" \"texture roughness\" \"t\""
+                                  "\nShape \"sphere\""
                                 : "\nMaterial \"diffuse\" \"texture reflectance\" \"t\""
                                   "\nShape \"sphere\"";
     return "Texture \"t\" \"" + value_type + "\"" + quoted + params + use;
@@ -125,8 +126,9 @@ void WriteFormatFiles(const std::string& folder) {
   image.write(reinterpret_cast<const char*>(ones.data()), 48);
   std::ofstream(folder + "/format-mesh.ply")
       << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-         "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-         "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+         "property float z\nproperty float u\nproperty float v\nelement face 1\n"
+         "property list uchar int vertex_indices\n"
+         "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n";
   // A double Gauss of two elements would do as well: curvature, thickness, eta, aperture.
   std::ofstream(folder + "/format-lens.dat") << "50 5 1.5 20\n-50 0 1 20\n";
 }

@@ -105,6 +105,17 @@ std::vector<std::string> ValueTypes(const FormatObject& object) {
   return {""};
 }
 
+// One that the object has: some textures have numbers only, or colours only.
+std::string ValueTypeOf(const FormatObject& object, const std::string& folder) {
+  for (const std::string& type : ValueTypes(object)) {
+    if (RunFormatScene(FormatScene(object, nullptr, "", "", type), folder)
+            .error.empty()) {
+      return type;
+    }
+  }
+  return ValueTypes(object).back();
+}
+
 std::string Title(const FormatObject& object, const std::string& parameter,
                   const std::string& value) {
   return fmt::format("{} \"{}\": {} {}", object.directive, object.type, parameter, value);
@@ -231,7 +242,7 @@ TEST_CASE("the table has every parameter that the parser takes", "[parse][format
     if (!HasObject(object) || object.status == FormatStatus::kRefused) continue;
     const FormatOutcome outcome = RunFormatScene(
         FormatScene(object, nullptr, "", fmt::format(" \"float {}\" 1", kUnknown),
-                    ValueTypes(object).back()),
+                    ValueTypeOf(object, folder.File(""))),
         folder.File(""));
     INFO(Title(object, "", "") << Shown(outcome));
     listed += Mentions(outcome.error, kUnknown);

@@ -28,7 +28,8 @@ constexpr Stage (*kFactories[])() = {ShadeDiffuseStage,
                                      ShadeCoatedDiffuseSmoothStage,
                                      ShadeCoatedDiffuseRoughStage,
                                      ShadeCoatedConductorStage,
-                                     ShadeDiffuseTransmissionStage};
+                                     ShadeDiffuseTransmissionStage,
+                                     ShadeHenyeyGreensteinStage};
 static_assert(std::size(kFactories) == kNumShadeKinds);
 
 Stage StageOf(ShadeKind kind) {

@@ -70,7 +70,7 @@ TEST_CASE("vertices: where only surfaces scatter, their queue is all there is",
   CHECK(&f.wave.queue(QueueId::kVertex) == &f.wave.queue(QueueId::kSurface));
   f.Run(IndependentBounceStage(), {});
   for (std::uint32_t i = 0; i < kPaths; ++i) {
-    CHECK((f.wave.path.u_bsdf_0[i] == kUndrawn) == (i % 2 == 1));
+    CHECK(f.wave.path.u_bsdf_0[i] != kUndrawn);
   }
 }
 

@@ -91,6 +91,7 @@ class WaveFixture {
 #define X(type, name, ...) wave.path.name = reinterpret_cast<type*>(NewColumn(capacity));
     LANELIGHT_PATH_FIELDS(X)
 #undef X
+    wave.path.passed = nullptr;  // no interfaces of media behind a ray
     for (Queue& queue : wave.queues) queue.items = NewColumn(capacity);
     wave.lists = ColumnLists(wave.path, FeatureSet::All());
   }

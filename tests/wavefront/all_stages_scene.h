@@ -88,8 +88,8 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2.5  -3 3 2.5 ]
 )";
 
 /// What the other one lacks: images of lights (sky.pfm) and of environments, one behind a
-/// portal, mixed materials, the other diffuse models, a normal map (the same file), a lens,
-/// instances, a cut-out, a sphere far larger than its distance.
+/// portal, mixed materials, the other diffuse models, a normal map (the same file), a
+/// lens, instances, a cut-out, a sphere far larger than its distance.
 inline constexpr const char* kOtherStagesScene = R"(
 LookAt 0 2 -6  0 0.8 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -3 3 -3 3 ] "float lensradius" 0.05 "float focaldistance" 6
@@ -158,6 +158,40 @@ WorldBegin
 LightSource "infinite" "rgb L" [ 1 1 1 ]
 Translate 0 0 10
 Shape "sphere" "float radius" 3
+)";
+
+/// Media of both kinds behind interfaces and inside glass, which emit.
+inline constexpr const char* kMediaScene = R"(
+MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [ 0.1 0.2 0.3 ]
+  "rgb sigma_a" [ 0.01 0.02 0.03 ] "float g" 0.4
+MakeNamedMedium "smoke" "string type" "uniformgrid" "integer nx" 2 "float density" [ 1 4 ]
+  "point3 p0" [ -2 -2 -2 ] "point3 p1" [ 2 2 2 ] "rgb Le" [ 0.1 0.2 0.3 ]
+MediumInterface "" "fog"
+LookAt 0 1 -6  0 0.8 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+Integrator "path" "integer maxdepth" 6
+WorldBegin
+LightSource "point" "point3 from" [ 2 4 -2 ] "rgb I" [ 9 9 9 ]
+MediumInterface "smoke" "fog"
+Material "interface"
+Shape "sphere"
+MediumInterface "fog"
+Material "diffuse"
+Shape "trianglemesh" "point3 P" [ -3 -1 -3  3 -1 -3  3 -1 3  -3 -1 3 ]
+  "integer indices" [ 0 1 2 0 2 3 ]
+)";
+
+/// A medium without a boundary.
+inline constexpr const char* kFogScene = R"(
+MakeNamedMedium "fog" "string type" "homogeneous" "float scale" 0.01
+MediumInterface "" "fog"
+LookAt 0 1 -6  0 0.8 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+WorldBegin
+LightSource "point" "point3 from" [ 2 4 -2 ] "rgb I" [ 9 9 9 ]
+Shape "sphere"
 )";
 
 }  // namespace lanelight

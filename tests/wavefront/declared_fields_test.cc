@@ -240,6 +240,9 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "roulette=adjoint", true},
       {kOtherStagesScene, "points=sobol"},
       {kOtherStagesScene, "directions=bsdf,pairs=antithetic"},
+      {kMediaScene, "points=sobol"},
+      {kMediaScene, "light-candidates=resampled,pairs=antithetic"},
+      {kFogScene, "points=sobol"},
       {kSphericalScene, "points=sobol"},
       {kLensesScene, "points=sobol"}};
   std::set<std::string> stages;
