@@ -16,9 +16,8 @@ namespace HWY_NAMESPACE {
 
 void Vertices(Wave& wave) {
   ForEachBatch(wave, wave.queue(QueueId::kSurface),
-               [&](const Slots& slots, MF valid) HWY_ATTR {
-                 Push(wave.queue(QueueId::kVertex), slots, valid);
-               });
+               [&](const Slots& slots, MF valid)
+                   HWY_ATTR { Push(wave.queue(QueueId::kVertex), slots, valid); });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -174,7 +174,8 @@ struct Shape {
   double radius = 1;                         // kSphere, kDisk
   double inner_radius = 0;                   // kDisk
   double height = 0;                         // kDisk: object-space z; normal +z
-  // What is left of a kSphere, and of a kCylinder, whose values are finite; z_min <= z_max.
+  // What is left of a kSphere, and of a kCylinder, whose values are finite; z_min <=
+  // z_max.
   double z_min = -std::numeric_limits<double>::infinity();
   double z_max = std::numeric_limits<double>::infinity();
   double phi_max = 360;  // degrees, at least 0, about +z from +x; of the same and kDisk

@@ -17,8 +17,8 @@ void RemoveScattering(FeatureSet& f) {
   f.Remove({Feature::kLights, Feature::kManyLights, Feature::kMis, Feature::kRefraction});
   f.Remove({Feature::kTextures, Feature::kUv, Feature::kTangents, Feature::kVertexNormals,
             Feature::kTexturedRoughness, Feature::kTexturedColor1, Feature::kTexturedCoat,
-            Feature::kTexturePlaces, Feature::kMix, Feature::kBumps,
-            Feature::kNormalMaps, Feature::kTextureFootprints});
+            Feature::kTexturePlaces, Feature::kMix, Feature::kBumps, Feature::kNormalMaps,
+            Feature::kTextureFootprints});
 }
 
 // A surface follows directions that are not its own choice.

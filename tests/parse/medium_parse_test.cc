@@ -56,8 +56,8 @@ TEST_CASE("media beside shapes and around the camera", "[parse]") {
   CHECK(scene.shapes[1].media.inside == 1);
   CHECK(scene.shapes[2].media.inside == kNone);
   CHECK(scene.shapes[2].media.outside == 0);
-  const SceneDescription inside = ParseText(
-      media + "MediumInterface \"\" \"b\" Camera \"perspective\" WorldBegin");
+  const SceneDescription inside =
+      ParseText(media + "MediumInterface \"\" \"b\" Camera \"perspective\" WorldBegin");
   CHECK(inside.camera.medium == 1);
 }
 

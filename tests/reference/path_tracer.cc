@@ -196,7 +196,7 @@ ReferenceImage RenderReference(const SceneDescription& scene,
       Rgb value;
       if (from.weight > 0) {
         value = OnFilm(film, from.weight * ReferenceRadiance(scene, geometry, lights,
-                                                            from.ray, options, random));
+                                                             from.ray, options, random));
       }
       const Rgb delta = value - mean;
       mean += delta / s;
