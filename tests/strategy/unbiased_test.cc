@@ -16,6 +16,7 @@
 #include "tests/reference/closed_forms.h"
 #include "src/prepare/prepare_scene.h"
 #include "tests/lights/pictures.h"
+#include "tests/media/scenes.h"
 #include "src/stat/hypothesis.h"
 #include "tests/strategy/covering.h"
 #include "tests/wavefront/agreement.h"
@@ -179,12 +180,11 @@ struct HardScene {
   int tile;  // pixels per side that together see enough of rare events
 };
 
+constexpr std::size_t kScenes = 6;
 std::vector<HardScene> HardScenes() {
-  return {{"tiny light", TinyLight(), 8},
-          {"large light", LargeLight(), 4},
-          {"glossy plates", GlossyPlates(), 8},
-          {"sky and sun", SkyAndSun(), 4},
-          {"many lights", ManyLights(), 8}};
+  return {{"tiny light", TinyLight(), 8},       {"large light", LargeLight(), 4},
+          {"glossy plates", GlossyPlates(), 8}, {"sky and sun", SkyAndSun(), 4},
+          {"many lights", ManyLights(), 8},     {"clouds", NestedClouds(), 8}};
 }
 
 bool Accepts(const SceneDescription& scene, const std::string& strategy) {
@@ -260,7 +260,7 @@ void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth, std::uint
     const stat::ImageEstimate image = RenderWith(hard.scene, strategy, spp, i + 1);
     const stat::ImageTestResult result = stat::CompareMeans(
         image, truth,
-        {hard.tile, stat::SidakLevel(kFalseAlarm, int(5 * combinations.size())),
+        {hard.tile, stat::SidakLevel(kFalseAlarm, int(kScenes * combinations.size())),
          kFloatTolerance, 1e-7});
     INFO(hard.name << ", " << strategy << ": " << result.ToString());
     // So few bright samples that their mean is far from normal (uniform directions, tiny
