@@ -54,11 +54,7 @@ for strategy in points=stratified,pairs=antithetic,directions=light \
   render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy "$strategy"
 done
 render sun-sky.pbrt --resolution 81x61 --spp 16 --strategy control=ambient
-# Media, relief, images of lights, cameras, procedural textures.
-for scene in media relief image-lights portal panorama lens-system patterns \
-  textured-layers shapes; do
-  render "$scene.pbrt" --resolution 81x61 --spp 4
-done
+# Media with what else there is to paths.
 render media.pbrt --resolution 40x30 --spp 4 --strategy guiding=radiance,pairs=antithetic
 # Paths that split into copies, after a pilot of their own.
 render veach-mis.pbrt --resolution 81x61 --spp 16 --strategy roulette=adjoint
