@@ -3,12 +3,14 @@
 //   density     of scattering at d: sigma_t exp(-sigma_t d), of the channel drawn; of
 //               reaching the surface: exp(-sigma_t t)
 //   estimator   sigma_s T / mean density over channels, and T / mean density
-//   (medium-inl.h) unbiased    a channel that scatters has sigma_t > 0, so one that finds
-//   it is drawn variance    none from T where all channels are alike absorbers   sigma_s
-//   = 0: nothing to find on the way, T counts in full emission    what the medium emits
-//   along the ray is known in closed form, and added interfaces  optical depth left over
-//   is again exponential: the same number goes on source      Novak et al. 2018, "Monte
-//   Carlo Methods for Volumetric Light Transport
+//               (medium-inl.h)
+//   unbiased    a channel that scatters has sigma_t > 0, so one that finds it is drawn
+//   variance    none from T where all channels are alike
+//   absorbers   sigma_s = 0: nothing to find on the way, T counts in full
+//   distances=equiangular  half of the points by the angle around a light
+//   emission    what the medium emits along the ray is known in closed form, and added
+//   interfaces  optical depth left over is again exponential: the same number goes on
+//   source      Novak et al. 2018, "Monte Carlo Methods for Volumetric Light Transport
 //               Simulation"; Wilkie et al. 2014 (spectral sampling)
 #include "kernels/targets.h"
 #undef HWY_TARGET_INCLUDE
@@ -18,6 +20,7 @@
 
 #include "hwy/contrib/math/math-inl.h"
 
+#include "kernels/media/equiangular-inl.h"
 #include "kernels/media/event-inl.h"
 #include "kernels/queue/filter-inl.h"
 
@@ -41,14 +44,29 @@ HWY_INLINE V3 EmittedOver(V3 emission, V3 sigma_t, VF length) {
           one(emission.z, sigma_t.z)};
 }
 
-template <bool kInterfaces, bool kEmission>
+HWY_INLINE void AddEmission(const PathColumns& p, const StoreSlots& slots, V3 beta,
+                            const Media& medium, VF length) {
+  const V3 emitted = EmittedOver(medium.Emission(), medium.SigmaT(), length);
+  const V3 l = Gather3(p.l_r, p.l_g, p.l_b, slots);
+  Scatter3(l + Mul(beta, emitted), p.l_r, p.l_g, p.l_b, slots);
+}
+
+// What a scene and a strategy need of the walk.
+template <bool interfaces, bool emission, bool equiangular>
+struct Needs {
+  static constexpr bool kInterfaces = interfaces, kEmission = emission,
+                        kEquiangular = equiangular;
+};
+
+template <class Needs>
 HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   const DF df;
   const PathColumns& p = wave.path;
   const Media medium(wave.scene->media, Gather(p.medium, slots));
   const V3 sigma_t = medium.SigmaT();
   const VF t = Gather(p.t, slots), u = Gather(p.u_medium_1, slots);
-  const VF keep = hn::Sub(Splat(1.0f), Gather(p.u_medium_0, slots));
+  const VF u_distance = Gather(p.u_medium_0, slots);
+  const VF keep = hn::Sub(Splat(1.0f), u_distance);
   Stretch path(p, slots);
   const V3 before = path.odds;
   const Channel channel(before, u);
@@ -56,21 +74,29 @@ HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   const VF far = Splat(std::numeric_limits<float>::infinity());
   const MF samples = medium.Scatters();
   const MF can = hn::And(samples, hn::Gt(drawn, hn::Zero(df)));
-  const VF d = hn::IfThenElse(can, hn::Div(hn::Neg(hn::Log(df, keep)), drawn), far);
+  VF d = hn::IfThenElse(can, hn::Div(hn::Neg(hn::Log(df, keep)), drawn), far);
   const MF event = hn::Lt(d, t);
-  if constexpr (kEmission) {
-    const V3 emitted = EmittedOver(medium.Emission(), sigma_t, t);
-    const V3 l = Gather3(p.l_r, p.l_g, p.l_b, slots);
-    Scatter3(l + Mul(path.beta, emitted), p.l_r, p.l_g, p.l_b, slots);
+  if constexpr (Needs::kEmission) AddEmission(p, slots, path.beta, medium, t);
+  V3 left, found;  // transmittance, and the densities of an event at its end
+  const auto reach = [&] HWY_ATTR {
+    left = Transmittance(sigma_t, hn::Min(d, t));
+    found = Mul(left, sigma_t);
+  };
+  if constexpr (Needs::kEquiangular) {
+    const EquiangularHalf half(wave, slots, drawn, t);
+    d = hn::IfThenElse(event, half.Sample(drawn, t, u_distance), d);
+    reach();
+    found = half.Density(found, sigma_t, t, d);
+  } else {
+    reach();
   }
-  const V3 left = Transmittance(sigma_t, hn::Min(d, t));
   const V3 sigma_s = medium.SigmaS(), one = Splat3(1, 1, 1);
   // Absorbers let all rays reach the surface.
   const V3 passes = IfThenElse(samples, left, one);
   path.Happen(IfThenElse(event, Mul(left, sigma_s), left),
-              IfThenElse(event, Mul(left, sigma_t), passes));
+              IfThenElse(event, found, passes));
   path.Store(p, slots);
-  if constexpr (kInterfaces) {
+  if constexpr (Needs::kInterfaces) {
     const VF unused = hn::Div(keep, channel.Of(passes));
     Scatter(hn::Max(hn::Sub(Splat(1.0f), unused), hn::Zero(df)), p.u_medium_0, slots);
     Scatter(channel.Redrawn(before, path.odds, u), p.u_medium_1, slots);
@@ -78,7 +104,7 @@ HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   StoreEvent(p, slots, event, d, medium.I(offsetof(MediumRecord, material)));
 }
 
-template <bool kInterfaces, bool kEmission>
+template <class Needs>
 void MediumDistance(Wave& wave) {
   const PathColumns& p = wave.path;
   const bool grids = !wave.scene->media.grids.empty();
@@ -89,16 +115,29 @@ void MediumDistance(Wave& wave) {
         return grids ? hn::AndNot(Media(wave.scene->media, index).Varies(), inside)
                      : inside;
       });
-  ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
-    Walk<kInterfaces, kEmission>(wave, slots);
-  });
+  ForEachBatch(wave, mine,
+               [&](const StoreSlots& slots, MF) HWY_ATTR { Walk<Needs>(wave, slots); });
   LeaveWithEvents(wave);
 }
 
-void DistanceDark(Wave& wave) { MediumDistance<false, false>(wave); }
-void DistanceEmitting(Wave& wave) { MediumDistance<false, true>(wave); }
-void DistanceInterfaces(Wave& wave) { MediumDistance<true, false>(wave); }
-void DistanceAll(Wave& wave) { MediumDistance<true, true>(wave); }
+template <bool kInterfaces, bool kEmission>
+StageFn ByDistances(const FeatureSet& features) {
+  return features.Has(Feature::kEquiangularDistances)
+             ? MediumDistance<Needs<kInterfaces, kEmission, true>>
+             : MediumDistance<Needs<kInterfaces, kEmission, false>>;
+}
+
+template <bool kInterfaces>
+StageFn ByEmission(const FeatureSet& features) {
+  return features.Has(Feature::kMediumEmission)
+             ? ByDistances<kInterfaces, true>(features)
+             : ByDistances<kInterfaces, false>(features);
+}
+
+StageFn ResolveMediumDistance(const FeatureSet& features) {
+  return features.Has(Feature::kInterfaces) ? ByEmission<true>(features)
+                                            : ByEmission<false>(features);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -109,21 +148,12 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(DistanceDark);
-HWY_EXPORT(DistanceEmitting);
-HWY_EXPORT(DistanceInterfaces);
-HWY_EXPORT(DistanceAll);
+HWY_EXPORT(ResolveMediumDistance);
 
 Stage MediumDistanceStage() {
   return MediumEventStage("medium_distance", "how far rays get in homogeneous media",
-                          Feature::kMedia, [](const FeatureSet& features) -> StageFn {
-                            const bool emits = features.Has(Feature::kMediumEmission);
-                            if (features.Has(Feature::kInterfaces)) {
-                              return emits ? HWY_DYNAMIC_DISPATCH(DistanceAll)
-                                           : HWY_DYNAMIC_DISPATCH(DistanceInterfaces);
-                            }
-                            return emits ? HWY_DYNAMIC_DISPATCH(DistanceEmitting)
-                                         : HWY_DYNAMIC_DISPATCH(DistanceDark);
+                          Feature::kMedia, [](const FeatureSet& features) {
+                            return HWY_DYNAMIC_DISPATCH(ResolveMediumDistance)(features);
                           });
 }
 

@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "kernels/media/medium-inl.h"
-#include "kernels/simd/rng-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -172,34 +171,6 @@ struct CellWalk {
     cell[a] = hn::ConvertTo(di, floor);
     step[a] =
         hn::IfThenElse(hn::RebindMask(di, forward), hn::Set(di, 1), hn::Set(di, -1));
-  }
-};
-
-/// Uniform numbers for walks of any length: hashes of who the path is, where on it, and
-/// of how many were drawn before.
-struct WalkRandom {
-  VU pixel, sample, key, seed;
-
-  LANELIGHT_INLINE WalkRandom(const Wave& wave, const Slots& slots, uint32_t purpose) {
-    const PathColumns& p = wave.path;
-    pixel = AsUnsigned(Gather(p.pixel, slots));
-    sample = AsUnsigned(Gather(p.sample, slots));
-    key = AsUnsigned(Gather(p.depth, slots));
-    seed = SplatU(wave.run->seed ^ purpose);
-    if (p.branch != nullptr) {
-      const VU branch = AsUnsigned(Gather(p.branch, slots));
-      key = hn::Or(key, hn::ShiftLeft<24>(branch));
-    }
-    if (p.crossings != nullptr) {
-      const VU crossings = AsUnsigned(Gather(p.crossings, slots));
-      seed = hn::Add(seed, hn::Mul(crossings, SplatU(0x632be5abu)));
-    }
-  }
-  /// Two independent numbers in [0, 1).
-  LANELIGHT_INLINE void Next(VF* u0, VF* u1) {
-    const U4 bits = Pcg4d({pixel, sample, key, seed});
-    *u0 = ToUnit(bits.x), *u1 = ToUnit(bits.y);
-    seed = hn::Add(seed, SplatU(0x9e3779b9u));
   }
 };
 

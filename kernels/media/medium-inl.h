@@ -105,6 +105,18 @@ LANELIGHT_INLINE V3 Transmittance(V3 sigma, VF d) {
           Transmittance(sigma.z, d)};
 }
 
+/// 1 - exp(-sigma d), without cancelling where that is small.
+LANELIGHT_INLINE VF Interacted(VF sigma, VF d) {
+  const VF depth = hn::Mul(sigma, d);
+  const VF series =
+      hn::MulAdd(depth, hn::MulAdd(depth, Splat(1.0f / 6), Splat(-0.5f)), Splat(1.0f));
+  const VF thick = hn::Sub(Splat(1.0f), Transmittance(sigma, d));
+  return hn::IfThenElse(hn::Lt(depth, Splat(0.01f)), hn::Mul(depth, series), thick);
+}
+LANELIGHT_INLINE V3 Interacted(V3 sigma, VF d) {
+  return {Interacted(sigma.x, d), Interacted(sigma.y, d), Interacted(sigma.z, d)};
+}
+
 LANELIGHT_INLINE VF MeanChannel(V3 v) {
   return hn::Mul(hn::Add(v.x, hn::Add(v.y, v.z)), Splat(1.0f / 3));
 }

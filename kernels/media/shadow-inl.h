@@ -6,9 +6,8 @@
 #define LANELIGHT_MEDIA_SHADOW_INL_H_
 #endif
 
-#include "hwy/contrib/math/math-inl.h"
-
 #include "kernels/media/grid-inl.h"
+#include "kernels/media/walk_random-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -26,20 +25,38 @@ LANELIGHT_INLINE VI ShadowStartMedium(const Wave& wave, const Slots& slots) {
   return Sides(wave.scene->media, Gather(p.prim, slots)).Toward(ls, ng, here);
 }
 
-/// What `length` of a medium that varies leaves of a ray, by ratio tracking (Novak, Selle
-/// and Jarosz 2014): each tentative collision leaves 1 - sigma_t / majorant. The majorant
-/// is one for all channels, so that none needs another's weight.
-LANELIGHT_INLINE V3 RatioTracking(const GridMedium& medium, V3 o, V3 d, VF length,
-                                  WalkRandom& random) {
+/// What a tentative collision leaves of a ray, of which `real` is the share of collisions
+/// in each channel, by transmittance=ratio: all but that share (Novak, Selle and Jarosz
+/// 2014), and nothing below 0.
+struct RatioTracking {
+  LANELIGHT_INLINE static V3 Leaves(V3 left, V3 real, VF) {
+    const V3 after = Mul(left, Splat3(1, 1, 1) - real);
+    return IfThenElse(hn::Gt(MaxComponent(after), Splat(0)), after, Splat3(0, 0, 0));
+  }
+};
+
+/// By transmittance=delta: nothing where it is real, with u in [0, 1) for all channels
+/// (Woodcock et al. 1965).
+struct DeltaTracking {
+  LANELIGHT_INLINE static V3 Leaves(V3 left, V3 real, VF u) {
+    const auto one = [&](VF channel, VF share) HWY_ATTR {
+      return hn::IfThenElseZero(hn::Ge(u, share), channel);
+    };
+    return {one(left.x, real.x), one(left.y, real.y), one(left.z, real.z)};
+  }
+};
+
+/// What `length` of a medium that varies leaves of a ray: tentative collisions, with one
+/// majorant for all channels, so that none needs another's weight.
+template <class Tracking>
+LANELIGHT_INLINE V3 TrackedTransmittance(const GridMedium& medium, V3 o, V3 d, VF length,
+                                         WalkRandom& random) {
   CellWalk at(medium, o, d, length);
   const VF scale = MaxComponent(medium.MajorantScale()), zero = Splat(0);
   V3 left = Splat3(1, 1, 1);
   VF u0, u1;
   random.Next(&u0, &u1);
-  const auto exponential = [](VF u) HWY_ATTR {
-    return hn::Neg(hn::Log(DF(), hn::Sub(Splat(1.0f), u)));
-  };
-  VF depth = exponential(u0);
+  VF depth = ExponentialOf(u0);
   for (;;) {
     const MF going = hn::And(at.IsInside(), hn::Gt(MaxComponent(left), zero));
     if (hn::AllFalse(DF(), going)) return left;
@@ -52,19 +69,17 @@ LANELIGHT_INLINE V3 RatioTracking(const GridMedium& medium, V3 o, V3 d, VF lengt
     at.Cross(crosses);
     if (hn::AllFalse(DF(), collides)) continue;
     random.Next(&u0, &u1);
-    depth = hn::IfThenElse(collides, exponential(u0), depth);
+    depth = hn::IfThenElse(collides, ExponentialOf(u0), depth);
     const Coefficients c = medium.At(at.Point(at.t));
-    const V3 stays = Mul(c.sigma_a + c.sigma_s, hn::Div(Splat(-1.0f), sigma_m));
-    const V3 after = Mul(left, stays + Splat3(1, 1, 1));
-    left = IfThenElse(
-        collides, IfThenElse(hn::Gt(MaxComponent(after), zero), after, Splat3(0, 0, 0)),
-        left);
+    const V3 real = Mul(c.sigma_a + c.sigma_s, hn::Div(Splat(1.0f), sigma_m));
+    left = IfThenElse(collides, Tracking::Leaves(left, real, u1), left);
   }
 }
 
 /// Of lanes in media with a grid; 1 for the others.
-LANELIGHT_INLINE V3 GridTransmittance(const Wave& wave, const Slots& slots, VI index,
-                                      V3 o, V3 d, VF length, uint32_t leg) {
+template <class Tracking>
+HWY_NOINLINE V3 GridTransmittance(const Wave& wave, const Slots& slots, VI index, V3 o,
+                                  V3 d, VF length, uint32_t leg) {
   const MediumTable& table = wave.scene->media;
   V3 left = Splat3(1, 1, 1);
   for (std::size_t i = 0; i < table.media.size(); ++i) {
@@ -76,7 +91,7 @@ LANELIGHT_INLINE V3 GridTransmittance(const Wave& wave, const Slots& slots, VI i
     WalkRandom random(wave, slots, 0xcc9e2d51u + leg * 0x85ebca6bu);
     const MF lanes = hn::RebindMask(DF(), mine);
     const VF own = hn::IfThenElseZero(lanes, length);
-    left = Mul(left, RatioTracking(medium, o, d, own, random));
+    left = Mul(left, TrackedTransmittance<Tracking>(medium, o, d, own, random));
   }
   return left;
 }
@@ -84,6 +99,7 @@ LANELIGHT_INLINE V3 GridTransmittance(const Wave& wave, const Slots& slots, VI i
 /// Takes away from what the shadow ray carries what `length` from o in a medium takes.
 /// Zero where nothing is left, which Connect adds like any other. `leg`: how many such
 /// lengths of the ray came before.
+template <class Tracking>
 LANELIGHT_INLINE void DimShadow(const Wave& wave, const StoreSlots& slots, VI index, V3 o,
                                 VF length, uint32_t leg) {
   const PathColumns& p = wave.path;
@@ -94,7 +110,7 @@ LANELIGHT_INLINE void DimShadow(const Wave& wave, const StoreSlots& slots, VI in
   if (!table.grids.empty()) {
     homogeneous = hn::AndNot(medium.Varies(), homogeneous);
     const V3 d = Gather3(p.ls_x, p.ls_y, p.ls_z, slots);
-    left = GridTransmittance(wave, slots, index, o, d, length, leg);
+    left = GridTransmittance<Tracking>(wave, slots, index, o, d, length, leg);
   }
   const V3 sigma_t = IfThenElseZero(homogeneous, medium.SigmaT());
   left = Mul(left, Transmittance(sigma_t, length));

@@ -12,19 +12,27 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-template <bool kChanges>
+template <bool kChanges, class Tracking>
 void ShadowMediaOf(Wave& wave) {
   const PathColumns& p = wave.path;
-  ForEachBatch(wave, wave.queue(QueueId::kShadow),
-               [&](const StoreSlots& slots, MF) HWY_ATTR {
-                 const VI medium = ShadowStartMedium<kChanges>(wave, slots);
-                 const V3 o = Gather3(p.p_x, p.p_y, p.p_z, slots);
-                 DimShadow(wave, slots, medium, o, Gather(p.ls_distance, slots), 0);
-               });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kShadow), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const VI medium = ShadowStartMedium<kChanges>(wave, slots);
+        const V3 o = Gather3(p.p_x, p.p_y, p.p_z, slots);
+        DimShadow<Tracking>(wave, slots, medium, o, Gather(p.ls_distance, slots), 0);
+      });
 }
 
-void ShadowMediaSame(Wave& wave) { ShadowMediaOf<false>(wave); }
-void ShadowMediaSides(Wave& wave) { ShadowMediaOf<true>(wave); }
+template <class Tracking>
+StageFn BySides(const FeatureSet& features) {
+  return features.Has(Feature::kMediumChanges) ? ShadowMediaOf<true, Tracking>
+                                               : ShadowMediaOf<false, Tracking>;
+}
+
+StageFn ResolveShadowMedia(const FeatureSet& features) {
+  return features.Has(Feature::kDeltaTransmittance) ? BySides<DeltaTracking>(features)
+                                                    : BySides<RatioTracking>(features);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -35,8 +43,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(ShadowMediaSame);
-HWY_EXPORT(ShadowMediaSides);
+HWY_EXPORT(ResolveShadowMedia);
 
 Stage ShadowMediaStage() {
   const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
@@ -50,10 +57,8 @@ Stage ShadowMediaStage() {
                    Field::crossings} |
           FieldSet{Field::medium, Field::prim},
       fields::kShadow,
-      [](const FeatureSet& features) -> StageFn {
-        return features.Has(Feature::kMediumChanges)
-                   ? HWY_DYNAMIC_DISPATCH(ShadowMediaSides)
-                   : HWY_DYNAMIC_DISPATCH(ShadowMediaSame);
+      [](const FeatureSet& features) {
+        return HWY_DYNAMIC_DISPATCH(ResolveShadowMedia)(features);
       }};
 }
 

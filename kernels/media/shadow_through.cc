@@ -57,6 +57,7 @@ HWY_INLINE void RunOn(Wave& wave, const PathColumns& columns, QueueId place,
 
 // Of the rays whose nearest surface is known: those that reach the light go to kShadow,
 // those that meet an interface stay in kActive, with what the way there leaves.
+template <class Tracking>
 HWY_INLINE void SortLegs(Wave& wave, uint32_t leg) {
   const PathColumns& p = wave.path;
   Queue& legs = wave.queue(QueueId::kActive);
@@ -67,7 +68,8 @@ HWY_INLINE void SortLegs(Wave& wave, uint32_t leg) {
     const MF passes =
         hn::AndNot(arrives, Sides(wave.scene->media, Gather(p.sh_prim, slots)).Passes());
     const V3 o = Gather3(p.sh_o_x, p.sh_o_y, p.sh_o_z, slots);
-    DimShadow(wave, slots, Gather(p.sh_medium, slots), o, hn::Min(t, left), leg);
+    DimShadow<Tracking>(wave, slots, Gather(p.sh_medium, slots), o, hn::Min(t, left),
+                        leg);
     Push(wave.queue(QueueId::kShadow), slots, hn::And(valid, arrives));
     Push(rest, slots, hn::And(valid, passes));
   });
@@ -92,6 +94,7 @@ HWY_INLINE void NextLegs(Wave& wave) {
       });
 }
 
+template <class Tracking>
 void ShadowThrough(Wave& wave) {
   const PathColumns ray = RestAsRay(wave.path);
   const RayKernels& kernels = wave.kernels;
@@ -103,12 +106,15 @@ void ShadowThrough(Wave& wave) {
   wave.queue(QueueId::kShadow).size = 0;
   for (uint32_t leg = 0; legs.size > 0; ++leg) {
     RunOn(wave, ray, QueueId::kActive, legs, kernels.closest, kernels.num_closest);
-    SortLegs(wave, leg);
+    SortLegs<Tracking>(wave, leg);
     RunOn(wave, ray, QueueId::kSurface, legs, kernels.surface, kernels.num_surface);
     NextLegs(wave);
   }
   wave.queue(QueueId::kSurface) = surfaces;
 }
+
+void ShadowThroughRatio(Wave& wave) { ShadowThrough<RatioTracking>(wave); }
+void ShadowThroughDelta(Wave& wave) { ShadowThrough<DeltaTracking>(wave); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -119,7 +125,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(ShadowThrough);
+HWY_EXPORT(ShadowThroughRatio);
+HWY_EXPORT(ShadowThroughDelta);
 
 Stage ShadowThroughStage() {
   const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
@@ -134,7 +141,11 @@ Stage ShadowThroughStage() {
           fields::kShadow | fields::kPoint | fields::kNormal |
           FieldSet{Field::medium, Field::prim},
       fields::kShadow | fields::kShadowRest | FieldSet{Field::b1, Field::b2, Field::inst},
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(ShadowThrough); }};
+      [](const FeatureSet& features) -> StageFn {
+        return features.Has(Feature::kDeltaTransmittance)
+                   ? HWY_DYNAMIC_DISPATCH(ShadowThroughDelta)
+                   : HWY_DYNAMIC_DISPATCH(ShadowThroughRatio);
+      }};
 }
 
 }  // namespace lanelight

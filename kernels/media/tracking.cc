@@ -1,7 +1,6 @@
 // How far rays get in media that vary: null collisions against the majorants of cells.
-//   density     of tentative collisions: that of a medium with the majorant sigma_m of
-//   the
-//               channel drawn; of each, that it is real: sigma_t / sigma_m
+//   density     of tentative collisions: that of the channel's majorant sigma_m; of each,
+//               that it is real: sigma_t / sigma_m
 //   estimator   a real one scatters with sigma_s / sigma_t, a null one goes on; over the
 //               mean density of the channels (medium-inl.h), as real and null ones alike
 //               have the density that the channel would have had
@@ -15,19 +14,14 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "hwy/contrib/math/math-inl.h"
-
 #include "kernels/media/event-inl.h"
 #include "kernels/media/grid-inl.h"
+#include "kernels/media/walk_random-inl.h"
 #include "kernels/queue/filter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
-
-HWY_INLINE VF ExponentialOf(VF u) {
-  return hn::Neg(hn::Log(DF(), hn::Sub(Splat(1.0f), u)));
-}
 
 // A walk of a vector of rays: f and the densities of the channels over that of the one
 // drawn, where it ended, and what the medium emitted on the way.

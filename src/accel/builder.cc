@@ -19,7 +19,7 @@ namespace {
 // Ranges smaller than this are built by one thread.
 constexpr std::uint32_t kSerial = 2048;
 // Ranges of at most so many items are looked at for how many of them a leaf holds.
-constexpr std::uint32_t kFewItems = 64;
+constexpr std::uint32_t kSerialItems = 64;
 // Below this depth ranges are halved instead, which bounds the depth of any tree.
 constexpr int kMaxSahDepth = 40;
 // Cost of one level of the binary tree relative to testing one leaf: a wide node holds
@@ -45,7 +45,7 @@ class TreeBuilder {
   // leaf holds, 0 if it is not known yet.
   void Build(std::uint32_t node, ItemRange range, std::uint32_t leaf, int depth) {
     BinaryNode& n = tree_[node];
-    if (leaf == 0 && range.count() <= kFewItems) {
+    if (leaf == 0 && range.count() <= kSerialItems) {
       leaf = limit_.typical ? limit_.typical(items_ + range.begin, range.count())
                             : leaf_size_;
     }

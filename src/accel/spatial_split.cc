@@ -10,9 +10,9 @@
 namespace lanelight {
 namespace {
 
-constexpr int kBins = 16;
+constexpr int kSlabs = 16;
 
-struct Bin {
+struct Slab {
   WideBox box;
   std::uint32_t enter = 0, exit = 0;  // items that begin and end here
 };
@@ -21,19 +21,19 @@ struct Bin {
 class Slabs {
  public:
   Slabs(const AccelBox& box, int axis) : axis_(axis), lo_(box.lo[axis]) {
-    width_ = (box.hi[axis] - lo_) / kBins;
+    width_ = (box.hi[axis] - lo_) / kSlabs;
     scale_ = 1 / width_;
     ok_ = width_ > 0 && std::isfinite(width_) && std::isfinite(scale_);
   }
   bool ok() const { return ok_; }
   int Of(float x) const {
-    return std::clamp(static_cast<int>((x - lo_) * scale_), 0, kBins - 1);
+    return std::clamp(static_cast<int>((x - lo_) * scale_), 0, kSlabs - 1);
   }
   // The lower end of slab i.
   float Plane(int i) const { return lo_ + static_cast<float>(i) * width_; }
 
   void Add(const BuildItem& item, const TriangleRecord* triangles,
-           std::array<Bin, kBins>& bins) const {
+           std::array<Slab, kSlabs>& bins) const {
     const int first = Of(item.box.lo[axis_]), last = Of(item.box.hi[axis_]);
     ++bins[first].enter;
     ++bins[last].exit;
@@ -65,13 +65,13 @@ class Slabs {
   bool ok_;
 };
 
-void Sweep(const std::array<Bin, kBins>& bins, const Slabs& slabs, int axis,
-           std::uint32_t leaf_size, std::uint32_t most, SpatialSplit& best) {
-  std::array<WideBox, kBins> right;
-  std::array<std::uint32_t, kBins> right_count;
+void SweepSlabs(const std::array<Slab, kSlabs>& bins, const Slabs& slabs, int axis,
+                std::uint32_t leaf_size, std::uint32_t most, SpatialSplit& best) {
+  std::array<WideBox, kSlabs> right;
+  std::array<std::uint32_t, kSlabs> right_count;
   WideBox box;
   std::uint32_t count = 0;
-  for (int b = kBins - 1; b > 0; --b) {
+  for (int b = kSlabs - 1; b > 0; --b) {
     box.Extend(bins[b].box);
     count += bins[b].exit;
     right[b] = box;
@@ -79,7 +79,7 @@ void Sweep(const std::array<Bin, kBins>& bins, const Slabs& slabs, int axis,
   }
   box = WideBox();
   count = 0;
-  for (int b = 1; b < kBins; ++b) {
+  for (int b = 1; b < kSlabs; ++b) {
     box.Extend(bins[b - 1].box);
     count += bins[b - 1].enter;
     if (count == 0 || right_count[b] == 0 || count + right_count[b] > most) continue;
@@ -155,11 +155,11 @@ SpatialSplit FindSpatialSplit(const BuildItem* items, ItemRange range,
   for (int axis = 0; axis < 3; ++axis) {
     const Slabs slabs(box, axis);
     if (!slabs.ok()) continue;
-    std::array<Bin, kBins> bins;
+    std::array<Slab, kSlabs> bins;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       slabs.Add(items[i], triangles, bins);
     }
-    Sweep(bins, slabs, axis, leaf_size, most, best);
+    SweepSlabs(bins, slabs, axis, leaf_size, most, best);
   }
   return best;
 }

@@ -14,7 +14,7 @@ namespace {
 // Samplers of directions differ most in rare bright samples: a light seen by one material
 // sample in a million, or a glossy lobe hit by one light sample in a thousand. Combining
 // both is never much worse than either (Veach and Guibas 1995), one alone can be.
-constexpr double kRareSamples = 0.15;
+constexpr double kSeldomChanges = 0.15;
 
 // A tree over fewer lights finds no more than their power says.
 constexpr std::size_t kFewLights = 4;
@@ -29,12 +29,12 @@ constexpr std::ptrdiff_t kPlaceOfOwn = 3;
 constexpr CandidateInfo kCandidates[] = {
     {"roulette=none", "pays where paths are short or end late on bright lights", 0},
     {"roulette=adjoint", "pays where little of the scene carries the light", 0.03},
-    {"directions=bsdf", "no shadow rays; pays under large, even lights", kRareSamples},
+    {"directions=bsdf", "no shadow rays; pays under large, even lights", kSeldomChanges},
     {"light-selection=tree", "pays with many lights, each near a part of the scene", 0},
     {"roulette=luminance", "shorter paths; pays where deep paths matter little", 0},
     {"points=pmj02", "as sobol, and cheaper on some machines", 0},
     {"directions=light", "no weights; pays for small lights and rough surfaces",
-     kRareSamples},
+     kSeldomChanges},
     {"control=ambient", "pays in the open, under an environment", 0},
     {"control=analytic", "pays where little is shadowed", 0},
 };

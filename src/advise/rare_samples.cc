@@ -1,10 +1,10 @@
 #include "src/advise/rare_samples.h"
 
 #include <algorithm>
-#include <ctime>
 #include <vector>
 
 #include "src/image/colors.h"
+#include "src/core/clock.h"
 #include "src/estimate/estimate.h"
 
 namespace lanelight {
@@ -12,8 +12,6 @@ namespace {
 
 // Pilot passes as those of a long render.
 constexpr std::uint64_t kPlannedSpp = 32;
-
-double CpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 double MedianAround(const std::vector<Rgb>& means, int width, int height, int x, int y,
                     int channel) {
@@ -66,9 +64,9 @@ bool AddWholeImage(Job& job, const Strategy& strategy, std::uint64_t seed,
   options.stop = stop;
   options.profile = false;
   options.planned_samples = kPlannedSpp * job.window.pixels();
-  const double start = CpuSeconds();
+  const double start = ProcessCpuSeconds();
   const RunResult run = Run(job.scene, job.plan, options, film);
-  const double seconds = CpuSeconds() - start;
+  const double seconds = ProcessCpuSeconds() - start;
   if (stop != nullptr && *stop) return false;
   const double render_share = run.seconds > 0 ? 1 - run.pilot_seconds / run.seconds : 1;
   std::vector<double> errors = PixelErrors(film);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <utility>
 
 #include "src/prepare/groups.h"
 #include "src/prepare/parameters.h"
 #include "src/prepare/use_strategy.h"
+#include "src/core/clock.h"
 #include "src/estimate/estimate.h"
 
 namespace lanelight {
@@ -27,8 +27,6 @@ constexpr double kLeastShare = 0.25;
 constexpr double kTrimmed = 0.02;
 
 // Of the whole process: unlike the wall clock it does not count other programs.
-double CpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
-
 // Means of windows of `size` values each, without values above `limit`.
 std::vector<double> WindowMeans(const std::vector<double>& values, std::size_t size,
                                 double limit) {
@@ -101,9 +99,9 @@ double WindowRenderer::RunWindows(const Plan& plan, const std::vector<PixelRect>
   options.profile = false;
   options.windows = windows;
   options.planned_samples = planned_samples;
-  const double start = CpuSeconds();
+  const double start = ProcessCpuSeconds();
   const RunResult run = Run(job_.scene, plan, options, film);
-  const double seconds = CpuSeconds() - start;
+  const double seconds = ProcessCpuSeconds() - start;
   // The share of pilot passes is not the strategy's cost in a long render.
   return run.seconds > 0 ? seconds * (1 - run.pilot_seconds / run.seconds) : seconds;
 }

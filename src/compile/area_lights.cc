@@ -1,16 +1,15 @@
 #include "src/compile/area_lights.h"
 
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <vector>
 
 #include "src/compile/rectangles.h"
+#include "src/core/pi.h"
 
 namespace lanelight {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Rounding of positions changes the areas of very small emitters; from this relative
 // change on, their radiance makes up for it.
 constexpr double kAreaTolerance = 1e-4;

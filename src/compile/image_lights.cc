@@ -1,14 +1,12 @@
 #include "src/compile/image_lights.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "src/core/error.h"
+#include "src/core/pi.h"
 
 namespace lanelight {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // An axis of the light in the scene, of unit length.
 Vec3d AxisOf(const Light& light, Vec3d axis) {

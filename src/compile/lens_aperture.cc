@@ -4,16 +4,15 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <vector>
 
 #include "src/core/error.h"
 #include "src/compile/light_texels.h"
+#include "src/core/pi.h"
 
 namespace lanelight {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kBuiltInSize = 256;
 
 // In a regular polygon with a corner at (0, radius): above 0 inside, 1 in the middle.

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "src/compile/store.h"
 #include "src/compiled/lights.h"
-#include "src/core/vec.h"
 
 namespace lanelight {
 
@@ -29,11 +29,6 @@ inline LightRecord EmptyRecord(LightShape shape) {
   record.primitive = 0xffffffffu;
   record.environment = -1;
   return record;
-}
-
-/// Into a field of a record.
-inline void Store(Vec3d v, float out[3]) {
-  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
 }
 
 }  // namespace lanelight

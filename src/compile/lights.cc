@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -13,11 +12,11 @@
 #include "src/compile/light_list.h"
 #include "src/compile/light_texels.h"
 #include "src/compile/portal.h"
+#include "src/core/pi.h"
 
 namespace lanelight {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // No light is picked more rarely than this (or a hundredth of the uniform probability, if
 // there are very many): a light of little power may still be all that a corner sees.
 constexpr double kMinPmf = 1e-6;

@@ -11,9 +11,10 @@
 namespace lanelight {
 namespace {
 
-class Builder {
+class MediumBuilder {
  public:
-  Builder(const SceneDescription& d, const Frame& frame, CompiledMaterials& materials)
+  MediumBuilder(const SceneDescription& d, const Frame& frame,
+                CompiledMaterials& materials)
       : d_(d), frame_(frame), materials_(materials), index_(d.media.size(), kVacuum) {}
 
   std::int32_t Use(Index medium);
@@ -43,7 +44,7 @@ void SetPerLength(Rgb c, double scale, float out[3]) {
   out[2] = static_cast<float>(c.z / scale);
 }
 
-std::int32_t Builder::Use(Index medium) {
+std::int32_t MediumBuilder::Use(Index medium) {
   if (medium == kNone) return kVacuum;
   LL_CHECK_LT(static_cast<std::size_t>(medium), index_.size());
   std::int32_t& at = index_[static_cast<std::size_t>(medium)];
@@ -97,7 +98,7 @@ void ForEachPlaced(const Placement& placement, const CompiledGeometry* compiled,
 
 MediumTable CompileMedia(const SceneDescription& d, const Placement& placement,
                          CompiledMaterials& materials) {
-  Builder builder(d, placement.frame, materials);
+  MediumBuilder builder(d, placement.frame, materials);
   const std::int32_t camera = builder.Use(d.camera.medium);
   std::vector<MediumSides> sides;
   ForEachPlaced(placement, nullptr, [&](const PlacedShape& placed, auto, auto) {

@@ -134,7 +134,7 @@ bool IsTooFar(Vec3d p) {
                   what, kFarthest));
 }
 
-bool IsFinite(Vec3d v) {
+bool IsFinitePoint(Vec3d v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
@@ -145,7 +145,7 @@ std::optional<Box> MeshBox(const PlacedShape& placed) {
   Box box;
   for (std::uint32_t i : mesh.indices) {
     LL_CHECK_LT(i, mesh.positions.size());
-    if (!IsFinite(mesh.positions[i])) continue;
+    if (!IsFinitePoint(mesh.positions[i])) continue;
     const Vec3d p = placed.transform.Point(mesh.positions[i]);
     if (IsTooFar(p)) return std::nullopt;
     box.Add(p);

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "src/core/error.h"
+#include "src/core/pi.h"
 #include "src/image/octahedral.h"
 #include "src/compile/environment.h"
 
 namespace lanelight {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // How far the cosines of a rectangle's angles may be off, as in pbrt.
 constexpr double kRectangular = 1e-3;
 

@@ -3,15 +3,12 @@
 #include <cmath>
 
 #include "src/compile/focus.h"
+#include "src/compile/store.h"
 #include "src/core/check.h"
 #include "src/core/error.h"
 
 namespace lanelight {
 namespace {
-
-void Store(Vec3d v, float out[3]) {
-  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
-}
 
 std::uint32_t Flags(const PlacedShape& placed) {
   return IsAlphaTested(placed) ? kAlphaTested : 0;

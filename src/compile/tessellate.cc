@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "src/core/check.h"
+#include "src/core/pi.h"
 
 namespace lanelight {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Of a triangle on a cylinder, length by width: longer ones make loose boxes.
 constexpr double kLongest = 64;
 constexpr double kMostRows = 256;

@@ -12,6 +12,9 @@
 
 namespace lanelight {
 
+/// Of parameters that have no natural limit.
+inline constexpr double kHuge = 1e30;
+
 // interpret_color.cc ----------------------------------------------------------------
 /// Linear sRGB of an rgb, spectrum or blackbody parameter. Colours outside sRGB's gamut
 /// are clamped to non-negative, with a note.

@@ -8,11 +8,7 @@
 #include "src/core/suggest.h"
 
 namespace lanelight {
-namespace {
-
-constexpr double kHuge = 1e30;  // of lengths that have no natural limit
-
-}  // namespace
+namespace {}  // namespace
 
 const Param* NumberArray(ParamSet& params, std::string_view name, ParamType type,
                          std::size_t count) {

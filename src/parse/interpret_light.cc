@@ -2,18 +2,15 @@
 // how it was stated (formulas: pbrt-v4's light descriptions).
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "src/core/pi.h"
 #include "src/parse/interpret.h"
 #include "src/core/suggest.h"
 
 namespace lanelight {
 namespace {
 
-constexpr double kHuge = 1e30;
 constexpr Rgb kWhite = {1, 1, 1};
-constexpr double kPi = std::numbers::pi;
-
 // 1 - cos, without cancellation for small angles.
 double Versine(double degrees) {
   const double sine = std::sin(degrees * (kPi / 360));

@@ -7,7 +7,6 @@
 namespace lanelight {
 namespace {
 
-constexpr double kHuge = 1e30;
 constexpr double kRoughest = 1e4;  // of roughness parameters; alpha above 1 is legal
 
 const std::map<std::string, MaterialKind> kMaterials = {

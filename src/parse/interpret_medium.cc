@@ -8,7 +8,6 @@
 namespace lanelight {
 namespace {
 
-constexpr double kHuge = 1e30;
 constexpr int kLongestSide = 4096;  // voxels
 const std::vector<std::string> kMediumTypes = {"homogeneous", "uniformgrid", "rgbgrid"};
 const std::vector<std::string> kForeignMedia = {"cloud", "nanovdb"};

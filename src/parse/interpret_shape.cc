@@ -6,7 +6,6 @@
 namespace lanelight {
 namespace {
 
-constexpr double kHuge = 1e30;
 constexpr double kTiny = 1e-30;
 
 const std::vector<std::string> kShapeNames = {"sphere",       "disk",    "cylinder",

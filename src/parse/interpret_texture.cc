@@ -7,8 +7,6 @@
 namespace lanelight {
 namespace {
 
-constexpr double kHuge = 1e30;
-
 Vec3d VectorOf(ParamSet& params, std::string_view name, Vec3d absent) {
   const Param* param = params.Find(name, {ParamType::kVector3});
   if (param == nullptr) return absent;

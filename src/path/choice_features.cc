@@ -115,6 +115,28 @@ FeatureSet TurnsOn(ShadowRoulette choice) {
   return {};
 }
 
+FeatureSet TurnsOn(Distances choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case Distances::k##name:      \
+    return Union(LANELIGHT_OWN_##own(k##name##Distances), FeatureSet also);
+    LANELIGHT_DISTANCES(X)
+#undef X
+  }
+  return {};
+}
+
+FeatureSet TurnsOn(Transmittance choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case Transmittance::k##name:  \
+    return Union(LANELIGHT_OWN_##own(k##name##Transmittance), FeatureSet also);
+    LANELIGHT_TRANSMITTANCES(X)
+#undef X
+  }
+  return {};
+}
+
 FeatureSet TurnsOn(Guiding choice) {
   switch (choice) {
 #define X(name, own, also, ...) \

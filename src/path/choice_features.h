@@ -16,6 +16,8 @@ FeatureSet TurnsOn(LightSelection choice);
 FeatureSet TurnsOn(LightPoints choice);
 FeatureSet TurnsOn(LightCandidates choice);
 FeatureSet TurnsOn(ShadowRoulette choice);
+FeatureSet TurnsOn(Distances choice);
+FeatureSet TurnsOn(Transmittance choice);
 FeatureSet TurnsOn(Guiding choice);
 FeatureSet TurnsOn(Decide choice);
 

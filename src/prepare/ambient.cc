@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
+#include "src/core/pi.h"
 #include "src/image/octahedral.h"
 
 namespace lanelight {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // The nine real spherical harmonics up to degree 2 without their norms: orthogonal.
 using Harmonics = std::array<double, 9>;

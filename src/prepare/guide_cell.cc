@@ -121,8 +121,8 @@ std::vector<double> Flatten(const std::vector<Leaf>& leaves) {
 }
 
 // Kernels find squares with the densities that they really have: their numbers are
-// multiples of kStep, and so are the bounds.
-constexpr double kStep = 1.0 / (1 << 24);
+// multiples of kBoundStep, and so are the bounds.
+constexpr double kBoundStep = 1.0 / (1 << 24);
 using Bounds = std::array<double, kGuideGrid>;
 
 Bounds BoundsOf(const double* masses) {
@@ -131,7 +131,8 @@ Bounds BoundsOf(const double* masses) {
   for (std::size_t i = 0; i < kGuideGrid; ++i) total += masses[i];
   for (std::size_t i = 0; i < kGuideGrid; ++i) {
     sum += masses[i];
-    bounds[i] = i + 1 == kGuideGrid ? 1 : std::round(sum / total / kStep) * kStep;
+    bounds[i] =
+        i + 1 == kGuideGrid ? 1 : std::round(sum / total / kBoundStep) * kBoundStep;
     LL_CHECK_GT(bounds[i], before);
     before = bounds[i];
   }

@@ -10,7 +10,7 @@ namespace {
 constexpr double kBorrowed = 8;
 // A guide must promise this much less second moment: it takes time.
 constexpr double kLeastGain = 0.95;
-constexpr double kStep = 0.1;
+constexpr double kFractionStep = 0.1;
 constexpr double kUntried = 0.5, kUntriedRecords = 16;
 
 }  // namespace
@@ -20,7 +20,7 @@ void FractionSums::Add(const GuideRecord& record) {
   const double mass = record.Mass();
   if (!(g > 0) || !(p > 0)) return;
   for (std::size_t i = 0; i < kFractions; ++i) {
-    const double c = kStep * double(i);
+    const double c = kFractionStep * double(i);
     sums_[i] += mass * mass / (c * g + (1 - c) * p);
   }
   const double plain = mass * mass / p;
@@ -44,7 +44,7 @@ FractionSums::Choice FractionSums::Best(double effective) const {
   }
   const auto best = std::min_element(sums_.begin(), sums_.end());
   if (*best > kLeastGain * sums_[0]) return {0, 1};
-  return {kStep * double(best - sums_.begin()), *best / sums_[0]};
+  return {kFractionStep * double(best - sums_.begin()), *best / sums_[0]};
 }
 
 }  // namespace lanelight

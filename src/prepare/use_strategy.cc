@@ -2,6 +2,7 @@
 
 #include "src/compile/environment_table.h"
 #include "src/core/alias_table.h"
+#include "src/prepare/light_anchors.h"
 #include "src/prepare/light_tree.h"
 
 namespace lanelight {
@@ -63,6 +64,7 @@ bool CompensatesEnvironment(const Strategy& strategy) {
 void UseStrategy(const Strategy& strategy, CompiledScene& scene) {
   UseEnvironmentTables(strategy, scene);
   scene.strategy = strategy;
+  SetLightAnchors(strategy, scene);
   LightTable& table = scene.lights;
   table.tree = {};
   table.alias_q.clear();

@@ -1,6 +1,7 @@
 // Prepares a compiled scene for a strategy: probabilities of the lights, and of the
-// texels of environment images. Cheap next to compiling, so that one scene can be
-// rendered with many strategies.
+// texels of environment images, and the places that points in media are looked for
+// around. Cheap next to compiling, so that one scene can be rendered with many
+// strategies.
 #pragma once
 
 #include "src/compiled/scene.h"

@@ -14,14 +14,13 @@ namespace {
 
 constexpr std::size_t kLeastPairs = 3;
 // No render is shorter: a clock that shows nothing must not make an efficiency infinite.
-constexpr double kLeastSeconds = 1e-9;
+constexpr double kLeastCost = 1e-9;
 
 Cost MeanCost(std::span<const Cost> costs) {
   Cost mean;
   for (const Cost& c : costs) {
     mean.error += c.error / static_cast<double>(costs.size());
-    mean.seconds +=
-        std::max(c.seconds, kLeastSeconds) / static_cast<double>(costs.size());
+    mean.seconds += std::max(c.seconds, kLeastCost) / static_cast<double>(costs.size());
   }
   mean.error = std::max(0.0, mean.error);
   return mean;
@@ -49,9 +48,9 @@ Interval EfficiencyRatio(std::span<const Cost> baseline, std::span<const Cost> o
   for (std::size_t i = 0; i < baseline.size(); ++i) {
     // Errors relative to their mean, so that no product leaves the range of double.
     pairs.Add(std::array{baseline[i].error / a.error,
-                         std::max(baseline[i].seconds, kLeastSeconds) / a.seconds,
+                         std::max(baseline[i].seconds, kLeastCost) / a.seconds,
                          other[i].error / b.error,
-                         std::max(other[i].seconds, kLeastSeconds) / b.seconds});
+                         std::max(other[i].seconds, kLeastCost) / b.seconds});
   }
   const double half = HalfWidth(pairs, LogRatio, confidence);
   const Interval ratio = {value, value * std::exp(-half), value * std::exp(half)};

@@ -10,7 +10,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::size_t kChunksPerThread = 8;  // read at a time
+constexpr std::size_t kReadPerThread = 8;  // read at a time
 
 constexpr StateType kTypes[] = {StateType::kFloat32, StateType::kFloat64,
                                 StateType::kUint32, StateType::kUint64,
@@ -24,7 +24,7 @@ struct Source {
 };
 
 // One chunk of one of them.
-struct Task {
+struct ReadTask {
   const Source* source;
   std::size_t chunk;
 };
@@ -101,7 +101,7 @@ Source OpenSource(hid_t file, const std::string& group, const MutableStateColumn
   return {column, std::move(grid), std::move(dataset)};
 }
 
-void ReadChunk(const Task& task, std::vector<unsigned char>& bytes) {
+void ReadChunk(const ReadTask& task, std::vector<unsigned char>& bytes) {
   const std::string& name = task.source->column.name;
   const hid_t dataset = task.source->dataset.get();
   const std::vector<std::size_t> position = task.source->grid.Offset(task.chunk);
@@ -121,11 +121,11 @@ void ReadChunk(const Task& task, std::vector<unsigned char>& bytes) {
 }
 
 // What a thread needs for a chunk.
-struct Worker {
+struct ReadWorker {
   ChunkDecoder decoder;
   std::vector<char> values;
 
-  bool Decode(const Task& task, const TileRows* tiles,
+  bool Decode(const ReadTask& task, const TileRows* tiles,
               const std::vector<unsigned char>& bytes) {
     const ChunkGrid& grid = task.source->grid;
     values.resize(grid.chunk_bytes());
@@ -139,17 +139,17 @@ struct Worker {
 };
 
 // HDF5 reads the chunks of a batch one by one, before all threads expand them.
-void ReadChunks(const std::vector<Task>& tasks, const TileRows* tiles) {
+void ReadChunks(const std::vector<ReadTask>& tasks, const TileRows* tiles) {
   const std::size_t threads = static_cast<std::size_t>(MaxThreads());
-  std::vector<Worker> workers(threads);
+  std::vector<ReadWorker> workers(threads);
   std::vector<std::vector<unsigned char>> chunks(
-      std::min(tasks.size(), kChunksPerThread * threads));
+      std::min(tasks.size(), kReadPerThread * threads));
   for (std::size_t begin = 0; begin < tasks.size(); begin += chunks.size()) {
     const std::size_t n = std::min(chunks.size(), tasks.size() - begin);
     for (std::size_t i = 0; i < n; ++i) ReadChunk(tasks[begin + i], chunks[i]);
     std::atomic<bool> complete{true};
     ParallelFor(n, [&](std::size_t i) {
-      Worker& worker = workers[static_cast<std::size_t>(ThreadIndex())];
+      ReadWorker& worker = workers[static_cast<std::size_t>(ThreadIndex())];
       if (!worker.Decode(tasks[begin + i], tiles, chunks[i])) complete = false;
     });
     if (!complete) throw hdf5::Failure("a chunk does not expand");
@@ -176,7 +176,7 @@ void ReadColumns(hid_t file, const std::string& group,
   for (const MutableStateColumn& column : into) {
     sources.push_back(OpenSource(file, group, column, tiles));
   }
-  std::vector<Task> tasks;
+  std::vector<ReadTask> tasks;
   for (const Source& source : sources) {
     for (std::size_t i = 0; i < source.grid.chunks(); ++i) tasks.push_back({&source, i});
   }

@@ -18,6 +18,8 @@ inline constexpr const char* kLightCandidateChoices[] = {
     LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)};
 inline constexpr const char* kEnvironmentPoints[] = {LANELIGHT_ENVIRONMENT_CHOICES(X)};
 inline constexpr const char* kShadowRoulettes[] = {LANELIGHT_SHADOW_ROULETTES(X)};
+inline constexpr const char* kDistances[] = {LANELIGHT_DISTANCES(X)};
+inline constexpr const char* kTransmittances[] = {LANELIGHT_TRANSMITTANCES(X)};
 inline constexpr const char* kAllocations[] = {LANELIGHT_ALLOCATIONS(X)};
 inline constexpr const char* kGuidings[] = {LANELIGHT_GUIDINGS(X)};
 inline constexpr const char* kDecisions[] = {LANELIGHT_DECISIONS(X)};

@@ -115,6 +115,18 @@ inline constexpr std::uint32_t kDefaultLightCandidates = LANELIGHT_LIGHT_CANDIDA
   X(Contribution, STAGE, ({}), "contribution", "[:FLOOR]", "shadow rays are traced with a probability that falls with what they can still add", \
     "f V / s or 0, s = min(1, max(FLOOR = 0.1, what it adds / what the pixel is worth))", "Arvo and Kirk 1990; Shirley, Wang and Zimmerman 1996")
 
+#define LANELIGHT_DISTANCES(X)                                                            \
+  X(Exponential, PLAIN, ({}), "exponential", "", "points in media in proportion to what reaches them (default)", \
+    "f / p, p = sigma_t T(d)", "Raab, Seibert and Keller 2008")                           \
+  X(Equiangular, STAGE, ({}), "equiangular", "", "points in homogeneous media also uniform in the angle around a light", \
+    "f / p, p = (sigma_t T(d) + (1 - T(t)) p_angle(d)) / 2, p_angle = D / (theta (D^2 + (d - d_0)^2))", "Kulla and Fajardo 2012")
+
+#define LANELIGHT_TRANSMITTANCES(X)                                                       \
+  X(Ratio, PLAIN, ({}), "ratio", "", "shadow rays keep the share of null collisions at each one in media that vary (default)", \
+    "prod (1 - sigma_t / sigma_m)", "Novak, Selle and Jarosz 2014")                       \
+  X(Delta, STAGE, ({}), "delta", "", "they end at the first collision that is real", \
+    "1 or 0, 0 with probability sigma_t / sigma_m at each", "Woodcock et al. 1965")
+
 #define LANELIGHT_ALLOCATIONS(X)                                                          \
   X(Uniform, PLAIN, ({}), "uniform", "", "every pixel has as many samples (default)", "N", "") \
   X(Error, PLAIN, ({}), "error", "", "more samples where they lower the relative error of the image most", \
@@ -152,6 +164,8 @@ LANELIGHT_ENUM(LightPoints, LANELIGHT_LIGHT_POINTS(X));
 LANELIGHT_ENUM(LightCandidates, LANELIGHT_LIGHT_CANDIDATE_CHOICES(X));
 LANELIGHT_ENUM(EnvironmentPoints, LANELIGHT_ENVIRONMENT_CHOICES(X));
 LANELIGHT_ENUM(ShadowRoulette, LANELIGHT_SHADOW_ROULETTES(X));
+LANELIGHT_ENUM(Distances, LANELIGHT_DISTANCES(X));
+LANELIGHT_ENUM(Transmittance, LANELIGHT_TRANSMITTANCES(X));
 LANELIGHT_ENUM(Allocation, LANELIGHT_ALLOCATIONS(X));
 LANELIGHT_ENUM(Guiding, LANELIGHT_GUIDINGS(X));
 LANELIGHT_ENUM(Decide, LANELIGHT_DECISIONS(X));

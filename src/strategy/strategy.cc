@@ -45,6 +45,12 @@ constexpr ChoiceInfo kChoices[] = {
 #define X(enumerator, ...) ROW("shadow-roulette", __VA_ARGS__)
     LANELIGHT_SHADOW_ROULETTES(X)
 #undef X
+#define X(enumerator, ...) ROW("distances", __VA_ARGS__)
+    LANELIGHT_DISTANCES(X)
+#undef X
+#define X(enumerator, ...) ROW("transmittance", __VA_ARGS__)
+    LANELIGHT_TRANSMITTANCES(X)
+#undef X
 #define X(enumerator, ...) ROW("allocation", __VA_ARGS__)
     LANELIGHT_ALLOCATIONS(X)
 #undef X
@@ -106,7 +112,8 @@ std::string ToText(const Strategy& s) {
   text += fmt::format(",roulette={},light-selection={},seen-lights={}", RouletteText(s),
                       Name(s.light_selection), Name(s.seen_lights));
   return text + LightText(s) +
-         fmt::format(",allocation={},guiding={},decide={}", Name(s.allocation),
+         fmt::format(",distances={},transmittance={},allocation={},guiding={},decide={}",
+                     Name(s.distances), Name(s.transmittance), Name(s.allocation),
                      Name(s.guiding), Name(s.decide));
 }
 
@@ -131,6 +138,10 @@ const char* Name(EnvironmentPoints choice) {
 }
 const char* Name(ShadowRoulette choice) {
   return kShadowRoulettes[static_cast<int>(choice)];
+}
+const char* Name(Distances choice) { return kDistances[static_cast<int>(choice)]; }
+const char* Name(Transmittance choice) {
+  return kTransmittances[static_cast<int>(choice)];
 }
 const char* Name(Allocation choice) { return kAllocations[static_cast<int>(choice)]; }
 const char* Name(Guiding choice) { return kGuidings[static_cast<int>(choice)]; }

@@ -42,6 +42,8 @@ struct Strategy {
   EnvironmentPoints environment = EnvironmentPoints::kPlain;
   ShadowRoulette shadow_roulette = ShadowRoulette::kNone;
   std::optional<double> shadow_floor;  // of kContribution: least probability of a ray
+  Distances distances = Distances::kExponential;
+  Transmittance transmittance = Transmittance::kRatio;
   Allocation allocation = Allocation::kUniform;
   Guiding guiding = Guiding::kNone;
   Decide decide = Decide::kNone;
@@ -81,6 +83,8 @@ enum class StrategyKey {
   kLightCandidates,
   kEnvironment,
   kShadowRoulette,
+  kDistances,
+  kTransmittance,
   kAllocation,
   kGuiding,
   kDecide,
@@ -132,6 +136,8 @@ const char* Name(LightPoints choice);
 const char* Name(LightCandidates choice);
 const char* Name(EnvironmentPoints choice);
 const char* Name(ShadowRoulette choice);
+const char* Name(Distances choice);
+const char* Name(Transmittance choice);
 const char* Name(Allocation choice);
 const char* Name(Guiding choice);
 const char* Name(Decide choice);

@@ -1,15 +1,14 @@
 #include "src/stress/closed_forms.h"
 
+#include "src/core/pi.h"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 namespace lanelight::stress {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // What crosses the coat of a thickness from outside at `cosine`, or, with 1 / eta, from
 // inside: the way through it is as long as its direction inside is slant.

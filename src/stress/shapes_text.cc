@@ -1,14 +1,13 @@
 #include "src/stress/shapes_text.h"
 
+#include "src/core/pi.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace lanelight::stress {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 std::string Numbers(Vec3d v) {
   return fmt::format("{:.17g} {:.17g} {:.17g} ", v.x, v.y, v.z);

@@ -22,7 +22,7 @@ std::size_t Combinations(const SubGrid& grid) {
 }
 
 // Like the digits of a number: the last axis changes fastest.
-AxisValues Combination(const SubGrid& grid, std::size_t number) {
+AxisValues CombinationOf(const SubGrid& grid, std::size_t number) {
   AxisValues values;
   for (auto it = grid.axes.rbegin(); it != grid.axes.rend(); ++it) {
     const auto& [axis, list] = *it;
@@ -115,7 +115,7 @@ std::vector<AxisValues> AllCombinations(const std::vector<SubGrid>& grids) {
   for (const SubGrid& grid : grids) {
     const std::size_t cells = Combinations(grid);
     for (std::size_t i = 0; i < cells; ++i) {
-      AxisValues values = Combination(grid, i);
+      AxisValues values = CombinationOf(grid, i);
       if (seen.insert(values).second) all.push_back(std::move(values));
     }
   }

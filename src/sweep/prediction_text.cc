@@ -5,7 +5,7 @@
 namespace lanelight {
 namespace {
 
-std::string Known(double value, const char* format) {
+std::string TextOf(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
 }
 
@@ -44,7 +44,7 @@ std::string Row(const SweepCell& cell, const CellPrediction& p) {
     return fmt::format("{:>10} {:>10}  {}: {}\n", "will fail", "", cell.name, p.message);
   }
   return fmt::format("{:>10} {:>10}  {}\n",
-                     Known(p.seconds, "{:.3g}") + (p.measured ? " " : "~"),
+                     TextOf(p.seconds, "{:.3g}") + (p.measured ? " " : "~"),
                      std::isfinite(p.bytes) ? BytesText(p.bytes) : "-", cell.name);
 }
 

@@ -115,6 +115,21 @@ void NoteEnvironment(const Checked& c) {
   }
 }
 
+void NoteMedia(const Checked& c) {
+  const Strategy& s = c.strategy;
+  if (s.distances != Distances::kExponential &&
+      !c.plan.Has(Feature::kEquiangularDistances)) {
+    c.Note("distances=equiangular",
+           ": there is no homogeneous medium that scatters, or no light with a place");
+  }
+  if (s.transmittance != Transmittance::kRatio &&
+      !c.plan.Has(Feature::kDeltaTransmittance)) {
+    c.Note("transmittance=delta", c.scene.Has(Feature::kMediumGrids)
+                                      ? ": no light is sampled"
+                                      : ": there is no medium that varies");
+  }
+}
+
 void NotePaths(const Checked& c) {
   const Strategy& s = c.strategy;
   if (s.roulette != Roulette::kThroughput && s.roulette != Roulette::kNone &&
@@ -141,6 +156,7 @@ Notes CheckStrategy(const CompiledScene& scene, const PlanOptions& options) {
   const Checked checked = {s, scene.features, plan, options, notes};
   NoteLights(checked);
   NoteEnvironment(checked);
+  NoteMedia(checked);
   NotePaths(checked);
   if (s.control == Control::kRegression && s.points != Points::kIndependent) {
     notes.push_back(std::string("control=regression gains little with points=") +

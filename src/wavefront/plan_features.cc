@@ -1,6 +1,7 @@
 #include "src/wavefront/plan_features.h"
 
 #include "src/path/choice_features.h"
+#include "src/prepare/light_anchors.h"
 
 namespace lanelight {
 namespace {
@@ -56,6 +57,13 @@ void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
   f.Add(TurnsOn(strategy.shadow_roulette));
 }
 
+void AddMedia(const Strategy& strategy, const CompiledScene& scene, FeatureSet& f) {
+  f.Add(Feature::kOtherEvents);
+  if (!f.Has(Feature::kLights)) return;
+  if (HasAnchors(strategy, scene)) f.Add(TurnsOn(strategy.distances));
+  if (f.Has(Feature::kMediumGrids)) f.Add(TurnsOn(strategy.transmittance));
+}
+
 void AddControl(const Strategy& strategy, FeatureSet& f) {
   if (strategy.control == Control::kNone || !f.Has(Feature::kScatters)) return;
   f.Add(TurnsOn(strategy.control));
@@ -82,8 +90,8 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
   const bool media = f.Has(Feature::kMedia);
   if (media || (options.max_depth > 0 && HasSurfaces(f))) {
     f.Add(Feature::kScatters);
-    if (media) f.Add(Feature::kOtherEvents);
     AddLightSampling(strategy, f);
+    if (media) AddMedia(strategy, scene, f);
     if (f.Has(Feature::kLights) && !f.Has(Feature::kInterfaces)) {
       f.Add(Feature::kOpaqueShadows);
     }

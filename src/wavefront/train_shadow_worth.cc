@@ -15,7 +15,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::uint64_t kMostPilotSamples = 60'000;
+constexpr std::uint64_t kMostShadowSamples = 60'000;
 // Cost of a shadow ray in the unit of TrainingSamples::Cost.
 constexpr double kShadowRayCost = 0.5;
 // Points that are stratified leave less variance than the independent ones of the pass,
@@ -23,7 +23,7 @@ constexpr double kShadowRayCost = 0.5;
 // stratification lowers.
 constexpr double kStratified = 0.25;
 
-PathSamples Pass(const TrainingContext& context, const TrainingWork& work) {
+PathSamples ShadowPass(const TrainingContext& context, const TrainingWork& work) {
   const StopWatcher watcher(context.options.stop);
   PlanOptions options = context.plan.options;
   options.aov = false;
@@ -50,11 +50,11 @@ double UsualVariance(const std::vector<double>& variances) {
 
 TrainingOutcome TrainShadowWorth(const TrainingContext& context) {
   const std::uint64_t samples = std::clamp<std::uint64_t>(
-      context.options.planned_samples / 100, 1, kMostPilotSamples);
+      context.options.planned_samples / 100, 1, kMostShadowSamples);
   const TrainingWork work = MakeTrainingWork(context.scene, samples);
   ShadowWorth& worth = context.tables.shadow_worth;
   worth.inverse.clear();  // the pass traces every ray
-  const PathSamples pass = Pass(context, work);
+  const PathSamples pass = ShadowPass(context, work);
   const RunParameters& run = context.run;
   const ImageGuess image(run.width, run.height, work.pixels, pass.colors);
   const double variance = UsualVariance(RelativeVariances(pass, work, image));

@@ -3,15 +3,13 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <numbers>
 
+#include "src/core/pi.h"
 #include "src/prepare/prepare_scene.h"
 #include "tests/compile/testing.h"
 
 namespace lanelight {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // The lit square of the tests: area 4, half diagonal sqrt 2, scale 1.
 SceneDescription LitSquare(const AreaLight& light) {

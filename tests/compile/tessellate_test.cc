@@ -3,15 +3,13 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "src/compile/seen_tolerance.h"
+#include "src/core/pi.h"
 #include "tests/compile/testing.h"
 
 namespace lanelight {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Shape Cylinder(double radius, double z_min, double z_max, double phi_max) {
   Shape shape = SphereShape(radius, 0);

@@ -2,6 +2,7 @@
 // exact irradiance of the projected images, and no bias where things are hidden.
 #include <catch2/catch.hpp>
 
+#include "src/core/pi.h"
 #include "src/image/exr.h"
 #include "src/image/octahedral.h"
 #include "src/prepare/ambient.h"
@@ -13,7 +14,6 @@
 namespace lanelight::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr const char* kDirections[] = {"uniform", "bsdf", "light", "mis", "mis:balance"};
 
 // An environment image with a bright spot; `dark`: black texels in the lower half.

@@ -1,13 +1,13 @@
 // control=analytic in renders: no variance where nothing shadows, no bias anywhere.
 #include <catch2/catch.hpp>
 
+#include "src/core/pi.h"
 #include "tests/control/control_scenes.h"
 #include "tests/control/quadrature.h"
 
 namespace lanelight::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const Rgb kAlbedo = {0.8, 0.5, 0.3};
 
 // A light, and its irradiance on the origin with normal +z and -z.

@@ -3,13 +3,13 @@
 // pupil against rays tried at random.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
 #include "src/compile/camera.h"
 #include "src/compile/filter.h"
+#include "src/core/pi.h"
 #include "tests/reference/lenses.h"
 #include "tests/support/wave_fixture.h"
 #include "tests/wavefront/agreement.h"
@@ -17,7 +17,6 @@
 namespace lanelight::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kWidth = 60, kHeight = 40;
 constexpr std::uint32_t kPaths = kWidth * kHeight;
 

@@ -3,12 +3,12 @@
 // reference with every way of sampling. Planted faults are found.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
 #include "src/core/error.h"
+#include "src/core/pi.h"
 #include "src/image/octahedral.h"
 #include "src/prepare/parameters.h"
 #include "src/prepare/prepare_scene.h"
@@ -20,7 +20,6 @@
 namespace lanelight::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::uint32_t kPaths = 4001;
 constexpr int kWide = 6, kHigh = 4, kSquare = 8;
 

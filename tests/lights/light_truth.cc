@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "src/compile/environment.h"
+#include "src/core/pi.h"
 #include "src/image/octahedral.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Vec3d ToVec(const float* v) { return {v[0], v[1], v[2]}; }
 void Store(Vec3d v, float* out) {

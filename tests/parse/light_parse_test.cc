@@ -1,15 +1,12 @@
 // Lights and the spectra of their emission.
 #include <catch2/catch.hpp>
 
-#include <numbers>
-
+#include "src/core/pi.h"
 #include "src/image/spectrum.h"
 #include "tests/parse/parse_text.h"
 
 namespace lanelight {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Light ParseLight(const std::string& text) {
   return ParseWorld("LightSource " + text).lights.back();

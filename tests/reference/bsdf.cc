@@ -1,11 +1,11 @@
 #include "tests/reference/bsdf.h"
 
 #include "src/core/check.h"
+#include "src/core/pi.h"
 
 namespace lanelight::reference {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr Rgb kWhite = {1, 1, 1};
 
 Vec3d FlipZ(Vec3d v) { return {v.x, v.y, -v.z}; }

@@ -1,5 +1,6 @@
 // The building blocks of the reference: each sampler against its own evaluation, and both
 // against closed forms.
+#include "src/core/pi.h"
 #include "tests/reference/bsdf.h"
 
 #include <array>
@@ -12,8 +13,6 @@
 
 namespace lanelight::reference {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 LocalMaterial Local(const Material& material) {
   SceneDescription scene;

@@ -1,14 +1,11 @@
 #include "tests/reference/camera.h"
 
-#include <numbers>
-
 #include "src/core/check.h"
+#include "src/core/pi.h"
 #include "src/image/octahedral.h"
 
 namespace lanelight::reference {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Uniform in the unit disk, by rejection.
 void SampleDisk(Random& random, double& x, double& y) {

@@ -1,16 +1,14 @@
 #include "tests/reference/lights.h"
 
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "src/core/check.h"
+#include "src/core/pi.h"
 #include "src/image/octahedral.h"
 
 namespace lanelight::reference {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Vec3d UniformOnSphere(Random& random) {
   // Archimedes: the height of a uniform point on the sphere is uniform.

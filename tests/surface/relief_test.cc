@@ -1,11 +1,11 @@
 // Shading normals of displacement textures and normal maps against closed forms, on every
 // kind of shape; footprints of pixels.
 #include <catch2/catch.hpp>
-#include <numbers>
 
 #include "kernels/intersect/stages.h"
 #include "kernels/simd/target.h"
 #include "kernels/surface/stages.h"
+#include "src/core/pi.h"
 #include "src/prepare/prepare_scene.h"
 #include "tests/reference/relief.h"
 #include "tests/reference/scenes.h"
@@ -14,8 +14,6 @@
 
 namespace lanelight::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Surfaces at the ends of rays, all of which hit: rays are given in the world.
 class Surfaces {

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kView = 0.6;  // cosine
 
-Point Furnace(const std::string& series, const std::string& material, double expected,
-              const Effort& effort) {
+Point CoatedFurnace(const std::string& series, const std::string& material,
+                    double expected, const Effort& effort) {
   Quality quality;
   quality.depth = 1;
   return Named(series, Expect(expected, ViewOfPlane(kView) + Sky(1) + Plane(material),
@@ -33,7 +33,7 @@ std::string Plastic(const Coat& coat, int depth) {
 Point PlasticFurnace(const std::string& series, Coat coat, int depth,
                      const Effort& effort) {
   coat.bounces = (depth + 1) / 2;
-  return Furnace(series, Plastic(coat, depth), CoatFurnace(coat, kView), effort);
+  return CoatedFurnace(series, Plastic(coat, depth), CoatFurnace(coat, kView), effort);
 }
 
 std::string Lacquer(const Coat& coat, int depth) {
@@ -58,13 +58,13 @@ double LacquerFurnace(const Coat& coat) {
 std::vector<Point> ByThickness(double thickness, const Effort& effort) {
   const Coat coat = {0.5, 1.5, thickness};
   return {PlasticFurnace("plastic", coat, 1000, effort),
-          Furnace("lacquer", Lacquer(coat, 1000), LacquerFurnace(coat), effort)};
+          CoatedFurnace("lacquer", Lacquer(coat, 1000), LacquerFurnace(coat), effort)};
 }
 
 std::vector<Point> ByIndex(double contrast, const Effort& effort) {
   const Coat coat = {0.5, 1 + contrast, 0};
   return {PlasticFurnace("plastic", coat, 1000, effort),
-          Furnace("lacquer", Lacquer(coat, 1000), LacquerFurnace(coat), effort)};
+          CoatedFurnace("lacquer", Lacquer(coat, 1000), LacquerFurnace(coat), effort)};
 }
 
 std::vector<Point> ByAlbedo(double missing, const Effort& effort) {
@@ -76,7 +76,7 @@ std::vector<Point> ByAlbedo(double missing, const Effort& effort) {
   return points;
 }
 
-std::vector<Point> ByDepth(double depth, const Effort& effort) {
+std::vector<Point> CoatsByDepth(double depth, const Effort& effort) {
   return {PlasticFurnace("plastic", {0.9, 1.5, 0}, static_cast<int>(depth), effort)};
 }
 
@@ -98,7 +98,7 @@ void AddCoatCases(std::vector<Case>& cases) {
                    ByAlbedo});
   cases.push_back({"coat-depth", "materials", "walks of 1 to 10000 layers under a coat",
                    "the geometric series ends with the depth", "", Truth::kClosedForm,
-                   LogAxis("depth", "", 1, 1e4, {1, 2, 3, 10, 100, 1e4}), ByDepth});
+                   LogAxis("depth", "", 1, 1e4, {1, 2, 3, 10, 100, 1e4}), CoatsByDepth});
 }
 
 }  // namespace lanelight::stress

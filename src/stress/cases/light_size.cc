@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "src/core/pi.h"
 #include "src/stress/cases/cases.h"
 #include "src/stress/cases/transport_setup.h"
 #include "src/stress/closed_forms.h"
@@ -12,7 +12,7 @@
 namespace lanelight::stress {
 namespace {
 
-constexpr double kAlbedo = 0.5, kPi = std::numbers::pi;
+constexpr double kAlbedo = 0.5;
 // What a diffuse plane shows of an irradiance.
 constexpr double Shown(double irradiance) { return kAlbedo / kPi * irradiance; }
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <vector>
 
+#include "src/core/pi.h"
 #include "src/image/exr.h"
 #include "src/image/octahedral.h"
 #include "src/stress/cases/cases.h"
@@ -17,7 +17,6 @@
 namespace lanelight::stress {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const Quality kDirect = {64, 4096, 1};
 
 std::string Light(const std::string& kind, const std::string& color, double value) {

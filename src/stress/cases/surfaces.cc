@@ -9,14 +9,14 @@
 namespace lanelight::stress {
 namespace {
 
-const Vec3d kTilted = Normalize(Vec3d{0.3, -0.5, 0.8});
+const Vec3d kLeaning = Normalize(Vec3d{0.3, -0.5, 0.8});
 
 // Rays that leave a square of two triangles at an angle to it meet neither.
 std::vector<Point> LeaveGrazing(double sine, const Effort& effort) {
   Draws draws(effort.seed);
   std::vector<Point> points;
   for (const bool tilted : {false, true}) {
-    const Vec3d n = tilted ? kTilted : Vec3d{0, 0, 1};
+    const Vec3d n = tilted ? kLeaning : Vec3d{0, 0, 1};
     const Across across(n);
     RayTracer tracer(RayScene(SquareMesh({}, n).Text(), 5 * n));
     std::vector<WorldRay> rays;
@@ -41,7 +41,7 @@ std::vector<Point> Gap(double gap, const Effort& effort) {
   Draws draws(effort.seed);
   std::vector<Point> points;
   for (const bool tilted : {false, true}) {
-    const Vec3d n = tilted ? kTilted : Vec3d{0, 0, 1};
+    const Vec3d n = tilted ? kLeaning : Vec3d{0, 0, 1};
     // The upper square is larger, so that none passes beside it.
     const double side = 1.5 + 45 * gap;
     RayTracer tracer(RayScene(
@@ -67,18 +67,18 @@ std::vector<Point> Gap(double gap, const Effort& effort) {
 // As many copies of one square at the same place: hit as the first of them, and left.
 std::vector<Point> Coincident(double count, const Effort& effort) {
   Draws draws(effort.seed);
-  const MeshText one = SquareMesh({}, kTilted);
+  const MeshText one = SquareMesh({}, kLeaning);
   MeshText mesh;
   for (int i = 0; i < std::lround(count); ++i) {
     mesh.AddQuad(one.points[0], one.points[1], one.points[2], one.points[3]);
   }
-  RayTracer tracer(RayScene(mesh.Text(), 5 * kTilted));
+  RayTracer tracer(RayScene(mesh.Text(), 5 * kLeaning));
   std::vector<WorldRay> rays;
   std::vector<Vec3d> leaving;
   for (int i = 0; i < effort(64, 4096); ++i) {
-    const Vec3d d = -draws.Above(kTilted, 0.3);
-    rays.push_back({PointOfSquare(draws, {}, kTilted) - 2.0 * d, d});
-    leaving.push_back(draws.Above(kTilted, 1e-3));
+    const Vec3d d = -draws.Above(kLeaning, 0.3);
+    rays.push_back({PointOfSquare(draws, {}, kLeaning) - 2.0 * d, d});
+    leaving.push_back(draws.Above(kLeaning, 1e-3));
   }
   std::uint64_t failures = 0;
   for (const WorldHit& hit : tracer.Trace(rays)) {

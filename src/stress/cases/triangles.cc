@@ -9,17 +9,17 @@
 namespace lanelight::stress {
 namespace {
 
-const Vec3d kTilted = Normalize(Vec3d{0.3, -0.5, 0.8});
+const Vec3d kLeaning = Normalize(Vec3d{0.3, -0.5, 0.8});
 
 std::vector<Point> FarFromOrigin(double distance, const Effort& effort) {
   Draws draws(effort.seed);
   const Vec3d center = distance * Normalize(Vec3d{1, -2, 0.5});
-  RayTracer tracer(RayScene(SquareMesh(center, kTilted).Text(), center + 5 * kTilted));
+  RayTracer tracer(RayScene(SquareMesh(center, kLeaning).Text(), center + 5 * kLeaning));
   std::vector<WorldRay> rays;
   std::vector<Vec3d> targets;
   for (int i = 0; i < effort(1000, 100000); ++i) {
-    targets.push_back(PointOfSquare(draws, center, kTilted));
-    const Vec3d d = -draws.Above(kTilted, 0.2);
+    targets.push_back(PointOfSquare(draws, center, kLeaning));
+    const Vec3d d = -draws.Above(kLeaning, 0.2);
     rays.push_back({targets.back() - 3.0 * d, d});
   }
   const std::vector<WorldHit> hits = tracer.Trace(rays);

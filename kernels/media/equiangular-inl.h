@@ -1,0 +1,126 @@
+// Distances along rays that are uniform in the angle around a light (Kulla and Fajardo
+// 2012, "Importance Sampling Techniques for Path Tracing in Participating Media"): they
+// are found where its light, which falls with the square of the distance, is strong.
+#if defined(LANELIGHT_MEDIA_EQUIANGULAR_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_MEDIA_EQUIANGULAR_INL_H_
+#undef LANELIGHT_MEDIA_EQUIANGULAR_INL_H_
+#else
+#define LANELIGHT_MEDIA_EQUIANGULAR_INL_H_
+#endif
+
+#include "kernels/media/medium-inl.h"
+#include "kernels/media/walk_random-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// The middle of a light, drawn by power with two numbers in [0, 1); infinite for lights
+/// that have no place.
+LANELIGHT_INLINE V3 DrawAnchor(const MediumTable& table, VF u0, VF u1) {
+  const DI di;
+  static_assert(sizeof(LightAnchor) == 16);
+  const float* words = reinterpret_cast<const float*>(table.anchors.data());
+  const std::size_t size = table.anchors.size();
+  const VI last = hn::Set(di, static_cast<int32_t>(size) - 1);
+  const VF scaled = hn::Mul(u0, Splat(static_cast<float>(size)));
+  const VI bin = hn::Min(hn::ConvertTo(di, scaled), last);
+  const VF keep = Gather(words + offsetof(LightAnchor, keep) / 4, hn::ShiftLeft<2>(bin));
+  const VI other = Gather(table.anchor_alias.data(), bin);
+  const auto kept = hn::RebindMask(di, hn::Lt(u1, keep));
+  const VI at = hn::ShiftLeft<2>(hn::IfThenElse(kept, bin, other));
+  return {Gather(words, at), Gather(words + 1, at), Gather(words + 2, at)};
+}
+
+/// Distances in (0, length) of a ray from o along d by the angle around `anchor`. The
+/// length may be infinite. `least` above 0 keeps rays through the anchor, and from it,
+/// away from a density without bound: any distance of ray and anchor makes a density.
+struct Equiangular {
+  VF closest;   // distance along the ray of what is nearest to the anchor
+  VF beside;    // distance of the anchor from there
+  VF squared;   // distance of origin and anchor, squared
+  VF angle;     // that the length fills, seen from the anchor
+  MF possible;  // the anchor is somewhere
+
+  LANELIGHT_INLINE Equiangular(V3 o, V3 d, VF length, V3 anchor, VF least) {
+    const V3 to = anchor - o;
+    closest = Dot(to, d);
+    const V3 across = Cross(to, d);
+    beside = hn::Max(hn::Sqrt(Dot(across, across)), least);
+    squared = hn::MulAdd(closest, closest, Sqr(beside));
+    // Not the difference of two angles, which cancels for anchors far away.
+    angle = Atan2(beside, hn::Sub(hn::Div(squared, length), closest));
+    possible = hn::And(hn::Lt(squared, Splat(std::numeric_limits<float>::infinity())),
+                       hn::Gt(angle, Splat(0)));
+  }
+  /// u in [0, 1].
+  LANELIGHT_INLINE VF Sample(VF u) const {
+    const SinCosPair at = SinCos2Pi(hn::Mul(hn::Mul(u, angle), Splat(0.159154943f)));
+    const VF below = hn::MulAdd(closest, at.sin, hn::Mul(beside, at.cos));
+    return hn::Div(hn::Mul(squared, at.sin), below);
+  }
+  LANELIGHT_INLINE VF Pdf(VF distance) const {
+    const VF from = hn::Sub(distance, closest);
+    const VF spread = hn::MulAdd(from, from, Sqr(beside));
+    return hn::Div(beside, hn::Mul(angle, spread));
+  }
+};
+
+/// Of the points in media that rays find, one half by the angle around a light: whether
+/// there is one at all is left to the transmittance, so that surfaces behind are found as
+/// often as ever. Of a channel with extinction sigma, on a ray of length t, the density
+/// is (sigma T(d) + (1 - T(t)) p_angle(d)) / 2.
+struct EquiangularHalf {
+  Equiangular around;
+  VF jitter;  // in [0, 2^-24)
+
+  LANELIGHT_INLINE EquiangularHalf(const Wave& wave, const Slots& slots, VF drawn, VF t)
+      : EquiangularHalf(wave, slots, drawn, t, WalkRandom(wave, slots, 0x9e3779b1u)) {}
+
+  /// Distance of an event of a channel with extinction `drawn`, u in [0, 1 - T(t)).
+  LANELIGHT_INLINE VF Sample(VF drawn, VF t, VF u) const {
+    const VF half = Splat(0.5f);
+    const VF share = hn::Div(hn::Add(u, jitter), Interacted(drawn, t));
+    const MF turns = hn::And(around.possible, hn::Ge(share, half));
+    const VF rest = hn::IfThenElse(around.possible, hn::Add(u, u), u);
+    const VF below_1 = hn::Min(rest, Splat(1 - 0x1p-24f));
+    const VF straight = hn::Div(ExponentialOf(below_1), drawn);
+    const VF xi = hn::Min(hn::MulAdd(share, Splat(2), Splat(-1.0f)), Splat(1.0f));
+    return hn::Min(hn::IfThenElse(turns, around.Sample(xi), straight), t);
+  }
+  /// Densities of an event at d, from those by transmittance alone.
+  LANELIGHT_INLINE V3 Density(V3 by_transmittance, V3 sigma_t, VF t, VF d) const {
+    const V3 by_angle = Mul(Interacted(sigma_t, t), around.Pdf(d));
+    return IfThenElse(around.possible, Mul(by_transmittance + by_angle, Splat(0.5f)),
+                      by_transmittance);
+  }
+
+ private:
+  LANELIGHT_INLINE EquiangularHalf(const Wave& wave, const Slots& slots, VF drawn, VF t,
+                                   WalkRandom random)
+      : around(Around(wave, slots, drawn, t, random)), jitter(Jitter(random)) {}
+  LANELIGHT_INLINE static Equiangular Around(const Wave& wave, const Slots& slots,
+                                             VF drawn, VF t, WalkRandom& random) {
+    const PathColumns& p = wave.path;
+    const V3 o = Gather3(p.o_x, p.o_y, p.o_z, slots);
+    const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+    VF u0, u1;
+    random.Next(&u0, &u1);
+    const V3 anchor = DrawAnchor(wave.scene->media, u0, u1);
+    const V3 to = anchor - o;
+    const VF reach = hn::Min(t, hn::Div(Splat(1.0f), drawn));
+    const VF least = hn::Mul(Splat(1e-4f), hn::Add(hn::Sqrt(Dot(to, to)), reach));
+    return Equiangular(o, d, t, anchor, least);
+  }
+  LANELIGHT_INLINE static VF Jitter(WalkRandom& random) {
+    VF u0, u1;
+    random.Next(&u0, &u1);
+    return hn::Mul(u0, Splat(0x1p-24f));
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif
