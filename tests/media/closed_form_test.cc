@@ -74,36 +74,6 @@ TEST_CASE("media: emission of a slab", "[media][closed-form]") {
              [](int, int) { return 2.0 * (Rgb{1, 1, 1} - Left(kSigma, 0.8)); });
 }
 
-// Radiance along a ray past a point light in an endless medium, scattered once:
-//   integral of sigma_s / (4 pi) I / r^2 exp(-sigma_t (t + r)) dt,  r^2 = h^2 + (t -
-//   a)^2.
-TEST_CASE("media: single scattering from a point light", "[media][closed-form]") {
-  const double h = 0.7, a = 2;
-  SceneBuilder b(1, 1);
-  b.Depth(1).Perspective({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 0.01);
-  b.AddPoint({h, 0, a}, Grey(3));
-  const Rgb sigma_a = {0.05, 0.1, 0.4}, sigma_s = {0.3, 0.6, 0.2};
-  b.scene().camera.medium = AddMedium(b, MakeMedium(sigma_a, sigma_s));
-  const auto airlight = [&](double absorbed, double scattered) {
-    const double sigma_t = absorbed + scattered, step = 1e-3;
-    double sum = 0;
-    for (double t = step / 2; t < 60; t += step) {
-      const double r2 = h * h + (t - a) * (t - a);
-      sum += std::exp(-sigma_t * (t + std::sqrt(r2))) / r2 * step;
-    }
-    return sum * 3 * scattered / (4 * std::numbers::pi);
-  };
-  const auto known = stat::KnownImage(1, 1, [&](int, int) {
-    return Rgb{airlight(sigma_a.x, sigma_s.x), airlight(sigma_a.y, sigma_s.y),
-               airlight(sigma_a.z, sigma_s.z)};
-  });
-  const auto result = stat::CompareMeans(RenderWavefront(b.Build(), 1 << 16), known,
-                                         {1, 1e-6, kFloatTolerance, 1e-7});
-  INFO(result.ToString());
-  CHECK(result.same);
-  CHECK(result.detectable_bias < 0.03);
-}
-
 // A ball that scatters all light and absorbs none cannot be seen in front of a uniform
 // environment, whatever its phase function: behind an interface, and behind a dielectric
 // of index 1.

@@ -67,6 +67,18 @@ inline SceneDescription NestedClouds(int size = 8) {
   return b.Build();
 }
 
+/// The same, with an outer cloud that varies.
+inline SceneDescription NestedSmoke(int size = 8) {
+  SceneDescription scene = NestedClouds(size);
+  Medium& thin = scene.media[0];
+  thin.kind = MediumKind::kUniformGrid;
+  thin.grid_size[0] = thin.grid_size[1] = thin.grid_size[2] = 3;
+  for (int i = 0; i < 27; ++i) thin.grid.push_back(i % 5 == 1 ? 3.0f : 0.2f * (i % 4));
+  thin.box_min = {-1.2, -1, 0.2};
+  thin.box_max = {1.2, 1, 1.8};
+  return scene;
+}
+
 /// A glass ball full of milk-like liquid, half of it sunk into a block of fog.
 inline SceneDescription FilledGlass(int size = 8) {
   SceneBuilder b(size, size);

@@ -184,7 +184,7 @@ constexpr std::size_t kScenes = 6;
 std::vector<HardScene> HardScenes() {
   return {{"tiny light", TinyLight(), 8},       {"large light", LargeLight(), 4},
           {"glossy plates", GlossyPlates(), 8}, {"sky and sun", SkyAndSun(), 4},
-          {"many lights", ManyLights(), 8},     {"clouds", NestedClouds(), 8}};
+          {"many lights", ManyLights(), 8},     {"clouds", NestedSmoke(), 8}};
 }
 
 bool Accepts(const SceneDescription& scene, const std::string& strategy) {

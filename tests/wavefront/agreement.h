@@ -24,11 +24,14 @@ inline stat::ImageEstimate Estimate(const Rendered& render) {
   return out;
 }
 
-/// Renders with the independent sampler, and requires that no sample was bad.
+/// Renders with the independent sampler, unless `strategy` says otherwise, and requires
+/// that no sample was bad.
 inline stat::ImageEstimate RenderWavefront(const SceneDescription& scene,
-                                           std::uint64_t spp) {
+                                           std::uint64_t spp,
+                                           const std::string& strategy = "") {
   TestRender options;
   options.spp = spp;
+  if (!strategy.empty()) options.strategy = strategy;
   const Rendered render = RenderDescription(scene, options);
   CHECK(render.result.health.Total() == 0);
   return Estimate(render);
@@ -38,7 +41,8 @@ inline stat::ImageEstimate RenderWavefront(const SceneDescription& scene,
 inline stat::ImageTestResult CompareWithReference(const SceneDescription& scene,
                                                   std::uint64_t wavefront_spp,
                                                   int reference_spp,
-                                                  double tolerance = kFloatTolerance) {
+                                                  double tolerance = kFloatTolerance,
+                                                  const std::string& strategy = "") {
   const reference::Textures textures(scene.textures);
   auto options = Options(ReferenceEstimator::kLightSampling, reference_spp);
   options.texture = [&](Index index, const reference::TexturePoint& at) {
@@ -47,7 +51,7 @@ inline stat::ImageTestResult CompareWithReference(const SceneDescription& scene,
   options.normal_map = [](const std::string& path, double u, double v) {
     return reference::NormalMap(path, u, v);
   };
-  return stat::CompareMeans(RenderWavefront(scene, wavefront_spp),
+  return stat::CompareMeans(RenderWavefront(scene, wavefront_spp, strategy),
                             Estimate(RenderReference(scene, options)),
                             {4, 1e-6, tolerance, 1e-7});
 }
