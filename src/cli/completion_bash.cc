@@ -10,7 +10,7 @@ using Kind = CompletionValue::Kind;
 
 // `cur` is the word under the cursor, `prev` the one before it. Bash takes "--flag=value"
 // apart at the "=", so that is looked through.
-constexpr const char* kOpening =
+constexpr const char* kBashOpening =
     R"(# bash completion for {0}; written by `{0} completion bash`
 
 # Words of the first argument that go on as `cur` does.
@@ -122,7 +122,7 @@ std::string BashCompletion(const CompletionProgram& program) {
   std::string first;
   for (const CompletionCommand& command : program.commands) first += command.name + " ";
   first += FlagNames(program.flags);
-  std::string text = fmt::format(kOpening, program.name, ShellQuoted(first));
+  std::string text = fmt::format(kBashOpening, program.name, ShellQuoted(first));
   for (const CompletionCommand& command : program.commands) {
     text += CommandCase(program.name, command);
   }

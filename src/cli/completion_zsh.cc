@@ -9,7 +9,7 @@ namespace {
 using Kind = CompletionValue::Kind;
 
 // The script is a function to be autoloaded, or a file to be sourced.
-constexpr const char* kOpening = R"(#compdef {0}
+constexpr const char* kZshOpening = R"(#compdef {0}
 # zsh completion for {0}; written by `{0} completion zsh`
 
 _{0}() {{
@@ -110,7 +110,7 @@ std::string ZshCompletion(const CompletionProgram& program) {
     cases += CommandCase(command);
   }
   for (const CompletionFlag& flag : program.flags) flags += FlagSpecs(flag, "    ");
-  return fmt::format(kOpening, program.name, commands, flags) + cases +
+  return fmt::format(kZshOpening, program.name, commands, flags) + cases +
          fmt::format(kEnding, program.name);
 }
 

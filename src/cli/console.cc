@@ -11,7 +11,7 @@ namespace {
 int failure = 0;
 bool silent = false;
 
-void Note() {
+void NoteFailure() {
   if (!std::cout.good() && failure == 0) failure = errno ? errno : EIO;
 }
 
@@ -23,7 +23,7 @@ void Print(const std::string& text) {
   if (silent) return;
   errno = 0;
   std::cout << text;
-  Note();
+  NoteFailure();
 }
 
 void PrintError(const std::string& line) {
@@ -31,7 +31,7 @@ void PrintError(const std::string& line) {
   // Standard error flushes standard output first; a failure of that is not to be missed.
   errno = 0;
   std::cout.flush();
-  Note();
+  NoteFailure();
   std::cerr << line << '\n' << std::flush;
 }
 
@@ -44,7 +44,7 @@ void PrintWarning(const std::string& error) {
 bool FlushOutput() {
   errno = 0;
   std::cout.flush();
-  Note();
+  NoteFailure();
   if (failure == 0 || failure == EPIPE) return true;
   PrintError(std::string("error: cannot write to standard output: ") +
              std::strerror(failure));

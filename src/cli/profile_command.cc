@@ -25,7 +25,7 @@ struct ProfileCommandOptions {
   bool quiet = false;
 };
 
-constexpr const char* kInterruptText =
+constexpr const char* kProfileInterruptText =
     "\nstopping: finishing the samples in flight, then printing what was measured (once "
     "more to abort)\n";
 
@@ -67,7 +67,7 @@ int Profile(const ProfileCommandOptions& options) {
   CheckInputsAreSpared({options.json, options.trace}, job.files);
   if (!options.quiet) PrintNotes(job);
   const Peaks peaks = MeasurePeaks(true);
-  const InterruptGuard interrupt(kInterruptText);
+  const InterruptGuard interrupt(kProfileInterruptText);
   const RunResult result = Measure(options, job, interrupt.stop());
   const ProfileReport report = MakeProfileReport(result, peaks);
   if (options.json != "-") Print(ProfileText(report, job, result, scene));

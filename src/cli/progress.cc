@@ -13,8 +13,6 @@
 namespace lanelight {
 namespace {
 
-constexpr auto kRedraw = std::chrono::milliseconds(95);  // at most about 10 a second
-
 int TerminalColumns() {
   winsize size = {};
   if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;

@@ -10,6 +10,10 @@
 
 namespace lanelight {
 
+/// Time between two drawings of a line, about 10 a second, and cells of its bar.
+inline constexpr auto kRedraw = std::chrono::milliseconds(95);
+inline constexpr int kBarCells = 24;
+
 enum class ProgressStyle { kNone, kLines, kBar };
 
 /// kBar if standard error is a terminal, else kLines; kNone if `quiet`.

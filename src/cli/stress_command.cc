@@ -33,7 +33,7 @@ struct StressCommandOptions {
   bool list = false, quiet = false;
 };
 
-constexpr const char* kInterruptText =
+constexpr const char* kStressInterruptText =
     "\nstopping: finishing the point in hand, then writing what there is (once more to "
     "abort)\n";
 
@@ -57,7 +57,7 @@ std::vector<std::string> TargetsOf(const std::vector<std::string>& words) {
 stress::SuiteResult Measure(const std::vector<stress::Case>& cases,
                             const StressCommandOptions& options) {
   StressProgressPrinter progress(ChooseProgressStyle(options.quiet));
-  const InterruptGuard interrupt(kInterruptText);
+  const InterruptGuard interrupt(kStressInterruptText);
   stress::SuiteHooks hooks;
   hooks.on_progress = [&](const stress::SuiteProgress& p) { progress.Update(p); };
   hooks.stop = &interrupt.stop();

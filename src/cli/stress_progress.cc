@@ -9,8 +9,6 @@
 namespace lanelight {
 namespace {
 
-constexpr int kBarCells = 24;
-
 std::string Describe(const stress::SuiteProgress& p) {
   return fmt::format("{} of {}  {}", p.done + 1, p.total, p.now->name);
 }

@@ -12,9 +12,11 @@
 namespace lanelight {
 namespace {
 
-using namespace stress;
+using stress::BreakPlace, stress::Fault, stress::Point, stress::SuiteResult;
+using stress::Case, stress::CaseResult, stress::JudgedPoint, stress::Outcome;
 
-constexpr const char* kRow = "{:<{}}  {:>10} {:>22} {:>6} {:>7} {:>8} {:>6}  {:<10}{}\n";
+constexpr const char* kCaseRow =
+    "{:<{}}  {:>10} {:>22} {:>6} {:>7} {:>8} {:>6}  {:<10}{}\n";
 
 std::string Significant(double x, int digits) {
   return std::isfinite(x) ? fmt::format("{:.{}g}", x, digits) : "-";
@@ -83,7 +85,7 @@ std::string Row(const CaseResult& result, std::size_t width) {
   }
   const JudgedPoint* worst =
       result.worst < 0 ? nullptr : &result.points[std::size_t(result.worst)];
-  return fmt::format(fmt::runtime(kRow), result.about.name, width,
+  return fmt::format(fmt::runtime(kCaseRow), result.about.name, width,
                      worst ? Significant(worst->point.expected, 5) : "-",
                      worst ? Measured(*worst) : "-", worst ? Deviate(*worst) : "-",
                      invalid, DurationText(seconds), RaysPerSample(result),
@@ -144,7 +146,7 @@ std::string Summary(const SuiteResult& result) {
 std::string StressTable(const SuiteResult& result) {
   const std::size_t width = NameWidth(result);
   std::string text =
-      fmt::format(fmt::runtime(kRow), "case", width, "expected", "measured", "z",
+      fmt::format(fmt::runtime(kCaseRow), "case", width, "expected", "measured", "z",
                   "invalid", "cpu", "rays", "verdict", "  first breaks at");
   std::string group;
   for (const CaseResult& one : result.cases) {

@@ -7,12 +7,7 @@
 #include "src/cli/console.h"
 
 namespace lanelight {
-namespace {
-
-constexpr auto kRedraw = std::chrono::milliseconds(95);
-constexpr int kBarCells = 24;
-
-}  // namespace
+namespace {}  // namespace
 
 std::string StudyProgressPrinter::Describe(const StudyProgress& p) {
   std::string text =

@@ -44,12 +44,12 @@ std::string Short(const std::string& name) {
   return name.size() <= kLongestName ? name : name.substr(0, kLongestName - 3) + "...";
 }
 
-constexpr const char* kRow =
+constexpr const char* kStrategyRow =
     "{:>5}  {:<30} {:>5} {:>20} {:>20} {:>14} {:>8} {:>12} {:>10}{}\n";
 
 std::string Row(const StrategyRuns& runs, const StrategyAnalysis& s) {
   const LevelAnalysis& level = s.AtLevel();
-  return fmt::format(fmt::runtime(kRow), RankText(s.rank), Short(runs.named.name),
+  return fmt::format(fmt::runtime(kStrategyRow), RankText(s.rank), Short(runs.named.name),
                      level.spp, Range(*s.efficiency), Range(*s.efficiency_trimmed),
                      Percent(level.relmse), DurationText(level.cpu_seconds.value),
                      s.order ? PlusMinus(*s.order) : "-", TargetText(s.to_target),
@@ -102,7 +102,7 @@ std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
                   100 * options.confidence,
                   runs.reference.rendered() ? fmt::format("of {} spp", runs.reference.spp)
                                             : runs.reference.files.front());
-  text += fmt::format(fmt::runtime(kRow), "rank", "strategy", "spp", "efficiency",
+  text += fmt::format(fmt::runtime(kStrategyRow), "rank", "strategy", "spp", "efficiency",
                       "trimmed", "relative MSE", "cpu", "order", "to target", "");
   for (std::size_t i : analysis.ranking) {
     text += Row(runs.strategies[i], analysis.strategies[i]);

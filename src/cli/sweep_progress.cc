@@ -7,9 +7,6 @@
 namespace lanelight {
 namespace {
 
-constexpr auto kRedraw = std::chrono::milliseconds(95);
-constexpr int kBarCells = 24;
-
 std::string Describe(const SweepProgress& p) {
   return fmt::format("{} of {}  {}", p.done + 1, p.total, p.cell->name);
 }

@@ -8,8 +8,8 @@
 namespace lanelight {
 namespace {
 
-constexpr std::uint32_t kPaths = 77;
-constexpr float kUntouched = -77;
+constexpr std::uint32_t kHitPaths = 77;
+constexpr float kUnchanged = -77;
 
 // One material of every kind; colours that differ by material and channel.
 CompiledScene AllKinds() {
@@ -53,7 +53,7 @@ bool IsFirstHit(std::uint32_t i) { return i % 3 != 1; }
 // Paths on a surface, some of them at their first hit.
 void FillHits(WaveFixture& f, std::uint32_t materials) {
   PathColumns& p = f.wave.path;
-  for (std::uint32_t i = 0; i < kPaths; ++i) {
+  for (std::uint32_t i = 0; i < kHitPaths; ++i) {
     p.depth[i] = IsFirstHit(i) ? 0 : i % 5 + 1;
     p.material[i] = i % materials;
     p.t[i] = 2.0f + i;
@@ -64,19 +64,19 @@ void FillHits(WaveFixture& f, std::uint32_t materials) {
     p.color1_r[i] = 1.5f + i, p.color1_g[i] = 2.0f + i, p.color1_b[i] = 3.0f + i;
     for (float* aov : {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
                        p.aov_n_y, p.aov_n_z, p.aov_depth}) {
-      aov[i] = kUntouched;
+      aov[i] = kUnchanged;
     }
   }
-  f.QueueAll(QueueId::kSurface, kPaths);
+  f.QueueAll(QueueId::kSurface, kHitPaths);
 }
 
 void CheckHit(const PathColumns& p, const MaterialTable& m, std::uint32_t i,
               const FeatureSet& features) {
   INFO("path " << i << ", kind " << m.kind[p.material[i]]);
   if (!IsFirstHit(i)) {
-    CHECK(p.aov_albedo_g[i] == kUntouched);
-    CHECK(p.aov_n_z[i] == kUntouched);
-    CHECK(p.aov_depth[i] == kUntouched);
+    CHECK(p.aov_albedo_g[i] == kUnchanged);
+    CHECK(p.aov_n_z[i] == kUnchanged);
+    CHECK(p.aov_depth[i] == kUnchanged);
     return;
   }
   const std::uint32_t id = p.material[i];
@@ -113,11 +113,11 @@ TEST_CASE("aov: albedo of every kind, normal and depth, at the first hit alone",
     ForceTarget(target);
     for (const FeatureSet& features : variants) {
       CAPTURE(target, features.Has(Feature::kTextures));
-      WaveFixture f(scene, kPaths);
+      WaveFixture f(scene, kHitPaths);
       FillHits(f, static_cast<std::uint32_t>(scene.materials.size()));
       if (!features.Has(Feature::kTexturedColor1)) f.wave.path.color1_r = nullptr;
       f.Run(AovStage(), features);
-      for (std::uint32_t i = 0; i < kPaths; ++i) {
+      for (std::uint32_t i = 0; i < kHitPaths; ++i) {
         CheckHit(f.wave.path, scene.materials, i, features);
       }
     }
@@ -130,16 +130,16 @@ TEST_CASE("connect: the queued paths gain what their shadow rays carry", "[accum
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     CAPTURE(target);
-    WaveFixture f(scene, kPaths);
+    WaveFixture f(scene, kHitPaths);
     PathColumns& p = f.wave.path;
     Queue& shadow = f.wave.queue(QueueId::kShadow);
-    for (std::uint32_t i = 0; i < kPaths; ++i) {
+    for (std::uint32_t i = 0; i < kHitPaths; ++i) {
       p.l_r[i] = i, p.l_g[i] = 2 * i, p.l_b[i] = 3 * i;
       p.sh_r[i] = 1, p.sh_g[i] = 0.5f, p.sh_b[i] = i;
       if (i % 4 != 2) shadow.items[shadow.size++] = i;
     }
     f.Run(ConnectStage(), {});
-    for (std::uint32_t i = 0; i < kPaths; ++i) {
+    for (std::uint32_t i = 0; i < kHitPaths; ++i) {
       const float lit = i % 4 != 2;
       CHECK(p.l_r[i] == i + lit);
       CHECK(p.l_g[i] == 2 * i + 0.5f * lit);

@@ -8,18 +8,15 @@
 #include "src/image/exr.h"
 #include "src/image/image.h"
 #include "tests/cli/process.h"
+#include "tests/support/json.h"
 
 namespace lanelight {
 namespace {
 
 using Catch::Contains;
+using test::ReadJson;
 
 const std::string kBox = std::string(LANELIGHT_SOURCE_DIR) + "/scenes/cornell-box.pbrt";
-
-nlohmann::json ReadJson(const std::string& path) {
-  std::ifstream in(path);
-  return nlohmann::json::parse(in);
-}
 
 const nlohmann::json& Find(const nlohmann::json& advice, const std::string& changes) {
   for (const auto& c : advice.at("candidates")) {

@@ -11,7 +11,8 @@ namespace {
 
 using Catch::Contains;
 
-const std::string kBox = std::string(LANELIGHT_SOURCE_DIR) + "/scenes/cornell-box.pbrt";
+const std::string kGuideBox =
+    std::string(LANELIGHT_SOURCE_DIR) + "/scenes/cornell-box.pbrt";
 
 ProcessResult DrawGuide(const std::string& scene, const std::string& pixel,
                         const std::string& output) {
@@ -24,7 +25,7 @@ ProcessResult DrawGuide(const std::string& scene, const std::string& pixel,
 TEST_CASE("guide draws what it has learned and says where", "[cli]") {
   TempDirectory directory;
   const std::string picture = directory / "guide.png";
-  const ProcessResult r = DrawGuide(kBox, "16,28", picture);
+  const ProcessResult r = DrawGuide(kGuideBox, "16,28", picture);
   REQUIRE(r.exit_code == kExitGood);
   CHECK_THAT(r.out, Contains("point ") && Contains("guide of "));
   const Image image = ReadImage(picture);
@@ -34,14 +35,14 @@ TEST_CASE("guide draws what it has learned and says where", "[cli]") {
 TEST_CASE("guide says what is wrong before it learns anything", "[cli]") {
   TempDirectory directory;
   const std::string picture = directory / "guide.png";
-  CHECK(RunLanelight({"guide", kBox, "-o", picture}).exit_code == kExitUsage);
-  CHECK(DrawGuide(kBox, "16", picture).exit_code == kExitUsage);
-  const ProcessResult outside = DrawGuide(kBox, "32,0", picture);
+  CHECK(RunLanelight({"guide", kGuideBox, "-o", picture}).exit_code == kExitUsage);
+  CHECK(DrawGuide(kGuideBox, "16", picture).exit_code == kExitUsage);
+  const ProcessResult outside = DrawGuide(kGuideBox, "32,0", picture);
   CHECK(outside.exit_code == kExitBadInput);
   CHECK_THAT(outside.err, Contains("32,0 is not in the image of 32x32 pixels"));
-  const ProcessResult nowhere = DrawGuide(kBox, "1,1", "/nowhere/guide.png");
+  const ProcessResult nowhere = DrawGuide(kGuideBox, "1,1", "/nowhere/guide.png");
   CHECK(nowhere.exit_code == kExitBadInput);
-  CHECK(DrawGuide(kBox, "1,1", kBox).exit_code == kExitBadInput);
+  CHECK(DrawGuide(kGuideBox, "1,1", kGuideBox).exit_code == kExitBadInput);
   CHECK(!std::filesystem::exists(picture));
 }
 

@@ -10,18 +10,14 @@
 
 #include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
+#include "tests/support/json.h"
 
 namespace lanelight {
 namespace {
 
 using Catch::Contains;
+using test::ReadJson;
 using Json = nlohmann::json;
-
-Json ReadJson(const std::string& path) {
-  std::ifstream in(path);
-  REQUIRE(in);
-  return Json::parse(in);
-}
 
 std::vector<std::string> Lines(const std::string& text) {
   std::vector<std::string> lines;

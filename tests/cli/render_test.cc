@@ -14,17 +14,14 @@
 #include "src/image/exr.h"
 #include "src/image/image.h"
 #include "tests/cli/process.h"
+#include "tests/support/json.h"
 
 namespace lanelight {
 namespace {
 
 using Catch::Contains;
+using test::ReadJson;
 namespace fs = std::filesystem;
-
-nlohmann::json ReadJson(const std::string& path) {
-  std::ifstream in(path);
-  return nlohmann::json::parse(in);
-}
 
 bool SamePixels(const Image& a, const Image& b) {
   if (a.names != b.names || a.pixels.size() != b.pixels.size()) return false;

@@ -13,7 +13,7 @@ namespace {
 
 // Radiance by texel and channel; without tables.
 template <class F>
-Environment Image(int size, F&& radiance) {
+Environment TableOf(int size, F&& radiance) {
   Environment e;
   e.size = size;
   for (int i = 0; i < size * size; ++i) {
@@ -34,7 +34,7 @@ bool SameTables(const Environment& a, const Environment& b) {
 
 // Dim with a gradient, a bright spot and a black row.
 Environment SkyWithSun() {
-  return Image(16, [](int i, int c) {
+  return TableOf(16, [](int i, int c) {
     if (i / 16 == 3) return 0.0f;
     return 0.2f + 0.01f * static_cast<float>(i % 16 + c) + (i == 100 ? 500.0f : 0.0f);
   });
@@ -45,7 +45,7 @@ Environment SkyWithSun() {
 TEST_CASE("environment table: compensated texels have what lies above the mean",
           "[scene][compile]") {
   for (float sun : {0.5f, 5.0f, 500.0f}) {
-    Environment e = Image(16, [&](int i, int c) {
+    Environment e = TableOf(16, [&](int i, int c) {
       return 1 + 0.02f * static_cast<float>(i % 7 - 3) + (i == 77 ? sun + float(c) : 0);
     });
     SetEnvironmentTable(true, e);
@@ -73,7 +73,7 @@ TEST_CASE("environment table: an image without contrast keeps its plain table",
           "[scene][compile]") {
   for (float noise : {0.0f, 1e-7f}) {
     Environment plain =
-        Image(8, [&](int i, int) { return 0.3f * (1 + (i % 3 == 0 ? noise : 0.0f)); });
+        TableOf(8, [&](int i, int) { return 0.3f * (1 + (i % 3 == 0 ? noise : 0.0f)); });
     Environment compensated = plain;
     SetEnvironmentTable(false, plain);
     SetEnvironmentTable(true, compensated);
@@ -81,7 +81,7 @@ TEST_CASE("environment table: an image without contrast keeps its plain table",
     CHECK(plain.probability[5] == Approx(1.0 / 64));
   }
   // A thousandth of contrast is contrast.
-  Environment weak = Image(8, [](int i, int) { return i < 32 ? 1.001f : 1.0f; });
+  Environment weak = TableOf(8, [](int i, int) { return i < 32 ? 1.001f : 1.0f; });
   SetEnvironmentTable(true, weak);
   CHECK(weak.probability[0] == Approx(1.0 / 32).epsilon(1e-3));
   CHECK(weak.probability[63] == 0);
@@ -101,7 +101,7 @@ TEST_CASE("environment table: tables can be changed and changed back",
 
 TEST_CASE("environment table: a black image has none", "[scene][compile]") {
   for (bool compensated : {false, true}) {
-    Environment e = Image(4, [](int, int) { return 0.0f; });
+    Environment e = TableOf(4, [](int, int) { return 0.0f; });
     SetEnvironmentTable(compensated, e);
     CHECK(e.probability.empty());
   }

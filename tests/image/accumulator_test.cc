@@ -26,7 +26,7 @@ FilmAccumulator FilmOf(const SampleGroups& groups, const std::vector<float>& val
 }
 
 // A sum that loses nothing (Neumaier 1974).
-struct Compensated {
+struct PlainCompensated {
   double sum = 0, lost = 0;
   void Add(double v) {
     const double next = sum + v;
@@ -168,7 +168,7 @@ TEST_CASE("film: ten million samples lose nothing", "[film]") {
   std::exponential_distribution<float> exponential(1);
   for (const SampleGroups& groups : {kSingle, kPairs, kReplicated}) {
     FilmAccumulator film(0, 0, 1, 1, groups, false);
-    Compensated sum, squares, of[kReplicates];
+    PlainCompensated sum, squares, of[kReplicates];
     std::uint64_t n = 0;
     for (int call = 0; call < 10000; ++call) {
       std::vector<float> values(1000);
@@ -190,7 +190,7 @@ TEST_CASE("film: ten million samples lose nothing", "[film]") {
     CHECK(std::abs(film.Mean(0, 0).z / (total / count) - 1) < 1e-12);
     double variance = 0;
     if (groups.replicates) {
-      for (const Compensated& s : of) {
+      for (const PlainCompensated& s : of) {
         const double d = s.Total() - total / kReplicates;
         variance += d * d / (count * count * (1 - 1.0 / kReplicates));
       }

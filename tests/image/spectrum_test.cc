@@ -65,7 +65,7 @@ Rgb NormalReflectance(const ComplexIor& ior) {
           Reflectance(ior.eta.z, ior.k.z)};
 }
 
-void CheckNear(Rgb a, Rgb b, double margin) {
+void CheckNearRgb(Rgb a, Rgb b, double margin) {
   INFO("(" << a.x << ", " << a.y << ", " << a.z << ") against (" << b.x << ", " << b.y
            << ", " << b.z << ")");
   CHECK(std::abs(a.x - b.x) <= margin);
@@ -93,11 +93,12 @@ TEST_CASE("daylight follows the published D65", "[spectrum]") {
 TEST_CASE("white stays white", "[spectrum]") {
   Rgb rgb;
   REQUIRE(NamedSpectrum("stdillum-D65", SpectrumUse::kIlluminant, &rgb));
-  CheckNear(rgb, {1, 1, 1}, 1e-9);
-  CheckNear(RgbFromSamples({300, 900}, {0.25, 0.25}, SpectrumUse::kAlbedo),
-            {0.25, 0.25, 0.25}, 1e-9);
-  CheckNear(RgbFromSamples({300, 900}, {3, 3}, SpectrumUse::kUnbounded), {3, 3, 3}, 1e-8);
-  CheckNear(RgbFromSamples({300, 900}, {3, 3}, SpectrumUse::kAlbedo), {1, 1, 1}, 0);
+  CheckNearRgb(rgb, {1, 1, 1}, 1e-9);
+  CheckNearRgb(RgbFromSamples({300, 900}, {0.25, 0.25}, SpectrumUse::kAlbedo),
+               {0.25, 0.25, 0.25}, 1e-9);
+  CheckNearRgb(RgbFromSamples({300, 900}, {3, 3}, SpectrumUse::kUnbounded), {3, 3, 3},
+               1e-8);
+  CheckNearRgb(RgbFromSamples({300, 900}, {3, 3}, SpectrumUse::kAlbedo), {1, 1, 1}, 0);
 }
 
 TEST_CASE("black bodies and illuminant A have their known colour", "[spectrum]") {
@@ -109,12 +110,12 @@ TEST_CASE("black bodies and illuminant A have their known colour", "[spectrum]")
                -0.9692660 * X + 1.8760108 + 0.0415560 * Z,
                0.0556434 * X - 0.2040259 + 1.0572252 * Z};
   };
-  CheckNear(RgbFromBlackbody(2856), from_xy(0.44757, 0.40745), 0.03);
-  CheckNear(RgbFromBlackbody(5000), from_xy(0.3451, 0.3516), 0.02);
-  CheckNear(RgbFromBlackbody(6504), from_xy(0.3135, 0.3237), 0.02);
+  CheckNearRgb(RgbFromBlackbody(2856), from_xy(0.44757, 0.40745), 0.03);
+  CheckNearRgb(RgbFromBlackbody(5000), from_xy(0.3451, 0.3516), 0.02);
+  CheckNearRgb(RgbFromBlackbody(6504), from_xy(0.3135, 0.3237), 0.02);
   Rgb a;
   REQUIRE(NamedSpectrum("stdillum-A", SpectrumUse::kIlluminant, &a));
-  CheckNear(a, RgbFromBlackbody(2856), 2e-3);
+  CheckNearRgb(a, RgbFromBlackbody(2856), 2e-3);
 }
 
 TEST_CASE("light has luminance 1 and no negative channel at any temperature",
@@ -141,7 +142,8 @@ TEST_CASE("metals reflect the integrated colour of their measured spectrum",
     ComplexIor ior;
     REQUIRE(NamedMetal(name, &ior));
     INFO(name);
-    CheckNear(NormalReflectance(ior), Min(expected, Rgb{0.9995, 0.9995, 0.9995}), 0.012);
+    CheckNearRgb(NormalReflectance(ior), Min(expected, Rgb{0.9995, 0.9995, 0.9995}),
+                 0.012);
     for (int c = 0; c < 3; ++c) CHECK((ior.eta[c] > 0 && ior.k[c] >= 0));
   }
 }
@@ -149,11 +151,11 @@ TEST_CASE("metals reflect the integrated colour of their measured spectrum",
 TEST_CASE("gold, silver, copper have the colours everybody knows", "[spectrum]") {
   ComplexIor ior;
   REQUIRE(NamedMetal("Au", &ior));
-  CheckNear(NormalReflectance(ior), {1.0, 0.77, 0.34}, 0.02);
+  CheckNearRgb(NormalReflectance(ior), {1.0, 0.77, 0.34}, 0.02);
   REQUIRE(NamedMetal("Ag", &ior));
-  CheckNear(NormalReflectance(ior), {0.97, 0.96, 0.915}, 0.01);
+  CheckNearRgb(NormalReflectance(ior), {0.97, 0.96, 0.915}, 0.01);
   REQUIRE(NamedMetal("Cu", &ior));
-  CheckNear(NormalReflectance(ior), {0.95, 0.64, 0.54}, 0.01);
+  CheckNearRgb(NormalReflectance(ior), {0.95, 0.64, 0.54}, 0.01);
   REQUIRE_FALSE(NamedMetal("Unobtainium", &ior));
 }
 
@@ -165,12 +167,12 @@ TEST_CASE("a metal given by samples equals the named one", "[spectrum]") {
   NamedMetal("Au", &named);
   const ComplexIor sampled = ComplexIorFromSamples(nm, {gold.eta.begin(), gold.eta.end()},
                                                    nm, {gold.k.begin(), gold.k.end()});
-  CheckNear(sampled.eta, named.eta, 1e-12);
-  CheckNear(sampled.k, named.k, 1e-12);
+  CheckNearRgb(sampled.eta, named.eta, 1e-12);
+  CheckNearRgb(sampled.k, named.k, 1e-12);
   // A dielectric: k stays 0.
   const ComplexIor glass = ComplexIorFromSamples({500}, {1.5}, {500}, {0});
-  CheckNear(glass.eta, {1.5, 1.5, 1.5}, 1e-9);
-  CheckNear(glass.k, {0, 0, 0}, 1e-6);
+  CheckNearRgb(glass.eta, {1.5, 1.5, 1.5}, 1e-9);
+  CheckNearRgb(glass.k, {0, 0, 0}, 1e-6);
 }
 
 TEST_CASE("every listed spectrum is known, others are not", "[spectrum]") {
@@ -209,13 +211,13 @@ TEST_CASE("bad spectra are refused with a reason", "[spectrum]") {
 TEST_CASE("colour spaces keep white and reach sRGB", "[spectrum]") {
   for (const std::string space : {"srgb", "dci-p3", "rec2020", "aces2065-1"}) {
     INFO(space);
-    CheckNear(ToSrgb(space, {0.5, 0.5, 0.5}, SpectrumUse::kAlbedo), {0.5, 0.5, 0.5},
-              1e-12);
+    CheckNearRgb(ToSrgb(space, {0.5, 0.5, 0.5}, SpectrumUse::kAlbedo), {0.5, 0.5, 0.5},
+                 1e-12);
   }
   // Rec. 2020 red in sRGB: (1.6605, -0.1246, -0.0182) (ITU-R BT.2407).
-  CheckNear(ToSrgb("rec2020", {1, 0, 0}, SpectrumUse::kAlbedo),
-            {1.6605, -0.1246, -0.0182}, 2e-3);
-  CheckNear(ToSrgb("srgb", {0.1, 0.2, 0.3}, SpectrumUse::kAlbedo), {0.1, 0.2, 0.3}, 0);
+  CheckNearRgb(ToSrgb("rec2020", {1, 0, 0}, SpectrumUse::kAlbedo),
+               {1.6605, -0.1246, -0.0182}, 2e-3);
+  CheckNearRgb(ToSrgb("srgb", {0.1, 0.2, 0.3}, SpectrumUse::kAlbedo), {0.1, 0.2, 0.3}, 0);
   CHECK_THROWS_WITH(ToSrgb("cmyk", {}, SpectrumUse::kAlbedo), Catch::Contains("dci-p3"));
 }
 

@@ -22,10 +22,10 @@ LargeSphereRecord MakeLargeSphere(Vec3f point, Vec3f normal, float radius) {
 }
 
 // Nearest distance > 0 on the record's own sphere; also how steeply it is met.
-struct Truth {
+struct SphereTruth {
   long double t = std::numeric_limits<long double>::infinity(), sine = 0;
 };
-Truth TruthOf(const LargeSphereRecord& s, const TestRay& ray) {
+SphereTruth TruthOf(const LargeSphereRecord& s, const TestRay& ray) {
   long double a = 0, b = 0, c = 0;
   for (int i = 0; i < 3; ++i) {
     const long double q = static_cast<long double>(ray.o[i]) - s.point[i];
@@ -39,11 +39,11 @@ Truth TruthOf(const LargeSphereRecord& s, const TestRay& ray) {
   const long double root = std::sqrt(discriminant);
   const long double sum = -(b + std::copysign(root, b));
   const long double t0 = std::min(c / sum, sum / a), t1 = std::max(c / sum, sum / a);
-  return {t0 > 0 ? t0 : t1 > 0 ? t1 : Truth{}.t, root};
+  return {t0 > 0 ? t0 : t1 > 0 ? t1 : SphereTruth{}.t, root};
 }
 
-const std::vector<Stage> kClosest = {IntersectLargeSpheresStage()};
-const std::vector<Stage> kShadow = {ShadowLargeSpheresStage()};
+const std::vector<Stage> kClosestLarge = {IntersectLargeSpheresStage()};
+const std::vector<Stage> kShadowLarge = {ShadowLargeSpheresStage()};
 
 std::vector<TestRay> RaysAbout(const LargeSphereRecord& s, Random& random, float height) {
   const Vec3f point{s.point[0], s.point[1], s.point[2]};
@@ -70,12 +70,12 @@ TEST_CASE("large spheres agree with extended precision", "[intersect]") {
         g.large_spheres = {MakeLargeSphere(random.Point(1), random.Direction(), radius)};
         const CompiledScene scene = MakeScene(std::move(g));
         const auto rays = RaysAbout(scene.geometry.large_spheres[0], random, height);
-        const auto hits = TraceClosest(scene, rays, kClosest);
+        const auto hits = TraceClosest(scene, rays, kClosestLarge);
         int compared = 0;
         std::vector<std::uint32_t> open;
         for (std::uint32_t i = 0; i < rays.size(); ++i) {
           if (std::isinf(hits[i].t)) open.push_back(i);
-          const Truth truth = TruthOf(scene.geometry.large_spheres[0], rays[i]);
+          const SphereTruth truth = TruthOf(scene.geometry.large_spheres[0], rays[i]);
           // Grazing rays are ill-posed in float, and far hits beyond the ground's curve.
           if (truth.sine < 1e-2L) continue;
           ++compared;
@@ -90,7 +90,7 @@ TEST_CASE("large spheres agree with extended precision", "[intersect]") {
           REQUIRE(off < 8 * 0x1p-24 * (way + double(truth.t)));
         }
         CHECK(compared > 400);
-        CHECK(Unoccluded(scene, rays, kShadow) == open);
+        CHECK(Unoccluded(scene, rays, kShadowLarge) == open);
       }
     }
   }
@@ -111,7 +111,7 @@ TEST_CASE("rays that leave a large sphere do not meet it again", "[surface]") {
         const auto rays = RaysAbout(scene.geometry.large_spheres[0], random, 1);
         WaveFixture f(scene, static_cast<std::uint32_t>(rays.size()));
         f.SetRays(rays);
-        f.Run(kClosest[0], features);
+        f.Run(kClosestLarge[0], features);
         const PathColumns& p = f.wave.path;
         Queue& surface = f.wave.queue(QueueId::kSurface);
         surface.size = 0;
@@ -132,7 +132,7 @@ TEST_CASE("rays that leave a large sphere do not meet it again", "[surface]") {
           shadow.items[shadow.size++] = i;
         }
         const std::uint32_t before = shadow.size;
-        f.Run(kShadow[0], features);
+        f.Run(kShadowLarge[0], features);
         CAPTURE(target, radius, factor);
         if (factor == 1) CHECK(shadow.size == before);
         if (factor == 1) tried += static_cast<int>(before);

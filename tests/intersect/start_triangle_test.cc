@@ -27,14 +27,15 @@ std::vector<TestRay> Rays(Random& random) {
   return rays;
 }
 
-struct Truth {
+struct StartTruth {
   bool clear = true;  // no triangle is met close to its edge
   brute::Hit hit;
 };
 
 // The nearest hit on all triangles but `left_out`.
-Truth Nearest(const CompiledScene& scene, const TestRay& ray, std::uint32_t left_out) {
-  Truth truth;
+StartTruth Nearest(const CompiledScene& scene, const TestRay& ray,
+                   std::uint32_t left_out) {
+  StartTruth truth;
   const auto& triangles = scene.geometry.triangles;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const auto hit = brute::Solve(triangles[i], ToDouble(ray.o), ToDouble(ray.d));
@@ -111,7 +112,7 @@ TEST_CASE("a ray leaves out the triangle that it starts on", "[intersect]") {
       const auto open = Unoccluded(scene, rays, {ShadowTrianglesStage()});
       int compared = 0;
       for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        const Truth truth = Nearest(scene, rays[i], rays[i].from);
+        const StartTruth truth = Nearest(scene, rays[i], rays[i].from);
         if (!truth.clear) continue;
         ++compared;
         CAPTURE(i);

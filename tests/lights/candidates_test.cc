@@ -14,7 +14,7 @@
 namespace lanelight::test {
 namespace {
 
-constexpr std::uint32_t kPaths = 1 << 14;
+constexpr std::uint32_t kDraws = 1 << 14;
 constexpr Rgb kAlbedo = {0.8, 0.5, 0.2}, kBeta = {0.3, 0.6, 0.9};
 
 struct Candidate {
@@ -54,22 +54,22 @@ double Sum(const Candidates& candidates, bool weighs) {
 // of the choice fill [0, 1) evenly, so that what is kept how often is known, not random.
 struct Vertices {
   CompiledScene scene = MakeScene({});
-  WaveFixture fixture{scene, kPaths};
+  WaveFixture fixture{scene, kDraws};
 
   explicit Vertices(bool weighs) {
     PathColumns& p = fixture.wave.path;
     if (weighs) fixture.run.features.Add(Feature::kMis);
-    for (std::uint32_t i = 0; i < kPaths; ++i) {
+    for (std::uint32_t i = 0; i < kDraws; ++i) {
       p.d_x[i] = 0, p.d_y[i] = 0, p.d_z[i] = -1;
       p.ng_x[i] = p.ns_x[i] = 0, p.ng_y[i] = p.ns_y[i] = 0, p.ng_z[i] = p.ns_z[i] = 1;
       p.material[i] = 0;
       Put(p.beta_r, p.beta_g, p.beta_b, i, kBeta);
       Put(p.color0_r, p.color0_g, p.color0_b, i, kAlbedo);
-      p.u_candidate[i] = (static_cast<float>(i) + 0.5f) / kPaths;
+      p.u_candidate[i] = (static_cast<float>(i) + 0.5f) / kDraws;
       p.u_select[i] = p.u_light_0[i] = p.u_light_1[i] = 0.25f;
     }
-    fixture.QueueAll(QueueId::kLit, kPaths);
-    fixture.QueueAll(ShadeQueue(ShadeKind::kDiffuse), kPaths);
+    fixture.QueueAll(QueueId::kLit, kDraws);
+    fixture.QueueAll(ShadeQueue(ShadeKind::kDiffuse), kDraws);
   }
   static void Put(float* r, float* g, float* b, std::uint32_t i, Rgb c) {
     r[i] = static_cast<float>(c.x), g[i] = static_cast<float>(c.y);
@@ -77,7 +77,7 @@ struct Vertices {
   }
   void Offer(const Candidate& c, std::uint32_t light) {
     PathColumns& p = fixture.wave.path;
-    for (std::uint32_t i = 0; i < kPaths; ++i) {
+    for (std::uint32_t i = 0; i < kDraws; ++i) {
       Put(p.ls_x, p.ls_y, p.ls_z, i, c.direction);
       Put(p.ls_r, p.ls_g, p.ls_b, i, c.light);
       p.ls_pdf[i] = static_cast<float>(c.pdf);
@@ -101,7 +101,7 @@ void CheckKept(const Vertices& vertices, const Candidates& candidates, bool weig
   const double sum = Sum(candidates, weighs), count = double(candidates.size());
   std::vector<int> kept(candidates.size());
   bool same = true;
-  for (std::uint32_t i = 0; i < kPaths; ++i) {
+  for (std::uint32_t i = 0; i < kDraws; ++i) {
     const std::uint32_t j = p.ls_light[i];
     REQUIRE(j < candidates.size());
     ++kept[j];
@@ -120,7 +120,7 @@ void CheckKept(const Vertices& vertices, const Candidates& candidates, bool weig
     INFO("candidate " << j);
     const double share = Luminance(Carried(candidates[j], weighs)) / sum;
     // Those that keep it lie in up to 2^j intervals, each cut off at both ends.
-    CHECK(kept[j] == Approx(share * kPaths).margin(share > 0 ? 1 << (j + 1) : 0));
+    CHECK(kept[j] == Approx(share * kDraws).margin(share > 0 ? 1 << (j + 1) : 0));
   }
 }
 
@@ -167,7 +167,7 @@ TEST_CASE("where no candidate could add light none is traced", "[light]") {
   const Candidates all = Known();
   vertices.Run({all[3], all[1]});
   const PathColumns& p = vertices.fixture.wave.path;
-  for (std::uint32_t i : {0u, 77u, kPaths - 1}) {
+  for (std::uint32_t i : {0u, 77u, kDraws - 1}) {
     CHECK(p.ls_r[i] == 0);
     CHECK(p.ls_light[i] == 1);
     CHECK(p.ls_x[i] == static_cast<float>(all[1].direction.x));
@@ -181,11 +181,11 @@ TEST_CASE("worths over 60 decades leave no NaN", "[light]") {
   vertices.Run(all);
   const PathColumns& p = vertices.fixture.wave.path;
   int kept = 0;
-  for (std::uint32_t i = 0; i < kPaths; ++i) {
+  for (std::uint32_t i = 0; i < kDraws; ++i) {
     CHECK(std::isfinite(p.ls_g[i]));
     kept += p.ls_light[i] == 1;
   }
-  CHECK(kept == kPaths);
+  CHECK(kept == kDraws);
 }
 
 TEST_CASE("numbers of further candidates are shifted on their grid", "[light]") {
@@ -193,18 +193,18 @@ TEST_CASE("numbers of further candidates are shifted on their grid", "[light]") 
   PathColumns& p = vertices.fixture.wave.path;
   constexpr std::uint32_t kGrid = 1 << 24;
   const auto number = [&](std::uint32_t i) { return i * 40503u * 2654435761u >> 8; };
-  for (std::uint32_t i = 0; i < kPaths; ++i) {
+  for (std::uint32_t i = 0; i < kDraws; ++i) {
     p.u_light_0[i] = static_cast<float>(number(i)) * 0x1p-24f;
   }
   p.u_light_0[5] = 0, p.u_light_0[6] = 1 - 0x1p-24f;
-  std::vector<float> before(p.u_light_0, p.u_light_0 + kPaths);
+  std::vector<float> before(p.u_light_0, p.u_light_0 + kDraws);
   vertices.Run({Known()[0]});
   // Every number by the same step modulo 1, exactly: a permutation of the grid.
   const auto on_grid = [&](float u) { return static_cast<std::uint32_t>(u * kGrid); };
   const std::uint32_t step = (on_grid(p.u_light_0[0]) - on_grid(before[0])) % kGrid;
   CHECK(step > 0);
   bool same = true;
-  for (std::uint32_t i = 0; i < kPaths; ++i) {
+  for (std::uint32_t i = 0; i < kDraws; ++i) {
     same &= p.u_light_0[i] >= 0 && p.u_light_0[i] < 1 &&
             on_grid(p.u_light_0[i]) * 0x1p-24f == p.u_light_0[i] &&
             (on_grid(before[i]) + step) % kGrid == on_grid(p.u_light_0[i]);

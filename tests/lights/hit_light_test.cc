@@ -14,7 +14,7 @@
 namespace lanelight::test {
 namespace {
 
-constexpr std::uint32_t kPaths = 1511;
+constexpr std::uint32_t kHits = 1511;
 
 struct Variant {
   const char* strategy;
@@ -57,7 +57,7 @@ struct Hits {
   std::vector<Vec3f> before;
 
   Hits(const LightScene& l, const Variant& v)
-      : lights(l), variant(v), fixture(l.scene, kPaths) {
+      : lights(l), variant(v), fixture(l.scene, kHits) {
     PathColumns& p = fixture.wave.path;
     if (!v.tree) p.light_pmf = nullptr;
     Strategy strategy;
@@ -66,7 +66,7 @@ struct Hits {
     std::mt19937 engine(37);
     std::uniform_real_distribution<float> place(-2, 2), unit(0.1f, 1);
     const PrimitiveRanges& ranges = l.scene.geometry.ranges;
-    for (std::uint32_t i = 0; i < kPaths; ++i) {
+    for (std::uint32_t i = 0; i < kHits; ++i) {
       const Vec3f o = {place(engine), place(engine), place(engine)};
       p.prim[i] = engine() % ranges.end;
       const bool plane = p.prim[i] >= ranges.planes;
@@ -151,12 +151,12 @@ TEST_CASE("hit lights add their emission, by the weight of hits", "[lights]") {
       for (const LightScene* lights : {&all, static_cast<const LightScene*>(&more)}) {
         CAPTURE(target, variant.strategy, variant.tree);
         Hits hits(*lights, variant);
-        hits.fixture.QueueAll(QueueId::kHit, kPaths);
+        hits.fixture.QueueAll(QueueId::kHit, kHits);
         hits.fixture.Run(EmissionTriangleStage(), hits.features());
         hits.fixture.Run(EmissionRectangleStage(), hits.features());
         hits.fixture.Run(EmissionSphereStage(), hits.features());
         hits.fixture.Run(EmissionDiskStage(), hits.features());
-        for (std::uint32_t i = 0; i < kPaths; ++i) CheckHit(hits, i);
+        for (std::uint32_t i = 0; i < kHits; ++i) CheckHit(hits, i);
       }
     }
   }
@@ -171,9 +171,9 @@ TEST_CASE("escaped rays see every environment, by the weight of hits", "[lights]
       if (variant.tree) continue;  // environments are chosen beside the tree
       CAPTURE(target, variant.strategy);
       Hits hits(all, variant);
-      hits.fixture.QueueAll(QueueId::kMiss, kPaths);
+      hits.fixture.QueueAll(QueueId::kMiss, kHits);
       hits.fixture.Run(EscapeStage(), hits.features());
-      for (std::uint32_t i = 0; i < kPaths; ++i) {
+      for (std::uint32_t i = 0; i < kHits; ++i) {
         Vec3d sum;
         bool sure = true;
         for (const NamedLight& light : all.lights) {

@@ -103,7 +103,7 @@ TEST_CASE("projected samples have the density that they report", "[lights]") {
     for (const Case& c : Cases(false)) {
       CAPTURE(target, c.f.name, c.f.rectangle, c.n.x, c.n.y, c.n.z);
       const Draw draw(c.f, kCount, kProjected, true, c.n);
-      const Corners corners(c.f, c.n);
+      const CornerCosines corners(c.f, c.n);
       // Where points are is rounded: by 4e-7 rad of the receiver's view, over what it
       // sees; the clearance of shadow rays adds to that at a grazing angle.
       const double size = std::sqrt(AngleOf(c.f) * Clearance(c));
@@ -131,7 +131,7 @@ TEST_CASE("projected samples are where their density says", "[lights]") {
     for (const Case& c : cases) {
       CAPTURE(target, c.f.name, c.f.rectangle, c.n.x, c.n.y, c.n.z);
       const Draw draw(c.f, kCount, kProjected, true, c.n);
-      const Corners corners(c.f, c.n);
+      const CornerCosines corners(c.f, c.n);
       std::vector<double> observed(kCells * kCells, 0), expected = observed;
       for (std::uint32_t i = 0; i < kCount; ++i) {
         const Vec3d at = draw.Where(i);

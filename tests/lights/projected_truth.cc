@@ -33,7 +33,7 @@ Square Invert(const Flat& f, double a, double b) {
           (height(swap ? a : b) - low) / (high - low)};
 }
 
-Corners::Corners(const Flat& f, Vec3d n) {
+CornerCosines::CornerCosines(const Flat& f, Vec3d n) {
   Vec3d at[4] = {f.At(1, 0), f.At(1, 0), f.At(0, 0), f.At(0, 1)};
   if (f.rectangle) {
     const bool swap = FartherAlongX(f) > 0;
@@ -47,7 +47,7 @@ Corners::Corners(const Flat& f, Vec3d n) {
   for (double& c : w) c = std::max(c, std::max(most / 10, 1e-6));
 }
 
-double Corners::Density(Square u) const {
+double CornerCosines::Density(Square u) const {
   const double low = w[0] + (w[1] - w[0]) * u.u0, high = w[2] + (w[3] - w[2]) * u.u0;
   return 4 * (low + (high - low) * u.u1) / (w[0] + w[1] + w[2] + w[3]);
 }

@@ -22,10 +22,10 @@ double FartherAlongX(const Flat& f);
 Square Invert(const Flat& f, double a, double b);
 
 /// Weights at (u0, u1) = (0, 0), (1, 0), (0, 1), (1, 1), for a unit normal.
-struct Corners {
+struct CornerCosines {
   double w[4];
 
-  Corners(const Flat& f, Vec3d normal);
+  CornerCosines(const Flat& f, Vec3d normal);
   /// Over the square; its mean is 1.
   double Density(Square u) const;
 };

@@ -14,7 +14,7 @@
 namespace lanelight::test {
 namespace {
 
-constexpr std::uint32_t kPaths = 2003;
+constexpr std::uint32_t kSamples = 2003;
 constexpr float kError = 1e-6f;
 
 Stage StageOf(LightShape shape) {
@@ -146,10 +146,10 @@ void CheckSample(const Samples& s, std::uint32_t i) {
 
 void CheckAll(const LightScene& lights, bool tree) {
   for (const bool solid_angle : {false, true}) {
-    Samples s(lights, kPaths, tree);
+    Samples s(lights, kSamples, tree);
     s.solid_angle = solid_angle;
     s.Run();
-    for (std::uint32_t i = 0; i < kPaths; ++i) CheckSample(s, i);
+    for (std::uint32_t i = 0; i < kSamples; ++i) CheckSample(s, i);
   }
 }
 

@@ -13,7 +13,7 @@
 namespace lanelight::test {
 namespace {
 
-constexpr int kCells = 8;  // along each side
+constexpr int kBins = 8;  // along each side
 
 // The bound that kernels/warp/solid_angle-inl.h states; of lights that are too small,
 // which are seen straight on here, how much the density by area may vary.
@@ -27,23 +27,23 @@ double ErrorOfAngle(const Flat& f) {
 double PValue(const Draw& draw, std::uint32_t count) {
   const Flat& f = draw.light;
   const double total = AngleOf(f);
-  std::vector<double> observed(2 * kCells * kCells, 0), expected = observed;
+  std::vector<double> observed(2 * kBins * kBins, 0), expected = observed;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec3d at = draw.Where(i) * double{kCells};
-    const int a = std::clamp(static_cast<int>(at.x), 0, kCells - 1);
-    const int b = std::clamp(static_cast<int>(at.y), 0, kCells - 1);
-    const bool upper = at.x - a + at.y - b > 1 && (f.rectangle || a + b < kCells - 1);
-    observed[static_cast<std::size_t>(2 * (a * kCells + b) + upper)] += 1;
+    const Vec3d at = draw.Where(i) * double{kBins};
+    const int a = std::clamp(static_cast<int>(at.x), 0, kBins - 1);
+    const int b = std::clamp(static_cast<int>(at.y), 0, kBins - 1);
+    const bool upper = at.x - a + at.y - b > 1 && (f.rectangle || a + b < kBins - 1);
+    observed[static_cast<std::size_t>(2 * (a * kBins + b) + upper)] += 1;
   }
-  for (int i = 0; i < kCells * kCells; ++i) {
-    const int a = i / kCells, b = i % kCells;
+  for (int i = 0; i < kBins * kBins; ++i) {
+    const int a = i / kBins, b = i % kBins;
     const auto corner = [&](int u, int v) {
-      return f.At(double(a + u) / kCells, double(b + v) / kCells);
+      return f.At(double(a + u) / kBins, double(b + v) / kBins);
     };
-    if (!f.rectangle && a + b > kCells - 1) continue;
+    if (!f.rectangle && a + b > kBins - 1) continue;
     const double share = count / total;
     expected[2 * i] = share * TriangleAngle(corner(0, 0), corner(1, 0), corner(0, 1));
-    if (!f.rectangle && a + b == kCells - 1) continue;
+    if (!f.rectangle && a + b == kBins - 1) continue;
     expected[2 * i + 1] = share * TriangleAngle(corner(1, 1), corner(0, 1), corner(1, 0));
   }
   return stat::ChiSquareTest(observed, expected).p;

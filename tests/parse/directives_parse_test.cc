@@ -150,17 +150,17 @@ TEST_CASE("unsupported things can be skipped", "[parse]") {
 }
 
 // A folder that is removed at the end of the test.
-struct TemporaryFolder {
+struct FolderWithSub {
   fs::path path = fs::temp_directory_path() / "lanelight_parse_test";
-  TemporaryFolder() { fs::create_directories(path / "sub"); }
-  ~TemporaryFolder() { fs::remove_all(path); }
+  FolderWithSub() { fs::create_directories(path / "sub"); }
+  ~FolderWithSub() { fs::remove_all(path); }
   void Write(const std::string& name, const std::string& text) const {
     std::ofstream(path / name) << text;
   }
 };
 
 TEST_CASE("include shares the state, import does not", "[parse]") {
-  const TemporaryFolder folder;
+  const FolderWithSub folder;
   folder.Write("main.pbrt",
                "WorldBegin Import \"sub/a.pbrt\" Shape \"sphere\"\n"
                "Include \"sub/a.pbrt\" Shape \"sphere\" NamedMaterial \"m\"");
@@ -187,7 +187,7 @@ TEST_CASE("include shares the state, import does not", "[parse]") {
 }
 
 TEST_CASE("a mesh file used twice is loaded once", "[parse]") {
-  const TemporaryFolder folder;
+  const FolderWithSub folder;
   folder.Write("m.ply",
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
                "property float y\nproperty float z\nelement face 1\n"

@@ -8,8 +8,6 @@ namespace {
 
 constexpr Rgb kWhite = {1, 1, 1};
 
-Vec3d FlipZ(Vec3d v) { return {v.x, v.y, -v.z}; }
-
 // Uniform in the unit ball, by rejection from the cube.
 Vec3d SampleBall(Random& random) {
   for (;;) {

@@ -15,6 +15,9 @@
 
 namespace lanelight::reference {
 
+/// Mirrored at the surface.
+inline Vec3d FlipZ(Vec3d v) { return {v.x, v.y, -v.z}; }
+
 /// A material with its textures looked up at one point.
 struct LocalMaterial {
   const Material* source = nullptr;  // of the scene, after mixes

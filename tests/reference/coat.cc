@@ -12,8 +12,6 @@
 namespace lanelight::reference {
 namespace {
 
-Vec3d FlipZ(Vec3d v) { return {v.x, v.y, -v.z}; }
-
 double Transmittance(const LocalMaterial& m, Vec3d w) {
   return std::exp(-m.thickness / std::abs(w.z));
 }

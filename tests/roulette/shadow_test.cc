@@ -75,7 +75,7 @@ void CheckDecisions(ShadowRays& rays) {
 // A room with a weak lamp in a corner and much light from elsewhere.
 SceneDescription Room() { return SmallRoom(16, 6, 0.3); }
 
-Rendered RenderWith(const std::string& strategy, std::uint64_t spp,
+Rendered RenderRoom(const std::string& strategy, std::uint64_t spp,
                     std::uint64_t seed = 1) {
   TestRender options;
   options.spp = spp;
@@ -149,15 +149,15 @@ TEST_CASE("what shadow rays are worth is kept and put back", "[roulette]") {
 }
 
 TEST_CASE("roulette on shadow rays traces fewer for the same image", "[roulette]") {
-  const Rendered all = RenderWith("", 4096);
-  const Rendered some = RenderWith("shadow-roulette=contribution", 4096);
+  const Rendered all = RenderRoom("", 4096);
+  const Rendered some = RenderRoom("shadow-roulette=contribution", 4096);
   CHECK(some.result.pilot_samples > 0);
   CHECK(double(some.result.rays_shadow) < 0.95 * double(all.result.rays_shadow));
   CHECK(double(some.result.rays_shadow) > 0.1 * double(all.result.rays_shadow));
   CHECK(some.result.rays_closest == all.result.rays_closest);
   // One false alarm in a million; other paths than those of the image.
   const stat::ImageTestResult result =
-      stat::CompareMeans(Estimate(some), Estimate(RenderWith("", 4096, 2)),
+      stat::CompareMeans(Estimate(some), Estimate(RenderRoom("", 4096, 2)),
                          {8, 1e-6, kFloatTolerance, 1e-7});
   INFO(result.ToString());
   CHECK(result.same);
@@ -174,8 +174,8 @@ TEST_CASE("roulette on shadow rays does not depend on threads and wavefront",
 }
 
 TEST_CASE("a floor of one traces every shadow ray", "[roulette]") {
-  const Rendered all = RenderWith("", 64);
-  const Rendered same = RenderWith("shadow-roulette=contribution:1", 64);
+  const Rendered all = RenderRoom("", 64);
+  const Rendered same = RenderRoom("shadow-roulette=contribution:1", 64);
   CHECK(same.result.rays_shadow == all.result.rays_shadow);
   CHECK(Identical(same.film, all.film));
 }

@@ -10,8 +10,8 @@ namespace {
 
 constexpr const char* kSplitting[] = {"adjoint", "efficiency"};
 
-Rendered RenderWith(const SceneDescription& scene, const std::string& strategy,
-                    std::uint64_t spp, std::uint64_t seed = 1) {
+Rendered RenderSplitting(const SceneDescription& scene, const std::string& strategy,
+                         std::uint64_t spp, std::uint64_t seed = 1) {
   TestRender t;
   t.spp = spp;
   t.seed = seed;
@@ -32,8 +32,8 @@ Material RoughMetal() {
 
 void CheckSameMean(const SceneDescription& scene, const std::string& strategy,
                    std::uint64_t spp, double power) {
-  const auto plain = Estimate(RenderWith(scene, "roulette=none", spp));
-  const auto other = Estimate(RenderWith(scene, strategy, spp, 2));
+  const auto plain = Estimate(RenderSplitting(scene, "roulette=none", spp));
+  const auto other = Estimate(RenderSplitting(scene, strategy, spp, 2));
   const auto result = stat::CompareMeans(plain, other, {4, 1e-6, kFloatTolerance, 1e-7});
   INFO(strategy << ": " << result.ToString());
   CHECK(result.same);
@@ -44,7 +44,7 @@ void CheckSameMean(const SceneDescription& scene, const std::string& strategy,
   CHECK_FALSE(stat::CompareMeans(plain, wrong, {4, 1e-6, kFloatTolerance, 1e-7}).same);
 }
 
-bool Identical(const Rendered& a, const Rendered& b) {
+bool IdenticalImages(const Rendered& a, const Rendered& b) {
   for (int y = 0; y < a.film.height(); ++y) {
     for (int x = 0; x < a.film.width(); ++x) {
       if (!(a.film.Mean(x, y) == b.film.Mean(x, y))) return false;
@@ -132,7 +132,7 @@ TEST_CASE("images with splitting do not depend on threads or wavefronts", "[roul
         other.threads = threads;
         other.wavefront = wavefront;
         INFO(roulette << ", " << threads << " threads, wavefront " << wavefront);
-        CHECK(Identical(RenderDescription(SmallRoom(16, 6), other), reference));
+        CHECK(IdenticalImages(RenderDescription(SmallRoom(16, 6), other), reference));
       }
     }
   }
@@ -162,20 +162,20 @@ TEST_CASE("splitting without light, at little depth, with few samples", "[roulet
   dark.AddPlane({0, 0, 0}, {0, 0, 1}, dark.AddDiffuse(Grey(0.5)));
   for (const char* roulette : kSplitting) {
     const std::string strategy = std::string("roulette=") + roulette;
-    CHECK(ImageMean(RenderWith(dark.Build(), strategy, 16).film) == Rgb{});
+    CHECK(ImageMean(RenderSplitting(dark.Build(), strategy, 16).film) == Rgb{});
     CheckSameMean(SmallRoom(8, 2), strategy, 4096, 0.1);
     for (std::uint64_t spp : {1, 2}) {
-      CHECK(ImageMean(RenderWith(SmallRoom(8, 3), strategy, spp).film).y > 0);
+      CHECK(ImageMean(RenderSplitting(SmallRoom(8, 3), strategy, spp).film).y > 0);
     }
     // One event: nothing to decide, nothing that splits.
-    const Rendered shallow = RenderWith(SmallRoom(8, 1), strategy, 16);
+    const Rendered shallow = RenderSplitting(SmallRoom(8, 1), strategy, 16);
     CHECK_FALSE(shallow.plan.features.Has(Feature::kSplitting));
     CHECK(shallow.result.pilot_samples == 0);
   }
 }
 
 TEST_CASE("plans without splitting have none of it", "[roulette]") {
-  const Rendered plain = RenderWith(SmallRoom(8, 4), "roulette=throughput", 4);
+  const Rendered plain = RenderSplitting(SmallRoom(8, 4), "roulette=throughput", 4);
   for (Field f : {Field::branch, Field::budget, Field::cell_0, Field::risk_0}) {
     CHECK(std::count(plain.plan.live_fields.begin(), plain.plan.live_fields.end(), f) ==
           0);

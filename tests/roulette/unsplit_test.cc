@@ -43,7 +43,7 @@ MeanEstimate MeanOf(const std::vector<double>& values) {
   return {mean, (squares / n - mean * mean) / (n - 1), n - 1};
 }
 
-struct Moments {
+struct SplitMoments {
   std::vector<double> own, unsplit;  // of the pass; what it says of roulette=throughput
 };
 
@@ -56,9 +56,9 @@ TrainingSamples Pass(const Prepared& room, const char* roulette, bool records) {
                          MakeTrainingWork(room.scene, kSamples));
 }
 
-Moments MomentsOf(const Prepared& room, const TrainingSamples& samples) {
+SplitMoments MomentsOf(const Prepared& room, const TrainingSamples& samples) {
   const TrainingWork work = MakeTrainingWork(room.scene, kSamples);
-  Moments m;
+  SplitMoments m;
   for (std::size_t i = 0; i < samples.colors.size(); ++i) {
     const PathValues& values = room.tables.path_values;
     const double y = Brightness(values.channel, samples.colors[i]);
@@ -80,8 +80,8 @@ TEST_CASE("a pass that splits knows the second moment of one that does not",
   for (const bool glass : {false, true}) {
     Prepared room(TwoRooms(glass), "roulette=adjoint");
     room.TrainWith(400'000);
-    const Moments splits = MomentsOf(room, Pass(room, "adjoint", true));
-    const Moments plain = MomentsOf(room, Pass(room, "throughput", false));
+    const SplitMoments splits = MomentsOf(room, Pass(room, "adjoint", true));
+    const SplitMoments plain = MomentsOf(room, Pass(room, "throughput", false));
     const MeanEstimate said = MeanOf(splits.unsplit), is = MeanOf(plain.own);
     const MeanEstimate other = MeanOf(splits.own);
     INFO("glass " << glass << ": " << said.mean << " +- " << std::sqrt(said.variance)
@@ -107,7 +107,7 @@ TEST_CASE("recording what paths would bring unsplit changes nothing of them",
 TEST_CASE("variances without splitting differ by second moments", "[roulette]") {
   // One pixel, four samples of brightness 0.1 to 0.4, grey; of each the square would be
   // larger by 0.02 without splitting. Exposure 1 / 2: colours are half of the records.
-  // Moments are about 0.3, 0.6 in the records.
+  // SplitMoments are about 0.3, 0.6 in the records.
   TrainingWork work;
   work.pixels = {0};
   TrainingSamples samples;

@@ -10,7 +10,7 @@
 namespace lanelight::test {
 namespace {
 
-constexpr std::uint32_t kSamples = 1 << 15;
+constexpr std::uint32_t kEvaluated = 1 << 15;
 constexpr int kMoments = 4;
 
 // Bounded functions of the direction; together they see sides, tilt and spread.
@@ -39,12 +39,12 @@ struct Sums {
 };
 
 Sums Sampled(const TestMaterial& material, Vec3d wo, bool with_specular) {
-  ProbeBatch batch(kSamples);
+  ProbeBatch batch(kEvaluated);
   batch.SetWo(wo);
   batch.RandomPoints(17);
   batch.Sample(material, 23);
   Sums sums;
-  for (std::uint32_t i = 0; i < kSamples; ++i) {
+  for (std::uint32_t i = 0; i < kEvaluated; ++i) {
     const bool counts = with_specular || batch.pdf[i] > 0;
     sums.Add(counts ? batch.Value(i) : Rgb{}, batch.Wi(i));
   }
@@ -53,7 +53,7 @@ Sums Sampled(const TestMaterial& material, Vec3d wo, bool with_specular) {
 
 // Integral of Eval over uniform directions.
 Sums Evaluated(const TestMaterial& material, Vec3d wo) {
-  ProbeBatch batch(kSamples * 4);
+  ProbeBatch batch(kEvaluated * 4);
   batch.SetWo(wo);
   reference::Random random(29);
   for (std::uint32_t i = 0; i < batch.n; ++i) batch.SetWi(i, RandomDirection(random));
@@ -68,7 +68,7 @@ Sums Evaluated(const TestMaterial& material, Vec3d wo) {
 Sums Reference(const TestMaterial& material, Vec3d wo) {
   reference::Random random(37);
   Sums sums;
-  for (std::uint32_t i = 0; i < kSamples; ++i) {
+  for (std::uint32_t i = 0; i < kEvaluated; ++i) {
     const auto sample = reference::SampleBsdf(material.local, wo, random);
     sums.Add(sample ? sample->weight : Rgb{}, sample ? sample->wi : Vec3d{0, 0, 1});
   }

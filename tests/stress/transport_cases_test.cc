@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDeviations = 5;
 
-bool Holds(const Case& c, const Point& p) {
+bool HoldsClosely(const Case& c, const Point& p) {
   if (c.truth == Truth::kRate) {
     return p.trials > 0 && double(p.failures) <= p.expected * double(p.trials);
   }
@@ -36,7 +36,7 @@ int CheckCase(const Case& c) {
       INFO(c.name << " at " << value << ", " << p.series << ": " << p.measured << " +- "
                   << p.standard_error << " for " << p.expected << ", " << p.failures
                   << " failures of " << p.trials);
-      CHECK(Holds(c, p));
+      CHECK(HoldsClosely(c, p));
       CHECK(p.invalid == 0);
     }
   }

@@ -121,7 +121,7 @@ Tally Measure(const SceneDescription& scene, Points points, std::uint64_t spp, i
   return tally;
 }
 
-FilmAccumulator Reference(const SceneDescription& scene, std::uint64_t spp) {
+FilmAccumulator LongRender(const SceneDescription& scene, std::uint64_t spp) {
   TestRender t;
   t.sampler = Points::kSobol;
   t.spp = spp;
@@ -133,7 +133,7 @@ FilmAccumulator Reference(const SceneDescription& scene, std::uint64_t spp) {
 
 TEST_CASE("the Cornell box states its error", "[study]") {
   const SceneDescription scene = CornellBox();
-  const FilmAccumulator reference = Reference(scene, 2048);
+  const FilmAccumulator reference = LongRender(scene, 2048);
   for (Points points : {Points::kIndependent, Points::kSobol}) {
     const Tally tally = Measure(scene, points, 32, 120, reference);
     CHECK(tally.refused * 5 <= tally.renders);
@@ -150,7 +150,7 @@ TEST_CASE("the Cornell box states its error", "[study]") {
 
 TEST_CASE("where rare samples carry the error, none is stated", "[study]") {
   const SceneDescription scene = Scene("scenes/lights.pbrt", 6);
-  const FilmAccumulator reference = Reference(scene, 4096);
+  const FilmAccumulator reference = LongRender(scene, 4096);
   const Tally tally = Measure(scene, Points::kIndependent, 16, 300, reference);
   CHECK(tally.refused * 2 > tally.renders);
   // Lower ends hold as often as is said, which the estimates themselves do not.
@@ -161,7 +161,7 @@ TEST_CASE("where rare samples carry the error, none is stated", "[study]") {
 
 TEST_CASE("the Cornell box states its error, at length", "[study][slow]") {
   const SceneDescription scene = CornellBox();
-  const FilmAccumulator reference = Reference(scene, 32768);
+  const FilmAccumulator reference = LongRender(scene, 32768);
   for (Points points : {Points::kIndependent, Points::kSobol, Points::kCmj,
                         Points::kPmj02, Points::kHalton, Points::kLattice}) {
     for (std::uint64_t spp : {16, 50, 128}) {

@@ -13,7 +13,7 @@ namespace {
 
 using reference::Random;
 
-constexpr int kWidth = 24, kHeight = 16;
+constexpr int kOrderWidth = 24, kOrderHeight = 16;
 
 // Bright pixels have noise that falls as 1 / sqrt(n), dark ones more, as 1 / n^dark.
 std::vector<Rgb> Render(const std::vector<Rgb>& truth, double n, double dark,
@@ -28,7 +28,7 @@ std::vector<Rgb> Render(const std::vector<Rgb>& truth, double n, double dark,
 
 std::vector<Rgb> TwoLevels() {
   std::vector<Rgb> truth;
-  for (int i = 0; i < kWidth * kHeight; ++i) {
+  for (int i = 0; i < kOrderWidth * kOrderHeight; ++i) {
     truth.push_back(i % 2 == 0 ? Rgb{0.2, 0.2, 0.2} : Rgb{20, 20, 20});
   }
   return truth;
@@ -40,9 +40,9 @@ SceneRuns Simulated(const TemporaryFolder& folder, double dark) {
   SceneRuns runs;
   runs.name = "simulated";
   runs.folder = folder.File("simulated");
-  runs.window = {0, 0, kWidth, kHeight};
-  runs.full_width = runs.reference.width = kWidth;
-  runs.full_height = runs.reference.height = kHeight;
+  runs.window = {0, 0, kOrderWidth, kOrderHeight};
+  runs.full_width = runs.reference.width = kOrderWidth;
+  runs.full_height = runs.reference.height = kOrderHeight;
   runs.reference.mean = TwoLevels();
   runs.reference.variance.assign(runs.reference.mean.size(), Rgb{});
   runs.strategies.push_back({{"simulated", {}}, RunStatus::kOk, "", {4, 16, 64, 256}});

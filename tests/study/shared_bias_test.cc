@@ -10,13 +10,13 @@ namespace {
 
 using reference::Random;
 
-constexpr int kWidth = 32, kHeight = 24, kStrategies = 5, kRepetitions = 6;
+constexpr int kBiasWidth = 32, kBiasHeight = 24, kStrategies = 5, kRepetitions = 6;
 constexpr std::uint64_t kSpp = 16;
 constexpr std::size_t kTile = 2 * 8 + 1;  // of 8 x 6 tiles of 4 x 4 pixels
 
 void BrightenTile(std::vector<Rgb>& image) {
   for (int y = 8; y < 12; ++y) {
-    for (int x = 4; x < 8; ++x) image[y * kWidth + x] *= 1.15;
+    for (int x = 4; x < 8; ++x) image[y * kBiasWidth + x] *= 1.15;
   }
 }
 
@@ -42,7 +42,9 @@ SceneAnalysis Analyse(const Reference& reference, Random& random,
   return out;
 }
 
-Reference Usual(Random& random) { return NoisyReference(kWidth, kHeight, 0.01, random); }
+Reference Usual(Random& random) {
+  return NoisyReference(kBiasWidth, kBiasHeight, 0.01, random);
+}
 
 std::size_t FailedTiles(const SceneAnalysis& analysis) {
   std::size_t failed = 0;
@@ -102,7 +104,7 @@ TEST_CASE("a tile of rare samples is not tested", "[study]") {
     for (int y = 8; y < 12; ++y) {
       for (int x = 4; x < 8; ++x) {
         const double hit = random.Uniform() < 0.05 ? 1 : 0;
-        image[y * kWidth + x] = Rgb{1e-4 + hit, 1e-4 + hit, 1e-4 + hit};
+        image[y * kBiasWidth + x] = Rgb{1e-4 + hit, 1e-4 + hit, 1e-4 + hit};
       }
     }
   };
@@ -116,8 +118,8 @@ TEST_CASE("a tile of rare samples is not tested", "[study]") {
         for (int i = 0; i < 12 * kRepetitions; ++i) hits += random.Uniform() < 0.05;
         const double n = 12.0 * kRepetitions;
         const Rgb one{1, 1, 1};
-        r.mean[y * kWidth + x] = one * (1e-4 + hits / n);
-        r.variance[y * kWidth + x] = one * (hits / n * (1 - hits / n) / n);
+        r.mean[y * kBiasWidth + x] = one * (1e-4 + hits / n);
+        r.variance[y * kBiasWidth + x] = one * (hits / n * (1 - hits / n) / n);
       }
     }
     const SceneAnalysis analysis = Analyse(r, random, {}, rare);

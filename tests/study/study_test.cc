@@ -18,7 +18,7 @@ namespace {
 using Catch::Contains;
 using Json = nlohmann::json;
 
-constexpr const char* kScene = R"(
+constexpr const char* kStudyScene = R"(
 LookAt 0 0 -4  0 0 0  0 1 0
 Camera "perspective" "float fov" 40
 Film "rgb" "integer xresolution" 12 "integer yresolution" 8 "string filename" "x.exr"
@@ -35,7 +35,7 @@ AttributeEnd
 
 StudyOptions TinyStudy(const TemporaryFolder& folder, const std::string& out) {
   StudyOptions options;
-  options.scenes = {folder.Write("tiny.pbrt", kScene)};
+  options.scenes = {folder.Write("tiny.pbrt", kStudyScene)};
   options.strategies = {"paper-plain", "default", "points=pmj02"};
   options.spp = {1, 4, 16};
   options.repetitions = 3;
@@ -178,7 +178,7 @@ TEST_CASE("what a scene does not take is reported, and the rest goes on", "[stud
 TEST_CASE("strategies that do the same on a scene are rendered once", "[study]") {
   const TemporaryFolder folder;
   StudyOptions options = TinyStudy(folder, "out");
-  const std::string text = kScene;
+  const std::string text = kStudyScene;
   const std::size_t environment = text.find("LightSource \"infinite\"");
   const std::string one_light =
       text.substr(0, environment) + text.substr(text.find("Material"));
@@ -213,7 +213,7 @@ TEST_CASE("a study is not continued without one of its scenes", "[study]") {
   Study(options, {});
   options.resume = true;
   const std::string first = options.scenes[0];
-  options.scenes = {folder.Write("other.pbrt", kScene)};
+  options.scenes = {folder.Write("other.pbrt", kStudyScene)};
   CHECK_THROWS_WITH(Study(options, {}),
                     Contains("'tiny'") && Contains("name that scene"));
   CHECK_FALSE(std::filesystem::exists(options.out + "/other"));

@@ -16,7 +16,7 @@ constexpr int kSize = 8;
 constexpr std::uint64_t kSeeds = 8;
 constexpr double kAlbedo = 0.5;
 
-struct Case {
+struct Convergence {
   const char* directions;
   SceneDescription scene;
   double exact;
@@ -31,7 +31,7 @@ SceneBuilder Floor() {
 
 // One triangle: the choice between the two of a quad would be a third dimension with a
 // jump, in which points that are stratified in pairs of dimensions gain nothing.
-Case AreaLight() {
+Convergence AreaLight() {
   SceneBuilder b = Floor();
   const std::vector<Vec3d> c = {{-0.5, -0.25, 1.5}, {-0.5, 0.75, 2}, {1, 0.75, 2}};
   TriangleMesh mesh;
@@ -43,14 +43,14 @@ Case AreaLight() {
               closed_form::PolygonIrradiance(3, c, {0, 0, 0}, {0, 0, 1})};
 }
 
-Case Environment() {
+Convergence Environment() {
   SceneBuilder b = Floor();
   b.AddEnvironment(Grey(2));
   return {"uniform", b.Build(), kAlbedo * 2};
 }
 
 // Root mean square error of green over the pixels of images of several seeds.
-double Rmse(const Case& c, Points points, std::uint64_t spp) {
+double Rmse(const Convergence& c, Points points, std::uint64_t spp) {
   double sum = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     TestRender options;
@@ -70,7 +70,7 @@ double Rmse(const Case& c, Points points, std::uint64_t spp) {
 
 // From 4 to 1024 samples per pixel. Groups are a quarter of them, four per pixel, so the
 // order is that of the groups.
-double Slope(const Case& c, Points points) {
+double Slope(const Convergence& c, Points points) {
   std::vector<double> n, rmse;
   for (std::uint64_t spp = 4; spp <= 1024; spp *= 4) {
     n.push_back(double(spp));
@@ -83,7 +83,7 @@ double Slope(const Case& c, Points points) {
 
 // 512 observations give each RMSE within 3 %, five of them a slope within 0.007.
 TEST_CASE("wavefront: orders of convergence of smooth integrands", "[convergence]") {
-  for (const Case& c : {AreaLight(), Environment()}) {
+  for (const Convergence& c : {AreaLight(), Environment()}) {
     INFO(c.directions);
     CHECK(Slope(c, Points::kIndependent) == Approx(-0.5).margin(0.05));
     CHECK(Slope(c, Points::kStratified) <= -0.70);
@@ -92,7 +92,7 @@ TEST_CASE("wavefront: orders of convergence of smooth integrands", "[convergence
 }
 
 TEST_CASE("wavefront: orders of convergence of the other samplers", "[convergence]") {
-  for (const Case& c : {AreaLight(), Environment()}) {
+  for (const Convergence& c : {AreaLight(), Environment()}) {
     INFO(c.directions);
     CHECK(Slope(c, Points::kPmj02) <= -0.90);
     CHECK(Slope(c, Points::kCmj) <= -0.70);

@@ -24,7 +24,7 @@ constexpr int kFirst = 10, kSide = 12;  // the middle of the image
 constexpr std::uint32_t kSamples = 4;
 constexpr std::uint32_t kScrambled = 0x7fdeadffu;  // a NaN, an absurd index
 
-struct Case {
+struct DeclaredCase {
   const char* scene;
   const char* strategy;
   bool records = false;  // a training pass that records
@@ -32,7 +32,7 @@ struct Case {
 
 class Checker {
  public:
-  Checker(const Case& c, const std::string& folder)
+  Checker(const DeclaredCase& c, const std::string& folder)
       : scene_(PrepareScene(ParseSceneText(c.scene, "test.pbrt", folder), {})) {
     Strategy s = scene_.strategy;
     ApplyStrategy(c.strategy, {}, s);
@@ -223,7 +223,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
   const TemporaryFolder folder;
   WriteSky(folder.File("sky.pfm"));
   folder.Write("lenses.dat", "60 5 1.5 30  -60 3 1 30  0 50 0 20");
-  constexpr Case kCases[] = {
+  constexpr DeclaredCase kCases[] = {
       {kAllStagesScene, "points=independent"},
       {kAllStagesScene, "points=sobol,light-selection=tree,light-points=solid-angle"},
       {kAllStagesScene, "points=halton,directions=uniform,pairs=antithetic"},
@@ -246,7 +246,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kSphericalScene, "points=sobol"},
       {kLensesScene, "points=sobol"}};
   std::set<std::string> stages;
-  for (const Case& c : kCases) {
+  for (const DeclaredCase& c : kCases) {
     Checker checker(c, folder.File(""));
     for (const std::string& finding : checker.Run()) {
       INFO(c.strategy);

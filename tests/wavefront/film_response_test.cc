@@ -23,12 +23,12 @@ AreaLightSource "diffuse" "rgb L" [ 9 6 3 ]
 Shape "sphere" "float radius" 1.2
 )";
 
-struct Rendered {
+struct Responses {
   Job job;
   FilmAccumulator film;
 };
 
-Rendered RenderWith(const FilmResponse& response, const std::string& strategy) {
+Responses RenderWith(const FilmResponse& response, const std::string& strategy) {
   SceneDescription scene = ParseSceneText(kRoom, "room.pbrt", ".");
   scene.film.response = response;
   RenderSettings settings;
@@ -46,8 +46,8 @@ FilmResponse Balanced() { return {FilmMatrix(FindColorSpace("rec2020"), 3500)}; 
 TEST_CASE("film response: means of a render", "[film]") {
   for (const char* strategy : {"", "control=ambient,c=1", "seen-lights=paths"}) {
     INFO(strategy);
-    const Rendered plain = RenderWith({}, strategy);
-    const Rendered balanced = RenderWith(Balanced(), strategy);
+    const Responses plain = RenderWith({}, strategy);
+    const Responses balanced = RenderWith(Balanced(), strategy);
     double largest = 0;
     for (int y = 0; y < 12; ++y) {
       for (int x = 0; x < 12; ++x) {
@@ -69,10 +69,10 @@ TEST_CASE("film response: means of a render", "[film]") {
 TEST_CASE("film response: variances are of what is written", "[film]") {
   FilmResponse sum;  // all channels hold R + G + B
   sum.matrix = {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
-  const Rendered added = RenderWith(sum, "");
+  const Responses added = RenderWith(sum, "");
   FilmResponse twice;
   twice.matrix = {{{2, 0, 0}, {0, 2, 0}, {0, 0, 2}}};
-  const Rendered doubled = RenderWith(twice, ""), plain = RenderWith({}, "");
+  const Responses doubled = RenderWith(twice, ""), plain = RenderWith({}, "");
   double sums = 0, parts = 0;
   for (int y = 0; y < 12; ++y) {
     for (int x = 0; x < 12; ++x) {
@@ -89,8 +89,8 @@ TEST_CASE("film response: variances are of what is written", "[film]") {
 TEST_CASE("film response: no sample is above the limit", "[film]") {
   FilmResponse limited;
   limited.max_component = 1.5;
-  const Rendered render = RenderWith(limited, "seen-lights=paths");
-  const Rendered plain = RenderWith({}, "seen-lights=paths");
+  const Responses render = RenderWith(limited, "seen-lights=paths");
+  const Responses plain = RenderWith({}, "seen-lights=paths");
   double most = 0, before = 0;
   for (int y = 0; y < 12; ++y) {
     for (int x = 0; x < 12; ++x) {

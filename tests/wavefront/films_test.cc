@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kWidth = 6, kHeight = 5;
 
-struct Case {
+struct FilmCase {
   const char* name;
   FeatureSet features;
   SampleGroups groups;
@@ -23,12 +23,12 @@ struct Case {
 
 // A film with all that belongs to it.
 struct Gathering {
-  const Case& of;
+  const FilmCase& of;
   FilmAccumulator film;
   Films films;
   std::vector<std::uint32_t> pixels;
 
-  explicit Gathering(const Case& c)
+  explicit Gathering(const FilmCase& c)
       : of(c),
         film(0, 0, kWidth, kHeight, c.groups, c.features.Has(Feature::kAov)),
         films(SamplePlanes(c.features), 1, film),
@@ -49,7 +49,7 @@ struct Gathering {
   std::vector<KeptColumn> State() { return CopyColumns(films); }
 };
 
-const Case kCases[] = {
+const FilmCase kCases[] = {
     {"plain", {}, {1, false}, 2},
     {"pairs, one of them open", {}, {2, false}, 3},
     {"replicates", {}, {1, true}, 2},
@@ -65,7 +65,8 @@ const Case kCases[] = {
 };
 
 // Rounds 0 to 2 and what is left of them, then 3 to 5.
-std::vector<KeptColumn> Continued(const Case& c, const std::vector<KeptColumn>& state) {
+std::vector<KeptColumn> Continued(const FilmCase& c,
+                                  const std::vector<KeptColumn>& state) {
   Gathering second(c);
   PutColumns(state, second.films);
   CHECK(second.State() == state);
@@ -76,7 +77,7 @@ std::vector<KeptColumn> Continued(const Case& c, const std::vector<KeptColumn>& 
 }  // namespace
 
 TEST_CASE("films: put down and picked up are as if nothing had happened", "[films]") {
-  for (const Case& c : kCases) {
+  for (const FilmCase& c : kCases) {
     INFO(c.name);
     Gathering whole(c), first(c), second(c);
     for (int round = 0; round < 6; ++round) whole.Add(round);
@@ -96,7 +97,7 @@ TEST_CASE("films: put down and picked up are as if nothing had happened", "[film
 }
 
 TEST_CASE("films: each column is needed, and named for itself", "[films]") {
-  for (const Case& c : kCases) {
+  for (const FilmCase& c : kCases) {
     Gathering whole(c), first(c);
     for (int round = 0; round < 6; ++round) whole.Add(round);
     for (int round = 0; round < 3; ++round) first.Add(round);

@@ -8,7 +8,7 @@ namespace {
 
 using Catch::Contains;
 
-const char* kHead = R"(
+const char* kEmpty = R"(
 LookAt 0 0 -5  0 0 0  0 1 0
 Camera "perspective" "float fov" 40
 Film "rgb" "integer xresolution" 8 "integer yresolution" 8
@@ -62,15 +62,16 @@ TEST_CASE("a scene without surfaces shows its environment, or nothing", "[plan]"
         TestRender test;
         test.strategy = strategy;
         test.aov = aov;
-        CheckAll(RenderText(std::string(kHead) + kSky + body, test).film, {0.25, 0.5, 2});
-        CheckAll(RenderText(kHead + body, test).film, {});
+        CheckAll(RenderText(std::string(kEmpty) + kSky + body, test).film,
+                 {0.25, 0.5, 2});
+        CheckAll(RenderText(kEmpty + body, test).film, {});
       }
     }
   }
 }
 
 TEST_CASE("a scene without surfaces pays for none", "[plan]") {
-  const Rendered r = RenderText(std::string(kHead) + kSky + kDegenerate);
+  const Rendered r = RenderText(std::string(kEmpty) + kSky + kDegenerate);
   std::string stages;
   for (const PlannedStage& s : r.plan.stages) stages += std::string(s.stage.name) + " ";
   CHECK(stages ==
@@ -89,7 +90,7 @@ TEST_CASE("any kind of surface by itself scatters", "[plan]") {
         "Translate 0 -1e7 0 Shape \"sphere\" \"float radius\" 9999999"}) {
     INFO(shape);
     const CompiledScene scene = PrepareScene(
-        ParseSceneText(std::string(kHead) + kSky + shape, "one.pbrt", "."), {});
+        ParseSceneText(std::string(kEmpty) + kSky + shape, "one.pbrt", "."), {});
     CHECK(MakePlan(scene, {}).features.Has(Feature::kScatters));
     CHECK(scene.notes.empty());
   }
@@ -101,16 +102,16 @@ TEST_CASE("a scene without surfaces gets a note", "[plan]") {
     REQUIRE_FALSE(scene.notes.empty());
     return scene.notes.back().where.ToString() + ": " + scene.notes.back().message;
   };
-  CHECK_THAT(note(kHead), Contains("empty.pbrt: the scene has no shape") &&
-                              Contains("the image is black"));
-  CHECK_THAT(note(std::string(kHead) + kSky), Contains("the environment alone"));
-  const std::string solid = std::string(kHead) + "Shape \"sphere\"";
+  CHECK_THAT(note(kEmpty), Contains("empty.pbrt: the scene has no shape") &&
+                               Contains("the image is black"));
+  CHECK_THAT(note(std::string(kEmpty) + kSky), Contains("the environment alone"));
+  const std::string solid = std::string(kEmpty) + "Shape \"sphere\"";
   CHECK(PrepareScene(ParseSceneText(solid, "a.pbrt", "."), {}).notes.empty());
 }
 
 TEST_CASE("auxiliary output without scattering is refused", "[plan]") {
   const CompiledScene scene = PrepareScene(
-      ParseSceneText(std::string(kHead) + "Shape \"sphere\"", "a.pbrt", "."), {});
+      ParseSceneText(std::string(kEmpty) + "Shape \"sphere\"", "a.pbrt", "."), {});
   PlanOptions options;
   options.max_depth = 0;
   CHECK_NOTHROW(MakePlan(scene, options));

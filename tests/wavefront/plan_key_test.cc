@@ -10,7 +10,7 @@
 namespace lanelight {
 namespace {
 
-constexpr const char* kHead = R"(
+constexpr const char* kBall = R"(
 LookAt 0 0 -4  0 0 0  0 1 0
 Camera "perspective" "float fov" 40
 Film "rgb" "integer xresolution" 6 "integer yresolution" 4 "string filename" "x.exr"
@@ -24,14 +24,14 @@ Strategy Named(const std::string& name) {
   return StrategyNamed(name, {std::make_shared<const std::string>("test"), 0, 0}, {});
 }
 
-struct Rendered {
+struct Keyed {
   std::string key;
   std::vector<Rgb> pixels;
 };
 
-Rendered Render(Job& job, const std::string& strategy) {
+Keyed Render(Job& job, const std::string& strategy) {
   SetStrategy(job, Named(strategy));
-  Rendered out = {PlanKey(job.scene, job.plan), {}};
+  Keyed out = {PlanKey(job.scene, job.plan), {}};
   job.spp = 5;
   FilmAccumulator film = MakeFilm(job);
   RunJob(job, film);
@@ -45,7 +45,7 @@ Job Prepare(const TemporaryFolder& folder, const std::string& more,
             std::uint32_t max_depth) {
   RenderSettings settings;
   settings.max_depth = max_depth;
-  return PrepareJob(folder.Write("scene.pbrt", kHead + more), settings);
+  return PrepareJob(folder.Write("scene.pbrt", kBall + more), settings);
 }
 
 }  // namespace
@@ -53,12 +53,12 @@ Job Prepare(const TemporaryFolder& folder, const std::string& more,
 TEST_CASE("choices without effect leave plan and pixels as they are", "[plan]") {
   const TemporaryFolder folder;
   Job job = Prepare(folder, "", 1);
-  const Rendered usual = Render(job, "default");
+  const Keyed usual = Render(job, "default");
   for (const char* same :
        {"light-selection=uniform", "light-selection=tree", "roulette=none",
         "roulette=luminance", "c=0.5", "environment=compensated"}) {
     INFO(same);
-    const Rendered other = Render(job, same);
+    const Keyed other = Render(job, same);
     CHECK(other.key == usual.key);
     CHECK(other.pixels == usual.pixels);
   }

@@ -32,7 +32,7 @@ Material Base(MaterialKind kind) {
 }
 
 using Member = void (*)(SceneDescription&, Material&);
-struct Case {
+struct TexturedCase {
   const char* name;
   Material material;
   Member textured;
@@ -68,7 +68,7 @@ void Thickness(SceneDescription& s, Material& m) {
 
 // Grids of coat tables and the fit of colours interpolate: 1 % of the image, which has
 // the coat's own reflection too. Everything else is the same arithmetic.
-std::vector<Case> Cases() {
+std::vector<TexturedCase> Cases() {
   const Material leaf = Base(MaterialKind::kDiffuseTransmission);
   const Material metal = Base(MaterialKind::kConductor);
   Material coloured = metal;
@@ -109,7 +109,7 @@ double Relative(Rgb a, Rgb b) {
   return worst;
 }
 
-SceneDescription Textured(const Case& c) {
+SceneDescription Textured(const TexturedCase& c) {
   SceneDescription scene = Plate(c.material, 6);
   c.textured(scene, scene.materials[0]);
   return scene;
@@ -160,7 +160,7 @@ void CheckVaried(MaterialKind kind, bool has_reflectance, double tolerance) {
 }  // namespace
 
 TEST_CASE("a texture of one value renders as the constant", "[textured]") {
-  for (const Case& c : Cases()) {
+  for (const TexturedCase& c : Cases()) {
     const Rgb constant = MeanOf(Plate(c.material, 6)), textured = MeanOf(Textured(c));
     INFO(c.name << ": " << textured.x << ", " << constant.x);
     CHECK(Relative(textured, constant) < c.tolerance);
@@ -168,7 +168,7 @@ TEST_CASE("a texture of one value renders as the constant", "[textured]") {
 }
 
 TEST_CASE("another value in a texture would be seen", "[textured]") {
-  for (const Case& c : Cases()) {
+  for (const TexturedCase& c : Cases()) {
     SceneDescription other = Textured(c);
     for (Texture& t : other.textures) t.tex1.constant = t.tex2.constant *= 3;
     INFO(c.name);
@@ -253,8 +253,8 @@ TEST_CASE("columns of textured layers live with their features alone", "[texture
     const auto& live = plan.live_fields;
     return std::find(live.begin(), live.end(), field) != live.end();
   };
-  const std::vector<Case> cases = Cases();
-  for (const Case& c : cases) {
+  const std::vector<TexturedCase> cases = Cases();
+  for (const TexturedCase& c : cases) {
     const Plan plain = plan_of(Plate(c.material, 6));
     for (Field field : {Field::coat_thickness, Field::alpha2_0, Field::alpha2_1,
                         Field::color1_r, Field::color0_r, Field::alpha_x}) {
