@@ -7,6 +7,7 @@
 
 #include "kernels/bsdf/coated_conductor-inl.h"
 #include "kernels/bsdf/coated_diffuse-inl.h"
+#include "kernels/bsdf/coated_medium-inl.h"
 #include "kernels/probe/bsdf_probe-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,6 +22,10 @@ BsdfProbe ProbeCoated(ShadeKind kind) {
       return ProbeOf<CoatedDiffuseRoughBsdf>();
     case ShadeKind::kCoatedConductor:
       return ProbeOf<CoatedConductorBsdf>();
+    case ShadeKind::kCoatedDiffuseMedium:
+      return ProbeOf<CoatedDiffuseMediumBsdf>();
+    case ShadeKind::kCoatedConductorMedium:
+      return ProbeOf<CoatedConductorMediumBsdf>();
     default:
       return {};
   }

@@ -15,6 +15,7 @@
 
 #include "kernels/bsdf/coated_conductor-inl.h"
 #include "kernels/bsdf/coated_diffuse-inl.h"
+#include "kernels/bsdf/coated_medium-inl.h"
 #include "kernels/bsdf/conductor-inl.h"
 #include "kernels/bsdf/dielectric-inl.h"
 #include "kernels/bsdf/diffuse-inl.h"

@@ -23,9 +23,9 @@ HWY_INLINE VF ColorLimit(const MaterialTable& materials, VI material) {
   const auto is = [&](ShadeKind k) HWY_ATTR {
     return hn::Eq(kind, hn::Set(di, static_cast<int32_t>(k)));
   };
-  const auto index_of_refraction =
-      hn::Or(is(ShadeKind::kConductorSmooth),
-             hn::Or(is(ShadeKind::kConductorRough), is(ShadeKind::kCoatedConductor)));
+  const auto index_of_refraction = hn::Or(
+      hn::Or(is(ShadeKind::kConductorSmooth), is(ShadeKind::kConductorRough)),
+      hn::Or(is(ShadeKind::kCoatedConductor), is(ShadeKind::kCoatedConductorMedium)));
   return hn::IfThenElse(hn::RebindMask(df, index_of_refraction), Splat(3e38f),
                         Splat(1.0f));
 }

@@ -39,6 +39,10 @@ void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out) {
   t.coat.push_back(row.coat);
   t.coat_internal.push_back(0);
   add(t.coat_thickness, row.coat_thickness.constant);
+  add(t.coat_g, row.coat_g);
+  add(t.coat_albedo_r, row.coat_albedo.x);
+  add(t.coat_albedo_g, row.coat_albedo.y);
+  add(t.coat_albedo_b, row.coat_albedo.z);
   t.coat_alphas.push_back(1);
   t.coat_depths.push_back(1);
   t.coat_depth.push_back(row.coat_depth);

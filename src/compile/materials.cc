@@ -42,6 +42,7 @@ class Builder {
   ColorValue Color(const ColorValue& v) const { return constants_.Fold(v); }
   FloatValue Alpha(const FloatValue& v, bool remap) const;
   ColorValue Reflectance(const ColorValue& v) const;
+  bool Scatters(const Material& coat) const;
   ColorValue Derived(TextureKind kind, const ColorValue& from, double amount);
   ColorValue Scaled(const ColorValue& value, double scale);
   void CorrectBase(MaterialTable& table, std::size_t i);
@@ -79,6 +80,12 @@ ColorValue Builder::Reflectance(const ColorValue& v) const {
   ColorValue color = Color(v);
   if (!IsTextured(color)) color.constant = Clamped(color.constant, 1);
   return color;
+}
+
+// Whether the medium in a coat does more than absorb.
+bool Builder::Scatters(const Material& coat) const {
+  const ColorValue albedo = Reflectance(coat.coat_albedo);
+  return IsTextured(albedo) || albedo.constant != Rgb{};
 }
 
 void Builder::Diffuse(const Material& m, MaterialRow& row) {
@@ -152,12 +159,10 @@ void CheckEta(const Material& m) {
 
 void Builder::CoatOf(const Material& m, MaterialRow& row) {
   CheckEta(m);
-  if (m.coat_albedo != Rgb{}) {
-    Unsupported(m, fmt::format("a scattering medium inside the coat (albedo {} {} {}) is "
-                               "not supported; supported are clear coats, albedo 0",
-                               m.coat_albedo.x, m.coat_albedo.y, m.coat_albedo.z));
-  }
   Interface(m, row);
+  // Equal indices on both sides: nothing to see, whatever the roughness.
+  if (Scatters(m) && row.eta == 1) row.alpha_x = row.alpha_y = {};
+  row.coat_g = m.coat_g;
   row.coat_thickness = constants_.Fold(FloatValue{m.thickness, m.thickness_texture});
   Coat coat = {std::nullopt, m.interface_eta, std::nullopt};
   if (IsSmooth(row)) {
@@ -199,6 +204,11 @@ MaterialRow Builder::MakeRow(const Material& m) {
     case MaterialKind::kCoatedDiffuse:
       CoatOf(m, row);
       row.color0 = Reflectance(m.reflectance);
+      if (Scatters(m)) {
+        row.kind = ShadeKind::kCoatedDiffuseMedium;
+        row.color1 = Reflectance(m.coat_albedo);
+        break;
+      }
       row.kind = IsSmooth(row) ? ShadeKind::kCoatedDiffuseSmooth
                                : ShadeKind::kCoatedDiffuseRough;
       break;
@@ -208,6 +218,10 @@ MaterialRow Builder::MakeRow(const Material& m) {
       row.alpha2_x = Alpha(m.conductor_uroughness, m.remap_roughness);
       row.alpha2_y = Alpha(m.conductor_vroughness, m.remap_roughness);
       row.kind = ShadeKind::kCoatedConductor;
+      if (Scatters(m)) {
+        row.kind = ShadeKind::kCoatedConductorMedium;
+        row.coat_albedo = Reflectance(m.coat_albedo).constant;
+      }
       break;
     }
     case MaterialKind::kDiffuseTransmission:

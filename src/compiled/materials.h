@@ -27,6 +27,7 @@ inline constexpr float kRoughestCoat = 1e4f;
 ///   diffusetransmission: color0 = reflectance, color1 = transmittance
 ///   conductor*, coatedconductor: color0 = eta, color1 = k (of the metal relative to
 ///     what is above it)
+///   coateddiffuse with a medium: color0 = reflectance, color1 = albedo of the medium
 ///   kMix: alpha_x = amount of the second; mix0, mix1 = materials
 struct MaterialTable {
   AlignedVector<std::uint32_t> kind;  // ShadeKind
@@ -41,6 +42,8 @@ struct MaterialTable {
   // Where they vary, a coat has a grid of tables: 1 or kCoatAlphas over the roughness for
   // each of 1 or kCoatDepths over the thickness.
   AlignedVector<std::int32_t> coat_alphas, coat_depths;
+  // Of the medium in a coat that scatters: asymmetry, and albedo where color1 is k.
+  AlignedVector<float> coat_g, coat_albedo_r, coat_albedo_g, coat_albedo_b;
   AlignedVector<std::uint32_t> coat_depth;  // layer crossings at most (pbrt's maxdepth)
   AlignedVector<std::int32_t> color0_texture, color1_texture;
   AlignedVector<std::int32_t> alpha_x_texture, alpha_y_texture;

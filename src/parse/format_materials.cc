@@ -63,14 +63,13 @@ Lines CoatRoughness(Lines lines, const std::string& prefix) {
                    "texture vroughness", kRendered);
 }
 
-Lines Coat(Lines lines) {
+Lines Coat(Lines lines, FormatLine textured_albedo) {
   const Lines coat = {{"float thickness", kRendered},
                       {"texture thickness", kRendered},
                       {"float g", kRendered},
-                      {"texture g", kRendered},
-                      {"rgb albedo", kRendered, "", "[ 0 0 0 ]"},
-                      {"rgb|spectrum albedo", kRefused, "a coat that scatters"},
-                      {"texture albedo", kRefused, "cannot be textured"},
+                      {"texture g", kRendered, "of a coat that scatters: refused"},
+                      {"rgb|spectrum albedo", kRendered},
+                      textured_albedo,
                       {"integer maxdepth", kRendered},
                       {"integer nsamples", kRendered}};
   lines.insert(lines.end(), coat.begin(), coat.end());
@@ -122,10 +121,14 @@ FormatTable Coated() {
        CoatRoughness(Relief(Coat({{"rgb|spectrum|texture reflectance", kRendered},
                                   {"float eta", kRendered, "", "1.3"},
                                   {"spectrum eta", kNoted, kDispersion, kGlass},
-                                  {"bool remaproughness", kRendered, "", "false"}})),
+                                  {"bool remaproughness", kRendered, "", "false"}},
+                                 {"texture albedo", kRendered})),
                      "")},
       {"Material", "coatedconductor", kRendered, "",
-       CoatRoughness(CoatRoughness(Relief(Coat(metal)), "interface."), "conductor.")},
+       CoatRoughness(CoatRoughness(Relief(Coat(metal, {"texture albedo", kRefused,
+                                                       "cannot be textured"})),
+                                   "interface."),
+                     "conductor.")},
   };
 }
 

@@ -63,6 +63,26 @@ void ReadConductor(ParseState& state, ParamSet& params, const std::string& prefi
       TexturedColor(state, params, "reflectance", {0.5, 0.5, 0.5}, SpectrumUse::kAlbedo);
 }
 
+void ReadCoatMedium(ParseState& state, ParamSet& params, Material* material) {
+  const FloatValue g = TexturedFloat(state, params, "g", 0, -0.9999, 0.9999);
+  material->coat_g = g.constant;
+  material->coat_albedo =
+      TexturedColor(state, params, "albedo", {0, 0, 0}, SpectrumUse::kAlbedo);
+  const ColorValue& albedo = material->coat_albedo;
+  const bool textured = albedo.texture != kNone;
+  if (textured && material->kind == MaterialKind::kCoatedConductor) {
+    params.Fail(*params.Find("albedo", {}),
+                "above a metal this parameter cannot be textured, which has two textured "
+                "colours already; supported: rgb or spectrum");
+  }
+  // Without a scattering medium it means nothing, textured or not.
+  if (g.texture != kNone && (textured || albedo.constant != Rgb{})) {
+    params.Fail(*params.Find("g", {}),
+                "where a coat scatters, this parameter cannot be textured; supported: "
+                "float");
+  }
+}
+
 // What coateddiffuse and coatedconductor share: the medium between the layers and the
 // depth of the random walk.
 void ReadCoat(ParseState& state, ParamSet& params, const std::string& prefix,
@@ -73,16 +93,7 @@ void ReadCoat(ParseState& state, ParamSet& params, const std::string& prefix,
   const FloatValue thickness = TexturedFloat(state, params, "thickness", 0.01, 0, 1e6);
   material->thickness = thickness.constant;
   material->thickness_texture = thickness.texture;
-  // Without a scattering medium it means nothing, textured or not.
-  material->coat_g = TexturedFloat(state, params, "g", 0, -0.9999, 0.9999).constant;
-  const ColorValue albedo =
-      TexturedColor(state, params, "albedo", {0, 0, 0}, SpectrumUse::kAlbedo);
-  if (albedo.texture != kNone) {
-    params.Fail(*params.Find("albedo", {}),
-                "this parameter cannot be textured; supported: "
-                "rgb or spectrum");
-  }
-  material->coat_albedo = albedo.constant;
+  ReadCoatMedium(state, params, material);
   material->coat_max_depth = params.Integer("maxdepth", 10, 1, 10000);
   material->coat_samples = params.Integer("nsamples", 1, 1, 10000);
 }

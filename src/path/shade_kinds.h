@@ -34,6 +34,8 @@ enum ShadeTraits : std::uint32_t {
   X(CoatedDiffuseSmooth, kChoosesLobe, "smooth coated diffuse")                        \
   X(CoatedDiffuseRough, kMicrofacets | kChoosesLobe, "rough coated diffuse")           \
   X(CoatedConductor, kMicrofacets | kChoosesLobe | kSecondColor | kMetallic, "coated conductor") \
+  X(CoatedDiffuseMedium, kMicrofacets | kChoosesLobe | kSecondColor, "coated diffuse with a scattering medium between") \
+  X(CoatedConductorMedium, kMicrofacets | kChoosesLobe | kSecondColor | kMetallic, "coated conductor with a scattering medium between") \
   X(DiffuseTransmission, kChoosesLobe | kSecondColor, "diffuse transmission")          \
   X(HenyeyGreenstein, kInMedium, "Henyey-Greenstein phase function")
 // clang-format on

@@ -132,8 +132,8 @@ struct Material {
   FloatValue conductor_uroughness, conductor_vroughness;  // coatedconductor
   bool remap_roughness = true;
   double thickness = 0.01;  // coats
-  double coat_g = 0;
-  Rgb coat_albedo;                  // coats: scattering albedo of the medium between
+  double coat_g = 0;                // coats: Henyey-Greenstein, of the medium between
+  ColorValue coat_albedo;           // its scattering albedo; 0 everywhere: it absorbs
   Index thickness_texture = kNone;  // replaces `thickness`
   int coat_max_depth = 10, coat_samples = 1;
   Index mix[2] = {kNone, kNone};

@@ -38,6 +38,7 @@ double Albedo(ShadeKind kind, double c0, double c1) {
     case ShadeKind::kConductorSmooth:
     case ShadeKind::kConductorRough:
     case ShadeKind::kCoatedConductor:
+    case ShadeKind::kCoatedConductorMedium:
       return Metal(c0, c1);
     case ShadeKind::kDielectricSmooth:
     case ShadeKind::kDielectricRough:

@@ -174,9 +174,28 @@ TEST_CASE("compile: coats", "[scene][compile]") {
   CHECK(t.coat_internal[3] == ComputeCoatTable(alpha, 1.7, 0.01).internal_reflectance);
   CHECK(t.coat_thickness[0] == 0.01f);
   CHECK(t.coat_depth[0] == 10);
+}
 
-  m.coat_albedo = {0.1, 0, 0};
-  CHECK_THROWS_WITH(Compile(m), Catch::Contains("clear coats"));
+TEST_CASE("compile: coats whose medium scatters are kinds of their own", "[compile]") {
+  Material m = OfKind(MaterialKind::kCoatedDiffuse);
+  m.coat_albedo.constant = {0.1, 0, 2};
+  m.coat_g = 0.3;
+  m.uroughness.constant = m.vroughness.constant = 0.25;
+  MaterialTable t = Compile(m);
+  CHECK(KindOf(t, 0) == ShadeKind::kCoatedDiffuseMedium);
+  CHECK(t.color1_r[0] == 0.1f);
+  CHECK(t.color1_b[0] == 1.0f);
+  CHECK(t.coat_g[0] == 0.3f);
+  CHECK(t.alpha_x[0] == 0.5f);
+  m.kind = MaterialKind::kCoatedConductor;
+  t = Compile(m);
+  CHECK(KindOf(t, 0) == ShadeKind::kCoatedConductorMedium);
+  CHECK(t.coat_albedo_r[0] == 0.1f);
+  CHECK(t.coat_albedo_b[0] == 1.0f);
+  m.interface_eta = 1;  // no interface, hence none that is rough
+  CHECK(Compile(m).alpha_x[0] < 1e-3f);
+  m.coat_albedo.constant = {};
+  CHECK(KindOf(Compile(m), 0) == ShadeKind::kCoatedConductor);
 }
 
 TEST_CASE("compile: constant textures become constants", "[scene][compile]") {

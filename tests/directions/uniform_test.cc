@@ -29,6 +29,8 @@ constexpr Stage (*kFactories[])() = {ShadeDiffuseStage,
                                      ShadeCoatedDiffuseSmoothStage,
                                      ShadeCoatedDiffuseRoughStage,
                                      ShadeCoatedConductorStage,
+                                     ShadeCoatedDiffuseMediumStage,
+                                     ShadeCoatedConductorMediumStage,
                                      ShadeDiffuseTransmissionStage,
                                      ShadeHenyeyGreensteinStage};
 static_assert(std::size(kFactories) == kNumShadeKinds);
@@ -37,7 +39,9 @@ bool Transmits(ShadeKind kind) {
   return kind == ShadeKind::kDielectricRough || kind == ShadeKind::kDiffuseTransmission;
 }
 bool HasSpecularLobe(ShadeKind kind) {
-  return kind == ShadeKind::kCoatedDiffuseSmooth || kind == ShadeKind::kCoatedConductor;
+  using enum ShadeKind;
+  return kind == kCoatedDiffuseSmooth || kind == kCoatedConductor ||
+         kind == kCoatedDiffuseMedium || kind == kCoatedConductorMedium;
 }
 bool IsWalk(ShadeKind kind) {
   return HasSpecularLobe(kind) || kind == ShadeKind::kCoatedDiffuseRough;

@@ -27,7 +27,9 @@ constexpr Stage (*kFactories[])() = {
 
 // Eval and Sample are density and f, not estimates of them.
 bool HasDensity(const TestMaterial& m) {
-  return !IsSpecular(m.kind) && m.kind != ShadeKind::kCoatedConductor;
+  using enum ShadeKind;
+  return !IsSpecular(m.kind) && m.kind != kCoatedConductor &&
+         m.kind != kCoatedDiffuseMedium && m.kind != kCoatedConductorMedium;
 }
 
 // Paths that meet a surface with normal +z from wo, all in one cell of a lopsided guide.

@@ -81,7 +81,7 @@ TEST_CASE("coats", "[parse]") {
   CHECK(diffuse.vroughness.constant == 0.1);
   CHECK(diffuse.thickness == 0.02);
   CHECK(diffuse.coat_g == 0.5);
-  CHECK(diffuse.coat_albedo == Rgb{0.1, 0.2, 0.3});
+  CHECK(diffuse.coat_albedo.constant == Rgb{0.1, 0.2, 0.3});
   CHECK(diffuse.coat_max_depth == 7);
   CHECK(diffuse.coat_samples == 3);
   const Material conductor = ParseMaterial(
@@ -96,6 +96,23 @@ TEST_CASE("coats", "[parse]") {
   CHECK(conductor.interface_eta == 1.7);
   CHECK(conductor.k.constant == Rgb{4, 5, 6});
   CHECK(ParseMaterial("\"coatedconductor\"").coat_max_depth == 10);
+}
+
+TEST_CASE("the medium in a coat: what can be textured", "[parse]") {
+  const std::string textures = R"(
+    Texture "t" "spectrum" "constant" "rgb value" [ 0.2 0.4 0.6 ]
+    Texture "f" "float" "constant" "float value" 0.5
+    Material )";
+  const auto material = [&](const std::string& text) {
+    return ParseWorld(textures + text).materials[0];
+  };
+  CHECK(material("\"coateddiffuse\" \"texture albedo\" \"t\"").coat_albedo.texture == 0);
+  CHECK_THROWS_WITH(material("\"coatedconductor\" \"texture albedo\" \"t\""),
+                    Catch::Contains("above a metal"));
+  CHECK(material("\"coateddiffuse\" \"texture g\" \"f\"").coat_g == 0);
+  CHECK_THROWS_WITH(
+      material("\"coateddiffuse\" \"texture g\" \"f\" \"rgb albedo\" [ 0 0 0.1 ]"),
+      Catch::Contains("where a coat scatters"));
 }
 
 TEST_CASE("diffuse transmission scales both parts", "[parse]") {

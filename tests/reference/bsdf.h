@@ -29,6 +29,8 @@ struct LocalMaterial {
   Ggx interface;         // of the outer interface
   Ggx metal;             // of the metal below a coat
   double thickness = 0;  // coats
+  Rgb albedo;            // of the medium in a coat; 0: it absorbs
+  double g = 0;          // and its asymmetry
   int coat_max_depth = 10;
 };
 

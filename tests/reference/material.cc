@@ -58,7 +58,6 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
   }
   const bool coat = m->kind == MaterialKind::kCoatedDiffuse ||
                     m->kind == MaterialKind::kCoatedConductor;
-  LL_CHECK(!coat || m->coat_albedo == Rgb{});
   LocalMaterial out;
   out.source = m;
   out.kind = m->kind;
@@ -70,6 +69,8 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
   out.metal = look.Distribution(m->conductor_uroughness, m->conductor_vroughness,
                                 m->remap_roughness);
   out.thickness = std::max(look.Float({m->thickness, m->thickness_texture}), 0.0);
+  out.albedo = coat ? Clamp(look.Color(m->coat_albedo), 0, 1) : Rgb{};
+  out.g = m->coat_g;
   out.coat_max_depth = m->coat_max_depth;
   if (m->kind == MaterialKind::kConductor || m->kind == MaterialKind::kCoatedConductor) {
     const bool given = m->has_reflectance;

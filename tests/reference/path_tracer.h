@@ -16,9 +16,9 @@
 namespace lanelight {
 
 /// What can be rendered: every shape, material and light of SceneDescription, except
-/// media in coats (coat_albedo must be zero), `interface` inside a mix, emitting planes,
-/// and the signed filters; these raise CheckFailure. Rays that cross an emitting
-/// `interface` go on without a scattering event.
+/// `interface` inside a mix, emitting planes, and the signed filters; these raise
+/// CheckFailure. Rays that cross an emitting `interface` go on without a scattering
+/// event.
 enum class ReferenceEstimator {
   /// Directions come from the material alone; point, spot and distant lights, which no
   /// direction can hit, are connected to directly.

@@ -157,6 +157,15 @@ std::vector<Material> MaterialZoo() {
   coated_metal.conductor_uroughness.constant = 0.25;
   coated_metal.conductor_vroughness.constant = 0.25;
   zoo.push_back(Rough(coated_metal, 0, 0));
+  const auto haze = [](Material clear, const char* name) {
+    clear.name = name;
+    clear.thickness = 0.5;
+    clear.coat_albedo.constant = {0.9, 0.6, 0.3};
+    clear.coat_g = 0.4;
+    return clear;
+  };
+  zoo.push_back(haze(coat, "hazy coated diffuse"));
+  zoo.push_back(Rough(haze(coated_metal, "hazy coated conductor"), 0.3, 0.3));
   Material leaf = Make(MaterialKind::kDiffuseTransmission, "diffuse transmission");
   leaf.reflectance.constant = {0.4, 0.3, 0.2};
   leaf.transmittance.constant = {0.2, 0.3, 0.5};

@@ -112,6 +112,9 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
   CHECK(features("textured-layers.pbrt")
             .HasAll({Feature::kTexturedColor1, Feature::kTexturedCoat,
                      Feature::kCoatedConductor, Feature::kDiffuseTransmission}));
+  CHECK(features("hazy-coats.pbrt")
+            .HasAll({Feature::kCoatedDiffuseMedium, Feature::kCoatedConductorMedium,
+                     Feature::kTexturedColor1}));
   CHECK(features("image-lights.pbrt")
             .HasAll({Feature::kImageLights, Feature::kEmissionImages}));
   CHECK(features("portal.pbrt").Has(Feature::kPortals));

@@ -61,9 +61,11 @@ std::vector<double> Observed(const TestMaterial& material, Vec3d wo) {
   return counts;
 }
 
-// The random walk of a coated metal has no density in closed form.
+// Random walks in coats have no density in closed form.
 bool HasDensity(const TestMaterial& m) {
-  return !IsSpecular(m.kind) && m.kind != ShadeKind::kCoatedConductor;
+  using enum ShadeKind;
+  return !IsSpecular(m.kind) && m.kind != kCoatedConductor &&
+         m.kind != kCoatedDiffuseMedium && m.kind != kCoatedConductorMedium;
 }
 
 }  // namespace

@@ -48,6 +48,13 @@ LocalMaterial Lacquer(double index, double coat, double metal) {
   return m;
 }
 
+LocalMaterial Hazy(LocalMaterial m, double thickness, double g) {
+  m.thickness = thickness;
+  m.albedo = {0.9, 0.6, 0.3};
+  m.g = g;
+  return m;
+}
+
 }  // namespace
 
 TestMaterial MakeTestMaterial(const std::string& name, ShadeKind kind,
@@ -56,8 +63,9 @@ TestMaterial MakeTestMaterial(const std::string& name, ShadeKind kind,
   MaterialTable& t = out.table;
   const bool metal =
       m.kind == MaterialKind::kConductor || m.kind == MaterialKind::kCoatedConductor;
-  const Rgb color0 = metal ? m.eta : m.reflectance,
-            color1 = metal ? m.k : m.transmittance;
+  const bool haze = kind == ShadeKind::kCoatedDiffuseMedium;
+  const Rgb color0 = metal ? m.eta : m.reflectance;
+  const Rgb color1 = metal ? m.k : haze ? m.albedo : m.transmittance;
   const auto add = [](AlignedVector<float>& column, double v) {
     column.push_back(static_cast<float>(v));
   };
@@ -76,6 +84,9 @@ TestMaterial MakeTestMaterial(const std::string& name, ShadeKind kind,
     t.coat_internal[0] = coat.internal_reflectance;
   }
   add(t.coat_thickness, m.thickness);
+  add(t.coat_g, m.g);
+  add(t.coat_albedo_r, m.albedo.x), add(t.coat_albedo_g, m.albedo.y);
+  add(t.coat_albedo_b, m.albedo.z);
   t.coat_depth.push_back(static_cast<std::uint32_t>(m.coat_max_depth));
   return out;
 }
@@ -113,6 +124,13 @@ const std::vector<TestMaterial>& TestMaterials() {
     add("lacquer 0.3, 0", K::kCoatedConductor, Lacquer(1.5, 0.3, 0));
     add("lacquer 0.2, 0.3", K::kCoatedConductor, Lacquer(1.5, 0.2, 0.3));
     add("lacquer 0, 0", K::kCoatedConductor, Lacquer(1.5, 0, 0));
+    const Rgb paint = {0.9, 0.5, 0.05};
+    add("hazy plastic", K::kCoatedDiffuseMedium, Hazy(Plastic(1.5, 0, paint), 0.5, 0.4));
+    add("hazy plastic 0.3", K::kCoatedDiffuseMedium,
+        Hazy(Plastic(1.5, 0.3, paint), 1, -0.5));
+    add("hazy lacquer 0.2, 0.3", K::kCoatedConductorMedium,
+        Hazy(Lacquer(1.5, 0.2, 0.3), 0.3, 0.6));
+    add("hazy lacquer 0, 0", K::kCoatedConductorMedium, Hazy(Lacquer(1.5, 0, 0), 0.5, 0));
     return list;
   }();
   return materials;

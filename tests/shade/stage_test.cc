@@ -28,6 +28,8 @@ constexpr Stage (*kFactories[])() = {ShadeDiffuseStage,
                                      ShadeCoatedDiffuseSmoothStage,
                                      ShadeCoatedDiffuseRoughStage,
                                      ShadeCoatedConductorStage,
+                                     ShadeCoatedDiffuseMediumStage,
+                                     ShadeCoatedConductorMediumStage,
                                      ShadeDiffuseTransmissionStage,
                                      ShadeHenyeyGreensteinStage};
 static_assert(std::size(kFactories) == kNumShadeKinds);
