@@ -1,0 +1,75 @@
+// What lies below a medium that scatters (coated_medium-inl.h): Load, the albedo of that
+// medium, whether the base is a mirror, Sample, Eval, and the proxy of the density of the
+// whole coat (coated_conductor-inl.h says what that is).
+#if defined(LANELIGHT_BSDF_COAT_BASES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_BSDF_COAT_BASES_INL_H_
+#undef LANELIGHT_BSDF_COAT_BASES_INL_H_
+#else
+#define LANELIGHT_BSDF_COAT_BASES_INL_H_
+#endif
+
+#include "kernels/bsdf/coated_conductor-inl.h"
+#include "kernels/warp/hemisphere-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// A Lambertian base, met from above.
+struct DiffuseLayer {
+  V3 reflectance;
+
+  LANELIGHT_INLINE static DiffuseLayer Load(const MaterialInputs& in) {
+    return {in.Reflectance()};
+  }
+  LANELIGHT_INLINE static V3 Albedo(const MaterialInputs& in) {
+    return MaterialInputs::Clamp01(in.Color1());
+  }
+  LANELIGHT_INLINE static MF Smooth() { return hn::Ne(hn::Zero(DF()), hn::Zero(DF())); }
+  LANELIGHT_INLINE LayerEvent Sample(V3, VF u0, VF u1) const {
+    const V3 up = SampleCosineHemisphere(u0, u1);
+    return {up, reflectance, PdfCosineHemisphere(up.z), hn::Gt(up.z, hn::Zero(DF()))};
+  }
+  LANELIGHT_INLINE LayerValue Eval(V3, V3 wi) const {
+    return {Mul(reflectance, Splat(kInvPi)), PdfCosineHemisphere(wi.z)};
+  }
+  /// The base is even: a part for the interface's own reflection, the rest a cosine lobe.
+  LANELIGHT_INLINE VF Proxy(const CoatLayer& coat, V3 wo, V3 wi) const {
+    const VF f = DielectricInterface(wo.z, coat.eta).reflectance;
+    const VF share = hn::IfThenZeroElse(coat.layer.smooth, hn::Mul(Splat(0.9f), f));
+    const VF mirrored = hn::Mul(Splat(0.25f), coat.layer.Visible(wo, Normalize(wo + wi)));
+    const VF even = PdfCosineHemisphere(wi.z);
+    return hn::MulAdd(share, hn::Sub(mirrored, even), even);
+  }
+};
+
+/// A metal below a medium that spreads what it reflects.
+struct MetalBelowMedium {
+  MetalLayer metal;
+
+  LANELIGHT_INLINE static MetalBelowMedium Load(const MaterialInputs& in) {
+    return {{Layer::FromAlpha(in.Alpha2X(), in.Alpha2Y()), in.Color0(), in.Color1()}};
+  }
+  LANELIGHT_INLINE static V3 Albedo(const MaterialInputs& in) {
+    const MaterialTable& t = *in.source.table;
+    return MaterialInputs::Clamp01({in.Float(t.coat_albedo_r), in.Float(t.coat_albedo_g),
+                                    in.Float(t.coat_albedo_b)});
+  }
+  LANELIGHT_INLINE MF Smooth() const { return metal.layer.smooth; }
+  LANELIGHT_INLINE LayerEvent Sample(V3 wo, VF u0, VF u1) const {
+    return metal.Sample(wo, u0, u1);
+  }
+  LANELIGHT_INLINE LayerValue Eval(V3 wo, V3 wi) const { return metal.Eval(wo, wi); }
+  /// As without the medium, and half of it even.
+  LANELIGHT_INLINE VF Proxy(const CoatLayer& coat, V3 wo, V3 wi) const {
+    const CoatedConductorBsdf::Params clear = {coat, metal, {}, {}, {}};
+    const VF half = Splat(0.5f), even = PdfCosineHemisphere(wi.z);
+    return hn::Mul(half, hn::Add(CoatedConductorBsdf::Proxy(clear, wo, wi), even));
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif
