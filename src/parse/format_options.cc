@@ -212,7 +212,7 @@ void AddOptions(FormatTable& table) {
        "",
        {{"integer seed", kRendered},
         {"bool disablepixeljitter", kRendered},
-        {"bool disabletexturefiltering", kNoted, "textures are looked up at points"},
+        {"bool disabletexturefiltering", kRendered, "of images; bumps keep their steps"},
         {"bool disablewavelengthjitter", kNoted, "there are no wavelengths"},
         {"float displacementedgescale", kRendered},
         {"bool forcediffuse", kNoted, "materials stay what they are"},

@@ -85,6 +85,10 @@ void ReadImage(ParseState& state, ParamSet& params, Texture* texture) {
                                       ImageFilter::kEwa};
   texture->filter =
       kFilters[params.Choice("filter", {"bilinear", "point", "trilinear", "ewa", "EWA"})];
+  // Footprints of no extent: pbrt then interpolates in the finest image.
+  if (state.unfiltered_images && texture->filter >= ImageFilter::kTrilinear) {
+    texture->filter = ImageFilter::kBilinear;
+  }
   texture->bilinear = texture->filter != ImageFilter::kPoint;
   texture->max_anisotropy = params.Float("maxanisotropy", 8, 1, 64);
   texture->scale = params.Float("scale", 1, -kHuge, kHuge);

@@ -104,6 +104,10 @@ void RunOption(ParseState& state, Statement& statement) {
     state.pixel_centers = option.value.text == "true";
     return;
   }
+  if (option.name == "disabletexturefiltering") {
+    state.unfiltered_images = option.value.text == "true";
+    return;
+  }
   if (option.value.text == "false") return;  // what is the case anyway
   state.AddNote(option.where,
                 fmt::format("option {} has no effect: {}", Quoted(option.name), line.why),

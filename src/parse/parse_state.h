@@ -68,10 +68,11 @@ struct ParseState {
   std::map<std::string, Index> materials, media, objects, float_textures, color_textures;
   Index default_material = kNone;  // pbrt's grey diffuse, once a shape needs it
   std::vector<MeshRequest> meshes;
-  double exposure_seconds = 1;  // from the camera's shutter
-  double iso = 100;             // of the film
-  double edge_scale = 1;        // Option "displacementedgescale"
-  bool pixel_centers = false;   // Option "disablepixeljitter"
+  double exposure_seconds = 1;     // from the camera's shutter
+  double iso = 100;                // of the film
+  double edge_scale = 1;           // Option "displacementedgescale"
+  bool unfiltered_images = false;  // Option "disabletexturefiltering"
+  bool pixel_centers = false;      // Option "disablepixeljitter"
   std::set<std::string> noted;
 
   void AddNote(const SourceLocation& where, const std::string& message,

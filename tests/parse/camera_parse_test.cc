@@ -158,6 +158,24 @@ TEST_CASE("accelerator, options and color space are noted", "[parse]") {
   CHECK(CountImageChanges(scene.notes) == 1);
 }
 
+TEST_CASE("disabletexturefiltering looks images up in the finest level", "[parse]") {
+  for (const bool disabled : {false, true}) {
+    const SceneDescription scene =
+        ParseSceneText(std::string("Option \"disabletexturefiltering\" ") +
+                           (disabled ? "true" : "false") + R"(
+          WorldBegin
+          Texture "a" "spectrum" "imagemap" "string filename" "x.png" "string filter" "ewa"
+          Texture "b" "spectrum" "imagemap" "string filename" "x.png" "string filter" "point"
+          Shape "sphere")",
+                       "test.pbrt", ".");
+    CHECK(scene.textures[0].filter ==
+          (disabled ? ImageFilter::kBilinear : ImageFilter::kEwa));
+    CHECK(scene.textures[0].bilinear);
+    CHECK(scene.textures[1].filter == ImageFilter::kPoint);
+    CHECK_FALSE(HasNote(scene, "disabletexturefiltering"));
+  }
+}
+
 TEST_CASE("disablepixeljitter looks through the centres of pixels", "[parse]") {
   const auto scene = ParseOptionsBlock(R"(
     Camera "perspective" "float lensradius" 0.1
