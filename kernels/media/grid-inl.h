@@ -9,7 +9,8 @@
 
 #include <limits>
 
-#include "kernels/media/medium-inl.h"
+#include "kernels/media/cloud-inl.h"
+#include "kernels/media/voxels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -20,33 +21,12 @@ struct Coefficients {
   V3 sigma_a, sigma_s;
 };
 
-/// Linear interpolation along one axis: the two samples and how much of the second.
-struct AxisSamples {
-  VI low;
-  VF weight;
-  MF has_low, has_high;  // they lie in the grid; others are zero
-
-  LANELIGHT_INLINE AxisSamples(VF x, int32_t size) {
-    const DF df;
-    const DI di;
-    const VF at = hn::MulAdd(x, Splat(static_cast<float>(size)), Splat(-0.5f));
-    const VF floor = hn::Floor(at);
-    low = hn::ConvertTo(di, floor);
-    weight = hn::Sub(at, floor);
-    const VI last = hn::Set(di, size - 1), before = hn::Set(di, -1);
-    has_low =
-        hn::RebindMask(df, hn::And(hn::Gt(low, before), hn::Lt(low, hn::Set(di, size))));
-    has_high =
-        hn::RebindMask(df, hn::And(hn::Gt(low, hn::Set(di, -2)), hn::Lt(low, last)));
-  }
-};
-
 /// One grid and the medium it belongs to.
 struct GridMedium {
   const MediumGrid& grid;
   const MediumRecord& medium;
 
-  LANELIGHT_INLINE bool IsColored() const { return grid.channels > 1; }
+  LANELIGHT_INLINE bool IsColored() const { return grid.source == MediumSource::kColors; }
   /// Majorants of the channels are the cell's value times these.
   LANELIGHT_INLINE V3 MajorantScale() const {
     if (IsColored()) return Splat3(1, 1, 1);
@@ -61,43 +41,27 @@ struct GridMedium {
     };
     return {row(0), row(1), row(2)};
   }
-  /// At `p` of the box.
-  LANELIGHT_INLINE Coefficients At(V3 p) const {
-    VF v[6];
-    Interpolate(p, v);
-    if (IsColored()) return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+  /// At `p` of the box, in the lanes of `mask`.
+  LANELIGHT_INLINE Coefficients At(V3 p, MF mask) const {
+    if (IsColored()) {
+      VF v[6];
+      Interpolate(grid.size, grid.values.data(), 6, p, v);
+      return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+    }
+    const VF density = Density(p, mask);
     const float *t = medium.sigma_t, *s = medium.sigma_s;
-    const V3 sigma_t = Mul(Splat3(t[0], t[1], t[2]), v[0]);
-    const V3 sigma_s = Mul(Splat3(s[0], s[1], s[2]), v[0]);
+    const V3 sigma_t = Mul(Splat3(t[0], t[1], t[2]), density);
+    const V3 sigma_s = Mul(Splat3(s[0], s[1], s[2]), density);
     return {sigma_t - sigma_s, sigma_s};
   }
 
  private:
-  LANELIGHT_INLINE void Interpolate(V3 p, VF* out) const {
-    const DI di;
-    const AxisSamples axes[3] = {AxisSamples(p.x, grid.size[0]),
-                                 AxisSamples(p.y, grid.size[1]),
-                                 AxisSamples(p.z, grid.size[2])};
-    for (int c = 0; c < grid.channels; ++c) out[c] = hn::Zero(DF());
-    for (int corner = 0; corner < 8; ++corner) {
-      VI index = hn::Zero(di);
-      VF weight = Splat(1.0f);
-      MF inside = hn::FirstN(DF(), hn::Lanes(DF()));
-      for (int a = 2; a >= 0; --a) {
-        const bool high = (corner >> a & 1) != 0;
-        const VI at = high ? hn::Add(axes[a].low, hn::Set(di, 1)) : axes[a].low;
-        const VF share = axes[a].weight;
-        index = hn::Add(hn::Mul(index, hn::Set(di, grid.size[a])), at);
-        weight = hn::Mul(weight, high ? share : hn::Sub(Splat(1.0f), share));
-        inside = hn::And(inside, high ? axes[a].has_high : axes[a].has_low);
-      }
-      index = hn::IfThenElseZero(hn::RebindMask(di, inside),
-                                 hn::Mul(index, hn::Set(di, grid.channels)));
-      weight = hn::IfThenElseZero(inside, weight);
-      for (int c = 0; c < grid.channels; ++c) {
-        out[c] = hn::MulAdd(weight, Gather(grid.values.data() + c, index), out[c]);
-      }
-    }
+  LANELIGHT_INLINE VF Density(V3 p, MF mask) const {
+    if (grid.source == MediumSource::kCloud) return CloudDensity(grid.cloud, p);
+    if (grid.source == MediumSource::kSparse) return SparseValue(grid.sparse, p, mask);
+    VF density;
+    Interpolate(grid.size, grid.values.data(), 1, p, &density);
+    return density;
   }
 };
 

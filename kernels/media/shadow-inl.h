@@ -70,7 +70,7 @@ LANELIGHT_INLINE V3 TrackedTransmittance(const GridMedium& medium, V3 o, V3 d, V
     if (hn::AllFalse(DF(), collides)) continue;
     random.Next(&u0, &u1);
     depth = hn::IfThenElse(collides, ExponentialOf(u0), depth);
-    const Coefficients c = medium.At(at.Point(at.t));
+    const Coefficients c = medium.At(at.Point(at.t), collides);
     const V3 real = Mul(c.sigma_a + c.sigma_s, hn::Div(Splat(1.0f), sigma_m));
     left = IfThenElse(collides, Tracking::Leaves(left, real, u1), left);
   }

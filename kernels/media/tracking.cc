@@ -14,6 +14,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "kernels/media/emission-inl.h"
 #include "kernels/media/event-inl.h"
 #include "kernels/media/grid-inl.h"
 #include "kernels/media/walk_random-inl.h"
@@ -25,11 +26,11 @@ namespace HWY_NAMESPACE {
 
 // A walk of a vector of rays: f and the densities of the channels over that of the one
 // drawn, where it ended, and what the medium emitted on the way.
+template <bool kEmission>
 struct Track {
   const GridMedium& medium;
   const Channel& channel;
   V3 odds;  // before the walk
-  V3 emission = Splat3(0, 0, 0);
   V3 f = Splat3(1, 1, 1), pdf = Splat3(1, 1, 1);
   V3 emitted = Splat3(0, 0, 0);
   MF event = hn::FirstN(DF(), 0);
@@ -45,15 +46,23 @@ struct Track {
     f = Mul(f, relative);
     pdf = Mul(pdf, relative);
   }
+  // What the medium emits at a tentative collision at p.
+  HWY_INLINE void Emit(MF mask, V3 sigma_m, V3 p, V3 sigma_a) {
+    const V3 candidates = Mul(odds, Mul(pdf, sigma_m));
+    const V3 sent = Mul(Mul(f, sigma_a), hn::Div(Splat(1.0f), MeanChannel(candidates)));
+    const float* e = medium.medium.emission;
+    V3 emission = Splat3(e[0], e[1], e[2]);
+    if (!medium.grid.emission.empty()) {
+      emission = Mul(emission, EmissionFactor(medium.grid, p, mask));
+    }
+    emitted = emitted + IfThenElseZero(mask, Mul(sent, emission));
+  }
   // A tentative collision at p; true where it is real.
   HWY_INLINE MF Collide(MF mask, V3 sigma_m, V3 p, VF u) {
-    const Coefficients at = medium.At(p);
+    const Coefficients at = medium.At(p, mask);
     const V3 sigma_t = at.sigma_a + at.sigma_s, null = sigma_m - sigma_t;
     const VF own_m = channel.Of(sigma_m), own_t = channel.Of(sigma_t);
-    const V3 candidates = Mul(odds, Mul(pdf, sigma_m));
-    const V3 sent =
-        Mul(Mul(f, at.sigma_a), hn::Div(Splat(1.0f), MeanChannel(candidates)));
-    emitted = emitted + IfThenElseZero(mask, Mul(sent, emission));
+    if constexpr (kEmission) Emit(mask, sigma_m, p, at.sigma_a);
     const MF real = hn::And(mask, hn::Lt(hn::Mul(u, own_m), own_t));
     const VF rate = hn::Div(Splat(1.0f), own_t);
     const VF null_rate = hn::Div(Splat(1.0f), channel.Of(null));
@@ -101,9 +110,7 @@ HWY_INLINE void TrackBatch(Wave& wave, const GridMedium& medium,
   CellWalk at(medium, Gather3(p.o_x, p.o_y, p.o_z, slots),
               Gather3(p.d_x, p.d_y, p.d_z, slots), t);
   WalkRandom random(wave, slots, 0x1b873593u);
-  Track track{medium, channel, before};
-  const float* e = medium.medium.emission;
-  if constexpr (kEmission) track.emission = Splat3(e[0], e[1], e[2]);
+  Track<kEmission> track{medium, channel, before};
   track.Walk(at, random, ExponentialOf(Gather(p.u_medium_0, slots)));
   if constexpr (kEmission) {
     const V3 l = Gather3(p.l_r, p.l_g, p.l_b, slots);

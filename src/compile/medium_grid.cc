@@ -1,17 +1,22 @@
 #include "src/compile/medium_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "src/core/check.h"
+#include "src/compile/medium_emission.h"
+#include "src/compile/store.h"
 
 namespace lanelight {
 namespace {
 
+// Rounding of the kernels, which the bounds must hold for as well.
+constexpr double kSlack = 1 + 1e-5;
+
 // Extinction of a voxel, in the unit of the majorants.
 double Extinction(const MediumGrid& grid, std::size_t voxel) {
-  const float* v = grid.values.data() + voxel * static_cast<std::size_t>(grid.channels);
-  if (grid.channels == 1) return v[0];
+  if (grid.source == MediumSource::kDensities) return grid.values[voxel];
+  const float* v = grid.values.data() + 6 * voxel;
   double largest = 0;
   for (int c = 0; c < 3; ++c) largest = std::max(largest, double{v[c]} + v[c + 3]);
   return largest;
@@ -29,7 +34,9 @@ Reach VoxelsOf(int cell, int size) {
           std::min(size - 1, static_cast<int>(std::floor(high)) + 2)};
 }
 
-float MajorantOf(const MediumGrid& grid, const Reach r[3]) {
+double BoundOfVoxels(const MediumGrid& grid, const int cell[3]) {
+  const Reach r[3] = {VoxelsOf(cell[0], grid.size[0]), VoxelsOf(cell[1], grid.size[1]),
+                      VoxelsOf(cell[2], grid.size[2])};
   double largest = 0;
   for (int z = r[2].first; z <= r[2].last; ++z) {
     for (int y = r[1].first; y <= r[1].last; ++y) {
@@ -40,7 +47,42 @@ float MajorantOf(const MediumGrid& grid, const Reach r[3]) {
       }
     }
   }
-  return static_cast<float>(largest * (1 + 1e-5));
+  return largest;
+}
+
+// By the height alone, as the octaves sum up to 0.96875 times at most 1.05 (Noise in
+// kernels/texture/noise-inl.h).
+double BoundOfCloud(const CloudShape& cloud, const int cell[3]) {
+  const auto height = [&](int i) {
+    return cloud.low[1] + cloud.size[1] * static_cast<double>(i) / kMajorantCells;
+  };
+  const double low = height(cell[1]) - 1e-5 * cloud.size[1];
+  const double left = std::max(std::abs(1 - low), std::abs(1 - height(cell[1] + 1)));
+  const double lumps = std::min(1.0, 4.5 * cloud.density * left * 1.03);
+  return std::min(1.0, lumps + 2 * std::max(0.0, 0.5 - low));
+}
+
+double BoundOfSparse(const PlacedSparseGrid& placed, const int cell[3]) {
+  int low[3], high[3];
+  const float* m = placed.index_from_box;
+  for (int r = 0; r < 3; ++r) {
+    double least = m[4 * r + 3], most = least;
+    for (int c = 0; c < 3; ++c) {
+      const double a = m[4 * r + c] * static_cast<double>(cell[c]) / kMajorantCells;
+      const double b = m[4 * r + c] * (cell[c] + 1.0) / kMajorantCells;
+      least += std::min(a, b), most += std::max(a, b);
+    }
+    // One more on both sides: the kernels round.
+    low[r] = static_cast<int>(std::floor(least)) - 1;
+    high[r] = static_cast<int>(std::floor(most)) + 2;
+  }
+  return placed.grid->LargestIn(low, high);
+}
+
+double BoundOf(const MediumGrid& grid, const int cell[3]) {
+  if (grid.source == MediumSource::kCloud) return BoundOfCloud(grid.cloud, cell);
+  if (grid.source == MediumSource::kSparse) return BoundOfSparse(grid.sparse, cell);
+  return BoundOfVoxels(grid, cell);
 }
 
 void SetMajorants(MediumGrid& grid) {
@@ -48,12 +90,35 @@ void SetMajorants(MediumGrid& grid) {
   for (int z = 0; z < kMajorantCells; ++z) {
     for (int y = 0; y < kMajorantCells; ++y) {
       for (int x = 0; x < kMajorantCells; ++x) {
-        const Reach reach[3] = {VoxelsOf(x, grid.size[0]), VoxelsOf(y, grid.size[1]),
-                                VoxelsOf(z, grid.size[2])};
-        grid.majorants.push_back(MajorantOf(grid, reach));
+        const int cell[3] = {x, y, z};
+        grid.majorants.push_back(static_cast<float>(BoundOf(grid, cell) * kSlack));
       }
     }
   }
+}
+
+void SetSource(const Medium& medium, const Frame& frame, MediumGrid& grid) {
+  if (medium.kind == MediumKind::kNanoVdb) {
+    grid.source = MediumSource::kSparse;
+    grid.sparse = PlaceSparseGrid(medium.sparse_density, medium);
+    return;
+  }
+  if (medium.kind == MediumKind::kCloud) {
+    grid.source = MediumSource::kCloud;
+    grid.cloud = {static_cast<float>(medium.density),
+                  static_cast<float>(medium.wispiness),
+                  static_cast<float>(medium.frequency)};
+    Store(medium.box_min, grid.cloud.low);
+    Store(medium.box_max - medium.box_min, grid.cloud.size);
+    return;
+  }
+  const bool colors = medium.kind == MediumKind::kRgbGrid;
+  grid.source = colors ? MediumSource::kColors : MediumSource::kDensities;
+  std::copy(medium.grid_size, medium.grid_size + 3, grid.size);
+  // Densities have no unit; coefficients are per scene length.
+  const double unit = colors ? frame.scale : 1;
+  grid.values.reserve(medium.grid.size());
+  for (const float v : medium.grid) grid.values.push_back(static_cast<float>(v / unit));
 }
 
 void SetMap(const Medium& medium, const Frame& frame, MediumGrid& grid) {
@@ -74,12 +139,8 @@ void SetMap(const Medium& medium, const Frame& frame, MediumGrid& grid) {
 
 MediumGrid CompileMediumGrid(const Medium& medium, const Frame& frame) {
   MediumGrid grid;
-  std::copy(medium.grid_size, medium.grid_size + 3, grid.size);
-  grid.channels = medium.kind == MediumKind::kRgbGrid ? 6 : 1;
-  // Densities have no unit; coefficients are per scene length.
-  const double unit = grid.channels == 1 ? 1 : frame.scale;
-  grid.values.reserve(medium.grid.size());
-  for (const float v : medium.grid) grid.values.push_back(static_cast<float>(v / unit));
+  SetSource(medium, frame, grid);
+  grid.emission = CompileMediumEmission(medium);
   SetMajorants(grid);
   SetMap(medium, frame, grid);
   return grid;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "src/core/aligned.h"
+#include "src/image/sparse_grid.h"
 
 namespace lanelight {
 
@@ -33,13 +35,56 @@ struct MediumSides {
 /// Cells of a majorant grid, along each axis.
 inline constexpr std::int32_t kMajorantCells = 16;
 
+/// What a medium that varies is made of.
+enum class MediumSource : std::int32_t {
+  kDensities,  // factors on the coefficients of the record, at voxels
+  kColors,     // sigma_a and sigma_s per unit of scene length, at voxels
+  kCloud,      // factors, made up from noise
+  kSparse      // factors, of a NanoVDB grid
+};
+
+/// pbrt-v4's procedural cloud, in the medium's own space.
+struct CloudShape {
+  float density = 1, wispiness = 1, frequency = 5;
+  float low[3] = {}, size[3] = {};  // of the box
+};
+
+/// A NanoVDB grid, and its index space by the medium's box: row-major 3x4.
+struct PlacedSparseGrid {
+  std::shared_ptr<const SparseGrid> grid;  // null: none
+  float index_from_box[12] = {};
+};
+
+/// Colours of black bodies (RgbOfBlackbody) of kLeastKelvin to `most`, evenly in the
+/// logarithm of the temperature, which is (t - offset) * scale.
+struct BlackbodyTable {
+  float offset = 0, scale = 1;
+  float entries_per_log = 0;    // entries per factor of e
+  AlignedVector<float> colors;  // three each
+};
+/// Cooler ones emit nothing (as pbrt).
+inline constexpr float kLeastKelvin = 100;
+
+/// What the emission of a medium is multiplied with at a point; each part may be empty.
+struct MediumEmission {
+  AlignedVector<float> values;  // at the voxels of the medium
+  std::int32_t channels = 1;    // of `values`: 1 or 3
+  AlignedVector<float> temperatures;
+  PlacedSparseGrid sparse;   // of temperatures
+  BlackbodyTable blackbody;  // of either
+
+  bool empty() const { return values.empty() && blackbody.colors.empty(); }
+};
+
 /// A medium that varies within a box: samples at the centres of nx * ny * nz voxels, x
-/// fastest, interpolated linearly, zero outside.
+/// fastest, interpolated linearly, zero outside; or another source.
 struct MediumGrid {
+  MediumSource source = MediumSource::kDensities;
   std::int32_t size[3] = {};
-  std::int32_t channels = 1;    // 1: density, a factor on the coefficients of the record;
-                                // 6: sigma_a and sigma_s per unit of scene length
-  AlignedVector<float> values;  // channels per voxel
+  AlignedVector<float> values;  // per voxel 1, of kColors 6: sigma_a and sigma_s
+  CloudShape cloud;             // kCloud
+  PlacedSparseGrid sparse;      // kSparse
+  MediumEmission emission;
   /// Bounds of the density, or of the largest sigma_t, in cells of the box.
   AlignedVector<float> majorants;
   float box_from_scene[12] = {};  // row-major 3x4; the box is [0, 1]^3

@@ -26,8 +26,11 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// Compiled geometry has its own copy; what reports still need is names and places.
-void ReleaseMeshes(SceneDescription& description) {
+// The compiled scene has its own copy; what reports still need is names and places.
+void ReleaseCopies(SceneDescription& description) {
+  for (Medium& medium : description.media) {
+    medium.grid = {}, medium.emission_grid = {}, medium.temperature = {};
+  }
   for (Shape& shape : description.shapes) shape.mesh.reset();
   for (ObjectDefinition& object : description.objects) {
     for (Shape& shape : object.shapes) shape.mesh.reset();
@@ -70,7 +73,7 @@ Job PrepareJob(SceneDescription description, const RenderSettings& asked) {
   // Reports look for notes in one place.
   std::vector<Note>& notes = job.description.notes;
   notes.insert(notes.end(), job.scene.notes.begin(), job.scene.notes.end());
-  ReleaseMeshes(job.description);
+  ReleaseCopies(job.description);
   job.plan = MakePlan(job.scene, PlanOptionsOf(settings, job.description));
   job.build_seconds = watch.Lap();
 

@@ -15,6 +15,7 @@
 #include "src/core/transform.h"
 #include "src/core/vec.h"
 #include "src/image/film_response.h"
+#include "src/image/sparse_grid.h"
 
 namespace lanelight {
 
@@ -301,6 +302,16 @@ struct Medium {
   Vec3d box_min{0, 0, 0}, box_max{1, 1, 1};
   int grid_size[3] = {1, 1, 1};
   std::vector<float> grid;
+  // What `emission` is multiplied with, at the same voxels; empty: by 1. kUniformGrid:
+  // one number each. kRgbGrid: three.
+  std::vector<float> emission_grid;
+  // And by the colour of a black body (RgbOfBlackbody) of (t - offset) * scale kelvin,
+  // none up to 100 kelvin. kUniformGrid: t at the same voxels; empty: not multiplied.
+  std::vector<float> temperature;
+  double temperature_offset = 0, temperature_scale = 1;
+  double density = 1, wispiness = 1, frequency = 5;  // kCloud, as pbrt
+  // kNanoVdb: factors on the coefficients; t, null: no emission.
+  std::shared_ptr<const SparseGrid> sparse_density, sparse_temperature;
 };
 
 struct SceneDescription {

@@ -7,6 +7,7 @@
 
 #include "src/compile/compile.h"
 #include "src/parse/parse.h"
+#include "tests/image/sparse_grid_file.h"
 
 namespace lanelight {
 namespace {
@@ -131,6 +132,9 @@ void WriteFormatFiles(const std::string& folder) {
          "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n";
   // A double Gauss of two elements would do as well: curvature, thickness, eta, aperture.
   std::ofstream(folder + "/format-lens.dat") << "50 5 1.5 20\n-50 0 1 20\n";
+  test::SparseFileGrid cloud;
+  cloud.value = [](int, int, int) { return 1.0f; };
+  test::WriteSparseFile(folder + "/format-cloud.nvdb", {cloud});
 }
 
 FormatOutcome RunFormatScene(const std::string& text, const std::string& folder) {

@@ -4,46 +4,106 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/image/blackbody.h"
 #include "tests/reference/frame.h"
+#include "tests/reference/pattern.h"
 
 namespace lanelight::reference {
 
 namespace {
 
-// One number of the grid; zero outside.
-double Voxel(const Medium& m, int x, int y, int z, int channels, int channel) {
-  const int index[3] = {x, y, z};
+// One number of samples at the voxels; zero outside.
+double Voxel(const Medium& m, const std::vector<float>& values, Vec3d i, int channels,
+             int channel) {
   for (int a = 0; a < 3; ++a) {
-    if (index[a] < 0 || index[a] >= m.grid_size[a]) return 0;
+    if (i[a] < 0 || i[a] >= m.grid_size[a]) return 0;
   }
-  const int voxel = (z * m.grid_size[1] + y) * m.grid_size[0] + x;
-  return m.grid[static_cast<std::size_t>(voxel * channels + channel)];
+  const double voxel = (i.z * m.grid_size[1] + i.y) * m.grid_size[0] + i.x;
+  return values[static_cast<std::size_t>(voxel * channels + channel)];
 }
 
-double Interpolated(const Medium& m, Vec3d at, int channels, int channel) {
-  const double x = at.x - 0.5, y = at.y - 0.5, z = at.z - 0.5;
-  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
-  const int k = static_cast<int>(std::floor(z));
+// The mean of the eight lattice points around `at`, weighted linearly.
+template <typename Value>
+double Blend(Vec3d at, const Value& value) {
+  const Vec3d low = {std::floor(at.x), std::floor(at.y), std::floor(at.z)};
   double sum = 0;
-  for (int dz = 0; dz < 2; ++dz) {
-    for (int dy = 0; dy < 2; ++dy) {
-      for (int dx = 0; dx < 2; ++dx) {
-        const double share = (1 - std::abs(x - i - dx)) * (1 - std::abs(y - j - dy)) *
-                             (1 - std::abs(z - k - dz));
-        sum += share * Voxel(m, i + dx, j + dy, k + dz, channels, channel);
-      }
-    }
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3d i =
+        low + Vec3d{double(corner & 1), double(corner >> 1 & 1), double(corner >> 2)};
+    sum += (1 - std::abs(at.x - i.x)) * (1 - std::abs(at.y - i.y)) *
+           (1 - std::abs(at.z - i.z)) * value(i);
   }
   return sum;
 }
 
+// `share` of the box.
+double Interpolated(const Medium& m, const std::vector<float>& values, Vec3d share,
+                    int channels, int channel) {
+  const Vec3d at = {share.x * m.grid_size[0] - 0.5, share.y * m.grid_size[1] - 0.5,
+                    share.z * m.grid_size[2] - 0.5};
+  return Blend(at, [&](Vec3d i) { return Voxel(m, values, i, channels, channel); });
+}
+
+// Of a point of the medium's space.
+Vec3d ShareOfBox(const Medium& m, Vec3d p) {
+  const Vec3d local = p - m.box_min, size = m.box_max - m.box_min;
+  return {local.x / size.x, local.y / size.y, local.z / size.z};
+}
+
+// At a point of the medium's space.
+double SparseAt(const SparseGrid& grid, Vec3d p) {
+  return Blend(grid.index_from_world().Point(p),
+               [&](Vec3d i) { return double{grid.Value(int(i.x), int(i.y), int(i.z))}; });
+}
+
+double CloudAt(const Medium& m, Vec3d p) {
+  Vec3d moved = m.frequency * p;
+  for (int octave = 0; octave < 2; ++octave) {
+    const Vec3d q = 10 * std::pow(1.99, octave) * moved;
+    const double here = Noise(q), step = 0.01;
+    const Vec3d slope = {Noise(q + Vec3d{step, 0, 0}) - here,
+                         Noise(q + Vec3d{0, step, 0}) - here,
+                         Noise(q + Vec3d{0, 0, step}) - here};
+    moved += slope * (0.05 * m.wispiness / std::pow(2, octave) / step);
+  }
+  const double lumps = (1 - p.y) * 4.5 * m.density * Fbm(moved, 5, 0.5) / 2;
+  const double solid = p.y < 0.5 ? 1 - 2 * p.y : 0;
+  return std::min(1.0, std::clamp(lumps, 0.0, 1.0) + solid);
+}
+
+// At a point of the world, inside the box.
+Rgb EmissionAt(const Medium& m, Vec3d world) {
+  Rgb emission = m.emission;
+  if (m.kind == MediumKind::kHomogeneous || emission == Rgb{}) return emission;
+  const Vec3d p = m.world_from_medium.Inverse().Point(world), share = ShareOfBox(m, p);
+  const auto read = [&](const std::vector<float>& values, int channels, int channel) {
+    return Interpolated(m, values, share, channels, channel);
+  };
+  if (!m.emission_grid.empty()) {
+    const auto& e = m.emission_grid;
+    emission = m.kind == MediumKind::kRgbGrid
+                   ? emission * Rgb{read(e, 3, 0), read(e, 3, 1), read(e, 3, 2)}
+                   : emission * read(e, 1, 0);
+  }
+  if (m.temperature.empty() && m.sparse_temperature == nullptr) return emission;
+  const double t = m.temperature.empty() ? SparseAt(*m.sparse_temperature, p)
+                                         : read(m.temperature, 1, 0);
+  const double kelvin = (t - m.temperature_offset) * m.temperature_scale;
+  return kelvin > 100 ? emission * RgbOfBlackbody(kelvin) : Rgb{};
+}
+
+double LargestDensity(const Medium& m) {
+  if (m.kind == MediumKind::kNanoVdb) return m.sparse_density->largest();
+  if (m.kind == MediumKind::kCloud) return 1;
+  return *std::max_element(m.grid.begin(), m.grid.end());
+}
+
 double LargestExtinction(const Medium& m, int channel) {
   if (m.kind == MediumKind::kHomogeneous) return Channel(m.sigma_a + m.sigma_s, channel);
-  double largest = 0;
-  if (m.kind == MediumKind::kUniformGrid) {
-    for (const float v : m.grid) largest = std::max<double>(largest, v);
-    return largest * Channel(m.sigma_a + m.sigma_s, channel);
+  if (m.kind != MediumKind::kRgbGrid) {
+    return LargestDensity(m) * Channel(m.sigma_a + m.sigma_s, channel);
   }
+  double largest = 0;
   for (std::size_t v = 0; v < m.grid.size(); v += 6) {
     const auto c = static_cast<std::size_t>(channel);
     largest = std::max(largest, double{m.grid[v + c]} + m.grid[v + 3 + c]);
@@ -54,23 +114,22 @@ double LargestExtinction(const Medium& m, int channel) {
 }  // namespace
 
 Coefficients MediumAt(const Medium& m, Vec3d p) {
-  if (m.kind == MediumKind::kHomogeneous) return {m.sigma_a, m.sigma_s};
-  const Vec3d local = m.world_from_medium.Inverse().Point(p) - m.box_min;
-  const Vec3d size = m.box_max - m.box_min;
-  const Vec3d share = {local.x / size.x, local.y / size.y, local.z / size.z};
-  const Vec3d at = {share.x * m.grid_size[0], share.y * m.grid_size[1],
-                    share.z * m.grid_size[2]};
+  if (m.kind == MediumKind::kHomogeneous) return {m.sigma_a, m.sigma_s, {}};
+  const Vec3d own = m.world_from_medium.Inverse().Point(p), share = ShareOfBox(m, own);
   if (share.x < 0 || share.x > 1 || share.y < 0 || share.y > 1 || share.z < 0 ||
       share.z > 1) {
     return {};
   }
-  if (m.kind == MediumKind::kUniformGrid) {
-    const double density = Interpolated(m, at, 1, 0);
-    return {m.sigma_a * density, m.sigma_s * density};
+  if (m.kind == MediumKind::kRgbGrid) {
+    double v[6];
+    for (int c = 0; c < 6; ++c) v[c] = Interpolated(m, m.grid, share, 6, c);
+    return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {}};
   }
-  double v[6];
-  for (int c = 0; c < 6; ++c) v[c] = Interpolated(m, at, 6, c);
-  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+  const double density = m.kind == MediumKind::kCloud ? CloudAt(m, own)
+                         : m.kind == MediumKind::kNanoVdb
+                             ? SparseAt(*m.sparse_density, own)
+                             : Interpolated(m, m.grid, share, 1, 0);
+  return {m.sigma_a * density, m.sigma_s * density, {}};
 }
 
 Collision NextCollision(const SceneDescription& scene, Index medium, const Ray& ray,
@@ -83,9 +142,11 @@ Collision NextCollision(const SceneDescription& scene, Index medium, const Ray& 
   for (double t = 0;;) {
     t -= std::log(random.Uniform()) / largest;
     if (t >= std::min(t_max, 1e4)) return collision;
-    const Coefficients at = MediumAt(m, ray.o + ray.d * t);
+    Coefficients at = MediumAt(m, ray.o + ray.d * t);
     const double sigma_t = Channel(at.sigma_a + at.sigma_s, channel);
-    if (random.Uniform() * largest < sigma_t) return {t, at};
+    if (random.Uniform() * largest >= sigma_t) continue;
+    at.emission = EmissionAt(m, ray.o + ray.d * t);
+    return {t, at};
   }
 }
 

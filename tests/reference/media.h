@@ -17,13 +17,14 @@ inline Rgb OnlyChannel(int channel) {
   return {channel == 0 ? 3.0 : 0.0, channel == 1 ? 3.0 : 0.0, channel == 2 ? 3.0 : 0.0};
 }
 
-/// Absorption and scattering at a point.
+/// Absorption and scattering at a point; of a collision, what is emitted as well, as
+/// Medium::emission.
 struct Coefficients {
-  Rgb sigma_a, sigma_s;
+  Rgb sigma_a, sigma_s, emission;
 };
 
-/// At a point of the world; a grid is interpolated linearly between the centres of voxels
-/// and zero outside of its box.
+/// At a point of the world; a grid is interpolated linearly between the centres of
+/// voxels, one of NanoVDB between its points, and zero outside of its box.
 Coefficients MediumAt(const Medium& medium, Vec3d p);
 
 /// What a ray meets in a medium.

@@ -92,7 +92,7 @@ Rgb Tracer::Trace(Ray ray) const {
       const double absorbed = Channel(collision.at.sigma_a, channel);
       const double scattered = Channel(collision.at.sigma_s, channel);
       // Every collision, of either kind, sees what the medium emits.
-      sum += beta * m.emission * (absorbed / (absorbed + scattered));
+      sum += beta * collision.at.emission * (absorbed / (absorbed + scattered));
       beta *= scattered / (absorbed + scattered);
       if (depth++ == max_depth || scattered == 0) return sum;
       const Vec3d p = ray.o + ray.d * collision.t;

@@ -1,0 +1,95 @@
+// Numbers of grids at a vector of points: voxels one after the other, and the sparse ones
+// of NanoVDB.
+#if defined(LANELIGHT_MEDIA_VOXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_MEDIA_VOXELS_INL_H_
+#undef LANELIGHT_MEDIA_VOXELS_INL_H_
+#else
+#define LANELIGHT_MEDIA_VOXELS_INL_H_
+#endif
+
+#include <limits>
+
+#include "kernels/media/medium-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+/// Linear interpolation along one axis: the two samples and how much of the second.
+struct AxisSamples {
+  VI low;
+  VF weight;
+  MF has_low, has_high;  // they lie in the grid; others are zero
+
+  LANELIGHT_INLINE AxisSamples(VF x, int32_t size) {
+    const DF df;
+    const DI di;
+    const VF at = hn::MulAdd(x, Splat(static_cast<float>(size)), Splat(-0.5f));
+    const VF floor = hn::Floor(at);
+    low = hn::ConvertTo(di, floor);
+    weight = hn::Sub(at, floor);
+    const VI last = hn::Set(di, size - 1), before = hn::Set(di, -1);
+    has_low =
+        hn::RebindMask(df, hn::And(hn::Gt(low, before), hn::Lt(low, hn::Set(di, size))));
+    has_high =
+        hn::RebindMask(df, hn::And(hn::Gt(low, hn::Set(di, -2)), hn::Lt(low, last)));
+  }
+};
+
+/// Interpolates samples at the centres of voxels, `channels` for each, at p in [0, 1]^3.
+LANELIGHT_INLINE void Interpolate(const int32_t size[3], const float* values,
+                                  int32_t channels, V3 p, VF* out) {
+  const DI di;
+  const AxisSamples axes[3] = {AxisSamples(p.x, size[0]), AxisSamples(p.y, size[1]),
+                               AxisSamples(p.z, size[2])};
+  for (int c = 0; c < channels; ++c) out[c] = hn::Zero(DF());
+  for (int corner = 0; corner < 8; ++corner) {
+    VI index = hn::Zero(di);
+    VF weight = Splat(1.0f);
+    MF inside = hn::FirstN(DF(), hn::Lanes(DF()));
+    for (int a = 2; a >= 0; --a) {
+      const bool high = (corner >> a & 1) != 0;
+      const VI at = high ? hn::Add(axes[a].low, hn::Set(di, 1)) : axes[a].low;
+      const VF share = axes[a].weight;
+      index = hn::Add(hn::Mul(index, hn::Set(di, size[a])), at);
+      weight = hn::Mul(weight, high ? share : hn::Sub(Splat(1.0f), share));
+      inside = hn::And(inside, high ? axes[a].has_high : axes[a].has_low);
+    }
+    index = hn::IfThenElseZero(hn::RebindMask(di, inside),
+                               hn::Mul(index, hn::Set(di, channels)));
+    weight = hn::IfThenElseZero(inside, weight);
+    for (int c = 0; c < channels; ++c) {
+      out[c] = hn::MulAdd(weight, Gather(values + c, index), out[c]);
+    }
+  }
+}
+
+/// p by a row-major 3x4 matrix.
+LANELIGHT_INLINE V3 MapPoint(const float* m, V3 p) {
+  const auto row = [&](int r) HWY_ATTR {
+    const V3 linear = {Splat(m[4 * r]), Splat(m[4 * r + 1]), Splat(m[4 * r + 2])};
+    return hn::Add(Dot(linear, p), Splat(m[4 * r + 3]));
+  };
+  return {row(0), row(1), row(2)};
+}
+
+/// A NanoVDB grid at p of the box, in the lanes of `mask`, one after the other; 0 in the
+/// others, which are not looked up.
+inline HWY_NOINLINE VF SparseValue(const PlacedSparseGrid& placed, V3 p, MF mask) {
+  const DF df;
+  HWY_ALIGN float x[hn::MaxLanes(df)], y[hn::MaxLanes(df)], z[hn::MaxLanes(df)];
+  HWY_ALIGN float out[hn::MaxLanes(df)];
+  const V3 at = MapPoint(placed.index_from_box, p);
+  const VF none = Splat(std::numeric_limits<float>::quiet_NaN());
+  hn::Store(hn::IfThenElse(mask, at.x, none), df, x);
+  hn::Store(at.y, df, y);
+  hn::Store(at.z, df, z);
+  placed.grid->Interpolate(x, y, z, hn::Lanes(df), out);
+  return hn::Load(df, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

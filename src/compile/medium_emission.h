@@ -1,0 +1,16 @@
+// What the emission of a medium that varies is multiplied with.
+#pragma once
+
+#include "src/compiled/media.h"
+#include "src/scene/description.h"
+
+namespace lanelight {
+
+/// Scales, colours and temperatures of the description, and the black bodies' colours.
+MediumEmission CompileMediumEmission(const Medium& medium);
+
+/// Places a NanoVDB grid of the medium by its box.
+PlacedSparseGrid PlaceSparseGrid(std::shared_ptr<const SparseGrid> grid,
+                                 const Medium& medium);
+
+}  // namespace lanelight

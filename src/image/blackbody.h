@@ -1,0 +1,19 @@
+// Light of hot bodies in the scale of pbrt-v4's media with temperatures.
+#pragma once
+
+#include "src/core/vec.h"
+
+namespace lanelight {
+
+/// Linear sRGB of a black body whose spectrum is divided by its own maximum, as pbrt-v4's
+/// film sees it: its luminance is the integral over nm of that spectrum times the
+/// photometric curve, so at most 106.9, and nearly 0 where all is infrared. Channels
+/// below 0 are cut, and the luminance kept. `kelvin` must be positive and finite
+/// (LL_CHECK).
+Rgb RgbOfBlackbody(double kelvin);
+
+/// The integral over nm of the photometric curve of the CIE 1931 observer: what pbrt-v4's
+/// film makes of `rgb` illuminants of (1, 1, 1) that nothing normalises.
+inline constexpr double kPhotometricIntegral = 106.856895;
+
+}  // namespace lanelight
