@@ -41,6 +41,41 @@ TEST_CASE("media that vary", "[parse]") {
   CHECK(colored.grid == std::vector<float>{2, 2, 2, 2, 4, 6, 2, 2, 2, 8, 10, 12});
 }
 
+TEST_CASE("media that emit by voxel", "[parse]") {
+  const std::string grid = "\"uniformgrid\" \"integer nx\" 2 \"float density\" [ 1 2 ] ";
+  const Medium scaled =
+      ParseMedium(grid + "\"rgb Le\" [ 1 2 3 ] \"float Lescale\" [ 4 5 ]");
+  CHECK(scaled.emission == Rgb{1, 2, 3});
+  CHECK(scaled.emission_grid == std::vector<float>{4, 5});
+  const Medium hot = ParseMedium(grid +
+                                 "\"float temperature\" [ 6 7 ] \"float Lescale\" 3 "
+                                 "\"float temperaturecutoff\" 2 "
+                                 "\"float temperaturescale\" 100");
+  CHECK(hot.emission == Rgb{3, 3, 3});
+  CHECK(hot.temperature == std::vector<float>{6, 7});
+  CHECK(hot.temperature_offset == 2);
+  CHECK(hot.temperature_scale == 100);
+  const Medium colored = ParseMedium(
+      "\"rgbgrid\" \"rgb sigma_a\" [ 1 1 1 ] \"rgb Le\" [ 1 2 3 ] \"float Lescale\" 2");
+  CHECK(colored.emission_grid == std::vector<float>{1, 2, 3});
+  CHECK(colored.emission.x == Approx(2 * 106.856895));  // as pbrt-v4, not normalised
+  CHECK_THROWS_WITH(
+      ParseMedium(grid + "\"float temperature\" [ 1 1 ] \"rgb Le\" [ 1 1 1 ]"),
+      Catch::Contains("exclude each other"));
+  CHECK_THROWS_WITH(
+      ParseMedium("\"rgbgrid\" \"rgb sigma_s\" [ 1 1 1 ] \"rgb Le\" [ 1 1 1 ]"),
+      Catch::Contains("needs \"rgb sigma_a\""));
+}
+
+TEST_CASE("clouds", "[parse]") {
+  const Medium cloud = ParseMedium("\"cloud\" \"float density\" 2 \"float frequency\" 3");
+  CHECK(cloud.kind == MediumKind::kCloud);
+  CHECK(cloud.density == 2);
+  CHECK(cloud.wispiness == 1);
+  CHECK(cloud.frequency == 3);
+  CHECK(cloud.sigma_s == Rgb{1, 1, 1});
+}
+
 TEST_CASE("media beside shapes and around the camera", "[parse]") {
   const std::string media =
       "MakeNamedMedium \"a\" \"string type\" \"homogeneous\"\n"

@@ -1,0 +1,90 @@
+// Bounds of media that vary, and the colours of black bodies, as the kernels look them
+// up.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "src/compile/medium_emission.h"
+#include "src/compile/medium_grid.h"
+#include "src/image/blackbody.h"
+#include "src/image/spectrum.h"
+#include "tests/media/varying_scenes.h"
+#include "tests/reference/media.h"
+
+namespace lanelight::test {
+namespace {
+
+// The bound of the cell around a point of the box.
+double MajorantAt(const MediumGrid& grid, Vec3d share) {
+  std::size_t index = 0;
+  for (int a = 2; a >= 0; --a) {
+    const int cell = std::min(static_cast<int>(share[a] * kMajorantCells), 15);
+    index = index * kMajorantCells + static_cast<std::size_t>(cell);
+  }
+  return grid.majorants[index];
+}
+
+// Nowhere below the density; the mean of bound and of density over the box.
+std::pair<double, double> CheckMajorants(const Medium& medium) {
+  const MediumGrid grid = CompileMediumGrid(medium, Frame());
+  const Vec3d size = medium.box_max - medium.box_min;
+  double bounds = 0, densities = 0;
+  constexpr int kSide = 40;
+  for (int i = 0; i < kSide * kSide * kSide; ++i) {
+    const Vec3d share = {(i % kSide + 0.5) / kSide, (i / kSide % kSide + 0.5) / kSide,
+                         (i / kSide / kSide + 0.5) / kSide};
+    const Vec3d p =
+        medium.box_min + Vec3d{share.x * size.x, share.y * size.y, share.z * size.z};
+    const auto at = reference::MediumAt(medium, medium.world_from_medium.Point(p));
+    const double density = at.sigma_s.x / medium.sigma_s.x;
+    bounds += MajorantAt(grid, share), densities += density;
+    if (density > MajorantAt(grid, share))
+      FAIL("the density " << density << " is above its bound");
+  }
+  return {bounds / (kSide * kSide * kSide), densities / (kSide * kSide * kSide)};
+}
+
+}  // namespace
+
+TEST_CASE("bounds of clouds and NanoVDB grids hold", "[compile][media]") {
+  const TemporaryFolder folder;
+  CheckMajorants(SparseLump(folder));
+  CheckMajorants(CloudLump());
+  Medium thin = CloudLump();
+  thin.density = 0.05;
+  thin.box_max.y = 3;                       // above 1, where what counts is below 0
+  CHECK(CheckMajorants(thin).first < 0.4);  // tighter than 1, which pbrt takes
+}
+
+TEST_CASE("colours of black bodies", "[compile][media]") {
+  // A spectrum with its maximum where the eye has its own is nearly 1 for it.
+  const double seen = Luminance(RgbOfBlackbody(2.897771955e6 / 560));
+  CHECK(seen < kPhotometricIntegral);
+  CHECK(seen > 0.97 * kPhotometricIntegral);
+  for (const double kelvin : {1500.0, 3000.0, 6500.0, 20000.0}) {
+    const Rgb color = RgbOfBlackbody(kelvin), same = RgbFromBlackbody(kelvin);
+    CHECK(color.x / Luminance(color) == Approx(same.x).epsilon(1e-6));
+    CHECK(color.z / Luminance(color) == Approx(same.z).epsilon(1e-6));
+  }
+  CHECK(Luminance(RgbOfBlackbody(500)) < 1e-5);
+}
+
+TEST_CASE("the table of black bodies", "[compile][media]") {
+  Medium medium;
+  medium.kind = MediumKind::kUniformGrid;
+  medium.temperature = {20000};
+  medium.emission = {1, 1, 1};
+  const BlackbodyTable table = CompileMediumEmission(medium).blackbody;
+  for (double kelvin = 1000; kelvin < 20000; kelvin *= 1.0117) {
+    const double at = std::log(kelvin / kLeastKelvin) * table.entries_per_log;
+    const auto i = static_cast<std::size_t>(at);
+    const Rgb expected = RgbOfBlackbody(kelvin);
+    const double most = std::max({expected.x, expected.y, expected.z});
+    for (int c = 0; c < 3; ++c) {
+      const double low = table.colors[3 * i + c], high = table.colors[3 * i + 3 + c];
+      const double found = low + (at - static_cast<double>(i)) * (high - low);
+      CHECK(std::abs(found - expected[c]) < 1e-3 * most);
+    }
+  }
+}
+
+}  // namespace lanelight::test
