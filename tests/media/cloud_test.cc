@@ -1,0 +1,84 @@
+// The density of clouds on every target against the scalar twin.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/media/cloud_test.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/media/cloud-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// At a multiple of 16 points of the box; planes of x, y, z.
+void CloudDensityAt(const CloudShape& cloud, const float* xyz, float* value,
+                    std::size_t count) {
+  const DF df;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(df)) {
+    const V3 p = {hn::LoadU(df, xyz + i), hn::LoadU(df, xyz + count + i),
+                  hn::LoadU(df, xyz + 2 * count + i)};
+    hn::StoreU(CloudDensity(cloud, p), df, value + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include <catch2/catch.hpp>
+#include <random>
+#include <vector>
+
+#include "kernels/simd/target.h"
+#include "src/compile/medium_grid.h"
+#include "tests/media/varying_scenes.h"
+#include "tests/reference/media.h"
+
+namespace lanelight {
+
+HWY_EXPORT(CloudDensityAt);
+
+namespace test {
+
+// The noise is right within 1e-5, its slopes therefore within 2e-3, and the point that is
+// looked up within 1e-4; times the slope of five octaves, of 3, and of the height, of 10.
+TEST_CASE("media: the density of clouds", "[media]") {
+  constexpr std::size_t kPoints = 2048;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> share(0, 1);
+  std::vector<float> xyz(3 * kPoints), found(kPoints);
+  for (float& v : xyz) v = share(random);
+  Medium still = CloudLump();
+  still.wispiness = 0;
+  for (const Medium& medium : {CloudLump(), still}) {
+    const CloudShape cloud = CompileMediumGrid(medium, {}).cloud;
+    for (const std::string& target : AvailableTargets()) {
+      ForceTarget(target);
+      HWY_DYNAMIC_DISPATCH(CloudDensityAt)(cloud, xyz.data(), found.data(), kPoints);
+      double worst = 0, mean = 0;
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        const Vec3d size = medium.box_max - medium.box_min;
+        const Vec3d at = {xyz[i] * size.x, xyz[kPoints + i] * size.y,
+                          xyz[2 * kPoints + i] * size.z};
+        const Vec3d p = medium.world_from_medium.Point(medium.box_min + at);
+        const double density =
+            reference::MediumAt(medium, p).sigma_s.x / medium.sigma_s.x;
+        worst = std::max(worst, std::abs(density - found[i]));
+        mean += density / kPoints;
+      }
+      INFO(target << ", worst " << worst);
+      CHECK(worst < 3e-3);
+      CHECK(mean > 0.05);
+    }
+    ForceTarget("");
+  }
+}
+
+}  // namespace test
+}  // namespace lanelight
+
+#endif  // HWY_ONCE
