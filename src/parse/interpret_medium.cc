@@ -9,7 +9,7 @@
 namespace lanelight {
 namespace {
 
-using Reader = void (*)(ParseState&, ParamSet&, Medium*);
+using MediumReader = void (*)(ParseState&, ParamSet&, Medium*);
 
 struct Measured {
   Rgb sigma_s, sigma_a;  // per millimetre; sigma_s is the reduced one
@@ -59,11 +59,12 @@ void ReadHomogeneous(ParseState& state, ParamSet& params, Medium* medium) {
       params.Float("Lescale", 1, 0, kHuge);
 }
 
-const std::map<std::string, Reader> kReaders = {{"homogeneous", ReadHomogeneous},
-                                                {"uniformgrid", ReadUniformGrid},
-                                                {"rgbgrid", ReadRgbGrid},
-                                                {"cloud", ReadCloud},
-                                                {"nanovdb", ReadNanoVdb}};
+const std::map<std::string, MediumReader> kMediumReaders = {
+    {"homogeneous", ReadHomogeneous},
+    {"uniformgrid", ReadUniformGrid},
+    {"rgbgrid", ReadRgbGrid},
+    {"cloud", ReadCloud},
+    {"nanovdb", ReadNanoVdb}};
 
 }  // namespace
 
@@ -77,9 +78,9 @@ void InterpretMedium(ParseState& state, const std::string& name, ParamSet& param
   if (type_param == nullptr) {
     throw InputError(params.where(), params.object() + " has no \"string type\"");
   }
-  const auto reader = kReaders.find(type);
-  if (reader == kReaders.end()) {
-    ThrowUnknown(type_param->where, "type of medium", type, Names(kReaders));
+  const auto reader = kMediumReaders.find(type);
+  if (reader == kMediumReaders.end()) {
+    ThrowUnknown(type_param->where, "type of medium", type, Names(kMediumReaders));
   }
   reader->second(state, params, &medium);
   medium.g = params.Float("g", 0, -0.9999, 0.9999);
