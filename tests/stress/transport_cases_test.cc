@@ -1,6 +1,6 @@
-// The cases on materials, lights, transport, sampling, film and strategies, short, as far
-// as they are promised. A mean may be off by its tolerance and five standard errors: with
-// a thousand points the test fails once in 1500 seeds without a fault.
+// The cases on materials, lights, transport, media, sampling, film and strategies, short,
+// as far as they are promised. A mean may be off by its tolerance and five standard
+// errors: with a thousand points the test fails once in 1500 seeds without a fault.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
@@ -56,6 +56,7 @@ void CheckGroup(const std::string& group) {
 TEST_CASE("stress: materials", "[stress]") { CheckGroup("materials"); }
 TEST_CASE("stress: lights", "[stress]") { CheckGroup("lights"); }
 TEST_CASE("stress: transport", "[stress]") { CheckGroup("transport"); }
+TEST_CASE("stress: media", "[stress]") { CheckGroup("media"); }
 TEST_CASE("stress: sampling", "[stress]") { CheckGroup("sampling"); }
 TEST_CASE("stress: film", "[stress]") { CheckGroup("film"); }
 TEST_CASE("stress: strategies", "[stress]") { CheckGroup("strategies"); }
