@@ -1,0 +1,70 @@
+#include "tests/lights/image_strategies.h"
+
+#include <catch2/catch.hpp>
+#include <iterator>
+
+#include "src/core/error.h"
+#include "src/prepare/prepare_scene.h"
+#include "src/stat/hypothesis.h"
+
+namespace lanelight::test {
+namespace {
+
+// All ways to sample lights that know of their emission.
+constexpr const char* kStrategies[] = {
+    "directions=mis",
+    "directions=light,light-selection=tree",
+    "directions=bsdf,seen-lights=paths",
+    "light-points=solid-angle,light-candidates=resampled:4",
+    "light-points=projected,directions=light",
+    "control=analytic,c=1",
+    "control=ambient,c=1",
+    "guiding=radiance,environment=compensated"};
+
+}  // namespace
+
+stat::ImageEstimate RenderBy(const SceneDescription& scene, const char* strategy) {
+  TestRender options;
+  options.spp = 2048;
+  options.strategy = strategy;
+  options.planned_samples = 4096;
+  const Rendered render = RenderDescription(scene, options);
+  CHECK(render.result.health.Total() == 0);
+  return Estimate(render);
+}
+
+namespace {
+
+bool Refused(const SceneDescription& scene, const char* strategy) {
+  SceneDescription copy = scene;
+  ApplyStrategy(strategy, {}, copy.strategy);
+  try {
+    MakePlan(PrepareScene(copy), {});
+    return false;
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
+}  // namespace
+
+void CheckStrategies(const SceneDescription& scene) {
+  const auto truth = Estimate(
+      RenderReference(scene, Options(ReferenceEstimator::kLightSampling, 20000)));
+  const auto other = Estimate(
+      RenderReference(scene, Options(ReferenceEstimator::kMaterialSampling, 20000)));
+  const stat::ImageTestOptions test = {
+      4, stat::SidakLevel(1e-5, int(std::size(kStrategies)) + 1), kFloatTolerance, 1e-7};
+  const auto twins = stat::CompareMeans(truth, other, test);
+  INFO(twins.ToString());
+  CHECK(twins.same);
+  for (const char* strategy : kStrategies) {
+    if (Refused(scene, strategy)) continue;
+    const auto result = stat::CompareMeans(RenderBy(scene, strategy), truth, test);
+    INFO(strategy << ": " << result.ToString());
+    CHECK(result.same);
+    CHECK(result.detectable_bias < 0.2);
+  }
+}
+
+}  // namespace lanelight::test
