@@ -78,7 +78,7 @@ HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   const MF event = hn::Lt(d, t);
   if constexpr (Needs::kEmission) AddEmission(p, slots, path.beta, medium, t);
   V3 left, found;  // transmittance, and the densities of an event at its end
-  const auto reach = [&] HWY_ATTR {
+  const auto reach = [&]() HWY_ATTR {
     left = Transmittance(sigma_t, hn::Min(d, t));
     found = Mul(left, sigma_t);
   };

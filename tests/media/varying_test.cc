@@ -103,6 +103,12 @@ TEST_CASE("media: scales of emission and temperatures by voxel", "[media][agreem
   CheckBall(lump, 1024, 600, 0.25);
 }
 
+TEST_CASE("media: a cloud and NanoVDB grids, at length", "[media][agreement][slow]") {
+  const TemporaryFolder folder;
+  CheckBall(CloudLump(), 1 << 14, 6400, 0.07);
+  CheckBall(SparseLump(folder), 1 << 14, 6400, 0.07);
+}
+
 TEST_CASE("media: the tests of varying media would find a bias", "[media][agreement]") {
   const auto reference = Estimate(RenderReference(
       BallOf(CloudLump()), Options(ReferenceEstimator::kLightSampling, 400)));

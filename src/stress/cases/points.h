@@ -7,9 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "src/core/vec.h"
 #include "src/stress/stress_case.h"
 
 namespace lanelight::stress {
+
+/// A unit normal along no axis.
+inline const Vec3d kLeaning = Normalize(Vec3d{0.3, -0.5, 0.8});
 
 /// 10^low to 10^high, every `step` decades; three values a decade with full effort.
 /// Promised within [10^promised_low, 10^promised_high].

@@ -9,8 +9,6 @@
 namespace lanelight::stress {
 namespace {
 
-const Vec3d kLeaning = Normalize(Vec3d{0.3, -0.5, 0.8});
-
 // Rays that leave a square of two triangles at an angle to it meet neither.
 std::vector<Point> LeaveGrazing(double sine, const Effort& effort) {
   Draws draws(effort.seed);

@@ -9,8 +9,6 @@
 namespace lanelight::stress {
 namespace {
 
-const Vec3d kLeaning = Normalize(Vec3d{0.3, -0.5, 0.8});
-
 std::vector<Point> FarFromOrigin(double distance, const Effort& effort) {
   Draws draws(effort.seed);
   const Vec3d center = distance * Normalize(Vec3d{1, -2, 0.5});
