@@ -4,6 +4,8 @@
 //               pdf_sa = pdf(s, t) / (solid angle per area of the square)
 //   window      what the portal covers of the square: a rectangle
 //   source      Bitterli, Novak and Jarosz 2015
+// The long routines are called, not inlined: each has hundreds of instructions for a
+// vector, and a kernel that holds all their copies takes half a minute to compile.
 #if defined(LANELIGHT_LIGHTS_PORTAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_LIGHTS_PORTAL_INL_H_
 #undef LANELIGHT_LIGHTS_PORTAL_INL_H_
@@ -39,7 +41,7 @@ struct PortalSample {
 
 LANELIGHT_INLINE V3 LoadV3(const float v[3]) { return Splat3(v[0], v[1], v[2]); }
 
-LANELIGHT_INLINE PortalPlace PlaceOf(const Portal& portal, V3 direction) {
+inline HWY_NOINLINE PortalPlace PlaceOf(const Portal& portal, V3 direction) {
   const DF df;
   const V3 w = {Dot(LoadV3(portal.x_axis), direction),
                 Dot(LoadV3(portal.y_axis), direction),
@@ -86,7 +88,7 @@ class PortalSums {
     VD density;      // over the square
   };
 
-  LANELIGHT_INLINE Point Sample(VD u0, VD u1) const {
+  HWY_NOINLINE Point Sample(VD u0, VD u1) const {
     const VD total = Left(x1_);
     Point at;
     at.x = Invert(
@@ -112,9 +114,12 @@ class PortalSums {
 
  private:
   LANELIGHT_INLINE VD Node(VD column, VD row) const {
+    // By way of 32 bits: AVX2 has no conversion of doubles to 64.
     const hn::RebindToSigned<DD> di;
+    const hn::Rebind<int32_t, DD> narrow;
     const VD at = hn::MulAdd(row, hn::Add(size_, hn::Set(DD(), 1.0)), column);
-    return hn::GatherIndex(DD(), sums_, hn::ConvertTo(di, at));
+    const auto index = hn::PromoteTo(di, hn::DemoteTo(narrow, at));
+    return hn::GatherIndex(DD(), sums_, index);
   }
   // Of all to the left of x and below y, both in [0, size].
   LANELIGHT_INLINE VD Below(VD x, VD y) const {
@@ -127,7 +132,7 @@ class PortalSums {
     return mix(mix(Node(i, j), Node(i1, j), right), mix(Node(i, j1), Node(i1, j1), right),
                above);
   }
-  LANELIGHT_INLINE VD Between(VD left, VD right, VD low, VD high) const {
+  HWY_NOINLINE VD Between(VD left, VD right, VD low, VD high) const {
     return hn::Sub(hn::Sub(Below(right, high), Below(left, high)),
                    hn::Sub(Below(right, low), Below(left, low)));
   }
@@ -183,7 +188,8 @@ LANELIGHT_INLINE V3 PortalTexel(const Portal& portal, VF column, VF row) {
 
 /// Direction that `from` sees through the portal, with density proportional to the weight
 /// of its texel.
-LANELIGHT_INLINE PortalSample SamplePortal(const Portal& portal, V3 from, VF u0, VF u1) {
+inline HWY_NOINLINE PortalSample SamplePortal(const Portal& portal, V3 from, VF u0,
+                                              VF u1) {
   const PortalWindow window = WindowFrom(portal, from);
   const PortalSums low = SumsOf<false>(portal, window),
                    high = SumsOf<true>(portal, window);
@@ -204,7 +210,8 @@ LANELIGHT_INLINE PortalSample SamplePortal(const Portal& portal, V3 from, VF u0,
 }
 
 /// Radiance and density of a direction from `from`.
-LANELIGHT_INLINE PortalSample LookThrough(const Portal& portal, V3 from, V3 direction) {
+inline HWY_NOINLINE PortalSample LookThrough(const Portal& portal, V3 from,
+                                             V3 direction) {
   const PortalWindow w = WindowFrom(portal, from);
   const PortalPlace place = PlaceOf(portal, direction);
   const auto inside = [](VF v, VF low, VF high)
