@@ -50,7 +50,7 @@ struct CoatedConductorBsdf {
   }
 
   /// exp(-thickness / |cos w|): one crossing of the medium.
-  LANELIGHT_INLINE static VF Crossing(const Params& p, V3 w) {
+  LANELIGHT_LONG_BSDF_CALL static VF Crossing(const Params& p, V3 w) {
     return Exp(hn::Neg(hn::Div(p.thickness, hn::Max(hn::Abs(w.z), Splat(1e-6f)))));
   }
   LANELIGHT_INLINE static MF Carries(V3 beta) {

@@ -61,7 +61,7 @@ struct ConductorRoughBsdf {
     return {in.Color0(), in.Color1(), Ggx::FromAlpha(in.AlphaX(), in.AlphaY())};
   }
 
-  LANELIGHT_INLINE static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
+  LANELIGHT_LONG_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const VF zo = hn::Abs(wo.z), zi = hn::Abs(wi.z);
     const V3 n = Normalize(wo + wi);
     const VF d = m.ggx.D(n);
@@ -73,7 +73,8 @@ struct ConductorRoughBsdf {
     return {IfThenElseZero(reflects, Mul(f, shape)), hn::IfThenElseZero(reflects, pdf)};
   }
 
-  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
+  LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
+                                                    const BsdfPoints& u) {
     const V3 up = {wo.x, wo.y, hn::Abs(wo.z)};
     const V3 n = m.ggx.SampleVisible(up, u.u0, u.u1);
     const VF cosine = hn::Clamp(Dot(up, n), hn::Zero(DF()), Splat(1.0f));

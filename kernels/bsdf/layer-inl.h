@@ -68,8 +68,8 @@ struct CoatLayer {
   /// Samples the interface from wo, on either side. `radiance`: refraction scales by
   /// 1 / eta^2 (radiance flows towards wo), not so for importance. Weight 0: no outcome.
   template <Outcome kOutcome>
-  LANELIGHT_INLINE LayerEvent Sample(V3 wo_any, VF u_lobe, VF u0, VF u1,
-                                     bool radiance) const {
+  LANELIGHT_LONG_BSDF_CALL LayerEvent Sample(V3 wo_any, VF u_lobe, VF u0, VF u1,
+                                             bool radiance) const {
     const VF zero = hn::Zero(DF()), one = Splat(1.0f), side = hn::CopySign(one, wo_any.z);
     const V3 wo = Mul(wo_any, side);
     const VF index = IndexFrom(wo_any);
@@ -102,7 +102,7 @@ struct CoatLayer {
   /// Refraction from inside direction w (w.z < 0 here: the side of incidence of the walk)
   /// out to wi, as radiance: f, and the density with which Sample<kTransmit> from wi
   /// would find w. Zero where smooth.
-  LANELIGHT_INLINE LayerValue EvalExit(V3 w, V3 wi) const {
+  LANELIGHT_LONG_BSDF_CALL LayerValue EvalExit(V3 w, V3 wi) const {
     const VF zero = hn::Zero(DF());
     // By adjointness f(w, wi) of radiance is f(wi, w) of importance: evaluated from wi,
     // without the 1 / eta^2.
@@ -148,7 +148,7 @@ struct MetalLayer {
   V3 eta, k;
 
   /// wo.z > 0.
-  LANELIGHT_INLINE LayerEvent Sample(V3 wo, VF u0, VF u1) const {
+  LANELIGHT_LONG_BSDF_CALL LayerEvent Sample(V3 wo, VF u0, VF u1) const {
     const V3 m = layer.SampleNormal(wo, u0, u1);
     const VF co = hn::Clamp(Dot(wo, m), hn::Zero(DF()), Splat(1.0f));
     const V3 wi = Reflect(wo, m, co);
@@ -159,7 +159,7 @@ struct MetalLayer {
   }
 
   /// f (without cosine), and the density of Sample. Zero where smooth. wo.z, wi.z > 0.
-  LANELIGHT_INLINE LayerValue Eval(V3 wo, V3 wi) const {
+  LANELIGHT_LONG_BSDF_CALL LayerValue Eval(V3 wo, V3 wi) const {
     const V3 m = Normalize(wo + wi);
     const VF co = hn::Clamp(Dot(wo, m), hn::Zero(DF()), Splat(1.0f));
     const VF pdf = hn::Mul(Splat(0.25f), layer.Visible(wo, m));

@@ -24,7 +24,7 @@ struct LaneRandom {
 
   VU pixel, sample, depth, seed;
 
-  LANELIGHT_INLINE void Next4(VF out[4]) {
+  HWY_NOINLINE void Next4(VF out[4]) {
     const U4 bits = Pcg4d({pixel, sample, depth, seed});
     out[0] = ToUnit(bits.x);
     out[1] = ToUnit(bits.y);
