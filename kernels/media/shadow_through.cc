@@ -18,7 +18,8 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 // The columns as the intersection and surface stages are to see them.
-HWY_INLINE PathColumns RestAsRay(const PathColumns& p) {
+HWY_INLINE PathColumns RestAsRay(const Wave& wave) {
+  const PathColumns& p = wave.path;
   PathColumns ray = p;
   ray.o_x = p.sh_o_x, ray.o_y = p.sh_o_y, ray.o_z = p.sh_o_z;
   ray.d_x = p.ls_x, ray.d_y = p.ls_y, ray.d_z = p.ls_z;
@@ -27,6 +28,9 @@ HWY_INLINE PathColumns RestAsRay(const PathColumns& p) {
   ray.p_error = p.sh_p_error;
   ray.ng_x = p.sh_n_x, ray.ng_y = p.sh_n_y, ray.ng_z = p.sh_n_z;
   ray.ns_x = p.sh_ns_x, ray.ns_y = p.sh_ns_y, ray.ns_z = p.sh_ns_z;
+  // Nothing else of the surface is asked for, and its tangents are the path's.
+  ray.tg_x = ray.tv_x = ray.uv_u = nullptr;
+  if (wave.scene->geometry.normals.empty()) ray.ns_x = nullptr;
   return ray;
 }
 
@@ -96,7 +100,7 @@ HWY_INLINE void NextLegs(Wave& wave) {
 
 template <class Tracking>
 void ShadowThrough(Wave& wave) {
-  const PathColumns ray = RestAsRay(wave.path);
+  const PathColumns ray = RestAsRay(wave);
   const RayKernels& kernels = wave.kernels;
   BeginRest(wave);
   // Both queues have been consumed (stages `split` and `route`).

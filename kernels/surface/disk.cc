@@ -15,7 +15,6 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <bool kNormals, bool kTangents, bool kUv>
 HWY_INLINE void DiskBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
@@ -34,14 +33,14 @@ HWY_INLINE void DiskBatch(const Wave& wave, const StoreSlots& slots) {
                        .error = Splat(0),
                        .material = Gather(&records->material, at)};
   surface.error = RoundingError(surface.p, n, radius);
-  StoreSurface<kNormals>(path, slots, surface);
-  if constexpr (kTangents || kUv) {
+  StoreSurface(path, slots, surface);
+  if (path.tg_x != nullptr || path.uv_u != nullptr) {
     const V3 u_axis = GatherRecord3(records, 16, 8, index);
     const V3 v_axis = Mul(Cross(n, u_axis), Gather(&records->v_sign, at));
     const V3 rel = surface.p - center;
     const VF x = Dot(rel, u_axis);
     const VF y = Dot(rel, v_axis);
-    if constexpr (kUv) {
+    if (path.uv_u != nullptr) {
       const VF distance = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
       const VF width = hn::Sub(radius, Gather(&records->inner_radius, at));
       const VF v = hn::Div(hn::Sub(radius, distance), width);
@@ -49,7 +48,7 @@ HWY_INLINE void DiskBatch(const Wave& wave, const StoreSlots& slots) {
       // A ring of width zero has no v; a comparison with NaN or inf fails.
       Scatter(hn::IfThenElseZero(hn::Lt(hn::Abs(v), Splat(2.0f)), v), path.uv_v, slots);
     }
-    if constexpr (kTangents) {
+    if (path.tg_x != nullptr) {
       const V3 around = MulAdd(v_axis, x, Mul(u_axis, hn::Neg(y)));
       const V3 tangent = Mul(around, Splat(2 * std::numbers::pi_v<float>));
       Scatter3(TangentOr(tangent, n), path.tg_x, path.tg_y, path.tg_z, slots);
@@ -64,20 +63,12 @@ HWY_INLINE void DiskBatch(const Wave& wave, const StoreSlots& slots) {
   }
 }
 
-template <bool kNormals, bool kTangents, bool kUv>
-struct SurfaceDisk {
-  static void Run(Wave& wave) {
-    const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
-    const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
-                                         ranges.disks, ranges.planes);
-    ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
-      DiskBatch<kNormals, kTangents, kUv>(wave, slots);
-    });
-  }
-};
-
-StageFn ChooseSurfaceDisk(const FeatureSet& features) {
-  return ChooseVariant<SurfaceDisk>(features);
+void SurfaceDisk(Wave& wave) {
+  const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
+  const Queue& hits =
+      FilterPrimitives(wave, wave.queue(QueueId::kSurface), ranges.disks, ranges.planes);
+  ForEachBatch(wave, hits,
+               [&](const StoreSlots& slots, MF) HWY_ATTR { DiskBatch(wave, slots); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -88,7 +79,7 @@ HWY_AFTER_NAMESPACE();
 #include "kernels/surface/stages.h"
 
 namespace lanelight {
-HWY_EXPORT(ChooseSurfaceDisk);
+HWY_EXPORT(SurfaceDisk);
 
 Stage SurfaceDiskStage() {
   return {.name = "surface_disk",
@@ -97,8 +88,8 @@ Stage SurfaceDiskStage() {
           .needs = {Feature::kDisks, Feature::kScatters},
           .reads = fields::kRay | FieldSet{Field::t, Field::prim},
           .writes = SurfaceFields(),
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(ChooseSurfaceDisk)(features);
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(SurfaceDisk);
           }};
 }
 

@@ -41,7 +41,6 @@ HWY_INLINE void Reproject(const LargeSphereHits& s, D3 hit, D3& p, D3& outward,
   size = hn::Sqrt(Dot(q, q));
 }
 
-template <bool kNormals, bool kTangents, bool kUv>
 HWY_INLINE void LargeSphereBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
@@ -63,14 +62,14 @@ HWY_INLINE void LargeSphereBatch(const Wave& wave, const StoreSlots& slots) {
                        .error = Splat(0),
                        .material = Gather(&records->material, at)};
   surface.error = RoundingError(surface.p, out, FromHalves(size[0], size[1]));
-  StoreSurface<kNormals>(path, slots, surface);
-  if constexpr (kTangents || kUv) {
+  StoreSurface(path, slots, surface);
+  if (path.tg_x != nullptr || path.uv_u != nullptr) {
     const V3 x_axis = GatherRecord3(records, kWords, 8, index);
     const V3 z_axis = GatherRecord3(records, kWords, 12, index);
     const V3 y_axis = Mul(Cross(z_axis, x_axis), Gather(&records->y_sign, at));
     const VF x = Dot(out, x_axis);
     const VF y = Dot(out, y_axis);
-    if constexpr (kUv) {
+    if (path.uv_u != nullptr) {
       // v = 1 - theta / pi, theta from the pole z; half a turn of (z, across).
       const VF z = Dot(out, z_axis);
       const VF across = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
@@ -78,7 +77,7 @@ HWY_INLINE void LargeSphereBatch(const Wave& wave, const StoreSlots& slots) {
       Scatter(TurnFraction(y, x), path.uv_u, slots);
       Scatter(hn::NegMulAdd(Splat(2.0f), theta, Splat(1.0f)), path.uv_v, slots);
     }
-    if constexpr (kTangents) {
+    if (path.tg_x != nullptr) {
       const V3 around = MulAdd(y_axis, x, Mul(x_axis, hn::Neg(y)));
       const VF scale = hn::Div(Splat(2 * std::numbers::pi_v<float>), s.curvature);
       Scatter3(TangentOr(Mul(around, scale), out), path.tg_x, path.tg_y, path.tg_z,
@@ -91,20 +90,13 @@ HWY_INLINE void LargeSphereBatch(const Wave& wave, const StoreSlots& slots) {
   }
 }
 
-template <bool kNormals, bool kTangents, bool kUv>
-struct SurfaceLargeSphere {
-  static void Run(Wave& wave) {
-    const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
-    const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
-                                         ranges.large_spheres, ranges.end);
-    ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
-      LargeSphereBatch<kNormals, kTangents, kUv>(wave, slots);
-    });
-  }
-};
-
-StageFn ChooseSurfaceLargeSphere(const FeatureSet& features) {
-  return ChooseVariant<SurfaceLargeSphere>(features);
+void SurfaceLargeSphere(Wave& wave) {
+  const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
+  const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
+                                       ranges.large_spheres, ranges.end);
+  ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
+    LargeSphereBatch(wave, slots);
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -115,7 +107,7 @@ HWY_AFTER_NAMESPACE();
 #include "kernels/surface/stages.h"
 
 namespace lanelight {
-HWY_EXPORT(ChooseSurfaceLargeSphere);
+HWY_EXPORT(SurfaceLargeSphere);
 
 Stage SurfaceLargeSphereStage() {
   return {.name = "surface_large_sphere",
@@ -124,8 +116,8 @@ Stage SurfaceLargeSphereStage() {
           .needs = {Feature::kLargeSpheres, Feature::kScatters},
           .reads = fields::kRay | FieldSet{Field::t, Field::prim},
           .writes = SurfaceFields(),
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(ChooseSurfaceLargeSphere)(features);
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(SurfaceLargeSphere);
           }};
 }
 

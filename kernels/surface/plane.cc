@@ -15,7 +15,6 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <bool kNormals, bool kTangents, bool kUv>
 HWY_INLINE void PlaneBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
@@ -34,15 +33,15 @@ HWY_INLINE void PlaneBatch(const Wave& wave, const StoreSlots& slots) {
                        .material = Gather(&records->material, at)};
   const V3 rel = surface.p - point;
   surface.error = RoundingError(surface.p, n, MaxComponent(Abs(rel)));
-  StoreSurface<kNormals>(path, slots, surface);
-  if constexpr (kTangents || kUv) {
+  StoreSurface(path, slots, surface);
+  if (path.tg_x != nullptr || path.uv_u != nullptr) {
     const V3 u_axis = GatherRecord3(records, 16, 8, index);
     const V3 v_axis = GatherRecord3(records, 16, 12, index);
-    if constexpr (kUv) {
+    if (path.uv_u != nullptr) {
       Scatter(Dot(rel, u_axis), path.uv_u, slots);
       Scatter(Dot(rel, v_axis), path.uv_v, slots);
     }
-    if constexpr (kTangents) {
+    if (path.tg_x != nullptr) {
       // In the plane, across v, and one unit of u long.
       const V3 across = Cross(v_axis, n);
       const VF length = Dot(across, u_axis);
@@ -57,20 +56,12 @@ HWY_INLINE void PlaneBatch(const Wave& wave, const StoreSlots& slots) {
   }
 }
 
-template <bool kNormals, bool kTangents, bool kUv>
-struct SurfacePlane {
-  static void Run(Wave& wave) {
-    const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
-    const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
-                                         ranges.planes, ranges.large_spheres);
-    ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
-      PlaneBatch<kNormals, kTangents, kUv>(wave, slots);
-    });
-  }
-};
-
-StageFn ChooseSurfacePlane(const FeatureSet& features) {
-  return ChooseVariant<SurfacePlane>(features);
+void SurfacePlane(Wave& wave) {
+  const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
+  const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface), ranges.planes,
+                                       ranges.large_spheres);
+  ForEachBatch(wave, hits,
+               [&](const StoreSlots& slots, MF) HWY_ATTR { PlaneBatch(wave, slots); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -81,7 +72,7 @@ HWY_AFTER_NAMESPACE();
 #include "kernels/surface/stages.h"
 
 namespace lanelight {
-HWY_EXPORT(ChooseSurfacePlane);
+HWY_EXPORT(SurfacePlane);
 
 Stage SurfacePlaneStage() {
   return {.name = "surface_plane",
@@ -90,8 +81,8 @@ Stage SurfacePlaneStage() {
           .needs = {Feature::kPlanes, Feature::kScatters},
           .reads = fields::kRay | FieldSet{Field::t, Field::prim},
           .writes = SurfaceFields(),
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(ChooseSurfacePlane)(features);
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(SurfacePlane);
           }};
 }
 

@@ -29,7 +29,6 @@ HWY_INLINE void Reproject(const SphereHits& s, D3 hit, D3& p, D3& outward) {
   p = MulAdd(outward, HalfOf<kUpper>(s.radius), center);
 }
 
-template <bool kNormals, bool kTangents, bool kUv>
 HWY_INLINE void SphereBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
@@ -48,14 +47,14 @@ HWY_INLINE void SphereBatch(const Wave& wave, const StoreSlots& slots) {
                        .error = Splat(0),
                        .material = Gather(&records->material, at)};
   surface.error = RoundingError(surface.p, out, s.radius);
-  StoreSurface<kNormals>(path, slots, surface);
-  if constexpr (kTangents || kUv) {
+  StoreSurface(path, slots, surface);
+  if (path.tg_x != nullptr || path.uv_u != nullptr) {
     const V3 x_axis = GatherRecord3(records, 16, 8, index);
     const V3 z_axis = GatherRecord3(records, 16, 11, index);
     const V3 y_axis = Mul(Cross(z_axis, x_axis), Gather(&records->y_sign, at));
     const VF x = Dot(out, x_axis);
     const VF y = Dot(out, y_axis);
-    if constexpr (kUv) {
+    if (path.uv_u != nullptr) {
       // v = 1 - theta / pi, theta from the pole z; half a turn of (z, across).
       const VF z = Dot(out, z_axis);
       const VF across = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
@@ -63,7 +62,7 @@ HWY_INLINE void SphereBatch(const Wave& wave, const StoreSlots& slots) {
       Scatter(TurnFraction(y, x), path.uv_u, slots);
       Scatter(hn::NegMulAdd(Splat(2.0f), theta, Splat(1.0f)), path.uv_v, slots);
     }
-    if constexpr (kTangents) {
+    if (path.tg_x != nullptr) {
       const V3 around = MulAdd(y_axis, x, Mul(x_axis, hn::Neg(y)));
       const VF scale = hn::Mul(s.radius, Splat(2 * std::numbers::pi_v<float>));
       Scatter3(TangentOr(Mul(around, scale), out), path.tg_x, path.tg_y, path.tg_z,
@@ -75,20 +74,12 @@ HWY_INLINE void SphereBatch(const Wave& wave, const StoreSlots& slots) {
   }
 }
 
-template <bool kNormals, bool kTangents, bool kUv>
-struct SurfaceSphere {
-  static void Run(Wave& wave) {
-    const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
-    const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
-                                         ranges.spheres, ranges.disks);
-    ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
-      SphereBatch<kNormals, kTangents, kUv>(wave, slots);
-    });
-  }
-};
-
-StageFn ChooseSurfaceSphere(const FeatureSet& features) {
-  return ChooseVariant<SurfaceSphere>(features);
+void SurfaceSphere(Wave& wave) {
+  const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
+  const Queue& hits =
+      FilterPrimitives(wave, wave.queue(QueueId::kSurface), ranges.spheres, ranges.disks);
+  ForEachBatch(wave, hits,
+               [&](const StoreSlots& slots, MF) HWY_ATTR { SphereBatch(wave, slots); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -99,7 +90,7 @@ HWY_AFTER_NAMESPACE();
 #include "kernels/surface/stages.h"
 
 namespace lanelight {
-HWY_EXPORT(ChooseSurfaceSphere);
+HWY_EXPORT(SurfaceSphere);
 
 Stage SurfaceSphereStage() {
   return {.name = "surface_sphere",
@@ -108,8 +99,8 @@ Stage SurfaceSphereStage() {
           .needs = {Feature::kSpheres, Feature::kScatters},
           .reads = fields::kRay | FieldSet{Field::t, Field::prim},
           .writes = SurfaceFields(),
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(ChooseSurfaceSphere)(features);
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(SurfaceSphere);
           }};
 }
 

@@ -22,17 +22,6 @@ inline FieldSet SurfaceFields() {
          FieldSet{Field::material};
 }
 
-/// Whether a kernel writes shading normals: those of vertices, or what a map changes.
-inline bool WantsNormals(const FeatureSet& features) {
-  return features.HasAny(
-      {Feature::kVertexNormals, Feature::kBumps, Feature::kNormalMaps});
-}
-/// Whether a kernel writes tangents: dp/du, and dp/dv where the column exists.
-inline bool WantsTangents(const FeatureSet& features) {
-  return features.HasAny({Feature::kTangents, Feature::kBumps, Feature::kNormalMaps,
-                          Feature::kTextureFootprints});
-}
-
 /// What stages that give a surface another shading normal read and write.
 inline FieldSet ReliefReads() {
   return fields::kNormal | fields::kTangents | fields::kUv |

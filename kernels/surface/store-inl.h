@@ -42,14 +42,15 @@ LANELIGHT_INLINE D3 ProjectToPlane(D3 p, V3 point, V3 n) {
   return MulAdd(nd, hn::Neg(hn::Div(Dot(nd, rel), Dot(nd, nd))), p);
 }
 
-/// Writes what every hit has; these shapes have no shading normal of their own.
-template <bool kNormals>
+/// Writes what every hit has; these shapes have no shading normal of their own. Which
+/// columns there are is the same for all hits: a test per vector, and not a variant of
+/// the kernel for each set of them, which would take long to compile.
 LANELIGHT_INLINE void StoreSurface(const PathColumns& path, const StoreSlots& slots,
                                    const SurfaceLanes& s) {
   Scatter3(s.p, path.p_x, path.p_y, path.p_z, slots);
   Scatter(s.error, path.p_error, slots);
   Scatter3(s.n, path.ng_x, path.ng_y, path.ng_z, slots);
-  if constexpr (kNormals) Scatter3(s.n, path.ns_x, path.ns_y, path.ns_z, slots);
+  if (path.ns_x != nullptr) Scatter3(s.n, path.ns_x, path.ns_y, path.ns_z, slots);
   Scatter(s.material, path.material, slots);
 }
 
@@ -89,21 +90,6 @@ LANELIGHT_INLINE V3 SphereBitangent(V3 out, V3 z_axis, VF radius) {
   const V3 up = MulAdd(out, hn::Neg(Dot(out, z_axis)), z_axis);
   return Mul(
       up, hn::Mul(hn::Mul(radius, Splat(std::numbers::pi_v<float>)), Rsqrt(Dot(up, up))));
-}
-
-/// The variant of a kernel for the features; `Kernel` is a template over whether vertex
-/// normals, tangents and surface coordinates are wanted.
-template <template <bool, bool, bool> class Kernel, bool... kChosen>
-StageFn ChooseVariant(const FeatureSet& features) {
-  if constexpr (sizeof...(kChosen) == 3) {
-    return Kernel<kChosen...>::Run;
-  } else {
-    const bool wanted[] = {WantsNormals(features), WantsTangents(features),
-                           features.Has(Feature::kUv)};
-    return wanted[sizeof...(kChosen)]
-               ? ChooseVariant<Kernel, kChosen..., true>(features)
-               : ChooseVariant<Kernel, kChosen..., false>(features);
-  }
 }
 
 }  // namespace HWY_NAMESPACE

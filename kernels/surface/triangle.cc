@@ -127,97 +127,106 @@ HWY_INLINE VF SizeOf(V3 e1, V3 e2) {
   return hn::Max(MaxComponent(Abs(e1)), MaxComponent(Abs(e2)));
 }
 
-// kFaceNormals: no mesh has normals, and shading normals, which a map will change, are
-// those of the faces.
-template <bool kNormals, bool kTangents, bool kUv, bool kInstances, bool kFaceNormals>
-HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
+// Where the point of a hit lies in the scene, and what maps its triangle there.
+struct PlaceLanes {
+  V3 p, ng;
+  VF error;
+  InstanceMaps maps;
+};
+
+template <bool kInstances>
+HWY_INLINE PlaceLanes PlaceTriangles(const Wave& wave, const StoreSlots& slots,
+                                     const TriangleLanes& tri, V3 e1, V3 e2, V3 face) {
+  PlaceLanes at;
+  if constexpr (kInstances) {
+    at.maps = GatherMaps(wave.scene->geometry.instances, Gather(wave.path.inst, slots));
+    const D3 lower = Interpolate<false>(tri), upper = Interpolate<true>(tri);
+    at.p = FromHalves(MapPoint<false>(at.maps.scene_from_object, lower),
+                      MapPoint<true>(at.maps.scene_from_object, upper));
+    at.ng = Normalize(at.maps.object_from_scene.Transposed(face));
+    at.error = hn::Add(RoundingError(at.p, at.ng, hn::Zero(DF())),
+                       MappingError(at.maps, FromHalves(lower, upper), at.ng));
+  } else {
+    at.p = FromHalves(Interpolate<false>(tri), Interpolate<true>(tri));
+    at.ng = face;
+    at.error = RoundingError(at.p, face, SizeOf(e1, e2));
+  }
+  return at;
+}
+
+// Shading normals: of the vertices or, where no mesh has any and a map will change them,
+// of the faces. The geometric normal takes their side, as in pbrt.
+template <bool kInstances>
+HWY_INLINE void StoreNormals(const Wave& wave, const StoreSlots& slots,
+                             const TriangleLanes& tri, V3 face, PlaceLanes* at) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
+  V3 ns = face;
+  if (!geometry.normals.empty()) ns = VertexNormal(geometry, tri, face);
+  if constexpr (kInstances) ns = at->maps.object_from_scene.Transposed(ns);
+  ns = Normalize(ns);
+  Scatter3(ns, path.ns_x, path.ns_y, path.ns_z, slots);
+  const MF apart = hn::Lt(Dot(ns, at->ng), hn::Zero(DF()));
+  at->ng = IfThenElse(apart, -at->ng, at->ng);
+}
+
+HWY_INLINE void StoreUvs(const PathColumns& path, const StoreSlots& slots,
+                         const TriangleLanes& tri, const UvLanes& uv) {
+  const auto mix = [&](const VF* c) HWY_ATTR {
+    return hn::MulAdd(c[0], tri.b0, hn::MulAdd(c[1], tri.b1, hn::Mul(c[2], tri.b2)));
+  };
+  Scatter(mix(uv.u), path.uv_u, slots);
+  Scatter(mix(uv.v), path.uv_v, slots);
+}
+
+template <bool kInstances>
+HWY_INLINE void StoreTangents(const PathColumns& path, const StoreSlots& slots,
+                              const UvLanes& uv, V3 e1, V3 e2, V3 face,
+                              const PlaceLanes& at) {
+  V3 tangent = Tangent(uv, e1, e2, face);
+  if (path.tv_x != nullptr) {
+    V3 bitangent = Bitangent(uv, e1, e2, face);
+    if constexpr (kInstances) bitangent = at.maps.scene_from_object.Vector(bitangent);
+    Scatter3(bitangent, path.tv_x, path.tv_y, path.tv_z, slots);
+  }
+  if constexpr (kInstances) tangent = at.maps.scene_from_object.Vector(tangent);
+  Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
+}
+
+// Which columns there are is the same for all: a test per vector of hits, and not a
+// variant of the kernel for each set of them, which would take long to compile.
+template <bool kInstances>
+HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
+  const PathColumns& path = wave.path;
   const TriangleLanes tri = LoadTriangles(wave, slots);
   const V3 e1 = tri.v1 - tri.v0, e2 = tri.v2 - tri.v0;
   const V3 face = FaceNormal(e1, e2);
-  InstanceMaps maps;
-  V3 p, ng = face;
-  VF error;
-  if constexpr (kInstances) {
-    maps = GatherMaps(geometry.instances, Gather(path.inst, slots));
-    const D3 lower = Interpolate<false>(tri), upper = Interpolate<true>(tri);
-    p = FromHalves(MapPoint<false>(maps.scene_from_object, lower),
-                   MapPoint<true>(maps.scene_from_object, upper));
-    ng = Normalize(maps.object_from_scene.Transposed(face));
-    error = hn::Add(RoundingError(p, ng, hn::Zero(DF())),
-                    MappingError(maps, FromHalves(lower, upper), ng));
-  } else {
-    p = FromHalves(Interpolate<false>(tri), Interpolate<true>(tri));
-    error = RoundingError(p, ng, SizeOf(e1, e2));
-  }
-  if constexpr (kNormals) {
-    V3 ns = face;
-    if constexpr (!kFaceNormals) ns = VertexNormal(geometry, tri, face);
-    if constexpr (kInstances) ns = maps.object_from_scene.Transposed(ns);
-    ns = Normalize(ns);
-    Scatter3(ns, path.ns_x, path.ns_y, path.ns_z, slots);
-    // The geometric normal takes the side of the shading normal, as in pbrt.
-    const MF apart = hn::Lt(Dot(ns, ng), hn::Zero(DF()));
-    ng = IfThenElse(apart, -ng, ng);
-  }
-  Scatter3(p, path.p_x, path.p_y, path.p_z, slots);
-  Scatter(error, path.p_error, slots);
-  Scatter3(ng, path.ng_x, path.ng_y, path.ng_z, slots);
+  PlaceLanes at = PlaceTriangles<kInstances>(wave, slots, tri, e1, e2, face);
+  if (path.ns_x != nullptr) StoreNormals<kInstances>(wave, slots, tri, face, &at);
+  Scatter3(at.p, path.p_x, path.p_y, path.p_z, slots);
+  Scatter(at.error, path.p_error, slots);
+  Scatter3(at.ng, path.ng_x, path.ng_y, path.ng_z, slots);
   Scatter(tri.material, path.material, slots);
-  if constexpr (kUv || kTangents) {
-    const UvLanes uv = LoadUvs(geometry, tri.prim);
-    if constexpr (kUv) {
-      const auto mix = [&](const VF* c) HWY_ATTR {
-        return hn::MulAdd(c[0], tri.b0, hn::MulAdd(c[1], tri.b1, hn::Mul(c[2], tri.b2)));
-      };
-      Scatter(mix(uv.u), path.uv_u, slots);
-      Scatter(mix(uv.v), path.uv_v, slots);
-    }
-    if constexpr (kTangents) {
-      V3 tangent = Tangent(uv, e1, e2, face);
-      if (path.tv_x != nullptr) {
-        V3 bitangent = Bitangent(uv, e1, e2, face);
-        if constexpr (kInstances) bitangent = maps.scene_from_object.Vector(bitangent);
-        Scatter3(bitangent, path.tv_x, path.tv_y, path.tv_z, slots);
-      }
-      if constexpr (kInstances) tangent = maps.scene_from_object.Vector(tangent);
-      Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
-    }
-  }
+  const Geometry& geometry = wave.scene->geometry;
+  const bool wanted = path.uv_u != nullptr || path.tg_x != nullptr;
+  if (!wanted || geometry.uvs.empty()) return;
+  const UvLanes uv = LoadUvs(geometry, tri.prim);
+  if (path.uv_u != nullptr) StoreUvs(path, slots, tri, uv);
+  if (path.tg_x != nullptr) StoreTangents<kInstances>(path, slots, uv, e1, e2, face, at);
 }
 
-template <bool kNormals, bool kTangents, bool kUv, bool kInstances,
-          bool kFaceNormals = false>
+template <bool kInstances>
 void SurfaceTriangle(Wave& wave) {
   const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface), 0,
                                        wave.scene->geometry.ranges.spheres);
   ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
-    SurfaceBatch<kNormals, kTangents, kUv, kInstances, kFaceNormals>(wave, slots);
+    SurfaceBatch<kInstances>(wave, slots);
   });
 }
 
-// Picks the template variant, one feature at a time.
-template <bool... kChosen>
-StageFn Choose(const FeatureSet& features) {
-  if constexpr (sizeof...(kChosen) == 4) {
-    return SurfaceTriangle<kChosen...>;
-  } else {
-    const bool wanted[] = {features.Has(Feature::kVertexNormals), WantsTangents(features),
-                           features.Has(Feature::kUv), features.Has(Feature::kInstances)};
-    return wanted[sizeof...(kChosen)] ? Choose<kChosen..., true>(features)
-                                      : Choose<kChosen..., false>(features);
-  }
-}
-
 StageFn ChooseSurfaceTriangle(const FeatureSet& features) {
-  if (WantsNormals(features) && !features.Has(Feature::kVertexNormals)) {
-    // What changes normals needs tangents and surface coordinates.
-    return features.Has(Feature::kInstances)
-               ? SurfaceTriangle<true, true, true, true, true>
-               : SurfaceTriangle<true, true, true, false, true>;
-  }
-  return Choose<>(features);
+  return features.Has(Feature::kInstances) ? SurfaceTriangle<true>
+                                           : SurfaceTriangle<false>;
 }
 
 }  // namespace HWY_NAMESPACE
