@@ -14,7 +14,7 @@
 namespace lanelight::test {
 namespace {
 
-constexpr int kCells = 8;  // along each side of the square
+constexpr int kSquares = 8;  // along each side of the square
 const FeatureSet kProjected = {Feature::kProjectedLights};
 
 // The receiver looks at the light, past it to two sides, along its plane, and away.
@@ -132,19 +132,20 @@ TEST_CASE("projected samples are where their density says", "[lights]") {
       CAPTURE(target, c.f.name, c.f.rectangle, c.n.x, c.n.y, c.n.z);
       const Draw draw(c.f, kCount, kProjected, true, c.n);
       const CornerCosines corners(c.f, c.n);
-      std::vector<double> observed(kCells * kCells, 0), expected = observed;
+      std::vector<double> observed(kSquares * kSquares, 0), expected = observed;
       for (std::uint32_t i = 0; i < kCount; ++i) {
         const Vec3d at = draw.Where(i);
         const Square u = Invert(c.f, at.x, at.y);
-        const int a = std::clamp(static_cast<int>(u.u0 * kCells), 0, kCells - 1);
-        const int b = std::clamp(static_cast<int>(u.u1 * kCells), 0, kCells - 1);
-        observed[static_cast<std::size_t>(a * kCells + b)] += 1;
+        const int a = std::clamp(static_cast<int>(u.u0 * kSquares), 0, kSquares - 1);
+        const int b = std::clamp(static_cast<int>(u.u1 * kSquares), 0, kSquares - 1);
+        observed[static_cast<std::size_t>(a * kSquares + b)] += 1;
       }
-      for (int i = 0; i < kCells * kCells; ++i) {
+      for (int i = 0; i < kSquares * kSquares; ++i) {
         // Bilinear: its mean over a cell is its value in the middle.
-        const Square u = {(i / kCells + 0.5) / kCells, (i % kCells + 0.5) / kCells};
+        const Square u = {(i / kSquares + 0.5) / kSquares,
+                          (i % kSquares + 0.5) / kSquares};
         expected[static_cast<std::size_t>(i)] =
-            kCount * corners.Density(u) / (kCells * kCells);
+            kCount * corners.Density(u) / (kSquares * kSquares);
       }
       CHECK(stat::ChiSquareTest(observed, expected).p > level);
     }

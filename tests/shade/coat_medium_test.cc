@@ -11,7 +11,7 @@ namespace lanelight::test {
 namespace {
 
 constexpr std::uint32_t kCount = 1 << 15;
-constexpr Rgb kAll = {1, 1, 1};
+constexpr Rgb kWhole = {1, 1, 1};
 
 TestMaterial Haze(double alpha, double thickness, double g, Rgb albedo, Rgb base,
                   int depth = 10) {
@@ -83,7 +83,7 @@ MeanOf ValueOf(const TestMaterial& m, Vec3d wo, Vec3d wi, std::uint32_t seed) {
 TEST_CASE("a white coat over a white base loses nothing", "[shade][stat]") {
   for (double thickness : {0.1, 2.0}) {
     for (double g : {-0.5, 0.0, 0.8}) {
-      const TestMaterial m = Haze(0, thickness, g, kAll, kAll, 10000);
+      const TestMaterial m = Haze(0, thickness, g, kWhole, kWhole, 10000);
       for (Vec3d wo : {TestDirections()[1], TestDirections()[3]}) {
         INFO("thickness " << thickness << ", g " << g << ", wo.z " << wo.z);
         // Each walk leaves with all that it came with.
@@ -99,12 +99,12 @@ TEST_CASE("a white coat over a white base loses nothing", "[shade][stat]") {
 
 TEST_CASE("walks end with their depth", "[shade]") {
   // One event is the exit, which without another one nobody reaches.
-  const TestMaterial one = Haze(0, 0.5, 0, kAll, kAll, 1);
+  const TestMaterial one = Haze(0, 0.5, 0, kWhole, kWhole, 1);
   const double r = Mirrored(0.7, 1.5);
   const Vec3d wo = {std::sqrt(1 - 0.49), 0, 0.7};
   CHECK(SampledEnergy(one, wo).Estimate().mean == Approx(r).margin(0.01));
   CHECK(EvaluatedEnergy(one, wo).sum == 0);
-  CHECK(EvaluatedEnergy(Haze(0, 0.5, 0, kAll, kAll, 2), wo).sum > 0);
+  CHECK(EvaluatedEnergy(Haze(0, 0.5, 0, kWhole, kWhole, 2), wo).sum > 0);
 }
 
 TEST_CASE("a medium without albedo is a clear coat", "[shade][stat]") {
@@ -130,8 +130,8 @@ TEST_CASE("a medium without albedo is a clear coat", "[shade][stat]") {
 
 TEST_CASE("light goes either way through a coat that scatters", "[shade][stat]") {
   const Vec3d a = TestDirections()[0], b = TestDirections()[2];
-  const TestMaterial list[] = {Haze(0, 0.7, 0.5, kAll * 0.9, kAll * 0.5, 200),
-                               Haze(0.3, 0.7, -0.5, kAll * 0.9, kAll * 0.5, 200)};
+  const TestMaterial list[] = {Haze(0, 0.7, 0.5, kWhole * 0.9, kWhole * 0.5, 200),
+                               Haze(0.3, 0.7, -0.5, kWhole * 0.9, kWhole * 0.5, 200)};
   for (const TestMaterial& m : list) {
     auto there = ValueOf(m, a, b, 95).Estimate(), back = ValueOf(m, b, a, 96).Estimate();
     there.mean /= b.z, there.variance /= b.z * b.z;
