@@ -193,20 +193,18 @@ HWY_INLINE void StoreTangents(const PathColumns& path, const StoreSlots& slots,
   Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
 }
 
-// Which columns there are is the same for all: a test per vector of hits, and not a
-// variant of the kernel for each set of them, which would take long to compile.
+// Some column beyond the point of a hit and its normal. Which ones is the same for all
+// hits: a test per vector, and not a variant of the kernel for each set of columns, which
+// would take long to compile.
+HWY_INLINE bool WantsDetails(const PathColumns& path) {
+  return path.ns_x != nullptr || path.uv_u != nullptr || path.tg_x != nullptr;
+}
+
 template <bool kInstances>
-HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
+HWY_INLINE void StoreCoordinates(const Wave& wave, const StoreSlots& slots,
+                                 const TriangleLanes& tri, V3 e1, V3 e2, V3 face,
+                                 const PlaceLanes& at) {
   const PathColumns& path = wave.path;
-  const TriangleLanes tri = LoadTriangles(wave, slots);
-  const V3 e1 = tri.v1 - tri.v0, e2 = tri.v2 - tri.v0;
-  const V3 face = FaceNormal(e1, e2);
-  PlaceLanes at = PlaceTriangles<kInstances>(wave, slots, tri, e1, e2, face);
-  if (path.ns_x != nullptr) StoreNormals<kInstances>(wave, slots, tri, face, &at);
-  Scatter3(at.p, path.p_x, path.p_y, path.p_z, slots);
-  Scatter(at.error, path.p_error, slots);
-  Scatter3(at.ng, path.ng_x, path.ng_y, path.ng_z, slots);
-  Scatter(tri.material, path.material, slots);
   const Geometry& geometry = wave.scene->geometry;
   const bool wanted = path.uv_u != nullptr || path.tg_x != nullptr;
   if (!wanted || geometry.uvs.empty()) return;
@@ -215,13 +213,36 @@ HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
   if (path.tg_x != nullptr) StoreTangents<kInstances>(path, slots, uv, e1, e2, face, at);
 }
 
+template <bool kInstances, bool kDetails>
+HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
+  const PathColumns& path = wave.path;
+  const TriangleLanes tri = LoadTriangles(wave, slots);
+  const V3 e1 = tri.v1 - tri.v0, e2 = tri.v2 - tri.v0;
+  const V3 face = FaceNormal(e1, e2);
+  PlaceLanes at = PlaceTriangles<kInstances>(wave, slots, tri, e1, e2, face);
+  if constexpr (kDetails) {
+    if (path.ns_x != nullptr) StoreNormals<kInstances>(wave, slots, tri, face, &at);
+    StoreCoordinates<kInstances>(wave, slots, tri, e1, e2, face, at);
+  }
+  Scatter3(at.p, path.p_x, path.p_y, path.p_z, slots);
+  Scatter(at.error, path.p_error, slots);
+  Scatter3(at.ng, path.ng_x, path.ng_y, path.ng_z, slots);
+  Scatter(tri.material, path.material, slots);
+}
+
 template <bool kInstances>
 void SurfaceTriangle(Wave& wave) {
   const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface), 0,
                                        wave.scene->geometry.ranges.spheres);
-  ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
-    SurfaceBatch<kInstances>(wave, slots);
-  });
+  if (WantsDetails(wave.path)) {
+    ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
+      SurfaceBatch<kInstances, true>(wave, slots);
+    });
+  } else {
+    ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
+      SurfaceBatch<kInstances, false>(wave, slots);
+    });
+  }
 }
 
 StageFn ChooseSurfaceTriangle(const FeatureSet& features) {

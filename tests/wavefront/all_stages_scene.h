@@ -180,6 +180,16 @@ MediumInterface "fog"
 Material "diffuse"
 Shape "trianglemesh" "point3 P" [ -3 -1 -3  3 -1 -3  3 -1 3  -3 -1 3 ]
   "integer indices" [ 0 1 2 0 2 3 ]
+Material "coateddiffuse" "rgb albedo" [ 0.9 0.8 0.7 ] "float thickness" 0.5
+AttributeBegin
+  Translate 1 0.5 -2
+  Shape "sphere" "float radius" 0.6
+AttributeEnd
+Material "coatedconductor" "rgb albedo" [ 0.9 0.8 0.7 ] "float thickness" 0.5
+AttributeBegin
+  Translate -1 0.5 -2
+  Shape "sphere" "float radius" 0.6
+AttributeEnd
 )";
 
 /// A medium without a boundary.
