@@ -132,7 +132,7 @@ struct Material {
   FloatValue uroughness, vroughness;                      // of the (outer) interface
   FloatValue conductor_uroughness, conductor_vroughness;  // coatedconductor
   bool remap_roughness = true;
-  double thickness = 0.01;  // coats
+  double thickness = 0.01;          // coats
   double coat_g = 0;                // coats: Henyey-Greenstein, of the medium between
   ColorValue coat_albedo;           // its scattering albedo; 0 everywhere: it absorbs
   Index thickness_texture = kNone;  // replaces `thickness`
