@@ -5,6 +5,7 @@
 #include <memory>
 #include <sstream>
 
+#include "kernels/simd/target.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
@@ -36,7 +37,8 @@ constexpr const char* kFooter =
     "  lanelight stress --out stress\n"
     "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
     "samples, 4 compare: over the limit, 5 render: the target error was not reached,\n"
-    "6 interrupted, to go on from what is kept, 7 stress: a case failed.";
+    "6 interrupted, to go on from what is kept, 7 stress: a case failed, 8 render: the\n"
+    "image is not what the scene asks for.";
 
 std::vector<std::string> SubcommandNames(const CLI::App& root) {
   std::vector<std::string> names;
@@ -137,6 +139,7 @@ int Parse(CLI::App& root, int argc, char** argv) {
 int Execute(const CLI::App& root, const Command& chosen, int argc, char** argv,
             std::string& message) {
   try {
+    RequireTarget();
     return chosen();
   } catch (const CLI::ParseError& error) {  // a flag that only the command understands
     return ReportParse(root, error, argc, argv);

@@ -24,8 +24,13 @@ file(GLOB FUZZ_LIBRARY_SOURCES CONFIGURE_DEPENDS
   ${CMAKE_SOURCE_DIR}/src/core/*.cc ${CMAKE_SOURCE_DIR}/src/parse/*.cc
   ${CMAKE_SOURCE_DIR}/src/image/*.cc ${CMAKE_SOURCE_DIR}/src/strategy/*.cc
   ${CMAKE_SOURCE_DIR}/src/path/*.cc)
+# It needs what the build writes of the version.
+list(REMOVE_ITEM FUZZ_LIBRARY_SOURCES ${CMAKE_SOURCE_DIR}/src/core/version.cc)
 set(FUZZ_FLAGS -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all)
 add_library(lanelight_fuzz_lib STATIC EXCLUDE_FROM_ALL ${FUZZ_LIBRARY_SOURCES})
+lanelight_unity(lanelight_fuzz_lib ${FUZZ_LIBRARY_SOURCES})
+set_source_files_properties(${CMAKE_SOURCE_DIR}/src/image/sparse_grid.cc PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON)
 target_compile_options(lanelight_fuzz_lib PRIVATE ${FUZZ_FLAGS}
   -fsanitize=fuzzer-no-link,address,undefined)
 target_link_libraries(lanelight_fuzz_lib PUBLIC lanelight_options hwy::hwy TBB::tbb

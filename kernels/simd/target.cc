@@ -41,12 +41,33 @@ const std::vector<std::int64_t>& UsableTargets() {
   return targets;
 }
 
+std::vector<std::string> CompiledTargets() {
+  std::vector<std::string> names;
+  for (std::int64_t bits = HWY_TARGETS & ~HWY_DISABLED_TARGETS; bits != 0;
+       bits &= bits - 1) {
+    names.push_back(hwy::TargetName(bits & -bits));
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> AvailableTargets() {
   std::vector<std::string> names;
   for (std::int64_t target : UsableTargets()) names.push_back(hwy::TargetName(target));
   return names;
+}
+
+void RequireTarget() {
+  if (!UsableTargets().empty()) return;
+  std::string names;
+  for (const std::string& name : CompiledTargets()) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  throw InputError(
+      "this machine's processor runs none of the SIMD targets that this "
+      "program was built for (" +
+      names + "); build it with -DLANELIGHT_PLAIN_TARGET=ON, which runs anywhere");
 }
 
 void ForceTarget(const std::string& name) {

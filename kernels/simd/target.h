@@ -9,6 +9,9 @@ namespace lanelight {
 /// Targets compiled in that this machine can run, best first, e.g. {"AVX3", "AVX2", ...}.
 std::vector<std::string> AvailableTargets();
 
+/// Throws InputError if there is none. What kernels do then is undefined.
+void RequireTarget();
+
 /// Makes kernels resolved from now on use `name` (case-insensitive). Throws InputError
 /// that lists the legal names. The empty string means the best available.
 void ForceTarget(const std::string& name);
