@@ -11,30 +11,17 @@
 
 #include "kernels/directions/heuristic-inl.h"
 #include "kernels/queue/filter-inl.h"
-#include "kernels/simd/vec3-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-/// Words of LightRecord, gathered for one light per lane.
-struct Lights {
-  const float* words;
-  VI at;
-
+/// The lights of a vector of lanes.
+struct Lights : RecordWords<LightRecord> {
   LANELIGHT_INLINE Lights(const CompiledScene& scene, VI light)
-      : words(reinterpret_cast<const float*>(scene.lights.lights.data())),
-        at(hn::Mul(light, hn::Set(DI(), sizeof(LightRecord) / 4))) {}
-  LANELIGHT_INLINE VF F(std::size_t byte_offset) const {
-    return Gather(words + byte_offset / 4, at);
-  }
-  LANELIGHT_INLINE VI I(std::size_t byte_offset) const {
-    return Gather(reinterpret_cast<const int32_t*>(words) + byte_offset / 4, at);
-  }
-  LANELIGHT_INLINE V3 F3(std::size_t byte_offset) const {
-    return {F(byte_offset), F(byte_offset + 4), F(byte_offset + 8)};
-  }
+      : RecordWords(scene.lights.lights.data(), light) {}
   LANELIGHT_INLINE V3 Radiance() const { return F3(offsetof(LightRecord, radiance)); }
   /// Probability of selecting this light: of its record, or where it depends on the place
   /// (a tree), of the path.
@@ -44,10 +31,7 @@ struct Lights {
   }
   LANELIGHT_INLINE VF Area() const { return F(offsetof(LightRecord, area)); }
   LANELIGHT_INLINE VI Primitive() const { return I(offsetof(LightRecord, primitive)); }
-  LANELIGHT_INLINE MF TwoSided() const {
-    return hn::RebindMask(DF(),
-                          hn::Ne(I(offsetof(LightRecord, two_sided)), hn::Zero(DI())));
-  }
+  LANELIGHT_INLINE MF TwoSided() const { return IsSet(offsetof(LightRecord, two_sided)); }
 };
 
 /// Primitive ids that may emit, so that most hits need no look at their record.

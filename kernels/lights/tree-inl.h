@@ -7,30 +7,17 @@
 #endif
 
 #include "kernels/simd/math-inl.h"
-#include "kernels/simd/vec3-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "src/compiled/lights.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-/// Words of LightNode, gathered for one node per lane.
-struct LightNodes {
-  const float* words;
-  VI at;
-
+/// The nodes of a vector of lanes.
+struct LightNodes : RecordWords<LightNode> {
   LANELIGHT_INLINE LightNodes(const LightTree& tree, VI node)
-      : words(reinterpret_cast<const float*>(tree.nodes.data())),
-        at(hn::ShiftLeft<4>(node)) {}
-  LANELIGHT_INLINE VF F(std::size_t byte_offset) const {
-    return Gather(words + byte_offset / 4, at);
-  }
-  LANELIGHT_INLINE V3 F3(std::size_t byte_offset) const {
-    return {F(byte_offset), F(byte_offset + 4), F(byte_offset + 8)};
-  }
-  LANELIGHT_INLINE VI I(std::size_t byte_offset) const {
-    return Gather(reinterpret_cast<const int32_t*>(words) + byte_offset / 4, at);
-  }
+      : RecordWords(tree.nodes.data(), node) {}
 };
 
 /// cos(max(0, a - b)) of angles in [0, pi], from their cosines and sines.

@@ -19,29 +19,17 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-/// Words of MediumRecord, gathered for one medium per lane. Vacuum: any record.
-struct Media {
-  const float* words;
-  VI at;
-
+/// The media of a vector of lanes. Vacuum: any record.
+struct Media : RecordWords<MediumRecord> {
   LANELIGHT_INLINE Media(const MediumTable& table, VI medium)
-      : words(reinterpret_cast<const float*>(table.media.data())),
-        at(hn::ShiftLeft<4>(hn::Max(medium, hn::Zero(DI())))) {}
-  LANELIGHT_INLINE VF F(std::size_t byte_offset) const {
-    return Gather(words + byte_offset / 4, at);
-  }
-  LANELIGHT_INLINE VI I(std::size_t byte_offset) const {
-    return Gather(reinterpret_cast<const int32_t*>(words) + byte_offset / 4, at);
-  }
-  LANELIGHT_INLINE V3 F3(std::size_t byte_offset) const {
-    return {F(byte_offset), F(byte_offset + 4), F(byte_offset + 8)};
-  }
+      : RecordWords(table.media.data(), hn::Max(medium, hn::Zero(DI()))) {}
   LANELIGHT_INLINE V3 SigmaT() const { return F3(offsetof(MediumRecord, sigma_t)); }
   LANELIGHT_INLINE V3 SigmaS() const { return F3(offsetof(MediumRecord, sigma_s)); }
   LANELIGHT_INLINE V3 Emission() const { return F3(offsetof(MediumRecord, emission)); }
@@ -50,10 +38,7 @@ struct Media {
     return hn::RebindMask(DF(),
                           hn::Gt(I(offsetof(MediumRecord, grid)), hn::Set(DI(), -1)));
   }
-  LANELIGHT_INLINE MF Scatters() const {
-    return hn::RebindMask(DF(),
-                          hn::Ne(I(offsetof(MediumRecord, scatters)), hn::Zero(DI())));
-  }
+  LANELIGHT_INLINE MF Scatters() const { return IsSet(offsetof(MediumRecord, scatters)); }
 };
 
 LANELIGHT_INLINE MF IsInMedium(VI medium) {
@@ -88,9 +73,7 @@ struct Sides {
 
  private:
   LANELIGHT_INLINE VI Word(std::size_t byte_offset) const {
-    const int32_t* words = reinterpret_cast<const int32_t*>(table.sides.data());
-    const VI at = hn::ShiftLeft<2>(hn::Max(index, hn::Zero(DI())));
-    return Gather(words + byte_offset / 4, at);
+    return RecordWords(table.sides.data(), hn::Max(index, hn::Zero(DI()))).I(byte_offset);
   }
 };
 static_assert(sizeof(MediumSides) == 16);

@@ -1,5 +1,5 @@
-// Fixed-size records, one per lane: four words at a time and a transposition, which costs
-// about a third of four gathers.
+// Fixed-size records, one per lane: word by word, or four words at a time and a
+// transposition, which costs about a third of four gathers.
 #if defined(LANELIGHT_SIMD_RECORDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_SIMD_RECORDS_INL_H_
 #undef LANELIGHT_SIMD_RECORDS_INL_H_
@@ -7,13 +7,46 @@
 #define LANELIGHT_SIMD_RECORDS_INL_H_
 #endif
 
+#include <bit>
+#include <cstddef>
+
 #include "kernels/simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-/// The records of a vector of lanes.
+/// A few words of one record per lane, by their offsets in the record.
+template <class Record>
+struct RecordWords {
+  const float* words;
+  VI at;
+
+  /// 0 <= index, below 2^31 words.
+  LANELIGHT_INLINE RecordWords(const Record* records, VI index)
+      : words(reinterpret_cast<const float*>(records)) {
+    constexpr std::size_t kWords = sizeof(Record) / 4;
+    if constexpr (std::has_single_bit(kWords)) {
+      at = hn::ShiftLeft<std::countr_zero(kWords)>(index);
+    } else {
+      at = hn::Mul(index, hn::Set(DI(), static_cast<int32_t>(kWords)));
+    }
+  }
+  LANELIGHT_INLINE VF F(std::size_t byte_offset) const {
+    return Gather(words + byte_offset / 4, at);
+  }
+  LANELIGHT_INLINE VI I(std::size_t byte_offset) const {
+    return Gather(reinterpret_cast<const int32_t*>(words) + byte_offset / 4, at);
+  }
+  LANELIGHT_INLINE V3 F3(std::size_t byte_offset) const {
+    return {F(byte_offset), F(byte_offset + 4), F(byte_offset + 8)};
+  }
+  LANELIGHT_INLINE MF IsSet(std::size_t byte_offset) const {
+    return hn::RebindMask(DF(), hn::Ne(I(byte_offset), hn::Zero(DI())));
+  }
+};
+
+/// The records of a vector of lanes, of which most words are needed.
 class Records {
  public:
   /// Record i of the array `records` has `stride` words; 0 <= index, and index * stride
