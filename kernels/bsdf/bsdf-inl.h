@@ -1,16 +1,8 @@
 // What a material policy is: parameters, Eval, Sample, in the local frame of the shading
 // normal (+z). The skeleton kernels/shade/shade-inl.h turns each into a stage.
 //
-//   struct XBsdf {
-//     kSpecular     only delta directions: no Eval, no light samples
-//     kAnisotropic  the tangent matters
-//     kRefracts     Sample fills eta_scale
-//     kStochastic   Load receives random numbers
-//     kHasDelta     delta directions besides others (Sample then returns density 0)
-//     kTransmits    not all directions are on wo's side
-//     kLobes        Sample reads the number of the lobe
-//     kColor1       Load reads the second colour
-//     kRough        Load reads a roughness  (all: static constexpr bool)
+//   struct XBsdf : PlainBsdf {
+//     what PlainBsdf below has, where it is otherwise
 //     struct Params;
 //     static Params Load(const MaterialInputs&);
 //     static BsdfValue Eval(const Params&, V3 wo, V3 wi);
@@ -59,6 +51,18 @@ struct BsdfSample {
   VF pdf, eta_scale;
 };
 
+/// What a material is like unless it says otherwise.
+struct PlainBsdf {
+  static constexpr bool kSpecular = false;     // only delta directions: no Eval, no
+                                               // light samples
+  static constexpr bool kAnisotropic = false;  // the tangent matters
+  static constexpr bool kRefracts = false;     // Sample fills eta_scale
+  static constexpr bool kStochastic = false;   // Load receives random numbers
+  static constexpr bool kHasDelta = false;     // delta directions besides others: Sample
+                                               // then returns density 0
+  static constexpr bool kTransmits = false;    // not all directions are on wo's side
+};
+
 /// Where material parameters come from: the table, or columns filled by the texture
 /// stage. The same for every path of a scene, hence resolved once per call of a stage.
 struct MaterialSource {
@@ -66,7 +70,8 @@ struct MaterialSource {
   const float *color0_r, *color0_g, *color0_b, *alpha_x, *alpha_y;
   const float *color1_r, *color1_g, *color1_b;
   const float *alpha2_x, *alpha2_y, *coat_thickness;
-  bool color_by_path, alpha_by_path, color1_by_path, coat_by_path;
+  const float *coat_albedo_r, *coat_albedo_g, *coat_albedo_b, *coat_g;
+  bool color_by_path, alpha_by_path, color1_by_path, coat_by_path, medium_by_path;
 };
 
 LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
@@ -82,6 +87,11 @@ LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
           t.alpha2_x.data(),
           t.alpha2_y.data(),
           t.coat_thickness.data(),
+          t.coat_albedo_r.data(),
+          t.coat_albedo_g.data(),
+          t.coat_albedo_b.data(),
+          t.coat_g.data(),
+          false,
           false,
           false,
           false,
@@ -125,6 +135,17 @@ struct MaterialInputs {
   LANELIGHT_INLINE VF CoatThickness() const {
     return Varying(source.coat_by_path, source.coat_thickness,
                    source.table->coat_thickness);
+  }
+  /// Of the medium in a coat; the albedo in [0, 1].
+  LANELIGHT_INLINE V3 CoatAlbedo() const {
+    const MaterialSource& s = source;
+    return Clamp01(s.medium_by_path
+                       ? Gather3(s.coat_albedo_r, s.coat_albedo_g, s.coat_albedo_b, slot)
+                       : LookUp3(s.table->coat_albedo_r, s.table->coat_albedo_g,
+                                 s.table->coat_albedo_b));
+  }
+  LANELIGHT_INLINE VF CoatG() const {
+    return Varying(source.medium_by_path, source.coat_g, source.table->coat_g);
   }
   LANELIGHT_INLINE VF Float(const AlignedVector<float>& column) const {
     return Lookup(column, material);

@@ -1,5 +1,5 @@
-// What lies below a medium that scatters (coated_medium-inl.h): Load, the albedo of that
-// medium, whether the base is a mirror, Sample, Eval, and the proxy of the density of the
+// What lies below a medium that scatters (coated_medium-inl.h): Load, whether the base
+// is a mirror, Sample, Eval, and the proxy of the density of the
 // whole coat (coated_conductor-inl.h says what that is).
 #if defined(LANELIGHT_BSDF_COAT_BASES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_BSDF_COAT_BASES_INL_H_
@@ -21,9 +21,6 @@ struct DiffuseLayer {
 
   LANELIGHT_INLINE static DiffuseLayer Load(const MaterialInputs& in) {
     return {in.Reflectance()};
-  }
-  LANELIGHT_INLINE static V3 Albedo(const MaterialInputs& in) {
-    return MaterialInputs::Clamp01(in.Color1());
   }
   LANELIGHT_INLINE static MF Smooth() { return hn::Ne(hn::Zero(DF()), hn::Zero(DF())); }
   LANELIGHT_INLINE LayerEvent Sample(V3, VF u0, VF u1) const {
@@ -49,11 +46,6 @@ struct MetalBelowMedium {
 
   LANELIGHT_INLINE static MetalBelowMedium Load(const MaterialInputs& in) {
     return {{Layer::FromAlpha(in.Alpha2X(), in.Alpha2Y()), in.Color0(), in.Color1()}};
-  }
-  LANELIGHT_INLINE static V3 Albedo(const MaterialInputs& in) {
-    const MaterialTable& t = *in.source.table;
-    return MaterialInputs::Clamp01({in.Float(t.coat_albedo_r), in.Float(t.coat_albedo_g),
-                                    in.Float(t.coat_albedo_b)});
   }
   LANELIGHT_INLINE MF Smooth() const { return metal.layer.smooth; }
   LANELIGHT_INLINE LayerEvent Sample(V3 wo, VF u0, VF u1) const {

@@ -23,16 +23,10 @@ namespace HWY_NAMESPACE {
 /// wi) that both techniques use; each estimator weighs f correctly by itself. So `pdf`
 /// here is such a proxy q, close to the walk's density: the closer, the less noise. Only
 /// directions reached by delta events alone report 0.
-struct CoatedConductorBsdf {
-  static constexpr bool kSpecular = false;
+struct CoatedConductorBsdf : PlainBsdf {
   static constexpr bool kAnisotropic = true;
-  static constexpr bool kRefracts = false;
   static constexpr bool kStochastic = true;
   static constexpr bool kHasDelta = true;
-  static constexpr bool kTransmits = false;
-  static constexpr bool kLobes = true;
-  static constexpr bool kColor1 = true;
-  static constexpr bool kRough = true;
   struct Params {
     CoatLayer coat;
     MetalLayer metal;

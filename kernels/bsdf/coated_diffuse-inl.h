@@ -78,16 +78,8 @@ struct CoatedBase {
 
 /// Smooth coat: the mirror direction is a delta lobe, sampled with density 0 and left out
 /// of Eval; the density of the rest is (1 - its probability) cos / pi.
-struct CoatedDiffuseSmoothBsdf {
-  static constexpr bool kSpecular = false;
-  static constexpr bool kAnisotropic = false;
-  static constexpr bool kRefracts = false;
-  static constexpr bool kStochastic = false;
+struct CoatedDiffuseSmoothBsdf : PlainBsdf {
   static constexpr bool kHasDelta = true;
-  static constexpr bool kTransmits = false;
-  static constexpr bool kLobes = true;
-  static constexpr bool kColor1 = false;
-  static constexpr bool kRough = false;
   struct Params {
     CoatedBase base;
     VF thickness;
@@ -139,16 +131,8 @@ struct CoatedDiffuseSmoothBsdf {
 /// GGX coat: one continuous mixture of the coat's reflection (visible normals) and the
 /// cosine lobe of the base. T comes from the table of its material, or from a grid of
 /// tables in scenes where layers of coats are textured.
-struct CoatedDiffuseRoughBsdf {
-  static constexpr bool kSpecular = false;
+struct CoatedDiffuseRoughBsdf : PlainBsdf {
   static constexpr bool kAnisotropic = true;
-  static constexpr bool kRefracts = false;
-  static constexpr bool kStochastic = false;
-  static constexpr bool kHasDelta = false;
-  static constexpr bool kTransmits = false;
-  static constexpr bool kLobes = true;
-  static constexpr bool kColor1 = false;
-  static constexpr bool kRough = true;
   struct Params {
     CoatedBase base;
     Ggx ggx;

@@ -27,16 +27,10 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 template <class Base>
-struct CoatedMediumBsdf {
-  static constexpr bool kSpecular = false;
+struct CoatedMediumBsdf : PlainBsdf {
   static constexpr bool kAnisotropic = true;
-  static constexpr bool kRefracts = false;
   static constexpr bool kStochastic = true;
   static constexpr bool kHasDelta = true;
-  static constexpr bool kTransmits = false;
-  static constexpr bool kLobes = true;
-  static constexpr bool kColor1 = true;
-  static constexpr bool kRough = true;
   struct Params {
     CoatLayer coat;
     Base base;
@@ -51,8 +45,8 @@ struct CoatedMediumBsdf {
     return {{Layer::FromAlpha(in.AlphaX(), in.AlphaY()), in.Float(t.eta)},
             Base::Load(in),
             in.CoatThickness(),
-            {in.Float(t.coat_g)},
-            Base::Albedo(in),
+            {in.CoatG()},
+            in.CoatAlbedo(),
             in.Int(t.coat_depth),
             in.random};
   }

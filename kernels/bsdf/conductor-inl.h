@@ -15,16 +15,8 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 /// Mirror: delta direction, weight = Fresnel reflectance.
-struct ConductorSmoothBsdf {
+struct ConductorSmoothBsdf : PlainBsdf {
   static constexpr bool kSpecular = true;
-  static constexpr bool kAnisotropic = false;
-  static constexpr bool kRefracts = false;
-  static constexpr bool kStochastic = false;
-  static constexpr bool kHasDelta = false;
-  static constexpr bool kTransmits = false;
-  static constexpr bool kLobes = false;
-  static constexpr bool kColor1 = true;
-  static constexpr bool kRough = false;
   struct Params {
     V3 eta, k;
   };
@@ -43,16 +35,8 @@ struct ConductorSmoothBsdf {
 /// pbrt-v4 (Walter et al. 2007, equation 20). Sampled by visible normals:
 /// density Dvis(m) / (4 wo.m), weight F G2 / G1. Light that would be sampled below the
 /// surface is lost, the energy that single scattering lacks.
-struct ConductorRoughBsdf {
-  static constexpr bool kSpecular = false;
+struct ConductorRoughBsdf : PlainBsdf {
   static constexpr bool kAnisotropic = true;
-  static constexpr bool kRefracts = false;
-  static constexpr bool kStochastic = false;
-  static constexpr bool kHasDelta = false;
-  static constexpr bool kTransmits = false;
-  static constexpr bool kLobes = false;
-  static constexpr bool kColor1 = true;
-  static constexpr bool kRough = true;
   struct Params {
     V3 eta, k;
     Ggx ggx;

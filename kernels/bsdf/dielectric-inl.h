@@ -21,16 +21,9 @@ LANELIGHT_INLINE VF RelativeIndex(VF eta, V3 wo) {
 
 /// Delta reflection with probability F and delta refraction otherwise, so that weights
 /// are 1 and 1 / eta^2 exactly.
-struct DielectricSmoothBsdf {
+struct DielectricSmoothBsdf : PlainBsdf {
   static constexpr bool kSpecular = true;
-  static constexpr bool kAnisotropic = false;
   static constexpr bool kRefracts = true;
-  static constexpr bool kStochastic = false;
-  static constexpr bool kHasDelta = false;
-  static constexpr bool kTransmits = false;
-  static constexpr bool kLobes = true;
-  static constexpr bool kColor1 = false;
-  static constexpr bool kRough = false;
   struct Params {
     VF eta;
   };
@@ -53,16 +46,8 @@ struct DielectricSmoothBsdf {
 
 /// Two parallel smooth interfaces without thickness: interreflection between them gives
 /// R + T^2 R / (1 - R^2) = 2 R / (1 + R); transmission goes straight on, unscaled.
-struct ThinDielectricBsdf {
+struct ThinDielectricBsdf : PlainBsdf {
   static constexpr bool kSpecular = true;
-  static constexpr bool kAnisotropic = false;
-  static constexpr bool kRefracts = false;
-  static constexpr bool kStochastic = false;
-  static constexpr bool kHasDelta = false;
-  static constexpr bool kTransmits = false;
-  static constexpr bool kLobes = true;
-  static constexpr bool kColor1 = false;
-  static constexpr bool kRough = false;
   struct Params {
     VF eta;
   };
@@ -87,16 +72,10 @@ struct ThinDielectricBsdf {
 /// Weights are G2 / G1, and that over eta^2. Where the index is within kNearlyMatched of
 /// 1, refraction bends by less than a float resolves, so it is treated as a delta lobe:
 /// sampled with density 0, and absent from Eval.
-struct DielectricRoughBsdf {
-  static constexpr bool kSpecular = false;
+struct DielectricRoughBsdf : PlainBsdf {
   static constexpr bool kAnisotropic = true;
   static constexpr bool kRefracts = true;
-  static constexpr bool kStochastic = false;
-  static constexpr bool kHasDelta = false;
   static constexpr bool kTransmits = true;
-  static constexpr bool kLobes = true;
-  static constexpr bool kColor1 = false;
-  static constexpr bool kRough = true;
   static constexpr float kNearlyMatched = 1e-3f;
   struct Params {
     VF eta;

@@ -17,16 +17,7 @@ namespace HWY_NAMESPACE {
 /// A diffuse model is a density p(cos) on the hemisphere: f * cos = albedo * p, so that
 /// the weight f * cos / p is the albedo.
 template <class Hemisphere>
-struct DiffuseModel {
-  static constexpr bool kSpecular = false;
-  static constexpr bool kAnisotropic = false;
-  static constexpr bool kRefracts = false;
-  static constexpr bool kStochastic = false;
-  static constexpr bool kHasDelta = false;
-  static constexpr bool kTransmits = false;
-  static constexpr bool kLobes = false;
-  static constexpr bool kColor1 = false;
-  static constexpr bool kRough = false;
+struct DiffuseModel : PlainBsdf {
   struct Params {
     V3 albedo;
   };

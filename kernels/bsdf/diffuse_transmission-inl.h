@@ -16,16 +16,8 @@ namespace HWY_NAMESPACE {
 /// f = reflectance / pi on wo's side and transmittance / pi on the other. A side is
 /// chosen with probability proportional to its largest component; density = that
 /// probability times cos / pi.
-struct DiffuseTransmissionBsdf {
-  static constexpr bool kSpecular = false;
-  static constexpr bool kAnisotropic = false;
-  static constexpr bool kRefracts = false;
-  static constexpr bool kStochastic = false;
-  static constexpr bool kHasDelta = false;
+struct DiffuseTransmissionBsdf : PlainBsdf {
   static constexpr bool kTransmits = true;
-  static constexpr bool kLobes = true;
-  static constexpr bool kColor1 = true;
-  static constexpr bool kRough = false;
   struct Params {
     V3 reflectance, transmittance;
     VF reflect;  // probability of reflection

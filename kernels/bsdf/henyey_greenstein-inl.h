@@ -14,16 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-struct HenyeyGreensteinBsdf {
-  static constexpr bool kSpecular = false;
-  static constexpr bool kAnisotropic = false;
-  static constexpr bool kRefracts = false;
-  static constexpr bool kStochastic = false;
-  static constexpr bool kHasDelta = false;
+struct HenyeyGreensteinBsdf : PlainBsdf {
   static constexpr bool kTransmits = true;
-  static constexpr bool kLobes = false;
-  static constexpr bool kColor1 = false;
-  static constexpr bool kRough = false;
 
   struct Params {
     VF g;  // -1 < g < 1; > 0 scatters forward

@@ -9,6 +9,7 @@
 
 #include <bit>
 
+#include "kernels/texture/alpha.h"
 #include "kernels/texture/texture-inl.h"
 #include "src/compiled/scene.h"
 
@@ -17,9 +18,15 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 
 /// Opacity of primitive `prim` at (u, v), in [0, 1]; outside values mean the nearest end.
-inline float AlphaAt(const CompiledScene& scene, uint32_t prim, float u, float v) {
-  return EvalAlphaAt(scene.textures, scene.alpha_texture[prim], u, v,
-                     scene.alpha_constant[prim]);
+/// where() -> PointOfAlpha: asked for by textures that depend on it alone.
+template <class Where>
+inline float AlphaAt(const CompiledScene& scene, uint32_t prim, float u, float v,
+                     Where&& where) {
+  const int32_t id = scene.alpha_texture[prim];
+  if (id >= 0 && scene.textures.programs[id].uses_place) {
+    return AlphaAtPlace(scene.textures, id, u, v, where());
+  }
+  return EvalAlphaAt(scene.textures, id, u, v, scene.alpha_constant[prim]);
 }
 
 /// Uniform number in [0, 1) from the bits of a ray and a primitive: the same ray makes
@@ -36,14 +43,24 @@ inline float AlphaHash(const float o[3], const float d[3], uint32_t prim) {
   return static_cast<float>(h >> 8) * 0x1p-24f;
 }
 
-/// Whether a candidate hit of ray (o, d), in scene space, at surface coordinates (u, v)
-/// counts: with probability alpha.
-inline bool PassesAlpha(const CompiledScene& scene, const float o[3], const float d[3],
-                        uint32_t prim, float u, float v) {
-  return AlphaHash(o, d, prim) < AlphaAt(scene, prim, u, v);
+/// A point of a triangle and its normal, in its own space.
+inline PointOfAlpha PointOf(const TriangleRecord& r, float b1, float b2) {
+  PointOfAlpha at;
+  float edge1[3], edge2[3];
+  for (int i = 0; i < 3; ++i) {
+    edge1[i] = r.p[1][i] - r.p[0][i];
+    edge2[i] = r.p[2][i] - r.p[0][i];
+    at.p[i] = r.p[0][i] + b1 * edge1[i] + b2 * edge2[i];
+  }
+  const Vec3f n =
+      Cross(Vec3f{edge1[0], edge1[1], edge1[2]}, Vec3f{edge2[0], edge2[1], edge2[2]});
+  const float scale = 1 / Length(n);
+  at.n[0] = n.x * scale, at.n[1] = n.y * scale, at.n[2] = n.z * scale;
+  return at;
 }
 
-/// The same for a triangle at barycentric weights b1, b2.
+/// Whether a candidate hit of ray (o, d), in scene space, on a triangle at barycentric
+/// weights b1, b2 counts: with probability alpha.
 inline bool TrianglePassesAlpha(const CompiledScene& scene, const float o[3],
                                 const float d[3], uint32_t prim, float b1, float b2) {
   if (!(scene.geometry.triangles[prim].flags & kAlphaTested)) return true;
@@ -54,7 +71,10 @@ inline bool TrianglePassesAlpha(const CompiledScene& scene, const float o[3],
     u = b0 * uv[0] + b1 * uv[2] + b2 * uv[4];
     v = b0 * uv[1] + b1 * uv[3] + b2 * uv[5];
   }
-  return PassesAlpha(scene, o, d, prim, u, v);
+  const float alpha = AlphaAt(scene, prim, u, v, [&]() HWY_ATTR {
+    return PointOf(scene.geometry.triangles[prim], b1, b2);
+  });
+  return AlphaHash(o, d, prim) < alpha;
 }
 
 }  // namespace HWY_NAMESPACE

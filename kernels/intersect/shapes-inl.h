@@ -108,7 +108,13 @@ inline bool ShapePassesAlpha(const CompiledScene& scene, const float o[3],
   }
   const SurfaceUv uv = UvOf(record, p);
   const uint32_t prim = Shape::FirstId(scene.geometry) + index;
-  const float alpha = AlphaAt(scene, prim, uv.u, uv.v);
+  const float alpha = AlphaAt(scene, prim, uv.u, uv.v, [&]() HWY_ATTR {
+    PointOfAlpha at;
+    NormalOf(record, p, at.n);
+    for (int i = 0; i < 3; ++i)
+      at.p[i] = static_cast<float>(Shape::Center(record)[i] + p[i]);
+    return at;
+  });
   return AlphaHash(o, d, far ? ~prim : prim) < alpha;
 }
 

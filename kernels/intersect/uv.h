@@ -1,6 +1,6 @@
-// Surface coordinates of a hit on a sphere, disk or plane, in scalar double precision:
-// what alpha cut-outs need. The conventions are pbrt-v4's; kernels/surface/ has the
-// vectorised twins.
+// Surface coordinates and normals of a hit on a sphere, disk or plane, in scalar double
+// precision: what alpha cut-outs need. The conventions are pbrt-v4's; kernels/surface/
+// has the vectorised twins.
 #pragma once
 
 #include <cmath>
@@ -63,6 +63,23 @@ inline SurfaceUv UvOf(const DiskRecord& s, const double p[3]) {
 inline SurfaceUv UvOf(const PlaneRecord& s, const double p[3]) {
   return {static_cast<float>(DotWith(s.u_axis, p)),
           static_cast<float>(DotWith(s.v_axis, p))};
+}
+
+/// Unit normals at the same points, of either side.
+inline void NormalOf(const SphereRecord&, const double p[3], float n[3]) {
+  const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+  for (int i = 0; i < 3; ++i) n[i] = static_cast<float>(p[i] / length);
+}
+inline void NormalOf(const LargeSphereRecord& s, const double p[3], float n[3]) {
+  double out[3];
+  for (int i = 0; i < 3; ++i) out[i] = s.normal[i] + s.curvature * p[i];
+  NormalOf(SphereRecord{}, out, n);
+}
+inline void NormalOf(const DiskRecord& s, const double*, float n[3]) {
+  for (int i = 0; i < 3; ++i) n[i] = s.normal[i];
+}
+inline void NormalOf(const PlaneRecord& s, const double*, float n[3]) {
+  for (int i = 0; i < 3; ++i) n[i] = s.normal[i];
 }
 
 }  // namespace lanelight

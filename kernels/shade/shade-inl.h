@@ -81,6 +81,13 @@ struct SurfaceReader {
       source.alpha2_y = path.alpha2_1;
       source.coat_thickness = path.coat_thickness;
     }
+    source.medium_by_path = path.coat_g != nullptr;
+    if (source.medium_by_path) {
+      source.coat_albedo_r = path.coat_albedo_r;
+      source.coat_albedo_g = path.coat_albedo_g;
+      source.coat_albedo_b = path.coat_albedo_b;
+      source.coat_g = path.coat_g;
+    }
   }
 
   HWY_INLINE Frame ShadingFrame(V3 ng, const Slots& slots) const {
@@ -215,9 +222,6 @@ void ShadeKernel(Wave& wave) {
 template <class Bsdf, ShadeKind kKind>
 StageFn ResolveShade(const FeatureSet& features) {
   static_assert(HasTrait(kKind, kSpecularOnly) == Bsdf::kSpecular);
-  static_assert(HasTrait(kKind, kChoosesLobe) == Bsdf::kLobes);
-  static_assert(HasTrait(kKind, kSecondColor) == Bsdf::kColor1);
-  static_assert(HasTrait(kKind, kMicrofacets) == Bsdf::kRough);
   static_assert(HasTrait(kKind, kRefracting) == Bsdf::kRefracts);
   if constexpr (!Bsdf::kSpecular) {
     if (features.Has(Feature::kGuided)) {

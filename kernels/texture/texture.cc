@@ -112,6 +112,22 @@ HWY_INLINE void EvalCoat(const CompiledScene& scene, const PathColumns& path,
   Scatter(hn::Max(thickness, hn::Zero(DF())), path.coat_thickness, slots);
 }
 
+template <class Point>
+HWY_INLINE void EvalCoatMedium(const CompiledScene& scene, const PathColumns& path,
+                               const StoreSlots& slots, VI material, const Point& at) {
+  const MaterialTable& m = scene.materials;
+  const V3 albedo = EvalTextures(
+      scene.textures, Lookup(m.coat_albedo_texture, material), at,
+      V3{Lookup(m.coat_albedo_r, material), Lookup(m.coat_albedo_g, material),
+         Lookup(m.coat_albedo_b, material)});
+  Scatter3(ClampColor(albedo, Splat(1.0f)), path.coat_albedo_r, path.coat_albedo_g,
+           path.coat_albedo_b, slots);
+  const VF g = EvalFloats(scene.textures, Lookup(m.coat_g_texture, material), at,
+                          Lookup(m.coat_g, material));
+  const VF limit = Splat(kMostCoatAsymmetry);
+  Scatter(hn::Max(hn::Neg(limit), hn::Min(g, limit)), path.coat_g, slots);
+}
+
 // Everything that the plan has columns for: for the few scenes that need it.
 template <class Point>
 HWY_INLINE void AllTextures(Wave& wave) {
@@ -145,6 +161,8 @@ HWY_INLINE void AllTextures(Wave& wave) {
                  }
                  if (path.coat_thickness != nullptr)
                    EvalCoat(scene, path, slots, material, at);
+                 if (path.coat_g != nullptr)
+                   EvalCoatMedium(scene, path, slots, material, at);
                });
 }
 
@@ -187,7 +205,7 @@ Stage TextureStage() {
             if (features.Has(Feature::kTexturePlaces)) {
               return HWY_DYNAMIC_DISPATCH(TexturesPlaces);
             }
-            if (features.Has(Feature::kTexturedCoat)) {
+            if (features.HasAny({Feature::kTexturedCoat, Feature::kTexturedCoatMedium})) {
               return HWY_DYNAMIC_DISPATCH(TexturesCoat);
             }
             const bool roughness = features.Has(Feature::kTexturedRoughness);

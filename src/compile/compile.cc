@@ -92,18 +92,23 @@ void MakeAlpha(const Placement& placement, const CompiledGeometry& compiled,
   SetAlphas(placement.large_spheres, ranges.large_spheres, scene);
 }
 
-// Cut-outs are looked up during intersection, by surface coordinates alone.
+// Cut-outs are looked up during intersection, which knows a point of an instance in the
+// space of its object alone.
 void RequireUvAlpha(const SceneDescription& description, const Placement& placement,
                     const TextureTable& textures) {
-  ForEachShape(placement, [&](const PlacedShape& placed) {
-    const Index alpha = placed.alpha.texture;
-    if (alpha == kNone || !textures.programs[alpha].uses_place) return;
-    throw InputError(placed.shape->where,
-                     fmt::format("the \"alpha\" of a shape uses texture \"{}\", which "
-                                 "depends on places in space; supported are textures of "
-                                 "surface coordinates (\"mapping\" \"uv\")",
-                                 description.textures[alpha].name));
-  });
+  for (const PlacedObject& object : placement.objects) {
+    for (const PlacedShape& placed : object.meshes) {
+      const Index alpha = placed.alpha.texture;
+      if (alpha == kNone || !textures.programs[alpha].uses_place) continue;
+      throw InputError(
+          placed.shape->where,
+          fmt::format(
+              "the \"alpha\" of a shape of an instance uses texture \"{}\", which "
+              "depends on places in space; supported are textures of surface "
+              "coordinates (\"mapping\" \"uv\")",
+              description.textures[alpha].name));
+    }
+  }
 }
 
 void NoteDropped(const std::vector<PlacedShape>& shapes,

@@ -28,6 +28,9 @@ void AddCoat(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   if (varies) {
     features.Add({Feature::kTextures, Feature::kTexturedCoat, Feature::kUv});
   }
+  if (m.coat_albedo_texture[i] >= 0 || m.coat_g_texture[i] >= 0) {
+    features.Add({Feature::kTextures, Feature::kTexturedCoatMedium, Feature::kUv});
+  }
 }
 
 void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {

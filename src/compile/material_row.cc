@@ -39,10 +39,10 @@ void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out) {
   t.coat.push_back(row.coat);
   t.coat_internal.push_back(0);
   add(t.coat_thickness, row.coat_thickness.constant);
-  add(t.coat_g, row.coat_g);
-  add(t.coat_albedo_r, row.coat_albedo.x);
-  add(t.coat_albedo_g, row.coat_albedo.y);
-  add(t.coat_albedo_b, row.coat_albedo.z);
+  add(t.coat_g, row.coat_g.constant);
+  add(t.coat_albedo_r, row.coat_albedo.constant.x);
+  add(t.coat_albedo_g, row.coat_albedo.constant.y);
+  add(t.coat_albedo_b, row.coat_albedo.constant.z);
   t.coat_alphas.push_back(1);
   t.coat_depths.push_back(1);
   t.coat_depth.push_back(row.coat_depth);
@@ -53,6 +53,8 @@ void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out) {
   t.alpha2_x_texture.push_back(row.alpha2_x.texture);
   t.alpha2_y_texture.push_back(row.alpha2_y.texture);
   t.thickness_texture.push_back(row.coat_thickness.texture);
+  t.coat_albedo_texture.push_back(row.coat_albedo.texture);
+  t.coat_g_texture.push_back(row.coat_g.texture);
   t.alpha_remap.push_back(row.remap ? 1 : 0);
   t.mix0.push_back(row.mix[0]);
   t.mix1.push_back(row.mix[1]);
@@ -62,7 +64,8 @@ void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out) {
   for (Index texture :
        {row.color0.texture, row.color1.texture, row.alpha_x.texture, row.alpha_y.texture,
         row.alpha2_x.texture, row.alpha2_y.texture, row.coat_thickness.texture,
-        row.relief.displacement, row.relief.normal_map}) {
+        row.coat_albedo.texture, row.coat_g.texture, row.relief.displacement,
+        row.relief.normal_map}) {
     if (texture != kNone) out.textures.push_back(texture);
   }
 }

@@ -26,8 +26,8 @@ struct MaterialRow {
   double eta = 1;
   std::int32_t coat = -1;  // index of the coat, not yet an offset
   FloatValue coat_thickness;
-  double coat_g = 0;
-  Rgb coat_albedo;  // above a metal; else color1
+  FloatValue coat_g;
+  ColorValue coat_albedo;
   std::uint32_t coat_depth = 0;
   bool remap = false;
   std::int32_t mix[2] = {-1, -1};

@@ -21,13 +21,15 @@ inline constexpr int kCoatTableSize = 64;
 inline constexpr int kCoatAlphas = 25, kCoatDepths = 13;
 inline constexpr float kRoughestCoat = 1e4f;
 
+/// Of the phase function of a coat's medium, at most.
+inline constexpr float kMostCoatAsymmetry = 0.9999f;
+
 /// One column per parameter, one entry per material. A texture index >= 0 replaces the
 /// constant. What color0 and color1 are depends on the kind:
 ///   diffuse*, coateddiffuse*: color0 = reflectance
 ///   diffusetransmission: color0 = reflectance, color1 = transmittance
 ///   conductor*, coatedconductor: color0 = eta, color1 = k (of the metal relative to
 ///     what is above it)
-///   coateddiffuse with a medium: color0 = reflectance, color1 = albedo of the medium
 ///   kMix: alpha_x = amount of the second; mix0, mix1 = materials
 struct MaterialTable {
   AlignedVector<std::uint32_t> kind;  // ShadeKind
@@ -42,12 +44,13 @@ struct MaterialTable {
   // Where they vary, a coat has a grid of tables: 1 or kCoatAlphas over the roughness for
   // each of 1 or kCoatDepths over the thickness.
   AlignedVector<std::int32_t> coat_alphas, coat_depths;
-  // Of the medium in a coat that scatters: asymmetry, and albedo where color1 is k.
+  // Of the medium in a coat that scatters: asymmetry and albedo.
   AlignedVector<float> coat_g, coat_albedo_r, coat_albedo_g, coat_albedo_b;
   AlignedVector<std::uint32_t> coat_depth;  // layer crossings at most (pbrt's maxdepth)
   AlignedVector<std::int32_t> color0_texture, color1_texture;
   AlignedVector<std::int32_t> alpha_x_texture, alpha_y_texture;
   AlignedVector<std::int32_t> alpha2_x_texture, alpha2_y_texture, thickness_texture;
+  AlignedVector<std::int32_t> coat_albedo_texture, coat_g_texture;
   AlignedVector<std::uint32_t> alpha_remap;  // 1: textured roughness goes through sqrt
   AlignedVector<std::int32_t> mix0, mix1;
   // Heights, and normal maps: a texture or -1; empty where no material has one.

@@ -63,15 +63,15 @@ Lines CoatRoughness(Lines lines, const std::string& prefix) {
                    "texture vroughness", kRendered);
 }
 
-Lines Coat(Lines lines, FormatLine textured_albedo) {
+Lines Coat(Lines lines) {
   const Lines coat = {{"float thickness", kRendered},
                       {"texture thickness", kRendered},
                       {"float g", kRendered},
-                      {"texture g", kRendered, "of a coat that scatters: refused"},
+                      {"texture g", kRendered},
                       {"rgb|spectrum albedo", kRendered},
-                      textured_albedo,
+                      {"texture albedo", kRendered},
                       {"integer maxdepth", kRendered},
-                      {"integer nsamples", kRendered}};
+                      {"integer nsamples", kNoted, "one walk a path"}};
   lines.insert(lines.end(), coat.begin(), coat.end());
   return lines;
 }
@@ -121,14 +121,10 @@ FormatTable Coated() {
        CoatRoughness(Relief(Coat({{"rgb|spectrum|texture reflectance", kRendered},
                                   {"float eta", kRendered, "", "1.3"},
                                   {"spectrum eta", kNoted, kDispersion, kGlass},
-                                  {"bool remaproughness", kRendered, "", "false"}},
-                                 {"texture albedo", kRendered})),
+                                  {"bool remaproughness", kRendered, "", "false"}})),
                      "")},
       {"Material", "coatedconductor", kRendered, "",
-       CoatRoughness(CoatRoughness(Relief(Coat(metal, {"texture albedo", kRefused,
-                                                       "cannot be textured"})),
-                                   "interface."),
-                     "conductor.")},
+       CoatRoughness(CoatRoughness(Relief(Coat(metal)), "interface."), "conductor.")},
   };
 }
 

@@ -64,23 +64,9 @@ void ReadConductor(ParseState& state, ParamSet& params, const std::string& prefi
 }
 
 void ReadCoatMedium(ParseState& state, ParamSet& params, Material* material) {
-  const FloatValue g = TexturedFloat(state, params, "g", 0, -0.9999, 0.9999);
-  material->coat_g = g.constant;
+  material->coat_g = TexturedFloat(state, params, "g", 0, -0.9999, 0.9999);
   material->coat_albedo =
       TexturedColor(state, params, "albedo", {0, 0, 0}, SpectrumUse::kAlbedo);
-  const ColorValue& albedo = material->coat_albedo;
-  const bool textured = albedo.texture != kNone;
-  if (textured && material->kind == MaterialKind::kCoatedConductor) {
-    params.Fail(*params.Find("albedo", {}),
-                "above a metal this parameter cannot be textured, which has two textured "
-                "colours already; supported: rgb or spectrum");
-  }
-  // Without a scattering medium it means nothing, textured or not.
-  if (g.texture != kNone && (textured || albedo.constant != Rgb{})) {
-    params.Fail(*params.Find("g", {}),
-                "where a coat scatters, this parameter cannot be textured; supported: "
-                "float");
-  }
 }
 
 // What coateddiffuse and coatedconductor share: the medium between the layers and the
@@ -95,7 +81,7 @@ void ReadCoat(ParseState& state, ParamSet& params, const std::string& prefix,
   material->thickness_texture = thickness.texture;
   ReadCoatMedium(state, params, material);
   material->coat_max_depth = params.Integer("maxdepth", 10, 1, 10000);
-  material->coat_samples = params.Integer("nsamples", 1, 1, 10000);
+  params.Ignore("nsamples", "each path takes one walk, and more paths are less noise");
 }
 
 // A colour times a constant; a textured one gets a scale texture of its own.

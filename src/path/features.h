@@ -26,6 +26,7 @@ namespace lanelight {
   X(kTexturedRoughness, "textured roughness")                                 \
   X(kTexturedColor1, "a textured second colour parameter")                    \
   X(kTexturedCoat, "textured layers of a coat")                               \
+  X(kTexturedCoatMedium, "a textured medium in a coat")                       \
   X(kTexturePlaces, "textures that depend on where a point is")               \
   X(kTextureFootprints, "textures filtered over the footprint of a pixel")    \
   X(kBumps, "displacement textures, shaded as bumps")                         \
@@ -66,7 +67,7 @@ namespace lanelight {
   X(kFiltered, "a pixel filter other than the box")                           \
   X(kSignedFilter, "a pixel filter with negative lobes")                      \
   X(kAov, "auxiliary output (--aov)")                                         \
-  X(kAovGeometry, "auxiliary output of positions and surface coordinates")    \
+  X(kGbuffer, "auxiliary output of where first hits are (--gbuffer)")         \
   X(kSampledHittableLights, "light samples of lights that rays can hit")      \
   X(kLightTable, "light-selection=power or uniform")                          \
   X(kLightTree, "light-selection=tree")                                       \

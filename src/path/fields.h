@@ -95,6 +95,8 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(f32, alpha_y, ({kTexturedRoughness}), kSurface, (), "GGX alpha across it")          \
   X(f32, coat_thickness, ({kTexturedCoat}), kSurface, (), "thickness of a coat") \
   LANELIGHT_2(X, f32, alpha2, ({kTexturedCoat}), kSurface, (), "GGX alpha of the metal under a coat") \
+  LANELIGHT_RGB(X, f32, coat_albedo, ({kTexturedCoatMedium}), kSurface, (), "albedo of the medium in a coat") \
+  X(f32, coat_g, ({kTexturedCoatMedium}), kSurface, (), "its asymmetry")                 \
   /* sample points of the bounce */                                                       \
   X(f32, u_lobe, (KindsWith(kChoosesLobe)), kBounce, (), "choice of lobe")              \
   LANELIGHT_2(X, f32, u_bsdf, ({kScatters}), kBounce, (), "direction")                  \
@@ -170,7 +172,14 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   /* auxiliary output: first hit */                                                       \
   LANELIGHT_RGB(X, f32, aov_albedo, ({kAov}), kPath, (0.0f), "albedo")                    \
   LANELIGHT_XYZ(X, f32, aov_n, ({kAov}), kPath, (0.0f), "shading normal")                 \
-  X(f32, aov_depth, ({kAov}), kPath, (0.0f), "distance from the camera, scene units")
+  X(f32, aov_depth, ({kAov}), kPath, (0.0f), "distance from the camera, scene units") \
+  /* of the same, in the space that --gbuffer names */                                    \
+  X(f32, gb_hit, ({kGbuffer}), kPath, (0.0f), "1 = there is a first hit")               \
+  LANELIGHT_XYZ(X, f32, gb_p, ({kGbuffer}), kPath, (0.0f), "hit point")                   \
+  LANELIGHT_XYZ(X, f32, gb_ng, ({kGbuffer}), kPath, (0.0f), "geometric normal, unit")     \
+  LANELIGHT_XYZ(X, f32, gb_ns, ({kGbuffer}), kPath, (0.0f), "shading normal, unit")       \
+  LANELIGHT_2(X, f32, gb_uv, ({kGbuffer}), kPath, (0.0f), "surface coordinates")          \
+  LANELIGHT_2(X, f32, gb_dz, ({kGbuffer}), kPath, (0.0f), "change of z to the next pixel, in x and y")
 // clang-format on
 
 using f32 = float;
@@ -261,9 +270,11 @@ inline const FieldSet kUv = {Field::uv_u, Field::uv_v};
 inline const FieldSet kSpread = {Field::spread_0, Field::spread_1, Field::spread_2,
                                  Field::spread_3};
 inline const FieldSet kParameters = {
-    Field::color0_r, Field::color0_g, Field::color0_b,      Field::color1_r,
-    Field::color1_g, Field::color1_b, Field::alpha_x,       Field::alpha_y,
-    Field::alpha2_0, Field::alpha2_1, Field::coat_thickness};
+    Field::color0_r,      Field::color0_g,       Field::color0_b,
+    Field::color1_r,      Field::color1_g,       Field::color1_b,
+    Field::alpha_x,       Field::alpha_y,        Field::alpha2_0,
+    Field::alpha2_1,      Field::coat_thickness, Field::coat_albedo_r,
+    Field::coat_albedo_g, Field::coat_albedo_b,  Field::coat_g};
 inline const FieldSet kBouncePoints = {
     Field::u_lobe,    Field::u_bsdf_0,    Field::u_bsdf_1,   Field::u_select,
     Field::u_light_0, Field::u_light_1,   Field::u_roulette, Field::u_guide,
@@ -284,6 +295,10 @@ inline const FieldSet kKeptSample = {
 inline const FieldSet kAov = {
     Field::aov_albedo_r, Field::aov_albedo_g, Field::aov_albedo_b, Field::aov_n_x,
     Field::aov_n_y,      Field::aov_n_z,      Field::aov_depth};
+inline const FieldSet kGbuffer = {
+    Field::gb_hit,  Field::gb_p_x,  Field::gb_p_y,  Field::gb_p_z,  Field::gb_ng_x,
+    Field::gb_ng_y, Field::gb_ng_z, Field::gb_ns_x, Field::gb_ns_y, Field::gb_ns_z,
+    Field::gb_uv_0, Field::gb_uv_1, Field::gb_dz_0, Field::gb_dz_1};
 inline const FieldSet kShadow = {Field::sh_r, Field::sh_g, Field::sh_b};
 inline const FieldSet kControl = {Field::k_r, Field::k_g, Field::k_b};
 inline const FieldSet kFirstBounce = {Field::first_bsdf_0, Field::first_bsdf_1,

@@ -12,12 +12,11 @@ enum ShadeTraits : std::uint32_t {
   kPlainShading = 0,
   kSpecularOnly = 1 << 0,  // delta directions only: takes no light samples
   kChoosesLobe = 1 << 1,   // reads u_lobe
-  kSecondColor = 1 << 2,   // reads color1
-  kMicrofacets = 1 << 3,   // has a roughness
-  kRefracting = 1 << 4,    // roulette must know the relative index
-  kMetallic = 1 << 5,      // seen head-on: the Fresnel reflectance of color0, color1
-  kClear = 1 << 6,         // seen head-on: white
-  kInMedium = 1 << 7,      // a phase function: of points in a medium, not of surfaces
+  kMicrofacets = 1 << 2,   // has a roughness
+  kRefracting = 1 << 3,    // roulette must know the relative index
+  kMetallic = 1 << 4,      // seen head-on: the Fresnel reflectance of color0, color1
+  kClear = 1 << 5,         // seen head-on: white
+  kInMedium = 1 << 6,      // a phase function: of points in a medium, not of surfaces
 };
 
 // X(name, traits, meaning)
@@ -26,17 +25,17 @@ enum ShadeTraits : std::uint32_t {
   X(Diffuse, kPlainShading, "Lambertian diffuse material")                             \
   X(DiffuseUniform, kPlainShading, "uniform-scattering diffuse material")              \
   X(DiffuseInSphere, kPlainShading, "in-sphere diffuse material")                      \
-  X(ConductorSmooth, kSpecularOnly | kSecondColor | kMetallic, "smooth conductor")     \
-  X(ConductorRough, kMicrofacets | kSecondColor | kMetallic, "rough conductor")        \
+  X(ConductorSmooth, kSpecularOnly | kMetallic, "smooth conductor")     \
+  X(ConductorRough, kMicrofacets | kMetallic, "rough conductor")        \
   X(DielectricSmooth, kSpecularOnly | kChoosesLobe | kRefracting | kClear, "smooth dielectric") \
   X(DielectricRough, kMicrofacets | kChoosesLobe | kRefracting | kClear, "rough dielectric") \
   X(ThinDielectric, kSpecularOnly | kChoosesLobe | kClear, "thin dielectric")          \
   X(CoatedDiffuseSmooth, kChoosesLobe, "smooth coated diffuse")                        \
   X(CoatedDiffuseRough, kMicrofacets | kChoosesLobe, "rough coated diffuse")           \
-  X(CoatedConductor, kMicrofacets | kChoosesLobe | kSecondColor | kMetallic, "coated conductor") \
-  X(CoatedDiffuseMedium, kMicrofacets | kChoosesLobe | kSecondColor, "coated diffuse with a scattering medium between") \
-  X(CoatedConductorMedium, kMicrofacets | kChoosesLobe | kSecondColor | kMetallic, "coated conductor with a scattering medium between") \
-  X(DiffuseTransmission, kChoosesLobe | kSecondColor, "diffuse transmission")          \
+  X(CoatedConductor, kMicrofacets | kChoosesLobe | kMetallic, "coated conductor") \
+  X(CoatedDiffuseMedium, kMicrofacets | kChoosesLobe, "coated diffuse with a scattering medium between") \
+  X(CoatedConductorMedium, kMicrofacets | kChoosesLobe | kMetallic, "coated conductor with a scattering medium between") \
+  X(DiffuseTransmission, kChoosesLobe, "diffuse transmission")          \
   X(HenyeyGreenstein, kInMedium, "Henyey-Greenstein phase function")
 // clang-format on
 

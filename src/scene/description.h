@@ -133,10 +133,10 @@ struct Material {
   FloatValue conductor_uroughness, conductor_vroughness;  // coatedconductor
   bool remap_roughness = true;
   double thickness = 0.01;          // coats
-  double coat_g = 0;                // coats: Henyey-Greenstein, of the medium between
+  FloatValue coat_g;                // coats: Henyey-Greenstein, of the medium between
   ColorValue coat_albedo;           // its scattering albedo; 0 everywhere: it absorbs
   Index thickness_texture = kNone;  // replaces `thickness`
-  int coat_max_depth = 10, coat_samples = 1;
+  int coat_max_depth = 10;
   Index mix[2] = {kNone, kNone};
   FloatValue mix_amount{0.5, kNone};  // weight of mix[1]
   /// Shaded as a bump map: height in the world's units; neither texture nor constant:

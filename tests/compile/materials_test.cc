@@ -179,12 +179,12 @@ TEST_CASE("compile: coats", "[scene][compile]") {
 TEST_CASE("compile: coats whose medium scatters are kinds of their own", "[compile]") {
   Material m = OfKind(MaterialKind::kCoatedDiffuse);
   m.coat_albedo.constant = {0.1, 0, 2};
-  m.coat_g = 0.3;
+  m.coat_g.constant = 0.3;
   m.uroughness.constant = m.vroughness.constant = 0.25;
   MaterialTable t = Compile(m);
   CHECK(KindOf(t, 0) == ShadeKind::kCoatedDiffuseMedium);
-  CHECK(t.color1_r[0] == 0.1f);
-  CHECK(t.color1_b[0] == 1.0f);
+  CHECK(t.coat_albedo_r[0] == 0.1f);
+  CHECK(t.coat_albedo_b[0] == 1.0f);
   CHECK(t.coat_g[0] == 0.3f);
   CHECK(t.alpha_x[0] == 0.5f);
   m.kind = MaterialKind::kCoatedConductor;

@@ -60,7 +60,7 @@ struct Bounces {
     scene.materials = material.table;
     PathColumns& p = fixture.wave.path;
     p.color0_r = p.color0_g = p.color0_b = p.alpha_x = p.alpha_y = nullptr;
-    p.color1_r = p.color1_g = p.color1_b = p.coat_thickness = nullptr;
+    p.color1_r = p.color1_g = p.color1_b = p.coat_thickness = p.coat_g = nullptr;
     p.sh_r = p.sh_g = p.sh_b = nullptr;
     p.branch = nullptr;
     reference::Random random(83);

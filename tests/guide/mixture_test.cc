@@ -48,7 +48,7 @@ struct GuidedPaths {
     fixture.run.tables = &tables;
     PathColumns& p = fixture.wave.path;
     p.color0_r = p.color0_g = p.color0_b = p.alpha_x = p.alpha_y = nullptr;
-    p.color1_r = p.color1_g = p.color1_b = p.coat_thickness = nullptr;
+    p.color1_r = p.color1_g = p.color1_b = p.coat_thickness = p.coat_g = nullptr;
     reference::Random random(seed);
     const auto unit = [&] { return static_cast<float>(random.Bits() >> 40) * 0x1p-24f; };
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -70,7 +70,7 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
                                 m->remap_roughness);
   out.thickness = std::max(look.Float({m->thickness, m->thickness_texture}), 0.0);
   out.albedo = coat ? Clamp(look.Color(m->coat_albedo), 0, 1) : Rgb{};
-  out.g = m->coat_g;
+  out.g = look.Float(m->coat_g);
   out.coat_max_depth = m->coat_max_depth;
   if (m->kind == MaterialKind::kConductor || m->kind == MaterialKind::kCoatedConductor) {
     const bool given = m->has_reflectance;

@@ -161,7 +161,7 @@ std::vector<Material> MaterialZoo() {
     clear.name = name;
     clear.thickness = 0.5;
     clear.coat_albedo.constant = {0.9, 0.6, 0.3};
-    clear.coat_g = 0.4;
+    clear.coat_g.constant = 0.4;
     return clear;
   };
   zoo.push_back(haze(coat, "hazy coated diffuse"));

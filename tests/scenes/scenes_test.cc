@@ -114,7 +114,7 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
                      Feature::kCoatedConductor, Feature::kDiffuseTransmission}));
   CHECK(features("hazy-coats.pbrt")
             .HasAll({Feature::kCoatedDiffuseMedium, Feature::kCoatedConductorMedium,
-                     Feature::kTexturedColor1}));
+                     Feature::kTexturedCoatMedium}));
   CHECK(features("image-lights.pbrt")
             .HasAll({Feature::kImageLights, Feature::kEmissionImages}));
   CHECK(features("portal.pbrt").Has(Feature::kPortals));

@@ -63,9 +63,8 @@ TestMaterial MakeTestMaterial(const std::string& name, ShadeKind kind,
   MaterialTable& t = out.table;
   const bool metal =
       m.kind == MaterialKind::kConductor || m.kind == MaterialKind::kCoatedConductor;
-  const bool haze = kind == ShadeKind::kCoatedDiffuseMedium;
   const Rgb color0 = metal ? m.eta : m.reflectance;
-  const Rgb color1 = metal ? m.k : haze ? m.albedo : m.transmittance;
+  const Rgb color1 = metal ? m.k : m.transmittance;
   const auto add = [](AlignedVector<float>& column, double v) {
     column.push_back(static_cast<float>(v));
   };
@@ -87,6 +86,8 @@ TestMaterial MakeTestMaterial(const std::string& name, ShadeKind kind,
   add(t.coat_g, m.g);
   add(t.coat_albedo_r, m.albedo.x), add(t.coat_albedo_g, m.albedo.y);
   add(t.coat_albedo_b, m.albedo.z);
+  t.coat_albedo_texture.push_back(-1);
+  t.coat_g_texture.push_back(-1);
   t.coat_depth.push_back(static_cast<std::uint32_t>(m.coat_max_depth));
   return out;
 }

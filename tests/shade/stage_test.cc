@@ -51,7 +51,7 @@ struct ShadeFixture {
     scene.materials = material.table;
     PathColumns& p = fixture.wave.path;
     p.color0_r = p.color0_g = p.color0_b = p.alpha_x = p.alpha_y = nullptr;
-    p.color1_r = p.color1_g = p.color1_b = p.coat_thickness = nullptr;
+    p.color1_r = p.color1_g = p.color1_b = p.coat_thickness = p.coat_g = nullptr;
     reference::Random random(81);
     const auto unit = [&] { return static_cast<float>(random.Bits() >> 40) * 0x1p-24f; };
     for (std::uint32_t i = 0; i < kPaths; ++i) {

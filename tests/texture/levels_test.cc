@@ -65,7 +65,7 @@ struct Lookups {
     WaveFixture f(scene, n);
     PathColumns& p = f.wave.path;
     p.alpha_x = p.alpha_y = p.color1_r = p.color1_g = p.color1_b = nullptr;
-    p.coat_thickness = nullptr;
+    p.coat_thickness = p.coat_g = nullptr;
     for (std::uint32_t i = 0; i < n; ++i) {
       p.material[i] = 0;
       p.uv_u[i] = points[i].u, p.uv_v[i] = points[i].v;

@@ -65,6 +65,8 @@ void Thickness(SceneDescription& s, Material& m) {
   m.thickness_texture = AddSame(s, Grey(m.thickness));
   m.thickness = 0;
 }
+void CoatAlbedo(SceneDescription& s, Material& m) { TextureColor(s, m.coat_albedo); }
+void CoatG(SceneDescription& s, Material& m) { TextureFloat(s, m.coat_g); }
 
 // Grids of coat tables and the fit of colours interpolate: 1 % of the image, which has
 // the coat's own reflection too. Everything else is the same arithmetic.
@@ -79,6 +81,10 @@ std::vector<TexturedCase> Cases() {
   const Material lacquer = Base(MaterialKind::kCoatedConductor);
   Material coloured_lacquer = lacquer;
   coloured_lacquer.has_reflectance = true;
+  Material milky = plastic, milky_lacquer = lacquer;
+  milky.coat_albedo.constant = milky_lacquer.coat_albedo.constant = {0.9, 0.5, 0.2};
+  milky.coat_g.constant = milky_lacquer.coat_g.constant = 0.6;
+  milky.thickness = milky_lacquer.thickness = 1.5;
   return {{"leaf, transmittance", leaf, Transmittance, 1e-5},
           {"leaf, reflectance", leaf, Reflectance, 1e-5},
           {"metal, eta and k", metal, EtaAndK, 1e-5},
@@ -88,6 +94,11 @@ std::vector<TexturedCase> Cases() {
           {"lacquer, roughness", lacquer, Roughness, 1e-4},
           {"lacquer, metal's roughness", lacquer, MetalRoughness, 1e-4},
           {"lacquer, thickness", lacquer, Thickness, 1e-4},
+          {"milky lacquer, albedo", milky_lacquer, CoatAlbedo, 1e-5},
+          {"milky lacquer, g", milky_lacquer, CoatG, 1e-5},
+          {"milky plastic, albedo", milky, CoatAlbedo, 1e-5},
+          {"milky plastic, g", milky, CoatG, 1e-5},
+          {"milky plastic, reflectance", milky, Reflectance, 1e-5},
           {"plastic, roughness", plastic, Roughness, 0.01},
           {"plastic, thickness", plastic, Thickness, 0.01},
           {"plastic, reflectance", plastic, Reflectance, 0.01},

@@ -1,0 +1,198 @@
+#include "src/compile/row_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/compile/materials.h"
+#include "src/core/check.h"
+
+namespace lanelight {
+namespace {
+
+// pbrt-v4: below this a microfacet surface is a smooth one.
+constexpr double kSmoothAlpha = 1e-3;
+// Reflectance of a metal that is given as a colour: k of 1 would be infinite.
+constexpr double kMaxMetalReflectance = 0.9999;
+
+bool IsTextured(const ColorValue& v) { return v.texture != kNone; }
+bool IsTextured(const FloatValue& v) { return v.texture != kNone; }
+
+bool IsSmooth(const MaterialRow& row) {
+  return !IsTextured(row.alpha_x) && !IsTextured(row.alpha_y) &&
+         std::max(row.alpha_x.constant, row.alpha_y.constant) < kSmoothAlpha;
+}
+
+Rgb Clamped(Rgb c, double largest) {
+  const Rgb zero, top = {largest, largest, largest};
+  return Min(Max(c, zero), top);
+}
+
+void CheckEta(const Material& m) {
+  if (m.interface_eta > 0 && std::isfinite(m.interface_eta)) return;
+  RefuseMaterial(
+      m, fmt::format("index of refraction {}; it must be positive", m.interface_eta));
+}
+
+}  // namespace
+
+void RefuseMaterial(const Material& m, const std::string& what) {
+  throw InputError(m.where,
+                   (m.name.empty() ? "" : "material \"" + m.name + "\": ") + what);
+}
+
+// pbrt clamps constant reflectances too.
+ColorValue RowBuilder::Reflectance(const ColorValue& v) const {
+  ColorValue color = Color(v);
+  if (!IsTextured(color)) color.constant = Clamped(color.constant, 1);
+  return color;
+}
+
+// Whether the medium in a coat does more than absorb.
+bool RowBuilder::Scatters(const Material& coat) const {
+  const ColorValue albedo = Reflectance(coat.coat_albedo);
+  return IsTextured(albedo) || albedo.constant != Rgb{};
+}
+
+void RowBuilder::Diffuse(const Material& m, MaterialRow& row) {
+  switch (options_.scattering.value_or(m.scattering)) {
+    case Scattering::kLambertian:
+      row.kind = ShadeKind::kDiffuse;
+      break;
+    case Scattering::kUniform:
+      row.kind = ShadeKind::kDiffuseUniform;
+      break;
+    case Scattering::kInSphere:
+      row.kind = ShadeKind::kDiffuseInSphere;
+      break;
+  }
+  row.color0 = Reflectance(m.reflectance);
+}
+
+// Index and extinction relative to `eta_above`.
+void RowBuilder::Metal(const Material& m, double eta_above, MaterialRow& row) {
+  if (m.has_reflectance) {
+    const ColorValue reflectance = Color(m.reflectance);
+    row.color0 = {Rgb{1, 1, 1} / eta_above, kNone};
+    if (IsTextured(reflectance)) {
+      row.color1 = Derived(TextureKind::kMetalExtinction, reflectance, 1 / eta_above);
+      return;
+    }
+    const Rgb r = Clamped(reflectance.constant, kMaxMetalReflectance);
+    const auto k = [](double x) { return 2 * std::sqrt(x / (1 - x)); };
+    row.color1 = {Rgb{k(r.x), k(r.y), k(r.z)} / eta_above, kNone};
+  } else {
+    row.color0 = Scaled(Color(m.eta), 1 / eta_above);
+    row.color1 = Scaled(Color(m.k), 1 / eta_above);
+  }
+}
+
+ColorValue RowBuilder::Derived(TextureKind kind, const ColorValue& from, double amount) {
+  Texture texture;
+  texture.kind = kind;
+  texture.name = d_.textures[static_cast<std::size_t>(from.texture)].name;
+  texture.where = d_.textures[static_cast<std::size_t>(from.texture)].where;
+  texture.tex1 = from;
+  texture.amount.constant = amount;
+  derived_.push_back(std::move(texture));
+  return {{}, static_cast<Index>(d_.textures.size() + derived_.size()) - 1};
+}
+
+ColorValue RowBuilder::Scaled(const ColorValue& value, double scale) {
+  if (!IsTextured(value)) return {value.constant * scale, kNone};
+  return scale == 1 ? value : Derived(TextureKind::kScale, value, scale);
+}
+
+FloatValue RowBuilder::Alpha(const FloatValue& v, bool remap) const {
+  FloatValue alpha = constants_.Fold(v);
+  if (!IsTextured(alpha)) alpha.constant = AlphaOfRoughness(alpha.constant, remap);
+  return alpha;
+}
+
+void RowBuilder::Interface(const Material& m, MaterialRow& row) {
+  row.alpha_x = Alpha(m.uroughness, m.remap_roughness);
+  row.alpha_y = Alpha(m.vroughness, m.remap_roughness);
+  row.remap = m.remap_roughness;
+  row.eta = m.interface_eta;
+}
+
+void RowBuilder::CoatOf(const Material& m, MaterialRow& row) {
+  CheckEta(m);
+  Interface(m, row);
+  // Equal indices on both sides: nothing to see, whatever the roughness.
+  if (Scatters(m) && row.eta == 1) row.alpha_x = row.alpha_y = {};
+  if (Scatters(m)) {
+    row.coat_g = constants_.Fold(m.coat_g);
+    row.coat_albedo = Reflectance(m.coat_albedo);
+  }
+  row.coat_thickness = constants_.Fold(FloatValue{m.thickness, m.thickness_texture});
+  Coat coat = {std::nullopt, m.interface_eta, std::nullopt};
+  if (IsSmooth(row)) {
+    coat.alpha = 0;
+  } else if (!IsTextured(row.alpha_x) && !IsTextured(row.alpha_y)) {
+    coat.alpha = std::sqrt(std::max(row.alpha_x.constant, kMinAlpha) *
+                           std::max(row.alpha_y.constant, kMinAlpha));
+  }
+  if (!IsTextured(row.coat_thickness)) coat.thickness = row.coat_thickness.constant;
+  const auto next = static_cast<std::int32_t>(coats_.size());
+  row.coat = coats_.try_emplace(coat, next).first->second;
+  row.coat_depth = static_cast<std::uint32_t>(m.coat_max_depth);
+}
+
+MaterialRow RowBuilder::RowOf(const Material& m) {
+  MaterialRow row;
+  switch (m.kind) {
+    case MaterialKind::kDiffuse:
+      Diffuse(m, row);
+      break;
+    case MaterialKind::kConductor:
+      Interface(m, row);
+      row.eta = 1;
+      Metal(m, 1, row);
+      row.kind = IsSmooth(row) ? ShadeKind::kConductorSmooth : ShadeKind::kConductorRough;
+      break;
+    case MaterialKind::kDielectric:
+      CheckEta(m);
+      Interface(m, row);
+      // Equal indices on both sides: nothing to see, whatever the roughness (as pbrt).
+      row.kind = IsSmooth(row) || row.eta == 1 ? ShadeKind::kDielectricSmooth
+                                               : ShadeKind::kDielectricRough;
+      break;
+    case MaterialKind::kThinDielectric:
+      CheckEta(m);
+      row.eta = m.interface_eta;
+      row.kind = ShadeKind::kThinDielectric;
+      break;
+    case MaterialKind::kCoatedDiffuse:
+      CoatOf(m, row);
+      row.color0 = Reflectance(m.reflectance);
+      if (Scatters(m)) {
+        row.kind = ShadeKind::kCoatedDiffuseMedium;
+        break;
+      }
+      row.kind = IsSmooth(row) ? ShadeKind::kCoatedDiffuseSmooth
+                               : ShadeKind::kCoatedDiffuseRough;
+      break;
+    case MaterialKind::kCoatedConductor: {
+      CoatOf(m, row);
+      Metal(m, m.interface_eta, row);
+      row.alpha2_x = Alpha(m.conductor_uroughness, m.remap_roughness);
+      row.alpha2_y = Alpha(m.conductor_vroughness, m.remap_roughness);
+      row.kind = ShadeKind::kCoatedConductor;
+      if (Scatters(m)) row.kind = ShadeKind::kCoatedConductorMedium;
+      break;
+    }
+    case MaterialKind::kDiffuseTransmission:
+      row.color0 = Reflectance(m.reflectance);
+      row.color1 = Reflectance(m.transmittance);
+      row.kind = ShadeKind::kDiffuseTransmission;
+      break;
+    case MaterialKind::kInterface:
+      row.kind = ShadeKind::kInterface;
+      break;
+    case MaterialKind::kMix:
+      LL_CHECK(!"mixes have no row of this form");
+  }
+  return row;
+}
+
+}  // namespace lanelight
