@@ -53,6 +53,7 @@ namespace lanelight {
   X(NormalMaps)                                \
   X(Texture)                                   \
   X(Aov)                                       \
+  X(Gbuffer)                                   \
   X(Vertices)                                  \
   X(RecordVertex)                              \
   X(RecordStart)                               \

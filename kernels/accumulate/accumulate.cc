@@ -89,6 +89,15 @@ HWY_INLINE void StoreControl(const Wave& wave, const Slots& slots, V3 difference
   }
 }
 
+HWY_INLINE void StoreGbuffer(const Wave& wave, const Slots& slots, VI output) {
+  const PathColumns& p = wave.path;
+  PlaneWriter(wave, PlaneGroup::kGbuffer)
+      .StoreColumns(
+          {p.gb_hit, p.gb_p_x, p.gb_p_y, p.gb_p_z, p.gb_ng_x, p.gb_ng_y, p.gb_ng_z,
+           p.gb_ns_x, p.gb_ns_y, p.gb_ns_z, p.gb_uv_0, p.gb_uv_1, p.gb_dz_0, p.gb_dz_1},
+          slots, output);
+}
+
 template <bool kSigned, bool kAov>
 void Accumulate(Wave& wave) {
   const PathColumns& p = wave.path;
@@ -112,6 +121,7 @@ void Accumulate(Wave& wave) {
                        .StoreColumns({p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b,
                                       p.aov_n_x, p.aov_n_y, p.aov_n_z, p.aov_depth},
                                      slots, output);
+                   if (p.gb_hit != nullptr) StoreGbuffer(wave, slots, output);
                  }
                  if constexpr (kSigned) {
                    StoreControl(wave, slots, difference, checked.bad, output);
@@ -157,8 +167,9 @@ Stage AccumulateStage() {
           "checks finished samples and frees their slots",
           QueueId::kDone,
           {},
-          fields::kRadiance | fields::kAov | fields::kControl | fields::kFirstBounce |
-              fields::kFirstFilm | FieldSet{Field::output, Field::weight},
+          fields::kRadiance | fields::kAov | fields::kGbuffer | fields::kControl |
+              fields::kFirstBounce | fields::kFirstFilm |
+              FieldSet{Field::output, Field::weight},
           {},
           ResolveAccumulate};
 }

@@ -10,45 +10,13 @@
 #include "hwy/highway.h"
 
 #include "kernels/queue/batch-inl.h"
-#include "kernels/simd/vec3-inl.h"
+#include "kernels/surface/pixel_steps-inl.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-HWY_INLINE V3 SplatVec(Vec3f v) { return Splat3(v.x, v.y, v.z); }
-
-// The line of sight, unit, and what lies one pixel beside the hit, at its distance.
-struct PixelSteps {
-  V3 sight, x, y;
-};
-
-// `axis`, which is across the camera's forward direction, turned with it to the line of
-// sight, or with the backward direction if that is nearer.
-HWY_INLINE V3 Turned(V3 axis, V3 forward, V3 sight) {
-  const VF cosine = Dot(forward, sight);
-  const V3 sum = Mul(forward, hn::CopySign(Splat(1.0f), cosine)) + sight;
-  const VF share = hn::Div(Dot(axis, sight), hn::Add(Splat(1.0f), hn::Abs(cosine)));
-  return MulAdd(sum, hn::Neg(share), axis);
-}
-
-HWY_INLINE PixelSteps StepsAt(const PixelFootprint& f, V3 p) {
-  const V3 forward = SplatVec(f.forward);
-  if (f.parallel) return {forward, SplatVec(f.step_x), SplatVec(f.step_y)};
-  const V3 from_eye = p - SplatVec(f.eye);
-  const VF distance = hn::Sqrt(Dot(from_eye, from_eye)), depth = Dot(from_eye, forward);
-  const V3 sight = Mul(from_eye, hn::Div(Splat(1.0f), distance));
-  const MF in_front = hn::Ge(depth, hn::Mul(Splat(f.min_cosine), distance));
-  const auto step = [&](Vec3f pixel, Vec3f axis, float angle) HWY_ATTR {
-    const V3 turned = Turned(SplatVec(axis), forward, sight);
-    return IfThenElse(in_front, Mul(SplatVec(pixel), depth),
-                      Mul(turned, hn::Mul(distance, Splat(angle))));
-  };
-  return {sight, step(f.step_x, f.axis_x, f.angle_x),
-          step(f.step_y, f.axis_y, f.angle_y)};
-}
 
 // dp/du and dp/dv as unit vectors with lengths: their squares may underflow.
 struct UvAxes {
@@ -65,18 +33,10 @@ struct UvAxes {
   }
 };
 
-// Zero if it is not a number, as where u and v have one direction.
-HWY_INLINE VF Bounded(VF step) {
-  const VF limit = Splat(1e8f);
-  const VF finite = hn::IfThenElseZero(hn::Eq(step, step), step);
-  return hn::Max(hn::Neg(limit), hn::Min(finite, limit));
-}
-
 // Moves the step along the sight into the plane across n and writes what it is in u, v.
 HWY_INLINE void StoreStep(const UvAxes& axes, V3 n, V3 sight, V3 step, float* du,
                           float* dv, const StoreSlots& slots) {
-  const VF lift = hn::Div(Dot(n, step), Dot(n, sight));
-  const V3 in_plane = MulAdd(sight, hn::Neg(lift), step);
+  const V3 in_plane = InPlane(n, sight, step);
   const VF u = Dot(axes.u, in_plane), v = Dot(axes.v, in_plane);
   const VF along_u = hn::Mul(hn::NegMulAdd(axes.cosine, v, u), axes.inverse);
   const VF along_v = hn::Mul(hn::NegMulAdd(axes.cosine, u, v), axes.inverse);

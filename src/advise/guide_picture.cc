@@ -35,7 +35,7 @@ class Study {
       : job_(job), options_(options) {
     PlanOptions guided = job.plan.options;
     guided.Change("guiding=radiance,decide=none");
-    guided.aov = false;
+    guided.auxiliary = Auxiliary::kNone;
     plan_ = MakePlan(job.scene, guided);
     if (!plan_.features.Has(Feature::kGuided)) {
       throw InputError("nothing in this scene can be guided: no surface scatters light");

@@ -86,7 +86,8 @@ WindowRenderer::WindowRenderer(Job& job, std::vector<Strategy> strategies,
 
 FilmAccumulator WindowRenderer::FilmOf(const std::vector<PixelRect>& windows) const {
   const int side = windows.front().width(), count = static_cast<int>(windows.size());
-  return FilmAccumulator(0, 0, side * count, side, GroupsOf(job_.scene.strategy), false);
+  return FilmAccumulator(0, 0, side * count, side, GroupsOf(job_.scene.strategy),
+                         Auxiliary::kNone);
 }
 
 double WindowRenderer::RunWindows(const Plan& plan, const std::vector<PixelRect>& windows,
@@ -111,7 +112,7 @@ WindowRenderer::Rendered WindowRenderer::Render(std::size_t strategy,
                                                 std::size_t planned) {
   UseStrategy(strategies_[strategy], job_.scene);
   PlanOptions plan_options = job_.plan.options;
-  plan_options.aov = false;
+  plan_options.auxiliary = Auxiliary::kNone;
   const Plan plan = MakePlan(job_.scene, plan_options);
   // Nor is what a run takes before its first sample, and with caches that another
   // strategy has filled: on fast scenes that is as much as a window takes, the same for

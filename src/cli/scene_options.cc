@@ -162,6 +162,10 @@ void AddSceneOptions(CLI::App& command, SceneOptions& options) {
       ->type_name("");
   AddWindowOptions(command, s);
   command.add_flag("--aov", s.aov, "Write albedo, normal and depth of the first hit too");
+  AddNameOption<Gbuffer>(
+      command, "--gbuffer", s.gbuffer,
+      {{"camera", Gbuffer::kCamera}, {"world", Gbuffer::kWorld}},
+      "Write these, and point, normals, u, v and slopes of the first hit in that space");
   AddStrategyOptions(command, s);
   AddTransportOptions(command, s);
   AddExecutionOptions(command, options);
@@ -175,6 +179,7 @@ std::string FlagsText(const SceneOptions& options) {
   }
   if (s.crop) text += fmt::format(" --crop {}", fmt::join(*s.crop, ","));
   if (s.aov) text += " --aov";
+  if (s.gbuffer) text += fmt::format(" --gbuffer {}", GbufferName(*s.gbuffer));
   if (s.max_depth) text += fmt::format(" --max-depth {}", *s.max_depth);
   if (s.seed) text += fmt::format(" --seed {}", *s.seed);
   if (s.scattering)

@@ -45,8 +45,6 @@ void Check(const Camera& camera, const Window& window) {
   }
 }
 
-Vec3f ToFloat(Vec3d v) { return VecCast<float>(v); }
-
 }  // namespace
 
 CompiledCamera CompileCamera(const Camera& camera, const Film& film, const Frame& frame) {

@@ -10,6 +10,7 @@
 #include "src/compile/filter.h"
 #include "src/compile/focus.h"
 #include "src/compile/footprint.h"
+#include "src/compile/gbuffer.h"
 #include "src/compile/geometry.h"
 #include "src/compile/lights.h"
 #include "src/compile/materials.h"
@@ -157,6 +158,8 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.camera = CompileCamera(description.camera, description.film, placement.frame);
   scene.footprint = CompileFootprint(scene.camera, description.camera, description.film,
                                      description.sampler.spp);
+  scene.gbuffer =
+      CompileGbufferSpace(description.film, description.camera, placement.frame);
 
   CompiledMaterials materials =
       CompileMaterials(description, UsedMaterials(placement), options);
@@ -164,7 +167,8 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.features = MaterialFeatures(materials.table, placement);
   const GeometryOptions geometry_options = {
       .uvs = scene.features.HasAny({Feature::kUv, Feature::kTangents}) ||
-             HasEmissionImages(description)};
+             HasEmissionImages(description) ||
+             description.film.gbuffer != Gbuffer::kNone};
 
   CompiledGeometry compiled;
   ParallelInvoke(

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/compile/frame.h"
+
 namespace lanelight {
 namespace {
 
 Vec3d ToDouble(Vec3f v) { return VecCast<double>(v); }
-Vec3f ToFloat(Vec3d v) { return VecCast<float>(v); }
 
 // A camera-space vector in the scene.
 Vec3d InScene(const CompiledCamera& camera, Vec3f v) {
@@ -77,6 +78,7 @@ PixelFootprint CompileFootprint(const CompiledCamera& compiled, const Camera& ca
     MeasureDirections(compiled, film, &out);
   }
   const double scale = std::max(0.125, 1 / std::sqrt(std::max(samples, 1)));
+  out.scale = static_cast<float>(scale);
   out.step_x = ToFloat(InScene(compiled, compiled.dx) * scale);
   out.step_y = ToFloat(InScene(compiled, compiled.dy) * scale);
   out.angle_x *= static_cast<float>(scale);

@@ -10,6 +10,8 @@
 
 namespace lanelight {
 
+inline Vec3f ToFloat(Vec3d v) { return VecCast<float>(v); }
+
 /// Axis-aligned box in double precision; empty until a finite point is added.
 struct Box {
   Vec3d min = Splat(std::numeric_limits<double>::infinity());

@@ -25,6 +25,7 @@ struct PixelFootprint {
   float angle_x = 0, angle_y = 0;  // radians
   float min_cosine = 2;            // 2: no point is in front
   bool parallel = false;           // orthographic
+  float scale = 1;                 // of all steps and angles, as above
 };
 
 }  // namespace lanelight

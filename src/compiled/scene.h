@@ -9,6 +9,7 @@
 #include "src/accel/accel.h"
 #include "src/compiled/camera.h"
 #include "src/compiled/footprint.h"
+#include "src/compiled/gbuffer.h"
 #include "src/compiled/lights.h"
 #include "src/compiled/materials.h"
 #include "src/compiled/media.h"
@@ -37,6 +38,7 @@ struct CompiledScene {
   CompiledCamera camera;
   CompiledFilter filter;
   PixelFootprint footprint;
+  GbufferSpace gbuffer;
   Film film;
   Integrator integrator;
   Strategy strategy;        // what UseStrategy has prepared the light tables for

@@ -8,7 +8,7 @@
 namespace lanelight {
 
 FilmAccumulator::FilmAccumulator(int x0, int y0, int width, int height,
-                                 const SampleGroups& groups, bool aov)
+                                 const SampleGroups& groups, Auxiliary auxiliary)
     : x0_(x0), y0_(y0), width_(width), height_(height), groups_(groups) {
   LL_CHECK_GT(width, 0);
   LL_CHECK_GT(height, 0);
@@ -22,24 +22,27 @@ FilmAccumulator::FilmAccumulator(int x0, int y0, int width, int height,
     ResizeInHugePages(units_, pixels);
     if (groups.unit > 1) open_.resize(pixels);
   }
-  if (!aov) return;
-  ResizeInHugePages(aov_, pixels);
-  planes_ = SamplePlanes({Feature::kAov});
+  if (auxiliary >= Auxiliary::kAov) ResizeInHugePages(aov_, pixels);
+  if (auxiliary >= Auxiliary::kGbuffer) ResizeInHugePages(gbuffer_, pixels);
+  features_ = AuxiliaryFeatures(auxiliary);
+  planes_ = SamplePlanes(features_);
 }
 
-std::size_t FilmAccumulator::BytesPerPixel(const SampleGroups& groups, bool aov) {
+std::size_t FilmAccumulator::BytesPerPixel(const SampleGroups& groups,
+                                           Auxiliary auxiliary) {
   std::size_t bytes = sizeof(std::uint64_t);
   bytes += groups.replicates ? sizeof(ReplicateSums) : sizeof(UnitSums);
   if (!groups.replicates && groups.unit > 1) bytes += sizeof(Open);
-  return bytes + (aov ? sizeof(AovSums) : 0);
+  if (auxiliary >= Auxiliary::kAov) bytes += sizeof(AovSums);
+  if (auxiliary >= Auxiliary::kGbuffer) bytes += sizeof(GbufferSums);
+  return bytes;
 }
 
 void FilmAccumulator::UseControl() {
   for (std::uint64_t samples : samples_) LL_CHECK_EQ(samples, std::uint64_t{0});
   control_.emplace(width_, height_, groups_);
-  FeatureSet features = {Feature::kControlDifference};
-  if (has_aov()) features.Add(Feature::kAov);
-  planes_ = SamplePlanes(features);
+  features_.Add(Feature::kControlDifference);
+  planes_ = SamplePlanes(features_);
 }
 
 void FilmAccumulator::FitControl() {
@@ -56,7 +59,8 @@ void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
   const std::size_t index = Index(x, y);
   control_ ? AddColors<true>(index, planes, count)
            : AddColors<false>(index, planes, count);
-  if (has_aov()) AddAov(index, planes, count);
+  if (has_aov()) AddPlanes(PlaneGroup::kAov, planes, count, aov_[index].of);
+  if (has_gbuffer()) AddPlanes(PlaneGroup::kGbuffer, planes, count, gbuffer_[index].of);
   samples_[index] += count;
 }
 
@@ -108,13 +112,11 @@ void FilmAccumulator::AddColors(std::size_t index, const float* const* planes,
   units_[index] = sums;
 }
 
-void FilmAccumulator::AddAov(std::size_t index, const float* const* planes,
-                             std::uint32_t count) {
-  const int first = planes_.First(PlaneGroup::kAov);
-  for (int a = 0; a < kAovPlanes; ++a) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      aov_[index].of[a] += double(planes[first + a][i]);
-    }
+void FilmAccumulator::AddPlanes(PlaneGroup group, const float* const* planes,
+                                std::uint32_t count, std::span<double> sums) {
+  const float* const* const first = planes + planes_.First(group);
+  for (std::size_t p = 0; p < sums.size(); ++p) {
+    for (std::uint32_t i = 0; i < count; ++i) sums[p] += double(first[p][i]);
   }
 }
 
@@ -191,6 +193,14 @@ double FilmAccumulator::Aov(int x, int y, int plane) const {
   return aov_[index].of[plane] / static_cast<double>(samples_[index]);
 }
 
+double FilmAccumulator::Gbuffer(int x, int y, int plane) const {
+  const std::size_t index = Index(x, y);
+  const double hits = gbuffer_[index].of[0];
+  if (hits == 0) return 0;
+  return plane == 0 ? hits / static_cast<double>(samples_[index])
+                    : gbuffer_[index].of[plane] / hits;
+}
+
 std::vector<MutableStateColumn> FilmAccumulator::Columns() {
   std::vector<MutableStateColumn> columns = {
       MakeStateColumn<std::uint64_t>("samples", "samples taken", samples_, {})};
@@ -210,6 +220,13 @@ std::vector<MutableStateColumn> FilmAccumulator::Columns() {
   if (has_aov()) {
     columns.push_back(MakeStateColumn<double>(
         "aov", "sums of albedo R, G, B, normal X, Y, Z and depth", aov_, {kAovPlanes}));
+  }
+  if (has_gbuffer()) {
+    columns.push_back(MakeStateColumn<double>(
+        "gbuffer",
+        "samples that hit something, and sums over them: point, geometric normal, "
+        "shading normal (X, Y, Z each), u, v, dz/dx, dz/dy",
+        gbuffer_, {kGbufferPlanes}));
   }
   if (!control_) return columns;
   for (MutableStateColumn& column : control_->Columns())

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "src/core/column.h"
@@ -20,7 +21,7 @@ class FilmAccumulator {
   /// A film of the pixels [x0, x0+width) x [y0, y0+height) of the full image, whose
   /// samples count as `groups` says.
   FilmAccumulator(int x0, int y0, int width, int height, const SampleGroups& groups,
-                  bool aov);
+                  Auxiliary auxiliary);
 
   int x0() const { return x0_; }
   int y0() const { return y0_; }
@@ -28,7 +29,8 @@ class FilmAccumulator {
   int height() const { return height_; }
   const SampleGroups& groups() const { return groups_; }
   bool has_aov() const { return !aov_.empty(); }
-  static std::size_t BytesPerPixel(const SampleGroups& groups, bool aov);
+  bool has_gbuffer() const { return !gbuffer_.empty(); }
+  static std::size_t BytesPerPixel(const SampleGroups& groups, Auxiliary auxiliary);
 
   /// From here on (before any sample), samples have three further planes after all
   /// others: the difference h - E[h] of a control variate whose coefficient the film
@@ -40,7 +42,7 @@ class FilmAccumulator {
 
   /// Planes that a film takes of a sample, at most.
   static constexpr int kMostPlanes =
-      kColorPlanes + kAovPlanes + NumPlanes(PlaneGroup::kDifference);
+      kColorPlanes + kAovPlanes + kGbufferPlanes + NumPlanes(PlaneGroup::kDifference);
 
   /// Adds `count` consecutive samples of one pixel; planes[p][i] is plane p (in the order
   /// of SamplePlanes) of the i-th. Must be called with the samples of a pixel in order.
@@ -64,6 +66,9 @@ class FilmAccumulator {
   }
   /// Mean of an auxiliary plane.
   double Aov(int x, int y, int plane) const;
+  /// Of a plane of the g-buffer; the first, the share of samples that hit something,
+  /// over all samples, the others over those. Zero where there are none.
+  double Gbuffer(int x, int y, int plane) const;
 
   /// All that AddSamples has brought, by pixel, row by row: a film of the same pixels,
   /// planes and groups that is given these goes on from there.
@@ -81,9 +86,13 @@ class FilmAccumulator {
   struct AovSums {
     double of[kAovPlanes] = {};
   };
+  struct GbufferSums {
+    double of[kGbufferPlanes] = {};
+  };
   template <bool kControl>
   void AddColors(std::size_t index, const float* const* planes, std::uint32_t count);
-  void AddAov(std::size_t index, const float* const* planes, std::uint32_t count);
+  void AddPlanes(PlaneGroup group, const float* const* planes, std::uint32_t count,
+                 std::span<double> sums);
   Rgb Sum(std::size_t index) const;
   Rgb Variance(std::size_t index, const ControlFilm* control) const;
   Rgb UnitVariance(std::size_t index, const ControlFilm* control) const;
@@ -101,6 +110,8 @@ class FilmAccumulator {
   std::vector<UnitSums> units_;            // without
   std::vector<Open> open_;                 // sums of incomplete pairs; without replicates
   std::vector<AovSums> aov_;
+  std::vector<GbufferSums> gbuffer_;
+  FeatureSet features_;  // of renders that it takes samples of
   SamplePlanes planes_;  // that it takes
   std::optional<ControlFilm> control_;
 };

@@ -60,12 +60,9 @@ void AddFilms(FormatTable& table) {
       {"float maxcomponentvalue", kRendered, "", "10"},
   };
   table.push_back({"Film", "rgb", kRendered, "", rgb});
-  table.push_back({"Film", "gbuffer", kNoted,
-                   "writes what `--aov` does: albedo, shading normal, depth",
-                   With({{"string coordinatesystem", kNoted, "normals are in the world's",
-                          "\"camera\""},
-                         {"string coordinatesystem", kRendered, "", "\"world\""}},
-                        rgb)});
+  table.push_back(
+      {"Film", "gbuffer", kRendered, "as `--gbuffer`",
+       With({{"string coordinatesystem", kRendered, "", "\"camera\""}}, rgb)});
   table.push_back(
       {"Film",
        "spectral",

@@ -77,19 +77,9 @@ void ReadSensor(ParseState& state, ParamSet& params, Film* film) {
       params.Float("maxcomponentvalue", film->response.max_component, 1e-30, 1e30);
 }
 
-// pbrt writes more than --aov does, and in the camera's coordinates by default.
-void ReadGbuffer(ParseState& state, ParamSet& params, Film* film) {
-  film->auxiliary = true;
-  state.AddNote(params.where(),
-                "film \"gbuffer\" writes what --aov does (albedo, shading normal in the "
-                "world, depth), not positions, geometric normals, surface coordinates "
-                "and derivatives of the depth");
-  const int system = params.Choice("coordinatesystem", {"camera", "world"});
-  const Param* given = params.Find("coordinatesystem", {});
-  if (given == nullptr || system == 1) return;
-  state.AddNote(given->where,
-                "parameter \"coordinatesystem\" has no effect: normals are in the "
-                "world's coordinates");
+void ReadGbuffer(ParamSet& params, Film* film) {
+  constexpr Gbuffer kSpaces[] = {Gbuffer::kCamera, Gbuffer::kWorld};
+  film->gbuffer = kSpaces[params.Choice("coordinatesystem", {"camera", "world"})];
 }
 
 }  // namespace
@@ -99,7 +89,7 @@ void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params)
     ThrowUnknown(params.where(), "film", type, {"rgb", "gbuffer"});
   }
   Film film;
-  if (type == "gbuffer") ReadGbuffer(state, params, &film);
+  if (type == "gbuffer") ReadGbuffer(params, &film);
   film.width = params.Integer("xresolution", 1280, 1, kLargestSide);
   film.height = params.Integer("yresolution", 720, 1, kLargestSide);
   if (static_cast<double>(film.width) * film.height > kMostPixels) {

@@ -14,6 +14,13 @@ SamplePlanes::SamplePlanes(const FeatureSet& features) : count_(0) {
   }
 }
 
+FeatureSet AuxiliaryFeatures(Auxiliary auxiliary) {
+  FeatureSet features;
+  if (auxiliary >= Auxiliary::kAov) features.Add(Feature::kAov);
+  if (auxiliary >= Auxiliary::kGbuffer) features.Add(Feature::kGbuffer);
+  return features;
+}
+
 bool SamplePlanes::Sums(PlaneGroup group) {
   constexpr bool kSums[] = {
 #define X(name, planes, needs, sums, meaning) sums,

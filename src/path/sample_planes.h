@@ -16,6 +16,7 @@ inline constexpr int kRecordedVertices = 4;
 #define LANELIGHT_SAMPLE_PLANES(X)                                                        \
   X(Color, 3, ({}), true, "radiance, red, green, blue")                                   \
   X(Aov, 7, ({kAov}), false, "of the first hit: albedo, shading normal, depth")           \
+  X(Gbuffer, 14, ({kGbuffer}), false, "of the first hit: whether there is one, point, geometric normal, shading normal, u, v, dz/dx, dz/dy") \
   X(Difference, 3, ({kControlDifference}), true, "h - E[h] of a control variate")         \
   X(Numbers, 6, ({kRegressionControl}), false, "that drove the first bounce, and position in the pixel") \
   X(Record, 3 * kRecordedVertices + 5, ({kRecordsPaths}), false, "cell, throughput, gathered of each vertex; gathered at the end; depth; the three sums of the risk") \
@@ -42,6 +43,14 @@ constexpr int NumPlanes(PlaneGroup group) {
 }
 inline constexpr int kColorPlanes = NumPlanes(PlaneGroup::kColor);
 inline constexpr int kAovPlanes = NumPlanes(PlaneGroup::kAov);
+inline constexpr int kGbufferPlanes = NumPlanes(PlaneGroup::kGbuffer);
+
+/// What a render tells of first hits beside its colours: nothing; albedo, shading normal
+/// and depth (--aov); besides, where they are (--gbuffer).
+enum class Auxiliary : std::uint8_t { kNone, kAov, kGbuffer };
+
+/// The features that such a render has.
+FeatureSet AuxiliaryFeatures(Auxiliary auxiliary);
 
 /// Which planes a render has, one group after the other in the order of the list.
 class SamplePlanes {
@@ -57,7 +66,7 @@ class SamplePlanes {
   static bool Sums(PlaneGroup group);
 
  private:
-  int first_[kNumPlaneGroups] = {0, -1, -1, -1, -1, -1, -1};
+  int first_[kNumPlaneGroups] = {0, -1, -1, -1, -1, -1, -1, -1};
   int count_ = kColorPlanes;
 };
 

@@ -60,13 +60,13 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
 Job PrepareJob(SceneDescription description, const RenderSettings& asked) {
   Job job;
   job.settings = asked;
-  job.settings.aov = asked.aov || description.film.auxiliary;
   const RenderSettings& settings = job.settings;
   job.description = std::move(description);
   Stopwatch watch;
   ApplySettings(settings, job.description);
   job.window = RenderedPixels(job.description.film);
-  CheckFilmFits(job.window, settings.aov, job.description.strategy, PhysicalMemory());
+  CheckFilmFits(job.window, AuxiliaryOf(settings, job.description.film),
+                job.description.strategy, PhysicalMemory());
   job.load_seconds = watch.Lap();
 
   job.scene = PrepareScene(job.description, CompileOptionsOf(settings));
@@ -94,7 +94,7 @@ void SetStrategy(Job& job, const Strategy& strategy) {
 FilmAccumulator MakeFilm(const Job& job) {
   return FilmAccumulator(job.window.x0, job.window.y0, job.window.width(),
                          job.window.height(), GroupsOf(job.scene.strategy),
-                         job.plan.options.aov);
+                         job.plan.options.auxiliary);
 }
 
 RunOptions RunOptionsOf(const Job& job, const FilmAccumulator& film) {

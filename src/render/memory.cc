@@ -17,7 +17,12 @@ namespace {
 
 // The output holds R, G, B, three variances and the count.
 constexpr std::uint64_t kPlanesPerPixel = (2 * kColorPlanes + 1) * sizeof(float);
-constexpr std::uint64_t kAovPerPixel = kAovPlanes * sizeof(float);
+
+std::uint64_t AuxiliaryPerPixel(Auxiliary auxiliary) {
+  const int aov = auxiliary >= Auxiliary::kAov ? kAovPlanes : 0;
+  const int gbuffer = auxiliary >= Auxiliary::kGbuffer ? kGbufferPlanes : 0;
+  return static_cast<std::uint64_t>(aov + gbuffer) * sizeof(float);
+}
 
 // Sums from which the coefficients of control variates are fitted.
 std::uint64_t ControlPerPixel(const Strategy& strategy) {
@@ -39,11 +44,12 @@ std::uint64_t AddressSpace() {
 
 }  // namespace
 
-std::uint64_t FilmBytes(const PixelRect& window, bool aov, const Strategy& strategy) {
+std::uint64_t FilmBytes(const PixelRect& window, Auxiliary auxiliary,
+                        const Strategy& strategy) {
   // The planes exist twice for a moment: as planes, and packed into the file's bytes.
   const std::uint64_t per_pixel =
-      FilmAccumulator::BytesPerPixel(GroupsOf(strategy), aov) + 2 * kPlanesPerPixel +
-      (aov ? 2 * kAovPerPixel : 0) + ControlPerPixel(strategy) +
+      FilmAccumulator::BytesPerPixel(GroupsOf(strategy), auxiliary) +
+      2 * kPlanesPerPixel + 2 * AuxiliaryPerPixel(auxiliary) + ControlPerPixel(strategy) +
       (strategy.allocation == Allocation::kError ? sizeof(double) : 0);
   return window.pixels() * per_pixel;
 }
@@ -73,9 +79,9 @@ std::string OutOfMemoryText() {
   return text + "; a lower --resolution, a --crop or fewer --threads need less";
 }
 
-void CheckFilmFits(const PixelRect& window, bool aov, const Strategy& strategy,
+void CheckFilmFits(const PixelRect& window, Auxiliary auxiliary, const Strategy& strategy,
                    std::uint64_t memory) {
-  const std::uint64_t need = FilmBytes(window, aov, strategy);
+  const std::uint64_t need = FilmBytes(window, auxiliary, strategy);
   if (need <= memory) return;
   throw InputError(
       fmt::format("an image of {}x{} pixels needs {:.1f} GiB of memory, this "

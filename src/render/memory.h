@@ -10,7 +10,8 @@ namespace lanelight {
 
 /// Bytes that the film and the planes of the output file take. Independent of the number
 /// of samples.
-std::uint64_t FilmBytes(const PixelRect& window, bool aov, const Strategy& strategy = {});
+std::uint64_t FilmBytes(const PixelRect& window, Auxiliary auxiliary,
+                        const Strategy& strategy = {});
 
 /// Memory of the machine, or what a control group or `ulimit -v` limits this process to.
 std::uint64_t PhysicalMemory();
@@ -19,7 +20,7 @@ std::uint64_t PhysicalMemory();
 std::string OutOfMemoryText();
 
 /// Throws InputError with both numbers if the film does not fit.
-void CheckFilmFits(const PixelRect& window, bool aov, const Strategy& strategy,
+void CheckFilmFits(const PixelRect& window, Auxiliary auxiliary, const Strategy& strategy,
                    std::uint64_t memory);
 
 }  // namespace lanelight

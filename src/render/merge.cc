@@ -42,14 +42,16 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
   Strategy strategy;
   ApplyStrategy(merged.identity.at("strategy").get<std::string>(), {}, strategy);
   const PixelRect& w = merged.window;
-  FeatureSet features;
-  if (file.HasPixels("aov")) features.Add(Feature::kAov);
+  const Auxiliary auxiliary = file.HasPixels("gbuffer") ? Auxiliary::kGbuffer
+                              : file.HasPixels("aov")   ? Auxiliary::kAov
+                                                        : Auxiliary::kNone;
+  FeatureSet features = AuxiliaryFeatures(auxiliary);
   if (file.HasPixels("control_replicates") || file.HasPixels("control_halves")) {
     features.Add(Feature::kControlDifference);
   }
   if (file.HasPixels("regression_samples")) features.Add(Feature::kRegressionControl);
-  merged.film = std::make_unique<FilmAccumulator>(
-      w.x0, w.y0, w.width(), w.height(), GroupsOf(strategy), features.Has(Feature::kAov));
+  merged.film = std::make_unique<FilmAccumulator>(w.x0, w.y0, w.width(), w.height(),
+                                                  GroupsOf(strategy), auxiliary);
   merged.films = std::make_unique<Films>(SamplePlanes(features),
                                          strategy.coefficient.value_or(1), *merged.film);
   if (file.HasPixels("weights")) merged.films->UseWeights();

@@ -32,6 +32,20 @@ std::vector<ExrPlane> NamedPlanes(std::initializer_list<const char*> names,
   return planes;
 }
 
+// By the names of pbrt-v4's GBufferFilm, and the share of samples that hit something.
+void AppendGbuffer(const FilmAccumulator& film, std::size_t pixels,
+                   std::vector<ExrPlane>& planes) {
+  auto gbuffer = NamedPlanes({"coverage", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z",
+                              "Ns.X", "Ns.Y", "Ns.Z", "u", "v", "dzdx", "dzdy"},
+                             pixels, true);
+  ForEachPixel(film, [&](std::size_t i, int x, int y) {
+    for (int p = 0; p < kGbufferPlanes; ++p) {
+      gbuffer[p].values[i] = static_cast<float>(film.Gbuffer(x, y, p));
+    }
+  });
+  for (ExrPlane& plane : gbuffer) planes.push_back(std::move(plane));
+}
+
 void AppendAov(const FilmAccumulator& film, double scale, std::size_t pixels,
                std::vector<ExrPlane>& planes) {
   auto aov = NamedPlanes(
@@ -81,6 +95,7 @@ std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale) {
     planes[6].values[i] = static_cast<float>(film.Samples(x, y));
   });
   if (film.has_aov()) AppendAov(film, scale, pixels, planes);
+  if (film.has_gbuffer()) AppendGbuffer(film, pixels, planes);
   return planes;
 }
 

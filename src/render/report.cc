@@ -59,7 +59,8 @@ Json SettingsJson(const Job& job, bool half) {
           {"sampler", Name(job.scene.strategy.points)},
           {"strategy", ToText(job.scene.strategy)},
           {"points", PointsText(job)},
-          {"aov", job.plan.options.aov},
+          {"aov", job.plan.options.auxiliary != Auxiliary::kNone},
+          {"gbuffer", GbufferName(job.description.film.gbuffer)},
           {"depth", half ? "half" : "float"},
           {"build", job.scene.accel.quality == BuildQuality::kFast ? "fast" : "high"},
           {"threads", MaxThreads()}};

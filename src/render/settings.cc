@@ -108,6 +108,7 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
   if (DecidesByDefault(settings, scene)) scene.strategy.decide = Decide::kPilot;
   Apply(settings.strategy, scene.strategy);
   if (settings.seed) scene.sampler.seed = *settings.seed;
+  if (settings.gbuffer) scene.film.gbuffer = *settings.gbuffer;
 }
 
 bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene) {
@@ -129,6 +130,11 @@ bool HasTarget(const RenderSettings& settings) {
   return settings.target_relmse || settings.target_rmse;
 }
 
+Auxiliary AuxiliaryOf(const RenderSettings& settings, const Film& film) {
+  if (film.gbuffer != Gbuffer::kNone) return Auxiliary::kGbuffer;
+  return settings.aov ? Auxiliary::kAov : Auxiliary::kNone;
+}
+
 CompileOptions CompileOptionsOf(const RenderSettings& settings) {
   CompileOptions options;
   options.scattering = settings.scattering;
@@ -139,9 +145,22 @@ CompileOptions CompileOptionsOf(const RenderSettings& settings) {
 PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene) {
   PlanOptions options;
   options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
-  options.aov = settings.aov;
+  options.auxiliary = AuxiliaryOf(settings, scene.film);
   options.wavefront = settings.wavefront;
   return options;
+}
+
+const char* GbufferName(Gbuffer gbuffer) {
+  switch (gbuffer) {
+    case Gbuffer::kNone:
+      return "";
+    case Gbuffer::kCamera:
+      return "camera";
+    case Gbuffer::kWorld:
+      return "world";
+  }
+  LL_CHECK(false);
+  return "";
 }
 
 const char* ScatteringName(Scattering model) {

@@ -38,6 +38,7 @@ struct RenderSettings {
   std::optional<BuildQuality> build;  // of the trees over shapes
   std::uint32_t wavefront = 0;        // paths; 0 = chosen by the plan
   bool aov = false;
+  std::optional<Gbuffer> gbuffer;
   bool skip_unsupported = false;
 };
 
@@ -58,9 +59,14 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene);
 bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene);
 inline constexpr double kLeastDecidedSeconds = 4;
 
+/// What such a render of a film tells of first hits.
+Auxiliary AuxiliaryOf(const RenderSettings& settings, const Film& film);
+
 CompileOptions CompileOptionsOf(const RenderSettings& settings);
 PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene);
 
+/// "camera" or "world"; empty for none.
+const char* GbufferName(Gbuffer gbuffer);
 const char* ScatteringName(Scattering model);
 
 }  // namespace lanelight

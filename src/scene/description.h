@@ -255,6 +255,9 @@ struct Filter {
   double tau = 3;                 // lanczos
 };
 
+/// Film "gbuffer", or --gbuffer: where the first hits are too, and in which space.
+enum class Gbuffer : std::uint8_t { kNone, kCamera, kWorld };
+
 struct Film {
   int width = 1280, height = 720;
   int crop[4] = {0, 0, 0, 0};  // pixel bounds x0 x1 y0 y1; all 0: whole image
@@ -262,7 +265,7 @@ struct Film {
   double imaging_ratio = 1;  // exposure time * ISO / 100
   FilmResponse response;
   std::string color_space = "srgb";  // of the image
-  bool auxiliary = false;            // a gbuffer: with what --aov writes
+  Gbuffer gbuffer = Gbuffer::kNone;
 };
 
 struct Sampler {

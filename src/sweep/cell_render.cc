@@ -73,7 +73,8 @@ Job& CellRenderer::Prepare(const SweepCell& cell) {
   if (!job_) throw std::runtime_error(failure_);
   const Strategy strategy = StrategyNamed(
       Get(cell.values, Axis::kStrategy).value_or(kSceneStrategyName), {}, own_);
-  CheckFilmFits(job_->window, settings.aov, strategy, PhysicalMemory());
+  CheckFilmFits(job_->window, AuxiliaryOf(settings, job_->description.film), strategy,
+                PhysicalMemory());
   SetCell(*job_, SettingsOf(settings, strategy, *job_));
   return *job_;
 }

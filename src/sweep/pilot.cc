@@ -61,7 +61,8 @@ Pilot RenderPilot(const Job& job, double seconds, bool half) {
   options.seed = job.seed;
   // The first render fills caches; the last one measures.
   for (options.spp = kPilotSamples;; options.spp *= 4) {
-    FilmAccumulator film(0, 0, width, height, GroupsOf(job.scene.strategy), false);
+    FilmAccumulator film(0, 0, width, height, GroupsOf(job.scene.strategy),
+                         Auxiliary::kNone);
     const RunResult result = Run(job.scene, job.plan, options, film);
     pilot.sample_seconds =
         result.seconds / double(std::max<std::uint64_t>(1, result.samples));

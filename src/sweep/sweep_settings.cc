@@ -55,6 +55,13 @@ std::string ReadScattering(const TomlFile& file, const std::string& key,
   return text;
 }
 
+std::string ReadGbuffer(const TomlFile& file, const std::string& key,
+                        const toml::node& node, SweepSettings& settings) {
+  const std::string text = OneOf(file, key, node, {"camera", "world"});
+  settings.render.gbuffer = text == "world" ? Gbuffer::kWorld : Gbuffer::kCamera;
+  return text;
+}
+
 std::string ReadWavefront(const TomlFile& file, const std::string& key,
                           const toml::node& node, SweepSettings& settings) {
   const std::int64_t paths = file.Integer(key, node);
@@ -100,6 +107,7 @@ const std::map<std::string, Reader>& Readers() {
       {"crop", ReadCrop},
       {"depth", ReadDepth},
       {"exposure", ReadExposure},
+      {"gbuffer", ReadGbuffer},
       {"png", FlagReader([](S& s) -> bool& { return s.png; })},
       {"scattering", ReadScattering},
       {"skip-unsupported",

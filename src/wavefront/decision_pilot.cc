@@ -64,7 +64,7 @@ bool DecisionPilot::RecordsUnsplit(const DecisionEntry& entry,
 
 TrainingSamples DecisionPilot::Render(const DecisionEntry& entry, bool records) {
   PlanOptions options = entry.options;
-  options.aov = false;
+  options.auxiliary = Auxiliary::kNone;
   options.training = records ? FeatureSet{Feature::kRecordsUnsplit} : FeatureSet{};
   options.own_points = true;
   RunParameters run = run_;

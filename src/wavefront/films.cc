@@ -7,6 +7,7 @@ namespace lanelight {
 Films::Films(const SamplePlanes& planes, double coefficient, FilmAccumulator& film)
     : planes_(planes), film_(film) {
   LL_CHECK_EQ(planes.Has(PlaneGroup::kAov), film.has_aov());
+  LL_CHECK_EQ(planes.Has(PlaneGroup::kGbuffer), film.has_gbuffer());
   if (planes.Has(PlaneGroup::kDifference)) film_.UseControl();
   if (!planes.Has(PlaneGroup::kNumbers)) return;
   regression_.emplace(film.x0(), film.y0(), film.width(), film.height(), film.groups(),

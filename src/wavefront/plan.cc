@@ -96,9 +96,10 @@ std::uint32_t WavefrontForCache(std::size_t bytes_per_path) {
 }  // namespace
 
 Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
-  if (options.aov && options.max_depth == 0) {
+  if (options.auxiliary != Auxiliary::kNone && options.max_depth == 0) {
     throw InputError(
-        "auxiliary output (--aov) tells of surfaces where paths scatter: it needs a "
+        "auxiliary output (--aov, --gbuffer) tells of surfaces where paths scatter: it "
+        "needs a "
         "maximum depth of at least 1");
   }
   Plan plan;

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "src/compiled/scene.h"
+#include "src/path/sample_planes.h"
 #include "src/path/stage.h"
 
 namespace lanelight {
 
 struct PlanOptions {
   std::uint32_t max_depth = 5;
-  bool aov = false;
+  Auxiliary auxiliary = Auxiliary::kNone;
   std::uint32_t wavefront = 0;  // paths; 0 = sized so that the live columns fit in L2
   /// Of a training pass (src/wavefront/training.h): what it turns on to record. It has
   /// independent points, no pairs and no control variate.

@@ -101,7 +101,8 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
   } else {
     RemoveScattering(f);
   }
-  if (options.aov) f.Add(Feature::kAov);
+  f.Add(AuxiliaryFeatures(options.auxiliary));
+  if (f.Has(Feature::kGbuffer) && HasSurfaces(f)) f.Add(Feature::kUv);
   f.Add(TurnsOn(strategy.points));
   f.Add(TurnsOn(strategy.pairs));
   AddControl(strategy, f);

@@ -19,7 +19,7 @@ std::uint64_t SamplesWithin(double seconds, const CompiledScene& scene,
                             const PlanOptions& options, const RunParameters& run,
                             const TaskWatcher* watcher) {
   PlanOptions simple = options;
-  simple.aov = false;
+  simple.auxiliary = Auxiliary::kNone;
   simple.training = FeatureSet{};
   // What has learned nothing yet cannot be rendered with.
   simple.changes = "roulette=throughput,guiding=none,decide=none";

@@ -40,7 +40,7 @@ std::uint32_t RaySeed(std::uint32_t seed, std::uint64_t turn) {
 PlanOptions CameraOnly(PlanOptions options) {
   options.max_depth = 0;
   options.camera_only = true;
-  options.aov = false;
+  options.auxiliary = Auxiliary::kNone;
   return options;
 }
 

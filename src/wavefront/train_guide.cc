@@ -34,7 +34,7 @@ class GuideTraining {
         guide_(context.tables.guide),
         watcher_(context.options.stop),
         options_(context.plan.options) {
-    options_.aov = false;
+    options_.auxiliary = Auxiliary::kNone;
     options_.training = FeatureSet{Feature::kRecordsGuide};
     // A path that splits would be on record with its first copy only.
     if (context.plan.features.Has(Feature::kSplitting)) {

@@ -84,7 +84,7 @@ class Pilot {
   PathSamples Pass(const FeatureSet& records, Roulette roulette,
                    const TrainingWork& work) {
     PlanOptions options = plan_.options;
-    options.aov = false;
+    options.auxiliary = Auxiliary::kNone;
     options.training = records;
     options.Change(Change(roulette));
     PathSamples samples =

@@ -26,7 +26,7 @@ constexpr double kStratified = 0.25;
 PathSamples ShadowPass(const TrainingContext& context, const TrainingWork& work) {
   const StopWatcher watcher(context.options.stop);
   PlanOptions options = context.plan.options;
-  options.aov = false;
+  options.auxiliary = Auxiliary::kNone;
   options.training = FeatureSet{};
   if (context.plan.features.Has(Feature::kSplitting)) {
     options.Change("roulette=throughput");

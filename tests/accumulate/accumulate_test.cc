@@ -20,7 +20,7 @@ constexpr float kExposure = 2;
 // Not a multiple of any vector: the last batch repeats the last slot, and that sample is
 // an invalid one (122 % kKinds == kNotANumber), which must count once.
 constexpr std::uint32_t kPaths = 123, kCapacity = 160, kStride = 200;
-constexpr int kPlanes = 3 + 7 + 3 + 6;
+constexpr int kPlanes = 3 + 7 + 14 + 3 + 6;
 constexpr float kUntouched = -77;
 
 enum Kind {
@@ -44,10 +44,12 @@ enum Kind {
 
 struct Variant {
   bool sign, aov, difference, numbers;
+  bool gbuffer = false;
   FeatureSet features() const {
     FeatureSet f;
     if (sign) f.Add(Feature::kControl);
     if (aov) f.Add(Feature::kAov);
+    if (gbuffer) f.Add(Feature::kGbuffer);
     if (difference) f.Add(Feature::kControlDifference);
     if (numbers) f.Add(Feature::kRegressionControl);
     return f;
@@ -153,6 +155,7 @@ class Finished {
     if (!v.sign) p.weight = nullptr;
     if (!v.difference) p.k_r = p.k_g = p.k_b = nullptr;
     if (!v.numbers) p.first_bsdf_0 = nullptr;
+    if (!v.gbuffer) p.gb_hit = nullptr;
   }
   void Run() { fixture_.Run(AccumulateStage(), variant_.features()); }
 
@@ -168,10 +171,12 @@ class Finished {
     return samples_[static_cast<std::size_t>(plane) * kStride + outputs_[i]];
   }
   static float Aov(int k, std::uint32_t i) { return 10.0f * k + i; }
+  static float Gbuffer(int k, std::uint32_t i) { return 0.5f * k - i; }
   static float Number(int k, std::uint32_t i) { return -1.0f - k - 8.0f * i; }
 
   int PlanesWritten() const {
-    return 3 + 7 * variant_.aov + 3 * variant_.difference + 6 * variant_.numbers;
+    return 3 + 7 * variant_.aov + 14 * variant_.gbuffer + 3 * variant_.difference +
+           6 * variant_.numbers;
   }
   bool OthersUntouched() const {
     for (int plane = 0; plane < kPlanes; ++plane) {
@@ -209,6 +214,10 @@ class Finished {
     float* aov[] = {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
                     p.aov_n_y,      p.aov_n_z,      p.aov_depth};
     for (int k = 0; k < 7; ++k) aov[k][slot] = Aov(k, i);
+    float* gbuffer[] = {p.gb_hit,  p.gb_p_x,  p.gb_p_y,  p.gb_p_z,  p.gb_ng_x,
+                        p.gb_ng_y, p.gb_ng_z, p.gb_ns_x, p.gb_ns_y, p.gb_ns_z,
+                        p.gb_uv_0, p.gb_uv_1, p.gb_dz_0, p.gb_dz_1};
+    for (int k = 0; k < 14; ++k) gbuffer[k][slot] = Gbuffer(k, i);
     float* numbers[] = {p.first_bsdf_0,  p.first_bsdf_1, p.first_light_0,
                         p.first_light_1, p.first_film_0, p.first_film_1};
     for (int k = 0; k < 6; ++k) numbers[k][slot] = Number(k, i);
@@ -222,10 +231,11 @@ class Finished {
 };
 
 constexpr Variant kVariants[] = {
-    {false, false, false, false}, {false, true, false, false},
-    {true, false, false, false},  {true, true, false, false},
-    {true, false, true, false},   {true, true, true, false},
-    {true, false, false, true},   {true, true, false, true}};
+    {false, false, false, false},      {false, true, false, false},
+    {true, false, false, false},       {true, true, false, false},
+    {true, false, true, false},        {true, true, true, false},
+    {true, false, false, true},        {true, true, false, true},
+    {false, true, false, false, true}, {true, true, true, false, true}};
 
 void CheckSample(const Finished& f, const Variant& v, std::uint32_t i) {
   const Sample s = f.planted(i);
@@ -237,6 +247,9 @@ void CheckSample(const Finished& f, const Variant& v, std::uint32_t i) {
   int plane = 3;
   for (int k = 0; v.aov && k < 7; ++k) {
     CHECK(f.Stored(plane++, i) == Finished::Aov(k, i));
+  }
+  for (int k = 0; v.gbuffer && k < 14; ++k) {
+    CHECK(f.Stored(plane++, i) == Finished::Gbuffer(k, i));
   }
   for (int c = 0; v.difference && c < 3; ++c) {
     CHECK(f.Stored(plane++, i) == (good ? f.Factor(i) * s.difference[c] : 0));

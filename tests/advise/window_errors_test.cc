@@ -49,7 +49,7 @@ TEST_CASE("windows cover the image evenly", "[study]") {
 TEST_CASE("windows have the samples that the whole image has there", "[study]") {
   Job job = SmallBox();
   const std::vector<PixelRect> windows = {{8, 16, 16, 24}, {56, 40, 64, 48}};
-  FilmAccumulator strip(0, 0, 16, 8, GroupsOf(job.scene.strategy), false);
+  FilmAccumulator strip(0, 0, 16, 8, GroupsOf(job.scene.strategy), Auxiliary::kNone);
   RunOptions options;
   options.spp = 128;
   options.seed = job.seed + 1;

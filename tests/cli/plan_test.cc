@@ -75,6 +75,9 @@ TEST_CASE("depth and auxiliary output change the plan", "[cli]") {
   CHECK_FALSE(Has(features({"--max-depth", "1"}), "Roulette"));
   CHECK_FALSE(Has(features({}), "Aov"));
   CHECK(Has(features({"--aov"}), "Aov"));
+  CHECK_FALSE(Has(features({"--aov"}), "Gbuffer"));
+  CHECK((Has(features({"--gbuffer", "world"}), "Aov") &&
+         Has(features({"--gbuffer", "world"}), "Gbuffer")));
 }
 
 TEST_CASE("compare measures and judges", "[cli]") {

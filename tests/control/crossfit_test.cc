@@ -67,7 +67,7 @@ struct Scores {
 Scores Simulate(int side, std::uint32_t spp, const SampleGroups& groups, Model model,
                 unsigned seed) {
   Skewed skewed(model, seed);
-  FilmAccumulator film(0, 0, side, side, groups, false);
+  FilmAccumulator film(0, 0, side, side, groups, Auxiliary::kNone);
   film.UseControl();
   Scores out;
   for (int y = 0; y < side; ++y) {

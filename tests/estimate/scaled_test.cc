@@ -16,7 +16,7 @@ constexpr std::uint32_t kSamples = 8;
 
 // Pixels of different brightness, times 2^exponent.
 FilmAccumulator Film(int exponent) {
-  FilmAccumulator film(0, 0, kSide, kSide, SampleGroups{}, false);
+  FilmAccumulator film(0, 0, kSide, kSide, SampleGroups{}, Auxiliary::kNone);
   std::mt19937 random(3);
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {

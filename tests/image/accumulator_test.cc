@@ -20,7 +20,7 @@ void Add(FilmAccumulator& film, const std::vector<float>& values) {
 }
 
 FilmAccumulator FilmOf(const SampleGroups& groups, const std::vector<float>& values) {
-  FilmAccumulator film(0, 0, 1, 1, groups, false);
+  FilmAccumulator film(0, 0, 1, 1, groups, Auxiliary::kNone);
   Add(film, values);
   return film;
 }
@@ -147,7 +147,7 @@ TEST_CASE("film: how samples are cut does not change a bit", "[film]") {
   for (float& v : values) v = normal(random);
   for (const SampleGroups& groups : {kSingle, kPairs, kReplicated, kPairsReplicated}) {
     const FilmAccumulator whole = FilmOf(groups, values);
-    FilmAccumulator parts(0, 0, 1, 1, groups, false);
+    FilmAccumulator parts(0, 0, 1, 1, groups, Auxiliary::kNone);
     for (std::size_t i = 0; i < values.size();) {
       const std::size_t n = std::min<std::size_t>(values.size() - i, random() % 10);
       Add(parts,
@@ -167,7 +167,7 @@ TEST_CASE("film: ten million samples lose nothing", "[film]") {
   std::mt19937 random(8);
   std::exponential_distribution<float> exponential(1);
   for (const SampleGroups& groups : {kSingle, kPairs, kReplicated}) {
-    FilmAccumulator film(0, 0, 1, 1, groups, false);
+    FilmAccumulator film(0, 0, 1, 1, groups, Auxiliary::kNone);
     PlainCompensated sum, squares, of[kReplicates];
     std::uint64_t n = 0;
     for (int call = 0; call < 10000; ++call) {

@@ -98,7 +98,7 @@ std::vector<Compensated> Twin(const Planes& planes, const Case& c, std::uint64_t
 }
 
 std::vector<double> FilmSums(const Planes& planes, const Case& c, std::uint64_t spp) {
-  FilmAccumulator film(0, 0, 1, 1, {c.unit, c.replicates}, false);
+  FilmAccumulator film(0, 0, 1, 1, {c.unit, c.replicates}, Auxiliary::kNone);
   if (c.control) film.UseControl();
   for (std::uint64_t i = 0; i < spp; i += kTask) {
     const float* from[kPlanes];

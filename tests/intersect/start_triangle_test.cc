@@ -145,7 +145,7 @@ TEST_CASE("paths know the triangle that they start on, wherever they are moved",
     CAPTURE(strategy);
     const std::string light =
         "LightSource \"point\" \"point3 from\" [ 0 1 0 ] \"rgb I\" [ 9 9 9 ]\n";
-    TaskFixture task(MeshScene() + light, strategy, false);
+    TaskFixture task(MeshScene() + light, strategy, Auxiliary::kNone);
     num_closest = num_shadow = num_wrong = 0;
     for (PlannedStage& planned : task.plan.stages) {
       const std::string name = planned.stage.name;

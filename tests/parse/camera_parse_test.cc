@@ -88,8 +88,12 @@ TEST_CASE("film size, crop and ignored sensor", "[parse]") {
     Film "gbuffer" "integer pixelbounds" [ 3 9 4 8 ])");
   CHECK(bounds.film.crop[0] == 3);
   CHECK(bounds.film.crop[3] == 8);
-  CHECK(HasNote(bounds, "writes what --aov does"));
-  CHECK(bounds.film.auxiliary);
+  CHECK(bounds.notes.empty());
+  CHECK(bounds.film.gbuffer == Gbuffer::kCamera);
+  const SceneDescription world = ParseOptionsBlock(R"(
+    Film "gbuffer" "string coordinatesystem" "world")");
+  CHECK(world.film.gbuffer == Gbuffer::kWorld);
+  CHECK(ParseOptionsBlock("Film \"rgb\"").film.gbuffer == Gbuffer::kNone);
 }
 
 TEST_CASE("pixel filters have their own default radii", "[parse]") {

@@ -110,7 +110,7 @@ TEST_CASE("cuts: samples shared out by the error", "[cuts]") {
 
 TEST_CASE("cuts: 64 parts, auxiliary planes", "[cuts]") {
   KeptRender r = RenderOf("cornell-box", "");
-  r.settings.aov = true;
+  r.settings.gbuffer = Gbuffer::kCamera;
   CheckCuts(r, {64});
 }
 

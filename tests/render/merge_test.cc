@@ -190,7 +190,7 @@ TEST_CASE("states of other renders are not gone on with", "[merge]") {
   const auto refused = [&](const KeptRender& other, const char* what) {
     CHECK_THAT(ErrorOf([&] { RenderKept(other); }), Contains(what));
   };
-  KeptRender seed = r, size = r, strategy = r, fewer = r, aov = r, part = r;
+  KeptRender seed = r, size = r, strategy = r, fewer = r, aov = r, gbuffer = r, part = r;
   seed.settings.seed = 2;
   refused(seed, "seed: the state has 0, this render 2");
   size.settings.resolution = {16, 24};
@@ -199,6 +199,8 @@ TEST_CASE("states of other renders are not gone on with", "[merge]") {
   refused(strategy, "strategy");
   aov.settings.aov = true;
   refused(aov, "aov");
+  gbuffer.settings.gbuffer = Gbuffer::kWorld;
+  refused(gbuffer, "gbuffer");
   fewer.settings.spp = 4;
   refused(fewer, "more than the 4 asked for");
   part.checkpoint.part = {1, 2};

@@ -19,8 +19,8 @@ namespace {
 using Catch::Contains;
 
 // Two pixels at (3, 4): the first with samples 1 and 3, the second with one sample.
-FilmAccumulator SmallFilm(bool aov) {
-  FilmAccumulator film(3, 4, 2, 1, {1, false}, aov);
+FilmAccumulator SmallFilm(Auxiliary auxiliary) {
+  FilmAccumulator film(3, 4, 2, 1, {1, false}, auxiliary);
   float values[10][2];
   const float* planes[10];
   for (int p = 0; p < 10; ++p) {
@@ -44,7 +44,7 @@ const ExrPlane& Find(const std::vector<ExrPlane>& planes, const std::string& nam
 }  // namespace
 
 TEST_CASE("planes hold means, variances of the mean and counts", "[render]") {
-  const auto planes = FilmPlanes(SmallFilm(false), 4);
+  const auto planes = FilmPlanes(SmallFilm(Auxiliary::kNone), 4);
   CHECK(planes.size() == 7);
   CHECK(Find(planes, "R").values == std::vector<float>{2, 1});
   CHECK(Find(planes, "B").values == std::vector<float>{4, 3});
@@ -56,7 +56,7 @@ TEST_CASE("planes hold means, variances of the mean and counts", "[render]") {
 }
 
 TEST_CASE("depth is written in units of the scene file", "[render]") {
-  const auto planes = FilmPlanes(SmallFilm(true), 4);
+  const auto planes = FilmPlanes(SmallFilm(Auxiliary::kAov), 4);
   CHECK(planes.size() == 14);
   CHECK(Find(planes, "albedo.R").values[0] == Approx(5));
   CHECK(Find(planes, "depth.Z").values[0] == Approx(11 / 4.0));
@@ -64,7 +64,7 @@ TEST_CASE("depth is written in units of the scene file", "[render]") {
 }
 
 TEST_CASE("the PNG shows the means", "[render]") {
-  const Image image = FilmImage(SmallFilm(false));
+  const Image image = FilmImage(SmallFilm(Auxiliary::kNone));
   CHECK(image.width == 2);
   CHECK(image.At(0, 0, 0) == 2);
   CHECK(image.At(1, 0, 2) == 3);
@@ -148,7 +148,7 @@ TEST_CASE("variances beyond 32 bits are written in another unit", "[render]") {
   TempDirectory directory;
   for (const double size : {1.0, 1e-9, 1e12, 1e15, 1e30, 1e-20, 1e-30}) {
     CAPTURE(size);
-    FilmAccumulator film(0, 0, 2, 1, SampleGroups{}, false);
+    FilmAccumulator film(0, 0, 2, 1, SampleGroups{}, Auxiliary::kNone);
     const float dim = static_cast<float>(size * 1e-6), bright = static_cast<float>(size);
     const float dims[2] = {dim, 3 * dim}, brights[2] = {bright, 3 * bright};
     const float zeros[2] = {0, 0};

@@ -63,20 +63,21 @@ TEST_CASE("settings out of range are refused", "[render]") {
 
 TEST_CASE("a film beyond the memory is refused with both numbers", "[render]") {
   const PixelRect window = {0, 0, 1 << 15, 1 << 15};
-  CHECK(FilmBytes(window, true) > FilmBytes(window, false));
-  CHECK(FilmBytes(window, false) > window.pixels() * 100);
+  CHECK(FilmBytes(window, Auxiliary::kAov) > FilmBytes(window, Auxiliary::kNone));
+  CHECK(FilmBytes(window, Auxiliary::kNone) > window.pixels() * 100);
   Strategy control;
   control.control = Control::kRegression;
-  CHECK(FilmBytes(window, false, control) >
-        FilmBytes(window, false) + window.pixels() * 300);
+  CHECK(FilmBytes(window, Auxiliary::kNone, control) >
+        FilmBytes(window, Auxiliary::kNone) + window.pixels() * 300);
   control.control = Control::kAnalytic;
-  CHECK(FilmBytes(window, false, control) >
-        FilmBytes(window, false) + window.pixels() * 100);
+  CHECK(FilmBytes(window, Auxiliary::kNone, control) >
+        FilmBytes(window, Auxiliary::kNone) + window.pixels() * 100);
   control.coefficient = 1;  // applied by the kernel: nothing to fit
-  CHECK(FilmBytes(window, false, control) == FilmBytes(window, false));
+  CHECK(FilmBytes(window, Auxiliary::kNone, control) ==
+        FilmBytes(window, Auxiliary::kNone));
   const std::uint64_t gib = std::uint64_t{1} << 30;
-  CHECK_NOTHROW(CheckFilmFits(window, false, {}, 1000 * gib));
-  CHECK_THROWS_WITH(CheckFilmFits(window, false, {}, 16 * gib),
+  CHECK_NOTHROW(CheckFilmFits(window, Auxiliary::kNone, {}, 1000 * gib));
+  CHECK_THROWS_WITH(CheckFilmFits(window, Auxiliary::kNone, {}, 16 * gib),
                     Contains("32768x32768") && Contains("16.0 GiB"));
   CHECK(PhysicalMemory() > gib / 4);
 }

@@ -122,7 +122,7 @@ TEST_CASE("images with splitting do not depend on threads or wavefronts", "[roul
       base.spp = 160;
       base.threads = 1;
       base.wavefront = 1000;
-      base.aov = true;
+      base.auxiliary = Auxiliary::kAov;
       base.keep_roulette = keep;
       base.strategy = std::string("pairs=antithetic,roulette=") + roulette;
       const Rendered reference = RenderDescription(SmallRoom(16, 6), base);
@@ -141,7 +141,7 @@ TEST_CASE("images with splitting do not depend on threads or wavefronts", "[roul
 TEST_CASE("splitting leaves the auxiliary planes alone", "[roulette]") {
   TestRender t;
   t.spp = 64;
-  t.aov = true;
+  t.auxiliary = Auxiliary::kAov;
   t.keep_roulette = true;
   t.strategy = "roulette=none";
   const Rendered plain = RenderDescription(SmallRoom(16, 4), t);

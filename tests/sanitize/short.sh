@@ -71,7 +71,7 @@ render many-lights.pbrt --resolution 81x61 --spp 8 --strategy light-candidates=r
 expect 0 guide cornell-box.pbrt --resolution 81x61 --pixel 40,50 --samples 1e6 \
   -o "$out/guide.png"
 
-render glass.pbrt --resolution 64x48 --spp 4 --aov --png --crop 3,5,50,40 --depth half \
+render glass.pbrt --resolution 64x48 --spp 4 --gbuffer camera --png --crop 3,5,50,40 --depth half \
   --json "$out/report.json" --build fast
 render many-lights.pbrt --resolution 40x30 --time 1 --strategy light-selection=tree
 render cornell-box.pbrt --resolution 40x30 --target-relmse 0.5 --spp 4096

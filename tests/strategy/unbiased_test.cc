@@ -354,9 +354,10 @@ TEST_CASE("a probability of selecting a light that is 1 % wrong is found", "[str
   plan_options.max_depth = 1;
   const auto render = [&](std::uint64_t seed) {
     const ThreadLimit limit(2);
-    Rendered out{FilmAccumulator(0, 0, 8, 8, GroupsOf(compiled.strategy), false),
-                 {},
-                 MakePlan(compiled, plan_options)};
+    Rendered out{
+        FilmAccumulator(0, 0, 8, 8, GroupsOf(compiled.strategy), Auxiliary::kNone),
+        {},
+        MakePlan(compiled, plan_options)};
     RunOptions run;
     run.spp = 8192;
     run.seed = seed;

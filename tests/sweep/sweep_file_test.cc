@@ -115,6 +115,7 @@ scene = "a.pbrt"
 [settings]
 crop = [1, 2, 30, 40]
 aov = true
+gbuffer = "world"
 depth = "half"
 png = true
 exposure = -1
@@ -124,11 +125,12 @@ skip-unsupported = false
 )")
                               .settings;
   CHECK(s.render.crop == std::array<int, 4>{1, 2, 30, 40});
+  CHECK(s.render.gbuffer == Gbuffer::kWorld);
   CHECK((s.render.aov && s.half && s.png && !s.render.skip_unsupported));
   CHECK(s.exposure == -1);
   CHECK(s.render.scattering == Scattering::kInSphere);
   CHECK(s.render.wavefront == 512);
-  CHECK(s.texts.size() == 8);
+  CHECK(s.texts.size() == 9);
   CHECK(s.texts.at("crop") == "1,2,30,40");
 }
 
@@ -223,6 +225,9 @@ TEST_CASE("sweep: mistakes are named with their place and a remedy", "[sweep]") 
       {"[grid]\nscene = 'a.pbrt'\n[[include]]\nspp = 4", "3:1", {"no scene"}},
       {"[grid]\nscene = 'a.pbrt'\n[settings]\nspp = 4", "4:1", {"axis", "[grid]"}},
       {"[grid]\nscene = 'a.pbrt'\n[settings]\naovs = true", "4:1", {"mean \"aov\""}},
+      {"[grid]\nscene = 'a.pbrt'\n[settings]\ngbuffer = 'eye'",
+       "4:11",
+       {"camera", "world"}},
       {"[grid]\nscene = 'a.pbrt'\n[settings]\naov = 1", "4:7", {"true or false"}},
       {"[grid]\nscene = 'a.pbrt'\n[settings]\ncrop = '0,0,1,1'", "4:8", {"[x0, y0"}},
       {"[grid]\nscene = 'a.pbrt'\n[settings]\ncrop = [4, 0, 4, 2]", "4:8", {"x0 < x1"}},

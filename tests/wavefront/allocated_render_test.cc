@@ -152,7 +152,7 @@ TEST_CASE("windows have as many samples each", "[allocation]") {
   PlanOptions plan_options;
   plan_options.max_depth = 3;
   const Plan plan = MakePlan(scene, plan_options);
-  FilmAccumulator film(0, 0, 16, 8, GroupsOf(strategy), false);
+  FilmAccumulator film(0, 0, 16, 8, GroupsOf(strategy), Auxiliary::kNone);
   RunOptions options;
   options.spp = 40;
   options.windows = {{0, 0, 8, 8}, {40, 16, 48, 24}};

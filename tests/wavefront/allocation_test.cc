@@ -27,7 +27,7 @@ float Noisy(int x, int, std::mt19937_64& random) {
 FilmAccumulator PilotOf(std::uint64_t seed_of_black, std::uint64_t seed_of_white) {
   std::mt19937_64 numbers[] = {std::mt19937_64(seed_of_black),
                                std::mt19937_64(seed_of_white)};
-  FilmAccumulator film(0, 0, 34, 19, kReplicated, false);
+  FilmAccumulator film(0, 0, 34, 19, kReplicated, Auxiliary::kNone);
   ForPixels(film, [&](int x, int y) {
     AddDrawn(film, x, y, kAllocationPilot, Noisy, numbers[ColourOf(x, y)]);
   });
@@ -112,7 +112,7 @@ FilmAccumulator ControlledPilot(std::uint64_t seed_of_black,
                                 std::uint64_t seed_of_white) {
   std::mt19937_64 numbers[] = {std::mt19937_64(seed_of_black),
                                std::mt19937_64(seed_of_white)};
-  FilmAccumulator film(0, 0, 34, 19, kReplicated, false);
+  FilmAccumulator film(0, 0, 34, 19, kReplicated, Auxiliary::kNone);
   film.UseControl();
   ForPixels(film, [&](int x, int y) {
     std::mt19937_64& random = numbers[ColourOf(x, y)];

@@ -40,7 +40,7 @@ class Checker {
     PlanOptions options;
     options.max_depth = 5;
     options.wavefront = 300;
-    options.aov = !c.records;
+    options.auxiliary = c.records ? Auxiliary::kNone : Auxiliary::kGbuffer;
     if (c.records && s.Splits()) {
       options.training = FeatureSet{Feature::kRecordsUnsplit};
     } else if (c.records) {

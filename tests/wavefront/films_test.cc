@@ -22,6 +22,11 @@ struct FilmCase {
 };
 
 // A film with all that belongs to it.
+Auxiliary AuxiliaryOf(const FeatureSet& features) {
+  if (features.Has(Feature::kGbuffer)) return Auxiliary::kGbuffer;
+  return features.Has(Feature::kAov) ? Auxiliary::kAov : Auxiliary::kNone;
+}
+
 struct Gathering {
   const FilmCase& of;
   FilmAccumulator film;
@@ -30,7 +35,7 @@ struct Gathering {
 
   explicit Gathering(const FilmCase& c)
       : of(c),
-        film(0, 0, kWidth, kHeight, c.groups, c.features.Has(Feature::kAov)),
+        film(0, 0, kWidth, kHeight, c.groups, AuxiliaryOf(c.features)),
         films(SamplePlanes(c.features), 1, film),
         pixels(kWidth * kHeight) {
     std::iota(pixels.begin(), pixels.end(), 0u);
@@ -54,6 +59,7 @@ const FilmCase kCases[] = {
     {"pairs, one of them open", {}, {2, false}, 3},
     {"replicates", {}, {1, true}, 2},
     {"replicates of pairs and auxiliary planes", {Feature::kAov}, {2, true}, 3},
+    {"g-buffer", {Feature::kAov, Feature::kGbuffer}, {1, false}, 4},
     {"control variate", {Feature::kControlDifference}, {1, false}, 4},
     {"control variate, pairs and auxiliary planes",
      {Feature::kControlDifference, Feature::kAov},

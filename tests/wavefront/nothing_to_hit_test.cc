@@ -57,11 +57,11 @@ TEST_CASE("a scene without surfaces shows its environment, or nothing", "[plan]"
           "roulette=adjoint,directions=light", "control=regression",
           "shadow-roulette=contribution,environment=compensated",
           "pairs=antithetic,directions=uniform"}) {
-      for (const bool aov : {false, true}) {
-        CAPTURE(body, strategy, aov);
+      for (const Auxiliary auxiliary : {Auxiliary::kNone, Auxiliary::kGbuffer}) {
+        CAPTURE(body, strategy, int(auxiliary));
         TestRender test;
         test.strategy = strategy;
-        test.aov = aov;
+        test.auxiliary = auxiliary;
         CheckAll(RenderText(std::string(kEmpty) + kSky + body, test).film,
                  {0.25, 0.5, 2});
         CheckAll(RenderText(kEmpty + body, test).film, {});
@@ -115,7 +115,7 @@ TEST_CASE("auxiliary output without scattering is refused", "[plan]") {
   PlanOptions options;
   options.max_depth = 0;
   CHECK_NOTHROW(MakePlan(scene, options));
-  options.aov = true;
+  options.auxiliary = Auxiliary::kGbuffer;
   CHECK_THROWS_WITH(MakePlan(scene, options), Contains("maximum depth of at least 1"));
 }
 

@@ -33,7 +33,9 @@ Rendered Render(const OpenEnded& o) {
   plan_options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
   plan_options.wavefront = o.wavefront;
   const Plan plan = MakePlan(scene, plan_options);
-  Rendered out{FilmAccumulator(0, 0, 37, 29, GroupsOf(scene.strategy), false), {}, plan};
+  Rendered out{FilmAccumulator(0, 0, 37, 29, GroupsOf(scene.strategy), Auxiliary::kNone),
+               {},
+               plan};
   RunOptions options;
   options.spp = o.spp;
   options.seed = o.seed;
@@ -150,7 +152,7 @@ TEST_CASE("a render of a million samples has variances whenever it is stopped",
       PlanOptions plan_options;
       plan_options.max_depth = 3;
       const Plan plan = MakePlan(scene, plan_options);
-      FilmAccumulator film(0, 0, 37, 29, GroupsOf(scene.strategy), false);
+      FilmAccumulator film(0, 0, 37, 29, GroupsOf(scene.strategy), Auxiliary::kNone);
       std::atomic<bool> stop{false};
       RunOptions options;
       options.spp = 1'000'000;

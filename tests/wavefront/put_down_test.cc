@@ -52,7 +52,9 @@ Rendered Run(const RunOptions& options) {
   PlanOptions plan_options;
   plan_options.max_depth = 1000000;
   const Plan plan = MakePlan(scene, plan_options);
-  Rendered out{FilmAccumulator(0, 0, 32, 32, GroupsOf(scene.strategy), false), {}, plan};
+  Rendered out{FilmAccumulator(0, 0, 32, 32, GroupsOf(scene.strategy), Auxiliary::kNone),
+               {},
+               plan};
   out.result = lanelight::Run(scene, plan, options, out.film);
   return out;
 }
@@ -144,7 +146,7 @@ Shape "sphere" "float radius" 3
   run.tables = &tables;
   const RunOptions options;
   const auto render = [&](const std::vector<int>& put_down_after) {
-    FilmAccumulator film(0, 0, 40, 24, GroupsOf(scene.strategy), false);
+    FilmAccumulator film(0, 0, 40, 24, GroupsOf(scene.strategy), Auxiliary::kNone);
     Films films(run.planes, 1, film);
     Tasks tasks(scene, plan, run, options, 32);
     for (const std::uint64_t limit_spp : {20u, 64u}) {

@@ -19,7 +19,7 @@ struct TestRender {
   std::uint32_t wavefront = 0;
   Points sampler = Points::kIndependent;
   std::string strategy;  // on top of the scene's and `sampler`
-  bool aov = false;
+  Auxiliary auxiliary = Auxiliary::kNone;
   bool keep_roulette = false;         // RunOptions
   std::uint64_t planned_samples = 0;  // RunOptions
   CompileOptions compile;
@@ -41,11 +41,11 @@ inline Rendered RenderDescription(const SceneDescription& description,
   UseStrategy(strategy, scene);
   PlanOptions plan_options;
   plan_options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
-  plan_options.aov = t.aov;
+  plan_options.auxiliary = t.auxiliary;
   plan_options.wavefront = t.wavefront;
   const Plan plan = MakePlan(scene, plan_options);
   Rendered out{FilmAccumulator(0, 0, scene.film.width, scene.film.height,
-                               GroupsOf(scene.strategy), t.aov),
+                               GroupsOf(scene.strategy), t.auxiliary),
                {},
                plan};
   RunOptions options;

@@ -18,7 +18,9 @@ Rendered Render(const Request& request) {
   plan_options.wavefront = request.wavefront;
   const Plan plan = MakePlan(scene, plan_options);
   Rendered out{
-      FilmAccumulator(0, 0, kWidth, kHeight, GroupsOf(strategy), false), {}, plan};
+      FilmAccumulator(0, 0, kWidth, kHeight, GroupsOf(strategy), Auxiliary::kNone),
+      {},
+      plan};
   RunOptions options;
   options.spp = request.spp;
   options.seed = request.seed;

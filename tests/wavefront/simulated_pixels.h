@@ -34,7 +34,7 @@ void ForPixels(const FilmAccumulator& film, Do&& body) {
 /// After the pilot.
 inline FilmAccumulator Pilot(int width, int height, const DrawSample& draw,
                              std::mt19937_64& random) {
-  FilmAccumulator film(0, 0, width, height, kReplicated, false);
+  FilmAccumulator film(0, 0, width, height, kReplicated, Auxiliary::kNone);
   ForPixels(film,
             [&](int x, int y) { AddDrawn(film, x, y, kAllocationPilot, draw, random); });
   return film;

@@ -64,7 +64,7 @@ TEST_CASE("wavefronts neither allocate nor lock", "[steady]") {
           "points=lattice,roulette=luminance,control=regression", "points=stratified",
           "roulette=efficiency", "shadow-roulette=contribution:0.01"}) {
       INFO(strategy);
-      TaskFixture task(scene, strategy, true);
+      TaskFixture task(scene, strategy, Auxiliary::kGbuffer);
       Plant(task.plan);
       plant_allocation = plant_lock = false;
       const InterposedCalls untimed = CallsOfSecondTask(task, nullptr);
@@ -84,7 +84,7 @@ TEST_CASE("wavefronts neither allocate nor lock", "[steady]") {
 
 TEST_CASE("an allocation or a lock in a wavefront is noticed", "[steady]") {
   if (Skip()) return;
-  TaskFixture task(kAllStagesScene, "points=sobol", false);
+  TaskFixture task(kAllStagesScene, "points=sobol", Auxiliary::kNone);
   Plant(task.plan);
   plant_allocation = true, plant_lock = false;
   const InterposedCalls allocating = CallsOfSecondTask(task, nullptr);

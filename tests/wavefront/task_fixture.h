@@ -43,14 +43,14 @@ inline std::string MeshScene() {
 /// What a task of a render does (src/wavefront/tasks.cc), with a plan to tamper with.
 class TaskFixture {
  public:
-  TaskFixture(const std::string& text, const std::string& strategy, bool aov)
+  TaskFixture(const std::string& text, const std::string& strategy, Auxiliary auxiliary)
       : scene_(PrepareScene(ParseSceneText(text, "test.pbrt", "."), {})) {
     Strategy s = scene_.strategy;
     ApplyStrategy(strategy, {}, s);
     UseStrategy(s, scene_);
     PlanOptions options;
     options.max_depth = 6;
-    options.aov = aov;
+    options.auxiliary = auxiliary;
     options.wavefront = 256;
     plan = MakePlan(scene_, options);
     tables_ = MakeStrategyTables(scene_);
@@ -80,7 +80,7 @@ class TaskFixture {
 
  private:
   static constexpr std::uint32_t kSamples = 4;
-  static constexpr int kPlanes = 24;  // more than any strategy has
+  static constexpr int kPlanes = 48;  // more than any strategy has
 
   std::uint32_t Rows() const { return 32 * 32 * kSamples * copies_; }
 

@@ -16,7 +16,7 @@ constexpr std::uint32_t kBlock = 4096;
 // A film of one pixel after `count` samples, of values by their number.
 template <class Value>
 FilmAccumulator Sum(std::uint64_t count, const SampleGroups& groups, Value value) {
-  FilmAccumulator film(0, 0, 1, 1, groups, false);
+  FilmAccumulator film(0, 0, 1, 1, groups, Auxiliary::kNone);
   std::vector<float> block(kBlock);
   const float* planes[3] = {block.data(), block.data(), block.data()};
   for (std::uint64_t i = 0; i < count; i += kBlock) {

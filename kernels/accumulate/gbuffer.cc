@@ -1,0 +1,81 @@
+// Where the first hit is: what pbrt-v4's GBufferFilm keeps of it (Pharr, Jakob and
+// Humphreys 2023, section 5.4.3). A miss leaves the zeros that the camera stage wrote.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/accumulate/gbuffer.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/queue/filter-inl.h"
+#include "kernels/surface/pixel_steps-inl.h"
+#include "src/compiled/scene.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE V3 Rows(Vec3f x, Vec3f y, Vec3f z, V3 v) {
+  return {Dot(SplatVec(x), v), Dot(SplatVec(y), v), Dot(SplatVec(z), v)};
+}
+
+HWY_INLINE V3 NormalIn(const GbufferSpace& space, V3 n) {
+  return Normalize(Rows(space.normal_x, space.normal_y, space.normal_z, n));
+}
+
+// How much z changes from the pixel at p to the next, in the plane across ng.
+HWY_INLINE VF Slope(const GbufferSpace& space, float scale, V3 ng, V3 sight, V3 step) {
+  const VF change = Dot(SplatVec(space.z), InPlane(ng, sight, step));
+  return Bounded(hn::Div(change, Splat(scale)));
+}
+
+void Gbuffer(Wave& wave) {
+  const PathColumns& path = wave.path;
+  const GbufferSpace& space = wave.scene->gbuffer;
+  const PixelFootprint& footprint = wave.scene->footprint;
+  const Queue& first =
+      FilterQueue(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots) HWY_ATTR {
+        return hn::RebindMask(DF(), hn::Eq(Gather(path.depth, slots), hn::Zero(DI())));
+      });
+  ForEachBatch(wave, first, [&](const StoreSlots& slots, MF) HWY_ATTR {
+    const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
+    const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+    const V3 ns =
+        path.ns_x == nullptr ? ng : Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
+    const V3 place =
+        Rows(space.x, space.y, space.z, p - SplatVec(space.from)) + SplatVec(space.to);
+    const PixelSteps steps = StepsAt(footprint, p);
+    Scatter(Splat(1.0f), path.gb_hit, slots);
+    Scatter3(place, path.gb_p_x, path.gb_p_y, path.gb_p_z, slots);
+    Scatter3(NormalIn(space, ng), path.gb_ng_x, path.gb_ng_y, path.gb_ng_z, slots);
+    Scatter3(NormalIn(space, ns), path.gb_ns_x, path.gb_ns_y, path.gb_ns_z, slots);
+    Scatter(Gather(path.uv_u, slots), path.gb_uv_0, slots);
+    Scatter(Gather(path.uv_v, slots), path.gb_uv_1, slots);
+    Scatter(Slope(space, footprint.scale, ng, steps.sight, steps.x), path.gb_dz_0, slots);
+    Scatter(Slope(space, footprint.scale, ng, steps.sight, steps.y), path.gb_dz_1, slots);
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(Gbuffer);
+
+Stage GbufferStage() {
+  return {"gbuffer",
+          "point, normals, coordinates and slopes of the first hit",
+          QueueId::kSurface,
+          {Feature::kGbuffer, Feature::kScatters},
+          fields::kPoint | fields::kNormal | fields::kUv | FieldSet{Field::depth},
+          fields::kGbuffer,
+          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Gbuffer); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE
