@@ -6,7 +6,7 @@
 #define LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_
 #endif
 
-#include "kernels/lights/light-inl.h"
+#include "kernels/lights/map_samples-inl.h"
 #include "kernels/warp/octahedral-inl.h"
 #include "src/compiled/scene.h"
 
@@ -14,13 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-struct EnvironmentSample {
-  V3 direction, radiance;
-  VF pdf_sa;  // of choosing this direction, light selection not included
-};
-
 LANELIGHT_INLINE void TexelValues(const Environment& e, VI row, VI column,
-                                  EnvironmentSample* out) {
+                                  MapSample* out) {
   const DI di;
   const float inv_four_pi = 0.0795774715459476679f;
   const VI texel = hn::Add(hn::Mul(row, hn::Set(di, e.size)), column);
@@ -30,7 +25,7 @@ LANELIGHT_INLINE void TexelValues(const Environment& e, VI row, VI column,
 }
 
 /// Radiance and density of scene direction d.
-LANELIGHT_INLINE EnvironmentSample LookUpEnvironment(const Environment& e, V3 d) {
+LANELIGHT_INLINE MapSample LookUpEnvironment(const Environment& e, V3 d) {
   const DI di;
   const float* m = e.light_from_scene;
   const V3 local = {Dot(Splat3(m[0], m[1], m[2]), d), Dot(Splat3(m[3], m[4], m[5]), d),
@@ -42,7 +37,7 @@ LANELIGHT_INLINE EnvironmentSample LookUpEnvironment(const Environment& e, V3 d)
   const auto texel = [&](VF x) HWY_ATTR {
     return hn::Min(hn::Max(hn::ConvertTo(di, hn::Mul(x, size)), zero), last);
   };
-  EnvironmentSample out;
+  MapSample out;
   out.direction = d;
   TexelValues(e, texel(t), texel(s), &out);
   return out;
@@ -80,7 +75,7 @@ LANELIGHT_INLINE VI InvertCdf(const Distribution& d, int32_t bits, VF u, VF* ins
 }
 
 /// Direction with density proportional to the luminance of its texel.
-LANELIGHT_INLINE EnvironmentSample SampleEnvironment(const Environment& e, VF u0, VF u1) {
+LANELIGHT_INLINE MapSample SampleEnvironment(const Environment& e, VF u0, VF u1) {
   const DI di;
   VF inside_row, inside_column;
   const VI zero = hn::Zero(di);
@@ -95,7 +90,7 @@ LANELIGHT_INLINE EnvironmentSample SampleEnvironment(const Environment& e, VF u0
   const VF t = hn::Mul(hn::Add(hn::ConvertTo(DF(), row), inside_row), inv_size);
   const V3 w = OctahedralDirection(s, t);
   const float* m = e.light_from_scene;  // orthonormal: the transpose is the inverse
-  EnvironmentSample out;
+  MapSample out;
   out.direction = {Dot(Splat3(m[0], m[3], m[6]), w), Dot(Splat3(m[1], m[4], m[7]), w),
                    Dot(Splat3(m[2], m[5], m[8]), w)};
   TexelValues(e, row, column, &out);

@@ -29,7 +29,7 @@ void Escape(Wave& wave) {
           V3 radiance = Splat3(light.radiance[0], light.radiance[1], light.radiance[2]);
           VF pdf = Splat(inv_four_pi);
           if (light.environment >= 0) {
-            const EnvironmentSample s = LookUpEnvironment(
+            const MapSample s = LookUpEnvironment(
                 table.environments[static_cast<uint32_t>(light.environment)], d);
             radiance = s.radiance;
             pdf = s.pdf_sa;
@@ -37,7 +37,7 @@ void Escape(Wave& wave) {
           if constexpr (kPortals) {
             if (light.shape == static_cast<uint32_t>(LightShape::kPortal)) {
               const V3 from = ScatteredFrom(p, slots);
-              const PortalSample s = LookThrough(table.portals[light.image], from, d);
+              const MapSample s = LookThrough(table.portals[light.image], from, d);
               radiance = s.radiance;
               pdf = s.pdf_sa;
             }

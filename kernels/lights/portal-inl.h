@@ -14,6 +14,7 @@
 #endif
 
 #include "hwy/contrib/math/math-inl.h"
+#include "kernels/lights/map_samples-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/surface/point-inl.h"
 #include "src/compiled/lights.h"
@@ -31,12 +32,6 @@ struct PortalPlace {
 struct PortalWindow {
   VF s0, s1, t0, t1;
   MF open;
-};
-
-/// `pdf_sa` is 0 and `radiance` black where nothing is seen.
-struct PortalSample {
-  V3 direction, radiance;
-  VF pdf_sa;
 };
 
 LANELIGHT_INLINE V3 LoadV3(const float v[3]) { return Splat3(v[0], v[1], v[2]); }
@@ -188,15 +183,14 @@ LANELIGHT_INLINE V3 PortalTexel(const Portal& portal, VF column, VF row) {
 
 /// Direction that `from` sees through the portal, with density proportional to the weight
 /// of its texel.
-inline HWY_NOINLINE PortalSample SamplePortal(const Portal& portal, V3 from, VF u0,
-                                              VF u1) {
+inline HWY_NOINLINE MapSample SamplePortal(const Portal& portal, V3 from, VF u0, VF u1) {
   const PortalWindow window = WindowFrom(portal, from);
   const PortalSums low = SumsOf<false>(portal, window),
                    high = SumsOf<true>(portal, window);
   const auto a = low.Sample(HalfOf<false>(u0), HalfOf<false>(u1));
   const auto b = high.Sample(HalfOf<true>(u0), HalfOf<true>(u1));
   const VF per_texel = Splat(1.0f / static_cast<float>(portal.size));
-  PortalSample out;
+  MapSample out;
   out.direction = DirectionAt(portal, hn::Mul(FromHalves(a.x, b.x), per_texel),
                               hn::Mul(FromHalves(a.y, b.y), per_texel));
   const PortalPlace place = PlaceOf(portal, out.direction);
@@ -210,8 +204,7 @@ inline HWY_NOINLINE PortalSample SamplePortal(const Portal& portal, V3 from, VF 
 }
 
 /// Radiance and density of a direction from `from`.
-inline HWY_NOINLINE PortalSample LookThrough(const Portal& portal, V3 from,
-                                             V3 direction) {
+inline HWY_NOINLINE MapSample LookThrough(const Portal& portal, V3 from, V3 direction) {
   const PortalWindow w = WindowFrom(portal, from);
   const PortalPlace place = PlaceOf(portal, direction);
   const auto inside = [](VF v, VF low, VF high)

@@ -9,7 +9,6 @@
 #include "hwy/highway.h"
 
 #include "kernels/lights/environment-inl.h"
-#include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,35 +18,12 @@ namespace HWY_NAMESPACE {
 template <bool kMany>
 void SampleInfiniteImage(Wave& wave) {
   const PathColumns& p = wave.path;
-  const CompiledScene& scene = *wave.scene;
-  for (std::size_t e = 0; e < scene.lights.environments.size(); ++e) {
-    const Environment& environment = scene.lights.environments[e];
-    ForEachLit<kMany>(
-        wave, LightShape::kInfiniteImage,
-        [&](const StoreSlots& slots, VI index) HWY_ATTR {
-          const Lights light(scene, index);
-          const MF mine =
-              hn::RebindMask(DF(), hn::Eq(light.I(offsetof(LightRecord, environment)),
-                                          hn::Set(DI(), static_cast<int32_t>(e))));
-          if (hn::AllFalse(DF(), mine)) return;
-          const EnvironmentSample s = SampleEnvironment(
-              environment, Gather(p.u_light_0, slots), Gather(p.u_light_1, slots));
-          const VF pdf = hn::Mul(light.Pmf(p, slots), s.pdf_sa);
-          const V3 value = Mul(s.radiance, hn::Div(Splat(1.0f), pdf));
-          const V3 usable = IfThenElseZero(hn::Gt(pdf, Splat(0)), value);
-          const auto keep = [&](VF v, float* column) HWY_ATTR {
-            Scatter(hn::IfThenElse(mine, v, Gather(column, slots)), column, slots);
-          };
-          keep(s.direction.x, p.ls_x);
-          keep(s.direction.y, p.ls_y);
-          keep(s.direction.z, p.ls_z);
-          keep(Splat(std::numeric_limits<float>::infinity()), p.ls_distance);
-          keep(usable.x, p.ls_r);
-          keep(usable.y, p.ls_g);
-          keep(usable.z, p.ls_b);
-          keep(pdf, p.ls_pdf);
-        });
-  }
+  SampleMaps<kMany>(wave, LightShape::kInfiniteImage, wave.scene->lights.environments,
+                    offsetof(LightRecord, environment),
+                    [&](const Environment& map, const StoreSlots& slots) HWY_ATTR {
+                      return SampleEnvironment(map, Gather(p.u_light_0, slots),
+                                               Gather(p.u_light_1, slots));
+                    });
 }
 
 void SampleInfiniteImageOne(Wave& wave) { SampleInfiniteImage<false>(wave); }
