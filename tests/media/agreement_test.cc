@@ -9,17 +9,6 @@
 #include "tests/wavefront/agreement.h"
 
 namespace lanelight::test {
-namespace {
-
-void CheckAgreement(const SceneDescription& scene, std::uint64_t spp, int reference_spp,
-                    double power) {
-  const auto result = CompareWithReference(scene, spp, reference_spp);
-  INFO(result.ToString());
-  CHECK(result.same);
-  CHECK(result.detectable_bias < power);
-}
-
-}  // namespace
 
 TEST_CASE("media: fog around camera and lights", "[media][agreement]") {
   CheckAgreement(Fog(), 8192, 12000, 0.09);
@@ -44,17 +33,7 @@ TEST_CASE("media: absorbers only", "[media][agreement]") {
 }
 
 TEST_CASE("media: on every target", "[media][agreement]") {
-  const SceneDescription scene = NestedClouds();
-  const auto reference =
-      Estimate(RenderReference(scene, Options(ReferenceEstimator::kLightSampling, 1500)));
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    const auto result = stat::CompareMeans(RenderWavefront(scene, 512), reference,
-                                           {4, 1e-6, kFloatTolerance, 1e-7});
-    INFO(target << ": " << result.ToString());
-    CHECK(result.same);
-  }
-  ForceTarget("");
+  CheckAgreementOnTargets(NestedClouds(), 512, 1500);
 }
 
 TEST_CASE("media: the agreement tests would find a bias", "[media][agreement]") {

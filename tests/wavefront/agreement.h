@@ -1,6 +1,9 @@
 // Compares the wavefront with the scalar reference and with closed forms.
 #pragma once
 
+#include <catch2/catch.hpp>
+
+#include "kernels/simd/target.h"
 #include "tests/reference/compare.h"
 #include "tests/reference/scenes.h"
 #include "tests/reference/texture.h"
@@ -54,6 +57,30 @@ inline stat::ImageTestResult CompareWithReference(const SceneDescription& scene,
   return stat::CompareMeans(RenderWavefront(scene, wavefront_spp, strategy),
                             Estimate(RenderReference(scene, options)),
                             {4, 1e-6, tolerance, 1e-7});
+}
+
+/// No difference, where one of `power` (relative) would have been seen.
+inline void CheckAgreement(const SceneDescription& scene, std::uint64_t spp,
+                           int reference_spp, double power) {
+  const auto result = CompareWithReference(scene, spp, reference_spp);
+  INFO(result.ToString());
+  CHECK(result.same);
+  CHECK(result.detectable_bias < power);
+}
+
+/// The same on every SIMD target, without a power.
+inline void CheckAgreementOnTargets(const SceneDescription& scene, std::uint64_t spp,
+                                    int reference_spp) {
+  const auto reference = Estimate(
+      RenderReference(scene, Options(ReferenceEstimator::kLightSampling, reference_spp)));
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    const auto result = stat::CompareMeans(RenderWavefront(scene, spp), reference,
+                                           {4, 1e-6, kFloatTolerance, 1e-7});
+    INFO(target << ": " << result.ToString());
+    CHECK(result.same);
+  }
+  ForceTarget("");
 }
 
 }  // namespace lanelight::test

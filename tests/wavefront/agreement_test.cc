@@ -120,14 +120,6 @@ SceneDescription TexturedScene() {
   return b.Build();
 }
 
-void CheckAgreement(const SceneDescription& scene, std::uint64_t spp, int reference_spp,
-                    double power) {
-  const auto result = CompareWithReference(scene, spp, reference_spp);
-  INFO(result.ToString());
-  CHECK(result.same);
-  CHECK(result.detectable_bias < power);
-}
-
 void CheckMaterials(std::uint64_t spp, int reference_spp, double power) {
   for (const Material& material : MaterialZoo()) {
     // The kernels sum the inner bounces of a clear coat in closed form, within 3 %.
@@ -171,17 +163,7 @@ TEST_CASE("wavefront agrees on textured colour, roughness and alpha", "[agreemen
 }
 
 TEST_CASE("wavefront agrees with the reference on every target", "[agreement]") {
-  const SceneDescription scene = SmallRoom(8, 3);
-  const auto reference =
-      Estimate(RenderReference(scene, Options(ReferenceEstimator::kLightSampling, 1000)));
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    const auto result = stat::CompareMeans(RenderWavefront(scene, 512), reference,
-                                           {4, 1e-6, kFloatTolerance, 1e-7});
-    INFO(target << ": " << result.ToString());
-    CHECK(result.same);
-  }
-  ForceTarget("");
+  CheckAgreementOnTargets(SmallRoom(8, 3), 512, 1000);
 }
 
 TEST_CASE("the agreement tests would find a bias", "[agreement]") {

@@ -56,10 +56,7 @@ std::string Lattice(const std::string& mapping) {
 }  // namespace
 
 TEST_CASE("cut-outs by places agree with the reference", "[agreement]") {
-  const auto result = CompareWithReference(Sieves(), 8192, 2000);
-  INFO(result.ToString());
-  CHECK(result.same);
-  CHECK(result.detectable_bias < 0.05);
+  CheckAgreement(Sieves(), 8192, 2000, 0.05);
 }
 
 TEST_CASE("cut-outs by places: other cells would be found", "[agreement]") {
