@@ -52,6 +52,7 @@ namespace lanelight {
   X(Bumps)                                     \
   X(NormalMaps)                                \
   X(Texture)                                   \
+  X(ForceDiffuse)                              \
   X(Aov)                                       \
   X(Gbuffer)                                   \
   X(Vertices)                                  \

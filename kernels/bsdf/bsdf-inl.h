@@ -105,14 +105,14 @@ struct MaterialInputs {
   VI material;
   LaneRandom random;  // only filled for kStochastic
 
+  /// Colours are in range, reflectances in [0, 1]: constants since the scene was
+  /// compiled, textures since they were looked up.
   LANELIGHT_INLINE V3 Color0() const {
     const MaterialSource& s = source;
     return s.color_by_path
                ? Gather3(s.color0_r, s.color0_g, s.color0_b, slot)
                : LookUp3(s.table->color0_r, s.table->color0_g, s.table->color0_b);
   }
-  /// Clamped to [0, 1], as a reflectance must be (a texture may hold anything).
-  LANELIGHT_INLINE V3 Reflectance() const { return Clamp01(Color0()); }
   LANELIGHT_INLINE V3 Color1() const {
     const MaterialSource& s = source;
     return s.color1_by_path
@@ -136,13 +136,13 @@ struct MaterialInputs {
     return Varying(source.coat_by_path, source.coat_thickness,
                    source.table->coat_thickness);
   }
-  /// Of the medium in a coat; the albedo in [0, 1].
+  /// Of the medium in a coat.
   LANELIGHT_INLINE V3 CoatAlbedo() const {
     const MaterialSource& s = source;
-    return Clamp01(s.medium_by_path
-                       ? Gather3(s.coat_albedo_r, s.coat_albedo_g, s.coat_albedo_b, slot)
-                       : LookUp3(s.table->coat_albedo_r, s.table->coat_albedo_g,
-                                 s.table->coat_albedo_b));
+    return s.medium_by_path
+               ? Gather3(s.coat_albedo_r, s.coat_albedo_g, s.coat_albedo_b, slot)
+               : LookUp3(s.table->coat_albedo_r, s.table->coat_albedo_g,
+                         s.table->coat_albedo_b);
   }
   LANELIGHT_INLINE VF CoatG() const {
     return Varying(source.medium_by_path, source.coat_g, source.table->coat_g);
@@ -155,11 +155,6 @@ struct MaterialInputs {
   }
   LANELIGHT_INLINE VI Int(const AlignedVector<std::uint32_t>& column) const {
     return Lookup(column, material);
-  }
-  LANELIGHT_INLINE static V3 Clamp01(V3 c) {
-    const VF zero = hn::Zero(DF()), one = Splat(1.0f);
-    return {hn::Clamp(c.x, zero, one), hn::Clamp(c.y, zero, one),
-            hn::Clamp(c.z, zero, one)};
   }
 
  private:

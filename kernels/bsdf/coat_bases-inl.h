@@ -20,7 +20,7 @@ struct DiffuseLayer {
   V3 reflectance;
 
   LANELIGHT_INLINE static DiffuseLayer Load(const MaterialInputs& in) {
-    return {in.Reflectance()};
+    return {in.Color0()};
   }
   LANELIGHT_INLINE static MF Smooth() { return hn::Ne(hn::Zero(DF()), hn::Zero(DF())); }
   LANELIGHT_INLINE LayerEvent Sample(V3, VF u0, VF u1) const {

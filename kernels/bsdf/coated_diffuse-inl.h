@@ -35,7 +35,7 @@ struct CoatedBase {
   LANELIGHT_INLINE static CoatedBase Load(const MaterialInputs& in, VF internal) {
     const MaterialTable& t = *in.source.table;
     const VF eta = in.Float(t.eta);
-    const V3 rho = in.Reflectance();
+    const V3 rho = in.Color0();
     const VI one = hn::Set(DI(), 1);
     const VI bounces = hn::ShiftRight<1>(hn::Add(in.Int(t.coat_depth), one));
     return {Mul(rho, Series(Mul(rho, internal), bounces)), hn::Div(Splat(1.0f), Sqr(eta)),

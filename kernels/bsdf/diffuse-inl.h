@@ -21,9 +21,7 @@ struct DiffuseModel : PlainBsdf {
   struct Params {
     V3 albedo;
   };
-  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    return {in.Reflectance()};
-  }
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) { return {in.Color0()}; }
 
   LANELIGHT_INLINE static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const VF pdf = hn::IfThenElseZero(SameSide(wo, wi), Hemisphere::Pdf(hn::Abs(wi.z)));

@@ -23,7 +23,7 @@ struct DiffuseTransmissionBsdf : PlainBsdf {
     VF reflect;  // probability of reflection
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    const V3 r = in.Reflectance(), t = MaterialInputs::Clamp01(in.Color1());
+    const V3 r = in.Color0(), t = in.Color1();
     const VF pr = MaxComponent(r), sum = hn::Add(pr, MaxComponent(t));
     // Both black: any probability will do, the weight is 0.
     return {r, t, hn::Div(pr, hn::Max(sum, Splat(1e-30f)))};

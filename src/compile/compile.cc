@@ -168,7 +168,8 @@ CompiledScene CompileScene(const SceneDescription& description,
   const GeometryOptions geometry_options = {
       .uvs = scene.features.HasAny({Feature::kUv, Feature::kTangents}) ||
              HasEmissionImages(description) ||
-             description.film.gbuffer != Gbuffer::kNone};
+             description.film.gbuffer != Gbuffer::kNone ||
+             description.integrator.force_diffuse};
 
   CompiledGeometry compiled;
   ParallelInvoke(

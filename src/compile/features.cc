@@ -146,6 +146,18 @@ bool HasNonSpecular(const MaterialTable& materials) {
   });
 }
 
+// One kind of material instead of all that surfaces have; its colour is by path.
+void ForceDiffuse(const MaterialTable& materials, FeatureSet& features) {
+  for (int k = 0; k < kNumShadeKinds; ++k) {
+    const auto kind = static_cast<ShadeKind>(k);
+    if (!HasTrait(kind, kInMedium)) features.Remove(ShadeFeature(kind));
+  }
+  features.Remove(Feature::kRefraction);
+  const auto kind = static_cast<ShadeKind>(materials.kind[materials.forced]);
+  features.Add(
+      {Feature::kForcedDiffuse, Feature::kTextures, Feature::kUv, ShadeFeature(kind)});
+}
+
 bool HasNegative(const AlignedVector<float>& signs) {
   return std::any_of(signs.begin(), signs.end(), [](float s) { return s < 0; });
 }
@@ -174,6 +186,7 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
   if (!g.large_spheres.empty()) features.Add(Feature::kLargeSpheres);
   if (!g.instances.empty()) features.Add(Feature::kInstances);
   if (!g.normals.empty()) features.Add(Feature::kVertexNormals);
+  if (scene.integrator.force_diffuse) ForceDiffuse(scene.materials, features);
   AddMedia(scene.media, features);
   // Cut-outs and weights of mixes are looked up unfiltered.
   if (features.Has(Feature::kTextures) && FiltersTextures(scene.textures)) {

@@ -86,10 +86,6 @@ void SetBaseColor(MaterialTable& table, std::size_t i) {
   table.color0_b[i] = static_cast<float>(base.z);
 }
 
-}  // namespace
-
-namespace {
-
 // Where a coat varies, the colour of its base is corrected for this node of the roughness
 // (alpha 1/3) and a clear medium: the correction is small, and changes little with both.
 constexpr int kTypicalAlpha = 6;

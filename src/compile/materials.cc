@@ -27,6 +27,7 @@ class Builder {
   std::int32_t Mix(const Material& m, const std::vector<Index>& sides);
   std::int32_t Compile(const Material& m, const std::vector<Index>& sides);
   std::int32_t Push(MaterialRow row);
+  void Force(MaterialTable& table);
   void CorrectBase(MaterialTable& table, std::size_t i);
 
   const SceneDescription& d_;
@@ -101,9 +102,22 @@ void Builder::Add(Index material) {
   }
 }
 
+// After all others: the material that replaces them.
+void Builder::Force(MaterialTable& table) {
+  for (const MaterialRow& row : rows_) {
+    if (IsShaded(row.kind)) table.forced_kinds |= 1u << static_cast<int>(row.kind);
+  }
+  Material even;
+  even.kind = MaterialKind::kDiffuse;
+  MaterialRow row = build_.RowOf(even);
+  row.name = "forcediffuse";
+  table.forced = static_cast<std::uint32_t>(Push(std::move(row)));
+}
+
 CompiledMaterials Builder::Finish() {
   CompiledMaterials out;
   out.index = index_;
+  if (d_.integrator.force_diffuse) Force(out.table);
   for (const MaterialRow& row : rows_) AddMaterialRow(row, out);
   AddCoatTables(build_.coats(), out.table);
   for (std::size_t i = 0; i < out.table.size(); ++i) CorrectBase(out.table, i);

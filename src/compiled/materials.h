@@ -57,6 +57,9 @@ struct MaterialTable {
   AlignedVector<std::int32_t> displacement_texture, normal_map_texture;
   AlignedVector<float> coat_transmittance;  // kCoatTableSize per table
   AlignedVector<float> coat_internals;      // per table; used where coats vary
+  // With kForcedDiffuse: the material that surfaces then have, and the kinds that they
+  // had, a bit each.
+  std::uint32_t forced = 0, forced_kinds = 0;
   std::vector<std::string> names;
   std::size_t size() const { return kind.size(); }
 };

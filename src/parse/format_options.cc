@@ -212,7 +212,7 @@ void AddOptions(FormatTable& table) {
         {"bool disabletexturefiltering", kRendered, "of images; bumps keep their steps"},
         {"bool disablewavelengthjitter", kNoted, "there are no wavelengths"},
         {"float displacementedgescale", kRendered},
-        {"bool forcediffuse", kNoted, "materials stay what they are"},
+        {"bool forcediffuse", kRendered},
         {"string msereferenceimage", kNoted, "`lanelight compare` does it", "\"a.exr\""},
         {"string msereferenceout", kNoted, "`lanelight compare` does it", "\"a.txt\""},
         {"bool pixelstats", kNoted, "`lanelight profile` does it"},

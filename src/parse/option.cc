@@ -108,10 +108,13 @@ void RunOption(ParseState& state, Statement& statement) {
     state.unfiltered_images = option.value.text == "true";
     return;
   }
+  if (option.name == "forcediffuse") {
+    state.force_diffuse = option.value.text == "true";
+    return;
+  }
   if (option.value.text == "false") return;  // what is the case anyway
-  state.AddNote(option.where,
-                fmt::format("option {} has no effect: {}", Quoted(option.name), line.why),
-                option.name == "forcediffuse");
+  state.AddNote(option.where, fmt::format("option {} has no effect: {}",
+                                          Quoted(option.name), line.why));
 }
 
 }  // namespace lanelight

@@ -34,6 +34,7 @@ SceneDescription Finish(ParseState& state, const SourceLocation& end) {
   }
   state.scene.film.imaging_ratio = state.exposure_seconds * state.iso / 100;
   if (state.pixel_centers) UsePixelCenters(state.scene);
+  state.scene.integrator.force_diffuse = state.force_diffuse;
   const Integrator& integrator = state.scene.integrator;
   ApplyStrategy(integrator.strategy, integrator.strategy_where, state.scene.strategy);
   LoadMeshes(state);

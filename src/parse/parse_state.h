@@ -72,6 +72,7 @@ struct ParseState {
   double iso = 100;                // of the film
   double edge_scale = 1;           // Option "displacementedgescale"
   bool unfiltered_images = false;  // Option "disabletexturefiltering"
+  bool force_diffuse = false;      // Option "forcediffuse"
   bool pixel_centers = false;      // Option "disablepixeljitter"
   std::set<std::string> noted;
 

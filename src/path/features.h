@@ -31,6 +31,7 @@ namespace lanelight {
   X(kTextureFootprints, "textures filtered over the footprint of a pixel")    \
   X(kBumps, "displacement textures, shaded as bumps")                         \
   X(kNormalMaps, "normal maps")                                               \
+  X(kForcedDiffuse, "surfaces that scatter evenly, whatever their material")  \
   X(kAlpha, "alpha cut-outs")                                                 \
   X(kMix, "mix materials")                                                    \
   X(kRefraction, "a refracting interface (roulette must know eta)")           \

@@ -277,6 +277,9 @@ struct Integrator {
   int max_depth = 5;     // scattering events at most, as in pbrt
   std::string strategy;  // changes to the strategy (src/strategy/strategy.h)
   SourceLocation strategy_where;
+  /// Surfaces scatter evenly, with the reflectance that their material has for light from
+  /// where they are seen (pbrt-v4's option "forcediffuse").
+  bool force_diffuse = false;
 };
 
 /// Something that was read and deliberately not used. `changes_image`: what is rendered

@@ -85,4 +85,12 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
   return out;
 }
 
+LocalMaterial MadeDiffuse(const LocalMaterial& material, Vec3d wo, Random& random) {
+  const auto sample = SampleBsdf(material, wo, random);
+  LocalMaterial even;
+  even.source = material.source;
+  even.reflectance = sample ? sample->weight : Rgb{};
+  return even;
+}
+
 }  // namespace lanelight::reference

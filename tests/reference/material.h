@@ -11,4 +11,7 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index material,
                                const SurfacePoint& at, const TextureLookup& texture,
                                Random& random);
 
+/// A diffuse material whose reflectance has the mean of the albedo for `wo`.
+LocalMaterial MadeDiffuse(const LocalMaterial& material, Vec3d wo, Random& random);
+
 }  // namespace lanelight::reference

@@ -118,12 +118,13 @@ Rgb Tracer::Trace(Ray ray) const {
       continue;
     }
     if (depth++ == max_depth) return sum;
-    const LocalMaterial material =
+    LocalMaterial material =
         EvaluateMaterial(scene, index, at, options.texture, random);
     const SurfacePoint shaded = WithRelief(scene, *material.source, at, -ray.d,
                                            options.texture, options.normal_map);
     const Frame frame = MakeFrame(shaded.ns, shaded.dpdu);
     const Vec3d wo = frame.ToLocal(-ray.d);
+    if (scene.integrator.force_diffuse) material = MadeDiffuse(material, wo, random);
     const auto reflected = [&](Vec3d toward) {
       return EvaluateCos(material, wo, frame.ToLocal(toward), random);
     };

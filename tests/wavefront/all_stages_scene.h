@@ -87,6 +87,26 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2.5  -3 3 2.5 ]
   "integer indices" [ 0 1 2 0 2 3 ]
 )";
 
+// Materials that all become diffuse.
+inline constexpr const char* kForcedScene = R"(
+Option "forcediffuse" true
+LookAt 0 0 -4  0 0 0  0 1 0
+Camera "perspective" "float fov" 50
+Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.6 0.5 0.4 ]
+LightSource "point" "point3 from" [ 0 3 -3 ]
+Texture "spots" "spectrum" "checkerboard" "rgb tex1" [ 0.8 0.1 0.1 ]
+Material "coateddiffuse" "texture reflectance" "spots" "float roughness" 0.2
+Shape "sphere" "float radius" 0.7
+Material "coatedconductor" "float interface.roughness" 0.1
+Translate 1 0 0
+Shape "sphere" "float radius" 0.6
+Material "dielectric" "float uroughness" 0.3
+Translate -2 0 0
+Shape "trianglemesh" "integer indices" [ 0 1 2 ] "point3 P" [ -1 -1 0  1 -1 0  0 1 1 ]
+)";
+
 /// What the other one lacks: images of lights (sky.pfm) and of environments, one behind a
 /// portal, mixed materials, the other diffuse models, a normal map (the same file), a
 /// lens, instances, a cut-out, a sphere far larger than its distance.

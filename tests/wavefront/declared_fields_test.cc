@@ -243,6 +243,8 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kMediaScene, "points=sobol"},
       {kMediaScene, "light-candidates=resampled,pairs=antithetic"},
       {kFogScene, "points=sobol"},
+      {kForcedScene, "points=sobol"},
+      {kForcedScene, "roulette=adjoint"},
       {kSphericalScene, "points=sobol"},
       {kLensesScene, "points=sobol"}};
   std::set<std::string> stages;

@@ -1,0 +1,111 @@
+// Option "forcediffuse": every surface scatters evenly, with what a direction sampled
+// from its material carries. The mean of that is the reflectance, to both sides, for
+// light that goes to where the surface is seen from (pbrt-v4,
+// SurfaceInteraction::GetBSDF).
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/shade/force_diffuse.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/bsdf/coated_conductor-inl.h"
+#include "kernels/bsdf/coated_diffuse-inl.h"
+#include "kernels/bsdf/coated_medium-inl.h"
+#include "kernels/bsdf/conductor-inl.h"
+#include "kernels/bsdf/dielectric-inl.h"
+#include "kernels/bsdf/diffuse-inl.h"
+#include "kernels/bsdf/diffuse_transmission-inl.h"
+#include "kernels/queue/filter-inl.h"
+#include "kernels/shade/shade-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// Of a stream of their own: those of the bounce go on to choose the direction.
+HWY_NOINLINE void DrawPoints(const Wave& wave, const Slots& slots, VF out[4]) {
+  const PathColumns& p = wave.path;
+  const DU du;
+  const auto word = [&](const uint32_t* column)
+                        HWY_ATTR { return hn::BitCast(du, Gather(column, slots)); };
+  LaneRandom random = {word(p.pixel), word(p.sample), word(p.depth),
+                       hn::Set(du, wave.run->seed ^ 0x51ed270bu)};
+  if (p.branch != nullptr) {
+    random.seed = hn::Xor(random.seed, hn::ShiftLeft<24>(word(p.branch)));
+  }
+  random.Next4(out);
+}
+
+template <class Bsdf>
+HWY_NOINLINE V3 SampledReflectance(const SurfaceReader<Bsdf>& reader,
+                                   const Slots& slots) {
+  const PathColumns& p = reader.wave.path;
+  const Frame frame = reader.ShadingFrame(Gather3(p.ng_x, p.ng_y, p.ng_z, slots), slots);
+  const V3 wo = frame.ToLocal(-Gather3(p.d_x, p.d_y, p.d_z, slots));
+  VF u[4];
+  DrawPoints(reader.wave, slots, u);
+  const auto material = Bsdf::Load(reader.Inputs(slots));
+  const V3 weight = Bsdf::Sample(material, wo, {u[0], u[1], u[2]}).weight;
+  const MF sampled = hn::And(CarriesLight(weight), hn::Ne(wo.z, hn::Zero(DF())));
+  return IfThenElseZero(sampled, weight);
+}
+
+template <class Bsdf, ShadeKind kKind>
+HWY_INLINE void ForceKind(Wave& wave) {
+  if constexpr (!HasTrait(kKind, kInMedium)) {
+    const PathColumns& p = wave.path;
+    const MaterialTable& materials = wave.scene->materials;
+    if (!(materials.forced_kinds >> static_cast<int>(kKind) & 1)) return;
+    const Queue& mine = FilterQueue(
+        wave, wave.queue(QueueId::kSurface), [&](const Slots& slots) HWY_ATTR {
+          const VI kind = Lookup(materials.kind, Gather(p.material, slots));
+          const VI wanted = hn::Set(DI(), static_cast<int32_t>(kKind));
+          return hn::RebindMask(DF(), hn::Eq(kind, wanted));
+        });
+    const SurfaceReader<Bsdf> reader(wave);
+    const VI forced = hn::Set(DI(), static_cast<int32_t>(materials.forced));
+    ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
+      const V3 color = SampledReflectance(reader, slots);
+      Scatter3(color, p.color0_r, p.color0_g, p.color0_b, slots);
+      Scatter(forced, p.material, slots);
+    });
+  }
+}
+
+// A path whose material has been replaced may be met again by the kind that it has now;
+// that gives back its colour.
+void ForceDiffuse(Wave& wave) {
+#define X(name, traits, meaning) ForceKind<name##Bsdf, ShadeKind::k##name>(wave);
+  LANELIGHT_SHADE_KINDS(X)
+#undef X
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(ForceDiffuse);
+
+Stage ForceDiffuseStage() {
+  using namespace fields;
+  const FieldSet color = {Field::color0_r, Field::color0_g, Field::color0_b};
+  const FieldSet identity = {Field::pixel, Field::sample, Field::branch, Field::depth};
+  return {
+      "force_diffuse",
+      "reflectances of all materials, which scatter evenly",
+      QueueId::kSurface,
+      {Feature::kForcedDiffuse, Feature::kScatters},
+      kNormal | kTangent | kParameters | identity |
+          FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material},
+      color | FieldSet{Field::material},
+      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(ForceDiffuse); }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE
