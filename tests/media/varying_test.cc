@@ -28,6 +28,11 @@ void CheckSlab(const SceneDescription& scene, Rgb expected) {
   CHECK(result.detectable_bias < 0.05);
 }
 
+// Counts of samples: such that a bias of 10 % of the whole image is found. What can be
+// found falls with the root of the counts; 1024 and 400 samples (600 of the grid) found
+// 8.7 % with the cloud, 10.1 % with NanoVDB, 7.2 % with the grid. Counts are multiplied
+// by the square of that over 10 %, and by 1.5 for what variances are estimated wrongly,
+// rounded up to a doubling. Twice as many, at length, find 10 % over the root of 2.
 void CheckBall(const Medium& medium, std::uint64_t spp, int reference_spp, double power) {
   const auto result = CompareWithReference(BallOf(medium), spp, reference_spp);
   INFO(result.ToString());
@@ -81,12 +86,12 @@ TEST_CASE("media: colours that a slab emits", "[media][closed-form]") {
 }
 
 TEST_CASE("media: a cloud", "[media][agreement]") {
-  CheckBall(CloudLump(), 1024, 400, 0.25);
+  CheckBall(CloudLump(), 2048, 800, 0.1);
 }
 
 TEST_CASE("media: NanoVDB grids of densities and temperatures", "[media][agreement]") {
   const TemporaryFolder folder;
-  CheckBall(SparseLump(folder), 1024, 400, 0.25);
+  CheckBall(SparseLump(folder), 2048, 800, 0.1);
 }
 
 TEST_CASE("media: scales of emission and temperatures by voxel", "[media][agreement]") {
@@ -100,13 +105,13 @@ TEST_CASE("media: scales of emission and temperatures by voxel", "[media][agreem
   }
   lump.box_min = {-1, -1, 0};
   lump.box_max = {1, 1, 2};
-  CheckBall(lump, 1024, 600, 0.25);
+  CheckBall(lump, 1024, 600, 0.1);
 }
 
 TEST_CASE("media: a cloud and NanoVDB grids, at length", "[media][agreement][slow]") {
   const TemporaryFolder folder;
-  CheckBall(CloudLump(), 4096, 1600, 0.14);
-  CheckBall(SparseLump(folder), 4096, 1600, 0.14);
+  CheckBall(CloudLump(), 4096, 1600, 0.071);
+  CheckBall(SparseLump(folder), 4096, 1600, 0.071);
 }
 
 TEST_CASE("media: the tests of varying media would find a bias", "[media][agreement]") {
