@@ -118,8 +118,7 @@ Rgb Tracer::Trace(Ray ray) const {
       continue;
     }
     if (depth++ == max_depth) return sum;
-    LocalMaterial material =
-        EvaluateMaterial(scene, index, at, options.texture, random);
+    LocalMaterial material = EvaluateMaterial(scene, index, at, options.texture, random);
     const SurfacePoint shaded = WithRelief(scene, *material.source, at, -ray.d,
                                            options.texture, options.normal_map);
     const Frame frame = MakeFrame(shaded.ns, shaded.dpdu);
