@@ -44,7 +44,14 @@ bool ReadFile(const fs::path& path, std::string* content) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return false;
   std::ifstream in(path, std::ios::binary);
-  content->assign(std::istreambuf_iterator<char>(in), {});
+  constexpr std::size_t kPart = 1 << 20;
+  content->clear();
+  while (in) {
+    const std::size_t had = content->size();
+    content->resize(had + kPart);
+    in.read(content->data() + had, kPart);
+    content->resize(had + static_cast<std::size_t>(in.gcount()));
+  }
   return !in.bad();
 }
 
