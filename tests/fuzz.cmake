@@ -2,7 +2,7 @@
 # behaviour sanitizers; needs clang and its run-time libraries. Only what reads input is
 # compiled again for it. Seeds are taken from tests/fuzz/corpus/<target>, scenes and
 # tests/broken.
-set(LANELIGHT_FUZZ_SECONDS 20 CACHE STRING "Seconds that ctest fuzzes each target")
+set(LANELIGHT_FUZZ_SECONDS 10 CACHE STRING "Seconds that ctest fuzzes each target")
 file(GLOB FUZZ_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/*.cc)
 if(NOT FUZZ_SOURCES)
   return()
@@ -26,7 +26,7 @@ file(GLOB FUZZ_LIBRARY_SOURCES CONFIGURE_DEPENDS
   ${CMAKE_SOURCE_DIR}/src/path/*.cc)
 # It needs what the build writes of the version.
 list(REMOVE_ITEM FUZZ_LIBRARY_SOURCES ${CMAKE_SOURCE_DIR}/src/core/version.cc)
-set(FUZZ_FLAGS -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all)
+set(FUZZ_FLAGS -O1 -gline-tables-only -fno-omit-frame-pointer -fno-sanitize-recover=all)
 add_library(lanelight_fuzz_lib STATIC EXCLUDE_FROM_ALL ${FUZZ_LIBRARY_SOURCES})
 lanelight_unity(lanelight_fuzz_lib ${FUZZ_LIBRARY_SOURCES})
 set_source_files_properties(${CMAKE_SOURCE_DIR}/src/image/sparse_grid.cc PROPERTIES

@@ -3,7 +3,7 @@
 import json
 import re
 
-from checks import check, plot, require, theme
+from checks import check, pictures, plot, require, theme
 
 
 @check
@@ -95,7 +95,7 @@ def nothing_jumps(page):
     require(shift < 0.02, "layout shift", shift)
 
 
-@check
+@pictures
 def screenshots(page):
     for name, width, height, scheme in (("desktop-light", 1280, 900, "light"),
                                         ("desktop-dark", 1280, 900, "dark"),

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Looks at the synthetic report in Chromium: report_test.py REPORT.html SCREENSHOT_FOLDER
 
-Checks that everything draws and works, writes screenshots, and ends with 1 if a check
+Checks that everything draws and works, writes screenshots if the environment has
+LANELIGHT_SCREENSHOTS (`./run test --full`), and ends with 1 if a check
 failed, with 77 where Chromium or Selenium is missing.
 """
 

@@ -3,7 +3,7 @@
 import json
 import re
 
-from checks import check, require, theme
+from checks import check, pictures, require, theme
 from stress_checks import choose, data
 
 
@@ -99,7 +99,7 @@ def the_picture_is_on_the_first_screen(page):
     page.resize(1280, 900)
 
 
-@check
+@pictures
 def screenshots(page):
     for name, width, height, scheme in (("desktop-light", 1920, 1080, "light"),
                                         ("desktop-dark", 1280, 800, "dark"),

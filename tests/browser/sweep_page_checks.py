@@ -3,7 +3,7 @@
 import json
 import re
 
-from checks import check, plot, require, theme
+from checks import check, pictures, plot, require, theme
 from sweep_checks import choose, data
 
 
@@ -87,7 +87,7 @@ def a_phone_scrolls_down_only(page):
     page.open()
 
 
-@check
+@pictures
 def screenshots(page):
     for name, width, height, scheme in (("desktop-light", 1280, 900, "light"),
                                         ("desktop-dark", 1280, 900, "dark"),
