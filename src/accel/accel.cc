@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "src/accel/builder.h"
 #include "src/accel/grow.h"
@@ -73,7 +74,9 @@ FewTriangles MakeFew(const Geometry& geometry, Geometry::TriangleGroup group) {
   return few;
 }
 
-void BuildTriangles(const Geometry& geometry, const AccelOptions& options, Accel& accel) {
+void BuildTriangles(const Geometry& geometry, const AccelOptions& options, Accel& accel,
+                    AlignedVector<WideNode>& nodes) {
+  AlignedVector<TriangleBlock> blocks;
   std::vector<AccelBox> boxes;
   const LeafLimit limit = TriangleLimit(geometry.triangles);
   for (const Geometry::TriangleGroup& group : geometry.groups) {
@@ -86,10 +89,11 @@ void BuildTriangles(const Geometry& geometry, const AccelOptions& options, Accel
       for (const BuildItem& item : items) boxes.back().Extend(item.box);
     }
     accel.groups.push_back(BuildShapes(std::move(items), limit, options.quality,
-                                       TriangleBlocks(accel, geometry.triangles),
-                                       accel.nodes));
+                                       TriangleBlocks(blocks, geometry.triangles),
+                                       nodes));
   }
-  accel.top = BuildTop(geometry, boxes, accel.groups, accel.nodes);
+  accel.top = BuildTop(geometry, boxes, accel.groups, nodes);
+  accel.triangle_blocks = std::move(blocks);
 }
 
 template <typename T>
@@ -103,21 +107,27 @@ Accel BuildAccel(const Geometry& geometry, const AccelOptions& options) {
   LL_CHECK_LE(options.few_triangles, kFewTriangles);  // kernels size their scratch by it
   Accel accel;
   accel.quality = options.quality;
-  BuildTriangles(geometry, options, accel);
+  AlignedVector<WideNode> nodes;
+  AlignedVector<SphereBlock> sphere_blocks;
+  AlignedVector<DiskBlock> disk_blocks;
+  BuildTriangles(geometry, options, accel, nodes);
   const auto spheres = static_cast<std::uint32_t>(geometry.spheres.size());
   if (spheres > options.few_round) {
     const std::uint32_t first = geometry.ranges.spheres;
     accel.spheres = BuildShapes(
         ItemsOf(geometry.spheres, 0, spheres, first), LeafLimit(), options.quality,
-        RoundBlocks(accel.sphere_blocks, geometry.spheres, first), accel.nodes);
+        RoundBlocks(sphere_blocks, geometry.spheres, first), nodes);
   }
   const auto disks = static_cast<std::uint32_t>(geometry.disks.size());
   if (disks > options.few_round) {
     const std::uint32_t first = geometry.ranges.disks;
-    accel.disks = BuildShapes(
-        ItemsOf(geometry.disks, 0, disks, first), LeafLimit(), options.quality,
-        RoundBlocks(accel.disk_blocks, geometry.disks, first), accel.nodes);
+    accel.disks = BuildShapes(ItemsOf(geometry.disks, 0, disks, first), LeafLimit(),
+                              options.quality,
+                              RoundBlocks(disk_blocks, geometry.disks, first), nodes);
   }
+  accel.nodes = std::move(nodes);
+  accel.sphere_blocks = std::move(sphere_blocks);
+  accel.disk_blocks = std::move(disk_blocks);
   return accel;
 }
 

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "src/core/aligned.h"
+#include "src/core/shared_array.h"
 #include "src/core/vec.h"
 
 namespace lanelight {
@@ -144,16 +145,16 @@ enum class BuildQuality {
 
 struct Accel {
   BuildQuality quality = BuildQuality::kHigh;
-  AlignedVector<WideNode> nodes;  // of all trees
+  SharedArray<WideNode> nodes;  // of all trees
 
   FewTriangles few;  // for incoherent rays, used instead of groups[0] if not empty
-  AlignedVector<TriangleBlock> triangle_blocks;
+  SharedArray<TriangleBlock> triangle_blocks;
   std::vector<Bvh> groups;  // as Geometry::groups
   Bvh top;                  // over instances; leaf references hold instance indices
 
   Bvh spheres, disks;  // empty if few: then the kernels loop over the records
-  AlignedVector<SphereBlock> sphere_blocks;
-  AlignedVector<DiskBlock> disk_blocks;
+  SharedArray<SphereBlock> sphere_blocks;
+  SharedArray<DiskBlock> disk_blocks;
 
   /// Bytes of everything above.
   std::size_t Bytes() const;

@@ -64,8 +64,9 @@ LeafLimit TriangleLimit(const AlignedVector<TriangleRecord>& records) {
           records.data()};
 }
 
-TriangleBlocks::TriangleBlocks(Accel& accel, const AlignedVector<TriangleRecord>& records)
-    : accel_(accel), records_(records), next_(accel.triangle_blocks.size()) {}
+TriangleBlocks::TriangleBlocks(AlignedVector<TriangleBlock>& blocks,
+                               const AlignedVector<TriangleRecord>& records)
+    : blocks_(blocks), records_(records), next_(blocks.size()) {}
 
 std::uint32_t TriangleBlocks::Place(std::uint32_t capacity) {
   LL_CHECK_LT(next_, std::size_t{kRefIndex});
@@ -73,11 +74,11 @@ std::uint32_t TriangleBlocks::Place(std::uint32_t capacity) {
   return kind | static_cast<std::uint32_t>(next_++);
 }
 
-void TriangleBlocks::MakeRoom() { accel_.triangle_blocks.resize(next_); }
+void TriangleBlocks::MakeRoom() { blocks_.resize(next_); }
 
 void TriangleBlocks::Fill(std::uint32_t ref, const std::uint32_t* ids,
                           std::uint32_t count) {
-  TriangleBlock& block = accel_.triangle_blocks[ref & kRefIndex];
+  TriangleBlock& block = blocks_[ref & kRefIndex];
   if (ref & kSeparateBit) {
     FillLeaf(block.separate, ids, count, records_);
   } else {

@@ -13,11 +13,12 @@ namespace lanelight {
 /// are typically no more than SeparateLeaf::kLanes, those.
 LeafLimit TriangleLimit(const AlignedVector<TriangleRecord>& records);
 
-/// Appends the leaves of a tree to those of `accel`: first Place for each of them, then
+/// Appends the leaves of a tree to `blocks`: first Place for each of them, then
 /// MakeRoom, then Fill by any thread.
 class TriangleBlocks {
  public:
-  TriangleBlocks(Accel& accel, const AlignedVector<TriangleRecord>& records);
+  TriangleBlocks(AlignedVector<TriangleBlock>& blocks,
+                 const AlignedVector<TriangleRecord>& records);
 
   /// The reference, less kLeafBit, of the next leaf, as LeafRange::capacity asks.
   std::uint32_t Place(std::uint32_t capacity);
@@ -26,7 +27,7 @@ class TriangleBlocks {
   void Fill(std::uint32_t ref, const std::uint32_t* ids, std::uint32_t count);
 
  private:
-  Accel& accel_;
+  AlignedVector<TriangleBlock>& blocks_;
   const AlignedVector<TriangleRecord>& records_;
   std::size_t next_;
 };
