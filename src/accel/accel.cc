@@ -11,6 +11,7 @@
 #include "src/accel/instances.h"
 #include "src/accel/round_blocks.h"
 #include "src/accel/shape_items.h"
+#include "src/accel/tree_parts.h"
 #include "src/accel/triangle_blocks.h"
 #include "src/core/check.h"
 #include "src/core/parallel.h"
@@ -96,11 +97,6 @@ void BuildTriangles(const Geometry& geometry, const AccelOptions& options, Accel
   accel.triangle_blocks = std::move(blocks);
 }
 
-template <typename T>
-std::size_t BytesOf(const T& v) {
-  return v.size() * sizeof(v[0]);
-}
-
 }  // namespace
 
 Accel BuildAccel(const Geometry& geometry, const AccelOptions& options) {
@@ -132,9 +128,9 @@ Accel BuildAccel(const Geometry& geometry, const AccelOptions& options) {
 }
 
 std::size_t Accel::Bytes() const {
-  return BytesOf(nodes) + BytesOf(few.vertices) + BytesOf(few.triangles) +
-         BytesOf(triangle_blocks) + BytesOf(groups) + BytesOf(sphere_blocks) +
-         BytesOf(disk_blocks);
+  std::size_t bytes = 0;
+  VisitParts(*this, [&](const auto& member) { bytes += PartOf(member).bytes(); });
+  return bytes;
 }
 
 }  // namespace lanelight

@@ -5,11 +5,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <vector>
 
 #include "src/core/error.h"
 #include "src/core/file_descriptor.h"
@@ -69,6 +71,22 @@ int CreateTemporary(const std::string& path, std::string& name) {
   return file;
 }
 
+void WriteAndRename(const std::string& path, const std::vector<std::string_view>& parts,
+                    bool flush) {
+  std::string temporary;
+  FileDescriptor file(CreateTemporary(path, temporary));
+  if (file.get() < 0) Fail(path, "cannot create", errno);
+  const bool complete =
+      std::all_of(parts.begin(), parts.end(),
+                  [&](std::string_view part) { return WriteAll(file.get(), part); }) &&
+      (!flush || fsync(file.get()) == 0) && file.Close() &&
+      rename(temporary.c_str(), path.c_str()) == 0;
+  if (complete) return;
+  const int error = errno;
+  unlink(temporary.c_str());
+  Fail(path, "cannot write", error);
+}
+
 }  // namespace
 
 std::string TemporaryStart(const std::string& path) {
@@ -84,17 +102,12 @@ std::string TemporaryStart(const std::string& path) {
 
 void WriteFileAtomically(const std::string& path, std::string_view content) {
   if (IsSpecialFile(path)) return WriteInPlace(path, content);
-  std::string temporary;
-  FileDescriptor file(CreateTemporary(path, temporary));
-  if (file.get() < 0) Fail(path, "cannot create", errno);
-  const bool complete = WriteAll(file.get(), content) && fsync(file.get()) == 0 &&
-                        file.Close() && rename(temporary.c_str(), path.c_str()) == 0;
-  if (!complete) {
-    const int error = errno;
-    unlink(temporary.c_str());
-    Fail(path, "cannot write", error);
-  }
+  WriteAndRename(path, {content}, true);
   if (!SyncFolder(path)) Fail(path, "written, but its folder cannot be", errno);
+}
+
+void WriteCacheFile(const std::string& path, const std::vector<std::string_view>& parts) {
+  WriteAndRename(path, parts, false);
 }
 
 void CheckCreatable(const std::string& path) {

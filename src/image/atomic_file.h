@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lanelight {
 
@@ -12,6 +13,10 @@ namespace lanelight {
 /// the temporary file is removed, an existing `path` stays as it was, and InputError
 /// names the path and the system's reason.
 void WriteFileAtomically(const std::string& path, std::string_view content);
+
+/// The same of content in parts, for a file that can be made again: it is not flushed to
+/// the disk, so that after a power failure it may be torn, and its reader has to tell.
+void WriteCacheFile(const std::string& path, const std::vector<std::string_view>& parts);
 
 /// What the names of its temporary files begin with, before ".<digits>.<digits>.tmp":
 /// `path`, or as much of it as leaves room for that.

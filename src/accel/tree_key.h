@@ -1,0 +1,28 @@
+// What a tree is of, in 128 bits.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "src/accel/accel.h"
+
+namespace lanelight {
+
+/// Raised whenever BuildAccel makes other trees of the same shapes, or members of Accel
+/// mean something else. (Their sizes and the commit that the program was built from are
+/// part of the key anyway.)
+inline constexpr std::uint64_t kTreeVersion = 1;
+
+struct TreeKey {
+  std::uint64_t low = 0, high = 0;
+  friend bool operator==(const TreeKey&, const TreeKey&) = default;
+  /// 32 digits.
+  std::string Hex() const;
+};
+
+/// XXH3 (128 bits) of everything that BuildAccel reads: places of shapes, groups,
+/// instances and options; and of this program. Materials, lights, normals and texture
+/// coordinates are not in it.
+TreeKey KeyOf(const Geometry& geometry, const AccelOptions& options);
+
+}  // namespace lanelight

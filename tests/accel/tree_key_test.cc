@@ -1,0 +1,93 @@
+// What a tree is keyed by: all that it depends on, and nothing else.
+#include "src/accel/tree_key.h"
+
+#include <catch2/catch.hpp>
+
+#include <functional>
+#include <set>
+
+#include "src/core/parallel.h"
+#include "tests/support/brute_force.h"
+
+namespace lanelight {
+namespace {
+
+Geometry AllShapes() {
+  brute::Random random(64);
+  Geometry g = brute::Soup(random, 20000, 1, 0.1f);
+  g.groups = {{0, 15000}, {15000, 20000}};
+  g.spheres.resize(3);
+  g.disks.resize(4);
+  g.instances.resize(2);
+  g.instance_group = {1, 1};
+  g.ranges = {20000, 20003, 20007, 20007, 20007};
+  return g;
+}
+
+std::string HexOf(const Geometry& g, const AccelOptions& options = {}) {
+  return KeyOf(g, options).Hex();
+}
+
+}  // namespace
+
+TEST_CASE("the key of a tree follows everything that a tree depends on",
+          "[accel][tree-key]") {
+  const Geometry plain = AllShapes();
+  const std::vector<std::function<void(Geometry&)>> changes = {
+      [](Geometry& g) { g.triangles[0].p[0][0] += 1; },
+      [](Geometry& g) { g.triangles[8191].p[1][1] += 1; },
+      [](Geometry& g) { g.triangles[8192].p[2][2] += 1; },
+      [](Geometry& g) { g.triangles[19999].p[2][2] += 1; },
+      [](Geometry& g) { std::swap(g.triangles[5], g.triangles[6]); },
+      [](Geometry& g) { g.triangles.pop_back(); },
+      [](Geometry& g) { g.groups[0].end = g.groups[1].begin = 14999; },
+      [](Geometry& g) { g.groups.push_back({}); },
+      [](Geometry& g) { g.spheres[2].center[2] = 1; },
+      [](Geometry& g) { g.spheres[1].radius = 1; },
+      [](Geometry& g) { g.spheres.emplace_back(); },
+      [](Geometry& g) { g.disks[3].center[0] = 1; },
+      [](Geometry& g) { g.disks[0].radius = 1; },
+      [](Geometry& g) { g.disks[0].inner_radius = 1; },
+      [](Geometry& g) { g.disks[0].normal[1] = 1; },
+      [](Geometry& g) { g.instances[1].object_from_scene[11] = 1; },
+      [](Geometry& g) { g.instances[0].scene_from_object[0] = 1; },
+      [](Geometry& g) { g.instance_group[1] = 0; },
+      [](Geometry& g) { ++g.ranges.spheres; },
+      [](Geometry& g) { ++g.ranges.disks; }};
+  std::set<std::string> keys = {HexOf(plain)};
+  for (const auto& change : changes) {
+    Geometry changed = plain;
+    change(changed);
+    keys.insert(HexOf(changed));
+  }
+  keys.insert(HexOf(plain, {.quality = BuildQuality::kFast}));
+  keys.insert(HexOf(plain, {.few_triangles = 1}));
+  keys.insert(HexOf(plain, {.few_round = 1}));
+  CHECK(keys.size() == 1 + changes.size() + 3);
+  for (const std::string& key : keys) CHECK(key.size() == 32);
+}
+
+TEST_CASE("the key of a tree does not follow how shapes look", "[accel][tree-key]") {
+  const Geometry plain = AllShapes();
+  Geometry other = plain;
+  other.triangles[7].material = 3;
+  other.triangles[7].light = 5;
+  other.triangles[7].flags = kAlphaTested;
+  other.spheres[0].normal_sign = -1;
+  other.disks[0].material = 2;
+  other.normals.resize(9 * 20000, 1);
+  other.planes.emplace_back();
+  CHECK(HexOf(other) == HexOf(plain));
+}
+
+TEST_CASE("the key of a tree is the same for any number of threads",
+          "[accel][tree-key]") {
+  const Geometry plain = AllShapes();
+  const std::string key = HexOf(plain);
+  for (const int threads : {1, 2, 5}) {
+    const ThreadLimit limit(threads);
+    CHECK(HexOf(plain) == key);
+  }
+}
+
+}  // namespace lanelight
