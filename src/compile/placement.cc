@@ -139,13 +139,18 @@ bool IsFinitePoint(Vec3d v) {
 }
 
 // The box of a mesh; nothing if it reaches too far. Vertices that are no numbers to begin
-// with make degenerate triangles, which are left out.
+// with make degenerate triangles, which are left out; so are vertices of no triangle.
 std::optional<Box> MeshBox(const PlacedShape& placed) {
   const TriangleMesh& mesh = *placed.mesh;
-  Box box;
+  // Most vertices are shared by six triangles, and placed once.
+  std::vector<std::uint8_t> used(mesh.positions.size(), 0);
   for (std::uint32_t i : mesh.indices) {
     LL_CHECK_LT(i, mesh.positions.size());
-    if (!IsFinitePoint(mesh.positions[i])) continue;
+    used[i] = 1;
+  }
+  Box box;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i] || !IsFinitePoint(mesh.positions[i])) continue;
     const Vec3d p = placed.transform.Point(mesh.positions[i]);
     if (IsTooFar(p)) return std::nullopt;
     box.Add(p);
