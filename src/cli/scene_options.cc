@@ -134,6 +134,18 @@ void AddTransportOptions(CLI::App& command, RenderSettings& s) {
                             "Model of all diffuse materials");
 }
 
+void AddBuildCacheOption(CLI::App& command, std::string& directory) {
+  command
+      .add_option(
+          "--build-cache", directory,
+          "Keep the trees over shapes in files here, and map those that are there "
+          "instead of building")
+      ->check([](const std::string& text) {
+        return text.empty() ? std::string("a directory has a name") : std::string();
+      })
+      ->type_name("DIR");
+}
+
 void AddExecutionOptions(CLI::App& command, SceneOptions& options) {
   command
       .add_option("--wavefront", options.settings.wavefront,
@@ -144,6 +156,7 @@ void AddExecutionOptions(CLI::App& command, SceneOptions& options) {
       command, "--build", options.settings.build,
       {{"fast", BuildQuality::kFast}, {"high", BuildQuality::kHigh}},
       "How to build the trees over shapes, in less time or for faster rays");
+  AddBuildCacheOption(command, options.settings.trees.directory);
   command.add_option("--threads", options.threads, "Threads; 0 = all cores")
       ->check(CLI::Range(0, 1024).description(""))
       ->type_name("T");
@@ -186,6 +199,9 @@ std::string FlagsText(const SceneOptions& options) {
     text += fmt::format(" --scattering {}", ScatteringName(*s.scattering));
   if (s.build) {
     text += s.build == BuildQuality::kFast ? " --build fast" : " --build high";
+  }
+  if (const std::string& folder = s.trees.directory; !folder.empty()) {
+    text += " --build-cache " + ShellWord(folder);
   }
   if (s.wavefront > 0) text += fmt::format(" --wavefront {}", s.wavefront);
   if (options.threads > 0) text += fmt::format(" --threads {}", options.threads);

@@ -19,6 +19,7 @@ struct SceneOptions {
 void AddWindowOptions(CLI::App& command, RenderSettings& settings);
 void AddSeedOption(CLI::App& command, RenderSettings& settings);
 void AddTransportOptions(CLI::App& command, RenderSettings& settings);
+void AddBuildCacheOption(CLI::App& command, std::string& directory);
 void AddExecutionOptions(CLI::App& command, SceneOptions& options);
 
 /// These, the scene itself, the strategy and --aov.

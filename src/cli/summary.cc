@@ -138,8 +138,9 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
   text += ControlRow(r, job.scene.strategy);
   text += Row("health", HealthText(r.health));
   text += Row("time",
-              fmt::format("load {}, build {}, render {}, write {}",
+              fmt::format("load {}, build {} (trees {} in {}), render {}, write {}",
                           DurationText(job.load_seconds), DurationText(job.build_seconds),
+                          Name(job.trees.origin), DurationText(job.trees.seconds),
                           DurationText(r.seconds), DurationText(report.write_seconds)));
   text += Row("machine",
               fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes",

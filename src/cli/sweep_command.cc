@@ -8,6 +8,7 @@
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
+#include "src/cli/scene_options.h"
 #include "src/cli/sweep_progress.h"
 #include "src/sweep/prediction.h"
 #include "src/sweep/runner.h"
@@ -92,8 +93,8 @@ void PrintSummary(const SweepOutcome& o, const SweepOptions& options) {
 
 int DryRun(const Sweep& sweep, const SweepCommandOptions& options) {
   const InterruptGuard interrupt("\nstopping\n");
-  Print(PredictionText(
-      sweep, Predict(sweep, options.sweep.out, options.pilots, interrupt.stop())));
+  Print(PredictionText(sweep, Predict(sweep, options.sweep.out, options.pilots,
+                                      interrupt.stop(), options.sweep.build_cache)));
   return interrupt.stop() ? kExitInterrupted : kExitGood;
 }
 
@@ -143,6 +144,7 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
       ->required()
       ->type_name("DIR");
   AddSharingOptions(*command, *options);
+  AddBuildCacheOption(*command, options->sweep.build_cache);
   CLI::Option* dry = command->add_flag(
       "--dry-run", options->dry_run,
       "Print the cells, and the time and space they will take, and render none");

@@ -143,7 +143,23 @@ void NoteNothingToHit(const SceneDescription& description, CompiledScene& scene)
            (lit ? "the image shows the environment alone" : "the image is black")});
 }
 
+void FindTrees(const CompileOptions& options, CompiledScene& scene) {
+  FoundTree tree = FindTree(scene.geometry, {.quality = options.build}, options.trees);
+  scene.accel = std::move(tree.accel);
+  if (options.tree_report != nullptr) *options.tree_report = tree.report;
+  const auto where = std::make_shared<const std::string>("--build-cache");
+  for (const std::string& problem : tree.problems) {
+    scene.notes.push_back({{where, 0, 0}, problem});
+  }
+}
+
 }  // namespace
+
+std::shared_ptr<const KnownTree> TreesOf(const CompiledScene& scene) {
+  const AccelOptions options = {.quality = scene.accel.quality};
+  return std::make_shared<const KnownTree>(
+      KnownTree{KeyOf(scene.geometry, options), scene.accel});
+}
 
 CompiledScene CompileScene(const SceneDescription& description,
                            const CompileOptions& options) {
@@ -203,7 +219,7 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.geometry = std::move(compiled.geometry);
   scene.features = SceneFeatures(scene);
   NoteNothingToHit(description, scene);
-  scene.accel = BuildAccel(scene.geometry, {.quality = options.build});
+  FindTrees(options, scene);
   scene.strategy = description.strategy;
   return scene;
 }

@@ -1,8 +1,10 @@
 // SceneDescription (double precision, file units) to CompiledScene (what kernels read).
 #pragma once
 
+#include <memory>
 #include <optional>
 
+#include "src/accel/tree_source.h"
 #include "src/compiled/scene.h"
 #include "src/scene/description.h"
 
@@ -11,6 +13,8 @@ namespace lanelight {
 struct CompileOptions {
   std::optional<Scattering> scattering;  // overrides every diffuse material
   BuildQuality build = BuildQuality::kHigh;
+  TreeSource trees;  // where those over shapes may be, instead of being built
+  TreeReport* tree_report = nullptr;  // what came of that; may be null
 };
 
 /// Throws InputError if the scene cannot be rendered (a missing image, a shape that the
@@ -18,5 +22,8 @@ struct CompileOptions {
 /// Loads the image files that textures and environments name.
 CompiledScene CompileScene(const SceneDescription& description,
                            const CompileOptions& options = {});
+
+/// The trees of a scene, for another one that may have the same shapes.
+std::shared_ptr<const KnownTree> TreesOf(const CompiledScene& scene);
 
 }  // namespace lanelight

@@ -69,7 +69,10 @@ Job PrepareJob(SceneDescription description, const RenderSettings& asked) {
                 job.description.strategy, PhysicalMemory());
   job.load_seconds = watch.Lap();
 
-  job.scene = PrepareScene(job.description, CompileOptionsOf(settings));
+  CompileOptions compile = CompileOptionsOf(settings);
+  compile.tree_report = &job.trees;
+  job.scene = PrepareScene(job.description, compile);
+  job.settings.trees.known.reset();  // which may be all that keeps it
   // Reports look for notes in one place.
   std::vector<Note>& notes = job.description.notes;
   notes.insert(notes.end(), job.scene.notes.begin(), job.scene.notes.end());

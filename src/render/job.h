@@ -29,6 +29,7 @@ struct Job {
   std::uint64_t scene_hash = 0;  // see HashSceneFiles()
   double load_seconds = 0;       // reading and parsing
   double build_seconds = 0;      // compiling: acceleration structure, lights, textures
+  TreeReport trees;              // over shapes: part of that
 
   /// How many samples there will be is not known beforehand.
   bool OpenEnded() const { return spp == 0 || seconds > 0 || target.Any(); }

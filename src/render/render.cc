@@ -94,6 +94,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   out.report.half = targets.half;
   out.report.load_seconds = job.load_seconds;
   out.report.build_seconds = job.build_seconds;
+  out.report.trees = job.trees;
   out.report.result = RunKept(job, film, head, targets.checkpoint, hooks, out);
   if (hooks.on_rendered) hooks.on_rendered();
   WriteRendering(film, IdentityOf(job), head, targets, hooks.members, out);

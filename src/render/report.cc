@@ -79,6 +79,12 @@ Json NotesJson(const Job& job) {
   return out;
 }
 
+// Where states were merged nobody had any.
+Json TreesJson(const TreeReport& trees) {
+  if (trees.bytes == 0) return nullptr;
+  return {{"origin", Name(trees.origin)}, {"bytes", trees.bytes}};
+}
+
 }  // namespace
 
 std::string PointsText(const Job& job) {
@@ -150,9 +156,11 @@ Json ToJson(const RenderReport& report, const Json& head) {
       {"seconds",
        {{"load", report.load_seconds},
         {"build", report.build_seconds},
+        {"trees", report.trees.seconds},
         {"render", r.seconds},
         {"pilot", r.pilot_seconds},
         {"write", report.write_seconds}}},
+      {"trees", TreesJson(report.trees)},
       {"ranks", r.ranks},
       {"bytes_between_ranks", r.bytes_between_ranks},
       {"cpu_seconds", r.cpu_seconds},

@@ -21,6 +21,7 @@ struct RenderReport {
   ErrorEstimate error;
   std::uint64_t unsampled_pixels = 0;  // of the film: without a sample, black
   double load_seconds = 0, build_seconds = 0, write_seconds = 0;
+  TreeReport trees;
   bool half = false;
 };
 

@@ -139,6 +139,7 @@ CompileOptions CompileOptionsOf(const RenderSettings& settings) {
   CompileOptions options;
   options.scattering = settings.scattering;
   options.build = settings.build.value_or(options.build);
+  options.trees = settings.trees;
   return options;
 }
 

@@ -36,6 +36,7 @@ struct RenderSettings {
   DefaultDecision decision = DefaultDecision::kNever;
   std::optional<Scattering> scattering;
   std::optional<BuildQuality> build;  // of the trees over shapes
+  TreeSource trees;                   // where these may be found
   std::uint32_t wavefront = 0;        // paths; 0 = chosen by the plan
   bool aov = false;
   std::optional<Gbuffer> gbuffer;

@@ -43,6 +43,7 @@ void SceneRunner::RunDiffuseModels() {
     RenderSettings settings = options_.settings;
     settings.scattering = model.scattering;
     settings.spp = MostSamples();
+    settings.trees.known = TreesOf(job_.scene);
     const Job job = PrepareJob(scene_.path, settings);
     FilmAccumulator film = MakeFilm(job);
     RunJob(job, film, {}, hooks_.stop);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "src/accel/tree_source.h"
 #include "src/study/cell_store.h"
 #include "src/study/options.h"
 #include "src/study/reference.h"
@@ -47,6 +48,7 @@ struct SceneRuns {
   int full_width = 0, full_height = 0;
   PixelRect window;
   double load_seconds = 0, build_seconds = 0;
+  TreeReport trees;  // over shapes; their time is part of build_seconds
   std::vector<std::string> notes;
   std::string differs;  // not empty: the images are not what the scene file asks for
   std::string folder;   // state and images

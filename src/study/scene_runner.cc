@@ -68,6 +68,7 @@ void SceneRunner::Prepare() {
   scene_.window = job_.window;
   scene_.load_seconds = job_.load_seconds;
   scene_.build_seconds = job_.build_seconds;
+  scene_.trees = job_.trees;
   for (const Note& note : job_.description.notes) {
     scene_.notes.push_back(note.where.ToString() + ": " + note.message);
   }

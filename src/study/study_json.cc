@@ -178,7 +178,9 @@ Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
   out["crop"] = {w.x0, w.y0, w.x1, w.y1};
   out["seconds"] = {{"load", runs.load_seconds},
                     {"build", runs.build_seconds},
+                    {"trees", runs.trees.seconds},
                     {"reference", runs.reference.seconds}};
+  out["trees"] = Name(runs.trees.origin);
   out["notes"] = runs.notes;
   out["differs"] = Text(runs.differs);
   out["reference"] = ReferenceJson(runs, analysis);

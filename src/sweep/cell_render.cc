@@ -15,6 +15,12 @@ namespace {
 constexpr Axis kCompiled[] = {Axis::kScene, Axis::kResolution, Axis::kMaxDepth,
                               Axis::kBuild, Axis::kTarget,     Axis::kThreads};
 
+// Cells that differ here have other trees, or may have; they are not kept for them.
+std::string TreeKeyOf(const AxisValues& values) {
+  return Get(values, Axis::kScene).value_or("") + "\n" +
+         Get(values, Axis::kBuild).value_or("");
+}
+
 // Of the cell; what it does not say is the scene's.
 CellSettings SettingsOf(const RenderSettings& settings, const Strategy& strategy,
                         const Job& job) {
@@ -50,6 +56,10 @@ bool CellRenderer::HasTarget(const SweepCell& cell) {
 
 // Leaves no job, and failure_, if that is not possible.
 void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
+  settings.trees.directory = build_cache_;
+  const std::string trees = TreeKeyOf(cell.values);
+  if (job_ && trees == tree_key_) settings.trees.known = TreesOf(job_->scene);
+  tree_key_ = trees;
   job_.reset();  // before there is another in memory
   failure_.clear();
   ForceTarget(Get(cell.values, Axis::kTarget).value_or(""));

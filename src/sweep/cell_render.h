@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "src/render/render.h"
 #include "src/sweep/sweep_file.h"
@@ -12,11 +13,14 @@
 namespace lanelight {
 
 /// Renders cells one after the other, and compiles a scene again only where two in a row
-/// differ in more than strategy, amount and seed.
+/// differ in more than strategy, amount and seed. Its trees are built again only where
+/// the shapes are others.
 class CellRenderer {
  public:
-  /// `sweep` must outlive the object.
-  explicit CellRenderer(const Sweep& sweep) : sweep_(sweep) {}
+  /// `sweep` must outlive the object. Trees over shapes are looked for in `build_cache`,
+  /// a directory, if that is not empty (src/accel/tree_source.h).
+  explicit CellRenderer(const Sweep& sweep, std::string build_cache = {})
+      : sweep_(sweep), build_cache_(std::move(build_cache)) {}
 
   /// The scene as the cell wants it, its strategy and amount set. Refers to this object,
   /// until the next call. Throws InputError.
@@ -38,8 +42,10 @@ class CellRenderer {
   void Compile(const SweepCell& cell, RenderSettings settings);
 
   const Sweep& sweep_;
+  std::string build_cache_;
   std::optional<Job> job_;
   std::string key_, failure_;  // of job_; why there is none
+  std::string tree_key_;       // of its trees, as far as cells tell
   Strategy own_;               // the scene's
 };
 

@@ -30,8 +30,12 @@ std::string StrategyOf(const SweepCell& cell) {
 
 class Predictor {
  public:
-  Predictor(const Sweep& sweep, SweepFolder folder, const std::atomic<bool>& stop)
-      : sweep_(sweep), folder_(std::move(folder)), stop_(stop), renderer_(sweep) {}
+  Predictor(const Sweep& sweep, SweepFolder folder, const std::atomic<bool>& stop,
+            const std::string& build_cache)
+      : sweep_(sweep),
+        folder_(std::move(folder)),
+        stop_(stop),
+        renderer_(sweep, build_cache) {}
 
   SweepPrediction Predict(std::size_t most_pilots);
 
@@ -186,8 +190,8 @@ void Predictor::PredictCell(const SweepCell& cell, bool first_of_scene,
 }  // namespace
 
 SweepPrediction Predict(const Sweep& sweep, const std::string& out, int most_pilots,
-                        const std::atomic<bool>& stop) {
-  return Predictor(sweep, SweepFolder(out, sweep), stop)
+                        const std::atomic<bool>& stop, const std::string& build_cache) {
+  return Predictor(sweep, SweepFolder(out, sweep), stop, build_cache)
       .Predict(static_cast<std::size_t>(most_pilots));
 }
 

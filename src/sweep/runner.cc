@@ -29,7 +29,7 @@ class Runner {
         hooks_(hooks),
         folder_(folder),
         claims_(folder.File("claims"), options.parts > 1),
-        renderer_(sweep) {}
+        renderer_(sweep, options.build_cache) {}
 
   void Run(SweepOutcome& outcome);
 

@@ -67,6 +67,8 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
       {{"study", "x.pbrt", "--out", "x", "--seed", "-1"}, "--seed"},
       {{"render", "x.pbrt", "-o", "x.exr", "--threads", "-1"}, "--threads"},
       {{"render", "x.pbrt", "-o", "x.exr", "--build", "slow"}, "not one of fast, high"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--build-cache", ""},
+       "a directory has a name"},
       {{"render", "x.pbrt", "-o", "x.exr", "--target", "AVX9000"},
        AvailableTargets().back()},
       {{"render", "x.pbrt", "-o", "x.exr", "--strategy", "points=sobl"},
