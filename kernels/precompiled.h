@@ -4,10 +4,6 @@
 
 #include "kernels/targets.h"
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 #include <algorithm>
 #include <bit>
 #include <cmath>

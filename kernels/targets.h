@@ -5,18 +5,24 @@
 //   AVX3   16 lanes, compress and gather in hardware: what the design is for
 //   AVX2   8 lanes, gather in hardware
 //   SSE4   4 lanes (with AES and carry-less products): the floor, machines since 2010
+//   NEON   4 lanes: all 64-bit ARM (docs/arm64.md)
 //   EMU128 4 lanes in plain C++, with LANELIGHT_PLAIN_TARGET only: runs anywhere, takes
 //          the longest to compile of all, and 30 times as long to run
 // Not compiled: SSSE3 (machines of 2006 to 2010; EMU128 serves them), AVX3_DL (no
-// instruction of it is used), NEON and others (nothing stands in the way, not tested).
+// instruction of it is used), SVE in all forms: a vector without a size at compile time
+// cannot be a member of a class or lie in an array, which ours do (Vec3 of lanes, hits,
+// BSDF lobes). Others: nothing stands in the way, not tested.
 #pragma once
 
+#include "src/core/machine.h"
+
 #ifndef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #endif
 
 // What the kernels take for granted, which is more than their compiler may elsewhere.
-#if defined(__x86_64__) && !defined(LANELIGHT_PLAIN_TARGET) && \
+#if defined(LANELIGHT_FLOOR_TARGET) && !defined(LANELIGHT_PLAIN_TARGET) && \
     !defined(HWY_COMPILE_ONLY_STATIC)
-#define HWY_BASELINE_TARGETS HWY_SSE4
+#define HWY_BASELINE_TARGETS LANELIGHT_FLOOR_TARGET
 #endif

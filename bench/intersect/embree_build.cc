@@ -4,6 +4,7 @@
 
 #include "bench/intersect/build_clock.h"
 #include "bench/intersect/embree_scene.h"
+#include "src/core/machine.h"
 #include "src/core/parallel.h"
 
 namespace lanelight::bench {

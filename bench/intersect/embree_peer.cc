@@ -4,6 +4,7 @@
 #include "bench/intersect/embree_scene.h"
 #include "bench/intersect/tracer.h"
 #include "src/core/error.h"
+#include "src/core/machine.h"
 
 namespace lanelight::bench {
 namespace {

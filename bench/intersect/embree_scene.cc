@@ -1,7 +1,5 @@
 #include "bench/intersect/embree_scene.h"
 
-#include <pmmintrin.h>
-
 #include <cstring>
 
 namespace lanelight::bench {
@@ -32,11 +30,5 @@ RTCScene NewEmbreeScene(RTCDevice device, const Mesh& mesh, RTCBuildQuality qual
   rtcReleaseGeometry(g);
   return scene;
 }
-
-FlushToZero::FlushToZero() : before_(_mm_getcsr()) {
-  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-}
-FlushToZero::~FlushToZero() { _mm_setcsr(before_); }
 
 }  // namespace lanelight::bench

@@ -17,17 +17,4 @@ std::string EmbreeConfig(const std::string& target, int threads, const std::stri
 RTCScene NewEmbreeScene(RTCDevice device, const Mesh& mesh, RTCBuildQuality quality,
                         bool robust);
 
-/// Denormals off while it lives, as Embree's manual asks of threads that call it. Our
-/// own kernels run with the settings that they have in a render.
-class FlushToZero {
- public:
-  FlushToZero();
-  ~FlushToZero();
-  FlushToZero(const FlushToZero&) = delete;
-  FlushToZero& operator=(const FlushToZero&) = delete;
-
- private:
-  unsigned before_;
-};
-
 }  // namespace lanelight::bench

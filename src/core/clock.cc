@@ -2,22 +2,8 @@
 
 #include <ctime>
 
-#if defined(__x86_64__)
-#include <cpuid.h>
-#endif
-
 namespace lanelight {
 namespace {
-
-// Leaf 0x80000007, bit 8 of edx: "invariant TSC" (Intel and AMD manuals).
-bool HasInvariantTimeStamps() {
-#if defined(__x86_64__)
-  unsigned a = 0, b = 0, c = 0, d = 0;
-  return __get_cpuid(0x80000007u, &a, &b, &c, &d) != 0 && (d & (1u << 8)) != 0;
-#else
-  return false;
-#endif
-}
 
 double Seconds(clockid_t clock) {
   timespec t{};
@@ -26,8 +12,6 @@ double Seconds(clockid_t clock) {
 }
 
 }  // namespace
-
-const bool kHasTimeStamps = HasInvariantTimeStamps();
 
 TickScale::TickScale() : time_(std::chrono::steady_clock::now()), ticks_(Ticks()) {}
 

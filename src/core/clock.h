@@ -5,22 +5,14 @@
 #include <chrono>
 #include <cstdint>
 
-#if defined(__x86_64__)
-#include <x86intrin.h>
-#endif
+#include "src/core/machine.h"
 
 namespace lanelight {
 
-/// Whether Ticks() reads the time stamp counter: x86 whose counter runs at the same rate
-/// in every power state, on all cores. Else it reads std::chrono::steady_clock.
-extern const bool kHasTimeStamps;
-
 /// Time since some fixed moment, in a unit that TickScale measures. About 10 ns a call
-/// with time stamps.
+/// with time stamps (machine.h); without, it reads std::chrono::steady_clock.
 inline std::uint64_t Ticks() {
-#if defined(__x86_64__)
-  if (kHasTimeStamps) return __rdtsc();
-#endif
+  if (kHasTimeStamps) return TimeStamp();
   return static_cast<std::uint64_t>(
       std::chrono::steady_clock::now().time_since_epoch().count());
 }

@@ -70,7 +70,8 @@ constexpr Floor kFloors[] = {
 };
 // clang-format on
 
-// Headers of a folder that stand on the ground: they include nothing of the project.
+// Headers of a folder that stand on the ground: they include nothing of the project
+// but src/core.
 const std::set<std::string> kGround = {"kernels/targets.h"};
 
 // Position in the list; -1 if it is not there.

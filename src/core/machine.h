@@ -1,0 +1,51 @@
+// What differs between processors, and all of it: the names of x86 and ARM, their
+// counters and control registers are in machine.h and machine.cc alone
+// (tests/core/machine_test.cc). x86-64 and 64-bit ARM (AArch64) are known; whatever else
+// Highway compiles for renders too, with a clock that costs more.
+#pragma once
+
+#include <cstdint>
+
+#if defined(__x86_64__)
+#include <x86intrin.h>
+#endif
+
+// The SIMD target that a program for this processor takes for granted, where that is more
+// than its compiler does (kernels/targets.h). ARM: NEON is a part of the architecture.
+#if defined(__x86_64__)
+#define LANELIGHT_FLOOR_TARGET HWY_SSE4
+#endif
+
+namespace lanelight {
+
+/// Whether TimeStamp() counts: x86 whose counter runs at the same rate in every power
+/// state, on all cores. ARM has such a counter too, but std::chrono reads it there
+/// without entering the kernel, and it is not finer.
+extern const bool kHasTimeStamps;
+
+/// The counter, in a unit of its own; 0 where there is none.
+inline std::uint64_t TimeStamp() {
+#if defined(__x86_64__)
+  return __rdtsc();
+#else
+  return 0;
+#endif
+}
+
+#if defined(__x86_64__) || defined(__aarch64__)
+/// While it lives, subnormal numbers are zeros in this thread, as operands and as
+/// results. For measuring others under their own conditions (Embree's manual asks it of
+/// threads that call it): renders run without.
+class FlushToZero {
+ public:
+  FlushToZero();
+  ~FlushToZero();
+  FlushToZero(const FlushToZero&) = delete;
+  FlushToZero& operator=(const FlushToZero&) = delete;
+
+ private:
+  std::uint64_t before_;
+};
+#endif
+
+}  // namespace lanelight
