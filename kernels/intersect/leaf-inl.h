@@ -113,11 +113,24 @@ HWY_NOINLINE bool LaneIsAhead(const Leaf& leaf, uint32_t lane, const float o[3],
   return PlaneIsAhead(o, d, n, p[0]);
 }
 
-/// Weights of a leaf's triangles seen from a ray, and its vertices' distances: what is
-/// needed to finish the few lanes that the ray passes through.
+/// What is needed to finish the few lanes that a ray passes through: its vertices'
+/// distances, and the weights of the triangles or, where these are dear, the vertices'
+/// positions across the ray.
 struct LeafWeights {
-  HWY_ALIGN float u[kLeafTriangles], v[kLeafTriangles], w[kLeafTriangles];
-  HWY_ALIGN float z[SeparateLeaf::kVertexLanes];
+  static constexpr int kRows = SeparateLeaf::kVertexLanes;
+  HWY_ALIGN float z[kRows];
+  HWY_ALIGN float u[kCheapEdges ? kLeafTriangles : 1],
+      v[kCheapEdges ? kLeafTriangles : 1], w[kCheapEdges ? kLeafTriangles : 1];
+  HWY_ALIGN float x[kCheapEdges ? 1 : kRows], y[kCheapEdges ? 1 : kRows];
+
+  /// The weights of a triangle whose corners are the vertices a, b and c.
+  LANELIGHT_INLINE P3<float> Of(uint32_t lane, uint32_t a, uint32_t b, uint32_t c) const {
+    if constexpr (kCheapEdges) return {u[lane], v[lane], w[lane]};
+    const auto edge = [&](uint32_t i, uint32_t j) HWY_ATTR {
+      return static_cast<float>(double{x[i]} * y[j] - double{y[i]} * x[j]);
+    };
+    return {edge(c, b), edge(a, c), edge(b, a)};
+  }
 };
 
 /// A ray as leaves see it: its shear, its permuted order of axes as byte offsets of
@@ -164,8 +177,14 @@ LANELIGHT_INLINE void TestLeaves(const LeafRay (&ray)[kRays],
                            hn::Set(d, ray[j].o.x));
       const V dy = hn::Sub(hn::Load(d, LeafRow(*leaf[j], ray[j].row[1]) + i),
                            hn::Set(d, ray[j].o.y));
-      x[j].Set(i / kStep, hn::NegMulAdd(hn::Set(d, ray[j].s.x), z[j], dx));
-      y[j].Set(i / kStep, hn::NegMulAdd(hn::Set(d, ray[j].s.y), z[j], dy));
+      const V across[2] = {hn::NegMulAdd(hn::Set(d, ray[j].s.x), z[j], dx),
+                           hn::NegMulAdd(hn::Set(d, ray[j].s.y), z[j], dy)};
+      x[j].Set(i / kStep, across[0]);
+      y[j].Set(i / kStep, across[1]);
+      if constexpr (!kCheapEdges) {
+        hn::Store(across[0], d, to[j]->x + i);
+        hn::Store(across[1], d, to[j]->y + i);
+      }
     }
   }
   for (int j = 0; j < kRays; ++j) bits[j] = 0;
@@ -177,20 +196,28 @@ LANELIGHT_INLINE void TestLeaves(const LeafRay (&ray)[kRays],
       cx[j] = x[j].Corner(*leaf[j], 2, i), cy[j] = y[j].Corner(*leaf[j], 2, i);
     }
     V u[kRays], v[kRays], w[kRays];
-    for (int j = 0; j < kRays; ++j) {
-      u[j] = EdgeFunction(d, cx[j], by[j], cy[j], bx[j]);
-      v[j] = EdgeFunction(d, ax[j], cy[j], ay[j], cx[j]);
-      w[j] = EdgeFunction(d, bx[j], ay[j], by[j], ax[j]);
+    hn::Mask<LeafTag<Leaf>> pass[kRays];
+    if constexpr (kCheapEdges) {
+      for (int j = 0; j < kRays; ++j) {
+        u[j] = EdgeFunction(d, cx[j], by[j], cy[j], bx[j]);
+        v[j] = EdgeFunction(d, ax[j], cy[j], ay[j], cx[j]);
+        w[j] = EdgeFunction(d, bx[j], ay[j], by[j], ax[j]);
+      }
     }
     for (int j = 0; j < kRays; ++j) {
-      hn::Store(u[j], d, to[j]->u + i);
-      hn::Store(v[j], d, to[j]->v + i);
-      hn::Store(w[j], d, to[j]->w + i);
-      const auto pass = hn::Or(hn::Ge(Min3(u[j], v[j], w[j]), zero),
-                               hn::Le(Max3(u[j], v[j], w[j]), zero));
+      if constexpr (kCheapEdges) {
+        hn::Store(u[j], d, to[j]->u + i);
+        hn::Store(v[j], d, to[j]->v + i);
+        hn::Store(w[j], d, to[j]->w + i);
+        pass[j] = hn::Or(hn::Ge(Min3(u[j], v[j], w[j]), zero),
+                         hn::Le(Max3(u[j], v[j], w[j]), zero));
+      } else {
+        pass[j] = MayPassEdges(d, P3<V>{ax[j], ay[j], zero}, P3<V>{bx[j], by[j], zero},
+                               P3<V>{cx[j], cy[j], zero});
+      }
       const auto other =
           hn::Ne(hn::LoadU(du, leaf[j]->prim + i), hn::Set(du, ray[j].from));
-      bits[j] |= MaskBits(d, hn::And(pass, hn::RebindMask(d, other))) << i;
+      bits[j] |= MaskBits(d, hn::And(pass[j], hn::RebindMask(d, other))) << i;
     }
   }
   if constexpr (std::is_same_v<Leaf, TriangleLeaf>) {
@@ -198,27 +225,34 @@ LANELIGHT_INLINE void TestLeaves(const LeafRay (&ray)[kRays],
   }
 }
 
-/// Finishes one lane of a leaf for which TestLeaves set the bit. `t` is valid if the
-/// result is true: the triangle lies ahead. The arithmetic is that of FinishHits.
+/// A hit of a lane: distance, and barycentric coordinates.
+struct LaneHit {
+  float t, b1, b2;
+};
+
+/// Finishes one lane of a leaf for which TestLeaves set the bit; true if the triangle
+/// lies ahead. The arithmetic is that of FinishHits.
 template <class Leaf, class CopyRay>
 LANELIGHT_INLINE bool FinishLane(const Leaf& leaf, const LeafWeights& weights,
-                                 uint32_t lane, CopyRay&& copy_ray, float& t,
-                                 float& det) {
+                                 uint32_t lane, CopyRay&& copy_ray, LaneHit& hit) {
   const hn::CappedTag<float, 1> d1;
-  const float u = weights.u[lane], v = weights.v[lane], w = weights.w[lane];
-  const float az = weights.z[leaf.VertexOf(0, lane)],
-              bz = weights.z[leaf.VertexOf(1, lane)],
-              cz = weights.z[leaf.VertexOf(2, lane)];
-  det = u + (v + w);
+  const uint32_t a = leaf.VertexOf(0, lane), b = leaf.VertexOf(1, lane),
+                 c = leaf.VertexOf(2, lane);
+  const auto [u, v, w] = weights.Of(lane, a, b, c);
+  if constexpr (!kCheapEdges) {
+    if (std::min({u, v, w}) < 0 && std::max({u, v, w}) > 0) return false;
+  }
+  const float az = weights.z[a], bz = weights.z[b], cz = weights.z[c];
+  const float det = u + (v + w);
   if (det == 0) return false;
   const float t_det =
       hn::GetLane(hn::MulAdd(hn::Set(d1, u), hn::Set(d1, az),
                              hn::MulAdd(hn::Set(d1, v), hn::Set(d1, bz),
                                         hn::Mul(hn::Set(d1, w), hn::Set(d1, cz)))));
-  t = t_det / det;
+  hit = {t_det / det, v / det, w / det};
   const bool straddles = std::min({az, bz, cz}) <= 0 && std::max({az, bz, cz}) >= 0;
-  if (!straddles) return t > 0;
-  t = std::max(t, FLT_MIN);
+  if (!straddles) return hit.t > 0;
+  hit.t = std::max(hit.t, FLT_MIN);
   float o[3], dir[3];
   copy_ray(o, dir);
   return LaneIsAhead(leaf, lane, o, dir);

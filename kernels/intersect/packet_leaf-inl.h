@@ -37,6 +37,7 @@ struct PacketRays {
   bool same_axes = false, has_beam = false;
   uint32_t axis[3] = {};
   Beam beam = {};
+  Rays home = rays;  // in the space of the scene, which decides about cut-outs
 };
 
 /// Prepares rays for leaves; `valid`: their lanes, as bits.
@@ -134,9 +135,15 @@ LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& lea
   uint32_t passed = 0;
   for (; near != 0; near &= near - 1) {
     const auto i = static_cast<uint32_t>(std::countr_zero(near));
-    const auto edges = TestEdges(df, corner(i, 0), corner(i, 1), corner(i, 2));
-    weights.Keep(i, {edges.u, edges.v, edges.w});
-    const MF mask = hn::And(edges.mask, NotFrom(packet.rays, leaf.prim[i]));
+    const P3<VF> p = corner(i, 0), q = corner(i, 1), r = corner(i, 2);
+    MF mask = NotFrom(packet.rays, leaf.prim[i]);
+    if constexpr (kCheapEdges) {
+      const auto edges = TestEdges(df, p, q, r);
+      weights.Keep(i, {edges.u, edges.v, edges.w});
+      mask = hn::And(edges.mask, mask);
+    } else {
+      mask = hn::And(MayPassEdges(df, p, q, r), mask);
+    }
     passed |= uint32_t{(lanes & MaskBits(df, mask)) != 0} << i;
   }
   const MF active = MaskOf(df, lanes);
@@ -150,15 +157,15 @@ LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& lea
       return AheadOf(packet.rays, p[0], p[1], p[2]);
     };
     const P3<VF> p = corner(i, 0), q = corner(i, 1), r = corner(i, 2);
-    const P3<VF> weight = weights[i];
-    auto edges = JoinEdges(df, weight.x, weight.y, weight.z);
+    auto edges = kCheapEdges ? JoinEdges(df, weights[i].x, weights[i].y, weights[i].z)
+                             : TestEdges(df, p, q, r);
     edges.mask = hn::And(hn::And(edges.mask, active), NotFrom(packet.rays, leaf.prim[i]));
     const VF t_det = TestDistance(df, packet.shear, p, q, r, best.t, edges);
     if (hn::AllFalse(df, edges.mask)) continue;
     TriangleHits<VF, MF> hit =
         FinishHits(df, packet.shear, p, q, r, edges.mask, edges, t_det, is_ahead);
     MF mask = hit.mask;
-    if constexpr (kAlpha) mask = CutOut(scene, packet.rays, leaf.prim[i], hit, mask);
+    if constexpr (kAlpha) mask = CutOut(scene, packet.home, leaf.prim[i], hit, mask);
     if constexpr (kAny) {
       mask = hn::And(mask, hn::Lt(hit.t, best.t));
       best.found |= MaskBits(df, mask);

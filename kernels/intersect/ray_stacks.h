@@ -16,19 +16,30 @@ inline constexpr std::uint32_t kStreamRays = 256;
 /// Subtrees that a ray can put off in the packet phase.
 inline constexpr std::uint32_t kDeferred = 32;
 
-/// Words from the stack of one ray to that of the next; whole cache lines.
-inline std::uint32_t RayStackStride(const Bvh& bvh) {
-  // A vector may be stored past the top.
-  const auto depth = static_cast<std::uint32_t>(bvh.depth) * (kBvhWidth - 1) + 2;
-  return kDeferred + (depth + kLeafTriangles + 15) / 16 * 16;
+/// Words from the stack of one ray to that of the next, for trees of so many nodes on the
+/// longest path; an odd number of cache lines, so that the stacks of a stream lie in all
+/// sets of a cache.
+inline std::uint32_t RayStackStride(int depth) {
+  // The end below, the way back from an instance; a vector may be stored past the top.
+  const auto words = static_cast<std::uint32_t>(depth) * (kBvhWidth - 1) + 3;
+  const std::uint32_t lines = (kDeferred + words + kLeafTriangles + 15) / 16;
+  return 16 * (lines | 1);
+}
+
+/// Where the second half of the stacks' memory begins: half a page off what is
+/// read together with it, since addresses that agree in their last 12 bits are taken for
+/// the same by the processor until it knows better.
+inline std::size_t StackEntries(std::uint32_t words) {
+  return std::size_t{kStreamRays} * words + 512;
 }
 
 /// This thread's memory for the stacks of kStreamRays rays through a tree: `words` per
-/// ray, twice (references, then entry distances). It stays as it is until the thread asks
-/// for more, which is the only time that memory is allocated.
+/// ray (references), and from StackEntries(words) on as many (entry distances). It stays
+/// as it is until the thread asks for more, which is the only time that memory is
+/// allocated.
 inline std::uint32_t* ThreadRayStacks(std::uint32_t words) {
   thread_local UntouchedVector<std::uint32_t> stacks;
-  const std::size_t needed = std::size_t{2} * kStreamRays * words;
+  const std::size_t needed = StackEntries(words) + std::size_t{kStreamRays} * words;
   if (stacks.size() < needed) stacks.resize(needed);
   return stacks.data();
 }

@@ -8,7 +8,6 @@
 
 #include "kernels/intersect/few-inl.h"
 #include "kernels/intersect/packet-inl.h"
-#include "kernels/intersect/single-inl.h"
 #include "kernels/intersect/stream-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
@@ -19,15 +18,15 @@ namespace HWY_NAMESPACE {
 
 // As in triangles.cc. Rays stay in order: the queue is written behind the place where it
 // is read, at most a stream later.
-template <bool kAlpha>
-void ShadowWorldRays(Wave& wave) {
+template <bool kAlpha, bool kInstances>
+void ShadowRays(Wave& wave) {
   const CompiledScene& scene = *wave.scene;
   const Queue all = wave.queue(QueueId::kShadow);
   Queue& kept = wave.queue(QueueId::kShadow);
   kept.size = 0;
-  RayStream<true, kAlpha> stream(scene);
+  RayStream<true, kAlpha, kInstances> stream(scene);
   const auto flush = [&]() HWY_ATTR { stream.KeepOpen(kept); };
-  const bool few = !scene.accel.few.triangles.empty();
+  const bool few = !kInstances && !scene.accel.few.triangles.empty();
   ForEachBatch(wave, all, [&](const Slots& slots, MF valid) HWY_ATTR {
     Rays rays = LoadShadowRays(wave.path, slots);
     rays.from = Gather(wave.path.prim, slots);
@@ -44,18 +43,10 @@ void ShadowWorldRays(Wave& wave) {
   if (!stream.empty()) flush();
 }
 
-template <bool kAlpha>
-void ShadowInstancedRays(Wave& wave) {
-  RemoveOccluded(wave, [&](const Rays& rays, VI slots, MF valid) HWY_ATTR {
-    const int count = static_cast<int>(hn::CountTrue(DF(), valid));
-    return BlockedSingle<kAlpha>(*wave.scene, rays, slots, count);
-  });
-}
-
-void ShadowWorld(Wave& wave) { ShadowWorldRays<false>(wave); }
-void ShadowWorldAlpha(Wave& wave) { ShadowWorldRays<true>(wave); }
-void ShadowInstanced(Wave& wave) { ShadowInstancedRays<false>(wave); }
-void ShadowInstancedAlpha(Wave& wave) { ShadowInstancedRays<true>(wave); }
+void ShadowWorld(Wave& wave) { ShadowRays<false, false>(wave); }
+void ShadowWorldAlpha(Wave& wave) { ShadowRays<true, false>(wave); }
+void ShadowInstanced(Wave& wave) { ShadowRays<false, true>(wave); }
+void ShadowInstancedAlpha(Wave& wave) { ShadowRays<true, true>(wave); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight

@@ -8,6 +8,8 @@
 #define LANELIGHT_INTERSECT_STREAM_INL_H_
 #endif
 
+#include <algorithm>
+
 #include "kernels/intersect/stream_packet-inl.h"
 #include "kernels/intersect/stream_single-inl.h"
 #include "src/compiled/scene.h"
@@ -17,12 +19,12 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <bool kAny, bool kAlpha>
+template <bool kAny, bool kAlpha, bool kInstances>
 class RayStream {
  public:
   explicit RayStream(const CompiledScene& scene)
       : bvh_(scene.accel.groups[0]),
-        rays_(bvh_),
+        rays_(std::max(bvh_.depth, kInstances ? scene.accel.top.depth : 0)),
         packets_(scene, rays_),
         singles_(scene, rays_) {}
 
@@ -45,6 +47,7 @@ class RayStream {
       path.prim[slot] = static_cast<uint32_t>(rays_.prim[r]);
       path.b1[slot] = rays_.b1[r];
       path.b2[slot] = rays_.b2[r];
+      if constexpr (kInstances) path.inst[slot] = rays_.inst[r];
     }
     rays_.size = 0;
   }
@@ -61,17 +64,31 @@ class RayStream {
 
  private:
   LANELIGHT_INLINE void Trace() {
+    if constexpr (kInstances) {
+      std::fill_n(rays_.space, rays_.size, kWorldInstance);
+      std::fill_n(rays_.inst, rays_.size, kWorldInstance);
+    }
     uint32_t num_live = 0;
     for (uint32_t at = 0; at < rays_.size; at += StreamRays::kLanes) {
       packets_.Run(at, singles_.live(), num_live);
+    }
+    singles_.Run(num_live);
+    if constexpr (kInstances) TraceTop();
+  }
+
+  LANELIGHT_INLINE void TraceTop() {
+    singles_.BeginTop();
+    uint32_t num_live = 0;
+    for (uint32_t at = 0; at < rays_.size; at += StreamRays::kLanes) {
+      packets_.RunTop(at, singles_.live(), num_live);
     }
     singles_.Run(num_live);
   }
 
   const Bvh& bvh_;
   StreamRays rays_;
-  PacketPhase<kAny, kAlpha> packets_;
-  SinglePhase<kAny, kAlpha> singles_;
+  PacketPhase<kAny, kAlpha, kInstances> packets_;
+  SinglePhase<kAny, kAlpha, kInstances> singles_;
 };
 
 }  // namespace HWY_NAMESPACE

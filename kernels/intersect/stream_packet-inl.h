@@ -11,6 +11,7 @@
 #include <bit>
 
 #include "kernels/intersect/stream_rays-inl.h"
+#include "kernels/intersect/stream_spaces-inl.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,27 +28,32 @@ inline constexpr int kNodeRays = StreamRays::kLanes >= 16  ? 10
                                                            : 4;
 inline constexpr int kLeafRays = StreamRays::kLanes >= 16 ? 5 : 3;
 
-template <bool kAny, bool kAlpha>
+template <bool kAny, bool kAlpha, bool kInstances>
 class PacketPhase {
  public:
   PacketPhase(const CompiledScene& scene, StreamRays& rays)
-      : scene_(scene), bvh_(scene.accel.groups[0]), rays_(rays) {}
+      : scene_(scene), rays_(rays) {}
 
-  /// Traces the rays at [at, at + lanes). What is left for single rays lies on their
-  /// stacks, nearest on top; the places of those that have some are appended to `live`.
+  /// Traces the rays at [at, at + lanes) through the world. What is left for single rays
+  /// lies on their stacks, nearest on top; the places of those that have some are
+  /// appended to `live`.
   LANELIGHT_INLINE void Run(uint32_t at, int32_t* live, uint32_t& num_live) {
-    const DI di;
-    at_ = at;
+    Run(Tree::kWorld, scene_.accel.groups[0].root, at, live, num_live);
+  }
+
+  /// The same through the tree over instances, and these, after the world.
+  LANELIGHT_INLINE void RunTop(uint32_t at, int32_t* live, uint32_t& num_live) {
+    Run(Tree::kTop, scene_.accel.top.root, at, live, num_live);
+  }
+
+ private:
+  enum class Tree { kWorld, kTop, kInstance };
+
+  LANELIGHT_INLINE void Run(Tree tree, uint32_t root, uint32_t at, int32_t* live,
+                            uint32_t& num_live) {
     count_ = std::min(StreamRays::kLanes, rays_.size - at);
-    const VI octants = hn::LoadU(di, reinterpret_cast<const int32_t*>(rays_.octant) + at);
-    const auto same =
-        hn::Eq(octants, hn::Set(di, static_cast<int32_t>(rays_.octant[at])));
-    const uint32_t valid = (1u << count_) - 1;
-    if ((MaskBits(di, same) & valid) == valid) {
-      Trace<true>();
-    } else {
-      Trace<false>();
-    }
+    std::fill_n(rays_.bottom + at, count_, kDeferred);
+    Trace(tree, root, at, (1u << count_) - 1);
     for (uint32_t r = at; r < at + count_; ++r) {
       if ((kAny && rays_.found[r]) || rays_.bottom[r] == kDeferred) continue;
       BeginSingle(r);
@@ -55,7 +61,21 @@ class PacketPhase {
     }
   }
 
- private:
+  // Traces the rays of `lanes` at place `at`.
+  LANELIGHT_INLINE void Trace(Tree tree, uint32_t root, uint32_t at, uint32_t lanes) {
+    const DI di;
+    tree_ = tree;
+    at_ = at;
+    const VI octants = hn::LoadU(di, reinterpret_cast<const int32_t*>(rays_.octant) + at);
+    const uint32_t first = rays_.octant[at + std::countr_zero(lanes)];
+    const auto same = hn::Eq(octants, hn::Set(di, static_cast<int32_t>(first)));
+    if ((MaskBits(di, same) & lanes) == lanes) {
+      Trace<true>(root, lanes);
+    } else {
+      Trace<false>(root, lanes);
+    }
+  }
+
   struct Slabs {
     VF rcp[3], near[3], far[3];
     MF negative[3];
@@ -70,7 +90,7 @@ class PacketPhase {
   static constexpr int kFrames = kTraversalStack / (kBvhWidth - 1) + 2;
 
   template <bool kSameSigns>
-  HWY_NOINLINE void Trace() {
+  HWY_NOINLINE void Trace(uint32_t root, uint32_t valid) {
     const DF df;
     Slabs slabs;
     for (int a = 0; a < 3; ++a) {
@@ -79,18 +99,17 @@ class PacketPhase {
       slabs.far[a] = hn::LoadU(df, rays_.far[a] + at_);
       slabs.negative[a] = hn::Lt(slabs.rcp[a], hn::Zero(df));
     }
-    std::fill_n(rays_.bottom + at_, count_, kDeferred);
-    const PacketRays packet = LoadPacket();
+    const PacketRays packet = LoadPacket(valid);
     PacketBest best = NoHits(packet.rays.t_max, hn::LoadU(DI(), rays_.prim + at_));
     Frame frames[kFrames];
     Frame* frame = frames;
     hn::Store(hn::Zero(df), df, frame->entry[0]);
-    frame->ref[0] = bvh_.root;
+    frame->ref[0] = root;
     // A ray that is no ray (NaN, infinite) enters nothing: what Min and Max make of NaN
     // differs between targets, and unused children must not be entered.
     const VF sum = hn::Add(slabs.near[0], hn::Add(slabs.near[1], slabs.near[2]));
-    frame->lanes[0] = ((1u << count_) - 1) & MaskBits(df, hn::IsFinite(sum));
-    frame->open = bvh_.root != kEmptyRef;
+    frame->lanes[0] = valid & MaskBits(df, hn::IsFinite(sum));
+    frame->open = root != kEmptyRef;
     while (Next(frames, frame)) {
       const int child = std::countr_zero(frame->open);
       frame->open &= frame->open - 1;
@@ -102,13 +121,65 @@ class PacketPhase {
       const bool is_leaf = ref & kLeafBit;
       const bool few = std::popcount(lanes) < (is_leaf ? kLeafRays : kNodeRays);
       if (few && Defer(ref, entry, lanes)) continue;
-      if (is_leaf) {
+      if (is_leaf && AtInstance()) {
+        EnterInstance(ref & ~kLeafBit, lanes);
+        best.t = hn::LoadU(df, rays_.t + at_);
+      } else if (is_leaf) {
         TestLeafPacket<kAny, kAlpha>(scene_, ref, packet, lanes, best);
       } else {
         TestChildren<kSameSigns>(slabs, best.t, scene_.accel.nodes[ref], lanes, *++frame);
       }
     }
-    StoreHits(best);
+    if (!AtInstance()) StoreHits(best);
+  }
+
+  // Whether leaves are instances.
+  LANELIGHT_INLINE bool AtInstance() const { return kInstances && tree_ == Tree::kTop; }
+
+  // Traces the rays of `lanes` through an instance. They are moved to its space in the
+  // columns behind the last ray, and their hits are taken back.
+  HWY_NOINLINE void EnterInstance(uint32_t instance, uint32_t lanes) {
+    const Bvh& group = scene_.accel.groups[scene_.geometry.instance_group[instance]];
+    const uint32_t home = at_, count = count_, to = rays_.size;
+    MoveRays(instance, group, home, to);
+    Trace(Tree::kInstance, group.root, to, lanes);
+    tree_ = Tree::kTop;
+    at_ = home;
+    count_ = count;
+    for (uint32_t bits = lanes; bits != 0; bits &= bits - 1) {
+      const auto i = static_cast<uint32_t>(std::countr_zero(bits));
+      if (!rays_.found[to + i]) continue;
+      rays_.TakeHit(to + i, home + i);
+      rays_.inst[home + i] = instance;
+    }
+  }
+
+  LANELIGHT_INLINE void MoveRays(uint32_t instance, const Bvh& group, uint32_t home,
+                                 uint32_t to) {
+    const DF df;
+    const DI di;
+    const float* entry = scene_.geometry.instances[instance].object_from_scene;
+    VF m[12];
+    for (int k = 0; k < 12; ++k) m[k] = Splat(entry[k]);
+    const Rays rays{MapLanes(m, rays_.Load3(rays_.o, home), true),
+                    MapLanes(m, rays_.Load3(rays_.d, home), false), Splat(0), FromNone()};
+    rays_.SetSlabs(rays.o, rays.d, Splat(group.slack), Splat(group.margin), to);
+    rays_.SetShear(rays, group.reach, to);
+    hn::StoreU(hn::LoadU(df, rays_.t + home), df, rays_.t + to);
+    // Between equal primitives the smaller instance is nearer: it meets a larger one.
+    const auto load = [&](const uint32_t* column) HWY_ATTR {
+      return hn::LoadU(di, reinterpret_cast<const int32_t*>(column) + home);
+    };
+    const VI prim = hn::LoadU(di, rays_.prim + home), inst = load(rays_.inst);
+    const auto own = hn::Set(di, static_cast<int32_t>(instance));
+    const auto world = hn::Eq(inst, hn::Set(di, static_cast<int32_t>(kWorldInstance)));
+    const auto larger = hn::Or(world, hn::Lt(own, inst));
+    const auto some = hn::Ne(prim, FromNone());
+    const VI one = hn::IfThenElseZero(hn::And(larger, some), hn::Set(di, 1));
+    hn::StoreU(hn::Add(prim, one), di, rays_.prim + to);
+    hn::StoreU(hn::Zero(di), di, rays_.found + to);
+    hn::StoreU(FromNone(), di, reinterpret_cast<int32_t*>(rays_.from) + to);
+    if constexpr (kAlpha) home_ = home;
   }
 
   // Goes up to a frame with children to visit; false if there is none.
@@ -120,20 +191,24 @@ class PacketPhase {
     return true;
   }
 
-  LANELIGHT_INLINE PacketRays LoadPacket() const {
+  LANELIGHT_INLINE PacketRays LoadPacket(uint32_t valid) const {
     const DF df;
-    const auto load = [&](const float(&column)[3][StreamRays::kRoom]) HWY_ATTR {
-      return V3{hn::LoadU(df, column[0] + at_), hn::LoadU(df, column[1] + at_),
-                hn::LoadU(df, column[2] + at_)};
-    };
-    const V3 d = load(rays_.d), so = load(rays_.shear_o), ss = load(rays_.shear_s);
+    const V3 d = rays_.Load3(rays_.d, at_), so = rays_.Load3(rays_.shear_o, at_),
+             ss = rays_.Load3(rays_.shear_s, at_);
     const Shear<VF> shear{{so.x, so.y, so.z},
                           {ss.x, ss.y, ss.z},
                           hn::LoadU(df, rays_.abs_dz + at_),
                           hn::LoadU(df, rays_.t_scale + at_)};
     const VI from = hn::LoadU(DI(), reinterpret_cast<const int32_t*>(rays_.from) + at_);
-    const Rays rays{load(rays_.o), d, hn::LoadU(df, rays_.t + at_), from};
-    return MakePacket(rays, shear, AxisOrder(d), (1u << count_) - 1);
+    const Rays rays{rays_.Load3(rays_.o, at_), d, hn::LoadU(df, rays_.t + at_), from};
+    PacketRays packet = MakePacket(rays, shear, AxisOrder(d), valid);
+    if constexpr (kAlpha && kInstances) {
+      if (tree_ == Tree::kInstance) {
+        packet.home.o = rays_.Load3(rays_.o, home_);
+        packet.home.d = rays_.Load3(rays_.d, home_);
+      }
+    }
+    return packet;
   }
 
   // Fills the frame of a node. Every child is tested, and everything is stored to places
@@ -169,6 +244,7 @@ class PacketPhase {
 
   // Leaves a subtree to single rays; false if a ray has no room for it.
   LANELIGHT_INLINE bool Defer(uint32_t ref, const float* entry, uint32_t lanes) {
+    if (kInstances && tree_ == Tree::kInstance) return false;
     for (uint32_t bits = lanes; bits != 0; bits &= bits - 1) {
       if (rays_.bottom[at_ + std::countr_zero(bits)] < 2) return false;
     }
@@ -201,9 +277,10 @@ class PacketPhase {
   }
 
   const CompiledScene& scene_;
-  const Bvh& bvh_;
   StreamRays& rays_;
-  uint32_t at_ = 0, count_ = 0;
+  Tree tree_ = Tree::kWorld;
+  uint32_t at_ = 0, count_ = 0;  // place and number of the rays
+  uint32_t home_ = 0;            // in an instance: their place in the space of the scene
 };
 
 }  // namespace HWY_NAMESPACE

@@ -33,6 +33,9 @@ struct StreamRays {
   int32_t prim[kRoom], found[kRoom];
   uint32_t from[kRoom];  // as in Rays
   int32_t slot[kRoom];
+  // With instances: where a ray is (kWorldInstance, kTopSpace, or the instance whose
+  // space it is in), and where its hit is.
+  uint32_t space[kRoom], inst[kRoom];
   // Where single rays are: the node or leaf, and the stack [bottom, top] of others, the
   // last one kEmptyRef at the bottom. Stacks are `stride` apart.
   int32_t next[kRoom];
@@ -41,23 +44,39 @@ struct StreamRays {
   uint32_t* const refs;
   float* const entries;
 
-  explicit StreamRays(const Bvh& bvh)
-      : stride(RayStackStride(bvh)),
+  /// For trees of so many nodes on the longest path.
+  explicit StreamRays(int depth)
+      : stride(RayStackStride(depth)),
         refs(ThreadRayStacks(stride)),
-        entries(reinterpret_cast<float*>(refs + std::size_t{kStreamRays} * stride)) {}
+        entries(reinterpret_cast<float*>(refs + StackEntries(stride))) {}
   LANELIGHT_INLINE uint32_t* Refs(uint32_t r) { return refs + std::size_t{r} * stride; }
   LANELIGHT_INLINE float* Entries(uint32_t r) {
     return entries + std::size_t{r} * stride;
   }
   LANELIGHT_INLINE bool HasRoom() const { return size + kLanes <= kStreamRays; }
 
+  static LANELIGHT_INLINE V3 Load3(const float (&column)[3][kRoom], uint32_t at) {
+    const DF df;
+    return {hn::LoadU(df, column[0] + at), hn::LoadU(df, column[1] + at),
+            hn::LoadU(df, column[2] + at)};
+  }
+
+  /// Gives the hit of the ray at `from_ray` to that at `to`.
+  LANELIGHT_INLINE void TakeHit(uint32_t from_ray, uint32_t to) {
+    found[to] = 1;
+    t[to] = t[from_ray];
+    prim[to] = prim[from_ray];
+    b1[to] = b1[from_ray];
+    b2[to] = b2[from_ray];
+  }
+
   /// Takes the first `count` rays of a vector; `prims` as in NoHits.
   LANELIGHT_INLINE void Add(const Bvh& bvh, const Rays& rays, VI slots, VI prims,
                             uint32_t count) {
     const DF df;
     const DI di;
-    AddSlabs(bvh, rays);
-    AddShear(bvh, rays);
+    SetSlabs(rays.o, rays.d, Splat(bvh.slack), Splat(bvh.margin), size);
+    SetShear(rays, bvh.reach, size);
     hn::StoreU(rays.t_max, df, t + size);
     hn::StoreU(hn::Zero(df), df, b1 + size);
     hn::StoreU(hn::Zero(df), df, b2 + size);
@@ -67,19 +86,15 @@ struct StreamRays {
     size += count;
   }
 
- private:
-  static LANELIGHT_INLINE void StoreInt(VI v, uint32_t* to) {
-    hn::StoreU(v, DI(), reinterpret_cast<int32_t*>(to));
-  }
-
-  // The arithmetic of MakeSlabRay.
-  LANELIGHT_INLINE void AddSlabs(const Bvh& bvh, const Rays& rays) {
+  /// Prepares a vector of rays at place `at` for the slab test of a tree, with the
+  /// arithmetic of MakeSlabRay.
+  LANELIGHT_INLINE void SetSlabs(V3 ray_o, V3 ray_d, VF slack, VF margin, uint32_t at) {
     const DF df;
     const DI di;
-    const VF ro[3] = {rays.o.x, rays.o.y, rays.o.z};
-    const VF rd[3] = {rays.d.x, rays.d.y, rays.d.z};
+    const VF ro[3] = {ray_o.x, ray_o.y, ray_o.z};
+    const VF rd[3] = {ray_d.x, ray_d.y, ray_d.z};
     const VF largest = hn::Max(hn::Abs(ro[0]), hn::Max(hn::Abs(ro[1]), hn::Abs(ro[2])));
-    const VF delta = hn::MulAdd(Splat(bvh.slack), largest, Splat(bvh.margin));
+    const VF delta = hn::MulAdd(slack, largest, margin);
     const VF least = Splat(0x1p-80f);
     VI negatives = hn::Zero(di);
     for (int a = 0; a < 3; ++a) {
@@ -87,37 +102,46 @@ struct StreamRays {
       const VF da = hn::IfThenElse(tiny, hn::CopySign(least, rd[a]), rd[a]);
       const VF r = hn::Div(Splat(1.0f), da);
       const VF c = hn::Neg(hn::Mul(ro[a], r)), grow = hn::Mul(delta, hn::Abs(r));
-      hn::StoreU(ro[a], df, o[a] + size);
-      hn::StoreU(rd[a], df, d[a] + size);
-      hn::StoreU(r, df, rcp[a] + size);
-      hn::StoreU(hn::Sub(c, grow), df, near[a] + size);
-      hn::StoreU(hn::Add(c, grow), df, far[a] + size);
+      hn::StoreU(ro[a], df, o[a] + at);
+      hn::StoreU(rd[a], df, d[a] + at);
+      hn::StoreU(r, df, rcp[a] + at);
+      hn::StoreU(hn::Sub(c, grow), df, near[a] + at);
+      hn::StoreU(hn::Add(c, grow), df, far[a] + at);
       const VI negative = hn::ShiftRight<31>(hn::BitCast(di, rd[a]));
       constexpr int32_t kUpper = kBvhWidth * sizeof(float);
-      StoreInt(hn::And(negative, hn::Set(di, kUpper)), lower[a] + size);
+      StoreInt(hn::And(negative, hn::Set(di, kUpper)), lower[a] + at);
       negatives = hn::Or(negatives, hn::And(negative, hn::Set(di, 1 << a)));
     }
-    StoreInt(negatives, octant + size);
+    StoreInt(negatives, octant + at);
   }
 
-  LANELIGHT_INLINE void AddShear(const Bvh& bvh, const Rays& rays) {
+  /// Prepares them for leaves whose vertices have coordinates up to `reach`.
+  LANELIGHT_INLINE void SetShear(const Rays& rays, float reach, uint32_t at) {
     const DF df;
     const DI di;
     const AxisOrder order(rays.d);
-    const Shear<VF> shear = MakeShear(order, rays, bvh.reach);
+    const Shear<VF> shear = MakeShear(order, rays, reach);
     const VF so[3] = {shear.o.x, shear.o.y, shear.o.z};
     const VF ss[3] = {shear.s.x, shear.s.y, shear.s.z};
     for (int a = 0; a < 3; ++a) {
-      hn::StoreU(so[a], df, shear_o[a] + size);
-      hn::StoreU(ss[a], df, shear_s[a] + size);
+      hn::StoreU(so[a], df, shear_o[a] + at);
+      hn::StoreU(ss[a], df, shear_s[a] + at);
     }
-    hn::StoreU(shear.abs_dz, df, abs_dz + size);
-    hn::StoreU(shear.t_scale, df, t_scale + size);
+    hn::StoreU(shear.abs_dz, df, abs_dz + at);
+    hn::StoreU(shear.t_scale, df, t_scale + at);
     const auto y = hn::RebindMask(di, order.y), z = hn::RebindMask(di, order.z);
-    const VI at[3] = {hn::Zero(di), hn::Set(di, kLeafRow), hn::Set(di, 2 * kLeafRow)};
-    StoreInt(hn::IfThenElse(z, at[0], hn::IfThenElse(y, at[2], at[1])), row[0] + size);
-    StoreInt(hn::IfThenElse(z, at[1], hn::IfThenElse(y, at[0], at[2])), row[1] + size);
-    StoreInt(hn::IfThenElse(z, at[2], hn::IfThenElse(y, at[1], at[0])), row[2] + size);
+    const VI offset[3] = {hn::Zero(di), hn::Set(di, kLeafRow), hn::Set(di, 2 * kLeafRow)};
+    StoreInt(hn::IfThenElse(z, offset[0], hn::IfThenElse(y, offset[2], offset[1])),
+             row[0] + at);
+    StoreInt(hn::IfThenElse(z, offset[1], hn::IfThenElse(y, offset[0], offset[2])),
+             row[1] + at);
+    StoreInt(hn::IfThenElse(z, offset[2], hn::IfThenElse(y, offset[1], offset[0])),
+             row[2] + at);
+  }
+
+ private:
+  static LANELIGHT_INLINE void StoreInt(VI v, uint32_t* to) {
+    hn::StoreU(v, DI(), reinterpret_cast<int32_t*>(to));
   }
 };
 

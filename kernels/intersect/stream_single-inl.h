@@ -18,6 +18,7 @@
 #include "kernels/intersect/bvh-inl.h"
 #include "kernels/intersect/leaf-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
+#include "kernels/intersect/stream_spaces-inl.h"
 #include "src/compiled/scene.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,17 +31,21 @@ inline constexpr uint32_t kTogether = 2;
 /// Leaves tested before their hits are taken.
 inline constexpr uint32_t kLeafBlock = 16;
 
-template <bool kAny, bool kAlpha>
+template <bool kAny, bool kAlpha, bool kInstances>
 class SinglePhase {
  public:
   SinglePhase(const CompiledScene& scene, StreamRays& rays)
       : scene_(scene),
         rays_(rays),
+        spaces_(scene, rays),
         base_{reinterpret_cast<const char*>(scene.accel.nodes.data()),
               reinterpret_cast<const char*>(scene.accel.triangle_blocks.data())} {}
 
   /// Places of the rays to trace; the packet phase appends them.
   int32_t* live() { return live_; }
+
+  /// Moves all rays to the tree over instances, after they were traced through the world.
+  LANELIGHT_INLINE void BeginTop() { spaces_.BeginTop(); }
 
   /// Traces the first `num_live` of them.
   HWY_NOINLINE void Run(uint32_t num_live) {
@@ -48,6 +53,7 @@ class SinglePhase {
     for (;;) {
       Classify();
       if (num_live_ == 0) return;
+      if constexpr (kInstances) ChangeSpaces();
       NodeRound();
       LeafRound<TriangleLeaf>(leaves_, num_leaves_);
       LeafRound<SeparateLeaf>(separate_, num_separate_);
@@ -66,19 +72,52 @@ class SinglePhase {
     const DI di;
     const uint32_t n = num_live_;
     num_live_ = num_nodes_ = num_leaves_ = num_separate_ = 0;
+    num_entering_ = num_leaving_ = 0;
     for (uint32_t i = 0; i < n; i += hn::MaxLanes(di)) {
       const auto valid = hn::FirstN(di, n - i);
       const VI rays = hn::IfThenElseZero(valid, hn::LoadU(di, live_ + i));
       const VI next = Gather(rays_.next, rays);
       const auto live = hn::And(valid, hn::Ne(next, hn::Set(di, -1)));
-      const auto leaf = hn::And(live, hn::Lt(next, hn::Zero(di)));
-      num_nodes_ += Append(rays, hn::AndNot(leaf, live), nodes_ + num_nodes_);
+      auto leaf = hn::And(live, hn::Lt(next, hn::Zero(di)));
+      if constexpr (kInstances) leaf = ListMoving(rays, next, live, leaf);
+      num_nodes_ +=
+          Append(rays, hn::AndNot(hn::Lt(next, hn::Zero(di)), live), nodes_ + num_nodes_);
       const auto separate = hn::And(leaf, hn::Lt(hn::ShiftLeft<1>(next), hn::Zero(di)));
       num_leaves_ += Append(rays, hn::AndNot(separate, leaf), leaves_ + num_leaves_);
       num_separate_ += Append(rays, separate, separate_ + num_separate_);
       num_live_ += Append(rays, live, live_ + num_live_);
     }
   }
+  // Lists the rays that are at an instance, or at its end; returns the others of `leaf`.
+  template <class M>
+  LANELIGHT_INLINE M ListMoving(VI rays, VI next, M live, M leaf) {
+    const DI di;
+    const auto equals = [&](VI v, uint32_t ref)
+                            HWY_ATTR { return hn::Eq(v, hn::Set(di, int32_t(ref))); };
+    const M leaving = hn::And(live, equals(next, kReturnRef));
+    const VI space = Gather(reinterpret_cast<const int32_t*>(rays_.space), rays);
+    const M entering = hn::AndNot(leaving, hn::And(leaf, equals(space, kTopSpace)));
+    num_leaving_ += Append(rays, leaving, leaving_ + num_leaving_);
+    num_entering_ += Append(rays, entering, entering_ + num_entering_);
+    return hn::AndNot(hn::Or(leaving, entering), leaf);
+  }
+
+  // Takes rays back from instances, and others into them.
+  HWY_NOINLINE void ChangeSpaces() {
+    for (uint32_t i = 0; i < num_leaving_; ++i) {
+      const auto r = static_cast<uint32_t>(leaving_[i]);
+      spaces_.Leave(r);
+      Pop(r, rays_.top[r]);
+    }
+    spaces_.Enter(entering_, num_entering_);
+    for (uint32_t i = 0; i < num_entering_; ++i) {
+      const auto r = static_cast<uint32_t>(entering_[i]);
+      const uint32_t top = ++rays_.top[r];
+      rays_.Refs(r)[top] = kReturnRef;
+      rays_.Entries(r)[top] = -1;  // stays when the stack is culled
+    }
+  }
+
   template <class M>
   static LANELIGHT_INLINE uint32_t Append(VI rays, M mask, int32_t* to) {
     hn::StoreU(hn::Compress(rays, mask), DI(), to);
@@ -112,6 +151,7 @@ class SinglePhase {
     const uint32_t ref = rays_.Refs(r)[top];
     rays_.top[r] = top - move;
     rays_.next[r] = move ? static_cast<int32_t>(ref) : rays_.next[r];
+    if (kInstances && ref >= kReturnRef) return;
     const uint32_t is_leaf = ref >> 31;
     const char* at = base_[is_leaf] + (ref & kRefIndex) * kBytes[is_leaf];
     for (int line = 0; line < 4; ++line) hwy::Prefetch(at + line * kCacheLine);
@@ -237,15 +277,14 @@ class SinglePhase {
     for (; bits != 0; bits &= bits - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(bits));
       const auto prim = static_cast<int32_t>(leaf.prim[i]);
-      float t, det;
-      if (!FinishLane(leaf, weights, i, copy_ray, t, det)) continue;
-      const bool better =
-          t < rays_.t[r] || (!kAny && t == rays_.t[r] && prim < rays_.prim[r]);
-      if (!better) continue;
-      const float b1 = weights.v[i] / det, b2 = weights.w[i] / det;
+      LaneHit hit;
+      if (!FinishLane(leaf, weights, i, copy_ray, hit)) continue;
+      const auto [t, b1, b2] = hit;
+      if (!IsBetter(r, t, prim)) continue;
       if constexpr (kAlpha) {
         float o[3], d[3];
         copy_ray(o, d);
+        if constexpr (kInstances) spaces_.CopyHome(r, o, d);
         if (!TrianglePassesAlpha(scene_, o, d, leaf.prim[i], b1, b2)) continue;
       }
       rays_.found[r] = 1;
@@ -258,9 +297,17 @@ class SinglePhase {
       rays_.prim[r] = prim;
       rays_.b1[r] = b1;
       rays_.b2[r] = b2;
+      if constexpr (kInstances) rays_.inst[r] = rays_.space[r];
     }
     if (closer) CullStack(r);
     Pop(r, rays_.top[r]);
+  }
+
+  // Ties go to the smaller primitive, then to the smaller instance.
+  LANELIGHT_INLINE bool IsBetter(uint32_t r, float t, int32_t prim) const {
+    if (kAny || t != rays_.t[r]) return t < rays_.t[r];
+    if (!kInstances || prim != rays_.prim[r]) return prim < rays_.prim[r];
+    return rays_.space[r] < rays_.inst[r];
   }
 
   // Drops what lies beyond the hit, so that nothing needs to be tested when it is popped.
@@ -285,9 +332,12 @@ class SinglePhase {
 
   const CompiledScene& scene_;
   StreamRays& rays_;
+  std::conditional_t<kInstances, RaySpaces, NoSpaces> spaces_;
   const char* base_[2];  // nodes and leaves
   uint32_t num_live_ = 0, num_nodes_ = 0, num_leaves_ = 0, num_separate_ = 0;
   int32_t live_[kRoom], nodes_[kRoom], leaves_[kRoom], separate_[kRoom];
+  uint32_t num_entering_ = 0, num_leaving_ = 0;
+  int32_t entering_[kInstances ? kRoom : 1], leaving_[kInstances ? kRoom : 1];
   uint32_t bits_[kLeafBlock + kTogether];
   LeafWeights weights_[kLeafBlock + kTogether];
 };

@@ -87,6 +87,9 @@ LANELIGHT_INLINE P3<V> ShearVertex(D, const Shear<V>& ray, P3<V> v) {
           hn::Mul(ray.s.z, z)};
 }
 
+/// Whether edge functions are cheap enough to be computed for triangles that miss.
+inline constexpr bool kCheapEdges = HWY_NATIVE_FMA;
+
 /// a*b - c*e with the sign of the exact value and a relative error below 3u: with fused
 /// multiply-add by Kahan's method (error below 1.5 ulp: Jeannerod, Louvet and Muller
 /// 2013), without it in double precision, where both products are exact.
@@ -167,6 +170,19 @@ LANELIGHT_INLINE TriangleEdges<V, M> TestEdges(D d, const P3<V>& a, const P3<V>&
   return JoinEdges(d, EdgeFunction(d, c.x, b.y, c.y, b.x),
                    EdgeFunction(d, a.x, c.y, a.y, c.x),
                    EdgeFunction(d, b.x, a.y, b.y, a.x));
+}
+
+/// Lanes whose edge functions may have one sign: all that pass TestEdges, and few others.
+/// Where exact ones are dear, because there is no fused multiply-add, most triangles are
+/// refused by these. A product errs by 2^-24 of itself and so does the difference, so
+/// that the sign of p - q is right if |p - q| > 2^-22 |p|.
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+LANELIGHT_INLINE M MayPassEdges(D d, const P3<V>& a, const P3<V>& b, const P3<V>& c) {
+  const V p = hn::Mul(c.x, b.y), q = hn::Mul(a.x, c.y), r = hn::Mul(b.x, a.y);
+  const V u = hn::Sub(p, hn::Mul(c.y, b.x)), v = hn::Sub(q, hn::Mul(a.y, c.x)),
+          w = hn::Sub(r, hn::Mul(b.y, a.x));
+  const V slack = hn::Mul(Max3(hn::Abs(p), hn::Abs(q), hn::Abs(r)), hn::Set(d, 0x1p-21f));
+  return hn::Or(hn::Ge(Min3(u, v, w), hn::Neg(slack)), hn::Le(Max3(u, v, w), slack));
 }
 
 /// t det of the plane of the triangle, and in e.mask only the lanes that may hit before

@@ -8,7 +8,6 @@
 
 #include "kernels/intersect/few-inl.h"
 #include "kernels/intersect/packet-inl.h"
-#include "kernels/intersect/single-inl.h"
 #include "kernels/intersect/stream-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
@@ -37,7 +36,7 @@ template <bool kAlpha>
 void IntersectWorld(Wave& wave) {
   const Accel& accel = wave.scene->accel;
   FrustumTrial frustum;
-  RayStream<false, kAlpha> stream(*wave.scene);
+  RayStream<false, kAlpha, false> stream(*wave.scene);
   const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
   ForEachBatch(wave, wave.queue(QueueId::kActive),
                [&](const Slots& slots, MF valid) HWY_ATTR {
@@ -58,14 +57,18 @@ void IntersectWorld(Wave& wave) {
   if (!stream.empty()) flush();
 }
 
-// One ray at a time.
+// World and instances, in a stream.
 template <bool kAlpha>
 void IntersectInstanced(Wave& wave) {
+  RayStream<false, kAlpha, true> stream(*wave.scene);
+  const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
   ForEachBatch(wave, wave.queue(QueueId::kActive),
                [&](const Slots& slots, MF valid) HWY_ATTR {
-                 const int count = static_cast<int>(hn::CountTrue(DF(), valid));
-                 ClosestSingle<kAlpha>(wave, LoadRays(wave.path, slots), slots, count);
+                 Rays rays = LoadRays(wave.path, slots);
+                 rays.from = StartsOf(wave.path, slots, rays.t_max);
+                 stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
                });
+  if (!stream.empty()) flush();
 }
 
 void TrianglesWorld(Wave& wave) { IntersectWorld<false>(wave); }

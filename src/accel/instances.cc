@@ -48,6 +48,7 @@ Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
              const std::vector<Bvh>& groups, AlignedVector<WideNode>& nodes) {
   std::vector<BuildItem> items;
   float linear = 1, constant = 0;
+  int deepest = 0;
   for (std::uint32_t i = 0; i < geometry.instances.size(); ++i) {
     const std::uint32_t group = geometry.instance_group[i];
     if (groups[group].root == kEmptyRef) continue;
@@ -60,11 +61,14 @@ Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
     const float to_scene = RowNorm(record.scene_from_object);
     linear = std::max(linear, to_scene * RowNorm(m));
     constant = std::max(constant, to_scene * (groups[group].reach + translation));
+    deepest = std::max(deepest, groups[group].depth);
   }
   Bvh top = BuildTree(std::move(items),
                       {.items = 0, .fits = {}, .typical = {}, .triangles = nullptr},
                       BuildQuality::kHigh, nodes)
                 .bvh;
+  // Rays go on into the instances.
+  top.depth += deepest;
   if (top.reach > 0) top.slack = 2 * kShapeSlack * (2 * linear + constant / top.reach);
   top.margin = top.slack * top.reach;
   return top;

@@ -17,7 +17,7 @@ struct SweepOptions {
   std::size_t part = 1, parts = 1;
   bool wait = false;  // for cells that other processes render, and do them if those die
   bool table_only = false;  // render nothing
-  std::string build_cache;  // directory of trees over shapes; empty: none
+  std::string build_cache = {};  // directory of trees over shapes; empty: none
 };
 
 struct SweepProgress {

@@ -1,4 +1,5 @@
 // Instances: the same hits as the flattened scene, ties, nested trees of every size.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "kernels/simd/target.h"
@@ -113,6 +114,104 @@ TEST_CASE("instances give the hits of the flattened scene", "[intersect]") {
         if (!(a[i].t < rays[i].t_max)) open.push_back(i);
       }
       CHECK(Unoccluded(instanced, rays, {ShadowTrianglesStage()}, kInstanced) == open);
+    }
+  }
+  ForceTarget("");
+}
+
+namespace {
+
+// A scene whose instances overlap, some of them twice in the same place, over an object
+// with a deep tree; half of its triangles are cut out half.
+CompiledScene Crowd(Random& random) {
+  Geometry g = MakePair(random, 40).instanced;
+  const Geometry object = brute::Soup(random, 4000, 0.5f, 0.05f);
+  const auto begin = static_cast<std::uint32_t>(g.triangles.size());
+  g.triangles.insert(g.triangles.end(), object.triangles.begin(), object.triangles.end());
+  g.groups.push_back({begin, static_cast<std::uint32_t>(g.triangles.size())});
+  for (int i = 0; i < 60; ++i) {
+    const Transform t = Transform::Translate(ToDouble(random.Point(2))) *
+                        Transform::Rotate(random(0, 360), ToDouble(random.Direction()));
+    for (int twice = 0; twice < 1 + i % 2; ++twice) {
+      g.instances.push_back(MakeInstance(t));
+      g.instance_group.push_back(3);
+    }
+  }
+  for (std::size_t i = 0; i < g.triangles.size(); i += 2) {
+    g.triangles[i].flags = kAlphaTested;
+  }
+  CompiledScene scene = MakeScene(g);
+  scene.alpha_texture.assign(g.triangles.size(), -1);
+  scene.alpha_constant.assign(g.triangles.size(), 0.5f);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a hit on an instance does not depend on the company of its ray",
+          "[intersect]") {
+  // Alone a ray enters instances by itself; with others like it in a vector. Ties between
+  // coincident instances and cut-outs are decided alike.
+  Random random(43);
+  const CompiledScene scene = Crowd(random);
+  std::vector<TestRay> rays;
+  for (int i = 0; i < 300; ++i) rays.push_back({random.Point(2), random.Direction()});
+  for (const float width : {0.3f, 0.1f, 0.01f}) {
+    for (int i = 0; i < 300; ++i) {
+      rays.push_back(
+          {{4.0f, 0.1f, 0.2f}, Normalize(Vec3f{-1, 0, 0} + width * random.Point(1))});
+    }
+  }
+  FeatureSet cut_out = kInstanced;
+  cut_out.Add(Feature::kAlpha);
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    for (const FeatureSet& features : {kInstanced, cut_out}) {
+      CAPTURE(target, features.Has(Feature::kAlpha));
+      const std::vector<Stage> closest = {IntersectTrianglesStage()};
+      const auto together = TraceClosest(scene, rays, closest, features);
+      const auto hits =
+          std::ranges::count_if(together, [](const auto& h) { return !std::isinf(h.t); });
+      CHECK(hits > 500);
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        if (std::isinf(together[i].t)) expected.push_back(i);
+      }
+      CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage()}, features) == expected);
+      for (const std::size_t company : {1, 6, 37}) {
+        std::vector<KernelHit> apart;
+        for (std::size_t at = 0; at < rays.size(); at += company) {
+          const std::size_t end = std::min(rays.size(), at + company);
+          const auto part = TraceClosest(scene, {rays.begin() + at, rays.begin() + end},
+                                         closest, features);
+          apart.insert(apart.end(), part.begin(), part.end());
+        }
+        CHECK(apart == together);
+      }
+    }
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("a ray that leaves the range of numbers meets no instance", "[intersect]") {
+  Random random(44);
+  Geometry g = MakePair(random, 20).instanced;
+  for (InstanceRecord& record : g.instances) {
+    for (float& m : record.object_from_scene) m *= 1e30f;
+  }
+  const CompiledScene scene = MakeScene(g);
+  std::vector<TestRay> rays;
+  for (int i = 0; i < 100; ++i) {
+    rays.push_back({1e12f * random.Point(1), random.Direction()});
+    rays.push_back({{NAN, 0, 0}, random.Direction()});
+    rays.push_back({random.Point(1), {0, NAN, 1}});
+  }
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    CAPTURE(target);
+    for (const KernelHit& hit :
+         TraceClosest(scene, rays, {IntersectTrianglesStage()}, kInstanced)) {
+      REQUIRE(std::isinf(hit.t));
     }
   }
   ForceTarget("");

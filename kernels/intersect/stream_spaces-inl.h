@@ -1,0 +1,173 @@
+// Rays of a stream in the space of the scene and in those of instances.
+#if defined(LANELIGHT_INTERSECT_STREAM_SPACES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_STREAM_SPACES_INL_H_
+#undef LANELIGHT_INTERSECT_STREAM_SPACES_INL_H_
+#else
+#define LANELIGHT_INTERSECT_STREAM_SPACES_INL_H_
+#endif
+
+#include <algorithm>
+#include <limits>
+
+#include "kernels/intersect/stream_rays-inl.h"
+#include "src/compiled/scene.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// What a ray's stack holds under the subtrees of an instance: the way back.
+inline constexpr uint32_t kReturnRef = kEmptyRef - 1;
+/// `space` of a ray in the tree over instances.
+inline constexpr uint32_t kTopSpace = kWorldInstance - 1;
+
+/// Points (w = 1) or directions (w = 0) through the maps of instances, 3x4 row by row.
+LANELIGHT_INLINE V3 MapLanes(const VF m[12], V3 p, bool point) {
+  const auto row = [&](const VF* r) HWY_ATTR {
+    const VF last = hn::Mul(r[2], p.z), end = point ? hn::Add(last, r[3]) : last;
+    return hn::Add(hn::Add(hn::Mul(r[0], p.x), hn::Mul(r[1], p.y)), end);
+  };
+  return {row(m), row(m + 4), row(m + 8)};
+}
+
+/// Moves rays from one space to another. In a space a ray's columns (o, d, slabs, shear)
+/// are those of that space; t is the same in all of them.
+class RaySpaces {
+ public:
+  RaySpaces(const CompiledScene& scene, StreamRays& rays) : scene_(scene), rays_(rays) {}
+
+  /// Moves all rays, which are in the space of the scene, to the tree over instances.
+  LANELIGHT_INLINE void BeginTop() {
+    const Bvh& top = scene_.accel.top;
+    for (uint32_t r = 0; r < rays_.size; r += StreamRays::kLanes) {
+      rays_.SetSlabs(rays_.Load3(rays_.o, r), rays_.Load3(rays_.d, r), Splat(top.slack),
+                     Splat(top.margin), r);
+      CloseNoRays(r);
+    }
+    for (uint32_t r = 0; r < rays_.size; ++r) {
+      Home& home = home_[r];
+      Copy([&](int k, float* column) HWY_ATTR { home.ray[k] = column[r]; });
+      rays_.space[r] = kTopSpace;
+      rays_.from[r] = kNoPrimitive;  // a triangle may be in several instances
+    }
+  }
+
+  /// Moves rays to the spaces of the instances that they are at.
+  LANELIGHT_INLINE void Enter(const int32_t* list, uint32_t count) {
+    for (uint32_t i = 0; i < count; i += StreamRays::kLanes) {
+      EnterVector(list + i, std::min(count - i, StreamRays::kLanes));
+    }
+  }
+
+  /// Moves a ray back to the tree over instances.
+  LANELIGHT_INLINE void Leave(uint32_t r) {
+    const Home& home = home_[r];
+    Copy([&](int k, float* column) HWY_ATTR { column[r] = home.ray[k]; });
+    rays_.space[r] = kTopSpace;
+  }
+
+  /// The ray in the space of the scene, if it is not there.
+  LANELIGHT_INLINE void CopyHome(uint32_t r, float o[3], float d[3]) const {
+    if (rays_.space[r] == kWorldInstance) return;
+    for (int a = 0; a < 3; ++a) o[a] = home_[r].ray[a], d[a] = home_[r].ray[3 + a];
+  }
+
+ private:
+  static constexpr int kWords = 19;
+  struct Home {
+    float ray[kWords];  // as Copy goes through the columns
+  };
+
+  // Calls f(k, column) for each column that differs between spaces in a node test: o, d,
+  // then slabs.
+  template <class F>
+  LANELIGHT_INLINE void Copy(F&& f) {
+    int k = 0;
+    const auto three = [&](auto(&columns)[3][StreamRays::kRoom]) HWY_ATTR {
+      for (auto& column : columns) f(k++, reinterpret_cast<float*>(column));
+    };
+    three(rays_.o);
+    three(rays_.d);
+    three(rays_.rcp);
+    three(rays_.near);
+    three(rays_.far);
+    three(rays_.lower);
+    f(k, reinterpret_cast<float*>(rays_.octant));
+  }
+
+  // What Min and Max make of NaN differs between targets: such rays enter nothing.
+  LANELIGHT_INLINE void CloseNoRays(uint32_t at) {
+    const DF df;
+    const VF sum = hn::Add(
+        hn::LoadU(df, rays_.near[0] + at),
+        hn::Add(hn::LoadU(df, rays_.near[1] + at), hn::LoadU(df, rays_.near[2] + at)));
+    const MF ray = hn::IsFinite(sum);
+    if (HWY_LIKELY(hn::AllTrue(df, ray))) return;
+    const VF never = Splat(std::numeric_limits<float>::infinity());
+    const auto set = [&](float* column, VF v) HWY_ATTR {
+      hn::StoreU(hn::IfThenElse(ray, hn::LoadU(df, column), v), df, column);
+    };
+    for (int a = 0; a < 3; ++a) {
+      set(rays_.rcp[a] + at, Splat(1.0f));
+      set(rays_.near[a] + at, never);
+      set(rays_.far[a] + at, hn::Neg(never));
+    }
+  }
+
+  // The columns behind the last ray are the place where a vector is prepared.
+  HWY_NOINLINE void EnterVector(const int32_t* list, uint32_t count) {
+    const DF df;
+    const Geometry& geometry = scene_.geometry;
+    const Accel& accel = scene_.accel;
+    HWY_ALIGN float map[12][StreamRays::kLanes] = {}, ray[6][StreamRays::kLanes] = {};
+    HWY_ALIGN float slack[StreamRays::kLanes] = {}, margin[StreamRays::kLanes] = {};
+    for (uint32_t j = 0; j < count; ++j) {
+      const auto r = static_cast<uint32_t>(list[j]);
+      const uint32_t instance = static_cast<uint32_t>(rays_.next[r]) & ~kLeafBit;
+      const Bvh& group = accel.groups[geometry.instance_group[instance]];
+      const float* m = geometry.instances[instance].object_from_scene;
+      for (int k = 0; k < 12; ++k) map[k][j] = m[k];
+      for (int k = 0; k < 6; ++k) ray[k][j] = home_[r].ray[k];
+      slack[j] = group.slack;
+      margin[j] = group.margin;
+      rays_.space[r] = instance;
+      rays_.next[r] = static_cast<int32_t>(group.root);
+    }
+    VF m[12];
+    for (int k = 0; k < 12; ++k) m[k] = hn::Load(df, map[k]);
+    const auto load = [&](int k) HWY_ATTR {
+      return V3{hn::Load(df, ray[k]), hn::Load(df, ray[k + 1]), hn::Load(df, ray[k + 2])};
+    };
+    const uint32_t at = rays_.size;
+    const Rays moved{MapLanes(m, load(0), true), MapLanes(m, load(3), false), Splat(0),
+                     FromNone()};
+    rays_.SetSlabs(moved.o, moved.d, hn::Load(df, slack), hn::Load(df, margin), at);
+    CloseNoRays(at);
+    rays_.SetShear(moved, 0, at);
+    for (uint32_t j = 0; j < count; ++j) {
+      const auto r = static_cast<uint32_t>(list[j]);
+      Copy([&](int, float* column) HWY_ATTR { column[r] = column[at + j]; });
+      for (int a = 0; a < 3; ++a) {
+        rays_.shear_o[a][r] = rays_.shear_o[a][at + j];
+        rays_.shear_s[a][r] = rays_.shear_s[a][at + j];
+        rays_.row[a][r] = rays_.row[a][at + j];
+      }
+    }
+  }
+
+  const CompiledScene& scene_;
+  StreamRays& rays_;
+  Home home_[StreamRays::kRoom];
+};
+
+/// Scenes without instances have one space.
+struct NoSpaces {
+  NoSpaces(const CompiledScene&, const StreamRays&) {}
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif
