@@ -16,7 +16,7 @@ struct SweepOptions {
   /// This process renders the cells whose index leaves part - 1 when divided by parts.
   std::size_t part = 1, parts = 1;
   bool wait = false;  // for cells that other processes render, and do them if those die
-  bool table_only = false;  // render nothing
+  bool table_only = false;       // render nothing
   std::string build_cache = {};  // directory of trees over shapes; empty: none
 };
 
