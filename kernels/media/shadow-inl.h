@@ -68,7 +68,7 @@ LANELIGHT_INLINE V3 TrackedTransmittance(const GridMedium& medium, V3 o, V3 d, V
     at.t = hn::IfThenElse(collides, hn::Add(at.t, needed), at.t);
     at.Cross(crosses);
     if (hn::AllFalse(DF(), collides)) continue;
-    random.Next(&u0, &u1);
+    random.NextWhere(collides, &u0, &u1);
     depth = hn::IfThenElse(collides, ExponentialOf(u0), depth);
     const Coefficients c = medium.At(at.Point(at.t), collides);
     const V3 real = Mul(c.sigma_a + c.sigma_s, hn::Div(Splat(1.0f), sigma_m));

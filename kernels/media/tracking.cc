@@ -110,6 +110,10 @@ HWY_INLINE void TrackBatch(Wave& wave, const GridMedium& medium,
   CellWalk at(medium, Gather3(p.o_x, p.o_y, p.o_z, slots),
               Gather3(p.d_x, p.d_y, p.d_z, slots), t);
   WalkRandom random(wave, slots, 0x1b873593u);
+  // For what comes behind, before the walk: how many numbers that draws hangs on the
+  // other lanes.
+  VF behind_0, behind_1;
+  random.Next(&behind_0, &behind_1);
   Track<kEmission> track{medium, channel, before};
   track.Walk(at, random, ExponentialOf(Gather(p.u_medium_0, slots)));
   if constexpr (kEmission) {
@@ -118,10 +122,7 @@ HWY_INLINE void TrackBatch(Wave& wave, const GridMedium& medium,
   }
   path.Happen(track.f, track.pdf);
   path.Store(p, slots);
-  // Whatever comes behind draws anew.
-  VF u0, u1;
-  random.Next(&u0, &u1);
-  Scatter(u0, p.u_medium_0, slots);
+  Scatter(behind_0, p.u_medium_0, slots);
   Scatter(channel.Redrawn(before, path.odds, u), p.u_medium_1, slots);
   const VI material = hn::Set(DI(), static_cast<int32_t>(medium.medium.material));
   StoreEvent(p, slots, track.event, at.t, material);

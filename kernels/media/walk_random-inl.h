@@ -47,6 +47,13 @@ struct WalkRandom {
     *u0 = ToUnit(bits.x), *u1 = ToUnit(bits.y);
     seed = hn::Add(seed, SplatU(0x9e3779b9u));
   }
+  /// The same for the lanes of `mask`; the others get theirs later. What a lane draws
+  /// then does not hang on those beside it.
+  LANELIGHT_INLINE void NextWhere(MF mask, VF* u0, VF* u1) {
+    const VU before = seed;
+    Next(u0, u1);
+    seed = hn::IfThenElse(hn::RebindMask(DU(), mask), seed, before);
+  }
 };
 
 }  // namespace HWY_NAMESPACE

@@ -48,7 +48,45 @@ Material "coateddiffuse" "rgb reflectance" [ 0.1 0.3 0.6 ] "float roughness" 0.1
 Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2.5  -3 3 2.5 ] "integer indices" [ 0 1 2 0 2 3 ]
 )";
 
+// Walks through media that vary, of different lengths in the lanes of a vector, and media
+// behind them, which draw again.
+const char* kCloudScene = R"(
+LookAt 0 0 -4  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 24 "integer yresolution" 18
+Integrator "volpath" "integer maxdepth" 9
+WorldBegin
+LightSource "distant" "point3 from" [ -2 3 -2 ] "rgb L" [ 3 2.8 2.5 ]
+LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ]
+MakeNamedMedium "lump" "string type" "cloud" "float density" 2
+  "rgb sigma_a" [ 0.1 0.2 0.3 ] "rgb sigma_s" [ 7 6 5 ]
+  "point3 p0" [ -1 -0.7 -1 ] "point3 p1" [ 1 0.8 1 ]
+Material "interface"
+MediumInterface "lump" ""
+Shape "sphere" "float radius" 1.1
+MakeNamedMedium "haze" "string type" "homogeneous"
+  "rgb sigma_a" [ 0.1 0.1 0.1 ] "rgb sigma_s" [ 0.9 0.7 0.5 ]
+MediumInterface "haze" ""
+Translate 0 0 3
+Shape "sphere" "float radius" 1.8
+)";
+
 }  // namespace
+
+TEST_CASE("images of clouds are bit-identical for any wavefront size", "[determinism]") {
+  TestRender base;
+  base.spp = 8;
+  base.threads = 1;
+  base.wavefront = 1000;
+  const Rendered reference = RenderText(kCloudScene, base);
+  CHECK(reference.result.health.Total() == 0);
+  for (std::uint32_t wavefront : {64u, 192u, 8192u}) {
+    TestRender other = base;
+    other.wavefront = wavefront;
+    INFO("wavefront " << wavefront);
+    CHECK(Identical(RenderText(kCloudScene, other).film, reference.film));
+  }
+}
 
 TEST_CASE("images are bit-identical for any threads and wavefront size",
           "[determinism]") {
