@@ -22,6 +22,13 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+// What starts the program: itself, or what runs programs for another processor here.
+#ifdef LANELIGHT_EMULATOR
+const std::vector<const char*> kCommand = {LANELIGHT_EMULATOR, LANELIGHT_BINARY};
+#else
+const std::vector<const char*> kCommand = {LANELIGHT_BINARY};
+#endif
+
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
   Pipe() { LL_CHECK_EQ(pipe2(ends.data(), O_CLOEXEC), 0); }
@@ -55,14 +62,14 @@ void PrepareChild(const ProcessOptions& options, const Pipe& out, const Pipe& er
 
 pid_t Start(const std::vector<std::string>& arguments, const ProcessOptions& options,
             const Pipe& out, const Pipe& err) {
-  std::vector<const char*> argv = {LANELIGHT_BINARY};
+  std::vector<const char*> argv = kCommand;
   for (const std::string& a : arguments) argv.push_back(a.c_str());
   argv.push_back(nullptr);
   const pid_t child = fork();
   LL_CHECK_GE(child, 0);
   if (child != 0) return child;
   PrepareChild(options, out, err);
-  execv(LANELIGHT_BINARY, const_cast<char* const*>(argv.data()));
+  execv(argv[0], const_cast<char* const*>(argv.data()));
   _exit(127);
 }
 

@@ -1,0 +1,46 @@
+# Which tests `./run test --arm64` leaves out, by label, and why (docs/arm64.md). QEMU
+# translates every instruction: what takes a second otherwise takes half a minute.
+
+# QEMU keeps no limit on address space (setrlimit), which the first sets, and no filter of
+# system calls (seccomp), which the second does; the others want to see what a render has
+# done in 0.2 s, and a pilot in 2.5 s.
+set(unable cli/lost_renders_test sweep/directory_test wavefront/put_down_test cli/advise_test)
+# Scripts that start the program themselves, or preload a library into it.
+list(APPEND unable cases_run_once cli/completion failures/kill failures/disk failures/foreign)
+# Nothing of them runs on ARM.
+set(unrelated bench/simulate_cluster bench/efficiency build/version)
+# More than 12 s of processor time.
+set(long
+  accel/spatial_split_test advise/halving_test advise/window_errors_test
+  cli/build_cache_test cli/profile_test cli/render_test cli/stress_test
+  cli/study_command_test cli/target_test compile/materials_test
+  compile/medium_emission_test compile/nested_test compile/tessellate_test
+  control/ambient_test control/analytic_test control/crossfit_test
+  control/irradiance_test control/regression_render_test control/regression_test
+  directions/uniform_test estimate/estimate_test generate/lenses_test guide/mixture_test
+  guide/unbiased_test image/accumulator_test image/long_sums_test
+  lights/emission_images_test lights/image_lights_test lights/portal_test
+  lights/projected_test media/agreement_test media/coloured_test media/distances_test
+  media/transmittance_test media/varying_test parse/format_test points/convergence_test
+  reference/closed_form_test reference/estimators_test render/allocated_test
+  render/cuts_test render/many_samples_test report/page_test roulette/closed_room_test
+  roulette/efficiency_test roulette/shadow_test roulette/splitting_test
+  roulette/unsplit_test scenes/closed_form_scenes_test scenes/scenes_test
+  shade/coat_medium_test shade/limits_test shade/reference_test stat/convergence_test
+  stat/efficiency_test stat/interval_test state/integrity_test strategy/unbiased_test
+  stress/geometry_cases_test stress/suite_test stress/transport_cases_test
+  study/calibration_test study/render_reference_test study/shared_bias_test
+  study/study_test sweep/again_test sweep/parts_test sweep/ten_thousand_test
+  texture/pattern_kernel_test wavefront/agreement_test wavefront/allocated_render_test
+  wavefront/allocation_test wavefront/alpha_places_test wavefront/closed_form_test
+  wavefront/convergence_test wavefront/decision_test wavefront/declared_fields_test
+  wavefront/determinism_test wavefront/force_diffuse_test wavefront/mirrored_lights_test
+  wavefront/open_ended_test wavefront/relief_agreement_test
+  wavefront/resume_mistakes_test wavefront/resume_test wavefront/round_shapes_test
+  wavefront/seen_lights_test wavefront/textured_test)
+
+foreach(kind unable unrelated long)
+  foreach(test ${${kind}})
+    set_property(TEST ${test} APPEND PROPERTY LABELS qemu-${kind})
+  endforeach()
+endforeach()
