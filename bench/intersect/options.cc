@@ -34,6 +34,7 @@ std::string FolderOf(const Options& o, const std::string& name) {
 AccelOptions Options::Accel() const {
   AccelOptions accel;
   if (fast) accel.quality = BuildQuality::kFast;
+  accel.leaf_triangles = leaf > 0 ? leaf : LeafTrianglesFor(CurrentLanes());
   if (few >= 0) accel.few_triangles = static_cast<std::uint32_t>(few);
   return accel;
 }
@@ -87,6 +88,10 @@ void AddOptions(CLI::App& app, Options& o) {
   app.add_option("--wave", o.compare.wave, "rays per wave")
       ->check(CLI::Range(1, 1 << 20));
   app.add_option("--few", o.few, "largest triangle count without a tree");
+  app.add_option(
+         "--leaf", o.leaf,
+         "triangles of a leaf that shares vertices; default: what suits the target")
+      ->check(CLI::IsMember({int{SmallLeaf::kLanes}, int{TriangleLeaf::kLanes}}));
   app.add_flag("--open", o.open, "leave the box around the meshes out");
   app.add_flag("--build", o.build,
                "builds instead of rays: time, memory, and 1 against 2 threads");

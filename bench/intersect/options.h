@@ -18,7 +18,7 @@ struct Options {
   CompareOptions compare;
   int size = 384;
   bool embree = true, open = false, build = false, fast = false;
-  int few = -1;
+  int few = -1, leaf = 0;
 
   AccelOptions Accel() const;
   std::unique_ptr<Peer> MakePeer(const Mesh& mesh) const;

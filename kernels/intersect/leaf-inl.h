@@ -48,13 +48,13 @@ class LeafColumn<SeparateLeaf> {
   V part_[SeparateLeaf::kVertexLanes / hn::MaxLanes(LeafTag<SeparateLeaf>())];
 };
 
-template <>
-class LeafColumn<TriangleLeaf> {
+template <int n>
+class LeafColumn<SharedLeaf<n>> {
  public:
-  using D = LeafTag<TriangleLeaf>;
+  using D = LeafTag<SharedLeaf<n>>;
   using V = hn::Vec<D>;
   LANELIGHT_INLINE void Set(int part, V v) { part_[part] = v; }
-  LANELIGHT_INLINE V Corner(const TriangleLeaf& leaf, int k, int i) const {
+  LANELIGHT_INLINE V Corner(const SharedLeaf<n>& leaf, int k, int i) const {
     const hn::RebindToUnsigned<D> du;
     const hn::Rebind<uint8_t, D> d8;
     return At(hn::PromoteTo(du, hn::LoadU(d8, leaf.corner[k] + i)));
@@ -62,32 +62,33 @@ class LeafColumn<TriangleLeaf> {
 
  private:
   using Index = hn::Vec<hn::RebindToUnsigned<D>>;
-#if HWY_MAX_BYTES >= 64
-  LANELIGHT_INLINE V At(Index index) const {
-    return hn::TableLookupLanes(part_[0], hn::IndicesFromVec(D(), index));
-  }
-#elif HWY_MAX_BYTES >= 32
+  static constexpr int kParts = n / hn::MaxLanes(D());
+
   LANELIGHT_INLINE V At(Index index) const {
     const D d;
     const hn::RebindToUnsigned<D> du;
-    const auto seven = hn::Set(du, 7);
-    const auto lanes = hn::IndicesFromVec(d, hn::And(index, seven));
-    const auto upper = hn::RebindMask(d, hn::Gt(index, seven));
-    return hn::IfThenElse(upper, hn::TableLookupLanes(part_[1], lanes),
-                          hn::TableLookupLanes(part_[0], lanes));
+    if constexpr (kParts == 1) {
+      return hn::TableLookupLanes(part_[0], hn::IndicesFromVec(d, index));
+    } else if constexpr (hn::MaxLanes(D()) >= 8) {
+      const auto seven = hn::Set(du, 7);
+      const auto lanes = hn::IndicesFromVec(d, hn::And(index, seven));
+      const auto upper = hn::RebindMask(d, hn::Gt(index, seven));
+      return hn::IfThenElse(upper, hn::TableLookupLanes(part_[1], lanes),
+                            hn::TableLookupLanes(part_[0], lanes));
+    } else {
+      return hn::GatherIndex(d, reinterpret_cast<const float*>(part_),
+                             hn::BitCast(hn::RebindToSigned<D>(), index));
+    }
   }
-#else
-  LANELIGHT_INLINE V At(Index index) const {
-    return hn::GatherIndex(D(), reinterpret_cast<const float*>(part_),
-                           hn::BitCast(hn::RebindToSigned<D>(), index));
-  }
-#endif
 
-  V part_[TriangleLeaf::kVertexLanes / hn::MaxLanes(D())];
+  V part_[kParts];
 };
 
 /// Lanes that hold a triangle, as bits.
-LANELIGHT_INLINE uint32_t UsedLanes(const TriangleLeaf& leaf) { return leaf.used; }
+template <int n>
+LANELIGHT_INLINE uint32_t UsedLanes(const SharedLeaf<n>& leaf) {
+  return leaf.used;
+}
 LANELIGHT_INLINE uint32_t UsedLanes(const SeparateLeaf& leaf) {
   const hn::RebindToUnsigned<LeafTag<SeparateLeaf>> du;
   uint32_t bits = 0;
@@ -145,8 +146,12 @@ inline constexpr uint32_t kLeafRow = sizeof(TriangleLeaf::vertex[0]);
 /// The coordinates along an axis, as in LeafRay::row, of a leaf's vertices.
 template <class Leaf>
 LANELIGHT_INLINE const float* LeafRow(const Leaf& leaf, uint32_t row) {
-  static_assert(2 * sizeof(SeparateLeaf::vertex[0]) == 3 * kLeafRow);
-  if constexpr (std::is_same_v<Leaf, SeparateLeaf>) row += row / 2;
+  if constexpr (std::is_same_v<Leaf, SeparateLeaf>) {
+    static_assert(2 * sizeof(SeparateLeaf::vertex[0]) == 3 * kLeafRow);
+    row += row / 2;
+  } else {
+    row /= kLeafRow / sizeof(leaf.vertex[0]);
+  }
   return reinterpret_cast<const float*>(reinterpret_cast<const char*>(leaf.vertex) + row);
 }
 
@@ -220,10 +225,32 @@ LANELIGHT_INLINE void TestLeaves(const LeafRay (&ray)[kRays],
       bits[j] |= MaskBits(d, hn::And(pass[j], hn::RebindMask(d, other))) << i;
     }
   }
-  if constexpr (std::is_same_v<Leaf, TriangleLeaf>) {
+  if constexpr (!std::is_same_v<Leaf, SeparateLeaf>) {
     for (int j = 0; j < kRays; ++j) bits[j] &= leaf[j]->used;
   }
 }
+
+/// Where the leaves of a scene lie.
+class LeafPlaces {
+ public:
+  explicit LeafPlaces(const Accel& accel)
+      : base_(reinterpret_cast<const char*>(accel.triangle_blocks.data())),
+        unit_(LeafUnit(accel.leaf_triangles)) {}
+
+  LANELIGHT_INLINE const char* At(uint32_t ref) const {
+    return base_ + (ref & kRefIndex) * unit_;
+  }
+  template <class Leaf>
+  LANELIGHT_INLINE const Leaf& Of(uint32_t ref) const {
+    return *reinterpret_cast<const Leaf*>(At(ref));
+  }
+  /// Whether leaves that share vertices are SmallLeaf.
+  LANELIGHT_INLINE bool small() const { return unit_ == sizeof(SmallLeaf); }
+
+ private:
+  const char* base_;
+  std::size_t unit_;
+};
 
 /// A hit of a lane: distance, and barycentric coordinates.
 struct LaneHit {

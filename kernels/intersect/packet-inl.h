@@ -108,9 +108,12 @@ LANELIGHT_INLINE uint32_t HitChildren(const Frustum& f, const WideNode& node, fl
   return bits;
 }
 
-/// Leaves that a packet of nearly equal rays may meet for the frustum to pay: where
-/// triangles are much smaller than the packet, its rays go ways of their own.
-inline constexpr int kFrustumLeaves = 16;
+/// Leaves that a packet of nearly equal rays may meet for the frustum to pay, or twice as
+/// many small ones: where triangles are much smaller than the packet, its rays go ways of
+/// their own.
+LANELIGHT_INLINE int FrustumLeaves(const Accel& accel) {
+  return 16 * kLeafTriangles / accel.leaf_triangles;
+}
 
 /// Visits the leaves that the packet meets, until no ray wants more, or until there are
 /// more than `max_leaves`: then the result is false, and what was found is a bound.
@@ -143,8 +146,8 @@ LANELIGHT_INLINE bool ClosestFrustum(const Wave& wave, const Rays& rays,
                                      const PacketBounds& bounds, VI slots) {
   const PathColumns& path = wave.path;
   PacketBest best = NoHits(rays.t_max, Gather(path.prim, slots));
-  const bool done =
-      TraceFrustum<false, kAlpha>(*wave.scene, rays, bounds, kFrustumLeaves, best);
+  const bool done = TraceFrustum<false, kAlpha>(*wave.scene, rays, bounds,
+                                                FrustumLeaves(wave.scene->accel), best);
   const MF found = MaskOf(DF(), best.found);
   const VF b1 = hn::Div(best.v, best.det), b2 = hn::Div(best.w, best.det);
   Scatter(best.t, path.t, slots);

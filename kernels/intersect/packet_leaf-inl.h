@@ -21,8 +21,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 struct PacketBest {
   VF t;
   VI prim;
-  VF v, w, det;    // weights of vertices 1 and 2 times det
-  uint32_t found;  // lanes, as bits
+  VF v, w, det;                     // weights of vertices 1 and 2 times det
+  uint32_t found;                   // lanes, as bits
+  uint32_t blocker = kNoPrimitive;  // in a shadow query: a triangle that blocks a ray
 };
 
 LANELIGHT_INLINE PacketBest NoHits(VF t_max, VI prim) {
@@ -81,8 +82,8 @@ class PacketColumns {
 };
 
 /// Calls f(i) for the vertices of some triangles of a leaf, or more.
-template <class F>
-LANELIGHT_INLINE void ForEachVertex(const TriangleLeaf& leaf, uint32_t, F&& f) {
+template <int n, class F>
+LANELIGHT_INLINE void ForEachVertex(const SharedLeaf<n>& leaf, uint32_t, F&& f) {
   for (uint32_t i = 0; i < leaf.vertices; ++i) f(i);
 }
 template <class F>
@@ -168,7 +169,9 @@ LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& lea
     if constexpr (kAlpha) mask = CutOut(scene, packet.home, leaf.prim[i], hit, mask);
     if constexpr (kAny) {
       mask = hn::And(mask, hn::Lt(hit.t, best.t));
-      best.found |= MaskBits(df, mask);
+      const uint32_t blocked = MaskBits(df, mask);
+      best.found |= blocked;
+      best.blocker = blocked != 0 ? leaf.prim[i] : best.blocker;
       best.t = hn::IfThenElse(mask, Splat(-1.0f), best.t);
     } else {
       const VI prim = hn::Set(di, static_cast<int32_t>(leaf.prim[i]));
@@ -188,12 +191,13 @@ template <bool kAny, bool kAlpha>
 LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, uint32_t ref,
                                      const PacketRays& packet, uint32_t lanes,
                                      PacketBest& best) {
-  const TriangleBlock& block = scene.accel.triangle_blocks[ref & kRefIndex];
-  if (HWY_UNLIKELY(ref & kSeparateBit)) {
-    TestLeafPacket<kAny, kAlpha>(scene, block.separate, packet, lanes, best);
-  } else {
-    TestLeafPacket<kAny, kAlpha>(scene, block.shared, packet, lanes, best);
-  }
+  const LeafPlaces leaves(scene.accel);
+  const auto test = [&](const auto& leaf) HWY_ATTR {
+    TestLeafPacket<kAny, kAlpha>(scene, leaf, packet, lanes, best);
+  };
+  if (HWY_UNLIKELY(ref & kSeparateBit)) return test(leaves.Of<SeparateLeaf>(ref));
+  if (leaves.small()) return test(leaves.Of<SmallLeaf>(ref));
+  test(leaves.Of<TriangleLeaf>(ref));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -38,8 +38,8 @@ class SinglePhase {
       : scene_(scene),
         rays_(rays),
         spaces_(scene, rays),
-        base_{reinterpret_cast<const char*>(scene.accel.nodes.data()),
-              reinterpret_cast<const char*>(scene.accel.triangle_blocks.data())} {}
+        node_base_(reinterpret_cast<const char*>(scene.accel.nodes.data())),
+        leaf_places_(scene.accel) {}
 
   /// Places of the rays to trace; the packet phase appends them.
   int32_t* live() { return live_; }
@@ -55,7 +55,11 @@ class SinglePhase {
       if (num_live_ == 0) return;
       if constexpr (kInstances) ChangeSpaces();
       NodeRound();
-      LeafRound<TriangleLeaf>(leaves_, num_leaves_);
+      if (leaf_places_.small()) {
+        LeafRound<SmallLeaf>(leaves_, num_leaves_);
+      } else {
+        LeafRound<TriangleLeaf>(leaves_, num_leaves_);
+      }
       LeafRound<SeparateLeaf>(separate_, num_separate_);
     }
   }
@@ -147,13 +151,12 @@ class SinglePhase {
 
   // Goes to the top of the stack if `move` is 1, stays where it is if it is 0.
   LANELIGHT_INLINE void Pop(uint32_t r, uint32_t top, uint32_t move = 1) {
-    static constexpr std::size_t kBytes[2] = {sizeof(WideNode), sizeof(TriangleBlock)};
     const uint32_t ref = rays_.Refs(r)[top];
     rays_.top[r] = top - move;
     rays_.next[r] = move ? static_cast<int32_t>(ref) : rays_.next[r];
     if (kInstances && ref >= kReturnRef) return;
-    const uint32_t is_leaf = ref >> 31;
-    const char* at = base_[is_leaf] + (ref & kRefIndex) * kBytes[is_leaf];
+    const char* const node = node_base_ + std::size_t{ref} * sizeof(WideNode);
+    const char* const at = ref & kLeafBit ? leaf_places_.At(ref) : node;
     for (int line = 0; line < 4; ++line) hwy::Prefetch(at + line * kCacheLine);
   }
 
@@ -225,7 +228,9 @@ class SinglePhase {
       const auto ref = hn::TableLookupLanes(hn::Load(du, node.child + part * Lanes8()),
                                             hn::IndicesFromVec(du, lane));
       const M8 hit = hn::Ge(entry, hn::Zero(d8));
-      hn::StoreU(hn::Compress(entry, hit), d8, rays_.Entries(r) + top + 1);
+      if constexpr (!kAny) {  // any hit ends the ray: nothing is culled
+        hn::StoreU(hn::Compress(entry, hit), d8, rays_.Entries(r) + top + 1);
+      }
       hn::StoreU(hn::Compress(ref, hn::RebindMask(du, hit)), du, rays_.Refs(r) + top + 1);
       top += static_cast<uint32_t>(hn::CountTrue(d8, hit));
     }
@@ -234,8 +239,7 @@ class SinglePhase {
 
   template <class Leaf>
   LANELIGHT_INLINE const Leaf& LeafOf(uint32_t r) const {
-    const auto index = static_cast<uint32_t>(rays_.next[r]) & kRefIndex;
-    return reinterpret_cast<const Leaf*>(base_[1])[index];
+    return leaf_places_.Of<Leaf>(static_cast<uint32_t>(rays_.next[r]));
   }
 
   // Rays whose lines pass through no triangle go on; the others wait for HitStep.
@@ -333,7 +337,8 @@ class SinglePhase {
   const CompiledScene& scene_;
   StreamRays& rays_;
   std::conditional_t<kInstances, RaySpaces, NoSpaces> spaces_;
-  const char* base_[2];  // nodes and leaves
+  const char* node_base_;
+  LeafPlaces leaf_places_;
   uint32_t num_live_ = 0, num_nodes_ = 0, num_leaves_ = 0, num_separate_ = 0;
   int32_t live_[kRoom], nodes_[kRoom], leaves_[kRoom], separate_[kRoom];
   uint32_t num_entering_ = 0, num_leaving_ = 0;

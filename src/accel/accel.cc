@@ -79,7 +79,7 @@ void BuildTriangles(const Geometry& geometry, const AccelOptions& options, Accel
                     AlignedVector<WideNode>& nodes) {
   AlignedVector<TriangleBlock> blocks;
   std::vector<AccelBox> boxes;
-  const LeafLimit limit = TriangleLimit(geometry.triangles);
+  const LeafLimit limit = TriangleLimit(geometry.triangles, options.leaf_triangles);
   for (const Geometry::TriangleGroup& group : geometry.groups) {
     const bool few = boxes.empty() && geometry.instances.empty() &&
                      group.end - group.begin <= options.few_triangles;
@@ -89,9 +89,9 @@ void BuildTriangles(const Geometry& geometry, const AccelOptions& options, Accel
     if (!geometry.instances.empty()) {
       for (const BuildItem& item : items) boxes.back().Extend(item.box);
     }
-    accel.groups.push_back(BuildShapes(std::move(items), limit, options.quality,
-                                       TriangleBlocks(blocks, geometry.triangles),
-                                       nodes));
+    accel.groups.push_back(BuildShapes(
+        std::move(items), limit, options.quality,
+        TriangleBlocks(blocks, geometry.triangles, options.leaf_triangles), nodes));
   }
   accel.top = BuildTop(geometry, boxes, accel.groups, nodes);
   accel.triangle_blocks = std::move(blocks);
@@ -103,6 +103,7 @@ Accel BuildAccel(const Geometry& geometry, const AccelOptions& options) {
   LL_CHECK_LE(options.few_triangles, kFewTriangles);  // kernels size their scratch by it
   Accel accel;
   accel.quality = options.quality;
+  accel.leaf_triangles = options.leaf_triangles;
   AlignedVector<WideNode> nodes;
   AlignedVector<SphereBlock> sphere_blocks;
   AlignedVector<DiskBlock> disk_blocks;

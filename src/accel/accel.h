@@ -2,9 +2,10 @@
 // kernels in kernels/intersect/ read them. Built once by BuildAccel.
 //
 // What is traced how:
-//   triangles   8-wide BVH, leaves of up to 16 triangles over up to 16 shared vertices,
-//               or of up to 8 with corners of their own; where boxes are mostly empty
-//               (long thin triangles), triangles are cut
+//   triangles   8-wide BVH, leaves of up to 16 triangles over up to 16 shared vertices (8
+//               over 8 where vectors have no more lanes), or of up to 8 with corners of
+//               their own; where boxes are mostly empty (long thin triangles), triangles
+//               are cut
 //   instances   one BVH per object and one over the instances
 //   spheres, disks   BVH likewise; at most kFewRound: no tree, a vector of rays against
 //               each record in turn; planes always so, since they are infinite
@@ -21,6 +22,7 @@
 // `./run bench intersect`, one thread, AVX-512; see bench/README.md.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -34,10 +36,11 @@ struct Geometry;  // src/geometry/geometry.h, which includes this file
 
 /// Children of a node, and shapes of a leaf of spheres or disks.
 inline constexpr int kBvhWidth = 8;
-inline constexpr int kLeafTriangles = 16, kLeafVertices = 16;
+inline constexpr int kLeafTriangles = 16;
 /// Child references: with this bit a leaf (the rest is the index of its block, or of an
 /// instance in the top level), without it the index of a node. Among leaves of triangles
-/// those with kSeparateBit, too, are SeparateLeaf.
+/// those with kSeparateBit, too, are SeparateLeaf. Indices of leaves count in units of
+/// LeafUnit.
 inline constexpr std::uint32_t kLeafBit = 0x80000000u, kSeparateBit = 0x40000000u;
 inline constexpr std::uint32_t kRefIndex = kSeparateBit - 1;
 /// The reference of a tree without shapes, and of unused children.
@@ -64,22 +67,25 @@ struct alignas(64) WideNode {
 };
 static_assert(sizeof(WideNode) == 256);
 
-/// Leaf of up to 16 triangles over up to 16 distinct vertices, triangles ascending by id.
+/// Leaf of up to n triangles over up to n distinct vertices, triangles ascending by id.
 /// A vertex is stored and transformed once however many triangles share it: scanned
 /// meshes need about 30 bytes per triangle instead of the 40 of separate corners.
 /// Unused lanes have three equal corners (never hit).
-struct alignas(64) TriangleLeaf {
-  float vertex[3][kLeafVertices];          // [axis][vertex]
-  std::uint8_t corner[3][kLeafTriangles];  // which vertex: [corner][lane]
-  std::uint32_t prim[kLeafTriangles];
-  std::uint32_t count, vertices;  // used lanes of corner and prim, and of vertex
-  std::uint32_t used;             // the first `count` bits
+template <int n>
+struct alignas(n * sizeof(float)) SharedLeaf {
+  float vertex[3][n];         // [axis][vertex]
+  std::uint8_t corner[3][n];  // which vertex: [corner][lane]
+  std::uint32_t prim[n];
+  std::uint8_t count, vertices;  // used lanes of corner and prim, and of vertex
+  std::uint16_t used;            // the first `count` bits
 
-  static constexpr int kLanes = kLeafTriangles, kVertexLanes = kLeafVertices;
+  static constexpr int kLanes = n, kVertexLanes = n;
   /// Where corner k of a triangle is found in the rows of `vertex`.
   std::uint32_t VertexOf(int k, std::uint32_t lane) const { return corner[k][lane]; }
 };
-static_assert(sizeof(TriangleLeaf) == 320);
+using TriangleLeaf = SharedLeaf<kLeafTriangles>;
+using SmallLeaf = SharedLeaf<kLeafTriangles / 2>;
+static_assert(sizeof(TriangleLeaf) == 320 && sizeof(SmallLeaf) == 160);
 
 /// Leaf of up to 8 triangles with corners of their own, ascending by id: where a
 /// TriangleLeaf would hold no more, because triangles share few vertices. Unused lanes
@@ -95,9 +101,10 @@ struct alignas(64) SeparateLeaf {
 };
 static_assert(sizeof(SeparateLeaf) == 320);
 
-/// A leaf of triangles; references to it tell which.
+/// A leaf of triangles, or two small ones.
 union TriangleBlock {
   TriangleLeaf shared;
+  SmallLeaf small[2];
   SeparateLeaf separate;
 };
 static_assert(sizeof(TriangleBlock) == 320);
@@ -148,6 +155,7 @@ struct Accel {
   SharedArray<WideNode> nodes;  // of all trees
 
   FewTriangles few;  // for incoherent rays, used instead of groups[0] if not empty
+  int leaf_triangles = kLeafTriangles;  // of a shared leaf: as TriangleLeaf or SmallLeaf
   SharedArray<TriangleBlock> triangle_blocks;
   std::vector<Bvh> groups;  // as Geometry::groups
   Bvh top;                  // over instances; leaf references hold instance indices
@@ -160,13 +168,24 @@ struct Accel {
   std::size_t Bytes() const;
 };
 
+/// Bytes from one index of a leaf of triangles to the next.
+inline constexpr std::size_t LeafUnit(int leaf_triangles) {
+  return leaf_triangles == SmallLeaf::kLanes ? sizeof(SmallLeaf) : sizeof(TriangleBlock);
+}
+
 /// How to build; the defaults are what rendering uses. What counts as few serves tests
 /// and bench.
 struct AccelOptions {
   std::uint32_t few_triangles = kFewTriangles;
   std::uint32_t few_round = kFewRound;
   BuildQuality quality = BuildQuality::kHigh;
+  int leaf_triangles = kLeafTriangles;  // or half as many: LeafTrianglesFor
 };
+
+/// What is traced fastest with vectors of so many lanes.
+inline constexpr int LeafTrianglesFor(int lanes) {
+  return lanes < kLeafTriangles ? SmallLeaf::kLanes : TriangleLeaf::kLanes;
+}
 
 /// Builds everything that `geometry` needs. The result does not depend on the number of
 /// threads. Shapes with a non-finite coordinate are left out (they cannot be hit).

@@ -22,9 +22,6 @@ constexpr std::uint32_t kSerial = 2048;
 constexpr std::uint32_t kSerialItems = 64;
 // Below this depth ranges are halved instead, which bounds the depth of any tree.
 constexpr int kMaxSahDepth = 40;
-// Cost of one level of the binary tree relative to testing one leaf: a wide node holds
-// about three levels.
-constexpr float kNodeCost = 0.35f;
 // Planes that cut triangles are tried where the boxes of the best object split have more
 // than this part of the area in common, and taken if they cost up to kCutGain of it: they
 // leave no overlap for the levels below.
@@ -89,7 +86,7 @@ class TreeBuilder {
           {.leaf_size = block, .overlap = may_cut, .one_axis = one_axis_});
     }
     if (count <= leaf_size_) {
-      const bool pays = split.axis < 0 || split.cost + kNodeCost * area >= area;
+      const bool pays = split.axis < 0 || split.cost + limit_.node_cost * area >= area;
       if (pays && (!limit_.fits || limit_.fits(items, count, block))) return range.begin;
     }
     if (may_cut && depth < kMaxSahDepth && split.overlap > kOverlap * area) {

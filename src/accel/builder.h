@@ -55,6 +55,9 @@ struct BuiltTree {
 /// `typical` said.
 struct LeafLimit {
   std::uint32_t items = kBvhWidth;
+  /// Cost of one level of the binary tree relative to testing one leaf: a wide node holds
+  /// about three levels.
+  float node_cost = 0.35f;
   std::function<bool(const BuildItem* items, std::uint32_t count, std::uint32_t capacity)>
       fits;
   /// If set: how many of these shapes a leaf holds, at a guess, in [1, items].

@@ -22,11 +22,13 @@ inline std::uint32_t HashOf(const float p[3]) {
 /// The distinct vertices of a leaf, in order of appearance.
 class LeafVertices {
  public:
-  /// Fills `corner` as in TriangleLeaf; false if there are more than kLeafVertices.
+  explicit LeafVertices(int most) : most_(most) {}
+
+  /// Fills `corner` as in SharedLeaf; false if there are more than `most`.
   bool Add(const TriangleRecord& triangle, std::uint8_t corner[3]) {
     for (int k = 0; k < 3; ++k) {
       const int i = Find(triangle.p[k]);
-      if (i == kLeafVertices) return false;
+      if (i == most_) return false;
       corner[k] = static_cast<std::uint8_t>(i);
     }
     return true;
@@ -43,22 +45,23 @@ class LeafVertices {
       const int i = slot_[at] - 1;
       if (std::memcmp(p_[i], p, sizeof(p_[i])) == 0) return i;
     }
-    if (count_ == kLeafVertices) return kLeafVertices;
+    if (count_ == most_) return most_;
     std::memcpy(p_[count_], p, sizeof(p_[count_]));
     slot_[at] = static_cast<std::uint8_t>(count_ + 1);
     return count_++;
   }
 
-  float p_[kLeafVertices][3];
+  const int most_;
+  float p_[kLeafTriangles][3];
   std::uint8_t slot_[kSlots] = {};  // by hash: index of a vertex + 1, 0 = none
   int count_ = 0;
 };
 
-/// How many triangles a leaf holds if they share vertices as these do: the lanes or the
-/// vertices of a TriangleLeaf run out, or it is a SeparateLeaf. Vertices are told apart
-/// by a hash.
+/// How many triangles a shared leaf of `most` holds if they share vertices as these do:
+/// its lanes or its vertices run out. Vertices are told apart by a hash.
 inline std::uint32_t TypicalLeaf(const BuildItem* items, std::uint32_t count,
-                                 const AlignedVector<TriangleRecord>& records) {
+                                 const AlignedVector<TriangleRecord>& records,
+                                 std::uint32_t most) {
   constexpr std::uint32_t kSlots = 512, kMost = kSlots / 6;
   std::uint32_t slots[kSlots] = {};
   std::uint32_t vertices = 0;
@@ -72,8 +75,7 @@ inline std::uint32_t TypicalLeaf(const BuildItem* items, std::uint32_t count,
       slots[at] = hash;
     }
   }
-  return std::clamp<std::uint32_t>(kLeafVertices * count / vertices, SeparateLeaf::kLanes,
-                                   kLeafTriangles);
+  return std::clamp<std::uint32_t>(most * count / vertices, 1, most);
 }
 
 }  // namespace lanelight

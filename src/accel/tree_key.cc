@@ -102,6 +102,7 @@ TreeKey KeyOf(const Geometry& geometry, const AccelOptions& options) {
   text.Add(options.few_triangles);
   text.Add(options.few_round);
   text.Add(options.quality);
+  text.Add(options.leaf_triangles);
   text.Add(geometry.ranges);
   AddShapes(geometry, text);
   text.AddBytes(geometry.groups.data(),

@@ -14,14 +14,15 @@ namespace lanelight {
 template <typename A, typename Visit>
 void VisitParts(A& accel, const Visit& visit) {
   static_assert(std::is_same_v<std::remove_const_t<A>, Accel>);
-  auto& [quality, nodes, few, triangle_blocks, groups, top, spheres, disks, sphere_blocks,
-         disk_blocks] = accel;
+  auto& [quality, nodes, few, leaf_triangles, triangle_blocks, groups, top, spheres,
+         disks, sphere_blocks, disk_blocks] = accel;
   auto& [few_vertices, few_triangles, few_reach] = few;
   visit(quality);
   visit(nodes);
   visit(few_vertices);
   visit(few_triangles);
   visit(few_reach);
+  visit(leaf_triangles);
   visit(triangle_blocks);
   visit(groups);
   visit(top);

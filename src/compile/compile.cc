@@ -144,7 +144,9 @@ void NoteNothingToHit(const SceneDescription& description, CompiledScene& scene)
 }
 
 void FindTrees(const CompileOptions& options, CompiledScene& scene) {
-  FoundTree tree = FindTree(scene.geometry, {.quality = options.build}, options.trees);
+  const AccelOptions accel = {.quality = options.build,
+                              .leaf_triangles = options.leaf_triangles};
+  FoundTree tree = FindTree(scene.geometry, accel, options.trees);
   scene.accel = std::move(tree.accel);
   if (options.tree_report != nullptr) *options.tree_report = tree.report;
   const auto where = std::make_shared<const std::string>("--build-cache");
@@ -156,7 +158,8 @@ void FindTrees(const CompileOptions& options, CompiledScene& scene) {
 }  // namespace
 
 std::shared_ptr<const KnownTree> TreesOf(const CompiledScene& scene) {
-  const AccelOptions options = {.quality = scene.accel.quality};
+  const AccelOptions options = {.quality = scene.accel.quality,
+                                .leaf_triangles = scene.accel.leaf_triangles};
   return std::make_shared<const KnownTree>(
       KnownTree{KeyOf(scene.geometry, options), scene.accel});
 }

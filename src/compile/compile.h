@@ -13,6 +13,7 @@ namespace lanelight {
 struct CompileOptions {
   std::optional<Scattering> scattering;  // overrides every diffuse material
   BuildQuality build = BuildQuality::kHigh;
+  int leaf_triangles = kLeafTriangles;  // as in AccelOptions
   TreeSource trees;  // where those over shapes may be, instead of being built
   TreeReport* tree_report = nullptr;  // what came of that; may be null
 };

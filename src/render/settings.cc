@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/simd/target.h"
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/image/image.h"
@@ -139,6 +140,7 @@ CompileOptions CompileOptionsOf(const RenderSettings& settings) {
   CompileOptions options;
   options.scattering = settings.scattering;
   options.build = settings.build.value_or(options.build);
+  options.leaf_triangles = LeafTrianglesFor(CurrentLanes());
   options.trees = settings.trees;
   return options;
 }

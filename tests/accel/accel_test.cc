@@ -19,6 +19,13 @@ namespace {
 
 using brute::Random;
 
+constexpr int kSmall = SmallLeaf::kLanes;
+constexpr AccelOptions kBuilds[] = {
+    {.few_triangles = 0},
+    {.few_triangles = 0, .quality = BuildQuality::kFast},
+    {.few_triangles = 0, .leaf_triangles = kSmall},
+    {.few_triangles = 0, .quality = BuildQuality::kFast, .leaf_triangles = kSmall}};
+
 // All ids, checking that each vertex lies in the boxes on the way, with room for
 // rounding.
 std::multiset<std::uint32_t> IdsOf(const Accel& accel, int& outside) {
@@ -65,8 +72,8 @@ TEST_CASE("every triangle is in exactly one leaf, inside its boxes", "[accel]") 
   for (const Geometry& g : cases) {
     const std::uint32_t n = static_cast<std::uint32_t>(g.triangles.size());
     CAPTURE(n);
-    for (const auto quality : {BuildQuality::kHigh, BuildQuality::kFast}) {
-      const CompiledScene scene = MakeScene(g, {.few_triangles = 0, .quality = quality});
+    for (const AccelOptions& options : kBuilds) {
+      const CompiledScene scene = MakeScene(g, options);
       int outside = 0;
       const auto ids = IdsOf(scene.accel, outside);
       CHECK(outside == 0);
@@ -95,10 +102,10 @@ TEST_CASE("triangles with infinite or NaN vertices are left out", "[accel]") {
 TEST_CASE("the tree does not depend on the number of threads", "[accel]") {
   Random random(63);
   const Geometry g = brute::Soup(random, 3 * kPart, 1, 0.05f);
-  for (const auto quality : {BuildQuality::kHigh, BuildQuality::kFast}) {
+  for (const AccelOptions& options : kBuilds) {
     const auto build = [&](int threads) {
       const ThreadLimit limit(threads);
-      return MakeScene(g, {.quality = quality}).accel;
+      return MakeScene(g, options).accel;
     };
     const Accel one = build(1), two = build(2);
     CHECK(SameBytes(one.nodes, two.nodes));
@@ -137,23 +144,25 @@ TEST_CASE("leaves hold the corners of their triangles, shared or not", "[accel]"
     strip.triangles.push_back(
         MakeTriangle({x + 0.01f, 0, 0}, {x + 0.01f, 1, 0}, {x, 1, 0}));
   }
-  const CompiledScene scene = MakeScene(strip, {.few_triangles = 0});
-  std::size_t triangles = 0, wrong = 0, separate = 0, shared = 0;
-  for (const LeafView& leaf : LeavesOf(scene.accel)) {
-    triangles += leaf.prim.size();
-    (leaf.separate ? separate : shared) += 1;
-    CHECK(std::is_sorted(leaf.prim.begin(), leaf.prim.end()));
-    for (std::size_t lane = 0; lane < leaf.prim.size(); ++lane) {
-      const TriangleRecord& record = scene.geometry.triangles[leaf.prim[lane]];
-      for (int k = 0; k < 3; ++k) {
-        wrong += leaf.corner[lane][k] != brute::Corner(record, k);
+  for (const AccelOptions& options : kBuilds) {
+    const CompiledScene scene = MakeScene(strip, options);
+    std::size_t triangles = 0, wrong = 0, separate = 0, shared = 0;
+    for (const LeafView& leaf : LeavesOf(scene.accel)) {
+      triangles += leaf.prim.size();
+      (leaf.separate ? separate : shared) += 1;
+      CHECK(std::is_sorted(leaf.prim.begin(), leaf.prim.end()));
+      for (std::size_t lane = 0; lane < leaf.prim.size(); ++lane) {
+        const TriangleRecord& record = scene.geometry.triangles[leaf.prim[lane]];
+        for (int k = 0; k < 3; ++k) {
+          wrong += leaf.corner[lane][k] != brute::Corner(record, k);
+        }
       }
     }
+    CHECK(separate > 20);
+    CHECK(shared > 20);
+    CHECK(triangles == 1300);
+    CHECK(wrong == 0);
   }
-  CHECK(separate > 20);
-  CHECK(shared > 20);
-  CHECK(triangles == 1300);
-  CHECK(wrong == 0);
 }
 
 TEST_CASE("leaves of separate triangles and of tiles are about full", "[accel]") {

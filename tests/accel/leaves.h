@@ -32,9 +32,21 @@ inline LeafView ReadLeaf(const Accel& accel, std::uint32_t ref) {
       }
     }
   };
-  const TriangleBlock& block = accel.triangle_blocks[ref & kRefIndex];
+  const auto add_shared = [&](const auto& leaf) {
+    CHECK(leaf.used == (1u << leaf.count) - 1);
+    CHECK(leaf.count <= accel.leaf_triangles);
+    CHECK(leaf.vertices <= accel.leaf_triangles);
+    add(leaf, leaf.count);
+    for (std::uint32_t lane = 0; lane < leaf.count; ++lane) {
+      for (int k = 0; k < 3; ++k) CHECK(leaf.VertexOf(k, lane) < leaf.vertices);
+    }
+  };
+  const bool small = accel.leaf_triangles == SmallLeaf::kLanes;
+  const std::uint32_t index = ref & kRefIndex;
+  const TriangleBlock& block = accel.triangle_blocks[small ? index / 2 : index];
   view.separate = ref & kSeparateBit;
   if (view.separate) {
+    if (small) CHECK(index % 2 == 0);
     const SeparateLeaf& leaf = block.separate;
     std::uint32_t count = 0;
     while (count < SeparateLeaf::kLanes && leaf.prim[count] != kEmptyRef) ++count;
@@ -47,14 +59,10 @@ inline LeafView ReadLeaf(const Accel& accel, std::uint32_t ref) {
         }
       }
     }
+  } else if (small) {
+    add_shared(block.small[index % 2]);
   } else {
-    const TriangleLeaf& leaf = block.shared;
-    CHECK(leaf.used == (1u << leaf.count) - 1);
-    CHECK(leaf.vertices <= kLeafVertices);
-    add(leaf, leaf.count);
-    for (std::uint32_t lane = 0; lane < leaf.count; ++lane) {
-      for (int k = 0; k < 3; ++k) CHECK(leaf.VertexOf(k, lane) < leaf.vertices);
-    }
+    add_shared(block.shared);
   }
   return view;
 }

@@ -200,7 +200,7 @@ TEST_CASE("parts that this program has not are refused though every hash is righ
     folder.Write("a", content);
     return Refusal(path);
   };
-  const std::size_t nodes = kPartsAt + 32, top = kPartsAt + 7 * 32;
+  const std::size_t nodes = kPartsAt + 32, top = kPartsAt + 8 * 32;
   const std::uint64_t most = ~std::uint64_t{0};
   for (const std::uint64_t offset : {most, most - 63, std::uint64_t{whole.size()}}) {
     CHECK_THAT(refusal(nodes, offset), Contains("part 2 of the tree is not as"));
@@ -210,10 +210,10 @@ TEST_CASE("parts that this program has not are refused though every hash is righ
     CHECK_THAT(refusal(nodes + 8, count), Contains("part 2 of the tree is not as"));
   }
   CHECK_THAT(refusal(nodes + 16, sizeof(WideNode) + 64), Contains("part 2 of the tree"));
-  CHECK_THAT(refusal(top + 8, 2), Contains("part 8 of the tree is not as"));
-  CHECK_THAT(refusal(kPartsAt - 8, 11), Contains("part 12 of the tree is not as"));
-  CHECK_THAT(refusal(kPartsAt - 8, 13), Contains("more parts than this program"));
-  CHECK(refusal(kPartsAt - 8, 12) == "");
+  CHECK_THAT(refusal(top + 8, 2), Contains("part 9 of the tree is not as"));
+  CHECK_THAT(refusal(kPartsAt - 8, 12), Contains("part 13 of the tree is not as"));
+  CHECK_THAT(refusal(kPartsAt - 8, 14), Contains("more parts than this program"));
+  CHECK(refusal(kPartsAt - 8, 13) == "");
 }
 
 TEST_CASE("many that write one tree file leave a whole one", "[accel][tree-file]") {

@@ -63,7 +63,8 @@ TEST_CASE("the key of a tree follows everything that a tree depends on",
   keys.insert(HexOf(plain, {.quality = BuildQuality::kFast}));
   keys.insert(HexOf(plain, {.few_triangles = 1}));
   keys.insert(HexOf(plain, {.few_round = 1}));
-  CHECK(keys.size() == 1 + changes.size() + 3);
+  keys.insert(HexOf(plain, {.leaf_triangles = SmallLeaf::kLanes}));
+  CHECK(keys.size() == 1 + changes.size() + 4);
   for (const std::string& key : keys) CHECK(key.size() == 32);
 }
 

@@ -105,8 +105,11 @@ TEST_CASE("trees and the plain loop report the same bits", "[intersect]") {
       const auto rays = RandomRays(random, 2000, 1.5f);
       const auto plain = Trace(MakeScene(geometry), rays);
       for (const auto quality : {BuildQuality::kHigh, BuildQuality::kFast}) {
-        const AccelOptions options = {.few_triangles = 0, .quality = quality};
-        CHECK(Trace(MakeScene(geometry, options), rays) == plain);
+        for (const int leaf : {SmallLeaf::kLanes, TriangleLeaf::kLanes}) {
+          const AccelOptions options = {
+              .few_triangles = 0, .quality = quality, .leaf_triangles = leaf};
+          CHECK(Trace(MakeScene(geometry, options), rays) == plain);
+        }
       }
     };
     for (float edge : {0.02f, 0.5f, 2.0f}) {

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
+#include "kernels/simd/target.h"
 #include "src/compiled/scene.h"
 #include "src/path/stage.h"
 
@@ -53,7 +55,7 @@ inline PlaneRecord MakePlane(Vec3f point, Vec3f normal) {
 
 /// Completes `geometry` (ranges, groups, materials = ids) and builds its acceleration
 /// structures. Instances and groups are kept if there are any.
-inline CompiledScene MakeScene(Geometry geometry, const AccelOptions& options = {}) {
+inline CompiledScene MakeScene(Geometry geometry, const AccelOptions& options) {
   CompiledScene scene;
   const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
   PrimitiveRanges& ranges = geometry.ranges;
@@ -72,6 +74,12 @@ inline CompiledScene MakeScene(Geometry geometry, const AccelOptions& options = 
   scene.geometry = std::move(geometry);
   scene.accel = BuildAccel(scene.geometry, options);
   return scene;
+}
+
+/// The same as a render on the current target does it.
+inline CompiledScene MakeScene(Geometry geometry) {
+  return MakeScene(std::move(geometry),
+                   {.leaf_triangles = LeafTrianglesFor(CurrentLanes())});
 }
 
 struct TestRay {
