@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "kernels/intersect/last_blockers-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
 #include "src/compiled/scene.h"
@@ -47,6 +48,8 @@ class PacketPhase {
   }
 
  private:
+  // Instances have many places for one triangle.
+  static constexpr bool kRemembers = kAny && !kInstances;
   enum class Tree { kWorld, kTop, kInstance };
 
   LANELIGHT_INLINE void Run(Tree tree, uint32_t root, uint32_t at, int32_t* live,
@@ -109,6 +112,10 @@ class PacketPhase {
     // differs between targets, and unused children must not be entered.
     const VF sum = hn::Add(slabs.near[0], hn::Add(slabs.near[1], slabs.near[2]));
     frame->lanes[0] = valid & MaskBits(df, hn::IsFinite(sum));
+    if constexpr (kRemembers) {
+      blockers_.Test(scene_, packet, frame->lanes[0], best);
+      frame->lanes[0] &= ~best.found;
+    }
     frame->open = root != kEmptyRef;
     while (Next(frames, frame)) {
       const int child = std::countr_zero(frame->open);
@@ -129,6 +136,9 @@ class PacketPhase {
       } else {
         TestChildren<kSameSigns>(slabs, best.t, scene_.accel.nodes[ref], lanes, *++frame);
       }
+    }
+    if constexpr (kRemembers) {
+      if (best.blocker != kNoPrimitive) blockers_.Add(best.blocker);
     }
     if (!AtInstance()) StoreHits(best);
   }
@@ -252,7 +262,7 @@ class PacketPhase {
       const auto i = static_cast<uint32_t>(std::countr_zero(lanes));
       const uint32_t to = --rays_.bottom[at_ + i];
       rays_.Refs(at_ + i)[to] = ref;
-      rays_.Entries(at_ + i)[to] = entry[i];
+      if constexpr (!kAny) rays_.Entries(at_ + i)[to] = entry[i];
     }
     return true;
   }
@@ -280,7 +290,8 @@ class PacketPhase {
   StreamRays& rays_;
   Tree tree_ = Tree::kWorld;
   uint32_t at_ = 0, count_ = 0;  // place and number of the rays
-  uint32_t home_ = 0;            // in an instance: their place in the space of the scene
+  LastBlockers<kAlpha> blockers_;
+  uint32_t home_ = 0;  // in an instance: their place in the space of the scene
 };
 
 }  // namespace HWY_NAMESPACE
