@@ -1,5 +1,6 @@
-// The stacks of the single rays of a stream (stream_rays-inl.h), as deep as the tree
-// asks. On the stack of a thread they would need more than some systems give it.
+// The memory of a stream of rays (stream-inl.h): its columns, and the stacks of its
+// single rays, as deep as the tree asks. On the stack of a thread both would need more
+// than some systems give it.
 #pragma once
 
 #include <cstddef>
@@ -42,6 +43,14 @@ inline std::uint32_t* ThreadRayStacks(std::uint32_t words) {
   const std::size_t needed = StackEntries(words) + std::size_t{kStreamRays} * words;
   if (stacks.size() < needed) stacks.resize(needed);
   return stacks.data();
+}
+
+/// This thread's memory for a stream, of at least so many bytes, aligned to cache lines;
+/// as ThreadRayStacks.
+inline void* ThreadStream(std::size_t bytes) {
+  thread_local UntouchedVector<std::byte> memory;
+  if (memory.size() < bytes) memory.resize(bytes);
+  return memory.data();
 }
 
 }  // namespace lanelight

@@ -24,7 +24,7 @@ void ShadowRays(Wave& wave) {
   const Queue all = wave.queue(QueueId::kShadow);
   Queue& kept = wave.queue(QueueId::kShadow);
   kept.size = 0;
-  RayStream<true, kAlpha, kInstances> stream(scene);
+  auto& stream = RayStream<true, kAlpha, kInstances>::OfThread(scene);
   const auto flush = [&]() HWY_ATTR { stream.KeepOpen(kept); };
   const bool few = !kInstances && !scene.accel.few.triangles.empty();
   ForEachBatch(wave, all, [&](const Slots& slots, MF valid) HWY_ATTR {

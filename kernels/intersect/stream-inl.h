@@ -9,6 +9,8 @@
 #endif
 
 #include <algorithm>
+#include <new>
+#include <type_traits>
 
 #include "kernels/intersect/stream_packet-inl.h"
 #include "kernels/intersect/stream_single-inl.h"
@@ -22,11 +24,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <bool kAny, bool kAlpha, bool kInstances>
 class RayStream {
  public:
-  explicit RayStream(const CompiledScene& scene)
-      : bvh_(scene.accel.groups[0]),
-        rays_(std::max(bvh_.depth, kInstances ? scene.accel.top.depth : 0)),
-        packets_(scene, rays_),
-        singles_(scene, rays_) {}
+  /// The stream of this thread, empty: one at a time.
+  static RayStream& OfThread(const CompiledScene& scene) {
+    static_assert(std::is_trivially_destructible_v<RayStream>);
+    return *new (ThreadStream(sizeof(RayStream))) RayStream(scene);
+  }
 
   /// Takes the valid rays of a vector, and hands the stream to done() if it is full.
   template <class Done>
@@ -63,6 +65,12 @@ class RayStream {
   }
 
  private:
+  explicit RayStream(const CompiledScene& scene)
+      : bvh_(scene.accel.groups[0]),
+        rays_(std::max(bvh_.depth, kInstances ? scene.accel.top.depth : 0)),
+        packets_(scene, rays_),
+        singles_(scene, rays_) {}
+
   LANELIGHT_INLINE void Trace() {
     if constexpr (kInstances) {
       std::fill_n(rays_.space, rays_.size, kWorldInstance);

@@ -36,7 +36,7 @@ template <bool kAlpha>
 void IntersectWorld(Wave& wave) {
   const Accel& accel = wave.scene->accel;
   FrustumTrial frustum;
-  RayStream<false, kAlpha, false> stream(*wave.scene);
+  auto& stream = RayStream<false, kAlpha, false>::OfThread(*wave.scene);
   const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
   ForEachBatch(wave, wave.queue(QueueId::kActive),
                [&](const Slots& slots, MF valid) HWY_ATTR {
@@ -60,7 +60,7 @@ void IntersectWorld(Wave& wave) {
 // World and instances, in a stream.
 template <bool kAlpha>
 void IntersectInstanced(Wave& wave) {
-  RayStream<false, kAlpha, true> stream(*wave.scene);
+  auto& stream = RayStream<false, kAlpha, true>::OfThread(*wave.scene);
   const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
   ForEachBatch(wave, wave.queue(QueueId::kActive),
                [&](const Slots& slots, MF valid) HWY_ATTR {
