@@ -38,13 +38,15 @@ class OurBuilder : public Builder {
   AccelOptions options_;
 };
 
-std::vector<std::unique_ptr<Builder>> OurBuilders(const Geometry& geometry) {
+std::vector<std::unique_ptr<Builder>> OurBuilders(const Geometry& geometry,
+                                                  AccelOptions options) {
   std::vector<std::unique_ptr<Builder>> rows;
-  const auto add = [&](const char* name, const AccelOptions& options) {
+  const auto add = [&](const char* name, BuildQuality quality) {
+    options.quality = quality;
     rows.push_back(std::make_unique<OurBuilder>(geometry, name, options));
   };
-  add("ours", {});
-  add("ours fast", {.quality = BuildQuality::kFast});
+  add("ours", BuildQuality::kHigh);
+  add("ours fast", BuildQuality::kFast);
   return rows;
 }
 
@@ -67,8 +69,9 @@ BuildResult Summary(const Mesh& mesh, const Builder& builder,
 }  // namespace
 
 std::vector<BuildResult> BenchBuilds(const Mesh& mesh, const Geometry& geometry,
+                                     const AccelOptions& options,
                                      const std::string& target, bool embree, int repeat) {
-  std::vector<std::unique_ptr<Builder>> builders = OurBuilders(geometry);
+  std::vector<std::unique_ptr<Builder>> builders = OurBuilders(geometry, options);
   if (embree) {
     for (auto& b : EmbreeBuilders(mesh, target)) builders.push_back(std::move(b));
   }

@@ -37,8 +37,10 @@ struct BuildResult {
   double SpeedUp() const { return wall_one / wall_two; }
 };
 
-/// Builds `repeat` times in each way with 1 and with 2 threads, interleaved.
+/// Builds `repeat` times in each way with 1 and with 2 threads, interleaved; ours as
+/// `options` say in all but the quality.
 std::vector<BuildResult> BenchBuilds(const Mesh& mesh, const Geometry& geometry,
+                                     const AccelOptions& options,
                                      const std::string& target, bool embree, int repeat);
 
 void PrintBuildHeader();

@@ -62,8 +62,8 @@ class RayBench {
 void BenchBuild(const Options& o, const std::string& name, nlohmann::json& out) {
   const Mesh mesh = FindMesh(o, name);
   const CompiledScene scene = MakeScene(ToGeometry(mesh), o.Accel());
-  const std::vector<BuildResult> builds =
-      BenchBuilds(mesh, scene.geometry, CurrentTarget(), o.embree, o.compare.repeat);
+  const std::vector<BuildResult> builds = BenchBuilds(
+      mesh, scene.geometry, o.Accel(), CurrentTarget(), o.embree, o.compare.repeat);
   for (const BuildResult& r : builds) PrintBuild(r);
   std::vector<ThreadsResult> threads;
   for (const RaySet& set : MakeRaySets(mesh, scene, o.size)) {
