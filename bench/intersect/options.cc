@@ -91,7 +91,8 @@ void AddOptions(CLI::App& app, Options& o) {
   app.add_option(
          "--leaf", o.leaf,
          "triangles of a leaf that shares vertices; default: what suits the target")
-      ->check(CLI::IsMember({int{SmallLeaf::kLanes}, int{TriangleLeaf::kLanes}}));
+      ->check(CLI::IsMember({int{SmallLeaf::kLanes}, int{TriangleLeaf::kLanes}}))
+      ->excludes("--scene");
   app.add_flag("--open", o.open, "leave the box around the meshes out");
   app.add_flag("--build", o.build,
                "builds instead of rays: time, memory, and 1 against 2 threads");

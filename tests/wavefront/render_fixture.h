@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "kernels/simd/target.h"
 #include "src/core/parallel.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/parse/parse.h"
@@ -34,7 +35,9 @@ struct Rendered {
 inline Rendered RenderDescription(const SceneDescription& description,
                                   const TestRender& t) {
   const ThreadLimit limit(t.threads);
-  CompiledScene scene = PrepareScene(description, t.compile);
+  CompileOptions compile = t.compile;
+  compile.leaf_triangles = LeafTrianglesFor(CurrentLanes());  // as a render does
+  CompiledScene scene = PrepareScene(description, compile);
   Strategy strategy = scene.strategy;
   strategy.points = t.sampler;
   ApplyStrategy(t.strategy, {}, strategy);
