@@ -115,20 +115,19 @@ LANELIGHT_INLINE int FrustumLeaves(const Accel& accel) {
   return 16 * kLeafTriangles / accel.leaf_triangles;
 }
 
-/// Visits the leaves that the packet meets, until no ray wants more, or until there are
-/// more than `max_leaves`: then the result is false, and what was found is a bound.
+/// Visits the leaves of a tree that the packet meets, until no ray wants more, or until
+/// `left`, which counts them down, is negative: then what was found is a bound. `home`
+/// are the rays in the space of the scene.
 template <bool kAny, bool kAlpha>
-LANELIGHT_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
-                                   const PacketBounds& bounds, int max_leaves,
-                                   PacketBest& best) {
+LANELIGHT_INLINE void TraceFrustum(const CompiledScene& scene, const Bvh& bvh,
+                                   const Rays& rays, const PacketBounds& bounds,
+                                   const Rays& home, int& left, PacketBest& best) {
   const DF df;
-  const Bvh& bvh = scene.accel.groups[0];
   const uint32_t all = (1u << hn::Lanes(df)) - 1;
   const AxisOrder order(rays.d);
-  const PacketRays packet =
-      MakePacket(rays, MakeShear(order, rays, bvh.reach), order, all);
+  PacketRays packet = MakePacket(rays, MakeShear(order, rays, bvh.reach), order, all);
+  if constexpr (kAlpha) packet.home = home;
   float bound = LargestLane(best.t);
-  int left = max_leaves;
   Traverse(scene.accel.nodes.data(), bvh.root, MakeFrustum(bounds, bvh), bound,
            [&](uint32_t ref) HWY_ATTR {
              if (--left < 0) return true;
@@ -136,7 +135,17 @@ LANELIGHT_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
              bound = LargestLane(best.t);
              return bound < 0;
            });
-  return left >= 0;
+}
+
+/// Writes the hits of a batch to the columns.
+LANELIGHT_INLINE void StorePacketHits(const PathColumns& path, VI slots,
+                                      const PacketBest& best) {
+  const MF found = MaskOf(DF(), best.found);
+  const VF b1 = hn::Div(best.v, best.det), b2 = hn::Div(best.w, best.det);
+  Scatter(best.t, path.t, slots);
+  Scatter(best.prim, path.prim, slots);
+  Scatter(hn::IfThenElse(found, b1, Gather(path.b1, slots)), path.b1, slots);
+  Scatter(hn::IfThenElse(found, b2, Gather(path.b2, slots)), path.b2, slots);
 }
 
 /// Closest hits of a batch; hits are written to the columns. False if the frustum does
@@ -144,17 +153,13 @@ LANELIGHT_INLINE bool TraceFrustum(const CompiledScene& scene, const Rays& rays,
 template <bool kAlpha>
 LANELIGHT_INLINE bool ClosestFrustum(const Wave& wave, const Rays& rays,
                                      const PacketBounds& bounds, VI slots) {
-  const PathColumns& path = wave.path;
-  PacketBest best = NoHits(rays.t_max, Gather(path.prim, slots));
-  const bool done = TraceFrustum<false, kAlpha>(*wave.scene, rays, bounds,
-                                                FrustumLeaves(wave.scene->accel), best);
-  const MF found = MaskOf(DF(), best.found);
-  const VF b1 = hn::Div(best.v, best.det), b2 = hn::Div(best.w, best.det);
-  Scatter(best.t, path.t, slots);
-  Scatter(best.prim, path.prim, slots);
-  Scatter(hn::IfThenElse(found, b1, Gather(path.b1, slots)), path.b1, slots);
-  Scatter(hn::IfThenElse(found, b2, Gather(path.b2, slots)), path.b2, slots);
-  return done;
+  const Accel& accel = wave.scene->accel;
+  PacketBest best = NoHits(rays.t_max, Gather(wave.path.prim, slots));
+  int left = FrustumLeaves(accel);
+  TraceFrustum<false, kAlpha>(*wave.scene, accel.groups[0], rays, bounds, rays, left,
+                              best);
+  StorePacketHits(wave.path, slots, best);
+  return left >= 0;
 }
 
 /// Which rays of a batch are blocked.
@@ -162,7 +167,9 @@ template <bool kAlpha>
 LANELIGHT_INLINE MF BlockedFrustum(const CompiledScene& scene, const Rays& rays,
                                    const PacketBounds& bounds) {
   PacketBest best = NoHits(rays.t_max, hn::Zero(DI()));
-  TraceFrustum<true, kAlpha>(scene, rays, bounds, std::numeric_limits<int>::max(), best);
+  int left = std::numeric_limits<int>::max();
+  TraceFrustum<true, kAlpha>(scene, scene.accel.groups[0], rays, bounds, rays, left,
+                             best);
   return MaskOf(DF(), best.found);
 }
 

@@ -168,25 +168,15 @@ class PacketPhase {
                                  uint32_t to) {
     const DF df;
     const DI di;
-    const float* entry = scene_.geometry.instances[instance].object_from_scene;
-    VF m[12];
-    for (int k = 0; k < 12; ++k) m[k] = Splat(entry[k]);
-    const Rays rays{MapLanes(m, rays_.Load3(rays_.o, home), true),
-                    MapLanes(m, rays_.Load3(rays_.d, home), false), Splat(0), FromNone()};
+    const Rays rays =
+        MapRays(scene_.geometry.instances[instance], rays_.Load3(rays_.o, home),
+                rays_.Load3(rays_.d, home), hn::LoadU(df, rays_.t + home));
     rays_.SetSlabs(rays.o, rays.d, Splat(group.slack), Splat(group.margin), to);
     rays_.SetShear(rays, group.reach, to);
-    hn::StoreU(hn::LoadU(df, rays_.t + home), df, rays_.t + to);
-    // Between equal primitives the smaller instance is nearer: it meets a larger one.
-    const auto load = [&](const uint32_t* column) HWY_ATTR {
-      return hn::LoadU(di, reinterpret_cast<const int32_t*>(column) + home);
-    };
-    const VI prim = hn::LoadU(di, rays_.prim + home), inst = load(rays_.inst);
-    const auto own = hn::Set(di, static_cast<int32_t>(instance));
-    const auto world = hn::Eq(inst, hn::Set(di, static_cast<int32_t>(kWorldInstance)));
-    const auto larger = hn::Or(world, hn::Lt(own, inst));
-    const auto some = hn::Ne(prim, FromNone());
-    const VI one = hn::IfThenElseZero(hn::And(larger, some), hn::Set(di, 1));
-    hn::StoreU(hn::Add(prim, one), di, rays_.prim + to);
+    hn::StoreU(rays.t_max, df, rays_.t + to);
+    const VI prim = hn::LoadU(di, rays_.prim + home);
+    const VI inst = hn::LoadU(di, reinterpret_cast<const int32_t*>(rays_.inst) + home);
+    hn::StoreU(PrimsToBeat(prim, inst, instance), di, rays_.prim + to);
     hn::StoreU(hn::Zero(di), di, rays_.found + to);
     hn::StoreU(FromNone(), di, reinterpret_cast<int32_t*>(rays_.from) + to);
     if constexpr (kAlpha) home_ = home;

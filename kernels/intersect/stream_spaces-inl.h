@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "kernels/intersect/instance-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
 #include "src/compiled/scene.h"
 
@@ -21,15 +22,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr uint32_t kReturnRef = kEmptyRef - 1;
 /// `space` of a ray in the tree over instances.
 inline constexpr uint32_t kTopSpace = kWorldInstance - 1;
-
-/// Points (w = 1) or directions (w = 0) through the maps of instances, 3x4 row by row.
-LANELIGHT_INLINE V3 MapLanes(const VF m[12], V3 p, bool point) {
-  const auto row = [&](const VF* r) HWY_ATTR {
-    const VF last = hn::Mul(r[2], p.z), end = point ? hn::Add(last, r[3]) : last;
-    return hn::Add(hn::Add(hn::Mul(r[0], p.x), hn::Mul(r[1], p.y)), end);
-  };
-  return {row(m), row(m + 4), row(m + 8)};
-}
 
 /// Moves rays from one space to another. In a space a ray's columns (o, d, slabs, shear)
 /// are those of that space; t is the same in all of them.

@@ -6,8 +6,11 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include <algorithm>
+
 #include "kernels/intersect/few-inl.h"
 #include "kernels/intersect/packet-inl.h"
+#include "kernels/intersect/packet_instances-inl.h"
 #include "kernels/intersect/stream-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
@@ -57,17 +60,28 @@ void IntersectWorld(Wave& wave) {
   if (!stream.empty()) flush();
 }
 
-// World and instances, in a stream.
+// World and instances: through frustums if the rays are nearly the same, else in a
+// stream.
 template <bool kAlpha>
 void IntersectInstanced(Wave& wave) {
+  const Accel& accel = wave.scene->accel;
+  const float reach = std::max(accel.groups[0].reach, accel.top.reach);
+  FrustumTrial frustum;
   auto& stream = RayStream<false, kAlpha, true>::OfThread(*wave.scene);
   const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
-  ForEachBatch(wave, wave.queue(QueueId::kActive),
-               [&](const Slots& slots, MF valid) HWY_ATTR {
-                 Rays rays = LoadRays(wave.path, slots);
-                 rays.from = StartsOf(wave.path, slots, rays.t_max);
-                 stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
-               });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kActive), [&](const Slots& slots, MF valid) HWY_ATTR {
+        Rays rays = LoadRays(wave.path, slots);
+        rays.from = StartsOf(wave.path, slots, rays.t_max);
+        PacketBounds bounds;
+        if (frustum.IsOn() && bounds.Compute(rays) && bounds.IsNarrow(reach)) {
+          const bool done = ClosestFrustumInstanced<kAlpha>(wave, rays, bounds, slots);
+          frustum.Add(done);
+          if (done) return;
+          rays.t_max = Gather(wave.path.t, slots);
+        }
+        stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
+      });
   if (!stream.empty()) flush();
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "src/accel/builder.h"
 #include "src/accel/grow.h"
 #include "src/accel/shape_items.h"
+#include "src/core/parallel.h"
 
 namespace lanelight {
 namespace {
@@ -20,21 +22,102 @@ float RowNorm(const float* m) {
   return norm;
 }
 
-// Box of a transformed box, rounded outwards.
-AccelBox Transformed(const float* m, const AccelBox& box) {
+// Boxes whose union holds the triangles of a group.
+using Hull = std::vector<AccelBox>;
+// Boxes in a hull, and maps of boxes of all instances together, at most.
+constexpr std::size_t kHullBoxes = 384, kHullMaps = std::size_t{1} << 26;
+// Instances that one thread bounds at a time.
+constexpr std::size_t kInstanceGrain = 256;
+
+// The corners of the triangles, as boxes that are points.
+Hull Corners(const Geometry& geometry, Geometry::TriangleGroup group) {
+  Hull hull;
+  for (std::uint32_t id = group.begin; id < group.end; ++id) {
+    const TriangleRecord& triangle = geometry.triangles[id];
+    if (!IsFinite(BoxOf(triangle))) continue;
+    for (const auto& p : triangle.p) {
+      hull.push_back({{p[0], p[1], p[2]}, {p[0], p[1], p[2]}});
+    }
+  }
+  return hull;
+}
+
+// Boxes of the tree, as deep as they are at most `limit`, which is at least one.
+Hull TreeBoxes(const Bvh& bvh, const AccelBox& box, std::size_t limit,
+               const AlignedVector<WideNode>& nodes) {
+  std::vector<std::pair<std::uint32_t, AccelBox>> open = {{bvh.root, box}};
+  Hull hull;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const auto [ref, own] = open[i];
+    const std::size_t left = open.size() - i + hull.size();
+    if ((ref & kLeafBit) || left - 1 + kBvhWidth > limit) {
+      hull.push_back(own);
+      continue;
+    }
+    const WideNode& node = nodes[ref];
+    for (int c = 0; c < kBvhWidth; ++c) {
+      if (node.child[c] == kEmptyRef) continue;
+      AccelBox child;
+      for (int a = 0; a < 3; ++a) {
+        child.lo[a] = node.bounds[a][0][c];
+        child.hi[a] = node.bounds[a][1][c];
+      }
+      open.emplace_back(node.child[c], child);
+    }
+  }
+  return hull;
+}
+
+// What instances of a group are bounded by: a rotated box is up to twice as large as the
+// box of what is in it, and rays enter every instance whose box they meet.
+Hull HullOf(const Geometry& geometry, std::uint32_t group, const Bvh& bvh,
+            const AccelBox& box, const AlignedVector<WideNode>& nodes) {
+  const std::size_t share = kHullMaps / geometry.instances.size();
+  const std::size_t limit = std::clamp(share, std::size_t{1}, kHullBoxes);
+  const Geometry::TriangleGroup range = geometry.groups[group];
+  if (3 * std::size_t{range.end - range.begin} <= limit) return Corners(geometry, range);
+  return TreeBoxes(bvh, box, limit, nodes);
+}
+
+// Box of the transformed boxes, rounded outwards.
+AccelBox Transformed(const float* m, const Hull& hull) {
   AccelBox result;
   for (int r = 0; r < 3; ++r) {
-    double lo = m[4 * r + 3], hi = lo;
-    for (int c = 0; c < 3; ++c) {
-      const double a = double{m[4 * r + c]} * box.lo[c];
-      const double b = double{m[4 * r + c]} * box.hi[c];
-      lo += std::min(a, b);
-      hi += std::max(a, b);
+    double least = INFINITY, largest = -INFINITY;
+    for (const AccelBox& box : hull) {
+      double lo = m[4 * r + 3], hi = lo;
+      for (int c = 0; c < 3; ++c) {
+        const double a = double{m[4 * r + c]} * box.lo[c];
+        const double b = double{m[4 * r + c]} * box.hi[c];
+        lo += std::min(a, b);
+        hi += std::max(a, b);
+      }
+      least = std::min(least, lo);
+      largest = std::max(largest, hi);
     }
-    result.lo[r] = std::nextafter(static_cast<float>(lo), -INFINITY);
-    result.hi[r] = std::nextafter(static_cast<float>(hi), INFINITY);
+    result.lo[r] = std::nextafter(static_cast<float>(least), -INFINITY);
+    result.hi[r] = std::nextafter(static_cast<float>(largest), INFINITY);
   }
   return result;
+}
+
+std::vector<AccelBox> InstanceBoxes(const Geometry& geometry,
+                                    const std::vector<AccelBox>& group_boxes,
+                                    const std::vector<Bvh>& groups,
+                                    const AlignedVector<WideNode>& nodes) {
+  std::vector<Hull> hulls(groups.size());
+  for (const std::uint32_t group : geometry.instance_group) {
+    if (groups[group].root == kEmptyRef || !hulls[group].empty()) continue;
+    hulls[group] = HullOf(geometry, group, groups[group], group_boxes[group], nodes);
+  }
+  std::vector<AccelBox> boxes(geometry.instances.size());
+  ParallelForRange(boxes.size(), kInstanceGrain, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      boxes[i] = Transformed(geometry.instances[i].scene_from_object,
+                             hulls[geometry.instance_group[i]]);
+    }
+  });
+  return boxes;
 }
 
 }  // namespace
@@ -46,16 +129,16 @@ AccelBox Transformed(const float* m, const AccelBox& box) {
 // 2^-24. The slack of the top level covers that, with norms for the matrices.
 Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
              const std::vector<Bvh>& groups, AlignedVector<WideNode>& nodes) {
+  const std::vector<AccelBox> boxes = InstanceBoxes(geometry, group_boxes, groups, nodes);
   std::vector<BuildItem> items;
   float linear = 1, constant = 0;
   int deepest = 0;
   for (std::uint32_t i = 0; i < geometry.instances.size(); ++i) {
     const std::uint32_t group = geometry.instance_group[i];
     if (groups[group].root == kEmptyRef) continue;
+    if (!IsFinite(boxes[i])) continue;
+    items.push_back({boxes[i], i});
     const InstanceRecord& record = geometry.instances[i];
-    BuildItem item{Transformed(record.scene_from_object, group_boxes[group]), i};
-    if (!IsFinite(item.box)) continue;
-    items.push_back(item);
     const float* m = record.object_from_scene;
     const float translation = std::max({std::abs(m[3]), std::abs(m[7]), std::abs(m[11])});
     const float to_scene = RowNorm(record.scene_from_object);

@@ -1,6 +1,7 @@
 // Instances: the same hits as the flattened scene, ties, nested trees of every size.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "kernels/simd/target.h"
 #include "kernels/surface/stages.h"
@@ -121,9 +122,13 @@ TEST_CASE("instances give the hits of the flattened scene", "[intersect]") {
 
 namespace {
 
-// A scene whose instances overlap, some of them twice in the same place, over an object
-// with a deep tree; half of its triangles are cut out half.
-CompiledScene Crowd(Random& random) {
+// Instances in the same place as one before them, which is the nearer one.
+using Copies = std::set<std::uint32_t>;
+
+// A scene whose instances overlap, some of them twice in the same place, or so often that
+// no node holds them all, over an object with a deep tree; half of its triangles are cut
+// out half.
+CompiledScene Crowd(Random& random, Copies& copies) {
   Geometry g = MakePair(random, 40).instanced;
   const Geometry object = brute::Soup(random, 4000, 0.5f, 0.05f);
   const auto begin = static_cast<std::uint32_t>(g.triangles.size());
@@ -132,9 +137,12 @@ CompiledScene Crowd(Random& random) {
   for (int i = 0; i < 60; ++i) {
     const Transform t = Transform::Translate(ToDouble(random.Point(2))) *
                         Transform::Rotate(random(0, 360), ToDouble(random.Direction()));
-    for (int twice = 0; twice < 1 + i % 2; ++twice) {
+    const bool often = i % 3 == 0;
+    const int places = often ? kBvhWidth + 4 : 1 + i % 2;
+    for (int k = 0; k < places; ++k) {
+      if (k > 0) copies.insert(static_cast<std::uint32_t>(g.instances.size()));
       g.instances.push_back(MakeInstance(t));
-      g.instance_group.push_back(3);
+      g.instance_group.push_back(often ? 1 : 3);
     }
   }
   for (std::size_t i = 0; i < g.triangles.size(); i += 2) {
@@ -153,13 +161,14 @@ TEST_CASE("a hit on an instance does not depend on the company of its ray",
   // Alone a ray enters instances by itself; with others like it in a vector. Ties between
   // coincident instances and cut-outs are decided alike.
   Random random(43);
-  const CompiledScene scene = Crowd(random);
+  Copies copies;
+  const CompiledScene scene = Crowd(random, copies);
   std::vector<TestRay> rays;
   for (int i = 0; i < 300; ++i) rays.push_back({random.Point(2), random.Direction()});
   for (const float width : {0.3f, 0.1f, 0.01f}) {
     for (int i = 0; i < 300; ++i) {
       rays.push_back(
-          {{4.0f, 0.1f, 0.2f}, Normalize(Vec3f{-1, 0, 0} + width * random.Point(1))});
+          {{4, 0.1f, 0.2f}, Normalize(Vec3f{-1, 0.1f, 0.1f} + width * random.Point(1))});
     }
   }
   FeatureSet cut_out = kInstanced;
@@ -173,6 +182,8 @@ TEST_CASE("a hit on an instance does not depend on the company of its ray",
       const auto hits =
           std::ranges::count_if(together, [](const auto& h) { return !std::isinf(h.t); });
       CHECK(hits > 500);
+      CHECK(std::ranges::none_of(together,
+                                 [&](const auto& h) { return copies.contains(h.inst); }));
       std::vector<std::uint32_t> expected;
       for (std::uint32_t i = 0; i < rays.size(); ++i) {
         if (std::isinf(together[i].t)) expected.push_back(i);
@@ -188,6 +199,41 @@ TEST_CASE("a hit on an instance does not depend on the company of its ray",
         }
         CHECK(apart == together);
       }
+    }
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("between equal hits the smaller instance is nearer", "[intersect]") {
+  // Stretched along z by a power of two an object keeps its triangle at z = 0, and the
+  // hits on it their bits; the other triangle has the stretched one's box met first.
+  Geometry g;
+  g.groups = {{0, 0}, {0, 2}};
+  g.triangles.resize(2);
+  const float flat[3][3] = {{-2, -2, 0}, {2, -2, 0}, {0, 3, 0}};
+  const float ahead[3][3] = {{1.5f, 1, 1}, {1.6f, 1, 1}, {1.5f, 1.1f, 1}};
+  std::copy_n(&flat[0][0], 9, &g.triangles[0].p[0][0]);
+  std::copy_n(&ahead[0][0], 9, &g.triangles[1].p[0][0]);
+  for (const int scale : {1, 2, 4, 1}) {
+    g.instances.push_back(MakeInstance(Transform::Scale({1, 1, double(scale)})));
+    g.instance_group.push_back(1);
+  }
+  const CompiledScene scene = MakeScene(g);
+  Random random(45);
+  std::vector<TestRay> rays;
+  for (const float width : {0.01f, 0.3f}) {
+    for (int i = 0; i < 64; ++i) {
+      rays.push_back({{0.1f, 0.2f, 9},
+                      Normalize(Vec3f{0.02f, 0.03f, -1} + width * random.Point(1))});
+    }
+  }
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    CAPTURE(target);
+    for (const KernelHit& hit :
+         TraceClosest(scene, rays, {IntersectTrianglesStage()}, kInstanced)) {
+      REQUIRE(hit.prim == 0);
+      REQUIRE(hit.inst == 0);
     }
   }
   ForceTarget("");

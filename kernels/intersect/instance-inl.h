@@ -1,0 +1,49 @@
+// Rays in the spaces of instances. Distances are the same in all spaces, so that a hit in
+// one culls in all.
+#if defined(LANELIGHT_INTERSECT_INSTANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_INSTANCE_INL_H_
+#undef LANELIGHT_INTERSECT_INSTANCE_INL_H_
+#else
+#define LANELIGHT_INTERSECT_INSTANCE_INL_H_
+#endif
+
+#include "kernels/intersect/rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Points (w = 1) or directions (w = 0) through the maps of instances, 3x4 row by row.
+LANELIGHT_INLINE V3 MapLanes(const VF m[12], V3 p, bool point) {
+  const auto row = [&](const VF* r) HWY_ATTR {
+    const VF last = hn::Mul(r[2], p.z), end = point ? hn::Add(last, r[3]) : last;
+    return hn::Add(hn::Add(hn::Mul(r[0], p.x), hn::Mul(r[1], p.y)), end);
+  };
+  return {row(m), row(m + 4), row(m + 8)};
+}
+
+/// Rays of the scene's space, and the distances to beat, in the space of an instance.
+LANELIGHT_INLINE Rays MapRays(const InstanceRecord& instance, V3 o, V3 d, VF t) {
+  VF m[12];
+  for (int k = 0; k < 12; ++k) m[k] = Splat(instance.object_from_scene[k]);
+  return {MapLanes(m, o, true), MapLanes(m, d, false), t, FromNone()};
+}
+
+/// The primitives that those of an instance must be smaller than at equal distances,
+/// where (prim, inst) are the hits so far: between equal primitives the smaller instance
+/// is nearer.
+LANELIGHT_INLINE VI PrimsToBeat(VI prim, VI inst, uint32_t instance) {
+  const DI di;
+  const auto own = hn::Set(di, static_cast<int32_t>(instance));
+  const auto world = hn::Eq(inst, hn::Set(di, static_cast<int32_t>(kWorldInstance)));
+  const auto larger = hn::Or(world, hn::Lt(own, inst));
+  const auto some = hn::Ne(prim, FromNone());
+  return hn::Add(prim, hn::IfThenElseZero(hn::And(larger, some), hn::Set(di, 1)));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,89 @@
+// A vector of coherent rays through the world and instances: a frustum in each space.
+#if defined(LANELIGHT_INTERSECT_PACKET_INSTANCES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_PACKET_INSTANCES_INL_H_
+#undef LANELIGHT_INTERSECT_PACKET_INSTANCES_INL_H_
+#else
+#define LANELIGHT_INTERSECT_PACKET_INSTANCES_INL_H_
+#endif
+
+#include "kernels/intersect/instance-inl.h"
+#include "kernels/intersect/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The hits of a packet so far, and the instances that they are on.
+struct InstancedBest {
+  PacketBest hit;
+  VI inst;
+
+  /// Takes those that were found in an instance.
+  LANELIGHT_INLINE void Take(const PacketBest& own, uint32_t instance) {
+    const DI di;
+    const MF mask = MaskOf(DF(), own.found);
+    const auto lanes = hn::RebindMask(di, mask);
+    hit.found |= own.found;
+    hit.t = hn::IfThenElse(mask, own.t, hit.t);
+    hit.prim = hn::IfThenElse(lanes, own.prim, hit.prim);
+    hit.v = hn::IfThenElse(mask, own.v, hit.v);
+    hit.w = hn::IfThenElse(mask, own.w, hit.w);
+    hit.det = hn::IfThenElse(mask, own.det, hit.det);
+    inst = hn::IfThenElse(lanes, hn::Set(di, static_cast<int32_t>(instance)), inst);
+  }
+};
+
+/// Traces a packet through an instance as TraceFrustum does. There, too, its rays must
+/// agree in the signs of their directions: if they do not, `left` becomes negative.
+template <bool kAlpha>
+HWY_NOINLINE void TraceInstance(const CompiledScene& scene, const Rays& rays,
+                                uint32_t instance, int& left, InstancedBest& best) {
+  const Geometry& geometry = scene.geometry;
+  const Rays own = MapRays(geometry.instances[instance], rays.o, rays.d, best.hit.t);
+  PacketBounds bounds;
+  if (!bounds.Compute(own)) {
+    left = -1;
+    return;
+  }
+  PacketBest hit = NoHits(best.hit.t, PrimsToBeat(best.hit.prim, best.inst, instance));
+  TraceFrustum<false, kAlpha>(scene,
+                              scene.accel.groups[geometry.instance_group[instance]], own,
+                              bounds, rays, left, hit);
+  best.Take(hit, instance);
+}
+
+/// As ClosestFrustum, in scenes with instances.
+template <bool kAlpha>
+LANELIGHT_INLINE bool ClosestFrustumInstanced(const Wave& wave, const Rays& rays,
+                                              const PacketBounds& bounds, VI slots) {
+  const CompiledScene& scene = *wave.scene;
+  const Accel& accel = scene.accel;
+  InstancedBest best = {NoHits(rays.t_max, Gather(wave.path.prim, slots)),
+                        hn::Set(DI(), static_cast<int32_t>(kWorldInstance))};
+  int left = FrustumLeaves(accel);
+  if (accel.groups[0].root != kEmptyRef) {
+    TraceFrustum<false, kAlpha>(scene, accel.groups[0], rays, bounds, rays, left,
+                                best.hit);
+  }
+  float bound = LargestLane(best.hit.t);
+  if (left >= 0) {
+    Traverse(accel.nodes.data(), accel.top.root, MakeFrustum(bounds, accel.top), bound,
+             [&](uint32_t instance) HWY_ATTR {
+               TraceInstance<kAlpha>(scene, rays, instance, left, best);
+               bound = LargestLane(best.hit.t);
+               return left < 0;
+             });
+  }
+  StorePacketHits(wave.path, slots, best.hit);
+  const auto found = hn::RebindMask(DI(), MaskOf(DF(), best.hit.found));
+  Scatter(hn::IfThenElse(found, best.inst, Gather(wave.path.inst, slots)), wave.path.inst,
+          slots);
+  return left >= 0;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif
