@@ -32,7 +32,8 @@ install(CODE [[
   file(INSTALL "${extras}/zsh/_lanelight" TYPE FILE
        DESTINATION "${CMAKE_INSTALL_PREFIX}/${share}/zsh/${folder}")]])
 install(DIRECTORY scenes/ DESTINATION ${SHARE}/lanelight/scenes
-  FILES_MATCHING PATTERN "*.pbrt" PATTERN "*.tga" PATTERN sweep.toml PATTERN stiff EXCLUDE)
+  FILES_MATCHING PATTERN "*.pbrt" PATTERN "*.tga" PATTERN sweep.toml PATTERN stiff EXCLUDE
+  PATTERN model EXCLUDE)
 install(FILES README.md CHANGELOG.md LICENSE packaging/copyright
   DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
