@@ -154,6 +154,45 @@ TEST_CASE("own scenes: generated meshes can be read", "[scenes]") {
   fs::remove_all(folder);
 }
 
+TEST_CASE("own scenes: the generated kitchen is many meshes, the same each time",
+          "[scenes]") {
+  if (std::system("python3 --version > /dev/null 2>&1") != 0) {
+    WARN("skipped: no python3");
+    return;
+  }
+  const fs::path folder = fs::temp_directory_path() / "lanelight_kitchen_test";
+  fs::remove_all(folder);
+  const std::string script =
+      std::string("python3 ") + LANELIGHT_SOURCE_DIR + "/scenes/generate kitchen ";
+  for (const char* out : {"first", "second"}) {
+    REQUIRE(std::system(
+                (script + "--out " + (folder / out).string() + " > /dev/null").c_str()) ==
+            0);
+  }
+  const fs::path first = folder / "first" / "kitchen";
+  const fs::path second = folder / "second" / "kitchen";
+  for (const auto& entry : fs::recursive_directory_iterator(first)) {
+    if (!entry.is_regular_file()) continue;
+    INFO(entry.path());
+    CHECK(ReadText(entry.path()) == ReadText(second / fs::relative(entry.path(), first)));
+  }
+  const SceneDescription scene = ParseScene((first / "kitchen.pbrt").string());
+  for (const Note& note : scene.notes) {
+    INFO(note.where.ToString() << ": " << note.message);
+    CHECK(note.message.find("savefp16") != std::string::npos);
+  }
+  // 400 meshes; the bulb, the strip and the door are the other shapes.
+  CHECK(scene.shapes.size() == 403);
+  const FeatureSet features = PrepareScene(scene).features;
+  CHECK(features.HasAll({Feature::kVertexNormals, Feature::kPortals,
+                         Feature::kDistantLights, Feature::kRectangleLights,
+                         Feature::kSphereLights, Feature::kConductorRough,
+                         Feature::kDielectricSmooth, Feature::kDiffuseTransmission}));
+  CHECK_FALSE(features.Has(Feature::kInstances));
+  CHECK(std::system((script + "--size 300 2> /dev/null").c_str()) != 0);
+  fs::remove_all(folder);
+}
+
 TEST_CASE("own scenes: images are what scenes/parts/maps writes", "[scenes]") {
   if (std::system("python3 --version > /dev/null 2>&1") != 0) {
     WARN("skipped: no python3");
