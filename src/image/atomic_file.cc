@@ -100,6 +100,18 @@ std::string TemporaryStart(const std::string& path) {
   return path.substr(0, end);
 }
 
+bool IsTemporaryOf(const std::string& name, const std::string& start) {
+  constexpr std::string_view kEnd = ".tmp";
+  if (!name.starts_with(start + ".") || !name.ends_with(kEnd)) return false;
+  if (name.size() <= start.size() + 1 + kEnd.size()) return false;
+  const std::string middle =
+      name.substr(start.size() + 1, name.size() - start.size() - 1 - kEnd.size());
+  const std::size_t dot = middle.find('.');
+  return dot != middle.npos && dot > 0 && dot + 1 < middle.size() &&
+         middle.find_first_not_of("0123456789", dot + 1) == middle.npos &&
+         middle.find_first_not_of("0123456789") == dot;
+}
+
 void WriteFileAtomically(const std::string& path, std::string_view content) {
   if (IsSpecialFile(path)) return WriteInPlace(path, content);
   WriteAndRename(path, {content}, true);

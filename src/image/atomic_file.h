@@ -21,6 +21,9 @@ void WriteCacheFile(const std::string& path, const std::vector<std::string_view>
 /// What the names of its temporary files begin with, before ".<digits>.<digits>.tmp":
 /// `path`, or as much of it as leaves room for that.
 std::string TemporaryStart(const std::string& path);
+/// Whether `name` is one that a temporary file of `start` may have, which is of
+/// TemporaryStart.
+bool IsTemporaryOf(const std::string& name, const std::string& start);
 
 /// Throws InputError with the system's reason if WriteFileAtomically could not even
 /// begin: no temporary file can be created beside `path`. Leaves nothing behind.

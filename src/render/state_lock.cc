@@ -20,19 +20,6 @@ std::string WhoAmI() {
   return fmt::format("process {} on {}", getpid(), host);
 }
 
-// "FILE.<digits>.<digits>.tmp", as src/image/atomic_file.h names what it writes.
-bool IsTemporaryOf(const std::string& name, const std::string& file) {
-  constexpr std::string_view kEnd = ".tmp";
-  if (!name.starts_with(file + ".") || !name.ends_with(kEnd)) return false;
-  if (name.size() <= file.size() + 1 + kEnd.size()) return false;
-  const std::string middle =
-      name.substr(file.size() + 1, name.size() - file.size() - 1 - kEnd.size());
-  const std::size_t dot = middle.find('.');
-  return dot != middle.npos && dot > 0 && dot + 1 < middle.size() &&
-         middle.find_first_not_of("0123456789", dot + 1) == middle.npos &&
-         middle.find_first_not_of("0123456789") == dot;
-}
-
 // Only who keeps a state writes it: with the lock, nobody is at work on these.
 void RemoveTemporaries(const fs::path& state) {
   std::error_code ignored;

@@ -31,6 +31,10 @@ struct ProcessOptions {
 ProcessResult RunLanelight(const std::vector<std::string>& arguments,
                            const ProcessOptions& options = {});
 
+/// For ProcessOptions::prepare: file locks (F_OFD_SETLK) fail as they do on a file system
+/// that has none.
+void ForbidLocks();
+
 /// A directory that disappears with the object.
 class TempDirectory {
  public:

@@ -1,16 +1,13 @@
 // study.json as tests compare it.
 #pragma once
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <string>
+
+#include "tests/support/json.h"
 
 namespace lanelight {
 
-inline nlohmann::json ReadJson(const std::string& path) {
-  std::ifstream in(path);
-  return nlohmann::json::parse(in);
-}
+using test::ReadJson;
 
 /// Removes seconds, and what is computed from them.
 inline void RemoveTimings(nlohmann::json& json) {

@@ -1,10 +1,5 @@
 // `lanelight sweep` where its directory does not behave.
 #include <catch2/catch.hpp>
-#include <fcntl.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
-#include <sys/prctl.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "src/cli/exit_codes.h"
@@ -67,20 +62,7 @@ TEST_CASE("sweep: a file system without locks needs parts", "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";
   ProcessOptions options;
-  // fcntl(F_OFD_SETLK) fails as it does there.
-  options.prepare = [] {
-    sock_filter code[] = {
-        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
-        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_fcntl, 0, 3),
-        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args[1])),
-        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, F_OFD_SETLK, 0, 1),
-        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOLCK),
-        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
-    };
-    const sock_fprog program = {sizeof(code) / sizeof(code[0]), code};
-    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) _exit(126);
-    if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0) _exit(126);
-  };
+  options.prepare = ForbidLocks;
   const ProcessResult r = Sweep(file, out, {}, options);
   CHECK(r.exit_code == kExitBadInput);
   CHECK_THAT(r.err, Contains("has no locks") && Contains("--part I/N"));
