@@ -2,9 +2,10 @@
 # translates every instruction: what takes a second otherwise takes half a minute.
 
 # QEMU keeps no limit on address space (setrlimit), which the first sets, and no filter of
-# system calls (seccomp), which the second does; the others want to see what a render has
+# system calls (seccomp), which the next two do; the others want to see what a render has
 # done in 0.2 s, and a pilot in 2.5 s.
-set(unable cli/lost_renders_test sweep/directory_test wavefront/put_down_test cli/advise_test)
+set(unable cli/lost_renders_test sweep/directory_test cli/build_cache_turn_test
+  wavefront/put_down_test cli/advise_test)
 # Scripts that start the program themselves, or preload a library into it.
 list(APPEND unable cases_run_once cli/completion failures/kill failures/disk failures/foreign)
 # Nothing of them runs on ARM.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/accel/accel.h"
+#include "src/accel/tree_folder.h"
 #include "src/accel/tree_key.h"
 
 namespace lanelight {
@@ -18,7 +19,7 @@ struct KnownTree {
 
 /// Where to look for a tree before it is built.
 struct TreeSource {
-  std::string directory;                   // of tree files, to be filled; empty: none
+  TreeFolder folder;                       // of tree files, to be filled
   std::shared_ptr<const KnownTree> known;  // may be null
 };
 
@@ -28,7 +29,7 @@ const char* Name(TreeOrigin origin);
 
 struct TreeReport {
   TreeOrigin origin = TreeOrigin::kBuilt;
-  double seconds = 0;     // finding or building, the hash of the shapes included
+  double seconds = 0;     // finding or building, hashing the shapes and waiting included
   std::size_t bytes = 0;  // of the tree
 };
 
@@ -39,9 +40,13 @@ struct FoundTree {
   std::vector<std::string> problems;
 };
 
-/// The tree of `known` if it is of the same shapes; else of directory/KEY.tree; else
-/// BuildAccel's, which is written there. The directory is made if it is missing. Whatever
-/// is wrong with it or the file costs the time of building and is told in `problems`.
+/// The tree of `known` if it is of the same shapes; else of the folder's file; else
+/// BuildAccel's, which is written there, and then files that are too many go
+/// (PruneTrees). Of processes that come at the same time one builds, and the others wait
+/// for its file (TreeTurn): 10 s and 20 us for each shape at most, several times as long
+/// as building takes. The folder is made if it is missing. Whatever is wrong with it or
+/// the file costs the time of building and is told in `problems`. Throws Interrupted if
+/// folder.stop ends waiting.
 FoundTree FindTree(const Geometry& geometry, const AccelOptions& options,
                    const TreeSource& source);
 

@@ -73,6 +73,7 @@ int RunAdvise(AdviseCommandOptions& options) {
   const ThreadLimit threads(options.scene.threads);
   CheckOutputs(options.outputs, options.scene.scene);
   options.scene.settings.seconds = options.seconds;
+  if (options.outputs.quiet) options.scene.settings.trees.folder.on_wait = nullptr;
   Job job = PrepareJob(options.scene.scene, options.scene.settings);
   CheckOutputs(options.outputs, job);
   if (!options.outputs.quiet) PrintNotes(job);

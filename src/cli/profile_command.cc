@@ -63,7 +63,9 @@ int Profile(const ProfileCommandOptions& options) {
   const ThreadLimit threads(options.scene.threads);
   const std::string& scene = options.scene.scene;
   CheckOutputPaths({options.json, options.trace}, scene);
-  const Job job = PrepareJob(scene, options.scene.settings);
+  RenderSettings settings = options.scene.settings;
+  if (options.quiet) settings.trees.folder.on_wait = nullptr;
+  const Job job = PrepareJob(scene, settings);
   CheckInputsAreSpared({options.json, options.trace}, job.files);
   if (!options.quiet) PrintNotes(job);
   const Peaks peaks = MeasurePeaks(true);

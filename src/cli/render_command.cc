@@ -50,6 +50,7 @@ int Render(const RenderCommandOptions& options, Crew& crew) {
   if (crew.leads()) CheckOutputs(options.outputs, options.scene.scene);
   RenderSettings settings = options.scene.settings;
   settings.decision = DecisionFor(options, crew);
+  if (options.outputs.quiet) settings.trees.folder.on_wait = nullptr;
   if (!crew.leads()) return Serve(options, settings, crew);
   const Job job = PrepareJob(options.scene.scene, settings);
   CheckOutputs(options.outputs, job);

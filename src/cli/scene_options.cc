@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/simd/target.h"
+#include "src/cli/console.h"
 #include "src/cli/validators.h"
 #include "src/image/image.h"
 
@@ -134,16 +135,25 @@ void AddTransportOptions(CLI::App& command, RenderSettings& s) {
                             "Model of all diffuse materials");
 }
 
-void AddBuildCacheOption(CLI::App& command, std::string& directory) {
+void AddBuildCacheOptions(CLI::App& command, TreeFolder& folder) {
+  folder.on_wait = PrintError;
+  CLI::Option* directory =
+      command
+          .add_option(
+              "--build-cache", folder.path,
+              "Keep the trees over shapes in files here, and map those that are there "
+              "instead of building")
+          ->check([](const std::string& text) {
+            return text.empty() ? std::string("a directory has a name") : std::string();
+          })
+          ->type_name("DIR");
   command
-      .add_option(
-          "--build-cache", directory,
-          "Keep the trees over shapes in files here, and map those that are there "
-          "instead of building")
-      ->check([](const std::string& text) {
-        return text.empty() ? std::string("a directory has a name") : std::string();
-      })
-      ->type_name("DIR");
+      .add_option("--build-cache-size", folder.most_bytes,
+                  "Most that these files take together, without: 10GB; those that were "
+                  "used least recently go. 0: any number")
+      ->transform(ByteSize())
+      ->type_name("SIZE")
+      ->needs(directory);
 }
 
 void AddExecutionOptions(CLI::App& command, SceneOptions& options) {
@@ -156,7 +166,7 @@ void AddExecutionOptions(CLI::App& command, SceneOptions& options) {
       command, "--build", options.settings.build,
       {{"fast", BuildQuality::kFast}, {"high", BuildQuality::kHigh}},
       "How to build the trees over shapes, in less time or for faster rays");
-  AddBuildCacheOption(command, options.settings.trees.directory);
+  AddBuildCacheOptions(command, options.settings.trees.folder);
   command.add_option("--threads", options.threads, "Threads; 0 = all cores")
       ->check(CLI::Range(0, 1024).description(""))
       ->type_name("T");
@@ -200,8 +210,11 @@ std::string FlagsText(const SceneOptions& options) {
   if (s.build) {
     text += s.build == BuildQuality::kFast ? " --build fast" : " --build high";
   }
-  if (const std::string& folder = s.trees.directory; !folder.empty()) {
-    text += " --build-cache " + ShellWord(folder);
+  if (const TreeFolder& folder = s.trees.folder; !folder.path.empty()) {
+    text += " --build-cache " + ShellWord(folder.path);
+    if (folder.most_bytes != kTreeFolderBytes) {
+      text += fmt::format(" --build-cache-size {}", folder.most_bytes);
+    }
   }
   if (s.wavefront > 0) text += fmt::format(" --wavefront {}", s.wavefront);
   if (options.threads > 0) text += fmt::format(" --threads {}", options.threads);

@@ -19,7 +19,8 @@ struct SceneOptions {
 void AddWindowOptions(CLI::App& command, RenderSettings& settings);
 void AddSeedOption(CLI::App& command, RenderSettings& settings);
 void AddTransportOptions(CLI::App& command, RenderSettings& settings);
-void AddBuildCacheOption(CLI::App& command, std::string& directory);
+/// What is waited for is printed, unless folder.on_wait is set otherwise.
+void AddBuildCacheOptions(CLI::App& command, TreeFolder& folder);
 void AddExecutionOptions(CLI::App& command, SceneOptions& options);
 
 /// These, the scene itself, the strategy and --aov.

@@ -91,8 +91,9 @@ void PrintSummary(const SweepOutcome& o, const SweepOptions& options) {
   Print(fmt::format("{0}\n{1}/sweep.csv, {1}/report.html\n", text, options.out));
 }
 
-int DryRun(const Sweep& sweep, const SweepCommandOptions& options) {
+int DryRun(const Sweep& sweep, SweepCommandOptions& options) {
   const InterruptGuard interrupt("\nstopping\n");
+  options.sweep.build_cache.stop = &interrupt.stop();
   Print(PredictionText(sweep, Predict(sweep, options.sweep.out, options.pilots,
                                       interrupt.stop(), options.sweep.build_cache)));
   return interrupt.stop() ? kExitInterrupted : kExitGood;
@@ -100,6 +101,8 @@ int DryRun(const Sweep& sweep, const SweepCommandOptions& options) {
 
 int RunSweepCommand(SweepCommandOptions& options) {
   const Sweep sweep = ReadSweep(options.file);
+  TreeFolder& trees = options.sweep.build_cache;
+  if (options.quiet) trees.on_wait = nullptr;
   if (options.dry_run) return DryRun(sweep, options);
   SweepProgressPrinter progress(ChooseProgressStyle(options.quiet));
   const InterruptGuard interrupt(
@@ -109,6 +112,8 @@ int RunSweepCommand(SweepCommandOptions& options) {
   hooks.on_progress = [&](const SweepProgress& p) { progress.Update(p); };
   hooks.on_problem = [&](const std::string& text) { progress.Say(text); };
   hooks.stop = &interrupt.stop();
+  trees.stop = hooks.stop;
+  if (trees.on_wait) trees.on_wait = hooks.on_problem;
   const SweepOutcome outcome = RunSweep(sweep, options.sweep, hooks);
   progress.Finish();
   PrintOutcome(outcome, options.sweep);
@@ -144,7 +149,7 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
       ->required()
       ->type_name("DIR");
   AddSharingOptions(*command, *options);
-  AddBuildCacheOption(*command, options->sweep.build_cache);
+  AddBuildCacheOptions(*command, options->sweep.build_cache);
   CLI::Option* dry = command->add_flag(
       "--dry-run", options->dry_run,
       "Print the cells, and the time and space they will take, and render none");

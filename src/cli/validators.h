@@ -37,4 +37,28 @@ inline CLI::Validator SeedRange() {
       "");
 }
 
+/// Bytes, with a unit or without, e.g. 10GB or 16GiB: the text becomes their number.
+/// (CLI11's reads 010 as 8, -1 as the largest number, and speaks of types.)
+inline CLI::Validator ByteSize() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::uint64_t count = 0;
+        const char* const end = text.data() + text.size();
+        const auto [unit, error] = std::from_chars(text.data(), end, count);
+        std::string bytes = std::to_string(count) + std::string(unit, end);
+        try {
+          if (error == std::errc() && CLI::AsSizeValue(true)(bytes).empty()) {
+            text = bytes;
+            return std::string();
+          }
+        } catch (const CLI::ValidationError&) {  // an unknown unit, too much
+        }
+        return fmt::format(
+            "'{}' is not a size: a whole number and a unit, below 16EiB, e.g. 500MB, "
+            "10GB or 16GiB",
+            text);
+      },
+      "");
+}
+
 }  // namespace lanelight

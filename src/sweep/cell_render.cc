@@ -56,7 +56,7 @@ bool CellRenderer::HasTarget(const SweepCell& cell) {
 
 // Leaves no job, and failure_, if that is not possible.
 void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
-  settings.trees.directory = build_cache_;
+  settings.trees.folder = build_cache_;
   const std::string trees = TreeKeyOf(cell.values);
   if (job_ && trees == tree_key_) settings.trees.known = TreesOf(job_->scene);
   tree_key_ = trees;

@@ -18,12 +18,12 @@ namespace lanelight {
 class CellRenderer {
  public:
   /// `sweep` must outlive the object. Trees over shapes are looked for in `build_cache`,
-  /// a directory, if that is not empty (src/accel/tree_source.h).
-  explicit CellRenderer(const Sweep& sweep, std::string build_cache = {})
+  /// if that has a path (src/accel/tree_source.h).
+  explicit CellRenderer(const Sweep& sweep, TreeFolder build_cache = {})
       : sweep_(sweep), build_cache_(std::move(build_cache)) {}
 
   /// The scene as the cell wants it, its strategy and amount set. Refers to this object,
-  /// until the next call. Throws InputError.
+  /// until the next call. Throws InputError, and Interrupted as FindTree does.
   Job& Prepare(const SweepCell& cell);
 
   /// Renders into image.exr (and image.png) of `folder`, an existing directory. The
@@ -42,7 +42,7 @@ class CellRenderer {
   void Compile(const SweepCell& cell, RenderSettings settings);
 
   const Sweep& sweep_;
-  std::string build_cache_;
+  TreeFolder build_cache_;
   std::optional<Job> job_;
   std::string key_, failure_;  // of job_; why there is none
   std::string tree_key_;       // of its trees, as far as cells tell

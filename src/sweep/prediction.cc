@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "src/core/interrupted.h"
 #include "src/core/parallel.h"
 #include "src/sweep/cell_render.h"
 #include "src/sweep/pilot.h"
@@ -31,7 +32,7 @@ std::string StrategyOf(const SweepCell& cell) {
 class Predictor {
  public:
   Predictor(const Sweep& sweep, SweepFolder folder, const std::atomic<bool>& stop,
-            const std::string& build_cache)
+            const TreeFolder& build_cache)
       : sweep_(sweep),
         folder_(std::move(folder)),
         stop_(stop),
@@ -100,6 +101,8 @@ void Predictor::RenderPilots(std::size_t most, SweepPrediction& out) {
       pilots_[{c.scene, c.strategy}] =
           RenderPilot(job, kPilotSeconds, sweep_.settings.half);
       ++out.pilots;
+    } catch (const Interrupted&) {
+      break;
     } catch (const std::exception& error) {
       failures_[{c.scene, c.strategy}] = error.what();
     }
@@ -190,7 +193,7 @@ void Predictor::PredictCell(const SweepCell& cell, bool first_of_scene,
 }  // namespace
 
 SweepPrediction Predict(const Sweep& sweep, const std::string& out, int most_pilots,
-                        const std::atomic<bool>& stop, const std::string& build_cache) {
+                        const std::atomic<bool>& stop, const TreeFolder& build_cache) {
   return Predictor(sweep, SweepFolder(out, sweep), stop, build_cache)
       .Predict(static_cast<std::size_t>(most_pilots));
 }

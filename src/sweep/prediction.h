@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "src/accel/tree_folder.h"
 #include "src/sweep/sweep_file.h"
 
 namespace lanelight {
@@ -29,7 +30,7 @@ struct SweepPrediction {
 /// `build_cache` as in SweepOptions.
 SweepPrediction Predict(const Sweep& sweep, const std::string& out, int most_pilots,
                         const std::atomic<bool>& stop,
-                        const std::string& build_cache = {});
+                        const TreeFolder& build_cache = {});
 
 /// A table of the cells, and the sums.
 std::string PredictionText(const Sweep& sweep, const SweepPrediction& prediction);

@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "src/core/interrupted.h"
 #include "src/render/memory.h"
 #include "src/sweep/cell_render.h"
 #include "src/sweep/claims.h"
@@ -190,6 +191,9 @@ void Runner::RenderCell(std::size_t i) {
     folder_.Finish(cell, CellReport(rendering));
     known_[i] = Known::kDone;
     ++rendered_;
+  } catch (const Interrupted&) {  // while another process built trees
+    known_[i] = Known::kMissing;
+    interrupted_ = true;
   } catch (const std::bad_alloc&) {
     Fail(i, "error: " + OutOfMemoryText());
   } catch (const std::exception& error) {

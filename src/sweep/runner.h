@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "src/accel/tree_folder.h"
 #include "src/sweep/sweep_file.h"
 #include "src/wavefront/run.h"
 
@@ -16,8 +17,8 @@ struct SweepOptions {
   /// This process renders the cells whose index leaves part - 1 when divided by parts.
   std::size_t part = 1, parts = 1;
   bool wait = false;  // for cells that other processes render, and do them if those die
-  bool table_only = false;       // render nothing
-  std::string build_cache = {};  // directory of trees over shapes; empty: none
+  bool table_only = false;      // render nothing
+  TreeFolder build_cache = {};  // of trees over shapes
 };
 
 struct SweepProgress {

@@ -4,41 +4,18 @@
 #include <catch2/catch.hpp>
 
 #include "src/image/atomic_file.h"
+#include "tests/accel/tree_sources.h"
 #include "tests/image/file_size_limit.h"
-#include "tests/image/temporary_folder.h"
-#include "tests/support/brute_force.h"
 
 namespace lanelight {
 namespace {
 
 using Catch::Contains;
 
-Geometry SomeShapes(float edge) {
-  brute::Random random(65);
-  return MakeScene(brute::Soup(random, 3000, 1, edge)).geometry;
-}
-
-struct Sources {
-  TemporaryFolder folder;
-  Geometry shapes = SomeShapes(0.1f);
-  TreeSource source = {folder.File("deep/down"), nullptr};
-
-  FoundTree Find() const { return FindTree(shapes, {}, source); }
-  std::string Path() const {
-    return source.directory + "/" + KeyOf(shapes, {}).Hex() + ".tree";
-  }
-};
-
-bool SameNodes(const Accel& a, const Accel& b) {
-  return a.nodes.size() == b.nodes.size() &&
-         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(WideNode)) ==
-             0;
-}
-
 }  // namespace
 
 TEST_CASE("a tree is built once, and then mapped", "[accel][tree-source]") {
-  Sources s;
+  TreeSources s;
   const FoundTree built = s.Find();
   CHECK(built.report.origin == TreeOrigin::kBuilt);
   CHECK(built.problems.empty());
@@ -59,8 +36,8 @@ TEST_CASE("a tree is built once, and then mapped", "[accel][tree-source]") {
 }
 
 TEST_CASE("a known tree is taken if it is of the same shapes", "[accel][tree-source]") {
-  Sources s;
-  s.source.directory.clear();
+  TreeSources s;
+  s.source.folder.path.clear();
   const Accel built = s.Find().accel;
   s.source.known =
       std::make_shared<const KnownTree>(KnownTree{KeyOf(s.shapes, {}), built});
@@ -75,7 +52,7 @@ TEST_CASE("a known tree is taken if it is of the same shapes", "[accel][tree-sou
 }
 
 TEST_CASE("a damaged tree file is told, and replaced", "[accel][tree-source]") {
-  Sources s;
+  TreeSources s;
   const Accel built = s.Find().accel;
   std::string content = ReadWholeFile(s.Path());
   content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 1);
@@ -90,9 +67,9 @@ TEST_CASE("a damaged tree file is told, and replaced", "[accel][tree-source]") {
 }
 
 TEST_CASE("where no tree can be kept, it is built and told", "[accel][tree-source]") {
-  Sources s;
+  TreeSources s;
   const std::string file = s.folder.Write("file", "text");
-  s.source.directory = file;
+  s.source.folder.path = file;
   const FoundTree no_folder = s.Find();
   CHECK(no_folder.report.origin == TreeOrigin::kBuilt);
   REQUIRE(no_folder.problems.size() == 1);
@@ -100,7 +77,7 @@ TEST_CASE("where no tree can be kept, it is built and told", "[accel][tree-sourc
              Contains("Not a directory") && Contains("the trees are not kept"));
   CHECK(ReadWholeFile(file) == "text");
 
-  s.source.directory = s.folder.File("full");
+  s.source.folder.path = s.folder.File("full");
   {
     const FileSizeLimit limit(8192);
     const FoundTree full = s.Find();
@@ -109,11 +86,11 @@ TEST_CASE("where no tree can be kept, it is built and told", "[accel][tree-sourc
     REQUIRE(full.problems.size() == 1);
     CHECK_THAT(full.problems[0], Contains("File too large"));
   }
-  CHECK(std::filesystem::is_empty(s.source.directory));
+  CHECK(s.Files().empty());
 }
 
 TEST_CASE("a tree file that cannot be replaced is told twice", "[accel][tree-source]") {
-  Sources s;
+  TreeSources s;
   s.Find();
   std::filesystem::remove(s.Path());
   std::filesystem::create_directory(s.Path());

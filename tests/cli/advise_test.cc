@@ -102,6 +102,8 @@ TEST_CASE("the command that advise prints has the flags that it was given", "[cl
                                         "fast",
                                         "--build-cache",
                                         directory / "a cache",
+                                        "--build-cache-size",
+                                        "1MiB",
                                         "--scattering",
                                         "uniform",
                                         "--wavefront",
@@ -112,7 +114,8 @@ TEST_CASE("the command that advise prints has the flags that it was given", "[cl
   CHECK_THAT(r.out,
              Contains(" --resolution 32x24 --crop 0,0,16,16 --aov --max-depth 3 "
                       "--seed 7 --scattering uniform --build fast --build-cache '" +
-                      (directory / "a cache") + "' --wavefront 512 --threads 1\n"));
+                      (directory / "a cache") +
+                      "' --build-cache-size 1048576 --wavefront 512 --threads 1\n"));
 }
 
 TEST_CASE("advise refuses flags that make no sense", "[cli]") {

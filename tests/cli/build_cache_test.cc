@@ -39,6 +39,14 @@ Rendered RenderWith(const std::string& scene, const std::vector<std::string>& mo
   return {{image.pixels.begin(), image.pixels.end()}, origin, r.err};
 }
 
+std::vector<fs::path> TreesIn(const std::string& cache) {
+  std::vector<fs::path> trees;
+  for (const auto& entry : fs::directory_iterator(cache)) {
+    if (entry.path().extension() == ".tree") trees.push_back(entry.path());
+  }
+  return trees;
+}
+
 // "built" or the like: how many cells.
 std::map<std::string, int> OriginsOfSweep(const std::string& file, const std::string& out,
                                           const std::vector<std::string>& more) {
@@ -73,7 +81,7 @@ TEST_CASE("images through mapped trees are those through built ones", "[cli]") {
     CHECK(warm.pixels == without.pixels);
     CHECK_THAT(warm.err, !Contains("--build-cache"));
   }
-  CHECK(std::distance(fs::directory_iterator(cache), fs::directory_iterator()) == 5);
+  CHECK(TreesIn(cache).size() == 5);
 }
 
 TEST_CASE("a tree file that is not whole is refused in one line, and made anew",
@@ -81,7 +89,7 @@ TEST_CASE("a tree file that is not whole is refused in one line, and made anew",
   const TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), cache = directory / "cache";
   const Rendered built = RenderWith(scene, {"--build-cache", cache});
-  const fs::path file = fs::directory_iterator(cache)->path();
+  const fs::path file = TreesIn(cache).at(0);
   fs::resize_file(file, fs::file_size(file) - 100);
   const Rendered again = RenderWith(scene, {"--build-cache", cache});
   CHECK_THAT(again.err,
@@ -93,6 +101,27 @@ TEST_CASE("a tree file that is not whole is refused in one line, and made anew",
   const Rendered nowhere = RenderWith(scene, {"--build-cache", scene});
   CHECK_THAT(nowhere.err, Contains("Not a directory; the trees are not kept"));
   CHECK(nowhere.pixels == built.pixels);
+}
+
+TEST_CASE("a limit removes the trees that were used least recently", "[cli]") {
+  const TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory), cache = directory / "cache";
+  const auto render = [&](const char* build, const char* size) {
+    return RenderWith(
+        scene, {"--build", build, "--build-cache", cache, "--build-cache-size", size});
+  };
+  CHECK(render("high", "1kB").origin == "built");
+  const fs::path first = TreesIn(cache).at(0);  // larger than that, and there
+  CHECK(render("high", "1kB").origin == "mapped");
+  fs::last_write_time(first, fs::last_write_time(first) - std::chrono::hours(1));
+  CHECK(render("fast", "0").origin == "built");
+  CHECK(TreesIn(cache).size() == 2);
+  fs::remove(first);
+  WriteText(cache + "/notes.tree", std::string(10000, 'x'));
+  CHECK(render("high", "1 KiB").origin == "built");
+  CHECK(TreesIn(cache).size() == 2);
+  CHECK(fs::exists(first));
+  CHECK(fs::exists(cache + "/notes.tree"));
 }
 
 TEST_CASE("processes share a directory of trees", "[cli]") {
@@ -109,7 +138,7 @@ TEST_CASE("processes share a directory of trees", "[cli]") {
   }
   for (std::thread& thread : threads) thread.join();
   for (const ProcessResult& result : results) CHECK(result.exit_code == kExitGood);
-  CHECK(std::distance(fs::directory_iterator(cache), fs::directory_iterator()) == 1);
+  CHECK(TreesIn(cache).size() == 1);
   CHECK(RenderWith(scene, {"--build-cache", cache}).origin == "mapped");
 }
 
