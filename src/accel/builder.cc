@@ -23,9 +23,8 @@ constexpr std::uint32_t kSerialItems = 64;
 // Below this depth ranges are halved instead, which bounds the depth of any tree.
 constexpr int kMaxSahDepth = 40;
 // Planes that cut triangles are tried where the boxes of the best object split have more
-// than this part of the area in common, and taken if they cost up to kCutGain of it: they
-// leave no overlap for the levels below.
-constexpr float kOverlap = 0.05f, kCutGain = 1.1f;
+// than this part of the area in common.
+constexpr float kOverlap = 0.05f;
 
 class TreeBuilder {
  public:
@@ -90,7 +89,7 @@ class TreeBuilder {
       if (pays && (!limit_.fits || limit_.fits(items, count, block))) return range.begin;
     }
     if (may_cut && depth < kMaxSahDepth && split.overlap > kOverlap * area) {
-      const std::uint32_t middle = Cut(range, box, kCutGain * split.cost, block);
+      const std::uint32_t middle = Cut(range, box, cuts_.gain * split.cost, block);
       if (middle != range.begin && middle != range.end) return middle;
     }
     return range.begin + Partition(items, count, centers, split);

@@ -8,8 +8,9 @@
 namespace lanelight {
 namespace {
 
-// Triangles to look at for whether cutting pays, and from which waste on it does. Scans
-// have 3 to 4, 400 k separate triangles 11, 200 k sticks 115.
+// Triangles to look at for how much cutting pays, and the waste from which on it pays
+// everywhere. Scans and interiors have 0 to 5, a dining room with a blind 11, 400 k
+// separate triangles 14, 200 k sticks 115.
 constexpr std::size_t kSamples = 16384;
 constexpr float kWaste = 30;
 
@@ -37,12 +38,14 @@ float Waste(const std::vector<BuildItem>& items, const TriangleRecord* triangles
 }  // namespace
 
 CutPlan PlanCuts(const std::vector<BuildItem>& items, const TriangleRecord* triangles) {
-  CutPlan plan;
+  const auto count = static_cast<std::uint32_t>(items.size());
+  // Without overlap the levels below gain, too, so that a plane may cost more at first.
   if (Waste(items, triangles) > kWaste) {
-    plan.room = static_cast<std::uint32_t>(items.size() / 4 * 3);
-    plan.least = 128;
+    return {.room = count / 4 * 3, .least = 128, .gain = 1.1f};
   }
-  return plan;
+  // Elsewhere most cuts lose what they gain, as they come early and halve what is whole:
+  // with 1.1 trees of scans cost a quarter more, a stadium with 0.9 a tenth.
+  return {.room = count / 4, .least = 32, .gain = 0.8f};
 }
 
 }  // namespace lanelight

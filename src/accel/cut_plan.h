@@ -13,6 +13,8 @@ struct CutPlan {
   std::uint32_t room = 0;  // items that may be added
   /// Items of the smallest range that may be cut.
   std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+  /// A plane is taken if it costs less than this times the best split without cuts.
+  float gain = 0;
 };
 
 /// A plan for a mesh, by how much of the boxes of its triangles is empty. `items`, not

@@ -1,9 +1,11 @@
 // The folder of --build-cache: which files in it are ours, and which of them go when they
 // are too many.
 //
-//   KEY.tree              a tree (src/accel/tree_file.h); its time is that of its last
-//   use KEY.tree.N.N.tmp      one that is being written, or whose writer was killed locks
-//   nothing; its bytes are locked by those who build (tree_turn.h)
+//   KEY.tree           a tree (src/accel/tree_file.h); its time is that of its last use
+//
+//   KEY.tree.N.N.tmp   one that is being written, or whose writer was killed
+//
+//   locks              nothing; its bytes are locked by those who build (tree_turn.h)
 #pragma once
 
 #include <atomic>

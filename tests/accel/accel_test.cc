@@ -26,14 +26,16 @@ constexpr AccelOptions kBuilds[] = {
     {.few_triangles = 0, .leaf_triangles = kSmall},
     {.few_triangles = 0, .quality = BuildQuality::kFast, .leaf_triangles = kSmall}};
 
-// All ids, checking that each vertex lies in the boxes on the way, with room for
-// rounding.
+// All ids, checking that each vertex of triangles that are whole lies in the boxes on the
+// way, with room for rounding (tests/accel/spatial_split_test.cc looks at cut ones).
 std::multiset<std::uint32_t> IdsOf(const Accel& accel, int& outside) {
   std::multiset<std::uint32_t> ids;
-  for (const LeafView& leaf : LeavesOf(accel)) {
-    ids.insert(leaf.prim.begin(), leaf.prim.end());
-    for (const auto& corner : leaf.corner) {
-      for (const Vec3f& p : corner) {
+  const std::vector<LeafView> leaves = LeavesOf(accel);
+  for (const LeafView& leaf : leaves) ids.insert(leaf.prim.begin(), leaf.prim.end());
+  for (const LeafView& leaf : leaves) {
+    for (std::size_t i = 0; i < leaf.prim.size(); ++i) {
+      if (ids.count(leaf.prim[i]) > 1) continue;
+      for (const Vec3f& p : leaf.corner[i]) {
         for (int a = 0; a < 3; ++a) {
           const float room = 0.9f * kShapeSlack * std::abs(p[a]);
           outside += p[a] - room < leaf.box.lo[a] || p[a] + room > leaf.box.hi[a];
@@ -56,7 +58,7 @@ int DepthOf(const Accel& accel, std::uint32_t ref) {
 
 }  // namespace
 
-TEST_CASE("every triangle is in exactly one leaf, inside its boxes", "[accel]") {
+TEST_CASE("every triangle is in a leaf, inside its boxes, few in several", "[accel]") {
   Random random(61);
   std::vector<Geometry> cases;
   for (const int n : {0, 1, 2, 7, 8, 9, 65, 5000, 20000}) {
@@ -77,7 +79,8 @@ TEST_CASE("every triangle is in exactly one leaf, inside its boxes", "[accel]") 
       int outside = 0;
       const auto ids = IdsOf(scene.accel, outside);
       CHECK(outside == 0);
-      CHECK(ids.size() == n);
+      const bool may_cut = options.quality == BuildQuality::kHigh;
+      CHECK(ids.size() <= n + (may_cut ? n / 100 : 0));
       CHECK(std::set<std::uint32_t>(ids.begin(), ids.end()).size() == n);
       const Bvh& bvh = scene.accel.groups[0];
       CHECK(bvh.depth == DepthOf(scene.accel, bvh.root));

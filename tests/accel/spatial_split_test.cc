@@ -82,6 +82,15 @@ std::vector<KernelHit> NearestOfLoops(const Geometry& g,
   return nearest;
 }
 
+// A fine mesh among some sticks: their boxes are mostly empty, those of most triangles
+// not.
+Geometry MeshAmongSticks(Random& random) {
+  Geometry g = brute::SphereMesh(60, 120, {0, 0, 0}, 0.7f);
+  const Geometry sticks = brute::Sticks(random, 60, 1.5f);
+  g.triangles.insert(g.triangles.end(), sticks.triangles.begin(), sticks.triangles.end());
+  return g;
+}
+
 // Rays from anywhere, and rays nearly in the plane of a triangle.
 std::vector<TestRay> RaysAt(const Geometry& g, Random& random, int n) {
   std::vector<TestRay> rays;
@@ -141,6 +150,19 @@ TEST_CASE("boxes of cut triangles leave nothing out at any scale", "[accel]") {
   }
 }
 
+TEST_CASE("sticks are cut among many small triangles", "[accel]") {
+  Random random(76);
+  const Geometry g = MeshAmongSticks(random);
+  for (const int leaf_triangles : {SmallLeaf::kLanes, TriangleLeaf::kLanes}) {
+    const Accel accel = MakeScene(g, {.leaf_triangles = leaf_triangles}).accel;
+    const BoxesOfTriangles boxes = Collect(accel);
+    CHECK(boxes.size() == g.triangles.size());
+    CHECK(References(boxes) > g.triangles.size());
+    CHECK(References(boxes) <= g.triangles.size() * 5 / 4);
+    CHECK(Outside(g, boxes, random) == 0);
+  }
+}
+
 TEST_CASE("meshes of small triangles are not cut", "[accel]") {
   const Geometry g = brute::SphereMesh(60, 120, {0, 0, 0}, 1);
   CHECK(References(Collect(MakeScene(g).accel)) == g.triangles.size());
@@ -161,7 +183,8 @@ TEST_CASE("cut trees do not depend on the number of threads", "[accel]") {
 
 TEST_CASE("rays hit cut triangles as they hit whole ones, bit by bit", "[accel]") {
   Random random(74);
-  const Geometry g = brute::Sticks(random, 4000, 1.0f);
+  const Geometry g =
+      GENERATE_REF(brute::Sticks(random, 4000, 1.0f), MeshAmongSticks(random));
   const CompiledScene scene = MakeScene(g);
   REQUIRE(References(Collect(scene.accel)) > g.triangles.size());
   const std::vector<TestRay> rays = RaysAt(g, random, 20000);
