@@ -89,7 +89,7 @@ class TreeBuilder {
       if (pays && (!limit_.fits || limit_.fits(items, count, block))) return range.begin;
     }
     if (may_cut && depth < kMaxSahDepth && split.overlap > kOverlap * area) {
-      const std::uint32_t middle = Cut(range, box, cuts_.gain * split.cost, block);
+      const std::uint32_t middle = Cut(range, box, cuts_.Gain(count) * split.cost, block);
       if (middle != range.begin && middle != range.end) return middle;
     }
     return range.begin + Partition(items, count, centers, split);

@@ -41,11 +41,10 @@ CutPlan PlanCuts(const std::vector<BuildItem>& items, const TriangleRecord* tria
   const auto count = static_cast<std::uint32_t>(items.size());
   // Without overlap the levels below gain, too, so that a plane may cost more at first.
   if (Waste(items, triangles) > kWaste) {
-    return {.room = count / 4 * 3, .least = 128, .gain = 1.1f};
+    return {.room = count / 4 * 3, .least = CutPlan::kLargeRange, .gain = 1.1f};
   }
-  // Elsewhere most cuts lose what they gain, as they come early and halve what is whole:
-  // with 1.1 trees of scans cost a quarter more, a stadium with 0.9 a tenth.
-  return {.room = count / 4, .least = 32, .gain = 0.8f};
+  // Elsewhere most such cuts lose: they come early, and halve what is better left whole.
+  return {.room = count / 4, .least = 32, .gain = 0.9f, .small_gain = 0.8f};
 }
 
 }  // namespace lanelight
