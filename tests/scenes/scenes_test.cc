@@ -124,18 +124,29 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
             .HasAll({Feature::kConductorRough, Feature::kConductorSmooth}));
 }
 
+namespace {
+
+// False, with a warning, where there is no Python.
+bool HasPython() {
+  const bool has = std::system("python3 --version > /dev/null 2>&1") == 0;
+  if (!has) WARN("skipped: no python3");
+  return has;
+}
+
+// Starts scenes/generate; its exit status.
+int Generate(const std::string& what, const fs::path& out) {
+  return std::system(("python3 " LANELIGHT_SOURCE_DIR "/scenes/generate " + what +
+                      " --out " + out.string() + " > /dev/null 2>&1")
+                         .c_str());
+}
+
+}  // namespace
+
 TEST_CASE("own scenes: generated meshes can be read", "[scenes]") {
-  if (std::system("python3 --version > /dev/null 2>&1") != 0) {
-    WARN("skipped: no python3");
-    return;
-  }
+  if (!HasPython()) return;
   const fs::path folder = fs::temp_directory_path() / "lanelight_generate_test";
   fs::remove_all(folder);
-  const std::string script =
-      std::string("python3 ") + LANELIGHT_SOURCE_DIR + "/scenes/generate ";
-  REQUIRE(
-      std::system((script + "all --size 300 --out " + folder.string() + " > /dev/null")
-                      .c_str()) == 0);
+  REQUIRE(Generate("all --size 300", folder) == 0);
   for (const char* name : {"terrain", "soup", "flake", "needles", "sticks", "stadium"}) {
     const SceneDescription scene = ParseScene((folder / name).string() + ".pbrt");
     INFO(name);
@@ -146,28 +157,19 @@ TEST_CASE("own scenes: generated meshes can be read", "[scenes]") {
   }
   // The same arguments give the same bytes; bad ones a usage error.
   const std::string first = ReadText(folder / "soup.ply");
-  REQUIRE(
-      std::system((script + "soup --size 300 --out " + folder.string() + " > /dev/null")
-                      .c_str()) == 0);
+  REQUIRE(Generate("soup --size 300", folder) == 0);
   CHECK(ReadText(folder / "soup.ply") == first);
-  CHECK(std::system((script + "soup --size 2 2> /dev/null").c_str()) != 0);
+  CHECK(Generate("soup --size 2", folder) != 0);
   fs::remove_all(folder);
 }
 
 TEST_CASE("own scenes: the generated kitchen is many meshes, the same each time",
           "[scenes]") {
-  if (std::system("python3 --version > /dev/null 2>&1") != 0) {
-    WARN("skipped: no python3");
-    return;
-  }
+  if (!HasPython()) return;
   const fs::path folder = fs::temp_directory_path() / "lanelight_kitchen_test";
   fs::remove_all(folder);
-  const std::string script =
-      std::string("python3 ") + LANELIGHT_SOURCE_DIR + "/scenes/generate kitchen ";
   for (const char* out : {"first", "second"}) {
-    REQUIRE(std::system(
-                (script + "--out " + (folder / out).string() + " > /dev/null").c_str()) ==
-            0);
+    REQUIRE(Generate("kitchen", folder / out) == 0);
   }
   const fs::path first = folder / "first" / "kitchen";
   const fs::path second = folder / "second" / "kitchen";
@@ -189,15 +191,12 @@ TEST_CASE("own scenes: the generated kitchen is many meshes, the same each time"
                          Feature::kSphereLights, Feature::kConductorRough,
                          Feature::kDielectricSmooth, Feature::kDiffuseTransmission}));
   CHECK_FALSE(features.Has(Feature::kInstances));
-  CHECK(std::system((script + "--size 300 2> /dev/null").c_str()) != 0);
+  CHECK(Generate("kitchen --size 300", folder) != 0);
   fs::remove_all(folder);
 }
 
 TEST_CASE("own scenes: images are what scenes/parts/maps writes", "[scenes]") {
-  if (std::system("python3 --version > /dev/null 2>&1") != 0) {
-    WARN("skipped: no python3");
-    return;
-  }
+  if (!HasPython()) return;
   const fs::path parts = fs::path(LANELIGHT_SOURCE_DIR) / "scenes" / "parts";
   const fs::path folder = fs::temp_directory_path() / "lanelight_maps_test";
   fs::remove_all(folder);
@@ -211,10 +210,7 @@ TEST_CASE("own scenes: images are what scenes/parts/maps writes", "[scenes]") {
 }
 
 TEST_CASE("own scenes: turned parts are what scenes/parts/turn writes", "[scenes]") {
-  if (std::system("python3 --version > /dev/null 2>&1") != 0) {
-    WARN("skipped: no python3");
-    return;
-  }
+  if (!HasPython()) return;
   const fs::path parts = fs::path(LANELIGHT_SOURCE_DIR) / "scenes" / "parts";
   const fs::path folder = fs::temp_directory_path() / "lanelight_turn_test";
   fs::remove_all(folder);
