@@ -167,6 +167,8 @@ void AddExecutionOptions(CLI::App& command, SceneOptions& options) {
       {{"fast", BuildQuality::kFast}, {"high", BuildQuality::kHigh}},
       "How to build the trees over shapes, in less time or for faster rays");
   AddBuildCacheOptions(command, options.settings.trees.folder);
+  command.add_flag("--copy-per-node", options.settings.copy_per_node,
+                   "Give each memory node (NUMA) a copy of the scene");
   command.add_option("--threads", options.threads, "Threads; 0 = all cores")
       ->check(CLI::Range(0, 1024).description(""))
       ->type_name("T");
@@ -216,6 +218,7 @@ std::string FlagsText(const SceneOptions& options) {
       text += fmt::format(" --build-cache-size {}", folder.most_bytes);
     }
   }
+  if (s.copy_per_node) text += " --copy-per-node";
   if (s.wavefront > 0) text += fmt::format(" --wavefront {}", s.wavefront);
   if (options.threads > 0) text += fmt::format(" --threads {}", options.threads);
   if (!options.target.empty()) text += " --target " + options.target;

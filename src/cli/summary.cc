@@ -64,6 +64,12 @@ std::string SpeedRows(const RunResult& r) {
                                  CountText((closest + shadow) / seconds)));
 }
 
+std::string CopiesText(const RunResult& r, const Job& job) {
+  if (!job.settings.copy_per_node) return "";
+  if (r.scene_copies == 0) return "; one memory node, no copies";
+  return fmt::format("; a copy of the scene in each of {} memory nodes", r.scene_copies);
+}
+
 }  // namespace
 
 std::string ErrorText(const ErrorEstimate& e) {
@@ -143,9 +149,10 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
                           Name(job.trees.origin), DurationText(job.trees.seconds),
                           DurationText(r.seconds), DurationText(report.write_seconds)));
   text += Row("machine",
-              fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes",
+              fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes{}",
                           CurrentTarget(), CurrentLanes(), MaxThreads(),
-                          job.plan.wavefront, job.plan.bytes_per_path));
+                          job.plan.wavefront, job.plan.bytes_per_path,
+                          CopiesText(r, job)));
   return text + "\n" + StageTable(r) + DiffersRow(job.description.notes);
 }
 

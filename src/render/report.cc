@@ -63,7 +63,8 @@ Json SettingsJson(const Job& job, bool half) {
           {"gbuffer", GbufferName(job.description.film.gbuffer)},
           {"depth", half ? "half" : "float"},
           {"build", job.scene.accel.quality == BuildQuality::kFast ? "fast" : "high"},
-          {"threads", MaxThreads()}};
+          {"threads", MaxThreads()},
+          {"copy_per_node", job.settings.copy_per_node}};
 }
 
 Json NotesJson(const Job& job) {
@@ -185,6 +186,7 @@ Json ToJson(const RenderReport& report, const Json& head) {
         {"infinite", r.health.infinite},
         {"negative", r.health.negative}}},
       {"stages", ProfileJson(r.stages)},
+      {"scene_copies", r.scene_copies},
       {"wavefront_bytes", r.wavefront_bytes}};
   json.update(head);
   return json;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/core/hardware_counters.h"
+#include "src/core/memory_nodes.h"
 #include "src/core/untouched.h"
 #include "src/image/accumulator.h"
 #include "src/image/pixel_rect.h"
@@ -75,6 +76,8 @@ struct RunOptions {
   std::uint64_t planned_samples = 0;
   /// Keeps the state while the run goes on; null: nobody does.
   RunKeeper* keeper = nullptr;
+  /// If set, each of these nodes, where there are several, has a copy of the scene.
+  const MemoryNodes* nodes = nullptr;
   /// Who renders, without `windows`; null: this process alone.
   Crew* crew = nullptr;
 };
@@ -145,6 +148,7 @@ struct RunResult {
   bool stopped_early = false;            // by RunOptions::stop
   std::optional<ControlReport> control;  // of control variates that are fitted
   std::size_t wavefront_bytes = 0;       // all wavefronts and sample buffers together
+  int scene_copies = 0;                  // in memory nodes; 0: none were made
   std::size_t bytes_in_flight = 0;       // live columns of the paths of one wavefront
   // Pilot passes (roulette=adjoint, efficiency); their time is part of `seconds`, their
   // samples and rays are not part of those above.

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "src/wavefront/films.h"
 #include "src/wavefront/run.h"
+#include "src/wavefront/scene_copies.h"
 #include "src/wavefront/seen_lights.h"
 #include "src/wavefront/task_watcher.h"
 #include "src/wavefront/workspace.h"
@@ -14,7 +16,7 @@
 namespace lanelight {
 
 struct TileTask {
-  std::size_t tile = 0;                         // in what FindSeenLights has been given
+  std::size_t tile = 0;                         // in what Begin has been given
   PixelRect rect;                               // its pixels, of the full image
   std::uint32_t first_sample = 0, samples = 0;  // of each pixel, as kernels count them
 };
@@ -27,7 +29,7 @@ class TaskRunner {
              const RunOptions& options);
 
   /// Tasks are of these tiles from here on.
-  void FindSeenLights(const std::vector<PixelRect>& tiles);
+  void Begin(const std::vector<PixelRect>& tiles);
 
   // Safe from different threads:
   /// False, and no samples, if the watcher has had it put down.
@@ -50,6 +52,7 @@ class TaskRunner {
   const Plan& plan_;
   const RunParameters& run_;
   const RunOptions& options_;
+  std::optional<SceneCopies> copies_;            // once there are tasks
   std::unique_ptr<SeenLightEdges> seen_lights_;  // null: not apart
   std::vector<std::unique_ptr<Workspace>> workspaces_;
 };

@@ -87,7 +87,7 @@ void Tasks::BeginRound(const RoundWork& work) {
   per_task_ = work.per_task;
   if (begun_) return;
   begun_ = true;
-  runner_.FindSeenLights(partition_.tiles);
+  runner_.Begin(partition_.tiles);
 }
 
 std::vector<TileRange> Tasks::Behind(std::uint64_t limit) const {

@@ -106,6 +106,7 @@ TEST_CASE("the command that advise prints has the flags that it was given", "[cl
                                         "1MiB",
                                         "--scattering",
                                         "uniform",
+                                        "--copy-per-node",
                                         "--wavefront",
                                         "512"});
   INFO(r.err);
@@ -115,7 +116,7 @@ TEST_CASE("the command that advise prints has the flags that it was given", "[cl
              Contains(" --resolution 32x24 --crop 0,0,16,16 --aov --max-depth 3 "
                       "--seed 7 --scattering uniform --build fast --build-cache '" +
                       (directory / "a cache") +
-                      "' --build-cache-size 1048576 --wavefront 512 --threads 1\n"));
+                      "' --build-cache-size 1048576 --copy-per-node --wavefront 512 --threads 1\n"));
 }
 
 TEST_CASE("advise refuses flags that make no sense", "[cli]") {
