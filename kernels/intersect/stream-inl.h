@@ -75,22 +75,32 @@ class RayStream {
     if constexpr (kInstances) {
       std::fill_n(rays_.space, rays_.size, kWorldInstance);
       std::fill_n(rays_.inst, rays_.size, kWorldInstance);
+      if (bvh_.root != kEmptyRef) {
+        TraceWorld();
+      } else {
+        std::fill_n(rays_.found, rays_.size, 0);
+      }
+      TraceTop();
+    } else {
+      TraceWorld();
     }
-    uint32_t num_live = 0;
+  }
+
+  LANELIGHT_INLINE void TraceWorld() {
+    singles_.live().size = 0;
     for (uint32_t at = 0; at < rays_.size; at += StreamRays::kLanes) {
-      packets_.Run(at, singles_.live(), num_live);
+      packets_.Run(at, singles_.live());
     }
-    singles_.Run(num_live);
-    if constexpr (kInstances) TraceTop();
+    singles_.Run();
   }
 
   LANELIGHT_INLINE void TraceTop() {
     singles_.BeginTop();
-    uint32_t num_live = 0;
+    singles_.live().size = 0;
     for (uint32_t at = 0; at < rays_.size; at += StreamRays::kLanes) {
-      packets_.RunTop(at, singles_.live(), num_live);
+      packets_.RunTop(at, singles_.live());
     }
-    singles_.Run(num_live);
+    singles_.RunTop();
   }
 
   const Bvh& bvh_;

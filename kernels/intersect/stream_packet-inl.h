@@ -11,7 +11,8 @@
 #include <bit>
 
 #include "kernels/intersect/last_blockers-inl.h"
-#include "kernels/intersect/stream_rays-inl.h"
+#include "kernels/intersect/stream_lists-inl.h"
+#include "kernels/intersect/stream_nodes-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
 #include "src/compiled/scene.h"
 
@@ -29,6 +30,9 @@ inline constexpr int kNodeRays = StreamRays::kLanes >= 16  ? 10
                                                            : 4;
 inline constexpr int kLeafRays = StreamRays::kLanes >= 16 ? 5 : 3;
 
+/// The same for instances: fewer or more cost 2 to 5 %.
+inline constexpr int kEnterRays = StreamRays::kLanes / 2;
+
 template <bool kAny, bool kAlpha, bool kInstances>
 class PacketPhase {
  public:
@@ -38,86 +42,71 @@ class PacketPhase {
   /// Traces the rays at [at, at + lanes) through the world. What is left for single rays
   /// lies on their stacks, nearest on top; the places of those that have some are
   /// appended to `live`.
-  LANELIGHT_INLINE void Run(uint32_t at, int32_t* live, uint32_t& num_live) {
-    Run(Tree::kWorld, scene_.accel.groups[0].root, at, live, num_live);
+  LANELIGHT_INLINE void Run(uint32_t at, RayList& live) {
+    RunIn<false>(scene_.accel.groups[0].root, at, live);
   }
 
   /// The same through the tree over instances, and these, after the world.
-  LANELIGHT_INLINE void RunTop(uint32_t at, int32_t* live, uint32_t& num_live) {
-    Run(Tree::kTop, scene_.accel.top.root, at, live, num_live);
+  LANELIGHT_INLINE void RunTop(uint32_t at, RayList& live) {
+    RunIn<true>(scene_.accel.top.root, at, live);
   }
 
  private:
   // Instances have many places for one triangle.
   static constexpr bool kRemembers = kAny && !kInstances;
-  enum class Tree { kWorld, kTop, kInstance };
 
-  LANELIGHT_INLINE void Run(Tree tree, uint32_t root, uint32_t at, int32_t* live,
-                            uint32_t& num_live) {
+  template <bool kTop>
+  LANELIGHT_INLINE void RunIn(uint32_t root, uint32_t at, RayList& live) {
     count_ = std::min(StreamRays::kLanes, rays_.size - at);
     std::fill_n(rays_.bottom + at, count_, kDeferred);
-    Trace(tree, root, at, (1u << count_) - 1);
+    uint32_t lanes = (1u << count_) - 1;
+    if constexpr (kAny && kTop) lanes &= ~Found(at);
+    if (lanes != 0) Trace<kTop>(root, at, lanes);
     for (uint32_t r = at; r < at + count_; ++r) {
       if ((kAny && rays_.found[r]) || rays_.bottom[r] == kDeferred) continue;
       BeginSingle(r);
-      live[num_live++] = static_cast<int32_t>(r);
+      live.place[live.size++] = static_cast<int32_t>(r);
     }
   }
 
-  // Traces the rays of `lanes` at place `at`.
-  LANELIGHT_INLINE void Trace(Tree tree, uint32_t root, uint32_t at, uint32_t lanes) {
+  // The lanes at `at` that have a hit.
+  LANELIGHT_INLINE uint32_t Found(uint32_t at) const {
     const DI di;
-    tree_ = tree;
+    return MaskBits(di, hn::Ne(hn::LoadU(di, rays_.found + at), hn::Zero(di)));
+  }
+
+  // Traces the rays of `lanes`, one at least, at place `at`. In the tree over instances
+  // leaves are these.
+  template <bool kTop>
+  LANELIGHT_INLINE void Trace(uint32_t root, uint32_t at, uint32_t lanes) {
+    const DI di;
     at_ = at;
     const VI octants = hn::LoadU(di, reinterpret_cast<const int32_t*>(rays_.octant) + at);
     const uint32_t first = rays_.octant[at + std::countr_zero(lanes)];
     const auto same = hn::Eq(octants, hn::Set(di, static_cast<int32_t>(first)));
     if ((MaskBits(di, same) & lanes) == lanes) {
-      Trace<true>(root, lanes);
+      TraceNodes<kTop, true>(root, lanes);
     } else {
-      Trace<false>(root, lanes);
+      TraceNodes<kTop, false>(root, lanes);
     }
   }
 
-  struct Slabs {
-    VF rcp[3], near[3], far[3];
-    MF negative[3];
-  };
-  // The children of a node that the packet is in, in the order of their slots seen from
-  // its first ray: entry distances, and which lanes enter.
-  struct Frame {
-    HWY_ALIGN float entry[kBvhWidth][StreamRays::kLanes];
-    uint32_t ref[kBvhWidth], lanes[kBvhWidth];
-    uint32_t open;  // children to visit, as bits
-  };
-  static constexpr int kFrames = kTraversalStack / (kBvhWidth - 1) + 2;
-
-  template <bool kSameSigns>
-  HWY_NOINLINE void Trace(uint32_t root, uint32_t valid) {
+  template <bool kTop, bool kSameSigns>
+  HWY_NOINLINE void TraceNodes(uint32_t root, uint32_t valid) {
     const DF df;
-    Slabs slabs;
-    for (int a = 0; a < 3; ++a) {
-      slabs.rcp[a] = hn::LoadU(df, rays_.rcp[a] + at_);
-      slabs.near[a] = hn::LoadU(df, rays_.near[a] + at_);
-      slabs.far[a] = hn::LoadU(df, rays_.far[a] + at_);
-      slabs.negative[a] = hn::Lt(slabs.rcp[a], hn::Zero(df));
-    }
+    constexpr int kFewAtLeaf = kTop ? kEnterRays : kLeafRays;
+    const PacketSlabs slabs(rays_, at_);
     const PacketRays packet = LoadPacket(valid);
     PacketBest best = NoHits(packet.rays.t_max, hn::LoadU(DI(), rays_.prim + at_));
-    Frame frames[kFrames];
-    Frame* frame = frames;
-    hn::Store(hn::Zero(df), df, frame->entry[0]);
-    frame->ref[0] = root;
-    // A ray that is no ray (NaN, infinite) enters nothing: what Min and Max make of NaN
-    // differs between targets, and unused children must not be entered.
-    const VF sum = hn::Add(slabs.near[0], hn::Add(slabs.near[1], slabs.near[2]));
-    frame->lanes[0] = valid & MaskBits(df, hn::IsFinite(sum));
+    uint32_t rays = valid & slabs.Finite();
     if constexpr (kRemembers) {
-      blockers_.Test(scene_, packet, frame->lanes[0], best);
-      frame->lanes[0] &= ~best.found;
+      blockers_.Test(scene_, packet, rays, best);
+      rays &= ~best.found;
     }
-    frame->open = root != kEmptyRef;
-    while (Next(frames, frame)) {
+    PacketFrame frames[kPacketFrames];
+    PacketFrame* frame = frames;
+    frame->SetRoot(root, rays);
+    while (PacketFrame::Next(frames, frame)) {
       const int child = std::countr_zero(frame->open);
       frame->open &= frame->open - 1;
       const uint32_t ref = frame->ref[child];
@@ -126,25 +115,24 @@ class PacketPhase {
           frame->lanes[child] & MaskBits(df, hn::Le(hn::Load(df, entry), best.t));
       if (lanes == 0) continue;
       const bool is_leaf = ref & kLeafBit;
-      const bool few = std::popcount(lanes) < (is_leaf ? kLeafRays : kNodeRays);
+      const bool few = std::popcount(lanes) < (is_leaf ? kFewAtLeaf : kNodeRays);
       if (few && Defer(ref, entry, lanes)) continue;
-      if (is_leaf && AtInstance()) {
+      if (!is_leaf) {
+        const uint32_t octant = rays_.octant[at_ + std::countr_zero(lanes)];
+        (++frame)->template SetChildren<kSameSigns>(
+            slabs, best.t, scene_.accel.nodes[ref], octant, lanes);
+      } else if constexpr (kTop) {
         EnterInstance(ref & ~kLeafBit, lanes);
         best.t = hn::LoadU(df, rays_.t + at_);
-      } else if (is_leaf) {
-        TestLeafPacket<kAny, kAlpha>(scene_, ref, packet, lanes, best);
       } else {
-        TestChildren<kSameSigns>(slabs, best.t, scene_.accel.nodes[ref], lanes, *++frame);
+        TestLeafPacket<kAny, kAlpha>(scene_, ref, packet, lanes, best);
       }
     }
     if constexpr (kRemembers) {
       if (best.blocker != kNoPrimitive) blockers_.Add(best.blocker);
     }
-    if (!AtInstance()) StoreHits(best);
+    if constexpr (!kTop) StoreHits(best);
   }
-
-  // Whether leaves are instances.
-  LANELIGHT_INLINE bool AtInstance() const { return kInstances && tree_ == Tree::kTop; }
 
   // Traces the rays of `lanes` through an instance. They are moved to its space in the
   // columns behind the last ray, and their hits are taken back.
@@ -152,8 +140,9 @@ class PacketPhase {
     const Bvh& group = scene_.accel.groups[scene_.geometry.instance_group[instance]];
     const uint32_t home = at_, count = count_, to = rays_.size;
     MoveRays(instance, group, home, to);
-    Trace(Tree::kInstance, group.root, to, lanes);
-    tree_ = Tree::kTop;
+    inside_ = true;
+    Trace<false>(group.root, to, lanes);
+    inside_ = false;
     at_ = home;
     count_ = count;
     for (uint32_t bits = lanes; bits != 0; bits &= bits - 1) {
@@ -182,15 +171,6 @@ class PacketPhase {
     if constexpr (kAlpha) home_ = home;
   }
 
-  // Goes up to a frame with children to visit; false if there is none.
-  static LANELIGHT_INLINE bool Next(const Frame* first, Frame*& frame) {
-    while (frame->open == 0) {
-      if (frame == first) return false;
-      --frame;
-    }
-    return true;
-  }
-
   LANELIGHT_INLINE PacketRays LoadPacket(uint32_t valid) const {
     const DF df;
     const V3 d = rays_.Load3(rays_.d, at_), so = rays_.Load3(rays_.shear_o, at_),
@@ -203,7 +183,7 @@ class PacketPhase {
     const Rays rays{rays_.Load3(rays_.o, at_), d, hn::LoadU(df, rays_.t + at_), from};
     PacketRays packet = MakePacket(rays, shear, AxisOrder(d), valid);
     if constexpr (kAlpha && kInstances) {
-      if (tree_ == Tree::kInstance) {
+      if (inside_) {
         packet.home.o = rays_.Load3(rays_.o, home_);
         packet.home.d = rays_.Load3(rays_.d, home_);
       }
@@ -211,40 +191,9 @@ class PacketPhase {
     return packet;
   }
 
-  // Fills the frame of a node. Every child is tested, and everything is stored to places
-  // known beforehand, so that the tests overlap.
-  template <bool kSameSigns>
-  LANELIGHT_INLINE void TestChildren(const Slabs& slabs, VF t, const WideNode& node,
-                                     uint32_t lanes, Frame& frame) const {
-    const DF df;
-    const uint32_t octant = rays_.octant[at_ + std::countr_zero(lanes)];
-    uint32_t open = 0;
-    for (uint32_t j = 0; j < kBvhWidth; ++j) {
-      const uint32_t c = j ^ octant;
-      VF enter = hn::Zero(df), leave = t;
-      for (int a = 0; a < 3; ++a) {
-        const uint32_t negative = kSameSigns ? octant >> a & 1 : 0;
-        VF p = Splat(node.bounds[a][negative][c]);
-        VF q = Splat(node.bounds[a][negative ^ 1][c]);
-        if constexpr (!kSameSigns) {
-          const VF lower = p;
-          p = hn::IfThenElse(slabs.negative[a], q, p);
-          q = hn::IfThenElse(slabs.negative[a], lower, q);
-        }
-        enter = hn::Max(enter, hn::MulAdd(p, slabs.rcp[a], slabs.near[a]));
-        leave = hn::Min(leave, hn::MulAdd(q, slabs.rcp[a], slabs.far[a]));
-      }
-      hn::Store(enter, df, frame.entry[j]);
-      frame.ref[j] = node.child[c];
-      frame.lanes[j] = lanes & MaskBits(df, hn::Le(enter, leave));
-      open |= uint32_t{frame.lanes[j] != 0} << j;
-    }
-    frame.open = open;
-  }
-
   // Leaves a subtree to single rays; false if a ray has no room for it.
   LANELIGHT_INLINE bool Defer(uint32_t ref, const float* entry, uint32_t lanes) {
-    if (kInstances && tree_ == Tree::kInstance) return false;
+    if (kInstances && inside_) return false;
     for (uint32_t bits = lanes; bits != 0; bits &= bits - 1) {
       if (rays_.bottom[at_ + std::countr_zero(bits)] < 2) return false;
     }
@@ -278,7 +227,7 @@ class PacketPhase {
 
   const CompiledScene& scene_;
   StreamRays& rays_;
-  Tree tree_ = Tree::kWorld;
+  bool inside_ = false;          // an instance
   uint32_t at_ = 0, count_ = 0;  // place and number of the rays
   LastBlockers<kAlpha> blockers_;
   uint32_t home_ = 0;  // in an instance: their place in the space of the scene

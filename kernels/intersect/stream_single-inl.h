@@ -13,11 +13,9 @@
 #include <bit>
 #include <type_traits>
 
-#include "hwy/cache_control.h"
 #include "kernels/intersect/alpha-inl.h"
-#include "kernels/intersect/bvh-inl.h"
-#include "kernels/intersect/leaf-inl.h"
-#include "kernels/intersect/stream_rays-inl.h"
+#include "kernels/intersect/stream_lists-inl.h"
+#include "kernels/intersect/stream_stacks-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
 #include "src/compiled/scene.h"
 
@@ -26,8 +24,6 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Rays that take a step together, in one straight run of instructions.
-inline constexpr uint32_t kTogether = 2;
 /// Leaves tested before their hits are taken.
 inline constexpr uint32_t kLeafBlock = 16;
 
@@ -35,129 +31,81 @@ template <bool kAny, bool kAlpha, bool kInstances>
 class SinglePhase {
  public:
   SinglePhase(const CompiledScene& scene, StreamRays& rays)
-      : scene_(scene),
-        rays_(rays),
-        spaces_(scene, rays),
-        node_base_(reinterpret_cast<const char*>(scene.accel.nodes.data())),
-        leaf_places_(scene.accel) {}
+      : scene_(scene), rays_(rays), spaces_(scene, rays), stacks_(scene, rays) {}
 
   /// Places of the rays to trace; the packet phase appends them.
-  int32_t* live() { return live_; }
+  RayList& live() { return lists_.live; }
 
   /// Moves all rays to the tree over instances, after they were traced through the world.
   LANELIGHT_INLINE void BeginTop() { spaces_.BeginTop(); }
 
-  /// Traces the first `num_live` of them.
-  HWY_NOINLINE void Run(uint32_t num_live) {
-    num_live_ = num_live;
+  /// Traces them through the world.
+  HWY_NOINLINE void Run() {
     for (;;) {
-      Classify();
-      if (num_live_ == 0) return;
+      lists_.Classify(rays_);
+      if (lists_.live.size == 0) return;
       if constexpr (kInstances) ChangeSpaces();
       NodeRound();
-      if (leaf_places_.small()) {
-        LeafRound<SmallLeaf>(leaves_, num_leaves_);
+      if (stacks_.leaf_places().small()) {
+        LeafRound<SmallLeaf>(lists_.leaves);
       } else {
-        LeafRound<TriangleLeaf>(leaves_, num_leaves_);
+        LeafRound<TriangleLeaf>(lists_.leaves);
       }
-      LeafRound<SeparateLeaf>(separate_, num_separate_);
+      LeafRound<SeparateLeaf>(lists_.separate);
     }
+  }
+
+  /// Traces them through the tree over instances, and these.
+  LANELIGHT_INLINE void RunTop() {
+    const RayList& live = lists_.live;
+    for (uint32_t i = 0; i < live.size; ++i) {
+      spaces_.KeepHome(static_cast<uint32_t>(live.place[i]));
+    }
+    Run();
   }
 
  private:
-  static constexpr uint32_t kRoom = StreamRays::kRoom;
-  // Vectors that the children of a node take: 1, or 2 on targets of 4 lanes.
-  static constexpr uint32_t kParts = kBvhWidth / hn::MaxLanes(D8());
+  using Stacks = RayStacks<kAny, kInstances>;
+  static constexpr uint32_t kParts = Stacks::kParts, kRoom = StreamRays::kRoom;
 
-  // Lists the rays that are at a node, and those at either kind of leaf. Apart from the
-  // steps, which thus store only to places known beforehand: a store to a place that
-  // depends on the outcome of a step would hold up the loads of the steps that follow.
-  LANELIGHT_INLINE void Classify() {
-    const DI di;
-    const uint32_t n = num_live_;
-    num_live_ = num_nodes_ = num_leaves_ = num_separate_ = 0;
-    num_entering_ = num_leaving_ = 0;
-    for (uint32_t i = 0; i < n; i += hn::MaxLanes(di)) {
-      const auto valid = hn::FirstN(di, n - i);
-      const VI rays = hn::IfThenElseZero(valid, hn::LoadU(di, live_ + i));
-      const VI next = Gather(rays_.next, rays);
-      const auto live = hn::And(valid, hn::Ne(next, hn::Set(di, -1)));
-      auto leaf = hn::And(live, hn::Lt(next, hn::Zero(di)));
-      if constexpr (kInstances) leaf = ListMoving(rays, next, live, leaf);
-      num_nodes_ +=
-          Append(rays, hn::AndNot(hn::Lt(next, hn::Zero(di)), live), nodes_ + num_nodes_);
-      const auto separate = hn::And(leaf, hn::Lt(hn::ShiftLeft<1>(next), hn::Zero(di)));
-      num_leaves_ += Append(rays, hn::AndNot(separate, leaf), leaves_ + num_leaves_);
-      num_separate_ += Append(rays, separate, separate_ + num_separate_);
-      num_live_ += Append(rays, live, live_ + num_live_);
-    }
-  }
-  // Lists the rays that are at an instance, or at its end; returns the others of `leaf`.
-  template <class M>
-  LANELIGHT_INLINE M ListMoving(VI rays, VI next, M live, M leaf) {
-    const DI di;
-    const auto equals = [&](VI v, uint32_t ref)
-                            HWY_ATTR { return hn::Eq(v, hn::Set(di, int32_t(ref))); };
-    const M leaving = hn::And(live, equals(next, kReturnRef));
-    const VI space = Gather(reinterpret_cast<const int32_t*>(rays_.space), rays);
-    const M entering = hn::AndNot(leaving, hn::And(leaf, equals(space, kTopSpace)));
-    num_leaving_ += Append(rays, leaving, leaving_ + num_leaving_);
-    num_entering_ += Append(rays, entering, entering_ + num_entering_);
-    return hn::AndNot(hn::Or(leaving, entering), leaf);
-  }
-
-  // Takes rays back from instances, and others into them.
+  // Takes rays back from instances, and others, or the same, into them.
   HWY_NOINLINE void ChangeSpaces() {
-    for (uint32_t i = 0; i < num_leaving_; ++i) {
-      const auto r = static_cast<uint32_t>(leaving_[i]);
-      spaces_.Leave(r);
-      Pop(r, rays_.top[r]);
+    RayList& moving = lists_.moving;
+    uint32_t entering = 0;
+    for (uint32_t i = 0; i < moving.size; ++i) {
+      const auto r = static_cast<uint32_t>(moving.place[i]);
+      if (static_cast<uint32_t>(rays_.next[r]) == kReturnRef) {
+        stacks_.Pop(r, rays_.top[r]);
+        spaces_.Leave(r, static_cast<uint32_t>(rays_.next[r]));
+      }
+      const auto next = static_cast<uint32_t>(rays_.next[r]);
+      moving.place[entering] = moving.place[i];
+      entering += next < kReturnRef && (next & kLeafBit) != 0;
     }
-    spaces_.Enter(entering_, num_entering_);
-    for (uint32_t i = 0; i < num_entering_; ++i) {
-      const auto r = static_cast<uint32_t>(entering_[i]);
-      const uint32_t top = ++rays_.top[r];
-      rays_.Refs(r)[top] = kReturnRef;
-      rays_.Entries(r)[top] = -1;  // stays when the stack is culled
+    spaces_.Enter(moving.place, entering);
+    for (uint32_t i = 0; i < entering; ++i) {
+      stacks_.PushReturn(static_cast<uint32_t>(moving.place[i]));
     }
   }
 
-  template <class M>
-  static LANELIGHT_INLINE uint32_t Append(VI rays, M mask, int32_t* to) {
-    hn::StoreU(hn::Compress(rays, mask), DI(), to);
-    return static_cast<uint32_t>(hn::CountTrue(DI(), mask));
-  }
-
-  // Fills the last group up with its last ray, whose step is then done twice.
-  static LANELIGHT_INLINE void PadGroup(int32_t* list, uint32_t n) {
-    for (uint32_t j = 0; n > 0 && j < kTogether; ++j) list[n + j] = list[n - 1];
-  }
   HWY_NOINLINE void NodeRound() {
-    PadGroup(nodes_, num_nodes_);
-    for (uint32_t k = 0; k < num_nodes_; k += kTogether) NodeStep(nodes_ + k);
+    RayList& nodes = lists_.nodes;
+    nodes.PadGroup();
+    for (uint32_t k = 0; k < nodes.size; k += kTogether) NodeStep(nodes.place + k);
   }
+
   template <class Leaf>
-  HWY_NOINLINE void LeafRound(int32_t* list, uint32_t count) {
-    PadGroup(list, count);
-    for (uint32_t base = 0; base < count; base += kLeafBlock) {
-      const uint32_t n = std::min(count - base, kLeafBlock);
-      for (uint32_t k = 0; k < n; k += kTogether) LeafStep<Leaf>(list + base + k, k);
+  HWY_NOINLINE void LeafRound(RayList& leaves) {
+    leaves.PadGroup();
+    for (uint32_t base = 0; base < leaves.size; base += kLeafBlock) {
+      const int32_t* const list = leaves.place + base;
+      const uint32_t n = std::min(leaves.size - base, kLeafBlock);
+      for (uint32_t k = 0; k < n; k += kTogether) LeafStep<Leaf>(list + k, k);
       for (uint32_t k = 0; k < n; ++k) {
         if (bits_[k] == 0) continue;
-        HitStep<Leaf>(static_cast<uint32_t>(list[base + k]), bits_[k], weights_[k]);
+        HitStep<Leaf>(static_cast<uint32_t>(list[k]), bits_[k], weights_[k]);
       }
     }
-  }
-
-  // Goes to the top of the stack if `move` is 1, stays where it is if it is 0.
-  LANELIGHT_INLINE void Pop(uint32_t r, uint32_t top, uint32_t move = 1) {
-    const uint32_t ref = rays_.Refs(r)[top];
-    rays_.top[r] = top - move;
-    rays_.next[r] = move ? static_cast<int32_t>(ref) : rays_.next[r];
-    if (kInstances && ref >= kReturnRef) return;
-    const char* const node = node_base_ + std::size_t{ref} * sizeof(WideNode);
-    const char* const at = ref & kLeafBit ? leaf_places_.At(ref) : node;
-    for (int line = 0; line < 4; ++line) hwy::Prefetch(at + line * kCacheLine);
   }
 
   LANELIGHT_INLINE void NodeStep(const int32_t* list) {
@@ -178,9 +126,9 @@ class SinglePhase {
       }
     }
     for (uint32_t j = 0; j < kTogether; ++j) {
-      top[j] = PushEntered(r[j], *node[j], entered[j]);
+      top[j] = stacks_.PushEntered(r[j], *node[j], entered[j]);
     }
-    for (uint32_t j = 0; j < kTogether; ++j) Pop(r[j], top[j]);
+    for (uint32_t j = 0; j < kTogether; ++j) stacks_.Pop(r[j], top[j]);
   }
 
   // Where rays r[j] enter and leave the children of a part of node[j].
@@ -209,37 +157,9 @@ class SinglePhase {
     }
   }
 
-  // Pushes the children with entries that are not negative, last slots first, so that the
-  // nearest is on top. Returns the new top.
-  LANELIGHT_INLINE uint32_t PushEntered(uint32_t r, const WideNode& node,
-                                        const V8 (&entered)[kParts]) {
-    const D8 d8;
-    const hn::RebindToUnsigned<D8> du;
-    constexpr uint32_t kLast = kBvhWidth / kParts - 1;
-    const uint32_t octant = rays_.octant[r];
-    const auto lane = hn::Xor(hn::Sub(hn::Set(du, kLast), hn::Iota(du, 0)),
-                              hn::Set(du, octant & kLast));
-    uint32_t top = rays_.top[r];
-    for (uint32_t k = 0; k < kParts; ++k) {
-      // The bit of the octant above the lanes tells which part is last.
-      const uint32_t part = (kParts - 1 - k) ^ (kParts > 1 ? octant / (kLast + 1) : 0);
-      const V8 some = kParts > 1 && part == 0 ? entered[0] : entered[kParts - 1];
-      const V8 entry = hn::TableLookupLanes(some, hn::IndicesFromVec(d8, lane));
-      const auto ref = hn::TableLookupLanes(hn::Load(du, node.child + part * Lanes8()),
-                                            hn::IndicesFromVec(du, lane));
-      const M8 hit = hn::Ge(entry, hn::Zero(d8));
-      if constexpr (!kAny) {  // any hit ends the ray: nothing is culled
-        hn::StoreU(hn::Compress(entry, hit), d8, rays_.Entries(r) + top + 1);
-      }
-      hn::StoreU(hn::Compress(ref, hn::RebindMask(du, hit)), du, rays_.Refs(r) + top + 1);
-      top += static_cast<uint32_t>(hn::CountTrue(d8, hit));
-    }
-    return top;
-  }
-
   template <class Leaf>
   LANELIGHT_INLINE const Leaf& LeafOf(uint32_t r) const {
-    return leaf_places_.Of<Leaf>(static_cast<uint32_t>(rays_.next[r]));
+    return stacks_.leaf_places().template Of<Leaf>(static_cast<uint32_t>(rays_.next[r]));
   }
 
   // Rays whose lines pass through no triangle go on; the others wait for HitStep.
@@ -265,7 +185,7 @@ class SinglePhase {
     for (uint32_t j = 0; j < kTogether; ++j) top[j] = rays_.top[r[j]];
     for (uint32_t j = 0; j < kTogether; ++j) {
       bits_[at + j] = bits[j];
-      Pop(r[j], top[j], bits[j] == 0);
+      stacks_.Pop(r[j], top[j], bits[j] == 0);
     }
   }
 
@@ -277,18 +197,21 @@ class SinglePhase {
     const auto copy_ray = [&](float o[3], float d[3]) HWY_ATTR {
       for (int a = 0; a < 3; ++a) o[a] = rays_.o[a][r], d[a] = rays_.d[a][r];
     };
+    const auto copy_mapped = [&](float o[3], float d[3]) HWY_ATTR {
+      copy_ray(o, d);
+      if constexpr (kInstances) spaces_.Map(r, o, d);
+    };
     bool closer = false;
     for (; bits != 0; bits &= bits - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(bits));
       const auto prim = static_cast<int32_t>(leaf.prim[i]);
       LaneHit hit;
-      if (!FinishLane(leaf, weights, i, copy_ray, hit)) continue;
+      if (!FinishLane(leaf, weights, i, copy_mapped, hit)) continue;
       const auto [t, b1, b2] = hit;
       if (!IsBetter(r, t, prim)) continue;
       if constexpr (kAlpha) {
         float o[3], d[3];
         copy_ray(o, d);
-        if constexpr (kInstances) spaces_.CopyHome(r, o, d);
         if (!TrianglePassesAlpha(scene_, o, d, leaf.prim[i], b1, b2)) continue;
       }
       rays_.found[r] = 1;
@@ -303,8 +226,8 @@ class SinglePhase {
       rays_.b2[r] = b2;
       if constexpr (kInstances) rays_.inst[r] = rays_.space[r];
     }
-    if (closer) CullStack(r);
-    Pop(r, rays_.top[r]);
+    if (closer) stacks_.Cull(r);
+    stacks_.Pop(r, rays_.top[r]);
   }
 
   // Ties go to the smaller primitive, then to the smaller instance.
@@ -314,35 +237,11 @@ class SinglePhase {
     return rays_.space[r] < rays_.inst[r];
   }
 
-  // Drops what lies beyond the hit, so that nothing needs to be tested when it is popped.
-  LANELIGHT_INLINE void CullStack(uint32_t r) {
-    const DF df;
-    const hn::RebindToUnsigned<DF> du;
-    uint32_t* refs = rays_.Refs(r);
-    float* entries = rays_.Entries(r);
-    const uint32_t end = rays_.top[r] + 1;
-    const VF t = hn::Set(df, rays_.t[r]);
-    uint32_t kept = rays_.bottom[r];
-    for (uint32_t i = kept; i < end; i += hn::MaxLanes(df)) {
-      const VF entry = hn::LoadU(df, entries + i);
-      const auto ref = hn::LoadU(du, refs + i);
-      const MF keep = hn::And(hn::Le(entry, t), hn::FirstN(df, end - i));
-      hn::StoreU(hn::Compress(entry, keep), df, entries + kept);
-      hn::StoreU(hn::Compress(ref, hn::RebindMask(du, keep)), du, refs + kept);
-      kept += static_cast<uint32_t>(hn::CountTrue(df, keep));
-    }
-    rays_.top[r] = kept - 1;
-  }
-
   const CompiledScene& scene_;
   StreamRays& rays_;
   std::conditional_t<kInstances, RaySpaces, NoSpaces> spaces_;
-  const char* node_base_;
-  LeafPlaces leaf_places_;
-  uint32_t num_live_ = 0, num_nodes_ = 0, num_leaves_ = 0, num_separate_ = 0;
-  int32_t live_[kRoom], nodes_[kRoom], leaves_[kRoom], separate_[kRoom];
-  uint32_t num_entering_ = 0, num_leaving_ = 0;
-  int32_t entering_[kInstances ? kRoom : 1], leaving_[kInstances ? kRoom : 1];
+  Stacks stacks_;
+  RayLists<kInstances> lists_;
   uint32_t bits_[kLeafBlock + kTogether];
   LeafWeights weights_[kLeafBlock + kTogether];
 };

@@ -23,8 +23,8 @@ inline constexpr uint32_t kReturnRef = kEmptyRef - 1;
 /// `space` of a ray in the tree over instances.
 inline constexpr uint32_t kTopSpace = kWorldInstance - 1;
 
-/// Moves rays from one space to another. In a space a ray's columns (o, d, slabs, shear)
-/// are those of that space; t is the same in all of them.
+/// Moves rays from one space to another. In a space a ray's slabs and shear are those of
+/// that space; o and d stay those of the scene's, and t is the same in all of them.
 class RaySpaces {
  public:
   RaySpaces(const CompiledScene& scene, StreamRays& rays) : scene_(scene), rays_(rays) {}
@@ -37,12 +37,9 @@ class RaySpaces {
                      Splat(top.margin), r);
       CloseNoRays(r);
     }
-    for (uint32_t r = 0; r < rays_.size; ++r) {
-      Home& home = home_[r];
-      Copy([&](int k, float* column) HWY_ATTR { home.ray[k] = column[r]; });
-      rays_.space[r] = kTopSpace;
-      rays_.from[r] = kNoPrimitive;  // a triangle may be in several instances
-    }
+    std::fill_n(rays_.space, rays_.size, kTopSpace);
+    // A triangle may be in several instances.
+    std::fill_n(rays_.from, rays_.size, kNoPrimitive);
   }
 
   /// Moves rays to the spaces of the instances that they are at.
@@ -52,35 +49,46 @@ class RaySpaces {
     }
   }
 
-  /// Moves a ray back to the tree over instances.
-  LANELIGHT_INLINE void Leave(uint32_t r) {
-    const Home& home = home_[r];
-    Copy([&](int k, float* column) HWY_ATTR { column[r] = home.ray[k]; });
-    rays_.space[r] = kTopSpace;
+  /// Keeps the ray's columns in the tree over instances, where it is, for its way back.
+  LANELIGHT_INLINE void KeepHome(uint32_t r) {
+    Home& home = home_[r];
+    Copy([&](int k, float* column) HWY_ATTR { home.ray[k] = column[r]; });
   }
 
-  /// The ray in the space of the scene, if it is not there.
-  LANELIGHT_INLINE void CopyHome(uint32_t r, float o[3], float d[3]) const {
-    if (rays_.space[r] == kWorldInstance) return;
-    for (int a = 0; a < 3; ++a) o[a] = home_[r].ray[a], d[a] = home_[r].ray[3 + a];
+  /// Moves a ray back to the tree over instances. Its columns stay those of the instance
+  /// unless a node is next: another instance has its own, which it makes of what was
+  /// kept.
+  LANELIGHT_INLINE void Leave(uint32_t r, uint32_t next) {
+    rays_.space[r] = kTopSpace;
+    if (next & kLeafBit) return;
+    const Home& home = home_[r];
+    Copy([&](int k, float* column) HWY_ATTR { column[r] = home.ray[k]; });
+  }
+
+  /// The ray, which lies in the space of the scene, in the one where it is.
+  LANELIGHT_INLINE void Map(uint32_t r, float o[3], float d[3]) const {
+    if (rays_.space[r] >= kTopSpace) return;
+    const Rays own =
+        MapRays(scene_.geometry.instances[rays_.space[r]], Splat3(o[0], o[1], o[2]),
+                Splat3(d[0], d[1], d[2]), Splat(0));
+    const VF from[6] = {own.o.x, own.o.y, own.o.z, own.d.x, own.d.y, own.d.z};
+    for (int a = 0; a < 3; ++a)
+      o[a] = hn::GetLane(from[a]), d[a] = hn::GetLane(from[3 + a]);
   }
 
  private:
-  static constexpr int kWords = 19;
+  static constexpr int kWords = 13;
   struct Home {
     float ray[kWords];  // as Copy goes through the columns
   };
 
-  // Calls f(k, column) for each column that differs between spaces in a node test: o, d,
-  // then slabs.
+  // Calls f(k, column) for each column of node tests.
   template <class F>
   LANELIGHT_INLINE void Copy(F&& f) {
     int k = 0;
     const auto three = [&](auto(&columns)[3][StreamRays::kRoom]) HWY_ATTR {
       for (auto& column : columns) f(k++, reinterpret_cast<float*>(column));
     };
-    three(rays_.o);
-    three(rays_.d);
     three(rays_.rcp);
     three(rays_.near);
     three(rays_.far);
@@ -120,7 +128,8 @@ class RaySpaces {
       const Bvh& group = accel.groups[geometry.instance_group[instance]];
       const float* m = geometry.instances[instance].object_from_scene;
       for (int k = 0; k < 12; ++k) map[k][j] = m[k];
-      for (int k = 0; k < 6; ++k) ray[k][j] = home_[r].ray[k];
+      for (int a = 0; a < 3; ++a)
+        ray[a][j] = rays_.o[a][r], ray[3 + a][j] = rays_.d[a][r];
       slack[j] = group.slack;
       margin[j] = group.margin;
       rays_.space[r] = instance;

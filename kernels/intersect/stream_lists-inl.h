@@ -1,0 +1,88 @@
+// What the rays of a stream are at: lists of places, made anew in each round.
+#if defined(LANELIGHT_INTERSECT_STREAM_LISTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_STREAM_LISTS_INL_H_
+#undef LANELIGHT_INTERSECT_STREAM_LISTS_INL_H_
+#else
+#define LANELIGHT_INTERSECT_STREAM_LISTS_INL_H_
+#endif
+
+#include <type_traits>
+
+#include "kernels/intersect/stream_rays-inl.h"
+#include "kernels/intersect/stream_spaces-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Rays that take a step together, in one straight run of instructions.
+inline constexpr uint32_t kTogether = 2;
+
+/// Places of rays, with room for a vector stored past the last one.
+struct RayList {
+  uint32_t size = 0;
+  int32_t place[StreamRays::kRoom];
+
+  template <class M>
+  LANELIGHT_INLINE void Append(VI rays, M mask) {
+    hn::StoreU(hn::Compress(rays, mask), DI(), place + size);
+    size += static_cast<uint32_t>(hn::CountTrue(DI(), mask));
+  }
+  /// Fills the last group up with its last ray, whose step is then done twice.
+  LANELIGHT_INLINE void PadGroup() {
+    for (uint32_t j = 0; size > 0 && j < kTogether; ++j)
+      place[size + j] = place[size - 1];
+  }
+};
+
+template <bool kInstances>
+struct RayLists {
+  RayList live;              // rays that are not at their end
+  RayList nodes;             // those at a node, ...
+  RayList leaves, separate;  // ... at either kind of leaf, ...
+  std::conditional_t<kInstances, RayList, char> moving;  // ... that change their space
+
+  /// Lists the live rays anew by what is next. Apart from the steps, which thus store
+  /// only to places known beforehand: a store to a place that depends on the outcome of a
+  /// step would hold up the loads of the steps that follow.
+  LANELIGHT_INLINE void Classify(const StreamRays& rays) {
+    const DI di;
+    const uint32_t n = live.size;
+    live.size = nodes.size = leaves.size = separate.size = 0;
+    if constexpr (kInstances) moving.size = 0;
+    for (uint32_t i = 0; i < n; i += hn::MaxLanes(di)) {
+      const auto valid = hn::FirstN(di, n - i);
+      const VI place = hn::IfThenElseZero(valid, hn::LoadU(di, live.place + i));
+      const VI next = Gather(rays.next, place);
+      const auto alive = hn::And(valid, hn::Ne(next, hn::Set(di, -1)));
+      const auto negative = hn::Lt(next, hn::Zero(di));
+      auto leaf = hn::And(alive, negative);
+      if constexpr (kInstances) leaf = ListMoving(rays, place, next, leaf);
+      nodes.Append(place, hn::AndNot(negative, alive));
+      const auto apart = hn::And(leaf, hn::Lt(hn::ShiftLeft<1>(next), hn::Zero(di)));
+      leaves.Append(place, hn::AndNot(apart, leaf));
+      separate.Append(place, apart);
+      live.Append(place, alive);
+    }
+  }
+
+ private:
+  // Lists the rays that are at an instance, or at its end; returns the others of `leaf`.
+  template <class M>
+  LANELIGHT_INLINE M ListMoving(const StreamRays& rays, VI place, VI next, M leaf) {
+    const DI di;
+    const auto is = [&](VI v, uint32_t ref)
+                        HWY_ATTR { return hn::Eq(v, hn::Set(di, int32_t(ref))); };
+    const VI space = Gather(reinterpret_cast<const int32_t*>(rays.space), place);
+    const M changes = hn::And(leaf, hn::Or(is(next, kReturnRef), is(space, kTopSpace)));
+    moving.Append(place, changes);
+    return hn::AndNot(changes, leaf);
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

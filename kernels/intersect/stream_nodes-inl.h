@@ -1,0 +1,107 @@
+// Nodes in the first phase of a stream: each ray of a packet has its own slab test.
+#if defined(LANELIGHT_INTERSECT_STREAM_NODES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_STREAM_NODES_INL_H_
+#undef LANELIGHT_INTERSECT_STREAM_NODES_INL_H_
+#else
+#define LANELIGHT_INTERSECT_STREAM_NODES_INL_H_
+#endif
+
+#include <bit>
+
+#include "kernels/intersect/stream_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// What the slab tests of a packet need, in registers.
+struct PacketSlabs {
+  VF rcp[3], near[3], far[3];
+  MF negative[3];
+
+  /// Of the rays at [at, at + lanes).
+  LANELIGHT_INLINE PacketSlabs(const StreamRays& rays, uint32_t at) {
+    const DF df;
+    for (int a = 0; a < 3; ++a) {
+      rcp[a] = hn::LoadU(df, rays.rcp[a] + at);
+      near[a] = hn::LoadU(df, rays.near[a] + at);
+      far[a] = hn::LoadU(df, rays.far[a] + at);
+      negative[a] = hn::Lt(rcp[a], hn::Zero(df));
+    }
+  }
+
+  /// The lanes that are rays. One that is not (NaN, infinite) enters nothing: what Min
+  /// and Max make of NaN differs between targets, and unused children must not be
+  /// entered.
+  LANELIGHT_INLINE uint32_t Finite() const {
+    const VF sum = hn::Add(near[0], hn::Add(near[1], near[2]));
+    return MaskBits(DF(), hn::IsFinite(sum));
+  }
+};
+
+/// The children of a node that the packet is in, in the order of their slots seen from
+/// its first ray: entry distances, and which lanes enter.
+struct PacketFrame {
+  HWY_ALIGN float entry[kBvhWidth][StreamRays::kLanes];
+  uint32_t ref[kBvhWidth], lanes[kBvhWidth];
+  uint32_t open;  // children to visit, as bits
+
+  /// A frame whose only child is the root.
+  LANELIGHT_INLINE void SetRoot(uint32_t root, uint32_t rays) {
+    const DF df;
+    hn::Store(hn::Zero(df), df, entry[0]);
+    ref[0] = root;
+    lanes[0] = rays;
+    open = root != kEmptyRef;
+  }
+
+  /// Goes up to a frame with children to visit; false if there is none.
+  static LANELIGHT_INLINE bool Next(const PacketFrame* first, PacketFrame*& frame) {
+    while (frame->open == 0) {
+      if (frame == first) return false;
+      --frame;
+    }
+    return true;
+  }
+
+  /// Fills the frame of a node for the rays of `rays`, the first of which is in `octant`.
+  /// Every child is tested, and everything is stored to places known beforehand, so that
+  /// the tests overlap.
+  template <bool kSameSigns>
+  LANELIGHT_INLINE void SetChildren(const PacketSlabs& slabs, VF t, const WideNode& node,
+                                    uint32_t octant, uint32_t rays) {
+    const DF df;
+    uint32_t entered = 0;
+    for (uint32_t j = 0; j < kBvhWidth; ++j) {
+      const uint32_t c = j ^ octant;
+      VF enter = hn::Zero(df), leave = t;
+      for (int a = 0; a < 3; ++a) {
+        const uint32_t negative = kSameSigns ? octant >> a & 1 : 0;
+        VF p = Splat(node.bounds[a][negative][c]);
+        VF q = Splat(node.bounds[a][negative ^ 1][c]);
+        if constexpr (!kSameSigns) {
+          const VF lower = p;
+          p = hn::IfThenElse(slabs.negative[a], q, p);
+          q = hn::IfThenElse(slabs.negative[a], lower, q);
+        }
+        enter = hn::Max(enter, hn::MulAdd(p, slabs.rcp[a], slabs.near[a]));
+        leave = hn::Min(leave, hn::MulAdd(q, slabs.rcp[a], slabs.far[a]));
+      }
+      hn::Store(enter, df, entry[j]);
+      ref[j] = node.child[c];
+      lanes[j] = rays & MaskBits(df, hn::Le(enter, leave));
+      entered |= uint32_t{lanes[j] != 0} << j;
+    }
+    open = entered;
+  }
+};
+
+/// So many hold the path from the root to a node.
+inline constexpr int kPacketFrames = kTraversalStack / (kBvhWidth - 1) + 2;
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif
