@@ -2,10 +2,6 @@
 
 #include <unistd.h>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,6 +11,7 @@
 #include "src/core/aligned.h"
 #include "src/core/check.h"
 #include "src/core/hardware_counters.h"
+#include "src/core/huge_pages.h"
 #include "src/render/memory.h"
 
 namespace lanelight {
@@ -34,25 +31,14 @@ std::size_t CacheBytes(int name, std::size_t otherwise) {
   return bytes > 0 ? static_cast<std::size_t>(bytes) : otherwise;
 }
 
-// The pages of a buffer this large should not be what is measured.
-void UseLargePages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
-#if defined(MADV_HUGEPAGE)
-  constexpr std::size_t kPage = 2 * kMiB;
-  const std::size_t inside = reinterpret_cast<std::uintptr_t>(data) % kPage;
-  const std::size_t skipped = inside == 0 ? 0 : kPage - inside;
-  if (bytes < skipped + kPage) return;
-  madvise(static_cast<char*>(data) + skipped, (bytes - skipped) / kPage * kPage,
-          MADV_HUGEPAGE);  // only advice
-#endif
-}
-
 // Words 0, 1, 2, ... whose sum is known.
 class ReadBuffer {
  public:
   explicit ReadBuffer(std::size_t bytes) : words_(RoundedWords(bytes)) {
     data_ = static_cast<std::uint32_t*>(
         ::operator new(words_ * sizeof(std::uint32_t), std::align_val_t(kCacheLine)));
-    UseLargePages(data_, words_ * sizeof(std::uint32_t));
+    // The pages of a buffer this large should not be what is measured.
+    AdviseHugePages(data_, words_ * sizeof(std::uint32_t));
     for (std::size_t i = 0; i < words_; ++i) data_[i] = static_cast<std::uint32_t>(i);
   }
   ~ReadBuffer() { ::operator delete(data_, std::align_val_t(kCacheLine)); }
