@@ -114,24 +114,49 @@ HWY_NOINLINE bool LaneIsAhead(const Leaf& leaf, uint32_t lane, const float o[3],
   return PlaneIsAhead(o, d, n, p[0]);
 }
 
-/// What is needed to finish the few lanes that a ray passes through: its vertices'
-/// distances, and the weights of the triangles or, where these are dear, the vertices'
-/// positions across the ray.
-struct LeafWeights {
-  static constexpr int kRows = SeparateLeaf::kVertexLanes;
-  HWY_ALIGN float z[kRows];
-  HWY_ALIGN float u[kCheapEdges ? kLeafTriangles : 1],
-      v[kCheapEdges ? kLeafTriangles : 1], w[kCheapEdges ? kLeafTriangles : 1];
-  HWY_ALIGN float x[kCheapEdges ? 1 : kRows], y[kCheapEdges ? 1 : kRows];
+/// Edge functions of a leaf's triangles, from which the few lanes that a ray passes
+/// through are finished.
+struct KeptEdges {
+  HWY_ALIGN float u[kLeafTriangles], v[kLeafTriangles], w[kLeafTriangles];
 
-  /// The weights of a triangle whose corners are the vertices a, b and c.
-  LANELIGHT_INLINE P3<float> Of(uint32_t lane, uint32_t a, uint32_t b, uint32_t c) const {
-    if constexpr (kCheapEdges) return {u[lane], v[lane], w[lane]};
+  template <class D, class V = hn::Vec<D>>
+  LANELIGHT_INLINE void KeepEdges(D d, std::size_t i, V of_u, V of_v, V of_w) {
+    hn::Store(of_u, d, u + i);
+    hn::Store(of_v, d, v + i);
+    hn::Store(of_w, d, w + i);
+  }
+  template <class D, class V = hn::Vec<D>>
+  LANELIGHT_INLINE void KeepVertices(D, std::size_t, V, V) {}
+
+  /// Those of a triangle whose corners are the vertices a, b and c.
+  LANELIGHT_INLINE P3<float> Of(uint32_t lane, uint32_t, uint32_t, uint32_t) const {
+    return {u[lane], v[lane], w[lane]};
+  }
+};
+
+/// Where these are dear: the vertices' positions across the ray instead.
+struct KeptVertices {
+  HWY_ALIGN float x[SeparateLeaf::kVertexLanes], y[SeparateLeaf::kVertexLanes];
+
+  template <class D, class V = hn::Vec<D>>
+  LANELIGHT_INLINE void KeepEdges(D, std::size_t, V, V, V) {}
+  template <class D, class V = hn::Vec<D>>
+  LANELIGHT_INLINE void KeepVertices(D d, std::size_t i, V of_x, V of_y) {
+    hn::Store(of_x, d, x + i);
+    hn::Store(of_y, d, y + i);
+  }
+
+  LANELIGHT_INLINE P3<float> Of(uint32_t, uint32_t a, uint32_t b, uint32_t c) const {
     const auto edge = [&](uint32_t i, uint32_t j) HWY_ATTR {
       return static_cast<float>(double{x[i]} * y[j] - double{y[i]} * x[j]);
     };
     return {edge(c, b), edge(a, c), edge(b, a)};
   }
+};
+
+/// The one of the two that suits the target, and the vertices' distances.
+struct LeafWeights : std::conditional_t<kCheapEdges, KeptEdges, KeptVertices> {
+  HWY_ALIGN float z[SeparateLeaf::kVertexLanes];
 };
 
 /// A ray as leaves see it: its shear, its permuted order of axes as byte offsets of
@@ -186,10 +211,7 @@ LANELIGHT_INLINE void TestLeaves(const LeafRay (&ray)[kRays],
                            hn::NegMulAdd(hn::Set(d, ray[j].s.y), z[j], dy)};
       x[j].Set(i / kStep, across[0]);
       y[j].Set(i / kStep, across[1]);
-      if constexpr (!kCheapEdges) {
-        hn::Store(across[0], d, to[j]->x + i);
-        hn::Store(across[1], d, to[j]->y + i);
-      }
+      to[j]->KeepVertices(d, i, across[0], across[1]);
     }
   }
   for (int j = 0; j < kRays; ++j) bits[j] = 0;
@@ -211,9 +233,7 @@ LANELIGHT_INLINE void TestLeaves(const LeafRay (&ray)[kRays],
     }
     for (int j = 0; j < kRays; ++j) {
       if constexpr (kCheapEdges) {
-        hn::Store(u[j], d, to[j]->u + i);
-        hn::Store(v[j], d, to[j]->v + i);
-        hn::Store(w[j], d, to[j]->w + i);
+        to[j]->KeepEdges(d, i, u[j], v[j], w[j]);
         pass[j] = hn::Or(hn::Ge(Min3(u[j], v[j], w[j]), zero),
                          hn::Le(Max3(u[j], v[j], w[j]), zero));
       } else {
@@ -252,9 +272,10 @@ class LeafPlaces {
   std::size_t unit_;
 };
 
-/// A hit of a lane: distance, and barycentric coordinates.
+/// A hit of a lane: distance, and the weights of the second and third corner times `det`:
+/// most hits are not the nearest, and need no quotients.
 struct LaneHit {
-  float t, b1, b2;
+  float t, v, w, det;
 };
 
 /// Finishes one lane of a leaf for which TestLeaves set the bit; true if the triangle
@@ -276,7 +297,7 @@ LANELIGHT_INLINE bool FinishLane(const Leaf& leaf, const LeafWeights& weights,
       hn::GetLane(hn::MulAdd(hn::Set(d1, u), hn::Set(d1, az),
                              hn::MulAdd(hn::Set(d1, v), hn::Set(d1, bz),
                                         hn::Mul(hn::Set(d1, w), hn::Set(d1, cz)))));
-  hit = {t_det / det, v / det, w / det};
+  hit = {t_det / det, v, w, det};
   const bool straddles = std::min({az, bz, cz}) <= 0 && std::max({az, bz, cz}) >= 0;
   if (!straddles) return hit.t > 0;
   hit.t = std::max(hit.t, FLT_MIN);

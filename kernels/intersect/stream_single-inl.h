@@ -207,8 +207,8 @@ class SinglePhase {
       const auto prim = static_cast<int32_t>(leaf.prim[i]);
       LaneHit hit;
       if (!FinishLane(leaf, weights, i, copy_mapped, hit)) continue;
-      const auto [t, b1, b2] = hit;
-      if (!IsBetter(r, t, prim)) continue;
+      if (!IsBetter(r, hit.t, prim)) continue;
+      const float b1 = hit.v / hit.det, b2 = hit.w / hit.det;
       if constexpr (kAlpha) {
         float o[3], d[3];
         copy_ray(o, d);
@@ -220,7 +220,7 @@ class SinglePhase {
         return;
       }
       closer = true;
-      rays_.t[r] = t;
+      rays_.t[r] = hit.t;
       rays_.prim[r] = prim;
       rays_.b1[r] = b1;
       rays_.b2[r] = b2;
