@@ -262,7 +262,10 @@ class LeafPlaces {
   }
   template <class Leaf>
   LANELIGHT_INLINE const Leaf& Of(uint32_t ref) const {
-    return *reinterpret_cast<const Leaf*>(At(ref));
+    // Leaves that share vertices are as far apart as they are large: a constant.
+    constexpr bool kShared = !std::is_same_v<Leaf, SeparateLeaf>;
+    const std::size_t unit = kShared ? sizeof(Leaf) : unit_;
+    return *reinterpret_cast<const Leaf*>(base_ + (ref & kRefIndex) * unit);
   }
   /// Whether leaves that share vertices are SmallLeaf.
   LANELIGHT_INLINE bool small() const { return unit_ == sizeof(SmallLeaf); }

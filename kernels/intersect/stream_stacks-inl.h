@@ -25,9 +25,7 @@ class RayStacks {
   static constexpr uint32_t kParts = kBvhWidth / hn::MaxLanes(D8());
 
   RayStacks(const CompiledScene& scene, StreamRays& rays)
-      : rays_(rays),
-        node_base_(reinterpret_cast<const char*>(scene.accel.nodes.data())),
-        leaf_places_(scene.accel) {}
+      : rays_(rays), places_(scene.accel), leaf_places_(scene.accel) {}
 
   const LeafPlaces& leaf_places() const { return leaf_places_; }
 
@@ -37,8 +35,7 @@ class RayStacks {
     rays_.top[r] = top - move;
     rays_.next[r] = move ? static_cast<int32_t>(ref) : rays_.next[r];
     if (kInstances && ref >= kReturnRef) return;
-    const char* const node = node_base_ + std::size_t{ref} * sizeof(WideNode);
-    const char* const at = ref & kLeafBit ? leaf_places_.At(ref) : node;
+    const char* const at = places_.At(ref);
     for (int line = 0; line < 4; ++line) hwy::Prefetch(at + line * kCacheLine);
   }
 
@@ -99,8 +96,25 @@ class RayStacks {
   }
 
  private:
+  // Where nodes and leaves lie, found without a branch: which of the two is next cannot be
+  // predicted.
+  struct Places {
+    const char* base[2];
+    std::size_t unit[2];
+
+    explicit Places(const Accel& accel)
+        : base{reinterpret_cast<const char*>(accel.nodes.data()),
+               reinterpret_cast<const char*>(accel.triangle_blocks.data())},
+          unit{sizeof(WideNode), LeafUnit(accel.leaf_triangles)} {}
+
+    LANELIGHT_INLINE const char* At(uint32_t ref) const {
+      const uint32_t leaf = ref >> 31;
+      return base[leaf] + (ref & kRefIndex) * unit[leaf];
+    }
+  };
+
   StreamRays& rays_;
-  const char* node_base_;
+  Places places_;
   LeafPlaces leaf_places_;
 };
 
