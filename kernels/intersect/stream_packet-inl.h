@@ -22,14 +22,17 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// A packet goes on into a node, or a leaf, that at least so many of its rays enter.
-/// Fewer are left to the second phase. Of 16 lanes, 4 and 6 instead cost shadow rays 12
-/// to 18 % and bounces 5 %, 10 and 8 bounces 5 to 10 %; of 8 lanes, 9 and 5 (no packets)
-/// cost 20 to 30 %; of 4 lanes, 3 and 2 cost 5 to 12 %. The optimum is flat.
-inline constexpr int kNodeRays = StreamRays::kLanes >= 16  ? 10
-                                 : StreamRays::kLanes >= 8 ? 6
+/// Fewer are left to the second phase. More at nodes and fewer at leaves would suit
+/// shadow rays to small triangles (soup 10 to 25 % faster), but where walls and table
+/// tops hide lamps they cost 5 to 12 %: docs/intersect.md.
+template <bool kAny>
+inline constexpr int kNodeRays = StreamRays::kLanes >= 16  ? (kAny ? 10 : 12)
+                                 : StreamRays::kLanes >= 8 ? (kAny ? 6 : 8)
                                                            : 4;
-inline constexpr int kLeafRays = StreamRays::kLanes >= 16 ? 5 : 3;
-
+template <bool kAny>
+inline constexpr int kLeafRays = StreamRays::kLanes >= 16  ? (kAny ? 5 : 4)
+                                 : StreamRays::kLanes >= 8 ? (kAny ? 3 : 2)
+                                                           : 2;
 /// The same for instances: fewer or more cost 2 to 5 %.
 inline constexpr int kEnterRays = StreamRays::kLanes / 2;
 
@@ -94,7 +97,7 @@ class PacketPhase {
   template <bool kTop, bool kSameSigns>
   HWY_NOINLINE void TraceNodes(uint32_t root, uint32_t valid) {
     const DF df;
-    constexpr int kFewAtLeaf = kTop ? kEnterRays : kLeafRays;
+    constexpr int kFewAtLeaf = kTop ? kEnterRays : kLeafRays<kAny>;
     const PacketSlabs slabs(rays_, at_);
     const PacketRays packet = LoadPacket(valid);
     PacketBest best = NoHits(packet.rays.t_max, hn::LoadU(DI(), rays_.prim + at_));
@@ -115,7 +118,7 @@ class PacketPhase {
           frame->lanes[child] & MaskBits(df, hn::Le(hn::Load(df, entry), best.t));
       if (lanes == 0) continue;
       const bool is_leaf = ref & kLeafBit;
-      const bool few = std::popcount(lanes) < (is_leaf ? kFewAtLeaf : kNodeRays);
+      const bool few = std::popcount(lanes) < (is_leaf ? kFewAtLeaf : kNodeRays<kAny>);
       if (few && Defer(ref, entry, lanes)) continue;
       if (!is_leaf) {
         const uint32_t octant = rays_.octant[at_ + std::countr_zero(lanes)];
