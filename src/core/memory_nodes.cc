@@ -35,6 +35,18 @@ std::vector<int> NumberedEntries(const std::filesystem::path& directory,
   return numbers;
 }
 
+// Whether the process may run on one of them; true where that is not known.
+bool MayRunOn([[maybe_unused]] const std::vector<int>& processors) {
+#if defined(__linux__)
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof(set), &set) != 0) return true;
+  return std::any_of(processors.begin(), processors.end(),
+                     [&](int p) { return p < CPU_SETSIZE && CPU_ISSET(p, &set); });
+#else
+  return true;
+#endif
+}
+
 // Where the process may not run on any of them, this thread stays where it is.
 void RunOn([[maybe_unused]] const std::vector<int>& processors) {
 #if defined(__linux__)
@@ -53,7 +65,7 @@ MemoryNodes MemoryNodes::OfMachine(const std::filesystem::path& directory) {
   std::vector<std::vector<int>> processors;
   for (const int node : NumberedEntries(directory, "node")) {
     auto own = NumberedEntries(directory / ("node" + std::to_string(node)), "cpu");
-    if (!own.empty()) processors.push_back(std::move(own));
+    if (!own.empty() && MayRunOn(own)) processors.push_back(std::move(own));
   }
   if (processors.empty()) processors.emplace_back();
   return MemoryNodes(std::move(processors));
