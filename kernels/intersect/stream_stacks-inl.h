@@ -96,8 +96,8 @@ class RayStacks {
   }
 
  private:
-  // Where nodes and leaves lie, found without a branch: which of the two is next cannot be
-  // predicted.
+  // Where nodes and leaves lie, found without a branch: which of the two is next cannot
+  // be predicted.
   struct Places {
     const char* base[2];
     std::size_t unit[2];

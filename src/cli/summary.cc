@@ -148,11 +148,11 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
                           DurationText(job.load_seconds), DurationText(job.build_seconds),
                           Name(job.trees.origin), DurationText(job.trees.seconds),
                           DurationText(r.seconds), DurationText(report.write_seconds)));
-  text += Row("machine",
-              fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes{}",
-                          CurrentTarget(), CurrentLanes(), MaxThreads(),
-                          job.plan.wavefront, job.plan.bytes_per_path,
-                          CopiesText(r, job)));
+  text +=
+      Row("machine",
+          fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes{}",
+                      CurrentTarget(), CurrentLanes(), MaxThreads(), job.plan.wavefront,
+                      job.plan.bytes_per_path, CopiesText(r, job)));
   return text + "\n" + StageTable(r) + DiffersRow(job.description.notes);
 }
 

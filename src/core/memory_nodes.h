@@ -9,8 +9,8 @@ namespace lanelight {
 
 class MemoryNodes {
  public:
-  /// Those of this machine on whose processors the process may run, as Linux lists them in
-  /// `directory`; one node where it does not.
+  /// Those of this machine on whose processors the process may run, as Linux lists them
+  /// in `directory`; one node where it does not.
   static MemoryNodes OfMachine(
       const std::filesystem::path& directory = "/sys/devices/system/node");
   /// processors[n]: numbers of the processors of node n. Tests make up their own.
