@@ -49,7 +49,7 @@ LANELIGHT_INLINE void ForEachFew(const CompiledScene& scene, const Rays& rays,
   const DF df;
   const FewTriangles& few = scene.accel.few;
   const AxisOrder order(rays.d);
-  const Shear<VF> shear = MakeShear(order, rays, few.reach);
+  const Shear<VF> shear = MakeShear(order, rays, Splat(few.reach));
   const FewVertices vertices(few, order, shear);
   for (const FewTriangles::Triangle& triangle : few.triangles) {
     const uint32_t* v = triangle.vertex;

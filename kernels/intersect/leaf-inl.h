@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cfloat>
+#include <cmath>
 #include <type_traits>
 
 #include "hwy/highway.h"
@@ -282,10 +283,11 @@ struct LaneHit {
 };
 
 /// Finishes one lane of a leaf for which TestLeaves set the bit; true if the triangle
-/// lies ahead. The arithmetic is that of FinishHits.
+/// lies ahead. The arithmetic is that of FinishHits. `t_scale` as in Shear.
 template <class Leaf, class CopyRay>
 LANELIGHT_INLINE bool FinishLane(const Leaf& leaf, const LeafWeights& weights,
-                                 uint32_t lane, CopyRay&& copy_ray, LaneHit& hit) {
+                                 uint32_t lane, float t_scale, CopyRay&& copy_ray,
+                                 LaneHit& hit) {
   const hn::CappedTag<float, 1> d1;
   const uint32_t a = leaf.VertexOf(0, lane), b = leaf.VertexOf(1, lane),
                  c = leaf.VertexOf(2, lane);
@@ -295,14 +297,17 @@ LANELIGHT_INLINE bool FinishLane(const Leaf& leaf, const LeafWeights& weights,
   }
   const float az = weights.z[a], bz = weights.z[b], cz = weights.z[c];
   const float det = u + (v + w);
-  if (det == 0) return false;
+  if (HWY_UNLIKELY(det == 0)) return false;
   const float t_det =
       hn::GetLane(hn::MulAdd(hn::Set(d1, u), hn::Set(d1, az),
                              hn::MulAdd(hn::Set(d1, v), hn::Set(d1, bz),
                                         hn::Mul(hn::Set(d1, w), hn::Set(d1, cz)))));
   hit = {t_det / det, v, w, det};
-  const bool straddles = std::min({az, bz, cz}) <= 0 && std::max({az, bz, cz}) >= 0;
-  if (!straddles) return hit.t > 0;
+  // Large triangles often straddle and small ones often have a small t det: few do both.
+  // No logical and: its branches could not be predicted.
+  const bool behind = std::min({az, bz, cz}) <= 0, before = std::max({az, bz, cz}) >= 0,
+             small = std::abs(t_det) <= t_scale;
+  if (HWY_LIKELY(!(behind & before & small))) return hit.t > 0;
   hit.t = std::max(hit.t, FLT_MIN);
   float o[3], dir[3];
   copy_ray(o, dir);

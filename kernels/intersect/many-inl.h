@@ -37,15 +37,14 @@ struct AxisOrder {
 };
 
 template <class Order>
-LANELIGHT_INLINE Shear<VF> MakeShear(const Order& order, const Rays& rays, float reach) {
+LANELIGHT_INLINE Shear<VF> MakeShear(const Order& order, const Rays& rays, VF reach) {
   Shear<VF> shear;
   shear.o = order.Permute(rays.o);
   const P3<VF> d = order.Permute(rays.d);
   shear.s = {hn::Div(d.x, d.z), hn::Div(d.y, d.z), hn::Div(Splat(1.0f), d.z)};
   shear.abs_dz = hn::Abs(d.z);
-  const VF r =
-      hn::Add(Splat(reach),
-              MaxComponent({hn::Abs(rays.o.x), hn::Abs(rays.o.y), hn::Abs(rays.o.z)}));
+  const VF r = hn::Add(
+      reach, MaxComponent({hn::Abs(rays.o.x), hn::Abs(rays.o.y), hn::Abs(rays.o.z)}));
   shear.t_scale =
       hn::Div(hn::Mul(hn::Mul(hn::Mul(Splat(0x1p-13f), r), r), r), shear.abs_dz);
   return shear;

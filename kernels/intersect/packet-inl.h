@@ -125,7 +125,8 @@ LANELIGHT_INLINE void TraceFrustum(const CompiledScene& scene, const Bvh& bvh,
   const DF df;
   const uint32_t all = (1u << hn::Lanes(df)) - 1;
   const AxisOrder order(rays.d);
-  PacketRays packet = MakePacket(rays, MakeShear(order, rays, bvh.reach), order, all);
+  PacketRays packet =
+      MakePacket(rays, MakeShear(order, rays, Splat(bvh.reach)), order, all);
   if constexpr (kAlpha) packet.home = home;
   float bound = LargestLane(best.t);
   Traverse(scene.accel.nodes.data(), bvh.root, MakeFrustum(bounds, bvh), bound,

@@ -43,8 +43,8 @@ class PacketPhase {
       : scene_(scene), rays_(rays) {}
 
   /// Traces the rays at [at, at + lanes) through the world. What is left for single rays
-  /// lies on their stacks, nearest on top; the places of those that have some are
-  /// appended to `live`.
+  /// lies on their stacks, nearest on top; their places are appended to `live`, those
+  /// with nothing left, too.
   LANELIGHT_INLINE void Run(uint32_t at, RayList& live) {
     RunIn<false>(scene_.accel.groups[0].root, at, live);
   }
@@ -61,12 +61,12 @@ class PacketPhase {
   template <bool kTop>
   LANELIGHT_INLINE void RunIn(uint32_t root, uint32_t at, RayList& live) {
     count_ = std::min(StreamRays::kLanes, rays_.size - at);
-    std::fill_n(rays_.bottom + at, count_, kDeferred);
+    for (uint32_t r = at; r < at + count_; ++r) rays_.bottom[r] = rays_.StackEnd(r);
+    deferred_ = 0;
     uint32_t lanes = (1u << count_) - 1;
     if constexpr (kAny && kTop) lanes &= ~Found(at);
     if (lanes != 0) Trace<kTop>(root, at, lanes);
     for (uint32_t r = at; r < at + count_; ++r) {
-      if ((kAny && rays_.found[r]) || rays_.bottom[r] == kDeferred) continue;
       BeginSingle(r);
       live.place[live.size++] = static_cast<int32_t>(r);
     }
@@ -164,7 +164,7 @@ class PacketPhase {
         MapRays(scene_.geometry.instances[instance], rays_.Load3(rays_.o, home),
                 rays_.Load3(rays_.d, home), hn::LoadU(df, rays_.t + home));
     rays_.SetSlabs(rays.o, rays.d, Splat(group.slack), Splat(group.margin), to);
-    rays_.SetShear(rays, group.reach, to);
+    rays_.SetShear(rays, Splat(group.reach), to);
     hn::StoreU(rays.t_max, df, rays_.t + to);
     const VI prim = hn::LoadU(di, rays_.prim + home);
     const VI inst = hn::LoadU(di, reinterpret_cast<const int32_t*>(rays_.inst) + home);
@@ -194,44 +194,49 @@ class PacketPhase {
     return packet;
   }
 
-  // Leaves a subtree to single rays; false if a ray has no room for it.
+  // Leaves a subtree to single rays; false if there may be no room for it.
   LANELIGHT_INLINE bool Defer(uint32_t ref, const float* entry, uint32_t lanes) {
     if (kInstances && inside_) return false;
-    for (uint32_t bits = lanes; bits != 0; bits &= bits - 1) {
-      if (rays_.bottom[at_ + std::countr_zero(bits)] < 2) return false;
-    }
+    if (++deferred_ >= kDeferred) return false;  // the last place is for the end
+    uint32_t* const refs = rays_.refs;
+    float* const entries = rays_.entries;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(lanes));
       const uint32_t to = --rays_.bottom[at_ + i];
-      rays_.Refs(at_ + i)[to] = ref;
-      if constexpr (!kAny) rays_.Entries(at_ + i)[to] = entry[i];
+      refs[to] = ref;
+      if constexpr (!kAny) entries[to] = entry[i];
     }
     return true;
   }
 
   LANELIGHT_INLINE void StoreHits(const PacketBest& best) {
     const DF df;
+    const DI di;
     hn::StoreU(best.t, df, rays_.t + at_);
-    for (uint32_t i = 0; i < count_; ++i) rays_.found[at_ + i] = best.found >> i & 1;
+    const auto found = hn::RebindMask(di, MaskOf(df, best.found));
+    hn::StoreU(hn::IfThenElseZero(found, hn::Set(di, 1)), di, rays_.found + at_);
     if constexpr (kAny) return;
-    hn::StoreU(best.prim, DI(), rays_.prim + at_);
+    hn::StoreU(best.prim, di, rays_.prim + at_);
     hn::StoreU(hn::Div(best.v, best.det), df, rays_.b1 + at_);
     hn::StoreU(hn::Div(best.w, best.det), df, rays_.b2 + at_);
   }
 
-  // Puts the end below the stack of a ray, and takes the nearest subtree off it.
+  // Puts the end below the stack of a ray, and takes the nearest subtree off it: the end
+  // if there is none. Without a branch, which could not be predicted.
   LANELIGHT_INLINE void BeginSingle(uint32_t r) {
-    const uint32_t end = --rays_.bottom[r];
-    rays_.Refs(r)[end] = kEmptyRef;
-    rays_.Entries(r)[end] = -1;
-    rays_.next[r] = static_cast<int32_t>(rays_.Refs(r)[kDeferred - 1]);
-    rays_.top[r] = kDeferred - 2;
+    const uint32_t end = --rays_.bottom[r], top = rays_.StackEnd(r) - 1;
+    rays_.refs[end] = kEmptyRef;
+    if constexpr (!kAny) rays_.entries[end] = -1;
+    const uint32_t blocked = kAny ? static_cast<uint32_t>(-rays_.found[r]) : 0;
+    rays_.next[r] = static_cast<int32_t>(rays_.refs[top] | blocked);
+    rays_.top[r] = top - 1;
   }
 
   const CompiledScene& scene_;
   StreamRays& rays_;
   bool inside_ = false;          // an instance
   uint32_t at_ = 0, count_ = 0;  // place and number of the rays
+  uint32_t deferred_ = 0;        // subtrees that they put off
   LastBlockers<kAlpha> blockers_;
   uint32_t home_ = 0;  // in an instance: their place in the space of the scene
 };

@@ -37,7 +37,8 @@ struct StreamRays {
   // space it is in), and where its hit is.
   uint32_t space[kRoom], inst[kRoom];
   // Where single rays are: the node or leaf, and the stack [bottom, top] of others, the
-  // last one kEmptyRef at the bottom. Stacks are `stride` apart.
+  // last one kEmptyRef at the bottom: places in `refs` and `entries`. The packet phase
+  // puts subtrees off downwards from StackEnd.
   int32_t next[kRoom];
   uint32_t top[kRoom], bottom[kRoom];
   const uint32_t stride;
@@ -49,10 +50,8 @@ struct StreamRays {
       : stride(RayStackStride(depth)),
         refs(ThreadRayStacks(stride)),
         entries(reinterpret_cast<float*>(refs + StackEntries(stride))) {}
-  LANELIGHT_INLINE uint32_t* Refs(uint32_t r) { return refs + std::size_t{r} * stride; }
-  LANELIGHT_INLINE float* Entries(uint32_t r) {
-    return entries + std::size_t{r} * stride;
-  }
+  /// Where the part of a ray's stack ends that the packet phase fills.
+  LANELIGHT_INLINE uint32_t StackEnd(uint32_t r) const { return r * stride + kDeferred; }
   LANELIGHT_INLINE bool HasRoom() const { return size + kLanes <= kStreamRays; }
 
   static LANELIGHT_INLINE V3 Load3(const float (&column)[3][kRoom], uint32_t at) {
@@ -76,7 +75,7 @@ struct StreamRays {
     const DF df;
     const DI di;
     SetSlabs(rays.o, rays.d, Splat(bvh.slack), Splat(bvh.margin), size);
-    SetShear(rays, bvh.reach, size);
+    SetShear(rays, Splat(bvh.reach), size);
     hn::StoreU(rays.t_max, df, t + size);
     hn::StoreU(hn::Zero(df), df, b1 + size);
     hn::StoreU(hn::Zero(df), df, b2 + size);
@@ -116,7 +115,7 @@ struct StreamRays {
   }
 
   /// Prepares them for leaves whose vertices have coordinates up to `reach`.
-  LANELIGHT_INLINE void SetShear(const Rays& rays, float reach, uint32_t at) {
+  LANELIGHT_INLINE void SetShear(const Rays& rays, VF reach, uint32_t at) {
     const DF df;
     const DI di;
     const AxisOrder order(rays.d);

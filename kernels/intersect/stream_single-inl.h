@@ -91,68 +91,78 @@ class SinglePhase {
   HWY_NOINLINE void NodeRound() {
     RayList& nodes = lists_.nodes;
     nodes.PadGroup();
-    for (uint32_t k = 0; k < nodes.size; k += kTogether) NodeStep(nodes.place + k);
+    const Stacks stacks = stacks_;
+    const WideNode* const first = scene_.accel.nodes.data();
+    StreamRays& rays = rays_;
+    for (uint32_t k = 0; k < nodes.size; k += kTogether) {
+      NodeStep(rays, stacks, first, nodes.place + k);
+    }
   }
 
   template <class Leaf>
   HWY_NOINLINE void LeafRound(RayList& leaves) {
     leaves.PadGroup();
+    const Stacks stacks = stacks_;
+    StreamRays& rays = rays_;
     for (uint32_t base = 0; base < leaves.size; base += kLeafBlock) {
       const int32_t* const list = leaves.place + base;
       const uint32_t n = std::min(leaves.size - base, kLeafBlock);
-      for (uint32_t k = 0; k < n; k += kTogether) LeafStep<Leaf>(list + k, k);
-      for (uint32_t k = 0; k < n; ++k) {
-        if (bits_[k] == 0) continue;
+      uint32_t hits = 0;
+      for (uint32_t k = 0; k < n; k += kTogether) {
+        hits |= LeafStep<Leaf>(rays, stacks, list + k, k) << k;
+      }
+      // One of a pair may be there twice.
+      for (hits &= (1u << n) - 1; hits != 0; hits &= hits - 1) {
+        const auto k = static_cast<uint32_t>(std::countr_zero(hits));
         HitStep<Leaf>(static_cast<uint32_t>(list[k]), bits_[k], weights_[k]);
       }
     }
   }
 
-  LANELIGHT_INLINE void NodeStep(const int32_t* list) {
-    const D8 d8;
+  static LANELIGHT_INLINE void NodeStep(StreamRays& rays, const Stacks& stacks,
+                                        const WideNode* first, const int32_t* list) {
     const WideNode* node[kTogether];
     uint32_t r[kTogether], top[kTogether];
-    V8 entered[kTogether][kParts];
+    V8 enter[kTogether][kParts], leave[kTogether][kParts];
     for (uint32_t j = 0; j < kTogether; ++j) {
       r[j] = static_cast<uint32_t>(list[j]);
-      node[j] = &scene_.accel.nodes[static_cast<uint32_t>(rays_.next[r[j]])];
+      node[j] = first + static_cast<uint32_t>(rays.next[r[j]]);
     }
     for (uint32_t part = 0; part < kParts; ++part) {
-      V8 enter[kTogether], leave[kTogether];
-      TestSlabs(r, node, part, enter, leave);
-      for (uint32_t j = 0; j < kTogether; ++j) {
-        entered[j][part] =
-            hn::IfThenElse(hn::Le(enter[j], leave[j]), enter[j], hn::Set(d8, -1.0f));
-      }
+      TestSlabs(rays, r, node, part, enter, leave);
     }
     for (uint32_t j = 0; j < kTogether; ++j) {
-      top[j] = stacks_.PushEntered(r[j], *node[j], entered[j]);
+      top[j] = stacks.PushEntered(r[j], *node[j], enter[j], leave[j]);
     }
-    for (uint32_t j = 0; j < kTogether; ++j) stacks_.Pop(r[j], top[j]);
+    for (uint32_t j = 0; j < kTogether; ++j) stacks.Pop(r[j], top[j]);
   }
 
   // Where rays r[j] enter and leave the children of a part of node[j].
-  LANELIGHT_INLINE void TestSlabs(const uint32_t (&r)[kTogether],
-                                  const WideNode* const (&node)[kTogether], uint32_t part,
-                                  V8 (&enter)[kTogether], V8 (&leave)[kTogether]) const {
+  static LANELIGHT_INLINE void TestSlabs(const StreamRays& rays,
+                                         const uint32_t (&r)[kTogether],
+                                         const WideNode* const (&node)[kTogether],
+                                         uint32_t part, V8 (&enter)[kTogether][kParts],
+                                         V8 (&leave)[kTogether][kParts]) {
     const D8 d8;
     for (uint32_t j = 0; j < kTogether; ++j) {
-      enter[j] = hn::Zero(d8);
-      leave[j] = hn::Set(d8, rays_.t[r[j]]);
+      enter[j][part] = hn::Zero(d8);
+      leave[j][part] = hn::Set(d8, rays.t[r[j]]);
     }
     for (int a = 0; a < 3; ++a) {
       for (uint32_t j = 0; j < kTogether; ++j) {
         constexpr uint32_t kUpper = kBvhWidth * sizeof(float);
-        const uint32_t lower = rays_.lower[a][r[j]];
+        const uint32_t lower = rays.lower[a][r[j]];
         const auto planes = [&](uint32_t offset) HWY_ATTR {
           const char* at = reinterpret_cast<const char*>(node[j]->bounds[a]) + offset;
           return hn::Load(d8, reinterpret_cast<const float*>(at) + part * Lanes8());
         };
-        const V8 rcp = hn::Set(d8, rays_.rcp[a][r[j]]);
-        enter[j] = hn::Max(
-            enter[j], hn::MulAdd(planes(lower), rcp, hn::Set(d8, rays_.near[a][r[j]])));
-        leave[j] = hn::Min(leave[j], hn::MulAdd(planes(lower ^ kUpper), rcp,
-                                                hn::Set(d8, rays_.far[a][r[j]])));
+        const V8 rcp = hn::Set(d8, rays.rcp[a][r[j]]);
+        enter[j][part] =
+            hn::Max(enter[j][part],
+                    hn::MulAdd(planes(lower), rcp, hn::Set(d8, rays.near[a][r[j]])));
+        leave[j][part] = hn::Min(
+            leave[j][part],
+            hn::MulAdd(planes(lower ^ kUpper), rcp, hn::Set(d8, rays.far[a][r[j]])));
       }
     }
   }
@@ -162,31 +172,38 @@ class SinglePhase {
     return stacks_.leaf_places().template Of<Leaf>(static_cast<uint32_t>(rays_.next[r]));
   }
 
-  // Rays whose lines pass through no triangle go on; the others wait for HitStep.
+  // Rays whose lines pass through no triangle go on; the others wait for HitStep. Returns
+  // which, as bits.
   template <class Leaf>
-  LANELIGHT_INLINE void LeafStep(const int32_t* list, uint32_t at) {
+  LANELIGHT_INLINE uint32_t LeafStep(StreamRays& rays, const Stacks& stacks,
+                                     const int32_t* list, uint32_t at) {
     LeafRay ray[kTogether];
     const Leaf* leaf[kTogether];
     LeafWeights* weights[kTogether];
-    uint32_t r[kTogether], bits[kTogether], top[kTogether];
+    uint32_t r[kTogether], next[kTogether], bits[kTogether], top[kTogether];
     for (uint32_t j = 0; j < kTogether; ++j) {
       r[j] = static_cast<uint32_t>(list[j]);
       const auto load = [&](const float(&column)[3][kRoom]) HWY_ATTR {
         return P3<float>{column[0][r[j]], column[1][r[j]], column[2][r[j]]};
       };
-      leaf[j] = &LeafOf<Leaf>(r[j]);
-      ray[j] = {load(rays_.shear_o),
-                load(rays_.shear_s),
-                {rays_.row[0][r[j]], rays_.row[1][r[j]], rays_.row[2][r[j]]},
-                rays_.from[r[j]]};
+      next[j] = static_cast<uint32_t>(rays.next[r[j]]);
+      leaf[j] = &stacks.leaf_places().template Of<Leaf>(next[j]);
+      ray[j] = {load(rays.shear_o),
+                load(rays.shear_s),
+                {rays.row[0][r[j]], rays.row[1][r[j]], rays.row[2][r[j]]},
+                rays.from[r[j]]};
       weights[j] = &weights_[at + j];
     }
     TestLeaves(ray, leaf, weights, bits);
-    for (uint32_t j = 0; j < kTogether; ++j) top[j] = rays_.top[r[j]];
+    for (uint32_t j = 0; j < kTogether; ++j) top[j] = rays.top[r[j]];
+    uint32_t hits = 0;
     for (uint32_t j = 0; j < kTogether; ++j) {
+      const uint32_t none = bits[j] == 0;
       bits_[at + j] = bits[j];
-      stacks_.Pop(r[j], top[j], bits[j] == 0);
+      hits |= (none ^ 1) << j;
+      stacks.PopIf(none, r[j], top[j], next[j]);
     }
+    return hits;
   }
 
   // Takes the nearest of the triangles that the line of the ray passes through, and goes
@@ -206,8 +223,8 @@ class SinglePhase {
       const auto i = static_cast<uint32_t>(std::countr_zero(bits));
       const auto prim = static_cast<int32_t>(leaf.prim[i]);
       LaneHit hit;
-      if (!FinishLane(leaf, weights, i, copy_mapped, hit)) continue;
-      if (!IsBetter(r, hit.t, prim)) continue;
+      const bool ahead = FinishLane(leaf, weights, i, rays_.t_scale[r], copy_mapped, hit);
+      if (!(ahead & IsBetter(r, hit.t, prim))) continue;
       const float b1 = hit.v / hit.det, b2 = hit.w / hit.det;
       if constexpr (kAlpha) {
         float o[3], d[3];
@@ -232,9 +249,13 @@ class SinglePhase {
 
   // Ties go to the smaller primitive, then to the smaller instance.
   LANELIGHT_INLINE bool IsBetter(uint32_t r, float t, int32_t prim) const {
-    if (kAny || t != rays_.t[r]) return t < rays_.t[r];
-    if (!kInstances || prim != rays_.prim[r]) return prim < rays_.prim[r];
-    return rays_.space[r] < rays_.inst[r];
+    const bool closer = t < rays_.t[r];
+    if constexpr (kAny) return closer;
+    bool tie_won = prim < rays_.prim[r];
+    if constexpr (kInstances) {
+      tie_won |= (prim == rays_.prim[r]) & (rays_.space[r] < rays_.inst[r]);
+    }
+    return closer | ((t == rays_.t[r]) & tie_won);
   }
 
   const CompiledScene& scene_;

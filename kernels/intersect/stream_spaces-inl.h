@@ -121,7 +121,8 @@ class RaySpaces {
     const Geometry& geometry = scene_.geometry;
     const Accel& accel = scene_.accel;
     HWY_ALIGN float map[12][StreamRays::kLanes] = {}, ray[6][StreamRays::kLanes] = {};
-    HWY_ALIGN float slack[StreamRays::kLanes] = {}, margin[StreamRays::kLanes] = {};
+    HWY_ALIGN float slack[StreamRays::kLanes] = {}, margin[StreamRays::kLanes] = {},
+                    reach[StreamRays::kLanes] = {};
     for (uint32_t j = 0; j < count; ++j) {
       const auto r = static_cast<uint32_t>(list[j]);
       const uint32_t instance = static_cast<uint32_t>(rays_.next[r]) & ~kLeafBit;
@@ -132,6 +133,7 @@ class RaySpaces {
         ray[a][j] = rays_.o[a][r], ray[3 + a][j] = rays_.d[a][r];
       slack[j] = group.slack;
       margin[j] = group.margin;
+      reach[j] = group.reach;
       rays_.space[r] = instance;
       rays_.next[r] = static_cast<int32_t>(group.root);
     }
@@ -145,7 +147,7 @@ class RaySpaces {
                      FromNone()};
     rays_.SetSlabs(moved.o, moved.d, hn::Load(df, slack), hn::Load(df, margin), at);
     CloseNoRays(at);
-    rays_.SetShear(moved, 0, at);
+    rays_.SetShear(moved, hn::Load(df, reach), at);
     for (uint32_t j = 0; j < count; ++j) {
       const auto r = static_cast<uint32_t>(list[j]);
       Copy([&](int, float* column) HWY_ATTR { column[r] = column[at + j]; });
@@ -154,6 +156,7 @@ class RaySpaces {
         rays_.shear_s[a][r] = rays_.shear_s[a][at + j];
         rays_.row[a][r] = rays_.row[a][at + j];
       }
+      rays_.t_scale[r] = rays_.t_scale[at + j];
     }
   }
 

@@ -8,6 +8,7 @@
 
 #include "hwy/cache_control.h"
 #include "kernels/intersect/bvh-inl.h"
+#include "kernels/intersect/child_order-inl.h"
 #include "kernels/intersect/leaf-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
@@ -18,6 +19,8 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Copies of it are cheap: a step that has its own keeps it in registers, whatever its
+/// vectors are stored to.
 template <bool kAny, bool kInstances>
 class RayStacks {
  public:
@@ -25,74 +28,81 @@ class RayStacks {
   static constexpr uint32_t kParts = kBvhWidth / hn::MaxLanes(D8());
 
   RayStacks(const CompiledScene& scene, StreamRays& rays)
-      : rays_(rays), places_(scene.accel), leaf_places_(scene.accel) {}
+      : rays_(&rays),
+        refs_(rays.refs),
+        entries_(rays.entries),
+        places_(scene.accel),
+        leaf_places_(scene.accel) {}
 
   const LeafPlaces& leaf_places() const { return leaf_places_; }
 
-  /// Goes to the top of the stack if `move` is 1, stays where it is if it is 0.
-  LANELIGHT_INLINE void Pop(uint32_t r, uint32_t top, uint32_t move = 1) {
-    const uint32_t ref = rays_.Refs(r)[top];
-    rays_.top[r] = top - move;
-    rays_.next[r] = move ? static_cast<int32_t>(ref) : rays_.next[r];
-    if (kInstances && ref >= kReturnRef) return;
-    const char* const at = places_.At(ref);
-    for (int line = 0; line < 4; ++line) hwy::Prefetch(at + line * kCacheLine);
+  /// Goes to the top of the stack.
+  LANELIGHT_INLINE void Pop(uint32_t r, uint32_t top) const {
+    const uint32_t ref = refs_[top];
+    rays_->top[r] = top - 1;
+    rays_->next[r] = static_cast<int32_t>(ref);
+    Prefetch(ref);
+  }
+
+  /// The same if `move` is 1; stays at `next`, where it is, if that is 0. No branch:
+  /// whether a ray has something to do at a leaf cannot be predicted.
+  LANELIGHT_INLINE void PopIf(uint32_t move, uint32_t r, uint32_t top,
+                              uint32_t next) const {
+    const uint32_t ref = refs_[top], stay = move - 1;
+    rays_->top[r] = top - move;
+    rays_->next[r] = static_cast<int32_t>((ref & ~stay) | (next & stay));
+    Prefetch(ref);
   }
 
   /// Puts the way back from an instance on the stack.
-  LANELIGHT_INLINE void PushReturn(uint32_t r) {
-    const uint32_t top = ++rays_.top[r];
-    rays_.Refs(r)[top] = kReturnRef;
-    rays_.Entries(r)[top] = -1;  // stays when the stack is culled
+  LANELIGHT_INLINE void PushReturn(uint32_t r) const {
+    const uint32_t top = ++rays_->top[r];
+    refs_[top] = kReturnRef;
+    entries_[top] = -1;  // stays when the stack is culled
   }
 
-  /// Pushes the children with entries that are not negative, last slots first, so that
-  /// the nearest is on top. Returns the new top.
+  /// Pushes the children that the ray enters no later than it leaves them, last slots
+  /// first, so that the nearest is on top. Returns the new top.
   LANELIGHT_INLINE uint32_t PushEntered(uint32_t r, const WideNode& node,
-                                        const V8 (&entered)[kParts]) {
+                                        const V8 (&enter)[kParts],
+                                        const V8 (&leave)[kParts]) const {
     const D8 d8;
     const hn::RebindToUnsigned<D8> du;
-    constexpr uint32_t kLast = kBvhWidth / kParts - 1;
-    const uint32_t octant = rays_.octant[r];
-    const auto lane = hn::Xor(hn::Sub(hn::Set(du, kLast), hn::Iota(du, 0)),
-                              hn::Set(du, octant & kLast));
-    uint32_t top = rays_.top[r];
+    const uint32_t octant = rays_->octant[r];
+    uint32_t top = rays_->top[r];
     for (uint32_t k = 0; k < kParts; ++k) {
       // The bit of the octant above the lanes tells which part is last.
-      const uint32_t part = (kParts - 1 - k) ^ (kParts > 1 ? octant / (kLast + 1) : 0);
-      const V8 some = kParts > 1 && part == 0 ? entered[0] : entered[kParts - 1];
-      const V8 entry = hn::TableLookupLanes(some, hn::IndicesFromVec(d8, lane));
-      const auto ref = hn::TableLookupLanes(hn::Load(du, node.child + part * Lanes8()),
-                                            hn::IndicesFromVec(du, lane));
-      const M8 hit = hn::Ge(entry, hn::Zero(d8));
+      const uint32_t part = (kParts - 1 - k) ^ (kParts > 1 ? octant / Lanes8() : 0);
+      const bool first = kParts > 1 && part == 0;
+      const EnteredChildren entered(octant, first ? enter[0] : enter[kParts - 1],
+                                    first ? leave[0] : leave[kParts - 1]);
+      const auto refs = hn::BitCast(d8, hn::Load(du, node.child + part * Lanes8()));
       if constexpr (!kAny) {  // any hit ends the ray: nothing is culled
-        hn::StoreU(hn::Compress(entry, hit), d8, rays_.Entries(r) + top + 1);
+        hn::StoreU(entered.entries(), d8, entries_ + top + 1);
       }
-      hn::StoreU(hn::Compress(ref, hn::RebindMask(du, hit)), du, rays_.Refs(r) + top + 1);
-      top += static_cast<uint32_t>(hn::CountTrue(d8, hit));
+      hn::StoreU(hn::BitCast(du, entered.InOrder(refs)), du, refs_ + top + 1);
+      top += entered.count();
     }
     return top;
   }
 
   /// Drops what lies beyond the hit, so that nothing needs to be tested when it is
   /// popped.
-  LANELIGHT_INLINE void Cull(uint32_t r) {
+  LANELIGHT_INLINE void Cull(uint32_t r) const {
     const DF df;
     const hn::RebindToUnsigned<DF> du;
-    uint32_t* refs = rays_.Refs(r);
-    float* entries = rays_.Entries(r);
-    const uint32_t end = rays_.top[r] + 1;
-    const VF t = hn::Set(df, rays_.t[r]);
-    uint32_t kept = rays_.bottom[r];
+    const uint32_t end = rays_->top[r] + 1;
+    const VF t = hn::Set(df, rays_->t[r]);
+    uint32_t kept = rays_->bottom[r];
     for (uint32_t i = kept; i < end; i += hn::MaxLanes(df)) {
-      const VF entry = hn::LoadU(df, entries + i);
-      const auto ref = hn::LoadU(du, refs + i);
+      const VF entry = hn::LoadU(df, entries_ + i);
+      const auto ref = hn::LoadU(du, refs_ + i);
       const MF keep = hn::And(hn::Le(entry, t), hn::FirstN(df, end - i));
-      hn::StoreU(hn::Compress(entry, keep), df, entries + kept);
-      hn::StoreU(hn::Compress(ref, hn::RebindMask(du, keep)), du, refs + kept);
+      hn::StoreU(hn::Compress(entry, keep), df, entries_ + kept);
+      hn::StoreU(hn::Compress(ref, hn::RebindMask(du, keep)), du, refs_ + kept);
       kept += static_cast<uint32_t>(hn::CountTrue(df, keep));
     }
-    rays_.top[r] = kept - 1;
+    rays_->top[r] = kept - 1;
   }
 
  private:
@@ -113,7 +123,15 @@ class RayStacks {
     }
   };
 
-  StreamRays& rays_;
+  LANELIGHT_INLINE void Prefetch(uint32_t ref) const {
+    if (kInstances && ref >= kReturnRef) return;
+    const char* const at = places_.At(ref);
+    for (int line = 0; line < 4; ++line) hwy::Prefetch(at + line * kCacheLine);
+  }
+
+  StreamRays* rays_;
+  uint32_t* refs_;
+  float* entries_;
   Places places_;
   LeafPlaces leaf_places_;
 };

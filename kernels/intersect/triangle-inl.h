@@ -211,9 +211,10 @@ LANELIGHT_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray, const P
   hit.mask = hn::And(mask, hn::Gt(hit.t, hn::Zero(d)));
   // A hit that is ahead only by the exact test below keeps the least positive distance.
   hit.t = hn::Max(hit.t, hn::Set(d, FLT_MIN));
-  const M straddles = hn::And(mask, Straddles(d, a, b, c));
-  if (HWY_LIKELY(hn::AllFalse(d, straddles))) return hit;
-  const M doubtful = DoubtfulSign(d, ray, a, b, c, t_det, straddles);
+  // Large triangles often straddle and small ones often have a small t det: few do both.
+  const M near = hn::And(Straddles(d, a, b, c), hn::Le(hn::Abs(t_det), ray.t_scale));
+  if (HWY_LIKELY(hn::AllFalse(d, hn::And(mask, near)))) return hit;
+  const M doubtful = DoubtfulSign(d, ray, a, b, c, t_det, hn::And(mask, near));
   if (hn::AllFalse(d, doubtful)) return hit;
   hit.mask =
       hn::Or(hn::AndNot(doubtful, hit.mask), hn::And(doubtful, is_ahead(doubtful)));
