@@ -14,9 +14,10 @@ namespace lanelight {
 
 struct BinaryNode {
   AccelBox box;
-  std::uint32_t begin = 0, end = 0;  // items
+  std::uint32_t begin = 0, end = 0;  // items: see ReinsertSubtrees
   std::uint32_t child = 0;           // the first of two in a row; 0 = leaf
   std::uint32_t capacity = 0;        // as in LeafRange, if it is a leaf
+  int height = 0;                    // levels below
   /// What the subtree costs as at most i + 1 wide nodes and leaves side by side, and how
   /// the children share them then: see PlanCollapse.
   float cost[kBvhWidth];
@@ -39,6 +40,8 @@ class BinaryTree {
     Touch(at / kChunk);
     return at;
   }
+  /// Nodes of all pairs so far.
+  std::uint32_t size() const { return next_.load(std::memory_order_relaxed); }
   BinaryNode& operator[](std::uint32_t i) {
     return chunks_[i / kChunk].nodes[i % kChunk];
   }

@@ -9,6 +9,7 @@
 #include "src/accel/cut_plan.h"
 #include "src/accel/extents.h"
 #include "src/accel/object_split.h"
+#include "src/accel/reinsert.h"
 #include "src/accel/spatial_split.h"
 #include "src/core/check.h"
 #include "src/core/parallel.h"
@@ -60,11 +61,12 @@ class TreeBuilder {
         left();
         right();
       }
+      n.height = std::max(tree_[n.child].height, tree_[n.child + 1].height) + 1;
     }
     PlanCollapse(tree_, node);
   }
 
-  const BinaryTree& tree() const { return tree_; }
+  BinaryTree& tree() { return tree_; }
 
  private:
   // Measures the box of `range` and sorts its items to two sides, maybe cutting some;
@@ -169,7 +171,9 @@ BuiltTree BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
   items.resize(items.size() + cuts.room);
   TreeBuilder builder(items, limit, cuts, fast);
   builder.Build(0, {0, count, count + cuts.room}, 0, 0);
-  result.bvh = Collapse(builder.tree(), items, limit.items == 0, nodes, result.leaves);
+  BinaryTree& tree = builder.tree();
+  if (!fast) ReinsertSubtrees(tree);
+  result.bvh = Collapse(tree, items, limit.items == 0, nodes, result.leaves);
   result.ids = TakeIds(items, result.leaves);
   return result;
 }
