@@ -59,7 +59,8 @@ class SinglePhase {
   LANELIGHT_INLINE void RunTop() {
     const RayList& live = lists_.live;
     for (uint32_t i = 0; i < live.size; ++i) {
-      spaces_.KeepHome(static_cast<uint32_t>(live.place[i]));
+      const auto r = static_cast<uint32_t>(live.place[i]);
+      if (static_cast<uint32_t>(rays_.next[r]) != kEmptyRef) spaces_.KeepHome(r);
     }
     Run();
   }
