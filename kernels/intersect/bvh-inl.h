@@ -37,6 +37,12 @@ using V8 = hn::Vec<D8>;
 using M8 = hn::Mask<D8>;
 LANELIGHT_INLINE constexpr int Lanes8() { return static_cast<int>(hn::MaxLanes(D8())); }
 
+/// A ray visits the slots k ^ (this), k = 0, 1, ...
+template <bool kAny>
+LANELIGHT_INLINE uint32_t VisitOrder(const WideNode& node, uint32_t octant) {
+  return kAny ? (octant & node.shadow_octants) ^ node.shadow_first : octant;
+}
+
 /// A ray prepared for the slab test: the parameter of plane b of axis a is
 /// b * rcp[a] + (near or far)[a].
 struct SlabRay {

@@ -8,6 +8,7 @@
 
 #include <bit>
 
+#include "kernels/intersect/bvh-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -40,8 +41,8 @@ struct PacketSlabs {
   }
 };
 
-/// The children of a node that the packet is in, in the order of their slots seen from
-/// its first ray: entry distances, and which lanes enter.
+/// The children of a node that the packet is in, in the order in which its
+/// first ray visits them: entry distances, and which lanes enter.
 struct PacketFrame {
   HWY_ALIGN float entry[kBvhWidth][StreamRays::kLanes];
   uint32_t ref[kBvhWidth], lanes[kBvhWidth];
@@ -68,13 +69,14 @@ struct PacketFrame {
   /// Fills the frame of a node for the rays of `rays`, the first of which is in `octant`.
   /// Every child is tested, and everything is stored to places known beforehand, so that
   /// the tests overlap.
-  template <bool kSameSigns>
+  template <bool kAny, bool kSameSigns>
   LANELIGHT_INLINE void SetChildren(const PacketSlabs& slabs, VF t, const WideNode& node,
                                     uint32_t octant, uint32_t rays) {
     const DF df;
+    const uint32_t order = VisitOrder<kAny>(node, octant);
     uint32_t entered = 0;
     for (uint32_t j = 0; j < kBvhWidth; ++j) {
-      const uint32_t c = j ^ octant;
+      const uint32_t c = j ^ order;
       VF enter = hn::Zero(df), leave = t;
       for (int a = 0; a < 3; ++a) {
         const uint32_t negative = kSameSigns ? octant >> a & 1 : 0;

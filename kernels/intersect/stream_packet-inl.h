@@ -122,7 +122,7 @@ class PacketPhase {
       if (few && Defer(ref, entry, lanes)) continue;
       if (!is_leaf) {
         const uint32_t octant = rays_.octant[at_ + std::countr_zero(lanes)];
-        (++frame)->template SetChildren<kSameSigns>(
+        (++frame)->template SetChildren<kAny, kSameSigns>(
             slabs, best.t, scene_.accel.nodes[ref], octant, lanes);
       } else if constexpr (kTop) {
         EnterInstance(ref & ~kLeafBit, lanes);

@@ -68,7 +68,7 @@ class RayStacks {
                                         const V8 (&leave)[kParts]) const {
     const D8 d8;
     const hn::RebindToUnsigned<D8> du;
-    const uint32_t octant = rays_->octant[r];
+    const uint32_t octant = VisitOrder<kAny>(node, rays_->octant[r]);
     uint32_t top = rays_->top[r];
     for (uint32_t k = 0; k < kParts; ++k) {
       // The bit of the octant above the lanes tells which part is last.

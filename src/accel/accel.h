@@ -63,7 +63,10 @@ inline constexpr std::uint32_t kWorldInstance = 0xffffffffu;
 struct alignas(64) WideNode {
   float bounds[3][2][kBvhWidth];  // [axis][0 = lower, 1 = upper][child]
   std::uint32_t child[kBvhWidth];
-  std::uint32_t pad[kBvhWidth];
+  // Shadow rays visit slots k ^ (octant & shadow_octants) ^ shadow_first, k = 0, 1, ...:
+  // one of the two is 0. See SetBlockerOrder.
+  std::uint32_t shadow_octants, shadow_first;
+  std::uint32_t pad[kBvhWidth - 2];
 };
 static_assert(sizeof(WideNode) == 256);
 

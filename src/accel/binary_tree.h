@@ -18,6 +18,7 @@ struct BinaryNode {
   std::uint32_t child = 0;           // the first of two in a row; 0 = leaf
   std::uint32_t capacity = 0;        // as in LeafRange, if it is a leaf
   int height = 0;                    // levels below
+  float area = 0;                    // of its triangles; 0 for other shapes
   /// What the subtree costs as at most i + 1 wide nodes and leaves side by side, and how
   /// the children share them then: see PlanCollapse.
   float cost[kBvhWidth];

@@ -10,6 +10,7 @@
 #include "src/accel/extents.h"
 #include "src/accel/object_split.h"
 #include "src/accel/reinsert.h"
+#include "src/accel/shape_items.h"
 #include "src/accel/spatial_split.h"
 #include "src/core/check.h"
 #include "src/core/parallel.h"
@@ -62,6 +63,8 @@ class TreeBuilder {
         right();
       }
       n.height = std::max(tree_[n.child].height, tree_[n.child + 1].height) + 1;
+    } else if (limit_.triangles != nullptr) {
+      n.area = SurfaceOf(range);
     }
     PlanCollapse(tree_, node);
   }
@@ -105,6 +108,18 @@ class TreeBuilder {
         FindSpatialSplit(items_, range, box, limit_.triangles, block);
     if (!(split.cost < cost)) return range.begin;
     return CutAndPartition(items_, range, split, limit_.triangles);
+  }
+
+  // Area of the triangles, of which a cut one counts in proportion to its box.
+  float SurfaceOf(ItemRange range) const {
+    float area = 0;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      const TriangleRecord& triangle = limit_.triangles[items_[i].id];
+      const float whole = BoxOf(triangle).HalfArea();
+      const float part = whole > 0 ? items_[i].box.HalfArea() / whole : 1.0f;
+      area += std::min(part, 1.0f) * TriangleArea(triangle);
+    }
+    return area;
   }
 
   // Sum of half areas.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/accel/blocker_order.h"
 #include "src/accel/grow.h"
 #include "src/core/check.h"
 #include "src/core/parallel.h"
@@ -55,19 +56,21 @@ class Collapser {
     nodes_.emplace_back();
     int slot[kBvhWidth];
     AssignSlots(tree_[at].box, child, count, slot);
-    WideNode node;
+    WideNode node = {};
+    ChildOdds odds[kBvhWidth];
     for (int c = 0; c < kBvhWidth; ++c) {
-      node.pad[c] = 0;
       const int from = slot[c];
       SetChild(node, c, from >= 0 ? tree_[child[from]].box : AccelBox());
       node.child[c] = kEmptyRef;
       if (from < 0) continue;
+      odds[c] = OddsOf(tree_[child[from]], tree_[at]);
       if (rest_ != nullptr && IsSubtree(child[from])) {
         rest_->push_back({child[from], index, c, depth + 1});
       } else {
         node.child[c] = Emit(child[from], depth + 1);
       }
     }
+    SetBlockerOrder(odds, node);
     nodes_[index] = node;
     return index;
   }
@@ -81,6 +84,13 @@ class Collapser {
     if (single_) return kLeafBit | items_[leaf.begin].id;
     leaves_.push_back({leaf.begin, leaf.end, leaf.capacity});
     return kLeafBit | static_cast<std::uint32_t>(leaves_.size() - 1);
+  }
+
+  static ChildOdds OddsOf(const BinaryNode& child, const BinaryNode& parent) {
+    const float half = child.box.HalfArea();
+    if (!(half > 0)) return {};
+    return {half / parent.box.HalfArea(), BlockingOdds(child.area, half),
+            child.cost[0] / half};
   }
 
   // The planned forest of `roots` trees below an inner node.
@@ -181,6 +191,7 @@ void PlanCollapse(BinaryTree& tree, std::uint32_t node) {
   }
   const float* a = tree[n.child].cost;
   const float* b = tree[n.child + 1].cost;
+  n.area = tree[n.child].area + tree[n.child + 1].area;
   for (int roots = 2; roots <= kBvhWidth; ++roots) {
     float least = INFINITY;
     for (int k = 1; k < roots; ++k) {

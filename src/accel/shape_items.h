@@ -29,6 +29,14 @@ inline AccelBox BoxOf(const TriangleRecord& triangle) {
   return box;
 }
 
+inline float TriangleArea(const TriangleRecord& triangle) {
+  const auto corner = [&](int k) {
+    const float* p = triangle.p[k];
+    return Vec3f{p[0], p[1], p[2]};
+  };
+  return 0.5f * Length(Cross(corner(1) - corner(0), corner(2) - corner(0)));
+}
+
 /// Boxes of round shapes are rounded outwards, since centre plus radius may round
 /// inwards.
 inline AccelBox Around(const float* center, float radius) {

@@ -11,7 +11,7 @@ namespace lanelight {
 /// Raised whenever BuildAccel makes other trees of the same shapes, or members of Accel
 /// mean something else. (Their sizes and the commit that the program was built from are
 /// part of the key anyway.)
-inline constexpr std::uint64_t kTreeVersion = 4;
+inline constexpr std::uint64_t kTreeVersion = 5;
 
 struct TreeKey {
   std::uint64_t low = 0, high = 0;

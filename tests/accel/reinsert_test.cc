@@ -27,6 +27,8 @@ void Fill(BinaryTree& tree, std::uint32_t at, const std::vector<AccelBox>& boxes
     Fill(tree, n.child, boxes, begin, middle);
     Fill(tree, n.child + 1, boxes, middle, end);
     n.height = std::max(tree[n.child].height, tree[n.child + 1].height) + 1;
+  } else {
+    n.area = static_cast<float>(begin);
   }
   PlanCollapse(tree, at);
 }
@@ -66,6 +68,7 @@ void CheckNodes(BinaryTree& tree, const std::vector<AccelBox>& boxes) {
       CHECK(n.end == n.begin + 1);
       CHECK(Equal(n.box, boxes[n.begin]));
       CHECK(n.height == 0);
+      CHECK(n.area == static_cast<float>(n.begin));
       return;
     }
     const BinaryNode &a = tree[n.child], &b = tree[n.child + 1];
@@ -74,6 +77,7 @@ void CheckNodes(BinaryTree& tree, const std::vector<AccelBox>& boxes) {
     CHECK(Equal(n.box, box));
     CHECK(n.end - n.begin == (a.end - a.begin) + (b.end - b.begin));
     CHECK(n.height == std::max(a.height, b.height) + 1);
+    CHECK(n.area == a.area + b.area);
     PlanCollapse(tree, at);
     CHECK(std::equal(n.cost, n.cost + kBvhWidth, tree[at].cost));
     CHECK(std::equal(n.left, n.left + kBvhWidth, tree[at].left));
