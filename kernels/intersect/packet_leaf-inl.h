@@ -186,18 +186,23 @@ LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& lea
   }
 }
 
-/// The same for the leaf that a reference names.
+/// Calls test(leaf) for the leaf that a reference names.
+template <class Test>
+LANELIGHT_INLINE void WithLeaf(const CompiledScene& scene, uint32_t ref, Test&& test) {
+  const LeafPlaces leaves(scene.accel);
+  if (HWY_UNLIKELY(ref & kSeparateBit)) return test(leaves.Of<SeparateLeaf>(ref));
+  if (leaves.small()) return test(leaves.Of<SmallLeaf>(ref));
+  test(leaves.Of<TriangleLeaf>(ref));
+}
+
+/// TestLeafPacket for the leaf that a reference names.
 template <bool kAny, bool kAlpha>
 LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, uint32_t ref,
                                      const PacketRays& packet, uint32_t lanes,
                                      PacketBest& best) {
-  const LeafPlaces leaves(scene.accel);
-  const auto test = [&](const auto& leaf) HWY_ATTR {
+  WithLeaf(scene, ref, [&](const auto& leaf) HWY_ATTR {
     TestLeafPacket<kAny, kAlpha>(scene, leaf, packet, lanes, best);
-  };
-  if (HWY_UNLIKELY(ref & kSeparateBit)) return test(leaves.Of<SeparateLeaf>(ref));
-  if (leaves.small()) return test(leaves.Of<SmallLeaf>(ref));
-  test(leaves.Of<TriangleLeaf>(ref));
+  });
 }
 
 }  // namespace HWY_NAMESPACE

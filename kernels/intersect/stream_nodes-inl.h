@@ -42,7 +42,8 @@ struct PacketSlabs {
 };
 
 /// The children of a node that the packet is in, in the order in which its
-/// first ray visits them: entry distances, and which lanes enter.
+/// first ray visits them: which lanes enter, and at what distances, unless any hit ends
+/// a ray.
 struct PacketFrame {
   HWY_ALIGN float entry[kBvhWidth][StreamRays::kLanes];
   uint32_t ref[kBvhWidth], lanes[kBvhWidth];
@@ -90,7 +91,7 @@ struct PacketFrame {
         enter = hn::Max(enter, hn::MulAdd(p, slabs.rcp[a], slabs.near[a]));
         leave = hn::Min(leave, hn::MulAdd(q, slabs.rcp[a], slabs.far[a]));
       }
-      hn::Store(enter, df, entry[j]);
+      if constexpr (!kAny) hn::Store(enter, df, entry[j]);
       ref[j] = node.child[c];
       lanes[j] = rays & MaskBits(df, hn::Le(enter, leave));
       entered |= uint32_t{lanes[j] != 0} << j;

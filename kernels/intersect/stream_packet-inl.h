@@ -11,6 +11,8 @@
 #include <bit>
 
 #include "kernels/intersect/last_blockers-inl.h"
+#include "kernels/intersect/packet_deferred-inl.h"
+#include "kernels/intersect/packet_singles-inl.h"
 #include "kernels/intersect/stream_lists-inl.h"
 #include "kernels/intersect/stream_nodes-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
@@ -62,10 +64,11 @@ class PacketPhase {
   LANELIGHT_INLINE void RunIn(uint32_t root, uint32_t at, RayList& live) {
     count_ = std::min(StreamRays::kLanes, rays_.size - at);
     for (uint32_t r = at; r < at + count_; ++r) rays_.bottom[r] = rays_.StackEnd(r);
-    deferred_ = 0;
+    deferred_.Clear();
     uint32_t lanes = (1u << count_) - 1;
     if constexpr (kAny && kTop) lanes &= ~Found(at);
     if (lanes != 0) Trace<kTop>(root, at, lanes);
+    deferred_.Push(rays_, at);
     for (uint32_t r = at; r < at + count_; ++r) {
       BeginSingle(r);
       live.place[live.size++] = static_cast<int32_t>(r);
@@ -114,8 +117,12 @@ class PacketPhase {
       frame->open &= frame->open - 1;
       const uint32_t ref = frame->ref[child];
       const float* entry = frame->entry[child];
-      const uint32_t lanes =
-          frame->lanes[child] & MaskBits(df, hn::Le(hn::Load(df, entry), best.t));
+      uint32_t lanes = frame->lanes[child];
+      if constexpr (kAny) {
+        lanes &= ~best.found;
+      } else {
+        lanes &= MaskBits(df, hn::Le(hn::Load(df, entry), best.t));
+      }
       if (lanes == 0) continue;
       const bool is_leaf = ref & kLeafBit;
       const bool few = std::popcount(lanes) < (is_leaf ? kFewAtLeaf : kNodeRays<kAny>);
@@ -127,14 +134,28 @@ class PacketPhase {
       } else if constexpr (kTop) {
         EnterInstance(ref & ~kLeafBit, lanes);
         best.t = hn::LoadU(df, rays_.t + at_);
+        if constexpr (kAny) best.found |= Found(at_);
       } else {
-        TestLeafPacket<kAny, kAlpha>(scene_, ref, packet, lanes, best);
+        WithLeaf(scene_, ref,
+                 [&](const auto& leaf) HWY_ATTR { TestLeaf(leaf, packet, lanes, best); });
       }
     }
     if constexpr (kRemembers) {
       if (best.blocker != kNoPrimitive) blockers_.Add(best.blocker);
     }
     if constexpr (!kTop) StoreHits(best);
+  }
+
+  template <class Leaf>
+  LANELIGHT_INLINE void TestLeaf(const Leaf& leaf, const PacketRays& packet,
+                                 uint32_t lanes, PacketBest& best) const {
+    if constexpr (kAny && kSingleRays<Leaf> > 0) {
+      if (!packet.has_beam && std::popcount(lanes) <= kSingleRays<Leaf>) {
+        const PacketPlace place{rays_, at_, inside_ ? home_ : at_};
+        return TestLeafSingles<kAlpha>(scene_, leaf, place, lanes, best);
+      }
+    }
+    TestLeafPacket<kAny, kAlpha>(scene_, leaf, packet, lanes, best);
   }
 
   // Traces the rays of `lanes` through an instance. They are moved to its space in the
@@ -197,15 +218,8 @@ class PacketPhase {
   // Leaves a subtree to single rays; false if there may be no room for it.
   LANELIGHT_INLINE bool Defer(uint32_t ref, const float* entry, uint32_t lanes) {
     if (kInstances && inside_) return false;
-    if (++deferred_ >= kDeferred) return false;  // the last place is for the end
-    uint32_t* const refs = rays_.refs;
-    float* const entries = rays_.entries;
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto i = static_cast<uint32_t>(std::countr_zero(lanes));
-      const uint32_t to = --rays_.bottom[at_ + i];
-      refs[to] = ref;
-      if constexpr (!kAny) entries[to] = entry[i];
-    }
+    if (!deferred_.HasRoom()) return false;
+    deferred_.Add(ref, entry, lanes);
     return true;
   }
 
@@ -236,7 +250,7 @@ class PacketPhase {
   StreamRays& rays_;
   bool inside_ = false;          // an instance
   uint32_t at_ = 0, count_ = 0;  // place and number of the rays
-  uint32_t deferred_ = 0;        // subtrees that they put off
+  DeferredSubtrees<!kAny> deferred_;
   LastBlockers<kAlpha> blockers_;
   uint32_t home_ = 0;  // in an instance: their place in the space of the scene
 };

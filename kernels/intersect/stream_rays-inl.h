@@ -60,6 +60,14 @@ struct StreamRays {
             hn::LoadU(df, column[2] + at)};
   }
 
+  /// A ray as leaves see it.
+  LANELIGHT_INLINE LeafRay AtLeaf(uint32_t r) const {
+    return {{shear_o[0][r], shear_o[1][r], shear_o[2][r]},
+            {shear_s[0][r], shear_s[1][r], shear_s[2][r]},
+            {row[0][r], row[1][r], row[2][r]},
+            from[r]};
+  }
+
   /// Gives the hit of the ray at `from_ray` to that at `to`.
   LANELIGHT_INLINE void TakeHit(uint32_t from_ray, uint32_t to) {
     found[to] = 1;

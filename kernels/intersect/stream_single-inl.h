@@ -67,7 +67,7 @@ class SinglePhase {
 
  private:
   using Stacks = RayStacks<kAny, kInstances>;
-  static constexpr uint32_t kParts = Stacks::kParts, kRoom = StreamRays::kRoom;
+  static constexpr uint32_t kParts = Stacks::kParts;
 
   // Takes rays back from instances, and others, or the same, into them.
   HWY_NOINLINE void ChangeSpaces() {
@@ -184,15 +184,9 @@ class SinglePhase {
     uint32_t r[kTogether], next[kTogether], bits[kTogether], top[kTogether];
     for (uint32_t j = 0; j < kTogether; ++j) {
       r[j] = static_cast<uint32_t>(list[j]);
-      const auto load = [&](const float(&column)[3][kRoom]) HWY_ATTR {
-        return P3<float>{column[0][r[j]], column[1][r[j]], column[2][r[j]]};
-      };
       next[j] = static_cast<uint32_t>(rays.next[r[j]]);
       leaf[j] = &stacks.leaf_places().template Of<Leaf>(next[j]);
-      ray[j] = {load(rays.shear_o),
-                load(rays.shear_s),
-                {rays.row[0][r[j]], rays.row[1][r[j]], rays.row[2][r[j]]},
-                rays.from[r[j]]};
+      ray[j] = rays.AtLeaf(r[j]);
       weights[j] = &weights_[at + j];
     }
     TestLeaves(ray, leaf, weights, bits);

@@ -1,0 +1,67 @@
+// What the packets of a stream leave to its single rays.
+#if defined(LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_
+#undef LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_
+#else
+#define LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_
+#endif
+
+#include <bit>
+
+#include "kernels/intersect/stream_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The subtrees that the rays of a packet put off, in the order in which they would visit
+/// them. How many rays enter one cannot be predicted: they are listed by compression, and
+/// one loop puts all on the stacks of the rays at the end. kEntries: with the distances
+/// at which rays enter.
+template <bool kEntries>
+class DeferredSubtrees {
+ public:
+  LANELIGHT_INLINE void Clear() { size_ = subtrees_ = 0; }
+  /// Whether one more has room, there and on the stacks, which end with one of their own.
+  LANELIGHT_INLINE bool HasRoom() const { return subtrees_ + 1 < kDeferred; }
+
+  /// Adds a subtree for the rays of `lanes`; `entry` has a distance for each lane.
+  LANELIGHT_INLINE void Add(uint32_t ref, const float* entry, uint32_t lanes) {
+    const DF df;
+    const DI di;
+    const MF mask = MaskOf(df, lanes);
+    const VI compressed = hn::Compress(hn::Iota(di, 0), hn::RebindMask(di, mask));
+    hn::StoreU(compressed, di, lane_ + size_);
+    hn::StoreU(hn::Set(di, static_cast<int32_t>(ref)), di, ref_ + size_);
+    if constexpr (kEntries) {
+      hn::StoreU(hn::Compress(hn::Load(df, entry), mask), df, entry_ + size_);
+    }
+    size_ += static_cast<uint32_t>(std::popcount(lanes));
+    ++subtrees_;
+  }
+
+  /// Puts them on the stacks of the rays at `at`, first ones on top.
+  LANELIGHT_INLINE void Push(StreamRays& rays, uint32_t at) const {
+    uint32_t *const refs = rays.refs, *const bottom = rays.bottom + at;
+    float* const entries = rays.entries;
+    for (uint32_t i = 0; i < size_; ++i) {
+      const uint32_t to = --bottom[lane_[i]];
+      refs[to] = static_cast<uint32_t>(ref_[i]);
+      if constexpr (kEntries) entries[to] = entry_[i];
+    }
+  }
+
+ private:
+  // A vector may be stored behind the last one.
+  static constexpr uint32_t kMost = kDeferred * StreamRays::kLanes;
+  uint32_t size_ = 0, subtrees_ = 0;
+  int32_t lane_[kMost], ref_[kMost];
+  float entry_[kEntries ? kMost : 1];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,106 @@
+// The few shadow rays of a packet that are at one leaf, two at a time: the lanes are
+// triangles. A packet's own test (packet_leaf-inl.h) costs as much for one of its rays as
+// for all.
+#if defined(LANELIGHT_INTERSECT_PACKET_SINGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_INTERSECT_PACKET_SINGLES_INL_H_
+#undef LANELIGHT_INTERSECT_PACKET_SINGLES_INL_H_
+#else
+#define LANELIGHT_INTERSECT_PACKET_SINGLES_INL_H_
+#endif
+
+#include <bit>
+#include <type_traits>
+
+#include "kernels/intersect/alpha-inl.h"
+#include "kernels/intersect/stream_lists-inl.h"
+#include "kernels/intersect/stream_rays-inl.h"
+#include "src/compiled/scene.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// At most so many shadow rays of a packet are tested by themselves at a leaf: where a
+/// packet that has no beam would shear three vertices for each triangle. Elsewhere, and
+/// for closest hits, branches that cannot be predicted cost more than is saved
+/// (docs/intersect.md).
+template <class Leaf>
+inline constexpr int kSingleRays =
+    std::is_same_v<Leaf, SeparateLeaf> ? (StreamRays::kLanes >= 8 ? 6 : 2) : 0;
+
+/// The rays of a packet at [at, at + lanes), and those in the space of the scene, for
+/// which cut-outs are decided, at `home`.
+struct PacketPlace {
+  const StreamRays& rays;
+  uint32_t at, home;
+};
+
+/// Whether one of the triangles of `bits`, which the line of the ray in `lane` passes
+/// through, blocks it.
+template <bool kAlpha, class Leaf>
+HWY_NOINLINE bool IsBlocked(const CompiledScene& scene, const PacketPlace& place,
+                            const Leaf& leaf, const LeafWeights& weights, uint32_t bits,
+                            uint32_t lane, uint32_t& blocker) {
+  const StreamRays& rays = place.rays;
+  const auto copy_from = [&](uint32_t r, float o[3], float d[3]) HWY_ATTR {
+    for (int a = 0; a < 3; ++a) o[a] = rays.o[a][r], d[a] = rays.d[a][r];
+  };
+  const uint32_t r = place.at + lane;
+  for (; bits != 0; bits &= bits - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(bits));
+    LaneHit hit;
+    const bool ahead = FinishLane(
+        leaf, weights, i, rays.t_scale[r],
+        [&](float o[3], float d[3]) HWY_ATTR { copy_from(r, o, d); }, hit);
+    const bool before_end = hit.t < rays.t[r];
+    if (!(ahead & before_end)) continue;
+    if constexpr (kAlpha) {
+      float o[3], d[3];
+      copy_from(place.home + lane, o, d);
+      const float b1 = hit.v / hit.det, b2 = hit.w / hit.det;
+      if (!TrianglePassesAlpha(scene, o, d, leaf.prim[i], b1, b2)) continue;
+    }
+    blocker = leaf.prim[i];
+    return true;
+  }
+  return false;
+}
+
+/// As TestLeafPacket; `lanes` are not blocked yet.
+template <bool kAlpha, class Leaf>
+LANELIGHT_INLINE void TestLeafSingles(const CompiledScene& scene, const Leaf& leaf,
+                                      const PacketPlace& place, uint32_t lanes,
+                                      PacketBest& best) {
+  LeafWeights weights[kTogether];
+  uint32_t blocked = 0;
+  while (lanes != 0) {
+    LeafRay ray[kTogether];
+    const Leaf* same[kTogether];
+    LeafWeights* to[kTogether];
+    uint32_t lane[kTogether], bits[kTogether];
+    for (uint32_t j = 0; j < kTogether; ++j) {
+      // The last one twice, if they are odd.
+      lane[j] = lanes != 0 ? static_cast<uint32_t>(std::countr_zero(lanes)) : lane[0];
+      lanes &= lanes - 1;
+      ray[j] = place.rays.AtLeaf(place.at + lane[j]);
+      same[j] = &leaf;
+      to[j] = &weights[j];
+    }
+    TestLeaves(ray, same, to, bits);
+    for (uint32_t j = 0; j < kTogether; ++j) {
+      if (bits[j] == 0) continue;
+      const bool is_blocked = IsBlocked<kAlpha>(scene, place, leaf, weights[j], bits[j],
+                                                lane[j], best.blocker);
+      blocked |= uint32_t{is_blocked} << lane[j];
+    }
+  }
+  best.found |= blocked;
+  best.t = hn::IfThenElse(MaskOf(DF(), blocked), Splat(-1.0f), best.t);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif
