@@ -108,13 +108,6 @@ LANELIGHT_INLINE uint32_t HitChildren(const Frustum& f, const WideNode& node, fl
   return bits;
 }
 
-/// Leaves that a packet of nearly equal rays may meet for the frustum to pay, or twice as
-/// many small ones: where triangles are much smaller than the packet, its rays go ways of
-/// their own.
-LANELIGHT_INLINE int FrustumLeaves(const Accel& accel) {
-  return 16 * kLeafTriangles / accel.leaf_triangles;
-}
-
 /// Visits the leaves of a tree that the packet meets, until no ray wants more, or until
 /// `left`, which counts them down, is negative: then what was found is a bound. `home`
 /// are the rays in the space of the scene.
@@ -149,18 +142,16 @@ LANELIGHT_INLINE void StorePacketHits(const PathColumns& path, VI slots,
   Scatter(hn::IfThenElse(found, b2, Gather(path.b2, slots)), path.b2, slots);
 }
 
-/// Closest hits of a batch; hits are written to the columns. False if the frustum does
-/// not pay: then the rays are to be traced otherwise, from what the columns hold now.
+/// Closest hits of a batch; hits are written to the columns. `left` as in TraceFrustum;
+/// if it is negative the rays are to be traced otherwise, from what the columns hold now.
 template <bool kAlpha>
-LANELIGHT_INLINE bool ClosestFrustum(const Wave& wave, const Rays& rays,
-                                     const PacketBounds& bounds, VI slots) {
+LANELIGHT_INLINE void ClosestFrustum(const Wave& wave, const Rays& rays,
+                                     const PacketBounds& bounds, VI slots, int& left) {
   const Accel& accel = wave.scene->accel;
   PacketBest best = NoHits(rays.t_max, Gather(wave.path.prim, slots));
-  int left = FrustumLeaves(accel);
   TraceFrustum<false, kAlpha>(*wave.scene, accel.groups[0], rays, bounds, rays, left,
                               best);
   StorePacketHits(wave.path, slots, best);
-  return left >= 0;
 }
 
 /// Which rays of a batch are blocked.

@@ -55,13 +55,13 @@ HWY_NOINLINE void TraceInstance(const CompiledScene& scene, const Rays& rays,
 
 /// As ClosestFrustum, in scenes with instances.
 template <bool kAlpha>
-LANELIGHT_INLINE bool ClosestFrustumInstanced(const Wave& wave, const Rays& rays,
-                                              const PacketBounds& bounds, VI slots) {
+LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays,
+                                              const PacketBounds& bounds, VI slots,
+                                              int& left) {
   const CompiledScene& scene = *wave.scene;
   const Accel& accel = scene.accel;
   InstancedBest best = {NoHits(rays.t_max, Gather(wave.path.prim, slots)),
                         hn::Set(DI(), static_cast<int32_t>(kWorldInstance))};
-  int left = FrustumLeaves(accel);
   if (accel.groups[0].root != kEmptyRef) {
     TraceFrustum<false, kAlpha>(scene, accel.groups[0], rays, bounds, rays, left,
                                 best.hit);
@@ -79,7 +79,6 @@ LANELIGHT_INLINE bool ClosestFrustumInstanced(const Wave& wave, const Rays& rays
   const auto found = hn::RebindMask(DI(), MaskOf(DF(), best.hit.found));
   Scatter(hn::IfThenElse(found, best.inst, Gather(wave.path.inst, slots)), wave.path.inst,
           slots);
-  return left >= 0;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "kernels/intersect/few-inl.h"
+#include "kernels/intersect/frustum_trial.h"
 #include "kernels/intersect/packet-inl.h"
 #include "kernels/intersect/packet_instances-inl.h"
 #include "kernels/intersect/stream-inl.h"
@@ -19,26 +20,12 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-// Whether a frustum pays for the packets of a wave: it is tried while at most a quarter
-// of them had to give up.
-class FrustumTrial {
- public:
-  bool IsOn() const { return 4 * given_up_ <= tried_ + 3; }
-  void Add(bool done) {
-    ++tried_;
-    given_up_ += !done;
-  }
-
- private:
-  uint32_t tried_ = 0, given_up_ = 0;
-};
-
 // World triangles, batch by batch: through a frustum if the rays are nearly the same,
 // else the plain loop if there are few triangles, else collected to a stream.
 template <bool kAlpha>
 void IntersectWorld(Wave& wave) {
   const Accel& accel = wave.scene->accel;
-  FrustumTrial frustum;
+  FrustumTrial frustum(accel);
   auto& stream = RayStream<false, kAlpha, false>::OfThread(*wave.scene);
   const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
   ForEachBatch(wave, wave.queue(QueueId::kActive),
@@ -46,11 +33,12 @@ void IntersectWorld(Wave& wave) {
                  Rays rays = LoadRays(wave.path, slots);
                  rays.from = StartsOf(wave.path, slots, rays.t_max);
                  PacketBounds bounds;
-                 if (frustum.IsOn() && bounds.Compute(rays) &&
-                     bounds.IsNarrow(accel.groups[0].reach)) {
-                   const bool done = ClosestFrustum<kAlpha>(wave, rays, bounds, slots);
-                   frustum.Add(done);
-                   if (done) return;
+                 if (bounds.Compute(rays) && bounds.IsNarrow(accel.groups[0].reach) &&
+                     frustum.IsOn()) {
+                   int left = frustum.most();
+                   ClosestFrustum<kAlpha>(wave, rays, bounds, slots, left);
+                   frustum.Add(left);
+                   if (left >= 0) return;
                    rays.t_max = Gather(wave.path.t, slots);
                  }
                  if (!accel.few.triangles.empty())
@@ -66,22 +54,23 @@ template <bool kAlpha>
 void IntersectInstanced(Wave& wave) {
   const Accel& accel = wave.scene->accel;
   const float reach = std::max(accel.groups[0].reach, accel.top.reach);
-  FrustumTrial frustum;
+  FrustumTrial frustum(accel);
   auto& stream = RayStream<false, kAlpha, true>::OfThread(*wave.scene);
   const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
-  ForEachBatch(
-      wave, wave.queue(QueueId::kActive), [&](const Slots& slots, MF valid) HWY_ATTR {
-        Rays rays = LoadRays(wave.path, slots);
-        rays.from = StartsOf(wave.path, slots, rays.t_max);
-        PacketBounds bounds;
-        if (frustum.IsOn() && bounds.Compute(rays) && bounds.IsNarrow(reach)) {
-          const bool done = ClosestFrustumInstanced<kAlpha>(wave, rays, bounds, slots);
-          frustum.Add(done);
-          if (done) return;
-          rays.t_max = Gather(wave.path.t, slots);
-        }
-        stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
-      });
+  ForEachBatch(wave, wave.queue(QueueId::kActive),
+               [&](const Slots& slots, MF valid) HWY_ATTR {
+                 Rays rays = LoadRays(wave.path, slots);
+                 rays.from = StartsOf(wave.path, slots, rays.t_max);
+                 PacketBounds bounds;
+                 if (bounds.Compute(rays) && bounds.IsNarrow(reach) && frustum.IsOn()) {
+                   int left = frustum.most();
+                   ClosestFrustumInstanced<kAlpha>(wave, rays, bounds, slots, left);
+                   frustum.Add(left);
+                   if (left >= 0) return;
+                   rays.t_max = Gather(wave.path.t, slots);
+                 }
+                 stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
+               });
   if (!stream.empty()) flush();
 }
 

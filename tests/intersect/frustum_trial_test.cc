@@ -1,0 +1,61 @@
+// When camera packets take the frustum.
+#include "kernels/intersect/frustum_trial.h"
+
+#include <catch2/catch.hpp>
+
+namespace lanelight {
+namespace {
+
+// Of `packets` that meet so many leaves each, how many take the frustum.
+int Taken(FrustumTrial& trial, int packets, int leaves) {
+  int taken = 0;
+  for (int i = 0; i < packets; ++i) {
+    if (!trial.IsOn()) continue;
+    ++taken;
+    trial.Add(trial.most() - leaves);
+  }
+  return taken;
+}
+
+Accel LeavesOf(int triangles) {
+  Accel accel;
+  accel.leaf_triangles = triangles;
+  return accel;
+}
+
+TEST_CASE("packets take the frustum while they meet few leaves") {
+  for (const int triangles : {kLeafTriangles, kLeafTriangles / 2}) {
+    const int unit = kLeafTriangles / triangles;
+    const Accel accel = LeavesOf(triangles);
+    FrustumTrial trial(accel);
+    CHECK(Taken(trial, 1000, 4 * unit) == 1000);
+    // What was saved before does not pay for many leaves later.
+    const int dense = Taken(trial, 1000, 20 * unit);
+    CHECK(dense >= 1000 / 20);
+    CHECK(dense <= 1000 / 10);
+    // One in so many is tried, so that it soon goes on where triangles are larger.
+    CHECK(Taken(trial, 1000, 4 * unit) >= 980);
+  }
+}
+
+TEST_CASE("a packet among others that meets many leaves does not end the frustum") {
+  const Accel accel = LeavesOf(kLeafTriangles);
+  FrustumTrial trial(accel);
+  int taken = 0;
+  for (int i = 0; i < 100; ++i) {
+    taken += Taken(trial, 1, 14);
+    taken += Taken(trial, 4, 4);
+  }
+  CHECK(taken == 500);
+}
+
+TEST_CASE("a packet that is given up counts with all leaves that it met") {
+  const Accel accel = LeavesOf(kLeafTriangles);
+  FrustumTrial trial(accel);
+  REQUIRE(trial.IsOn());
+  trial.Add(-1);
+  CHECK_FALSE(trial.IsOn());
+}
+
+}  // namespace
+}  // namespace lanelight
