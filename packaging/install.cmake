@@ -3,12 +3,19 @@
 include(GNUInstallDirs)
 
 set(EXTRAS ${CMAKE_BINARY_DIR}/extras)
-add_custom_command(OUTPUT ${EXTRAS}.stamp
+# help2man may come after a build without it: the extras are then made anew.
+find_program(HELP2MAN help2man NO_CACHE)
+set(EXTRAS_MADE ${EXTRAS}.stamp)
+if(HELP2MAN)
+  set(EXTRAS_MADE ${EXTRAS}-with-man.stamp)
+endif()
+add_custom_command(OUTPUT ${EXTRAS_MADE}
   COMMAND ${CMAKE_CURRENT_LIST_DIR}/write_extras.sh $<TARGET_FILE:lanelight> ${EXTRAS}
-  COMMAND ${CMAKE_COMMAND} -E touch ${EXTRAS}.stamp
+  COMMAND ${CMAKE_COMMAND} -E rm -f ${EXTRAS}.stamp ${EXTRAS}-with-man.stamp
+  COMMAND ${CMAKE_COMMAND} -E touch ${EXTRAS_MADE}
   DEPENDS lanelight ${CMAKE_CURRENT_LIST_DIR}/write_extras.sh
   COMMENT "Writing completion and man pages" VERBATIM)
-add_custom_target(lanelight_extras ALL DEPENDS ${EXTRAS}.stamp)
+add_custom_target(lanelight_extras ALL DEPENDS ${EXTRAS_MADE})
 
 # Otherwise each install would build the tests first.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
