@@ -6,9 +6,13 @@
 #define LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_
 #endif
 
+#include <algorithm>
+#include <algorithm>
 #include <bit>
 
 #include "kernels/intersect/stream_rays-inl.h"
+#include "kernels/intersect/stream_spaces-inl.h"
+#include "kernels/intersect/stream_spaces-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
@@ -23,8 +27,10 @@ template <bool kEntries>
 class DeferredSubtrees {
  public:
   LANELIGHT_INLINE void Clear() { size_ = subtrees_ = 0; }
-  /// Whether one more has room, there and on the stacks, which end with one of their own.
-  LANELIGHT_INLINE bool HasRoom() const { return subtrees_ + 1 < kDeferred; }
+  /// Whether `more` have room, there and on the stacks, which end with one of their own.
+  LANELIGHT_INLINE bool HasRoom(uint32_t more) const {
+    return subtrees_ + more < kDeferred;
+  }
 
   /// Adds a subtree for the rays of `lanes`; `entry` has a distance for each lane.
   LANELIGHT_INLINE void Add(uint32_t ref, const float* entry, uint32_t lanes) {
@@ -41,6 +47,32 @@ class DeferredSubtrees {
     ++subtrees_;
   }
 
+  /// Until EndInstance subtrees are those of an instance.
+  LANELIGHT_INLINE void BeginInstance() { inside_ = size_; }
+
+  /// Encloses them by the way there and the way back, which must have room, for the rays
+  /// that have any.
+  LANELIGHT_INLINE void EndInstance(uint32_t instance) {
+    if (size_ == inside_) return;
+    uint32_t lanes = 0;
+    for (uint32_t i = inside_; i < size_; ++i) lanes |= 1u << lane_[i];
+    const auto ways = static_cast<uint32_t>(std::popcount(lanes));
+    const auto move = [&](auto* column) HWY_ATTR {
+      std::copy_backward(column + inside_, column + size_, column + size_ + ways);
+    };
+    move(lane_);
+    move(ref_);
+    if constexpr (kEntries) move(entry_);
+    const uint32_t back = size_ + ways;
+    size_ = back + ways;
+    subtrees_ += 2;
+    for (uint32_t i = 0; i < ways; ++i, lanes &= lanes - 1) {
+      const int32_t lane = std::countr_zero(lanes);
+      Set(inside_ + i, ResumeRef(instance), lane);
+      Set(back + i, kReturnRef, lane);
+    }
+  }
+
   /// Puts them on the stacks of the rays at `at`, first ones on top.
   LANELIGHT_INLINE void Push(StreamRays& rays, uint32_t at) const {
     uint32_t *const refs = rays.refs, *const bottom = rays.bottom + at;
@@ -53,9 +85,16 @@ class DeferredSubtrees {
   }
 
  private:
+  // One that stays when a stack is culled.
+  LANELIGHT_INLINE void Set(uint32_t i, uint32_t ref, int32_t lane) {
+    lane_[i] = lane;
+    ref_[i] = static_cast<int32_t>(ref);
+    if constexpr (kEntries) entry_[i] = -1;
+  }
+
   // A vector may be stored behind the last one.
   static constexpr uint32_t kMost = kDeferred * StreamRays::kLanes;
-  uint32_t size_ = 0, subtrees_ = 0;
+  uint32_t size_ = 0, subtrees_ = 0, inside_ = 0;
   int32_t lane_[kMost], ref_[kMost];
   float entry_[kEntries ? kMost : 1];
 };

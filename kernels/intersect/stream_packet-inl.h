@@ -35,8 +35,9 @@ template <bool kAny>
 inline constexpr int kLeafRays = StreamRays::kLanes >= 16  ? (kAny ? 5 : 4)
                                  : StreamRays::kLanes >= 8 ? (kAny ? 3 : 2)
                                                            : 2;
-/// The same for instances: fewer or more cost 2 to 5 %.
-inline constexpr int kEnterRays = StreamRays::kLanes / 2;
+/// The same for instances and the nodes in them, not for leaves: single rays must be
+/// brought there one by one. Half as many or twice as many cost 2 to 5 %.
+inline constexpr int kInsideRays = (3 * StreamRays::kLanes + 4) / 8;
 
 template <bool kAny, bool kAlpha, bool kInstances>
 class PacketPhase {
@@ -100,7 +101,9 @@ class PacketPhase {
   template <bool kTop, bool kSameSigns>
   HWY_NOINLINE void TraceNodes(uint32_t root, uint32_t valid) {
     const DF df;
-    constexpr int kFewAtLeaf = kTop ? kEnterRays : kLeafRays<kAny>;
+    const bool inside = kInstances && !kTop && inside_;
+    const int node_rays = inside ? kInsideRays : kNodeRays<kAny>;
+    const int leaf_rays = kTop ? kInsideRays : inside ? 1 : kLeafRays<kAny>;
     const PacketSlabs slabs(rays_, at_);
     const PacketRays packet = LoadPacket(valid);
     PacketBest best = NoHits(packet.rays.t_max, hn::LoadU(DI(), rays_.prim + at_));
@@ -125,7 +128,8 @@ class PacketPhase {
       }
       if (lanes == 0) continue;
       const bool is_leaf = ref & kLeafBit;
-      const bool few = std::popcount(lanes) < (is_leaf ? kFewAtLeaf : kNodeRays<kAny>);
+      const int least = is_leaf ? leaf_rays : node_rays;
+      const bool few = std::popcount(lanes) < least;
       if (few && Defer(ref, entry, lanes)) continue;
       if (!is_leaf) {
         const uint32_t octant = rays_.octant[at_ + std::countr_zero(lanes)];
@@ -165,7 +169,9 @@ class PacketPhase {
     const uint32_t home = at_, count = count_, to = rays_.size;
     MoveRays(instance, group, home, to);
     inside_ = true;
+    deferred_.BeginInstance();
     Trace<false>(group.root, to, lanes);
+    deferred_.EndInstance(instance);
     inside_ = false;
     at_ = home;
     count_ = count;
@@ -217,8 +223,8 @@ class PacketPhase {
 
   // Leaves a subtree to single rays; false if there may be no room for it.
   LANELIGHT_INLINE bool Defer(uint32_t ref, const float* entry, uint32_t lanes) {
-    if (kInstances && inside_) return false;
-    if (!deferred_.HasRoom()) return false;
+    // In an instance also for the way there and back.
+    if (!deferred_.HasRoom(kInstances && inside_ ? 3 : 1)) return false;
     deferred_.Add(ref, entry, lanes);
     return true;
   }

@@ -75,18 +75,30 @@ class SinglePhase {
     uint32_t entering = 0;
     for (uint32_t i = 0; i < moving.size; ++i) {
       const auto r = static_cast<uint32_t>(moving.place[i]);
-      if (static_cast<uint32_t>(rays_.next[r]) == kReturnRef) {
+      // A hit may have culled all that a packet had left to the ray in an instance.
+      bool back = Next(r) == kReturnRef;
+      while (Next(r) == kReturnRef || (IsResume(Next(r)) && stacks_.NothingInside(r))) {
+        back = true;
         stacks_.Pop(r, rays_.top[r]);
-        spaces_.Leave(r, static_cast<uint32_t>(rays_.next[r]));
       }
-      const auto next = static_cast<uint32_t>(rays_.next[r]);
+      if (back) spaces_.Leave(r, Next(r));
       moving.place[entering] = moving.place[i];
-      entering += next < kReturnRef && (next & kLeafBit) != 0;
+      entering += Next(r) < kReturnRef && (Next(r) & kLeafBit) != 0;
     }
     spaces_.Enter(moving.place, entering);
     for (uint32_t i = 0; i < entering; ++i) {
-      stacks_.PushReturn(static_cast<uint32_t>(moving.place[i]));
+      const auto r = static_cast<uint32_t>(moving.place[i]);
+      if (IsResume(Next(r))) {
+        stacks_.Pop(r, rays_.top[r]);
+      } else {
+        const uint32_t group = scene_.geometry.instance_group[rays_.space[r]];
+        stacks_.GoInside(r, scene_.accel.groups[group].root);
+      }
     }
+  }
+
+  LANELIGHT_INLINE uint32_t Next(uint32_t r) const {
+    return static_cast<uint32_t>(rays_.next[r]);
   }
 
   HWY_NOINLINE void NodeRound() {

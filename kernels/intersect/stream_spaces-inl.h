@@ -20,6 +20,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// What a ray's stack holds under the subtrees of an instance: the way back.
 inline constexpr uint32_t kReturnRef = kEmptyRef - 1;
+/// What it holds above subtrees that a packet left to it in an instance: the way there.
+LANELIGHT_INLINE constexpr uint32_t ResumeRef(uint32_t instance) {
+  return kLeafBit | kSeparateBit | instance;
+}
+LANELIGHT_INLINE constexpr bool IsResume(uint32_t ref) {
+  return ref >= ResumeRef(0) && ref < kReturnRef;
+}
 /// `space` of a ray in the tree over instances.
 inline constexpr uint32_t kTopSpace = kWorldInstance - 1;
 
@@ -42,7 +49,7 @@ class RaySpaces {
     std::fill_n(rays_.from, rays_.size, kNoPrimitive);
   }
 
-  /// Moves rays to the spaces of the instances that they are at.
+  /// Moves rays to the spaces of the instances that they are at. What is next stays.
   LANELIGHT_INLINE void Enter(const int32_t* list, uint32_t count) {
     for (uint32_t i = 0; i < count; i += StreamRays::kLanes) {
       EnterVector(list + i, std::min(count - i, StreamRays::kLanes));
@@ -125,7 +132,7 @@ class RaySpaces {
                     reach[StreamRays::kLanes] = {};
     for (uint32_t j = 0; j < count; ++j) {
       const auto r = static_cast<uint32_t>(list[j]);
-      const uint32_t instance = static_cast<uint32_t>(rays_.next[r]) & ~kLeafBit;
+      const uint32_t instance = static_cast<uint32_t>(rays_.next[r]) & kRefIndex;
       const Bvh& group = accel.groups[geometry.instance_group[instance]];
       const float* m = geometry.instances[instance].object_from_scene;
       for (int k = 0; k < 12; ++k) map[k][j] = m[k];
@@ -135,7 +142,6 @@ class RaySpaces {
       margin[j] = group.margin;
       reach[j] = group.reach;
       rays_.space[r] = instance;
-      rays_.next[r] = static_cast<int32_t>(group.root);
     }
     VF m[12];
     for (int k = 0; k < 12; ++k) m[k] = hn::Load(df, map[k]);

@@ -54,11 +54,18 @@ class RayStacks {
     Prefetch(ref);
   }
 
-  /// Puts the way back from an instance on the stack.
-  LANELIGHT_INLINE void PushReturn(uint32_t r) const {
+  /// Goes to a subtree of an instance, and puts the way back on the stack.
+  LANELIGHT_INLINE void GoInside(uint32_t r, uint32_t root) const {
     const uint32_t top = ++rays_->top[r];
     refs_[top] = kReturnRef;
     entries_[top] = -1;  // stays when the stack is culled
+    rays_->next[r] = static_cast<int32_t>(root);
+    Prefetch(root);
+  }
+
+  /// Whether nothing is left on the way that IsResume names.
+  LANELIGHT_INLINE bool NothingInside(uint32_t r) const {
+    return refs_[rays_->top[r]] == kReturnRef;
   }
 
   /// Pushes the children that the ray enters no later than it leaves them, last slots
