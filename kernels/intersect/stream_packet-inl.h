@@ -140,8 +140,7 @@ class PacketPhase {
         best.t = hn::LoadU(df, rays_.t + at_);
         if constexpr (kAny) best.found |= Found(at_);
       } else {
-        WithLeaf(scene_, ref,
-                 [&](const auto& leaf) HWY_ATTR { TestLeaf(leaf, packet, lanes, best); });
+        TestLeaf(ref, packet, lanes, best);
       }
     }
     if constexpr (kRemembers) {
@@ -150,16 +149,18 @@ class PacketPhase {
     if constexpr (!kTop) StoreHits(best);
   }
 
-  template <class Leaf>
-  LANELIGHT_INLINE void TestLeaf(const Leaf& leaf, const PacketRays& packet,
-                                 uint32_t lanes, PacketBest& best) const {
-    if constexpr (kAny && kSingleRays<Leaf> > 0) {
-      if (!packet.has_beam && std::popcount(lanes) <= kSingleRays<Leaf>) {
+  // Once for the ways of TraceNodes: it is long to compile.
+  HWY_NOINLINE void TestLeaf(uint32_t ref, const PacketRays& packet, uint32_t lanes,
+                             PacketBest& best) const {
+    if constexpr (kAny && kSingleRays<SeparateLeaf> > 0) {
+      if (HWY_UNLIKELY(ref & kSeparateBit) && !packet.has_beam &&
+          std::popcount(lanes) <= kSingleRays<SeparateLeaf>) {
+        const auto& leaf = LeafPlaces(scene_.accel).template Of<SeparateLeaf>(ref);
         const PacketPlace place{rays_, at_, inside_ ? home_ : at_};
         return TestLeafSingles<kAlpha>(scene_, leaf, place, lanes, best);
       }
     }
-    TestLeafPacket<kAny, kAlpha>(scene_, leaf, packet, lanes, best);
+    TestLeafPacket<kAny, kAlpha>(scene_, ref, packet, lanes, best);
   }
 
   // Traces the rays of `lanes` through an instance. They are moved to its space in the
