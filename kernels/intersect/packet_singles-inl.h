@@ -9,7 +9,6 @@
 #endif
 
 #include <bit>
-#include <type_traits>
 
 #include "kernels/intersect/alpha-inl.h"
 #include "kernels/intersect/stream_lists-inl.h"
@@ -21,13 +20,11 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// At most so many shadow rays of a packet are tested by themselves at a leaf: where a
-/// packet that has no beam would shear three vertices for each triangle. Elsewhere, and
-/// for closest hits, branches that cannot be predicted cost more than is saved
+/// At most so many shadow rays of a packet are tested by themselves at a leaf of separate
+/// triangles, where a packet shears three vertices for each. At other leaves, and for
+/// closest hits, branches that cannot be predicted cost more than is saved
 /// (docs/intersect.md).
-template <class Leaf>
-inline constexpr int kSingleRays =
-    std::is_same_v<Leaf, SeparateLeaf> ? (StreamRays::kLanes >= 8 ? 6 : 2) : 0;
+inline constexpr int kSingleRays = StreamRays::kLanes >= 8 ? 6 : 2;
 
 /// The rays of a packet at [at, at + lanes), and those in the space of the scene, for
 /// which cut-outs are decided, at `home`.
