@@ -195,6 +195,18 @@ TEST_CASE("own scenes: the generated kitchen is many meshes, the same each time"
   fs::remove_all(folder);
 }
 
+TEST_CASE("own scenes: the generated herd is one mesh, 250 times", "[scenes]") {
+  if (!HasPython()) return;
+  const fs::path folder = fs::temp_directory_path() / "lanelight_herd_test";
+  fs::remove_all(folder);
+  REQUIRE(Generate("herd --size 4000", folder) == 0);
+  const SceneDescription scene = ParseScene((folder / "herd" / "herd.pbrt").string());
+  CHECK(scene.instances.size() == 250);
+  CHECK(PrepareScene(scene).features.Has(Feature::kInstances));
+  CHECK(Generate("herd --size 2", folder) != 0);
+  fs::remove_all(folder);
+}
+
 TEST_CASE("own scenes: images are what scenes/parts/maps writes", "[scenes]") {
   if (!HasPython()) return;
   const fs::path parts = fs::path(LANELIGHT_SOURCE_DIR) / "scenes" / "parts";
