@@ -139,9 +139,9 @@ LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& lea
     const P3<VF> p = corner(i, 0), q = corner(i, 1), r = corner(i, 2);
     MF mask = NotFrom(packet.rays, leaf.prim[i]);
     if constexpr (kCheapEdges) {
-      const auto edges = TestEdges(df, p, q, r);
-      weights.Keep(i, {edges.u, edges.v, edges.w});
-      mask = hn::And(edges.mask, mask);
+      const P3<VF> edges = EdgesOf(df, p, q, r);
+      weights.Keep(i, edges);
+      mask = hn::And(HaveOneSign(df, edges), mask);
     } else {
       mask = hn::And(MayPassEdges(df, p, q, r), mask);
     }
@@ -158,8 +158,7 @@ LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& lea
       return AheadOf(packet.rays, p[0], p[1], p[2]);
     };
     const P3<VF> p = corner(i, 0), q = corner(i, 1), r = corner(i, 2);
-    auto edges = kCheapEdges ? JoinEdges(df, weights[i].x, weights[i].y, weights[i].z)
-                             : TestEdges(df, p, q, r);
+    auto edges = kCheapEdges ? JoinEdges(df, weights[i]) : TestEdges(df, p, q, r);
     edges.mask = hn::And(hn::And(edges.mask, active), NotFrom(packet.rays, leaf.prim[i]));
     const VF t_det = TestDistance(df, packet.shear, p, q, r, best.t, edges);
     if (hn::AllFalse(df, edges.mask)) continue;

@@ -156,20 +156,32 @@ struct TriangleEdges {
   V u, v, w, det, abs_det;
 };
 
+/// Lanes whose edge functions have one sign.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-LANELIGHT_INLINE TriangleEdges<V, M> JoinEdges(D d, V u, V v, V w) {
+LANELIGHT_INLINE M HaveOneSign(D d, const P3<V>& edges) {
   const V zero = hn::Zero(d);
+  return hn::Or(hn::Ge(Min3(edges.x, edges.y, edges.z), zero),
+                hn::Le(Max3(edges.x, edges.y, edges.z), zero));
+}
+
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+LANELIGHT_INLINE TriangleEdges<V, M> JoinEdges(D d, const P3<V>& edges) {
+  const V u = edges.x, v = edges.y, w = edges.z;
   const V det = hn::Add(u, hn::Add(v, w)), abs_det = hn::Abs(det);
-  const M one_sign = hn::Or(hn::Ge(Min3(u, v, w), zero), hn::Le(Max3(u, v, w), zero));
-  return {hn::And(one_sign, hn::Gt(abs_det, zero)), u, v, w, det, abs_det};
+  const M mask = hn::And(HaveOneSign(d, edges), hn::Gt(abs_det, hn::Zero(d)));
+  return {mask, u, v, w, det, abs_det};
+}
+
+template <class D, class V = hn::Vec<D>>
+LANELIGHT_INLINE P3<V> EdgesOf(D d, const P3<V>& a, const P3<V>& b, const P3<V>& c) {
+  return {EdgeFunction(d, c.x, b.y, c.y, b.x), EdgeFunction(d, a.x, c.y, a.y, c.x),
+          EdgeFunction(d, b.x, a.y, b.y, a.x)};
 }
 
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
 LANELIGHT_INLINE TriangleEdges<V, M> TestEdges(D d, const P3<V>& a, const P3<V>& b,
                                                const P3<V>& c) {
-  return JoinEdges(d, EdgeFunction(d, c.x, b.y, c.y, b.x),
-                   EdgeFunction(d, a.x, c.y, a.y, c.x),
-                   EdgeFunction(d, b.x, a.y, b.y, a.x));
+  return JoinEdges(d, EdgesOf(d, a, b, c));
 }
 
 /// Lanes whose edge functions may have one sign: all that pass TestEdges, and few others.
