@@ -69,7 +69,7 @@ LANELIGHT_INLINE void ForEachFew(const CompiledScene& scene, const Rays& rays,
 
 /// Closest hits of a batch; hits are written to the columns.
 template <bool kAlpha>
-LANELIGHT_INLINE void ClosestFew(const Wave& wave, const Rays& rays, VI slots) {
+LANELIGHT_INLINE void ClosestFew(const Wave& wave, const Rays& rays, const Slots& slots) {
   ManyClosest best(wave.path, rays, slots);
   ForEachFew<kAlpha>(
       *wave.scene, rays, [&]() HWY_ATTR { return best.t(); },

@@ -104,7 +104,8 @@ LANELIGHT_INLINE MF CutOut(const CompiledScene& scene, const Rays& rays, uint32_
 /// The closest hits of a vector of rays so far.
 class ManyClosest {
  public:
-  LANELIGHT_INLINE ManyClosest(const PathColumns& path, const Rays& rays, VI slots)
+  LANELIGHT_INLINE ManyClosest(const PathColumns& path, const Rays& rays,
+                               const Slots& slots)
       : t_(rays.t_max),
         v_(hn::Zero(DF())),
         w_(v_),
@@ -126,7 +127,7 @@ class ManyClosest {
     det_ = hn::IfThenElse(closer, hit.det, det_);
     return !hn::AllFalse(DF(), closer);
   }
-  LANELIGHT_INLINE void Store(const PathColumns& path, VI slots) const {
+  LANELIGHT_INLINE void Store(const PathColumns& path, const Slots& slots) const {
     Scatter(t_, path.t, slots);
     Scatter(prim_, path.prim, slots);
     const VF b1 = hn::Div(v_, det_), b2 = hn::Div(w_, det_);

@@ -132,7 +132,7 @@ LANELIGHT_INLINE void TraceFrustum(const CompiledScene& scene, const Bvh& bvh,
 }
 
 /// Writes the hits of a batch to the columns.
-LANELIGHT_INLINE void StorePacketHits(const PathColumns& path, VI slots,
+LANELIGHT_INLINE void StorePacketHits(const PathColumns& path, const Slots& slots,
                                       const PacketBest& best) {
   const MF found = MaskOf(DF(), best.found);
   const VF b1 = hn::Div(best.v, best.det), b2 = hn::Div(best.w, best.det);
@@ -146,7 +146,8 @@ LANELIGHT_INLINE void StorePacketHits(const PathColumns& path, VI slots,
 /// if it is negative the rays are to be traced otherwise, from what the columns hold now.
 template <bool kAlpha>
 LANELIGHT_INLINE void ClosestFrustum(const Wave& wave, const Rays& rays,
-                                     const PacketBounds& bounds, VI slots, int& left) {
+                                     const PacketBounds& bounds, const Slots& slots,
+                                     int& left) {
   const Accel& accel = wave.scene->accel;
   PacketBest best = NoHits(rays.t_max, Gather(wave.path.prim, slots));
   TraceFrustum<false, kAlpha>(*wave.scene, accel.groups[0], rays, bounds, rays, left,

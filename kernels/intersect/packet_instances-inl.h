@@ -56,8 +56,8 @@ HWY_NOINLINE void TraceInstance(const CompiledScene& scene, const Rays& rays,
 /// As ClosestFrustum, in scenes with instances.
 template <bool kAlpha>
 LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays,
-                                              const PacketBounds& bounds, VI slots,
-                                              int& left) {
+                                              const PacketBounds& bounds,
+                                              const Slots& slots, int& left) {
   const CompiledScene& scene = *wave.scene;
   const Accel& accel = scene.accel;
   InstancedBest best = {NoHits(rays.t_max, Gather(wave.path.prim, slots)),

@@ -75,8 +75,8 @@ LANELIGHT_INLINE Rays LoadShadowRays(const PathColumns& path, const Slots& slots
 
 /// Writes the lanes of `closer`; the others keep what they have.
 template <bool kInstances>
-LANELIGHT_INLINE void StoreRoundHits(const PathColumns& path, VI slots, MF closer, VF t,
-                                     VI prim) {
+LANELIGHT_INLINE void StoreRoundHits(const PathColumns& path, const Slots& slots,
+                                     MF closer, VF t, VI prim) {
   const DI di;
   const auto mask = hn::RebindMask(di, closer);
   Scatter(hn::IfThenElse(closer, t, Gather(path.t, slots)), path.t, slots);
