@@ -7,11 +7,9 @@
 #endif
 
 #include <algorithm>
-#include <algorithm>
 #include <bit>
 
 #include "kernels/intersect/stream_rays-inl.h"
-#include "kernels/intersect/stream_spaces-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
 
 HWY_BEFORE_NAMESPACE();
