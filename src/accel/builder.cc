@@ -182,7 +182,8 @@ BuiltTree BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
   CutPlan cuts;
   const bool fast = quality == BuildQuality::kFast;
   if (limit.triangles != nullptr && !fast) cuts = PlanCuts(items, limit.triangles);
-  LL_CHECK_LT(items.size() + cuts.room, std::size_t{1} << 30);
+  // The two largest indices would be taken for kEmptyRef, and for a ray's way back.
+  LL_CHECK_LT(items.size() + cuts.room, std::size_t{kRefIndex});
   items.resize(items.size() + cuts.room);
   TreeBuilder builder(items, limit, cuts, fast);
   builder.Build(0, {0, count, count + cuts.room}, 0, 0);
