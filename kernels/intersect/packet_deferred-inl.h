@@ -25,6 +25,7 @@ template <bool kEntries>
 class DeferredSubtrees {
  public:
   LANELIGHT_INLINE void Clear() { size_ = subtrees_ = 0; }
+  bool empty() const { return size_ == 0; }
   /// Whether `more` have room, there and on the stacks, which end with one of their own.
   LANELIGHT_INLINE bool HasRoom(uint32_t more) const {
     return subtrees_ + more < kDeferred;

@@ -48,7 +48,7 @@ HWY_NOINLINE bool IsBlocked(const CompiledScene& scene, const PacketPlace& place
     const auto i = static_cast<uint32_t>(std::countr_zero(bits));
     LaneHit hit;
     const bool ahead = FinishLane(
-        leaf, weights, i, rays.t_scale[r],
+        leaf, weights, i, rays.shear_o[r].t_scale,
         [&](float o[3], float d[3]) HWY_ATTR { copy_from(r, o, d); }, hit);
     const bool before_end = hit.t < rays.t[r];
     if (!(ahead & before_end)) continue;

@@ -33,8 +33,7 @@ class RayStream {
   /// Takes the valid rays of a vector, and hands the stream to done() if it is full.
   template <class Done>
   LANELIGHT_INLINE void Add(const Rays& rays, VI slots, VI prims, MF valid, Done&& done) {
-    rays_.Add(bvh_, rays, slots, prims,
-              static_cast<uint32_t>(hn::CountTrue(DF(), valid)));
+    rays_.Add(rays, slots, prims, static_cast<uint32_t>(hn::CountTrue(DF(), valid)));
     if (!rays_.HasRoom()) done();
   }
   bool empty() const { return rays_.size == 0; }
@@ -68,8 +67,9 @@ class RayStream {
   explicit RayStream(const CompiledScene& scene)
       : bvh_(scene.accel.groups[0]),
         rays_(std::max(bvh_.depth, kInstances ? scene.accel.top.depth : 0)),
-        packets_(scene, rays_),
-        singles_(scene, rays_) {}
+        spaces_(scene, rays_),
+        packets_(scene, rays_, spaces_),
+        singles_(scene, rays_, spaces_) {}
 
   LANELIGHT_INLINE void Trace() {
     if constexpr (kInstances) {
@@ -95,16 +95,17 @@ class RayStream {
   }
 
   LANELIGHT_INLINE void TraceTop() {
-    singles_.BeginTop();
+    spaces_.BeginTop();
     singles_.live().size = 0;
     for (uint32_t at = 0; at < rays_.size; at += StreamRays::kLanes) {
       packets_.RunTop(at, singles_.live());
     }
-    singles_.RunTop();
+    singles_.Run();
   }
 
   const Bvh& bvh_;
   StreamRays rays_;
+  Spaces<kInstances> spaces_;
   PacketPhase<kAny, kAlpha, kInstances> packets_;
   SinglePhase<kAny, kAlpha, kInstances> singles_;
 };

@@ -41,7 +41,8 @@ struct RayLists {
   RayList live;              // rays that are not at their end
   RayList nodes;             // those at a node, ...
   RayList leaves, separate;  // ... at either kind of leaf, ...
-  std::conditional_t<kInstances, RayList, char> moving;  // ... that change their space
+  // ... at an instance, at the way back from one
+  std::conditional_t<kInstances, RayList, char> entering, leaving;
 
   /// Lists the live rays anew by what is next. Apart from the steps, which thus store
   /// only to places known beforehand: a store to a place that depends on the outcome of a
@@ -50,7 +51,7 @@ struct RayLists {
     const DI di;
     const uint32_t n = live.size;
     live.size = nodes.size = leaves.size = separate.size = 0;
-    if constexpr (kInstances) moving.size = 0;
+    if constexpr (kInstances) entering.size = leaving.size = 0;
     for (uint32_t i = 0; i < n; i += hn::MaxLanes(di)) {
       const auto valid = hn::FirstN(di, n - i);
       const VI place = hn::IfThenElseZero(valid, hn::LoadU(di, live.place + i));
@@ -75,8 +76,11 @@ struct RayLists {
     const auto is = [&](VI v, uint32_t ref)
                         HWY_ATTR { return hn::Eq(v, hn::Set(di, int32_t(ref))); };
     const VI space = Gather(reinterpret_cast<const int32_t*>(rays.space), place);
+    // Clang 19 never finishes with the union of `leaves` and what enters on SSE4.
     const M changes = hn::And(leaf, hn::Or(is(next, kReturnRef), is(space, kTopSpace)));
-    moving.Append(place, changes);
+    const M leaves = hn::And(leaf, is(next, kReturnRef));
+    leaving.Append(place, leaves);
+    entering.Append(place, hn::AndNot(leaves, changes));
     return hn::AndNot(changes, leaf);
   }
 };

@@ -16,31 +16,6 @@ namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What the slab tests of a packet need, in registers.
-struct PacketSlabs {
-  VF rcp[3], near[3], far[3];
-  MF negative[3];
-
-  /// Of the rays at [at, at + lanes).
-  LANELIGHT_INLINE PacketSlabs(const StreamRays& rays, uint32_t at) {
-    const DF df;
-    for (int a = 0; a < 3; ++a) {
-      rcp[a] = hn::LoadU(df, rays.rcp[a] + at);
-      near[a] = hn::LoadU(df, rays.near[a] + at);
-      far[a] = hn::LoadU(df, rays.far[a] + at);
-      negative[a] = hn::Lt(rcp[a], hn::Zero(df));
-    }
-  }
-
-  /// The lanes that are rays. One that is not (NaN, infinite) enters nothing: what Min
-  /// and Max make of NaN differs between targets, and unused children must not be
-  /// entered.
-  LANELIGHT_INLINE uint32_t Finite() const {
-    const VF sum = hn::Add(near[0], hn::Add(near[1], near[2]));
-    return MaskBits(DF(), hn::IsFinite(sum));
-  }
-};
-
 /// The children of a node that the packet is in, in the order in which its
 /// first ray visits them: which lanes enter, and at what distances, unless any hit ends
 /// a ray.

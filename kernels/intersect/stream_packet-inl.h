@@ -48,19 +48,19 @@ inline constexpr int kInsideRays = (3 * StreamRays::kLanes + 4) / 8;
 template <bool kAny, bool kAlpha, bool kInstances>
 class PacketPhase {
  public:
-  PacketPhase(const CompiledScene& scene, StreamRays& rays)
-      : scene_(scene), rays_(rays) {}
+  PacketPhase(const CompiledScene& scene, StreamRays& rays, Spaces<kInstances>& spaces)
+      : scene_(scene), rays_(rays), spaces_(spaces) {}
 
   /// Traces the rays at [at, at + lanes) through the world. What is left for single rays
   /// lies on their stacks, nearest on top; their places are appended to `live`, those
   /// with nothing left, too.
   LANELIGHT_INLINE void Run(uint32_t at, RayList& live) {
-    RunIn<false>(scene_.accel.groups[0].root, at, live);
+    RunIn<false>(scene_.accel.groups[0], at, live);
   }
 
   /// The same through the tree over instances, and these, after the world.
   LANELIGHT_INLINE void RunTop(uint32_t at, RayList& live) {
-    RunIn<true>(scene_.accel.top.root, at, live);
+    RunIn<true>(scene_.accel.top, at, live);
   }
 
  private:
@@ -68,18 +68,40 @@ class PacketPhase {
   static constexpr bool kRemembers = kAny && !kInstances;
 
   template <bool kTop>
-  LANELIGHT_INLINE void RunIn(uint32_t root, uint32_t at, RayList& live) {
-    count_ = std::min(StreamRays::kLanes, rays_.size - at);
-    for (uint32_t r = at; r < at + count_; ++r) rays_.bottom[r] = rays_.StackEnd(r);
+  LANELIGHT_INLINE void RunIn(const Bvh& tree, uint32_t at, RayList& live) {
+    const uint32_t end = at + std::min(StreamRays::kLanes, rays_.size - at);
+    for (uint32_t r = at; r < end; ++r) rays_.bottom[r] = rays_.StackEnd(r);
     deferred_.Clear();
-    uint32_t lanes = (1u << count_) - 1;
+    at_ = at;
+    uint32_t lanes = (1u << (end - at)) - 1;
     if constexpr (kAny && kTop) lanes &= ~Found(at);
-    if (lanes != 0) Trace<kTop>(root, at, lanes);
+    if (lanes != 0) {
+      const Rays rays = rays_.Load(at);
+      const PacketSlabs slabs = SlabsIn(tree, rays);
+      if constexpr (kTop) {
+        Trace<true>(tree.root, slabs, {rays, {}}, lanes);
+        if (!deferred_.empty()) spaces_.Prepare(rays, slabs, at);
+      } else {
+        const PacketRays packet = PacketIn(tree, rays, lanes);
+        rays_.SetSlabs(slabs, at);
+        rays_.SetShear(packet.shear, AxisOrder(rays.d), rays.from, at);
+        Trace<false>(tree.root, slabs, packet, lanes);
+      }
+    }
     deferred_.Push(rays_, at);
-    for (uint32_t r = at; r < at + count_; ++r) {
+    for (uint32_t r = at; r < end; ++r) {
       BeginSingle(r);
       live.place[live.size++] = static_cast<int32_t>(r);
     }
+  }
+
+  static LANELIGHT_INLINE PacketSlabs SlabsIn(const Bvh& tree, const Rays& rays) {
+    return {rays.o, rays.d, Splat(tree.slack), Splat(tree.margin)};
+  }
+  static LANELIGHT_INLINE PacketRays PacketIn(const Bvh& tree, const Rays& rays,
+                                              uint32_t lanes) {
+    const AxisOrder order(rays.d);
+    return MakePacket(rays, MakeShear(order, rays, Splat(tree.reach)), order, lanes);
   }
 
   // The lanes at `at` that have a hit.
@@ -88,33 +110,34 @@ class PacketPhase {
     return MaskBits(di, hn::Ne(hn::LoadU(di, rays_.found + at), hn::Zero(di)));
   }
 
-  // Traces the rays of `lanes`, one at least, at place `at`. In the tree over instances
-  // leaves are these.
+  // Traces the rays of `lanes`, one at least, which lie at at_. In the tree over
+  // instances leaves are these.
   template <bool kTop>
-  LANELIGHT_INLINE void Trace(uint32_t root, uint32_t at, uint32_t lanes) {
+  LANELIGHT_INLINE void Trace(uint32_t root, const PacketSlabs& slabs,
+                              const PacketRays& packet, uint32_t lanes) {
     const DI di;
-    at_ = at;
-    const VI octants = hn::LoadU(di, reinterpret_cast<const int32_t*>(rays_.octant) + at);
-    const uint32_t first = rays_.octant[at + std::countr_zero(lanes)];
-    const auto same = hn::Eq(octants, hn::Set(di, static_cast<int32_t>(first)));
+    const int32_t first = hn::ExtractLane(slabs.octant, std::countr_zero(lanes));
+    const auto same = hn::Eq(slabs.octant, hn::Set(di, first));
     if ((MaskBits(di, same) & lanes) == lanes) {
-      TraceNodes<kTop, true>(root, lanes);
+      TraceNodes<kTop, true>(root, slabs, packet, lanes);
     } else {
-      TraceNodes<kTop, false>(root, lanes);
+      TraceNodes<kTop, false>(root, slabs, packet, lanes);
     }
   }
 
   template <bool kTop, bool kSameSigns>
-  HWY_NOINLINE void TraceNodes(uint32_t root, uint32_t valid) {
+  HWY_NOINLINE void TraceNodes(uint32_t root, const PacketSlabs& packet_slabs,
+                               const PacketRays& packet, uint32_t valid) {
     const DF df;
     const bool inside = kInstances && !kTop && inside_;
     const int node_rays = inside ? kInsideRays : kNodeRays<kAny>;
     const int leaf_rays = kTop ? kInsideRays : inside ? 1 : kLeafRays<kAny>;
     const int separate_rays = kTop ? kInsideRays : inside ? 1 : kSeparateLeafRays<kAny>;
-    const PacketSlabs slabs(rays_, at_);
-    const PacketRays packet = LoadPacket(valid);
+    const PacketSlabs slabs = packet_slabs;
+    HWY_ALIGN int32_t octants[StreamRays::kLanes];
+    hn::Store(slabs.octant, DI(), octants);
     PacketBest best = NoHits(packet.rays.t_max, hn::LoadU(DI(), rays_.prim + at_));
-    uint32_t rays = valid & slabs.Finite();
+    uint32_t rays = valid & MaskBits(df, slabs.Finite());
     if constexpr (kRemembers) {
       blockers_.Test(scene_, packet, rays, best);
       rays &= ~best.found;
@@ -139,7 +162,7 @@ class PacketPhase {
       const bool few = std::popcount(lanes) < (is_leaf ? at_leaf : node_rays);
       if (few && Defer(ref, entry, lanes)) continue;
       if (!is_leaf) {
-        const uint32_t octant = rays_.octant[at_ + std::countr_zero(lanes)];
+        const auto octant = static_cast<uint32_t>(octants[std::countr_zero(lanes)]);
         (++frame)->template SetChildren<kAny, kSameSigns>(
             slabs, best.t, scene_.accel.nodes[ref], octant, lanes);
       } else if constexpr (kTop) {
@@ -176,15 +199,21 @@ class PacketPhase {
   // columns behind the last ray, and their hits are taken back.
   HWY_NOINLINE void EnterInstance(uint32_t instance, uint32_t lanes) {
     const Bvh& group = scene_.accel.groups[scene_.geometry.instance_group[instance]];
-    const uint32_t home = at_, count = count_, to = rays_.size;
-    MoveRays(instance, group, home, to);
+    const uint32_t home = at_, to = rays_.size;
+    const Rays rays = MoveRays(instance, home, to);
+    PacketRays packet = PacketIn(group, rays, lanes);
+    if constexpr (kAlpha) packet.home = rays_.Load(home), home_ = home;
+    if constexpr (kAny) {  // at leaves they may be tested one by one
+      rays_.Store(rays, to);
+      rays_.SetShear(packet.shear, AxisOrder(rays.d), rays.from, to);
+    }
     inside_ = true;
+    at_ = to;
     deferred_.BeginInstance();
-    Trace<false>(group.root, to, lanes);
+    Trace<false>(group.root, SlabsIn(group, rays), packet, lanes);
     deferred_.EndInstance(instance);
-    inside_ = false;
     at_ = home;
-    count_ = count;
+    inside_ = false;
     for (uint32_t bits = lanes; bits != 0; bits &= bits - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(bits));
       if (!rays_.found[to + i]) continue;
@@ -193,42 +222,17 @@ class PacketPhase {
     }
   }
 
-  LANELIGHT_INLINE void MoveRays(uint32_t instance, const Bvh& group, uint32_t home,
-                                 uint32_t to) {
-    const DF df;
+  // The rays at `home` in the space of an instance, where their hits lie at `to`.
+  LANELIGHT_INLINE Rays MoveRays(uint32_t instance, uint32_t home, uint32_t to) {
     const DI di;
+    const Rays from = rays_.Load(home);
     const Rays rays =
-        MapRays(scene_.geometry.instances[instance], rays_.Load3(rays_.o, home),
-                rays_.Load3(rays_.d, home), hn::LoadU(df, rays_.t + home));
-    rays_.SetSlabs(rays.o, rays.d, Splat(group.slack), Splat(group.margin), to);
-    rays_.SetShear(rays, Splat(group.reach), to);
-    hn::StoreU(rays.t_max, df, rays_.t + to);
+        MapRays(scene_.geometry.instances[instance], from.o, from.d, from.t_max);
     const VI prim = hn::LoadU(di, rays_.prim + home);
     const VI inst = hn::LoadU(di, reinterpret_cast<const int32_t*>(rays_.inst) + home);
     hn::StoreU(PrimsToBeat(prim, inst, instance), di, rays_.prim + to);
     hn::StoreU(hn::Zero(di), di, rays_.found + to);
-    hn::StoreU(FromNone(), di, reinterpret_cast<int32_t*>(rays_.from) + to);
-    if constexpr (kAlpha) home_ = home;
-  }
-
-  LANELIGHT_INLINE PacketRays LoadPacket(uint32_t valid) const {
-    const DF df;
-    const V3 d = rays_.Load3(rays_.d, at_), so = rays_.Load3(rays_.shear_o, at_),
-             ss = rays_.Load3(rays_.shear_s, at_);
-    const Shear<VF> shear{{so.x, so.y, so.z},
-                          {ss.x, ss.y, ss.z},
-                          hn::LoadU(df, rays_.abs_dz + at_),
-                          hn::LoadU(df, rays_.t_scale + at_)};
-    const VI from = hn::LoadU(DI(), reinterpret_cast<const int32_t*>(rays_.from) + at_);
-    const Rays rays{rays_.Load3(rays_.o, at_), d, hn::LoadU(df, rays_.t + at_), from};
-    PacketRays packet = MakePacket(rays, shear, AxisOrder(d), valid);
-    if constexpr (kAlpha && kInstances) {
-      if (inside_) {
-        packet.home.o = rays_.Load3(rays_.o, home_);
-        packet.home.d = rays_.Load3(rays_.d, home_);
-      }
-    }
-    return packet;
+    return rays;
   }
 
   // Leaves a subtree to single rays; false if there may be no room for it.
@@ -264,8 +268,9 @@ class PacketPhase {
 
   const CompiledScene& scene_;
   StreamRays& rays_;
-  bool inside_ = false;          // an instance
-  uint32_t at_ = 0, count_ = 0;  // place and number of the rays
+  Spaces<kInstances>& spaces_;
+  bool inside_ = false;  // an instance
+  uint32_t at_ = 0;      // place of the rays
   DeferredSubtrees<!kAny> deferred_;
   LastBlockers<kAlpha> blockers_;
   uint32_t home_ = 0;  // in an instance: their place in the space of the scene

@@ -1,5 +1,5 @@
-// The rays of a stream (stream-inl.h) in columns: prepared for the slab test and for
-// leaves once, then read by their place in the stream; and the stacks of single rays.
+// The rays of a stream (stream-inl.h) in columns; what single rays need at nodes and at
+// leaves, by their place in the stream; and their stacks.
 #if defined(LANELIGHT_INTERSECT_STREAM_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_INTERSECT_STREAM_RAYS_INL_H_
 #undef LANELIGHT_INTERSECT_STREAM_RAYS_INL_H_
@@ -7,13 +7,41 @@
 #define LANELIGHT_INTERSECT_STREAM_RAYS_INL_H_
 #endif
 
+#include <bit>
+
 #include "kernels/intersect/packet_leaf-inl.h"
 #include "kernels/intersect/ray_stacks.h"
+#include "kernels/intersect/slabs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+/// What the slab test of a single ray needs along one axis: as in SlabRay, but `lower` is
+/// the byte offset of the near planes in WideNode::bounds[axis], as bits.
+struct AxisSlab {
+  float rcp, near, far, lower;
+};
+
+/// What it needs at leaves: as in Shear, `from` as in Rays, rows as in LeafRay; the last
+/// two as bits.
+struct ShearedOrigin {
+  float x, y, z, t_scale;
+};
+struct ShearedSlope {
+  float x, y, z, from;
+};
+struct AxisRows {
+  float row[3], unused;
+};
+
+/// Stores four numbers of each ray of a vector, ray by ray.
+template <class Four>
+LANELIGHT_INLINE void StoreFours(VF a, VF b, VF c, VF e, Four* to) {
+  static_assert(sizeof(Four) == 4 * sizeof(float));
+  hn::StoreInterleaved4(a, b, c, e, DF(), reinterpret_cast<float*>(to));
+}
 
 struct StreamRays {
   static constexpr uint32_t kLanes = hn::MaxLanes(DF());
@@ -21,17 +49,10 @@ struct StreamRays {
 
   uint32_t size = 0;
   HWY_ALIGN float o[3][kRoom], d[3][kRoom];
-  // As in SlabRay; `lower` are byte offsets of the near planes in WideNode::bounds[axis],
-  // `octant` has bit a set if the direction is negative along axis a.
-  float rcp[3][kRoom], near[3][kRoom], far[3][kRoom];
-  uint32_t lower[3][kRoom], octant[kRoom];
-  // As in Shear; `row` as in LeafRay.
-  float shear_o[3][kRoom], shear_s[3][kRoom], abs_dz[kRoom], t_scale[kRoom];
-  uint32_t row[3][kRoom];
   // The hits so far; in a shadow query t is the end of the ray.
   float t[kRoom], b1[kRoom], b2[kRoom];
   int32_t prim[kRoom], found[kRoom];
-  uint32_t from[kRoom];  // as in Rays
+  int32_t from[kRoom];  // as in Rays
   int32_t slot[kRoom];
   // With instances: where a ray is (kWorldInstance, kTopSpace, or the instance whose
   // space it is in), and where its hit is.
@@ -41,6 +62,12 @@ struct StreamRays {
   // puts subtrees off downwards from StackEnd.
   int32_t next[kRoom];
   uint32_t top[kRoom], bottom[kRoom];
+  // What steps of single rays read, in fours, which are written and moved together.
+  HWY_ALIGN AxisSlab slab[3][kRoom];
+  uint32_t octant[kRoom];  // as in PacketSlabs
+  ShearedOrigin shear_o[kRoom];
+  ShearedSlope shear_s[kRoom];
+  AxisRows axes[kRoom];
   const uint32_t stride;
   uint32_t* const refs;
   float* const entries;
@@ -62,10 +89,11 @@ struct StreamRays {
 
   /// A ray as leaves see it.
   LANELIGHT_INLINE LeafRay AtLeaf(uint32_t r) const {
-    return {{shear_o[0][r], shear_o[1][r], shear_o[2][r]},
-            {shear_s[0][r], shear_s[1][r], shear_s[2][r]},
-            {row[0][r], row[1][r], row[2][r]},
-            from[r]};
+    const float* const row = axes[r].row;
+    return {{shear_o[r].x, shear_o[r].y, shear_o[r].z},
+            {shear_s[r].x, shear_s[r].y, shear_s[r].z},
+            {Bits(row[0]), Bits(row[1]), Bits(row[2])},
+            Bits(shear_s[r].from)};
   }
 
   /// Gives the hit of the ray at `from_ray` to that at `to`.
@@ -78,78 +106,53 @@ struct StreamRays {
   }
 
   /// Takes the first `count` rays of a vector; `prims` as in NoHits.
-  LANELIGHT_INLINE void Add(const Bvh& bvh, const Rays& rays, VI slots, VI prims,
-                            uint32_t count) {
-    const DF df;
+  LANELIGHT_INLINE void Add(const Rays& rays, VI slots, VI prims, uint32_t count) {
     const DI di;
-    SetSlabs(rays.o, rays.d, Splat(bvh.slack), Splat(bvh.margin), size);
-    SetShear(rays, Splat(bvh.reach), size);
-    hn::StoreU(rays.t_max, df, t + size);
-    hn::StoreU(hn::Zero(df), df, b1 + size);
-    hn::StoreU(hn::Zero(df), df, b2 + size);
+    Store(rays, size);
     hn::StoreU(prims, di, prim + size);
     hn::StoreU(slots, di, slot + size);
-    StoreInt(rays.from, from + size);
     size += count;
   }
 
-  /// Prepares a vector of rays at place `at` for the slab test of a tree, with the
-  /// arithmetic of MakeSlabRay.
-  LANELIGHT_INLINE void SetSlabs(V3 ray_o, V3 ray_d, VF slack, VF margin, uint32_t at) {
+  LANELIGHT_INLINE void Store(const Rays& rays, uint32_t at) {
     const DF df;
-    const DI di;
-    const VF ro[3] = {ray_o.x, ray_o.y, ray_o.z};
-    const VF rd[3] = {ray_d.x, ray_d.y, ray_d.z};
-    const VF largest = hn::Max(hn::Abs(ro[0]), hn::Max(hn::Abs(ro[1]), hn::Abs(ro[2])));
-    const VF delta = hn::MulAdd(slack, largest, margin);
-    const VF least = Splat(0x1p-80f);
-    VI negatives = hn::Zero(di);
+    const VF v[6] = {rays.o.x, rays.o.y, rays.o.z, rays.d.x, rays.d.y, rays.d.z};
     for (int a = 0; a < 3; ++a) {
-      const MF tiny = hn::Lt(hn::Abs(rd[a]), least);
-      const VF da = hn::IfThenElse(tiny, hn::CopySign(least, rd[a]), rd[a]);
-      const VF r = hn::Div(Splat(1.0f), da);
-      const VF c = hn::Neg(hn::Mul(ro[a], r)), grow = hn::Mul(delta, hn::Abs(r));
-      hn::StoreU(ro[a], df, o[a] + at);
-      hn::StoreU(rd[a], df, d[a] + at);
-      hn::StoreU(r, df, rcp[a] + at);
-      hn::StoreU(hn::Sub(c, grow), df, near[a] + at);
-      hn::StoreU(hn::Add(c, grow), df, far[a] + at);
-      const VI negative = hn::ShiftRight<31>(hn::BitCast(di, rd[a]));
-      constexpr int32_t kUpper = kBvhWidth * sizeof(float);
-      StoreInt(hn::And(negative, hn::Set(di, kUpper)), lower[a] + at);
-      negatives = hn::Or(negatives, hn::And(negative, hn::Set(di, 1 << a)));
+      hn::StoreU(v[a], df, o[a] + at);
+      hn::StoreU(v[3 + a], df, d[a] + at);
     }
-    StoreInt(negatives, octant + at);
+    hn::StoreU(rays.t_max, df, t + at);
+    hn::StoreU(rays.from, DI(), from + at);
+  }
+  LANELIGHT_INLINE Rays Load(uint32_t at) const {
+    return {Load3(o, at), Load3(d, at), hn::LoadU(DF(), t + at),
+            hn::LoadU(DI(), from + at)};
   }
 
-  /// Prepares them for leaves whose vertices have coordinates up to `reach`.
-  LANELIGHT_INLINE void SetShear(const Rays& rays, VF reach, uint32_t at) {
-    const DF df;
-    const DI di;
-    const AxisOrder order(rays.d);
-    const Shear<VF> shear = MakeShear(order, rays, reach);
-    const VF so[3] = {shear.o.x, shear.o.y, shear.o.z};
-    const VF ss[3] = {shear.s.x, shear.s.y, shear.s.z};
+  /// Prepares a vector of rays at place `at` for the steps of single rays at nodes ...
+  LANELIGHT_INLINE void SetSlabs(const PacketSlabs& slabs, uint32_t at) {
     for (int a = 0; a < 3; ++a) {
-      hn::StoreU(so[a], df, shear_o[a] + at);
-      hn::StoreU(ss[a], df, shear_s[a] + at);
+      constexpr int kUpper = kBvhWidth * sizeof(float);
+      StoreFours(slabs.rcp[a], slabs.near[a], slabs.far[a],
+                 BitsOf(slabs.OfNegative(a, kUpper)), slab[a] + at);
     }
-    hn::StoreU(shear.abs_dz, df, abs_dz + at);
-    hn::StoreU(shear.t_scale, df, t_scale + at);
-    const auto y = hn::RebindMask(di, order.y), z = hn::RebindMask(di, order.z);
-    const VI offset[3] = {hn::Zero(di), hn::Set(di, kLeafRow), hn::Set(di, 2 * kLeafRow)};
-    StoreInt(hn::IfThenElse(z, offset[0], hn::IfThenElse(y, offset[2], offset[1])),
-             row[0] + at);
-    StoreInt(hn::IfThenElse(z, offset[1], hn::IfThenElse(y, offset[0], offset[2])),
-             row[1] + at);
-    StoreInt(hn::IfThenElse(z, offset[2], hn::IfThenElse(y, offset[1], offset[0])),
-             row[2] + at);
+    hn::StoreU(hn::BitCast(DU(), slabs.octant), DU(), octant + at);
+  }
+
+  /// ... and at leaves.
+  LANELIGHT_INLINE void SetShear(const Shear<VF>& shear, const AxisOrder& order,
+                                 VI starts, uint32_t at) {
+    const auto row = [](int32_t axis)
+                         HWY_ATTR { return BitsOf(hn::Set(DI(), axis * kLeafRow)); };
+    const P3<VF> rows = order.Permute({row(0), row(1), row(2)});
+    StoreFours(shear.o.x, shear.o.y, shear.o.z, shear.t_scale, shear_o + at);
+    StoreFours(shear.s.x, shear.s.y, shear.s.z, BitsOf(starts), shear_s + at);
+    StoreFours(rows.x, rows.y, rows.z, hn::Zero(DF()), axes + at);
   }
 
  private:
-  static LANELIGHT_INLINE void StoreInt(VI v, uint32_t* to) {
-    hn::StoreU(v, DI(), reinterpret_cast<int32_t*>(to));
-  }
+  static LANELIGHT_INLINE uint32_t Bits(float f) { return std::bit_cast<uint32_t>(f); }
+  static LANELIGHT_INLINE VF BitsOf(VI v) { return hn::BitCast(DF(), v); }
 };
 
 }  // namespace HWY_NAMESPACE

@@ -30,16 +30,13 @@ inline constexpr uint32_t kLeafBlock = 16;
 template <bool kAny, bool kAlpha, bool kInstances>
 class SinglePhase {
  public:
-  SinglePhase(const CompiledScene& scene, StreamRays& rays)
-      : scene_(scene), rays_(rays), spaces_(scene, rays), stacks_(scene, rays) {}
+  SinglePhase(const CompiledScene& scene, StreamRays& rays, Spaces<kInstances>& spaces)
+      : scene_(scene), rays_(rays), spaces_(spaces), stacks_(scene, rays) {}
 
   /// Places of the rays to trace; the packet phase appends them.
   RayList& live() { return lists_.live; }
 
-  /// Moves all rays to the tree over instances, after they were traced through the world.
-  LANELIGHT_INLINE void BeginTop() { spaces_.BeginTop(); }
-
-  /// Traces them through the world.
+  /// Traces them to their ends.
   HWY_NOINLINE void Run() {
     for (;;) {
       lists_.Classify(rays_);
@@ -55,46 +52,45 @@ class SinglePhase {
     }
   }
 
-  /// Traces them through the tree over instances, and these.
-  LANELIGHT_INLINE void RunTop() {
-    const RayList& live = lists_.live;
-    for (uint32_t i = 0; i < live.size; ++i) {
-      const auto r = static_cast<uint32_t>(live.place[i]);
-      if (static_cast<uint32_t>(rays_.next[r]) != kEmptyRef) spaces_.KeepHome(r);
-    }
-    Run();
-  }
-
  private:
   using Stacks = RayStacks<kAny, kInstances>;
   static constexpr uint32_t kParts = Stacks::kParts;
 
-  // Takes rays back from instances, and others, or the same, into them.
+  // Takes rays back from instances, and others, or the same, into them. What a ray does
+  // next cannot be predicted: where it matters, there is no branch.
   HWY_NOINLINE void ChangeSpaces() {
-    RayList& moving = lists_.moving;
-    uint32_t entering = 0;
-    for (uint32_t i = 0; i < moving.size; ++i) {
-      const auto r = static_cast<uint32_t>(moving.place[i]);
-      // A hit may have culled all that a packet had left to the ray in an instance.
-      bool back = Next(r) == kReturnRef;
-      while (Next(r) == kReturnRef || (IsResume(Next(r)) && stacks_.NothingInside(r))) {
-        back = true;
-        stacks_.Pop(r, rays_.top[r]);
-      }
-      if (back) spaces_.Leave(r, Next(r));
-      moving.place[entering] = moving.place[i];
-      entering += Next(r) < kReturnRef && (Next(r) & kLeafBit) != 0;
+    RayList &entering = lists_.entering, &leaving = lists_.leaving;
+    for (uint32_t i = 0; i < leaving.size; ++i) {
+      const auto r = static_cast<uint32_t>(leaving.place[i]);
+      stacks_.Pop(r, rays_.top[r]);
+      spaces_.Leave(r);
+      entering.place[entering.size++] = leaving.place[i];
     }
-    spaces_.Enter(moving.place, entering);
-    for (uint32_t i = 0; i < entering; ++i) {
-      const auto r = static_cast<uint32_t>(moving.place[i]);
-      if (IsResume(Next(r))) {
-        stacks_.Pop(r, rays_.top[r]);
-      } else {
-        const uint32_t group = scene_.geometry.instance_group[rays_.space[r]];
-        stacks_.GoInside(r, scene_.accel.groups[group].root);
-      }
+    uint32_t entered = 0;
+    for (uint32_t i = 0; i < entering.size; ++i) {
+      const auto r = static_cast<uint32_t>(entering.place[i]);
+      if (HWY_UNLIKELY(HasNothingInside(r))) PassBy(r);
+      entering.place[entered] = entering.place[i];
+      entered += uint32_t{Next(r) < kReturnRef} & (Next(r) >> 31);
     }
+    spaces_.Enter(entering.place, entered);
+    for (uint32_t i = 0; i < entered; ++i) {
+      const auto r = static_cast<uint32_t>(entering.place[i]);
+      const uint32_t group = scene_.geometry.instance_group[rays_.space[r]];
+      stacks_.GoInside(r, scene_.accel.groups[group].root, IsResume(Next(r)));
+    }
+  }
+
+  // Whether the ray is at the way to an instance in which nothing is left: a hit may have
+  // culled all that a packet had left to the ray there.
+  LANELIGHT_INLINE bool HasNothingInside(uint32_t r) const {
+    return IsResume(Next(r)) && stacks_.NothingInside(r);
+  }
+  // Goes on behind the way back from it.
+  HWY_NOINLINE void PassBy(uint32_t r) {
+    do {
+      stacks_.Pop(r, rays_.top[r] - 1);
+    } while (HasNothingInside(r));
   }
 
   LANELIGHT_INLINE uint32_t Next(uint32_t r) const {
@@ -164,18 +160,17 @@ class SinglePhase {
     for (int a = 0; a < 3; ++a) {
       for (uint32_t j = 0; j < kTogether; ++j) {
         constexpr uint32_t kUpper = kBvhWidth * sizeof(float);
-        const uint32_t lower = rays.lower[a][r[j]];
+        const AxisSlab& slab = rays.slab[a][r[j]];
+        const auto lower = std::bit_cast<uint32_t>(slab.lower);
         const auto planes = [&](uint32_t offset) HWY_ATTR {
           const char* at = reinterpret_cast<const char*>(node[j]->bounds[a]) + offset;
           return hn::Load(d8, reinterpret_cast<const float*>(at) + part * Lanes8());
         };
-        const V8 rcp = hn::Set(d8, rays.rcp[a][r[j]]);
-        enter[j][part] =
-            hn::Max(enter[j][part],
-                    hn::MulAdd(planes(lower), rcp, hn::Set(d8, rays.near[a][r[j]])));
-        leave[j][part] = hn::Min(
-            leave[j][part],
-            hn::MulAdd(planes(lower ^ kUpper), rcp, hn::Set(d8, rays.far[a][r[j]])));
+        const V8 rcp = hn::Set(d8, slab.rcp);
+        enter[j][part] = hn::Max(enter[j][part],
+                                 hn::MulAdd(planes(lower), rcp, hn::Set(d8, slab.near)));
+        leave[j][part] = hn::Min(leave[j][part], hn::MulAdd(planes(lower ^ kUpper), rcp,
+                                                            hn::Set(d8, slab.far)));
       }
     }
   }
@@ -230,7 +225,8 @@ class SinglePhase {
       const auto i = static_cast<uint32_t>(std::countr_zero(bits));
       const auto prim = static_cast<int32_t>(leaf.prim[i]);
       LaneHit hit;
-      const bool ahead = FinishLane(leaf, weights, i, rays_.t_scale[r], copy_mapped, hit);
+      const bool ahead =
+          FinishLane(leaf, weights, i, rays_.shear_o[r].t_scale, copy_mapped, hit);
       if (!(ahead & IsBetter(r, hit.t, prim))) continue;
       const float b1 = hit.v / hit.det, b2 = hit.w / hit.det;
       if constexpr (kAlpha) {
@@ -267,7 +263,7 @@ class SinglePhase {
 
   const CompiledScene& scene_;
   StreamRays& rays_;
-  std::conditional_t<kInstances, RaySpaces, NoSpaces> spaces_;
+  Spaces<kInstances>& spaces_;
   Stacks stacks_;
   RayLists<kInstances> lists_;
   uint32_t bits_[kLeafBlock + kTogether];

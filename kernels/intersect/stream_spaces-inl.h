@@ -7,7 +7,9 @@
 #endif
 
 #include <algorithm>
-#include <limits>
+#include <bit>
+#include <cstring>
+#include <type_traits>
 
 #include "kernels/intersect/instance-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
@@ -37,16 +39,19 @@ class RaySpaces {
   RaySpaces(const CompiledScene& scene, StreamRays& rays) : scene_(scene), rays_(rays) {}
 
   /// Moves all rays, which are in the space of the scene, to the tree over instances.
-  LANELIGHT_INLINE void BeginTop() {
-    const Bvh& top = scene_.accel.top;
-    for (uint32_t r = 0; r < rays_.size; r += StreamRays::kLanes) {
-      rays_.SetSlabs(rays_.Load3(rays_.o, r), rays_.Load3(rays_.d, r), Splat(top.slack),
-                     Splat(top.margin), r);
-      CloseNoRays(r);
+  LANELIGHT_INLINE void BeginTop() { std::fill_n(rays_.space, rays_.size, kTopSpace); }
+
+  /// Prepares the vector of rays at `at`, which are there, for steps of single rays, and
+  /// keeps what they need for the ways into instances and back.
+  LANELIGHT_INLINE void Prepare(const Rays& rays, const PacketSlabs& slabs, uint32_t at) {
+    const DF df;
+    const VF octant = hn::BitCast(df, slabs.octant);
+    rays_.SetSlabs(slabs, at);
+    for (int a = 0; a < 3; ++a) {
+      std::copy_n(rays_.slab[a] + at, StreamRays::kLanes, home_.slab[a] + at);
     }
-    std::fill_n(rays_.space, rays_.size, kTopSpace);
-    // A triangle may be in several instances.
-    std::fill_n(rays_.from, rays_.size, kNoPrimitive);
+    StoreFours(rays.o.x, rays.o.y, rays.o.z, octant, home_.o + at);
+    StoreFours(rays.d.x, rays.d.y, rays.d.z, hn::Zero(df), home_.d + at);
   }
 
   /// Moves rays to the spaces of the instances that they are at. What is next stays.
@@ -56,20 +61,11 @@ class RaySpaces {
     }
   }
 
-  /// Keeps the ray's columns in the tree over instances, where it is, for its way back.
-  LANELIGHT_INLINE void KeepHome(uint32_t r) {
-    Home& home = home_[r];
-    Copy([&](int k, float* column) HWY_ATTR { home.ray[k] = column[r]; });
-  }
-
-  /// Moves a ray back to the tree over instances. Its columns stay those of the instance
-  /// unless a node is next: another instance has its own, which it makes of what was
-  /// kept.
-  LANELIGHT_INLINE void Leave(uint32_t r, uint32_t next) {
+  /// Moves a ray back to the tree over instances.
+  LANELIGHT_INLINE void Leave(uint32_t r) {
     rays_.space[r] = kTopSpace;
-    if (next & kLeafBit) return;
-    const Home& home = home_[r];
-    Copy([&](int k, float* column) HWY_ATTR { column[r] = home.ray[k]; });
+    for (int a = 0; a < 3; ++a) rays_.slab[a][r] = home_.slab[a][r];
+    rays_.octant[r] = std::bit_cast<uint32_t>(home_.o[r].octant);
   }
 
   /// The ray, which lies in the space of the scene, in the one where it is.
@@ -84,97 +80,82 @@ class RaySpaces {
   }
 
  private:
-  static constexpr int kWords = 13;
-  struct Home {
-    float ray[kWords];  // as Copy goes through the columns
+  // Four numbers of each ray of a vector, ray by ray.
+  struct Fours {
+    HWY_ALIGN float lane[StreamRays::kLanes][4];
+
+    LANELIGHT_INLINE void Set(uint32_t i, const void* from) {
+      std::memcpy(lane[i], from, sizeof lane[i]);
+    }
+    LANELIGHT_INLINE void Load(VF& a, VF& b, VF& c, VF& e) const {
+      hn::LoadInterleaved4(DF(), lane[0], a, b, c, e);
+    }
   };
 
-  // Calls f(k, column) for each column of node tests.
-  template <class F>
-  LANELIGHT_INLINE void Copy(F&& f) {
-    int k = 0;
-    const auto three = [&](auto(&columns)[3][StreamRays::kRoom]) HWY_ATTR {
-      for (auto& column : columns) f(k++, reinterpret_cast<float*>(column));
-    };
-    three(rays_.rcp);
-    three(rays_.near);
-    three(rays_.far);
-    three(rays_.lower);
-    f(k, reinterpret_cast<float*>(rays_.octant));
-  }
-
-  // What Min and Max make of NaN differs between targets: such rays enter nothing.
-  LANELIGHT_INLINE void CloseNoRays(uint32_t at) {
-    const DF df;
-    const VF sum = hn::Add(
-        hn::LoadU(df, rays_.near[0] + at),
-        hn::Add(hn::LoadU(df, rays_.near[1] + at), hn::LoadU(df, rays_.near[2] + at)));
-    const MF ray = hn::IsFinite(sum);
-    if (HWY_LIKELY(hn::AllTrue(df, ray))) return;
-    const VF never = Splat(std::numeric_limits<float>::infinity());
-    const auto set = [&](float* column, VF v) HWY_ATTR {
-      hn::StoreU(hn::IfThenElse(ray, hn::LoadU(df, column), v), df, column);
-    };
-    for (int a = 0; a < 3; ++a) {
-      set(rays_.rcp[a] + at, Splat(1.0f));
-      set(rays_.near[a] + at, never);
-      set(rays_.far[a] + at, hn::Neg(never));
-    }
-  }
-
-  // The columns behind the last ray are the place where a vector is prepared.
   HWY_NOINLINE void EnterVector(const int32_t* list, uint32_t count) {
     const DF df;
     const Geometry& geometry = scene_.geometry;
-    const Accel& accel = scene_.accel;
-    HWY_ALIGN float map[12][StreamRays::kLanes] = {}, ray[6][StreamRays::kLanes] = {};
-    HWY_ALIGN float slack[StreamRays::kLanes] = {}, margin[StreamRays::kLanes] = {},
-                    reach[StreamRays::kLanes] = {};
-    for (uint32_t j = 0; j < count; ++j) {
-      const auto r = static_cast<uint32_t>(list[j]);
+    Fours map[3], o, d, growth;
+    for (uint32_t j = 0; j < StreamRays::kLanes; ++j) {
+      // Lanes behind the last ray repeat it.
+      const auto r = static_cast<uint32_t>(list[std::min(j, count - 1)]);
       const uint32_t instance = static_cast<uint32_t>(rays_.next[r]) & kRefIndex;
-      const Bvh& group = accel.groups[geometry.instance_group[instance]];
+      const Bvh& group = scene_.accel.groups[geometry.instance_group[instance]];
       const float* m = geometry.instances[instance].object_from_scene;
-      for (int k = 0; k < 12; ++k) map[k][j] = m[k];
-      for (int a = 0; a < 3; ++a)
-        ray[a][j] = rays_.o[a][r], ray[3 + a][j] = rays_.d[a][r];
-      slack[j] = group.slack;
-      margin[j] = group.margin;
-      reach[j] = group.reach;
+      for (int k = 0; k < 3; ++k) map[k].Set(j, m + 4 * k);
+      o.Set(j, home_.o + r);
+      d.Set(j, home_.d + r);
+      const float growths[4] = {group.slack, group.margin, group.reach, 0};
+      growth.Set(j, growths);
       rays_.space[r] = instance;
     }
-    VF m[12];
-    for (int k = 0; k < 12; ++k) m[k] = hn::Load(df, map[k]);
-    const auto load = [&](int k) HWY_ATTR {
-      return V3{hn::Load(df, ray[k]), hn::Load(df, ray[k + 1]), hn::Load(df, ray[k + 2])};
-    };
-    const uint32_t at = rays_.size;
-    const Rays moved{MapLanes(m, load(0), true), MapLanes(m, load(3), false), Splat(0),
+    VF m[12], slack, margin, reach, unused;
+    V3 from_o, from_d;
+    for (int k = 0; k < 3; ++k) {
+      map[k].Load(m[4 * k], m[4 * k + 1], m[4 * k + 2], m[4 * k + 3]);
+    }
+    o.Load(from_o.x, from_o.y, from_o.z, unused);
+    d.Load(from_d.x, from_d.y, from_d.z, unused);
+    growth.Load(slack, margin, reach, unused);
+    const Rays moved{MapLanes(m, from_o, true), MapLanes(m, from_d, false), hn::Zero(df),
                      FromNone()};
-    rays_.SetSlabs(moved.o, moved.d, hn::Load(df, slack), hn::Load(df, margin), at);
-    CloseNoRays(at);
-    rays_.SetShear(moved, hn::Load(df, reach), at);
+    PacketSlabs slabs(moved.o, moved.d, slack, margin);
+    slabs.CloseOthers();
+    // The places behind the last ray are where a vector is prepared.
+    const uint32_t at = rays_.size;
+    const AxisOrder order(moved.d);
+    rays_.SetSlabs(slabs, at);
+    rays_.SetShear(MakeShear(order, moved, reach), order, moved.from, at);
     for (uint32_t j = 0; j < count; ++j) {
       const auto r = static_cast<uint32_t>(list[j]);
-      Copy([&](int, float* column) HWY_ATTR { column[r] = column[at + j]; });
-      for (int a = 0; a < 3; ++a) {
-        rays_.shear_o[a][r] = rays_.shear_o[a][at + j];
-        rays_.shear_s[a][r] = rays_.shear_s[a][at + j];
-        rays_.row[a][r] = rays_.row[a][at + j];
-      }
-      rays_.t_scale[r] = rays_.t_scale[at + j];
+      for (int a = 0; a < 3; ++a) rays_.slab[a][r] = rays_.slab[a][at + j];
+      rays_.octant[r] = rays_.octant[at + j];
+      rays_.shear_o[r] = rays_.shear_o[at + j];
+      rays_.shear_s[r] = rays_.shear_s[at + j];
+      rays_.axes[r] = rays_.axes[at + j];
     }
   }
 
   const CompiledScene& scene_;
   StreamRays& rays_;
-  Home home_[StreamRays::kRoom];
+  // The rays in the tree over instances, by their places.
+  struct Home {
+    HWY_ALIGN AxisSlab slab[3][StreamRays::kRoom];
+    struct Origin {
+      float x, y, z, octant;
+    } o[StreamRays::kRoom];
+    struct Direction {
+      float x, y, z, unused;
+    } d[StreamRays::kRoom];
+  } home_;
 };
 
 /// Scenes without instances have one space.
 struct NoSpaces {
   NoSpaces(const CompiledScene&, const StreamRays&) {}
 };
+template <bool kInstances>
+using Spaces = std::conditional_t<kInstances, RaySpaces, NoSpaces>;
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight

@@ -54,13 +54,16 @@ class RayStacks {
     Prefetch(ref);
   }
 
-  /// Goes to a subtree of an instance, and puts the way back on the stack.
-  LANELIGHT_INLINE void GoInside(uint32_t r, uint32_t root) const {
-    const uint32_t top = ++rays_->top[r];
-    refs_[top] = kReturnRef;
-    entries_[top] = -1;  // stays when the stack is culled
-    rays_->next[r] = static_cast<int32_t>(root);
-    Prefetch(root);
+  /// Goes to the root of an instance, and puts the way back on the stack; or, if
+  /// `resume`, to the top of the stack, under which that is.
+  LANELIGHT_INLINE void GoInside(uint32_t r, uint32_t root, bool resume) const {
+    const uint32_t top = rays_->top[r], up = uint32_t{resume} - 1;
+    const uint32_t ref = (refs_[top] & ~up) | (root & up);
+    refs_[top + 1] = kReturnRef;
+    entries_[top + 1] = -1;  // stays when the stack is culled
+    rays_->top[r] = top + 1 - 2 * uint32_t{resume};
+    rays_->next[r] = static_cast<int32_t>(ref);
+    Prefetch(ref);
   }
 
   /// Whether nothing is left on the way that IsResume names.
@@ -131,8 +134,8 @@ class RayStacks {
   };
 
   LANELIGHT_INLINE void Prefetch(uint32_t ref) const {
-    if (kInstances && ref >= kReturnRef) return;
-    const char* const at = places_.At(ref);
+    const bool is_place = !kInstances || ref < kReturnRef;
+    const char* const at = places_.At(is_place ? ref : 0);
     for (int line = 0; line < 4; ++line) hwy::Prefetch(at + line * kCacheLine);
   }
 
