@@ -167,6 +167,12 @@ void AddExecutionOptions(CLI::App& command, SceneOptions& options) {
       {{"fast", BuildQuality::kFast}, {"high", BuildQuality::kHigh}},
       "How to build the trees over shapes, in less time or for faster rays");
   AddBuildCacheOptions(command, options.settings.trees.folder);
+  command
+      .add_option("--copied-triangles", options.settings.copied_triangles,
+                  "Copy small instances into the world, as long as that makes at most so "
+                  "many triangles more, without: 131072. 0: none")
+      ->check(CLI::Range(std::uint64_t{0}, kMostCopiedTriangles).description(""))
+      ->type_name("N");
   command.add_flag("--copy-per-node", options.settings.copy_per_node,
                    "Give each memory node (NUMA) a copy of the scene");
   command.add_option("--threads", options.threads, "Threads; 0 = all cores")
@@ -217,6 +223,9 @@ std::string FlagsText(const SceneOptions& options) {
     if (folder.most_bytes != kTreeFolderBytes) {
       text += fmt::format(" --build-cache-size {}", folder.most_bytes);
     }
+  }
+  if (s.copied_triangles != kCopiedTriangles) {
+    text += fmt::format(" --copied-triangles {}", s.copied_triangles);
   }
   if (s.copy_per_node) text += " --copy-per-node";
   if (s.wavefront > 0) text += fmt::format(" --wavefront {}", s.wavefront);

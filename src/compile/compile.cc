@@ -171,7 +171,7 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.integrator = description.integrator;
   scene.filter = CompileFilter(description.filter);
 
-  const Placement placement = PlaceShapes(description);
+  const Placement placement = PlaceShapes(description, options.copied_triangles);
   scene.center = placement.frame.center;
   scene.scale = placement.frame.scale;
   scene.camera = CompileCamera(description.camera, description.film, placement.frame);

@@ -14,6 +14,8 @@ struct CompileOptions {
   std::optional<Scattering> scattering;  // overrides every diffuse material
   BuildQuality build = BuildQuality::kHigh;
   int leaf_triangles = kLeafTriangles;  // as in AccelOptions
+  /// As in PlaceShapes.
+  std::uint64_t copied_triangles = 0;
   TreeSource trees;  // where those over shapes may be, instead of being built
   TreeReport* tree_report = nullptr;  // what came of that; may be null
 };

@@ -1,7 +1,9 @@
 #include "src/compile/placement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
@@ -190,12 +192,16 @@ Box FallbackBox(const SceneDescription& d, const Placement& placement) {
   return box;
 }
 
+const ObjectDefinition& ObjectOf(const SceneDescription& d, const Instance& instance) {
+  return d.objects[static_cast<std::size_t>(instance.object)];
+}
+
+// Places the shapes of an instance that cannot stay in its object, or all (`whole`).
 void CopyIntoWorld(const SceneDescription& d, const TextureConstants& constants,
-                   const ObjectDefinition& object, const Transform& world_from_object,
-                   Placement& placement) {
-  for (const Shape& shape : object.shapes) {
-    if (StaysInObject(d, shape)) continue;
-    if (const auto p = Place(d, constants, shape, &world_from_object)) {
+                   const Instance& instance, bool whole, Placement& placement) {
+  for (const Shape& shape : ObjectOf(d, instance).shapes) {
+    if (!whole && StaysInObject(d, shape)) continue;
+    if (const auto p = Place(d, constants, shape, &instance.world_from_object)) {
       AddToWorld(d, *p, placement);
     }
   }
@@ -216,28 +222,70 @@ PlacedObject PlaceObject(const SceneDescription& d, const TextureConstants& cons
   return placed;
 }
 
-void PlaceInstances(const SceneDescription& d, const TextureConstants& constants,
-                    Placement& placement) {
-  constexpr std::size_t kNotYet = ~std::size_t{0}, kNothing = kNotYet - 1;
-  std::vector<std::size_t> placed_as(d.objects.size(), kNotYet);
+// An object definition: how often it is placed, and what of it can be instanced.
+struct ObjectUse {
+  std::uint64_t count = 0;
+  PlacedObject placed;
+  bool copied = false;
+  std::size_t index = 0;  // in Placement::objects, unless it is copied or empty
+
+  // What copies of it add to the triangles of the scene.
+  std::uint64_t MoreTriangles() const {
+    std::uint64_t indices = 0;
+    for (const PlacedShape& p : placed.meshes) indices += p.mesh->indices.size();
+    return (count - 1) * (indices / 3);
+  }
+};
+
+std::vector<ObjectUse> PlaceObjects(const SceneDescription& d,
+                                    const TextureConstants& constants) {
+  std::vector<ObjectUse> uses(d.objects.size());
   for (const Instance& instance : d.instances) {
     LL_CHECK_GE(instance.object, 0);
     LL_CHECK_LT(static_cast<std::size_t>(instance.object), d.objects.size());
     CheckTransform(instance.world_from_object, instance.where, "instance");
-    const ObjectDefinition& object = d.objects[static_cast<std::size_t>(instance.object)];
-    CopyIntoWorld(d, constants, object, instance.world_from_object, placement);
-    std::size_t& at = placed_as[static_cast<std::size_t>(instance.object)];
-    if (at == kNotYet) {
-      PlacedObject placed = PlaceObject(d, constants, object);
-      at = placed.bounds.empty() ? kNothing : placement.objects.size();
-      if (at != kNothing) placement.objects.push_back(std::move(placed));
-    }
-    if (at == kNothing) continue;
-    placement.instances.push_back({at, instance.world_from_object});
-    const Box box = placement.objects[at].bounds.Transformed(instance.world_from_object);
+    ObjectUse& use = uses[static_cast<std::size_t>(instance.object)];
+    if (use.count++ > 0) continue;
+    use.placed = PlaceObject(d, constants, ObjectOf(d, instance));
+  }
+  return uses;
+}
+
+// Rays need maps for each instance that they come near; triangles in the world need
+// memory.
+void ChooseCopied(std::uint64_t most, std::vector<ObjectUse>& uses) {
+  if (most == 0) return;
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    if (uses[i].count > 0) order.emplace_back(uses[i].MoreTriangles(), i);
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [more, i] : order) {
+    if (more > most) return;
+    most -= more;
+    uses[i].copied = true;
+  }
+}
+
+void PlaceInstances(const SceneDescription& d, const TextureConstants& constants,
+                    std::uint64_t copied_triangles, Placement& placement) {
+  std::vector<ObjectUse> uses = PlaceObjects(d, constants);
+  ChooseCopied(copied_triangles, uses);
+  for (ObjectUse& use : uses) {
+    if (use.copied || use.placed.bounds.empty()) continue;
+    use.index = placement.objects.size();
+    placement.objects.push_back(use.placed);
+  }
+  for (const Instance& instance : d.instances) {
+    const ObjectUse& use = uses[static_cast<std::size_t>(instance.object)];
+    CopyIntoWorld(d, constants, instance, use.copied, placement);
+    if (use.placed.bounds.empty()) continue;
+    const Box box = use.placed.bounds.Transformed(instance.world_from_object);
     if (box.empty() || IsTooFar(box.min) || IsTooFar(box.max)) {
       RefuseFar(instance.where, "this instance");
     }
+    if (use.copied) continue;  // the bounds of its copies are tighter
+    placement.instances.push_back({use.index, instance.world_from_object});
     placement.bounds.Add(box);
   }
 }
@@ -273,13 +321,13 @@ bool Emits(const AreaLight& light) {
   return l.x > 0 || l.y > 0 || l.z > 0;
 }
 
-Placement PlaceShapes(const SceneDescription& d) {
+Placement PlaceShapes(const SceneDescription& d, std::uint64_t copied_triangles) {
   const TextureConstants constants(d.textures);
   Placement placement;
   for (const Shape& shape : d.shapes) {
     if (const auto p = Place(d, constants, shape, nullptr)) AddToWorld(d, *p, placement);
   }
-  PlaceInstances(d, constants, placement);
+  PlaceInstances(d, constants, copied_triangles, placement);
   placement.bounds.Add(UnionOfBoxes(placement.meshes));
   placement.bounds.Add(UnionOfBoxes(placement.spheres));
   placement.bounds.Add(UnionOfBoxes(placement.disks));

@@ -54,8 +54,11 @@ struct Placement {
 /// Meshes, spheres and disks that emit are sampled as lights, which needs world
 /// coordinates; spheres, disks and planes have no instanced form: both kinds are copied
 /// into the world once per instance. Shapes without a record of their own become meshes
-/// (src/compile/tessellate.h).
-Placement PlaceShapes(const SceneDescription& description);
+/// (src/compile/tessellate.h). Objects of few triangles, or placed once, are copied into
+/// the world too, those first that make the least of it larger, as long as that makes at
+/// most `copied_triangles` more in all; with 0 none is.
+Placement PlaceShapes(const SceneDescription& description,
+                      std::uint64_t copied_triangles = 0);
 
 /// Bounds of a shape, or nothing if it has none; the centre is exact.
 Box ShapeBox(const PlacedShape& placed);

@@ -33,6 +33,7 @@ Json IdentityOf(const Job& job) {
           {"seed", job.seed},
           {"strategy", ToText(job.scene.strategy)},
           {"scattering", scattering},
+          {"copied_triangles", job.settings.copied_triangles},
           {"aov", job.plan.options.auxiliary != Auxiliary::kNone},
           {"gbuffer", GbufferName(film.gbuffer)},
           {"color_space", film.color_space},

@@ -63,6 +63,7 @@ Json SettingsJson(const Job& job, bool half) {
           {"gbuffer", GbufferName(job.description.film.gbuffer)},
           {"depth", half ? "half" : "float"},
           {"build", job.scene.accel.quality == BuildQuality::kFast ? "fast" : "high"},
+          {"copied_triangles", job.settings.copied_triangles},
           {"threads", MaxThreads()},
           {"copy_per_node", job.settings.copy_per_node}};
 }

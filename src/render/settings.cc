@@ -141,6 +141,7 @@ CompileOptions CompileOptionsOf(const RenderSettings& settings) {
   options.scattering = settings.scattering;
   options.build = settings.build.value_or(options.build);
   options.leaf_triangles = LeafTrianglesFor(CurrentLanes());
+  options.copied_triangles = settings.copied_triangles;
   options.trees = settings.trees;
   return options;
 }

@@ -21,6 +21,10 @@ enum class DefaultDecision {
   kAlways,
 };
 
+/// Of instances, copied into the world if nothing else is asked for: about 25 MB.
+inline constexpr std::uint64_t kCopiedTriangles = 1u << 17;
+inline constexpr std::uint64_t kMostCopiedTriangles = 1u << 30;
+
 /// Overrides of the scene file; what is empty stays as the scene says.
 struct RenderSettings {
   std::optional<std::uint64_t> spp;
@@ -35,10 +39,11 @@ struct RenderSettings {
   StrategyChanges strategy;  // to the scene's
   DefaultDecision decision = DefaultDecision::kNever;
   std::optional<Scattering> scattering;
-  std::optional<BuildQuality> build;  // of the trees over shapes
-  TreeSource trees;                   // where these may be found
-  bool copy_per_node = false;         // the scene, in the memory of each node
-  std::uint32_t wavefront = 0;        // paths; 0 = chosen by the plan
+  std::optional<BuildQuality> build;                  // of the trees over shapes
+  TreeSource trees;                                   // where these may be found
+  std::uint64_t copied_triangles = kCopiedTriangles;  // as in CompileOptions
+  bool copy_per_node = false;   // the scene, in the memory of each node
+  std::uint32_t wavefront = 0;  // paths; 0 = chosen by the plan
   bool aov = false;
   std::optional<Gbuffer> gbuffer;
   bool skip_unsupported = false;

@@ -32,6 +32,7 @@ nlohmann::json Identity(const StudyOptions& options, const Job& job) {
           {"max_depth", job.plan.options.max_depth},
           {"seed", job.description.sampler.seed},
           {"scattering", ScatteringJson(options.settings.scattering)},
+          {"copied_triangles", options.settings.copied_triangles},
           {"references", options.references}};
 }
 

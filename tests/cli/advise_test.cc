@@ -106,19 +106,20 @@ TEST_CASE("the command that advise prints has the flags that it was given", "[cl
                                         "1MiB",
                                         "--scattering",
                                         "uniform",
+                                        "--copied-triangles",
+                                        "0",
                                         "--copy-per-node",
                                         "--wavefront",
                                         "512"});
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
   CHECK_THAT(r.out, Contains("it'\\''s a sphere.pbrt' -o FILE.exr --time 0.3"));
-  CHECK_THAT(
-      r.out,
-      Contains(
-          " --resolution 32x24 --crop 0,0,16,16 --aov --max-depth 3 "
-          "--seed 7 --scattering uniform --build fast --build-cache '" +
-          (directory / "a cache") +
-          "' --build-cache-size 1048576 --copy-per-node --wavefront 512 --threads 1\n"));
+  CHECK_THAT(r.out,
+             Contains(" --resolution 32x24 --crop 0,0,16,16 --aov --max-depth 3 "
+                      "--seed 7 --scattering uniform --build fast --build-cache '" +
+                      (directory / "a cache") +
+                      "' --build-cache-size 1048576 --copied-triangles 0 --copy-per-node "
+                      "--wavefront 512 --threads 1\n"));
 }
 
 TEST_CASE("advise refuses flags that make no sense", "[cli]") {

@@ -1,4 +1,5 @@
 // Instances and objects.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/compile/bent_strip.h"
@@ -63,6 +64,71 @@ TEST_CASE("compile: objects without instances and quadrics in objects",
   // The instance mirrors, the shape does not: ReverseOrientation alone decides.
   CHECK(scene.geometry.spheres[0].normal_sign == -1);
   CHECK_FALSE(scene.features.Has(Feature::kInstances));
+}
+
+// Of two objects one is placed twice and has three triangles, the other once and has two.
+SceneDescription TwoObjects() {
+  SceneDescription d = Varied(Transform::Scale({2, 2, 2}));
+  const Transform turned =
+      Transform::Rotate(30, {1, 2, 0}) * Transform::Translate({3, 0, 1});
+  Instance again = d.instances[0];
+  again.world_from_object = turned * Transform::Scale({-1, 1, 1});
+  d.instances.push_back(again);
+  d.objects.resize(2);
+  d.objects[1].shapes.push_back(MeshShape(Square(), 0));
+  Instance once;
+  once.object = 1;
+  once.world_from_object = turned;
+  d.instances.push_back(once);
+  return d;
+}
+
+TEST_CASE("compile: small instances are copied into the world", "[scene][compile]") {
+  const SceneDescription d = TwoObjects();
+  const auto compile = [&](std::uint64_t most) {
+    CompileOptions options;
+    options.copied_triangles = most;
+    return CompileScene(d, options).geometry;
+  };
+  const Geometry kept = compile(0);
+  const std::uint32_t world = kept.groups[0].end;
+  CHECK(kept.instances.size() == 3);
+  // The one that is placed once makes nothing larger; the other needs three.
+  const Geometry one = compile(2);
+  CHECK(one.instance_group == std::vector<std::uint32_t>{1, 1});
+  CHECK(one.triangles.size() == world + 2 + 3);
+  CHECK(one.groups[0].end == world + 2);
+  const Geometry none = compile(3);
+  CHECK(none.instances.empty());
+  CHECK(none.triangles.size() == world + 2 + 2 * 3);
+}
+
+TEST_CASE("compile: copies lie where the instances do", "[scene][compile]") {
+  const SceneDescription d = TwoObjects();
+  CompileOptions options;
+  options.copied_triangles = 3;
+  const CompiledScene copied = CompileScene(d, options);
+  // World triangles first, then those of the instances in their order.
+  std::size_t at = CompileScene(d).geometry.groups[0].end;
+  for (const Instance& instance : d.instances) {
+    const Shape& shape = d.objects[static_cast<std::size_t>(instance.object)].shapes[0];
+    const Transform world = instance.world_from_object * shape.world_from_object;
+    for (std::size_t i = 0; i < shape.mesh->indices.size(); i += 3, ++at) {
+      Vec3d expected[3];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d p = world.Point(shape.mesh->positions[shape.mesh->indices[i + k]]);
+        expected[k] = (p - copied.center) * copied.scale;
+      }
+      // Mirrored ones are wound the other way: each corner is one of the three.
+      for (int k = 0; k < 3; ++k) {
+        const Vec3d v = Vertex(copied.geometry.triangles[at], k);
+        double nearest = 1;
+        for (const Vec3d& p : expected) nearest = std::min(nearest, Length(v - p));
+        CHECK(nearest < 1e-6);
+      }
+    }
+  }
+  CHECK(at == copied.geometry.triangles.size());
 }
 
 }  // namespace
