@@ -38,7 +38,9 @@ set(long
   wavefront/determinism_test wavefront/force_diffuse_test wavefront/mirrored_lights_test
   wavefront/open_ended_test wavefront/relief_agreement_test
   wavefront/resume_mistakes_test wavefront/resume_test wavefront/round_shapes_test
-  wavefront/seen_lights_test wavefront/textured_test)
+  wavefront/seen_lights_test wavefront/textured_test
+  # Where scenes from elsewhere are found: more than 600 s, and 511 s.
+  scenes/reference_images_test wavefront/decision_scenes_test)
 
 foreach(kind unable unrelated long)
   foreach(test ${${kind}})
