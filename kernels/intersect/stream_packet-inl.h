@@ -181,18 +181,26 @@ class PacketPhase {
 
   // Once for the ways of TraceNodes: it is long to compile.
   HWY_NOINLINE void TestLeaf(uint32_t ref, const PacketRays& packet, uint32_t lanes,
-                             PacketBest& best) const {
+                             PacketBest& best) {
     if constexpr (kAny) {
       // A beam saves a packet of 4 more than this does.
       const bool may = StreamRays::kLanes >= 8 || !packet.has_beam;
       if (may && HWY_UNLIKELY(ref & kSeparateBit) &&
           std::popcount(lanes) <= kSingleRays) {
         const auto& leaf = LeafPlaces(scene_.accel).template Of<SeparateLeaf>(ref);
+        if (kInstances && !has_columns_) FillColumns(packet);
         const PacketPlace place{rays_, at_, inside_ ? home_ : at_};
         return TestLeafSingles<kAlpha>(scene_, leaf, place, lanes, best);
       }
     }
     TestLeafPacket<kAny, kAlpha>(scene_, ref, packet, lanes, best);
+  }
+
+  // What single rays at leaves read, where a packet in an instance has none yet.
+  HWY_NOINLINE void FillColumns(const PacketRays& packet) {
+    has_columns_ = true;
+    rays_.Store(packet.rays, at_);
+    rays_.SetShear(packet.shear, AxisOrder(packet.rays.d), packet.rays.from, at_);
   }
 
   // Traces the rays of `lanes` through an instance. They are moved to its space in the
@@ -203,10 +211,7 @@ class PacketPhase {
     const Rays rays = MoveRays(instance, home, to);
     PacketRays packet = PacketIn(group, rays, lanes);
     if constexpr (kAlpha) packet.home = rays_.Load(home), home_ = home;
-    if constexpr (kAny) {  // at leaves they may be tested one by one
-      rays_.Store(rays, to);
-      rays_.SetShear(packet.shear, AxisOrder(rays.d), rays.from, to);
-    }
+    has_columns_ = false;
     inside_ = true;
     at_ = to;
     deferred_.BeginInstance();
@@ -214,6 +219,7 @@ class PacketPhase {
     deferred_.EndInstance(instance);
     at_ = home;
     inside_ = false;
+    has_columns_ = true;
     for (uint32_t bits = lanes; bits != 0; bits &= bits - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(bits));
       if (!rays_.found[to + i]) continue;
@@ -269,8 +275,9 @@ class PacketPhase {
   const CompiledScene& scene_;
   StreamRays& rays_;
   Spaces<kInstances>& spaces_;
-  bool inside_ = false;  // an instance
-  uint32_t at_ = 0;      // place of the rays
+  bool inside_ = false;      // an instance
+  bool has_columns_ = true;  // single rays can read the packet's
+  uint32_t at_ = 0;          // place of the rays
   DeferredSubtrees<!kAny> deferred_;
   LastBlockers<kAlpha> blockers_;
   uint32_t home_ = 0;  // in an instance: their place in the space of the scene
