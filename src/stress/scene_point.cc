@@ -11,8 +11,9 @@ namespace lanelight::stress {
 Rendered RenderText(const SceneText& scene) {
   ParseOptions parse;
   parse.allow_files = false;
-  const Job job =
-      PrepareJob(ParseSceneText(scene.text, "scene", ".", parse), scene.settings);
+  RenderSettings settings = scene.settings;
+  settings.copied_triangles = 0;  // instances are to be stressed, not their copies
+  const Job job = PrepareJob(ParseSceneText(scene.text, "scene", ".", parse), settings);
   FilmAccumulator film = MakeFilm(job);
   RunResult result = RunJob(job, film);
   return {std::move(film), std::move(result)};

@@ -13,7 +13,9 @@ constexpr std::size_t kPadding = 32;  // kernels may store a vector past the las
 Job Prepare(const std::string& text) {
   ParseOptions parse;
   parse.allow_files = false;
-  return PrepareJob(ParseSceneText(text, "scene", ".", parse), {});
+  RenderSettings settings;
+  settings.copied_triangles = 0;  // instances are to be traced, not their copies
+  return PrepareJob(ParseSceneText(text, "scene", ".", parse), settings);
 }
 
 }  // namespace
