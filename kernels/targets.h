@@ -1,28 +1,25 @@
 // Included first by every kernel file: which Highway targets are compiled, and why not
-// the others. At run time the best one that the machine has is chosen; `--target` forces
-// one (kernels/simd/target.h).
+// the others. LANELIGHT_TARGETS, a list of some of these, comes from the build
+// (cmake/targets.cmake). At run time the best one that the machine has is chosen;
+// `--target` forces one (kernels/simd/target.h).
 //
 //   AVX3   16 lanes, compress and gather in hardware: what the design is for
 //   AVX2   8 lanes, gather in hardware
 //   SSE4   4 lanes (with AES and carry-less products): the floor, machines since 2010
 //   NEON   4 lanes: all 64-bit ARM (docs/arm64.md)
-//   EMU128 4 lanes in plain C++, with LANELIGHT_PLAIN_TARGET only: runs anywhere, takes
-//          the longest to compile of all, and 30 times as long to run
-// Not compiled: SSSE3 (machines of 2006 to 2010; EMU128 serves them), AVX3_DL (no
+//   EMU128 4 lanes in plain C++, only where it is asked for: runs anywhere, takes the
+//          longest to compile of all, and 30 times as long to run
+// Never compiled: SSSE3 (machines of 2006 to 2010; EMU128 serves them), AVX3_DL (no
 // instruction of it is used), SVE in all forms: a vector without a size at compile time
 // cannot be a member of a class or lie in an array, which ours do (Vec3 of lanes, hits,
 // BSDF lobes). Others: nothing stands in the way, not tested.
 #pragma once
 
-#include "src/core/machine.h"
-
-#ifndef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#ifndef LANELIGHT_TARGETS
+#error "kernels are compiled with KERNEL_OPTIONS of cmake/targets.cmake"
 #endif
 
-// What the kernels take for granted, which is more than their compiler may elsewhere.
-#if defined(LANELIGHT_FLOOR_TARGET) && !defined(LANELIGHT_PLAIN_TARGET) && \
-    !defined(HWY_COMPILE_ONLY_STATIC)
+// The last target is what kernels take for granted, which is more than their compiler may
+// elsewhere: Highway compiles it, and all better ones that are not disabled.
+#define HWY_DISABLED_TARGETS (~(LANELIGHT_TARGETS))
 #define HWY_BASELINE_TARGETS LANELIGHT_FLOOR_TARGET
-#endif

@@ -67,7 +67,7 @@ void RequireTarget() {
   throw InputError(
       "this machine's processor runs none of the SIMD targets that this "
       "program was built for (" +
-      names + "); build it with -DLANELIGHT_PLAIN_TARGET=ON, which runs anywhere");
+      names + "); built with -DLANELIGHT_TARGETS=EMU128 it runs on any");
 }
 
 void ForceTarget(const std::string& name) {

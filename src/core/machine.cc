@@ -2,6 +2,7 @@
 
 #if defined(__x86_64__)
 #include <cpuid.h>
+#include <xmmintrin.h>
 #endif
 
 namespace lanelight {
@@ -20,16 +21,16 @@ bool HasInvariantTimeStamps() {
 // The register that says what becomes of subnormal numbers, and its bits for that.
 #if defined(__x86_64__)
 constexpr std::uint64_t kFlushBits = _MM_FLUSH_ZERO_ON | 0x40;  // and their use, "DAZ"
-std::uint64_t Control() { return _mm_getcsr(); }
-void SetControl(std::uint64_t bits) { _mm_setcsr(static_cast<unsigned>(bits)); }
+std::uint64_t ControlRegister() { return _mm_getcsr(); }
+void SetControlRegister(std::uint64_t bits) { _mm_setcsr(static_cast<unsigned>(bits)); }
 #elif defined(__aarch64__)
 constexpr std::uint64_t kFlushBits = 1u << 24;  // FZ of FPCR: both (Arm ARM, C5.2)
-std::uint64_t Control() {
+std::uint64_t ControlRegister() {
   std::uint64_t bits = 0;
   asm volatile("mrs %0, fpcr" : "=r"(bits));
   return bits;
 }
-void SetControl(std::uint64_t bits) { asm volatile("msr fpcr, %0" : : "r"(bits)); }
+void SetControlRegister(std::uint64_t bits) { asm volatile("msr fpcr, %0" : : "r"(bits)); }
 #endif
 
 }  // namespace
@@ -37,8 +38,8 @@ void SetControl(std::uint64_t bits) { asm volatile("msr fpcr, %0" : : "r"(bits))
 const bool kHasTimeStamps = HasInvariantTimeStamps();
 
 #if defined(__x86_64__) || defined(__aarch64__)
-FlushToZero::FlushToZero() : before_(Control()) { SetControl(before_ | kFlushBits); }
-FlushToZero::~FlushToZero() { SetControl(before_); }
+FlushToZero::FlushToZero() : before_(ControlRegister()) { SetControlRegister(before_ | kFlushBits); }
+FlushToZero::~FlushToZero() { SetControlRegister(before_); }
 #endif
 
 }  // namespace lanelight

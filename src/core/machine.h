@@ -6,16 +6,6 @@
 
 #include <cstdint>
 
-#if defined(__x86_64__)
-#include <x86intrin.h>
-#endif
-
-// The SIMD target that a program for this processor takes for granted, where that is more
-// than its compiler does (kernels/targets.h). ARM: NEON is a part of the architecture.
-#if defined(__x86_64__)
-#define LANELIGHT_FLOOR_TARGET HWY_SSE4
-#endif
-
 namespace lanelight {
 
 /// Whether TimeStamp() counts: x86 whose counter runs at the same rate in every power
@@ -26,7 +16,7 @@ extern const bool kHasTimeStamps;
 /// The counter, in a unit of its own; 0 where there is none.
 inline std::uint64_t TimeStamp() {
 #if defined(__x86_64__)
-  return __rdtsc();
+  return __builtin_ia32_rdtsc();  // GCC's and clang's; x86intrin.h is long to read
 #else
   return 0;
 #endif
