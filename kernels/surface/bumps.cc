@@ -135,13 +135,13 @@ HWY_EXPORT(BumpsPlain);
 HWY_EXPORT(BumpsInstances);
 
 Stage BumpsStage() {
-  return {"bumps",
-          "shading normals of displacement textures",
-          QueueId::kSurface,
-          {Feature::kBumps, Feature::kScatters},
-          ReliefReads() | fields::kSpread | FieldSet{Field::prim, Field::inst},
-          ReliefWrites(),
-          [](const FeatureSet& features) -> StageFn {
+  return {.name = "bumps",
+          .meaning = "shading normals of displacement textures",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kBumps, Feature::kScatters},
+          .reads = ReliefReads() | fields::kSpread | FieldSet{Field::prim, Field::inst},
+          .writes = ReliefWrites(),
+          .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kInstances)
                        ? HWY_DYNAMIC_DISPATCH(BumpsInstances)
                        : HWY_DYNAMIC_DISPATCH(BumpsPlain);
