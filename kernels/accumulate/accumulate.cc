@@ -163,15 +163,13 @@ StageFn ResolveAccumulate(const FeatureSet& features) {
 }  // namespace
 
 Stage AccumulateStage() {
-  return {"accumulate",
-          "checks finished samples and frees their slots",
-          QueueId::kDone,
-          {},
-          fields::kRadiance | fields::kAov | fields::kGbuffer | fields::kControl |
-              fields::kFirstBounce | fields::kFirstFilm |
-              FieldSet{Field::output, Field::weight},
-          {},
-          ResolveAccumulate};
+  return {.name = "accumulate",
+          .meaning = "checks finished samples and frees their slots",
+          .input = QueueId::kDone,
+          .reads = fields::kRadiance | fields::kAov | fields::kGbuffer |
+                   fields::kControl | fields::kFirstBounce | fields::kFirstFilm |
+                   FieldSet{Field::output, Field::weight},
+          .resolve = ResolveAccumulate};
 }
 
 }  // namespace lanelight

@@ -101,14 +101,14 @@ StageFn ResolveAov(const FeatureSet& features) {
 }  // namespace
 
 Stage AovStage() {
-  return {"aov",
-          "albedo, normal and depth of the first hit",
-          QueueId::kSurface,
-          {Feature::kAov, Feature::kScatters},
-          fields::kNormal | fields::kParameters |
-              FieldSet{Field::depth, Field::t, Field::material, Field::passed},
-          fields::kAov,
-          ResolveAov};
+  return {.name = "aov",
+          .meaning = "albedo, normal and depth of the first hit",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kAov, Feature::kScatters},
+          .reads = fields::kNormal | fields::kParameters |
+                   FieldSet{Field::depth, Field::t, Field::material, Field::passed},
+          .writes = fields::kAov,
+          .resolve = ResolveAov};
 }
 
 }  // namespace lanelight

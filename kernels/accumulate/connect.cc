@@ -35,13 +35,15 @@ namespace lanelight {
 HWY_EXPORT(Connect);
 
 Stage ConnectStage() {
-  return {"connect",
-          "adds the light of unoccluded shadow rays",
-          QueueId::kShadow,
-          {Feature::kLights, Feature::kScatters},
-          fields::kRadiance | fields::kShadow,
-          fields::kRadiance,
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Connect); }};
+  return {.name = "connect",
+          .meaning = "adds the light of unoccluded shadow rays",
+          .input = QueueId::kShadow,
+          .needs = {Feature::kLights, Feature::kScatters},
+          .reads = fields::kRadiance | fields::kShadow,
+          .writes = fields::kRadiance,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(Connect);
+          }};
 }
 
 }  // namespace lanelight

@@ -68,13 +68,16 @@ namespace lanelight {
 HWY_EXPORT(Gbuffer);
 
 Stage GbufferStage() {
-  return {"gbuffer",
-          "point, normals, coordinates and slopes of the first hit",
-          QueueId::kSurface,
-          {Feature::kGbuffer, Feature::kScatters},
-          fields::kPoint | fields::kNormal | fields::kUv | FieldSet{Field::depth},
-          fields::kGbuffer,
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Gbuffer); }};
+  return {
+      .name = "gbuffer",
+      .meaning = "point, normals, coordinates and slopes of the first hit",
+      .input = QueueId::kSurface,
+      .needs = {Feature::kGbuffer, Feature::kScatters},
+      .reads = fields::kPoint | fields::kNormal | fields::kUv | FieldSet{Field::depth},
+      .writes = fields::kGbuffer,
+      .resolve = [](const FeatureSet&) -> StageFn {
+        return HWY_DYNAMIC_DISPATCH(Gbuffer);
+      }};
 }
 
 }  // namespace lanelight

@@ -80,14 +80,14 @@ HWY_EXPORT(AmbientScatteredPlain);
 
 Stage AmbientScatteredStage() {
   using namespace fields;
-  return {"control_ambient_scattered",
-          "the environment that scattered rays would see",
-          QueueId::kScattered,
-          {Feature::kAmbientControl, Feature::kScatters},
-          kRay | kThroughput | kRadiance | kControl |
-              FieldSet{Field::material, Field::bsdf_pdf},
-          kRadiance | kControl,
-          [](const FeatureSet& features) -> StageFn {
+  return {.name = "control_ambient_scattered",
+          .meaning = "the environment that scattered rays would see",
+          .input = QueueId::kScattered,
+          .needs = {Feature::kAmbientControl, Feature::kScatters},
+          .reads = kRay | kThroughput | kRadiance | kControl |
+                   FieldSet{Field::material, Field::bsdf_pdf},
+          .writes = kRadiance | kControl,
+          .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kMis)
                        ? HWY_DYNAMIC_DISPATCH(AmbientScatteredMis)
                        : HWY_DYNAMIC_DISPATCH(AmbientScatteredPlain);

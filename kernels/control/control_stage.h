@@ -10,16 +10,16 @@ inline Stage SurfaceControlStage(const char* name, const char* meaning, Feature 
                                  ShadeKind kind, StageFn (*resolve)(const FeatureSet&)) {
   using namespace fields;
   const FieldSet direction = {Field::d_x, Field::d_y, Field::d_z};
-  return {name,
-          meaning,
-          ShadeQueue(kind),
-          {control, ShadeFeature(kind), Feature::kScatters},
-          direction | kThroughput | kRadiance | kPoint | kNormal | kParameters |
-              kLightSample | kControl |
-              FieldSet{Field::material, Field::ls_light, Field::guide_cell,
-                       Field::kept_worth},
-          kRadiance | kControl,
-          resolve};
+  return {.name = name,
+          .meaning = meaning,
+          .input = ShadeQueue(kind),
+          .needs = {control, ShadeFeature(kind), Feature::kScatters},
+          .reads = direction | kThroughput | kRadiance | kPoint | kNormal | kParameters |
+                   kLightSample | kControl |
+                   FieldSet{Field::material, Field::ls_light, Field::guide_cell,
+                            Field::kept_worth},
+          .writes = kRadiance | kControl,
+          .resolve = resolve};
 }
 
 }  // namespace lanelight

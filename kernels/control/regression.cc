@@ -64,22 +64,26 @@ HWY_EXPORT(FirstFilm);
 HWY_EXPORT(FirstBounce);
 
 Stage FirstFilmStage() {
-  return {"control_first_film",
-          "keeps the position in the pixel",
-          QueueId::kCamera,
-          {Feature::kRegressionControl},
-          {Field::u_film_0, Field::u_film_1},
-          fields::kFirstFilm,
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(FirstFilm); }};
+  return {.name = "control_first_film",
+          .meaning = "keeps the position in the pixel",
+          .input = QueueId::kCamera,
+          .needs = {Feature::kRegressionControl},
+          .reads = {Field::u_film_0, Field::u_film_1},
+          .writes = fields::kFirstFilm,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(FirstFilm);
+          }};
 }
 Stage FirstBounceStage() {
-  return {"control_first_bounce",
-          "keeps the numbers of the first bounce",
-          QueueId::kVertex,
-          {Feature::kRegressionControl, Feature::kScatters},
-          fields::kBouncePoints | FieldSet{Field::depth},
-          fields::kFirstBounce,
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(FirstBounce); }};
+  return {.name = "control_first_bounce",
+          .meaning = "keeps the numbers of the first bounce",
+          .input = QueueId::kVertex,
+          .needs = {Feature::kRegressionControl, Feature::kScatters},
+          .reads = fields::kBouncePoints | FieldSet{Field::depth},
+          .writes = fields::kFirstBounce,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(FirstBounce);
+          }};
 }
 
 }  // namespace lanelight

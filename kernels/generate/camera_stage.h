@@ -8,14 +8,15 @@ namespace lanelight {
 /// A camera, present where the plan has `projection`.
 inline Stage MakeCameraStage(const char* name, const char* meaning, Feature projection,
                              StageFn (*resolve)(const FeatureSet&)) {
-  return {
-      name,
-      meaning,
-      QueueId::kCamera,
-      {projection},
-      {Field::pixel, Field::u_film_0, Field::u_film_1, Field::u_lens_0, Field::u_lens_1},
-      fields::kRay | fields::WithFirstValue() | FieldSet{Field::weight, Field::medium},
-      resolve};
+  return {.name = name,
+          .meaning = meaning,
+          .input = QueueId::kCamera,
+          .needs = {projection},
+          .reads = {Field::pixel, Field::u_film_0, Field::u_film_1, Field::u_lens_0,
+                    Field::u_lens_1},
+          .writes = fields::kRay | fields::WithFirstValue() |
+                    FieldSet{Field::weight, Field::medium},
+          .resolve = resolve};
 }
 
 }  // namespace lanelight

@@ -108,14 +108,12 @@ HWY_EXPORT(Generate);
 HWY_EXPORT(GenerateSplitting);
 
 Stage GenerateStage() {
-  return {"generate",
-          "starts the next samples in free slots",
-          QueueId::kFree,
-          {},
-          {},
-          {Field::pixel, Field::sample, Field::output, Field::depth, Field::branch,
-           Field::budget},
-          [](const FeatureSet& features) -> StageFn {
+  return {.name = "generate",
+          .meaning = "starts the next samples in free slots",
+          .input = QueueId::kFree,
+          .writes = {Field::pixel, Field::sample, Field::output, Field::depth,
+                     Field::branch, Field::budget},
+          .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kSplitting)
                        ? HWY_DYNAMIC_DISPATCH(GenerateSplitting)
                        : HWY_DYNAMIC_DISPATCH(Generate);

@@ -7,7 +7,7 @@
 #define LANELIGHT_GENERATE_LENSES_INL_H_
 #endif
 
-#include "kernels/simd/vec3-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "src/compiled/camera.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,10 +27,10 @@ LANELIGHT_INLINE LensRay LeaveFilm(const LensSystem& lenses, V3 film, VF u0, VF 
   const VI last = hn::Set(di, static_cast<int32_t>(lenses.pupils.size()) - 1);
   const VI ring =
       hn::Min(hn::ConvertTo(di, hn::Mul(r, Splat(lenses.rings_per_mm))), last);
-  const float* pupils = reinterpret_cast<const float*>(lenses.pupils.data());
-  const VI at = hn::ShiftLeft<2>(ring);
-  const VF x0 = Gather(pupils, at), x1 = Gather(pupils + 1, at);
-  const VF y0 = Gather(pupils + 2, at), y1 = Gather(pupils + 3, at);
+  using Pupil = LensSystem::Pupil;
+  const RecordWords bounds(lenses.pupils.data(), ring);
+  const VF x0 = bounds.F(offsetof(Pupil, x0)), x1 = bounds.F(offsetof(Pupil, x1));
+  const VF y0 = bounds.F(offsetof(Pupil, y0)), y1 = bounds.F(offsetof(Pupil, y1));
   const VF x = hn::MulAdd(u0, hn::Sub(x1, x0), x0);
   const VF y = hn::MulAdd(u1, hn::Sub(y1, y0), y0);
   // Turned about the axis as the film point is.

@@ -15,6 +15,7 @@
 #include <algorithm>
 
 #include "kernels/guide/square-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "src/prepare/guide.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -80,9 +81,6 @@ struct GuideStep {
 
 /// Cell of surface points p with normal n on the side that the paths see.
 LANELIGHT_INLINE VI GuideCell(const Guide& guide, const GuideTop& top, V3 p, V3 n) {
-  static_assert(sizeof(Guide::Node) == 2 * sizeof(float));
-  const auto* words = reinterpret_cast<const float*>(guide.nodes.data());
-  const auto* links = reinterpret_cast<const int32_t*>(words) + 1;
   VI node = hn::Zero(DI());
   while (top.Has(node)) {
     const GuideStep step(node, top.At(node), top.Link(node), p, n);
@@ -90,8 +88,9 @@ LANELIGHT_INLINE VI GuideCell(const Guide& guide, const GuideTop& top, V3 p, V3 
     node = step.next;
   }
   for (;;) {
-    const VI at = hn::Add(node, node);
-    const GuideStep step(node, Gather(words, at), Gather(links, at), p, n);
+    const RecordWords record(guide.nodes.data(), node);
+    const VF at = record.F(offsetof(Guide::Node, at));
+    const GuideStep step(node, at, record.I(offsetof(Guide::Node, next)), p, n);
     if (hn::AllFalse(DF(), step.inner)) return step.target;
     node = step.next;
   }

@@ -62,14 +62,16 @@ Stage GuideProposalsStage() {
   const FieldSet direction = {Field::d_x, Field::d_y, Field::d_z};
   const FieldSet normal = {Field::ng_x, Field::ng_y, Field::ng_z};
   return {
-      "guide",
-      "what is known of the light at a point, and the direction it proposes",
-      QueueId::kVertex,
-      {Feature::kGuided, Feature::kScatters},
-      direction | normal | kPoint |
-          FieldSet{Field::u_guide, Field::u_bsdf_0, Field::u_bsdf_1},
-      kGuideProposal,
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(GuideProposals); }};
+      .name = "guide",
+      .meaning = "what is known of the light at a point, and the direction it proposes",
+      .input = QueueId::kVertex,
+      .needs = {Feature::kGuided, Feature::kScatters},
+      .reads = direction | normal | kPoint |
+               FieldSet{Field::u_guide, Field::u_bsdf_0, Field::u_bsdf_1},
+      .writes = kGuideProposal,
+      .resolve = [](const FeatureSet&) -> StageFn {
+        return HWY_DYNAMIC_DISPATCH(GuideProposals);
+      }};
 }
 
 }  // namespace lanelight

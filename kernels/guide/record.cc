@@ -170,33 +170,38 @@ HWY_EXPORT(RecordRay);
 HWY_EXPORT(RecordRays);
 
 Stage RecordStartStage() {
-  return {
-      "guide_record_start",
-      "records where a ray of a training pass will start",
-      QueueId::kVertex,
-      {Feature::kRecordsGuide, Feature::kScatters},
-      fields::kRay | fields::kPoint | fields::kNormal | kStarts | FieldSet{Field::depth},
-      kStarts,
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(RecordStart); }};
+  return {.name = "guide_record_start",
+          .meaning = "records where a ray of a training pass will start",
+          .input = QueueId::kVertex,
+          .needs = {Feature::kRecordsGuide, Feature::kScatters},
+          .reads = fields::kRay | fields::kPoint | fields::kNormal | kStarts |
+                   FieldSet{Field::depth},
+          .writes = kStarts,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(RecordStart);
+          }};
 }
 Stage RecordRayStage() {
-  return {"guide_record_ray",
-          "records a scattered ray of a training pass",
-          QueueId::kScattered,
-          {Feature::kRecordsGuide, Feature::kScatters},
-          fields::kRay | fields::kThroughput | fields::kRadiance | kRays |
-              FieldSet{Field::depth, Field::bsdf_pdf},
-          kRays,
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(RecordRay); }};
+  return {.name = "guide_record_ray",
+          .meaning = "records a scattered ray of a training pass",
+          .input = QueueId::kScattered,
+          .needs = {Feature::kRecordsGuide, Feature::kScatters},
+          .reads = fields::kRay | fields::kThroughput | fields::kRadiance | kRays |
+                   FieldSet{Field::depth, Field::bsdf_pdf},
+          .writes = kRays,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(RecordRay);
+          }};
 }
 Stage RecordRaysStage() {
-  return {"guide_record_path",
-          "writes the rays of a finished path of a training pass",
-          QueueId::kDone,
-          {Feature::kRecordsGuide},
-          kStarts | kRays | fields::kRadiance | FieldSet{Field::output},
-          {},
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(RecordRays); }};
+  return {.name = "guide_record_path",
+          .meaning = "writes the rays of a finished path of a training pass",
+          .input = QueueId::kDone,
+          .needs = {Feature::kRecordsGuide},
+          .reads = kStarts | kRays | fields::kRadiance | FieldSet{Field::output},
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(RecordRays);
+          }};
 }
 
 }  // namespace lanelight

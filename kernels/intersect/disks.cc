@@ -58,7 +58,6 @@ Stage ShadowDisksStage() {
           .input = QueueId::kShadow,
           .needs = {Feature::kDisks, Feature::kLights, Feature::kOpaqueShadows},
           .reads = ShadowRayFields(),
-          .writes = {},
           .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kAlpha) ? HWY_DYNAMIC_DISPATCH(DisksShadowAlpha)
                                                  : HWY_DYNAMIC_DISPATCH(DisksShadow);

@@ -66,7 +66,6 @@ Stage ShadowLargeSpheresStage() {
           .input = QueueId::kShadow,
           .needs = {Feature::kLargeSpheres, Feature::kLights, Feature::kOpaqueShadows},
           .reads = ShadowRayFields(),
-          .writes = {},
           .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kAlpha)
                        ? HWY_DYNAMIC_DISPATCH(LargeSpheresShadowAlpha)

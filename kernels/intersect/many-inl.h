@@ -19,7 +19,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Lane-wise choice of the axis along which the direction is largest: x unless |y| is
-/// larger, z if |z| is larger than both (as LargestAxis for one ray).
+/// larger, z if |z| is larger than both.
 struct AxisOrder {
   MF y, z;
 

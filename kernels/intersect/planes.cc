@@ -58,7 +58,6 @@ Stage ShadowPlanesStage() {
           .input = QueueId::kShadow,
           .needs = {Feature::kPlanes, Feature::kLights, Feature::kOpaqueShadows},
           .reads = ShadowRayFields(),
-          .writes = {},
           .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kAlpha) ? HWY_DYNAMIC_DISPATCH(PlanesShadowAlpha)
                                                  : HWY_DYNAMIC_DISPATCH(PlanesShadow);

@@ -67,7 +67,6 @@ Stage ShadowTrianglesStage() {
           .input = QueueId::kShadow,
           .needs = {Feature::kTriangles, Feature::kLights, Feature::kOpaqueShadows},
           .reads = ShadowRayFields() | FieldSet{Field::prim},
-          .writes = {},
           .resolve = [](const FeatureSet& features) -> StageFn {
             const bool alpha = features.Has(Feature::kAlpha);
             if (features.Has(Feature::kInstances)) {

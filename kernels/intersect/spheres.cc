@@ -58,7 +58,6 @@ Stage ShadowSpheresStage() {
           .input = QueueId::kShadow,
           .needs = {Feature::kSpheres, Feature::kLights, Feature::kOpaqueShadows},
           .reads = ShadowRayFields(),
-          .writes = {},
           .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kAlpha)
                        ? HWY_DYNAMIC_DISPATCH(SpheresShadowAlpha)

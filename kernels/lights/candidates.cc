@@ -80,26 +80,27 @@ HWY_EXPORT(BeginCandidates);
 HWY_EXPORT(KeepCandidate);
 
 Stage BeginCandidatesStage() {
-  return {
-      "light_candidates",
-      "begins with the candidates of light samples",
-      QueueId::kLit,
-      {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
-      {},
-      {Field::worth_sum},
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(BeginCandidates); }};
+  return {.name = "light_candidates",
+          .meaning = "begins with the candidates of light samples",
+          .input = QueueId::kLit,
+          .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
+          .writes = {Field::worth_sum},
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(BeginCandidates);
+          }};
 }
 
 Stage KeepCandidateStage() {
-  return {
-      "light_keep",
-      "takes the candidate that was kept",
-      QueueId::kLit,
-      {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
-      fields::kKeptSample | fields::kLightSample |
-          FieldSet{Field::worth_sum, Field::ls_light},
-      fields::kLightSample | FieldSet{Field::ls_light, Field::kept_worth},
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(KeepCandidate); }};
+  return {.name = "light_keep",
+          .meaning = "takes the candidate that was kept",
+          .input = QueueId::kLit,
+          .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
+          .reads = fields::kKeptSample | fields::kLightSample |
+                   FieldSet{Field::worth_sum, Field::ls_light},
+          .writes = fields::kLightSample | FieldSet{Field::ls_light, Field::kept_worth},
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(KeepCandidate);
+          }};
 }
 
 }  // namespace lanelight

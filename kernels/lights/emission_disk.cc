@@ -23,10 +23,8 @@ void EmissionDisk(Wave& wave) {
   const VI begin = hn::Set(DI(), static_cast<int32_t>(ranges.disks));
   const VI before = hn::Sub(begin, hn::Set(DI(), 1));
   const VI end = hn::Set(DI(), static_cast<int32_t>(ranges.planes));
-  const int32_t* words = reinterpret_cast<const int32_t*>(scene.geometry.disks.data());
   const auto light_of = [&](VI index) HWY_ATTR {
-    return Gather(words + offsetof(DiskRecord, light) / 4,
-                  hn::Mul(index, hn::Set(DI(), 16)));
+    return RecordWords(scene.geometry.disks.data(), index).I(offsetof(DiskRecord, light));
   };
   const Queue& mine =
       FilterQueue(wave, wave.queue(QueueId::kHit), [&](const Slots& slots) HWY_ATTR {

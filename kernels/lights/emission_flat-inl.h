@@ -18,10 +18,8 @@ namespace HWY_NAMESPACE {
 
 /// Index of the light of triangle `prim`; -1: none.
 LANELIGHT_INLINE VI LightOfTriangle(const CompiledScene& scene, VI prim) {
-  const int32_t* words =
-      reinterpret_cast<const int32_t*>(scene.geometry.triangles.data());
-  return Gather(words + offsetof(TriangleRecord, light) / 4,
-                hn::Mul(prim, hn::Set(DI(), sizeof(TriangleRecord) / 4)));
+  return RecordWords(scene.geometry.triangles.data(), prim)
+      .I(offsetof(TriangleRecord, light));
 }
 
 /// The slots of kHit that hit a triangle of a light of this shape.

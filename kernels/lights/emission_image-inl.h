@@ -33,12 +33,12 @@ LANELIGHT_INLINE LightUv TriangleUv(const Geometry& geometry, VI prim, VF b1, VF
 
 /// Of a direction `out` from the centre, unit.
 LANELIGHT_INLINE LightUv SphereUv(const CompiledScene& scene, VI prim, V3 out) {
-  const SphereRecord* records = scene.geometry.spheres.data();
   const VI index =
       hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.geometry.ranges.spheres)));
-  const V3 x_axis = GatherRecord3(records, 16, offsetof(SphereRecord, x_axis) / 4, index);
-  const V3 z_axis = GatherRecord3(records, 16, offsetof(SphereRecord, z_axis) / 4, index);
-  const VF y_sign = Gather(&records->y_sign, hn::ShiftLeft<4>(index));
+  const RecordWords record(scene.geometry.spheres.data(), index);
+  const V3 x_axis = record.F3(offsetof(SphereRecord, x_axis));
+  const V3 z_axis = record.F3(offsetof(SphereRecord, z_axis));
+  const VF y_sign = record.F(offsetof(SphereRecord, y_sign));
   const VF x = Dot(out, x_axis), y = hn::Mul(Dot(out, Cross(z_axis, x_axis)), y_sign);
   const VF across = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
   const VF theta = TurnFraction(across, Dot(out, z_axis));
@@ -48,10 +48,10 @@ LANELIGHT_INLINE LightUv SphereUv(const CompiledScene& scene, VI prim, V3 out) {
 /// `rel`: from the centre.
 LANELIGHT_INLINE LightUv DiskUv(const CompiledScene& scene, VI prim,
                                 const LightDisk& disk, V3 rel) {
-  const DiskRecord* records = scene.geometry.disks.data();
   const VI index =
       hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.geometry.ranges.disks)));
-  const VF v_sign = Gather(&records->v_sign, hn::ShiftLeft<4>(index));
+  const RecordWords record(scene.geometry.disks.data(), index);
+  const VF v_sign = record.F(offsetof(DiskRecord, v_sign));
   const VF x = Dot(rel, disk.u_axis);
   const VF y = hn::Mul(Dot(rel, Cross(disk.n, disk.u_axis)), v_sign);
   const VF distance = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));

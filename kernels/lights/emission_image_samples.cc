@@ -110,14 +110,14 @@ HWY_EXPORT(ImageSamplesOne);
 HWY_EXPORT(ImageSamplesMany);
 
 Stage EmissionImageSamplesStage() {
-  return {"light_emission_image",
-          "what the images of emitting shapes have at sampled points",
-          QueueId::kLit,
-          {Feature::kEmissionImages, Feature::kSampledHittableLights, Feature::kLights,
-           Feature::kScatters},
-          fields::kPoint | fields::kLightSample | FieldSet{Field::ls_light},
-          fields::kLightSample,
-          [](const FeatureSet& features) -> StageFn {
+  return {.name = "light_emission_image",
+          .meaning = "what the images of emitting shapes have at sampled points",
+          .input = QueueId::kLit,
+          .needs = {Feature::kEmissionImages, Feature::kSampledHittableLights,
+                    Feature::kLights, Feature::kScatters},
+          .reads = fields::kPoint | fields::kLightSample | FieldSet{Field::ls_light},
+          .writes = fields::kLightSample,
+          .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kManyLights)
                        ? HWY_DYNAMIC_DISPATCH(ImageSamplesMany)
                        : HWY_DYNAMIC_DISPATCH(ImageSamplesOne);

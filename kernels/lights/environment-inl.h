@@ -19,7 +19,7 @@ LANELIGHT_INLINE void TexelValues(const Environment& e, VI row, VI column,
   const DI di;
   const float inv_four_pi = 0.0795774715459476679f;
   const VI texel = hn::Add(hn::Mul(row, hn::Set(di, e.size)), column);
-  out->radiance = GatherRecord3(e.rgb.data(), 3, 0, texel);
+  out->radiance = Gather3(e.rgb.data(), texel);
   const float texels = static_cast<float>(e.size) * static_cast<float>(e.size);
   out->pdf_sa = hn::Mul(Gather(e.probability.data(), texel), Splat(texels * inv_four_pi));
 }

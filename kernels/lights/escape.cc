@@ -72,16 +72,16 @@ namespace lanelight {
 HWY_EXPORT(ResolveEscape);
 
 Stage EscapeStage() {
-  return {
-      "escape",
-      "adds the environment to rays that left the scene",
-      QueueId::kMiss,
-      {Feature::kInfiniteLights},
-      fields::kRay | fields::kThroughput | fields::kRadiance | FieldSet{Field::bsdf_pdf},
-      fields::kRadiance,
-      [](const FeatureSet& features) -> StageFn {
-        return HWY_DYNAMIC_DISPATCH(ResolveEscape)(features);
-      }};
+  return {.name = "escape",
+          .meaning = "adds the environment to rays that left the scene",
+          .input = QueueId::kMiss,
+          .needs = {Feature::kInfiniteLights},
+          .reads = fields::kRay | fields::kThroughput | fields::kRadiance |
+                   FieldSet{Field::bsdf_pdf},
+          .writes = fields::kRadiance,
+          .resolve = [](const FeatureSet& features) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(ResolveEscape)(features);
+          }};
 }
 
 }  // namespace lanelight

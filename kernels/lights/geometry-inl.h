@@ -20,10 +20,10 @@ struct LightTriangle {
   V3 p0, e1, e2, n;
 
   LANELIGHT_INLINE LightTriangle(const CompiledScene& scene, VI prim) {
-    const void* records = scene.geometry.triangles.data();
-    p0 = GatherRecord3(records, 12, 0, prim);
-    e1 = GatherRecord3(records, 12, 3, prim) - p0;
-    e2 = GatherRecord3(records, 12, 6, prim) - p0;
+    const RecordWords record(scene.geometry.triangles.data(), prim);
+    p0 = record.F3(offsetof(TriangleRecord, p[0]));
+    e1 = record.F3(offsetof(TriangleRecord, p[1])) - p0;
+    e2 = record.F3(offsetof(TriangleRecord, p[2])) - p0;
     n = Normalize(Cross(e1, e2));
   }
 };
@@ -61,11 +61,10 @@ struct LightSphere {
   LANELIGHT_INLINE LightSphere(const CompiledScene& scene, VI prim) {
     const VI index =
         hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.geometry.ranges.spheres)));
-    const float* words = reinterpret_cast<const float*>(scene.geometry.spheres.data());
-    const VI at = hn::Mul(index, hn::Set(DI(), 16));
-    center = {Gather(words, at), Gather(words + 1, at), Gather(words + 2, at)};
-    radius = Gather(words + 3, at);
-    normal_sign = Gather(words + offsetof(SphereRecord, normal_sign) / 4, at);
+    const RecordWords record(scene.geometry.spheres.data(), index);
+    center = record.F3(offsetof(SphereRecord, center));
+    radius = record.F(offsetof(SphereRecord, radius));
+    normal_sign = record.F(offsetof(SphereRecord, normal_sign));
   }
 };
 
@@ -89,14 +88,12 @@ struct LightDisk {
   LANELIGHT_INLINE LightDisk(const CompiledScene& scene, VI prim) {
     const VI index =
         hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.geometry.ranges.disks)));
-    const void* records = scene.geometry.disks.data();
-    const float* words = static_cast<const float*>(records);
-    const VI at = hn::Mul(index, hn::Set(DI(), 16));
-    center = GatherRecord3(records, 16, 0, index);
-    radius = Gather(words + 3, at);
-    n = GatherRecord3(records, 16, 4, index);
-    inner_radius = Gather(words + 7, at);
-    u_axis = GatherRecord3(records, 16, 8, index);
+    const RecordWords record(scene.geometry.disks.data(), index);
+    center = record.F3(offsetof(DiskRecord, center));
+    radius = record.F(offsetof(DiskRecord, radius));
+    n = record.F3(offsetof(DiskRecord, normal));
+    inner_radius = record.F(offsetof(DiskRecord, inner_radius));
+    u_axis = record.F3(offsetof(DiskRecord, u_axis));
   }
 };
 

@@ -65,14 +65,15 @@ namespace lanelight {
 HWY_EXPORT(HitLightTree);
 
 Stage HitLightTreeStage() {
-  return {
-      "light_hit_tree",
-      "probability of having selected the light that was hit",
-      QueueId::kHit,
-      {Feature::kAreaLights, Feature::kLightTree, Feature::kMis},
-      fields::kRay | FieldSet{Field::prim},
-      {Field::light_pmf},
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(HitLightTree); }};
+  return {.name = "light_hit_tree",
+          .meaning = "probability of having selected the light that was hit",
+          .input = QueueId::kHit,
+          .needs = {Feature::kAreaLights, Feature::kLightTree, Feature::kMis},
+          .reads = fields::kRay | FieldSet{Field::prim},
+          .writes = {Field::light_pmf},
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(HitLightTree);
+          }};
 }
 
 }  // namespace lanelight

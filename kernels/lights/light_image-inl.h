@@ -8,7 +8,7 @@
 
 #include <cstddef>
 
-#include "kernels/simd/vec3-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "src/compiled/lights.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,21 +17,20 @@ namespace HWY_NAMESPACE {
 
 /// (s, t) in [0, 1]^2 from the upper left corner. Texels beyond the edges are those on
 /// them, whatever s and t are.
-class LightImages {
+class LightImages : RecordWords<LightImage> {
  public:
   LANELIGHT_INLINE LightImages(const LightTable& table, VI image)
-      : texels_(table.texels.data()),
-        records_(reinterpret_cast<const int32_t*>(table.images.data())),
-        at_(hn::ShiftLeft<4>(image)),
+      : RecordWords(table.images.data(), image),
+        texels_(table.texels.data()),
         first_(I(offsetof(LightImage, first))),
         width_(I(offsetof(LightImage, width))),
         height_(I(offsetof(LightImage, height))) {}
 
   /// `away` from the light as (dot(x_axis, away), ...).
   LANELIGHT_INLINE V3 ToLocal(V3 away) const {
-    return {Dot(Axis(offsetof(LightImage, x_axis)), away),
-            Dot(Axis(offsetof(LightImage, y_axis)), away),
-            Dot(Axis(offsetof(LightImage, z_axis)), away)};
+    return {Dot(F3(offsetof(LightImage, x_axis)), away),
+            Dot(F3(offsetof(LightImage, y_axis)), away),
+            Dot(F3(offsetof(LightImage, z_axis)), away)};
   }
 
   LANELIGHT_INLINE V3 Nearest(VF s, VF t) const {
@@ -50,13 +49,6 @@ class LightImages {
   }
 
  private:
-  LANELIGHT_INLINE VI I(std::size_t byte_offset) const {
-    return Gather(records_ + byte_offset / 4, at_);
-  }
-  LANELIGHT_INLINE V3 Axis(std::size_t byte_offset) const {
-    const float* words = reinterpret_cast<const float*>(records_) + byte_offset / 4;
-    return {Gather(words, at_), Gather(words + 1, at_), Gather(words + 2, at_)};
-  }
   // Far outside all is the same; this keeps integers in range.
   static LANELIGHT_INLINE VF Scaled(VF s, VI size) {
     return hn::Mul(hn::Min(hn::Max(s, Splat(-1.0f)), Splat(2.0f)),
@@ -70,12 +62,11 @@ class LightImages {
     const VI zero = hn::Zero(DI()), one = hn::Set(DI(), 1);
     const VI x = hn::Min(hn::Max(column, zero), hn::Sub(width_, one));
     const VI y = hn::Min(hn::Max(row, zero), hn::Sub(height_, one));
-    return GatherRecord3(texels_, 3, 0, hn::Add(first_, hn::Add(hn::Mul(y, width_), x)));
+    return Gather3(texels_, hn::Add(first_, hn::Add(hn::Mul(y, width_), x)));
   }
 
   const float* texels_;
-  const int32_t* records_;
-  VI at_, first_, width_, height_;
+  VI first_, width_, height_;
 };
 
 }  // namespace HWY_NAMESPACE

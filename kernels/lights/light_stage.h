@@ -15,28 +15,28 @@ inline Stage SampleLightStage(const char* name, const char* meaning, Feature sha
                               StageFn (*resolve)(const FeatureSet&)) {
   FeatureSet needs = {shape, Feature::kLights, Feature::kScatters};
   if (IsHittable(shape)) needs.Add(Feature::kSampledHittableLights);
-  return {name,
-          meaning,
-          QueueId::kLit,
-          needs,
-          fields::kPoint | fields::kNormal |
-              FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::u_light_0,
-                       Field::u_light_1, Field::ls_light, Field::light_pmf},
-          fields::kLightSample,
-          resolve};
+  return {.name = name,
+          .meaning = meaning,
+          .input = QueueId::kLit,
+          .needs = needs,
+          .reads = fields::kPoint | fields::kNormal |
+                   FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::u_light_0,
+                            Field::u_light_1, Field::ls_light, Field::light_pmf},
+          .writes = fields::kLightSample,
+          .resolve = resolve};
 }
 
 /// Reads light_pmf too where a tree selects lights and light_hit_tree has written it.
 inline Stage EmissionStage(const char* name, const char* meaning, Feature shape,
                            StageFn (*resolve)(const FeatureSet&)) {
-  return {name,
-          meaning,
-          QueueId::kHit,
-          {shape},
-          fields::kRay | fields::kHit | fields::kThroughput | fields::kRadiance |
-              fields::kStartNormal | FieldSet{Field::bsdf_pdf, Field::passed},
-          fields::kRadiance,
-          resolve};
+  return {.name = name,
+          .meaning = meaning,
+          .input = QueueId::kHit,
+          .needs = {shape},
+          .reads = fields::kRay | fields::kHit | fields::kThroughput | fields::kRadiance |
+                   fields::kStartNormal | FieldSet{Field::bsdf_pdf, Field::passed},
+          .writes = fields::kRadiance,
+          .resolve = resolve};
 }
 
 }  // namespace lanelight

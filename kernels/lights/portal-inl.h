@@ -178,7 +178,7 @@ LANELIGHT_INLINE V3 PortalTexel(const Portal& portal, VF column, VF row) {
   const DI di;
   const VI texel = hn::Add(hn::Mul(hn::ConvertTo(di, row), hn::ConvertTo(di, size)),
                            hn::ConvertTo(di, column));
-  return GatherRecord3(portal.rgb.data(), 3, 0, texel);
+  return Gather3(portal.rgb.data(), texel);
 }
 
 /// Direction that `from` sees through the portal, with density proportional to the weight

@@ -64,13 +64,15 @@ namespace lanelight {
 HWY_EXPORT(SelectLight);
 
 Stage SelectLightStage() {
-  return {"light_select_table",
-          "chooses a light by the table",
-          QueueId::kLit,
-          {Feature::kManyLights, Feature::kLightTable, Feature::kScatters},
-          {Field::u_select},
-          {Field::ls_light},
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(SelectLight); }};
+  return {.name = "light_select_table",
+          .meaning = "chooses a light by the table",
+          .input = QueueId::kLit,
+          .needs = {Feature::kManyLights, Feature::kLightTable, Feature::kScatters},
+          .reads = {Field::u_select},
+          .writes = {Field::ls_light},
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(SelectLight);
+          }};
 }
 
 }  // namespace lanelight

@@ -88,14 +88,15 @@ namespace lanelight {
 HWY_EXPORT(SelectLightTree);
 
 Stage SelectLightTreeStage() {
-  return {
-      "light_select_tree",
-      "chooses a light by descending the tree",
-      QueueId::kLit,
-      {Feature::kManyLights, Feature::kLightTree, Feature::kScatters},
-      fields::kPoint | FieldSet{Field::u_select},
-      {Field::ls_light, Field::light_pmf},
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(SelectLightTree); }};
+  return {.name = "light_select_tree",
+          .meaning = "chooses a light by descending the tree",
+          .input = QueueId::kLit,
+          .needs = {Feature::kManyLights, Feature::kLightTree, Feature::kScatters},
+          .reads = fields::kPoint | FieldSet{Field::u_select},
+          .writes = {Field::ls_light, Field::light_pmf},
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(SelectLightTree);
+          }};
 }
 
 }  // namespace lanelight

@@ -46,18 +46,18 @@ HWY_EXPORT(EnterMediaInterfaces);
 
 Stage EnterMediaStage() {
   const FieldSet ray = {Field::medium, Field::passed, Field::crossings};
-  return {
-      "enter_media",
-      "which medium scattered rays go into",
-      QueueId::kScattered,
-      {Feature::kMediumChanges, Feature::kScatters},
-      FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::prim} | fields::kNormal | ray,
-      ray,
-      [](const FeatureSet& features) -> StageFn {
-        return features.Has(Feature::kInterfaces)
-                   ? HWY_DYNAMIC_DISPATCH(EnterMediaInterfaces)
-                   : HWY_DYNAMIC_DISPATCH(EnterMediaPlain);
-      }};
+  return {.name = "enter_media",
+          .meaning = "which medium scattered rays go into",
+          .input = QueueId::kScattered,
+          .needs = {Feature::kMediumChanges, Feature::kScatters},
+          .reads = FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::prim} |
+                   fields::kNormal | ray,
+          .writes = ray,
+          .resolve = [](const FeatureSet& features) -> StageFn {
+            return features.Has(Feature::kInterfaces)
+                       ? HWY_DYNAMIC_DISPATCH(EnterMediaInterfaces)
+                       : HWY_DYNAMIC_DISPATCH(EnterMediaPlain);
+          }};
 }
 
 }  // namespace lanelight

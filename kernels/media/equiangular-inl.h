@@ -19,17 +19,16 @@ namespace HWY_NAMESPACE {
 /// that have no place.
 LANELIGHT_INLINE V3 DrawAnchor(const MediumTable& table, VF u0, VF u1) {
   const DI di;
-  static_assert(sizeof(LightAnchor) == 16);
-  const float* words = reinterpret_cast<const float*>(table.anchors.data());
+  const LightAnchor* anchors = table.anchors.data();
   const std::size_t size = table.anchors.size();
   const VI last = hn::Set(di, static_cast<int32_t>(size) - 1);
   const VF scaled = hn::Mul(u0, Splat(static_cast<float>(size)));
   const VI bin = hn::Min(hn::ConvertTo(di, scaled), last);
-  const VF keep = Gather(words + offsetof(LightAnchor, keep) / 4, hn::ShiftLeft<2>(bin));
+  const VF keep = RecordWords(anchors, bin).F(offsetof(LightAnchor, keep));
   const VI other = Gather(table.anchor_alias.data(), bin);
   const auto kept = hn::RebindMask(di, hn::Lt(u1, keep));
-  const VI at = hn::ShiftLeft<2>(hn::IfThenElse(kept, bin, other));
-  return {Gather(words, at), Gather(words + 1, at), Gather(words + 2, at)};
+  const VI drawn = hn::IfThenElse(kept, bin, other);
+  return RecordWords(anchors, drawn).F3(offsetof(LightAnchor, position));
 }
 
 /// Distances in (0, length) of a ray from o along d by the angle around `anchor`. The

@@ -65,25 +65,28 @@ HWY_EXPORT(Interfaces);
 HWY_EXPORT(PassInterfaces);
 
 Stage InterfacesStage() {
-  return {"interfaces",
-          "takes out the paths that go through interfaces of media",
-          QueueId::kSurface,
-          {Feature::kInterfaces, Feature::kScatters},
-          {Field::prim, Field::depth},
-          {},
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Interfaces); }};
+  return {.name = "interfaces",
+          .meaning = "takes out the paths that go through interfaces of media",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kInterfaces, Feature::kScatters},
+          .reads = {Field::prim, Field::depth},
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(Interfaces);
+          }};
 }
 
 Stage PassInterfacesStage() {
   const FieldSet ray = {Field::medium, Field::passed, Field::crossings, Field::t};
-  return {
-      "pass_interfaces",
-      "sends paths on behind interfaces of media",
-      QueueId::kPassed,
-      {Feature::kInterfaces, Feature::kScatters},
-      fields::kRay | fields::kPoint | fields::kNormal | ray | FieldSet{Field::prim},
-      fields::kRay | ray,
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(PassInterfaces); }};
+  return {.name = "pass_interfaces",
+          .meaning = "sends paths on behind interfaces of media",
+          .input = QueueId::kPassed,
+          .needs = {Feature::kInterfaces, Feature::kScatters},
+          .reads = fields::kRay | fields::kPoint | fields::kNormal | ray |
+                   FieldSet{Field::prim},
+          .writes = fields::kRay | ray,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(PassInterfaces);
+          }};
 }
 
 }  // namespace lanelight

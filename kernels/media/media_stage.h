@@ -13,16 +13,16 @@ inline Stage MediumEventStage(const char* name, const char* meaning, Feature kin
                         Field::odds_g, Field::odds_b,     Field::depth};
   const FieldSet odds = {Field::u_medium_0, Field::u_medium_1, Field::odds_r,
                          Field::odds_g, Field::odds_b};
-  return {name,
-          meaning,
-          QueueId::kActive,
-          {Feature::kMedia, kind},
-          fields::kRay | fields::kThroughput | fields::kRadiance | ray |
-              FieldSet{Field::t, Field::prim, Field::pixel, Field::sample, Field::depth,
-                       Field::branch},
-          fields::kThroughput | fields::kRadiance | odds | fields::kPoint |
-              fields::kNormal | FieldSet{Field::t, Field::prim, Field::material},
-          resolve};
+  return {.name = name,
+          .meaning = meaning,
+          .input = QueueId::kActive,
+          .needs = {Feature::kMedia, kind},
+          .reads = fields::kRay | fields::kThroughput | fields::kRadiance | ray |
+                   FieldSet{Field::t, Field::prim, Field::pixel, Field::sample,
+                            Field::depth, Field::branch},
+          .writes = fields::kThroughput | fields::kRadiance | odds | fields::kPoint |
+                    fields::kNormal | FieldSet{Field::t, Field::prim, Field::material},
+          .resolve = resolve};
 }
 
 }  // namespace lanelight

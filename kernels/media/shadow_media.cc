@@ -47,19 +47,19 @@ HWY_EXPORT(ResolveShadowMedia);
 
 Stage ShadowMediaStage() {
   const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
-  return {
-      "media_dim",
-      "what media leave of shadow rays",
-      QueueId::kShadow,
-      {Feature::kMedia, Feature::kOpaqueShadows, Feature::kLights, Feature::kScatters},
-      light | fields::kShadow | fields::kNormal | fields::kPoint |
-          FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
-                   Field::crossings} |
-          FieldSet{Field::medium, Field::prim},
-      fields::kShadow,
-      [](const FeatureSet& features) {
-        return HWY_DYNAMIC_DISPATCH(ResolveShadowMedia)(features);
-      }};
+  return {.name = "media_dim",
+          .meaning = "what media leave of shadow rays",
+          .input = QueueId::kShadow,
+          .needs = {Feature::kMedia, Feature::kOpaqueShadows, Feature::kLights,
+                    Feature::kScatters},
+          .reads = light | fields::kShadow | fields::kNormal | fields::kPoint |
+                   FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
+                            Field::crossings} |
+                   FieldSet{Field::medium, Field::prim},
+          .writes = fields::kShadow,
+          .resolve = [](const FeatureSet& features) {
+            return HWY_DYNAMIC_DISPATCH(ResolveShadowMedia)(features);
+          }};
 }
 
 }  // namespace lanelight

@@ -134,22 +134,22 @@ HWY_EXPORT(ShadowThroughDelta);
 
 Stage ShadowThroughStage() {
   const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
-  return {
-      "media_shadow",
-      "traces shadow rays through interfaces of media",
-      QueueId::kShadow,
-      {Feature::kInterfaces, Feature::kLights, Feature::kScatters},
-      light |
-          FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
-                   Field::crossings} |
-          fields::kShadow | fields::kPoint | fields::kNormal |
-          FieldSet{Field::medium, Field::prim},
-      fields::kShadow | fields::kShadowRest | FieldSet{Field::b1, Field::b2, Field::inst},
-      [](const FeatureSet& features) -> StageFn {
-        return features.Has(Feature::kDeltaTransmittance)
-                   ? HWY_DYNAMIC_DISPATCH(ShadowThroughDelta)
-                   : HWY_DYNAMIC_DISPATCH(ShadowThroughRatio);
-      }};
+  return {.name = "media_shadow",
+          .meaning = "traces shadow rays through interfaces of media",
+          .input = QueueId::kShadow,
+          .needs = {Feature::kInterfaces, Feature::kLights, Feature::kScatters},
+          .reads = light |
+                   FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
+                            Field::crossings} |
+                   fields::kShadow | fields::kPoint | fields::kNormal |
+                   FieldSet{Field::medium, Field::prim},
+          .writes = fields::kShadow | fields::kShadowRest |
+                    FieldSet{Field::b1, Field::b2, Field::inst},
+          .resolve = [](const FeatureSet& features) -> StageFn {
+            return features.Has(Feature::kDeltaTransmittance)
+                       ? HWY_DYNAMIC_DISPATCH(ShadowThroughDelta)
+                       : HWY_DYNAMIC_DISPATCH(ShadowThroughRatio);
+          }};
 }
 
 }  // namespace lanelight

@@ -110,24 +110,24 @@ HWY_EXPORT(AntitheticBounce);
 Stage AntitheticCameraStage() {
   const FieldSet points = {Field::u_film_0, Field::u_film_1,   Field::u_lens_0,
                            Field::u_lens_1, Field::u_medium_0, Field::u_medium_1};
-  return {"antithetic_camera",
-          "reflects film and lens points of odd samples",
-          QueueId::kCamera,
-          {Feature::kAntitheticPairs},
-          points | FieldSet{Field::sample, Field::depth},
-          points,
-          [](const FeatureSet&) -> StageFn {
+  return {.name = "antithetic_camera",
+          .meaning = "reflects film and lens points of odd samples",
+          .input = QueueId::kCamera,
+          .needs = {Feature::kAntitheticPairs},
+          .reads = points | FieldSet{Field::sample, Field::depth},
+          .writes = points,
+          .resolve = [](const FeatureSet&) -> StageFn {
             return HWY_DYNAMIC_DISPATCH(AntitheticCamera);
           }};
 }
 Stage AntitheticBounceStage() {
-  return {"antithetic_bounce",
-          "reflects the points of a bounce of odd samples",
-          QueueId::kVertex,
-          {Feature::kAntitheticPairs, Feature::kScatters},
-          fields::kBouncePoints | FieldSet{Field::sample, Field::depth},
-          fields::kBouncePoints,
-          [](const FeatureSet&) -> StageFn {
+  return {.name = "antithetic_bounce",
+          .meaning = "reflects the points of a bounce of odd samples",
+          .input = QueueId::kVertex,
+          .needs = {Feature::kAntitheticPairs, Feature::kScatters},
+          .reads = fields::kBouncePoints | FieldSet{Field::sample, Field::depth},
+          .writes = fields::kBouncePoints,
+          .resolve = [](const FeatureSet&) -> StageFn {
             return HWY_DYNAMIC_DISPATCH(AntitheticBounce);
           }};
 }

@@ -11,24 +11,24 @@ inline const FieldSet kPointsCounter = {Field::pixel, Field::sample, Field::dept
                                         Field::branch};
 
 inline Stage PointsCameraStage(const char* name, Feature policy, ResolveFn resolve) {
-  return {name,
-          "sample points of the film and lens",
-          QueueId::kCamera,
-          {policy},
-          kPointsCounter,
-          {Field::u_film_0, Field::u_film_1, Field::u_lens_0, Field::u_lens_1,
-           Field::u_medium_0, Field::u_medium_1},
-          resolve};
+  return {.name = name,
+          .meaning = "sample points of the film and lens",
+          .input = QueueId::kCamera,
+          .needs = {policy},
+          .reads = kPointsCounter,
+          .writes = {Field::u_film_0, Field::u_film_1, Field::u_lens_0, Field::u_lens_1,
+                     Field::u_medium_0, Field::u_medium_1},
+          .resolve = resolve};
 }
 
 inline Stage PointsBounceStage(const char* name, Feature policy, ResolveFn resolve) {
-  return {name,
-          "sample points of a bounce",
-          QueueId::kVertex,
-          {policy, Feature::kScatters},
-          kPointsCounter,
-          fields::kBouncePoints,
-          resolve};
+  return {.name = name,
+          .meaning = "sample points of a bounce",
+          .input = QueueId::kVertex,
+          .needs = {policy, Feature::kScatters},
+          .reads = kPointsCounter,
+          .writes = fields::kBouncePoints,
+          .resolve = resolve};
 }
 
 }  // namespace lanelight

@@ -12,8 +12,8 @@
 // two variances are compared on the same paths, and no rare survivor is missed.
 //
 // The stages keep cell, Y(beta) and Y(l) in columns and write them behind the colour of
-// the finished path; src/wavefront/pilot.cc adds them up in the order of the samples, so
-// that the sums depend on no order of execution.
+// the finished path; src/wavefront/train_path_values.cc adds them up in the order of the
+// samples, so that the sums depend on no order of execution.
 #include "kernels/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -121,36 +121,40 @@ HWY_EXPORT(RecordDecision);
 HWY_EXPORT(RecordPath);
 
 Stage RecordVertexStage() {
-  return {
-      "record_vertex",
-      "records a vertex of a pilot path",
-      QueueId::kVertex,
-      {Feature::kRecordsPaths, Feature::kScatters},
-      fields::kThroughput | fields::kRadiance | fields::kRay | fields::kPoint |
-          fields::kNormal | fields::kVertices | FieldSet{Field::depth},
-      fields::kVertices,
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(RecordVertex); }};
+  return {.name = "record_vertex",
+          .meaning = "records a vertex of a pilot path",
+          .input = QueueId::kVertex,
+          .needs = {Feature::kRecordsPaths, Feature::kScatters},
+          .reads = fields::kThroughput | fields::kRadiance | fields::kRay |
+                   fields::kPoint | fields::kNormal | fields::kVertices |
+                   FieldSet{Field::depth},
+          .writes = fields::kVertices,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(RecordVertex);
+          }};
 }
 Stage RecordDecisionStage() {
-  return {
-      "record_decision",
-      "what roulette would add to the second moment of a pilot path",
-      QueueId::kScattered,
-      {Feature::kRecordsPaths, Feature::kScatters},
-      fields::kThroughput | fields::kRadiance | fields::kRisk |
-          FieldSet{Field::depth, Field::eta_scale},
-      fields::kRisk,
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(RecordDecision); }};
+  return {.name = "record_decision",
+          .meaning = "what roulette would add to the second moment of a pilot path",
+          .input = QueueId::kScattered,
+          .needs = {Feature::kRecordsPaths, Feature::kScatters},
+          .reads = fields::kThroughput | fields::kRadiance | fields::kRisk |
+                   FieldSet{Field::depth, Field::eta_scale},
+          .writes = fields::kRisk,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(RecordDecision);
+          }};
 }
 Stage RecordPathStage() {
-  return {"record_path",
-          "writes the record of a finished pilot path",
-          QueueId::kDone,
-          {Feature::kRecordsPaths},
-          fields::kVertices | fields::kRisk | fields::kRadiance |
-              FieldSet{Field::output, Field::depth},
-          {},
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(RecordPath); }};
+  return {.name = "record_path",
+          .meaning = "writes the record of a finished pilot path",
+          .input = QueueId::kDone,
+          .needs = {Feature::kRecordsPaths},
+          .reads = fields::kVertices | fields::kRisk | fields::kRadiance |
+                   FieldSet{Field::output, Field::depth},
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(RecordPath);
+          }};
 }
 
 }  // namespace lanelight

@@ -7,14 +7,14 @@ namespace lanelight {
 
 inline Stage RouletteStage(const char* name, const char* meaning, Feature kind,
                            StageFn (*resolve)(const FeatureSet&)) {
-  return {
-      name,
-      meaning,
-      QueueId::kScattered,
-      {Feature::kRoulette, kind},
-      fields::kThroughput | FieldSet{Field::eta_scale, Field::depth, Field::u_roulette},
-      fields::kThroughput,
-      resolve};
+  return {.name = name,
+          .meaning = meaning,
+          .input = QueueId::kScattered,
+          .needs = {Feature::kRoulette, kind},
+          .reads = fields::kThroughput |
+                   FieldSet{Field::eta_scale, Field::depth, Field::u_roulette},
+          .writes = fields::kThroughput,
+          .resolve = resolve};
 }
 
 }  // namespace lanelight

@@ -61,14 +61,16 @@ namespace lanelight {
 HWY_EXPORT(ShadowRoulette);
 
 Stage ShadowRouletteStage() {
-  return {
-      "roulette_shadow",
-      "Russian roulette on shadow rays",
-      QueueId::kShadow,
-      {Feature::kContributionShadowRoulette, Feature::kLights, Feature::kScatters},
-      fields::kShadow | FieldSet{Field::pixel, Field::u_shadow},
-      fields::kShadow,
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(ShadowRoulette); }};
+  return {.name = "roulette_shadow",
+          .meaning = "Russian roulette on shadow rays",
+          .input = QueueId::kShadow,
+          .needs = {Feature::kContributionShadowRoulette, Feature::kLights,
+                    Feature::kScatters},
+          .reads = fields::kShadow | FieldSet{Field::pixel, Field::u_shadow},
+          .writes = fields::kShadow,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(ShadowRoulette);
+          }};
 }
 
 }  // namespace lanelight

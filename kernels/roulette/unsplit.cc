@@ -153,43 +153,49 @@ const FieldSet kTransport =
 }  // namespace
 
 Stage UnsplitBeforeStage() {
-  return {
-      "unsplit_before",
-      "what a pilot path would be alone, before it may split",
-      QueueId::kVertex,
-      {Feature::kRecordsUnsplit, Feature::kSplitting},
-      fields::kThroughput | fields::kRadiance | fields::kUnsplit,
-      FieldSet{Field::unsplit, Field::unsplit_l, Field::decided_at},
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(UnsplitBefore); }};
+  return {.name = "unsplit_before",
+          .meaning = "what a pilot path would be alone, before it may split",
+          .input = QueueId::kVertex,
+          .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
+          .reads = fields::kThroughput | fields::kRadiance | fields::kUnsplit,
+          .writes = FieldSet{Field::unsplit, Field::unsplit_l, Field::decided_at},
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(UnsplitBefore);
+          }};
 }
 Stage UnsplitAfterStage() {
-  return {
-      "unsplit_after",
-      "the weight of a pilot path that has been decided on",
-      QueueId::kVertex,
-      {Feature::kRecordsUnsplit, Feature::kSplitting},
-      fields::kThroughput | FieldSet{Field::copy_weight, Field::decided_at},
-      FieldSet{Field::copy_weight, Field::decided_at},
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(UnsplitAfter); }};
+  return {.name = "unsplit_after",
+          .meaning = "the weight of a pilot path that has been decided on",
+          .input = QueueId::kVertex,
+          .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
+          .reads = fields::kThroughput | FieldSet{Field::copy_weight, Field::decided_at},
+          .writes = FieldSet{Field::copy_weight, Field::decided_at},
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(UnsplitAfter);
+          }};
 }
 Stage UnsplitDecisionStage() {
-  return {
-      "unsplit_decision",
-      "what roulette would add to the second moment of a pilot path that splits",
-      QueueId::kScattered,
-      {Feature::kRecordsUnsplit, Feature::kSplitting},
-      kTransport | FieldSet{Field::depth, Field::eta_scale},
-      fields::kRisk,
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(UnsplitDecision); }};
+  return {.name = "unsplit_decision",
+          .meaning =
+              "what roulette would add to the second moment of a pilot path that splits",
+          .input = QueueId::kScattered,
+          .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
+          .reads = kTransport | FieldSet{Field::depth, Field::eta_scale},
+          .writes = fields::kRisk,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(UnsplitDecision);
+          }};
 }
 Stage UnsplitPathStage() {
-  return {"unsplit_path",
-          "writes what a finished pilot path would have brought without splitting",
-          QueueId::kDone,
-          {Feature::kRecordsUnsplit, Feature::kSplitting},
-          kTransport | FieldSet{Field::output, Field::pixel},
-          {},
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(UnsplitPath); }};
+  return {
+      .name = "unsplit_path",
+      .meaning = "writes what a finished pilot path would have brought without splitting",
+      .input = QueueId::kDone,
+      .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
+      .reads = kTransport | FieldSet{Field::output, Field::pixel},
+      .resolve = [](const FeatureSet&) -> StageFn {
+        return HWY_DYNAMIC_DISPATCH(UnsplitPath);
+      }};
 }
 
 }  // namespace lanelight

@@ -108,14 +108,17 @@ Stage ConsiderStage() {
   const FieldSet numbers = {Field::u_select, Field::u_light_0, Field::u_light_1,
                             Field::u_candidate, Field::worth_sum};
   return {
-      "light_consider",
-      "keeps the candidate, or the one before",
-      QueueId::kLit,
-      {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
-      numbers | kThroughput | kNormal | kTangent | kParameters | kLightSample |
+      .name = "light_consider",
+      .meaning = "keeps the candidate, or the one before",
+      .input = QueueId::kLit,
+      .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
+      .reads =
+          numbers | kThroughput | kNormal | kTangent | kParameters | kLightSample |
           FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material, Field::ls_light},
-      numbers | kKeptSample,
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Consider); }};
+      .writes = numbers | kKeptSample,
+      .resolve = [](const FeatureSet&) -> StageFn {
+        return HWY_DYNAMIC_DISPATCH(Consider);
+      }};
 }
 
 }  // namespace lanelight

@@ -17,14 +17,15 @@ inline Stage MakeShadeStage(const char* name, const char* meaning, ShadeKind kin
                              Field::material};
   const FieldSet direction = {Field::d_x, Field::d_y, Field::d_z};
   const FieldSet history = {Field::bsdf_pdf, Field::eta_scale, Field::depth, Field::t};
-  return {name,
-          meaning,
-          ShadeQueue(kind),
-          {ShadeFeature(kind), Feature::kScatters},
-          identity | direction | kThroughput | kPoint | kNormal | kTangent | kParameters |
-              points | kGuideProposal | kLightSample | FieldSet{Field::eta_scale},
-          kRay | kThroughput | kShadow | kStartNormal | history,
-          resolve};
+  return {.name = name,
+          .meaning = meaning,
+          .input = ShadeQueue(kind),
+          .needs = {ShadeFeature(kind), Feature::kScatters},
+          .reads = identity | direction | kThroughput | kPoint | kNormal | kTangent |
+                   kParameters | points | kGuideProposal | kLightSample |
+                   FieldSet{Field::eta_scale},
+          .writes = kRay | kThroughput | kShadow | kStartNormal | history,
+          .resolve = resolve};
 }
 
 }  // namespace lanelight

@@ -11,6 +11,8 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
+const char* NameOfTarget() { return hwy::TargetName(HWY_TARGET); }
+
 int LanesOfTarget() {
   return static_cast<int>(
       hwy::HWY_NAMESPACE::Lanes(hwy::HWY_NAMESPACE::ScalableTag<float>()));
@@ -28,16 +30,16 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
+HWY_EXPORT(NameOfTarget);
 HWY_EXPORT(LanesOfTarget);
 
 namespace {
 
-// Targets that are compiled in and supported by the machine, whatever is forced.
+// Targets that are compiled in and supported by the machine. Found once, before any is
+// forced: what is disabled is not listed, and Highway, asked again, would dispatch to the
+// best one for a moment.
 const std::vector<std::int64_t>& UsableTargets() {
-  static const std::vector<std::int64_t> targets = [] {
-    hwy::SetSupportedTargetsForTest(0);
-    return std::vector<std::int64_t>(hwy::SupportedAndGeneratedTargets());
-  }();
+  static const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   return targets;
 }
 
@@ -83,23 +85,14 @@ void ForceTarget(const std::string& name) {
     throw InputError("unknown SIMD target '" + name +
                      "'; this machine can run: " + legal);
   }
-  hwy::SetSupportedTargetsForTest(forced);
+  hwy::DisableTargets(forced == 0 ? 0 : ~forced);
+  // Left to the first dispatch, a kernel resolved before it would choose in every call.
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-std::string CurrentTarget() {
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  // Usable targets are best first; the first one still supported is the one chosen.
-  for (std::int64_t target : UsableTargets()) {
-    if (hwy::SupportedTargets() & target) return hwy::TargetName(target);
-  }
-  return "none";
-}
+std::string CurrentTarget() { return HWY_DYNAMIC_DISPATCH(NameOfTarget)(); }
 
-int CurrentLanes() {
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  return HWY_DYNAMIC_DISPATCH(LanesOfTarget)();
-}
+int CurrentLanes() { return HWY_DYNAMIC_DISPATCH(LanesOfTarget)(); }
 
 std::string HighwayVersion() {
   return std::to_string(HWY_MAJOR) + "." + std::to_string(HWY_MINOR) + "." +

@@ -81,12 +81,10 @@ LANELIGHT_INLINE void Scatter3(V3 v, float* x, float* y, float* z, const Index& 
   Scatter(v.y, y, index);
   Scatter(v.z, z, index);
 }
-/// Words offset .. offset+2 of records of `words` floats.
-LANELIGHT_INLINE V3 GatherRecord3(const void* records, int words, int offset, VI index) {
-  const DI di;
-  const float* base = static_cast<const float*>(records) + offset;
-  const VI at = hn::Mul(index, hn::Set(di, words));
-  return {Gather(base, at), Gather(base + 1, at), Gather(base + 2, at)};
+/// Entries of a table of three floats each.
+LANELIGHT_INLINE V3 Gather3(const float* table, VI index) {
+  const VI at = hn::Mul(index, hn::Set(DI(), 3));
+  return Gather3(table, table + 1, table + 2, at);
 }
 
 /// Tangent frame around unit normal n without branches or singularities (Duff et al.

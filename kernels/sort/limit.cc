@@ -50,13 +50,11 @@ HWY_EXPORT(Limit);
 HWY_EXPORT(LimitInterfaces);
 
 Stage LimitStage() {
-  return {"limit",
-          "ends paths at the maximum depth",
-          QueueId::kHit,
-          {},
-          {Field::depth},
-          {},
-          [](const FeatureSet& features) -> StageFn {
+  return {.name = "limit",
+          .meaning = "ends paths at the maximum depth",
+          .input = QueueId::kHit,
+          .reads = {Field::depth},
+          .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kInterfaces)
                        ? HWY_DYNAMIC_DISPATCH(LimitInterfaces)
                        : HWY_DYNAMIC_DISPATCH(Limit);

@@ -81,15 +81,15 @@ HWY_EXPORT(MixByUv);
 HWY_EXPORT(MixByPlace);
 
 Stage MixStage() {
-  return {"mix",
-          "chooses one material of a mix",
-          QueueId::kSurface,
-          {Feature::kMix, Feature::kScatters},
-          FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
-                   Field::material} |
-              fields::kUv | fields::kPoint | fields::kNormal,
-          {Field::material},
-          [](const FeatureSet& features) -> StageFn {
+  return {.name = "mix",
+          .meaning = "chooses one material of a mix",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kMix, Feature::kScatters},
+          .reads = FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
+                            Field::material} |
+                   fields::kUv | fields::kPoint | fields::kNormal,
+          .writes = {Field::material},
+          .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kTexturePlaces)
                        ? HWY_DYNAMIC_DISPATCH(MixByPlace)
                        : HWY_DYNAMIC_DISPATCH(MixByUv);

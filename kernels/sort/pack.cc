@@ -86,13 +86,13 @@ namespace lanelight {
 HWY_EXPORT(Pack);
 
 Stage PackStage() {
-  return {"pack",
-          "moves the paths that go on into the first slots",
-          QueueId::kDone,
-          {},
-          fields::EverCarried(),
-          fields::EverCarried(),
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Pack); }};
+  return {
+      .name = "pack",
+      .meaning = "moves the paths that go on into the first slots",
+      .input = QueueId::kDone,
+      .reads = fields::EverCarried(),
+      .writes = fields::EverCarried(),
+      .resolve = [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Pack); }};
 }
 
 }  // namespace lanelight

@@ -60,13 +60,12 @@ HWY_EXPORT(RouteLit);
 HWY_EXPORT(RouteUnlit);
 
 Stage RouteStage() {
-  return {"route",
-          "bins what scatters by material kind",
-          QueueId::kVertex,
-          {Feature::kScatters},
-          {Field::material},
-          {},
-          [](const FeatureSet& features) -> StageFn {
+  return {.name = "route",
+          .meaning = "bins what scatters by material kind",
+          .input = QueueId::kVertex,
+          .needs = {Feature::kScatters},
+          .reads = {Field::material},
+          .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kLights) ? HWY_DYNAMIC_DISPATCH(RouteLit)
                                                   : HWY_DYNAMIC_DISPATCH(RouteUnlit);
           }};

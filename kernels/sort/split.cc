@@ -44,13 +44,11 @@ HWY_EXPORT(SplitOpen);
 HWY_EXPORT(SplitClosed);
 
 Stage SplitStage() {
-  return {"split",
-          "sorts paths into hits and misses",
-          QueueId::kActive,
-          {},
-          {Field::t},
-          {},
-          [](const FeatureSet& features) -> StageFn {
+  return {.name = "split",
+          .meaning = "sorts paths into hits and misses",
+          .input = QueueId::kActive,
+          .reads = {Field::t},
+          .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kInfiniteLights)
                        ? HWY_DYNAMIC_DISPATCH(SplitOpen)
                        : HWY_DYNAMIC_DISPATCH(SplitClosed);

@@ -32,13 +32,13 @@ namespace lanelight {
 HWY_EXPORT(Vertices);
 
 Stage VerticesStage() {
-  return {"vertices",
-          "brings together all that scatters",
-          QueueId::kSurface,
-          {Feature::kOtherEvents, Feature::kScatters},
-          {},
-          {},
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Vertices); }};
+  return {.name = "vertices",
+          .meaning = "brings together all that scatters",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kOtherEvents, Feature::kScatters},
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(Vertices);
+          }};
 }
 
 }  // namespace lanelight

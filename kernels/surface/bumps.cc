@@ -37,8 +37,8 @@ HWY_INLINE MF OnMeshWithNormals(const Geometry& geometry, VI prim) {
   if (geometry.triangles.empty()) return hn::FirstN(DF(), 0);
   const auto end = static_cast<int32_t>(geometry.ranges.spheres);
   const auto triangle = hn::Lt(prim, hn::Set(di, end));
-  const VI at = hn::Mul(hn::IfThenElseZero(triangle, prim), hn::Set(di, 12));
-  const VI flags = Gather(&geometry.triangles.data()->flags, at);
+  const RecordWords record(geometry.triangles.data(), hn::IfThenElseZero(triangle, prim));
+  const VI flags = record.I(offsetof(TriangleRecord, flags));
   const VI given = hn::And(flags, hn::Set(di, static_cast<int32_t>(kMeshNormals)));
   return hn::RebindMask(DF(), hn::And(triangle, hn::Ne(given, hn::Zero(di))));
 }
@@ -135,13 +135,13 @@ HWY_EXPORT(BumpsPlain);
 HWY_EXPORT(BumpsInstances);
 
 Stage BumpsStage() {
-  return {"bumps",
-          "shading normals of displacement textures",
-          QueueId::kSurface,
-          {Feature::kBumps, Feature::kScatters},
-          ReliefReads() | fields::kSpread | FieldSet{Field::prim, Field::inst},
-          ReliefWrites(),
-          [](const FeatureSet& features) -> StageFn {
+  return {.name = "bumps",
+          .meaning = "shading normals of displacement textures",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kBumps, Feature::kScatters},
+          .reads = ReliefReads() | fields::kSpread | FieldSet{Field::prim, Field::inst},
+          .writes = ReliefWrites(),
+          .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kInstances)
                        ? HWY_DYNAMIC_DISPATCH(BumpsInstances)
                        : HWY_DYNAMIC_DISPATCH(BumpsPlain);

@@ -7,6 +7,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/queue/batch-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
 #include "src/compiled/scene.h"
 
@@ -19,30 +20,29 @@ HWY_INLINE void DiskBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
   const DI di;
-  const DiskRecord* records = geometry.disks.data();
   const auto first = static_cast<int32_t>(geometry.ranges.disks);
   const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
-  const VI at = hn::Mul(index, hn::Set(di, 16));
-  const V3 center = GatherRecord3(records, 16, 0, index);
-  const V3 n = GatherRecord3(records, 16, 4, index);
-  const VF radius = Gather(&records->radius, at);
+  const RecordWords record(geometry.disks.data(), index);
+  const V3 center = record.F3(offsetof(DiskRecord, center));
+  const V3 n = record.F3(offsetof(DiskRecord, normal));
+  const VF radius = record.F(offsetof(DiskRecord, radius));
   const D3 lower = ProjectToPlane<false>(RayPoint<false>(path, slots), center, n);
   const D3 upper = ProjectToPlane<true>(RayPoint<true>(path, slots), center, n);
   SurfaceLanes surface{.p = FromHalves(lower, upper),
                        .n = n,
                        .error = Splat(0),
-                       .material = Gather(&records->material, at)};
+                       .material = record.I(offsetof(DiskRecord, material))};
   surface.error = RoundingError(surface.p, n, radius);
   StoreSurface(path, slots, surface);
   if (path.tg_x != nullptr || path.uv_u != nullptr) {
-    const V3 u_axis = GatherRecord3(records, 16, 8, index);
-    const V3 v_axis = Mul(Cross(n, u_axis), Gather(&records->v_sign, at));
+    const V3 u_axis = record.F3(offsetof(DiskRecord, u_axis));
+    const V3 v_axis = Mul(Cross(n, u_axis), record.F(offsetof(DiskRecord, v_sign)));
     const V3 rel = surface.p - center;
     const VF x = Dot(rel, u_axis);
     const VF y = Dot(rel, v_axis);
     if (path.uv_u != nullptr) {
       const VF distance = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
-      const VF width = hn::Sub(radius, Gather(&records->inner_radius, at));
+      const VF width = hn::Sub(radius, record.F(offsetof(DiskRecord, inner_radius)));
       const VF v = hn::Div(hn::Sub(radius, distance), width);
       Scatter(TurnFraction(y, x), path.uv_u, slots);
       // A ring of width zero has no v; a comparison with NaN or inf fails.
@@ -54,7 +54,7 @@ HWY_INLINE void DiskBatch(const Wave& wave, const StoreSlots& slots) {
       Scatter3(TangentOr(tangent, n), path.tg_x, path.tg_y, path.tg_z, slots);
       if (path.tv_x != nullptr) {
         // From the rim, v = 0, to the inner edge, v = 1.
-        const VF width = hn::Sub(radius, Gather(&records->inner_radius, at));
+        const VF width = hn::Sub(radius, record.F(offsetof(DiskRecord, inner_radius)));
         const VF distance2 = hn::MulAdd(x, x, hn::Mul(y, y));
         const V3 outward = Mul(MulAdd(u_axis, x, Mul(v_axis, y)), Rsqrt(distance2));
         StoreBitangent(path, slots, Mul(outward, hn::Neg(width)), n);

@@ -70,13 +70,15 @@ namespace lanelight {
 HWY_EXPORT(Footprints);
 
 Stage FootprintsStage() {
-  return {"footprints",
-          "footprint of a pixel in surface coordinates",
-          QueueId::kSurface,
-          {Feature::kTextureFootprints, Feature::kScatters},
-          fields::kPoint | fields::kNormal | fields::kTangents,
-          fields::kSpread,
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Footprints); }};
+  return {.name = "footprints",
+          .meaning = "footprint of a pixel in surface coordinates",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kTextureFootprints, Feature::kScatters},
+          .reads = fields::kPoint | fields::kNormal | fields::kTangents,
+          .writes = fields::kSpread,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(Footprints);
+          }};
 }
 
 }  // namespace lanelight

@@ -7,6 +7,7 @@
 #define LANELIGHT_SURFACE_INSTANCE_INL_H_
 #endif
 
+#include "kernels/simd/records-inl.h"
 #include "kernels/surface/point-inl.h"
 #include "src/compiled/scene.h"
 
@@ -41,20 +42,21 @@ LANELIGHT_INLINE InstanceMaps GatherMaps(const AlignedVector<InstanceRecord>& re
                                          VI inst) {
   const DI di;
   const MF world = hn::RebindMask(DF(), hn::Lt(inst, hn::Zero(di)));
-  const VI at = hn::Mul(hn::Max(inst, hn::Zero(di)), hn::Set(di, 24));
-  const float* base = records[0].object_from_scene;
-  const auto word = [&](int map, int row, int column) HWY_ATTR {
-    const VF value = Gather(base + 12 * map + 4 * row + column, at);
-    return hn::IfThenElse(world, Splat(row == column ? 1.0f : 0.0f), value);
-  };
-  const auto map = [&](int m) HWY_ATTR {
+  const RecordWords record(records.data(), hn::Max(inst, hn::Zero(di)));
+  const auto map = [&](std::size_t byte_offset) HWY_ATTR {
+    const auto word = [&](std::size_t row, std::size_t column) HWY_ATTR {
+      const VF value = record.F(byte_offset + (4 * row + column) * sizeof(float));
+      return hn::IfThenElse(world, Splat(row == column ? 1.0f : 0.0f), value);
+    };
     Map34 result;
-    for (int r = 0; r < 3; ++r)
-      result.row[r] = {word(m, r, 0), word(m, r, 1), word(m, r, 2)};
-    result.move = {word(m, 0, 3), word(m, 1, 3), word(m, 2, 3)};
+    for (std::size_t r = 0; r < 3; ++r) {
+      result.row[r] = {word(r, 0), word(r, 1), word(r, 2)};
+    }
+    result.move = {word(0, 3), word(1, 3), word(2, 3)};
     return result;
   };
-  return {map(0), map(1)};
+  return {map(offsetof(InstanceRecord, object_from_scene)),
+          map(offsetof(InstanceRecord, scene_from_object))};
 }
 
 template <bool kUpper>

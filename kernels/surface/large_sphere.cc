@@ -7,6 +7,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/queue/batch-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
 #include "src/compiled/scene.h"
 
@@ -14,8 +15,6 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr int kWords = sizeof(LargeSphereRecord) / 4;
 
 struct LargeSphereHits {
   V3 point, normal;
@@ -45,28 +44,28 @@ HWY_INLINE void LargeSphereBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
   const DI di;
-  const LargeSphereRecord* records = geometry.large_spheres.data();
   const auto first = static_cast<int32_t>(geometry.ranges.large_spheres);
   const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
-  const VI at = hn::Mul(index, hn::Set(di, kWords));
-  const LargeSphereHits s{GatherRecord3(records, kWords, 0, index),
-                          GatherRecord3(records, kWords, 4, index),
-                          Gather(&records->curvature, at)};
+  const RecordWords record(geometry.large_spheres.data(), index);
+  const LargeSphereHits s{record.F3(offsetof(LargeSphereRecord, point)),
+                          record.F3(offsetof(LargeSphereRecord, normal)),
+                          record.F(offsetof(LargeSphereRecord, curvature))};
   D3 p[2], outward[2];
   VD size[2];
   Reproject<false>(s, RayPoint<false>(path, slots), p[0], outward[0], size[0]);
   Reproject<true>(s, RayPoint<true>(path, slots), p[1], outward[1], size[1]);
   const V3 out = FromHalves(outward[0], outward[1]);
   SurfaceLanes surface{.p = FromHalves(p[0], p[1]),
-                       .n = Mul(out, Gather(&records->normal_sign, at)),
+                       .n = Mul(out, record.F(offsetof(LargeSphereRecord, normal_sign))),
                        .error = Splat(0),
-                       .material = Gather(&records->material, at)};
+                       .material = record.I(offsetof(LargeSphereRecord, material))};
   surface.error = RoundingError(surface.p, out, FromHalves(size[0], size[1]));
   StoreSurface(path, slots, surface);
   if (path.tg_x != nullptr || path.uv_u != nullptr) {
-    const V3 x_axis = GatherRecord3(records, kWords, 8, index);
-    const V3 z_axis = GatherRecord3(records, kWords, 12, index);
-    const V3 y_axis = Mul(Cross(z_axis, x_axis), Gather(&records->y_sign, at));
+    const V3 x_axis = record.F3(offsetof(LargeSphereRecord, x_axis));
+    const V3 z_axis = record.F3(offsetof(LargeSphereRecord, z_axis));
+    const V3 y_axis =
+        Mul(Cross(z_axis, x_axis), record.F(offsetof(LargeSphereRecord, y_sign)));
     const VF x = Dot(out, x_axis);
     const VF y = Dot(out, y_axis);
     if (path.uv_u != nullptr) {

@@ -53,13 +53,15 @@ namespace lanelight {
 HWY_EXPORT(NormalMaps);
 
 Stage NormalMapsStage() {
-  return {"normal_maps",
-          "shading normals of normal maps",
-          QueueId::kSurface,
-          {Feature::kNormalMaps, Feature::kScatters},
-          ReliefReads(),
-          ReliefWrites(),
-          [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(NormalMaps); }};
+  return {.name = "normal_maps",
+          .meaning = "shading normals of normal maps",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kNormalMaps, Feature::kScatters},
+          .reads = ReliefReads(),
+          .writes = ReliefWrites(),
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(NormalMaps);
+          }};
 }
 
 }  // namespace lanelight

@@ -7,6 +7,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/queue/batch-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
 #include "src/compiled/scene.h"
 
@@ -19,24 +20,23 @@ HWY_INLINE void PlaneBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
   const DI di;
-  const PlaneRecord* records = geometry.planes.data();
   const auto first = static_cast<int32_t>(geometry.ranges.planes);
   const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
-  const VI at = hn::Mul(index, hn::Set(di, 16));
-  const V3 point = GatherRecord3(records, 16, 0, index);
-  const V3 n = GatherRecord3(records, 16, 4, index);
+  const RecordWords record(geometry.planes.data(), index);
+  const V3 point = record.F3(offsetof(PlaneRecord, point));
+  const V3 n = record.F3(offsetof(PlaneRecord, normal));
   const D3 lower = ProjectToPlane<false>(RayPoint<false>(path, slots), point, n);
   const D3 upper = ProjectToPlane<true>(RayPoint<true>(path, slots), point, n);
   SurfaceLanes surface{.p = FromHalves(lower, upper),
                        .n = n,
                        .error = Splat(0),
-                       .material = Gather(&records->material, at)};
+                       .material = record.I(offsetof(PlaneRecord, material))};
   const V3 rel = surface.p - point;
   surface.error = RoundingError(surface.p, n, MaxComponent(Abs(rel)));
   StoreSurface(path, slots, surface);
   if (path.tg_x != nullptr || path.uv_u != nullptr) {
-    const V3 u_axis = GatherRecord3(records, 16, 8, index);
-    const V3 v_axis = GatherRecord3(records, 16, 12, index);
+    const V3 u_axis = record.F3(offsetof(PlaneRecord, u_axis));
+    const V3 v_axis = record.F3(offsetof(PlaneRecord, v_axis));
     if (path.uv_u != nullptr) {
       Scatter(Dot(rel, u_axis), path.uv_u, slots);
       Scatter(Dot(rel, v_axis), path.uv_v, slots);

@@ -7,6 +7,7 @@
 #include "hwy/highway.h"
 
 #include "kernels/queue/batch-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
 #include "src/compiled/scene.h"
 
@@ -33,25 +34,26 @@ HWY_INLINE void SphereBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
   const DI di;
-  const SphereRecord* records = geometry.spheres.data();
   const auto first = static_cast<int32_t>(geometry.ranges.spheres);
   const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
-  const VI at = hn::Mul(index, hn::Set(di, 16));
-  const SphereHits s{GatherRecord3(records, 16, 0, index), Gather(&records->radius, at)};
+  const RecordWords record(geometry.spheres.data(), index);
+  const SphereHits s{record.F3(offsetof(SphereRecord, center)),
+                     record.F(offsetof(SphereRecord, radius))};
   D3 p[2], outward[2];
   Reproject<false>(s, RayPoint<false>(path, slots), p[0], outward[0]);
   Reproject<true>(s, RayPoint<true>(path, slots), p[1], outward[1]);
   const V3 out = FromHalves(outward[0], outward[1]);
   SurfaceLanes surface{.p = FromHalves(p[0], p[1]),
-                       .n = Mul(out, Gather(&records->normal_sign, at)),
+                       .n = Mul(out, record.F(offsetof(SphereRecord, normal_sign))),
                        .error = Splat(0),
-                       .material = Gather(&records->material, at)};
+                       .material = record.I(offsetof(SphereRecord, material))};
   surface.error = RoundingError(surface.p, out, s.radius);
   StoreSurface(path, slots, surface);
   if (path.tg_x != nullptr || path.uv_u != nullptr) {
-    const V3 x_axis = GatherRecord3(records, 16, 8, index);
-    const V3 z_axis = GatherRecord3(records, 16, 11, index);
-    const V3 y_axis = Mul(Cross(z_axis, x_axis), Gather(&records->y_sign, at));
+    const V3 x_axis = record.F3(offsetof(SphereRecord, x_axis));
+    const V3 z_axis = record.F3(offsetof(SphereRecord, z_axis));
+    const V3 y_axis =
+        Mul(Cross(z_axis, x_axis), record.F(offsetof(SphereRecord, y_sign)));
     const VF x = Dot(out, x_axis);
     const VF y = Dot(out, y_axis);
     if (path.uv_u != nullptr) {

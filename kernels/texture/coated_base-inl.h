@@ -59,7 +59,7 @@ inline HWY_NOINLINE V3 CoatedBaseColor(const float* fit, V3 color) {
   const VF weight[4] = {hn::Sub(one, high), hn::Sub(high, middle), hn::Sub(middle, low),
                         low};
   for (int i = 0; i < 4; ++i) {
-    c = MulAdd(GatherRecord3(fit, 3, 0, corner[i]), weight[i], c);
+    c = MulAdd(Gather3(fit, corner[i]), weight[i], c);
   }
   return {hn::Max(c.x, zero), hn::Max(c.y, zero), hn::Max(c.z, zero)};
 }

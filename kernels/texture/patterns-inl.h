@@ -63,7 +63,7 @@ inline HWY_NOINLINE V3 Marble(V3 q, int32_t octaves, float roughness, float vari
   const VF t = hn::Sub(x, hn::ConvertTo(df, first)), rest = hn::Sub(Splat(1.0f), t);
   V3 point[4];
   for (int i = 0; i < 4; ++i) {
-    point[i] = GatherRecord3(kMarbleColors[0], 3, 3 * i, first);
+    point[i] = Gather3(kMarbleColors[i], first);
   }
   for (int order = 3; order > 0; --order) {
     for (int i = 0; i < order; ++i) point[i] = Mul(point[i], rest) + Mul(point[i + 1], t);

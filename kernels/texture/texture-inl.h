@@ -92,7 +92,7 @@ LANELIGHT_INLINE V3 LoadTexels(const TextureTable& table, const TextureImage& im
                                VI index) {
   const DI di;
   if (image.rgba8.empty()) {
-    return GatherRecord3(image.rgb.data(), 3, 0, index);
+    return Gather3(image.rgb.data(), index);
   }
   const float* decode = table.decode.data() + image.decode;
   const VI word = Gather(image.rgba8.data(), index);

@@ -190,14 +190,14 @@ HWY_EXPORT(TexturesPlaces);
 HWY_EXPORT(TexturesFiltered);
 
 Stage TextureStage() {
-  return {"texture",
-          "textured material parameters of surface hits",
-          QueueId::kSurface,
-          {Feature::kTextures},
-          FieldSet{Field::material} | fields::kUv | fields::kPoint | fields::kNormal |
-              fields::kSpread,
-          fields::kParameters,
-          [](const FeatureSet& features) -> StageFn {
+  return {.name = "texture",
+          .meaning = "textured material parameters of surface hits",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kTextures},
+          .reads = FieldSet{Field::material} | fields::kUv | fields::kPoint |
+                   fields::kNormal | fields::kSpread,
+          .writes = fields::kParameters,
+          .resolve = [](const FeatureSet& features) -> StageFn {
             LL_CHECK(features.Has(Feature::kUv));
             if (features.Has(Feature::kTextureFootprints)) {
               return HWY_DYNAMIC_DISPATCH(TexturesFiltered);

@@ -32,7 +32,7 @@
 
 namespace lanelight {
 
-struct Geometry;  // src/geometry/geometry.h, which includes this file
+struct Geometry;  // src/geometry/geometry.h
 
 /// Children of a node, and shapes of a leaf of spheres or disks.
 inline constexpr int kBvhWidth = 8;

@@ -7,7 +7,6 @@
 #include "src/cli/console.h"
 
 namespace lanelight {
-namespace {}  // namespace
 
 std::string StudyProgressPrinter::Describe(const StudyProgress& p) {
   std::string text =

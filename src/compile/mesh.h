@@ -22,7 +22,7 @@ struct MeshOutput {
 /// removed.
 inline constexpr std::uint32_t kDegenerate = 0xffffffffu;
 
-/// Writes the record of each triangle of the mesh; see compile_geometry.h for the
+/// Writes the record of each triangle of the mesh; see src/compile/geometry.h for the
 /// winding. Returns true if some vertex normal differs from its face normal by more than
 /// rounding.
 bool CompileMesh(const PlacedShape& placed, const Frame& frame, std::uint32_t material,

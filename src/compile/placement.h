@@ -39,7 +39,7 @@ struct PlacedInstance {
 // ReverseOrientation XOR the shape's own transform mirrors; the transform of an instance
 // carries that normal along and never turns it. Hence `flip` is decided by the shape's
 // own transform, also for copies made of instanced shapes. (For meshes see
-// compile_geometry.h: there only the product of the transforms matters.)
+// src/compile/geometry.h: there only the product of the transforms matters.)
 struct Placement {
   // In the world. Large spheres: see src/compile/focus.h.
   std::vector<PlacedShape> meshes, spheres, disks, planes, large_spheres;

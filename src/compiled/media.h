@@ -13,7 +13,7 @@ namespace lanelight {
 /// Instead of the index of a medium: empty space.
 inline constexpr std::int32_t kVacuum = -1;
 
-/// Homogeneous medium: 16 words. Coefficients are per unit of scene length.
+/// Medium: 16 words. Coefficients are per unit of scene length.
 struct MediumRecord {
   float sigma_t[3];        // extinction: absorption and scattering
   std::uint32_t material;  // its phase function (MaterialTable)

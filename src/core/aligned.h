@@ -10,7 +10,7 @@ namespace lanelight {
 inline constexpr std::size_t kCacheLine = 64;
 
 /// Allocates 64-byte aligned memory with 64 spare bytes at the end, so that a vector
-/// load or CompressStore that starts at a valid element never leaves the allocation.
+/// load or store that starts at a valid element never leaves the allocation.
 template <typename T>
 struct AlignedAllocator {
   using value_type = T;

@@ -111,7 +111,6 @@ struct Geometry {
       normals;               // 9 per triangle (3 vertices); empty without kVertexNormals.
                              // Unit; triangles without normals hold their face normal.
   AlignedVector<float> uvs;  // 6 per triangle; empty where nobody asks for them
-                             // that triangles emit
   AlignedVector<SphereRecord> spheres;
   AlignedVector<DiskRecord> disks;
   AlignedVector<PlaneRecord> planes;

@@ -8,7 +8,6 @@
 #include "src/core/suggest.h"
 
 namespace lanelight {
-namespace {}  // namespace
 
 const Param* NumberArray(ParamSet& params, std::string_view name, ParamType type,
                          std::size_t count) {

@@ -48,7 +48,6 @@ struct StrategyTables;
 struct RunParameters {
   std::uint32_t seed = 0;
   std::uint32_t width = 0, height = 0;  // full image
-  std::uint32_t spp = 0;                // planned samples per pixel
   std::uint32_t max_depth = 5;
   float exposure = 1;  // factor from radiance to film
   FeatureSet features;

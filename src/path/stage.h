@@ -9,11 +9,11 @@
 namespace lanelight {
 
 struct Stage {
-  const char* name;     // also the profile row
-  const char* meaning;  // one line
-  QueueId input;        // skipped when empty
-  FeatureSet needs;     // all of these, or the stage is absent
-  FieldSet reads, writes;
+  const char* name;       // also the profile row
+  const char* meaning;    // one line
+  QueueId input;          // skipped when empty
+  FeatureSet needs = {};  // all of these, or the stage is absent
+  FieldSet reads = {}, writes = {};
   /// Kernel for these features on the chosen target; the features select among the
   /// stage's few template variants.
   StageFn (*resolve)(const FeatureSet& features);

@@ -12,8 +12,8 @@ namespace lanelight {
 
 struct CompiledScene;  // src/compiled/scene.h
 
-// Queues hold path slots. One writer stage appends, one or more readers consume; the
-// driver (src/wavefront/drive.cc) clears them.
+// Queues hold path slots. Stages append and read; the driver (src/wavefront/drive.cc)
+// clears all but kFree, and kActive, which it takes from kScattered, before a wave.
 // X(name, meaning)
 #define LANELIGHT_QUEUES(X)                                   \
   X(kFree, "slots without a path")                            \

@@ -51,7 +51,7 @@ struct RenderSettings {
 
 bool HasTarget(const RenderSettings& settings);
 
-/// Sample indices are 32-bit, so this many samples per pixel at most.
+/// What may be asked for at most.
 inline constexpr std::uint64_t kMaxSpp = kMostSamplesPerPixel;
 inline constexpr std::uint32_t kMaxWavefront = 1u << 20;
 inline constexpr int kMaxDepth = 1 << 20;

@@ -84,8 +84,8 @@ RayKernels FindRayKernels(const Plan& plan) {
   return found;
 }
 
-// Paths whose live columns and queues fill about half of one core's second-level cache,
-// leaving the rest to the scene: the stages stream the columns once per bounce.
+// Paths whose live columns fill half of one core's second-level cache, leaving
+// the rest to the scene: the stages stream the columns once per bounce.
 std::uint32_t WavefrontForCache(std::size_t bytes_per_path) {
   const long level2 = sysconf(_SC_LEVEL2_CACHE_SIZE);
   const double cache = level2 > 0 ? static_cast<double>(level2) : 1024.0 * 1024.0;

@@ -150,8 +150,8 @@ struct RunResult {
   std::size_t wavefront_bytes = 0;       // all wavefronts and sample buffers together
   int scene_copies = 0;                  // in memory nodes; 0: none were made
   std::size_t bytes_in_flight = 0;       // live columns of the paths of one wavefront
-  // Pilot passes (roulette=adjoint, efficiency); their time is part of `seconds`, their
-  // samples and rays are not part of those above.
+  // Training (src/wavefront/training.h); its time is part of `seconds`, its samples and
+  // rays are not part of those above.
   double pilot_seconds = 0, pilot_cpu_seconds = 0;
   std::uint64_t pilot_samples = 0, pilot_rays = 0;
   std::string pilot_note;                     // empty: there was none

@@ -38,8 +38,6 @@ RunStrategy::RunStrategy(const CompiledScene& scene, const Plan& plan,
 RunParameters RunStrategy::Parameters() const {
   RunParameters run = MakeRunParameters(scene_, plan_);
   run.seed = SeedOf(options_.seed, 0);
-  run.spp =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(options_.spp, kSamplesPerSeed));
   run.tables = &tables_;
   return run;
 }

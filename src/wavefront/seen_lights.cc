@@ -143,7 +143,6 @@ SeenLightEdges::Space& SeenLightEdges::ThreadSpace() {
   if (!space) {
     RunParameters run = MakeRunParameters(scene_, plan_);
     run.tables = image_run_.tables;
-    run.spp = image_run_.spp;
     space = std::make_unique<Space>(scene_, plan_, run);
   }
   return *space;

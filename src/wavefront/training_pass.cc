@@ -32,7 +32,7 @@ class Pass {
        const TrainingWork& work, const TaskWatcher* watcher)
       : scene_(scene),
         plan_(MakePlan(scene, options)),
-        run_(Parameters(scene, plan_, run, work.spp)),
+        run_(Parameters(scene, plan_, run)),
         work_(work),
         watcher_(watcher),
         copies_(plan_.features.Has(Feature::kSplitting) ? kMostCopies : 1) {
@@ -62,10 +62,9 @@ class Pass {
   }
 
   static RunParameters Parameters(const CompiledScene& scene, const Plan& plan,
-                                  RunParameters run, std::uint32_t spp) {
+                                  RunParameters run) {
     const Strategy strategy = PlannedStrategy(scene, plan.options);
     run.seed ^= 0x5bd1e995u;  // apart from the image's
-    run.spp = spp;
     run.points = MakePointsParameters(strategy.points);
     // Without points of its own every sample is randomised anew: independent.
     if (!OwnPoints(scene, plan.options)) run.points.group_shift = 0;

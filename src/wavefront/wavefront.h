@@ -11,8 +11,7 @@
 
 namespace lanelight {
 
-/// The constants of a render that scene and plan decide; without seed, planned samples
-/// and tables.
+/// The constants of a render that scene and plan decide; without seed and tables.
 RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan);
 
 class Wavefront {

@@ -13,6 +13,7 @@ TEST_CASE("every available SIMD target can be forced", "[simd]") {
   for (const std::string& name : targets) {
     ForceTarget(name);
     CHECK(CurrentTarget() == name);
+    CHECK(AvailableTargets() == targets);
     CHECK(CurrentLanes() == (name == "AVX3" ? 16 : name == "AVX2" ? 8 : 4));
   }
   ForceTarget("");

@@ -51,7 +51,6 @@ class Checker {
     plan_ = MakePlan(scene_, options);
     tables_ = MakeStrategyTables(scene_);
     run_ = MakeRunParameters(scene_, plan_);
-    run_.spp = kSamples;
     run_.tables = &tables_;
     MakePathValues();
     if (plan_.features.Has(Feature::kContributionShadowRoulette)) {

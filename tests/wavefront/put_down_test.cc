@@ -142,7 +142,6 @@ Shape "sphere" "float radius" 3
   const Plan plan = MakePlan(scene, plan_options);
   const StrategyTables tables = MakeStrategyTables(scene);
   RunParameters run = MakeRunParameters(scene, plan);
-  run.spp = 64;
   run.tables = &tables;
   const RunOptions options;
   const auto render = [&](const std::vector<int>& put_down_after) {

@@ -55,7 +55,6 @@ class TaskFixture {
     plan = MakePlan(scene_, options);
     tables_ = MakeStrategyTables(scene_);
     run_ = MakeRunParameters(scene_, plan);
-    run_.spp = kSamples;
     run_.tables = &tables_;
     copies_ = plan.features.Has(Feature::kSplitting) ? kMostCopies : 1;
     if (NeedsTraining(plan)) MakePilotTables();
