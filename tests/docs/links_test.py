@@ -32,7 +32,7 @@ OTHER_FILES = {"GridValidator.h": "of NanoVDB"}
 NO_COMMANDS = {"state": "the first bytes of a state file (docs/state.md)"}
 
 OWN = "tests/docs/links_test.py"
-PAGES = ("README.md", "CONTRIBUTING.md", "*/README.md", "docs/*.md")
+PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "*/README.md", "docs/*.md")
 FOLDERS = ("src", "kernels", "tests", "bench", "scenes", "docs", "cmake", "packaging")
 SUFFIXES = "h|cc|md|py|sh|cmake|sbatch"
 FLAG = re.compile(r"(?<![\w-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)(?![\w-])")
