@@ -61,8 +61,8 @@ def render(lanelight, scene, picture):
 
 
 def make(lanelight, scenes, folder):
-    """Writes folder/pages/gallery.md and its pictures; scenes that need data from elsewhere
-    are left out."""
+    """Writes the page and its pictures into folder/pages; scenes that need data from
+    elsewhere are left out."""
     kept = folder / "gallery"
     kept.mkdir(parents=True, exist_ok=True)
     newest = max(f.stat().st_mtime for f in [lanelight, *scenes.rglob("*")])

@@ -73,11 +73,13 @@ def cpp(text):
 
 def python(text):
     """Comments and strings that stand alone, as those that document."""
-    comments, fresh = [], True
+    comments, fresh, depth = [], True, 0
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT:
             comments.append((token.start[0], token.string))
-        elif token.type == tokenize.STRING and fresh:
+        elif token.type == tokenize.OP:
+            depth += (token.string in "([{") - (token.string in ")]}")
+        elif token.type == tokenize.STRING and fresh and depth == 0:
             comments += [(token.start[0] + i, line)
                          for i, line in enumerate(token.string.split("\n"))]
         fresh = token.type in (tokenize.INDENT, tokenize.DEDENT, tokenize.NEWLINE,
