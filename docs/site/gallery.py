@@ -1,8 +1,8 @@
 """The gallery: a picture of each of our scenes, with what its header says of it.
 
 Pictures are the same bits on one SIMD target, however often they are made: each ends by its
-error, which does not depend on the machine's speed. Those that are newer than the program and
-all scenes are kept.
+error, which does not depend on the machine's speed. Those that are newer than the program, all
+scenes and this file are kept.
 """
 import html
 import itertools
@@ -65,7 +65,8 @@ def make(lanelight, scenes, folder):
     elsewhere are left out."""
     kept = folder / "gallery"
     kept.mkdir(parents=True, exist_ok=True)
-    newest = max(f.stat().st_mtime for f in [lanelight, *scenes.rglob("*")])
+    newest = max(f.stat().st_mtime for f in [
+        lanelight, pathlib.Path(__file__), *scenes.rglob("*")])
     page = ["# Gallery", "",
             f"Our own scenes, each rendered by `./run docs` until its relative MSE is below "
             f"{ERROR}, with {SAMPLES} samples per pixel at most. Captions are from the scenes' "
