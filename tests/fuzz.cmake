@@ -1,7 +1,7 @@
 # One fuzz target per file of tests/fuzz, with libFuzzer and the address and undefined
 # behaviour sanitizers; needs clang and its run-time libraries. Only what reads input is
-# compiled again for it. Seeds are taken from tests/fuzz/corpus/<target>, scenes and
-# tests/broken.
+# compiled again for it. Seeds are those of fuzz/corpus/<target>, where there are any,
+# scenes and tests/broken.
 set(LANELIGHT_FUZZ_SECONDS 10 CACHE STRING "Seconds that ctest fuzzes each target")
 file(GLOB FUZZ_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/*.cc)
 if(NOT FUZZ_SOURCES)

@@ -7,7 +7,8 @@
 set(unable cli/lost_renders_test sweep/directory_test cli/build_cache_turn_test
   wavefront/put_down_test cli/advise_test)
 # Scripts that start the program themselves, or preload a library into it.
-list(APPEND unable cases_run_once cli/completion failures/kill failures/disk failures/foreign)
+list(APPEND unable cases_run_once cli/completion docs/links failures/kill failures/disk
+  failures/foreign)
 # Nothing of them runs on ARM.
 set(unrelated bench/simulate_cluster bench/efficiency build/version)
 # More than 12 s of processor time.

@@ -1,4 +1,4 @@
-// What `lanelight` returns to the shell (README, "Exit codes").
+// What `lanelight` returns to the shell (docs/output.md).
 #pragma once
 
 namespace lanelight {

@@ -1,7 +1,7 @@
 // The table of pbrt-v4's file format: every directive, object and parameter, and what
 // becomes of it here. The parser takes its reasons for refusing an object from it,
-// docs/pbrt-format.md and the short form in README.md are made of it, and a test runs a
-// scene for every line of it (tests/parse/format_test.cc), so it cannot go stale.
+// docs/pbrt-format.md is made of it, and a test runs a scene for every line of it
+// (tests/parse/format_test.cc), so it cannot go stale.
 //
 // When something that was refused is rendered from now on, change one word of its line
 // in format_*.cc; the test names the lines that are not true.
@@ -53,9 +53,7 @@ const FormatTable& PbrtFormat();
 /// Why the table refuses objects of this type; "" if it does not, or gives no reason.
 std::string_view WhyRefused(std::string_view directive, std::string_view type);
 
-/// The whole table, as docs/pbrt-format.md has it; types by directive, as README.md has
-/// them (format_text.cc).
+/// The whole table, as docs/pbrt-format.md has it (format_text.cc).
 std::string FormatDocument();
-std::string FormatSummary();
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-// The table as text: docs/pbrt-format.md, and the short form in README.md.
+// The table as text: docs/pbrt-format.md.
 #include <algorithm>
 #include <map>
 
@@ -69,33 +69,8 @@ std::string Directives() {
   return text;
 }
 
-}  // namespace
-
-std::string FormatDocument() {
-  std::string text =
-      "# The file format of pbrt-v4\n\n"
-      "Written by `lanelight info --format` from the table that the parser has "
-      "(`src/parse/format.h`);\na test renders a scene for every line. *rendered*: as in "
-      "pbrt-v4. *noted*: accepted, and a\nnote says what is done instead. *refused*: an "
-      "error names it; nothing is rendered. Several\ntypes of a parameter are parted by "
-      "|. `plane`, `\"string scattering\"` and `\"string strategy\"`\nare Lanelight's "
-      "own.\n";
-  text += "\n## In short\n\n" + FormatSummary() + Directives();
-  std::string directive;
-  for (const FormatObject& object : PbrtFormat()) {
-    const bool plain =
-        std::string(object.type).empty() && object.directive != std::string("Option");
-    if (plain) continue;
-    if (directive != object.directive) {
-      directive = object.directive;
-      text += fmt::format("\n## {}\n", directive);
-    }
-    text += Section(object);
-  }
-  return text;
-}
-
-std::string FormatSummary() {
+// Types by directive and by what becomes of them.
+std::string Summary() {
   std::vector<std::string> order;
   std::map<std::string, std::string> types[3];
   for (const FormatObject& object : PbrtFormat()) {
@@ -109,6 +84,32 @@ std::string FormatSummary() {
   for (const std::string& directive : order) {
     text += fmt::format("| {} | {} | {} | {} |\n", directive, types[0][directive],
                         types[1][directive], types[2][directive]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string FormatDocument() {
+  std::string text =
+      "# The file format of pbrt-v4\n\n"
+      "Written by `lanelight info --format` from the table that the parser has "
+      "(`src/parse/format.h`);\na test renders a scene for every line. *rendered*: as in "
+      "pbrt-v4. *noted*: accepted, and a\nnote says what is done instead. *refused*: an "
+      "error names it; nothing is rendered. Several\ntypes of a parameter are parted by "
+      "|. `plane`, `\"string scattering\"` and `\"string strategy\"`\nare Lanelight's "
+      "own.\n";
+  text += "\n## In short\n\n" + Summary() + Directives();
+  std::string directive;
+  for (const FormatObject& object : PbrtFormat()) {
+    const bool plain =
+        std::string(object.type).empty() && object.directive != std::string("Option");
+    if (plain) continue;
+    if (directive != object.directive) {
+      directive = object.directive;
+      text += fmt::format("\n## {}\n", directive);
+    }
+    text += Section(object);
   }
   return text;
 }

@@ -1,6 +1,6 @@
 // Everything about a render or a plan that a script may want, as JSON. The schema is
-// documented in README.md ("JSON report"); kReportSchema changes when a member changes
-// its meaning or goes away, not when one is added.
+// documented in docs/output.md ("JSON report"); kReportSchema changes when a member
+// changes its meaning or goes away, not when one is added.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -98,7 +98,7 @@ struct Texture {
   ColorValue corners[4];         // kBilinear: v00, v01, v10, v11
 };
 
-/// Diffuse scattering models of the founding paper (README, "Diffuse models").
+/// Diffuse scattering models of the founding paper (docs/scenes.md).
 /// kLambertian: density cos/pi. kUniform: directions uniform over the hemisphere,
 /// path weight = albedo. kInSphere: normal + point inside the unit sphere, density
 /// proportional to cos^3 (2 cos^3 / pi), path weight = albedo.

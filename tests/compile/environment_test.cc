@@ -109,8 +109,7 @@ TEST_CASE("compile: illuminance of environments as in pbrt", "[scene][compile]")
   Light light = Infinite();
   light.illuminance = 10;
   light.image_scale = 3;
-  // A uniform map of value v has pbrt illuminance pi v / 2 (PbrtIlluminance in
-  // src/compile/environment.cc).
+  // A uniform map of value v has pbrt illuminance pi v / 2 (src/compile/environment.cc).
   const Environment e = CompileEnvironment(light, Grey(64, 0.25f));
   CHECK(e.rgb[0] == Approx(3 * 10 / (std::numbers::pi / 2)).epsilon(2e-3));
   Image below = Grey(64, 0);

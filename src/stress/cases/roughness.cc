@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMetalK = 6;          // extinction of a metal of reflectance 0.9
 constexpr double kQuadrature = 1e-4;   // error of IntegrateGgx
-constexpr double kSmoothAlpha = 1e-3;  // below it surfaces are smooth (README)
+constexpr double kSmoothAlpha = 1e-3;  // below it surfaces are smooth (docs/numbers.md)
 
 std::string Metal(double alpha_x, double alpha_y) {
   return fmt::format(

@@ -20,7 +20,7 @@ std::vector<Point> PathSum(double missing, const Effort& effort) {
   quality.strategy = "directions=bsdf,roulette=none,points=independent";
   Point point = Expect(ClosedRoom(0.1, double(float(albedo)), depth), Room(0.1, albedo),
                        quality, effort);
-  // Each of 1 / (1 - albedo) events rounds the sum once (README).
+  // Each of 1 / (1 - albedo) events rounds the sum once (docs/numbers.md).
   point.tolerance += 0x1p-24 / missing * point.expected;
   point.standard_error = 0;  // all paths are equal; one of each pixel shows no scatter
   return {point};

@@ -10,8 +10,7 @@
 
 namespace lanelight::stress {
 
-/// What means of images may be off by besides noise, of themselves (README, "Numbers that
-/// hold").
+/// What means of images may be off by besides noise, of themselves (docs/numbers.md).
 inline constexpr double kFloatError = 1e-5;
 
 /// 10^first, 10^(first + step), ..., up to 10^last.
