@@ -9,6 +9,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/core/parallel.h"
 #include "src/parse/format.h"
+#include "src/render/machine_json.h"
 #include "src/render/memory.h"
 #include "src/render/report.h"
 
@@ -33,6 +34,7 @@ std::string Text() {
     available += (available.empty() ? "" : ", ") + name;
   }
   std::string text =
+      fmt::format("{:<14} {}\n", "machine", MachineText(ThisMachine())) +
       fmt::format("{:<14} {}\n", "target", CurrentTarget()) +
       fmt::format("{:<14} {}\n", "lanes", CurrentLanes()) +
       fmt::format("{:<14} {}\n", "available", available) +
@@ -47,6 +49,7 @@ std::string Text() {
 std::string JsonText() {
   nlohmann::json out = {{"schema", kReportSchema},
                         {"target", TargetJson()},
+                        {"machine", ToJson(ThisMachine())},
                         {"threads", MaxThreads()},
                         {"memory", PhysicalMemory()}};
   for (const auto& [name, version] : Versions()) out["versions"][name] = version;
@@ -57,7 +60,7 @@ std::string JsonText() {
 
 void AddInfoCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
-      "info", "Print the SIMD target, threads, and versions of the libraries in use");
+      "info", "Print the machine, the SIMD target, threads, and versions of libraries");
   auto options = std::make_shared<InfoOptions>();
   command->add_option("--target", options->target, "Show this SIMD target instead")
       ->check(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))

@@ -9,6 +9,7 @@
 #include "src/cli/summary.h"
 #include "src/core/error.h"
 #include "src/core/parallel.h"
+#include "src/render/machine_json.h"
 #include "src/render/merge.h"
 #include "src/render/render.h"
 #include "src/render/saving.h"
@@ -67,7 +68,8 @@ int Merge(const MergeOptions& options) {
   nlohmann::json members = nlohmann::json::object();
   members["merged"] = {{"states", options.states.size()},
                        {"missing_pixels", merged.missing},
-                       {"seeds", merged.seeds}};
+                       {"seeds", merged.seeds},
+                       {"machines", ToJson(merged.machines)}};
   WriteRendering(*merged.film, merged.identity, merged.head, options.outputs.targets,
                  members, rendering);
   const bool good = PrintProblems(rendering.problems);

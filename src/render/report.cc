@@ -6,6 +6,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/core/parallel.h"
+#include "src/render/machine_json.h"
 #include "src/scene/image_changes.h"
 
 namespace lanelight {
@@ -143,6 +144,7 @@ Json HeadJson(const Job& job, const std::string& scene, bool half) {
           {"plan", ToJson(job.plan)},
           {"settings", SettingsJson(job, half)},
           {"target", TargetJson()},
+          {"machine", ToJson(ThisMachine())},
           {"notes", NotesJson(job)},
           {"differs", CountImageChanges(job.description.notes) > 0},
           {"versions", versions}};
