@@ -6,7 +6,9 @@
 #include "kernels/simd/target.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
+#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/scene_options.h"
 #include "src/core/parallel.h"
 #include "src/parse/format.h"
 #include "src/render/machine_json.h"
@@ -62,12 +64,12 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "info", "Print the machine, the SIMD target, threads, and versions of libraries");
   auto options = std::make_shared<InfoOptions>();
-  command->add_option("--target", options->target, "Show this SIMD target instead")
+  command
+      ->add_option("--target", options->target,
+                   WithDefault("SIMD target to show", "the best there is"))
       ->check(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))
       ->type_name("NAME");
-  command->add_option("--threads", options->threads, "Threads; 0 = all cores")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("T");
+  AddThreadsOption(*command, options->threads);
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--format", options->format,
                     "Print what becomes of every directive and parameter of pbrt-v4's "

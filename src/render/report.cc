@@ -63,7 +63,7 @@ Json SettingsJson(const Job& job, bool half) {
           {"aov", job.plan.options.auxiliary != Auxiliary::kNone},
           {"gbuffer", GbufferName(job.description.film.gbuffer)},
           {"depth", half ? "half" : "float"},
-          {"build", job.scene.accel.quality == BuildQuality::kFast ? "fast" : "high"},
+          {"build", BuildName(job.scene.accel.quality)},
           {"copied_triangles", job.settings.copied_triangles},
           {"threads", MaxThreads()},
           {"copy_per_node", job.settings.copy_per_node}};
