@@ -49,6 +49,12 @@ def candidates(options):
     return found
 
 
+def machine(program):
+    """What the program says of this machine; older ones say nothing."""
+    done = subprocess.run([program, "info", "--json"], stdout=subprocess.PIPE, check=True)
+    return json.loads(done.stdout).get("machine", {"text": "machine unknown"})
+
+
 def render(options, scene, candidate, length, seed, folder, threads=1):
     """Colours, processor seconds, width and height of one render."""
     _, program, strategy = candidate
@@ -176,14 +182,16 @@ def main():
     who = candidates(options)
     lengths = [["--spp", n] for n in options.spp.split(",")] if options.spp else [
         ["--time", t] for t in options.times.split(",")]
-    table, biased = [], False
+    table, biased, here = [], False, machine(who[0][1])
+    print(here["text"])
     for scene in options.scenes:
         rendered = [render_all(options, scene, who, length) for length in lengths]
         mean = reference(options, scene, who, [runs for runs, _ in rendered])
         for length, (runs, size) in zip(lengths, rendered):
             rows = compare(runs, mean, size, who)
             print_rows(scene, length, rows)
-            table.append({"scene": scene, "length": length, "rows": rows})
+            table.append({"scene": scene, "machine": here, "length": length,
+                          "rows": rows})
             biased |= any(row.get("means", 1) < FALSE_ALARM for row in rows)
     if options.json:
         pathlib.Path(options.json).write_text(json.dumps(table, indent=1))

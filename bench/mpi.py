@@ -65,6 +65,8 @@ def main():
     options.scene, options.build = map(os.path.abspath, (options.scene, options.build))
     out = options.json and os.path.abspath(options.json)
     runs = {kind: [] for kind in KINDS}
+    machine = json.loads(subprocess.check_output(
+        [os.path.join(options.build, "lanelight"), "info", "--json"]))["machine"]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         image = None
@@ -77,6 +79,7 @@ def main():
         os.chdir("/")
     medians = {kind: {name: statistics.median(run[name] for run in of) for name in of[0]}
                for kind, of in runs.items()}
+    print(machine["text"])
     print(f"{'':10} {'seconds':>8} {'render cpu':>10} {'all cpu':>8} {'bytes/sample':>12}")
     for kind, m in medians.items():
         print(f"{kind:10} {m['seconds']:8.2f} {m['render_cpu']:10.2f} {m['cpu']:8.2f} "
@@ -88,7 +91,8 @@ def main():
         eight = m["ranks 8"][name] / m["threads 2"][name] - 1
         print(f"by {name}: speed-up of 2 ranks {two:.2f}, overhead of 8 ranks {eight:+.1%}")
     if out:
-        json.dump({"runs": runs, "medians": medians}, open(out, "w"), indent=1)
+        json.dump({"machine": machine, "runs": runs, "medians": medians}, open(out, "w"),
+                  indent=1)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@
 #include "bench/cpu_clock.h"
 #include "kernels/probe/points_probe.h"
 #include "kernels/simd/target.h"
+#include "src/core/machine_info.h"
 #include "src/strategy/strategy.h"
 
 namespace lanelight::bench {
@@ -93,6 +94,7 @@ int Main(int argc, char** argv) {
       batch.seconds.push_back(timer.Seconds());
     }
   }
+  fmt::print("{}\n", MachineText(ThisMachine()));
   fmt::print("target {}, {} lanes, {} repetitions\n", CurrentTarget(), CurrentLanes(),
              o.repeat);
   fmt::print("{:12} {:>11} {:>9} {:>9}\n", "points", "ns/number", "lowest", "highest");

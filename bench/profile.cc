@@ -9,6 +9,7 @@
 
 #include "src/core/clock.h"
 #include "src/core/error.h"
+#include "src/core/machine_info.h"
 #include "src/core/parallel.h"
 #include "src/render/job.h"
 
@@ -81,6 +82,7 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", options.repeats)->check(CLI::Range(1, 10000));
   CLI11_PARSE(app, argc, argv);
   const lanelight::ThreadLimit threads(1);
+  std::printf("%s\n", lanelight::MachineText(lanelight::ThisMachine()).c_str());
   try {
     for (const std::string& scene : options.scenes) lanelight::Measure(scene, options);
   } catch (const lanelight::InputError& error) {

@@ -18,6 +18,7 @@
 #include "src/core/error.h"
 #include "src/core/parallel.h"
 #include "src/render/job.h"
+#include "src/render/machine_json.h"
 #include "src/render/report.h"
 
 namespace lanelight {
@@ -176,6 +177,8 @@ int Main(int argc, char** argv) {
   try {
     ForceTarget(options.target);
     out["target"] = TargetJson();
+    out["machine"] = ToJson(ThisMachine());
+    std::printf("%s\n", MachineText(ThisMachine()).c_str());
     for (const std::string& scene : options.scenes)
       good &= BenchScene(scene, options, out);
   } catch (const InputError& error) {

@@ -11,6 +11,7 @@
 #include "bench/resident.h"
 #include "bench/series.h"
 #include "src/core/clock.h"
+#include "src/core/machine_info.h"
 #include "src/core/parallel.h"
 #include "src/render/job.h"
 
@@ -59,6 +60,7 @@ void Measure(const Flags& flags) {
       RunOnce(flags.scene, flags.spp[k], flags.crop, all[k]);
     }
   }
+  std::printf("%s\n", MachineText(ThisMachine()).c_str());
   std::printf("%s, %dx%d pixels, %d threads\n", flags.scene.c_str(), flags.crop,
               flags.crop, MaxThreads());
   std::printf("  %14s %22s %10s %10s\n", "spp", "ns per sample", "of first", "peak MB");

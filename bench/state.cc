@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "src/core/error.h"
+#include "src/core/machine_info.h"
 #include "src/core/parallel.h"
 #include "src/state/state_file.h"
 
@@ -158,6 +159,7 @@ int Main(int argc, char** argv) {
   app.add_option("--folder", o.folder, "where the file is written");
   CLI11_PARSE(app, argc, argv);
   const ThreadLimit limit(o.threads);
+  fmt::print("{}\n", MachineText(ThisMachine()));
   Measure(o);
   return 0;
 }

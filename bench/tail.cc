@@ -18,6 +18,7 @@
 #include "src/core/error.h"
 #include "src/core/parallel.h"
 #include "src/render/job.h"
+#include "src/render/machine_json.h"
 #include "src/wavefront/tiles.h"
 
 namespace lanelight::bench {
@@ -154,6 +155,7 @@ nlohmann::json Measure(const std::string& scene, const Flags& flags) {
               static_cast<unsigned long long>(flags.spp), job.load_seconds,
               job.build_seconds);
   nlohmann::json out = {{"scene", scene},
+                        {"machine", ToJson(ThisMachine())},
                         {"resolution", flags.resolution},
                         {"spp", flags.spp},
                         {"tile", flags.tile},
@@ -185,6 +187,8 @@ int main(int argc, char** argv) {
   app.add_option("--json", flags.json, "Write the figures here too");
   CLI11_PARSE(app, argc, argv);
   try {
+    using namespace lanelight;
+    std::printf("%s\n", MachineText(ThisMachine()).c_str());
     nlohmann::json out = nlohmann::json::array();
     for (const std::string& scene : flags.scenes) out.push_back(Measure(scene, flags));
     if (!flags.json.empty()) std::ofstream(flags.json) << out.dump() << '\n';

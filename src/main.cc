@@ -40,27 +40,11 @@ constexpr const char* kFooter =
     "6 interrupted, to go on from what is kept, 7 stress: a case failed, 8 render: the\n"
     "image is not what the scene asks for.";
 
-std::vector<std::string> SubcommandNames(const CLI::App& root) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : root.get_subcommands(nullptr)) {
-    names.push_back(command->get_name());
-  }
-  return names;
-}
-
 // CLI11 treats an unknown first word as an unexpected argument; naming the commands
 // helps.
 bool ReportUnknownCommand(const CLI::App& root, int argc, const char* const* argv) {
   if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return false;
-  const auto names = SubcommandNames(root);
-  const std::string word = argv[1];
-  if (std::find(names.begin(), names.end(), word) != names.end()) return false;
-  const std::string nearest = NearestName(word, names);
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  PrintError("error: unknown command '" + word + "'; commands are " + list +
-             (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
-  return true;
+  return !CheckCommand(root, argv[1]);
 }
 
 // "did you mean --resolution?" for the first flag that no command knows.
@@ -115,6 +99,7 @@ void AddCommands(CLI::App& root, Crew& crew, Command& chosen) {
   AddSweepCommand(root, chosen);
   AddStressCommand(root, chosen);
   AddCompletionCommand(root, chosen);
+  AddHelpCommand(root);
 }
 
 // What the command line comes to without a command: an exit code; kGoOn if there is one

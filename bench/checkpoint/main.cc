@@ -11,6 +11,7 @@
 #include "kernels/simd/target.h"
 #include "src/core/error.h"
 #include "src/core/parallel.h"
+#include "src/render/machine_json.h"
 #include "src/render/report.h"
 
 namespace lanelight::bench {
@@ -57,6 +58,7 @@ void Parse(int argc, char** argv, CLI::App& app, Flags& flags) {
 
 int Main(const Flags& flags) {
   const ThreadLimit limit(flags.threads);
+  std::printf("%s\n", MachineText(ThisMachine()).c_str());
   std::printf("%s, %dx%d, %d threads, %s\n", flags.bench.scene.c_str(),
               flags.bench.resolution[0], flags.bench.resolution[1], MaxThreads(),
               CurrentTarget().c_str());
@@ -66,7 +68,8 @@ int Main(const Flags& flags) {
                         {"scene", flags.bench.scene},
                         {"resolution", flags.bench.resolution},
                         {"threads", MaxThreads()},
-                        {"target", TargetJson()}};
+                        {"target", TargetJson()},
+                        {"machine", ToJson(ThisMachine())}};
   for (const Case& c : kCases) {
     const bool wanted =
         flags.only.empty() ||

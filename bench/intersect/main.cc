@@ -11,6 +11,7 @@
 #include "bench/intersect/scene_rays.h"
 #include "kernels/simd/target.h"
 #include "src/core/parallel.h"
+#include "src/render/machine_json.h"
 
 namespace lanelight::bench {
 namespace {
@@ -80,7 +81,8 @@ int MainBuild(const Options& o) {
       "threads: least\n",
       CurrentTarget(), o.compare.repeat);
   PrintBuildHeader();
-  nlohmann::json out = {{"schema", 1}, {"target", CurrentTarget()}};
+  nlohmann::json out = {
+      {"schema", 1}, {"target", CurrentTarget()}, {"machine", ToJson(ThisMachine())}};
   for (const std::string& name : o.meshes) BenchBuild(o, name, out);
   if (!o.json.empty()) std::ofstream(o.json) << out.dump(2) << '\n';
   return 0;
@@ -119,6 +121,7 @@ int Main(int argc, char** argv) {
   }
   CheckMeshes(o);
   ForceTarget(o.target);
+  fmt::print("{}\n", MachineText(ThisMachine()));
   return o.build ? MainBuild(o) : MainRays(o);
 }
 

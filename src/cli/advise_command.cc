@@ -13,6 +13,7 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/validators.h"
 #include "src/core/parallel.h"
+#include "src/render/machine_json.h"
 #include "src/render/report.h"
 #include "src/advise/advise.h"
 #include "src/advise/candidates.h"
@@ -62,6 +63,7 @@ int PrintAdvice(const AdviseCommandOptions& options, const Advice& advice) {
   }
   const nlohmann::json report = {{"schema", kReportSchema},
                                  {"scene", options.scene.scene},
+                                 {"machine", ToJson(ThisMachine())},
                                  {"advice", ToJson(advice)}};
   const std::string& json = options.outputs.targets.json;
   if (json.empty()) return kExitGood;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "src/cli/defaults.h"
 #include "src/cli/validators.h"
 #include "src/core/error.h"
 
@@ -18,7 +19,8 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
       .add_option("--checkpoint", s.path,
                   "Keep the state of the render in this file, to go on from")
       ->type_name("FILE");
-  command.add_option("--every", s.seconds, "Seconds between states; default 60")
+  command
+      .add_option("--every", s.seconds, WithDefault("Seconds between states", s.seconds))
       ->check(FiniteRange(0.01, 1e6))
       ->type_name("SECONDS");
   flags.resume_flag =

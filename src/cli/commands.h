@@ -26,5 +26,10 @@ void AddStudyCommand(CLI::App& root, Command& chosen);
 void AddSweepCommand(CLI::App& root, Command& chosen);
 void AddStressCommand(CLI::App& root, Command& chosen);
 void AddCompletionCommand(CLI::App& root, Command& chosen);
+/// The last one: it knows those that are there before it. It is done when it is parsed.
+void AddHelpCommand(CLI::App& root);
+
+/// Whether it is the name of a command; if not, an error is printed that names them all.
+bool CheckCommand(const CLI::App& root, const std::string& word);
 
 }  // namespace lanelight

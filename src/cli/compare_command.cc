@@ -8,6 +8,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/validators.h"
 #include "src/core/error.h"
+#include "src/render/machine_json.h"
 #include "src/render/report.h"
 #include "src/estimate/metrics.h"
 
@@ -78,6 +79,7 @@ int Compare(const CompareCommandOptions& options) {
   if (options.json) {
     nlohmann::json out = ToJson(result);
     out["schema"] = kReportSchema;
+    out["machine"] = ToJson(ThisMachine());
     out["over_limit"] = over;
     Print(out.dump(2) + "\n");
   } else {

@@ -9,9 +9,11 @@
 #include "src/advise/guide_picture.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
+#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/scene_options.h"
+#include "src/cli/validators.h"
 #include "src/core/parallel.h"
 #include "src/image/png.h"
 #include "src/render/saving.h"
@@ -68,9 +70,10 @@ void AddGuideCommand(CLI::App& root, Command& chosen) {
       ->type_name("X,Y");
   command
       ->add_option("--samples", options->samples,
-                   "Samples of the render that the guide is trained for")
-      ->check(CLI::Range(1e5, 1e12))
-      ->capture_default_str();
+                   WithDefault("Samples of the render that the guide is trained for",
+                               options->samples))
+      ->check(FiniteRange(1e5, 1e12))
+      ->type_name("N");
   command->add_option("-o,--output", options->output, "The picture")
       ->required()
       ->type_name("FILE.png");

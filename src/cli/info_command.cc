@@ -6,9 +6,12 @@
 #include "kernels/simd/target.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
+#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/scene_options.h"
 #include "src/core/parallel.h"
 #include "src/parse/format.h"
+#include "src/render/machine_json.h"
 #include "src/render/memory.h"
 #include "src/render/report.h"
 
@@ -33,6 +36,7 @@ std::string Text() {
     available += (available.empty() ? "" : ", ") + name;
   }
   std::string text =
+      fmt::format("{:<14} {}\n", "machine", MachineText(ThisMachine())) +
       fmt::format("{:<14} {}\n", "target", CurrentTarget()) +
       fmt::format("{:<14} {}\n", "lanes", CurrentLanes()) +
       fmt::format("{:<14} {}\n", "available", available) +
@@ -47,6 +51,7 @@ std::string Text() {
 std::string JsonText() {
   nlohmann::json out = {{"schema", kReportSchema},
                         {"target", TargetJson()},
+                        {"machine", ToJson(ThisMachine())},
                         {"threads", MaxThreads()},
                         {"memory", PhysicalMemory()}};
   for (const auto& [name, version] : Versions()) out["versions"][name] = version;
@@ -57,14 +62,14 @@ std::string JsonText() {
 
 void AddInfoCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
-      "info", "Print the SIMD target, threads, and versions of the libraries in use");
+      "info", "Print the machine, the SIMD target, threads, and versions of libraries");
   auto options = std::make_shared<InfoOptions>();
-  command->add_option("--target", options->target, "Show this SIMD target instead")
+  command
+      ->add_option("--target", options->target,
+                   WithDefault("SIMD target to show", "the best there is"))
       ->check(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))
       ->type_name("NAME");
-  command->add_option("--threads", options->threads, "Threads; 0 = all cores")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("T");
+  AddThreadsOption(*command, options->threads);
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--format", options->format,
                     "Print what becomes of every directive and parameter of pbrt-v4's "

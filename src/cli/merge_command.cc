@@ -6,9 +6,11 @@
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/render_outputs.h"
+#include "src/cli/scene_options.h"
 #include "src/cli/summary.h"
 #include "src/core/error.h"
 #include "src/core/parallel.h"
+#include "src/render/machine_json.h"
 #include "src/render/merge.h"
 #include "src/render/render.h"
 #include "src/render/saving.h"
@@ -67,7 +69,8 @@ int Merge(const MergeOptions& options) {
   nlohmann::json members = nlohmann::json::object();
   members["merged"] = {{"states", options.states.size()},
                        {"missing_pixels", merged.missing},
-                       {"seeds", merged.seeds}};
+                       {"seeds", merged.seeds},
+                       {"machines", ToJson(merged.machines)}};
   WriteRendering(*merged.film, merged.identity, merged.head, options.outputs.targets,
                  members, rendering);
   const bool good = PrintProblems(rendering.problems);
@@ -94,9 +97,7 @@ void AddMergeCommand(CLI::App& root, Command& chosen) {
       ->type_name("FILE");
   command->add_flag("--partial", options->partial,
                     "Pixels may be missing or have fewer samples");
-  command->add_option("--threads", options->threads, "Threads; 0 = all cores")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("T");
+  AddThreadsOption(*command, options->threads);
   command->footer(
       "\nExamples:\n"
       "  lanelight merge part-*.state -o out.exr --json out.json\n"

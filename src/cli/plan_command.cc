@@ -11,6 +11,7 @@
 #include "src/core/parallel.h"
 #include "src/prepare/groups.h"
 #include "src/render/job.h"
+#include "src/render/machine_json.h"
 #include "src/render/report.h"
 #include "src/scene/image_changes.h"
 
@@ -97,6 +98,7 @@ std::string JsonText(const Job& job, const std::string& scene) {
   nlohmann::json out = {{"schema", kReportSchema},
                         {"scene", scene},
                         {"target", TargetJson()},
+                        {"machine", ToJson(ThisMachine())},
                         {"plan", ToJson(job.plan)},
                         {"differs", CountImageChanges(job.description.notes) > 0}};
   return out.dump(2) + "\n";

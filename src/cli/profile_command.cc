@@ -5,6 +5,7 @@
 #include "kernels/simd/target.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
+#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/profile_table.h"
@@ -84,7 +85,8 @@ int Profile(const ProfileCommandOptions& options) {
 void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
   RenderSettings& settings = options.scene.settings;
   settings.spp = 16;
-  command.add_option("--spp", settings.spp, "Samples per pixel")
+  command
+      .add_option("--spp", settings.spp, WithDefault("Samples per pixel", *settings.spp))
       ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
       ->type_name("N");
   AddSeedOption(command, settings);
@@ -98,8 +100,9 @@ void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
       })
       ->type_name("FILE");
   command
-      .add_option("--trace-events", options.trace_events,
-                  "Stage calls a thread writes down at most")
+      .add_option(
+          "--trace-events", options.trace_events,
+          WithDefault("Stage calls a thread writes down at most", options.trace_events))
       ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 26).description(""))
       ->type_name("N");
   command.add_flag("--quiet", options.quiet, "No progress and no notes");
@@ -114,7 +117,7 @@ void AddProfileCommand(CLI::App& root, Command& chosen) {
   AddProfileOptions(*command, *options);
   AddSceneOptions(*command, options->scene);
   command->footer(
-      "\nThe image is not kept. --spp is 16 by default. Ctrl-C prints what was measured "
+      "\nThe image is not kept. Ctrl-C prints what was measured "
       "so far;\n"
       "a second one aborts. docs/profile.md says what the columns mean.\n"
       "\nExamples:\n"

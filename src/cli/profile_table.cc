@@ -7,6 +7,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/cli/progress.h"
+#include "src/core/machine_info.h"
 #include "src/core/parallel.h"
 
 namespace lanelight {
@@ -65,6 +66,7 @@ std::string HeaderText(const ProfileReport& report, const Job& job,
                       double(result.samples) / pixels, DurationText(result.seconds),
                       result.stopped_early ? " (stopped early)" : "", MaxThreads(),
                       CurrentLanes(), CurrentTarget())) +
+      Row("machine", MachineText(ThisMachine())) +
       Row("strategy", WithSpaces(ToText(job.scene.strategy))) +
       Row("peaks", PeaksText(report.peaks)) +
       Row("columns",

@@ -4,6 +4,7 @@
 #include "kernels/simd/target.h"
 #include "src/cli/checkpoint_options.h"
 #include "src/cli/commands.h"
+#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/render_outputs.h"
@@ -74,7 +75,9 @@ void AddTargetOption(CLI::App& command, const char* name, const char* meaning,
 }
 
 void AddAmountOptions(CLI::App& command, RenderSettings& settings) {
-  command.add_option("--spp", settings.spp, "Samples per pixel")
+  command
+      .add_option("--spp", settings.spp,
+                  WithSceneDefault("Samples per pixel", Sampler{}.spp))
       ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
       ->type_name("N");
   command.add_option("--time", settings.seconds, "Render for this many seconds instead")
@@ -84,7 +87,7 @@ void AddAmountOptions(CLI::App& command, RenderSettings& settings) {
                   "Stop once the relative MSE is below X, at 95 % confidence; --spp and "
                   "--time then are the most it may take",
                   settings.target_relmse);
-  AddTargetOption(command, "--target-rmse", "The same for the RMSE",
+  AddTargetOption(command, "--target-rmse", "Stop once the RMSE is below X, likewise",
                   settings.target_rmse);
   AddSeedOption(command, settings);
 }

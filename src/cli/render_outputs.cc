@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "src/cli/console.h"
+#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/summary.h"
 #include "src/cli/validators.h"
@@ -61,7 +62,9 @@ int CheckImageChanges(const Job& job, const RenderOutputs& options) {
 }  // namespace
 
 void AddOutputOptions(CLI::App& command, RenderOutputs& options, bool required) {
-  command.add_option("-o,--output", options.targets.exr, "Image to write (.exr)")
+  command
+      .add_option("-o,--output", options.targets.exr,
+                  "Write the image to this file (.exr)")
       ->required(required)
       ->check([](const std::string& path) {
         return fs::path(path).extension() == ".exr"
@@ -69,7 +72,9 @@ void AddOutputOptions(CLI::App& command, RenderOutputs& options, bool required) 
                    : "'" + path + "' does not end in .exr (for a PNG add --png FILE)";
       })
       ->type_name("FILE");
-  command.add_option("--depth", options.depth, "Type of colours in the EXR")
+  command
+      .add_option("--depth", options.depth,
+                  WithDefault("Type of colours in the EXR", options.depth))
       ->check(CLI::IsMember({"half", "float"}).description(""))
       ->type_name("half|float");
   options.png_flag = command
@@ -78,7 +83,8 @@ void AddOutputOptions(CLI::App& command, RenderOutputs& options, bool required) 
                          ->expected(0, 1)
                          ->type_name("[FILE]");
   command
-      .add_option("--exposure", options.targets.exposure, "Exposure of the PNG in stops")
+      .add_option("--exposure", options.targets.exposure,
+                  WithDefault("Exposure of the PNG in stops", options.targets.exposure))
       ->check(FiniteRange(-100, 100))
       ->type_name("EV");
   command

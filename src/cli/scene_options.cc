@@ -9,8 +9,10 @@
 
 #include "kernels/simd/target.h"
 #include "src/cli/console.h"
+#include "src/cli/defaults.h"
 #include "src/cli/validators.h"
 #include "src/image/image.h"
+#include "src/strategy/named_strategy.h"
 
 namespace lanelight {
 namespace {
@@ -59,12 +61,13 @@ void AddWindowOptions(CLI::App& command, RenderSettings& s) {
   command
       .add_option_function<std::string>(
           "--resolution", [&s](const std::string& text) { SetResolution(s, text); },
-          "Size of the image in pixels")
+          WithSceneDefault("Size of the image in pixels",
+                           fmt::format("{}x{}", Film{}.width, Film{}.height)))
       ->type_name("WxH");
   command
       .add_option_function<std::string>(
           "--crop", [&s](const std::string& text) { SetCrop(s, text); },
-          "Render these pixels only; x1 and y1 are exclusive")
+          WithSceneDefault("Render these pixels only; x1 and y1 are exclusive", "all"))
       ->type_name("x0,y0,x1,y1");
 }
 
@@ -111,28 +114,43 @@ void AddStrategyOptions(CLI::App& command, RenderSettings& s) {
   command
       .add_option_function<std::string>(
           "--strategy", [&s](const std::string& text) { SetStrategyChanges(s, text); },
-          "How to sample: key=value,... (see `lanelight strategies`)")
+          WithSceneDefault("How to sample: key=value,... (see `lanelight strategies`)",
+                           fmt::format("'{}'", kDefaultStrategyName)))
       ->type_name("TEXT");
-  AddNameOption<Points>(command, "--sampler", s.points, samplers, "Sample points");
+  AddNameOption<Points>(command, "--sampler", s.points, samplers,
+                        WithDefault("Sample points", "those of the strategy"));
 }
 
 }  // namespace
 
 void AddSeedOption(CLI::App& command, RenderSettings& s) {
-  command.add_option("--seed", s.seed, "Seed of the random numbers")
+  command
+      .add_option("--seed", s.seed,
+                  WithSceneDefault("Seed of the random numbers", Sampler{}.seed))
       ->check(SeedRange())
       ->type_name("S");
 }
 
+void AddThreadsOption(CLI::App& command, int& threads) {
+  command
+      .add_option("--threads", threads, WithDefault("Threads; 0 = all cores", threads))
+      ->check(CLI::Range(0, 1024).description(""))
+      ->type_name("T");
+}
+
 void AddTransportOptions(CLI::App& command, RenderSettings& s) {
-  command.add_option("--max-depth", s.max_depth, "Most scattering events of a path")
+  command
+      .add_option(
+          "--max-depth", s.max_depth,
+          WithSceneDefault("Most scattering events of a path", Integrator{}.max_depth))
       ->check(CLI::Range(0, kMaxDepth).description(""))
       ->type_name("D");
   AddNameOption<Scattering>(command, "--scattering", s.scattering,
                             {{"lambertian", Scattering::kLambertian},
                              {"uniform", Scattering::kUniform},
                              {"insphere", Scattering::kInSphere}},
-                            "Model of all diffuse materials");
+                            WithSceneDefault("Model of all diffuse materials",
+                                             ScatteringName(Material{}.scattering)));
 }
 
 void AddBuildCacheOptions(CLI::App& command, TreeFolder& folder) {
@@ -149,8 +167,9 @@ void AddBuildCacheOptions(CLI::App& command, TreeFolder& folder) {
           ->type_name("DIR");
   command
       .add_option("--build-cache-size", folder.most_bytes,
-                  "Most that these files take together, without: 10GB; those that were "
-                  "used least recently go. 0: any number")
+                  WithDefault("Most that these files take together, 0: any number; those "
+                              "that were used least recently go",
+                              fmt::format("{}GB", folder.most_bytes / 1'000'000'000)))
       ->transform(ByteSize())
       ->type_name("SIZE")
       ->needs(directory);
@@ -159,26 +178,30 @@ void AddBuildCacheOptions(CLI::App& command, TreeFolder& folder) {
 void AddExecutionOptions(CLI::App& command, SceneOptions& options) {
   command
       .add_option("--wavefront", options.settings.wavefront,
-                  "Paths in flight per thread; 0 = fit the cache")
+                  WithDefault("Paths in flight per thread; 0 = fit the cache",
+                              options.settings.wavefront))
       ->check(CLI::Range(0u, kMaxWavefront).description(""))
       ->type_name("N");
   AddNameOption<BuildQuality>(
       command, "--build", options.settings.build,
       {{"fast", BuildQuality::kFast}, {"high", BuildQuality::kHigh}},
-      "How to build the trees over shapes, in less time or for faster rays");
+      WithDefault("How to build the trees over shapes, in less time or for faster rays",
+                  BuildName(CompileOptions{}.build)));
   AddBuildCacheOptions(command, options.settings.trees.folder);
   command
-      .add_option("--copied-triangles", options.settings.copied_triangles,
-                  "Copy small instances into the world, as long as that makes at most so "
-                  "many triangles more, without: 131072. 0: none")
+      .add_option(
+          "--copied-triangles", options.settings.copied_triangles,
+          WithDefault("Copy small instances into the world, as long as that makes "
+                      "at most so many triangles more; 0: none",
+                      options.settings.copied_triangles))
       ->check(CLI::Range(std::uint64_t{0}, kMostCopiedTriangles).description(""))
       ->type_name("N");
   command.add_flag("--copy-per-node", options.settings.copy_per_node,
                    "Give each memory node (NUMA) a copy of the scene");
-  command.add_option("--threads", options.threads, "Threads; 0 = all cores")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("T");
-  command.add_option("--target", options.target, "SIMD target (see `lanelight info`)")
+  AddThreadsOption(command, options.threads);
+  command
+      .add_option("--target", options.target,
+                  WithDefault("SIMD target (see `lanelight info`)", "the best there is"))
       ->check(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))
       ->type_name("NAME");
   command.add_flag(
@@ -216,7 +239,7 @@ std::string FlagsText(const SceneOptions& options) {
   if (s.scattering)
     text += fmt::format(" --scattering {}", ScatteringName(*s.scattering));
   if (s.build) {
-    text += s.build == BuildQuality::kFast ? " --build fast" : " --build high";
+    text += fmt::format(" --build {}", BuildName(*s.build));
   }
   if (const TreeFolder& folder = s.trees.folder; !folder.path.empty()) {
     text += " --build-cache " + ShellWord(folder.path);

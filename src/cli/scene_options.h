@@ -18,6 +18,7 @@ struct SceneOptions {
 /// Declare flags on `command`; what they are stored in must outlive parsing.
 void AddWindowOptions(CLI::App& command, RenderSettings& settings);
 void AddSeedOption(CLI::App& command, RenderSettings& settings);
+void AddThreadsOption(CLI::App& command, int& threads);
 void AddTransportOptions(CLI::App& command, RenderSettings& settings);
 /// What is waited for is printed, unless folder.on_wait is set otherwise.
 void AddBuildCacheOptions(CLI::App& command, TreeFolder& folder);

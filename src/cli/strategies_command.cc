@@ -43,7 +43,7 @@ std::string PresetsText() {
                             ToText(Strategy{}));
 }
 
-std::string JsonText() {
+std::string ChoicesJson() {
   nlohmann::json choices = nlohmann::json::array(), presets = nlohmann::json::array();
   for (const ChoiceInfo& c : AllChoices()) {
     choices.push_back({{"axis", c.axis},
@@ -79,7 +79,7 @@ void AddStrategiesCommand(CLI::App& root, Command& chosen) {
       "  lanelight render scene.pbrt -o out.exr --strategy paper-roulette,points=sobol");
   command->callback([json, &chosen] {
     chosen = [json] {
-      Print(*json ? JsonText() : ChoicesText() + PresetsText());
+      Print(*json ? ChoicesJson() : ChoicesText() + PresetsText());
       return kExitGood;
     };
   });

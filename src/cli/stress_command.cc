@@ -1,6 +1,5 @@
 // `lanelight stress [CASE...]`: takes the renderer to its limits and says where they are.
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -8,13 +7,16 @@
 #include "src/cli/checkpoint_options.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
+#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/progress.h"
 #include "src/cli/render_outputs.h"
+#include "src/cli/scene_options.h"
 #include "src/cli/stress_exit.h"
 #include "src/cli/stress_progress.h"
 #include "src/cli/stress_table.h"
+#include "src/cli/validators.h"
 #include "src/core/parallel.h"
 #include "src/render/saving.h"
 #include "src/stress/cases/cases.h"
@@ -91,18 +93,10 @@ int RunStressCommand(StressCommandOptions& options) {
   return ExitCodeOf(result);
 }
 
-// (CLI11 takes -1 for 2^64 - 1.)
-std::string CheckSeed(const std::string& text) {
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error == std::errc() && end == text.data() + text.size()) return "";
-  return "'" + text + "' is not a whole number from 0 to 2^64 - 1";
-}
-
 void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
   command
       .add_option("CASE", options.words,
-                  "Cases, groups, or patterns of them ('ggx-*'); all by default")
+                  WithDefault("Cases, groups, or patterns of them ('ggx-*')", "all"))
       ->type_name("TEXT");
   command.add_flag("--list", options.list,
                    "Print the cases: what is extreme, and what must be true there");
@@ -114,22 +108,24 @@ void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
       ->type_name("FILE");
   command
       .add_option("--part", options.part,
-                  "Every N-th of these cases only, from the I-th on")
+                  "Run every N-th of these cases only, from the I-th on")
       ->type_name("I/N");
   std::vector<std::string> targets = AvailableTargets();
   targets.push_back("all");
   command
       .add_option("--target", options.targets,
-                  "SIMD targets (see `lanelight info`), or all that this machine has")
+                  WithDefault("SIMD targets (see `lanelight info`), or all that this "
+                              "machine has",
+                              "the best there is"))
       ->check(CLI::IsMember(targets, CLI::ignore_case).description(""))
       ->delimiter(',')
       ->type_name("NAME");
-  command.add_option("--seed", options.suite.effort.seed, "Seed of the random numbers")
-      ->check(CheckSeed)
+  command
+      .add_option("--seed", options.suite.effort.seed,
+                  WithDefault("Seed of the random numbers", options.suite.effort.seed))
+      ->check(SeedRange())
       ->type_name("S");
-  command.add_option("--threads", options.threads, "Threads; 0 = all cores")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("T");
+  AddThreadsOption(command, options.threads);
   command.add_flag("--quiet", options.quiet, "No progress");
 }
 

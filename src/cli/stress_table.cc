@@ -136,9 +136,10 @@ std::string Summary(const SuiteResult& result) {
           : fmt::format("; {} points say nothing (the report says why)", not_measured);
   return fmt::format(
       "\n{}\n{} promised points in {} ({} of processor time){}; a correct renderer fails "
-      "one run in {:.0f}\n",
+      "one run in {:.0f}\n{}\n",
       Sentence(result), result.promised, DurationText(result.seconds),
-      DurationText(result.cpu_seconds), left_out, 1 / result.options.false_alarm);
+      DurationText(result.cpu_seconds), left_out, 1 / result.options.false_alarm,
+      MachineText(result.machine));
 }
 
 }  // namespace

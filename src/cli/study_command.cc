@@ -5,6 +5,7 @@
 #include "kernels/simd/target.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
+#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/scene_options.h"
@@ -80,8 +81,8 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
       command
           .add_option("--strategies", options.strategies,
                       "'A;B;...': presets, key=value,... (changes of the default), "
-                      "'default', or 'scene' (its own); the first is the baseline. "
-                      "Without: the paper's presets, 'default' and 'scene'")
+                      "'default', or 'scene' (its own); the first is the baseline; "
+                      "default: the paper's presets, 'default' and 'scene'")
           ->type_name("LIST");
   command
       .add_flag("--all", s.all_strategies, "Every choice of every key, and the presets")
@@ -89,35 +90,37 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
   CLI::Option* spp =
       command
           .add_option("--spp", s.spp,
-                      "Samples per pixel, e.g. 1,4,16,64; without: powers of two up to "
+                      "Samples per pixel, e.g. 1,4,16,64; default: powers of two up to "
                       "what the baseline renders in a second")
           ->delimiter(',')
           ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
           ->type_name("N,...");
   command
       .add_option("--budget", s.budget,
-                  "Equal time: each strategy renders up to so many samples as it can in "
-                  "this time")
+                  "Render for equal times instead: each strategy takes up to so many "
+                  "samples as it can in this time")
       ->check(FiniteRange(1e-3, 1e6))
       ->type_name("SECONDS")
       ->excludes(spp);
   command
       .add_option("--repetitions", s.repetitions,
-                  "Independent renders of each; without: enough for the confidence")
+                  "Independent renders of each; default: enough for the confidence")
       ->check(CLI::Range(1, 10000).description(""))
       ->type_name("R");
-  command.add_option("--confidence", s.confidence, "Of all intervals; without: 0.95")
+  command
+      .add_option("--confidence", s.confidence,
+                  WithDefault("Of all intervals", s.confidence))
       ->check(FiniteRange(0.5, 0.9999))
       ->type_name("C");
   command
       .add_option("--reference", s.references,
-                  "Converged image; several independent ones measure their own noise. "
-                  "Without: rendered")
+                  "Converged image; several independent ones measure their own noise; "
+                  "default: rendered")
       ->allow_extra_args(false)
       ->type_name("FILE");
   command
       .add_option("--target-relmse", s.target_relmse,
-                  "Measure the time to this relative MSE; without: what the baseline "
+                  "Measure the time to this relative MSE; default: what the baseline "
                   "reaches")
       ->check(FiniteRange(1e-30, 1e30))
       ->type_name("X");

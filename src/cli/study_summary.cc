@@ -97,11 +97,15 @@ std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
   std::string text = fmt::format("\n{}: ", runs.name);
   if (!runs.error.empty()) return text + runs.error + "\n";
   text +=
-      fmt::format("{}x{} pixels, {} repetitions, {:g} % intervals, reference {}\n\n",
+      fmt::format("{}x{} pixels, {} repetitions, {:g} % intervals, reference {}\n",
                   runs.window.width(), runs.window.height(), options.Repetitions(),
                   100 * options.confidence,
                   runs.reference.rendered() ? fmt::format("of {} spp", runs.reference.spp)
                                             : runs.reference.files.front());
+  for (const MachineInfo& machine : analysis.machines) {
+    text += MachineText(machine) + "\n";
+  }
+  text += "\n";
   text += fmt::format(fmt::runtime(kStrategyRow), "rank", "strategy", "spp", "efficiency",
                       "trimmed", "relative MSE", "cpu", "order", "to target", "");
   for (std::size_t i : analysis.ranking) {

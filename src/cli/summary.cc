@@ -5,6 +5,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/cli/progress.h"
+#include "src/core/machine_info.h"
 #include "src/core/parallel.h"
 #include "src/scene/image_changes.h"
 
@@ -113,6 +114,9 @@ std::string MergeSummaryText(const RenderReport& report, const MergedRender& mer
   }
   if (merged.seeds.size() > 1)
     text += Row("seeds", fmt::format("{}", merged.seeds.size()));
+  for (const MachineInfo& machine : merged.machines) {
+    text += Row("machine", MachineText(machine));
+  }
   text += Row("strategy", merged.identity.at("strategy"));
   text += SpeedRows(r);
   text += Row("error", ErrorText(report.error));
@@ -149,7 +153,8 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
                           Name(job.trees.origin), DurationText(job.trees.seconds),
                           DurationText(r.seconds), DurationText(report.write_seconds)));
   text +=
-      Row("machine",
+      Row("machine", MachineText(ThisMachine())) +
+      Row("kernels",
           fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes{}",
                       CurrentTarget(), CurrentLanes(), MaxThreads(), job.plan.wavefront,
                       job.plan.bytes_per_path, CopiesText(r, job)));

@@ -6,6 +6,7 @@
 
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
+#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/scene_options.h"
@@ -154,8 +155,10 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
       "--dry-run", options->dry_run,
       "Print the cells, and the time and space they will take, and render none");
   command
-      ->add_option("--pilots", options->pilots,
-                   "Most short renders that --dry-run predicts from; 0: no times")
+      ->add_option(
+          "--pilots", options->pilots,
+          WithDefault("Most short renders that --dry-run predicts from; 0: no times",
+                      options->pilots))
       ->check(CLI::Range(0, 100000).description(""))
       ->needs(dry)
       ->type_name("N");

@@ -56,6 +56,7 @@ void AddSeed(MergedRender& sum, MergedRender& more) {
         : AddColumn<double>(columns[i], others[i]);
   }
   sum.counts.Add(more.counts);
+  for (const MachineInfo& machine : more.machines) AddMachine(machine, sum.machines);
   sum.seeds.push_back(more.seeds.front());
   sum.identity["seed"] = sum.seeds;
   sum.head["settings"]["seed"] = sum.seeds;

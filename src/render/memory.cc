@@ -1,13 +1,12 @@
 #include "src/render/memory.h"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 #include "src/core/error.h"
+#include "src/core/machine_info.h"
 #include "src/image/accumulator.h"
 #include "src/image/regression_film.h"
 #include "src/prepare/groups.h"
@@ -55,14 +54,7 @@ std::uint64_t FilmBytes(const PixelRect& window, Auxiliary auxiliary,
 }
 
 std::uint64_t PhysicalMemory() {
-  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-  std::uint64_t bytes = pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) *
-                                                    static_cast<std::uint64_t>(page)
-                                              : ~std::uint64_t{0};
-  std::uint64_t limit = 0;
-  std::ifstream group("/sys/fs/cgroup/memory.max");  // "max" where there is no limit
-  if (group >> limit && limit > 0) bytes = std::min(bytes, limit);
-  return std::min(bytes, AddressSpace());
+  return std::min(ThisMachine().memory_bytes.value_or(~std::uint64_t{0}), AddressSpace());
 }
 
 std::string OutOfMemoryText() {

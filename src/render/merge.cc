@@ -8,6 +8,7 @@
 #include "src/render/add_seeds.h"
 #include "src/render/checkpoint.h"
 #include "src/render/identity.h"
+#include "src/render/machine_json.h"
 #include "src/strategy/strategy.h"
 #include "src/wavefront/share.h"
 
@@ -100,6 +101,17 @@ void CheckSame(const Input& first, const Input& other) {
   throw InputError("states of different renders cannot be merged:" + differences);
 }
 
+// A state that was itself merged lists them all.
+void AddMachines(const Json& report, std::vector<MachineInfo>& machines) {
+  if (!report.contains("machines")) {
+    AddMachine(MachineFromJson(report.at("head").value("machine", Json())), machines);
+    return;
+  }
+  for (const Json& machine : report.at("machines")) {
+    AddMachine(MachineFromJson(machine), machines);
+  }
+}
+
 void CheckTraining(const MergedRender& merged, const Json& training,
                    const std::vector<TrainedTable>& tables, const std::string& path) {
   const auto same = [](const TrainedTable& a, const TrainedTable& b) {
@@ -186,6 +198,7 @@ class Merger {
         merged.training = training;
         merged.tables = TablesOf(file, training);
       }
+      AddMachines(report, merged.machines);
       CheckTraining(merged, training, TablesOf(file, training), inputs_[i].path);
       coverage.Take(inputs_[i].tiles, static_cast<int>(i), inputs_);
       file.ReadPixels(merged.films->Columns(), merged.window);
@@ -236,7 +249,10 @@ class Merger {
 }  // namespace
 
 MergedRender MergeStates(const std::vector<std::string>& paths) {
-  return Merger(paths).Merge();
+  MergedRender merged = Merger(paths).Merge();
+  const bool one = merged.machines.size() == 1;
+  merged.head["machine"] = one ? ToJson(merged.machines.front()) : Json();
+  return merged;
 }
 
 RunResult ResultOf(const MergedRender& merged) {
@@ -277,6 +293,7 @@ void WriteMergedState(MergedRender& merged, const std::string& path) {
   StateContent content;
   content.identity = merged.identity.dump(1);
   const Json report = {{"head", merged.head},
+                       {"machines", ToJson(merged.machines)},
                        {"counts", CountsJson(merged.counts)},
                        {"training", merged.training}};
   content.report = report.dump(1);

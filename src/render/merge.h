@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "src/core/machine_info.h"
 #include "src/image/accumulator.h"
 #include "src/state/state_file.h"
 #include "src/wavefront/films.h"
@@ -30,7 +31,8 @@ struct MergedRender {
   RunCounts counts;
   nlohmann::json training;  // of TrainingJson
   std::vector<TrainedTable> tables;
-  std::uint64_t missing = 0;  // pixels of the window that no file has
+  std::vector<MachineInfo> machines;  // where parts were rendered
+  std::uint64_t missing = 0;          // pixels of the window that no file has
   std::uint64_t least = 0,
                 most = 0;  // samples per pixel; their mean with allocation=error
   std::vector<std::uint64_t> seeds;  // more than one: of different renders

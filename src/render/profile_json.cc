@@ -3,6 +3,7 @@
 
 #include "src/core/hardware_counters.h"
 #include "src/core/parallel.h"
+#include "src/render/machine_json.h"
 #include "src/render/profile_report.h"
 #include "src/render/report.h"
 #include "src/render/trace_json.h"
@@ -73,6 +74,7 @@ Json ToJson(const ProfileReport& report, const Job& job, const RunResult& result
       {"schema", kProfileSchema},
       {"kind", "profile"},
       {"target", TargetJson()},
+      {"machine", ToJson(ThisMachine())},
       {"threads", MaxThreads()},
       {"samples", result.samples},
       {"spp", job.spp},

@@ -6,6 +6,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/core/parallel.h"
+#include "src/render/machine_json.h"
 #include "src/scene/image_changes.h"
 
 namespace lanelight {
@@ -62,7 +63,7 @@ Json SettingsJson(const Job& job, bool half) {
           {"aov", job.plan.options.auxiliary != Auxiliary::kNone},
           {"gbuffer", GbufferName(job.description.film.gbuffer)},
           {"depth", half ? "half" : "float"},
-          {"build", job.scene.accel.quality == BuildQuality::kFast ? "fast" : "high"},
+          {"build", BuildName(job.scene.accel.quality)},
           {"copied_triangles", job.settings.copied_triangles},
           {"threads", MaxThreads()},
           {"copy_per_node", job.settings.copy_per_node}};
@@ -143,6 +144,7 @@ Json HeadJson(const Job& job, const std::string& scene, bool half) {
           {"plan", ToJson(job.plan)},
           {"settings", SettingsJson(job, half)},
           {"target", TargetJson()},
+          {"machine", ToJson(ThisMachine())},
           {"notes", NotesJson(job)},
           {"differs", CountImageChanges(job.description.notes) > 0},
           {"versions", versions}};

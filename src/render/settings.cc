@@ -167,6 +167,10 @@ const char* GbufferName(Gbuffer gbuffer) {
   return "";
 }
 
+const char* BuildName(BuildQuality quality) {
+  return quality == BuildQuality::kFast ? "fast" : "high";
+}
+
 const char* ScatteringName(Scattering model) {
   switch (model) {
     case Scattering::kLambertian:

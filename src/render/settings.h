@@ -75,5 +75,7 @@ PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription
 /// "camera" or "world"; empty for none.
 const char* GbufferName(Gbuffer gbuffer);
 const char* ScatteringName(Scattering model);
+/// "fast" or "high".
+const char* BuildName(BuildQuality quality);
 
 }  // namespace lanelight

@@ -12,6 +12,7 @@
 #include "src/core/parallel.h"
 #include "src/core/version.h"
 #include "src/image/atomic_file.h"
+#include "src/render/machine_json.h"
 #include "src/report/page.h"
 #include "src/stress/efficiency.h"
 
@@ -125,6 +126,7 @@ Json ToJson(const SuiteResult& result) {
   Json json = {{"schema", 1},
                {"kind", "lanelight-stress"},
                {"version", FullVersion()},
+               {"machine", lanelight::ToJson(result.machine)},
                {"settings",
                 {{"full", options.effort.full},
                  {"seed", options.effort.seed},

@@ -129,6 +129,7 @@ SuiteResult RunSuite(std::span<const Case> cases, const SuiteOptions& options,
   SuiteResult result;
   result.options = options;
   result.options.targets = ResolveTargets(options.targets);
+  result.machine = ThisMachine();
   result.cases.reserve(cases.size());
   for (const Case& about : cases) result.cases.emplace_back().about = about;
   SuiteRun run(result.options, hooks);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/core/machine_info.h"
 #include "src/stress/stress_case.h"
 #include "src/stress/verdict.h"
 
@@ -65,6 +66,7 @@ struct CaseResult {
 struct SuiteResult {
   SuiteOptions options;  // `targets` has their names
   std::vector<CaseResult> cases;
+  MachineInfo machine;  // that measured them
   bool interrupted = false;
   double seconds = 0, cpu_seconds = 0;
   std::size_t promised = 0;  // points

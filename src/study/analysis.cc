@@ -53,6 +53,7 @@ class SceneAnalyser {
     for (std::uint64_t spp : runs.counts) {
       const Cells cells = store_.Load(runs.Text(), spp);
       if (cells.repetitions.empty()) continue;
+      for (const Measurement& m : cells.repetitions) AddMachine(m.machine, out_.machines);
       strategy.levels.push_back(
           AnalyseLevel(cells, runs_.reference, spp, options_.confidence));
       strategy.costs.push_back(CostsOf(cells, spp, &Measurement::relmse));

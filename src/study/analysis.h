@@ -90,7 +90,8 @@ struct SceneAnalysis {
   std::vector<std::size_t> suspect_tiles;  // TileTest::shared of any strategy
   double bias_level = 0;
   std::string verdict;
-  std::string reference_image;  // name
+  std::vector<MachineInfo> machines;  // that rendered the cells
+  std::string reference_image;        // name
   std::vector<std::string> diffuse_images;
   int report_scale = 1;  // the report's images are smaller by this factor
 };

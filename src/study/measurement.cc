@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "src/render/machine_json.h"
+
 namespace lanelight {
 namespace {
 
@@ -27,11 +29,13 @@ nlohmann::json ToJson(const Measurement& m) {
 #define X(type, name) out[#name] = Value(m.name);
   LANELIGHT_MEASUREMENT(X)
 #undef X
+  out["machine"] = ToJson(m.machine);
   return out;
 }
 
 Measurement MeasurementFromJson(const nlohmann::json& json) {
   Measurement m;
+  m.machine = MachineFromJson(json.value("machine", nlohmann::json()));
 #define X(type, name) Read(json, #name, m.name);
   LANELIGHT_MEASUREMENT(X)
 #undef X

@@ -6,6 +6,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "src/core/machine_info.h"
+
 namespace lanelight {
 
 // X(type, name): one column each. Numbers that are not known are NaN. The squared errors
@@ -40,6 +42,7 @@ struct Measurement {
 #define X(type, name) type name = Unknown<type>();
   LANELIGHT_MEASUREMENT(X)
 #undef X
+  MachineInfo machine;  // that rendered it
 
   double MeanOfChannels() const { return (mean_r + mean_g + mean_b) / 3; }
   bool HasSelf() const { return self_low <= self_high; }
@@ -59,7 +62,7 @@ struct Measurement {
 nlohmann::json ToJson(const Measurement& m);
 Measurement MeasurementFromJson(const nlohmann::json& json);
 
-/// Names and values, separated by commas; NaN is empty.
+/// Names and values of the numbers, separated by commas; NaN is empty.
 std::string CsvHeader();
 std::string CsvRow(const Measurement& m);
 

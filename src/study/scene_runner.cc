@@ -183,6 +183,7 @@ Measurement SceneRunner::Render(const StrategyRuns& runs, std::uint64_t spp,
   SetCell(job_, {runs.named.strategy, spp, 0, {}, Seed(repetition)});
   const CellRun run = RunCell(job_, {}, hooks_.stop);
   Measurement m;
+  m.machine = ThisMachine();
   m.seed = job_.seed;
   m.cpu_seconds = run.cpu_seconds;
   if (Stopped()) return m;

@@ -5,6 +5,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/core/parallel.h"
+#include "src/render/machine_json.h"
 #include "src/render/report.h"
 
 namespace lanelight {
@@ -200,6 +201,7 @@ Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
                  {"suspect_tiles", analysis.suspect_tiles},
                  {"level", analysis.bias_level}};
   out["verdict"] = analysis.verdict;
+  out["machines"] = ToJson(analysis.machines);
   out["diffuse"] = DiffuseJson(runs, analysis);
   out["interrupted"] = runs.interrupted;
   out["report_scale"] = analysis.report_scale;
@@ -232,14 +234,14 @@ nlohmann::json StudyJson(const std::vector<SceneStudy>& scenes,
                          const StudyOptions& options, double seconds) {
   Json versions = Json::object();
   for (const auto& [name, version] : LibraryVersions()) versions[name] = version;
-  Json out = {
-      {"schema", kStudySchema},
-      {"kind", "lanelight-study"},
-      {"settings", SettingsJson(options)},
-      {"machine",
-       {{"target", CurrentTarget()}, {"threads", MaxThreads()}, {"versions", versions}}},
-      {"seconds", seconds},
-      {"scenes", Json::array()}};
+  Json out = {{"schema", kStudySchema},
+              {"kind", "lanelight-study"},
+              {"settings", SettingsJson(options)},
+              {"machine", ToJson(ThisMachine())},
+              {"seconds", seconds},
+              {"scenes", Json::array()}};
+  out["machine"].update(
+      {{"target", CurrentTarget()}, {"threads", MaxThreads()}, {"versions", versions}});
   for (const SceneStudy& scene : scenes) {
     out["scenes"].push_back(SceneJson(scene, options));
   }
@@ -247,7 +249,8 @@ nlohmann::json StudyJson(const std::vector<SceneStudy>& scenes,
 }
 
 std::string StudyCsv(const std::vector<SceneStudy>& scenes) {
-  std::string text = "scene,strategy,spp,repetition," + CsvHeader() + ",inside\n";
+  std::string text = "scene,strategy,spp,repetition," + CsvHeader() + ",inside," +
+                     MachineCsvHeader() + "\n";
   for (const SceneStudy& scene : scenes) {
     if (!scene.runs.error.empty()) continue;
     const CellStore store(scene.runs.folder + "/cells", scene.runs.window.pixels());
@@ -256,9 +259,10 @@ std::string StudyCsv(const std::vector<SceneStudy>& scenes) {
         const Cells cells = store.Load(runs.Text(), spp);
         for (std::size_t r = 0; r < cells.repetitions.size(); ++r) {
           const Measurement& m = cells.repetitions[r];
-          text += fmt::format("{},{},{},{},{},{}\n", Quoted(scene.runs.name),
+          text += fmt::format("{},{},{},{},{},{},{}\n", Quoted(scene.runs.name),
                               Quoted(runs.named.name), spp, r + 1, CsvRow(m),
-                              m.HasSelf() ? m.SelfHolds() ? "1" : "0" : "");
+                              m.HasSelf() ? m.SelfHolds() ? "1" : "0" : "",
+                              MachineCsvRow(m.machine));
         }
       }
     }

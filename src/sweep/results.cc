@@ -6,6 +6,8 @@
 
 #include "src/core/version.h"
 #include "src/image/atomic_file.h"
+#include "src/render/machine_json.h"
+#include "src/report/csv.h"
 #include "src/sweep/sweep_page.h"
 
 namespace lanelight {
@@ -62,17 +64,6 @@ Json InvalidSamples(const Json& report) {
   return invalid;
 }
 
-// RFC 4180.
-std::string Field(const Json& value) {
-  if (value.is_null()) return "";
-  if (!value.is_string()) return value.dump();
-  const auto text = value.get<std::string>();
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
 std::vector<std::string> StageNames(const std::vector<Json>& cells) {
   std::set<std::string> names;
   for (const Json& cell : cells) {
@@ -87,24 +78,25 @@ std::string Header(const std::vector<std::string>& stages) {
     text += std::string(",") + Column(static_cast<Axis>(i));
   }
   for (const Measure& column : kColumns) text += std::string(",") + column.name;
-  text += ",invalid_samples";
+  text += ",invalid_samples," + MachineCsvHeader();
   for (const std::string& stage : stages) text += ",stage_" + stage + "_cpu_seconds";
   return text + ",message\n";
 }
 
 std::string Row(const Json& cell, const std::vector<std::string>& stages) {
-  std::string text = Field(cell.at("name")) + "," + Field(cell.at("status"));
+  std::string text = CsvField(cell.at("name")) + "," + CsvField(cell.at("status"));
   for (int i = 0; i < kNumAxes; ++i) {
-    text += "," + Field(cell.at("values").value(Name(static_cast<Axis>(i)), Json()));
+    text += "," + CsvField(cell.at("values").value(Name(static_cast<Axis>(i)), Json()));
   }
   for (const Measure& column : kColumns) {
-    text += "," + Field(cell.at("measured").value(column.name, Json()));
+    text += "," + CsvField(cell.at("measured").value(column.name, Json()));
   }
-  text += "," + Field(cell.at("measured").value("invalid_samples", Json()));
+  text += "," + CsvField(cell.at("measured").value("invalid_samples", Json())) + "," +
+          MachineCsvRow(MachineFromJson(cell.at("machine")));
   for (const std::string& stage : stages) {
-    text += "," + Field(cell.at("stages").value(stage, Json()));
+    text += "," + CsvField(cell.at("stages").value(stage, Json()));
   }
-  return text + "," + Field(cell.at("message")) + "\n";
+  return text + "," + CsvField(cell.at("message")) + "\n";
 }
 
 }  // namespace
@@ -123,6 +115,7 @@ Json CellJson(const SweepCell& cell, const CellRecord& record) {
                {"message", record.message.empty() ? Json() : Json(record.message)},
                {"values", Json::object()},
                {"measured", Json::object()},
+               {"machine", Json()},
                {"stages", Json::object()}};
   for (int i = 0; i < kNumAxes; ++i) {
     const auto axis = static_cast<Axis>(i);
@@ -136,6 +129,7 @@ Json CellJson(const SweepCell& cell, const CellRecord& record) {
     }
   }
   json["measured"]["invalid_samples"] = InvalidSamples(record.report);
+  json["machine"] = record.report.value("machine", Json());  // older ones lack it
   for (const Json& stage : record.report.at("stages")) {
     json["stages"][stage.at("name").get<std::string>()] = stage.at("seconds");
   }

@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "src/render/machine_json.h"
 #include "src/report/page.h"
+#include "src/sweep/sweep_folder.h"
 
 namespace lanelight {
 namespace {
@@ -56,6 +58,15 @@ Json StageNames(const std::vector<Json>& cells) {
   return names;
 }
 
+Json MachinesJson(const std::vector<Json>& cells) {
+  std::vector<MachineInfo> machines;
+  for (const Json& cell : cells) {
+    if (cell.at("status") != Name(CellState::kDone)) continue;
+    AddMachine(MachineFromJson(cell.at("machine")), machines);
+  }
+  return ToJson(machines);
+}
+
 // Ten thousand cells fit into a page: stages are numbers of four digits without names.
 Json PageCell(const Json& cell, const Json& stage_names) {
   Json json = {{"name", cell.at("name")},       {"status", cell.at("status")},
@@ -92,6 +103,7 @@ Json SweepJson(const Sweep& sweep, const std::vector<Json>& cells) {
           {"excluded", sweep.excluded},
           {"axes", axes},
           {"stages", stages},
+          {"machines", MachinesJson(cells)},
           {"cells", page_cells}};
 }
 

@@ -23,6 +23,16 @@ def scenes_switch(page):
 
 
 @check
+def machines_are_named(page):
+    text = page.find("#summary").text
+    require("<b>Synthetic</b> 1000, 4 cores, 8.0 GiB, load 1.50; unknown" in text, text)
+    page.js("document.querySelectorAll('#scenes a')[1].click()")
+    page.settle()
+    require("Synthetic 2000, 2 cores" in page.find("#summary").text, "not the writer's")
+    page.open()
+
+
+@check
 def hostile_names_are_text(page):
     require(not page.all("main b b, main script"), "markup from a name")
     require("</script><b>\"bold\"" in page.text(), "the name is not shown")

@@ -35,6 +35,12 @@ def the_table_filters_and_sorts(page):
 
 
 @check
+def the_machine_is_named(page):
+    text = page.find("#summary").text
+    require("<b>Synthetic</b>, 2 cores, memory unknown, load unknown" in text, text)
+
+
+@check
 def hostile_names_are_text(page):
     require(not page.all("main b b, main script, .tile b"), "markup from a name")
     choose(page, "shapes")

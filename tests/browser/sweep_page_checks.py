@@ -23,6 +23,7 @@ def the_summary_counts(page):
     require(f"{done} of {len(cells)} done" in text, text)
     require("1 cell has failed" in text and "1 cell is missing" in text, text)
     require("2 machines" in text, text)
+    require("<b>Small</b>, 2 cores, memory unknown, load 2.00; Big, 64" in text, text)
 
 
 @check

@@ -75,6 +75,8 @@ for shell in bash zsh fish; do
   has "$(${shell}_offers render --build f)" fast
   lacks "$(${shell}_offers render --build f)" high
   has "$(${shell}_offers completion '')" bash zsh fish
+  # shellcheck disable=SC2086
+  has "$(${shell}_offers help '')" $commands
   lacks "$(${shell}_offers render --spp '')" --depth box.pbrt
   has "$(${shell}_offers render '')" box.pbrt
   has "$(${shell}_offers render -o i)" image.exr

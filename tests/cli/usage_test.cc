@@ -104,8 +104,8 @@ TEST_CASE("info prints the target, threads and libraries", "[cli]") {
   CHECK(r.exit_code == kExitGood);
   const std::string worst = AvailableTargets().back();
   for (const std::string& word :
-       std::vector<std::string>{"target", "lanes", worst, "threads", "highway", "onetbb",
-                                "openexr", "fmt", "nlohmann_json", "cli11"}) {
+       std::vector<std::string>{"machine", "target", "lanes", worst, "threads", "highway",
+                                "onetbb", "openexr", "fmt", "nlohmann_json", "cli11"}) {
     CHECK_THAT(r.out, Contains(word));
   }
   // The same commit as --version has.

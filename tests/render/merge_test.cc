@@ -4,6 +4,7 @@
 #include <set>
 
 #include "src/core/error.h"
+#include "src/render/machine_json.h"
 #include "src/render/parts.h"
 #include "tests/render/kept_render.h"
 
@@ -148,6 +149,32 @@ TEST_CASE("merge: merges of merges, and going on from one", "[merge]") {
   // Half of it is no render to go on with.
   r.checkpoint.from = l;
   CHECK_THAT(ErrorOf([&] { RenderKept(r); }), Contains("384 of the 768 pixels"));
+}
+
+TEST_CASE("merge: the machines of all parts are named", "[merge]") {
+  TemporaryFolder folder;
+  const KeptRender r = Small(folder, "a");
+  const auto part_of = [&](int index, const char* processor) {
+    const std::string path = PartOf(r, index, 3);
+    MergedRender part = MergeStates({path});
+    REQUIRE(part.machines.size() == 1);
+    CHECK(part.head.at("machine") == ToJson(ThisMachine()));
+    part.machines[0].processor = processor;  // as if it had been rendered there
+    WriteMergedState(part, path);
+    return path;
+  };
+  const std::string a = part_of(1, "A"), b = part_of(2, "B"), c = part_of(3, "A");
+  MergedRender alike = MergeStates({a, c});
+  REQUIRE(alike.machines.size() == 1);
+  CHECK(alike.head.at("machine").at("processor") == "A");
+  MergedRender two = MergeStates({a, b});
+  CHECK(two.head.at("machine").is_null());
+  const std::string merged = folder.File("merged");
+  WriteMergedState(two, merged);
+  const MergedRender all = MergeStates({c, merged});
+  REQUIRE(all.machines.size() == 2);
+  CHECK(all.machines[0].processor == "A");
+  CHECK(all.machines[1].processor == "B");
 }
 
 TEST_CASE("merge: renders of different seeds are added in their order", "[merge]") {

@@ -48,6 +48,8 @@ void AddDiffuse(Json& scene, std::vector<ReportImage>& images) {
 
 Json CompleteScene(std::vector<ReportImage>& images) {
   Json scene = BareScene("cornell-box");
+  scene["machines"] = {{{"text", "<b>Synthetic</b> 1000, 4 cores, 8.0 GiB, load 1.50"}},
+                       {{"text", "unknown processor, 2 cores, 8.0 GiB, load unknown"}}};
   const std::vector<int> counts = {1, 2, 4, 8, 16, 32, 64};
   scene["counts"] = counts;
   scene["target_relmse"] = 0.001;
@@ -144,6 +146,7 @@ SyntheticStudy MakeSyntheticStudy() {
                {"machine",
                 {{"target", "AVX2"},
                  {"threads", 2},
+                 {"text", "Synthetic 2000, 2 cores, 8.0 GiB, load 0.10"},
                  {"versions", {{"lanelight", "0.1.0"}, {"highway", "1.0.3"}}}}},
                {"seconds", 431.7}};
   const Json broken = {{"name", "broken"},

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "src/image/atomic_file.h"
+#include "src/render/machine_json.h"
 #include "src/stress/efficiency.h"
 #include "src/stress/stress_json.h"
 #include "tests/stress/synthetic_run.h"
@@ -37,6 +38,7 @@ TEST_CASE("stress: stress.json holds every number, to the last bit", "[stress]")
   const Json json = Json::parse(ToJson(result).dump());
   REQUIRE(json["cases"].size() == result.cases.size());
   CHECK(json["schema"] == 1);
+  CHECK(json["machine"] == lanelight::ToJson(result.machine));
   CHECK(json["outcomes"]["failed"] == 1);
   CHECK(json["cases"][0]["not_measured"] == 2);
   CHECK(json["promised"] == result.promised);

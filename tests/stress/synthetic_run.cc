@@ -86,6 +86,9 @@ SuiteResult SyntheticRun() {
   }
   result.options.targets = {"AVX3", "EMU128"};
   result.seconds = 12.5;
+  result.machine = {};
+  result.machine.processor = "<b>Synthetic</b>";
+  result.machine.cores = 2;
   JudgeSuite(result);
   return result;
 }

@@ -34,12 +34,17 @@ Cells SomeCells(int repetitions) {
 TEST_CASE("finished renders come back from the disk as they were", "[study]") {
   const TemporaryFolder folder;
   const CellStore store(folder.File("cells"), 12);
-  const Cells cells = SomeCells(3);
+  Cells cells = SomeCells(3);
   CHECK(store.Load("a strategy", 16).repetitions.empty());
+  cells.repetitions[1].machine.processor = "a processor";
+  cells.repetitions[1].machine.load = 0.25;
   store.Save("a strategy", 16, cells);
   const Cells back = store.Load("a strategy", 16);
   REQUIRE(back.repetitions.size() == 3);
   CHECK(CsvRow(back.repetitions[2]) == CsvRow(cells.repetitions[2]));
+  CHECK(MachineText(back.repetitions[0].machine) == MachineText({}));
+  CHECK(back.repetitions[1].machine.processor == "a processor");
+  CHECK(back.repetitions[1].machine.load == 0.25);
   CHECK(back.moments.Save() == cells.moments.Save());
   CHECK(back.moments.count() == 3);
   CHECK(back.first == cells.first);

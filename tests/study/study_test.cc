@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
+#include "src/image/atomic_file.h"
 #include "src/image/colors.h"
+#include "src/render/machine_json.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/study/study_file.h"
 
@@ -16,6 +18,7 @@ namespace lanelight {
 namespace {
 
 using Catch::Contains;
+using Catch::EndsWith;
 using Json = nlohmann::json;
 
 constexpr const char* kStudyScene = R"(
@@ -95,7 +98,14 @@ TEST_CASE("a study writes numbers, rows, images and a report", "[study]") {
       CHECK(std::filesystem::exists(options.out + "/" + name + ".exr"));
     }
   }
-  CHECK(Lines(options.out + "/study.csv") == 1 + 3 * 3 * 3);
+  const Json here = ToJson(ThisMachine());
+  CHECK(scene["machines"] == Json::array({here}));
+  for (const auto& [name, value] : here.items()) CHECK(json["machine"][name] == value);
+  CHECK(json["machine"]["threads"].get<int>() > 0);
+  const std::string table = ReadWholeFile(options.out + "/study.csv");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 1 + 3 * 3 * 3);
+  CHECK_THAT(table, Contains("," + MachineCsvHeader() + "\n") &&
+                        EndsWith("," + MachineCsvRow(ThisMachine()) + "\n"));
   CHECK(std::filesystem::file_size(options.out + "/report.html") > 0);
 }
 

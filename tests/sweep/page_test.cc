@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "src/render/machine_json.h"
 #include "src/sweep/results.h"
 #include "src/sweep/sweep_page.h"
 #include "tests/image/temporary_folder.h"
@@ -60,6 +61,11 @@ Json SyntheticReport(const SweepCell& cell) {
         {{"name", "points"}, {"seconds", 0.1 * cpu / seed}}}},
       {"settings", {{"threads", threads}, {"resolution", {80, 60}}}},
       {"sweep", {{"cpu_seconds", cpu}, {"machine", threads > 2 ? "big" : "small"}}}};
+  MachineInfo machine;
+  machine.processor = threads > 2 ? "Big" : "<b>Small</b>";
+  machine.cores = threads > 2 ? 64 : 2;
+  machine.load = seed;
+  report["machine"] = ToJson(machine);
   if (spp > 1) {
     report["error"] = {
         {"relmse", {{"value", error}, {"low", 0.8 * error}, {"high", 1.3 * error}}},
@@ -97,7 +103,12 @@ TEST_CASE("sweep: the page has all cells", "[sweep][report]") {
   CHECK(json["cells"][0]["measured"].value("relmse", Json()).is_null());
   CHECK(json["cells"][93]["status"] == "failed");
   CHECK(json["cells"][94]["status"] == "missing");
+  REQUIRE(json["machines"].size() == 2);
+  CHECK(json["machines"][0]["text"] ==
+        "<b>Small</b>, 2 cores, memory unknown, load 2.00");
+  CHECK(json["machines"][1]["processor"] == "Big");
   const std::string page = SweepPage(sweep, SyntheticCells(sweep));
+  CHECK(page.find("<b>Small") == std::string::npos);
   CHECK(page.find("<b>odd") == std::string::npos);
   CHECK(page.substr(0, 15) == "<!doctype html>");
 }
@@ -108,6 +119,8 @@ TEST_CASE("sweep: the table quotes what commas and quotes would break", "[sweep]
   CHECK(table.find(",\"error: out of <i>memory</i>, \"\"quoted\"\"\"\n") !=
         std::string::npos);
   CHECK(std::count(table.begin(), table.end(), '\n') == 97);
+  CHECK(table.find("," + MachineCsvHeader() + ",") != std::string::npos);
+  CHECK(table.find(",<b>Small</b>,2,,,1.0,") != std::string::npos);
 }
 
 TEST_CASE("The synthetic sweep can be written", "[sweep][report]") {

@@ -71,6 +71,11 @@ TEST_CASE("sweep: the table", "[sweep][cli]") {
     CHECK(std::stod(row[column.at("render_seconds")]) == report["seconds"]["render"]);
     CHECK(std::stod(row[column.at("relmse_high")]) == report["error"]["relmse"]["high"]);
     CHECK(std::stod(row[column.at("relmse_low")]) <= std::stod(row[column.at("relmse")]));
+    CHECK(row[column.at("machine_processor")] ==
+          report["machine"].value("processor", Json()).get<std::string>());
+    CHECK(row[column.at("machine_cores")] == report["machine"]["cores"].dump());
+    CHECK(row[column.at("machine_memory_bytes")] ==
+          report["machine"]["memory_bytes"].dump());
     CHECK(row[column.at("used_seed")] == row[column.at("seed")]);
     CHECK(row[column.at("time_seconds")].empty());
     CHECK(std::stod(row[column.at("stage_camera_perspective_cpu_seconds")]) > 0);

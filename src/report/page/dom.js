@@ -45,6 +45,17 @@ function section(id, title, ...children) {
   );
 }
 
+// A pair of a list of facts; none if the value is not known.
+function fact(term, value, note, attributes = {}) {
+  if (!value) return null;
+  return el(
+    "div",
+    attributes,
+    el("dt", {}, term),
+    el("dd", {}, value, note && el("span", { class: "note" }, note)),
+  );
+}
+
 // Buttons of which exactly one is pressed. options: [[value, label], ...].
 function choiceButtons(label, options, value, onChoose) {
   const buttons = options.map(([key, text]) =>

@@ -57,6 +57,11 @@ function fmtSigned(x, digits = 3) {
   return known(x) && x > 0 ? `+${fmt(x, digits)}` : fmt(x, digits);
 }
 
+// "AMD EPYC, 2 cores, 7.8 GiB, load 0.42"; of several, one after the other.
+function machinesText(machines) {
+  return (machines || []).map((machine) => machine.text).join("; ");
+}
+
 // 1 234 567 with thin spaces.
 function fmtCount(x) {
   if (!known(x)) return UNKNOWN;

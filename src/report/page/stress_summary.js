@@ -15,7 +15,13 @@ function summaryFacts() {
     `${threads} thread${threads === 1 ? "" : "s"}, seed ${seed}`,
     `a correct renderer fails one run in ${fmtCount(1 / study.false_alarm)}`,
   ];
-  return el("p", { class: "lead" }, parts.join(" · "));
+  return el(
+    "p",
+    { class: "lead" },
+    parts.join(" · "),
+    el("br"),
+    machinesText([study.machine]),
+  );
 }
 
 function tileLegend() {

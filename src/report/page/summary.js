@@ -14,16 +14,6 @@ function summarySection(view) {
   );
 }
 
-function fact(term, value, note) {
-  if (!value) return null;
-  return el(
-    "div",
-    {},
-    el("dt", {}, term),
-    el("dd", {}, value, note && el("span", { class: "note" }, note)),
-  );
-}
-
 function factsList(view) {
   const { scene } = view;
   const settings = study.settings || {},
@@ -32,6 +22,7 @@ function factsList(view) {
     ? `${scene.resolution[0]} × ${scene.resolution[1]} pixels`
     : null;
   const repetitions = known(settings.repetitions) ? fmtCount(settings.repetitions) : null;
+  const versions = versionsText(machine.versions);
   const threads = known(machine.threads) ? `${fmtCount(machine.threads)} threads` : null;
   return el(
     "dl",
@@ -40,16 +31,17 @@ function factsList(view) {
     fact("Repetitions", repetitions, "of every cell, interleaved, with different seeds"),
     fact("Confidence", confidenceText(), "of all intervals, unless said otherwise"),
     fact("Samples", countsText(scene.counts), "per pixel"),
-    fact(
-      "Machine",
-      [machine.target, threads].filter(Boolean).join(", "),
-      versionsText(machine.versions),
-    ),
     fact("Reference", referenceText(scene.reference), referenceNote(scene.reference)),
     fact(
       "Study took",
       known(study.seconds) ? fmtSeconds(study.seconds) : null,
       study.scenes.length > 1 ? "for all scenes" : null,
+    ),
+    fact(
+      "Machine",
+      machinesText(scene.machines) || machine.text,
+      [machine.target, threads, versions].filter(Boolean).join(", "),
+      { class: "wide" },
     ),
   );
 }

@@ -13,15 +13,6 @@ function distinct(name) {
   return [...new Set(doneCells.map((cell) => cell.measured[name]).filter(Boolean))];
 }
 
-function fact(name, value, note) {
-  return el(
-    "div",
-    {},
-    el("dt", {}, name),
-    el("dd", {}, value, note && el("span", { class: "note" }, note)),
-  );
-}
-
 function axisFact(axis) {
   const values = axisValues(axis);
   const shown = values.slice(0, 6).map((value) => valueLabel(axis, value));
@@ -90,6 +81,7 @@ function sweepSummary() {
       fact("Samples", fmtCount(sumOf("samples"))),
       fact("Processor time", fmtSeconds(sumOf("cpu_seconds"))),
       varyingAxes.map(axisFact),
+      fact("Machine", machinesText(study.machines), null, { class: "wide" }),
     ),
   );
 }
