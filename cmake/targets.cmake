@@ -2,9 +2,9 @@
 # others, is said in kernels/targets.h. Sets KERNEL_OPTIONS, which everything that has
 # vector code is compiled with.
 set(LANELIGHT_TARGETS all CACHE STRING
-  "SIMD targets to compile kernels for: \"all\"; \"native\", the best that this machine runs; \
-or a list, the best first: AVX3;AVX2;SSE4;EMU128, or NEON;EMU128 (EMU128: plain C++, \
-for machines without any, slow to build and to run)")
+  "SIMD targets to compile kernels for: \"native\", the best that this machine runs; or a \
+list, the best first, of \"all\", AVX3, AVX2, SSE4, NEON, EMU128 (plain C++, for machines \
+without any, slow to build and to run)")
 
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|amd64|AMD64)$")
   set(all_targets AVX3 AVX2 SSE4)
@@ -40,13 +40,12 @@ function(lanelight_native_target result)
   set(${result} ${target} PARENT_SCOPE)
 endfunction()
 
-if(LANELIGHT_TARGETS STREQUAL "all")
-  set(targets ${all_targets})
-elseif(LANELIGHT_TARGETS STREQUAL "native")
+if(LANELIGHT_TARGETS STREQUAL "native")
   lanelight_native_target(targets)
   message(STATUS "SIMD target of this machine: ${targets}")
 else()
-  string(TOUPPER "${LANELIGHT_TARGETS}" targets)
+  list(TRANSFORM LANELIGHT_TARGETS REPLACE "^all$" "${all_targets}" OUTPUT_VARIABLE targets)
+  string(TOUPPER "${targets}" targets)
 endif()
 set(legal ${all_targets} EMU128)
 list(REMOVE_DUPLICATES legal)
@@ -70,7 +69,7 @@ set(HIGHWAY_OPTIONS "-DLANELIGHT_TARGETS=(${bits})" -DLANELIGHT_FLOOR_TARGET=${f
 set(KERNEL_OPTIONS ${HIGHWAY_OPTIONS})
 
 # With one target, all vector code is of it, and the compiler may know: these are the
-# features that Highway names function by function (hwy/ops/set_macros-inl.h), and no
+# features that Highway names function by function (HWY_TARGET_STR), and no
 # others, so that the same instructions are there as among several targets. It then hands
 # vectors over in registers instead of memory, even where a call disappears: half the time
 # to compile. With several targets that would let code of one into functions of all.

@@ -16,7 +16,7 @@ extern const bool kHasTimeStamps;
 /// The counter, in a unit of its own; 0 where there is none.
 inline std::uint64_t TimeStamp() {
 #if defined(__x86_64__)
-  return __builtin_ia32_rdtsc();  // GCC's and clang's; x86intrin.h is long to read
+  return __builtin_ia32_rdtsc();  // of GCC and clang: no long header of intrinsics
 #else
   return 0;
 #endif
