@@ -5,7 +5,7 @@
 
 namespace lanelight::fields {
 
-inline const FieldSet kGuideProposal = {Field::guide_cell, Field::guide_x, Field::guide_y,
-                                        Field::guide_z, Field::guide_pdf};
+inline constexpr FieldSet kGuideProposal = {
+    Field::guide_cell, Field::guide_x, Field::guide_y, Field::guide_z, Field::guide_pdf};
 
 }  // namespace lanelight::fields

@@ -152,12 +152,12 @@ HWY_AFTER_NAMESPACE();
 namespace lanelight {
 namespace {
 
-const FieldSet kStarts = {
+constexpr FieldSet kStarts = {
     Field::from_x_0, Field::from_x_1, Field::from_x_2, Field::from_x_3,
     Field::from_y_0, Field::from_y_1, Field::from_y_2, Field::from_y_3,
     Field::from_z_0, Field::from_z_1, Field::from_z_2, Field::from_z_3,
     Field::from_n_0, Field::from_n_1, Field::from_n_2, Field::from_n_3};
-const FieldSet kRays = {
+constexpr FieldSet kRays = {
     Field::toward_0,   Field::toward_1,   Field::toward_2,   Field::toward_3,
     Field::sent_pdf_0, Field::sent_pdf_1, Field::sent_pdf_2, Field::sent_pdf_3,
     Field::sent_0,     Field::sent_1,     Field::sent_2,     Field::sent_3,

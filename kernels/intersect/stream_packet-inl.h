@@ -79,7 +79,7 @@ class PacketPhase {
       const Rays rays = rays_.Load(at);
       const PacketSlabs slabs = SlabsIn(tree, rays);
       if constexpr (kTop) {
-        Trace<true>(tree.root, slabs, {rays, {}}, lanes);
+        Trace<true>(tree.root, slabs, PacketRays{rays, {}}, lanes);
         if (!deferred_.empty()) spaces_.Prepare(rays, slabs, at);
       } else {
         const PacketRays packet = PacketIn(tree, rays, lanes);

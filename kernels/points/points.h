@@ -7,8 +7,8 @@ namespace lanelight {
 
 using ResolveFn = StageFn (*)(const FeatureSet&);
 
-inline const FieldSet kPointsCounter = {Field::pixel, Field::sample, Field::depth,
-                                        Field::branch};
+inline constexpr FieldSet kPointsCounter = {Field::pixel, Field::sample, Field::depth,
+                                            Field::branch};
 
 inline Stage PointsCameraStage(const char* name, Feature policy, ResolveFn resolve) {
   return {.name = name,

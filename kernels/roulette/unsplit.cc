@@ -148,7 +148,7 @@ HWY_EXPORT(UnsplitDecision);
 HWY_EXPORT(UnsplitPath);
 
 namespace {
-const FieldSet kTransport =
+constexpr FieldSet kTransport =
     fields::kThroughput | fields::kRadiance | fields::kUnsplit | fields::kRisk;
 }  // namespace
 

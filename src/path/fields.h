@@ -7,8 +7,8 @@
 // A column is an array of 4-byte lanes indexed by path slot. A vector is three columns.
 #pragma once
 
+#include <array>
 #include <bit>
-#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -204,19 +204,26 @@ struct PathColumns {
 /// A set of columns, for what a stage reads and writes.
 class FieldSet {
  public:
-  FieldSet() = default;
-  FieldSet(std::initializer_list<Field> fields) {
-    for (Field f : fields) bits_.set(static_cast<std::size_t>(f));
+  constexpr FieldSet() = default;
+  constexpr FieldSet(std::initializer_list<Field> fields) {
+    for (Field f : fields) words_[Word(f)] |= Bit(f);
   }
-  bool Has(Field f) const { return bits_.test(static_cast<std::size_t>(f)); }
-  FieldSet operator|(const FieldSet& o) const {
-    FieldSet r;
-    r.bits_ = bits_ | o.bits_;
+  constexpr bool Has(Field f) const { return (words_[Word(f)] & Bit(f)) != 0; }
+  constexpr FieldSet operator|(const FieldSet& o) const {
+    FieldSet r = *this;
+    for (std::size_t i = 0; i < words_.size(); ++i) r.words_[i] |= o.words_[i];
     return r;
   }
 
  private:
-  std::bitset<kNumFields> bits_;
+  static constexpr std::size_t Word(Field f) { return static_cast<std::size_t>(f) / 64; }
+  static constexpr std::uint64_t Bit(Field f) {
+    return std::uint64_t{1} << (static_cast<std::size_t>(f) % 64);
+  }
+
+  // Not a bitset: sets of fields are known when kernels are compiled, so that nothing of
+  // a kernel file runs before main has looked at the processor.
+  std::array<std::uint64_t, (kNumFields + 63) / 64> words_{};
 };
 
 /// The 32 bits that a column begins with.
@@ -253,64 +260,65 @@ namespace fields {
 FieldSet EverCarried();
 FieldSet WithFirstValue();
 
-inline const FieldSet kRay = {Field::o_x, Field::o_y, Field::o_z,
-                              Field::d_x, Field::d_y, Field::d_z};
-inline const FieldSet kHit = {Field::t, Field::prim, Field::b1, Field::b2, Field::inst};
-inline const FieldSet kThroughput = {Field::beta_r, Field::beta_g, Field::beta_b};
-inline const FieldSet kRadiance = {Field::l_r, Field::l_g, Field::l_b};
-inline const FieldSet kPoint = {Field::p_x, Field::p_y, Field::p_z, Field::p_error};
-inline const FieldSet kNormal = {Field::ng_x, Field::ng_y, Field::ng_z,
-                                 Field::ns_x, Field::ns_y, Field::ns_z};
-inline const FieldSet kStartNormal = {Field::start_n_x, Field::start_n_y,
-                                      Field::start_n_z};
-inline const FieldSet kTangent = {Field::tg_x, Field::tg_y, Field::tg_z};
-inline const FieldSet kTangents = {Field::tg_x, Field::tg_y, Field::tg_z,
-                                   Field::tv_x, Field::tv_y, Field::tv_z};
-inline const FieldSet kUv = {Field::uv_u, Field::uv_v};
-inline const FieldSet kSpread = {Field::spread_0, Field::spread_1, Field::spread_2,
-                                 Field::spread_3};
-inline const FieldSet kParameters = {
+inline constexpr FieldSet kRay = {Field::o_x, Field::o_y, Field::o_z,
+                                  Field::d_x, Field::d_y, Field::d_z};
+inline constexpr FieldSet kHit = {Field::t, Field::prim, Field::b1, Field::b2,
+                                  Field::inst};
+inline constexpr FieldSet kThroughput = {Field::beta_r, Field::beta_g, Field::beta_b};
+inline constexpr FieldSet kRadiance = {Field::l_r, Field::l_g, Field::l_b};
+inline constexpr FieldSet kPoint = {Field::p_x, Field::p_y, Field::p_z, Field::p_error};
+inline constexpr FieldSet kNormal = {Field::ng_x, Field::ng_y, Field::ng_z,
+                                     Field::ns_x, Field::ns_y, Field::ns_z};
+inline constexpr FieldSet kStartNormal = {Field::start_n_x, Field::start_n_y,
+                                          Field::start_n_z};
+inline constexpr FieldSet kTangent = {Field::tg_x, Field::tg_y, Field::tg_z};
+inline constexpr FieldSet kTangents = {Field::tg_x, Field::tg_y, Field::tg_z,
+                                       Field::tv_x, Field::tv_y, Field::tv_z};
+inline constexpr FieldSet kUv = {Field::uv_u, Field::uv_v};
+inline constexpr FieldSet kSpread = {Field::spread_0, Field::spread_1, Field::spread_2,
+                                     Field::spread_3};
+inline constexpr FieldSet kParameters = {
     Field::color0_r,      Field::color0_g,       Field::color0_b,
     Field::color1_r,      Field::color1_g,       Field::color1_b,
     Field::alpha_x,       Field::alpha_y,        Field::alpha2_0,
     Field::alpha2_1,      Field::coat_thickness, Field::coat_albedo_r,
     Field::coat_albedo_g, Field::coat_albedo_b,  Field::coat_g};
-inline const FieldSet kBouncePoints = {
+inline constexpr FieldSet kBouncePoints = {
     Field::u_lobe,    Field::u_bsdf_0,    Field::u_bsdf_1,   Field::u_select,
     Field::u_light_0, Field::u_light_1,   Field::u_roulette, Field::u_guide,
     Field::u_shadow,  Field::u_candidate, Field::u_medium_0, Field::u_medium_1};
 /// Of the rest of a shadow ray that goes through interfaces.
-inline const FieldSet kShadowRest = {
+inline constexpr FieldSet kShadowRest = {
     Field::sh_o_x,  Field::sh_o_y,      Field::sh_o_z,     Field::sh_n_x,  Field::sh_n_y,
     Field::sh_n_z,  Field::sh_ns_x,     Field::sh_ns_y,    Field::sh_ns_z, Field::sh_p_x,
     Field::sh_p_y,  Field::sh_p_z,      Field::sh_p_error, Field::sh_left, Field::sh_t,
     Field::sh_prim, Field::sh_material, Field::sh_medium};
-inline const FieldSet kLightSample = {Field::ls_x,        Field::ls_y,  Field::ls_z,
-                                      Field::ls_distance, Field::ls_r,  Field::ls_g,
-                                      Field::ls_b,        Field::ls_pdf};
-inline const FieldSet kKeptSample = {
+inline constexpr FieldSet kLightSample = {Field::ls_x,        Field::ls_y,  Field::ls_z,
+                                          Field::ls_distance, Field::ls_r,  Field::ls_g,
+                                          Field::ls_b,        Field::ls_pdf};
+inline constexpr FieldSet kKeptSample = {
     Field::kept_x,     Field::kept_y,    Field::kept_z, Field::kept_distance,
     Field::kept_r,     Field::kept_g,    Field::kept_b, Field::kept_pdf,
     Field::kept_light, Field::kept_worth};
-inline const FieldSet kAov = {
+inline constexpr FieldSet kAov = {
     Field::aov_albedo_r, Field::aov_albedo_g, Field::aov_albedo_b, Field::aov_n_x,
     Field::aov_n_y,      Field::aov_n_z,      Field::aov_depth};
-inline const FieldSet kGbuffer = {
+inline constexpr FieldSet kGbuffer = {
     Field::gb_hit,  Field::gb_p_x,  Field::gb_p_y,  Field::gb_p_z,  Field::gb_ng_x,
     Field::gb_ng_y, Field::gb_ng_z, Field::gb_ns_x, Field::gb_ns_y, Field::gb_ns_z,
     Field::gb_uv_0, Field::gb_uv_1, Field::gb_dz_0, Field::gb_dz_1};
-inline const FieldSet kShadow = {Field::sh_r, Field::sh_g, Field::sh_b};
-inline const FieldSet kControl = {Field::k_r, Field::k_g, Field::k_b};
-inline const FieldSet kFirstBounce = {Field::first_bsdf_0, Field::first_bsdf_1,
-                                      Field::first_light_0, Field::first_light_1};
-inline const FieldSet kFirstFilm = {Field::first_film_0, Field::first_film_1};
-inline const FieldSet kVertices = {Field::cell_0, Field::cell_1, Field::cell_2,
-                                   Field::cell_3, Field::at_0,   Field::at_1,
-                                   Field::at_2,   Field::at_3,   Field::got_0,
-                                   Field::got_1,  Field::got_2,  Field::got_3};
-inline const FieldSet kUnsplit = {Field::copy_weight, Field::decided_at, Field::unsplit,
-                                  Field::unsplit_l};
-inline const FieldSet kRisk = {Field::risk_0, Field::risk_1, Field::risk_2};
+inline constexpr FieldSet kShadow = {Field::sh_r, Field::sh_g, Field::sh_b};
+inline constexpr FieldSet kControl = {Field::k_r, Field::k_g, Field::k_b};
+inline constexpr FieldSet kFirstBounce = {Field::first_bsdf_0, Field::first_bsdf_1,
+                                          Field::first_light_0, Field::first_light_1};
+inline constexpr FieldSet kFirstFilm = {Field::first_film_0, Field::first_film_1};
+inline constexpr FieldSet kVertices = {Field::cell_0, Field::cell_1, Field::cell_2,
+                                       Field::cell_3, Field::at_0,   Field::at_1,
+                                       Field::at_2,   Field::at_3,   Field::got_0,
+                                       Field::got_1,  Field::got_2,  Field::got_3};
+inline constexpr FieldSet kUnsplit = {Field::copy_weight, Field::decided_at,
+                                      Field::unsplit, Field::unsplit_l};
+inline constexpr FieldSet kRisk = {Field::risk_0, Field::risk_1, Field::risk_2};
 }  // namespace fields
 
 }  // namespace lanelight
