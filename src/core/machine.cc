@@ -30,7 +30,9 @@ std::uint64_t ControlRegister() {
   asm volatile("mrs %0, fpcr" : "=r"(bits));
   return bits;
 }
-void SetControlRegister(std::uint64_t bits) { asm volatile("msr fpcr, %0" : : "r"(bits)); }
+void SetControlRegister(std::uint64_t bits) {
+  asm volatile("msr fpcr, %0" : : "r"(bits));
+}
 #endif
 
 }  // namespace
@@ -38,7 +40,9 @@ void SetControlRegister(std::uint64_t bits) { asm volatile("msr fpcr, %0" : : "r
 const bool kHasTimeStamps = HasInvariantTimeStamps();
 
 #if defined(__x86_64__) || defined(__aarch64__)
-FlushToZero::FlushToZero() : before_(ControlRegister()) { SetControlRegister(before_ | kFlushBits); }
+FlushToZero::FlushToZero() : before_(ControlRegister()) {
+  SetControlRegister(before_ | kFlushBits);
+}
 FlushToZero::~FlushToZero() { SetControlRegister(before_); }
 #endif
 
