@@ -122,6 +122,17 @@ void WriteCacheFile(const std::string& path, const std::vector<std::string_view>
   WriteAndRename(path, parts, false);
 }
 
+void RemoveTemporaries(const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path file = path;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const std::string start = TemporaryStart(file.filename());
+  std::error_code ignored;
+  for (fs::directory_iterator i(folder, ignored), end; i != end; i.increment(ignored)) {
+    if (IsTemporaryOf(i->path().filename(), start)) fs::remove(i->path(), ignored);
+  }
+}
+
 void CheckCreatable(const std::string& path) {
   std::string temporary;
   FileDescriptor file(CreateTemporary(path, temporary));

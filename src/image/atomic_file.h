@@ -24,6 +24,9 @@ std::string TemporaryStart(const std::string& path);
 /// Whether `name` is one that a temporary file of `start` may have, which is of
 /// TemporaryStart.
 bool IsTemporaryOf(const std::string& name, const std::string& start);
+/// Removes the temporary files of `path` that killed processes have left. Only for a path
+/// that nobody is writing, or of which nothing is kept.
+void RemoveTemporaries(const std::string& path);
 
 /// Throws InputError with the system's reason if WriteFileAtomically could not even
 /// begin: no temporary file can be created beside `path`. Leaves nothing behind.

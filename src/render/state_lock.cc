@@ -3,8 +3,6 @@
 #include <unistd.h>
 
 #include <climits>
-#include <filesystem>
-#include <system_error>
 
 #include "src/core/error.h"
 #include "src/image/atomic_file.h"
@@ -12,24 +10,10 @@
 namespace lanelight {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::string WhoAmI() {
   char host[HOST_NAME_MAX + 1] = "";
   gethostname(host, sizeof(host) - 1);
   return fmt::format("process {} on {}", getpid(), host);
-}
-
-// Only who keeps a state writes it: with the lock, nobody is at work on these.
-void RemoveTemporaries(const fs::path& state) {
-  std::error_code ignored;
-  const fs::path folder = state.has_parent_path() ? state.parent_path() : ".";
-  const std::string start = TemporaryStart(state.filename());
-  for (fs::directory_iterator i(folder, ignored), end; i != end; i.increment(ignored)) {
-    if (IsTemporaryOf(i->path().filename(), start)) {
-      fs::remove(i->path(), ignored);
-    }
-  }
 }
 
 }  // namespace
@@ -58,6 +42,7 @@ StateLock::StateLock(const std::string& path,
     if (!file->IsNamed()) continue;
     file->SetNote(WhoAmI());
     file_ = std::move(file);
+    // Only who keeps a state writes it: with the lock, nobody is at work on these.
     RemoveTemporaries(path);
     return;
   }

@@ -14,6 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
+// The name of no file, in a sweep's directory: what is tested is whether one can be made.
+constexpr char kProbe[] = "/cells/.probe";
+
 void MakeDirectory(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
@@ -66,13 +69,13 @@ std::string SweepFolder::File(const SweepCell& cell, const std::string& name) co
 
 void SweepFolder::Make() const {
   MakeDirectory(path_ + "/cells");
+  RemoveTemporaries(path_ + kProbe);
   CheckWritable();
   WriteFileAtomically(File("sweep.toml"), sweep_.text);
 }
 
 void SweepFolder::CheckWritable() const {
-  // The name of no file: what is tested is the directory.
-  lanelight::CheckWritable(path_ + "/cells/.probe");
+  lanelight::CheckWritable(path_ + kProbe);
 }
 
 CellRecord SweepFolder::Look(const SweepCell& cell) {

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "src/cli/exit_codes.h"
+#include "src/image/atomic_file.h"
 #include "tests/sweep/sweep_folder.h"
 #include "tests/sweep/sweep_process.h"
 
@@ -37,6 +38,20 @@ TEST_CASE("sweep: a directory that cannot be written", "[sweep][cli]") {
   fs::permissions(out, perms::owner_all);
   fs::permissions(out + "/cells", perms::owner_all);
   CHECK(RenderedBy(Sweep(file, out)) == kSweepCells / 2);
+}
+
+TEST_CASE("sweep: what killed processes left in its directory is removed",
+          "[sweep][cli]") {
+  const TempDirectory directory;
+  const std::string file = WriteSweep(directory), out = directory / "out";
+  REQUIRE(Sweep(file, out, {"--part", "1/11"}).exit_code == kExitGood);
+  // Of a process that was killed while it tried whether it can write.
+  WriteFileAtomically(out + "/cells/.probe.4711.0.tmp", "");
+  WriteFileAtomically(out + "/cells/.probed", "the user's");
+  CHECK_FALSE(Rubbish(out).empty());
+  REQUIRE(Sweep(file, out).exit_code == kExitGood);
+  CHECK(Rubbish(out).empty());
+  CHECK(fs::exists(out + "/cells/.probed"));
 }
 
 TEST_CASE("sweep: a directory that vanishes ends the sweep", "[sweep][cli]") {
