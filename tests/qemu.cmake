@@ -13,7 +13,7 @@ list(APPEND unable cases_run_once cli/completion docs/links failures/kill failur
 set(unrelated bench/simulate_cluster bench/efficiency build/version)
 # More than 12 s of processor time.
 set(long
-  accel/spatial_split_test advise/halving_test advise/window_errors_test
+  accel/spatial_split_test advise/advise_test
   cli/build_cache_test cli/profile_test cli/render_test cli/stress_test
   cli/study_command_test cli/target_test compile/materials_test
   compile/medium_emission_test compile/nested_test compile/tessellate_test

@@ -7,217 +7,232 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "src/advise/trial.h"
 #include "src/core/check.h"
-#include "src/advise/candidates.h"
-#include "src/advise/rare_samples.h"
-#include "src/advise/window_errors.h"
+#include "src/core/clock.h"
 
 namespace lanelight {
 namespace {
 
-// Of the pilot's time; what these leave is for combinations of changes.
-constexpr double kSingleChanges = 0.45, kRareSamples = 0.3;
-// Against rare bright samples: guides paths to where light may come from.
-constexpr const char* kRareChange = "roulette=adjoint";
-constexpr const char* kRareMeaning = "rare bright samples carry the error";
-constexpr std::uint64_t kRareSeed = 1000;  // the windows' seeds are below
-// It must be this much better on the whole image, which a few samples measure badly.
-constexpr double kRareMargin = 1.5;
-// Changes that may be worth combining.
+// Shares of the trial: a few samples of all candidates; those that may be better; the
+// best again; the very best alone.
+constexpr double kProbe = 0.15, kFirst = 0.3, kSecond = 0.25, kLast = 0.3;
+// Fewer samples say nothing of a candidate: rather leave candidates out.
+constexpr std::uint64_t kLeastSamples = 4096;
+constexpr std::size_t kBest = 2;  // that are tried again, beside what they make together
+// Changes that may be worth combining, and going on with.
 constexpr double kPromising = 1.03;
-constexpr std::size_t kMostCombinations = 2;
+// A trial that takes so many times the processor time that it should, of two processors,
+// is ended; but not in the first second, in which much is done for the first time. Advice
+// then hangs on the machine, but not on what else runs on it.
+constexpr double kPatience = 3, kProcessors = 2, kFirstSecond = 1;
+// Rays of a sample, to plan by before one is traced.
+constexpr double kUsualRays = 8;
 
 class Adviser {
  public:
-  Adviser(Job& job, const AdviceOptions& options) : job_(job), options_(options) {
-    LL_CHECK(options.seconds > 0 && options.share > 0 && options.share < 1);
+  Adviser(Job& job, const AdviceOptions& options)
+      : job_(job),
+        options_(options),
+        pilot_(options.pilot > 0 ? options.pilot : kPilotShare * options.seconds),
+        trial_(job, PlannedSamples(), options.stop) {
+    LL_CHECK(options.seconds > 0);
   }
 
   Advice Run() {
-    const auto start = std::chrono::steady_clock::now();
-    const double budget = options_.share * options_.seconds;
-    std::vector<Candidate> all = CandidatesFor(job_.scene, job_.plan.options);
-    const std::size_t single = Compare(all, budget * kSingleChanges, "");
-    Candidate best = all[single];
-    if (single > 0 && !advice_.interrupted) {
-      std::vector<Candidate> combined = Combinations(all, best);
-      const double left = budget * (1 - kRareSamples) - advice_.pilot_seconds;
-      if (combined.size() > 1) best = combined[Compare(combined, left, best.changes)];
+    all_ = CandidatesFor(job_.scene, job_.plan.options);
+    for (const Candidate& c : all_) Add(c);
+    std::vector<TriedCandidate> tried = First();
+    if (tried.size() > 1 && Round(tried, 0)) {
+      DropWorse(tried);
+      if (tried.size() > 1 && Round(tried, kFirst)) Second(tried);
     }
-    if (!advice_.interrupted) {
-      CheckOnWholeImage(budget * kRareSamples, all.front(), best);
-    }
-    advice_.chosen = best.strategy;
-    advice_.why = Why(best);
-    Use(best.strategy);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    advice_.pilot_seconds = taken.count();
-    job_.seconds = std::max(options_.seconds - taken.count(), 0.01 * options_.seconds);
+    Conclude();
     return advice_;
   }
 
  private:
-  // Runs the pilot over those that the scene takes, the first being the default; returns
-  // the index of the best and appends all of them to the advice.
-  std::size_t Compare(const std::vector<Candidate>& all, double seconds,
-                      const std::string& relative_to) {
-    std::vector<std::size_t> taken;
-    std::vector<Strategy> strategies;
-    std::vector<double> margins;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (!all[i].refused.empty()) continue;
-      taken.push_back(i);
-      strategies.push_back(all[i].strategy);
-      margins.push_back(all[i].margin);
+  // Candidates learn as if for a quarter of the render: what they learn from is part of
+  // the trial.
+  std::uint64_t PlannedSamples() const {
+    return static_cast<std::uint64_t>(options_.seconds * kRaysPerSecond / kUsualRays / 4);
+  }
+  // Of each in a round with this share of the trial. What has not been tried yet, since
+  // it is made of two others, is taken to cost what they do.
+  std::uint64_t SamplesFor(const std::vector<TriedCandidate>& tried, double share) const {
+    double rays = 0;
+    for (const TriedCandidate& t : tried) {
+      const bool known = !t.entry.measure.variances.empty();
+      rays += (known ? t : tried[1]).entry.measure.cost;
     }
-    HalvingOptions halving;
-    halving.seconds = seconds;
-    const HalvingResult result =
-        Halve(margins, WindowRenderer(job_, strategies, options_.stop), halving);
-    advice_.pilot_seconds += result.seconds;
-    advice_.interrupted |= result.interrupted;
-    double windows = 0;
-    for (const CandidateOutcome& c : result.candidates) windows += double(c.windows);
-    if (windows > 0) sample_seconds_ = result.seconds / (windows * kWindowSamples);
-    // The first of a second comparison is in the advice already.
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      CandidateOutcome outcome;
-      outcome.status = CandidateStatus::kRefused;
-      outcome.reason = all[i].refused;
-      if (next < taken.size() && taken[next] == i) outcome = result.candidates[next++];
-      if (i == 0 && !relative_to.empty()) continue;
-      advice_.candidates.push_back({ToText(all[i].strategy), all[i].changes,
-                                    all[i].meaning, outcome, relative_to});
-    }
-    const std::size_t best = taken[result.chosen];
-    if (best > 0 && !relative_to.empty()) Demote(relative_to);
-    return best;
+    if (rays == 0) return 0;
+    return static_cast<std::uint64_t>(share * pilot_ * kRaysPerSecond / rays);
   }
 
-  // Renders the whole image with the best strategy, the default, and the change that
-  // helps where rare bright samples carry the error: windows show too few of these to
-  // tell.
-  void CheckOnWholeImage(double seconds, const Candidate& usual, Candidate& best) {
-    std::vector<Candidate> others = {
-        usual, {Changed(usual.strategy, kRareChange), kRareChange, kRareMeaning, 0, ""}};
-    std::erase_if(others,
-                  [&](const Candidate& c) { return c.strategy == best.strategy; });
-    WholeImage own;
-    std::vector<WholeImage> images(others.size());
-    const auto start = std::chrono::steady_clock::now();
-    const std::uint64_t seed = job_.seed;
-    double taken = 0;
-    double of_round = double(1 + others.size()) * kRareSpp *
-                      double(job_.window.pixels()) * sample_seconds_;
-    for (int round = 1; of_round > 0 && taken + of_round <= seconds; ++round) {
-      const std::uint64_t round_seed =
-          seed + kRareSeed + static_cast<std::uint64_t>(round);
-      bool done = AddWholeImage(job_, best.strategy, round_seed, options_.stop, own);
-      for (std::size_t i = 0; i < others.size() && done; ++i) {
-        done =
-            AddWholeImage(job_, others[i].strategy, round_seed, options_.stop, images[i]);
-      }
-      advice_.interrupted |= !done;
-      if (!done) return;
-      const std::chrono::duration<double> passed =
-          std::chrono::steady_clock::now() - start;
-      taken = passed.count();
-      of_round = taken / round;
-    }
-    for (std::size_t i = 0; i < others.size(); ++i) {
-      const double gain = RareGain(own, images[i]);
-      if (gain <= std::max(kRareMargin, advice_.rare_gain)) continue;
-      advice_.rare_gain = gain;
-      best = others[i];
-    }
-    if (advice_.rare_gain > 0) Replace(best);
+  void Add(const Candidate& c) {
+    AdvisedCandidate advised;
+    advised.strategy = ToText(c.strategy);
+    advised.changes = c.changes;
+    advised.meaning = c.meaning;
+    advised.reason = c.refused;
+    if (!c.refused.empty()) advised.status = CandidateStatus::kRefused;
+    advice_.candidates.push_back(advised);
   }
 
-  // The windows' choice gives way to what the whole image shows.
-  void Replace(const Candidate& best) {
-    for (AdvisedCandidate& c : advice_.candidates) {
-      if (c.outcome.status == CandidateStatus::kChosen) {
-        c.outcome.status = CandidateStatus::kKept;
-        c.outcome.reason = "rare bright samples carry its error on the whole image";
-      }
-      if (c.changes == best.changes) {
-        c.outcome.status = CandidateStatus::kChosen;
-        c.outcome.reason = "more efficient on the whole image";
-      }
+  // A few samples of each show what it costs, and what is clearly worse; then as many as
+  // each can have the least number of samples. A trial that cannot try so few of all
+  // tries what comes first.
+  std::vector<TriedCandidate> First() {
+    std::vector<TriedCandidate> tried = {{all_.front(), 0, {}, false}};
+    for (std::size_t i = 1; i < all_.size(); ++i) {
+      if (all_[i].refused.empty()) tried.push_back({all_[i], i, {}, false});
     }
+    const double of_all = double(kLeastSamples) * kUsualRays * double(tried.size());
+    advice_.seconds_to_try = of_all / (kProbe * kRaysPerSecond);
+    const double share = std::min(1.0, pilot_ / advice_.seconds_to_try);
+    const auto reached = static_cast<std::size_t>(share * double(tried.size()));
+    for (std::size_t i = std::max<std::size_t>(reached, 1); i < tried.size(); ++i) {
+      advice_.candidates[tried[i].index].reason = "the trial's time did not reach it";
+    }
+    tried.resize(reached < 2 ? 1 : reached);
+    return tried;
   }
 
-  // The best single change gives way to a combination.
-  void Demote(const std::string& changes) {
-    for (AdvisedCandidate& c : advice_.candidates) {
-      if (c.changes != changes) continue;
-      c.outcome.status = CandidateStatus::kKept;
-      c.outcome.reason = "a combination with another change is certainly more efficient";
+  bool Round(std::vector<TriedCandidate>& tried, double share) {
+    const std::uint64_t samples = std::max(SamplesFor(tried, share), kLeastSamples);
+    const std::chrono::duration<double> passed = Clock::now() - start_;
+    advice_.interrupted |=
+        passed.count() > kPatience * pilot_ || !trial_.Round(tried, samples);
+    if (advice_.interrupted) return false;
+    for (const TriedCandidate& t : tried) {
+      AdvisedCandidate& advised = advice_.candidates[t.index];
+      advised.samples += samples;
+      advised.status = CandidateStatus::kKept;
+      if (t.index > 0) advised.efficiency = t.Efficiency();
     }
+    advice_.rays = trial_.rays();
+    return true;
   }
 
-  // The winner, and with it the changes of other axes that looked better than none.
-  std::vector<Candidate> Combinations(const std::vector<Candidate>& all,
-                                      const Candidate& winner) {
-    std::vector<std::pair<double, std::size_t>> others;
-    for (std::size_t i = 1; i < all.size(); ++i) {
-      const CandidateOutcome& outcome = advice_.candidates[i].outcome;
-      if (outcome.rounds == 0 || AxisOf(all[i].changes) == AxisOf(winner.changes)) {
-        continue;
+  // By few samples: what nobody would expect to be the best after more of them.
+  void DropWorse(std::vector<TriedCandidate>& tried) {
+    std::erase_if(tried, [&](const TriedCandidate& t) {
+      const bool misses = t.entry.MissesLight(), worse = t.Efficiency().high < 1;
+      if (t.index == 0 || !(misses || worse)) return false;
+      Drop(t, misses
+                  ? "finds less light than the default: what is missing is seldom, bright"
+                  : "clearly less efficient than the default");
+      return true;
+    });
+  }
+
+  bool IsTooSlow() const {
+    return ProcessCpuSeconds() - start_cpu_ >
+           kFirstSecond + kPatience * kProcessors * pilot_;
+  }
+
+  static double Score(const TriedCandidate& t) { return t.entry.Gain().log; }
+
+  // The default, the best of the first round, and what both of them make together.
+  void Second(std::vector<TriedCandidate>& tried) {
+    std::sort(tried.begin() + 1, tried.end(),
+              [](const auto& a, const auto& b) { return Score(a) > Score(b); });
+    while (tried.size() > 1 &&
+           (tried.size() > 1 + kBest || Score(tried.back()) < std::log(kPromising))) {
+      Drop(tried.back(), "less efficient than others after a round");
+      tried.pop_back();
+    }
+    if (tried.size() < 2) return;
+    if (tried.size() == 1 + kBest) Combine(tried);
+    if (tried.size() > 2 && !Round(tried, kSecond)) return;
+    const auto best = std::max_element(
+        tried.begin() + 1, tried.end(),
+        [](const auto& a, const auto& b) { return Score(a) < Score(b); });
+    std::iter_swap(tried.begin() + 1, best);
+    tried.resize(2);
+    if (!Round(tried, kLast)) return;
+    const TriedCandidate& last = tried.back();
+    if (last.Beyond() > 0) chosen_ = last.index;
+  }
+
+  void Drop(const TriedCandidate& t, const char* reason) {
+    AdvisedCandidate& advised = advice_.candidates[t.index];
+    advised.status = CandidateStatus::kDropped;
+    advised.reason = reason;
+  }
+
+  // Two changes of one axis do not go together.
+  void Combine(std::vector<TriedCandidate>& tried) {
+    const Candidate &a = tried[1].candidate, &b = tried[2].candidate;
+    if (a.meaning == kOwnStrategy || b.meaning == kOwnStrategy ||
+        AxisOf(a.changes) == AxisOf(b.changes)) {
+      return;
+    }
+    Candidate both = a;
+    both.strategy = Changed(a.strategy, b.changes);
+    both.changes += "," + b.changes;
+    both.meaning = "both pay";
+    both.price *= b.price;
+    both.price_spread = std::hypot(a.price_spread, b.price_spread);
+    all_.push_back(both);
+    Add(both);
+    tried.push_back({both, all_.size() - 1, {}, false});
+  }
+
+  void Conclude() {
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      AdvisedCandidate& c = advice_.candidates[i];
+      if (i == chosen_) {
+        c.status = CandidateStatus::kChosen;
+        c.reason = i == 0 ? "no other is clearly more efficient"
+                          : "clearly more efficient than the default";
+      } else if (c.status == CandidateStatus::kKept) {
+        c.reason = i == 0         ? "the default; another is clearly more efficient"
+                   : chosen_ == 0 ? "not clearly better than the default"
+                                  : "not the best";
       }
-      const double score = outcome.Score();
-      if (score > kPromising + all[i].margin) others.emplace_back(-score, i);
     }
-    std::sort(others.begin(), others.end());
-    if (others.size() > kMostCombinations) others.resize(kMostCombinations);
-    std::vector<Candidate> out = {winner};
-    for (const auto& [score, i] : others) {
-      Candidate both = all[i];
-      both.strategy = Changed(winner.strategy, all[i].changes);
-      both.changes = winner.changes + "," + all[i].changes;
-      out.push_back(both);
-    }
-    return out;
+    const Candidate& best = all_[chosen_];
+    advice_.chosen = best.strategy;
+    advice_.why = Why(best);
+    job_.spp = 0;
+    SetStrategy(job_, best.strategy);
+    const std::chrono::duration<double> taken = Clock::now() - start_;
+    advice_.pilot_seconds = taken.count();
+    job_.seconds = std::max(options_.seconds - taken.count(), 0.01 * options_.seconds);
   }
 
   std::string Why(const Candidate& best) const {
-    if (advice_.interrupted) return "the pilot was interrupted";
-    const auto measured = [](const AdvisedCandidate& c) { return c.outcome.rounds > 0; };
-    if (std::none_of(advice_.candidates.begin(), advice_.candidates.end(), measured)) {
-      return "the pilot's time was too short to compare strategies: the default";
-    }
-    if (best.changes.empty()) {
-      return "no change is certainly more efficient than the default strategy";
-    }
-    if (advice_.rare_gain > 0) {
+    const bool stopped = options_.stop != nullptr && *options_.stop;
+    if (stopped) return "the trial was interrupted";
+    if (advice_.interrupted) {
       return fmt::format(
-          "rare bright samples carry the error: on the whole image {} is about {:.2g} "
-          "times "
-          "as efficient as what is best without them",
-          best.changes.empty() ? "the default" : best.changes, advice_.rare_gain);
+          "the trial was ended after {:g} times the processor time that "
+          "it should take: the default",
+          kPatience);
     }
-    for (const AdvisedCandidate& c : advice_.candidates) {
-      if (c.changes != best.changes) continue;
-      const Interval& e = c.outcome.efficiency;
-      const std::string bounds =
-          e.HasBounds() ? fmt::format(" [{:.3g}, {:.3g}]", e.low, e.high) : "";
-      return fmt::format(
-          "{} is {:.3g}{} times as efficient as {} ({})", best.changes, e.value, bounds,
-          c.relative_to.empty() ? "the default strategy" : c.relative_to, best.meaning);
+    if (advice_.rays == 0) {
+      return "the trial's time is too short to compare strategies: the default";
     }
-    return "";
+    if (chosen_ == 0) {
+      return "no change is clearly more efficient than the default strategy";
+    }
+    const Interval& e = advice_.candidates[chosen_].efficiency;
+    return fmt::format(
+        "{} is {:.3g} [{:.3g}, {:.3g}] times as efficient as the default strategy ({})",
+        best.changes, e.value, e.low, e.high, best.meaning);
   }
 
-  void Use(const Strategy& strategy) {
-    job_.spp = 0;
-    SetStrategy(job_, strategy);
-  }
-
+  using Clock = std::chrono::steady_clock;
   Job& job_;
   const AdviceOptions& options_;
+  const Clock::time_point start_ = Clock::now();
+  const double start_cpu_ = ProcessCpuSeconds();
+  const double pilot_;  // seconds of kRaysPerSecond
+  Trial trial_;
+  std::vector<Candidate> all_;
+  std::size_t chosen_ = 0;
   Advice advice_;
-  double sample_seconds_ = 0;  // wall clock of one sample in the windows; 0: not known
 };
 
 nlohmann::json Finite(double x) {
@@ -226,6 +241,11 @@ nlohmann::json Finite(double x) {
 
 }  // namespace
 
+const char* Name(CandidateStatus status) {
+  constexpr const char* kNames[] = {"chosen", "kept", "dropped", "skipped", "refused"};
+  return kNames[static_cast<int>(status)];
+}
+
 Advice Advise(Job& job, const AdviceOptions& options) {
   return Adviser(job, options).Run();
 }
@@ -233,31 +253,23 @@ Advice Advise(Job& job, const AdviceOptions& options) {
 nlohmann::json ToJson(const Advice& advice) {
   nlohmann::json candidates = nlohmann::json::array();
   for (const AdvisedCandidate& c : advice.candidates) {
-    const Interval& e = c.outcome.efficiency;
+    const Interval& e = c.efficiency;
     nlohmann::json efficiency = nullptr;
-    if (c.outcome.rounds > 0) {
+    if (c.samples > 0) {
       efficiency = {
           {"value", Finite(e.value)}, {"low", Finite(e.low)}, {"high", Finite(e.high)}};
     }
     candidates.push_back({{"strategy", c.strategy},
                           {"changes", c.changes},
                           {"meaning", c.meaning},
-                          {"status", Name(c.outcome.status)},
-                          {"reason", c.outcome.reason},
+                          {"status", Name(c.status)},
+                          {"reason", c.reason},
                           {"efficiency", efficiency},
-                          {"efficiency_all_pixels",
-                           c.outcome.rounds > 0 ? Finite(c.outcome.with_all_pixels)
-                                                : nlohmann::json(nullptr)},
-                          {"relative_to", c.relative_to},
-                          {"rounds", c.outcome.rounds},
-                          {"windows", c.outcome.windows}});
+                          {"samples", c.samples}});
   }
-  return {{"candidates", candidates},
-          {"chosen", ToText(advice.chosen)},
-          {"why", advice.why},
-          {"pilot_seconds", advice.pilot_seconds},
-          {"rare_gain", Finite(advice.rare_gain)},
-          {"interrupted", advice.interrupted}};
+  return {{"candidates", candidates},  {"chosen", ToText(advice.chosen)},
+          {"why", advice.why},         {"pilot_seconds", advice.pilot_seconds},
+          {"pilot_rays", advice.rays}, {"interrupted", advice.interrupted}};
 }
 
 }  // namespace lanelight

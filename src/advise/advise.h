@@ -1,4 +1,4 @@
-// Which strategy to render a scene with, by a short pilot over the candidates.
+// Which strategy to render a scene with, by a trial of the candidates.
 #pragma once
 
 #include <atomic>
@@ -7,43 +7,65 @@
 #include <vector>
 
 #include "src/render/job.h"
-#include "src/advise/halving.h"
+#include "src/stat/interval.h"
 
 namespace lanelight {
 
+/// Work is counted in rays, so that advice is the same on every machine: a second of the
+/// trial stands for so many, about what two processors of 2020 trace.
+inline constexpr double kRaysPerSecond = 8e6;
+
 struct AdviceOptions {
-  double seconds = 0;   // wall clock that pilot and render have together
-  double share = 0.05;  // of it, for the pilot
+  double seconds = 0;  // wall clock that trial and render have together
+  double pilot = 0;    // of the trial, at kRaysPerSecond; 0: kPilotShare of `seconds`
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// Of the time. Advice that changes nothing must not cost much.
+inline constexpr double kPilotShare = 0.03;
+
+enum class CandidateStatus {
+  kChosen,
+  kKept,     // compared to the end, and not chosen
+  kDropped,  // less efficient than others when all had been tried once
+  kSkipped,  // the trial's time did not reach it
+  kRefused,  // the scene does not take it
+};
+/// "chosen", "kept", "dropped", "skipped", "refused".
+const char* Name(CandidateStatus status);
+
 struct AdvisedCandidate {
-  std::string strategy, changes,
-      meaning;  // complete; against the scene's own; when it pays
-  CandidateOutcome outcome;
-  std::string relative_to;  // changes that its efficiency relates to; empty: the default
+  std::string strategy, changes;  // complete; against the default, which has none
+  std::string meaning;            // when it pays
+  CandidateStatus status = CandidateStatus::kSkipped;
+  std::string reason;
+  /// How many times as efficient as the default (1, without bounds, for that itself),
+  /// with its 90 % interval; by samples that have chosen nothing.
+  Interval efficiency = WithoutBounds(1);
+  std::uint64_t samples = 0;  // of all rounds; 0: not compared
 };
 
 struct Advice {
   /// The renderer's default first, then changes of one axis of it, among them the scene's
-  /// own strategy, then combinations of changes that were better alone.
+  /// own strategy, then a combination of the two best.
   std::vector<AdvisedCandidate> candidates;
   Strategy chosen;
-  std::string why;           // one sentence
-  double pilot_seconds = 0;  // wall clock
-  /// Efficiency of the chosen strategy on the whole image, relative to what the windows
-  /// chose; 0 unless that made it the chosen one.
-  double rare_gain = 0;
-  bool interrupted = false;
+  std::string why;            // one sentence
+  double pilot_seconds = 0;   // wall clock
+  std::uint64_t rays = 0;     // of the trial
+  double seconds_to_try = 0;  // AdviceOptions::pilot by which none would be skipped
+  bool interrupted = false;   // by the user, or since the trial took far too long
 };
 
-/// Runs the pilot. Candidates are compared by the estimated relative variance of small
-/// windows of the image times processor time (Halve). `job` then has the chosen strategy,
-/// a plan for it, and the rest of the time as its budget (at least a hundredth of it).
-/// Where the pilot is too short to tell, it is the default.
+/// Runs the trial. Candidates are compared by relative variance times counted work, on
+/// the same pixels (DecisionPilot): first all; then the default, the best two and what
+/// both make together; last the best and the default on yet other pixels, which decide.
+/// What is advised is a function of scene, settings and seed, unless the trial has to be
+/// ended since it takes three times what it should. `job` then has the chosen strategy, a
+/// plan for it, and the rest of the time as its budget (at least a hundredth of it).
 Advice Advise(Job& job, const AdviceOptions& options);
 
-/// "candidates", "chosen", "why", "pilot_seconds", "interrupted".
+/// "candidates", "chosen", "why", "pilot_seconds", "pilot_rays", "interrupted".
 nlohmann::json ToJson(const Advice& advice);
 
 }  // namespace lanelight

@@ -11,33 +11,14 @@
 namespace lanelight {
 namespace {
 
-// Samplers of directions differ most in rare bright samples: a light seen by one material
-// sample in a million, or a glossy lobe hit by one light sample in a thousand. Combining
-// both is never much worse than either (Veach and Guibas 1995), one alone can be.
-constexpr double kSeldomChanges = 0.15;
-
 // A tree over fewer lights finds no more than their power says.
 constexpr std::size_t kFewLights = 4;
-
-// The control variate integrates over every light at every hit: beyond this many it costs
-// more than the rest of the path, and its trial most of the pilot's time.
-constexpr std::size_t kManyLights = 16;
 
 // After the changes that gain most where they gain: a short pilot reaches these only.
 constexpr std::ptrdiff_t kPlaceOfOwn = 3;
 
-constexpr CandidateInfo kCandidates[] = {
-    {"roulette=none", "pays where paths are short or end late on bright lights", 0},
-    {"roulette=adjoint", "pays where little of the scene carries the light", 0.03},
-    {"directions=bsdf", "no shadow rays; pays under large, even lights", kSeldomChanges},
-    {"light-selection=tree", "pays with many lights, each near a part of the scene", 0},
-    {"roulette=luminance", "shorter paths; pays where deep paths matter little", 0},
-    {"points=pmj02", "as sobol, and cheaper on some machines", 0},
-    {"directions=light", "no weights; pays for small lights and rough surfaces",
-     kSeldomChanges},
-    {"control=ambient", "pays in the open, under an environment", 0},
-    {"control=analytic", "pays where little is shadowed", 0},
-};
+// Of what a ray costs, of strategies that nobody has timed.
+constexpr double kUnknownSpread = 0.15;
 
 // Why the scene does not take the strategy; empty if it does. `key` is then its plan's.
 std::string Refusal(const Strategy& strategy, const PlanOptions& options,
@@ -47,11 +28,6 @@ std::string Refusal(const Strategy& strategy, const PlanOptions& options,
     const std::size_t lights = scene.lights.lights.size();
     return fmt::format("with {} light{} there is little to select", lights,
                        lights == 1 ? "" : "s");
-  }
-  if (strategy.control == Control::kAnalytic &&
-      scene.lights.lights.size() > kManyLights) {
-    return fmt::format("with {} lights it costs more than it saves",
-                       scene.lights.lights.size());
   }
   try {
     UseStrategy(strategy, scene);
@@ -66,8 +42,6 @@ std::string Refusal(const Strategy& strategy, const PlanOptions& options,
 
 }  // namespace
 
-std::span<const CandidateInfo> AdviseCandidates() { return kCandidates; }
-
 std::string AxisOf(const std::string& changes) {
   return changes.substr(0, changes.find('='));
 }
@@ -80,14 +54,15 @@ Strategy Changed(const Strategy& strategy, const std::string& changes) {
 
 std::vector<Candidate> CandidatesFor(CompiledScene& scene, const PlanOptions& options) {
   const Strategy own = scene.strategy, usual;
-  std::vector<Candidate> out = {{usual, "", "the renderer's default", 0, ""}};
-  for (const CandidateInfo& info : kCandidates) {
-    const Strategy changed = Changed(usual, info.changes);
+  std::vector<Candidate> out = {{usual, "", "the renderer's default", 1, 0, ""}};
+  for (const DecisionCandidate& c : kDecisionCandidates) {
+    const Strategy changed = Changed(usual, c.changes);
     if (changed == own) continue;
-    out.push_back({changed, info.changes, info.reason, info.margin, ""});
+    out.push_back({changed, c.changes, c.reason, c.price, c.price_spread, ""});
   }
   if (own != usual) {
-    out.insert(out.begin() + kPlaceOfOwn, {own, ToText(own), kOwnStrategy, 0, ""});
+    out.insert(out.begin() + kPlaceOfOwn,
+               {own, ToText(own), kOwnStrategy, 1, kUnknownSpread, ""});
   }
   std::vector<std::string> keys;
   for (Candidate& candidate : out) {

@@ -24,30 +24,45 @@ namespace {
 struct AdviseCommandOptions {
   SceneOptions scene;
   RenderOutputs outputs;
-  double seconds = 0;
+  double seconds = 0, pilot = 0;
 };
 
 std::string EfficiencyText(const AdvisedCandidate& c) {
-  if (c.outcome.rounds == 0) return "";
-  const Interval& e = c.outcome.efficiency;
+  if (c.samples == 0) return "";
+  const Interval& e = c.efficiency;
   if (!e.HasBounds()) return fmt::format("{:.3g}", e.value);
   return fmt::format("{:.3g} [{:.3g}, {:.3g}]", e.value, e.low, e.high);
 }
 
-std::string AdviceText(const Advice& advice) {
-  std::string text =
-      fmt::format("{:<44} {:<22} {:<8} {}\n", "change", "efficiency", "status", "reason");
+// "skipped    a, b: the trial's time did not reach them; --pilot 2 would".
+std::string SkippedText(const Advice& advice) {
+  std::string skipped;
   for (const AdvisedCandidate& c : advice.candidates) {
+    if (c.status != CandidateStatus::kSkipped) continue;
+    skipped += (skipped.empty() ? "" : ", ") + c.changes;
+  }
+  if (skipped.empty()) return "";
+  return fmt::format("skipped    {}: {}; --pilot {:.2g} would try all\n", skipped,
+                     advice.interrupted ? "the trial was ended before"
+                                        : "the trial's time did not reach them",
+                     advice.seconds_to_try);
+}
+
+std::string AdviceText(const Advice& advice) {
+  std::string text = fmt::format("{:<44} {:<22} {:<8} {}\n", "change",
+                                 "efficiency (90 %)", "status", "reason");
+  for (const AdvisedCandidate& c : advice.candidates) {
+    if (c.status == CandidateStatus::kSkipped) continue;
     const std::string changes = c.changes.empty()           ? "(the default)"
                                 : c.meaning == kOwnStrategy ? "(the scene's own)"
                                                             : c.changes;
-    text +=
-        fmt::format("{:<44} {:<22} {:<8} {}{}\n", changes, EfficiencyText(c),
-                    Name(c.outcome.status), c.outcome.reason,
-                    c.relative_to.empty() ? "" : " (relative to " + c.relative_to + ")");
+    text += fmt::format("{:<44} {:<22} {:<8} {}\n", changes, EfficiencyText(c),
+                        Name(c.status), c.reason);
   }
-  return text + fmt::format("\nadvice     {}\nstrategy   {}\npilot      {}\n", advice.why,
-                            ToText(advice.chosen), DurationText(advice.pilot_seconds));
+  return text +
+         fmt::format("\n{}advice     {}\nstrategy   {}\npilot      {}, {:.3g} rays\n",
+                     SkippedText(advice), advice.why, ToText(advice.chosen),
+                     DurationText(advice.pilot_seconds), double(advice.rays));
 }
 
 // The command that renders as the advice says.
@@ -82,6 +97,7 @@ int RunAdvise(AdviseCommandOptions& options) {
   const InterruptGuard interrupt;
   AdviceOptions advise;
   advise.seconds = options.seconds;
+  advise.pilot = options.pilot;
   advise.stop = &interrupt.stop();
   const Advice advice = Advise(job, advise);
   if (options.outputs.targets.exr.empty()) return PrintAdvice(options, advice);
@@ -99,19 +115,32 @@ void AddAdviseCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "advise", "Find the strategy with the least error for the time, render with it");
   auto options = std::make_shared<AdviseCommandOptions>();
-  command->add_option("--time", options->seconds, "Seconds for pilot and render together")
+  command
+      ->add_option("--time", options->seconds,
+                   "Seconds of the wall clock, for trial and render together")
       ->required()
+      ->check(FiniteRange(1e-3, 1e9))
+      ->type_name("SECONDS");
+  command
+      ->add_option(
+          "--pilot", options->pilot,
+          "Seconds of the trial of strategies, of 8 million rays each; default: 3 "
+          "% of --time")
       ->check(FiniteRange(1e-3, 1e9))
       ->type_name("SECONDS");
   AddSeedOption(*command, options->scene.settings);
   AddOutputOptions(*command, options->outputs, false);
   AddSceneOptions(*command, options->scene);
   command->footer(
-      "\nThe pilot takes about a twentieth of the time. It compares changes of the "
-      "default\n"
-      "strategy, and the scene's own (or --strategy), on small windows of the image; "
-      "what is not certainly\n"
-      "better is not advised. Without -o only the advice is printed.\n"
+      "\nChanges of the default strategy, and the scene's own (or --strategy), are tried "
+      "on the\n"
+      "same pixels, by variance times counted work: the same advice each time, for a "
+      "scene, "
+      "its\n"
+      "settings and --seed. What is not clearly better is not advised. Without -o only "
+      "the "
+      "advice\n"
+      "is printed.\n"
       "\nExamples:\n"
       "  lanelight advise scene.pbrt --time 60\n"
       "  lanelight advise scene.pbrt --time 60 -o out.exr --json advice.json");

@@ -96,9 +96,10 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
           ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
           ->type_name("N,...");
   command
-      .add_option("--budget", s.budget,
-                  "Render for equal times instead: each strategy takes up to so many "
-                  "samples as it can in this time")
+      .add_option(
+          "--budget", s.budget,
+          "Render for equal times instead, of the wall clock: each strategy takes "
+          "up to so many samples as it can; compared by processor time")
       ->check(FiniteRange(1e-3, 1e6))
       ->type_name("SECONDS")
       ->excludes(spp);

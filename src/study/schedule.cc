@@ -39,7 +39,7 @@ class Pilots {
 
   std::vector<Calibration> Run() {
     for (std::size_t i = 0; i < strategies_.size() && !Stopped(); ++i) {
-      pilots_.push_back({WarmUp(strategies_[i]), {}});
+      pilots_.push_back({WarmUp(strategies_[i]), {}, {}});
     }
     for (int round = 0; round < kPilotRounds; ++round) {
       for (std::size_t i = 0; i < pilots_.size() && !Stopped(); ++i) Measure(i);
@@ -53,7 +53,9 @@ class Pilots {
  private:
   struct Pilot {
     std::uint64_t spp = 1;
-    std::vector<double> seconds;  // of the processor
+    // Of the processor; `few`: of a quarter of the samples.
+    std::vector<double> seconds, few;
+    std::uint64_t FewSpp() const { return std::max<std::uint64_t>(spp / 4, 1); }
   };
   struct Seconds {
     double wall = 0, cpu = 0;
@@ -82,20 +84,23 @@ class Pilots {
   }
 
   void Measure(std::size_t i) {
-    const Seconds taken = Render(strategies_[i], pilots_[i].spp);
-    pilots_[i].seconds.push_back(taken.cpu);
+    Pilot& pilot = pilots_[i];
+    pilot.few.push_back(Render(strategies_[i], pilot.FewSpp()).cpu);
+    const Seconds taken = Render(strategies_[i], pilot.spp);
+    pilot.seconds.push_back(taken.cpu);
     wall_per_cpu_.push_back(taken.wall / taken.cpu);
   }
 
   Calibration Evaluate(const Pilot& pilot) const {
-    const double of_sample =
-        Median(pilot.seconds) * Median(wall_per_cpu_) / double(pilot.spp);
     std::vector<double> logarithms;
     for (double s : pilot.seconds) logarithms.push_back(std::log(s));
     // The standard error of a median of normal values.
     const double spread = StandardDeviation(logarithms) *
                           std::sqrt(std::numbers::pi / 2 / double(logarithms.size()));
-    return {std::clamp(seconds_ / of_sample, 1.0, double(kMostSpp)), spread};
+    const double samples = SamplesOfBudget(seconds_ / Median(wall_per_cpu_),
+                                           {double(pilot.spp), Median(pilot.seconds)},
+                                           {double(pilot.FewSpp()), Median(pilot.few)});
+    return {std::clamp(samples, 1.0, double(kMostSpp)), spread};
   }
 
   Job& job_;
@@ -108,6 +113,14 @@ class Pilots {
 
 }  // namespace
 
+double SamplesOfBudget(double budget, const PilotTime& pilot, const PilotTime& few) {
+  const double mean = pilot.seconds / pilot.samples;
+  const double more = pilot.samples - few.samples;
+  const double slope = more > 0 ? (pilot.seconds - few.seconds) / more : mean;
+  const double of_sample = std::clamp(slope, mean / 4, mean);
+  return (budget - (pilot.seconds - of_sample * pilot.samples)) / of_sample;
+}
+
 std::vector<Calibration> Calibrate(Job& job, const std::vector<Strategy>& strategies,
                                    double seconds, const std::atomic<bool>* stop) {
   return Pilots(job, strategies, seconds, stop).Run();
@@ -116,7 +129,7 @@ std::vector<Calibration> Calibrate(Job& job, const std::vector<Strategy>& strate
 std::vector<std::uint64_t> CountsUpTo(std::uint64_t largest) {
   std::vector<std::uint64_t> counts;
   for (std::uint64_t n = 1; n < largest; n *= 2) counts.push_back(n);
-  const int shift = std::max(0, static_cast<int>(std::bit_width(largest)) - 5);
+  const int shift = std::max(0, static_cast<int>(std::bit_width(largest)) - 7);
   counts.push_back(largest >> shift << shift);
   return Sorted(counts);
 }

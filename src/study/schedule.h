@@ -16,10 +16,21 @@ struct Calibration {
   double spread = 0;
 };
 
+struct PilotTime {
+  double samples = 0, seconds = 0;
+};
+
+/// How many samples a budget is enough for, by the line through two pilots: what a render
+/// takes before its first sample, to learn or to set up, is the same for all sizes. What
+/// a sample takes is the longer pilot's mean at most, and a quarter of it at least: noise
+/// may turn the line around.
+double SamplesOfBudget(double budget, const PilotTime& pilot, const PilotTime& few);
+
 /// Calibrates strategies to `seconds` of wall clock each. After renders that warm up
 /// caches and tables and find a size, pilots of about half the budget (between
-/// kShortestPilot and kLongestPilot) run kPilotRounds times, in turns (A B C A B C ...),
-/// so that a change of the machine's speed meets all alike; medians count. Strategies are
+/// kShortestPilot and kLongestPilot), and of a quarter of their samples, run kPilotRounds
+/// times, in turns (A B C A B C ...), so that a change of the machine's speed meets all
+/// alike; medians count, and a line through both sizes. Strategies are
 /// compared by processor time, which does not count other programs; how much wall clock
 /// that is, is common to all. Empty if `stop` was set.
 std::vector<Calibration> Calibrate(Job& job, const std::vector<Strategy>& strategies,
@@ -27,7 +38,7 @@ std::vector<Calibration> Calibrate(Job& job, const std::vector<Strategy>& strate
 inline constexpr int kPilotRounds = 5;
 inline constexpr double kShortestPilot = 0.02, kLongestPilot = 1;
 
-/// Powers of two below `largest`, and `largest` rounded to five binary digits.
+/// Powers of two below `largest`, and `largest` rounded down to seven binary digits.
 std::vector<std::uint64_t> CountsUpTo(std::uint64_t largest);
 
 /// Sets the sample counts of the strategies that are ok, and how sure they are: those

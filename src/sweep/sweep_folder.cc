@@ -74,9 +74,7 @@ void SweepFolder::Make() const {
   WriteFileAtomically(File("sweep.toml"), sweep_.text);
 }
 
-void SweepFolder::CheckWritable() const {
-  lanelight::CheckWritable(path_ + kProbe);
-}
+void SweepFolder::CheckWritable() const { lanelight::CheckWritable(path_ + kProbe); }
 
 CellRecord SweepFolder::Look(const SweepCell& cell) {
   CellRecord record;

@@ -1,29 +1,47 @@
-// What decide=pilot chooses from (src/wavefront/train_decision.cc).
+// What a trial chooses from: decide=pilot from the changes of roulette, `lanelight
+// advise` from all (src/wavefront/train_decision.cc, src/advise/advise.cc).
 #pragma once
+
+#include <span>
 
 namespace lanelight {
 
 /// A change of the strategy that may pay.
 struct DecisionCandidate {
-  const char* changes;  // of roulette and guiding, as in --strategy
-  /// Its variance times cost must be below so much of that without the change.
-  double margin;
+  const char* changes;  // as in --strategy
+  const char* reason;   // when it pays
+  /// Processor time of a counted ray (TrainingSamples::Cost) over that without the
+  /// change, and how far the logarithm of that scatters from scene to scene.
+  double price, price_spread;
 };
 
-// Costs are counted in rays, so that the choice hangs on nothing but the scene; margins
-// make up for what rays do not say. Processor time per ray over that of the default, 256
-// pixels wide, one thread:
-//   roulette=adjoint        1.11 (veach-ajar), 1.22 (coffee), 1.27 (spaceship): copies of
-//                           paths, lookups of cells, emptier wavefronts. Counted as 1.2
-//   roulette=throughput:..  1.02 to 1.09 (the same scenes)
-// Beyond that a change must gain 5 percent: one that is made by mistake costs more than
-// one that is missed.
+/// A change must be so many times as efficient to be chosen: one that is made by mistake
+/// costs more than one that is missed.
+inline constexpr double kMustGain = 1.05;
+
+// Costs are counted in rays, so that a choice hangs on nothing but the scene; prices make
+// up for what rays do not say. They are means over 28 scenes, 128 pixels wide, one
+// thread, AVX-512: adjoint 0.95 to 1.38, throughput:0:5 0.99 to 1.35, none 0.95 to 1.54,
+// tree 0.99 to 2.06 (where lights are many and paths long).
 //
-// Left out: roulette=efficiency (where it gains adjoint does too, and it needs two more
-// passes to learn its factors), roulette=none (its paths may not end).
+// Left out: directions=bsdf and light, which differ from combining both most in rare
+// bright samples that a trial does not see, and gain 1.3 at most (Veach and Guibas 1995:
+// combining is never much worse than either, one alone can be); roulette=efficiency
+// (where it gains adjoint does too, and it needs two more passes to learn its factors),
+// and what has never won: roulette=luminance (0.66 to 1.03 on five scenes), control
+// variates (0.35 to 0.98), points=pmj02 (0.85 to 0.98), uniform directions, antithetic
+// pairs, which undo what strata gain, a constant roulette.
 inline constexpr DecisionCandidate kDecisionCandidates[] = {
-    {"roulette=adjoint", 0.79},
-    {"roulette=throughput:0:5", 0.92},
+    {"roulette=adjoint", "pays where little of the scene carries the light", 1.15, 0.09},
+    {"roulette=throughput:0:5", "pays where bright light arrives after a few events",
+     1.07, 0.07},
+    // Only those above may be chosen without being asked for: with the next, paths may
+    // not end.
+    {"roulette=none", "pays where paths are short or end late on bright lights", 1.07,
+     0.12},
+    {"light-selection=tree", "pays with many lights, each near a part of the scene", 1.12,
+     0.16},
 };
+inline constexpr std::size_t kDecidedUnasked = 2;  // the first ones
 
 }  // namespace lanelight

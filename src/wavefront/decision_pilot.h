@@ -1,5 +1,5 @@
-// The passes of decide=pilot: what each strategy that may be chosen learns, costs and
-// scatters, all on the same pixels (src/wavefront/train_decision.cc).
+// A trial of strategies on the same pixels: what each learns, costs and scatters. It
+// hangs on scene, settings and seed alone: costs are counted in rays.
 #pragma once
 
 #include <optional>
@@ -12,28 +12,52 @@
 
 namespace lanelight {
 
+/// What a pass found of the image's light, pixels weighed as relative errors weigh them.
+struct PilotLight {
+  double sum = 0, standard_error = 0;
+};
+
+/// What is tried: about so many samples, so many in each pixel; those of each `turn` are
+/// of other pixels.
+struct PilotSize {
+  std::uint64_t samples = 0;
+  std::uint32_t spp = 32;
+  std::uint64_t turn = 0;
+};
+
 /// A strategy that may be chosen.
 struct DecisionEntry {
-  std::string name;     // as a candidate has it; empty: the strategy as given
-  std::string changes;  // in full
-  double margin = 1;    // DecisionCandidate::margin
+  std::string changes;  // of the usual strategy, which has none
+  double price = 1;     // DecisionCandidate::price
   PlanOptions options;
   StrategyTables tables;
   PilotMeasure measure;  // of its own pass
   bool paired = false;   // its paths have told of `usual` as well
-  PilotMeasure usual;    // of the strategy as given: what `measure` is compared with
+  PilotMeasure usual;    // of the usual strategy: what `measure` is compared with
+  PilotLight light, usual_light;
+
+  /// Clearly less than the usual strategy has found: what is missing comes in bright
+  /// samples too rare to be seen, and so the variance is not seen either.
+  bool MissesLight() const;
+
+  /// How many times as efficient as the usual one it is, by all pixels (paired), or by
+  /// these and without the worst thousandth of them, whichever is less.
+  PilotGain Gain() const;
+  /// The logarithm of its gain over `must_gain`, if that is clear by so many standard
+  /// errors; else 0.
+  double Beyond(double must_gain, double standard_errors) const;
 };
 
 class DecisionPilot {
  public:
-  /// Passes of about so many samples.
-  DecisionPilot(const TrainingContext& context, std::uint64_t samples);
+  DecisionPilot(const CompiledScene& scene, const TrainingOptions& training,
+                std::uint32_t seed, const PilotSize& size);
 
   /// What the strategy of an entry learns beforehand, for so many planned samples.
   TrainingOutcome Learn(const DecisionEntry& entry, std::uint64_t planned,
                         StrategyTables& tables);
   /// Renders the pixels with what an entry has learned, and fills its measures. The first
-  /// entry is the strategy as given, `usual`. False: the user has stopped it.
+  /// entry is the usual strategy. False: the user has stopped it.
   bool Measure(DecisionEntry& entry, const DecisionEntry& usual);
 
   bool Stopped() const { return training_.stop != nullptr && *training_.stop; }
@@ -44,11 +68,15 @@ class DecisionPilot {
 
  private:
   bool RecordsUnsplit(const DecisionEntry& entry, const DecisionEntry& usual) const;
+  RunParameters Parameters(const PlanOptions& options,
+                           const StrategyTables& tables) const;
   TrainingSamples Render(const DecisionEntry& entry, bool records);
+  PilotLight LightOf(const TrainingSamples& samples,
+                     const std::vector<double>& variances) const;
 
   const CompiledScene& scene_;
-  const RunParameters& run_;
   const TrainingOptions& training_;
+  const std::uint32_t seed_;
   const StopWatcher watcher_;
   TrainingWork work_;
   std::optional<ImageGuess> image_;

@@ -15,15 +15,10 @@
 #include "src/wavefront/trained_tables.h"
 
 namespace lanelight {
-namespace {
-
-// The seed of kernels: another one after each kSamplesPerSeed samples.
 std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
   const std::uint64_t turn = first_sample / kSamplesPerSeed * 0x9e3779b97f4a7c15u;
   return static_cast<std::uint32_t>(seed ^ (seed >> 32) ^ (turn >> 32));
 }
-
-}  // namespace
 
 RunStrategy::RunStrategy(const CompiledScene& scene, const Plan& plan,
                          const RunOptions& options, Crew& crew, const RunClock& clock)

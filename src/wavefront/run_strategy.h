@@ -13,6 +13,10 @@
 
 namespace lanelight {
 
+/// The seed of kernels, of a render's seed: another one after each kSamplesPerSeed
+/// samples.
+std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample);
+
 class RunStrategy {
  public:
   /// Refers to all but the plan for as long as it lives.

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "src/core/error.h"
@@ -34,10 +35,10 @@ namespace {
 constexpr std::uint64_t kCompared = 120;  // of so many planned samples one is compared
 constexpr std::uint64_t kLearned = 4;     // and candidates learn as if for a quarter
 constexpr std::uint64_t kLeastToCompare = 256;
-// A change is made that is better by its margin and half a standard error. What is made
-// by mistake is mostly near its margin, and costs little; what is missed may be a factor
-// of three: pilots of 4 million planned samples find adjoint on veach-ajar in 16 seeds of
-// 16 with half of one, in 12 with one, and in none by one standard error of means without
+// A change is made that is better by what it must gain and half a standard error. What is
+// made by mistake gains about that, and costs little; what is missed may be a factor of
+// three: pilots of 4 million planned samples find adjoint on veach-ajar in 16 seeds of 16
+// with half of one, in 12 with one, and in none by one standard error of means without
 // the worst thousandth of the pixels.
 constexpr double kStandardErrors = 0.5;
 
@@ -49,11 +50,13 @@ class Decider {
         training_(context.options),
         planned_(std::min(context.options.planned_samples, kMostDecidedBy)),
         tables_(context.tables),
-        pilot_(context, planned_ / kCompared) {}
+        pilot_(scene_, training_, context.run.seed, {planned_ / kCompared}) {}
 
   TrainingOutcome Run() {
     Add("", 1);
-    for (const DecisionCandidate& c : kDecisionCandidates) Add(c.changes, c.margin);
+    for (const DecisionCandidate& c : std::span(kDecisionCandidates, kDecidedUnasked)) {
+      Add(c.changes, c.price);
+    }
     DecisionEntry* chosen = &entries_.front();
     if (entries_.size() == 1) {
       note_ = "no candidate does anything else here: the strategy is as given";
@@ -70,13 +73,12 @@ class Decider {
 
  private:
   // Unless the scene refuses it, or another does the same there.
-  void Add(const std::string& changes, double margin) {
+  void Add(const std::string& changes, double price) {
     DecisionEntry entry;
-    entry.name = changes;
-    entry.changes = changes.empty() ? "decide=none" : changes + ",decide=none";
-    entry.margin = margin;
+    entry.changes = changes;
+    entry.price = price;
     entry.options = options_;
-    entry.options.changes = entry.changes;
+    entry.options.changes = Undecided(entry);
     try {
       const std::string key = PlanKey(scene_, MakePlan(scene_, entry.options));
       if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) return;
@@ -99,26 +101,17 @@ class Decider {
     return Choose();
   }
 
-  // By how much a change gains more than it must, in the logarithm; 0 if that is not
-  // clear.
-  static double BeyondMargin(const DecisionEntry& entry) {
-    const PilotGain gain = GainOf(entry.measure, entry.usual);
-    const double must = -std::log(entry.margin);
-    if (gain.log - kStandardErrors * gain.standard_error <= must) return 0;
-    if (entry.paired) return gain.log - must;
-    const bool without_worst =
-        IsClearlyBetter(entry.measure, entry.usual, entry.margin, kStandardErrors);
-    if (!without_worst) return 0;
-    return std::min(gain.log, std::log(entry.usual.Score() / entry.measure.Score())) -
-           must;
+  // To the plan's own strategy.
+  static std::string Undecided(const DecisionEntry& entry) {
+    return entry.changes + (entry.changes.empty() ? "decide=none" : ",decide=none");
   }
 
   DecisionEntry* Choose() {
     DecisionEntry* chosen = &entries_.front();
-    double most = 0;  // beyond the margin
+    double most = 0;
     for (DecisionEntry& entry : entries_) {
-      if (entry.name.empty()) continue;
-      const double beyond = BeyondMargin(entry);
+      if (entry.changes.empty()) continue;
+      const double beyond = entry.Beyond(kMustGain, kStandardErrors);
       if (beyond <= most) continue;
       most = beyond;
       chosen = &entry;
@@ -130,14 +123,14 @@ class Decider {
   void Explain(const DecisionEntry& chosen) {
     std::string others;
     for (const DecisionEntry& entry : entries_) {
-      if (entry.name.empty()) continue;
+      if (entry.changes.empty()) continue;
       const PilotGain gain = GainOf(entry.measure, entry.usual);
-      others += fmt::format("{}{} {:.2f}", others.empty() ? "" : ", ", entry.name,
+      others += fmt::format("{}{} {:.2f}", others.empty() ? "" : ", ", entry.changes,
                             std::exp(gain.log));
     }
-    const std::string what = chosen.name.empty()
+    const std::string what = chosen.changes.empty()
                                  ? "nothing is clearly better than the strategy as given"
-                                 : "rendered with " + chosen.name;
+                                 : "rendered with " + chosen.changes;
     note_ = fmt::format(
         "{}; efficiency relative to the strategy as given, by {} samples "
         "of a few pixels: {}",
@@ -145,9 +138,9 @@ class Decider {
   }
 
   void TrainFor(DecisionEntry& chosen) {
-    chosen.options.changes = chosen.changes;
+    chosen.options.changes = Undecided(chosen);
     const TrainingOutcome out = pilot_.Learn(chosen, training_.planned_samples, tables_);
-    outcome_.changes = chosen.changes;
+    outcome_.changes = Undecided(chosen);
     if (!out.changes.empty()) outcome_.changes += "," + out.changes;
     outcome_.note = note_ + (out.note.empty() ? "" : "; " + out.note);
   }

@@ -1,0 +1,76 @@
+#include "src/advise/trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/prepare/use_strategy.h"
+#include "src/wavefront/run_strategy.h"
+
+namespace lanelight {
+namespace {
+
+constexpr double kNormal95 = 1.645;
+// Of a pixel: randomisations of 32. What strata gain in longer ones is not seen.
+constexpr std::uint32_t kSpp = 128;
+// What tells of the default's bright samples too is believed sooner: what is missed may
+// be a factor of three (src/wavefront/train_decision.cc).
+constexpr double kPairedStandardErrors = 0.5;
+
+}  // namespace
+
+Interval TriedCandidate::Efficiency() const {
+  const PilotGain all = GainOf(entry.measure, entry.usual);
+  const double robust =
+      entry.paired ? all.log : std::log(entry.usual.Score() / entry.measure.Score());
+  const double error = kNormal95 * std::hypot(all.standard_error, candidate.price_spread);
+  return {std::exp(all.log), std::exp(std::min(all.log, robust) - error),
+          std::exp(std::max(all.log, robust) + error)};
+}
+
+double TriedCandidate::Beyond() const {
+  return entry.Beyond(kMustGain, entry.paired ? kPairedStandardErrors : kNormal95);
+}
+
+Trial::Trial(Job& job, std::uint64_t planned, const std::atomic<bool>* stop) : job_(job) {
+  training_.planned_samples = planned;
+  training_.stop = stop;
+}
+
+// Roulette and guiding are changes of the plan, which is what a pair is known by
+// (DecisionPilot); all else is prepared with the scene.
+void Trial::Use(TriedCandidate& tried) {
+  Strategy prepared = tried.candidate.strategy;
+  const Strategy usual;
+  prepared.roulette = usual.roulette;
+  prepared.termination = usual.termination;
+  prepared.floor = usual.floor;
+  prepared.first = usual.first;
+  prepared.guiding = usual.guiding;
+  UseStrategy(prepared, job_.scene);
+  if (tried.has_learned) return;
+  DecisionEntry& entry = tried.entry;
+  entry.changes = tried.candidate.changes;
+  entry.price = tried.candidate.price;
+  entry.options = job_.plan.options;
+  entry.options.changes = entry.changes + (entry.changes.empty() ? "" : ",");
+  entry.options.changes += "decide=none";
+  entry.tables = MakeStrategyTables(job_.scene);
+}
+
+bool Trial::Round(std::vector<TriedCandidate>& tried, std::uint64_t samples) {
+  DecisionPilot pilot(job_.scene, training_, SeedOf(job_.seed, 0),
+                      {samples, kSpp, turn_++});
+  for (TriedCandidate& t : tried) {
+    Use(t);
+    if (!t.has_learned) {
+      t.entry.options.Change(
+          pilot.Learn(t.entry, training_.planned_samples, t.entry.tables).changes);
+      t.has_learned = true;
+    }
+    if (!pilot.Measure(t.entry, tried.front().entry)) return false;
+  }
+  rays_ += pilot.spent().rays;
+  return true;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,131 @@
+// What `lanelight advise` advises: the same each time, what decide=pilot decides, and
+// what pays.
+#include "src/advise/advise.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "src/core/parallel.h"
+#include "src/wavefront/decision_candidates.h"
+#include "src/wavefront/decision_pilot.h"
+
+namespace lanelight {
+namespace {
+
+Job JobOf(const std::string& scene, const std::string& size, std::uint64_t seed = 0) {
+  RenderSettings settings;
+  settings.spp = 1;
+  settings.seed = seed;
+  settings.decision = DefaultDecision::kNever;
+  const std::size_t x = size.find('x');
+  settings.resolution = {std::stoi(size.substr(0, x)), std::stoi(size.substr(x + 1))};
+  return PrepareJob(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/" + scene, settings);
+}
+
+Advice AdviceOf(const std::string& scene, double pilot, std::uint64_t seed = 0) {
+  Job job = JobOf(scene, "64x48", seed);
+  AdviceOptions options;
+  options.seconds = 10;
+  options.pilot = pilot;
+  return Advise(job, options);
+}
+
+const AdvisedCandidate& Find(const Advice& advice, const std::string& changes) {
+  for (const AdvisedCandidate& c : advice.candidates) {
+    if (c.changes == changes) return c;
+  }
+  FAIL("no candidate " << changes);
+  return advice.candidates.front();
+}
+
+// Without what the clock says.
+nlohmann::json Said(const Advice& advice) {
+  nlohmann::json json = ToJson(advice);
+  json.erase("pilot_seconds");
+  return json;
+}
+
+}  // namespace
+
+TEST_CASE("advice is a function of scene, settings and seed", "[advise]") {
+  const nlohmann::json one = [] {
+    const ThreadLimit limit(1);
+    return Said(AdviceOf("cornell-box.pbrt", 0.1, 5));
+  }();
+  CHECK(Said(AdviceOf("cornell-box.pbrt", 0.1, 5)) == one);
+  CHECK(Said(AdviceOf("cornell-box.pbrt", 0.1, 6)) != one);
+}
+
+TEST_CASE("what the trial's time does not reach is skipped, and --pilot reaches it",
+          "[advise]") {
+  const auto skipped = [](const Advice& advice) {
+    int count = 0;
+    for (const AdvisedCandidate& c : advice.candidates) {
+      count += c.status == CandidateStatus::kSkipped;
+    }
+    return count;
+  };
+  const Advice little = AdviceOf("cornell-box.pbrt", 0.1);
+  CHECK(skipped(little) > 0);
+  CHECK(little.candidates.front().samples > 0);
+  CHECK(little.seconds_to_try > 0.1);
+  const Advice enough = AdviceOf("cornell-box.pbrt", 1.1 * little.seconds_to_try);
+  CHECK(skipped(enough) == 0);
+  const Advice none = AdviceOf("cornell-box.pbrt", 1e-3);
+  CHECK(none.chosen == Strategy());
+  CHECK_THAT(none.why, Catch::Contains("too short"));
+}
+
+TEST_CASE("the trial costs what it is said to", "[advise]") {
+  for (const double pilot : {0.3, 1.0}) {
+    const Advice advice = AdviceOf("cornell-box.pbrt", pilot);
+    CHECK(double(advice.rays) < 1.5 * pilot * kRaysPerSecond);
+  }
+}
+
+TEST_CASE("what pays is advised, and what loses is not", "[advise]") {
+  // Roulette ends most paths of a white room where all that shines is met late.
+  const Advice room = AdviceOf("closed-room.pbrt", 0.6);
+  INFO(ToJson(room).dump(1));
+  CHECK((room.chosen.roulette == Roulette::kNone || room.chosen.First() == 5));
+  const Advice box = AdviceOf("cornell-box.pbrt", 0.6);
+  INFO(ToJson(box).dump(1));
+  CHECK(box.chosen.roulette == Roulette::kThroughput);
+  CHECK(Find(box, "roulette=none").efficiency.value < 1);
+  CHECK(Find(box, "light-selection=tree").status == CandidateStatus::kRefused);
+  for (const Advice* advice : {&room, &box}) {
+    for (const AdvisedCandidate& c : advice->candidates) {
+      if (c.samples == 0 || c.changes.empty()) continue;
+      CHECK(c.efficiency.low < c.efficiency.value);
+      CHECK(c.efficiency.value < c.efficiency.high);
+    }
+  }
+}
+
+TEST_CASE("what misses light is not advised, however even it looks", "[advise]") {
+  DecisionEntry entry;
+  entry.usual = {1, std::vector<double>(1000, 1.0)};
+  entry.measure = {1, std::vector<double>(1000, 0.01)};
+  entry.usual_light = {100, 1};
+  entry.light = {99, 0.1};
+  CHECK(entry.Beyond(kMustGain, 1.645) == Approx(std::log(100 / kMustGain)));
+  entry.light.sum = 96;
+  CHECK(entry.MissesLight());
+  CHECK(entry.Beyond(kMustGain, 1.645) == 0);
+  // More than that may be the usual strategy's lack.
+  entry.light.sum = 104;
+  CHECK_FALSE(entry.MissesLight());
+}
+
+TEST_CASE("a trial that the user ends leaves the default", "[advise]") {
+  Job job = JobOf("cornell-box.pbrt", "64x48");
+  const std::atomic<bool> stop = true;
+  AdviceOptions options;
+  options.seconds = 10;
+  options.stop = &stop;
+  const Advice advice = Advise(job, options);
+  CHECK(advice.interrupted);
+  CHECK(advice.chosen == Strategy());
+}
+
+}  // namespace lanelight
