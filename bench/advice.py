@@ -69,6 +69,7 @@ def look(options, scene, truths):
     tried = [usual] + sorted({c["strategy"] for a in advices for c in a["candidates"]
                               if c["samples"] and c["strategy"] != usual})
     known = truths.setdefault(scene, {})
+    known[usual] = (1, 1, 1)
     if missing := [s for s in tried if s not in known]:
         known.update(long_renders(options, scene, [usual] + missing))
     share = float(options.pilot or 0.03 * float(options.time)) / float(options.time)

@@ -1,6 +1,7 @@
 #include "src/advise/trial.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "src/prepare/use_strategy.h"
@@ -10,21 +11,25 @@ namespace lanelight {
 namespace {
 
 constexpr double kNormal95 = 1.645;
-// Of a pixel: randomisations of 32. What strata gain in longer ones is not seen.
-constexpr std::uint32_t kSpp = 128;
+// Samples of a pixel. What strata gain in longer randomisations than a quarter of them is
+// not seen, so there are many, as long as there are many pixels too.
+constexpr std::uint64_t kLeastSpp = 32, kMostSpp = 512, kPixels = 256;
 // What tells of the default's bright samples too is believed sooner: what is missed may
 // be a factor of three (src/wavefront/train_decision.cc).
 constexpr double kPairedStandardErrors = 0.5;
+
+std::uint32_t SppFor(std::uint64_t samples) {
+  return static_cast<std::uint32_t>(
+      std::clamp(std::bit_floor(samples / kPixels), kLeastSpp, kMostSpp));
+}
 
 }  // namespace
 
 Interval TriedCandidate::Efficiency() const {
   const PilotGain all = GainOf(entry.measure, entry.usual);
-  const double robust =
-      entry.paired ? all.log : std::log(entry.usual.Score() / entry.measure.Score());
   const double error = kNormal95 * std::hypot(all.standard_error, candidate.price_spread);
-  return {std::exp(all.log), std::exp(std::min(all.log, robust) - error),
-          std::exp(std::max(all.log, robust) + error)};
+  return {std::exp(all.log), std::exp(entry.Gain().log - error),
+          std::exp(all.most + error)};
 }
 
 double TriedCandidate::Beyond() const {
@@ -59,7 +64,7 @@ void Trial::Use(TriedCandidate& tried) {
 
 bool Trial::Round(std::vector<TriedCandidate>& tried, std::uint64_t samples) {
   DecisionPilot pilot(job_.scene, training_, SeedOf(job_.seed, 0),
-                      {samples, kSpp, turn_++});
+                      {samples, SppFor(samples), turn_++});
   for (TriedCandidate& t : tried) {
     Use(t);
     if (!t.has_learned) {

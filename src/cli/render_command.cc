@@ -80,7 +80,9 @@ void AddAmountOptions(CLI::App& command, RenderSettings& settings) {
                   WithSceneDefault("Samples per pixel", Sampler{}.spp))
       ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
       ->type_name("N");
-  command.add_option("--time", settings.seconds, "Render for this many seconds instead")
+  command
+      .add_option("--time", settings.seconds,
+                  "Render for this many seconds of the wall clock instead")
       ->check(FiniteRange(1e-3, 1e9))
       ->type_name("SECONDS");
   AddTargetOption(command, "--target-relmse",

@@ -42,6 +42,7 @@ std::vector<double> Both(const std::vector<double>& own, std::vector<double> uns
 PilotGain DecisionEntry::Gain() const {
   PilotGain gain = GainOf(measure, usual);
   if (!paired) gain.log = std::min(gain.log, std::log(usual.Score() / measure.Score()));
+  gain.log = std::min(gain.log, gain.least);
   return gain;
 }
 
@@ -53,7 +54,7 @@ bool DecisionEntry::MissesLight() const {
 double DecisionEntry::Beyond(double must_gain, double standard_errors) const {
   const PilotGain all = GainOf(measure, usual);
   const double must = std::log(must_gain);
-  if (all.log - standard_errors * all.standard_error <= must || MissesLight()) return 0;
+  if (all.least - standard_errors * all.standard_error <= must || MissesLight()) return 0;
   // What has not seen the usual strategy's bright samples may owe its gain to one.
   if (!paired && !IsClearlyBetter(measure, usual, 1 / must_gain, standard_errors)) {
     return 0;

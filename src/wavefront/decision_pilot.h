@@ -40,8 +40,8 @@ struct DecisionEntry {
   /// samples too rare to be seen, and so the variance is not seen either.
   bool MissesLight() const;
 
-  /// How many times as efficient as the usual one it is, by all pixels (paired), or by
-  /// these and without the worst thousandth of them, whichever is less.
+  /// How many times as efficient as the usual one it is: by all pixels, without any one,
+  /// and if it is not paired without the worst thousandth, whichever is least.
   PilotGain Gain() const;
   /// The logarithm of its gain over `must_gain`, if that is clear by so many standard
   /// errors; else 0.

@@ -49,17 +49,27 @@ PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual) {
   const auto sum = [](const PilotMeasure& m) {
     return std::accumulate(m.variances.begin(), m.variances.end(), 0.0);
   };
-  constexpr double kMost = 100;
   const double others = sum(other), usuals = sum(usual);
-  if (others <= 0 && usuals <= 0) return {};
-  if (usuals <= 0) return {-kMost, 0};
-  if (others <= 0) return {kMost, 0};
+  const auto log_ratio = [&](double without_usual, double without_other) {
+    constexpr double kMost = 100;
+    const double u = usuals - without_usual, o = others - without_other;
+    if (o <= 0 && u <= 0) return 0.0;
+    if (u <= 0) return -kMost;
+    return o <= 0 ? kMost : std::log(usual.cost * u / (other.cost * o));
+  };
+  PilotGain gain;
+  gain.log = gain.least = gain.most = log_ratio(0, 0);
+  if (others <= 0 || usuals <= 0) return gain;
   double squares = 0;
   for (std::size_t i = 0; i < other.variances.size(); ++i) {
     const double d = other.variances[i] / others - usual.variances[i] / usuals;
     squares += d * d;
+    const double without = log_ratio(usual.variances[i], other.variances[i]);
+    gain.least = std::min(gain.least, without);
+    gain.most = std::max(gain.most, without);
   }
-  return {std::log(usual.cost * usuals / (other.cost * others)), std::sqrt(squares)};
+  gain.standard_error = std::sqrt(squares);
+  return gain;
 }
 
 bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, double margin,

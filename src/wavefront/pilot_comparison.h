@@ -27,6 +27,9 @@ bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, doubl
 struct PilotGain {
   double log = 0;             // natural
   double standard_error = 0;  // of it, by the scatter of both over the pixels
+  /// Without any one of the pixels. One bright sample may be in both measures (copies of
+  /// paths tell of both), where it carries them without any scatter.
+  double least = 0, most = 0;
 };
 /// Both have the same pixels. None without error in either; the least number if nothing
 /// of the usual error was seen (variances may be negative), and the largest if none of
