@@ -14,9 +14,6 @@ constexpr double kNormal95 = 1.645;
 // Samples of a pixel. What strata gain in longer randomisations than a quarter of them is
 // not seen, so there are many, as long as there are many pixels too.
 constexpr std::uint64_t kLeastSpp = 32, kMostSpp = 512, kPixels = 256;
-// What tells of the default's bright samples too is believed sooner: what is missed may
-// be a factor of three (src/wavefront/train_decision.cc).
-constexpr double kPairedStandardErrors = 0.5;
 
 std::uint32_t SppFor(std::uint64_t samples) {
   return static_cast<std::uint32_t>(
@@ -33,7 +30,7 @@ Interval TriedCandidate::Efficiency() const {
 }
 
 double TriedCandidate::Beyond() const {
-  return entry.Beyond(kMustGain, entry.paired ? kPairedStandardErrors : kNormal95);
+  return entry.Beyond(kMustGain, kNormal95);
 }
 
 Trial::Trial(Job& job, std::uint64_t planned, const std::atomic<bool>* stop) : job_(job) {
