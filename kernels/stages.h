@@ -73,6 +73,11 @@ namespace lanelight {
   X(FirstBounce)                               \
   X(GuideProposals)                            \
   X(Route)                                     \
+  X(ChooseGlass)                               \
+  X(ChooseThinGlass)                           \
+  X(ChooseSheet)                               \
+  X(ChooseCoat)                                \
+  X(ChooseRoughCoat)                           \
   X(BeginCandidates)                           \
   X(SelectLight)                               \
   X(SelectLightTree)                           \
@@ -88,6 +93,7 @@ namespace lanelight {
   X(SampleInfiniteImage)                       \
   X(SamplePortalLight)                         \
   X(EmissionImageSamples)                      \
+  X(EmissionCutSamples)                        \
   X(Consider)                                  \
   X(KeepCandidate)                             \
   X(AnalyticDiffuse)                           \

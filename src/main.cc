@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 
@@ -136,6 +137,9 @@ int Execute(const CLI::App& root, const Command& chosen, int argc, char** argv,
     message = std::string("internal error, please report: ") + error.what();
   } catch (const std::bad_alloc&) {
     message = "error: " + OutOfMemoryText();
+  } catch (const std::filesystem::filesystem_error& error) {
+    message =
+        fmt::format("error: '{}': {}", error.path1().string(), error.code().message());
   } catch (const std::exception& error) {
     message = WithPrefix(error);
   }

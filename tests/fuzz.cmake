@@ -1,7 +1,9 @@
 # One fuzz target per file of tests/fuzz, with libFuzzer and the address and undefined
 # behaviour sanitizers; needs clang and its run-time libraries. Only what reads input is
-# compiled again for it. Seeds are those of fuzz/corpus/<target>, where there are any,
-# scenes and tests/broken.
+# compiled again for it. Inputs are first those of fuzz/corpus/<target>, where there are any,
+# and those that <target>_ARGUMENTS names.
+set(parse_fuzz_ARGUMENTS ${CMAKE_CURRENT_SOURCE_DIR}/broken ${CMAKE_SOURCE_DIR}/scenes)
+set(nanovdb_fuzz_ARGUMENTS -max_len=121 -len_control=0)  # ten changes
 set(LANELIGHT_FUZZ_SECONDS 10 CACHE STRING "Seconds that ctest fuzzes each target")
 file(GLOB FUZZ_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/*.cc)
 if(NOT FUZZ_SOURCES)
@@ -23,14 +25,19 @@ endif()
 file(GLOB FUZZ_LIBRARY_SOURCES CONFIGURE_DEPENDS
   ${CMAKE_SOURCE_DIR}/src/core/*.cc ${CMAKE_SOURCE_DIR}/src/parse/*.cc
   ${CMAKE_SOURCE_DIR}/src/image/*.cc ${CMAKE_SOURCE_DIR}/src/strategy/*.cc
-  ${CMAKE_SOURCE_DIR}/src/path/*.cc)
+  ${CMAKE_SOURCE_DIR}/src/path/*.cc ${CMAKE_SOURCE_DIR}/src/compile/medium_*.cc
+  ${CMAKE_SOURCE_DIR}/src/compile/frame.cc
+  ${CMAKE_CURRENT_SOURCE_DIR}/image/sparse_grid_file.cc)
 # It needs what the build writes of the version.
 list(REMOVE_ITEM FUZZ_LIBRARY_SOURCES ${CMAKE_SOURCE_DIR}/src/core/version.cc)
 set(FUZZ_FLAGS -O1 -gline-tables-only -fno-omit-frame-pointer -fno-sanitize-recover=all)
 add_library(lanelight_fuzz_lib STATIC EXCLUDE_FROM_ALL ${FUZZ_LIBRARY_SOURCES})
 lanelight_unity(lanelight_fuzz_lib ${FUZZ_LIBRARY_SOURCES})
-set_source_files_properties(${CMAKE_SOURCE_DIR}/src/image/sparse_grid.cc PROPERTIES
-  SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(${CMAKE_SOURCE_DIR}/src/image/sparse_grid.cc
+  ${CMAKE_SOURCE_DIR}/src/image/nanovdb_file.cc PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+# It goes over many thousand values of each grid, and would take ten times as long.
+set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/image/sparse_grid.cc APPEND PROPERTY
+  COMPILE_OPTIONS -O2 -fno-sanitize-coverage=trace-cmp)
 target_compile_options(lanelight_fuzz_lib PRIVATE ${FUZZ_FLAGS}
   -fsanitize=fuzzer-no-link,address,undefined)
 target_link_libraries(lanelight_fuzz_lib PUBLIC lanelight_options hwy::hwy TBB::tbb
@@ -51,14 +58,12 @@ foreach(file ${FUZZ_SOURCES})
   set(corpus ${CMAKE_BINARY_DIR}/corpus/${name})
   file(MAKE_DIRECTORY ${corpus})
   set(seeds ${corpus})
-  foreach(folder ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name}
-                 ${CMAKE_CURRENT_SOURCE_DIR}/broken ${CMAKE_SOURCE_DIR}/scenes)
-    if(EXISTS ${folder})
-      list(APPEND seeds ${folder})
-    endif()
-  endforeach()
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name})
+    list(APPEND seeds ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name})
+  endif()
   add_test(NAME fuzz/${name} COMMAND ${name} -max_total_time=${LANELIGHT_FUZZ_SECONDS}
-    -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 ${seeds}
+    -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 ${${name}_ARGUMENTS}
+    ${seeds}
     WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
   set_tests_properties(fuzz/${name} PROPERTIES LABELS fuzz TIMEOUT 300)
 endforeach()

@@ -81,11 +81,12 @@ HWY_INLINE void StoreControl(const Wave& wave, const Slots& slots, V3 difference
     PlaneWriter(wave, PlaneGroup::kDifference)
         .Store(IfThenElse(bad, Splat3(0, 0, 0), difference), output);
   }
-  if (p.first_bsdf_0 != nullptr) {
-    PlaneWriter(wave, PlaneGroup::kNumbers)
-        .StoreColumns({p.first_bsdf_0, p.first_bsdf_1, p.first_light_0, p.first_light_1,
-                       p.first_film_0, p.first_film_1},
-                      slots, output);
+  if (p.first_bsdf != nullptr) {
+    PlaneWriter numbers(wave, PlaneGroup::kNumbers);
+    for (const uint32_t* column :
+         {p.first_film, p.first_bsdf, p.first_light, p.choices}) {
+      numbers.Store(hn::BitCast(DF(), Gather(column, slots)), output);
+    }
   }
 }
 
@@ -167,7 +168,7 @@ Stage AccumulateStage() {
           .meaning = "checks finished samples and frees their slots",
           .input = QueueId::kDone,
           .reads = fields::kRadiance | fields::kAov | fields::kGbuffer |
-                   fields::kControl | fields::kFirstBounce | fields::kFirstFilm |
+                   fields::kControl | fields::kFirstNumbers |
                    FieldSet{Field::output, Field::weight},
           .resolve = ResolveAccumulate};
 }

@@ -8,6 +8,9 @@
 //     static BsdfValue Eval(const Params&, V3 wo, V3 wi);
 //     static BsdfSample Sample(const Params&, V3 wo, const BsdfPoints&);
 //     static VF EtaScale(const Params&, V3 wo, V3 wi);  with Eval and kRefracts
+//     static VF FirstLobe(const Params&, V3 wo);  probability of the first of two lobes,
+//                                 which BsdfPoints::lobe below it chooses: if control/
+//                                 choices.cc has a line for the kind
 //   };
 // wo and wi are unit and point away from the surface; wo.z is never 0.
 #if defined(LANELIGHT_BSDF_BSDF_INL_H_) == defined(HWY_TARGET_TOGGLE)

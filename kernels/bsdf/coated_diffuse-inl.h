@@ -96,6 +96,11 @@ struct CoatedDiffuseSmoothBsdf : PlainBsdf {
     return hn::Mul(hn::Sub(Splat(1.0f), at.reflectance), Exp(hn::Neg(slant)));
   }
 
+  LANELIGHT_INLINE static VF FirstLobe(const Params& m, V3 wo) {
+    const Interface at = DielectricInterface(hn::Abs(wo.z), m.base.eta);
+    return m.base.CoatProbability(at.reflectance, Transmittance(m, at));
+  }
+
   LANELIGHT_LONG_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
     const VF cos_i = hn::Abs(wi.z);
     const Interface at_o = DielectricInterface(hn::Abs(wo.z), m.base.eta);
@@ -167,6 +172,11 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
     const VI index = hn::Add(m.offset, cell);
     const VF low = Gather(m.table, index), high = Gather(m.table + 1, index);
     return hn::MulAdd(part, hn::Sub(high, low), low);
+  }
+
+  LANELIGHT_INLINE static VF FirstLobe(const Params& m, V3 wo) {
+    const VF to = Transmittance(m, hn::Abs(wo.z));
+    return m.base.CoatProbability(hn::Sub(Splat(1.0f), to), to);
   }
 
   /// Both directions on the upper side; n = their half vector.

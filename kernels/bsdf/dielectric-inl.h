@@ -30,6 +30,9 @@ struct DielectricSmoothBsdf : PlainBsdf {
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     return {in.Float(in.source.table->eta)};
   }
+  LANELIGHT_INLINE static VF FirstLobe(const Params& m, V3 wo) {
+    return DielectricInterface(hn::Abs(wo.z), RelativeIndex(m.eta, wo)).reflectance;
+  }
 
   LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
     const VF eta = RelativeIndex(m.eta, wo), one = Splat(1.0f);
@@ -55,10 +58,13 @@ struct ThinDielectricBsdf : PlainBsdf {
     return {in.Float(in.source.table->eta)};
   }
 
-  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
+  LANELIGHT_INLINE static VF FirstLobe(const Params& m, V3 wo) {
     const VF r = DielectricInterface(hn::Abs(wo.z), m.eta).reflectance;
-    const VF total = hn::Div(hn::Add(r, r), hn::Add(Splat(1.0f), r));
-    const MF reflect = hn::Lt(u.lobe, total);
+    return hn::Div(hn::Add(r, r), hn::Add(Splat(1.0f), r));
+  }
+
+  LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
+    const MF reflect = hn::Lt(u.lobe, FirstLobe(m, wo));
     const V3 mirrored = {hn::Neg(wo.x), hn::Neg(wo.y), wo.z};
     return {IfThenElse(reflect, mirrored, -wo), Splat3(1, 1, 1), hn::Zero(DF()),
             Splat(1.0f)};

@@ -37,6 +37,8 @@ struct DiffuseTransmissionBsdf : PlainBsdf {
             hn::Mul(choice, lambert)};
   }
 
+  LANELIGHT_INLINE static VF FirstLobe(const Params& m, V3) { return m.reflect; }
+
   LANELIGHT_INLINE static BsdfSample Sample(const Params& m, V3 wo, const BsdfPoints& u) {
     const MF reflect = hn::Lt(u.lobe, m.reflect);
     const V3 up = SampleCosineHemisphere(u.u0, u.u1);

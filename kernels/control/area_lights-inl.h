@@ -95,7 +95,7 @@ LANELIGHT_INLINE MF SphereLightAt(const CompiledScene& scene, const LightRecord&
   });
   const V3 to_center = Splat3(record.center[0], record.center[1], record.center[2]) - p;
   const bool emits = record.normal_sign > 0 || light.two_sided != 0;
-  return hn::And(OutsideSphere(Splat(record.radius), Dot(to_center, to_center)),
+  return hn::And(hn::Gt(Dot(to_center, to_center), Splat(light.size[0])),
                  hn::Eq(Splat(emits ? 1.0f : 0.0f), Splat(1.0f)));
 }
 
@@ -140,7 +140,8 @@ LANELIGHT_INLINE AreaLight AreaLightsAt(const CompiledScene& scene, V3 p, VF p_e
   AreaLight sum = {zero, zero, hn::Lt(zero.x, zero.x)};
   for (std::size_t i = 0; i < scene.lights.lights.size(); ++i) {
     const LightRecord& light = scene.lights.lights[i];
-    if (light.image != 0) continue;  // its radiance is not the same everywhere
+    // Its radiance is not the same everywhere.
+    if (light.image != 0 || IsCut(scene, light)) continue;
     TwoSides one = {zero.x, zero.x};
     MF takes_part;
     switch (static_cast<LightShape>(light.shape)) {

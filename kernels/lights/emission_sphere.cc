@@ -55,9 +55,8 @@ void EmissionSphere(Wave& wave) {
           hn::Mul(Splat(6.28318530717958648f), OneMinusCosCone(sphere.radius, d2)));
       const VF area = hn::Div(hn::Mul(hn::Mul(light.Pmf(p, slots), t), t),
                               hn::Mul(light.Area(), hn::Abs(cosine)));
-      weight =
-          EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
-                         hn::IfThenElse(OutsideSphere(sphere.radius, d2), cone, area));
+      weight = EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
+                              hn::IfThenElse(hn::Gt(d2, light.ConeFrom()), cone, area));
     }
     V3 radiance = light.Radiance();
     if constexpr (kImages) {

@@ -76,11 +76,6 @@ LANELIGHT_INLINE VF OneMinusCosCone(VF radius, VF d2) {
   return hn::Div(sin2, hn::Add(Splat(1.0f), cosine));
 }
 
-/// True where a sphere is sampled by its cone of directions; inside, by area.
-LANELIGHT_INLINE MF OutsideSphere(VF radius, VF d2) {
-  return hn::Gt(d2, hn::Mul(hn::Mul(radius, radius), Splat(1.0001f)));
-}
-
 struct LightDisk {
   V3 center, n, u_axis;
   VF radius, inner_radius;

@@ -31,6 +31,9 @@ struct Lights : RecordWords<LightRecord> {
   }
   LANELIGHT_INLINE VF Area() const { return F(offsetof(LightRecord, area)); }
   LANELIGHT_INLINE VI Primitive() const { return I(offsetof(LightRecord, primitive)); }
+  /// Spheres: squared distance beyond which they are sampled by their cone of directions,
+  /// that is, from outside; else by area.
+  LANELIGHT_INLINE VF ConeFrom() const { return F(offsetof(LightRecord, size)); }
   LANELIGHT_INLINE MF TwoSided() const { return IsSet(offsetof(LightRecord, two_sided)); }
 };
 

@@ -26,6 +26,19 @@ inline Stage SampleLightStage(const char* name, const char* meaning, Feature sha
           .resolve = resolve};
 }
 
+/// Multiplies samples of emitting shapes by what there is at their points.
+inline Stage EmittedThereStage(const char* name, const char* meaning, Feature need,
+                               StageFn (*resolve)(const FeatureSet&)) {
+  return {.name = name,
+          .meaning = meaning,
+          .input = QueueId::kLit,
+          .needs = {need, Feature::kSampledHittableLights, Feature::kLights,
+                    Feature::kScatters},
+          .reads = fields::kPoint | fields::kLightSample | FieldSet{Field::ls_light},
+          .writes = fields::kLightSample,
+          .resolve = resolve};
+}
+
 /// Reads light_pmf too where a tree selects lights and light_hit_tree has written it.
 inline Stage EmissionStage(const char* name, const char* meaning, Feature shape,
                            StageFn (*resolve)(const FeatureSet&)) {

@@ -1,5 +1,6 @@
 // Light samples on emitting spheres: uniform over the cone of directions that the sphere
-// fills; from inside, uniform over its area.
+// fills; from inside, and where its far side is seen through holes, uniform over its
+// area.
 //   density     outside pdf_sa = pmf / (2 pi (1 - cos_max)); inside pdf_area = pmf / area
 //   source      Shirley, Wang and Zimmerman 1996, "Monte Carlo Techniques for Direct
 //               Lighting Calculations"; 1 - cos_max in a form exact for tiny spheres
@@ -35,7 +36,7 @@ HWY_INLINE VF NearDistance(V3 c, V3 w, VF radius) {
 struct SphereEmitters {
   LightSphere sphere;
   V3 radiance;
-  VF pmf, area;
+  VF pmf, area, cone_from;
   VI two_sided;
 
   HWY_INLINE SphereEmitters(const CompiledScene& scene, const Lights& light, VI prim,
@@ -44,6 +45,7 @@ struct SphereEmitters {
         radiance(light.Radiance()),
         pmf(selected),
         area(light.Area()),
+        cone_from(light.ConeFrom()),
         two_sided(light.I(offsetof(LightRecord, two_sided))) {}
 
   /// One for each of the scene's lights, which fit into a vector.
@@ -70,6 +72,7 @@ struct SphereEmitters {
     chosen.radiance = pick3(radiance);
     chosen.pmf = pick(pmf);
     chosen.area = pick(area);
+    chosen.cone_from = pick(cone_from);
     chosen.two_sided = hn::BitCast(DI(), pick(hn::BitCast(df, two_sided)));
     return chosen;
   }
@@ -84,7 +87,7 @@ HWY_INLINE void SampleEmitters(const PathColumns& p, const StoreSlots& slots,
   const VF u0 = Gather(p.u_light_0, slots), u1 = Gather(p.u_light_1, slots);
   const V3 to_center = sphere.center - from;
   const VF d2 = Dot(to_center, to_center);
-  const MF outside = OutsideSphere(sphere.radius, d2);
+  const MF outside = hn::Gt(d2, light.cone_from);
   const auto [sine, cosine] = SinCos2Pi(u1);
 
   // Inside: area sampling. Computed for all lanes; the other side overwrites below.

@@ -92,19 +92,37 @@ struct CellWalk {
     const VI index = hn::Add(in(0), hn::Mul(size, hn::Add(in(1), hn::Mul(size, in(2)))));
     return Gather(grid.majorants.data(), index);
   }
+  /// Goes on to a collision in dt, in the lanes of `mask`, of which a length has `sigma`.
+  /// Where these are closer together than distances are rounded, adding dt would change
+  /// nothing, and a walk through null collisions never end: then by 8 ulps, or by a
+  /// fraction of the box that nobody sees, at least.
+  LANELIGHT_INLINE void Advance(MF mask, VF sigma, VF dt) {
+    const VF across = hn::Mul(Splat(static_cast<float>(kMajorantCells)),
+                              hn::Min(delta[0], hn::Min(delta[1], delta[2])));
+    const MF stuck = hn::Gt(hn::Mul(sigma, hn::Max(t, across)), Splat(0x1p25f));
+    const VF least =
+        hn::Max(hn::Mul(t, Splat(0x1p-20f)), hn::Mul(across, Splat(0x1p-16f)));
+    const VF step = hn::Max(dt, hn::IfThenElseZero(stuck, least));
+    t = hn::IfThenElse(mask, hn::Add(t, step), t);
+  }
   /// Where the ray leaves the cell.
   LANELIGHT_INLINE VF Exit() const {
     return hn::Min(end, hn::Min(next[0], hn::Min(next[1], next[2])));
   }
-  /// Goes on to where it leaves the cell, in the lanes of `mask`.
+  /// Goes on to where it leaves the cell, in the lanes of `mask`. The walk ends more than
+  /// a cell behind the box, where rounding alone leads: cells may be smaller than an ulp.
   LANELIGHT_INLINE void Cross(MF mask) {
+    const DI di;
+    const VI before = hn::Set(di, -1), behind = hn::Set(di, kMajorantCells);
     const VF exit = Exit();
     t = hn::IfThenElse(mask, exit, t);
     for (int a = 0; a < 3; ++a) {
       const MF crosses = hn::And(mask, hn::Le(next[a], exit));
-      const auto only = hn::RebindMask(DI(), crosses);
+      const auto only = hn::RebindMask(di, crosses);
       cell[a] = hn::Add(cell[a], hn::IfThenElseZero(only, step[a]));
       next[a] = hn::Add(next[a], hn::IfThenElseZero(crosses, delta[a]));
+      const auto off = hn::Or(hn::Lt(cell[a], before), hn::Gt(cell[a], behind));
+      end = hn::IfThenElse(hn::RebindMask(DF(), off), t, end);
     }
   }
 

@@ -17,6 +17,7 @@ namespace HWY_NAMESPACE {
 void Interfaces(Wave& wave) {
   const PathColumns& p = wave.path;
   const VI max_depth = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
+  const VI most = hn::Set(DI(), static_cast<int32_t>(kMostCrossings));
   Queue& surfaces = wave.queue(QueueId::kSurface);
   Queue rest = {surfaces.items, 0};  // compacts in place: writes never pass reads
   ForEachBatch(wave, surfaces, [&](const Slots& slots, MF valid) HWY_ATTR {
@@ -24,9 +25,11 @@ void Interfaces(Wave& wave) {
         hn::And(valid, Sides(wave.scene->media, Gather(p.prim, slots)).Passes());
     const MF stays = hn::AndNot(passes, valid);
     const MF below = hn::RebindMask(DF(), hn::Lt(Gather(p.depth, slots), max_depth));
+    const MF few = hn::RebindMask(DF(), hn::Lt(Gather(p.crossings, slots), most));
+    const MF goes_on = hn::Or(hn::And(passes, few), hn::And(stays, below));
     Push(rest, slots, hn::And(stays, below));
-    Push(wave.queue(QueueId::kDone), slots, hn::AndNot(below, stays));
-    Push(wave.queue(QueueId::kPassed), slots, passes);
+    Push(wave.queue(QueueId::kDone), slots, hn::AndNot(goes_on, valid));
+    Push(wave.queue(QueueId::kPassed), slots, hn::And(passes, few));
   });
   surfaces.size = rest.size;
 }
@@ -69,7 +72,7 @@ Stage InterfacesStage() {
           .meaning = "takes out the paths that go through interfaces of media",
           .input = QueueId::kSurface,
           .needs = {Feature::kInterfaces, Feature::kScatters},
-          .reads = {Field::prim, Field::depth},
+          .reads = {Field::prim, Field::depth, Field::crossings},
           .resolve = [](const FeatureSet&) -> StageFn {
             return HWY_DYNAMIC_DISPATCH(Interfaces);
           }};

@@ -78,6 +78,10 @@ struct Sides {
 };
 static_assert(sizeof(MediumSides) == 16);
 
+/// Interfaces that a path, and a shadow ray, goes through at most. Those of a shape that
+/// is finer than places are rounded are met again and again.
+inline constexpr uint32_t kMostCrossings = 1u << 16;
+
 /// exp(-sigma d), 1 where sigma is 0 although d may be infinite.
 LANELIGHT_INLINE VF Transmittance(VF sigma, VF d) {
   const VF depth = hn::Mul(sigma, d);

@@ -65,7 +65,7 @@ LANELIGHT_INLINE V3 TrackedTransmittance(const GridMedium& medium, V3 o, V3 d, V
     const MF collides = hn::And(going, hn::Lt(needed, room));
     const MF crosses = hn::AndNot(collides, going);
     depth = hn::IfThenElse(crosses, hn::NegMulAdd(sigma_m, room, depth), depth);
-    at.t = hn::IfThenElse(collides, hn::Add(at.t, needed), at.t);
+    at.Advance(collides, sigma_m, needed);
     at.Cross(crosses);
     if (hn::AllFalse(DF(), collides)) continue;
     random.NextWhere(collides, &u0, &u1);

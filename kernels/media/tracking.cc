@@ -88,7 +88,7 @@ struct Track {
       const MF crosses = hn::AndNot(collides, going);
       depth_left =
           hn::IfThenElse(crosses, hn::NegMulAdd(own, dt, depth_left), depth_left);
-      at.t = hn::IfThenElse(collides, hn::Add(at.t, dt), at.t);
+      at.Advance(collides, own, dt);
       at.Cross(crosses);
       VF u0, u1;
       random.Next(&u0, &u1);

@@ -143,7 +143,7 @@ LANELIGHT_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node
 }
 
 /// Between four corners, v00, v01, v10 and v11 of (s, t).
-LANELIGHT_INLINE V3 Bilinear(const V3 corner[4], VF s, VF t) {
+LANELIGHT_INLINE V3 BetweenCorners(const V3 corner[4], VF s, VF t) {
   return Lerp(Lerp(corner[0], corner[1], t), Lerp(corner[2], corner[3], t), s);
 }
 
@@ -199,7 +199,7 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
         break;
       case TextureKind::kBilinear: {
         const V3 corners[4] = {operand(0), operand(1), operand(2), operand(3)};
-        value[i] = Bilinear(corners, st.s, st.t);
+        value[i] = BetweenCorners(corners, st.s, st.t);
         break;
       }
       case TextureKind::kMetalExtinction:

@@ -1,12 +1,8 @@
 #include "src/accel/tree_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <string_view>
 #include <type_traits>
@@ -15,7 +11,7 @@
 #include "src/accel/tree_parts.h"
 #include "src/core/check.h"
 #include "src/core/error.h"
-#include "src/core/file_descriptor.h"
+#include "src/core/input_file.h"
 #include "src/core/mapped_file.h"
 #include "src/core/parallel.h"
 #include "src/image/atomic_file.h"
@@ -98,20 +94,14 @@ void CheckHeader(const TreeHeader& header, std::size_t size, const TreeKey& key,
 }
 
 MappedFile MapChecked(const std::string& path, const TreeKey& key, TreeHeader& header) {
-  const FileDescriptor fd(open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat info;
-  if (fd.get() < 0 || fstat(fd.get(), &info) != 0) {
-    Refuse(path, fmt::format("cannot open: {}", std::strerror(errno)));
+  const InputFile file = OpenInputFile(path);
+  if (file.size < kPageBytes) {
+    Refuse(path, fmt::format("is too short for a tree: {} bytes", file.size));
   }
-  if (!S_ISREG(info.st_mode)) Refuse(path, "is not a file");
-  const auto size = static_cast<std::size_t>(info.st_size);
-  if (size < kPageBytes) {
-    Refuse(path, fmt::format("is too short for a tree: {} bytes", size));
-  }
-  MappedFile file = MapFile(fd.get(), path, size);
-  std::memcpy(&header, file.data, sizeof(header));
-  CheckHeader(header, size, key, path);
-  return file;
+  MappedFile mapped = MapFile(file.fd.get(), path, file.size);
+  std::memcpy(&header, mapped.data, sizeof(header));
+  CheckHeader(header, file.size, key, path);
+  return mapped;
 }
 
 template <typename T>

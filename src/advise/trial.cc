@@ -29,9 +29,7 @@ Interval TriedCandidate::Efficiency() const {
           std::exp(all.most + error)};
 }
 
-double TriedCandidate::Beyond() const {
-  return entry.Beyond(kMustGain, kNormal95);
-}
+double TriedCandidate::Beyond() const { return entry.Beyond(kMustGain, kNormal95); }
 
 Trial::Trial(Job& job, std::uint64_t planned, const std::atomic<bool>* stop) : job_(job) {
   training_.planned_samples = planned;

@@ -12,6 +12,7 @@
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/validators.h"
+#include "src/core/json_text.h"
 #include "src/core/parallel.h"
 #include "src/render/machine_json.h"
 #include "src/render/report.h"
@@ -82,17 +83,17 @@ int PrintAdvice(const AdviseCommandOptions& options, const Advice& advice) {
                                  {"advice", ToJson(advice)}};
   const std::string& json = options.outputs.targets.json;
   if (json.empty()) return kExitGood;
-  return SaveOrPrint(json, report.dump(2) + "\n") ? kExitGood : kExitBadInput;
+  return SaveOrPrint(json, DumpJson(report, 2) + "\n") ? kExitGood : kExitBadInput;
 }
 
 int RunAdvise(AdviseCommandOptions& options) {
   ForceTarget(options.scene.target);
   const ThreadLimit threads(options.scene.threads);
-  CheckOutputs(options.outputs, options.scene.scene);
+  CheckOutputs(options.outputs, {options.scene.scene});
   options.scene.settings.seconds = options.seconds;
   if (options.outputs.quiet) options.scene.settings.trees.folder.on_wait = nullptr;
   Job job = PrepareJob(options.scene.scene, options.scene.settings);
-  CheckOutputs(options.outputs, job);
+  CheckOutputs(options.outputs, job.files);
   if (!options.outputs.quiet) PrintNotes(job);
   const InterruptGuard interrupt;
   AdviceOptions advise;

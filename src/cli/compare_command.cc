@@ -8,9 +8,11 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/validators.h"
 #include "src/core/error.h"
+#include "src/core/json_text.h"
 #include "src/render/machine_json.h"
 #include "src/render/report.h"
 #include "src/estimate/metrics.h"
+#include "src/image/color_channels.h"
 
 namespace lanelight {
 namespace {
@@ -70,9 +72,15 @@ bool OverLimit(const CompareResult& r, double limit) {
   return !(r.relmse <= limit) || r.invalid_test > 0 || r.invalid_reference > 0;
 }
 
+Image ReadColored(const std::string& path) {
+  Image image = ReadImage(path);
+  if (!ColorChannels(image)) throw InputError(path + ": " + NoColorChannels(image));
+  return image;
+}
+
 int Compare(const CompareCommandOptions& options) {
-  const Image test = ReadImage(options.test);
-  Image reference = ReadImage(options.reference);
+  const Image test = ReadColored(options.test);
+  Image reference = ReadColored(options.reference);
   if (options.exact_reference) ForgetVariance(reference);
   const CompareResult result = CompareImages(test, reference);
   const bool over = options.max_relmse && OverLimit(result, *options.max_relmse);
@@ -81,7 +89,7 @@ int Compare(const CompareCommandOptions& options) {
     out["schema"] = kReportSchema;
     out["machine"] = ToJson(ThisMachine());
     out["over_limit"] = over;
-    Print(out.dump(2) + "\n");
+    Print(DumpJson(out, 2) + "\n");
   } else {
     Print(Text(result));
   }

@@ -44,8 +44,10 @@ std::string Text(const GuidePicture& p, const std::string& output) {
 int RunGuide(const GuideCommandOptions& options) {
   ForceTarget(options.scene.target);
   const ThreadLimit threads(options.scene.threads);
-  CheckOutputPaths({options.output}, options.scene.scene);
+  const OutputPaths outputs = {{options.output}};
+  CheckOutputPaths(outputs, {options.scene.scene});
   const Job job = PrepareJob(options.scene.scene, options.scene.settings);
+  CheckOutputPaths(outputs, job.files);
   const InterruptGuard interrupt;
   GuidePictureOptions picture;
   picture.x = options.pixel[0], picture.y = options.pixel[1];

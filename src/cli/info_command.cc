@@ -9,6 +9,7 @@
 #include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/scene_options.h"
+#include "src/core/json_text.h"
 #include "src/core/parallel.h"
 #include "src/parse/format.h"
 #include "src/render/machine_json.h"
@@ -55,7 +56,7 @@ std::string JsonText() {
                         {"threads", MaxThreads()},
                         {"memory", PhysicalMemory()}};
   for (const auto& [name, version] : Versions()) out["versions"][name] = version;
-  return out.dump(2) + "\n";
+  return DumpJson(out, 2) + "\n";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/summary.h"
+#include "src/core/json_text.h"
 #include "src/core/parallel.h"
 #include "src/prepare/groups.h"
 #include "src/render/job.h"
@@ -101,7 +102,7 @@ std::string JsonText(const Job& job, const std::string& scene) {
                         {"machine", ToJson(ThisMachine())},
                         {"plan", ToJson(job.plan)},
                         {"differs", CountImageChanges(job.description.notes) > 0}};
-  return out.dump(2) + "\n";
+  return DumpJson(out, 2) + "\n";
 }
 
 int PrintPlan(const PlanCommandOptions& options) {

@@ -12,6 +12,7 @@
 #include "src/cli/progress.h"
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
+#include "src/core/json_text.h"
 #include "src/core/parallel.h"
 #include "src/render/saving.h"
 #include "src/render/trace_json.h"
@@ -64,11 +65,12 @@ int Profile(const ProfileCommandOptions& options) {
   ForceTarget(options.scene.target);
   const ThreadLimit threads(options.scene.threads);
   const std::string& scene = options.scene.scene;
-  CheckOutputPaths({options.json, options.trace}, scene);
+  const OutputPaths outputs = {{options.json, options.trace}};
+  CheckOutputPaths(outputs, {scene});
   RenderSettings settings = options.scene.settings;
   if (options.quiet) settings.trees.folder.on_wait = nullptr;
   const Job job = PrepareJob(scene, settings);
-  CheckInputsAreSpared({options.json, options.trace}, job.files);
+  CheckOutputPaths(outputs, job.files);
   if (!options.quiet) PrintNotes(job);
   const Peaks peaks = MeasurePeaks(true);
   const InterruptGuard interrupt(kProfileInterruptText);
@@ -77,7 +79,7 @@ int Profile(const ProfileCommandOptions& options) {
   if (options.json != "-") Print(ProfileText(report, job, result, scene));
   bool good = SaveTrace(options, result);
   if (!options.json.empty()) {
-    good &= SaveOrPrint(options.json, ToJson(report, job, result).dump(2) + "\n");
+    good &= SaveOrPrint(options.json, DumpJson(ToJson(report, job, result), 2) + "\n");
   }
   return good ? kExitGood : kExitBadInput;
 }

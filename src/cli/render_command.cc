@@ -48,13 +48,13 @@ int Serve(const RenderCommandOptions& options, const RenderSettings& settings,
 int Render(const RenderCommandOptions& options, Crew& crew) {
   ForceTarget(options.scene.target);
   const ThreadLimit threads(options.scene.threads);
-  if (crew.leads()) CheckOutputs(options.outputs, options.scene.scene);
+  if (crew.leads()) CheckOutputs(options.outputs, {options.scene.scene});
   RenderSettings settings = options.scene.settings;
   settings.decision = DecisionFor(options, crew);
   if (options.outputs.quiet) settings.trees.folder.on_wait = nullptr;
   if (!crew.leads()) return Serve(options, settings, crew);
   const Job job = PrepareJob(options.scene.scene, settings);
-  CheckOutputs(options.outputs, job);
+  CheckOutputs(options.outputs, job.files);
   if (!options.outputs.quiet) PrintNotes(job);
   CheckPart(options.outputs.targets.checkpoint, job);
   const bool keeps = !options.outputs.targets.checkpoint.path.empty();

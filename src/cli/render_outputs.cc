@@ -106,21 +106,13 @@ void ResolveOutputs(RenderOutputs& options) {
                                  "bare --png)");
 }
 
-void CheckOutputs(const RenderOutputs& options, const std::string& scene) {
-  const RenderTargets& targets = options.targets;
-  const CheckpointSettings& checkpoint = targets.checkpoint;
-  CheckOutputPaths(
-      {targets.exr, targets.png, targets.json, checkpoint.path, checkpoint.watch}, scene);
-  // A state may be written over by the one that goes on from it, and by nothing else.
-  if (checkpoint.from.empty()) return;
-  CheckInputsAreSpared({targets.exr, targets.png, targets.json, checkpoint.watch},
-                       {checkpoint.from});
-}
-
-void CheckOutputs(const RenderOutputs& options, const Job& job) {
+void CheckOutputs(const RenderOutputs& options, const std::set<std::string>& inputs) {
   const RenderTargets& t = options.targets;
-  CheckInputsAreSpared({t.exr, t.png, t.json, t.checkpoint.path, t.checkpoint.watch},
-                       job.files);
+  OutputPaths outputs = {{t.exr, t.png, t.json, t.checkpoint.watch}};
+  // A state may be written over by the one that goes on from it, and by nothing else.
+  if (!t.checkpoint.from.empty()) CheckOutputPaths(outputs, {t.checkpoint.from});
+  outputs.files.push_back(t.checkpoint.path);
+  CheckOutputPaths(outputs, inputs);
 }
 
 void PrintNotes(const Job& job) {

@@ -26,12 +26,8 @@ void AddOutputOptions(CLI::App& command, RenderOutputs& options, bool required);
 /// for a word after it that is no PNG: most likely the scene, swallowed.
 void ResolveOutputs(RenderOutputs& options);
 
-/// Throws InputError if an output would overwrite the scene or another one, or cannot be
-/// written.
-void CheckOutputs(const RenderOutputs& options, const std::string& scene);
-
-/// Throws InputError if an output would overwrite a file that the scene reads.
-void CheckOutputs(const RenderOutputs& options, const Job& job);
+/// CheckOutputPaths() with the scene, and once that is read, with all its files.
+void CheckOutputs(const RenderOutputs& options, const std::set<std::string>& inputs);
 
 /// Prints what of the scene file and of the strategy is not used.
 void PrintNotes(const Job& job);

@@ -6,6 +6,7 @@
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
+#include "src/core/json_text.h"
 #include "src/strategy/strategy.h"
 
 namespace lanelight {
@@ -59,9 +60,10 @@ std::string ChoicesJson() {
     presets.push_back(
         {{"name", p.name}, {"meaning", p.meaning}, {"strategy", ToText(strategy)}});
   }
-  return nlohmann::json{
-             {"choices", choices}, {"presets", presets}, {"default", ToText(Strategy{})}}
-             .dump(2) +
+  return DumpJson({{"choices", choices},
+                   {"presets", presets},
+                   {"default", ToText(Strategy{})}},
+                  2) +
          "\n";
 }
 

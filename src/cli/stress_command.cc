@@ -17,6 +17,7 @@
 #include "src/cli/stress_progress.h"
 #include "src/cli/stress_table.h"
 #include "src/cli/validators.h"
+#include "src/core/json_text.h"
 #include "src/core/parallel.h"
 #include "src/render/saving.h"
 #include "src/stress/cases/cases.h"
@@ -71,7 +72,7 @@ stress::SuiteResult Measure(const std::vector<stress::Case>& cases,
 bool Save(const stress::SuiteResult& result, const StressCommandOptions& options) {
   if (!options.out.empty()) stress::WriteResults(result, options.out);
   if (options.json.empty()) return true;
-  return SaveOrPrint(options.json, stress::ToJson(result).dump(1) + "\n");
+  return SaveOrPrint(options.json, DumpJson(stress::ToJson(result), 1) + "\n");
 }
 
 int RunStressCommand(StressCommandOptions& options) {
@@ -80,8 +81,13 @@ int RunStressCommand(StressCommandOptions& options) {
     Print(StressList(cases));
     return kExitGood;
   }
-  CheckOutputPaths({options.json}, "");
-  if (!options.out.empty()) stress::MakeResultsFolder(options.out);
+  OutputPaths outputs = {{options.json}};
+  if (!options.out.empty()) {
+    stress::MakeResultsFolder(options.out);
+    outputs.files.insert(outputs.files.end(),
+                         {options.out + "/stress.json", options.out + "/report.html"});
+  }
+  CheckOutputPaths(outputs, {});
   const ThreadLimit threads(options.threads);
   options.suite.targets = TargetsOf(options.targets);
   const stress::SuiteResult result = Measure(cases, options);

@@ -1,6 +1,7 @@
 #include "src/compile/area_lights.h"
 
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace {
 // Rounding of positions changes the areas of very small emitters; from this relative
 // change on, their radiance makes up for it.
 constexpr double kAreaTolerance = 1e-4;
+// Faces whose areas differ by no more than rounding are equally bright at one power.
+constexpr double kFaceTolerance = 1e-3;
 
 class AreaLightCompiler {
  public:
@@ -28,7 +31,7 @@ class AreaLightCompiler {
  private:
   void LoadImages(LightImageTable& images);
   bool Shines(const PlacedShape& placed) const;
-  std::int32_t Push(const LightRecord& record, Rgb mean);
+  std::int32_t Push(const LightRecord& record, const PlacedShape& placed);
   Rgb MeanOf(const PlacedShape& placed) const {
     return means_[static_cast<std::size_t>(placed.area_light)];
   }
@@ -82,8 +85,8 @@ bool AreaLightCompiler::Shines(const PlacedShape& placed) const {
   return placed.area_light != kNone && Luminance(MeanOf(placed)) > 0;
 }
 
-// Radiance of a shape of that total area in scene units; with an image, of its texels of
-// value 1.
+// Radiance of a shape, or a face of one, of that area in scene units; with an image, of
+// its texels of value 1.
 Rgb AreaLightCompiler::Radiance(const PlacedShape& placed, double scene_area) const {
   const AreaLight& light = AreaLightOf(d_, placed);
   const Rgb radiance = light.radiance * light.scale;
@@ -91,7 +94,7 @@ Rgb AreaLightCompiler::Radiance(const PlacedShape& placed, double scene_area) co
   const double scale = placement_.frame.scale;
   const double area = scene_area / scale / scale;  // in the file's units
   return radiance * (light.power / (kPi * area * (light.two_sided ? 2 : 1) *
-                                    Luminance(radiance * MeanOf(placed))));
+                                    Luminance(MeanOf(placed))));
 }
 
 LightRecord AreaLightCompiler::AreaRecord(LightShape shape, const PlacedShape& placed,
@@ -106,10 +109,18 @@ LightRecord AreaLightCompiler::AreaRecord(LightShape shape, const PlacedShape& p
   return record;
 }
 
-std::int32_t AreaLightCompiler::Push(const LightRecord& record, Rgb mean) {
+std::int32_t AreaLightCompiler::Push(const LightRecord& record,
+                                     const PlacedShape& placed) {
   const Rgb l = {record.radiance[0], record.radiance[1], record.radiance[2]};
-  return lights_.Push(
-      record, kPi * record.area * Luminance(l * mean) * (record.two_sided ? 2 : 1));
+  const double power =
+      kPi * record.area * Luminance(l * MeanOf(placed)) * (record.two_sided ? 2 : 1);
+  return lights_.Push(record, power, AreaLightOf(d_, placed).where);
+}
+
+// Through which rays see what is behind; a shape that no ray meets at all has none.
+bool HasHoles(const PlacedShape& placed) {
+  return placed.alpha.texture != kNone ||
+         (placed.alpha.constant < 1 && placed.alpha.constant > 0);
 }
 
 double RoundedArea(const TriangleRecord& t) {
@@ -129,7 +140,7 @@ void AreaLightCompiler::EmittingTriangle(const PlacedShape& placed, Rgb radiance
   const double rounded = RoundedArea(triangle);
   const LightRecord record = AreaRecord(
       LightShape::kTriangle, placed, radiance * CorrectionOf(area, rounded), rounded, i);
-  triangle.light = Push(record, MeanOf(placed));
+  triangle.light = Push(record, placed);
 }
 
 void AreaLightCompiler::EmittingRectangle(const PlacedShape& placed, Rgb radiance,
@@ -144,22 +155,27 @@ void AreaLightCompiler::EmittingRectangle(const PlacedShape& placed, Rgb radianc
   Store(r.x_side / x, record.direction);
   Store(r.y_side / y, record.side);
   record.size[0] = static_cast<float>(x), record.size[1] = static_cast<float>(y);
-  const std::int32_t light = Push(record, MeanOf(placed));
+  const std::int32_t light = Push(record, placed);
   for (const std::uint32_t i : {r.first, r.second}) {
     compiled_.geometry.triangles[begin + i].light = light;
   }
 }
 
 void AreaLightCompiler::EmittingMesh(const PlacedShape& placed, const MeshRange& range) {
-  double total = 0;
-  for (double area : range.areas) total += area;
-  if (!(total > 0)) return;  // only degenerate triangles: CompileScene leaves a note
-  const Rgb radiance = Radiance(placed, total);
+  if (range.begin == range.end) return;  // all degenerate: CompileScene leaves a note
   const std::span<TriangleRecord> mesh(&compiled_.geometry.triangles[range.begin],
                                        range.end - range.begin);
-  const std::vector<Rectangle> rectangles = FindRectangles(mesh);
+  std::vector<Rectangle> rectangles = FindRectangles(mesh);
+  if (AreaLightOf(d_, placed).power > 0) {
+    // Halves of two faces are not equally bright.
+    std::erase_if(rectangles, [&](const Rectangle& r) {
+      const double a = range.face_areas[r.first], b = range.face_areas[r.second];
+      return std::abs(a - b) > kFaceTolerance * a;
+    });
+  }
   auto next = rectangles.begin();
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+    const Rgb radiance = Radiance(placed, range.face_areas[i]);
     if (next != rectangles.end() && next->first == i) {
       const double area = range.areas[i] + range.areas[next->second];
       EmittingRectangle(placed, radiance, area, *next++, range.begin);
@@ -174,9 +190,13 @@ void AreaLightCompiler::EmittingSphere(const PlacedShape& placed, std::size_t i)
   const double area = 4 * kPi * sphere.radius * sphere.radius;
   const auto primitive =
       compiled_.geometry.ranges.spheres + static_cast<std::uint32_t>(i);
-  const LightRecord record =
+  LightRecord record =
       AreaRecord(LightShape::kSphere, placed, Radiance(placed, area), area, primitive);
-  sphere.light = Push(record, MeanOf(placed));
+  const bool inside_shines = record.two_sided != 0 || sphere.normal_sign < 0;
+  record.size[0] = inside_shines && HasHoles(placed)
+                       ? std::numeric_limits<float>::infinity()
+                       : ConeFrom(sphere.radius);
+  sphere.light = Push(record, placed);
 }
 
 void AreaLightCompiler::EmittingDisk(const PlacedShape& placed, std::size_t i) {
@@ -186,7 +206,7 @@ void AreaLightCompiler::EmittingDisk(const PlacedShape& placed, std::size_t i) {
   const auto primitive = compiled_.geometry.ranges.disks + static_cast<std::uint32_t>(i);
   const LightRecord record =
       AreaRecord(LightShape::kDisk, placed, Radiance(placed, area), area, primitive);
-  disk.light = Push(record, MeanOf(placed));
+  disk.light = Push(record, placed);
 }
 
 void AreaLightCompiler::AddShapes() {

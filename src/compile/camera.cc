@@ -1,11 +1,13 @@
 #include "src/compile/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/compile/lens_system.h"
+#include "src/compile/range.h"
 
 namespace lanelight {
 namespace {
@@ -45,6 +47,15 @@ void Check(const Camera& camera, const Window& window) {
   }
 }
 
+// `extent` is in units of the scene's size.
+void CheckExtent(const Camera& camera, double extent) {
+  if (extent <= kFarthestInScene) return;
+  throw InputError(camera.where,
+                   fmt::format("the camera's screen or lens is {:.2g} times as large as "
+                               "the scene; up to {:.2g} is supported",
+                               extent, kFarthestInScene));
+}
+
 }  // namespace
 
 CompiledCamera CompileCamera(const Camera& camera, const Film& film, const Frame& frame) {
@@ -59,15 +70,24 @@ CompiledCamera CompileCamera(const Camera& camera, const Film& film, const Frame
   const Vec3d right = t.Vector({1, 0, 0}), up = t.Vector({0, 1, 0});
   const Vec3d forward = t.Vector({0, 0, 1});
   const double unit = Length(forward);
+  if (!(unit > 0) || !std::isfinite(unit)) {
+    throw InputError(camera.where,
+                     "the camera's transform scales by a number that is "
+                     "too small or too large for double precision");
+  }
 
   CompiledCamera out;
   out.kind = camera.kind;
   out.right = ToFloat(right / unit);
   out.up = ToFloat(up / unit);
   out.forward = ToFloat(forward / unit);
+  RequireInScene(t.Point({0, 0, 0}), camera.where, "camera");
   out.origin = ToFloat(t.Point({0, 0, 0}));
+  CheckExtent(camera, camera.lens_radius * unit);
   out.lens_radius = static_cast<float>(camera.lens_radius * unit);
-  out.focal_distance = static_cast<float>(camera.focal_distance * unit);
+  // So far away, all rays of a pixel are parallel.
+  out.focal_distance =
+      static_cast<float>(std::min(camera.focal_distance * unit, kFarthestInScene));
 
   if (camera.kind == CameraKind::kSpherical) {
     out.mapping = camera.mapping;
@@ -88,6 +108,8 @@ CompiledCamera CompileCamera(const Camera& camera, const Film& film, const Frame
   // Perspective: the film lies at z = 1. Orthographic: screen units are camera lengths.
   const bool perspective = camera.kind == CameraKind::kPerspective;
   const double k = perspective ? std::tan(camera.fov * (std::numbers::pi / 360)) : unit;
+  CheckExtent(camera, std::abs(k) * std::max({std::abs(window.x0), std::abs(window.x1),
+                                              std::abs(window.y0), std::abs(window.y1)}));
   out.base = ToFloat({window.x0 * k, window.y1 * k, perspective ? 1.0 : 0.0});
   out.dx = ToFloat({(window.x1 - window.x0) / film.width * k, 0, 0});
   out.dy = ToFloat({0, (window.y0 - window.y1) / film.height * k, 0});

@@ -17,6 +17,7 @@
 #include "src/compile/media.h"
 #include "src/compile/placement.h"
 #include "src/compile/quadrics.h"
+#include "src/compile/range.h"
 #include "src/compile/textures.h"
 #include "src/compile/texture_programs.h"
 
@@ -171,7 +172,8 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.integrator = description.integrator;
   scene.filter = CompileFilter(description.filter);
 
-  const Placement placement = PlaceShapes(description, options.copied_triangles);
+  Placement placement = PlaceShapes(description, options.copied_triangles);
+  LeaveOutSmall(placement, scene.notes);
   scene.center = placement.frame.center;
   scene.scale = placement.frame.scale;
   scene.camera = CompileCamera(description.camera, description.film, placement.frame);

@@ -92,11 +92,14 @@ Feature FeatureOf(LightShape shape) {
   return Feature::kCount;
 }
 
-void AddLights(const LightTable& lights, FeatureSet& features) {
+void AddLights(const CompiledScene& scene, FeatureSet& features) {
+  const LightTable& lights = scene.lights;
   for (const LightRecord& light : lights.lights) {
     features.Add(FeatureOf(static_cast<LightShape>(light.shape)));
     // Point lights with an image have no area.
     if (light.image != 0 && light.area > 0) features.Add(Feature::kEmissionImages);
+    if (IsCut(scene, light)) features.Add(Feature::kEmissionCuts);
+    if (IsUnseen(scene, light)) features.Add(Feature::kUnseenLights);
   }
   if (!lights.lights.empty()) features.Add(Feature::kLights);
   if (lights.lights.size() > 1) features.Add(Feature::kManyLights);
@@ -192,7 +195,7 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
   if (features.Has(Feature::kTextures) && FiltersTextures(scene.textures)) {
     features.Add(Feature::kTextureFootprints);
   }
-  AddLights(scene.lights, features);
+  AddLights(scene, features);
   if (features.HasAny({Feature::kAreaLights, Feature::kInfiniteLights}) &&
       HasNonSpecular(scene.materials)) {
     features.Add(Feature::kMis);

@@ -97,6 +97,23 @@ void CompileMeshes(const std::vector<Job>& jobs,
   if (!out.has_vertex_normals) g.normals = {};
 }
 
+void SetFaceAreas(const Job& job, const Geometry& g) {
+  MeshRange& range = *job.range;
+  const bool round = job.placed->shape->kind != ShapeKind::kMesh;
+  const std::vector<bool>& continues = job.placed->mesh->continues;
+  range.face_areas.resize(range.areas.size());
+  for (std::size_t first = 0, end = 0; first < range.areas.size(); first = end) {
+    double sum = 0;
+    do {
+      if (g.triangles[range.begin + end].material != kDegenerate) sum += range.areas[end];
+      ++end;
+    } while (end < range.areas.size() &&
+             (round || (!continues.empty() && continues[end])));
+    std::fill(range.face_areas.begin() + static_cast<std::ptrdiff_t>(first),
+              range.face_areas.begin() + static_cast<std::ptrdiff_t>(end), sum);
+  }
+}
+
 template <int kWords>
 void Move(AlignedVector<float>& array, std::size_t from, std::size_t to) {
   if (array.empty()) return;
@@ -118,12 +135,16 @@ void RemoveDegenerate(const std::vector<Job>& jobs, Geometry& g) {
         Move<9>(g.normals, from, to);
         Move<6>(g.uvs, from, to);
       }
-      if (!range.areas.empty()) range.areas[to - range.begin] = range.areas[from - begin];
+      if (!range.areas.empty()) {
+        range.areas[to - range.begin] = range.areas[from - begin];
+        range.face_areas[to - range.begin] = range.face_areas[from - begin];
+      }
       ++to;
     }
     range.end = static_cast<std::uint32_t>(to);
     range.dropped = (end - begin) - (range.end - range.begin);
     range.areas.resize(range.areas.empty() ? 0 : range.end - range.begin);
+    range.face_areas.resize(range.areas.size());
   }
   g.triangles.resize(to);
   if (!g.normals.empty()) g.normals.resize(9 * to);
@@ -203,6 +224,7 @@ CompiledGeometry CompileGeometry(const Placement& placement,
   const std::vector<Job> jobs = ListJobs(placement, out);
   AssignRanges(jobs);
   CompileMeshes(jobs, material_index, options, out);
+  for (const Job& job : jobs) SetFaceAreas(job, out.geometry);
   RemoveDegenerate(jobs, out.geometry);
   MakeGroups(out, out.geometry);
   MakeInstances(placement, out.geometry);

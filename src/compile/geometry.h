@@ -26,7 +26,9 @@ namespace lanelight {
 struct MeshRange {
   std::uint32_t begin = 0, end = 0;  // of Geometry::triangles
   std::uint32_t dropped = 0;  // degenerate ones: no area after rounding, not finite
-  std::vector<double> areas;  // of emitting meshes: per triangle, before rounding
+  // Of emitting meshes, per triangle, before rounding: its own, and that of the face of
+  // the file, or the round shape, that it is a part of.
+  std::vector<double> areas, face_areas;
 };
 
 struct CompiledGeometry {

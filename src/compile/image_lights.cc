@@ -28,8 +28,8 @@ void AddWithPower(const Light& light, const Frame& frame, Rgb mean, double size,
   if (light.power > 0) intensity *= light.power / unit_power;
   intensity *= frame.scale * frame.scale;
   Store(intensity, record.radiance);
-  Store(frame.Point(light.world_from_light.Point(light.from)), record.position);
-  lights.Push(record, Luminance(intensity * mean) * size);
+  Store(PositionOf(light, frame), record.position);
+  lights.Push(record, Luminance(intensity * mean) * size, light.where);
 }
 
 }  // namespace

@@ -1,26 +1,43 @@
 // The light table while it is being made, and what its records have in common.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "src/compile/range.h"
 #include "src/compile/store.h"
 #include "src/compiled/lights.h"
+#include "src/core/error.h"
 
 namespace lanelight {
+
+[[noreturn]] inline void ThrowTooBright(const SourceLocation& where) {
+  throw InputError(where, "this light emits more than float32 holds (3.4e38)");
+}
 
 struct LightList {
   LightTable table;
   std::vector<double> power;  // of each light
 
-  /// Returns the index of the light.
-  std::int32_t Push(const LightRecord& record, double its_power) {
+  /// Returns the index of the light. Throws InputError if its power is no number.
+  std::int32_t Push(const LightRecord& record, double its_power,
+                    const SourceLocation& where) {
+    if (!std::isfinite(its_power)) ThrowTooBright(where);
     table.lights.push_back(record);
     power.push_back(its_power);
     return static_cast<std::int32_t>(table.lights.size()) - 1;
   }
 };
+
+/// Where a light with a place stands, in scene coordinates. Throws InputError if that is
+/// beyond them.
+inline Vec3d PositionOf(const Light& light, const Frame& frame) {
+  const Vec3d position = frame.Point(light.world_from_light.Point(light.from));
+  RequireInScene(position, light.where, "light");
+  return position;
+}
 
 /// Of no primitive and no environment; all else is 0.
 inline LightRecord EmptyRecord(LightShape shape) {

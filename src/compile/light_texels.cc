@@ -8,20 +8,10 @@
 #include "src/core/error.h"
 #include "src/core/error_text.h"
 #include "src/compile/texture_programs.h"
+#include "src/image/color_channels.h"
 
 namespace lanelight {
 namespace {
-
-// Channels to read as red, green and blue.
-std::array<int, 3> ColorChannels(const LightFile& file, const Image& image) {
-  if (image.channels <= 2) return {0, 0, 0};
-  const std::array<int, 3> rgb = {image.FindChannel("R"), image.FindChannel("G"),
-                                  image.FindChannel("B")};
-  if (std::any_of(rgb.begin(), rgb.end(), [](int c) { return c < 0; })) {
-    FailAtLight(file, "no channels R, G and B (or a single one)");
-  }
-  return rgb;
-}
 
 // Values of an image that cannot be emitted. Negative ones, which filters leave in
 // photographs, become zero, as in pbrt; so does what is not a number.
@@ -72,7 +62,8 @@ void FailAtLight(const LightFile& file, const std::string& message) {
 
 AlignedVector<float> LightTexels(const LightFile& file, const Image& image,
                                  std::vector<Note>* notes) {
-  const std::array<int, 3> channels = ColorChannels(file, image);
+  const auto channels = ColorChannels(image);
+  if (!channels) FailAtLight(file, NoColorChannels(image));
   const std::size_t texels = static_cast<std::size_t>(image.width) * image.height;
   std::array<float, 256> decode;
   for (int i = 0; i < 256; ++i) {
@@ -84,7 +75,7 @@ AlignedVector<float> LightTexels(const LightFile& file, const Image& image,
   for (std::size_t i = 0; i < texels; ++i) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t at = i * static_cast<std::size_t>(image.channels) +
-                             static_cast<std::size_t>(channels[c]);
+                             static_cast<std::size_t>((*channels)[c]);
       const float v = image.is_bytes() ? decode[image.bytes[at]] : image.pixels[at];
       if (std::isinf(v)) {
         const auto width = static_cast<std::size_t>(image.width);

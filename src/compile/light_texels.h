@@ -25,8 +25,8 @@ struct LightFile {
 
 /// Linear texels as stored, three values each, bytes decoded as sRGB. Negative values,
 /// which filters leave in photographs, become zero as in pbrt, with a note unless `notes`
-/// is null. Throws InputError for values that are not finite and images with neither one
-/// channel nor R, G and B.
+/// is null. Throws InputError for values that are not finite and images without
+/// colours (src/image/color_channels.h).
 AlignedVector<float> LightTexels(const LightFile& file, const Image& image,
                                  std::vector<Note>* notes);
 

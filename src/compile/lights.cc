@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,14 @@ namespace {
 // No light is picked more rarely than this (or a hundredth of the uniform probability, if
 // there are very many): a light of little power may still be all that a corner sees.
 constexpr double kMinPmf = 1e-6;
+
+// 0 of 0. Squares of what a transform has scaled a lot could overflow.
+Vec3d UnitOf(Vec3d v) {
+  const Vec3d a = Max(v, -v);
+  const double largest = std::max({a.x, a.y, a.z});
+  if (!(largest > 0) || !std::isfinite(largest)) return {};
+  return Normalize(v * std::ldexp(1.0, -std::ilogb(largest)));
+}
 
 bool IsBlack(Rgb c) { return !(c.x > 0 || c.y > 0 || c.z > 0); }
 
@@ -42,9 +51,6 @@ class LightCompiler {
   void Distant(const Light& light);
   void Infinite(const Light& light);
 
-  Vec3d Position(const Light& light) const {
-    return frame_.Point(light.world_from_light.Point(light.from));
-  }
   // The power of a distant light and of an environment is what falls on the scene.
   double SceneDisk() const { return radius_ > 0 ? kPi * radius_ * radius_ : kPi; }
 
@@ -65,8 +71,8 @@ void LightCompiler::Point(const Light& light) {
   LightRecord record = EmptyRecord(LightShape::kPoint);
   const Rgb intensity = SceneIntensity(light, frame_);
   Store(intensity, record.radiance);
-  Store(Position(light), record.position);
-  lights_.Push(record, 4 * kPi * Luminance(intensity));
+  Store(PositionOf(light, frame_), record.position);
+  lights_.Push(record, 4 * kPi * Luminance(intensity), light.where);
 }
 
 void LightCompiler::Spot(const Light& light) {
@@ -75,8 +81,8 @@ void LightCompiler::Spot(const Light& light) {
                      "a spot light under a transform that is not rotation, translation, "
                      "mirroring and uniform scale is not supported");
   }
-  const Vec3d axis = light.world_from_light.Vector(light.to - light.from);
-  if (!(Length(axis) > 0)) {
+  const Vec3d axis = UnitOf(light.world_from_light.Vector(light.to - light.from));
+  if (axis == Vec3d{}) {
     throw InputError(light.where, "a spot light whose \"from\" and \"to\" are the same");
   }
   // 1 - cos, which for a narrow cone is nothing beside 1.
@@ -89,24 +95,25 @@ void LightCompiler::Spot(const Light& light) {
   LightRecord record = EmptyRecord(LightShape::kSpot);
   const Rgb intensity = SceneIntensity(light, frame_);
   Store(intensity, record.radiance);
-  Store(Position(light), record.position);
-  Store(Normalize(axis), record.direction);
+  Store(PositionOf(light, frame_), record.position);
+  Store(axis, record.direction);
   record.versine_total = static_cast<float>(total);
   record.versine_falloff = static_cast<float>(falloff);
   // The smooth step between the two angles is 1/2 in the mean.
-  lights_.Push(record, 2 * kPi * Luminance(intensity) * ((falloff + total) / 2));
+  lights_.Push(record, 2 * kPi * Luminance(intensity) * ((falloff + total) / 2),
+               light.where);
 }
 
 void LightCompiler::Distant(const Light& light) {
-  const Vec3d toward = light.world_from_light.Vector(light.from - light.to);
-  if (!(Length(toward) > 0)) {
+  const Vec3d toward = UnitOf(light.world_from_light.Vector(light.from - light.to));
+  if (toward == Vec3d{}) {
     throw InputError(light.where,
                      "a distant light whose \"from\" and \"to\" are the same");
   }
   LightRecord record = EmptyRecord(LightShape::kDistant);
   Store(light.emission, record.radiance);
-  Store(Normalize(toward), record.direction);
-  lights_.Push(record, SceneDisk() * Luminance(light.emission));
+  Store(toward, record.direction);
+  lights_.Push(record, SceneDisk() * Luminance(light.emission), light.where);
 }
 
 void LightCompiler::Infinite(const Light& light) {
@@ -126,13 +133,18 @@ void LightCompiler::Infinite(const Light& light) {
     mean *= light.illuminance / (kPi * Luminance(mean));
   }
   Store(image ? Rgb{1, 1, 1} : mean, record.radiance);
-  const std::int32_t index = lights_.Push(record, SceneDisk() * kPi * Luminance(mean));
+  const std::int32_t index =
+      lights_.Push(record, SceneDisk() * kPi * Luminance(mean), light.where);
   lights_.table.infinite.push_back(static_cast<std::uint32_t>(index));
 }
 
 void LightCompiler::Add(const Light& light) {
   const bool image = light.kind == LightKind::kInfinite && !light.image_path.empty();
   if (!image && IsBlack(light.emission)) return;
+  const Rgb l = light.emission;
+  if (std::max({l.x, l.y, l.z}) > std::numeric_limits<float>::max()) {
+    ThrowTooBright(light.where);
+  }
   switch (light.kind) {
     case LightKind::kPoint:
       Point(light);
@@ -161,7 +173,8 @@ void ApplyFloor(std::vector<double>& weights) {
   double sum = 0;
   for (double w : weights) sum += w;
   const double least = std::min(kMinPmf, 0.01 / static_cast<double>(weights.size()));
-  for (double& w : weights) w = std::max(w, 1.02 * least * sum);
+  // Where all are too weak for double precision, one is as good as another.
+  for (double& w : weights) w = sum > 0 ? std::max(w, 1.02 * least * sum) : 1;
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 
 #include "src/compile/material_row.h"
 #include "src/compile/medium_grid.h"
+#include "src/compile/range.h"
 #include "src/compile/relief.h"
+#include "src/compile/store.h"
 #include "src/core/check.h"
 
 namespace lanelight {
@@ -37,11 +39,29 @@ std::int32_t PhaseFunction(const Medium& medium, CompiledMaterials& materials) {
   return static_cast<std::int32_t>(materials.table.size()) - 1;
 }
 
-// `c` per unit of scene length.
-void SetPerLength(Rgb c, double scale, float out[3]) {
-  out[0] = static_cast<float>(c.x / scale);
-  out[1] = static_cast<float>(c.y / scale);
-  out[2] = static_cast<float>(c.z / scale);
+// Per unit of scene length. Where an extinction is beyond float32, light gets nowhere,
+// and nowhere either with the largest one that kernels can square.
+void SetCoefficients(const Medium& m, double scale, MediumRecord& record) {
+  const Rgb extinction = m.sigma_a + m.sigma_s;
+  for (int c = 0; c < 3; ++c) {
+    const double unit = std::min(1 / scale, kFarthestInScene / extinction[c]);
+    record.sigma_t[c] = static_cast<float>(extinction[c] * unit);
+    record.sigma_s[c] = static_cast<float>(m.sigma_s[c] * unit);
+    record.emission[c] = static_cast<float>(m.sigma_a[c] * m.emission[c] * unit);
+  }
+}
+
+// The same of the densities of a grid, which are factors on the extinction.
+void LimitDensity(const MediumGrid& grid, MediumRecord& record) {
+  double largest = 0;
+  for (const float majorant : grid.majorants)
+    largest = std::max<double>(largest, majorant);
+  const double most = std::max({record.sigma_t[0], record.sigma_t[1], record.sigma_t[2]});
+  const double factor = std::min(1.0, kFarthestInScene / (most * largest));
+  for (int c = 0; c < 3; ++c) {
+    record.sigma_t[c] = static_cast<float>(record.sigma_t[c] * factor);
+    record.sigma_s[c] = static_cast<float>(record.sigma_s[c] * factor);
+  }
 }
 
 std::int32_t MediumBuilder::Use(Index medium) {
@@ -51,16 +71,15 @@ std::int32_t MediumBuilder::Use(Index medium) {
   if (at != kVacuum) return at;
   const Medium& m = d_.media[static_cast<std::size_t>(medium)];
   MediumRecord record = {};
-  SetPerLength(m.sigma_a + m.sigma_s, frame_.scale, record.sigma_t);
-  SetPerLength(m.sigma_s, frame_.scale, record.sigma_s);
-  SetPerLength(m.sigma_a * m.emission, frame_.scale, record.emission);
+  SetCoefficients(m, frame_.scale, record);
   record.scatters = m.sigma_s != Rgb{};
   record.material = static_cast<std::uint32_t>(PhaseFunction(m, materials_));
   record.grid = -1;
   if (m.kind != MediumKind::kHomogeneous) {
     record.grid = static_cast<std::int32_t>(table_.grids.size());
-    SetPerLength(m.emission, 1, record.emission);
+    Store(m.emission, record.emission);
     table_.grids.push_back(CompileMediumGrid(m, frame_));
+    LimitDensity(table_.grids.back(), record);
   }
   table_.media.push_back(record);
   return at = static_cast<std::int32_t>(table_.media.size()) - 1;
@@ -120,7 +139,8 @@ MediumTable CompileMedia(const SceneDescription& d, const Placement& placement,
 void PlaceMedia(const Placement& placement, const CompiledGeometry& compiled,
                 MediumTable& table) {
   if (table.sides.empty()) return;
-  table.primitives.assign(compiled.geometry.ranges.end, -1);
+  // Kernels look at one even where rays can hit nothing.
+  table.primitives.assign(std::max(compiled.geometry.ranges.end, 1u), -1);
   std::int32_t next = 0;
   ForEachPlaced(placement, &compiled,
                 [&](const PlacedShape& placed, std::uint32_t begin, std::uint32_t end) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/compile/medium_emission.h"
+#include "src/compile/range.h"
 #include "src/compile/store.h"
 
 namespace lanelight {
@@ -72,6 +73,9 @@ double BoundOfSparse(const PlacedSparseGrid& placed, const int cell[3]) {
       const double b = m[4 * r + c] * (cell[c] + 1.0) / kMajorantCells;
       least += std::min(a, b), most += std::max(a, b);
     }
+    // The box of two grids may be far from one of them. Nor may a bound be NaN.
+    if (!(least > -kFarthestVoxel && most < kFarthestVoxel))
+      return placed.grid->largest();
     // One more on both sides: the kernels round.
     low[r] = static_cast<int>(std::floor(least)) - 1;
     high[r] = static_cast<int>(std::floor(most)) + 2;
@@ -118,7 +122,9 @@ void SetSource(const Medium& medium, const Frame& frame, MediumGrid& grid) {
   // Densities have no unit; coefficients are per scene length.
   const double unit = colors ? frame.scale : 1;
   grid.values.reserve(medium.grid.size());
-  for (const float v : medium.grid) grid.values.push_back(static_cast<float>(v / unit));
+  for (const float v : medium.grid) {
+    grid.values.push_back(static_cast<float>(std::min(v / unit, kFarthestInScene)));
+  }
 }
 
 void SetMap(const Medium& medium, const Frame& frame, MediumGrid& grid) {
@@ -128,11 +134,17 @@ void SetMap(const Medium& medium, const Frame& frame, MediumGrid& grid) {
       Transform::Translate(-medium.box_min);
   const Transform map =
       box_from_medium * medium.world_from_medium.Inverse() * frame.Inverse();
+  bool seen = true;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 4; ++c) {
+      seen = seen && std::abs(map(r, c)) <= kFarthestInScene;
       grid.box_from_scene[4 * r + c] = static_cast<float>(map(r, c));
     }
   }
+  if (seen) return;
+  // Nothing would be seen of a box so small or so flat: all of the scene is beside it.
+  std::fill_n(grid.box_from_scene, 12, 0.0f);
+  grid.box_from_scene[3] = -1;
 }
 
 }  // namespace

@@ -45,8 +45,7 @@ Index EmittingLight(const SceneDescription& d, const Shape& shape) {
   return Emits(light) ? shape.area_light : kNone;
 }
 
-void CheckEmitter(const SceneDescription& d, const Shape& shape,
-                  const FloatValue& alpha) {
+void CheckEmitter(const SceneDescription& d, const Shape& shape) {
   const SourceLocation& where = shape.where;
   if (IsMaterial(d, shape, MaterialKind::kInterface)) {
     throw InputError(where,
@@ -58,11 +57,6 @@ void CheckEmitter(const SceneDescription& d, const Shape& shape,
     throw InputError(where,
                      "an infinite plane cannot be an area light; supported are "
                      "all other shapes");
-  }
-  if (alpha.texture == kNone && alpha.constant <= 0) {
-    throw InputError(where,
-                     "an area light on a shape with alpha 0 (an invisible light) is not "
-                     "supported; use a point, spot or distant light");
   }
 }
 
@@ -82,10 +76,11 @@ std::optional<PlacedShape> Place(const SceneDescription& d,
   placed.shape = &shape;
   placed.alpha = constants.Fold(shape.alpha);
   placed.area_light = EmittingLight(d, shape);
-  if (placed.area_light != kNone) CheckEmitter(d, shape, placed.alpha);
+  if (placed.area_light != kNone) CheckEmitter(d, shape);
   const bool interface = IsMaterial(d, shape, MaterialKind::kInterface);
   if (interface && !shape.media.IsTransition()) return std::nullopt;
-  if (placed.alpha.texture == kNone && placed.alpha.constant <= 0) return std::nullopt;
+  const bool unseen = placed.alpha.texture == kNone && placed.alpha.constant <= 0;
+  if (unseen && placed.area_light == kNone) return std::nullopt;
   CheckTransform(shape.world_from_object, shape.where, "shape");
   placed.transform =
       instance ? *instance * shape.world_from_object : shape.world_from_object;
@@ -285,7 +280,8 @@ void PlaceInstances(const SceneDescription& d, const TextureConstants& constants
       RefuseFar(instance.where, "this instance");
     }
     if (use.copied) continue;  // the bounds of its copies are tighter
-    placement.instances.push_back({use.index, instance.world_from_object});
+    placement.instances.push_back(
+        {use.index, instance.world_from_object, instance.where});
     placement.bounds.Add(box);
   }
 }

@@ -33,6 +33,7 @@ struct PlacedObject {
 struct PlacedInstance {
   std::size_t object = 0;  // index into Placement::objects
   Transform world_from_object;
+  SourceLocation where;
 };
 
 // Orientation. For quadrics pbrt-v4 turns the parametric normal round if

@@ -126,6 +126,9 @@ Portal CompilePortal(const Light& light, const Frame& frame,
 
 void AddPortalLight(const Light& light, const Frame& frame, std::vector<Note>& notes,
                     LightList& lights) {
+  for (const Vec3d& corner : light.portal) {
+    RequireInScene(frame.Point(corner), light.where, "portal");
+  }
   Portal portal = CompilePortal(light, frame, MapOf(light, notes));
   const double area = Length(light.portal[3] - light.portal[0]) *
                       Length(light.portal[1] - light.portal[0]) * frame.scale *
@@ -136,7 +139,8 @@ void AddPortalLight(const Light& light, const Frame& frame, std::vector<Note>& n
   Store({1, 1, 1}, record.radiance);
   record.image = static_cast<std::uint32_t>(lights.table.portals.size());
   lights.table.portals.push_back(std::move(portal));
-  lights.table.infinite.push_back(static_cast<std::uint32_t>(lights.Push(record, power)));
+  lights.table.infinite.push_back(
+      static_cast<std::uint32_t>(lights.Push(record, power, light.where)));
 }
 
 }  // namespace lanelight

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "src/compile/focus.h"
+#include "src/compile/range.h"
 #include "src/compile/store.h"
 #include "src/core/check.h"
 #include "src/core/error.h"
@@ -100,10 +101,12 @@ PlaneRecord CompilePlane(const PlacedShape& placed, const Frame& frame,
   const Vec3d x = t.Vector({1, 0, 0}), y = t.Vector({0, 1, 0});
   const Vec3d n = Normalize(t.Normal({0, 0, 1})) * (placed.flip ? -1.0 : 1.0);
   const Vec3d origin = t.Point({0, 0, 0});
+  const Vec3d point = keep_uv ? origin : n * Dot(origin, n);
+  RequireInScene(point, placed.shape->where, "plane");
   // Dual basis within the plane: dot(a x + b y, u) = a, dot(a x + b y, v) = b.
   const Vec3d across_y = Cross(y, n), across_x = Cross(n, x);
   PlaneRecord record{};
-  Store(keep_uv ? origin : n * Dot(origin, n), record.point);
+  Store(point, record.point);
   Store(n, record.normal);
   Store(across_y / Dot(across_y, x), record.u_axis);
   Store(across_x / Dot(across_x, y), record.v_axis);

@@ -8,6 +8,7 @@
 #include "src/core/parallel.h"
 #include "src/compile/mip_levels.h"
 #include "src/compile/texture_programs.h"
+#include "src/image/color_channels.h"
 #include "src/image/repair.h"
 
 namespace lanelight {
@@ -20,7 +21,7 @@ ImageKey KeyOf(const Texture& t) {
 // Which channels of the file a texture reads: a grey value, a colour, or the alpha
 // channel.
 struct ChannelChoice {
-  int rgb[3];
+  std::array<int, 3> rgb;
   bool mean = false;  // of the three
 };
 
@@ -33,15 +34,13 @@ bool HasAlpha(const Image& image, int alpha) {
 }
 
 ChannelChoice ChooseChannels(const Image& image, const ImageKey& key) {
-  const int y = image.FindChannel("Y"), a = image.FindChannel("A");
-  const int r = image.FindChannel("R"), g = image.FindChannel("G"),
-            b = image.FindChannel("B");
-  const bool color = r >= 0 && g >= 0 && b >= 0;
+  if (image.channels == 1) return {{0, 0, 0}};  // alpha alone as well, as in pbrt
+  const auto rgb = ColorChannels(image);
+  if (!rgb) throw InputError(key.path + ": " + NoColorChannels(image));
+  const int a = image.FindChannel("A");
+  const bool color = (*rgb)[0] != (*rgb)[1];
   if (key.is_float && color && HasAlpha(image, a)) return {{a, a, a}};
-  if (color) return {{r, g, b}, key.is_float};
-  if (y >= 0) return {{y, y, y}};
-  if (image.channels == 1) return {{0, 0, 0}};
-  throw InputError(key.path + ": a texture needs the channels R, G, B or Y");
+  return {*rgb, key.is_float && color};
 }
 
 // Bytes stay bytes, four to a word, unless a mean must be formed.

@@ -43,12 +43,17 @@ struct LightRecord {
   float versine_total, versine_falloff;
   float side[3];  // rectangle: unit, along the other side; its normal, on the side that
                   // emits, is cross(direction, side)
-  float size[2];  // rectangle: lengths of the two sides
+  // Rectangle: lengths of the two sides. Sphere: the first is the square of the distance
+  // from its centre beyond which its cone is sampled; nearer, its area.
+  float size[2];
   std::uint32_t second_primitive;  // rectangle: the other triangle
   std::uint32_t image;  // index into LightTable::images, 0 if it has none; portals: into
                         // LightTable::portals
 };
 static_assert(sizeof(LightRecord) == 96);
+
+/// LightRecord::size[0] of a sphere whose far side nobody sees from outside.
+inline float ConeFrom(float radius) { return radius * radius * 1.0001f; }
 
 /// Image that a light shines with: 16 words. Texels are linear and not negative, row 0 at
 /// the top, in LightTable::texels. A direction w away from the light is (x, y, z) = (dot(

@@ -45,4 +45,18 @@ struct CompiledScene {
   std::vector<Note> notes;  // what compiling left out, such as degenerate triangles
 };
 
+/// Whether alpha cuts an emitting shape.
+inline bool IsCut(const CompiledScene& scene, const LightRecord& light) {
+  if (scene.alpha_constant.empty() || light.primitive == 0xffffffffu) return false;
+  return scene.alpha_texture[light.primitive] >= 0 ||
+         scene.alpha_constant[light.primitive] < 1;
+}
+
+/// Whether alpha leaves nothing for rays to meet; such a shape shines as if it were
+/// whole.
+inline bool IsUnseen(const CompiledScene& scene, const LightRecord& light) {
+  return IsCut(scene, light) && scene.alpha_texture[light.primitive] < 0 &&
+         scene.alpha_constant[light.primitive] <= 0;
+}
+
 }  // namespace lanelight

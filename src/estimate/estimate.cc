@@ -1,6 +1,7 @@
 #include "src/estimate/estimate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -14,10 +15,16 @@
 namespace lanelight {
 namespace {
 
-constexpr int kReach = 1;   // neighbours: 3 x 3 pixels
-constexpr int kSpread = 2;  // where their scatter is taken from: 5 x 5
+constexpr int kReach = 1;           // neighbours: 3 x 3 pixels
+constexpr int kSpread = 2;          // where their scatter is taken from: 5 x 5
+constexpr double kTwoSided = 1.96;  // kEstimateConfidence of a normal is within
+constexpr int kMostMoreSamples = 4096;
 
-double Weight(double mean) { return 1 / (mean * mean + kRelativeEpsilon); }
+// 1 / x^2 of a noisy x is too large by three times its variance over the square, to
+// second order: `noise`, that variance, takes it away.
+double Weight(double mean, double noise = 0) {
+  return 1 / (mean * mean + 3 * noise + kRelativeEpsilon);
+}
 
 // Sums over pixels, of shares t of the error.
 struct Shares {
@@ -43,38 +50,58 @@ struct Shares {
   double SquaredSum() const { return std::max(squares, sum * sum - 2 * by_freedom); }
 };
 
-// What is known of a pixel's true value.
+// What is known of a channel's true value: a gamma distribution with this mean.
 struct Posterior {
-  Rgb mean, variance;
+  double mean = 0, shape = std::numeric_limits<double>::infinity();
+
+  // Where the standard normal is z (Wilson and Hilferty 1931).
+  double Quantile(double z) const {
+    const double root = 1 - 1 / (9 * shape) + z / (3 * std::sqrt(shape));
+    return mean * root * root * root;  // the root is positive for z > -2 and shape >= 1
+  }
+};
+
+struct ChannelTruth {
+  Posterior own;
+  double noise = 0;  // variance that the neighbours bring into its mean
+  // Both, if the neighbourhood's variance were the pixel's.
+  double pooled = 0, pooled_noise = 0;
 };
 
 struct Sums {
   Shares square, relative;
-  double plain = 0;   // relative error, divided by the means as they are
-  double darker = 0;  // by how much it would grow if pixels were darker
+  double pooled = 0;      // relative error, by ChannelTruth::pooled
+  double up_squares = 0;  // of how much a pixel's may grow, at most
+  double most_up = 0;
+  std::size_t most_up_at = 0;  // index of that pixel
   std::uint64_t pixels = 0;
 
-  void Add(const PixelEstimate& p, const Posterior& truth) {
-    double own_square = 0, own_relative = 0;
+  // `share`: of the variance that is left.
+  void Add(std::size_t index, const PixelEstimate& p,
+           const std::array<ChannelTruth, 3>& truth, double share) {
+    double own_square = 0, own_relative = 0, up = 0;
     for (int c = 0; c < 3; ++c) {
-      const double v = p.variance[c];
-      own_square += v / 3;
-      const double weight = Weight(truth.mean[c]);
-      own_relative += v * weight / 3;
-      const double low =
-          std::max(0.0, std::abs(truth.mean[c]) - std::sqrt(truth.variance[c]));
-      darker += std::min(kMostDarker, v * (Weight(low) - weight)) / 3;
-      plain += v * Weight(p.mean[c]) / 3;
+      const double v = p.variance[c] * share / 3;
+      const double weight = Weight(truth[c].own.Quantile(0), truth[c].noise);
+      own_square += v;
+      own_relative += v * weight;
+      pooled += v * Weight(truth[c].pooled, truth[c].pooled_noise);
+      up += v * (Weight(truth[c].own.Quantile(-kTwoSided)) - weight);
     }
     square.Add(own_square, p.freedom);
     relative.Add(own_relative, p.freedom);
+    up_squares += up * up;
+    if (up > most_up) most_up = up, most_up_at = index;
     ++pixels;
   }
   void Add(const Sums& other) {
     square.Add(other.square);
     relative.Add(other.relative);
-    plain += other.plain;
-    darker += other.darker;
+    pooled += other.pooled;
+    up_squares += other.up_squares;
+    if (other.most_up > most_up) {
+      most_up = other.most_up, most_up_at = other.most_up_at;
+    }
     pixels += other.pixels;
   }
 };
@@ -82,23 +109,30 @@ struct Sums {
 // The pixels of an image, and what their neighbours say of them.
 class PixelGrid {
  public:
-  PixelGrid(int width, int height, const std::function<PixelEstimate(int, int)>& pixel)
-      : width_(width), height_(height), pixels_(Count()), neighbours_(Count()) {
+  PixelGrid(const PixelRect& window, const std::function<PixelEstimate(int, int)>& pixel)
+      : width_(window.width()),
+        height_(window.height()),
+        pixels_(Count()),
+        neighbours_(Count()) {
     ForRows([&](int y) {
-      for (int x = 0; x < width_; ++x) pixels_[Index(x, y)] = pixel(x, y);
+      for (int x = 0; x < width_; ++x) {
+        pixels_[Index(x, y)] = pixel(window.x0 + x, window.y0 + y);
+      }
     });
     ForRows([&](int y) {
       for (int x = 0; x < width_; ++x) neighbours_[Index(x, y)] = MeanAround(x, y);
     });
   }
 
-  // In the order of the rows, so that it is the same for any number of threads.
-  Sums Total() const {
+  // In the order of the rows, so that it is the same for any number of threads; `share`
+  // of the variances, as more samples would leave it.
+  Sums Total(double share = 1) const {
     std::vector<Sums> rows(static_cast<std::size_t>(height_));
     ForRows([&](int y) {
       for (int x = 0; x < width_; ++x) {
         const PixelEstimate& p = pixels_[Index(x, y)];
-        if (p.known) rows[static_cast<std::size_t>(y)].Add(p, Shrunk(x, y));
+        if (!p.known) continue;
+        rows[static_cast<std::size_t>(y)].Add(Index(x, y), p, Truth(x, y, share), share);
       }
     });
     Sums total;
@@ -143,23 +177,46 @@ class PixelGrid {
     return count > 0 ? sum / count : pixels_[self].mean;
   }
 
-  Posterior Shrunk(int x, int y) const {
-    const PixelEstimate& p = pixels_[Index(x, y)];
-    const Rgb& around = neighbours_[Index(x, y)];
-    Rgb spread;
+  // What the pixels around one say, itself included.
+  struct Surroundings {
+    Rgb spread;          // mean of (m - n)^2 - v, 5 x 5 pixels
+    Rgb mean, variance;  // sums over 3 x 3 pixels
+    double pixels = 0;   // these
+  };
+  Surroundings Around(int x, int y) const {
+    Surroundings s;
     double count = 0;
     ForWindow(x, y, kSpread, [&](std::size_t i) {
-      for (int c = 0; c < 3; ++c) {
-        const double d = pixels_[i].mean[c] - neighbours_[i][c];
-        spread[c] += d * d - pixels_[i].variance[c];
-      }
+      const Rgb d = pixels_[i].mean - neighbours_[i];
+      s.spread += d * d - pixels_[i].variance;
       ++count;
     });
-    Posterior out;
+    s.spread = s.spread / count;
+    ForWindow(x, y, kReach, [&](std::size_t i) {
+      s.mean += pixels_[i].mean;
+      s.variance += pixels_[i].variance;
+      ++s.pixels;
+    });
+    return s;
+  }
+
+  // By empirical Bayes, the neighbours' mean being the prior's.
+  std::array<ChannelTruth, 3> Truth(int x, int y, double share) const {
+    const PixelEstimate& p = pixels_[Index(x, y)];
+    const Surroundings s = Around(x, y);
+    const double others = std::max(1.0, s.pixels - 1);
+    std::array<ChannelTruth, 3> out;
     for (int c = 0; c < 3; ++c) {
-      const double v = p.variance[c], a = std::max(0.0, spread[c] / count);
-      out.mean[c] = v > 0 ? (a * p.mean[c] + v * around[c]) / (a + v) : p.mean[c];
-      out.variance[c] = v > 0 ? v * a / (a + v) : 0;
+      const double a = std::max(0.0, s.spread[c]), v = p.variance[c] * share;
+      if (!(v > 0)) continue;
+      const double n = neighbours_[Index(x, y)][c];
+      const double m = std::abs(a * p.mean[c] + v * n) / (a + v);
+      out[c].own.mean = m;
+      if (a > 0) out[c].own.shape = std::max(1.0, m * m * (a + v) / (a * v));
+      out[c].noise = std::pow(v / (a + v) / others, 2) * (s.variance[c] * share - v);
+      const double u = s.variance[c] * share / s.pixels;
+      out[c].pooled = (a * p.mean[c] + u * s.mean[c] / s.pixels) / (a + u);
+      out[c].pooled_noise = std::pow(u / (a + u), 2) * u / s.pixels;
     }
     return out;
   }
@@ -169,44 +226,19 @@ class PixelGrid {
   std::vector<Rgb> neighbours_;
 };
 
-Interval SquareRoot(const Interval& v) {
-  return {std::sqrt(v.value), std::sqrt(v.low), std::sqrt(v.high)};
-}
-
-// What the choice of the weights may be wrong by, as a half width in log(relmse).
-double WeightDoubt(const Sums& sums, double relmse) {
-  const double shrunk = sums.relative.sum;
-  if (!(shrunk > 0) || !(sums.plain > 0)) return 0;
-  return std::hypot(kWeightDoubt * std::log(shrunk / sums.plain),
-                    kSkewDoubt * std::sqrt(std::min(relmse, 1.0)), kLeastDoubt);
-}
-
-// What the correlation of variances and weights has taken away.
-double SkewFactor(double relmse) {
-  return std::exp(kSkew * std::sqrt(std::min(relmse, 1.0)));
-}
-
-// Why an error has no upper end; empty if it has one.
-std::string TooFew(const Shares& shares, double pixels) {
-  if (!(shares.sum > 0) || shares.K1() >= std::min(kLeastEffectivePixels, pixels / 2)) {
-    return "";
-  }
-  return fmt::format("few pixels carry it (as {:.2g} of {} alike would): rare samples",
-                     shares.K1(), pixels);
-}
-std::string TooDark(const Sums& sums) {
-  const double change = sums.relative.sum / sums.plain;
-  if (sums.plain > 0 && std::abs(std::log(change)) > kMostWeightChange) {
-    return fmt::format(
-        "it is {:.2g} times as large by what neighbours say of noisy pixels: "
-        "rare bright samples",
-        change);
-  }
-  if (!(sums.darker > kMostDoubt * sums.relative.sum)) return "";
-  return fmt::format(
-      "it would be {:.0f} % larger if noisy pixels were darker by as much as their noise "
-      "allows: rare bright samples",
-      100 * sums.darker / sums.relative.sum);
+// The relative error with what the correlation of variances and weights has taken away,
+// and what the weights may be wrong by in the ends.
+Interval WithWeights(const Interval& v, const Sums& sums) {
+  if (!(v.value > 0)) return v;
+  const double n = static_cast<double>(sums.pixels);
+  const double skew = kSkewDoubt * std::sqrt(std::min(v.value, 1.0));
+  const double low = std::log(v.low / v.value);
+  const double pooled = std::log(std::min(1.0, sums.pooled / sums.relative.sum));
+  const double up = std::sqrt(sums.up_squares) / n;
+  const double value =
+      v.value * std::exp(kSkew * std::sqrt(std::min(v.value, kMostSkewed)));
+  return {value, value * std::exp(-std::hypot(low, pooled, skew)),
+          value + std::hypot(v.high - v.value, up, value * skew)};
 }
 
 // Only the lower end of an interval is known.
@@ -214,58 +246,78 @@ Interval AtLeast(const Interval& v) {
   return {v.value, v.low, std::numeric_limits<double>::infinity()};
 }
 
+ErrorEstimate FromSums(const Sums& sums) {
+  ErrorEstimate out;
+  out.pixels = sums.pixels;
+  out.available = sums.pixels > 0;
+  if (!out.available) return out;
+  const double n = static_cast<double>(sums.pixels);
+  const Shares &square = sums.square, &relative = sums.relative;
+  out.effective_pixels = relative.sum > 0 ? relative.K1() : n;
+  const Interval mse = ErrorInterval(square.sum / n, square.K1(), square.K2());
+  out.rmse = {std::sqrt(mse.value), std::sqrt(mse.low), std::sqrt(mse.high)};
+  out.relmse =
+      WithWeights(ErrorInterval(relative.sum / n, relative.K1(), relative.K2()), sums);
+  out.has_interval = mse.high <= kMostTimes * mse.value &&
+                     out.relmse.high <= kMostTimes * out.relmse.value;
+  return out;
+}
+
+// By what factor more samples would give an interval; 0 if none does.
+int MoreSamples(const PixelGrid& grid) {
+  for (int times = 2; times <= kMostMoreSamples; times *= 2) {
+    if (FromSums(grid.Total(1.0 / times)).has_interval) return times;
+  }
+  return 0;
+}
+
 }  // namespace
 
-Interval ErrorInterval(double estimate, double k1, double k2, double doubt) {
+Interval ErrorInterval(double estimate, double k1, double k2) {
   LL_CHECK_GE(estimate, 0.0);
   if (estimate == 0) return {0, 0, 0};
   constexpr double kTail = (1 - kEstimateConfidence) / 2;
   // Beyond these bounds nothing is left to widen, and FQuantile has its range.
   k1 = std::clamp(k1, 1.0, 1e9);
   k2 = std::clamp(k2, 1.0, 1e9);
-  const double low = std::log(stat::FQuantile(kTail, k1, k2));
-  const double high = std::log(stat::FQuantile(1 - kTail, k1, k2));
-  // The median of F is near 1, so both logarithms have their expected sign.
-  return {estimate, estimate * std::exp(-std::hypot(std::min(low, 0.0), doubt)),
-          estimate * std::exp(std::hypot(std::max(high, 0.0), doubt))};
+  // The median of F is near 1, so the ends are on either side of the estimate.
+  return {estimate, estimate * std::min(1.0, stat::FQuantile(kTail, k1, k2)),
+          estimate * std::max(1.0, stat::FQuantile(1 - kTail, k1, k2))};
 }
 
-ErrorEstimate EstimateError(int width, int height,
+ErrorEstimate EstimateError(const PixelRect& window,
                             const std::function<PixelEstimate(int, int)>& pixel) {
-  const Sums sums = PixelGrid(width, height, pixel).Total();
-  ErrorEstimate out;
-  out.pixels = sums.pixels;
-  out.available = sums.pixels > 0;
-  if (!out.available) return out;
-  const double n = static_cast<double>(sums.pixels);
-  out.effective_pixels = sums.relative.sum > 0 ? sums.relative.K1() : n;
-  out.rmse =
-      SquareRoot(ErrorInterval(sums.square.sum / n, sums.square.K1(), sums.square.K2()));
-  const double relmse = sums.relative.sum / n, doubt = WeightDoubt(sums, relmse);
-  const auto interval = [&](double value) {
-    return ErrorInterval(value, sums.relative.K1(), sums.relative.K2(), doubt);
-  };
-  out.why = TooFew(sums.relative, n);
-  if (out.why.empty()) out.why = TooDark(sums);
-  // The skewness of what has not been sampled well is not known either.
-  out.relmse =
-      out.why.empty() ? interval(relmse * SkewFactor(relmse)) : AtLeast(interval(relmse));
-  const std::string why = TooFew(sums.square, n);
-  if (!why.empty()) out.rmse = AtLeast(out.rmse);
-  if (out.why.empty()) out.why = why;
-  out.has_interval = out.why.empty();
+  const PixelGrid grid(window, pixel);
+  const Sums sums = grid.Total();
+  ErrorEstimate out = FromSums(sums);
+  if (!out.available || out.has_interval) return out;
+  const auto times = [](const Interval& v) { return v.high / v.value; };
+  const double rmse = times(out.rmse), most = std::max(rmse * rmse, times(out.relmse));
+  const int x = window.x0 + static_cast<int>(sums.most_up_at) % window.width();
+  const int y = window.y0 + static_cast<int>(sums.most_up_at) / window.width();
+  const int more = MoreSamples(grid);
+  out.why = fmt::format(
+      "rare bright samples, most of all at pixel ({}, {}), may make it {:.2g} times as "
+      "large; {}, or a strategy that finds them (`lanelight advise`)",
+      x, y, most,
+      more > 0 ? fmt::format("an interval takes about {} times the samples", more)
+               : fmt::format("an interval takes more than {} times the samples",
+                             kMostMoreSamples));
+  if (rmse * rmse > kMostTimes) out.rmse = AtLeast(out.rmse);
+  if (times(out.relmse) > kMostTimes) out.relmse = AtLeast(out.relmse);
   return out;
 }
 
 ErrorEstimate EstimateError(const FilmAccumulator& film) {
-  return EstimateError(film.width(), film.height(), [&film](int x, int y) {
-    const int px = film.x0() + x, py = film.y0() + y;
+  const PixelRect window = {film.x0(), film.y0(), film.x0() + film.width(),
+                            film.y0() + film.height()};
+  return EstimateError(window, [&film](int x, int y) {
     PixelEstimate p;
-    p.known = film.HasVariance(px, py);
+    p.known = film.HasVariance(x, y);
     if (!p.known) return p;
-    p.mean = film.Mean(px, py);
-    p.variance = film.Variance(px, py);
-    p.freedom = static_cast<double>(film.Observations(px, py) - 1);
+    p.mean = film.Mean(x, y);
+    p.variance = film.Variance(x, y);
+    p.freedom = static_cast<double>(film.Observations(x, y) - 1);
     return p;
   });
 }

@@ -7,6 +7,7 @@
 
 #include "src/core/vec.h"
 #include "src/image/accumulator.h"
+#include "src/image/pixel_rect.h"
 #include "src/stat/interval.h"
 
 namespace lanelight {
@@ -19,13 +20,13 @@ inline constexpr double kRelativeEpsilon = 0.01;
 inline constexpr double kEstimateConfidence = 0.95;
 
 /// Where the samples cannot tell an upper end, it is infinite, and `low` is what the
-/// error is at least, with probability kEstimateConfidence: see Doubts.
+/// error is at least, with probability kEstimateConfidence.
 struct ErrorEstimate {
   bool available = false;     // at least one pixel has two independent observations
   bool has_interval = false;  // `rmse` and `relmse` both have an upper end
   Interval rmse;              // sqrt(mean of the variance of the pixel mean)
   Interval relmse;            // mean of variance / (mean^2 + kRelativeEpsilon)
-  std::string why;            // an upper end is missing; empty if none is
+  std::string why;            // an upper end is missing, and what would give it; or empty
   std::uint64_t pixels = 0;   // that the estimate rests on
   /// Pixels of equal relative error that would scatter as much: few if few pixels carry
   /// most of the error.
@@ -55,47 +56,43 @@ struct PixelEstimate {
 /// The relative error divides by the unknown mu^2 + kRelativeEpsilon. In place of m,
 /// whose error is that of v too, stands the mean of m and the mean n of the eight
 /// neighbours with weights a and v, a being the mean of (m - n)^2 - v around the pixel
-/// (at least 0): empirical Bayes with the neighbourhood as prior. The interval is widened
-/// by kWeightDoubt times the change in log(relmse) that this makes, as variances add:
-/// what remains of the bias was measured to be below that (bench/calibrate/).
+/// (at least 0): empirical Bayes with the neighbourhood as prior. It has the variance
+/// b = a v / (a + v), and what is known of mu is taken to be a gamma distribution of this
+/// mean and variance (of shape 1 at least: mean^2 / variance counts the bright samples
+/// that a pixel has met, and it has met one). The median of mu gives the estimate; by how
+/// much v / (mu^2 + kRelativeEpsilon) is larger at the lower end of mu is how much a
+/// pixel may add, and the independent pixels' additions are squared, summed, and joined
+/// with the upper end (the method of variance estimates recovery, Zou and Donner 2008).
+/// So a few pixels with one bright sample each, at the edge of a lamp, say, widen the
+/// interval upwards by what they may cost if they are really dark.
+///
+/// Where the noise is as large as the image, n is noisy as well, and 1 / n^2 too large on
+/// average, by 3 var(n) / n^4 to second order: 1 / (n^2 + 3 var(n)) is not. The estimate
+/// with weights a and the neighbourhood's mean variance, which does not mistake a pixel
+/// without bright samples for one without noise, is the other extreme; the lower end is
+/// moved by the logarithm of their ratio, as variances add.
 ///
 /// Variance and weight of a pixel are not independent: rare samples are bright ones, so
 /// that a pixel's mean is high when its variance is. To first order that takes
 /// 2 gamma sqrt(r) of a pixel's relative error r away, gamma being the skewness of its
-/// mean; over scenes the loss was found to be near kSkew sqrt(relmse), which is given
-/// back, and the interval is widened by kSkewDoubt of it.
+/// mean; over scenes the loss was found to be kSkew sqrt(relmse) up to kMostSkewed, give
+/// or take kSkewDoubt sqrt(relmse) (bench/calibrate/): the former is given back, the
+/// latter widens the interval.
 ///
-/// Pixels half seen by a lamp, whose neighbours are no guide, are beyond this: they are
-/// not left to the samples (src/wavefront/seen_lights.h).
-///
-/// Holds for two groups or more, best for four. What no group has sampled cannot be seen:
-/// where few pixels carry the error, or where it hangs on how dark noisy pixels really
-/// are, the brightest paths are likely to be still missing. Then there is no upper end
-/// (kLeastEffectivePixels, kMostDoubt), only a lower one.
+/// Holds for two groups or more, best for four. What no group has sampled cannot be seen.
+/// Where the upper end is more than kMostTimes the estimate, it would say nothing: there
+/// is none.
 ErrorEstimate EstimateError(const FilmAccumulator& film);
-inline constexpr double kWeightDoubt = 0.3;
-inline constexpr double kSkew = 0.35, kSkewDoubt = 0.35;
-/// What the weights may be wrong by even where nothing else is in doubt.
-inline constexpr double kLeastDoubt = 0.02;
-/// Fewer effective pixels, and there is no upper end.
-inline constexpr double kLeastEffectivePixels = 5;
-/// Nor if shrinking changes log(relmse) by more.
-inline constexpr double kMostWeightChange = 1.5;
-/// By how much the relative error may grow if every pixel's true value were nearer to
-/// zero by its standard deviation, given the pixel and its neighbours; of one pixel
-/// kMostDarker counts. Beyond, weights are not known: glossy highlights of small lamps,
-/// whose neighbours are no guide. Measured: at most 0.53 in scenes whose intervals hold,
-/// 0.6 and more where they do not (bench/calibrate/).
-inline constexpr double kMostDoubt = 0.55, kMostDarker = 50;
+inline constexpr double kMostTimes = 32;
+inline constexpr double kSkew = 0.2, kSkewDoubt = 0.3, kMostSkewed = 0.01;
 
-/// The same for any source of pixels, x in [0, width), y in [0, height), which may be
-/// asked from several threads at once.
-ErrorEstimate EstimateError(int width, int height,
+/// The same for any source of pixels of the window, which may be asked from several
+/// threads at once.
+ErrorEstimate EstimateError(const PixelRect& window,
                             const std::function<PixelEstimate(int x, int y)>& pixel);
 
 /// Interval of the true error: the estimate times quantiles of the F distribution with
-/// k1 and k2 degrees of freedom, these being widened by `doubt` >= 0, the standard half
-/// width (of 95 %) of an independent factor's logarithm.
-Interval ErrorInterval(double estimate, double k1, double k2, double doubt = 0);
+/// k1 and k2 degrees of freedom.
+Interval ErrorInterval(double estimate, double k1, double k2);
 
 }  // namespace lanelight

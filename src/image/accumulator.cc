@@ -4,6 +4,8 @@
 
 #include "src/core/check.h"
 #include "src/core/huge_pages.h"
+#include "src/image/control_film.h"
+#include "src/image/regression_film.h"
 
 namespace lanelight {
 
@@ -38,10 +40,23 @@ std::size_t FilmAccumulator::BytesPerPixel(const SampleGroups& groups,
   return bytes;
 }
 
-void FilmAccumulator::UseControl() {
+void FilmAccumulator::UseDifferences() {
+  UseControl(Feature::kControlDifference, PlaneGroup::kDifference,
+             std::make_unique<ControlFilm>(width_, height_, groups_));
+}
+
+void FilmAccumulator::UseRegression(double coefficient) {
+  UseControl(Feature::kRegressionControl, PlaneGroup::kNumbers,
+             std::make_unique<RegressionFilm>(
+                 PixelRect{x0_, y0_, x0_ + width_, y0_ + height_}, groups_, coefficient));
+}
+
+void FilmAccumulator::UseControl(Feature feature, PlaneGroup group,
+                                 std::unique_ptr<FilmControl> control) {
   for (std::uint64_t samples : samples_) LL_CHECK_EQ(samples, std::uint64_t{0});
-  control_.emplace(width_, height_, groups_);
-  features_.Add(Feature::kControlDifference);
+  control_ = std::move(control);
+  control_planes_ = group;
+  features_.Add(feature);
   planes_ = SamplePlanes(features_);
 }
 
@@ -57,25 +72,19 @@ std::optional<ControlReport> FilmAccumulator::Control() const {
 void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
                                  std::uint32_t count) {
   const std::size_t index = Index(x, y);
-  control_ ? AddColors<true>(index, planes, count)
-           : AddColors<false>(index, planes, count);
+  AddColors(index, planes, count);
+  if (control_) {
+    control_->Add(
+        index, {samples_[index], count, planes, planes + planes_.First(control_planes_)});
+  }
   if (has_aov()) AddPlanes(PlaneGroup::kAov, planes, count, aov_[index].of);
   if (has_gbuffer()) AddPlanes(PlaneGroup::kGbuffer, planes, count, gbuffer_[index].of);
   samples_[index] += count;
 }
 
-template <bool kControl>
 void FilmAccumulator::AddColors(std::size_t index, const float* const* planes,
                                 std::uint32_t count) {
   const std::uint64_t first = samples_[index];
-  if constexpr (kControl) {
-    const int difference = planes_.First(PlaneGroup::kDifference);
-    for (std::uint32_t i = 0; i < count && groups_.replicates; ++i) {
-      for (int c = 0; c < kColorPlanes; ++c) {
-        control_->AddDifference(index, first + i, c, double(planes[difference + c][i]));
-      }
-    }
-  }
   if (groups_.replicates) {
     ReplicateSums sums = replicates_[index];
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -88,25 +97,17 @@ void FilmAccumulator::AddColors(std::size_t index, const float* const* planes,
   UnitSums sums = units_[index];
   for (std::uint32_t i = 0; i < count; ++i) {
     const bool closes = (first + i + 1) % groups_.unit == 0;
-    double means[kColorPlanes];
     for (int c = 0; c < kColorPlanes; ++c) {
       const double value = double(planes[c][i]);
       sums.sum[c] += value;
-      if constexpr (kControl) {
-        const int difference = planes_.First(PlaneGroup::kDifference);
-        control_->AddDifference(index, first + i, c, double(planes[difference + c][i]));
-      }
-      means[c] = value;
+      double mean = value;
       if (groups_.unit > 1) {
         double& open = open_[index].sum[c];
         open += value;
-        means[c] = open / groups_.unit;
+        mean = open / groups_.unit;
         if (closes) open = 0;
       }
-      if (closes) sums.squares[c] += means[c] * means[c];
-    }
-    if constexpr (kControl) {
-      if (closes) control_->CloseUnit(index, (first + i) / groups_.unit, means);
+      if (closes) sums.squares[c] += mean * mean;
     }
   }
   units_[index] = sums;
@@ -144,21 +145,20 @@ Rgb FilmAccumulator::PlainMean(int x, int y) const {
 }
 
 Rgb FilmAccumulator::Variance(int x, int y) const {
-  return HasVariance(x, y) ? Variance(Index(x, y), control_ ? &*control_ : nullptr)
-                           : Rgb{};
+  return HasVariance(x, y) ? Variance(Index(x, y), control_.get()) : Rgb{};
 }
 
 Rgb FilmAccumulator::PlainVariance(int x, int y) const {
   return HasVariance(x, y) ? Variance(Index(x, y), nullptr) : Rgb{};
 }
 
-Rgb FilmAccumulator::Variance(std::size_t index, const ControlFilm* control) const {
+Rgb FilmAccumulator::Variance(std::size_t index, const FilmControl* control) const {
   return groups_.replicates ? ReplicateVariance(index, control)
                             : UnitVariance(index, control);
 }
 
 Rgb FilmAccumulator::ReplicateVariance(std::size_t index,
-                                       const ControlFilm* control) const {
+                                       const FilmControl* control) const {
   ReplicateSums sums = replicates_[index];
   if (control != nullptr) control->CorrectReplicates(index, sums);
   Rgb variance;
@@ -170,11 +170,11 @@ Rgb FilmAccumulator::ReplicateVariance(std::size_t index,
 
 // Sample variance of the units' means, over their number for the variance of their mean,
 // and scaled down by the share of a sample that has no partner yet.
-Rgb FilmAccumulator::UnitVariance(std::size_t index, const ControlFilm* control) const {
+Rgb FilmAccumulator::UnitVariance(std::size_t index, const FilmControl* control) const {
   const double n = static_cast<double>(groups_.Observations(samples_[index]));
   const double share = n * groups_.unit / static_cast<double>(samples_[index]);
   if (control != nullptr) {
-    return control->ResidualSquares(index) * (share / (n * (n - 1)));
+    return control->ResidualSquares(index, samples_[index]) * (share / (n * (n - 1)));
   }
   Rgb variance;
   for (int c = 0; c < 3; ++c) {

@@ -3,14 +3,16 @@
 // low-discrepancy sequence) count as one observation.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "src/core/column.h"
 #include "src/core/vec.h"
-#include "src/image/control_film.h"
+#include "src/image/film_control.h"
 #include "src/image/replicate_sums.h"
 #include "src/path/sample_planes.h"
 
@@ -32,17 +34,20 @@ class FilmAccumulator {
   bool has_gbuffer() const { return !gbuffer_.empty(); }
   static std::size_t BytesPerPixel(const SampleGroups& groups, Auxiliary auxiliary);
 
-  /// From here on (before any sample), samples have three further planes after all
-  /// others: the difference h - E[h] of a control variate whose coefficient the film
-  /// fits. After FitControl, Mean and Variance are those of the corrected samples.
-  void UseControl();
+  /// From here on (before any sample), samples have further planes after all others: the
+  /// difference h - E[h] of a control variate whose coefficient the film fits, or the
+  /// numbers of control=regression, whose fit is then multiplied by `coefficient`. After
+  /// FitControl, Mean and Variance are those of the corrected samples.
+  void UseDifferences();
+  void UseRegression(double coefficient);
   void FitControl();
-  /// What the control variate achieved; empty without UseControl.
+  /// What the control variate achieved; empty without the two above.
   std::optional<ControlReport> Control() const;
 
   /// Planes that a film takes of a sample, at most.
   static constexpr int kMostPlanes =
-      kColorPlanes + kAovPlanes + kGbufferPlanes + NumPlanes(PlaneGroup::kDifference);
+      kColorPlanes + kAovPlanes + kGbufferPlanes +
+      std::max(NumPlanes(PlaneGroup::kDifference), NumPlanes(PlaneGroup::kNumbers));
 
   /// Adds `count` consecutive samples of one pixel; planes[p][i] is plane p (in the order
   /// of SamplePlanes) of the i-th. Must be called with the samples of a pixel in order.
@@ -89,14 +94,15 @@ class FilmAccumulator {
   struct GbufferSums {
     double of[kGbufferPlanes] = {};
   };
-  template <bool kControl>
+  void UseControl(Feature feature, PlaneGroup group,
+                  std::unique_ptr<FilmControl> control);
   void AddColors(std::size_t index, const float* const* planes, std::uint32_t count);
   void AddPlanes(PlaneGroup group, const float* const* planes, std::uint32_t count,
                  std::span<double> sums);
   Rgb Sum(std::size_t index) const;
-  Rgb Variance(std::size_t index, const ControlFilm* control) const;
-  Rgb UnitVariance(std::size_t index, const ControlFilm* control) const;
-  Rgb ReplicateVariance(std::size_t index, const ControlFilm* control) const;
+  Rgb Variance(std::size_t index, const FilmControl* control) const;
+  Rgb UnitVariance(std::size_t index, const FilmControl* control) const;
+  Rgb ReplicateVariance(std::size_t index, const FilmControl* control) const;
 
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y - y0_) * static_cast<std::size_t>(width_) +
@@ -113,7 +119,8 @@ class FilmAccumulator {
   std::vector<GbufferSums> gbuffer_;
   FeatureSet features_;  // of renders that it takes samples of
   SamplePlanes planes_;  // that it takes
-  std::optional<ControlFilm> control_;
+  PlaneGroup control_planes_ = PlaneGroup::kCount;
+  std::unique_ptr<FilmControl> control_;
 };
 
 }  // namespace lanelight

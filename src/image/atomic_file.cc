@@ -142,25 +142,4 @@ void CheckCreatable(const std::string& path) {
   unlink(temporary.c_str());
 }
 
-std::string ReadWholeFile(const std::string& path) {
-  FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) Fail(path, "cannot open", errno);
-  struct stat info;
-  std::string content;
-  if (fstat(file.get(), &info) == 0 && S_ISREG(info.st_mode)) {
-    content.reserve(static_cast<std::size_t>(info.st_size) + 1);
-  }
-  std::size_t size = 0;
-  for (;;) {
-    content.resize(std::max(content.capacity(), size + 65536));
-    const ssize_t n = read(file.get(), content.data() + size, content.size() - size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) Fail(path, "cannot read", errno);
-    if (n == 0) break;
-    size += static_cast<std::size_t>(n);
-  }
-  content.resize(size);
-  return content;
-}
-
 }  // namespace lanelight

@@ -32,7 +32,4 @@ void RemoveTemporaries(const std::string& path);
 /// begin: no temporary file can be created beside `path`. Leaves nothing behind.
 void CheckCreatable(const std::string& path);
 
-/// The whole file. Throws InputError with the system's reason; a directory is an error.
-std::string ReadWholeFile(const std::string& path);
-
 }  // namespace lanelight

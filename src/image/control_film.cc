@@ -71,11 +71,23 @@ std::size_t ControlFilm::BytesPerPixel(const SampleGroups& groups) {
          (groups.replicates ? sizeof(ReplicateSums) : sizeof(Halves) + sizeof(Open));
 }
 
-void ControlFilm::CloseUnit(std::size_t pixel, std::uint64_t unit, const double* means) {
-  for (int c = 0; c < 3; ++c) {
-    double& open = open_[pixel].sum[c];
-    halves_[pixel].of[unit % 2][c].Add(means[c], open / groups_.unit);
-    open = 0;
+void ControlFilm::Add(std::size_t pixel, const ControlledSamples& samples) {
+  for (std::uint32_t i = 0; i < samples.count; ++i) {
+    const std::uint64_t sample = samples.first + i;
+    for (int c = 0; c < 3; ++c) {
+      const double d = double(samples.planes[c][i]);
+      if (groups_.replicates) {
+        replicates_[pixel].of[groups_.Replicate(sample)][c] += d;
+        continue;
+      }
+      double &open_f = open_[pixel].f[c], &open_d = open_[pixel].d[c];
+      open_f += double(samples.colors[c][i]);
+      open_d += d;
+      if ((sample + 1) % groups_.unit != 0) continue;
+      halves_[pixel].of[sample / groups_.unit % 2][c].Add(open_f / groups_.unit,
+                                                          open_d / groups_.unit);
+      open_f = open_d = 0;
+    }
   }
 }
 
@@ -136,7 +148,7 @@ Rgb ControlFilm::Correction(std::size_t pixel, std::uint64_t samples) const {
   const std::uint64_t open_half = samples / groups_.unit % 2;
   for (int c = 0; c < 3; ++c) {
     for (std::uint64_t half = 0; half < 2; ++half) {
-      const double open = half == open_half ? open_[pixel].sum[c] : 0;
+      const double open = half == open_half ? open_[pixel].d[c] : 0;
       sum[c] += double(coefficients_[pixel].of[1 - half][c]) *
                 (halves_[pixel].of[half][c].d * groups_.unit + open);
     }
@@ -153,7 +165,7 @@ void ControlFilm::CorrectReplicates(std::size_t pixel, ReplicateSums& sums) cons
   }
 }
 
-Rgb ControlFilm::ResidualSquares(std::size_t pixel) const {
+Rgb ControlFilm::ResidualSquares(std::size_t pixel, std::uint64_t) const {
   Rgb out;
   for (int c = 0; c < 3; ++c) {
     double sum = 0, squares = 0, n = 0;
@@ -195,8 +207,8 @@ std::vector<MutableStateColumn> ControlFilm::Columns() {
               "sums over units of 1, f, D, f f, f D, D D with D = h - E[h], "
               "by half and channel",
               halves_, {2, 3, 6}),
-          MakeStateColumn<double>("control_open", "sum of D over the incomplete unit",
-                                  open_, {3})};
+          MakeStateColumn<double>(
+              "control_open", "sums of f and D over the incomplete unit", open_, {2, 3})};
 }
 
 }  // namespace lanelight

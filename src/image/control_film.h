@@ -1,5 +1,5 @@
-// Estimated coefficients of control variates: per pixel and channel, cross-fitted between
-// two halves of the samples.
+// Estimated coefficients of control=analytic and ambient: per pixel and channel,
+// cross-fitted between two halves of the samples (film_control.h).
 //
 //   estimator   1/n (sum over half A of (f - c_B D) + sum over half B of (f - c_A D)),
 //               D = h - E[h], c_X = Cov(f, D) / Var(D) from the observations of half X
@@ -12,9 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/core/column.h"
-#include "src/core/vec.h"
-#include "src/image/replicate_sums.h"
+#include "src/image/film_control.h"
 
 namespace lanelight {
 
@@ -53,49 +51,19 @@ double FitCoefficient(const ControlScatter& own, const ControlScatter& window);
 inline constexpr double kNeighbourFreedom = 24;
 inline constexpr double kMostCoefficient = 4;
 
-/// What control variates achieved over an image.
-struct ControlReport {
-  double coefficient = 0;  // mean; the paper's equation 7 has the opposite sign
-  double correlation = 0;  // of f and D, over the variance of all pixels and channels
-};
-
-/// What the film knows of a pixel's f: the other half of what a fit needs.
-struct ControlledColors {
-  const std::vector<std::uint64_t>& samples;
-  const std::vector<ReplicateSums>& replicates;  // empty without replicates
-};
-
-/// Sums of one film, by pixel index y * width + x.
-class ControlFilm {
+/// One difference D per channel.
+class ControlFilm final : public FilmControl {
  public:
   ControlFilm(int width, int height, const SampleGroups& groups);
   static std::size_t BytesPerPixel(const SampleGroups& groups);
 
-  /// Adds the difference of a pixel's sample number `sample`.
-  void AddDifference(std::size_t pixel, std::uint64_t sample, int channel,
-                     double difference) {
-    if (groups_.replicates) {
-      replicates_[pixel].of[groups_.Replicate(sample)][channel] += difference;
-    } else {
-      open_[pixel].sum[channel] += difference;
-    }
-  }
-  /// Ends unit number `unit` of a pixel without replicates; `means`: of f, per channel.
-  void CloseUnit(std::size_t pixel, std::uint64_t unit, const double* means);
-
-  /// Fits the coefficients to all samples so far; before, they are 0.
-  void Fit(const ControlledColors& colors);
-
-  /// To subtract from the sum of f over all samples, of which there are `samples`.
-  Rgb Correction(std::size_t pixel, std::uint64_t samples) const;
-  /// The same from the sums of its replicates.
-  void CorrectReplicates(std::size_t pixel, ReplicateSums& sums) const;
-  /// Scatter of the corrected units about their mean: sum of squares. Without replicates.
-  Rgb ResidualSquares(std::size_t pixel) const;
-  ControlReport Report(const ControlledColors& colors) const;
-
-  /// All that has been added; coefficients are not part of it.
-  std::vector<MutableStateColumn> Columns();
+  void Add(std::size_t pixel, const ControlledSamples& samples) override;
+  void Fit(const ControlledColors& colors) override;
+  Rgb Correction(std::size_t pixel, std::uint64_t samples) const override;
+  void CorrectReplicates(std::size_t pixel, ReplicateSums& sums) const override;
+  Rgb ResidualSquares(std::size_t pixel, std::uint64_t samples) const override;
+  ControlReport Report(const ControlledColors& colors) const override;
+  std::vector<MutableStateColumn> Columns() override;
 
  private:
   static constexpr int kReach = 2;  // window: 5 x 5 pixels
@@ -103,7 +71,7 @@ class ControlFilm {
     ControlSums of[2][3];
   };
   struct Open {
-    double sum[3] = {};
+    double f[3] = {}, d[3] = {};
   };
   struct Coefficients {
     float of[2][3] = {};  // fitted to this half, for the other one

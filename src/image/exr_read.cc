@@ -13,14 +13,16 @@
 #include <cstring>
 
 #include "src/core/error.h"
-#include "src/image/atomic_file.h"
+#include "src/core/input_file.h"
 #include "src/image/exr.h"
 
 namespace lanelight {
 namespace {
 
 // A reason, to which ReadWithPath adds the path.
-using Damaged = std::runtime_error;
+struct Damaged : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 // An EXR file in memory, so that the system's errors are told from the format's.
 class MemoryInput : public Imf::IStream {
@@ -68,8 +70,10 @@ void CheckChannels(const Imf::Header& header, const std::vector<std::string>& wa
                                 fmt::join(ChannelsOf(header), ", ")));
     }
     if (channel->xSampling != 1 || channel->ySampling != 1) {
-      throw Damaged(
-          fmt::format("channel \"{}\" is subsampled, which is not supported", name));
+      throw Damaged(fmt::format(
+          "channel \"{}\" is subsampled, which is not supported; the file has "
+          "{}",
+          name, fmt::join(ChannelsOf(header), ", ")));
     }
   }
 }
@@ -122,14 +126,25 @@ Image Read(const std::string& path, const std::string& content,
   return image;
 }
 
+// What OpenEXR says of an error is meant for programmers.
+std::string Why(const std::exception& error, const std::string& content) {
+  if (dynamic_cast<const Damaged*>(&error) != nullptr) return error.what();
+  return content.starts_with("\x76\x2f\x31\x01")
+             ? "it is damaged, or of a kind that OpenEXR does not read"
+             : "it is not an EXR file";
+}
+
 Image ReadWithPath(const std::string& path, const std::vector<std::string>* wanted) {
   const std::string content = ReadWholeFile(path);
   try {
     return Read(path, content, wanted);
   } catch (const InputError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: cannot read the EXR file: {}", path, error.what()));
+    throw InputError(
+        fmt::format("{}: cannot read the EXR file: {}", path, Why(error, content)));
   }
 }
 

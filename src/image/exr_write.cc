@@ -1,3 +1,4 @@
+#include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
@@ -124,8 +125,8 @@ void WriteExr(const std::string& path, int width, int height,
     Imf::OutputFile file(stream, header);
     file.setFrameBuffer(buffer);
     file.writePixels(height);
-  } catch (const std::exception& error) {
-    throw InputError(path + ": cannot encode the EXR file: " + error.what());
+  } catch (const Iex::BaseExc&) {
+    throw InputError(path + ": OpenEXR cannot encode this image");
   }
   WriteFileAtomically(path, stream.content);
 }

@@ -8,47 +8,21 @@
 #include <limits>
 #include <utility>
 
-#include "src/core/aligned.h"
+#include "src/image/nanovdb_file.h"
 #include "src/image/sparse_grid.h"
 
-// Of NanoVDB 32: reading (IO.h), and what a damaged file shows by (GridValidator.h).
-#define NANOVDB_USE_ZIP
-#define NANOVDB_USE_BLOSC
+// Of NanoVDB 32.
 #include <nanovdb/NanoVDB.h>
-#include <nanovdb/util/GridValidator.h>
-#include <nanovdb/util/IO.h>
 
 namespace lanelight {
-
-/// Where NanoVDB puts a grid. Its own buffer does not notice that there is no memory.
-class GridBytes {
- public:
-  GridBytes() = default;
-  static GridBytes create(std::uint64_t size, const GridBytes* = nullptr) {
-    GridBytes bytes;
-    bytes.bytes_.resize(size);
-    return bytes;
-  }
-  std::uint8_t* data() { return bytes_.data(); }
-  const std::uint8_t* data() const { return bytes_.data(); }
-  std::uint64_t size() const { return bytes_.size(); }
-  bool empty() const { return bytes_.empty(); }
-  void clear() { bytes_.clear(); }
-
- private:
-  AlignedVector<std::uint8_t> bytes_;
-};
-using GridBuffer = nanovdb::GridHandle<GridBytes>;
-
-/// Voxels along a side of a block that is stored.
-inline constexpr int kLeafSide = 8;
 
 /// See SparseGrid.
 template <typename BuildT>
 class TypedGrid final : public SparseGrid {
  public:
   using Grid = nanovdb::NanoGrid<BuildT>;
-  explicit TypedGrid(GridBuffer buffer);
+  /// Of bytes that TreeCheck has found no fault with.
+  explicit TypedGrid(GridBytes bytes);
 
   void Interpolate(const float* x, const float* y, const float* z, std::size_t count,
                    float* out) const override {
@@ -61,35 +35,36 @@ class TypedGrid final : public SparseGrid {
     return grid().tree().getValue({i, j, k});
   }
   float LargestIn(const int low[3], const int high[3]) const override {
-    return RangeIn(low, high).second;
+    return RangeIn({{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}).second;
   }
 
  private:
   using Range = std::pair<float, float>;
+  struct Box {
+    int low[3], high[3];  // both included
+  };
 
-  const Grid& grid() const { return *reinterpret_cast<const Grid*>(buffer_.data()); }
+  const Grid& grid() const { return *reinterpret_cast<const Grid*>(data_.data()); }
   template <typename Access>
   static float InterpolateOne(const Access& access, float x, float y, float z);
-  Range RangeIn(const int low[3], const int high[3]) const;
-  template <typename Access>
-  static void AddBlock(const Access& access, const int first[3], const int last[3],
-                       Range* range);
+  static void Add(float value, Range* range);
+  template <typename Node>
+  static void AddNode(const Node& node, const nanovdb::Coord& origin, const Box& box,
+                      Range* range);
+  Range RangeIn(const Box& box) const;
   void SetPlace();
 
-  GridBuffer buffer_;
+  GridBytes data_;
 };
 
 template <typename BuildT>
-TypedGrid<BuildT>::TypedGrid(GridBuffer buffer) : buffer_(std::move(buffer)) {
-  bytes_ = buffer_.size();
+TypedGrid<BuildT>::TypedGrid(GridBytes bytes) : data_(std::move(bytes)) {
+  bytes_ = data_.size();
   SetPlace();
-  const auto box = grid().indexBBox();
-  const int low[3] = {box.min()[0], box.min()[1], box.min()[2]};
-  const int high[3] = {box.max()[0], box.max()[1], box.max()[2]};
-  const Range stored = RangeIn(low, high);
-  const float background = grid().tree().background();
-  smallest_ = std::min(stored.first, background);
-  largest_ = std::max(stored.second, background);
+  constexpr int kLeast = std::numeric_limits<int>::min();
+  constexpr int kMost = std::numeric_limits<int>::max();
+  const Range all = RangeIn({{kLeast, kLeast, kLeast}, {kMost, kMost, kMost}});
+  smallest_ = all.first, largest_ = all.second;
 }
 
 template <typename BuildT>
@@ -112,8 +87,9 @@ void TypedGrid<BuildT>::SetPlace() {
 template <typename BuildT>
 template <typename Access>
 float TypedGrid<BuildT>::InterpolateOne(const Access& access, float x, float y, float z) {
-  constexpr float kFar = 1e9f;
-  const auto near = [](float v) { return v > -kFar && v < kFar; };  // nor is it NaN
+  const auto near = [](float v) {
+    return std::abs(v) < kFarthestVoxel;
+  };  // nor is it NaN
   if (!near(x) || !near(y) || !near(z)) return 0;
   const float low[3] = {std::floor(x), std::floor(y), std::floor(z)};
   const float part[3] = {x - low[0], y - low[1], z - low[2]};
@@ -132,43 +108,74 @@ float TypedGrid<BuildT>::InterpolateOne(const Access& access, float x, float y, 
   return a + part[0] * (b - a);
 }
 
-// Of the voxels first to last, which lie in one block that is a leaf, or has one value.
 template <typename BuildT>
-template <typename Access>
-void TypedGrid<BuildT>::AddBlock(const Access& access, const int first[3],
-                                 const int last[3], Range* range) {
-  const auto add = [&](float v) {
-    // Written so that NaN becomes an infinite value.
-    if (!(v >= range->first)) range->first = v < range->first ? v : -INFINITY;
-    if (!(v <= range->second)) range->second = v > range->second ? v : INFINITY;
-  };
-  if (access.probeLeaf({first[0], first[1], first[2]}) == nullptr) {
-    return add(access.getValue({first[0], first[1], first[2]}));
+void TypedGrid<BuildT>::Add(float value, Range* range) {
+  // Written so that NaN becomes an infinite value.
+  if (!(value >= range->first)) range->first = value < range->first ? value : -INFINITY;
+  if (!(value <= range->second)) range->second = value > range->second ? value : INFINITY;
+}
+
+// What the part of a node in the box holds. By the place where the node hangs: the file
+// need not be right about the place that the node itself has.
+template <typename BuildT>
+template <typename Node>
+void TypedGrid<BuildT>::AddNode(const Node& node, const nanovdb::Coord& origin,
+                                const Box& box, Range* range) {
+  constexpr std::int64_t kBits = Node::ChildNodeType::TOTAL, kDim = Node::DIM;
+  int first[3], last[3];  // entries of the node
+  for (int a = 0; a < 3; ++a) {
+    const std::int64_t low = std::int64_t{box.low[a]} - origin[a];
+    const std::int64_t high = std::int64_t{box.high[a]} - origin[a];
+    first[a] = static_cast<int>(std::clamp<std::int64_t>(low, 0, kDim) >> kBits);
+    last[a] = static_cast<int>(std::clamp<std::int64_t>(high, -1, kDim - 1) >> kBits);
   }
   for (int i = first[0]; i <= last[0]; ++i) {
     for (int j = first[1]; j <= last[1]; ++j) {
-      for (int k = first[2]; k <= last[2]; ++k) add(access.getValue({i, j, k}));
+      std::uint32_t n = ((i << Node::LOG2DIM) + j) << Node::LOG2DIM | first[2];
+      for (int k = first[2]; k <= last[2]; ++k, ++n) {
+        if constexpr (Node::LEVEL > 0) {
+          if (node.data()->isChild(n)) {
+            const auto at = origin + (nanovdb::Coord(i, j, k) << kBits);
+            AddNode(*node.data()->getChild(n), at, box, range);
+          } else {
+            Add(node.data()->mTable[n].value, range);
+          }
+        } else {
+          Add(node.data()->getValue(n), range);
+        }
+      }
     }
   }
 }
 
 template <typename BuildT>
-auto TypedGrid<BuildT>::RangeIn(const int low[3], const int high[3]) const -> Range {
-  const auto access = grid().getAccessor();
+auto TypedGrid<BuildT>::RangeIn(const Box& box) const -> Range {
   constexpr float kMost = std::numeric_limits<float>::max();
+  constexpr int kBits = nanovdb::NanoUpper<BuildT>::TOTAL;
   Range range = {kMost, -kMost};
-  int first[3], last[3];
-  const auto next = [&](int a) {
-    last[a] = std::min(high[a], first[a] | (kLeafSide - 1));
-    return first[a] <= high[a];
-  };
-  for (first[0] = low[0]; next(0); first[0] = last[0] + 1) {
-    for (first[1] = low[1]; next(1); first[1] = last[1] + 1) {
-      for (first[2] = low[2]; next(2); first[2] = last[2] + 1) {
-        AddBlock(access, first, last, &range);
-      }
+  const auto& root = grid().tree().root();
+  std::uint64_t uncovered = 1;  // places that tiles of the root may have
+  for (int a = 0; a < 3; ++a) {
+    uncovered *=
+        static_cast<std::uint64_t>((box.high[a] >> kBits) - (box.low[a] >> kBits) + 1);
+  }
+  for (std::uint32_t i = 0; i < root.tileCount(); ++i) {
+    const auto* tile = root.data()->tile(i);
+    const nanovdb::Coord origin = tile->origin();
+    bool meets = true;
+    for (int a = 0; a < 3; ++a) {
+      const int at = origin[a] >> kBits;
+      meets = meets && at >= box.low[a] >> kBits && at <= box.high[a] >> kBits;
+    }
+    if (!meets) continue;
+    --uncovered;
+    if (tile->isChild()) {
+      AddNode(*root.data()->getChild(tile), origin, box, &range);
+    } else {
+      Add(tile->value, &range);
     }
   }
+  if (uncovered > 0) Add(root.background(), &range);
   return range;
 }
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "src/core/input_file.h"
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/image/atomic_file.h"

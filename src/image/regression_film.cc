@@ -1,231 +1,299 @@
 #include "src/image/regression_film.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 
 #include "src/core/check.h"
+#include "src/core/huge_pages.h"
+#include "src/core/parallel.h"
+#include "src/image/control_film.h"
 
 namespace lanelight {
 namespace {
 
-// Fits come after so many samples and multiples of it: whole turns of the replicates.
-constexpr std::uint64_t kLeast = 8;
+constexpr int kFunctions = RegressionFilm::kFunctions;
+constexpr std::uint32_t kAtOnce = 32;  // samples
 
-// For each channel: n times the correlations of f with the functions, and f's deviation.
-constexpr int kPerChannel = RegressionFilm::kFunctions + 1;
-using Correlations = std::array<float, 3 * kPerChannel>;
-// A deviation above this multiple of its neighbourhood's comes from rare bright samples,
-// which no polynomial explains.
-constexpr double kMostDeviation = 2;
-
-// Sums of a line of values, `stride` apart, over windows of 2 kReach + 1.
-void SumWindows(const Correlations* in, Correlations* out, int length, int stride) {
-  for (int i = 0; i < length; ++i) {
-    Correlations sum = {};
-    const int end = std::min(length, i + RegressionFilm::kReach + 1);
-    for (int k = std::max(0, i - RegressionFilm::kReach); k < end; ++k) {
-      for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += in[k * stride][j];
-    }
-    out[i * stride] = sum;
-  }
+// Orthonormal P1 in the middle of a cell.
+float Linear(std::uint32_t cell, int bits) {
+  constexpr float kRoot3 = 1.73205081f;
+  const float width = 2 * kRoot3 / static_cast<float>(1 << bits);
+  return static_cast<float>(static_cast<int>(cell)) * width + (width / 2 - kRoot3);
 }
 
-// Pixels of such a window.
-int WindowSize(int i, int length) {
-  return std::min(length, i + RegressionFilm::kReach + 1) -
-         std::max(0, i - RegressionFilm::kReach);
+// Three times 1[u < p] - p: of variance 1 at p = 1/7, between what glass reflects head-on
+// and aslant, so that the sample that a fit adds weighs as with the other functions.
+float Choice(std::uint32_t code) {
+  constexpr float kScale = 3.0f / (1 << kBitsOfProbability);
+  const auto p = static_cast<int>(code >> 1), first = static_cast<int>(code & 1);
+  return static_cast<float>((first << kBitsOfProbability) - p) * kScale;
 }
 
-// Positive-part shrinkage of a correlation estimated from n samples, whose variance is
-// 1 / n if there is none.
-double Shrunk(double r, double n) {
-  const double signal = n * r * r;
-  return signal > 1 && std::isfinite(signal) ? r * (1 - 1 / signal) : 0;
-}
-
-double Deviation(double sum, double squares, double n) {
-  const double mean = sum / n;
-  return std::sqrt(std::max(0.0, squares / n - mean * mean));
-}
-
-// The first fit after that at `samples`; they grow apart, so that their cost stays a
-// share of the samples'.
-std::uint64_t NextFit(std::uint64_t samples) {
-  return samples + std::max<std::uint64_t>(1, samples / 4 / kLeast) * kLeast;
-}
-
-// The first fit at `samples` or after: the same however the samples are cut.
-std::uint64_t FitFrom(std::uint64_t samples) {
-  std::uint64_t fit = kLeast;
-  while (fit < samples) fit = NextFit(fit);
-  return fit;
-}
+// What a plain loop over the functions needs to be free of.
+float Finite(float v) { return std::abs(v) < 1e30f ? v : 0; }
 
 }  // namespace
 
-RegressionFilm::RegressionFilm(int x0, int y0, int width, int height,
-                               const SampleGroups& groups, double coefficient)
-    : x0_(x0), y0_(y0), width_(width), groups_(groups), coefficient_(coefficient) {
-  const std::size_t pixels =
-      static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  samples_.resize(pixels);
-  pixels_.resize(pixels);
-  fits_.resize(pixels);
-}
+// Of one half of a pixel's samples, or of all pixels of a block: sums of squares and
+// products about the pixels' means.
+struct RegressionFilm::Scatter {
+  float freedom = 0, ff[3] = {};  // freedom: samples less one per mean
+  Values squares = {}, products[3] = {};
 
-std::size_t RegressionFilm::BytesPerPixel() {
-  return sizeof(std::uint64_t) + sizeof(Pixel) + sizeof(Fits);
-}
-
-void RegressionFilm::Functions(const float* numbers, float* phi) {
-  constexpr float kRoot3 = 1.73205081f, kRoot5 = 2.23606798f;
-  for (int i = 0; i < 6; ++i) {
-    const float u = numbers[i];
-    const float linear = u < 0 ? 0 : kRoot3 * (2 * u - 1);
-    if (i >= 4) {
-      phi[4 + i] = linear;
-      continue;
+  void Add(const Scatter& o) {
+    freedom += o.freedom;
+    for (int j = 0; j < kFunctions; ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      squares[i] += o.squares[i];
+      for (int c = 0; c < 3; ++c) products[c][i] += o.products[c][i];
     }
-    phi[2 * i] = linear;
-    phi[2 * i + 1] = u < 0 ? 0 : kRoot5 * (6 * u * (u - 1) + 1);
+    for (int c = 0; c < 3; ++c) ff[c] += o.ff[c];
+  }
+
+  // Coefficients of a channel, shrunk as FitCoefficient (control_film.h) shrinks its one,
+  // with the same weight of the neighbours. One sample more, with phi = 1 and f at its
+  // mean, keeps those of events that have hardly been seen finite.
+  void Fit(const Scatter& block, int c, Values& b) const {
+    const float around = block.freedom - freedom;
+    const float w = around > 0 ? std::min(1.0f, float(kNeighbourFreedom) / around) : 0;
+    const float n = (1 - w) * freedom + w * block.freedom;
+    const float f = (1 - w) * ff[c] + w * block.ff[c];
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const float square = 1 + (1 - w) * squares[j] + w * block.squares[j];
+      const float product = (1 - w) * products[c][j] + w * block.products[c][j];
+      const float slope = product / square, explained = product * slope;
+      const float noise = 2 * (f - explained) / n;
+      b[j] = explained > noise ? Finite(slope - slope * noise / explained) : 0;
+    }
+  }
+};
+
+RegressionFilm::RegressionFilm(const PixelRect& window, const SampleGroups& groups,
+                               double coefficient)
+    : window_(window),
+      groups_(groups),
+      coefficient_(coefficient),
+      turns_(groups.replicates ? kReplicates : 2) {
+  LL_CHECK(groups.unit == 1 || groups.replicates);
+  const auto pixels = static_cast<std::size_t>(window.pixels());
+  ResizeInHugePages(sums_, pixels * turns_);
+  ResizeInHugePages(colors_, pixels);
+  ResizeInHugePages(products_, pixels);
+  ResizeInHugePages(fitted_, pixels);
+}
+
+std::size_t RegressionFilm::BytesPerPixel(const SampleGroups& groups) {
+  return (groups.replicates ? kReplicates : 2) * sizeof(Values) + sizeof(Halves<Colors>) +
+         sizeof(Halves<Products>) + sizeof(Fitted);
+}
+
+void RegressionFilm::Functions(const float* codes, float* phi) {
+  for (int k = 0; k < 3; ++k) {
+    const auto code = std::bit_cast<std::uint32_t>(codes[k]);
+    const float has = code >= kHasPair ? 1 : 0;
+    phi[2 * k] = has * Linear(code << 1 >> (kBitsOfSecond + 1), kBitsOfFirst);
+    phi[2 * k + 1] = has * Linear(code & ((1u << kBitsOfSecond) - 1), kBitsOfSecond);
+    if (k > 0) phi[7 + k] = phi[2 * k] * phi[2 * k + 1];
+    for (int i = 2; i < 4 && k == 1; ++i) {  // P2 = (3 (2u - 1)^2 - 1) / 2
+      phi[4 + i] = has * std::sqrt(5.0f) / 2 * (phi[i] * phi[i] - 1);
+    }
+  }
+  const auto choices = std::bit_cast<std::uint32_t>(codes[3]);
+  phi[10] = Choice(choices & 0xffff);
+  phi[11] = Choice(choices >> 16);
+}
+
+void RegressionFilm::Add(std::size_t pixel, const ControlledSamples& samples) {
+  for (std::uint32_t begin = 0; begin < samples.count; begin += kAtOnce) {
+    const std::uint32_t count = std::min(kAtOnce, samples.count - begin);
+    float phi[kAtOnce][kFunctions];
+    for (std::uint32_t i = 0; i < count; ++i) {
+      float codes[kPlanes];
+      for (int k = 0; k < kPlanes; ++k) codes[k] = samples.planes[k][begin + i];
+      Functions(codes, phi[i]);
+    }
+    for (std::uint32_t half = 0; half < 2; ++half) {
+      AddHalf(pixel, half, samples, begin, {phi, count});
+    }
   }
 }
 
-void RegressionFilm::Correlate(std::size_t pixel, int half, double n, float* out) const {
-  const Moments& moments = pixels_[pixel].moments[half];
-  const Half& sums = fits_[pixel].sums[half];
+// Samples of one half among a few, whose sums then stay in registers.
+void RegressionFilm::AddHalf(std::size_t pixel, std::uint32_t half,
+                             const ControlledSamples& samples, std::uint32_t begin,
+                             std::span<const float[kFunctions]> phi) {
+  Colors colors = colors_[pixel][half];
+  Products sums = products_[pixel][half];
+  for (std::uint32_t i = 0; i < phi.size(); ++i) {
+    const std::uint64_t sample = samples.first + begin + i;
+    const std::uint32_t turn = TurnOf(sample);
+    if (turn % 2 != half) continue;
+    Values& sum = sums_[pixel * turns_ + turn];
+    for (std::size_t j = 0; j < kFunctions; ++j) sum[j] += phi[i][j];
+    for (int c = 0; c < 3; ++c) {
+      const double f = double(samples.colors[c][begin + i]);
+      colors.f[c] += f;
+      colors.ff[c] += f * f;
+    }
+    if (sample >= kMostFitted) continue;
+    for (std::size_t j = 0; j < kFunctions; ++j) sums.squares[j] += phi[i][j] * phi[i][j];
+    for (int c = 0; c < 3; ++c) {
+      const float f = samples.colors[c][begin + i];
+      for (std::size_t j = 0; j < kFunctions; ++j) sums.products[c][j] += f * phi[i][j];
+    }
+  }
+  colors_[pixel][half] = colors;
+  products_[pixel][half] = sums;
+}
+
+double RegressionFilm::SamplesOfHalf(std::uint64_t samples, int half) const {
+  const auto of = static_cast<std::uint64_t>(half);
+  if (!groups_.replicates) return static_cast<double>((samples + 1 - of) / 2);
+  std::uint64_t n = 0;
+  for (auto r = static_cast<std::uint32_t>(half); r < kReplicates; r += 2) {
+    n += groups_.InReplicate(samples, r);
+  }
+  return static_cast<double>(n);
+}
+
+RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors,
+                                                  std::size_t pixel, int half) const {
+  Scatter out;
+  const std::uint64_t samples = colors.samples[pixel];
+  const double all = SamplesOfHalf(samples, half);
+  if (all < 2) return out;
+  // Beyond kMostFitted colours and functions know more than their products do.
+  const double n = SamplesOfHalf(std::min(samples, kMostFitted), half), share = n / all;
+  const auto side = static_cast<std::size_t>(half);
+  const Colors& own = colors_[pixel][side];
+  const Products& sums = products_[pixel][side];
+  out.freedom = static_cast<float>(n - 1);
+  Values phi = {};
+  for (std::size_t t = side; t < turns_; t += 2) {
+    for (std::size_t j = 0; j < phi.size(); ++j) phi[j] += Sums(pixel, t)[j];
+  }
+  const auto inverse = static_cast<float>(share * share / n);
+  for (std::size_t j = 0; j < phi.size(); ++j) {
+    out.squares[j] = std::max(0.0f, sums.squares[j] - phi[j] * phi[j] * inverse);
+  }
   for (int c = 0; c < 3; ++c) {
-    const double mean = moments.f[c] / n;
-    const double deviation = Deviation(moments.f[c], moments.ff[c], n);
-    for (int j = 0; j < kFunctions; ++j) {
-      const double sum = double(sums.products[c][j]) - mean * double(sums.phi[j]);
-      *out++ = deviation > 0 ? static_cast<float>(sum / deviation) : 0;
+    const double mean = own.f[c] / all;
+    out.ff[c] = static_cast<float>(std::max(0.0, own.ff[c] - own.f[c] * mean) * share);
+    const auto scale = static_cast<float>(mean * share);
+    for (std::size_t j = 0; j < phi.size(); ++j) {
+      out.products[c][j] = sums.products[c][j] - scale * phi[j];
     }
-    *out++ = static_cast<float>(deviation);
+  }
+  return out;
+}
+
+// Corrects one half with coefficients of the other.
+void RegressionFilm::Use(const Values (&b)[3], std::size_t pixel, std::uint64_t samples,
+                         int half) {
+  Fitted& out = fitted_[pixel];
+  const auto side = static_cast<std::size_t>(half);
+  const Products& sums = products_[pixel][side];
+  const double fitted = SamplesOfHalf(std::min(samples, kMostFitted), half);
+  const double more = fitted > 0 ? SamplesOfHalf(samples, half) / fitted : 0;
+  for (int c = 0; c < 3; ++c) {
+    for (std::size_t t = side; t < turns_; t += 2) {
+      float sum = 0;
+      for (std::size_t j = 0; j < b[c].size(); ++j) sum += b[c][j] * Sums(pixel, t)[j];
+      out.corrections[t][c] = sum;
+    }
+    float product = 0, square = 0;
+    for (std::size_t j = 0; j < b[c].size(); ++j) {
+      product += b[c][j] * sums.products[c][j];
+      square += b[c][j] * b[c][j] * sums.squares[j];
+    }
+    out.products[c] += product * static_cast<float>(more);
+    out.squares[c] += square * static_cast<float>(more);
   }
 }
 
-void RegressionFilm::FitAll(const SampleBlock& block, std::uint64_t samples) {
-  const double n = static_cast<double>(samples / 2);  // of each half: whole turns
-  for (int by = block.y0 / kBlock * kBlock; by < block.y1; by += kBlock) {
-    for (int bx = block.x0 / kBlock * kBlock; bx < block.x1; bx += kBlock) {
-      for (int half = 0; half < 2; ++half) {
-        FitBlock(std::max(bx, block.x0), std::max(by, block.y0),
-                 std::min(bx + kBlock, block.x1), std::min(by + kBlock, block.y1), half,
-                 n);
+void RegressionFilm::FitBlock(const ControlledColors& colors,
+                              std::span<const std::size_t> pixels) {
+  Scatter own[kBlock * kBlock];
+  for (int half = 0; half < 2; ++half) {
+    Scatter block;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      own[i] = ScatterOf(colors, pixels[i], half);
+      block.Add(own[i]);
+    }
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      Values b[3];
+      for (int c = 0; c < 3; ++c) own[i].Fit(block, c, b[c]);
+      Use(b, pixels[i], colors.samples[pixels[i]], 1 - half);
+    }
+  }
+}
+
+void RegressionFilm::Fit(const ControlledColors& colors) {
+  std::fill(fitted_.begin(), fitted_.end(), Fitted());
+  const int first = window_.y0 / kBlock, last = (window_.y1 - 1) / kBlock;
+  ParallelFor(static_cast<std::size_t>(last - first + 1), [&](std::size_t row) {
+    const int top = (first + static_cast<int>(row)) * kBlock;
+    for (int left = window_.x0 / kBlock * kBlock; left < window_.x1; left += kBlock) {
+      std::size_t pixels[kBlock * kBlock], count = 0;
+      for (int y = std::max(top, window_.y0); y < std::min(top + kBlock, window_.y1);
+           ++y) {
+        for (int x = std::max(left, window_.x0); x < std::min(left + kBlock, window_.x1);
+             ++x) {
+          pixels[count++] = static_cast<std::size_t>(y - window_.y0) *
+                                static_cast<std::size_t>(window_.width()) +
+                            static_cast<std::size_t>(x - window_.x0);
+        }
       }
+      FitBlock(colors, {pixels, count});
     }
-  }
+  });
 }
 
-void RegressionFilm::FitBlock(int x0, int y0, int x1, int y1, int half, double n) {
-  const int width = x1 - x0, height = y1 - y0;
-  std::vector<Correlations> sums(static_cast<std::size_t>(width) *
-                                 static_cast<std::size_t>(height));
-  std::vector<Correlations> rows(sums.size());
-  const auto index = [&](int x, int y) {
-    return static_cast<std::size_t>(y * width + x);
-  };
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      Correlate(Index(x0 + x, y0 + y), half, n, sums[index(x, y)].data());
-    }
-    SumWindows(&sums[index(0, y)], &rows[index(0, y)], width, 1);
+Rgb RegressionFilm::Correction(std::size_t pixel, std::uint64_t) const {
+  Rgb sum;
+  for (const auto& correction : fitted_[pixel].corrections) {
+    for (int c = 0; c < 3; ++c) sum[c] += coefficient_ * double(correction[c]);
   }
-  for (int x = 0; x < width; ++x) {
-    SumWindows(&rows[index(x, 0)], &sums[index(x, 0)], height, width);
-  }
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      SetCoefficients(Index(x0 + x, y0 + y), half, sums[index(x, y)].data(), n,
-                      WindowSize(x, width) * WindowSize(y, height));
-    }
-  }
+  return sum;
 }
 
-void RegressionFilm::SetCoefficients(std::size_t pixel, int half, const float* sums,
-                                     double n, int window) {
-  const Moments& moments = pixels_[pixel].moments[half];
-  const double all = n * window;
-  for (int c = 0; c < 3; ++c, sums += kPerChannel) {
-    const double mean_deviation = double(sums[kFunctions]) / window;
-    const double deviation = std::min(Deviation(moments.f[c], moments.ff[c], n),
-                                      kMostDeviation * mean_deviation);
-    for (int j = 0; j < kFunctions; ++j) {
-      fits_[pixel].b[half][c][j] =
-          static_cast<float>(Shrunk(double(sums[j]) / all, all) * deviation);
-    }
-  }
-}
-
-void RegressionFilm::CorrectPixel(const SampleBlock& block, int first_plane,
-                                  std::uint32_t pixel, std::uint32_t begin,
-                                  std::uint32_t end) {
-  const std::uint32_t id = block.pixels[pixel];
-  const std::size_t index = Index(static_cast<int>(id % block.image_width),
-                                  static_cast<int>(id / block.image_width));
-  Pixel& p = pixels_[index];
-  Fits& fits = fits_[index];
-  const std::uint64_t first = samples_[index];
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const std::uint64_t sample = first + (i - begin);
-    const int half = HalfOf(sample);
-    const bool learns = sample < kMostFitted;
-    float numbers[kPlanes], phi[kFunctions];
-    for (int k = 0; k < kPlanes; ++k) numbers[k] = block.At(first_plane + k, pixel)[i];
-    Functions(numbers, phi);
-    Half& sums = fits.sums[half];
-    for (int j = 0; j < kFunctions && learns; ++j) sums.phi[j] += phi[j];
+void RegressionFilm::CorrectReplicates(std::size_t pixel, ReplicateSums& sums) const {
+  for (std::uint32_t r = 0; r < kReplicates; ++r) {
     for (int c = 0; c < 3; ++c) {
-      float& value = block.At(c, pixel)[i];
-      const float f = value;
-      float fit = 0;
-      for (int j = 0; j < kFunctions; ++j) {
-        fit += fits.b[1 - half][c][j] * phi[j];
-        if (learns) sums.products[c][j] += f * phi[j];
-      }
-      if (learns) {
-        p.moments[half].f[c] += double(f);
-        p.moments[half].ff[c] += double(f) * double(f);
-        p.fitted += double(f) * double(fit);
-        p.fitted_squares += double(fit) * double(fit);
-      }
-      value = static_cast<float>(double(f) - coefficient_ * double(fit));
+      sums.of[r][c] -= coefficient_ * double(fitted_[pixel].corrections[r][c]);
     }
-  }
-  samples_[index] += end - begin;
-}
-
-void RegressionFilm::Correct(const SampleBlock& block, int first_plane) {
-  for (std::uint32_t begin = 0; begin < block.count;) {
-    const std::uint64_t samples = samples_[Index(block.x0, block.y0)];
-    std::uint64_t next = FitFrom(samples);
-    if (samples == next) {
-      if (samples <= kMostFitted) FitAll(block, samples);
-      next = NextFit(next);
-    }
-    const auto end = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(block.count, begin + (next - samples)));
-    for (std::uint32_t pixel = 0; pixel < block.num_pixels; ++pixel) {
-      CorrectPixel(block, first_plane, pixel, begin, end);
-    }
-    begin = end;
   }
 }
 
-ControlReport RegressionFilm::Report() const {
+// The square of a fit is known but for products of different functions, whose mean is 0
+// and which the coefficients, being of other samples, know nothing of.
+Rgb RegressionFilm::ResidualSquares(std::size_t pixel, std::uint64_t samples) const {
+  const Halves<Colors>& of = colors_[pixel];
+  const Rgb correction = Correction(pixel, samples);
+  Rgb out;
+  for (int c = 0; c < 3; ++c) {
+    const double product = double(fitted_[pixel].products[c]);
+    const double square = double(fitted_[pixel].squares[c]);
+    const double sum = of[0].f[c] + of[1].f[c] - correction[c];
+    const double squares =
+        of[0].ff[c] + of[1].ff[c] - coefficient_ * (2 * product - coefficient_ * square);
+    out[c] = std::max(0.0, squares - sum * sum / static_cast<double>(samples));
+  }
+  return out;
+}
+
+ControlReport RegressionFilm::Report(const ControlledColors& colors) const {
   double products = 0, squares = 0, variance = 0;
-  for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    if (samples_[i] == 0) continue;
-    const Pixel& p = pixels_[i];
-    const auto n = static_cast<double>(std::min(samples_[i], kMostFitted));
-    products += p.fitted;
-    squares += p.fitted_squares;
+  for (std::size_t i = 0; i < colors_.size(); ++i) {
+    if (colors.samples[i] == 0) continue;
     for (int c = 0; c < 3; ++c) {
-      const double f = p.moments[0].f[c] + p.moments[1].f[c];
-      const double ff = p.moments[0].ff[c] + p.moments[1].ff[c];
-      variance += std::max(0.0, ff - f * f / n);
+      products += double(fitted_[i].products[c]);
+      squares += double(fitted_[i].squares[c]);
+      const Halves<Colors>& of = colors_[i];
+      const double f = of[0].f[c] + of[1].f[c],
+                   n = static_cast<double>(colors.samples[i]);
+      variance += std::max(0.0, of[0].ff[c] + of[1].ff[c] - f * f / n);
     }
   }
   const double scale = std::sqrt(squares * variance);
@@ -233,18 +301,17 @@ ControlReport RegressionFilm::Report() const {
 }
 
 std::vector<MutableStateColumn> RegressionFilm::Columns() {
-  return {MakeStateColumn<std::uint64_t>("regression_samples", "samples corrected",
-                                         samples_, {}),
-          MakeStateColumn<double>(
-              "regression_moments",
-              "for each half, sums of f and of its square by channel; then "
-              "sums of f times the fit and of the fit's square",
-              pixels_, {14}),
-          MakeStateColumn<float>(
-              "regression_fits",
-              "for each half, sums of the functions and of f times them by "
-              "channel; then the coefficients by half, channel and function",
-              fits_, {140})};
+  return {
+      MakeStateColumn<float>("regression_sums",
+                             "sums of the functions, by replicate or half", sums_,
+                             {turns_, kFunctions}),
+      MakeStateColumn<double>("regression_colors",
+                              "sums of f, then of its square, by half and channel",
+                              colors_, {2, 2, 3}),
+      MakeStateColumn<float>("regression_products",
+                             "sums of the functions' squares, then of f times them by "
+                             "channel, for each half",
+                             products_, {2, 4, kFunctions})};
 }
 
 }  // namespace lanelight

@@ -1,105 +1,103 @@
 // The fit of control=regression (kernels/control/regression.cc): polynomials in the
-// numbers of the first bounce, fitted to what the pixel's neighbourhood has seen so far,
-// are subtracted from later samples.
+// numbers of a path's first choices, and these choices themselves, fitted to one half of
+// a pixel's samples and its neighbours', are subtracted from the other half.
 //
-// Functions phi_j, orthonormal over uniform numbers: P1 and P2 of four numbers, P1 of the
-// two coordinates in the pixel. Least squares then is b_j = s r_j, s the deviation of f
-// and r_j = mean((f - mean f) phi_j) / s its correlation with phi_j. The correlation is
-// averaged over the neighbourhood and shrunk by max(0, 1 - 1 / (n r_j^2)); the deviation
-// is the pixel's own, but at most twice the neighbourhood's. (Averaging b_j would spread
-// a bright pixel's noise to its dark neighbours.)
+//   estimator   1/n (sum over half A of (f - c b_B.phi) + sum over half B of
+//               (f - c b_A.phi)), b_X by least squares from the samples of half X
+//   functions   phi_j: Legendre polynomials, orthonormal over uniform numbers, of degrees
+//   1
+//               in the position in the pixel (2 functions); 1 and 2 in each of the
+//               numbers of the first scattered direction, and the product (5); 1 in those
+//               of the point on a light at the same event, and the product (3); the first
+//               two choices between lobes (2). Each has mean 0 whatever the path did
+//               before, and so any two are uncorrelated: least squares is b_j = Cov(f,
+//               phi_j) / E[phi_j^2], function by function
+//   unbiased    b_B depends on samples that are independent of half A, where phi has mean
+//               0: E[b_B.phi] = 0 (a fit to the samples that it corrects is off by E[b
+//               phi], of order (skewness) / n)
+//   variance    1 - c (2 - c) R^2 of that without control, least at c = 1 whatever the
+//               scene, and O(functions / n) of it for the errors of the coefficients
 //
-// Two halves of the samples, units (or replicates: src/path/replicates.h) in turns, are
-// independent of each other, and each is corrected by what the other one says: E[b phi] =
-// E[b] E[phi] = 0. Samples of the same replicate depend on each other, however far apart.
-// Fits come at fixed numbers of samples, and end with kMostFitted of them: sums in single
-// precision are good enough for as many, and nothing more is to be learned.
+// Sums are of a half's samples in their order, so that they do not depend on how these
+// come in. Those of single precision that only coefficients need end with kMostFitted
+// samples: nothing more is to be learned.
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <span>
 #include <vector>
 
-#include "src/image/control_film.h"
+#include "src/image/film_control.h"
+#include "src/image/pixel_rect.h"
+#include "src/path/first_numbers.h"
 
 namespace lanelight {
 
-/// Consecutive samples of the pixels of a rectangle [x0, x1) x [y0, y1).
-struct SampleBlock {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  const std::uint32_t* pixels = nullptr;  // y * image_width + x, in order of the samples
-  std::uint32_t num_pixels = 0, image_width = 0;
-  float* values = nullptr;  // plane-major; a pixel's samples are consecutive
-  std::uint32_t count = 0;  // samples per pixel
-
-  float* At(int plane, std::uint32_t pixel) const {
-    return values + static_cast<std::size_t>(plane) * num_pixels * std::size_t{count} +
-           std::size_t{pixel} * count;
-  }
-};
-
-class RegressionFilm {
+class RegressionFilm final : public FilmControl {
  public:
-  static constexpr int kPlanes = 6;  // four numbers (-1 = none), position in the pixel
-  static constexpr int kFunctions = 10;
-  static constexpr int kReach = 2;  // neighbourhood: 5 x 5 pixels of the same block
+  /// The bits of codes (src/path/first_numbers.h): position in the pixel, direction,
+  /// point on a light, choices.
+  static constexpr int kPlanes = kFirstNumbers;
+  static constexpr int kFunctions = 12;
   /// Pixels know of each other within blocks of so many squared, from the image's origin
-  /// on: how a render is cut must not matter.
-  static constexpr int kBlock = 16;
+  /// on: how a render is cut does not matter.
+  static constexpr int kBlock = 4;
   static constexpr std::uint64_t kMostFitted = std::uint64_t{1} << 20;
 
-  RegressionFilm(int x0, int y0, int width, int height, const SampleGroups& groups,
-                 double coefficient);
-  static std::size_t BytesPerPixel();
+  /// Units are single samples, or there are replicates (GroupsOf).
+  RegressionFilm(const PixelRect& window, const SampleGroups& groups, double coefficient);
+  static std::size_t BytesPerPixel(const SampleGroups& groups);
 
-  /// Corrects the colours in place. `first_plane`: of the kPlanes numbers. Rectangles
-  /// hold whole blocks, as far as these are rendered, and each is given its samples in
-  /// order; safe for different ones from different threads.
-  void Correct(const SampleBlock& block, int first_plane);
+  /// Values of the functions.
+  static void Functions(const float* codes, float* phi);
 
-  /// Values of the functions at six numbers.
-  static void Functions(const float* numbers, float* phi);
-  ControlReport Report() const;
-
-  /// All that Correct has brought.
-  std::vector<MutableStateColumn> Columns();
+  void Add(std::size_t pixel, const ControlledSamples& samples) override;
+  void Fit(const ControlledColors& colors) override;
+  Rgb Correction(std::size_t pixel, std::uint64_t samples) const override;
+  void CorrectReplicates(std::size_t pixel, ReplicateSums& sums) const override;
+  Rgb ResidualSquares(std::size_t pixel, std::uint64_t samples) const override;
+  ControlReport Report(const ControlledColors& colors) const override;
+  std::vector<MutableStateColumn> Columns() override;
 
  private:
-  // Of one half of a pixel's samples, the first kMostFitted of them.
-  struct Moments {
+  using Values = std::array<float, kFunctions>;
+  struct Colors {
     double f[3] = {}, ff[3] = {};
   };
-  struct Half {
-    float phi[kFunctions] = {}, products[3][kFunctions] = {};
+  // Over the first kMostFitted samples, of which a half has half.
+  struct Products {
+    Values squares = {}, products[3] = {};  // of phi, of f and phi
   };
-  struct Pixel {
-    Moments moments[2];
-    double fitted = 0, fitted_squares = 0;  // sums of f times the fit, and of its square
+  template <class T>
+  using Halves = std::array<T, 2>;
+  // What comes of a fit, by channel.
+  struct Fitted {
+    float corrections[kReplicates][3] = {};
+    float products[3] = {}, squares[3] = {};  // sums of f times the fit, of its square
   };
-  struct Fits {
-    Half sums[2];
-    float b[2][3][kFunctions] = {};  // from this half, for the other one
-  };
-  std::size_t Index(int x, int y) const {
-    return static_cast<std::size_t>(y - y0_) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(x - x0_);
-  }
-  int HalfOf(std::uint64_t sample) const {
-    return static_cast<int>(sample / groups_.unit % 2);
-  }
-  void FitAll(const SampleBlock& block, std::uint64_t samples);
-  void FitBlock(int x0, int y0, int x1, int y1, int half, double n);
-  void Correlate(std::size_t pixel, int half, double n, float* out) const;
-  void SetCoefficients(std::size_t pixel, int half, const float* sums, double n,
-                       int window);
-  void CorrectPixel(const SampleBlock& block, int first_plane, std::uint32_t pixel,
-                    std::uint32_t begin, std::uint32_t end);
+  struct Scatter;
 
-  int x0_, y0_, width_;
+  std::uint32_t TurnOf(std::uint64_t sample) const {
+    return static_cast<std::uint32_t>(sample / groups_.unit % turns_);
+  }
+  const Values& Sums(std::size_t pixel, std::size_t turn) const {
+    return sums_[pixel * turns_ + turn];
+  }
+  double SamplesOfHalf(std::uint64_t samples, int half) const;
+  Scatter ScatterOf(const ControlledColors& colors, std::size_t pixel, int half) const;
+  void AddHalf(std::size_t pixel, std::uint32_t half, const ControlledSamples& samples,
+               std::uint32_t begin, std::span<const float[kFunctions]> phi);
+  void FitBlock(const ControlledColors& colors, std::span<const std::size_t> pixels);
+  void Use(const Values (&b)[3], std::size_t pixel, std::uint64_t samples, int half);
+
+  PixelRect window_;
   SampleGroups groups_;
   double coefficient_;
-  std::vector<std::uint64_t> samples_;
-  std::vector<Pixel> pixels_;
-  std::vector<Fits> fits_;
+  std::uint32_t turns_;       // replicates, or halves
+  std::vector<Values> sums_;  // of phi, by pixel and turn
+  std::vector<Halves<Colors>> colors_;
+  std::vector<Halves<Products>> products_;
+  std::vector<Fitted> fitted_;
 };
 
 }  // namespace lanelight

@@ -25,6 +25,10 @@ Rgb NormalizedLight(const Spectrum& light) {
 
 Rgb Convert(const Spectrum& spectrum, SpectrumUse use) {
   if (use == SpectrumUse::kIlluminant) return NormalizedLight(spectrum);
+  if (use == SpectrumUse::kRadiance) {
+    const double unit = Luminance(ColorOfLight([](double) { return 1.0; }));
+    return NormalizedLight(spectrum) * (Luminance(ColorOfLight(spectrum)) / unit);
+  }
   const Rgb color = ClampZero(ColorUnderD65(spectrum));
   return use == SpectrumUse::kAlbedo ? Min(color, Rgb{1, 1, 1}) : color;
 }
@@ -149,7 +153,8 @@ bool NamedGlassEta(const std::string& name, double* eta) {
 bool NamedSpectrum(const std::string& name, SpectrumUse use, Rgb* rgb) {
   for (const NamedLight& light : NamedLights()) {
     if (name != light.name) continue;
-    *rgb = Convert(light.spectrum, use);
+    const bool emits = use == SpectrumUse::kRadiance;
+    *rgb = Convert(light.spectrum, emits ? SpectrumUse::kIlluminant : use);
     return true;
   }
   double glass;
@@ -188,7 +193,7 @@ Rgb ToSrgb(const std::string& color_space, Rgb color, SpectrumUse use) {
   if (color_space == "srgb") return color;
   const ColorMatrix srgb = SrgbFrom(FindColorSpace(color_space));
   const Rgb raw = srgb * color;
-  if (use == SpectrumUse::kIlluminant) return raw;
+  if (use == SpectrumUse::kIlluminant || use == SpectrumUse::kRadiance) return raw;
   const Rgb white = srgb * Rgb{1, 1, 1};
   return {raw.x / white.x, raw.y / white.y, raw.z / white.z};
 }

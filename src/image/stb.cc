@@ -25,7 +25,7 @@
 
 #include "src/core/check.h"
 #include "src/core/error.h"
-#include "src/image/atomic_file.h"
+#include "src/core/input_file.h"
 
 namespace lanelight {
 namespace {

@@ -95,6 +95,8 @@ void AddPatch(const BilinearPatch& patch, TriangleMesh* mesh) {
     AddCurved(patch, mesh);
   }
   if (!mesh->normals.empty()) mesh->normals.resize(mesh->positions.size());
+  mesh->continues.push_back(false);
+  mesh->continues.resize(mesh->indices.size() / 3, true);
 }
 
 }  // namespace lanelight

@@ -109,6 +109,7 @@ class Refiner {
 TriangleMesh Displace(const TriangleMesh& mesh, const Transform& world_from_object,
                       double edge_length, const HeightTexture& height) {
   TriangleMesh out = mesh;
+  out.continues.clear();  // of triangles alone, as pbrt's
   if (out.normals.empty()) out.normals = VertexNormals(out);
   Refiner(out, world_from_object, edge_length).Run();
   for (std::size_t i = 0; i < out.positions.size(); ++i) {

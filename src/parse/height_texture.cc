@@ -5,6 +5,7 @@
 
 #include "src/core/error_text.h"
 #include "src/core/suggest.h"
+#include "src/image/color_channels.h"
 #include "src/image/repair.h"
 
 namespace lanelight {
@@ -24,11 +25,13 @@ double Decoded(const Texture& texture, std::uint8_t byte) {
 }
 
 // Which channels are averaged: alpha where there is any transparency, else the colours.
-std::vector<int> ChannelsOf(const Image& image) {
-  const int r = image.FindChannel("R"), g = image.FindChannel("G");
-  const int b = image.FindChannel("B"), grey = image.FindChannel("Y");
+std::vector<int> ChannelsOf(const Image& image, const std::string& path) {
+  if (image.channels == 1) return {0};
+  const auto rgb = ColorChannels(image);
+  if (!rgb) throw InputError(path + ": " + NoColorChannels(image));
+  const auto [r, g, b] = *rgb;
+  if (r == g) return {r};
   const int alpha = image.FindChannel("A");
-  if (r < 0 || g < 0 || b < 0) return {std::max(grey, 0)};
   for (int y = 0; alpha >= 0 && y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const std::size_t at = image.Offset(x, y, alpha);
@@ -96,8 +99,10 @@ void HeightTexture::Load(Index index) {
   for (Index child : OperandsOf(texture)) Load(child);
   if (texture.kind != TextureKind::kImage || images_.contains(index)) return;
   Image image;
+  std::vector<int> channels;
   try {
     image = ReadImage(texture.path);
+    channels = ChannelsOf(image, texture.path);
   } catch (const InputError& error) {
     throw InputError(texture.where, fmt::format("texture {}: {}", Quoted(texture.name),
                                                 WithoutPrefix(error)));
@@ -105,7 +110,6 @@ void HeightTexture::Load(Index index) {
   ReplaceNotFinite(&image);
   Texels& texels = images_[index];
   texels.width = image.width, texels.height = image.height;
-  const std::vector<int> channels = ChannelsOf(image);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       double sum = 0;

@@ -1,6 +1,5 @@
 // Camera and pixel filter.
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
@@ -45,12 +44,11 @@ void ReadShutter(ParseState& state, ParamSet& params) {
 }
 
 // Numbers of a lens file: four per row, `#` begins a comment.
-std::vector<double> ReadLensFile(ParamSet& params, const Param& file,
-                                 const std::string& path) {
-  std::ifstream in(path);
-  if (!in) params.Fail(file, "cannot read the file " + Quoted(path));
+std::vector<double> ReadLensFile(const ParseState& state, ParamSet& params,
+                                 const Param& file, const std::string& path) {
+  std::istringstream lines(ReadSceneFile(state, path, file.where, "the lens file"));
   std::vector<double> numbers;
-  for (std::string line; std::getline(in, line);) {
+  for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line.substr(0, line.find('#')));
     for (std::string word; words >> word;) {
       std::istringstream text(word);
@@ -104,7 +102,7 @@ void ReadRealistic(ParseState& state, ParamSet& params, Camera& camera) {
       std::end(kShapes)) {
     camera.aperture = ResolvePath(state, camera.aperture);
   }
-  camera.lens = ReadLensFile(params, *file, ResolvePath(state, name));
+  camera.lens = ReadLensFile(state, params, *file, ResolvePath(state, name));
   CheckLenses(state, params, *file, camera);
   ReadShutter(state, params);
   params.CheckAllUsed();

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "src/core/error_text.h"
+#include "src/image/blackbody.h"
 #include "src/parse/interpret.h"
 #include "src/core/suggest.h"
 
@@ -36,11 +37,14 @@ Rgb RgbOf(const ParamSet& params, const Param& param, SpectrumUse use) {
 
 Rgb BlackbodyOf(const ParamSet& params, const Param& param, SpectrumUse use) {
   const double kelvin = param.numbers[0];
-  if (use != SpectrumUse::kIlluminant) params.Fail(param, "blackbody is for lights only");
+  if (use != SpectrumUse::kIlluminant && use != SpectrumUse::kRadiance) {
+    params.Fail(param, "blackbody is for lights only");
+  }
   if (!(kelvin >= 100 && kelvin <= kHottest)) {
     params.Fail(param, fmt::format("the temperature {} is outside 100 to {} kelvin",
                                    kelvin, kHottest));
   }
+  if (use == SpectrumUse::kRadiance) return RgbOfBlackbody(kelvin) / kPhotometricIntegral;
   return RgbFromBlackbody(kelvin);
 }
 

@@ -11,6 +11,14 @@ namespace lanelight {
 namespace {
 
 constexpr Rgb kWhite = {1, 1, 1};
+
+// What a light without a colour has: the illuminant of the color space.
+Rgb LightColor(ParseState& state, ParamSet& params, const char* name,
+               SpectrumUse use = SpectrumUse::kIlluminant) {
+  const Rgb absent = ToSrgb(state.graphics.color_space, kWhite, use);
+  return PlainColor(state, params, name, absent, use);
+}
+
 // 1 - cos, without cancellation for small angles.
 double Versine(double degrees) {
   const double sine = std::sin(degrees * (kPi / 360));
@@ -39,7 +47,7 @@ void ReadPoint(ParseState& state, ParamSet& params, Light* light) {
   light->from = params.Point3("from", {0, 0, 0});
   const double scale = params.Float("scale", 1, 0, kHuge);
   const double power = Target(params, "power");
-  const Rgb intensity = PlainColor(state, params, "I", kWhite, SpectrumUse::kIlluminant);
+  const Rgb intensity = LightColor(state, params, "I");
   light->emission = intensity * (power > 0 ? scale * power / (4 * kPi) : scale);
 }
 
@@ -62,8 +70,7 @@ void ReadSpot(ParseState& state, ParamSet& params, Light* light) {
     const double inner = Versine(light->cone_angle - light->cone_delta);
     scale *= power / (kPi * (inner + outer));
   }
-  light->emission =
-      PlainColor(state, params, "I", kWhite, SpectrumUse::kIlluminant) * scale;
+  light->emission = LightColor(state, params, "I") * scale;
 }
 
 void ReadDistant(ParseState& state, ParamSet& params, Light* light) {
@@ -71,8 +78,8 @@ void ReadDistant(ParseState& state, ParamSet& params, Light* light) {
   ReadDirection(params, light);
   const double scale = params.Float("scale", 1, 0, kHuge);
   const double illuminance = Target(params, "illuminance");
-  light->emission = PlainColor(state, params, "L", kWhite, SpectrumUse::kIlluminant) *
-                    (illuminance > 0 ? scale * illuminance : scale);
+  light->emission =
+      LightColor(state, params, "L") * (illuminance > 0 ? scale * illuminance : scale);
 }
 
 // Corners in the world, whatever the light's transform is.
@@ -89,28 +96,37 @@ void ReadPortal(ParamSet& params, Light* light) {
   }
 }
 
+// Without an image. What falls on a facing surface: pi times the radiance. With a portal
+// pbrt-v4 makes an image of one pixel: from a spectrum as it stands, which nothing
+// normalises, and as if all of the sky shone from the zenith.
+Rgb ConstantSky(ParseState& state, ParamSet& params, bool portal) {
+  const double illuminance = Target(params, "illuminance");
+  const SpectrumUse use = portal ? SpectrumUse::kRadiance : SpectrumUse::kIlluminant;
+  const Rgb radiance = LightColor(state, params, "L", use);
+  if (!(illuminance > 0) || radiance == Rgb{}) return radiance;
+  return radiance * (illuminance / (portal ? 2 * kPi * Luminance(radiance) : kPi));
+}
+
 void ReadInfinite(ParseState& state, ParamSet& params, Light* light) {
   light->kind = LightKind::kInfinite;
-  const double scale = params.Float("scale", 1, 0, kHuge);
-  const double illuminance = Target(params, "illuminance");
-  const Param* file = params.Find("filename", {ParamType::kString});
-  const Rgb radiance = PlainColor(state, params, "L", kWhite, SpectrumUse::kIlluminant);
-  if (file == nullptr) {
-    // A hemisphere of radiance L lights a facing surface with pi L.
-    light->emission = radiance * (illuminance > 0 ? scale * illuminance / kPi : scale);
-  } else {
-    if (params.Find("L", {}) != nullptr) {
-      params.Fail(*file, "\"filename\" and \"L\" exclude each other");
-    }
-    const std::string name = params.String("filename", "");
-    if (name.empty()) params.Fail(*file, "the file name is empty");
-    light->image_path = ResolvePath(state, name);
-    light->where = file->where;  // what a missing image is reported at
-    light->image_scale = scale;
-    light->illuminance = illuminance > 0 ? illuminance : -1;
-    light->emission = kWhite;
-  }
   ReadPortal(params, light);
+  const double scale = params.Float("scale", 1, 0, kHuge);
+  const Param* file = params.Find("filename", {ParamType::kString});
+  if (file == nullptr) {
+    light->emission = ConstantSky(state, params, !light->portal.empty()) * scale;
+    return;
+  }
+  if (params.Find("L", {}) != nullptr) {
+    params.Fail(*file, "\"filename\" and \"L\" exclude each other");
+  }
+  const std::string name = params.String("filename", "");
+  if (name.empty()) params.Fail(*file, "the file name is empty");
+  light->image_path = ResolvePath(state, name);
+  light->where = file->where;  // what a missing image is reported at
+  light->image_scale = scale;
+  const double illuminance = Target(params, "illuminance");
+  light->illuminance = illuminance > 0 ? illuminance : -1;
+  light->emission = kWhite;
 }
 
 std::string ImageFile(ParseState& state, ParamSet& params, Light* light) {
@@ -127,8 +143,7 @@ std::string ImageFile(ParseState& state, ParamSet& params, Light* light) {
 // What its power comes to depends on the image.
 void ReadGoniometric(ParseState& state, ParamSet& params, Light* light) {
   light->kind = LightKind::kGoniometric;
-  light->emission = PlainColor(state, params, "I", kWhite, SpectrumUse::kIlluminant) *
-                    params.Float("scale", 1, 0, kHuge);
+  light->emission = LightColor(state, params, "I") * params.Float("scale", 1, 0, kHuge);
   light->power = Target(params, "power");
   light->image_path = ImageFile(state, params, light);
 }
@@ -178,7 +193,7 @@ Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& p
   if (type != "diffuse") ThrowUnknown(params.where(), "area light", type, {"diffuse"});
   AreaLight light;
   light.where = params.where();
-  light.radiance = PlainColor(state, params, "L", kWhite, SpectrumUse::kIlluminant);
+  light.radiance = LightColor(state, params, "L");
   light.scale = params.Float("scale", 1, 0, kHuge);
   light.power = Target(params, "power");
   if (light.power <= 0) light.power = -1;
@@ -191,6 +206,7 @@ Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& p
     if (name.empty()) params.Fail(*file, "the file name is empty");
     light.image_path = ResolvePath(state, name);
     light.where = file->where;  // what a missing image is reported at
+    light.radiance = kWhite;
   }
   params.CheckAllUsed();
   CheckEmission(params, light.radiance * light.scale);

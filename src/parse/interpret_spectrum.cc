@@ -96,7 +96,9 @@ SpectrumSamples SamplesOf(const ParseState& state, const ParamSet& params,
   const std::string& name = param.strings[0];
   const std::string path = ResolvePath(state, name);
   const bool looks_like_file = name.find_first_of("./") != name.npos;
-  if (!looks_like_file && !(state.options.allow_files && std::filesystem::exists(path))) {
+  std::error_code ignored;
+  if (!looks_like_file &&
+      !(state.options.allow_files && std::filesystem::exists(path, ignored))) {
     ThrowUnknown(param.where, "spectrum (and there is no such file):", name,
                  NamedSpectra());
   }

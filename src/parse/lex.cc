@@ -83,7 +83,7 @@ const Token& Lexer::Peek() {
 }
 
 void Lexer::SkipBlank() {
-  for (; cursor_ < end_; ++cursor_) {
+  for (; (cursor_ = SkipSpaces(cursor_, end_)) < end_; ++cursor_) {
     if (*cursor_ == '#') {
       while (cursor_ < end_ && *cursor_ != '\n') ++cursor_;
       if (cursor_ == end_) return;

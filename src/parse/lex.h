@@ -1,6 +1,8 @@
 // Characters of a pbrt scene file to tokens with places.
 #pragma once
 
+#include <cstdint>
+#include <cstring>
 #include <deque>
 #include <memory>
 #include <string>
@@ -9,6 +11,18 @@
 #include "src/core/error.h"
 
 namespace lanelight {
+
+/// The first character from `at` on that is no space, or `end`. Eight at a time: some
+/// exporters pad their columns with most of the file.
+inline const char* SkipSpaces(const char* at, const char* end) {
+  constexpr std::uint64_t kEight = 0x2020202020202020u;
+  for (std::uint64_t word; end - at >= 8; at += 8) {
+    std::memcpy(&word, at, 8);
+    if (word != kEight) break;
+  }
+  while (at < end && *at == ' ') ++at;
+  return at;
+}
 
 enum class TokenKind { kEnd, kWord, kNumber, kString, kOpen, kClose };
 

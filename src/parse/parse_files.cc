@@ -1,10 +1,6 @@
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cstring>
 #include <filesystem>
 
+#include "src/core/input_file.h"
 #include "src/parse/parse_state.h"
 #include "src/core/suggest.h"
 
@@ -21,14 +17,6 @@ bool Exists(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-// Closes the descriptor when it goes out of scope.
-struct Descriptor {
-  int fd;
-  ~Descriptor() {
-    if (fd >= 0) ::close(fd);
-  }
-};
-
 }  // namespace
 
 void ParseState::Unsupported(const SourceLocation& where, const std::string& message) {
@@ -40,27 +28,18 @@ void ParseState::Unsupported(const SourceLocation& where, const std::string& mes
 
 std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
                           std::string_view kind) {
-  const auto fail = [&](const std::string& why) {
-    throw InputError(where,
-                     fmt::format("cannot read {} {}: {}", kind, Quoted(path), why));
+  const auto refusal = [&](const std::string& why) {
+    return InputError(where,
+                      fmt::format("cannot read {} {}: {}", kind, Quoted(path), why));
   };
-  if (path.ends_with(".gz")) fail("compressed files are not supported; unpack it first");
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  if (file.fd < 0) fail(std::strerror(errno));
-  struct stat info;
-  if (::fstat(file.fd, &info) != 0) fail(std::strerror(errno));
-  if (!S_ISREG(info.st_mode)) fail("it is not a regular file");
-  std::string content(static_cast<std::size_t>(info.st_size), '\0');
-  std::size_t done = 0;
-  while (done < content.size()) {
-    const ssize_t n = ::read(file.fd, content.data() + done, content.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(std::strerror(errno));
-    if (n == 0) break;  // the file has become shorter meanwhile
-    done += static_cast<std::size_t>(n);
+  if (path.ends_with(".gz")) {
+    throw refusal("compressed files are not supported; unpack it first");
   }
-  content.resize(done);
-  return content;
+  try {
+    return ReadWholeFile(path);
+  } catch (const Unreadable& problem) {
+    throw refusal(problem.reason());
+  }
 }
 
 std::string ResolvePath(const ParseState& state, const std::string& name) {

@@ -231,7 +231,9 @@ class BodyReader {
   PlyMesh Finish() {
     if (!faces_.quads.empty() && mesh_.uvs.empty()) Unshare();
     PlyMesh result;
+    if (!faces_.quads.empty()) mesh_.continues.resize(mesh_.indices.size() / 3);
     for (std::size_t first : faces_.quads) {
+      mesh_.continues[first / 3 + 1] = true;
       std::uint32_t* index = mesh_.indices.data() + first;
       const std::array<std::uint32_t, 4> ring = {index[0], index[1], index[2], index[5]};
       std::array<Vec3d, 4> corners;

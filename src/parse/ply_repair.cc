@@ -31,17 +31,23 @@ std::size_t ZeroBad(std::vector<T>* values) {
 // Closes the gaps that triangles without a place leave; returns how many.
 std::size_t DropNowhere(TriangleMesh* mesh) {
   std::vector<std::uint32_t>& indices = mesh->indices;
+  std::vector<bool>& continues = mesh->continues;
   const std::size_t before = indices.size();
   std::size_t to = 0;
+  bool alone = true;  // the face of the triangle has no other so far
   for (std::size_t i = 0; i + 2 < before; i += 3) {
     const bool is_somewhere = std::all_of(
         &indices[i], &indices[i] + 3,
         [&](std::uint32_t vertex) { return IsFinite(mesh->positions[vertex]); });
+    if (!continues.empty() && !continues[i / 3]) alone = true;
     if (!is_somewhere) continue;
     std::copy_n(&indices[i], 3, &indices[to]);
+    if (!continues.empty()) continues[to / 3] = !alone;
+    alone = false;
     to += 3;
   }
   indices.resize(to);
+  if (!continues.empty()) continues.resize(to / 3);
   return (before - to) / 3;
 }
 

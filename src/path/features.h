@@ -53,6 +53,8 @@ namespace lanelight {
   X(kDistantLights, "distant lights")                                         \
   X(kImageLights, "point lights with an image of their directions")           \
   X(kEmissionImages, "emitting shapes with an image")                         \
+  X(kEmissionCuts, "emitting shapes that alpha cuts")                         \
+  X(kUnseenLights, "emitting shapes that rays pass through")                  \
   X(kPortals, "an environment seen through a portal")                         \
   X(kInfiniteConstant, "constant environment")                                \
   X(kInfiniteImage, "environment image")                                      \
@@ -69,7 +71,7 @@ namespace lanelight {
   X(kSignedFilter, "a pixel filter with negative lobes")                      \
   X(kAov, "auxiliary output (--aov)")                                         \
   X(kGbuffer, "auxiliary output of where first hits are (--gbuffer)")         \
-  X(kSampledHittableLights, "light samples of lights that rays can hit")      \
+  X(kSampledHittableLights, "light samples of shapes and environments")       \
   X(kLightTable, "light-selection=power or uniform")                          \
   X(kLightTree, "light-selection=tree")                                       \
   X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")        \

@@ -145,9 +145,10 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, sh, ({kLights}), kBounce, (), "radiance the shadow ray carries if unoccluded") \
   /* control variates */                                                                  \
   LANELIGHT_RGB(X, f32, k, ({kControlDifference}), kGathered, (0.0f), "sum over the path of throughput (h - E[h])") \
-  LANELIGHT_2(X, f32, first_bsdf, ({kRegressionControl}), kPath, (-1.0f), "u_bsdf of the first bounce; -1 = none") \
-  LANELIGHT_2(X, f32, first_light, ({kRegressionControl}), kPath, (-1.0f), "u_light of the first bounce; -1 = none") \
-  LANELIGHT_2(X, f32, first_film, ({kRegressionControl}), kPath, (), "u_film of the path") \
+  X(u32, first_film, ({kRegressionControl}), kPath, (), "u_film of the path, as codes (src/path/first_numbers.h)") \
+  X(u32, first_bsdf, ({kRegressionControl}), kPath, (0u), "u_bsdf of the first event that is not specular; 0 = none") \
+  X(u32, first_light, ({kRegressionControl}), kPath, (0u), "u_light of that event; 0 = none") \
+  X(u32, choices, ({kRegressionControl}), kPath, (0u), "the first two choices of lobes; 0 = none") \
   /* training pass: the first vertices of a path */                                       \
   LANELIGHT_4(X, u32, cell, ({kRecordsPaths}), kPath, (kNoCell), "cache cell of vertex 0, 1, 2, 3; 0xffffffff = none") \
   LANELIGHT_4(X, f32, at, ({kRecordsPaths}), kPath, (0.0f), "luminance of the throughput there") \
@@ -309,9 +310,8 @@ inline constexpr FieldSet kGbuffer = {
     Field::gb_uv_0, Field::gb_uv_1, Field::gb_dz_0, Field::gb_dz_1};
 inline constexpr FieldSet kShadow = {Field::sh_r, Field::sh_g, Field::sh_b};
 inline constexpr FieldSet kControl = {Field::k_r, Field::k_g, Field::k_b};
-inline constexpr FieldSet kFirstBounce = {Field::first_bsdf_0, Field::first_bsdf_1,
-                                          Field::first_light_0, Field::first_light_1};
-inline constexpr FieldSet kFirstFilm = {Field::first_film_0, Field::first_film_1};
+inline constexpr FieldSet kFirstNumbers = {Field::first_film, Field::first_bsdf,
+                                           Field::first_light, Field::choices};
 inline constexpr FieldSet kVertices = {Field::cell_0, Field::cell_1, Field::cell_2,
                                        Field::cell_3, Field::at_0,   Field::at_1,
                                        Field::at_2,   Field::at_3,   Field::got_0,

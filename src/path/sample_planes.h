@@ -18,7 +18,7 @@ inline constexpr int kRecordedVertices = 4;
   X(Aov, 7, ({kAov}), false, "of the first hit: albedo, shading normal, depth")           \
   X(Gbuffer, 14, ({kGbuffer}), false, "of the first hit: whether there is one, point, geometric normal, shading normal, u, v, dz/dx, dz/dy") \
   X(Difference, 3, ({kControlDifference}), true, "h - E[h] of a control variate")         \
-  X(Numbers, 6, ({kRegressionControl}), false, "that drove the first bounce, and position in the pixel") \
+  X(Numbers, 4, ({kRegressionControl}), false, "that drove a path (first_numbers.h): position in the pixel, first scattered direction, its light sample, choices of lobes") \
   X(Record, 3 * kRecordedVertices + 5, ({kRecordsPaths}), false, "cell, throughput, gathered of each vertex; gathered at the end; depth; the three sums of the risk") \
   X(GuideRecord, 8 * kRecordedVertices + 1, ({kRecordsGuide}), false, "of each scattered ray: start (3), normal, direction, pdf_sa, throughput, gathered before; gathered at the end") \
   X(Unsplit, 2, ({kRecordsUnsplit}), true, "brightness gathered; what its square would be with roulette on the throughput instead of splitting")

@@ -28,7 +28,10 @@ std::uint32_t LogSequence(Points points) {
 SampleGroups GroupsOf(const Strategy& strategy) {
   SampleGroups groups;
   groups.unit = strategy.pairs == Pairs::kAntithetic ? 2 : 1;
-  groups.replicates = strategy.points != Points::kIndependent;
+  // Pairs of which the fit of control=regression knows single samples have no variance of
+  // their own: those of four turns say it.
+  groups.replicates = strategy.points != Points::kIndependent ||
+                      (groups.unit == 2 && strategy.control == Control::kRegression);
   return groups;
 }
 

@@ -8,7 +8,8 @@
 namespace lanelight {
 namespace {
 
-bool IsHittable(const LightRecord& light) {
+bool IsHittable(const CompiledScene& scene, const LightRecord& light) {
+  if (IsUnseen(scene, light)) return false;
   const auto shape = static_cast<LightShape>(light.shape);
   return shape != LightShape::kGoniometric && shape != LightShape::kProjection &&
          shape != LightShape::kPoint && shape != LightShape::kSpot &&
@@ -16,10 +17,12 @@ bool IsHittable(const LightRecord& light) {
 }
 
 // Relative probabilities; zero for lights that the strategy leaves to scattered rays.
-std::vector<double> SelectionWeights(const Strategy& strategy, const LightTable& table) {
+std::vector<double> SelectionWeights(const Strategy& strategy,
+                                     const CompiledScene& scene) {
+  const LightTable& table = scene.lights;
   std::vector<double> weights(table.lights.size(), 0.0);
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    if (IsHittable(table.lights[i]) && !strategy.SamplesHittableLights()) continue;
+    if (IsHittable(scene, table.lights[i]) && !strategy.SamplesHittableLights()) continue;
     weights[i] =
         strategy.light_selection == LightSelection::kUniform ? 1.0 : table.power[i];
   }
@@ -70,7 +73,7 @@ void UseStrategy(const Strategy& strategy, CompiledScene& scene) {
   table.alias_q.clear();
   table.alias.clear();
   for (LightRecord& light : table.lights) light.pmf = 0;
-  const std::vector<double> weights = SelectionWeights(strategy, table);
+  const std::vector<double> weights = SelectionWeights(strategy, scene);
   bool any = false;
   for (double w : weights) any |= w > 0;
   if (!any) return;

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
+#include "src/core/json_text.h"
 #include "src/image/exr.h"
-#include "src/image/regression_film.h"
 #include "src/render/identity.h"
 #include "src/render/output.h"
 #include "src/render/saving.h"
@@ -18,6 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
+
+bool Exists(const std::string& path) {
+  std::error_code ignored;  // what cannot be looked at will be missed when it is opened
+  return fs::exists(path, ignored);
+}
 
 std::int64_t Milliseconds() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
@@ -47,8 +52,7 @@ std::vector<PixelRect> TilesToRender(const Job& job, const Part& part) {
         "allocation=uniform",
         part.index, part.count));
   }
-  const bool blocks = strategy.control == Control::kRegression;
-  return TilesOfPart(job.window, part, blocks ? RegressionFilm::kBlock : 1);
+  return TilesOfPart(job.window, part);
 }
 
 std::uint64_t PixelsOf(const std::vector<PixelRect>& tiles) {
@@ -62,10 +66,12 @@ std::uint64_t PixelsOf(const std::vector<PixelRect>& tiles) {
 std::optional<Decide> DecisionOfState(const CheckpointSettings& settings) {
   if (settings.resume == Resume::kNever) return std::nullopt;
   const std::string& from = settings.from.empty() ? settings.path : settings.from;
-  if (!fs::exists(from)) return std::nullopt;
+  if (!Exists(from)) return std::nullopt;
   Strategy strategy;
-  const Json identity = Json::parse(StateFile(from).identity());
-  ApplyStrategy(identity.at("strategy").get<std::string>(), {}, strategy);
+  FromJsonOf(from, [&] {
+    const Json identity = ParseJson(StateFile(from).identity());
+    ApplyStrategy(identity.at("strategy").get<std::string>(), {}, strategy);
+  });
   return strategy.decide;
 }
 
@@ -74,8 +80,8 @@ Checkpoint::Checkpoint(const Job& job, const CheckpointSettings& settings,
                        std::function<void(const std::string&)> on_problem)
     : job_(job),
       settings_(settings),
-      identity_(IdentityOf(job).dump(1)),
-      head_(head.dump()),
+      identity_(DumpJson(IdentityOf(job), 1)),
+      head_(DumpJson(head)),
       on_problem_(std::move(on_problem)) {
   tiles_ = TilesToRender(job, settings.part);
   if (!settings.path.empty()) lock_.emplace(settings.path, on_problem_);
@@ -89,23 +95,24 @@ Checkpoint::~Checkpoint() {
 
 // Never silently from the beginning, and never over what took hours.
 void Checkpoint::Open() {
-  const bool exists = fs::exists(settings_.path);
+  const bool exists = Exists(settings_.path);
   if (settings_.resume == Resume::kNever) {
     if (!exists || settings_.path.empty()) return;
     throw InputError("'" + settings_.path +
                      "' exists: go on from it with --resume, or remove it");
   }
   const std::string& from = settings_.from.empty() ? settings_.path : settings_.from;
-  if (settings_.resume == Resume::kIfAny && !fs::exists(from)) return;
+  if (settings_.resume == Resume::kIfAny && !Exists(from)) return;
   auto file = std::make_unique<StateFile>(from);
   CheckSame(*file);
   from_ = std::move(file);
 }
 
 void Checkpoint::CheckSame(const StateFile& file) {
-  const Json had = Json::parse(file.identity()), now = Json::parse(identity_);
-  const std::string differences =
-      IdentityDifferences(had, "the state", now, "this render");
+  const std::string differences = FromJsonOf(file.path(), [&] {
+    return IdentityDifferences(ParseJson(file.identity()), "the state",
+                               ParseJson(identity_), "this render");
+  });
   if (!differences.empty()) {
     throw InputError("'" + file.path() +
                      "' is the state of another render:" + differences);
@@ -128,25 +135,28 @@ void Checkpoint::CheckSame(const StateFile& file) {
 bool Checkpoint::Restore(RunState& state) {
   if (!from_) return false;
   from_->ReadPixels(state.films.Columns(), job_.window);
-  const Json report = Json::parse(from_->report());
-  state.counts = CountsFromJson(report.at("counts"));
-  const Json& training = report.at("training");
-  if (!training.is_null()) {
-    state.trained = true;
-    state.training.note = training.at("note");
-    state.training.samples = training.at("samples");
-    state.training.rays = training.at("rays");
-    state.training.seconds = training.at("seconds");
-    state.training.cpu_seconds = training.at("cpu_seconds");
-    state.training.changes = training.at("changes");
-    for (const auto& [name, meaning] : training.at("tables").items()) {
-      TrainedTable table = {name, meaning, std::vector<double>(from_->TableRows(name))};
-      from_->ReadTable(MakeStateColumn<double>(name, meaning, table.values));
-      state.tables.push_back(std::move(table));
-    }
-  }
+  FromJsonOf(from_->path(), [&] { RestoreReport(state); });
   CheckNotTooMany(state.films);
   return true;
+}
+
+void Checkpoint::RestoreReport(RunState& state) const {
+  const Json report = ParseJson(from_->report());
+  state.counts = CountsFromJson(report.at("counts"));
+  const Json& training = report.at("training");
+  if (training.is_null()) return;
+  state.trained = true;
+  state.training.note = training.at("note");
+  state.training.samples = training.at("samples");
+  state.training.rays = training.at("rays");
+  state.training.seconds = training.at("seconds");
+  state.training.cpu_seconds = training.at("cpu_seconds");
+  state.training.changes = training.at("changes");
+  for (const auto& [name, meaning] : training.at("tables").items()) {
+    TrainedTable table = {name, meaning, std::vector<double>(from_->TableRows(name))};
+    from_->ReadTable(MakeStateColumn<double>(name, meaning, table.values));
+    state.tables.push_back(std::move(table));
+  }
 }
 
 void Checkpoint::CheckNotTooMany(const Films& films) const {
@@ -192,10 +202,10 @@ void Checkpoint::Keep(RunState& state) {
 SerialisedState Checkpoint::Serialise(RunState& state) const {
   StateContent content;
   content.identity = identity_;
-  const Json report = {{"head", Json::parse(head_)},
+  const Json report = {{"head", ParseJson(head_)},
                        {"counts", CountsJson(state.counts)},
                        {"training", TrainingJson(state)}};
-  content.report = report.dump(1);
+  content.report = DumpJson(report, 1);
   content.window = job_.window;
   content.tiles = tiles_;
   for (const MutableStateColumn& column : state.films.Columns()) {
@@ -215,7 +225,7 @@ std::function<void()> Checkpoint::Watch(RunState& state) const {
   auto planes =
       std::make_shared<std::vector<ExrPlane>>(FilmPlanes(film, job_.scene.scale));
   const ExrOptions options =
-      OutputOptions(Json::parse(identity_), state.counts, film, /*half=*/false);
+      OutputOptions(ParseJson(identity_), state.counts, film, /*half=*/false);
   return [path = settings_.watch, planes, options, width = film.width(),
           height = film.height()] { WriteExr(path, width, height, *planes, options); };
 }

@@ -73,6 +73,7 @@ class Checkpoint : public RunKeeper {
  private:
   void Open();
   void CheckSame(const StateFile& file);
+  void RestoreReport(RunState& state) const;
   void CheckNotTooMany(const Films& films) const;
   SerialisedState Serialise(RunState& state) const;
   /// What writes the image so far; nothing if nobody watches.

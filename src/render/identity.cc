@@ -4,6 +4,7 @@
 #include <set>
 
 #include "kernels/simd/target.h"
+#include "src/core/json_text.h"
 #include "src/core/version.h"
 
 namespace lanelight {
@@ -51,8 +52,8 @@ std::string IdentityDifferences(const Json& a, const std::string& who_a, const J
   for (const std::string& name : names) {
     const Json of_a = a.value(name, Json()), of_b = b.value(name, Json());
     if (of_a == of_b) continue;
-    text += fmt::format("\n  {}: {} has {}, {} {}{}", name, who_a, of_a.dump(), who_b,
-                        of_b.dump(), Remedy(name));
+    text += fmt::format("\n  {}: {} has {}, {} {}{}", name, who_a, DumpJson(of_a), who_b,
+                        DumpJson(of_b), Remedy(name));
   }
   return text;
 }

@@ -52,6 +52,7 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   const double seconds = watch.Lap();
   Job job = PrepareJob(std::move(description), settings);
   job.scene_hash = scene_hash;
+  files.insert(scene_path);
   job.files = std::move(files);
   job.load_seconds += seconds;
   return job;

@@ -18,7 +18,7 @@ namespace lanelight {
 struct Job {
   RenderSettings settings;       // that it was prepared with
   SceneDescription description;  // overrides applied; meshes released after compiling
-  std::set<std::string> files;   // that the scene reads beside its own
+  std::set<std::string> files;   // that the scene reads, its own among them
   CompiledScene scene;
   Plan plan;
   PixelRect window;

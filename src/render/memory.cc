@@ -8,6 +8,7 @@
 #include "src/core/error.h"
 #include "src/core/machine_info.h"
 #include "src/image/accumulator.h"
+#include "src/image/control_film.h"
 #include "src/image/regression_film.h"
 #include "src/prepare/groups.h"
 
@@ -26,8 +27,10 @@ std::uint64_t AuxiliaryPerPixel(Auxiliary auxiliary) {
 // Sums from which the coefficients of control variates are fitted.
 std::uint64_t ControlPerPixel(const Strategy& strategy) {
   if (strategy.control == Control::kNone) return 0;
-  if (strategy.control == Control::kRegression) return RegressionFilm::BytesPerPixel();
-  return strategy.coefficient ? 0 : ControlFilm::BytesPerPixel(GroupsOf(strategy));
+  const SampleGroups groups = GroupsOf(strategy);
+  if (strategy.control == Control::kRegression)
+    return RegressionFilm::BytesPerPixel(groups);
+  return strategy.coefficient ? 0 : ControlFilm::BytesPerPixel(groups);
 }
 
 constexpr double kGiB = 1 << 30;

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "src/core/error.h"
+#include "src/core/json_text.h"
 #include "src/prepare/groups.h"
 #include "src/render/add_seeds.h"
 #include "src/render/checkpoint.h"
@@ -50,7 +51,7 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
   if (file.HasPixels("control_replicates") || file.HasPixels("control_halves")) {
     features.Add(Feature::kControlDifference);
   }
-  if (file.HasPixels("regression_samples")) features.Add(Feature::kRegressionControl);
+  if (file.HasPixels("regression_sums")) features.Add(Feature::kRegressionControl);
   merged.film = std::make_unique<FilmAccumulator>(w.x0, w.y0, w.width(), w.height(),
                                                   GroupsOf(strategy), auxiliary);
   merged.films = std::make_unique<Films>(SamplePlanes(features),
@@ -146,18 +147,7 @@ class Merger {
  public:
   explicit Merger(const std::vector<std::string>& paths) {
     for (const std::string& path : paths) {
-      auto file = std::make_unique<StateFile>(path);
-      Input input = {path, Json::parse(file->identity()), file->tiles()};
-      if (input.tiles.empty()) throw InputError("'" + path + "' holds no pixels");
-      if (!input.identity.at("seed").is_number()) {
-        throw InputError("'" + path +
-                         "' holds several seeds; merge the states of single ones");
-      }
-      input.seed = input.identity.at("seed");
-      windows_.push_back(file->window());
-      // Opened again, it is read and checked once more.
-      if (inputs_.size() < kMostOpen) input.file = std::move(file);
-      inputs_.push_back(std::move(input));
+      FromJsonOf(path, [&] { AddInput(path); });
     }
     for (const Input& input : inputs_) CheckSame(inputs_.front(), input);
     std::sort(inputs_.begin(), inputs_.end(),
@@ -180,6 +170,21 @@ class Merger {
   }
 
  private:
+  void AddInput(const std::string& path) {
+    auto file = std::make_unique<StateFile>(path);
+    Input input = {path, ParseJson(file->identity()), file->tiles()};
+    if (input.tiles.empty()) throw InputError("'" + path + "' holds no pixels");
+    if (!input.identity.at("seed").is_number()) {
+      throw InputError("'" + path +
+                       "' holds several seeds; merge the states of single ones");
+    }
+    input.seed = input.identity.at("seed");
+    windows_.push_back(file->window());
+    // Opened again, it is read and checked once more.
+    if (inputs_.size() < kMostOpen) input.file = std::move(file);
+    inputs_.push_back(std::move(input));
+  }
+
   MergedRender MergeSeed(std::size_t begin, std::size_t end) {
     MergedRender merged;
     merged.identity = inputs_[begin].identity;
@@ -187,28 +192,32 @@ class Merger {
     merged.seeds = {inputs_[begin].seed};
     Coverage coverage(merged.window);
     for (std::size_t i = begin; i < end; ++i) {
-      auto open = std::move(inputs_[i].file);
-      if (!open) open = std::make_unique<StateFile>(inputs_[i].path);
-      const StateFile& file = *open;
-      const Json report = Json::parse(file.report());
-      const Json& training = report.at("training");
-      if (i == begin) {
-        MakeFilms(file, merged);
-        merged.head = report.at("head");
-        merged.training = training;
-        merged.tables = TablesOf(file, training);
-      }
-      AddMachines(report, merged.machines);
-      CheckTraining(merged, training, TablesOf(file, training), inputs_[i].path);
       coverage.Take(inputs_[i].tiles, static_cast<int>(i), inputs_);
-      file.ReadPixels(merged.films->Columns(), merged.window);
-      merged.counts.Add(CountsFromJson(report.at("counts")));
-      merged.tiles.insert(merged.tiles.end(), inputs_[i].tiles.begin(),
-                          inputs_[i].tiles.end());
+      FromJsonOf(inputs_[i].path, [&] { AddState(inputs_[i], merged); });
     }
     merged.missing = coverage.Missing();
     FindSamples(merged);
     return merged;
+  }
+
+  // The first one decides which films there are.
+  static void AddState(Input& input, MergedRender& merged) {
+    auto open = std::move(input.file);
+    if (!open) open = std::make_unique<StateFile>(input.path);
+    const StateFile& file = *open;
+    const Json report = ParseJson(file.report());
+    const Json& training = report.at("training");
+    if (!merged.films) {
+      MakeFilms(file, merged);
+      merged.head = report.at("head");
+      merged.training = training;
+      merged.tables = TablesOf(file, training);
+    }
+    AddMachines(report, merged.machines);
+    CheckTraining(merged, training, TablesOf(file, training), input.path);
+    file.ReadPixels(merged.films->Columns(), merged.window);
+    merged.counts.Add(CountsFromJson(report.at("counts")));
+    merged.tiles.insert(merged.tiles.end(), input.tiles.begin(), input.tiles.end());
   }
 
   // Where pixels have shares of the samples, these are told by their mean.
@@ -268,7 +277,7 @@ RunResult ResultOf(const MergedRender& merged) {
                      (spp.is_null() || merged.least >= spp.get<std::uint64_t>());
   result.stop_reason = whole ? StopReason::kSamples : StopReason::kInterrupted;
   result.stopped_early = !whole;
-  result.control = merged.films->Control();
+  result.control = merged.film->Control();
   Strategy strategy;
   ApplyStrategy(merged.identity.at("strategy").get<std::string>(), {}, strategy);
   result.roulette = strategy.roulette;
@@ -291,12 +300,12 @@ void WriteMergedState(MergedRender& merged, const std::string& path) {
         "merge all of them at once");
   }
   StateContent content;
-  content.identity = merged.identity.dump(1);
+  content.identity = DumpJson(merged.identity, 1);
   const Json report = {{"head", merged.head},
                        {"machines", ToJson(merged.machines)},
                        {"counts", CountsJson(merged.counts)},
                        {"training", merged.training}};
-  content.report = report.dump(1);
+  content.report = DumpJson(report, 1);
   content.window = merged.window;
   content.tiles = merged.tiles;
   for (const MutableStateColumn& column : merged.films->Columns()) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
+#include "src/core/json_text.h"
 #include "src/estimate/estimate.h"
 #include "src/image/spectrum.h"
 #include "src/image/variance_unit.h"
@@ -136,7 +137,7 @@ ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts
   // Samples actually taken per pixel, on average: an interrupted render has fewer.
   const double pixels = double(crop[2] - crop[0]) * double(crop[3] - crop[1]);
   const nlohmann::json& seed = identity.at("seed");
-  options.attributes["seed"] = seed.dump();
+  options.attributes["seed"] = DumpJson(seed);
   options.attributes["spp"] = double(counts.samples) / pixels;
   options.attributes["renderTime"] = counts.seconds;
   options.attributes["strategy"] = "path, " + strategy;

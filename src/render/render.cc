@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 
+#include "src/core/json_text.h"
 #include "src/image/png.h"
 #include "src/render/identity.h"
 #include "src/render/output.h"
@@ -45,10 +46,10 @@ std::uint64_t CountUnsampled(const FilmAccumulator& film) {
 
 // All ranks are to render the same, bit by bit.
 void AgreeOnJob(const Job& job, Crew& crew) {
-  crew.Agree("would render something else", IdentityOf(job).dump(),
+  crew.Agree("would render something else", DumpJson(IdentityOf(job)),
              [](const std::string& leaders, const std::string& its) {
-               return IdentityDifferences(Json::parse(leaders), "rank 0",
-                                          Json::parse(its), "it");
+               return IdentityDifferences(ParseJson(leaders), "rank 0", ParseJson(its),
+                                          "it");
              });
 }
 
@@ -119,7 +120,7 @@ void WriteRendering(const FilmAccumulator& film, const Json& identity, const Jso
   if (!targets.json.empty()) {
     Json json = ToJson(out.report, head);
     json.update(members);
-    out.json = json.dump(2) + "\n";
+    out.json = DumpJson(json, 2) + "\n";
   }
   if (targets.json != "-") saver.SaveText(targets.json, out.json);
   const std::vector<std::string>& problems = saver.problems();

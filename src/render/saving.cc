@@ -2,12 +2,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
-#include "src/core/error.h"
 #include "src/core/error_text.h"
+#include "src/core/input_file.h"
 #include "src/image/atomic_file.h"
 
 namespace lanelight {
@@ -17,20 +18,38 @@ namespace fs = std::filesystem;
 
 std::string Reason() { return std::strerror(errno); }
 
-void EraseUnwritten(std::vector<std::string>& paths) {
-  std::erase_if(paths, [](const std::string& p) { return p.empty() || p == "-"; });
+// Where a path leads by whatever links, or will once there is something.
+fs::path Place(const std::string& path) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
 }
 
-// Whether two paths lead to one file, by whatever links, or will once it is there.
 bool SameFile(const std::string& a, const std::string& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
-  const auto place = [](const std::string& path) {
-    std::error_code ignored;
-    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-  };
   return a == b ||
-         (!fs::exists(a, error) && !fs::exists(b, error) && place(a) == place(b));
+         (!fs::exists(a, error) && !fs::exists(b, error) && Place(a) == Place(b));
+}
+
+bool LiesIn(const std::string& folder, const std::string& file) {
+  const fs::path inside = Place(file), around = Place(folder);
+  return std::mismatch(around.begin(), around.end(), inside.begin(), inside.end())
+             .first == around.end();
+}
+
+void SpareInput(const OutputPaths& outputs, const std::string& input) {
+  for (const std::string& file : outputs.files) {
+    if (!SameFile(file, input)) continue;
+    throw WouldOverwrite("output '" + file + "' would overwrite '" + input +
+                         "', which is read: give the output another name");
+  }
+  for (const std::string& folder : outputs.folders) {
+    if (!LiesIn(folder, input)) continue;
+    throw WouldOverwrite(
+        "'" + input + "', which is read, lies in '" + folder +
+        "', which this command writes: put it elsewhere, or give another "
+        "directory");
+  }
 }
 
 }  // namespace
@@ -58,30 +77,17 @@ void Saver::SaveText(std::string path, const std::string& text) {
   Save(path, [&](const std::string& p) { WriteFileAtomically(p, text); });
 }
 
-void CheckOutputPaths(std::vector<std::string> paths, const std::string& scene) {
-  EraseUnwritten(paths);
+void CheckOutputPaths(OutputPaths outputs, const std::set<std::string>& inputs) {
+  std::vector<std::string>& paths = outputs.files;
+  std::erase_if(paths, [](const std::string& p) { return p.empty() || p == "-"; });
+  for (const std::string& input : inputs) SpareInput(outputs, input);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (SameFile(paths[i], scene)) {
-      throw InputError("output '" + paths[i] + "' would overwrite the scene");
-    }
     for (std::size_t j = 0; j < i; ++j) {
       if (!SameFile(paths[i], paths[j])) continue;
       throw InputError("two outputs go to '" + paths[i] + "'" +
                        (paths[i] == paths[j] ? "" : ", which is '" + paths[j] + "'"));
     }
     CheckWritable(paths[i]);
-  }
-}
-
-void CheckInputsAreSpared(std::vector<std::string> paths,
-                          const std::set<std::string>& inputs) {
-  EraseUnwritten(paths);
-  for (const std::string& path : paths) {
-    for (const std::string& input : inputs) {
-      if (!SameFile(path, input)) continue;
-      throw InputError("output '" + path + "' would overwrite '" + input +
-                       "', which is read: give the output another name");
-    }
   }
 }
 
@@ -93,9 +99,8 @@ void CheckWritable(const std::string& path) {
   const fs::file_status status = fs::status(path, error);
   // A name that is too long, a loop of links, a folder that may not be entered.
   if (status.type() == fs::file_type::none) refuse(error.message());
-  if (fs::is_directory(status)) refuse("it is a directory");
-  if (fs::exists(status) && !fs::is_regular_file(status))
-    refuse("it is not a regular file");
+  const std::string special = SpecialFile(path);
+  if (!special.empty()) refuse("it is " + special + ", not a regular file");
   const fs::path directory =
       fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
   if (!fs::is_directory(directory, error)) {

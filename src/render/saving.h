@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "src/core/error.h"
+
 namespace lanelight {
 
 /// Saves results, and remembers what went wrong.
@@ -25,14 +27,22 @@ class Saver {
   std::vector<std::string> problems_;
 };
 
-/// Throws InputError if an output would overwrite the scene or another one, or cannot be
-/// written. Empty paths are left out, and so is "-", standard output. Files are the same
-/// whatever links lead to them.
-void CheckOutputPaths(std::vector<std::string> paths, const std::string& scene);
+/// What a command writes.
+struct OutputPaths {
+  std::vector<std::string> files;         // empty, and "-", standard output: none
+  std::vector<std::string> folders = {};  // whose content is the command's
+};
 
-/// Throws InputError if an output would overwrite one of `inputs`.
-void CheckInputsAreSpared(std::vector<std::string> paths,
-                          const std::set<std::string>& inputs);
+/// An output would overwrite what is read: nothing at all is to be written.
+class WouldOverwrite : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// For every command that writes, before its work, with what it reads as far as that is
+/// known: throws WouldOverwrite for one of `inputs`, and InputError if two outputs are
+/// one file, or one cannot be written. Files are the same whatever links lead to them.
+void CheckOutputPaths(OutputPaths outputs, const std::set<std::string>& inputs);
 
 /// Throws InputError unless a file can be created at `path`: its directory exists and is
 /// writable, and what exists there is a regular file. Leaves nothing behind.

@@ -1,15 +1,14 @@
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "src/core/input_file.h"
+#include "src/parse/lex.h"
 #include "src/render/job.h"
 
 namespace lanelight {
@@ -40,21 +39,6 @@ class Hash {
   std::uint64_t hash_ = 0xcbf29ce484222325u;
 };
 
-bool ReadFile(const fs::path& path, std::string* content) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return false;
-  std::ifstream in(path, std::ios::binary);
-  constexpr std::size_t kPart = 1 << 20;
-  content->clear();
-  while (in) {
-    const std::size_t had = content->size();
-    content->resize(had + kPart);
-    in.read(content->data() + had, kPart);
-    content->resize(had + static_cast<std::size_t>(in.gcount()));
-  }
-  return !in.bad();
-}
-
 // Quoted strings of scene text that could be names of files to be read: with an
 // extension, and none of a Film directive, which names the output.
 class QuotedNames {
@@ -65,27 +49,37 @@ class QuotedNames {
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '#') {
-        Until("\n", at_);
+        Until('\n', at_);
       } else if (c == '"') {
         TakeString();
-      } else if (std::isalpha(static_cast<unsigned char>(c))) {
-        directive_ = Until(" \t\r\n\"#[]", at_);
+      } else if (IsLetter(c)) {
+        TakeWord();
       } else {
-        ++at_;
+        const char* const begin = text_.data();
+        const char* const next = SkipSpaces(begin + at_ + 1, begin + text_.size());
+        at_ = static_cast<std::size_t>(next - begin);
       }
     }
     return std::move(names_);
   }
 
  private:
-  // What lies between `from` and the next of these characters, where it goes on.
-  std::string_view Until(std::string_view ends, std::size_t from) {
-    at_ = std::min(text_.find_first_of(ends, from), text_.size());
+  static bool IsLetter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  }
+  // What lies between `from` and the next `end`, where it goes on.
+  std::string_view Until(char end, std::size_t from) {
+    at_ = std::min(text_.find(end, from), text_.size());
     return text_.substr(from, at_ - from);
+  }
+  void TakeWord() {
+    const std::size_t from = at_;
+    while (at_ < text_.size() && IsLetter(text_[at_])) ++at_;
+    directive_ = text_.substr(from, at_ - from);
   }
   void TakeString() {
     constexpr std::size_t kLongest = 1024;
-    const std::string_view name = Until("\"", at_ + 1);
+    const std::string_view name = Until('"', at_ + 1);
     ++at_;
     const bool is_name = name.size() < kLongest && name.find('.') != name.npos;
     if (is_name && directive_ != "Film") names_.push_back(name);
@@ -101,9 +95,13 @@ class SceneHasher {
   explicit SceneHasher(const fs::path& scene) : directory_(scene.parent_path()) {}
 
   void AddFile(const fs::path& path) {
-    std::string content;
     if (!seen_.insert(path.lexically_normal().string()).second) return;
-    if (!ReadFile(path, &content)) return;
+    std::string content;
+    try {
+      content = ReadWholeFile(path);
+    } catch (const Unreadable&) {
+      return;  // most are no names of files
+    }
     hash_.Add(content);
     if (path.extension() != ".pbrt") return;
     for (std::string_view name : QuotedNames(content).Find()) {

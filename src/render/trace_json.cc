@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "src/core/json_text.h"
+
 namespace lanelight {
 namespace {
 
@@ -23,9 +25,8 @@ struct RowNames {
 };
 
 std::string Metadata(const char* what, std::size_t thread, const std::string& name) {
-  return fmt::format(
-      R"({{"name":"{}","ph":"M","pid":1,"tid":{},"args":{{"name":{}}}}})", what, thread,
-      nlohmann::json(name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
+  return fmt::format(R"({{"name":"{}","ph":"M","pid":1,"tid":{},"args":{{"name":{}}}}})",
+                     what, thread, DumpJson(name));
 }
 
 class Writer {

@@ -2,11 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "src/core/json_text.h"
+
 namespace lanelight {
 
 std::string CsvField(const nlohmann::json& value) {
   if (value.is_null()) return "";
-  if (!value.is_string()) return value.dump();
+  if (!value.is_string()) return DumpJson(value);
   const auto text = value.get<std::string>();
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

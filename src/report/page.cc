@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/core/check.h"
+#include "src/core/json_text.h"
 #include "src/report/page_text.h"
 
 namespace lanelight {
@@ -20,8 +21,7 @@ constexpr float kMaxHalf = 65504.0f;
 // JSON has `<` in texts only, where the escape means the same. Without any `<`, nothing
 // in the block can end it or begin a comment.
 std::string JsonForScript(const nlohmann::json& json) {
-  const std::string text =
-      json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string text = DumpJson(json);
   std::string out;
   out.reserve(text.size());
   for (const char c : text) {

@@ -151,6 +151,9 @@ struct TriangleMesh {
   std::vector<Vec3d> normals;
   std::vector<std::array<double, 2>> uvs;
   std::vector<std::uint32_t> indices;  // 3 per triangle, all < positions.size()
+  // Per triangle: it continues the face of the one before, which had more than three
+  // corners. Empty: each is a face.
+  std::vector<bool> continues;
 };
 
 enum class ShapeKind { kMesh, kSphere, kDisk, kPlane, kCylinder };
@@ -196,8 +199,9 @@ struct Instance {
 };
 
 /// Emission of a shape: radiance `radiance * scale`, one-sided along the surface normal
-/// unless two_sided; if power > 0 the radiance is rescaled so that the shape emits that
-/// many watts in total (pbrt: Phi = pi * area * (two_sided ? 2 : 1) * Y(L)).
+/// unless two_sided. If power > 0 that is multiplied by what has a round shape, or each
+/// face of a mesh, emit so much at a radiance of 1 (with an image, of its mean): pbrt's
+/// lights are those, and their Phi = pi * area * (two_sided ? 2 : 1) * Y(L).
 struct AreaLight {
   SourceLocation where;
   Rgb radiance{1, 1, 1};

@@ -7,6 +7,17 @@
 #include "src/stat/distributions.h"
 
 namespace lanelight::stat {
+namespace {
+
+// Wilson's, for a proportion of n trials and a quantile z.
+Interval Wilson(double p, double n, double z) {
+  const double z2 = z * z / n;
+  const double centre = (p + z2 / 2) / (1 + z2);
+  const double half = z * std::sqrt(p * (1 - p) / n + z2 / (4 * n)) / (1 + z2);
+  return {p, std::clamp(centre - half, 0.0, p), std::clamp(centre + half, p, 1.0)};
+}
+
+}  // namespace
 
 Interval MeanInterval(std::span<const double> values, double confidence) {
   LL_CHECK(confidence > 0 && confidence < 1);
@@ -46,11 +57,28 @@ Interval ProportionInterval(std::uint64_t successes, std::uint64_t trials,
   LL_CHECK(confidence > 0 && confidence < 1 && successes <= trials);
   if (trials == 0) return WithoutBounds(std::numeric_limits<double>::quiet_NaN());
   const double n = static_cast<double>(trials);
-  const double p = static_cast<double>(successes) / n;
-  const double z = NormalQuantile((1 + confidence) / 2), z2 = z * z / n;
-  const double centre = (p + z2 / 2) / (1 + z2);
-  const double half = z * std::sqrt(p * (1 - p) / n + z2 / (4 * n)) / (1 + z2);
-  return {p, std::clamp(centre - half, 0.0, p), std::clamp(centre + half, p, 1.0)};
+  return Wilson(static_cast<double>(successes) / n, n,
+                NormalQuantile((1 + confidence) / 2));
+}
+
+Interval ClusteredProportion(std::span<const Cluster> clusters, double confidence) {
+  LL_CHECK(confidence > 0 && confidence < 1);
+  double successes = 0, n = 0, squares = 0;
+  for (const Cluster& c : clusters) {
+    successes += static_cast<double>(c.successes);
+    n += static_cast<double>(c.trials);
+  }
+  if (n == 0) return WithoutBounds(std::numeric_limits<double>::quiet_NaN());
+  const double p = successes / n, m = static_cast<double>(clusters.size());
+  if (m < 2) return WithoutBounds(p);
+  for (const Cluster& c : clusters) {
+    const double d = static_cast<double>(c.successes) - p * static_cast<double>(c.trials);
+    squares += d * d;
+  }
+  // Variance of p over what independent trials would give it.
+  const double effect = p * (1 - p) > 0 ? squares * m / (m - 1) / (n * p * (1 - p)) : 1;
+  return Wilson(p, n / std::max(1.0, effect),
+                StudentTwoSidedQuantile(1 - confidence, m - 1));
 }
 
 }  // namespace lanelight::stat

@@ -37,5 +37,16 @@ Interval MedianInterval(std::span<const double> values, double confidence);
 Interval ProportionInterval(std::uint64_t successes, std::uint64_t trials,
                             double confidence);
 
+/// Trials that may depend on each other.
+struct Cluster {
+  std::uint64_t successes = 0, trials = 0;
+};
+
+/// Proportion of the trials of independent clusters: Wilson's interval with Student's
+/// quantile, for the number of independent trials that would scatter as the clusters do
+/// (at most as many as there are; Korn and Graubard 1998). Without bounds for fewer than
+/// two clusters, NaN without trials.
+Interval ClusteredProportion(std::span<const Cluster> clusters, double confidence);
+
 }  // namespace stat
 }  // namespace lanelight

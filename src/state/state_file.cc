@@ -1,14 +1,9 @@
 #include "src/state/state_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-
-#include <cerrno>
-#include <cstring>
 #include <optional>
 
 #include "src/core/error.h"
-#include "src/core/file_descriptor.h"
+#include "src/core/input_file.h"
 #include "src/state/column_reader.h"
 #include "src/state/hdf5.h"
 #include "src/state/seal.h"
@@ -16,20 +11,6 @@
 
 namespace lanelight {
 namespace {
-
-// O_NONBLOCK: a pipe would wait for somebody to write.
-FileDescriptor Open(const std::string& path) {
-  FileDescriptor fd(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  struct stat info;
-  if (fd.get() < 0 || fstat(fd.get(), &info) != 0) {
-    throw InputError(fmt::format("{}: cannot open: {}", path, std::strerror(errno)));
-  }
-  if (!S_ISREG(info.st_mode)) {
-    throw InputError(fmt::format("{}: is {}, not a state file", path,
-                                 S_ISDIR(info.st_mode) ? "a directory" : "no file"));
-  }
-  return fd;
-}
 
 // The file that was checked, whatever its path names by now. HDF5's driver "stdio", since
 // the default one looks for the path of the link, which may be gone.
@@ -83,7 +64,7 @@ struct StateFile::Impl {
   }
 
   explicit Impl(const std::string& p)
-      : path(p), fd(Open(p)), bytes(CheckSeal(fd.get(), p, kStateSchema)) {
+      : path(p), fd(OpenInputFile(p).fd), bytes(CheckSeal(fd.get(), p, kStateSchema)) {
     const hdf5::Quiet quiet;
     try {
       file.emplace(OpenHdf5(fd.get()));

@@ -70,7 +70,7 @@ constexpr PresetInfo kPresets[] = {
     {"paper-importance", "directions=bsdf", "importance sampling of the BSDF"},
     {"paper-stratified", "points=stratified", "stratified sampling"},
     {"paper-antithetic", "pairs=antithetic", "antithetic variates"},
-    {"paper-control", "control=analytic", "a control variate for direct light"},
+    {"paper-control", "control=regression", "a control variate, fitted to the samples"},
     {"paper-roulette", "roulette=constant", "Russian roulette"},
 };
 

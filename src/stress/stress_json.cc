@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
+#include "src/core/json_text.h"
 #include "src/core/parallel.h"
 #include "src/core/version.h"
 #include "src/image/atomic_file.h"
@@ -162,8 +163,7 @@ void MakeResultsFolder(const std::string& dir) {
 void WriteResults(const SuiteResult& result, const std::string& dir) {
   MakeResultsFolder(dir);
   const Json json = ToJson(result);
-  const auto replace = Json::error_handler_t::replace;
-  WriteFileAtomically(dir + "/stress.json", json.dump(1, ' ', false, replace) + "\n");
+  WriteFileAtomically(dir + "/stress.json", DumpJson(json, 1) + "\n");
   WriteFileAtomically(dir + "/report.html", StressReportPage(json));
 }
 

@@ -41,7 +41,7 @@ class SceneAnalyser {
     AddSceneImages(runs_, out_, images_);
     CompareStrategies(runs_, options_, out_);
     TestBias(runs_.reference, out_);
-    Calibrate();
+    Calibrate(options_.confidence, out_);
     FindTargets();
     out_.verdict = Verdict(runs_, out_);
     return std::move(out_);
@@ -56,6 +56,9 @@ class SceneAnalyser {
       for (const Measurement& m : cells.repetitions) AddMachine(m.machine, out_.machines);
       strategy.levels.push_back(
           AnalyseLevel(cells, runs_.reference, spp, options_.confidence));
+      if (strategy.levels.back().reference_share <= kMostReferenceShare) {
+        strategy.self.Add(cells.repetitions);
+      }
       strategy.costs.push_back(CostsOf(cells, spp, &Measurement::relmse));
       strategy.squares.push_back(CostsOf(cells, spp, &Measurement::mse));
     }
@@ -94,18 +97,6 @@ class SceneAnalyser {
       usable.push_back(level);
     }
     return stat::FitOrder(usable, options_.confidence);
-  }
-
-  // Where the reference carries the error, the true error is not known well enough.
-  void Calibrate() {
-    for (const StrategyAnalysis& strategy : out_.strategies) {
-      for (const LevelAnalysis& level : strategy.levels) {
-        if (level.ReferenceLimited()) continue;
-        out_.calibration.inside += level.self.inside;
-        out_.calibration.total += level.self.total;
-        out_.calibration.refused += level.self.refused;
-      }
-    }
   }
 
   void FindTargets() {

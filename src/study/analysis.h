@@ -2,7 +2,9 @@
 // docs/study.md under the same names.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +23,25 @@ struct SelfCheck {
   Interval relmse;                      // mean of the estimates
   std::uint64_t inside = 0, total = 0;  // of the renders that stated an interval
   std::uint64_t refused = 0;            // stated an estimate, and no interval about it
+};
+
+/// Of one strategy: whether renders' own intervals held, by seed, and where those that
+/// did not have their worst pixel.
+struct SelfRenders {
+  std::map<std::uint64_t, stat::Cluster> seeds;
+  std::map<std::array<std::uint64_t, 2>, int> missed;
+  double missed_worst_share = 0;  // sum over these
+
+  /// Renders without an interval are left out.
+  void Add(const std::vector<Measurement>& renders);
+};
+
+/// A strategy whose intervals certainly hold less often than they say.
+struct SelfFailure {
+  std::size_t strategy = 0;
+  std::uint64_t inside = 0, total = 0;
+  std::array<std::uint64_t, 2> pixel = {};  // most often the worst of the others
+  double worst_share = 0;  // of their error, in the worst kWorstShare of their pixels
 };
 
 struct LevelAnalysis {
@@ -70,6 +91,7 @@ struct StrategyAnalysis {
   stat::MeanEstimate image_mean;  // of all pixels and repetitions at the level `at`
   bool heavy_tailed = false;
   std::vector<StageProfile> stages;
+  SelfRenders self;
   std::optional<TileTest> tiles;
   std::string mean, one, variance, bias;  // names of images; empty: none
 
@@ -83,6 +105,11 @@ struct SceneAnalysis {
   std::size_t baseline = 0;
   double target_relmse = 0;
   SelfCheck calibration;
+  /// Share of the intervals that held; renders of one seed depend on each other, whatever
+  /// their strategies.
+  Interval calibration_share;
+  std::size_t calibration_seeds = 0;
+  std::vector<SelfFailure> self_failures;
   std::size_t bias_tests = 0;
   /// Strategies whose whole image differs from the reference, by Holm: those that differ
   /// from the other strategies too, and those that do as these, which points at it.
@@ -107,6 +134,10 @@ inline constexpr double kBiasLevel = 1e-3;
 /// Names that a reader takes in.
 inline constexpr std::size_t kMostNames = 4;
 
+/// Share of the reference's own error above which it would decide whether an interval
+/// holds.
+inline constexpr double kMostReferenceShare = 0.1;
+
 /// Relative differences of means up to this are rounding of pixels to float.
 inline constexpr double kFloatRounding = 1e-6;
 
@@ -130,6 +161,10 @@ void TestBias(const Reference& reference, SceneAnalysis& analysis);
 /// `moments` of renders of `spp` samples per pixel.
 TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint64_t spp,
                    double level);
+/// After the strategies have their levels and renders: how often intervals held.
+void Calibrate(double confidence, SceneAnalysis& analysis);
+/// Sentences about that; may be empty.
+std::string CalibrationText(const SceneRuns& runs, const SceneAnalysis& analysis);
 std::string Verdict(const SceneRuns& runs, const SceneAnalysis& analysis);
 /// The verdict's sentences about bias; may be empty.
 std::string BiasText(const SceneRuns& runs, const SceneAnalysis& analysis);

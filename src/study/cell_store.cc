@@ -1,3 +1,4 @@
+#include "src/core/input_file.h"
 #include "src/study/cell_store.h"
 
 #include <cstring>
@@ -6,6 +7,7 @@
 
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/core/json_text.h"
 #include "src/image/atomic_file.h"
 #include "src/sweep/grid.h"
 
@@ -39,7 +41,7 @@ std::string Header(const std::string& strategy, std::uint64_t spp, const Cells& 
   for (const Measurement& m : cells.repetitions) json["repetitions"].push_back(ToJson(m));
   json["stages"] = nlohmann::json::array();
   for (const StageProfile& s : cells.stages) json["stages"].push_back(StageState(s));
-  return json.dump() + "\n";
+  return DumpJson(json) + "\n";
 }
 
 std::string FloatBytes(const std::vector<Rgb>& image) {
@@ -82,7 +84,8 @@ Cells CellStore::Load(const std::string& strategy, std::uint64_t spp) const {
   Cells cells;
   cells.moments = Moments(pixels_);
   const std::string path = Path(strategy, spp);
-  if (!fs::exists(path)) return cells;
+  std::error_code error;
+  if (!fs::exists(path, error)) return cells;
   const std::string content = ReadWholeFile(path);
   const std::size_t end = content.find('\n');
   const auto refuse = [&](const std::string& what) {
@@ -90,7 +93,7 @@ Cells CellStore::Load(const std::string& strategy, std::uint64_t spp) const {
                      "); remove it, and its renders are done again");
   };
   try {
-    const auto header = nlohmann::json::parse(content.substr(0, end));
+    const auto header = ParseJson(content.substr(0, end));
     if (header.at("format") != kFormat || header.at("strategy") != strategy ||
         header.at("spp") != spp) {
       refuse("it is of another strategy or version");
@@ -100,7 +103,7 @@ Cells CellStore::Load(const std::string& strategy, std::uint64_t spp) const {
     }
     for (const auto& s : header.at("stages")) cells.stages.push_back(StageFromState(s));
   } catch (const nlohmann::json::exception& error) {
-    refuse(error.what());
+    refuse(JsonProblem(error));
   }
   const std::string sums = cells.moments.Save();
   const std::string_view binary = std::string_view(content).substr(end + 1);

@@ -71,6 +71,12 @@ void MeasureErrors(const std::vector<Rgb>& image, const Reference& reference,
   m.mean_r = sum.x / n;
   m.mean_g = sum.y / n;
   m.mean_b = sum.z / n;
+  const auto worst = std::max_element(
+      errors.begin(), errors.end(),
+      [](const PixelError& a, const PixelError& b) { return a.raw < b.raw; });
+  const auto at = static_cast<std::size_t>(worst - errors.begin());
+  m.worst_x = at % static_cast<std::size_t>(reference.width);
+  m.worst_y = at / static_cast<std::size_t>(reference.width);
   MeasureRelative(std::move(errors), m);
 }
 

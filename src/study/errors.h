@@ -9,7 +9,8 @@
 namespace lanelight {
 
 /// Fills in the errors and means of `m`. Squared errors are less the reference's own;
-/// the MAPE is not, since absolute errors do not add up.
+/// the MAPE is not, since absolute errors do not add up. The worst pixel is one of the
+/// reference.
 void MeasureErrors(const std::vector<Rgb>& image, const Reference& reference,
                    Measurement& m);
 

@@ -34,7 +34,9 @@ namespace lanelight {
   X(std::uint64_t, invalid)                                                              \
   X(double, self_relmse) /* the render's own estimate and its interval */                \
   X(double, self_low)                                                                    \
-  X(double, self_high)
+  X(double, self_high)                                                                   \
+  X(std::uint64_t, worst_x) /* the worst pixel of raw_relmse */                          \
+  X(std::uint64_t, worst_y)
 
 inline constexpr double kTrimmedShare = 0.01, kWorstShare = 0.001;
 

@@ -1,9 +1,11 @@
 #include "src/study/reference.h"
 
+#include <array>
 #include <cmath>
 
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/image/color_channels.h"
 #include "src/image/exr.h"
 #include "src/image/image.h"
 #include "src/image/colors.h"
@@ -13,17 +15,15 @@
 namespace lanelight {
 namespace {
 
-// Index of the three colour channels with this prefix; Y stands for all three.
-bool FindColor(const Image& image, const std::string& prefix, int (&channels)[3]) {
-  const char* names[3] = {"R", "G", "B"};
-  bool found = true;
-  for (int c = 0; c < 3; ++c) {
-    channels[c] = image.FindChannel(prefix + names[c]);
-    found &= channels[c] >= 0;
+// The channels of the variances of three others, which may be one.
+bool FindVariance(const Image& image, const std::array<int, 3>& of,
+                  std::array<int, 3>& channels) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    channels[c] =
+        image.FindChannel("variance." + image.names[static_cast<std::size_t>(of[c])]);
+    if (channels[c] < 0) return false;
   }
-  if (found) return true;
-  channels[0] = channels[1] = channels[2] = image.FindChannel(prefix + "Y");
-  return channels[0] >= 0;
+  return true;
 }
 
 double Value(const Image& image, int x, int y, int channel) {
@@ -32,14 +32,16 @@ double Value(const Image& image, int x, int y, int channel) {
 }
 
 // The window of the image in one set of channels; `offset`: of the window in the image.
-std::vector<Rgb> Cut(const Image& image, const int (&channels)[3], int x0, int y0,
-                     const PixelRect& window) {
+std::vector<Rgb> Cut(const Image& image, const std::array<int, 3>& channels, int x0,
+                     int y0, const PixelRect& window) {
   std::vector<Rgb> pixels;
   pixels.reserve(window.pixels());
   for (int y = y0; y < y0 + window.height(); ++y) {
     for (int x = x0; x < x0 + window.width(); ++x) {
       Rgb value;
-      for (int c = 0; c < 3; ++c) value[c] = Value(image, x, y, channels[c]);
+      for (int c = 0; c < 3; ++c) {
+        value[c] = Value(image, x, y, channels[static_cast<std::size_t>(c)]);
+      }
       pixels.push_back(value);
     }
   }
@@ -65,10 +67,9 @@ struct Piece {
 Piece ReadPiece(const std::string& path, const PixelRect& window, int full_width,
                 int full_height) {
   const Image image = ReadImage(path);
-  int color[3], variance[3];
-  if (!FindColor(image, "", color)) {
-    throw InputError("reference '" + path + "' has neither R, G, B nor Y");
-  }
+  const auto color = ColorChannels(image);
+  if (!color) throw InputError("reference '" + path + "': " + NoColorChannels(image));
+  std::array<int, 3> variance;
   const bool whole = image.width == full_width && image.height == full_height;
   if (!whole && (image.width != window.width() || image.height != window.height())) {
     throw InputError(
@@ -78,9 +79,9 @@ Piece ReadPiece(const std::string& path, const PixelRect& window, int full_width
                     image.width, image.height));
   }
   const int x0 = whole ? window.x0 : 0, y0 = whole ? window.y0 : 0;
-  Piece piece = {Cut(image, color, x0, y0, window), {}};
+  Piece piece = {Cut(image, *color, x0, y0, window), {}};
   CheckFinite(path, piece.mean);
-  if (FindColor(image, "variance.", variance)) {
+  if (FindVariance(image, *color, variance)) {
     piece.variance = Cut(image, variance, x0, y0, window);
     const double unit = VarianceUnit(image);
     for (Rgb& v : piece.variance) {

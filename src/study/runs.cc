@@ -5,6 +5,8 @@
 #include <set>
 
 #include "src/core/error.h"
+#include "src/core/json_text.h"
+#include "src/render/saving.h"
 #include "src/study/scene_runner.h"
 
 namespace lanelight {
@@ -54,6 +56,16 @@ void CheckOtherScenes(const StudyOptions& options, const std::vector<SceneRuns>&
   }
 }
 
+// Before anything is written. What scenes read beside their own file is checked once it
+// is known.
+void CheckInputs(const StudyOptions& options, const std::vector<SceneRuns>& scenes) {
+  OutputPaths outputs = {OutputFiles(options)};
+  for (const SceneRuns& scene : scenes) outputs.folders.push_back(scene.folder);
+  std::set<std::string> inputs(options.scenes.begin(), options.scenes.end());
+  inputs.insert(options.references.begin(), options.references.end());
+  CheckOutputPaths(outputs, inputs);
+}
+
 void CheckFolder(const StudyOptions& options) {
   std::error_code error;
   if (fs::exists(options.out, error) && !fs::is_directory(options.out, error)) {
@@ -70,6 +82,11 @@ void CheckFolder(const StudyOptions& options) {
 }
 
 }  // namespace
+
+std::vector<std::string> OutputFiles(const StudyOptions& options) {
+  return {options.out + "/study.json", options.out + "/study.csv",
+          options.out + "/report.html"};
+}
 
 const char* Name(RunStatus status) {
   switch (status) {
@@ -91,12 +108,19 @@ std::vector<SceneRuns> RunStudy(const StudyOptions& options, const StudyHooks& h
   CheckFolder(options);
   std::vector<SceneRuns> scenes = NamedScenes(options);
   CheckOtherScenes(options, scenes);
+  CheckInputs(options, scenes);
   StudyClock clock(scenes.size());
   for (SceneRuns& scene : scenes) {
     try {
       SceneRunner(options, hooks, clock, scene).Run();
     } catch (const OtherStudy&) {
       throw;
+    } catch (const WouldOverwrite&) {
+      throw;
+    } catch (const nlohmann::json::exception& error) {
+      throw OtherStudy(
+          fmt::format("'{}/cells/scene.json' is damaged ({}): give another directory",
+                      scene.folder, JsonProblem(error)));
     } catch (const std::exception& error) {
       scene.error = error.what();
       if (hooks.on_problem && scenes.size() > 1) hooks.on_problem(error.what());

@@ -72,6 +72,9 @@ struct StudyHooks {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// What a study writes beside the folders of its scenes.
+std::vector<std::string> OutputFiles(const StudyOptions& options);
+
 /// Renders what is missing in DIR/cells, one scene after the other; in each, repetition
 /// after repetition, sample count after sample count, all strategies in turn, so that a
 /// change of the machine's speed meets all alike. A scene or strategy that fails is

@@ -4,6 +4,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/image/colors.h"
+#include "src/render/saving.h"
 #include "src/scene/image_changes.h"
 #include "src/study/errors.h"
 #include "src/estimate/estimate.h"
@@ -62,6 +63,7 @@ void SceneRunner::Prepare() {
   RenderSettings settings = options_.settings;
   settings.spp = 1;
   job_ = PrepareJob(scene_.path, settings);
+  CheckOutputPaths({OutputFiles(options_), {scene_.folder}}, job_.files);
   scene_.hash = fmt::format("{:016x}", job_.scene_hash);
   scene_.full_width = job_.description.film.width;
   scene_.full_height = job_.description.film.height;
@@ -190,6 +192,8 @@ Measurement SceneRunner::Render(const StrategyRuns& runs, std::uint64_t spp,
   Describe(run.result, EstimateError(run.film), m);
   const std::vector<Rgb> image = FilmColors(run.film);
   MeasureErrors(image, scene_.reference, m);
+  m.worst_x += static_cast<std::uint64_t>(scene_.window.x0);
+  m.worst_y += static_cast<std::uint64_t>(scene_.window.y0);
   cells.moments.Add(image);
   AddStages(run.result.stages, cells.stages);
   if (repetition == 0) cells.first = image;

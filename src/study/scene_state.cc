@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
+#include "src/core/input_file.h"
+#include "src/core/json_text.h"
 #include "src/image/atomic_file.h"
 #include "src/image/colors.h"
 #include "src/study/scene_runner.h"
@@ -40,28 +42,25 @@ nlohmann::json Identity(const StudyOptions& options, const Job& job) {
 
 void SceneRunner::CheckState() {
   const std::string path = scene_.folder + "/cells/scene.json";
-  const nlohmann::json identity = Identity(options_, job_);
+  // As a file has it: names of references may have bytes that JSON has not.
+  const nlohmann::json identity = ParseJson(DumpJson(Identity(options_, job_)));
   if (!fs::exists(path)) {
     state_ = {{"identity", identity}, {"counts", nlohmann::json::object()}};
     return SaveState();
   }
-  try {
-    state_ = nlohmann::json::parse(ReadWholeFile(path));
-  } catch (const nlohmann::json::exception& error) {
-    throw OtherStudy("'" + path + "' is damaged: " + error.what());
-  }
+  state_ = ParseJson(ReadWholeFile(path));
   for (const auto& [name, value] : identity.items()) {
     const nlohmann::json& had = state_["identity"][name];
     if (had == value) continue;
     throw OtherStudy(fmt::format(
         "'{}' has a study with {} {}, and now it is {}: continue it with what it had, or "
         "give another directory",
-        scene_.folder, name, had.dump(), value.dump()));
+        scene_.folder, name, DumpJson(had), DumpJson(value)));
   }
 }
 
 void SceneRunner::SaveState() {
-  WriteFileAtomically(scene_.folder + "/cells/scene.json", state_.dump(2) + "\n");
+  WriteFileAtomically(scene_.folder + "/cells/scene.json", DumpJson(state_, 2) + "\n");
 }
 
 // Counts that were measured once stay: they depend on the machine's speed then.

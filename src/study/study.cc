@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <nlohmann/json.hpp>
 
+#include "src/core/json_text.h"
 #include "src/image/atomic_file.h"
 #include "src/study/study_images.h"
 
@@ -29,7 +30,7 @@ std::vector<SceneStudy> Study(const StudyOptions& options, const StudyHooks& hoo
   for (SceneStudy& study : studies) study.analysis.report_scale = scale;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   const nlohmann::json json = StudyJson(studies, options, taken.count());
-  WriteFileAtomically(options.out + "/study.json", json.dump(2) + "\n");
+  WriteFileAtomically(options.out + "/study.json", DumpJson(json, 2) + "\n");
   WriteFileAtomically(options.out + "/study.csv", StudyCsv(studies));
   WriteFileAtomically(options.out + "/report.html", ReportPage(json, images));
   return studies;

@@ -145,13 +145,24 @@ Json ReferenceJson(const SceneRuns& runs, const SceneAnalysis& analysis) {
           {"image", Text(analysis.reference_image)}};
 }
 
-Json CalibrationJson(const SelfCheck& self, double confidence) {
+Json CalibrationJson(const SceneAnalysis& analysis) {
+  const SelfCheck& self = analysis.calibration;
   if (self.total + self.refused == 0) return nullptr;
+  Json failed = Json::array();
+  for (const SelfFailure& f : analysis.self_failures) {
+    failed.push_back({{"strategy", f.strategy},
+                      {"inside", f.inside},
+                      {"total", f.total},
+                      {"pixel", f.pixel},
+                      {"worst_share", Number(f.worst_share)}});
+  }
   return {{"inside", self.inside},
           {"total", self.total},
           {"refused", self.refused},
-          {"share", Range(stat::ProportionInterval(self.inside, self.total, confidence))},
-          {"stated", 0.95}};
+          {"seeds", analysis.calibration_seeds},
+          {"share", Range(analysis.calibration_share)},
+          {"stated", kEstimateConfidence},
+          {"failed", failed}};
 }
 
 Json DiffuseJson(const SceneRuns& runs, const SceneAnalysis& analysis) {
@@ -193,7 +204,7 @@ Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
     out["strategies"].push_back(StrategyJson(runs.strategies[i], analysis.strategies[i]));
   }
   out["ranking"] = analysis.ranking;
-  out["calibration"] = CalibrationJson(analysis.calibration, options.confidence);
+  out["calibration"] = CalibrationJson(analysis);
   out["bias"] = {{"tests", analysis.bias_tests},
                  {"failed", analysis.biased.size()},
                  {"strategies", analysis.biased},

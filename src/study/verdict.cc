@@ -120,16 +120,8 @@ class Writer {
   }
 
   void Warnings() {
-    const auto share = analysis_.calibration;
-    if (share.total > 0) {
-      Say(fmt::format(
-          "The renders' own 95 % error intervals held in {:.1f} % of {} "
-          "renders{}.",
-          100 * double(share.inside) / double(share.total), share.total,
-          share.refused == 0 ? "" : fmt::format("; {} more stated none", share.refused)));
-    } else if (share.refused > 0) {
-      Say("No render stated an interval of its own error.");
-    }
+    const std::string calibration = CalibrationText(runs_, analysis_);
+    if (!calibration.empty()) Say(calibration);
     std::vector<std::size_t> heavy, failed;
     for (std::size_t i = 0; i < analysis_.strategies.size(); ++i) {
       if (Of(i).heavy_tailed) heavy.push_back(i);

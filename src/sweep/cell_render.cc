@@ -65,8 +65,12 @@ void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
   ForceTarget(Get(cell.values, Axis::kTarget).value_or(""));
   settings.seed.reset();  // that of one cell is not that of the next
   try {
-    job_ = PrepareJob(sweep_.ScenePath(cell), settings);
-    own_ = job_->description.strategy;
+    Job job = PrepareJob(sweep_.ScenePath(cell), settings);
+    CheckOutputPaths(outputs_, job.files);
+    own_ = job.description.strategy;
+    job_ = std::move(job);
+  } catch (const WouldOverwrite&) {
+    throw;
   } catch (const InputError& error) {
     failure_ = error.what();
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "src/render/render.h"
+#include "src/render/saving.h"
 #include "src/sweep/sweep_file.h"
 
 namespace lanelight {
@@ -18,9 +19,12 @@ namespace lanelight {
 class CellRenderer {
  public:
   /// `sweep` must outlive the object. Trees over shapes are looked for in `build_cache`,
-  /// if that has a path (src/accel/tree_source.h).
-  explicit CellRenderer(const Sweep& sweep, TreeFolder build_cache = {})
-      : sweep_(sweep), build_cache_(std::move(build_cache)) {}
+  /// if that has a path (src/accel/tree_source.h). No scene may read of `outputs`.
+  explicit CellRenderer(const Sweep& sweep, TreeFolder build_cache = {},
+                        OutputPaths outputs = {})
+      : sweep_(sweep),
+        build_cache_(std::move(build_cache)),
+        outputs_(std::move(outputs)) {}
 
   /// The scene as the cell wants it, its strategy and amount set. Refers to this object,
   /// until the next call. Throws InputError, and Interrupted as FindTree does.
@@ -43,6 +47,7 @@ class CellRenderer {
 
   const Sweep& sweep_;
   TreeFolder build_cache_;
+  OutputPaths outputs_;
   std::optional<Job> job_;
   std::string key_, failure_;  // of job_; why there is none
   std::string tree_key_;       // of its trees, as far as cells tell

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "src/core/json_text.h"
 #include "src/core/version.h"
 #include "src/image/atomic_file.h"
 #include "src/render/machine_json.h"
@@ -102,7 +103,7 @@ std::string Row(const Json& cell, const std::vector<std::string>& stages) {
 }  // namespace
 
 Json CellReport(const Rendering& rendering) {
-  Json report = Json::parse(rendering.json);
+  Json report = ParseJson(rendering.json);
   report["sweep"] = {{"cpu_seconds", rendering.report.result.cpu_seconds},
                      {"machine", MachineName()},
                      {"program", FullVersion()}};
@@ -147,13 +148,14 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome
   std::vector<Json> cells;
   for (const SweepCell& cell : sweep.cells) {
     const CellRecord record = folder.Look(cell);
-    cells.push_back(CellJson(cell, record));
-    outcome.done += record.state == CellState::kDone;
-    if (record.state == CellState::kDone) {
+    FromJsonOf(folder.File(cell, "report.json"), [&] {
+      cells.push_back(CellJson(cell, record));
+      if (record.state != CellState::kDone) return;
+      ++outcome.done;
       outcome.invalid_samples +=
           cells.back()["measured"]["invalid_samples"].get<std::uint64_t>();
       outcome.differing += record.report.value("differs", false);
-    }
+    });
     if (record.state == CellState::kFailed) {
       outcome.failures.push_back({cell.name, record.message});
     }

@@ -30,7 +30,7 @@ class Runner {
         hooks_(hooks),
         folder_(folder),
         claims_(folder.File("claims"), options.parts > 1),
-        renderer_(sweep, options.build_cache) {}
+        renderer_(sweep, options.build_cache, folder.Outputs()) {}
 
   void Run(SweepOutcome& outcome);
 
@@ -191,6 +191,8 @@ void Runner::RenderCell(std::size_t i) {
     folder_.Finish(cell, CellReport(rendering));
     known_[i] = Known::kDone;
     ++rendered_;
+  } catch (const WouldOverwrite&) {
+    throw;
   } catch (const Interrupted&) {  // while another process built trees
     known_[i] = Known::kMissing;
     interrupted_ = true;

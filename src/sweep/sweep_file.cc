@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "src/core/suggest.h"
-#include "src/image/atomic_file.h"
+#include "src/core/input_file.h"
 #include "src/strategy/named_strategy.h"
 #include "src/sweep/sweep_settings.h"
 #include "src/sweep/toml_values.h"

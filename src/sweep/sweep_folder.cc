@@ -1,12 +1,13 @@
+#include "src/core/input_file.h"
 #include "src/sweep/sweep_folder.h"
 
 #include <filesystem>
 #include <set>
 
+#include "src/core/json_text.h"
 #include "src/core/suggest.h"
 #include "src/image/atomic_file.h"
 #include "src/render/job.h"
-#include "src/render/saving.h"
 
 namespace lanelight {
 namespace {
@@ -71,7 +72,14 @@ void SweepFolder::Make() const {
   MakeDirectory(path_ + "/cells");
   RemoveTemporaries(path_ + kProbe);
   CheckWritable();
+  std::set<std::string> scenes;
+  for (const SweepCell& cell : sweep_.cells) scenes.insert(sweep_.ScenePath(cell));
+  CheckOutputPaths(Outputs(), scenes);
   WriteFileAtomically(File("sweep.toml"), sweep_.text);
+}
+
+OutputPaths SweepFolder::Outputs() const {
+  return {{File("sweep.csv"), File("report.html")}, {File("cells")}};
 }
 
 void SweepFolder::CheckWritable() const { lanelight::CheckWritable(path_ + kProbe); }
@@ -83,20 +91,22 @@ CellRecord SweepFolder::Look(const SweepCell& cell) {
   const bool report = fs::exists(path, error);
   if (report && fs::exists(File(cell, "image.exr"), error)) {
     try {
-      record.report = Json::parse(ReadWholeFile(path));
+      record.report = ParseJson(ReadWholeFile(path));
       CheckReport(cell, record.report);
     } catch (const Json::exception& problem) {
       throw InputError(
           fmt::format("'{}' is not a report of a sweep ({}); remove it, and "
                       "the cell is rendered again",
-                      path, problem.what()));
+                      path, JsonProblem(problem)));
     }
     record.state = CellState::kDone;
   } else if (fs::exists(File(cell, "error.json"), error)) {
     record.state = CellState::kFailed;
-    const Json failure =
-        Json::parse(ReadWholeFile(File(cell, "error.json")), nullptr, false);
-    record.message = failure.is_object() ? failure.value("message", "") : "";
+    try {
+      record.message = ParseJson(ReadWholeFile(File(cell, "error.json"))).at("message");
+    } catch (const Json::exception&) {
+      record.message = "";  // it has failed, and is rendered again
+    }
   }
   return record;
 }
@@ -138,7 +148,7 @@ void SweepFolder::Finish(const SweepCell& cell, Json report) const {
   report["sweep"]["name"] = cell.name;
   report["sweep"]["values"] = ValuesJson(cell);
   report["sweep"]["settings"] = sweep_.settings.texts;
-  WriteFileAtomically(File(cell, "report.json"), report.dump(1) + "\n");
+  WriteFileAtomically(File(cell, "report.json"), DumpJson(report, 1) + "\n");
   std::error_code ignored;
   fs::remove(File(cell, "error.json"), ignored);
   fs::remove(File(cell, "state"), ignored);
@@ -146,8 +156,7 @@ void SweepFolder::Finish(const SweepCell& cell, Json report) const {
 
 void SweepFolder::Fail(const SweepCell& cell, const std::string& message) const {
   const Json json = {{"name", cell.name}, {"message", message}};
-  WriteFileAtomically(File(cell, "error.json"),
-                      json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  WriteFileAtomically(File(cell, "error.json"), DumpJson(json, 1) + "\n");
 }
 
 void SweepFolder::RemoveImages(const SweepCell& cell) const {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "src/render/saving.h"
 #include "src/sweep/sweep_file.h"
 
 namespace lanelight {
@@ -26,8 +27,11 @@ class SweepFolder {
   /// `sweep` must outlive the object.
   SweepFolder(std::string path, const Sweep& sweep);
 
-  /// Makes the directory and puts a copy of the sweep file into it. Throws InputError.
+  /// Makes the directory and puts a copy of the sweep file into it. Throws InputError,
+  /// also for a scene that would be written over.
   void Make() const;
+  /// What a sweep writes, besides the copy.
+  OutputPaths Outputs() const;
   /// Throws InputError if nothing can be written into the directory (any longer).
   void CheckWritable() const;
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "src/core/suggest.h"
+#include "src/sweep/toml_nesting.h"
 
 namespace lanelight {
 namespace {
@@ -30,6 +31,12 @@ std::string Kind(const toml::node& node) {
 
 TomlFile::TomlFile(const std::string& path, const std::string& text)
     : name_(std::make_shared<const std::string>(path)) {
+  if (const auto deep = TooDeepToml(text)) {
+    throw InputError({name_, deep->line, deep->column},
+                     fmt::format("tables, arrays or keys lie more than {} deep in each "
+                                 "other; a sweep file has them two deep",
+                                 kDeepestToml));
+  }
   try {
     root_ = toml::parse(text, path);
   } catch (const toml::parse_error& error) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "src/image/regression_film.h"
 #include "src/wavefront/tiles.h"
 
 namespace lanelight {
@@ -16,8 +15,7 @@ constexpr double kEpsilon = 0.01;
 // Fewer cells of kSide make smaller ones.
 constexpr std::size_t kFewCells = 64;
 constexpr int kSide = 8, kSmallSide = 4;
-// ShareOf is the same in all of a block.
-static_assert(RegressionFilm::kBlock % kSide == 0 && kSide % kSmallSide == 0);
+static_assert(kShareBlock % kSide == 0 && kSide % kSmallSide == 0);
 
 // Cells of the other colour around a cell, and how much they count. The farther ones are
 // for cells at edges, and those whose neighbours have seen nothing.
@@ -167,13 +165,12 @@ class FilmCells {
 
 }  // namespace
 
-int CellSide(const PixelRect& window, Control control) {
-  if (control == Control::kRegression) return RegressionFilm::kBlock;
+int CellSide(const PixelRect& window) {
   return TilesOf(window, kSide).size() < kFewCells ? kSmallSide : kSide;
 }
 
-std::vector<PixelRect> CellsOf(const PixelRect& window, Control control) {
-  return TilesOf(window, CellSide(window, control));
+std::vector<PixelRect> CellsOf(const PixelRect& window) {
+  return TilesOf(window, CellSide(window));
 }
 
 std::vector<double> WeighPixels(const FilmAccumulator& film, int side) {

@@ -33,10 +33,10 @@
 namespace lanelight {
 
 /// Side of the cells of a window, in pixels, from the image's origin on.
-int CellSide(const PixelRect& window, Control control);
+int CellSide(const PixelRect& window);
 
 /// The cells of a window, row by row.
-std::vector<PixelRect> CellsOf(const PixelRect& window, Control control);
+std::vector<PixelRect> CellsOf(const PixelRect& window);
 
 /// Weights by pixel of the film, row by row, after its pilot; the same in all pixels of a
 /// cell. All 1 where there is no error to go by.

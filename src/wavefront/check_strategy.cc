@@ -33,8 +33,8 @@ void CheckControl(const Strategy& s, const CompiledScene& scene,
   if (s.control == Control::kNone) return;
   const FeatureSet& f = scene.features;
   const std::string name = std::string("control=") + Name(s.control);
-  if (options.max_depth == 0) Refuse(name + " needs a maximum depth of at least 1");
   if (s.control == Control::kRegression) return;
+  if (options.max_depth == 0) Refuse(name + " needs a maximum depth of at least 1");
   if (!f.HasAny({Feature::kDiffuse, Feature::kDiffuseTransmission})) {
     Refuse(name +
            " works on Lambertian surfaces, and this scene has none; control=regression "
@@ -158,7 +158,9 @@ Notes CheckStrategy(const CompiledScene& scene, const PlanOptions& options) {
   NoteEnvironment(checked);
   NoteMedia(checked);
   NotePaths(checked);
-  if (s.control == Control::kRegression && s.points != Points::kIndependent) {
+  if (s.control == Control::kRegression && !plan.Has(Feature::kRegressionControl)) {
+    checked.Note("control=regression", ": nothing scatters");
+  } else if (s.control == Control::kRegression && s.points != Points::kIndependent) {
     notes.push_back(std::string("control=regression gains little with points=") +
                     Name(s.points) +
                     ", which integrate polynomials well already: its place is "

@@ -8,10 +8,8 @@ Films::Films(const SamplePlanes& planes, double coefficient, FilmAccumulator& fi
     : planes_(planes), film_(film) {
   LL_CHECK_EQ(planes.Has(PlaneGroup::kAov), film.has_aov());
   LL_CHECK_EQ(planes.Has(PlaneGroup::kGbuffer), film.has_gbuffer());
-  if (planes.Has(PlaneGroup::kDifference)) film_.UseControl();
-  if (!planes.Has(PlaneGroup::kNumbers)) return;
-  regression_.emplace(film.x0(), film.y0(), film.width(), film.height(), film.groups(),
-                      coefficient);
+  if (planes.Has(PlaneGroup::kDifference)) film_.UseDifferences();
+  if (planes.Has(PlaneGroup::kNumbers)) film_.UseRegression(coefficient);
 }
 
 void Films::UseResponse(const FilmResponse& response) {
@@ -36,13 +34,6 @@ void Films::Add(const TileSamples& tile) {
   if (response_) Respond(tile);
   const std::vector<std::uint32_t>& pixels = tile.pixels;
   const std::size_t stride = pixels.size() * tile.count;
-  if (regression_) {
-    const PixelRect& r = tile.place;
-    regression_->Correct(
-        {r.x0, r.y0, r.x1, r.y1, pixels.data(), static_cast<std::uint32_t>(pixels.size()),
-         static_cast<std::uint32_t>(tile.width), tile.values, tile.count},
-        planes_.First(PlaneGroup::kNumbers));
-  }
   constexpr int kMostPlanes = FilmAccumulator::kMostPlanes;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const float* planes[kMostPlanes];
@@ -66,20 +57,12 @@ double Films::WeightAt(int x, int y) const {
                   static_cast<std::size_t>(x - film_.x0())];
 }
 
-std::optional<ControlReport> Films::Control() const {
-  return regression_ ? regression_->Report() : film_.Control();
-}
-
 std::vector<MutableStateColumn> Films::Columns() {
   std::vector<MutableStateColumn> columns = film_.Columns();
   if (!weights_.empty()) {
     columns.push_back(MakeStateColumn<double>(
         "weights", "samples beyond the pilot, over their mean; 0: not known yet",
         weights_, {}));
-  }
-  if (!regression_) return columns;
-  for (MutableStateColumn& column : regression_->Columns()) {
-    columns.push_back(std::move(column));
   }
   return columns;
 }

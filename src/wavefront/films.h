@@ -9,7 +9,6 @@
 #include "src/image/accumulator.h"
 #include "src/image/film_response.h"
 #include "src/image/pixel_rect.h"
-#include "src/image/regression_film.h"
 #include "src/path/sample_planes.h"
 
 namespace lanelight {
@@ -43,14 +42,9 @@ class Films {
   /// 0 without.
   double WeightAt(int x, int y) const;
 
-  std::optional<ControlReport> Control() const;
-
   /// All that Add has brought, by pixel of the film, row by row: films of the same
   /// pixels, planes and groups that are given these go on from there.
   std::vector<MutableStateColumn> Columns();
-  /// Whether what is added to a pixel depends on others, in blocks of so many squared
-  /// pixels; 1 if not.
-  int Block() const { return regression_ ? RegressionFilm::kBlock : 1; }
   const FilmAccumulator& film() const { return film_; }
   FilmAccumulator& film() { return film_; }
 
@@ -59,7 +53,6 @@ class Films {
 
   SamplePlanes planes_;
   FilmAccumulator& film_;
-  std::optional<RegressionFilm> regression_;
   std::vector<double> weights_;
   std::optional<FilmResponse> response_;
 };

@@ -43,7 +43,11 @@ void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
     // Scattered rays count in full, so they carry no density; what is left to sample are
     // the lights that no ray can hit.
     f.Remove(Feature::kMis);
-    if (!HasDeltaLights(f)) f.Remove({Feature::kLights, Feature::kManyLights});
+    if (f.Has(Feature::kUnseenLights)) {
+      f.Add(Feature::kSampledHittableLights);  // use_strategy.cc: no other is selected
+    } else if (!HasDeltaLights(f)) {
+      f.Remove({Feature::kLights, Feature::kManyLights});
+    }
   }
   if (f.Has(Feature::kManyLights)) f.Add(TurnsOn(strategy.light_selection));
   if (!f.Has(Feature::kLights)) return;

@@ -148,7 +148,7 @@ RunResult Runner::Result() {
   result.stopped_early = result.stop_reason == StopReason::kInterrupted;
   result.looks = looks_.Count();
   strategy_.Describe(result);
-  result.control = films_.Control();
+  result.control = films_.film().Control();
   result.parts = EmptyParts();
   result.trace.start = ticks_.start();
   result.trace.seconds_per_tick = ticks_.SecondsPerTick();

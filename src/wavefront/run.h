@@ -67,8 +67,7 @@ struct RunOptions {
   /// equally many with allocation=error too.
   std::vector<PixelRect> windows;
   /// Renders these tiles of the image only, disjoint; empty: all of it. With
-  /// control=regression whole blocks of RegressionFilm::kBlock; with allocation=error all
-  /// pixels.
+  /// allocation=error all pixels.
   std::vector<PixelRect> tiles;
   /// What pilot passes are sized for; 0: kPilotSpp samples of every pixel of the image,
   /// and kLeastPilot at least. With decide=pilot DecidedBy (src/wavefront/training.h), or

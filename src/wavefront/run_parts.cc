@@ -55,7 +55,7 @@ void RunParts::AllocateIfDue() {
   Films& films = setting_.films;
   if (tasks.IsAt(kAllocationPilot)) {
     const PixelRect window = RenderedPixels(setting_.scene.film);
-    const int side = CellSide(window, setting_.scene.strategy.control);
+    const int side = CellSide(window);
     films.weights() = WeighPixels(films.film(), side);
   }
   tasks.UseShares(films);

@@ -118,6 +118,7 @@ class SeenRanges {
 bool SeesLightsApart(const CompiledScene& scene) {
   return scene.strategy.seen_lights == SeenLights::kApart &&
          !scene.features.Has(Feature::kMedia) &&  // which dim what is seen
+         !scene.film.response.limits() &&         // which are of single samples
          scene.features.HasAny({Feature::kAreaLights, Feature::kInfiniteLights});
 }
 

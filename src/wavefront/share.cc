@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/image/regression_film.h"
 #include "src/wavefront/run.h"
 
 namespace lanelight {
@@ -41,9 +40,8 @@ Share ShareOf(const Films& films, int x, int y) {
   share.turn = groups.unit * (groups.replicates ? kReplicates : 1);
   // The same in all pixels of a cell. Roberts' sequence: neighbouring blocks are rounded
   // in different directions.
-  constexpr int kBlock = RegressionFilm::kBlock;
-  const double offset =
-      0.5 + 0.7548776662466927 * (x / kBlock) + 0.5698402909980532 * (y / kBlock);
+  const double offset = 0.5 + 0.7548776662466927 * (x / kShareBlock) +
+                        0.5698402909980532 * (y / kShareBlock);
   share.offset = offset - std::floor(offset);
   return share;
 }

@@ -25,6 +25,9 @@ struct Share {
   std::uint64_t Mean(std::uint64_t samples) const;
 };
 
+/// Pixels of blocks of so many squared, from the image's origin on, are rounded alike.
+inline constexpr int kShareBlock = 16;
+
 /// The share of a pixel: the mean itself without weights, or until they are known.
 Share ShareOf(const Films& films, int x, int y);
 

@@ -33,7 +33,7 @@ void Tasks::GoOn(const Films& films, const RunCounts& counts) {
 }
 
 void Tasks::CutIntoCells() {
-  const int side = CellSide(RenderedPixels(scene_.film), scene_.strategy.control);
+  const int side = CellSide(RenderedPixels(scene_.film));
   std::vector<PixelRect> cells;
   std::vector<std::uint64_t> done;
   for (std::size_t tile = 0; tile < done_.size(); ++tile) {

@@ -1,4 +1,5 @@
 // Trees in files: what comes back is what was written, and anything else is refused.
+#include "src/core/input_file.h"
 #include "src/accel/tree_file.h"
 
 #include <xxhash.h>
@@ -182,7 +183,7 @@ TEST_CASE("files of something else are refused with what they are",
   WriteFileAtomically(path, std::string(10000, 'x'));
   CHECK_THAT(Refusal(path), Contains("is not a tree file"));
   std::filesystem::create_directory(folder.File("directory"));
-  CHECK_THAT(Refusal(folder.File("directory")), Contains("is not a file"));
+  CHECK_THAT(Refusal(folder.File("directory")), Contains("it is a directory"));
   CHECK_THAT(Refusal(folder.File("absent")), Contains("No such file"));
 }
 

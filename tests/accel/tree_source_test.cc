@@ -1,4 +1,5 @@
 // Where trees come from, and what happens where they cannot.
+#include "src/core/input_file.h"
 #include "src/accel/tree_source.h"
 
 #include <catch2/catch.hpp>

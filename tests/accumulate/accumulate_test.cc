@@ -20,7 +20,7 @@ constexpr float kExposure = 2;
 // Not a multiple of any vector: the last batch repeats the last slot, and that sample is
 // an invalid one (122 % kKinds == kNotANumber), which must count once.
 constexpr std::uint32_t kPaths = 123, kCapacity = 160, kStride = 200;
-constexpr int kPlanes = 3 + 7 + 14 + 3 + 6;
+constexpr int kPlanes = 3 + 7 + 14 + 3 + 4;
 constexpr float kUntouched = -77;
 
 enum Kind {
@@ -154,7 +154,7 @@ class Finished {
     done.size = kPaths;
     if (!v.sign) p.weight = nullptr;
     if (!v.difference) p.k_r = p.k_g = p.k_b = nullptr;
-    if (!v.numbers) p.first_bsdf_0 = nullptr;
+    if (!v.numbers) p.first_bsdf = nullptr;
     if (!v.gbuffer) p.gb_hit = nullptr;
   }
   void Run() { fixture_.Run(AccumulateStage(), variant_.features()); }
@@ -176,7 +176,7 @@ class Finished {
 
   int PlanesWritten() const {
     return 3 + 7 * variant_.aov + 14 * variant_.gbuffer + 3 * variant_.difference +
-           6 * variant_.numbers;
+           4 * variant_.numbers;
   }
   bool OthersUntouched() const {
     for (int plane = 0; plane < kPlanes; ++plane) {
@@ -218,9 +218,10 @@ class Finished {
                         p.gb_ng_y, p.gb_ng_z, p.gb_ns_x, p.gb_ns_y, p.gb_ns_z,
                         p.gb_uv_0, p.gb_uv_1, p.gb_dz_0, p.gb_dz_1};
     for (int k = 0; k < 14; ++k) gbuffer[k][slot] = Gbuffer(k, i);
-    float* numbers[] = {p.first_bsdf_0,  p.first_bsdf_1, p.first_light_0,
-                        p.first_light_1, p.first_film_0, p.first_film_1};
-    for (int k = 0; k < 6; ++k) numbers[k][slot] = Number(k, i);
+    std::uint32_t* numbers[] = {p.first_film, p.first_bsdf, p.first_light, p.choices};
+    for (int k = 0; k < 4; ++k) {
+      numbers[k][slot] = std::bit_cast<std::uint32_t>(Number(k, i));
+    }
   }
 
   const Variant variant_;
@@ -254,7 +255,7 @@ void CheckSample(const Finished& f, const Variant& v, std::uint32_t i) {
   for (int c = 0; v.difference && c < 3; ++c) {
     CHECK(f.Stored(plane++, i) == (good ? f.Factor(i) * s.difference[c] : 0));
   }
-  for (int k = 0; v.numbers && k < 6; ++k) {
+  for (int k = 0; v.numbers && k < 4; ++k) {
     CHECK(f.Stored(plane++, i) == Finished::Number(k, i));
   }
 }

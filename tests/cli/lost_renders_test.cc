@@ -63,6 +63,7 @@ TEST_CASE("no output overwrites a file that the scene reads", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSceneOfFiles(directory), exr = directory / "out.exr";
   fs::create_symlink(directory / "color.exr", directory / "link.exr");
+  fs::create_symlink(directory / "color.exr", directory / "link.png");
   fs::create_hard_link(directory / "sky.exr", directory / "hard.exr");
   const auto refused = [&](std::vector<std::string> arguments, const std::string& file) {
     INFO(arguments.back());
@@ -82,11 +83,83 @@ TEST_CASE("no output overwrites a file that the scene reads", "[cli]") {
           "part.pbrt");
   refused({"render", scene, "-o", exr, "--watch", directory / "color.exr"}, "color.exr");
   refused({"profile", scene, "--trace", directory / "mesh.ply"}, "mesh.ply");
+  refused({"render", scene, "-o", exr, "--png", directory / "link.png"}, "color.exr");
+  refused({"profile", scene, "--json", directory / "part.pbrt"}, "part.pbrt");
   refused({"advise", scene, "--time", "1", "-o", directory / "sky.exr"}, "sky.exr");
+  refused({"advise", scene, "--time", "1", "--json", directory / "mesh.ply"}, "mesh.ply");
+  for (const char* read : {"scene.pbrt", "part.pbrt", "mesh.ply", "sky.exr"}) {
+    refused({"guide", scene, "--pixel", "16,12", "-o", directory / read}, read);
+  }
   // What the film names is where an output goes.
   const std::string film = directory / "film.exr";
   REQUIRE(RunLanelight({"render", scene, "-o", film}).exit_code == kExitGood);
   CHECK(RunLanelight({"render", scene, "-o", film}).exit_code == kExitGood);
+}
+
+TEST_CASE("no folder of results takes in a file that is read", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = directory / "box.pbrt", out = directory / "out";
+  fs::rename(WriteSceneOfFiles(directory), scene);
+  fs::create_directories(out + "/cells/old");
+  fs::create_directories(out + "/box");
+  const auto refused = [&](const std::vector<std::string>& arguments,
+                           const std::string& file) {
+    const ProcessResult r = RunLanelight(arguments);
+    INFO(arguments[0] << " " << file << ": " << r.err);
+    CHECK(r.exit_code == kExitBadInput);
+    CHECK_THAT(r.err, Contains(file) && Contains("which is read"));
+  };
+  const std::string sweep =
+      WriteText(directory / "sweep.toml", "[grid]\nscene = \"box.pbrt\"\nspp = 1\n");
+  for (const char* kept : {"out/cells/old/sky.exr", "out/report.html"}) {
+    fs::rename(directory / "sky.exr", directory / kept);
+    fs::create_symlink(directory / kept, directory / "sky.exr");
+    refused({"sweep", sweep, "--out", out}, "sky.exr");
+    fs::rename(directory / kept, directory / "sky.exr");
+  }
+  for (const char* kept : {"out/box/sky.exr", "out/study.csv"}) {
+    fs::rename(directory / "sky.exr", directory / kept);
+    fs::create_symlink(directory / kept, directory / "sky.exr");
+    refused({"study", scene, "--out", out, "--spp", "1", "--resume"}, "sky.exr");
+    fs::rename(directory / kept, directory / "sky.exr");
+  }
+  fs::rename(scene, out + "/box/box.pbrt");
+  refused({"study", out + "/box/box.pbrt", "--out", out, "--resume"}, "box.pbrt");
+}
+
+TEST_CASE("outputs that cannot be, or are one file, are seen before the work", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSceneOfFiles(directory), state = directory / "a.state";
+  const std::string exr = directory / "a.exr", none = directory / "none/a";
+  REQUIRE(RunLanelight({"render", scene, "-o", exr, "--checkpoint", state}).exit_code ==
+          kExitGood);
+  const std::vector<std::vector<std::string>> commands = {
+      {"render", scene, "-o", exr, "--json"},
+      {"render", scene, "-o", exr, "--png", exr + ".png", "--checkpoint"},
+      {"advise", scene, "--time", "1", "-o", exr, "--json"},
+      {"guide", scene, "--pixel", "16,12", "-o"},
+      {"profile", scene, "--trace", exr, "--json"},
+      {"merge", state, "-o", exr, "--json"},
+      {"merge", state, "-o", exr, "--state"},
+      {"stress", "units", "--json"},
+      {"stress", "units", "--out", directory / "results", "--json"}};
+  for (const std::vector<std::string>& command : commands) {
+    const auto refused = [&](const std::string& output, const char* why) {
+      std::vector<std::string> arguments = command;
+      arguments.push_back(output);
+      const ProcessResult r = RunLanelight(arguments);
+      INFO(command[0] << " " << output << ": " << r.err);
+      CHECK(r.exit_code == kExitBadInput);
+      CHECK_THAT(r.err, Contains(why) && !Contains("rendering"));
+    };
+    refused(none, "no directory");
+    refused(directory.path(), "directory");
+    const bool has_another = command[0] != "guide" && command[0] != "stress";
+    if (has_another) refused(exr, "two outputs");
+    if (command.size() == 5 && command[0] == "stress") {
+      refused(directory / "results/stress.json", "two outputs");
+    }
+  }
 }
 
 TEST_CASE("a scene whose film names the output can be gone on with", "[cli]") {

@@ -212,7 +212,7 @@ TEST_CASE("profile checks its files before it renders", "[cli]") {
   refused({"--trace", directory / "none/t.json"}, "there is no directory");
   refused({"--json", directory.path()}, "it is a directory");
   refused({"--trace", "/dev/full"}, "not a regular file");
-  refused({"--trace", scene}, "would overwrite the scene");
+  refused({"--trace", scene}, "would overwrite");
   refused({"--json", directory / "x", "--trace", directory / "x"}, "two outputs");
 }
 

@@ -211,7 +211,7 @@ TEST_CASE("outputs are checked before anything is rendered", "[cli]") {
   refused({"-o", directory / "none/o.exr"}, "there is no directory");
   refused({"-o", exr, "--json", directory.path()}, "it is a directory");
   refused({"-o", exr, "--json", "/dev/full"}, "not a regular file");
-  refused({"-o", exr, "--json", scene}, "would overwrite the scene");
+  refused({"-o", exr, "--json", scene}, "would overwrite");
   refused({"-o", exr, "--json", exr}, "two outputs");
   if (geteuid() != 0) {
     fs::create_directory(directory / "closed");

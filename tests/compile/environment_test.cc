@@ -156,7 +156,7 @@ TEST_CASE("compile: images that are no environments", "[scene][compile]") {
   CHECK_THROWS_WITH(CompileEnvironment(Infinite(), image),
                     Catch::Contains("pixel (1, 0)"));
   CHECK_THROWS_WITH(CompileEnvironment(Infinite(), MakeImage(2, 2, {"X", "Y", "Z"})),
-                    Catch::Contains("no channels R, G and B"));
+                    Catch::Contains("its channels (X, Y, Z) are no colour"));
   SceneDescription d = SquareScene();
   d.lights = {Infinite()};
   d.lights[0].image_path = "/nowhere/sky.exr";

@@ -55,6 +55,21 @@ TEST_CASE("bounds of clouds and NanoVDB grids hold", "[compile][media]") {
   CHECK(CheckMajorants(thin).first < 0.4);  // tighter than 1, which pbrt takes
 }
 
+TEST_CASE("bounds of a NanoVDB grid in a box far larger", "[compile][media]") {
+  const TemporaryFolder folder;
+  Medium medium = SparseLump(folder);
+  const float largest = medium.sparse_density->largest();
+  for (const double far : {1e12, 1e40, 1e300}) {
+    medium.box_max = {far, far, far};
+    const MediumGrid grid = CompileMediumGrid(medium, Frame());
+    INFO(far);
+    CHECK(grid.majorants[0] >= largest);
+    for (const float v : grid.majorants) {
+      if (!(v >= 0 && v <= largest * 1.001f)) FAIL("the bound " << v);
+    }
+  }
+}
+
 TEST_CASE("colours of black bodies", "[compile][media]") {
   // A spectrum with its maximum where the eye has its own is nearly 1 for it.
   const double seen = Luminance(RgbOfBlackbody(2.897771955e6 / 560));

@@ -75,7 +75,7 @@ TEST_CASE("textures that cannot be loaded name their place and file", "[texture]
   t.path = folder.File("depth.exr");
   WriteExr(t.path, 1, 1, {{"X", {1}}, {"Z", {1}}});
   CHECK_THROWS_WITH(CompileTextures({t}),
-                    Catch::Contains("needs the channels R, G, B or Y"));
+                    Catch::Contains("depth.exr: its channels (X, Z) are no colour"));
 }
 
 TEST_CASE("texels that are not finite cost themselves and a note", "[texture]") {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "src/image/accumulator.h"
+#include "src/image/control_film.h"
 #include "tests/control/control_scenes.h"
 #include "tests/reference/closed_forms.h"
 
@@ -68,7 +69,7 @@ Scores Simulate(int side, std::uint32_t spp, const SampleGroups& groups, Model m
                 unsigned seed) {
   Skewed skewed(model, seed);
   FilmAccumulator film(0, 0, side, side, groups, Auxiliary::kNone);
-  film.UseControl();
+  film.UseDifferences();
   Scores out;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {

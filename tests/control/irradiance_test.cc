@@ -20,6 +20,9 @@ CompiledScene SceneOfOneLight(Geometry geometry, LightShape shape, bool two_side
   light.shape = static_cast<std::uint32_t>(shape);
   light.two_sided = two_sided ? 1 : 0;
   for (float& r : light.radiance) r = 1;
+  if (shape == LightShape::kSphere) {
+    light.size[0] = ConeFrom(scene.geometry.spheres[0].radius);
+  }
   scene.lights.lights.push_back(light);
   return scene;
 }

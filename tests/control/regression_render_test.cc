@@ -1,6 +1,7 @@
 // control=regression in renders: the variance that theory says goes, the mean stays.
 #include <catch2/catch.hpp>
 
+#include "src/parse/parse.h"
 #include "tests/control/control_scenes.h"
 #include "tests/reference/closed_forms.h"
 
@@ -25,6 +26,41 @@ TEST_CASE("regression: renders of smooth light", "[control]") {
   const auto result = stat::CompareMeans(Estimate(fitted), exact, {8, 1e-6, 5e-4, 1e-6});
   INFO(result.ToString());
   CHECK(result.same);
+}
+
+TEST_CASE("regression: what glass reflects and what it lets through", "[control]") {
+  // Radiance 1 behind a sheet and 5 in front of it: all of the variance is the choice.
+  Material sheet;
+  sheet.kind = MaterialKind::kThinDielectric;
+  SceneBuilder b(8, 8);
+  b.Depth(2).Orthographic({0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 0.5);
+  b.AddDisk({0, 0, 0}, {0, 0, 1}, 2, b.AddMaterial(sheet));
+  b.AddQuad({-2, -2, -1}, {4, 0, 0}, {0, 4, 0}, b.AddDiffuse(Grey(0)),
+            b.AddEmission(Grey(1)));
+  b.AddEnvironment(Grey(5));
+  const double once = closed_form::Fresnel(1, 1.5), reflected = 2 * once / (1 + once);
+  const auto exact =
+      stat::KnownImage(8, 8, [&](int, int) { return Grey(1 + 4 * reflected); });
+  const Rendered plain = RenderWith(b.Build(), "", 32);
+  const Rendered fitted = RenderWith(b.Build(), "control=regression", 32);
+  CHECK(stat::CompareMeans(Estimate(plain), exact, {8, 1e-6, 1e-6, 1e-7}).same);
+  const auto result = stat::CompareMeans(Estimate(fitted), exact, {8, 1e-6, 1e-6, 1e-7});
+  INFO(result.ToString() << "; " << MeanVariance(plain) << " " << MeanVariance(fitted));
+  CHECK(result.same);
+  CHECK(result.detectable_bias < 0.01);
+  CHECK(MeanVariance(fitted) < 0.1 * MeanVariance(plain));
+}
+
+TEST_CASE("regression: the founding paper's scene", "[control]") {
+  SceneDescription scene = ParseScene(LANELIGHT_SOURCE_DIR "/scenes/paper.pbrt");
+  scene.film.width = 24, scene.film.height = 15;
+  const auto result =
+      CompareWithReference(scene, 1024, 1024, kFloatTolerance, "paper-control");
+  INFO(result.ToString());
+  CHECK(result.same);
+  CHECK(result.detectable_bias < 0.03);
+  CHECK(MeanVariance(RenderWith(scene, "paper-control", 64)) <
+        0.7 * MeanVariance(RenderWith(scene, "paper-plain", 64)));
 }
 
 TEST_CASE("regression: few samples, many images of a room", "[control]") {

@@ -27,7 +27,7 @@ OTHER_FLAGS = {
     "branch-sim": "callgrind", "dump-instr": "callgrind", "install": "cmake",
     "component": "cmake --install", "flag": "stands for any (src/cli/completion_bash.cc)"}
 # Files that are not of this tree.
-OTHER_FILES = {"GridValidator.h": "of NanoVDB"}
+OTHER_FILES = {}
 # "lanelight WORD" that is no command.
 NO_COMMANDS = {"state": "the first bytes of a state file (docs/state.md)"}
 

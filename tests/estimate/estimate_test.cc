@@ -33,14 +33,27 @@ struct SimulatedImage {
   Noise noise = Normal;
   int copies = 1;      // of each group: dependent observations
   bool equal = false;  // all pixels have the same mean
+  int lamp = -1;       // column that a lamp covers a part of, if any; on its right all
 
-  double Mean(int x, int y) const { return equal ? 0.3 : 0.1 + 0.03 * x + 0.01 * y; }
+  static constexpr double kLamp = 17;
+  double Covered(int x, int y) const {
+    return x == lamp ? (y + 1) / (4.0 * height) : double(x > lamp);
+  }
+  double Mean(int x, int y) const {
+    const double floor = equal ? 0.3 : 0.1 + 0.03 * x + 0.01 * y;
+    return lamp < 0 ? floor : floor + Covered(x, y) * (kLamp - floor);
+  }
+  double Sample(int x, int y, std::mt19937_64& random) const {
+    if (x != lamp || lamp < 0) return Mean(x, y) * (1 + deviation * noise(random));
+    const double u = std::uniform_real_distribution<double>()(random);
+    return u < Covered(x, y) ? kLamp : (equal ? 0.3 : 0.1 + 0.03 * x + 0.01 * y);
+  }
 
   // What `copies` > 1 wrongly takes for independent.
   PixelEstimate Draw(int x, int y, std::mt19937_64& random) const {
     double sum = 0, squares = 0;
     for (int g = 0; g < groups; ++g) {
-      const double v = Mean(x, y) * (1 + deviation * noise(random));
+      const double v = Sample(x, y, random);
       sum += copies * v;
       squares += copies * v * v;
     }
@@ -74,7 +87,7 @@ struct SimulatedImage {
     return out;
   }
   ErrorEstimate Estimate(const Drawn& drawn) const {
-    return EstimateError(width, height, [&](int x, int y) {
+    return EstimateError({0, 0, width, height}, [&](int x, int y) {
       return drawn.pixels[static_cast<std::size_t>(y * width + x)];
     });
   }
@@ -83,6 +96,8 @@ struct SimulatedImage {
 // Shares of `trials` whose intervals contain the truth.
 struct Coverage {
   double rmse = 0, relmse = 0, plain = 0;
+  double half = 0;     // of relmse, with intervals half as wide
+  double refused = 0;  // without an interval: contains nothing
 };
 
 Coverage MeasureCoverage(const SimulatedImage& image, int trials) {
@@ -97,6 +112,11 @@ Coverage MeasureCoverage(const SimulatedImage& image, int trials) {
     covered.rmse += e.rmse.Contains(std::sqrt(drawn.mse)) / double(trials);
     covered.relmse += e.relmse.Contains(drawn.relmse) / double(trials);
     covered.plain += plain.Contains(drawn.relmse) / double(trials);
+    covered.refused += !e.has_interval / double(trials);
+    const Interval& v = e.relmse;
+    const Interval half = {v.value, std::sqrt(v.low * v.value),
+                           std::sqrt(v.high * v.value)};
+    covered.half += half.Contains(drawn.relmse) / double(trials);
   }
   return covered;
 }
@@ -122,40 +142,82 @@ TEST_CASE("intervals contain the true error for any distribution", "[study]") {
   }
 }
 
-TEST_CASE("what samples cannot tell is not told", "[study]") {
+TEST_CASE("the edge of a lamp, which few samples meet, is in the interval", "[study]") {
+  SimulatedImage image;
+  image.lamp = 11;
+  image.deviation = 0.2;
+  for (int groups : {16, 64}) {
+    image.groups = groups;
+    const Coverage c = MeasureCoverage(image, kTrials);
+    INFO(groups << " groups");
+    CHECK(c.relmse + c.refused >= kLeast);
+    CHECK(c.refused < 0.2);
+    CHECK(c.half + c.refused < kLeast);
+  }
+}
+
+TEST_CASE("noise as large as the image is in the interval", "[study]") {
+  SimulatedImage image;
+  image.noise = Rare;
+  image.deviation = 4;
+  image.groups = 4;
+  image.equal = true;
+  image.width = 48, image.height = 32;
+  const Coverage c = MeasureCoverage(image, kTrials);
+  CHECK(c.relmse >= kLeast);
+  CHECK(c.refused == 0);
+}
+
+TEST_CASE("one bright sample leaves open whether its pixel is bright", "[study]") {
   SimulatedImage image;
   image.equal = true;
   std::mt19937_64 random(5);
   auto drawn = image.DrawAll(random);
   CHECK(image.Estimate(drawn).why.empty());
   CHECK(image.Estimate(drawn).has_interval);
-
-  // One bright sample in one pixel carries the error.
-  auto rare = drawn;
+  constexpr double kBright = 8;
+  PixelEstimate& pixel = drawn.pixels[40];
+  const double own = std::pow(pixel.mean[0] - 0.3, 2) / (0.3 * 0.3 + kRelativeEpsilon);
   for (int c = 0; c < 3; ++c)
-    rare.pixels[40].mean[c] = 50, rare.pixels[40].variance[c] = 2500;
-  const ErrorEstimate few = image.Estimate(rare);
-  CHECK_FALSE(few.has_interval);
-  CHECK(few.why.find("few pixels") != std::string::npos);
-  for (const Interval& v : {few.rmse, few.relmse}) {
-    CHECK_FALSE(v.HasBounds());
-    CHECK(std::isinf(v.high));
-    CHECK(v.low > 0);
-    CHECK(v.low < v.value);
-  }
+    pixel.mean[c] = kBright, pixel.variance[c] = kBright * kBright;
+  const ErrorEstimate e = image.Estimate(drawn);
+  CHECK(e.has_interval);
+  const double n = double(drawn.pixels.size()), rest = drawn.relmse - own / n;
+  CHECK(e.relmse.Contains(rest));  // its mean is what was seen
+  const double dark = std::pow(kBright - 0.3, 2) / (0.3 * 0.3 + kRelativeEpsilon);
+  CHECK(e.relmse.Contains(rest + dark / n));  // its mean is its neighbours'
+}
 
-  // Each third pixel is a highlight, half seen: no neighbour says how bright it is.
-  auto noisy = drawn;
-  for (std::size_t i = 0; i < noisy.pixels.size(); i += 3) {
-    for (int c = 0; c < 3; ++c) {
-      noisy.pixels[i].mean[c] = 2;
-      noisy.pixels[i].variance[c] = 1;
-    }
+TEST_CASE("what samples cannot tell is not told", "[study]") {
+  // A lamp of the size of a pixel; one sample of the pixel beside it has met it too.
+  SimulatedImage image;
+  image.equal = true;
+  image.deviation = 0.02;
+  std::mt19937_64 random(5);
+  auto drawn = image.DrawAll(random);
+  PixelEstimate* const beside =
+      &drawn.pixels[static_cast<std::size_t>(8 * image.width + 11)];
+  for (int c = 0; c < 3; ++c) {
+    beside[0].mean[c] = 20, beside[0].variance[c] = 400;
+    beside[1].mean[c] = 30, beside[1].variance[c] = 0.01;
   }
-  const ErrorEstimate all = image.Estimate(noisy);
-  CHECK(all.why.find("darker") != std::string::npos);
-  CHECK_FALSE(all.relmse.HasBounds());
-  CHECK(all.rmse.HasBounds());  // has no weights to be wrong about
+  const ErrorEstimate e = image.Estimate(drawn);
+  CHECK_FALSE(e.has_interval);
+  CHECK_FALSE(e.relmse.HasBounds());
+  CHECK(std::isinf(e.relmse.high));
+  CHECK(e.relmse.low > 0);
+  CHECK(e.relmse.low < e.relmse.value);
+  CHECK(e.rmse.HasBounds());  // has no weights to be wrong about
+  CHECK(e.why.find("pixel (11, 8)") != std::string::npos);
+  // As many more samples as it says do give one: a hit becomes many, the mean stays.
+  const std::size_t at = e.why.find("about ");
+  REQUIRE(at != std::string::npos);
+  const double times = std::stod(e.why.substr(at + 6));
+  CHECK(times > 1);
+  for (PixelEstimate& p : drawn.pixels) p.variance = p.variance / times;
+  CHECK(image.Estimate(drawn).has_interval);
+  for (PixelEstimate& p : drawn.pixels) p.variance = p.variance * 4.0;
+  CHECK_FALSE(image.Estimate(drawn).has_interval);
 }
 
 TEST_CASE("intervals are as narrow as the data allow", "[study]") {
@@ -231,10 +293,10 @@ TEST_CASE("estimated errors equal the true ones on average", "[study]") {
 
 TEST_CASE("pixels without a variance are left out", "[study]") {
   const ErrorEstimate none =
-      EstimateError(8, 8, [](int, int) { return PixelEstimate{}; });
+      EstimateError({0, 0, 8, 8}, [](int, int) { return PixelEstimate{}; });
   CHECK_FALSE(none.available);
   CHECK_FALSE(none.has_interval);
-  const ErrorEstimate one = EstimateError(8, 8, [](int x, int y) {
+  const ErrorEstimate one = EstimateError({0, 0, 8, 8}, [](int x, int y) {
     PixelEstimate p;
     p.known = x == 3 && y == 2;
     p.mean = {1, 1, 1};
@@ -245,13 +307,13 @@ TEST_CASE("pixels without a variance are left out", "[study]") {
   CHECK(one.available);
   CHECK(one.pixels == 1);
   CHECK(one.rmse.value == Approx(2));
-  // One pixel is no image: what its skewness took away is given back up to e^kSkew.
-  CHECK(one.relmse.value == Approx(4 / 1.01 * std::exp(kSkew)));
+  // What its skewness took away is given back.
+  CHECK(one.relmse.value == Approx(4 / 1.01 * std::exp(kSkew * std::sqrt(kMostSkewed))));
 }
 
 TEST_CASE("images without noise have no error", "[study]") {
   for (double value : {0.0, 0.7}) {
-    const ErrorEstimate e = EstimateError(5, 4, [&](int, int) {
+    const ErrorEstimate e = EstimateError({0, 0, 5, 4}, [&](int, int) {
       PixelEstimate p;
       p.known = true;
       p.mean = {value, value, value};
@@ -269,7 +331,7 @@ TEST_CASE("intervals are finite, positive and contain the estimate", "[study]") 
   std::mt19937_64 random(5);
   std::lognormal_distribution<double> heavy(0, 3);
   for (int i = 0; i < 20; ++i) {
-    const ErrorEstimate e = EstimateError(17, 9, [&](int x, int y) {
+    const ErrorEstimate e = EstimateError({0, 0, 17, 9}, [&](int x, int y) {
       std::mt19937_64 own(static_cast<std::uint64_t>(1000 * i + 17 * y + x));
       const double v = heavy(own);
       PixelEstimate p;

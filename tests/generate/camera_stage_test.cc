@@ -252,9 +252,8 @@ TEST_CASE("a path begins with nothing gathered and its whole throughput", "[gene
             p.gb_hit, p.gb_p_x, p.gb_dz_1}) {
         REQUIRE(zero[i] == 0);
       }
-      for (const float* none :
-           {p.first_bsdf_0, p.first_bsdf_1, p.first_light_0, p.first_light_1}) {
-        REQUIRE(none[i] == -1);
+      for (const std::uint32_t* none : {p.first_bsdf, p.first_light, p.choices}) {
+        REQUIRE(none[i] == 0);
       }
       REQUIRE(p.t[i] == std::numeric_limits<float>::infinity());
       REQUIRE(p.prim[i] == kNoPrimitive);

@@ -1,4 +1,5 @@
 // A failed write leaves the old file and no rubbish.
+#include "src/core/input_file.h"
 #include "src/image/atomic_file.h"
 
 #include <catch2/catch.hpp>
@@ -56,7 +57,7 @@ TEST_CASE("unwritable places are input errors with the reason", "[image][file]")
   CHECK_THROWS_WITH(ReadWholeFile(folder.File("absent")),
                     Catch::Contains("absent") && Catch::Contains("No such file"));
   CHECK_THROWS_WITH(ReadWholeFile(folder.File("directory")),
-                    Catch::Contains("Is a directory"));
+                    Catch::Contains("it is a directory"));
 }
 
 TEST_CASE("devices are written, not replaced", "[image][file]") {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "src/core/error.h"
-#include "src/image/atomic_file.h"
+#include "src/core/input_file.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -99,7 +99,7 @@ std::vector<Compensated> Twin(const Planes& planes, const Case& c, std::uint64_t
 
 std::vector<double> FilmSums(const Planes& planes, const Case& c, std::uint64_t spp) {
   FilmAccumulator film(0, 0, 1, 1, {c.unit, c.replicates}, Auxiliary::kNone);
-  if (c.control) film.UseControl();
+  if (c.control) film.UseDifferences();
   for (std::uint64_t i = 0; i < spp; i += kTask) {
     const float* from[kPlanes];
     for (int p = 0; p < kPlanes; ++p) from[p] = planes.From(p, i);

@@ -18,14 +18,20 @@ SparseHandle BuildSparse(const SparseFileGrid& grid) {
   nanovdb::GridBuilder<float, BuildT> builder(0.0f);
   builder.setGridClass(grid.level_set ? nanovdb::GridClass::LevelSet
                                       : nanovdb::GridClass::FogVolume);
-  builder.setChecksum(nanovdb::ChecksumMode::Full);
-  auto access = builder.getAccessor();
-  for (int i = grid.low[0]; i <= grid.high[0]; ++i) {
-    for (int j = grid.low[1]; j <= grid.high[1]; ++j) {
-      for (int k = grid.low[2]; k <= grid.high[2]; ++k) {
-        const float v = grid.value(i, j, k);
-        if (v != 0) access.setValue({i, j, k}, v);
-      }
+  builder.setChecksum(grid.checksum ? nanovdb::ChecksumMode::Full
+                                    : nanovdb::ChecksumMode::Disable);
+  const nanovdb::CoordBBox box({grid.low[0], grid.low[1], grid.low[2]},
+                               {grid.high[0], grid.high[1], grid.high[2]});
+  if (grid.tiles) {
+    const auto value = [&](const nanovdb::Coord& p) {
+      return grid.value(p[0], p[1], p[2]);
+    };
+    builder(value, box);
+  } else {
+    auto access = builder.getAccessor();
+    for (auto p = box.begin(); p; ++p) {
+      const float v = grid.value((*p)[0], (*p)[1], (*p)[2]);
+      if (v != 0) access.setValue(*p, v);
     }
   }
   const double* o = grid.origin;

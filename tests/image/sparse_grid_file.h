@@ -20,6 +20,8 @@ struct SparseFileGrid {
   double voxel_size = 1, origin[3] = {0, 0, 0};
   SparseType type = SparseType::kFloat;
   bool level_set = false;
+  bool checksum = true;
+  bool tiles = false;  // blocks of one value take up one value of the node above them
 };
 
 void WriteSparseFile(const std::string& path, const std::vector<SparseFileGrid>& grids,

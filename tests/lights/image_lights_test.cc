@@ -149,6 +149,22 @@ TEST_CASE("image lights have the power that is asked for", "[lights]") {
   }
 }
 
+// pbrt-v4 multiplies I and scale by power / k_e; k_e has the image alone.
+TEST_CASE("power of image lights multiplies their colour and scale", "[lights]") {
+  for (const LightKind kind : {LightKind::kGoniometric, LightKind::kProjection}) {
+    Light light = ImageLight(kind);
+    light.power = 50;
+    light.emission = {1, 1, 1};
+    const CompiledScene one = PrepareScene(Lit({light}));
+    light.emission = {2, 3, 4};
+    const CompiledScene coloured = PrepareScene(Lit({light}));
+    for (int c = 0; c < 3; ++c) {
+      CHECK(coloured.lights.lights[0].radiance[c] ==
+            Approx((2 + c) * one.lights.lights[0].radiance[c]));
+    }
+  }
+}
+
 TEST_CASE("image lights render as the reference does", "[lights]") {
   CheckStrategies(
       Lit({ImageLight(LightKind::kGoniometric), ImageLight(LightKind::kProjection)}));

@@ -49,10 +49,12 @@ bool Refused(const SceneDescription& scene, const char* strategy) {
 }  // namespace
 
 void CheckStrategies(const SceneDescription& scene) {
-  const auto truth = Estimate(
-      RenderReference(scene, Options(ReferenceEstimator::kLightSampling, 20000)));
-  const auto other = Estimate(
-      RenderReference(scene, Options(ReferenceEstimator::kMaterialSampling, 20000)));
+  const reference::Textures textures(scene.textures);
+  const auto reference = [&](ReferenceEstimator estimator) {
+    return Estimate(RenderReference(scene, TexturedOptions(textures, estimator, 20000)));
+  };
+  const auto truth = reference(ReferenceEstimator::kLightSampling);
+  const auto other = reference(ReferenceEstimator::kMaterialSampling);
   const stat::ImageTestOptions test = {
       4, stat::SidakLevel(1e-5, int(std::size(kStrategies)) + 1), kFloatTolerance, 1e-7};
   const auto twins = stat::CompareMeans(truth, other, test);

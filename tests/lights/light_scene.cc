@@ -125,6 +125,11 @@ void LightScene::AddLight(const char* name, LightShape shape, std::uint32_t prim
     };
     area = Length(Cross(side(1), side(2))) / 2;
   }
+  if (shape == LightShape::kSphere) {
+    const SphereRecord& sphere =
+        scene.geometry.spheres[primitive - scene.geometry.ranges.spheres];
+    record.size[0] = ConeFrom(sphere.radius);
+  }
   record.area = static_cast<float>(area);
   lights.push_back({name, record});
 }

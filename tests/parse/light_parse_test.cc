@@ -76,6 +76,77 @@ TEST_CASE("distant and infinite lights", "[parse]") {
   CHECK(map.illuminance == 3);
 }
 
+// In pbrt-v4's Create of every light: scale / photometric(colour), where that of `rgb` is
+// the illuminant's alone, so that its numbers are factors; then times the target over
+// what the light would have at a scale of 1. Power: 4 pi; 2 pi ((1 - cos inner) + (cos
+// inner - cos outer) / 2). Illuminance: 1; pi.
+TEST_CASE("colour, scale and target of a light multiply", "[parse]") {
+  const std::string scale = "\"float scale\" 2 ", power = scale + "\"float power\" 100";
+  const std::string illuminance = scale + "\"float illuminance\" 100";
+  const Rgb rgb = {1, 2, 3};
+  CheckColor(ParseLight("\"point\" \"rgb I\" [ 1 2 3 ] " + power).emission,
+             rgb * (200 / (4 * kPi)));
+  const double cone =
+      2 * kPi * ((1 - std::cos(kPi / 9)) + (std::cos(kPi / 9) - std::cos(kPi / 6)) / 2);
+  CheckColor(ParseLight("\"spot\" \"float coneangle\" 30 \"float conedeltaangle\" 10 "
+                        "\"rgb I\" [ 1 2 3 ] " +
+                        power)
+                 .emission,
+             rgb * (200 / cone));
+  CheckColor(ParseLight("\"distant\" \"rgb L\" [ 1 2 3 ] " + illuminance).emission,
+             rgb * 200);
+  CheckColor(ParseLight("\"infinite\" \"rgb L\" [ 1 2 3 ] " + illuminance).emission,
+             rgb * (200 / kPi));
+}
+
+// pbrt-v4 makes an image of one pixel of the sky behind a portal. SpectrumToXYZ divides
+// by the integral of the photometric curve and by nothing else, so a constant spectrum of
+// 1 has luminance 1, and so has D65, which pbrt keeps in that scale; of a black body the
+// maximum is 1, which at 6500 K lies at 446 nm. The pixel stands for the whole map when
+// that is scaled to an illuminance: 2 pi times it falls on a surface, by pbrt's sum.
+TEST_CASE("a constant sky behind a portal is pbrt's", "[parse]") {
+  const auto sky = [](const std::string& text) {
+    return ParseLight("\"infinite\" \"point3 portal\" [ 0 0 0  0 1 0  2 1 0  2 0 0 ] " +
+                      text);
+  };
+  CheckColor(sky("").emission, {1, 1, 1});
+  CheckColor(sky("\"rgb L\" [ 1 2 3 ] \"float scale\" 2").emission, {2, 4, 6});
+  CHECK(Luminance(sky("\"spectrum L\" [ 300 7 900 7 ]").emission) ==
+        Approx(7).epsilon(1e-3));
+  CHECK(Luminance(sky("\"spectrum L\" \"stdillum-D65\"").emission) ==
+        Approx(1).epsilon(1e-3));
+  // Planck's law over its maximum, which is at x = h c / (lambda k T) = 4.965: (x
+  // / 4.965)^5 (e^4.965 - 1) / (e^x - 1), summed with the photometric curve in steps of
+  // 10 nm.
+  CHECK(Luminance(sky("\"blackbody L\" 6500").emission) == Approx(0.8859).epsilon(1e-3));
+  CheckColor(sky("\"float illuminance\" 3").emission, Rgb{1, 1, 1} * (3 / (2 * kPi)));
+  CheckColor(sky("\"rgb L\" [ 5 5 5 ] \"float illuminance\" 3").emission,
+             Rgb{1, 1, 1} * (3 / (2 * kPi)));
+}
+
+TEST_CASE("a light without a colour has its color space's illuminant", "[parse]") {
+  const SceneDescription scene = ParseWorld(R"(
+    LightSource "point"
+    ColorSpace "rec2020"
+    LightSource "point"
+    ColorSpace "aces2065-1"
+    LightSource "distant"
+    AreaLightSource "diffuse"
+    Shape "sphere"
+    AreaLightSource "diffuse" "string filename" "screen.png"
+    Shape "sphere")");
+  CheckColor(scene.lights[0].emission, {1, 1, 1});
+  CheckColor(scene.lights[1].emission, {1, 1, 1});
+  // D60: warmer, and as bright.
+  Rgb d60;
+  REQUIRE(NamedSpectrum("illum-acesD60", SpectrumUse::kIlluminant, &d60));
+  CHECK(d60.x > 1.02);
+  for (const Rgb found : {scene.lights[2].emission, scene.area_lights[0].radiance}) {
+    for (int c = 0; c < 3; ++c) CHECK(found[c] == Approx(d60[c]).epsilon(3e-3));
+  }
+  CHECK(scene.area_lights[1].radiance == Rgb{1, 1, 1});  // the image has its own colours
+}
+
 TEST_CASE("emission spectra have luminance one times the scale", "[parse]") {
   const Light body = ParseLight("\"point\" \"blackbody I\" 5000 \"float scale\" 3");
   CheckColor(body.emission, RgbFromBlackbody(5000) * 3);

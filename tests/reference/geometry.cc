@@ -24,7 +24,6 @@ void Geometry::AddShape(const Shape& shape, const Transform& world_from_group) {
       scene_.materials.at(shape.material).kind == MaterialKind::kInterface)
     return;
   const Transform world_from_object = world_from_group * shape.world_from_object;
-  ++num_shapes_;
   if (shape.kind == ShapeKind::kMesh) {
     return AddTriangles(shape, world_from_object, world_from_group.SwapsHandedness());
   }
@@ -34,7 +33,7 @@ void Geometry::AddShape(const Shape& shape, const Transform& world_from_group) {
   out.material = shape.material;
   out.area_light = shape.area_light;
   out.media = shape.media;
-  out.shape = num_shapes_ - 1;
+  out.face = num_faces_++;
   out.alpha = shape.alpha;
   // Normals of round shapes are turned by a mirroring transform of their own as well.
   const bool turned =
@@ -60,7 +59,8 @@ void Geometry::AddTriangles(const Shape& shape, const Transform& world_from_obje
     out.material = shape.material;
     out.area_light = shape.area_light;
     out.media = shape.media;
-    out.shape = num_shapes_ - 1;
+    const bool continues = !mesh.continues.empty() && mesh.continues[i / 3];
+    out.face = continues ? num_faces_ - 1 : num_faces_++;
     out.alpha = shape.alpha;
     out.normal_sign = shape.reverse_orientation ? -1 : 1;
     std::array<Vec3d, 3> normals;
@@ -86,15 +86,12 @@ void Geometry::AddTriangles(const Shape& shape, const Transform& world_from_obje
   }
 }
 
-bool Geometry::AlphaAccepts(const Ray& ray, const Hit& hit, Random& random) const {
+double Geometry::Alpha(const Ray& ray, const Hit& hit) const {
   const FloatValue& alpha = primitives_[hit.primitive].alpha;
-  double value = alpha.constant;
-  if (alpha.texture != kNone) {
-    LL_CHECK(texture_ != nullptr);
-    const SurfacePoint at = Describe(ray, hit);
-    value = texture_(alpha.texture, {at.u, at.v, at.p, at.ng}).x;
-  }
-  return value >= 1 || random.Uniform() < value;
+  if (alpha.texture == kNone) return alpha.constant;
+  LL_CHECK(texture_ != nullptr);
+  const SurfacePoint at = Describe(ray, hit);
+  return texture_(alpha.texture, {at.u, at.v, at.p, at.ng}).x;
 }
 
 void Geometry::TestPrimitive(const Ray& ray, int index, double t_max, Random& random,
@@ -104,7 +101,8 @@ void Geometry::TestPrimitive(const Ray& ray, int index, double t_max, Random& ra
   for (int i = 0; i < count; ++i) {
     hits[i].primitive = index;
     if (hits[i].t >= std::min(nearest.t, t_max)) return;
-    if (AlphaAccepts(ray, hits[i], random)) {
+    const double alpha = Alpha(ray, hits[i]);
+    if (alpha >= 1 || random.Uniform() < alpha) {
       nearest = hits[i];
       return;
     }

@@ -31,7 +31,7 @@ struct Primitive {
   ShapeKind kind = ShapeKind::kMesh;
   Index material = kNone;
   Index area_light = kNone;
-  int shape = 0;  // which Shape of the scene it is part of
+  int face = 0;  // of the file, which it is a part of: a face of a mesh or a round shape
   FloatValue alpha{1, kNone};
   MediumInterface media;
   double normal_sign = 1;  // -1: turned round
@@ -79,19 +79,20 @@ class Geometry {
   /// Nearest hit in (0, t_max). Surfaces with alpha < 1 are hit with that probability.
   Hit Intersect(const Ray& ray, double t_max, Random& random) const;
   SurfacePoint Describe(const Ray& ray, const Hit& hit) const;
+  /// Of the primitive there: what is at least 1 is whole.
+  double Alpha(const Ray& ray, const Hit& hit) const;
 
  private:
   void AddShape(const Shape& shape, const Transform& world_from_group);
   void AddTriangles(const Shape& shape, const Transform& world_from_object,
                     bool mirrored);
-  bool AlphaAccepts(const Ray& ray, const Hit& hit, Random& random) const;
   void TestPrimitive(const Ray& ray, int index, double t_max, Random& random,
                      Hit& nearest) const;
 
   const SceneDescription& scene_;
   TextureLookup texture_;
   std::vector<Primitive> primitives_;
-  int num_shapes_ = 0;
+  int num_faces_ = 0;
 };
 
 /// Ray parameters at which the ray meets a primitive, in increasing order, all > 0.

@@ -1,5 +1,6 @@
 #include "tests/reference/lights.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -79,10 +80,10 @@ double PrimitiveArea(const Primitive& shape) {
 Lights::Lights(const SceneDescription& scene, const Geometry& geometry,
                EnvironmentLookup environment)
     : scene_(scene), geometry_(geometry), environment_(std::move(environment)) {
-  // A given power is that of the whole shape: the triangles of a mesh share it.
-  std::map<int, double> shape_area;
+  // A given power is that of each face.
+  std::map<int, double> face_area;
   for (const Primitive& shape : geometry.primitives()) {
-    if (shape.area_light != kNone) shape_area[shape.shape] += PrimitiveArea(shape);
+    if (shape.area_light != kNone) face_area[shape.face] += PrimitiveArea(shape);
   }
   for (int i = 0; i < static_cast<int>(geometry.primitives().size()); ++i) {
     const Primitive& shape = geometry.primitives()[i];
@@ -92,8 +93,7 @@ Lights::Lights(const SceneDescription& scene, const Geometry& geometry,
     Rgb radiance = light.radiance * light.scale;
     if (light.power > 0) {
       const double sides = light.two_sided ? 2 : 1;
-      radiance *=
-          light.power / (kPi * sides * shape_area[shape.shape] * Luminance(radiance));
+      radiance *= light.power / (kPi * sides * face_area[shape.face]);
     }
     Index image = kNone;
     if (!light.image_path.empty()) {
@@ -230,8 +230,21 @@ std::vector<LightConnection> Lights::DeltaLights(Vec3d p) const {
   return out;
 }
 
-// Where the ray meets the emitter at that distance.
-Rgb Lights::ImageAt(const Emitter& emitter, const Ray& ray, double distance) const {
+bool Lights::IsUnseen(const Emitter& emitter) const {
+  const FloatValue& alpha = geometry_.primitives()[emitter.primitive].alpha;
+  return alpha.texture == kNone && alpha.constant <= 0;
+}
+
+// Neither pictured nor cut.
+bool Lights::IsEven(const Emitter& emitter) const {
+  const FloatValue& alpha = geometry_.primitives()[emitter.primitive].alpha;
+  return emitter.image == kNone && alpha.texture == kNone && alpha.constant >= 1;
+}
+
+// Of the point where the ray meets the emitter at that distance: the share that alpha
+// leaves. Of one that is not met, all but what would be behind it.
+Rgb Lights::RadianceAt(const Emitter& emitter, const Ray& ray, double distance) const {
+  if (IsEven(emitter)) return emitter.radiance;
   Hit hits[2];
   const Primitive& shape = geometry_.primitives()[emitter.primitive];
   const int count = IntersectPrimitive(shape, ray, false, hits);
@@ -241,7 +254,9 @@ Rgb Lights::ImageAt(const Emitter& emitter, const Ray& ray, double distance) con
   Hit hit = hits[second ? 1 : 0];
   hit.primitive = emitter.primitive;
   const SurfacePoint at = geometry_.Describe(ray, hit);
-  return EmittedAt(emitter, at.u, at.v);
+  const double left = IsUnseen(emitter) ? (second ? 0 : 1)
+                                        : std::clamp(geometry_.Alpha(ray, hit), 0.0, 1.0);
+  return EmittedAt(emitter, at.u, at.v) * left;
 }
 
 LightConnection Lights::SampleEmitter(const Emitter& emitter, Vec3d p,
@@ -253,11 +268,9 @@ LightConnection Lights::SampleEmitter(const Emitter& emitter, Vec3d p,
   LightConnection out = {delta / distance, distance, {}};
   const double cosine = -Dot(normal, out.toward);
   if (!(distance > 0) || (cosine <= 0 && !emitter.two_sided)) return out;
-  Rgb radiance = emitter.radiance;
-  if (emitter.image != kNone)
-    radiance = ImageAt(emitter, {p, out.toward, kNone}, distance);
   // domega = cos dA / distance^2.
-  out.radiance = radiance * (std::abs(cosine) * emitter.area / (distance * distance));
+  out.radiance = RadianceAt(emitter, {p, out.toward, kNone}, distance) *
+                 (std::abs(cosine) * emitter.area / (distance * distance));
   return out;
 }
 
@@ -270,6 +283,14 @@ std::vector<LightConnection> Lights::AreaLights(Vec3d p, Random& random) const {
   for (Index index : infinite_) {
     const Vec3d toward = UniformOnSphere(random);
     out.push_back({toward, kInfinity, 4 * kPi * InfiniteRadiance(index, p, toward)});
+  }
+  return out;
+}
+
+std::vector<LightConnection> Lights::UnseenLights(Vec3d p, Random& random) const {
+  std::vector<LightConnection> out;
+  for (const Emitter& emitter : emitters_) {
+    if (IsUnseen(emitter)) out.push_back(SampleEmitter(emitter, p, random));
   }
   return out;
 }

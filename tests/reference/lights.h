@@ -38,6 +38,9 @@ class Lights {
   /// One random point, uniform by area, on every emitter, and one uniform direction to
   /// every environment; points that face away are left out.
   std::vector<LightConnection> AreaLights(Vec3d p, Random& random) const;
+  /// The same of emitters alone that no ray meets (alpha 0): what they show is as if they
+  /// were whole.
+  std::vector<LightConnection> UnseenLights(Vec3d p, Random& random) const;
 
  private:
   struct Emitter {
@@ -51,7 +54,9 @@ class Lights {
   Rgb InfiniteRadiance(Index light, Vec3d p, Vec3d toward) const;
   Rgb PortalRadiance(const Light& light, Index image, Vec3d p, Vec3d toward) const;
   Rgb PointIntensity(Index light, Vec3d away) const;
-  Rgb ImageAt(const Emitter& emitter, const Ray& ray, double distance) const;
+  bool IsUnseen(const Emitter& emitter) const;
+  bool IsEven(const Emitter& emitter) const;
+  Rgb RadianceAt(const Emitter& emitter, const Ray& ray, double distance) const;
   Rgb EmittedAt(const Emitter& emitter, double u, double v) const;
   Index AddImage(const std::string& path, WrapMode wrap, bool bilinear);
 

@@ -70,9 +70,9 @@ Rgb Tracer::Direct(Vec3d p, int primitive, const Scattered& scattered,
     sum += Connect(light, shadow, scattered(light.toward), medium(light.toward));
   };
   for (const LightConnection& light : lights.DeltaLights(p)) add(light);
-  if (samples_lights()) {
-    for (const LightConnection& light : lights.AreaLights(p, random)) add(light);
-  }
+  const auto sampled =
+      samples_lights() ? lights.AreaLights(p, random) : lights.UnseenLights(p, random);
+  for (const LightConnection& light : sampled) add(light);
   return sum;
 }
 

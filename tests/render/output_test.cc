@@ -1,4 +1,5 @@
 // What of a film ends up in the file, where files may go, and what a scene hash covers.
+#include "src/core/input_file.h"
 #include "src/render/output.h"
 #include "src/render/saving.h"
 
@@ -114,20 +115,24 @@ TEST_CASE("outputs spare what is read, whatever links lead there", "[render]") {
   for (const char* path :
        {"in.png", "soft.png", "hard.png", "sub/../in.png", "sub/up/in.png"}) {
     INFO(path);
-    CHECK_THROWS_WITH(CheckInputsAreSpared({directory / path}, {input}),
+    CHECK_THROWS_WITH(CheckOutputPaths({{directory / path}}, {input}),
                       Contains("would overwrite") && Contains("in.png"));
-    CHECK_THROWS_WITH(CheckOutputPaths({directory / path}, input),
-                      Contains("would overwrite the scene"));
-    CHECK_THROWS_WITH(CheckOutputPaths({directory / "other.exr", input, directory / path},
-                                       directory / "none.pbrt"),
-                      Contains("two outputs"));
+    CHECK_THROWS_WITH(
+        CheckOutputPaths({{directory / "other.exr", input, directory / path}}, {}),
+        Contains("two outputs"));
   }
   // Neither is there yet.
   CHECK_THROWS_WITH(
-      CheckOutputPaths({directory / "new.exr", directory / "sub/up/new.exr"}, input),
+      CheckOutputPaths({{directory / "new.exr", directory / "sub/up/new.exr"}}, {input}),
       Contains("two outputs"));
-  CHECK_NOTHROW(CheckInputsAreSpared({directory / "new.exr", "", "-"}, {input}));
-  CHECK_NOTHROW(CheckOutputPaths({directory / "a.exr", directory / "b.exr"}, input));
+  CHECK_NOTHROW(CheckOutputPaths({{directory / "new.exr", "", "-", "-"}}, {input}));
+  CHECK_NOTHROW(CheckOutputPaths({{directory / "a.exr", directory / "b.exr"}}, {input}));
+  // A folder takes in what lies in it, itself there or not.
+  for (const char* folder : {"", "sub/up", "sub/..", "."}) {
+    CHECK_THROWS_WITH(CheckOutputPaths({{}, {directory / folder}}, {input}),
+                      Contains("in.png', which is read, lies in"));
+  }
+  CHECK_NOTHROW(CheckOutputPaths({{}, {directory / "sub", directory / "in"}}, {input}));
 }
 
 TEST_CASE("the scene hash leaves out where the film would go", "[render]") {

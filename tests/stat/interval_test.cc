@@ -132,4 +132,40 @@ TEST_CASE("intervals of proportions have defined ends", "[stat]") {
   CHECK(all.low == Approx(1 - none.high));
 }
 
+TEST_CASE("proportions of clusters hold where trials depend on each other", "[stat]") {
+  // The ten trials of a cluster succeed together, but for one.
+  const int trials = 4000;
+  constexpr double kMean = 0.8;
+  const auto draw = [](Random& random) {
+    std::vector<Cluster> clusters;
+    for (int i = 0; i < 24; ++i) {
+      Cluster c{0, 10};
+      c.successes = random.Uniform() < kMean ? 9 : 0;
+      c.successes += random.Uniform() < kMean;
+      clusters.push_back(c);
+    }
+    return clusters;
+  };
+  const double held = Share(trials, 3, [&](Random& random) {
+    return ClusteredProportion(draw(random), 0.95).Contains(kMean);
+  });
+  CHECK(held > 0.92);
+  const double as_independent = Share(trials, 3, [&](Random& random) {
+    std::uint64_t successes = 0;
+    for (const Cluster& c : draw(random)) successes += c.successes;
+    return ProportionInterval(successes, 240, 0.95).Contains(kMean);
+  });
+  CHECK(as_independent < 0.6);
+}
+
+TEST_CASE("proportions of clusters have defined ends", "[stat]") {
+  CHECK(std::isnan(ClusteredProportion({}, 0.95).value));
+  const std::vector<Cluster> one = {{3, 4}}, equal = {{4, 4}, {4, 4}, {4, 4}};
+  CHECK(ClusteredProportion(one, 0.95).value == 0.75);
+  CHECK_FALSE(ClusteredProportion(one, 0.95).HasBounds());
+  const Interval all = ClusteredProportion(equal, 0.95);
+  CHECK(all.high == 1);
+  CHECK(all.low < ProportionInterval(12, 12, 0.95).low);  // Student's, of three clusters
+}
+
 }  // namespace lanelight::stat

@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "src/core/error.h"
-#include "src/image/atomic_file.h"
+#include "src/core/input_file.h"
 #include "src/core/file_descriptor.h"
 #include "src/state/seal.h"
 #include "tests/image/temporary_folder.h"
@@ -106,8 +106,8 @@ TEST_CASE("what is no state file is named so", "[state]") {
              Contains("is not a state file"));
   CHECK_THAT(ErrorOf(folder.File("")), Contains("is a directory"));
   REQUIRE(mkfifo(folder.File("pipe").c_str(), 0600) == 0);
-  CHECK_THAT(ErrorOf(folder.File("pipe")), Contains("not a state file"));
-  CHECK_THAT(ErrorOf("/dev/zero"), Contains("not a state file"));
+  CHECK_THAT(ErrorOf(folder.File("pipe")), Contains("a FIFO"));
+  CHECK_THAT(ErrorOf("/dev/zero"), Contains("a device"));
   const std::string foreign = folder.File("foreign.h5");
   H5Fclose(H5Fcreate(foreign.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   CHECK_THAT(ErrorOf(foreign), Contains("is not a state file"));

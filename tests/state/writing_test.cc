@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "src/core/error.h"
-#include "src/image/atomic_file.h"
+#include "src/core/input_file.h"
 #include "tests/image/file_size_limit.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/state/random_film.h"

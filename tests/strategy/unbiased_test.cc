@@ -15,6 +15,7 @@
 #include "tests/image/temporary_folder.h"
 #include "tests/reference/closed_forms.h"
 #include "src/prepare/prepare_scene.h"
+#include "tests/lights/cut_lamps.h"
 #include "tests/lights/pictures.h"
 #include "tests/media/scenes.h"
 #include "src/stat/hypothesis.h"
@@ -180,11 +181,12 @@ struct HardScene {
   int tile;  // pixels per side that together see enough of rare events
 };
 
-constexpr std::size_t kScenes = 6;
+constexpr std::size_t kScenes = 7;
 std::vector<HardScene> HardScenes() {
   return {{"tiny light", TinyLight(), 8},       {"large light", LargeLight(), 4},
           {"glossy plates", GlossyPlates(), 8}, {"sky and sun", SkyAndSun(), 4},
-          {"many lights", ManyLights(), 8},     {"clouds", NestedSmoke(), 8}};
+          {"many lights", ManyLights(), 8},     {"clouds", NestedSmoke(), 8},
+          {"lamps with holes", MixedLamps(), 8}};
 }
 
 bool Accepts(const SceneDescription& scene, const std::string& strategy) {
@@ -278,7 +280,9 @@ void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth, std::uint
 }
 
 stat::ImageEstimate Reference(const SceneDescription& scene, int samples) {
-  ReferenceOptions options = Options(ReferenceEstimator::kLightSampling, samples);
+  const reference::Textures textures(scene.textures);
+  ReferenceOptions options =
+      TexturedOptions(textures, ReferenceEstimator::kLightSampling, samples);
   options.environment = SkyRadiance;
   return Estimate(RenderReference(scene, options));
 }

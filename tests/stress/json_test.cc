@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "src/image/atomic_file.h"
+#include "src/core/input_file.h"
 #include "src/render/machine_json.h"
 #include "src/stress/efficiency.h"
 #include "src/stress/stress_json.h"

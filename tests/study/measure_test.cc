@@ -32,6 +32,8 @@ TEST_CASE("errors of a small image are what one computes by hand", "[study]") {
   CHECK(m.mape == Approx((1 / 1.01 + 0.3 / 0.01) / 6));
   // The worst pixel of two is the second; without it the first remains.
   CHECK(m.worst_share == Approx(9 / (9 + 1 / 1.01)));
+  CHECK(m.worst_x == 1);
+  CHECK(m.worst_y == 0);
   CHECK(m.relmse_trimmed == Approx(1 / 1.01 / 3));
   CHECK(m.mean_r == Approx(1));
   CHECK(m.mean_b == Approx(0.65));

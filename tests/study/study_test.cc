@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
-#include "src/image/atomic_file.h"
+#include "src/core/input_file.h"
 #include "src/image/colors.h"
 #include "src/render/machine_json.h"
 #include "tests/image/temporary_folder.h"

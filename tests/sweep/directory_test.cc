@@ -85,4 +85,22 @@ TEST_CASE("sweep: a file system without locks needs parts", "[sweep][cli]") {
   CHECK(RenderedBy(Sweep(file, out, {"--part", "2/2"}, options)) == 11);
 }
 
+TEST_CASE("sweep: a report that is not ours is refused by name", "[sweep][cli]") {
+  const TempDirectory directory;
+  const std::string file = WriteSweep(directory), out = directory / "out";
+  REQUIRE(Sweep(file, out, {"--part", "1/22"}).exit_code == kExitGood);
+  REQUIRE(DoneCells(out).size() == 1);
+  const std::string report = out + "/cells/" + DoneCells(out)[0] + "/report.json";
+  const std::string deep(1000000, '['), end(1000000, ']');
+  for (const std::string& text :
+       {std::string("[]"), std::string("{\"sweep\": 1"),
+        "{\"sweep\": {\"settings\": {}, \"values\": {\"seed\": " + deep + end + "}}}"}) {
+    WriteText(report, text);
+    const ProcessResult r = Sweep(file, out);
+    CHECK(r.exit_code == kExitBadInput);
+    CHECK_THAT(r.err,
+               Contains(report) && Contains("remove it") && !Contains("exception"));
+  }
+}
+
 }  // namespace lanelight::sweep_process

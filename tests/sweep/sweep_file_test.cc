@@ -254,6 +254,38 @@ TEST_CASE("sweep: a grid beyond all bounds is refused before it is made", "[swee
              Contains("1:1") && Contains("more than 1000000 cells"));
 }
 
+TEST_CASE("sweep: a file nested beyond all bounds is refused with its place", "[sweep]") {
+  const auto many = [](const std::string& part, int times) {
+    std::string text;
+    for (int i = 0; i < times; ++i) text += part;
+    return text;
+  };
+  constexpr int kMany = 1000000;
+  const std::string keys = many("a.", kMany) + "a";
+  const std::string bushes = many("{" + many("a . ", 5000) + "a = ", 200);
+  // Strings that end where one who reads hastily takes them to go on.
+  const std::string strings = R"(a = ['''\''', "\\", """\"""""", ''])"
+                              "\n";
+  for (const std::string& deep :
+       {keys + " = 1", "[" + keys + "]", "[[" + keys + "]]", "a = " + many("[", kMany),
+        "a = " + many("{a=", kMany), "a = " + bushes, "a = [1, {b.b = 2, " + keys,
+        many("'a' . ", kMany) + "a = 1", strings + keys + " = 1"}) {
+    const std::string message = Mistake("[grid] # [[[[\n" + deep);
+    CHECK_THAT(message, Contains("sweep.toml:") && Contains("more than 32 deep"));
+  }
+  CHECK_THAT(Mistake("\na = " + many("[", 33)), Contains("sweep.toml:2:37: "));
+}
+
+TEST_CASE("sweep: dots and brackets of texts and comments do not nest", "[sweep]") {
+  const std::string many(100, '['), dots(100, '.');
+  CHECK_THAT(Mistake("# " + many + dots + "\n[grid]\nscene = 'a.pbrt'\n[settings]\n" +
+                     "depth = '''" + many + "\n''" + dots + "'''"),
+             Contains("\"half\""));
+  std::string times = "1.5";
+  for (int i = 0; i < 100; ++i) times += ", 2." + std::to_string(100 + i);
+  CHECK(Parse("[grid]\nscene = 'a.pbrt'\ntime = [" + times + "]").cells.size() == 101);
+}
+
 TEST_CASE("sweep: the example in scenes/ is understood", "[sweep]") {
   const Sweep sweep = ReadSweep(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/sweep.toml");
   CHECK(sweep.cells.size() == 2 * 3 * 4 * 2 - 2 + 2);

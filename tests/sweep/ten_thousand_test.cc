@@ -6,7 +6,7 @@
 #include <set>
 #include <unistd.h>
 
-#include "src/image/atomic_file.h"
+#include "src/core/input_file.h"
 #include "src/sweep/prediction.h"
 #include "src/sweep/runner.h"
 #include "src/sweep/sweep_folder.h"

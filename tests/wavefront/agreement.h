@@ -40,6 +40,19 @@ inline stat::ImageEstimate RenderWavefront(const SceneDescription& scene,
   return Estimate(render);
 }
 
+/// Options of the reference with a scene's textures.
+inline ReferenceOptions TexturedOptions(const reference::Textures& textures,
+                                        ReferenceEstimator estimator, int samples) {
+  ReferenceOptions options = Options(estimator, samples);
+  options.texture = [&](Index index, const reference::TexturePoint& at) {
+    return textures.Eval(index, at);
+  };
+  options.normal_map = [](const std::string& path, double u, double v) {
+    return reference::NormalMap(path, u, v);
+  };
+  return options;
+}
+
 /// Wavefront against reference. `tolerance` is relative, on top of the noise.
 inline stat::ImageTestResult CompareWithReference(const SceneDescription& scene,
                                                   std::uint64_t wavefront_spp,
@@ -47,13 +60,8 @@ inline stat::ImageTestResult CompareWithReference(const SceneDescription& scene,
                                                   double tolerance = kFloatTolerance,
                                                   const std::string& strategy = "") {
   const reference::Textures textures(scene.textures);
-  auto options = Options(ReferenceEstimator::kLightSampling, reference_spp);
-  options.texture = [&](Index index, const reference::TexturePoint& at) {
-    return textures.Eval(index, at);
-  };
-  options.normal_map = [](const std::string& path, double u, double v) {
-    return reference::NormalMap(path, u, v);
-  };
+  const ReferenceOptions options =
+      TexturedOptions(textures, ReferenceEstimator::kLightSampling, reference_spp);
   return stat::CompareMeans(RenderWavefront(scene, wavefront_spp, strategy),
                             Estimate(RenderReference(scene, options)),
                             {4, 1e-6, tolerance, 1e-7});

@@ -109,7 +109,7 @@ Shape "trianglemesh" "integer indices" [ 0 1 2 ] "point3 P" [ -1 -1 0  1 -1 0  0
 
 /// What the other one lacks: images of lights (sky.pfm) and of environments, one behind a
 /// portal, mixed materials, the other diffuse models, a normal map (the same file), a
-/// lens, instances, a cut-out, a sphere far larger than its distance.
+/// lens, instances, a cut-out, a lamp with holes, a sphere far larger than its distance.
 inline constexpr const char* kOtherStagesScene = R"(
 LookAt 0 2 -6  0 0.8 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -3 3 -3 3 ] "float lensradius" 0.05 "float focaldistance" 6
@@ -122,10 +122,11 @@ LightSource "infinite" "string filename" "sky.pfm"
   "point3 portal" [ -2 4 -2  2 4 -2  2 4 2  -2 4 2 ]
 LightSource "goniometric" "string filename" "sky.pfm" "rgb I" [ 5 5 5 ]
 LightSource "projection" "string filename" "sky.pfm"
+Texture "slots" "float" "checkerboard" "float tex1" 1 "float tex2" 0 "float uscale" 8
 AttributeBegin
   AreaLightSource "diffuse" "string filename" "sky.pfm"
   Translate 2 2 -1
-  Shape "sphere" "float radius" 0.3
+  Shape "sphere" "float radius" 0.3 "texture alpha" "slots"
 AttributeEnd
 LightSource "point" "point3 from" [ 2 4 -2 ] "rgb I" [ 9 9 9 ]
 MakeNamedMaterial "even" "string type" "diffuse" "string scattering" "uniform"

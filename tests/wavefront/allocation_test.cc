@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "src/estimate/estimate.h"
-#include "src/image/regression_film.h"
 #include "src/wavefront/run.h"
 #include "tests/wavefront/simulated_pixels.h"
 
@@ -113,7 +112,7 @@ FilmAccumulator ControlledPilot(std::uint64_t seed_of_black,
   std::mt19937_64 numbers[] = {std::mt19937_64(seed_of_black),
                                std::mt19937_64(seed_of_white)};
   FilmAccumulator film(0, 0, 34, 19, kReplicated, Auxiliary::kNone);
-  film.UseControl();
+  film.UseDifferences();
   ForPixels(film, [&](int x, int y) {
     std::mt19937_64& random = numbers[ColourOf(x, y)];
     float value[kAllocationPilot], difference[kAllocationPilot];
@@ -189,12 +188,10 @@ TEST_CASE("without an error, or with one cell, all have as many", "[allocation]"
   }
 }
 
-TEST_CASE("cells are whole blocks of what depends on neighbours", "[allocation]") {
-  CHECK(CellSide({0, 0, 9, 9}, Control::kRegression) == RegressionFilm::kBlock);
-  CHECK(CellSide({0, 0, 900, 900}, Control::kRegression) == RegressionFilm::kBlock);
-  CHECK(CellSide({0, 0, 900, 900}, Control::kNone) > CellSide({0, 0, 9, 9}, {}));
+TEST_CASE("cells are smaller in small images, and share out all pixels", "[allocation]") {
+  CHECK(CellSide({0, 0, 900, 900}) > CellSide({0, 0, 9, 9}));
   std::uint64_t pixels = 0;
-  for (const PixelRect& cell : CellsOf({5, 3, 47, 39}, Control::kNone)) {
+  for (const PixelRect& cell : CellsOf({5, 3, 47, 39})) {
     pixels += cell.pixels();
     CHECK(cell.x0 / 4 == (cell.x1 - 1) / 4);
   }

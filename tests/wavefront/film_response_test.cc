@@ -104,5 +104,30 @@ TEST_CASE("film response: no sample is above the limit", "[film]") {
   CHECK(most > 1.4);
 }
 
+// pbrt-v4's RGBFilm::AddSample limits what each camera ray brings: of a lamp of 4, whose
+// Z is 4.36, there is left what has Z = 1, whose channels are 0.918, in every sample that
+// sees it, and half of that where the lamp fills half a pixel.
+TEST_CASE("film response: the limit is on single camera rays", "[film]") {
+  const std::string lamp = R"(
+    Camera "orthographic" "float screenwindow" [ 0 1 0 1 ]
+    Film "rgb" "integer xresolution" 5 "integer yresolution" 5
+      "float maxcomponentvalue" 1
+    PixelFilter "box"
+    Sampler "sobol" "integer pixelsamples" 256
+    WorldBegin
+    AreaLightSource "diffuse" "rgb L" [ 4 4 4 ] "bool twosided" true
+    Shape "bilinearmesh" "point3 P" [ 0.5 0 1  1 0 1  0.5 1 1  1 1 1 ])";
+  Job job = PrepareJob(ParseSceneText(lamp, "lamp.pbrt", "."), {});
+  FilmAccumulator film = MakeFilm(job);
+  RunJob(job, film);
+  const double limited = 1 / (XyzFromSrgb() * Rgb{1, 1, 1}).z;
+  CHECK(limited == Approx(0.918).epsilon(1e-3));
+  for (int y = 0; y < 5; ++y) {
+    CHECK(film.Mean(1, y).y == 0);
+    CHECK(film.Mean(2, y).y == Approx(limited / 2).epsilon(0.03));
+    CHECK(film.Mean(4, y).y == Approx(limited).epsilon(1e-4));
+  }
+}
+
 }  // namespace
 }  // namespace lanelight

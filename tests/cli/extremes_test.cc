@@ -1,0 +1,79 @@
+// Scenes of absurd sizes end, in an image or in an error.
+#include <catch2/catch.hpp>
+
+#include "src/cli/exit_codes.h"
+#include "tests/cli/process.h"
+
+namespace lanelight::extremes {
+namespace {
+
+ProcessResult Render(const TempDirectory& directory, const std::string& world,
+                     const std::string& strategy = "decide=none") {
+  const std::string scene = WriteText(
+      directory / "scene.pbrt",
+      "MakeNamedMedium \"m\" \"string type\" \"homogeneous\"\n"
+      "MakeNamedMedium \"grid\" \"string type\" \"uniformgrid\" \"integer nx\" 2 "
+      "\"float density\" [0 1e20]\n"
+      "Camera \"perspective\"\nWorldBegin\n" +
+          world);
+  return RunLanelight({"render", scene, "-o", directory / "o.exr", "--spp", "4",
+                       "--resolution", "8x6", "--quiet", "--strategy", strategy});
+}
+
+constexpr const char* kFarTriangle =
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
+    "\"point3 P\" [0 0 0 1 0 0 0 3.5e38 1]\n";
+constexpr const char* kLamp = "LightSource \"point\" \"point3 from\" [1 2 3]\n";
+
+}  // namespace
+
+TEST_CASE("lights of no size beside their distance", "[cli][extremes]") {
+  const TempDirectory directory;
+  for (const char* strategy :
+       {"light-selection=power", "light-selection=tree", "light-points=solid-angle"}) {
+    for (const char* shape : {"Shape \"sphere\"\n", "Shape \"disk\"\n"}) {
+      const std::string world =
+          std::string("AreaLightSource \"diffuse\"\nAttributeBegin\nTranslate 0 0 3\n") +
+          shape + "AttributeEnd\nTranslate 1.2 3.5e38 -1\n" + shape;
+      const ProcessResult r = Render(directory, world, strategy);
+      INFO(strategy << ": " << r.err);
+      CHECK(r.exit_code == kExitGood);
+    }
+  }
+}
+
+TEST_CASE("media of no size beside the scene", "[cli][extremes]") {
+  const TempDirectory directory;
+  for (const char* size : {"1e-25", "1e-9", "1e-6", "1"}) {
+    for (const char* medium : {"m", "grid"}) {
+      for (const char* transmittance : {"transmittance=ratio", "transmittance=delta"}) {
+        const std::string interface =
+            fmt::format(
+                "AttributeBegin\nMaterial \"interface\"\n"
+                "MediumInterface \"{}\" \"\"\nTranslate 0 0 5\nScale {} {} {}\n",
+                medium, size, size, size) +
+            "Shape \"sphere\"\nShape \"cylinder\"\nAttributeEnd\n";
+        for (const char* rest : {kFarTriangle, "Shape \"sphere\"\n"}) {
+          const ProcessResult r =
+              Render(directory, kLamp + interface + rest, transmittance);
+          INFO(size << " " << medium << " " << transmittance << ": " << r.err);
+          CHECK(r.exit_code == kExitGood);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("media around nothing that rays can hit", "[cli][extremes]") {
+  const TempDirectory directory;
+  const std::string nothing =
+      "Material \"interface\"\nMediumInterface \"m\" \"\"\n"
+      "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point3 P\" [0 0 0 0 0 0 0 0 "
+      "1]";
+  const ProcessResult r =
+      Render(directory, "MediumInterface \"\" \"m\"\n" + (kLamp + nothing));
+  INFO(r.err);
+  CHECK(r.exit_code == kExitGood);
+}
+
+}  // namespace lanelight::extremes

@@ -1,0 +1,45 @@
+// JSON that was read from a file: what is wrong with it is said in our words.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "src/core/json_text.h"
+
+namespace lanelight {
+namespace {
+
+std::string Nested(std::size_t depth) {
+  return std::string(depth, '[') + std::string(depth, ']');
+}
+
+// What an InputError says of the text of a file "f", which should be {"a": number}.
+std::string Complaint(const std::string& text) {
+  try {
+    FromJsonOf("f", [&] { return ParseJson(text).at("a").get<double>(); });
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("JSON is read up to a depth that no copy of it can overflow") {
+  CHECK(ParseJson(Nested(kDeepestJson)).is_array());
+  for (const std::size_t deep : {std::size_t{kDeepestJson + 1}, std::size_t{1000000}}) {
+    CHECK(Complaint(Nested(deep)) ==
+          "error: 'f' is damaged: values lie more than 64 deep in each other");
+  }
+  std::string objects;
+  for (int i = 0; i < 100000; ++i) objects += "{\"a\":";
+  CHECK_THAT(Complaint(objects), Catch::Contains("64 deep"));
+}
+
+TEST_CASE("JSON that is not as it should be is refused without a library's words") {
+  CHECK(Complaint("{\"a\": 1}") == "");
+  CHECK(Complaint("{\"a\" 1}") == "error: 'f' is damaged: it is not JSON from byte 6 on");
+  CHECK_THAT(Complaint("{\"b\": 1}"), Catch::Contains("a value is missing"));
+  CHECK_THAT(Complaint("{\"a\": \"1\"}"), Catch::Contains("of another type"));
+  CHECK_THAT(Complaint("[]"), Catch::Contains("of another type"));
+}
+
+}  // namespace lanelight
