@@ -37,8 +37,9 @@ bool HasSize(const PlacedShape& placed, double scale) {
 void LeaveOut(const char* what, double scale, std::vector<PlacedShape>& shapes,
               std::vector<Note>& notes) {
   std::erase_if(shapes, [&](const PlacedShape& placed) {
-    // A radius that is not positive is refused later.
-    if (HasSize(placed, scale) || !(placed.shape->radius > 0)) return false;
+    // A radius that is not positive, and a ring without any width, are refused later.
+    const Shape& shape = *placed.shape;
+    if (HasSize(placed, scale) || !(shape.radius > shape.inner_radius)) return false;
     NoteSmall(placed.shape->where, what, placed.area_light, notes);
     return true;
   });

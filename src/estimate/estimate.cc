@@ -140,6 +140,12 @@ class PixelGrid {
     return total;
   }
 
+  /// No sample has met light.
+  bool IsBlack() const {
+    return std::all_of(pixels_.begin(), pixels_.end(),
+                       [](const PixelEstimate& p) { return p.mean == Rgb{}; });
+  }
+
  private:
   std::size_t Count() const {
     return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
@@ -263,6 +269,14 @@ ErrorEstimate FromSums(const Sums& sums) {
   return out;
 }
 
+ErrorEstimate Unseen(ErrorEstimate out) {
+  out.has_interval = false;
+  out.rmse = AtLeast(out.rmse);
+  out.relmse = AtLeast(out.relmse);
+  out.why = "no sample has met any light: is there any that the camera can see?";
+  return out;
+}
+
 // By what factor more samples would give an interval; 0 if none does.
 int MoreSamples(const PixelGrid& grid) {
   for (int times = 2; times <= kMostMoreSamples; times *= 2) {
@@ -290,6 +304,8 @@ ErrorEstimate EstimateError(const PixelRect& window,
   const PixelGrid grid(window, pixel);
   const Sums sums = grid.Total();
   ErrorEstimate out = FromSums(sums);
+  // Samples that are all black are equal, and say nothing of a lamp that they missed.
+  if (out.available && grid.IsBlack()) return Unseen(out);
   if (!out.available || out.has_interval) return out;
   const auto times = [](const Interval& v) { return v.high / v.value; };
   const double rmse = times(out.rmse), most = std::max(rmse * rmse, times(out.relmse));

@@ -98,7 +98,7 @@ TEST_CASE("a tree file that cannot be replaced is told twice", "[accel][tree-sou
   const FoundTree found = s.Find();
   CHECK(found.report.origin == TreeOrigin::kBuilt);
   REQUIRE(found.problems.size() == 2);
-  CHECK_THAT(found.problems[0], Contains("is not a file"));
+  CHECK_THAT(found.problems[0], Contains("not a regular file"));
   CHECK_THAT(found.problems[1], Contains("the trees are not kept"));
 }
 

@@ -33,7 +33,7 @@ constexpr const char* kFar = "Translate 1.2 3.5e38 -1\n";
 }  // namespace
 
 TEST_CASE("a light beyond float32 is refused where it stands", "[compile]") {
-  for (const char* light : {"\"point\"", "\"spot\"", "\"point\" \"power\" 10"}) {
+  for (const char* light : {"\"point\"", "\"spot\"", "\"point\" \"float power\" 10"}) {
     INFO(light);
     const std::string text = std::string("LightSource ") + light + "\n";
     CHECK_THROWS_WITH(Compile(kFar + text), Contains("far.pbrt:6:") &&
@@ -112,13 +112,14 @@ TEST_CASE("media are compiled into numbers", "[compile]") {
       "Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
       "\"point3 P\" [0 0 0 1 0 0 0 1e60 1]\n";
   for (const char* type :
-       {"\"homogeneous\"", "\"cloud\"", "\"uniformgrid\" \"float density\" [1e30]",
-        "\"rgbgrid\" \"rgb sigma_a\" [1e30 1 1] \"rgb sigma_s\" [1 1 1]"}) {
+       {"\"homogeneous\" \"float scale\" 1e30", "\"cloud\" \"float density\" 1e30",
+        "\"uniformgrid\" \"float scale\" 1e30 \"float density\" [1e30]",
+        "\"rgbgrid\" \"float scale\" 1e30 \"rgb sigma_a\" [1e30 1 1] "
+        "\"rgb sigma_s\" [1 1 1]"}) {
     INFO(type);
-    const CompiledScene scene = Compile(
-        far + "MediumInterface \"m\" \"\"\nTranslate 9 0 0\nShape \"plane\"",
-        std::string("MakeNamedMedium \"m\" \"float scale\" 1e30 \"string type\" ") +
-            type);
+    const CompiledScene scene =
+        Compile(far + "MediumInterface \"m\" \"\"\nTranslate 9 0 0\nShape \"plane\"",
+                std::string("MakeNamedMedium \"m\" \"string type\" ") + type);
     REQUIRE(scene.media.media.size() == 1);
     const MediumRecord& m = scene.media.media[0];
     for (int c = 0; c < 3; ++c) {

@@ -311,20 +311,31 @@ TEST_CASE("pixels without a variance are left out", "[study]") {
   CHECK(one.relmse.value == Approx(4 / 1.01 * std::exp(kSkew * std::sqrt(kMostSkewed))));
 }
 
+ErrorEstimate OfAllPixels(double value) {
+  return EstimateError({0, 0, 5, 4}, [&](int, int) {
+    PixelEstimate p;
+    p.known = true;
+    p.mean = {value, value, value};
+    return p;
+  });
+}
+
 TEST_CASE("images without noise have no error", "[study]") {
-  for (double value : {0.0, 0.7}) {
-    const ErrorEstimate e = EstimateError({0, 0, 5, 4}, [&](int, int) {
-      PixelEstimate p;
-      p.known = true;
-      p.mean = {value, value, value};
-      return p;
-    });
-    CHECK(e.has_interval);
-    CHECK(e.rmse.value == 0);
-    CHECK(e.rmse.high == 0);
-    CHECK(e.relmse.high == 0);
-    CHECK(e.effective_pixels == 20);
-  }
+  const ErrorEstimate e = OfAllPixels(0.7);
+  CHECK(e.has_interval);
+  CHECK(e.rmse.value == 0);
+  CHECK(e.rmse.high == 0);
+  CHECK(e.relmse.high == 0);
+}
+
+TEST_CASE("black images do not say that there is no light", "[study]") {
+  const ErrorEstimate e = OfAllPixels(0);
+  CHECK(e.available);
+  CHECK_FALSE(e.has_interval);
+  CHECK(e.rmse.low == 0);
+  CHECK(std::isinf(e.rmse.high));
+  CHECK(std::isinf(e.relmse.high));
+  CHECK(e.why.find("no sample has met any light") != std::string::npos);
 }
 
 TEST_CASE("intervals are finite, positive and contain the estimate", "[study]") {

@@ -12,6 +12,11 @@ SceneDescription ParseOptionsBlock(const std::string& text) {
   return ParseText(text + "\nWorldBegin");
 }
 
+// A realistic camera reads its lenses from a file.
+SceneDescription ParseWithFiles(const std::string& text) {
+  return ParseSceneText(text + "\nWorldBegin", "test.pbrt", ".", {});
+}
+
 TEST_CASE("defaults are those of pbrt", "[parse]") {
   const SceneDescription scene = ParseText("WorldBegin");
   CHECK(scene.camera.kind == CameraKind::kPerspective);
@@ -57,17 +62,16 @@ TEST_CASE("spherical and realistic cameras", "[parse]") {
   const std::string film = " Film \"rgb\" \"float diagonal\" 28 ";
   for (const std::string& text :
        {film + lenses + "\"float aperturediameter\" 12", lenses + film}) {
-    const Camera camera = ParseOptionsBlock(text).camera;
+    const Camera camera = ParseWithFiles(text).camera;
     CHECK(camera.kind == CameraKind::kRealistic);
     CHECK(camera.lens.size() == 16);
     CHECK(camera.lens[5] == 3);
     CHECK(camera.film_diagonal == 28);
     CHECK(camera.focal_distance == 10);
   }
-  CHECK(ParseOptionsBlock(lenses + "\"string aperture\" \"star\"").camera.aperture ==
+  CHECK(ParseWithFiles(lenses + "\"string aperture\" \"star\"").camera.aperture ==
         "star");
-  const SceneDescription wide =
-      ParseOptionsBlock(lenses + "\"float aperturediameter\" 60");
+  const SceneDescription wide = ParseWithFiles(lenses + "\"float aperturediameter\" 60");
   CHECK(HasNote(wide, "larger than the stop"));
 }
 
