@@ -153,6 +153,7 @@ class Adviser {
     if (!Round(tried, kLast)) return;
     const TriedCandidate& last = tried.back();
     if (last.Beyond() > 0) chosen_ = last.index;
+    unseen_ = chosen_ == 0 && last.entry.IsCarriedByFew() ? last.index : 0;
   }
 
   void Drop(const TriedCandidate& t, const char* reason) {
@@ -187,7 +188,9 @@ class Adviser {
         c.reason = i == 0 ? "no other is clearly more efficient"
                           : "clearly more efficient than the default";
       } else if (c.status == CandidateStatus::kKept) {
-        c.reason = i == 0         ? "the default; another is clearly more efficient"
+        c.reason = i == 0 ? "the default; another is clearly more efficient"
+                   : i == unseen_
+                       ? "few bright samples carry its error: a trial cannot tell"
                    : chosen_ == 0 ? "not clearly better than the default"
                                   : "not the best";
       }
@@ -231,7 +234,7 @@ class Adviser {
   const double pilot_;  // seconds of kRaysPerSecond
   Trial trial_;
   std::vector<Candidate> all_;
-  std::size_t chosen_ = 0;
+  std::size_t chosen_ = 0, unseen_ = 0;
   Advice advice_;
 };
 

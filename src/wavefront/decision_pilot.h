@@ -39,12 +39,16 @@ struct DecisionEntry {
   /// Clearly less than the usual strategy has found: what is missing comes in bright
   /// samples too rare to be seen, and so the variance is not seen either.
   bool MissesLight() const;
+  /// Few pixels carry its own error: with more samples others would come, brighter ones
+  /// too, and of how much they add a pass has seen nothing. A pair is no help: a bright
+  /// sample that copies tell of twice is in both measures, and makes them look alike.
+  bool IsCarriedByFew() const;
 
   /// How many times as efficient as the usual one it is: by all pixels, without any one,
   /// and if it is not paired without the worst thousandth, whichever is least.
   PilotGain Gain() const;
   /// The logarithm of its gain over `must_gain`, if that is clear by so many standard
-  /// errors; else 0.
+  /// errors, and it neither misses light nor is carried by few; else 0.
   double Beyond(double must_gain, double standard_errors) const;
 };
 

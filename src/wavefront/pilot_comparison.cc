@@ -72,6 +72,12 @@ PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual) {
   return gain;
 }
 
+double EffectivePixels(const std::vector<double>& variances) {
+  double sum = 0, squares = 0;
+  for (double v : variances) sum += v, squares += v * v;
+  return squares > 0 ? sum * sum / squares : 0;
+}
+
 bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, double margin,
                      double standard_errors) {
   const std::vector<PixelScores> pixels = Pixels(other, usual);

@@ -36,6 +36,11 @@ struct PilotGain {
 /// the other's.
 PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual);
 
+/// Pixels of equal variance that would scatter as much: 1 if a single one carries all,
+/// and 0 of no variance. Its inverse is the square of the relative error of the
+/// variances' sum.
+double EffectivePixels(const std::vector<double>& variances);
+
 /// How many of n values, sorted, count: all but the worst thousandth, and at least one is
 /// left out of 16. A single bright sample would decide alone.
 std::size_t KeptOf(std::size_t n);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "src/wavefront/decision_pilot.h"
 #include "src/wavefront/path_records.h"
 #include "src/wavefront/pilot_comparison.h"
 #include "src/wavefront/training.h"
@@ -223,6 +224,32 @@ TEST_CASE("gains are of all pixels, and know how sure they are", "[decision]") {
   CHECK(GainOf(none, none).log == 0);
   CHECK(GainOf(none, usual).log > 10);
   CHECK(GainOf(usual, none).log < -10);
+}
+
+TEST_CASE("what few bright samples carry is not chosen", "[decision]") {
+  DecisionEntry entry;
+  entry.paired = true;
+  entry.measure = MeasureOf(1, 1, 2);
+  entry.usual = MeasureOf(3, 1, 2);
+  CHECK(entry.Beyond(1.05, 2) == Approx(std::log(3 / 1.05)));
+  // Both have met the same bright samples: the gain is as large, and looks as sure.
+  const auto bright = [&](std::size_t pixels) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+      entry.measure.variances[90 * i] = entry.usual.variances[90 * i] = 1e5;
+    }
+  };
+  bright(3);
+  CHECK(entry.Gain().log == Approx(std::log(3)).epsilon(0.1));
+  CHECK(EffectivePixels(entry.measure.variances) == Approx(3).epsilon(0.1));
+  CHECK(entry.IsCarriedByFew());
+  CHECK(entry.Beyond(1.05, 2) == 0);
+  bright(20);
+  CHECK_FALSE(entry.IsCarriedByFew());
+  CHECK(entry.Beyond(1.05, 2) > 1);
+  // No error at all is not carried by anything.
+  entry.measure = {1, std::vector<double>(2000)};
+  CHECK_FALSE(entry.IsCarriedByFew());
+  CHECK(entry.Beyond(1.05, 2) > 10);
 }
 
 TEST_CASE("variances of samples that depend on each other are of their observations",
