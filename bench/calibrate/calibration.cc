@@ -87,7 +87,7 @@ void Calibration::Row(Job& job, const std::string& strategy, std::uint64_t spp,
     return;
   }
   for (int seed = 1; seed <= options_.seeds; ++seed) {
-    if (seed > kLeastSeeds && deadline.Over()) break;
+    if (seed > options_.least_seeds && deadline.Over()) break;
     job.seed = static_cast<std::uint64_t>(seed);
     FilmAccumulator film = MakeFilm(job);
     RunJob(job, film);
@@ -130,6 +130,7 @@ void Calibration::PrintTotals() const {
     by_scene_.Print("scene");
     by_strategy_.Print("strategy");
     by_spp_.Print("samples per pixel");
+    by_strategy_.PrintTable("strategy");
     fmt::print("\n{:<48} {:<7}{}\n", "", "", Coverage::CountsHead());
     PrintCounts("all", all_);
     fmt::print("\n{}\n{}\n", all_.relmse.Sentence("relmse"), all_.rmse.Sentence("rmse"));

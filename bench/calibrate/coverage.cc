@@ -54,6 +54,13 @@ std::string Coverage::Counts() const {
       below_, printed_ - inside_ - below_, lower);
 }
 
+std::string Coverage::Cells() const {
+  const std::string share =
+      printed_ > 0 ? fmt::format("{:.1f} %", 100 * Inside().value) : "-";
+  return fmt::format("{} | {} | {} | {} | {}", renders(), printed_, inside_, share,
+                     refused_);
+}
+
 std::string Coverage::SizesHead() {
   return fmt::format("{:>7} {:>7} {:>9} {:>7}", "ratio", "width", "estimate", "ref");
 }
@@ -90,6 +97,14 @@ void Totals::Add(const std::string& name, const ErrorCoverage& coverage) {
 void Totals::Print(const std::string& title) const {
   fmt::print("\n{:<48} {:<7}{}\n", title, "", Coverage::CountsHead());
   for (const auto& [name, coverage] : rows_) PrintCounts(name, coverage);
+}
+
+void Totals::PrintTable(const std::string& title) const {
+  fmt::print("\n| {} | renders | printed | held | share | refused |\n", title);
+  fmt::print("|---|---|---|---|---|---|\n");
+  for (const auto& [name, coverage] : rows_) {
+    fmt::print("| `{}` | {} |\n", name, coverage.relmse.Cells());
+  }
 }
 
 void PrintCounts(const std::string& name, const ErrorCoverage& coverage) {

@@ -21,6 +21,9 @@ class Coverage {
   void Add(double true_error, const Interval& stated);
   void Add(const Coverage& other);
 
+  /// "| renders | printed | held | share | refused |", the middle of a table's row.
+  std::string Cells() const;
+
   std::uint64_t renders() const { return printed_ + refused_; }
   /// Mean true error.
   double MeanTruth() const { return truth_ / double(renders()); }
@@ -59,6 +62,8 @@ class Totals {
  public:
   void Add(const std::string& name, const ErrorCoverage& coverage);
   void Print(const std::string& title) const;
+  /// A short table as documents have it: intervals of relmse.
+  void PrintTable(const std::string& title) const;
 
  private:
   std::vector<std::pair<std::string, ErrorCoverage>> rows_;

@@ -3,13 +3,15 @@
 //
 //   bench_calibrate [SCENE...] [--minutes M] [--seeds N] [--spp 16 64 256 1024]
 //                   [--resolutions 48x48 96x96] [--strategies 'A;B;...']
-//                   [--reference-spp N] [--target-relmse X...]
+//                   [--every-strategy] [--least-seeds N] [--reference-spp N]
+//                   [--target-relmse X...]
 //
 // Without scenes, all of the project's and of $LANELIGHT_SCENES. The time is shared
-// evenly by all combinations: as many seeds of each as fit, at least ten. The truth comes
-// from a reference of Sobol' points with a seed of its own, which takes a quarter of a
-// scene's time, and whose own error is subtracted; "ref" is that error over the true one
-// of a render, and should be small.
+// evenly by all combinations: as many seeds of each as fit, at least ten (--least-seeds).
+// With --seeds that all fit, what is rendered does not hang on the machine. The truth
+// comes from a reference of Sobol' points with a seed of its own, which takes a quarter
+// of a scene's time, and whose own error is subtracted; "ref" is that error over the true
+// one of a render, and should be small.
 //
 // "refused" are renders whose samples cannot tell how large the error is; "at least" how
 // many of their lower ends held. "ratio" is the mean true error over the mean estimate,
@@ -21,6 +23,7 @@
 #include <cstdio>
 
 #include "bench/calibrate/calibration.h"
+#include "bench/calibrate/every_strategy.h"
 #include "src/core/error.h"
 #include "src/core/parallel.h"
 
@@ -29,6 +32,7 @@ namespace {
 
 int Main(int argc, char** argv) {
   CalibrateOptions options;
+  bool every = false;
   CLI::App app("How often the true error lies inside the interval a render states");
   app.option_defaults()->always_capture_default();
   app.add_option("SCENES", options.scenes, "pbrt scenes; none: all there are");
@@ -36,14 +40,18 @@ int Main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--seeds", options.seeds, "Most renders of each")
       ->check(CLI::Range(1, 100000));
+  app.add_option("--least-seeds", options.least_seeds, "Fewest renders of each")
+      ->check(CLI::Range(1, 100000));
   app.add_option("--spp", options.spp, "Samples per pixel");
   app.add_option("--resolutions", options.resolutions, "Sizes of the images, WxH");
   app.add_option("--strategies", options.strategies, "List 'A;B;...'");
+  app.add_flag("--every-strategy", every, "All choices of all axes, and the presets");
   app.add_option("--target-relmse", options.targets, "Let renders stop by themselves");
   app.add_option("--reference-spp", options.reference_spp,
                  "Samples of the reference; 0: what the time allows");
   app.add_option("--threads", options.threads, "Threads")->check(CLI::Range(1, 1024));
   CLI11_PARSE(app, argc, argv);
+  if (every) options.strategies = EveryStrategy();
   if (options.scenes.empty()) options.scenes = AllScenes();
   for (const std::string& text : options.resolutions) ParseResolution(text);
   const ThreadLimit threads(options.threads);

@@ -26,7 +26,7 @@ struct CalibrateOptions {
   std::uint64_t reference_spp = 0;  // 0: what the time allows
   std::vector<double> targets;
   double minutes = 55;
-  int seeds = 200, threads = 0;
+  int seeds = 200, least_seeds = kLeastSeeds, threads = 0;
 };
 
 /// Scenes of the project (scenes/*.pbrt) and of $LANELIGHT_SCENES (../shared/scenes:

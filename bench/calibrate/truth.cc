@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/calibrate/every_strategy.h"
 #include "bench/calibrate/options.h"
 #include "src/image/colors.h"
 #include "src/study/errors.h"
@@ -33,6 +34,7 @@ Reference FromFilm(const FilmAccumulator& film, std::uint64_t spp) {
 
 Strategy ParseStrategy(const std::string& text) {
   Strategy strategy;
+  if (text == kDefaultName) return strategy;
   ApplyStrategy(text, {std::make_shared<const std::string>("--strategies"), 0, 0},
                 strategy);
   return strategy;

@@ -10,7 +10,8 @@
 
 namespace lanelight::bench {
 
-/// A strategy of --strategies, as a change of the default. Throws InputError.
+/// A strategy of --strategies, as a change of the default (kDefaultName: none). Throws
+/// InputError.
 Strategy ParseStrategy(const std::string& text);
 
 /// The same for a job, which then renders `spp` samples without a target or a time.

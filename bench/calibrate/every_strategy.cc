@@ -1,0 +1,56 @@
+#include "bench/calibrate/every_strategy.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "bench/calibrate/truth.h"
+#include "src/strategy/strategy.h"
+
+namespace lanelight::bench {
+namespace {
+
+// Arguments that are choices of their own: words, not numbers ("[:all|:pixel]").
+std::vector<std::string> Words(std::string_view arguments) {
+  std::vector<std::string> words = {""};
+  for (std::size_t at = 0; (at = arguments.find(':', at)) != arguments.npos;) {
+    const std::size_t end = arguments.find_first_of("|[]", ++at);
+    const std::string_view word = arguments.substr(at, end - at);
+    const bool is_word =
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == std::string_view::npos;
+    if (is_word) words.push_back(":" + std::string(word));
+  }
+  return words;
+}
+
+// By what they mean, so that none is rendered twice.
+class List {
+ public:
+  void Add(const std::string& name) {
+    const std::string meaning = ToText(ParseStrategy(name));
+    if (std::find(meanings_.begin(), meanings_.end(), meaning) != meanings_.end()) return;
+    meanings_.push_back(meaning);
+    text_ += (text_.empty() ? "" : ";") + name;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::vector<std::string> meanings_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string EveryStrategy() {
+  List list;
+  list.Add(kDefaultName);
+  for (const ChoiceInfo& choice : AllChoices()) {
+    for (const std::string& word : Words(choice.arguments)) {
+      list.Add(std::string(choice.axis) + "=" + choice.name + word);
+    }
+  }
+  for (const PresetInfo& preset : AllPresets()) list.Add(preset.name);
+  return list.text();
+}
+
+}  // namespace lanelight::bench

@@ -1,0 +1,16 @@
+// The strategies whose intervals have to hold: all that can be chosen.
+#pragma once
+
+#include <string>
+
+namespace lanelight::bench {
+
+/// What --strategies calls the renderer's default.
+inline constexpr const char* kDefaultName = "default";
+
+/// List 'A;B;...' of the default, every choice of every axis alone (in
+/// src/strategy/choices.h; with each argument that is a choice of its own), and every
+/// preset. What is the default under another name is listed once.
+std::string EveryStrategy();
+
+}  // namespace lanelight::bench
