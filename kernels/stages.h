@@ -72,6 +72,7 @@ namespace lanelight {
   X(AntitheticBounce)                          \
   X(FirstBounce)                               \
   X(GuideProposals)                            \
+  X(RecordReuse)                               \
   X(Route)                                     \
   X(ChooseGlass)                               \
   X(ChooseThinGlass)                           \
@@ -123,7 +124,10 @@ namespace lanelight {
   X(PassInterfaces)                            \
   X(RecordRays)                                \
   X(Accumulate)                                \
-  X(Pack)
+  X(Pack)                                      \
+  X(ReusePairs)                                \
+  X(ReuseShadow)                               \
+  X(ReuseConnect)
 
 #define X(name) Stage name##Stage();
 LANELIGHT_STAGES(X)

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "bench/checkpoint/cases.h"
 #include "bench/resident.h"
@@ -52,7 +53,7 @@ Merging Measure(const CheckpointBench& bench, const std::vector<std::string>& pa
     const double taken_cpu = ProcessCpuSeconds() - cpu;
     if (i == 0) {  // warms up, and is verified
       BenchFilm film(job);
-      film.film = *merged.film;
+      film.film = std::move(*merged.film);
       if (merged.missing != 0 || !film.SameAs(whole)) {
         throw std::runtime_error("WRONG: the merged film is not the uncut one");
       }

@@ -8,38 +8,13 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "kernels/accumulate/check-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
-
-struct Checked {
-  V3 value;
-  MF bad;
-};
-
-template <bool kSigned>
-HWY_INLINE Checked Check(Health& counts, V3 v, MF valid) {
-  const DF df;
-  const auto any = [](MF x, MF y, MF z) HWY_ATTR { return hn::Or(x, hn::Or(y, z)); };
-  const MF nan = any(hn::IsNaN(v.x), hn::IsNaN(v.y), hn::IsNaN(v.z));
-  const MF infinite =
-      hn::AndNot(nan, any(hn::IsInf(v.x), hn::IsInf(v.y), hn::IsInf(v.z)));
-  MF bad = hn::Or(nan, infinite);
-  if constexpr (!kSigned) {
-    const VF zero = hn::Zero(df);
-    const MF negative =
-        hn::AndNot(bad, any(hn::Lt(v.x, zero), hn::Lt(v.y, zero), hn::Lt(v.z, zero)));
-    counts.negative += hn::CountTrue(df, hn::And(negative, valid));
-    bad = hn::Or(bad, negative);
-  }
-  counts.nan += hn::CountTrue(df, hn::And(nan, valid));
-  counts.infinite += hn::CountTrue(df, hn::And(infinite, valid));
-  const V3 zero = Splat3(0, 0, 0);
-  return {IfThenElse(bad, zero, v), bad};
-}
 
 // The planes of one group in the task's buffer.
 struct PlaneWriter {
@@ -99,15 +74,25 @@ HWY_INLINE void StoreGbuffer(const Wave& wave, const Slots& slots, VI output) {
           slots, output);
 }
 
+HWY_INLINE void StoreWeight(const Wave& wave, const Slots& slots, VI output) {
+  const float* weight = wave.path.weight;
+  PlaneWriter(wave, PlaneGroup::kWeight)
+      .Store(weight != nullptr ? Gather(weight, slots) : Splat(1.0f), output);
+}
+
 template <bool kSigned, bool kAov>
 void Accumulate(Wave& wave) {
   const PathColumns& p = wave.path;
-  const VF exposure = Splat(wave.run->exposure);
+  // With reuse=block a sample is light until its block has been connected.
+  const bool is_light = p.reuse != nullptr;
+  const VF exposure = Splat(is_light ? 1.0f : wave.run->exposure);
   ForEachBatch(wave, wave.queue(QueueId::kDone),
                [&](const Slots& slots, MF valid) HWY_ATTR {
                  const VI output = Gather(p.output, slots);
                  V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
-                 if (p.weight != nullptr) sample = Mul(sample, Gather(p.weight, slots));
+                 if (p.weight != nullptr && !is_light) {
+                   sample = Mul(sample, Gather(p.weight, slots));
+                 }
                  V3 difference = Splat3(0, 0, 0);
                  if (kSigned && p.k_r != nullptr) {
                    difference = Mul(Gather3(p.k_r, p.k_g, p.k_b, slots), exposure);
@@ -127,6 +112,7 @@ void Accumulate(Wave& wave) {
                  if constexpr (kSigned) {
                    StoreControl(wave, slots, difference, checked.bad, output);
                  }
+                 if (is_light) StoreWeight(wave, slots, output);
                  Push(wave.queue(QueueId::kFree), slots, valid);
                });
 }
@@ -169,7 +155,7 @@ Stage AccumulateStage() {
           .input = QueueId::kDone,
           .reads = fields::kRadiance | fields::kAov | fields::kGbuffer |
                    fields::kControl | fields::kFirstNumbers |
-                   FieldSet{Field::output, Field::weight},
+                   FieldSet{Field::output, Field::weight, Field::reuse},
           .resolve = ResolveAccumulate};
 }
 

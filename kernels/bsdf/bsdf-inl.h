@@ -63,7 +63,8 @@ struct PlainBsdf {
   static constexpr bool kStochastic = false;   // Load receives random numbers
   static constexpr bool kHasDelta = false;     // delta directions besides others: Sample
                                                // then returns density 0
-  static constexpr bool kTransmits = false;    // not all directions are on wo's side
+  static constexpr bool kEvenSides = false;  // f for wi is the same for all wo on a side
+  static constexpr bool kTransmits = false;  // not all directions are on wo's side
 };
 
 /// Where material parameters come from: the table, or columns filled by the texture

@@ -18,6 +18,7 @@ namespace HWY_NAMESPACE {
 /// the weight f * cos / p is the albedo.
 template <class Hemisphere>
 struct DiffuseModel : PlainBsdf {
+  static constexpr bool kEvenSides = true;
   struct Params {
     V3 albedo;
   };

@@ -17,6 +17,7 @@ namespace HWY_NAMESPACE {
 /// chosen with probability proportional to its largest component; density = that
 /// probability times cos / pi.
 struct DiffuseTransmissionBsdf : PlainBsdf {
+  static constexpr bool kEvenSides = true;
   static constexpr bool kTransmits = true;
   struct Params {
     V3 reflectance, transmittance;

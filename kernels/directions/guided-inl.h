@@ -34,6 +34,7 @@ namespace HWY_NAMESPACE {
 /// A proposal as in material-inl.h, of paths that the guide stage has seen.
 struct GuidedProposal {
   static constexpr bool kScales = true;
+  static constexpr bool kIsUniform = false;
   const Guide& guide;
   const PathColumns& path;
   const Frame& frame;  // of shading

@@ -30,6 +30,7 @@ namespace HWY_NAMESPACE {
 /// of refraction.
 struct MaterialProposal {
   static constexpr bool kScales = false;
+  static constexpr bool kIsUniform = false;
   LANELIGHT_INLINE MaterialProposal(const Wave&, const Frame&, const Slots&) {}
   template <class Bsdf>
   LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,

@@ -46,6 +46,7 @@ EvaluateUniformDirection(const typename Bsdf::Params& material, V3 wo, VF u0, VF
 /// A proposal as in material-inl.h.
 struct UniformProposal {
   static constexpr bool kScales = false;
+  static constexpr bool kIsUniform = true;
   LANELIGHT_INLINE UniformProposal(const Wave&, const Frame&, const Slots&) {}
   template <class Bsdf>
   LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,

@@ -109,6 +109,13 @@ LANELIGHT_INLINE VF SumAbs(V3 v) {
   return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z)));
 }
 
+/// How far off the surface at q a ray must end that starts off the surface at `from`, so
+/// that neither the rounding of both points nor that of the ray has it meet q's.
+LANELIGHT_INLINE VF Clearance(V3 from, V3 q, VF p_error) {
+  return hn::MulAdd(Splat(1e-6f), hn::Add(SumAbs(from), SumAbs(q)),
+                    hn::Mul(Splat(2.0f), p_error));
+}
+
 /// The shadow ray to point q with unit normal n of a surface light. It ends a little in
 /// front of the light, by a bound on the rounding of both end points (about 8 ulp of
 /// their coordinates) and the offset of its origin, so that the light does not shadow
@@ -119,8 +126,7 @@ struct ShadowRay {
 
   LANELIGHT_INLINE ShadowRay(const PathColumns& p, const StoreSlots& slots, V3 q, V3 n) {
     const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
-    const VF clearance = hn::MulAdd(Splat(1e-6f), hn::Add(SumAbs(from), SumAbs(q)),
-                                    hn::Mul(Splat(2.0f), Gather(p.p_error, slots)));
+    const VF clearance = Clearance(from, q, Gather(p.p_error, slots));
     const VF side = hn::CopySign(clearance, Dot(n, from - q));
     const V3 to_light = MulAdd(n, side, q) - from;
     distance2 = Dot(to_light, to_light);

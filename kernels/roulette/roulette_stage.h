@@ -11,8 +11,8 @@ inline Stage RouletteStage(const char* name, const char* meaning, Feature kind,
           .meaning = meaning,
           .input = QueueId::kScattered,
           .needs = {Feature::kRoulette, kind},
-          .reads = fields::kThroughput |
-                   FieldSet{Field::eta_scale, Field::depth, Field::u_roulette},
+          .reads = fields::kThroughput | FieldSet{Field::eta_scale, Field::depth,
+                                                  Field::u_roulette, Field::reuse},
           .writes = fields::kThroughput,
           .resolve = resolve};
 }

@@ -15,10 +15,18 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
+#include "src/path/block.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
+
+/// With reuse=block the density with which a path finds its second vertex is to be known
+/// of any point (kernels/reuse/pairs.cc): no roulette is played on the way there.
+LANELIGHT_INLINE MF LeavesFirst(const PathColumns& p, const Slots& slots) {
+  const VI first = hn::Set(DI(), static_cast<int32_t>(ReuseState::kFirst));
+  return hn::RebindMask(DF(), hn::Eq(Gather(p.reuse, slots), first));
+}
 
 template <class Policy>
 LANELIGHT_INLINE void PlayRoulette(Wave& wave) {
@@ -29,9 +37,9 @@ LANELIGHT_INLINE void PlayRoulette(Wave& wave) {
   ForEachBatch(wave, queue, [&](const StoreSlots& slots, MF valid) HWY_ATTR {
     const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
     VF s = Policy::Survival(wave, slots, beta);
-    const MF eligible =
-        hn::And(hn::Lt(s, Splat(1.0f)),
-                hn::RebindMask(DF(), hn::Gt(Gather(p.depth, slots), before)));
+    MF eligible = hn::And(hn::Lt(s, Splat(1.0f)),
+                          hn::RebindMask(DF(), hn::Gt(Gather(p.depth, slots), before)));
+    if (p.reuse != nullptr) eligible = hn::AndNot(LeavesFirst(p, slots), eligible);
     s = hn::IfThenElse(eligible, s, Splat(1.0f));
     const MF survives = hn::Lt(Gather(p.u_roulette, slots), s);
     const V3 scaled = Mul(beta, hn::Div(Splat(1.0f), s));

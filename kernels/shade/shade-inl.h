@@ -223,6 +223,8 @@ template <class Bsdf, ShadeKind kKind>
 StageFn ResolveShade(const FeatureSet& features) {
   static_assert(HasTrait(kKind, kSpecularOnly) == Bsdf::kSpecular);
   static_assert(HasTrait(kKind, kRefracting) == Bsdf::kRefracts);
+  static_assert(HasTrait(kKind, kWalks) == Bsdf::kStochastic);
+  static_assert(HasTrait(kKind, kEvenSides) == Bsdf::kEvenSides);
   if constexpr (!Bsdf::kSpecular) {
     if (features.Has(Feature::kGuided)) {
       return features.Has(Feature::kMis)

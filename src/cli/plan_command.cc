@@ -42,6 +42,13 @@ std::string Stages(const Plan& plan) {
     text += fmt::format("  {:<22} {}{}\n", s.name, s.meaning,
                         repeated ? ", once for each candidate" : "");
   }
+  if (!plan.block_stages.empty()) {
+    text += fmt::format("\nstages of blocks of paths that have ended ({}), in order:\n",
+                        plan.block_stages.size());
+  }
+  for (const PlannedStage& s : plan.block_stages) {
+    text += fmt::format("  {:<22} {}\n", s.stage.name, s.stage.meaning);
+  }
   text += fmt::format("\nstages left out ({}):\n", plan.omitted.size());
   for (const OmittedStage& s : plan.omitted) {
     text += fmt::format("  {:<22} {}\n", s.stage.name, s.reason);

@@ -68,31 +68,52 @@ struct ChannelTruth {
   double pooled = 0, pooled_noise = 0;
 };
 
-struct Sums {
-  Shares square, relative;
-  double pooled = 0;      // relative error, by ChannelTruth::pooled
-  double up_squares = 0;  // of how much a pixel's may grow, at most
+// Pixels whose errors may rise and fall together: one, or all of a tile.
+struct Together {
+  double square = 0, relative = 0;
+  double pooled = 0;  // relative error, by ChannelTruth::pooled
+  double up = 0;      // how much the relative error may grow, at most
   double most_up = 0;
   std::size_t most_up_at = 0;  // index of that pixel
+  double freedom = std::numeric_limits<double>::infinity();
   std::uint64_t pixels = 0;
 
   // `share`: of the variance that is left.
   void Add(std::size_t index, const PixelEstimate& p,
            const std::array<ChannelTruth, 3>& truth, double share) {
-    double own_square = 0, own_relative = 0, up = 0;
+    double own_square = 0, own_relative = 0, own_up = 0;
     for (int c = 0; c < 3; ++c) {
       const double v = p.variance[c] * share / 3;
       const double weight = Weight(truth[c].own.Quantile(0), truth[c].noise);
       own_square += v;
       own_relative += v * weight;
       pooled += v * Weight(truth[c].pooled, truth[c].pooled_noise);
-      up += v * (Weight(truth[c].own.Quantile(-kTwoSided)) - weight);
+      own_up += v * (Weight(truth[c].own.Quantile(-kTwoSided)) - weight);
     }
-    square.Add(own_square, p.freedom);
-    relative.Add(own_relative, p.freedom);
-    up_squares += up * up;
-    if (up > most_up) most_up = up, most_up_at = index;
+    square += own_square;
+    relative += own_relative;
+    up += own_up;
+    if (own_up > most_up) most_up = own_up, most_up_at = index;
+    freedom = std::min(freedom, p.freedom);
     ++pixels;
+  }
+};
+
+struct Sums {
+  Shares square, relative;
+  double pooled = 0, up_squares = 0;  // of Together
+  double most_up = 0;
+  std::size_t most_up_at = 0;
+  std::uint64_t pixels = 0;
+
+  void Add(const Together& one) {
+    if (one.pixels == 0) return;
+    square.Add(one.square, one.freedom);
+    relative.Add(one.relative, one.freedom);
+    pooled += one.pooled;
+    up_squares += one.up * one.up;
+    if (one.most_up > most_up) most_up = one.most_up, most_up_at = one.most_up_at;
+    pixels += one.pixels;
   }
   void Add(const Sums& other) {
     square.Add(other.square);
@@ -109,9 +130,13 @@ struct Sums {
 // The pixels of an image, and what their neighbours say of them.
 class PixelGrid {
  public:
-  PixelGrid(const PixelRect& window, const std::function<PixelEstimate(int, int)>& pixel)
+  PixelGrid(const PixelRect& window, int side,
+            const std::function<PixelEstimate(int, int)>& pixel)
       : width_(window.width()),
         height_(window.height()),
+        side_(side),
+        left_(window.x0 % side),
+        top_(window.y0 % side),
         pixels_(Count()),
         neighbours_(Count()) {
     ForRows([&](int y) {
@@ -127,13 +152,10 @@ class PixelGrid {
   // In the order of the rows, so that it is the same for any number of threads; `share`
   // of the variances, as more samples would leave it.
   Sums Total(double share = 1) const {
-    std::vector<Sums> rows(static_cast<std::size_t>(height_));
-    ForRows([&](int y) {
-      for (int x = 0; x < width_; ++x) {
-        const PixelEstimate& p = pixels_[Index(x, y)];
-        if (!p.known) continue;
-        rows[static_cast<std::size_t>(y)].Add(Index(x, y), p, Truth(x, y, share), share);
-      }
+    std::vector<Sums> rows(static_cast<std::size_t>((top_ + height_ - 1) / side_ + 1));
+    ParallelFor(rows.size(), [&](std::size_t row) {
+      const int y = static_cast<int>(row) * side_ - top_;
+      for (int x = -left_; x < width_; x += side_) rows[row].Add(Tile(x, y, share));
     });
     Sums total;
     for (const Sums& row : rows) total.Add(row);
@@ -147,6 +169,17 @@ class PixelGrid {
   }
 
  private:
+  // That begins at (x, y), perhaps outside of the window.
+  Together Tile(int x, int y, double share) const {
+    Together tile;
+    for (int b = std::max(y, 0); b < std::min(y + side_, height_); ++b) {
+      for (int a = std::max(x, 0); a < std::min(x + side_, width_); ++a) {
+        const PixelEstimate& p = pixels_[Index(a, b)];
+        if (p.known) tile.Add(Index(a, b), p, Truth(a, b, share), share);
+      }
+    }
+    return tile;
+  }
   std::size_t Count() const {
     return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   }
@@ -228,6 +261,7 @@ class PixelGrid {
   }
 
   int width_, height_;
+  int side_, left_, top_;  // of tiles; where in the first one the window begins
   std::vector<PixelEstimate> pixels_;
   std::vector<Rgb> neighbours_;
 };
@@ -300,8 +334,9 @@ Interval ErrorInterval(double estimate, double k1, double k2) {
 }
 
 ErrorEstimate EstimateError(const PixelRect& window,
-                            const std::function<PixelEstimate(int, int)>& pixel) {
-  const PixelGrid grid(window, pixel);
+                            const std::function<PixelEstimate(int, int)>& pixel,
+                            int side) {
+  const PixelGrid grid(window, side, pixel);
   const Sums sums = grid.Total();
   ErrorEstimate out = FromSums(sums);
   // Samples that are all black are equal, and say nothing of a lamp that they missed.
@@ -327,7 +362,7 @@ ErrorEstimate EstimateError(const PixelRect& window,
 ErrorEstimate EstimateError(const FilmAccumulator& film) {
   const PixelRect window = {film.x0(), film.y0(), film.x0() + film.width(),
                             film.y0() + film.height()};
-  return EstimateError(window, [&film](int x, int y) {
+  const auto pixel = [&film](int x, int y) {
     PixelEstimate p;
     p.known = film.HasVariance(x, y);
     if (!p.known) return p;
@@ -335,7 +370,8 @@ ErrorEstimate EstimateError(const FilmAccumulator& film) {
     p.variance = film.Variance(x, y);
     p.freedom = static_cast<double>(film.Observations(x, y) - 1);
     return p;
-  });
+  };
+  return EstimateError(window, pixel, film.groups().side);
 }
 
 }  // namespace lanelight

@@ -148,6 +148,17 @@ FeatureSet TurnsOn(Guiding choice) {
   return {};
 }
 
+FeatureSet TurnsOn(Reuse choice) {
+  switch (choice) {
+#define X(name, own, also, ...) \
+  case Reuse::k##name:          \
+    return Union(LANELIGHT_OWN_##own(k##name##Reuse), FeatureSet also);
+    LANELIGHT_REUSES(X)
+#undef X
+  }
+  return {};
+}
+
 FeatureSet TurnsOn(Decide choice) {
   switch (choice) {
 #define X(name, own, also, ...) \

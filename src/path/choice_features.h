@@ -19,6 +19,7 @@ FeatureSet TurnsOn(ShadowRoulette choice);
 FeatureSet TurnsOn(Distances choice);
 FeatureSet TurnsOn(Transmittance choice);
 FeatureSet TurnsOn(Guiding choice);
+FeatureSet TurnsOn(Reuse choice);
 FeatureSet TurnsOn(Decide choice);
 
 }  // namespace lanelight

@@ -22,6 +22,8 @@ struct SampleGroups {
       1;  // successive samples that belong together: 2 in antithetic pairs
   /// Units take turns at kReplicates observations; else each is one by itself.
   bool replicates = false;
+  /// Pixels of a tile with this side, in pixels of the image, depend on each other.
+  std::int32_t side = 1;
 
   bool operator==(const SampleGroups&) const = default;
 

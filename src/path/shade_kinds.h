@@ -17,14 +17,16 @@ enum ShadeTraits : std::uint32_t {
   kMetallic = 1 << 4,      // seen head-on: the Fresnel reflectance of color0, color1
   kClear = 1 << 5,         // seen head-on: white
   kInMedium = 1 << 6,      // a phase function: of points in a medium, not of surfaces
+  kWalks = 1 << 7,         // its value is that of a random walk
+  kEvenSides = 1 << 8,     // sends the same light to all directions on a side
 };
 
 // X(name, traits, meaning)
 // clang-format off
 #define LANELIGHT_SHADE_KINDS(X)                                                       \
-  X(Diffuse, kPlainShading, "Lambertian diffuse material")                             \
-  X(DiffuseUniform, kPlainShading, "uniform-scattering diffuse material")              \
-  X(DiffuseInSphere, kPlainShading, "in-sphere diffuse material")                      \
+  X(Diffuse, kEvenSides, "Lambertian diffuse material")                             \
+  X(DiffuseUniform, kEvenSides, "uniform-scattering diffuse material")              \
+  X(DiffuseInSphere, kEvenSides, "in-sphere diffuse material")                      \
   X(ConductorSmooth, kSpecularOnly | kMetallic, "smooth conductor")     \
   X(ConductorRough, kMicrofacets | kMetallic, "rough conductor")        \
   X(DielectricSmooth, kSpecularOnly | kChoosesLobe | kRefracting | kClear, "smooth dielectric") \
@@ -32,10 +34,10 @@ enum ShadeTraits : std::uint32_t {
   X(ThinDielectric, kSpecularOnly | kChoosesLobe | kClear, "thin dielectric")          \
   X(CoatedDiffuseSmooth, kChoosesLobe, "smooth coated diffuse")                        \
   X(CoatedDiffuseRough, kMicrofacets | kChoosesLobe, "rough coated diffuse")           \
-  X(CoatedConductor, kMicrofacets | kChoosesLobe | kMetallic, "coated conductor") \
-  X(CoatedDiffuseMedium, kMicrofacets | kChoosesLobe, "coated diffuse with a scattering medium between") \
-  X(CoatedConductorMedium, kMicrofacets | kChoosesLobe | kMetallic, "coated conductor with a scattering medium between") \
-  X(DiffuseTransmission, kChoosesLobe, "diffuse transmission")          \
+  X(CoatedConductor, kMicrofacets | kChoosesLobe | kMetallic | kWalks, "coated conductor") \
+  X(CoatedDiffuseMedium, kMicrofacets | kChoosesLobe | kWalks, "coated diffuse with a scattering medium between") \
+  X(CoatedConductorMedium, kMicrofacets | kChoosesLobe | kMetallic | kWalks, "coated conductor with a scattering medium between") \
+  X(DiffuseTransmission, kChoosesLobe | kEvenSides, "diffuse transmission")          \
   X(HenyeyGreenstein, kInMedium, "Henyey-Greenstein phase function")
 // clang-format on
 

@@ -14,6 +14,7 @@ struct Stage {
   QueueId input;          // skipped when empty
   FeatureSet needs = {};  // all of these, or the stage is absent
   FieldSet reads = {}, writes = {};
+  bool of_blocks = false;  // works on a block of paths that have ended: Wave::block
   /// Kernel for these features on the chosen target; the features select among the
   /// stage's few template variants.
   StageFn (*resolve)(const FeatureSet& features);

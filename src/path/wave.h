@@ -11,6 +11,7 @@
 namespace lanelight {
 
 struct CompiledScene;  // src/compiled/scene.h
+struct Block;          // src/path/block.h
 
 // Queues hold path slots. Stages append and read; the driver (src/wavefront/drive.cc)
 // clears all but kFree, and kActive, which it takes from kScattered, before a wave.
@@ -107,12 +108,12 @@ struct ColumnLists {
 struct Wave;
 using StageFn = void (*)(Wave&);
 
-/// Kernels of the plan that find the nearest surface of a ray, and what it is like there:
-/// for stages that send rays of their own.
+/// Kernels of the plan that find the nearest surface of a ray, what it is like there, and
+/// whether anything blocks a shadow ray: for stages that send rays of their own.
 struct RayKernels {
   static constexpr std::uint32_t kMost = 8;
-  StageFn closest[kMost] = {}, surface[kMost] = {};
-  std::uint32_t num_closest = 0, num_surface = 0;
+  StageFn closest[kMost] = {}, surface[kMost] = {}, shadow[kMost] = {};
+  std::uint32_t num_closest = 0, num_surface = 0, num_shadow = 0;
 };
 
 struct Wave {
@@ -120,7 +121,8 @@ struct Wave {
   ColumnLists lists;  // of `path`
   const CompiledScene* scene = nullptr;
   const RunParameters* run = nullptr;
-  RayKernels kernels;  // with kInterfaces
+  RayKernels kernels;      // with kInterfaces or kReuse
+  Block* block = nullptr;  // with kReuse
   Queue queues[kNumQueues];
   std::uint32_t capacity = 0;
   TileWork work;

@@ -32,6 +32,7 @@ SampleGroups GroupsOf(const Strategy& strategy) {
   // their own: those of four turns say it.
   groups.replicates = strategy.points != Points::kIndependent ||
                       (groups.unit == 2 && strategy.control == Control::kRegression);
+  if (strategy.reuse != Reuse::kNone) groups.side = kReuseTile;
   return groups;
 }
 

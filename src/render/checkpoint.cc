@@ -40,10 +40,11 @@ bool SameTiles(const std::vector<PixelRect>& a, const std::vector<PixelRect>& b)
 // Tiles as they are without a state where all of the image is rendered: larger ones if
 // there are few samples. Parts have the same tiles whatever the number of samples is.
 std::vector<PixelRect> TilesToRender(const Job& job, const Part& part) {
-  if (part.count == 1) {
-    return MakePartition(job.window, job.OpenEnded() ? kPilotSpp : job.spp).tiles;
-  }
   const Strategy& strategy = job.scene.strategy;
+  if (part.count == 1) {
+    return MakePartition(job.window, job.OpenEnded() ? kPilotSpp : job.spp, strategy)
+        .tiles;
+  }
   if (strategy.allocation == Allocation::kError) {
     throw InputError(fmt::format(
         "--part {}/{}: with allocation=error the samples of a pixel depend on the errors "
@@ -52,7 +53,7 @@ std::vector<PixelRect> TilesToRender(const Job& job, const Part& part) {
         "allocation=uniform",
         part.index, part.count));
   }
-  return TilesOfPart(job.window, part);
+  return TilesOfPart(job.window, part, strategy.reuse == Reuse::kNone ? 1 : kReuseTile);
 }
 
 std::uint64_t PixelsOf(const std::vector<PixelRect>& tiles) {

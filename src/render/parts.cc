@@ -27,12 +27,13 @@ std::uint64_t AlongZ(const PixelRect& tile, int side) {
 
 }  // namespace
 
-std::vector<PixelRect> TilesOfPart(const PixelRect& window, const Part& part) {
+std::vector<PixelRect> TilesOfPart(const PixelRect& window, const Part& part,
+                                   int least_side) {
   LL_CHECK(part.index >= 1 && part.index <= part.count);
   const auto count = static_cast<std::size_t>(part.count);
   int side = kSide;
   std::vector<PixelRect> all = TilesOf(window, side);
-  while (count > 1 && side > 1 && all.size() < kTilesPerPart * count) {
+  while (count > 1 && side > least_side && all.size() < kTilesPerPart * count) {
     side /= 2;
     all = TilesOf(window, side);
   }

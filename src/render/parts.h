@@ -14,7 +14,9 @@ struct Part {
 
 /// Tiles of a part of the window: every pixel is in exactly one part. Tiles are dealt out
 /// along a Z-order curve, so that any part has its share of each region, and are as small
-/// as it takes for many of them. Throws InputError if there are more parts than tiles.
-std::vector<PixelRect> TilesOfPart(const PixelRect& window, const Part& part);
+/// as it takes for many of them, but not below `least_side` pixels. Throws InputError if
+/// there are more parts than tiles.
+std::vector<PixelRect> TilesOfPart(const PixelRect& window, const Part& part,
+                                   int least_side = 1);
 
 }  // namespace lanelight

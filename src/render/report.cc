@@ -100,6 +100,9 @@ Json ToJson(const Plan& plan) {
   for (const PlannedStage& s : plan.stages) {
     stages.push_back({{"name", s.stage.name}, {"meaning", s.stage.meaning}});
   }
+  for (const PlannedStage& s : plan.block_stages) {
+    stages.push_back({{"name", s.stage.name}, {"meaning", s.stage.meaning}});
+  }
   for (const OmittedStage& s : plan.omitted) {
     omitted.push_back({{"name", s.stage.name}, {"reason", s.reason}});
   }

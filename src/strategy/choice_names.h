@@ -22,10 +22,12 @@ inline constexpr const char* kDistances[] = {LANELIGHT_DISTANCES(X)};
 inline constexpr const char* kTransmittances[] = {LANELIGHT_TRANSMITTANCES(X)};
 inline constexpr const char* kAllocations[] = {LANELIGHT_ALLOCATIONS(X)};
 inline constexpr const char* kGuidings[] = {LANELIGHT_GUIDINGS(X)};
+inline constexpr const char* kReuses[] = {LANELIGHT_REUSES(X)};
 inline constexpr const char* kDecisions[] = {LANELIGHT_DECISIONS(X)};
 #undef X
 #define X(enumerator, text, meaning) text,
 inline constexpr const char* kPaired[] = {LANELIGHT_PAIRED(X)};
+inline constexpr const char* kBlockLayouts[] = {LANELIGHT_BLOCK_LAYOUTS(X)};
 #undef X
 inline constexpr const char* kHeuristics[] = {"power", "balance"};
 

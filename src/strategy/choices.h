@@ -20,6 +20,9 @@ inline constexpr int kSeenLightRays = LANELIGHT_SEEN_LIGHT_RAYS;
 /// Light samples of which light-candidates=resampled keeps one, unless told otherwise.
 #define LANELIGHT_LIGHT_CANDIDATES 4
 inline constexpr std::uint32_t kDefaultLightCandidates = LANELIGHT_LIGHT_CANDIDATES;
+/// Paths that share their second vertices with reuse=block, unless told otherwise.
+#define LANELIGHT_REUSED_PATHS 64
+inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
 #define LANELIGHT_TEXT(value) LANELIGHT_TEXT_OF(value)
 #define LANELIGHT_TEXT_OF(value) #value
 
@@ -137,11 +140,22 @@ inline constexpr std::uint32_t kDefaultLightCandidates = LANELIGHT_LIGHT_CANDIDA
   X(Radiance, PLAIN, ({kGuided}), "radiance", "", "directions by the material or by the incident radiance that training passes have found; pilot passes", \
     "f / (c p_guide + (1 - c) p_material)", "Vorba et al. 2014; Mueller, Gross and Novak 2017")
 
+#define LANELIGHT_REUSES(X)                                                               \
+  X(None, PLAIN, ({}), "none", "", "a path serves its own pixel (default)", "f L / p", "") \
+  X(Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact|:apart]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile serve all their first ones", \
+    "sum_j f_i(x_j) V L_j / sum_k p_k(x_j) V", "Bekaert, Sbert and Halton 2002")
+
 #define LANELIGHT_DECISIONS(X)                                                            \
   X(None, PLAIN, ({}), "none", "", "the strategy is as its other keys say (default)", "one strategy", "")       \
   X(Pilot, PLAIN, ({kDecides}), "pilot", "", "roulette is chosen by a pilot, where a change of it pays; else it is as its key says", \
     "argmin over strategies of variance times cost", "")
 // clang-format on
+
+// How the paths of reuse=block are chosen: X(name, text, meaning)
+#define LANELIGHT_BLOCK_LAYOUTS(X)                                                     \
+  X(Random, "random", "at random from the tile, anew for each sample (default)")       \
+  X(Compact, "compact", "a rectangle that lies elsewhere in the tile for each sample") \
+  X(Apart, "apart", "a rectangle of every second pixel")
 
 // Dimensions that an antithetic pair shares and reflects: X(name, text, meaning)
 #define LANELIGHT_PAIRED(X)                                  \
@@ -168,6 +182,8 @@ LANELIGHT_ENUM(Distances, LANELIGHT_DISTANCES(X));
 LANELIGHT_ENUM(Transmittance, LANELIGHT_TRANSMITTANCES(X));
 LANELIGHT_ENUM(Allocation, LANELIGHT_ALLOCATIONS(X));
 LANELIGHT_ENUM(Guiding, LANELIGHT_GUIDINGS(X));
+LANELIGHT_ENUM(Reuse, LANELIGHT_REUSES(X));
+LANELIGHT_ENUM(BlockLayout, LANELIGHT_BLOCK_LAYOUTS(X));
 LANELIGHT_ENUM(Decide, LANELIGHT_DECISIONS(X));
 LANELIGHT_ENUM(Paired, LANELIGHT_PAIRED(X));
 #undef X

@@ -57,6 +57,9 @@ constexpr ChoiceInfo kChoices[] = {
 #define X(enumerator, ...) ROW("guiding", __VA_ARGS__)
     LANELIGHT_GUIDINGS(X)
 #undef X
+#define X(enumerator, ...) ROW("reuse", __VA_ARGS__)
+    LANELIGHT_REUSES(X)
+#undef X
 #define X(enumerator, ...) ROW("decide", __VA_ARGS__)
     LANELIGHT_DECISIONS(X)
 #undef X
@@ -96,6 +99,11 @@ std::string LightText(const Strategy& s) {
   return s.shadow_floor ? text + fmt::format(":{}", *s.shadow_floor) : text;
 }
 
+std::string ReuseText(const Strategy& s) {
+  if (s.reuse == Reuse::kNone) return Name(s.reuse);
+  return fmt::format("{}:{}:{}", Name(s.reuse), s.reused_paths, Name(s.block_layout));
+}
+
 }  // namespace
 
 std::string ToText(const Strategy& s) {
@@ -112,9 +120,10 @@ std::string ToText(const Strategy& s) {
   text += fmt::format(",roulette={},light-selection={},seen-lights={}", RouletteText(s),
                       Name(s.light_selection), Name(s.seen_lights));
   return text + LightText(s) +
-         fmt::format(",distances={},transmittance={},allocation={},guiding={},decide={}",
-                     Name(s.distances), Name(s.transmittance), Name(s.allocation),
-                     Name(s.guiding), Name(s.decide));
+         fmt::format(
+             ",distances={},transmittance={},allocation={},guiding={},reuse={},decide={}",
+             Name(s.distances), Name(s.transmittance), Name(s.allocation),
+             Name(s.guiding), ReuseText(s), Name(s.decide));
 }
 
 std::span<const ChoiceInfo> AllChoices() { return kChoices; }
@@ -145,6 +154,8 @@ const char* Name(Transmittance choice) {
 }
 const char* Name(Allocation choice) { return kAllocations[static_cast<int>(choice)]; }
 const char* Name(Guiding choice) { return kGuidings[static_cast<int>(choice)]; }
+const char* Name(Reuse choice) { return kReuses[static_cast<int>(choice)]; }
+const char* Name(BlockLayout choice) { return kBlockLayouts[static_cast<int>(choice)]; }
 const char* Name(Decide choice) { return kDecisions[static_cast<int>(choice)]; }
 const char* Name(Paired choice) { return kPaired[static_cast<int>(choice)]; }
 

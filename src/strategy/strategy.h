@@ -17,6 +17,10 @@ namespace lanelight {
 enum class Heuristic : std::uint8_t { kPower, kBalance };
 
 inline constexpr std::uint32_t kMostLightCandidates = 64;
+/// Numbers of paths that reuse=block connects: powers of two.
+/// Side of the tiles, in pixels, whose paths it may connect.
+inline constexpr std::int32_t kReuseTile = 16;
+inline constexpr std::uint32_t kLeastReusedPaths = 2, kMostReusedPaths = 64;
 
 struct Strategy {
   Directions directions = Directions::kMis;
@@ -46,6 +50,9 @@ struct Strategy {
   Transmittance transmittance = Transmittance::kRatio;
   Allocation allocation = Allocation::kUniform;
   Guiding guiding = Guiding::kNone;
+  Reuse reuse = Reuse::kNone;
+  std::uint32_t reused_paths = kDefaultReusedPaths;  // of kBlock
+  BlockLayout block_layout = BlockLayout::kRandom;   // of kBlock
   Decide decide = Decide::kNone;
 
   friend bool operator==(const Strategy&, const Strategy&) = default;
@@ -87,6 +94,7 @@ enum class StrategyKey {
   kTransmittance,
   kAllocation,
   kGuiding,
+  kReuse,
   kDecide,
   kCount
 };
@@ -140,6 +148,8 @@ const char* Name(Distances choice);
 const char* Name(Transmittance choice);
 const char* Name(Allocation choice);
 const char* Name(Guiding choice);
+const char* Name(Reuse choice);
+const char* Name(BlockLayout choice);
 const char* Name(Decide choice);
 const char* Name(Paired choice);
 

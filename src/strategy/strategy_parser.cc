@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 
@@ -18,7 +19,7 @@ constexpr const char* kKeys[] = {
     "directions",  "points",          "pairs",       "control",       "c",
     "roulette",    "light-selection", "seen-lights", "light-points",  "light-candidates",
     "environment", "shadow-roulette", "distances",   "transmittance", "allocation",
-    "guiding",     "decide"};
+    "guiding",     "reuse",           "decide"};
 static_assert(std::size(kKeys) == static_cast<std::size_t>(StrategyKey::kCount));
 
 constexpr const char kPlain[] =
@@ -26,7 +27,7 @@ constexpr const char kPlain[] =
     "roulette=none,light-selection=power,seen-lights=paths,light-points=area,"
     "light-candidates=single,environment=plain,shadow-roulette=none,"
     "distances=exponential,transmittance=ratio,allocation=uniform,guiding=none,"
-    "decide=none";
+    "reuse=none,decide=none";
 
 class Parser {
  public:
@@ -179,6 +180,8 @@ class Parser {
       case StrategyKey::kGuiding:
         strategy_.guiding = static_cast<Guiding>(Choose(key, value, kGuidings));
         return;
+      case StrategyKey::kReuse:
+        return SetReuse(value);
       case StrategyKey::kDecide:
         strategy_.decide = static_cast<Decide>(Choose(key, value, kDecisions));
         return;
@@ -222,6 +225,24 @@ class Parser {
         Number("light-candidates=resampled", parts[1], 2, kMostLightCandidates);
     if (m != std::floor(m)) Fail("the number of light candidates must be whole");
     strategy_.candidates = static_cast<std::uint32_t>(m);
+  }
+
+  void SetReuse(std::string_view value) {
+    const auto parts = Parts("reuse", value, 3);
+    strategy_.reuse = static_cast<Reuse>(Choose("reuse", parts[0], kReuses));
+    strategy_.reused_paths = kDefaultReusedPaths;
+    strategy_.block_layout = BlockLayout::kRandom;
+    if (parts.size() < 2) return;
+    if (strategy_.reuse == Reuse::kNone) Fail("\"none\" of reuse takes no argument");
+    const double n = Number("reuse=block", parts[1], kLeastReusedPaths, kMostReusedPaths);
+    strategy_.reused_paths = static_cast<std::uint32_t>(n);
+    if (n != strategy_.reused_paths || !std::has_single_bit(strategy_.reused_paths)) {
+      Fail(
+          "the number of paths of a block must be a power of two: 2, 4, 8, 16, 32 or 64");
+    }
+    if (parts.size() < 3) return;
+    strategy_.block_layout =
+        static_cast<BlockLayout>(Choose("reuse=block:N", parts[2], kBlockLayouts));
   }
 
   void SetShadowRoulette(std::string_view value) {
@@ -308,6 +329,11 @@ void Apply(const StrategyChanges& changes, Strategy& strategy) {
   if (has(StrategyKey::kTransmittance)) strategy.transmittance = from.transmittance;
   if (has(StrategyKey::kAllocation)) strategy.allocation = from.allocation;
   if (has(StrategyKey::kGuiding)) strategy.guiding = from.guiding;
+  if (has(StrategyKey::kReuse)) {
+    strategy.reuse = from.reuse;
+    strategy.reused_paths = from.reused_paths;
+    strategy.block_layout = from.block_layout;
+  }
   if (has(StrategyKey::kDecide)) strategy.decide = from.decide;
 }
 

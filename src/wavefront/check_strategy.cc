@@ -61,6 +61,25 @@ void CheckControl(const Strategy& s, const CompiledScene& scene,
   }
 }
 
+// A sample of a block is not what one path has brought.
+void CheckReuse(const Strategy& s) {
+  if (s.reuse == Reuse::kNone) return;
+  if (s.Splits()) {
+    Refuse(std::string("reuse=block needs paths that do not split, as with roulette=") +
+           Name(s.roulette) + ": use roulette=throughput");
+  }
+  if (s.allocation == Allocation::kError) {
+    Refuse(
+        "reuse=block needs pixels with as many samples, which allocation=error does not "
+        "leave them: use allocation=uniform");
+  }
+  if (s.control != Control::kNone) {
+    Refuse(std::string("control=") + Name(s.control) +
+           " needs samples of one path each, which reuse=block does not leave: leave out "
+           "one of the two");
+  }
+}
+
 // What the checks of single keys know.
 struct Checked {
   const Strategy& strategy;
@@ -137,6 +156,15 @@ void NotePaths(const Checked& c) {
     c.Note(std::string("roulette=") + Name(s.roulette),
            ": paths end after one scattering event");
   }
+  if (s.reuse != Reuse::kNone && !c.plan.Has(Feature::kReuse)) {
+    c.Note(std::string("reuse=") + Name(s.reuse),
+           c.scene.Has(Feature::kMedia)
+               ? ": there are media"
+               : ": no path scatters a second time from a diffuse surface");
+  }
+  if (s.decide == Decide::kPilot && c.plan.Has(Feature::kReuse)) {
+    c.Note("decide=pilot", ": it knows no paths that serve others, as with reuse=block");
+  }
   if (s.guiding == Guiding::kNone) return;
   const std::string guiding = std::string("guiding=") + Name(s.guiding);
   if (s.directions == Directions::kUniform) {
@@ -151,6 +179,7 @@ void NotePaths(const Checked& c) {
 Notes CheckStrategy(const CompiledScene& scene, const PlanOptions& options) {
   const Strategy s = PlannedStrategy(scene, options);
   CheckControl(s, scene, options);
+  CheckReuse(s);
   Notes notes;
   const FeatureSet plan = PlanFeatures(scene, options);
   const Checked checked = {s, scene.features, plan, options, notes};

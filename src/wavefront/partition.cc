@@ -37,7 +37,7 @@ TilePartition AnyPartition(const CompiledScene& scene, const RunOptions& options
                            std::uint64_t planned_spp) {
   if (!options.windows.empty()) return PartitionOfWindows(options.windows, planned_spp);
   if (!options.tiles.empty()) return PartitionOfTiles(options.tiles, planned_spp);
-  return MakePartition(RenderedPixels(scene.film), planned_spp);
+  return MakePartition(RenderedPixels(scene.film), planned_spp, scene.strategy);
 }
 
 bool IsEven(const FilmAccumulator& film, const PixelRect& tile) {

@@ -62,6 +62,20 @@ void FindRepeated(Plan& plan) {
   LL_CHECK_LT(plan.first_repeated, plan.last_repeated);
 }
 
+// Whether two vertices see each other has nothing to do with lights.
+void FindShadowKernels(const FeatureSet& features, RayKernels& found) {
+  if (!features.Has(Feature::kReuse)) return;
+  FeatureSet shadows = features;
+  shadows.Add({Feature::kLights, Feature::kOpaqueShadows});
+  for (const Stage& stage : RegisteredStages()) {
+    if (!stage.needs.Has(Feature::kOpaqueShadows) || !shadows.HasAll(stage.needs)) {
+      continue;
+    }
+    LL_CHECK_LT(found.num_shadow, RayKernels::kMost);
+    found.shadow[found.num_shadow++] = stage.resolve(shadows);
+  }
+}
+
 // Shadow rays through interfaces use the kernels of the path's rays. Of a surface they
 // need the point and both normals, nothing else of its columns.
 RayKernels FindRayKernels(const Plan& plan) {
@@ -108,7 +122,8 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
   plan.notes = CheckStrategy(scene, options);
   for (const Stage& stage : RegisteredStages()) {
     if (plan.features.HasAll(stage.needs)) {
-      plan.stages.push_back({stage, stage.resolve(plan.features)});
+      auto& stages = stage.of_blocks ? plan.block_stages : plan.stages;
+      stages.push_back({stage, stage.resolve(plan.features)});
     } else {
       plan.omitted.push_back({stage, ReasonToOmit(stage, plan.features)});
     }
@@ -122,6 +137,7 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
   CheckReadsAreWritten(plan);
   FindRepeated(plan);
   plan.ray_kernels = FindRayKernels(plan);
+  FindShadowKernels(plan.features, plan.ray_kernels);
   plan.bytes_per_path = plan.live_fields.size() * sizeof(float);
   // New samples start only while the live paths fit (kernels/generate/generate.cc), and
   // slots are taken from the top of a stack, so most of the room for copies is seldom

@@ -47,11 +47,12 @@ struct OmittedStage {
 struct Plan {
   FeatureSet features;               // of scene and options together
   std::vector<PlannedStage> stages;  // in execution order
+  /// Of blocks of paths that have ended (reuse=block), likewise.
+  std::vector<PlannedStage> block_stages;
   /// Of them, [first, last) make and consider one candidate of a light sample: run once
   /// for each (RunParameters::candidates). None where light samples are not resampled.
   std::size_t first_repeated = 0, last_repeated = 0;
-  /// Of those that find the nearest surface, for stages that send rays of their own; none
-  /// without kInterfaces.
+  /// For stages that send rays of their own; none without kInterfaces or kReuse.
   RayKernels ray_kernels;
   std::vector<OmittedStage> omitted;
   std::vector<Field> live_fields, absent_fields;

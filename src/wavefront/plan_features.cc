@@ -1,5 +1,6 @@
 #include "src/wavefront/plan_features.h"
 
+#include "src/path/block.h"
 #include "src/path/choice_features.h"
 #include "src/prepare/light_anchors.h"
 
@@ -30,6 +31,17 @@ bool CanGuide(const Strategy& strategy, const FeatureSet& f) {
     if (!HasTrait(kind, kSpecularOnly)) kinds.Add(ShadeFeature(kind));
   }
   return strategy.directions != Directions::kUniform && f.HasAny(kinds);
+}
+
+// There is something to serve, and something to serve it with.
+bool CanReuse(const PlanOptions& options, const FeatureSet& f) {
+  FeatureSet kinds;
+  for (int k = 0; k < kNumShadeKinds; ++k) {
+    if ((kEvenSidedKinds >> k & 1) != 0) {
+      kinds.Add(ShadeFeature(static_cast<ShadeKind>(k)));
+    }
+  }
+  return options.max_depth > 1 && !f.Has(Feature::kMedia) && f.HasAny(kinds);
 }
 
 bool HasDeltaLights(const FeatureSet& f) {
@@ -101,7 +113,9 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
     }
     if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
     if (CanGuide(strategy, f)) f.Add(TurnsOn(strategy.guiding));
-    f.Add(TurnsOn(strategy.decide));
+    if (CanReuse(options, f)) f.Add(TurnsOn(strategy.reuse));
+    // What it compares serves no other pixels.
+    if (!f.Has(Feature::kReuse)) f.Add(TurnsOn(strategy.decide));
   } else {
     RemoveScattering(f);
   }
@@ -118,6 +132,7 @@ Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options)
   Strategy strategy = scene.strategy;
   ApplyStrategy(options.changes, {}, strategy);
   if (options.camera_only) strategy.control = Control::kNone;
+  if (options.camera_only || options.training) strategy.reuse = Reuse::kNone;
   if (!options.training) return strategy;
   if (!options.own_points) strategy.points = Points::kIndependent;
   strategy.pairs = Pairs::kNone;

@@ -68,6 +68,9 @@ std::string ParametersText(const Strategy& s, const FeatureSet& features) {
                                  points.group_shift, points.pmj02 != nullptr,
                                  pairs.dimensions, pairs.depths, groups.unit,
                                  groups.replicates, mis.square, mis.linear, mis.hits);
+  if (features.Has(Feature::kReuse)) {
+    text += fmt::format(" reuse {} {}", s.reused_paths, Name(s.block_layout));
+  }
   if (features.HasAny({Feature::kRoulette, Feature::kSplitting})) {
     const RouletteParameters r = MakeRouletteParameters(s);
     text += fmt::format(" roulette {} {} {} {}", Name(s.roulette), r.termination, r.floor,

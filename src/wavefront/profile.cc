@@ -26,7 +26,9 @@ const char* Name(TaskPart part) {
 
 std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
   std::vector<StageProfile> profiles;
-  for (const PlannedStage& planned : plan.stages) {
+  std::vector<PlannedStage> stages = plan.stages;
+  stages.insert(stages.end(), plan.block_stages.begin(), plan.block_stages.end());
+  for (const PlannedStage& planned : stages) {
     StageProfile profile;
     profile.name = planned.stage.name;
     for (Field f : plan.live_fields) {

@@ -67,10 +67,12 @@ bool TaskRunner::Run(const TileTask& task, const TaskWatcher& watcher, TaskSampl
   if (clock) clock->StartTask();
   const TileWork work = SetUp(task, space);
   const SampleBuffer buffer = Buffer(work, out);
+  if (space.reuse) space.reuse->Begin(work, space.wavefront.wave());
   const bool ended = Drive(space.wavefront, plan_, work, buffer, clock, &watcher);
   out.count = ended ? task.samples : 0;
   if (ended) {
     const std::uint32_t stride = work.num_pixels * work.samples;
+    if (space.reuse) space.reuse->Connect(task.rect, space.wavefront.wave(), clock);
     const Wave& wave = space.wavefront.wave();
     out.counts = {stride, wave.rays_closest, wave.rays_shadow, wave.health};
     if (plan_.features.Has(Feature::kSplitting)) {

@@ -5,17 +5,19 @@
 namespace lanelight {
 
 namespace {
-constexpr std::uint64_t kSamplesPerTask = 8192;
+constexpr std::uint64_t kSamplesOfTask = 8192;
 constexpr int kBlock = 4;
 }  // namespace
 
-TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp) {
+namespace {
+
+TilePartition Partition(const PixelRect& pixels, std::uint64_t spp, int most_side) {
   TilePartition partition;
   partition.samples = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(spp, 1, 32));
   partition.side = 16;
-  while (partition.side < 64 &&
+  while (partition.side < most_side &&
          std::uint64_t(partition.side) * partition.side * 4 * partition.samples <=
-             kSamplesPerTask) {
+             kSamplesOfTask) {
     partition.side *= 2;
   }
   partition.tiles = TilesOf(pixels, partition.side);
@@ -27,9 +29,20 @@ TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp) {
   return partition;
 }
 
+}  // namespace
+
+TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp) {
+  return Partition(pixels, spp, 64);
+}
+
+TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp,
+                            const Strategy& strategy) {
+  return Partition(pixels, spp, strategy.reuse == Reuse::kNone ? 64 : kReuseTile);
+}
+
 std::uint32_t SamplesPerTask(std::uint64_t pixels, std::uint64_t spp) {
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
-      kSamplesPerTask / pixels, 1, std::max<std::uint64_t>(spp, 1)));
+      kSamplesOfTask / pixels, 1, std::max<std::uint64_t>(spp, 1)));
 }
 
 std::vector<PixelRect> TilesOf(const PixelRect& window, int side) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/image/pixel_rect.h"
+#include "src/strategy/strategy.h"
 
 namespace lanelight {
 
@@ -16,8 +17,13 @@ struct TilePartition {
 };
 
 /// Tasks of about 8192 samples: enough to amortise the drain of a wavefront at the end,
-/// few enough that the sample buffer stays in the cache and threads stay busy.
+/// few enough that the sample buffer stays in the cache and threads stay busy. Tiles are
+/// at least 16 pixels wide, and larger where there are few samples.
 TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp);
+/// The same for a strategy: paths of reuse=block serve their tile, which must be the same
+/// for any number of samples.
+TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp,
+                            const Strategy& strategy);
 
 /// Samples of a task of a tile of so many pixels.
 std::uint32_t SamplesPerTask(std::uint64_t pixels, std::uint64_t spp);

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "src/core/aligned.h"
+#include "src/wavefront/block_reuse.h"
+#include "src/wavefront/plan_features.h"
 #include "src/wavefront/run_state.h"
 #include "src/wavefront/stage_clock.h"
 #include "src/wavefront/wavefront.h"
@@ -24,12 +26,18 @@ struct Workspace {
   Workspace(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
             const RunOptions& options)
       : wavefront(scene, plan, run) {
-    if (options.profile) clock.emplace(plan.stages.size(), options.profiling);
+    if (options.profile) {
+      clock.emplace(plan.stages.size() + plan.block_stages.size(), options.profiling);
+    }
+    if (plan.features.Has(Feature::kReuse)) {
+      reuse.emplace(plan, PlannedStrategy(scene, plan.options));
+    }
   }
   /// Null if nothing is timed.
   StageClock* Clock() { return clock ? &*clock : nullptr; }
 
   Wavefront wavefront;
+  std::optional<BlockReuse> reuse;
   std::optional<StageClock> clock;
   std::vector<std::uint32_t> pixels;
   TaskSamples samples;

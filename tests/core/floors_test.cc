@@ -54,6 +54,7 @@ constexpr Floor kFloors[] = {
     {"kernels/control",    "control variates"},
     {"kernels/roulette",   "roulette and splitting"},
     {"kernels/accumulate", "finished samples"},
+    {"kernels/reuse",      "paths that serve a block of pixels"},
     {"kernels/probe",      "kernel routines outside a render"},
     {"kernels",            "the registry of stages"},
     {"src/wavefront",      "plan and run"},

@@ -5,6 +5,7 @@
 // variate without its lights) is left out of the combination there, and the refusal is
 // checked. All comparisons of this file share one false-alarm budget; planted errors of
 // 1 % must be found.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -20,6 +21,7 @@
 #include "tests/media/scenes.h"
 #include "src/stat/hypothesis.h"
 #include "tests/strategy/covering.h"
+#include "tests/strategy/tiles.h"
 #include "tests/wavefront/agreement.h"
 
 namespace lanelight::test {
@@ -39,6 +41,7 @@ const std::map<std::string, std::vector<std::string>>& Variants() {
       {"analytic", {"analytic,c=1", "analytic,c=optimal"}},
       {"ambient", {"ambient,c=1", "ambient,c=optimal"}},
       {"regression", {"regression,c=1"}},
+      {"block", {"block:8", "block:64:compact", "block:16:apart"}},
       {"constant", {"constant:0.2"}},
       {"throughput", {"throughput:0.1:1"}},
       {"contribution", {"contribution", "contribution:0.02"}}};
@@ -202,35 +205,55 @@ bool Accepts(const SceneDescription& scene, const std::string& strategy) {
   }
 }
 
-// The combination as this scene takes it: without the control that it refuses.
-std::string FitTo(const SceneDescription& scene, const Combination& combination) {
-  const std::string whole = StrategyOf(Axes(), combination);
-  if (Accepts(scene, whole)) return whole;
-  Combination rest = combination;
-  rest[3] = 0;
-  CHECK(combination[3] != 0);  // nothing but a control variate is ever refused
-  return StrategyOf(Axes(), rest);
+std::size_t AxisOf(const std::string& key) {
+  const auto at = std::find_if(Axes().begin(), Axes().end(),
+                               [&](const Axis& axis) { return axis.key == key; });
+  REQUIRE(at != Axes().end());
+  return static_cast<std::size_t>(at - Axes().begin());
 }
 
-stat::ImageEstimate RenderWith(const SceneDescription& scene, const std::string& strategy,
-                               std::uint64_t spp, std::uint64_t seed) {
-  TestRender options;
-  options.spp = spp;
-  options.seed = seed;
-  options.strategy = strategy;
-  options.planned_samples = kLeastPilot;  // what is learned need not be good
-  const Rendered render = RenderDescription(scene, options);
-  CHECK(render.result.health.Total() == 0);
-  return Estimate(render);
+// The combination as this scene takes it. What refuses reuse=block are choices of other
+// axes, and control variates are what else a scene refuses.
+Combination FitTo(const SceneDescription& scene, const Combination& combination,
+                  bool keep_reuse) {
+  Combination fitted = combination;
+  const auto fits = [&] { return Accepts(scene, StrategyOf(Axes(), fitted)); };
+  if (fits()) return fitted;
+  if (combination[AxisOf("reuse")] != 0) {
+    if (keep_reuse) {
+      for (const char* key : {"control", "roulette", "allocation"}) {
+        fitted[AxisOf(key)] = 0;
+      }
+      CHECK(fits());
+      return fitted;
+    }
+    fitted[AxisOf("reuse")] = 0;
+    if (fits()) return fitted;
+  }
+  CHECK(fitted[AxisOf("control")] != 0);
+  fitted[AxisOf("control")] = 0;
+  CHECK(fits());
+  return fitted;
+}
+
+stat::ImageTestResult Compare(const HardScene& hard, const std::string& strategy,
+                              const stat::ImageEstimate& truth, std::uint64_t spp,
+                              std::uint64_t seed, double false_alarm) {
+  const stat::ImageTestOptions options = {hard.tile, false_alarm, kFloatTolerance, 1e-7};
+  if (strategy.find("reuse=block") == std::string::npos) {
+    return stat::CompareMeans(RenderWith(hard.scene, strategy, spp, seed), truth,
+                              options);
+  }
+  return stat::CompareMeans(RenderTiles(hard.scene, strategy, spp, seed, hard.tile),
+                            TilesOf(truth, hard.tile),
+                            {1, false_alarm, kFloatTolerance, 1e-7});
 }
 
 // The smallest relative error of an image that a comparison with each choice finds.
 class Power {
  public:
-  // `whole`: with all choices of the combination, else without its control variate.
-  void Add(const Combination& combination, bool whole, double detectable) {
+  void Add(const Combination& combination, double detectable) {
     for (std::size_t axis = 0; axis < Axes().size(); ++axis) {
-      if (!whole && Axes()[axis].key == "control") continue;
       const auto at = least_.try_emplace({axis, combination[axis]}, detectable).first;
       at->second = std::min(at->second, detectable);
     }
@@ -258,12 +281,11 @@ void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth, std::uint
   const auto& combinations = Combinations();
   std::vector<double> uniformity;
   for (std::size_t i = 0; i < combinations.size(); ++i) {
-    const std::string strategy = FitTo(hard.scene, combinations[i]);
-    const stat::ImageEstimate image = RenderWith(hard.scene, strategy, spp, i + 1);
-    const stat::ImageTestResult result = stat::CompareMeans(
-        image, truth,
-        {hard.tile, stat::SidakLevel(kFalseAlarm, int(kScenes * combinations.size())),
-         kFloatTolerance, 1e-7});
+    const Combination fitted = FitTo(hard.scene, combinations[i], i % 2 == 0);
+    const std::string strategy = StrategyOf(Axes(), fitted);
+    const stat::ImageTestResult result =
+        Compare(hard, strategy, truth, spp, i + 1,
+                stat::SidakLevel(kFalseAlarm, int(kScenes * combinations.size())));
     INFO(hard.name << ", " << strategy << ": " << result.ToString());
     // So few bright samples that their mean is far from normal (uniform directions, tiny
     // light, roulette that knows of no light): a test would reject good renders and find
@@ -271,8 +293,7 @@ void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth, std::uint
     if (result.detectable_bias > kJudged) continue;
     CHECK(result.same);
     uniformity.push_back(result.uniformity_p);
-    power.Add(combinations[i], strategy == StrategyOf(Axes(), combinations[i]),
-              result.detectable_bias);
+    power.Add(fitted, result.detectable_bias);
   }
   REQUIRE(!uniformity.empty());
   const double least = *std::min_element(uniformity.begin(), uniformity.end());

@@ -115,6 +115,31 @@ TEST_CASE("images are bit-identical for any threads and wavefront size",
   }
 }
 
+TEST_CASE("paths serve the same pixels for any threads and wavefront size",
+          "[determinism]") {
+  for (const char* strategy : {"reuse=block:16", "reuse=block:64:compact",
+                               "reuse=block:4:apart,directions=uniform"}) {
+    INFO(strategy);
+    TestRender base;
+    base.strategy = strategy;
+    base.spp = 12;
+    base.threads = 1;
+    base.wavefront = 1000;
+    const Rendered reference = RenderText(kScene, base);
+    CHECK(reference.result.health.Total() == 0);
+    CHECK(reference.plan.features.Has(Feature::kReuse));
+    for (const std::uint32_t wavefront : {64u, 8192u}) {
+      TestRender other = base;
+      other.threads = 2;
+      other.wavefront = wavefront;
+      CHECK(Identical(RenderText(kScene, other).film, reference.film));
+    }
+    TestRender alone = base;
+    alone.strategy = "reuse=none";
+    CHECK_FALSE(Identical(RenderText(kScene, alone).film, reference.film));
+  }
+}
+
 TEST_CASE("all SIMD targets give statistically the same image", "[determinism]") {
   std::vector<Rgb> means, errors;
   for (const std::string& target : AvailableTargets()) {

@@ -24,6 +24,8 @@ const char* const kStrategies[] = {
     "points=cmj,pairs=antithetic,allocation=error",
     "points=sobol,control=regression,allocation=error",
     "points=sobol,shadow-roulette=contribution",
+    "points=sobol,reuse=block:16",
+    "points=independent,pairs=antithetic,reuse=block:32:compact",
 };
 
 }  // namespace

@@ -1,0 +1,38 @@
+// Records of a task (src/path/block.h), by lane.
+#if defined(LANELIGHT_REUSE_BLOCK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_REUSE_BLOCK_INL_H_
+#undef LANELIGHT_REUSE_BLOCK_INL_H_
+#else
+#define LANELIGHT_REUSE_BLOCK_INL_H_
+#endif
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/simd/vec3-inl.h"
+#include "src/path/block.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE VI StateLanes(ReuseState state) {
+  return hn::Set(DI(), static_cast<int32_t>(state));
+}
+
+/// Of samples, by their place in the task's buffer, where those of a pixel are
+/// neighbours; in records those of a block are. Exact below 2^21 samples.
+HWY_INLINE VI RecordOf(const TileWork& work, VI output) {
+  const DI di;
+  const VI samples = hn::Set(di, static_cast<int32_t>(work.samples));
+  const VF middle = hn::Add(hn::ConvertTo(DF(), output), Splat(0.5f));
+  const VF per_pixel = Splat(1.0f / static_cast<float>(work.samples));
+  const VI place = hn::ConvertTo(di, hn::Mul(middle, per_pixel));  // towards 0
+  const VI sample = hn::Sub(output, hn::Mul(place, samples));
+  return hn::Add(hn::Mul(sample, hn::Set(di, static_cast<int32_t>(work.num_pixels))),
+                 place);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,169 @@
+// reuse=block: which pairs see each other, and what each pixel of the block gets
+// (kernels/reuse/pairs.cc has the estimator).
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/reuse/connect.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/accumulate/check-inl.h"
+#include "kernels/reuse/block-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+void TracePairs(Wave& wave) {
+  const Queue& rays = wave.queue(QueueId::kShadow);
+  wave.rays_shadow += rays.size;
+  for (uint32_t i = 0; i < wave.kernels.num_shadow && rays.size > 0; ++i) {
+    wave.kernels.shadow[i](wave);
+  }
+  float* const visible = wave.block->pairs.visible;
+  for (uint32_t i = 0; i < rays.size; ++i) visible[rays.items[i]] = 1;
+}
+
+// The colour planes of the sample of a record.
+HWY_INLINE float* ColorOf(const Wave& wave, uint32_t record) {
+  const uint32_t place = record - wave.block->sample * wave.work.num_pixels;
+  return wave.buffer.samples + place * wave.work.samples + wave.block->sample;
+}
+
+HWY_INLINE VF SumOfDensities(const PairColumns& pairs, uint32_t begin, uint32_t n) {
+  const DF df;
+  VF sum = hn::Zero(df);
+  for (uint32_t r = 0; r < n; r += static_cast<uint32_t>(hn::Lanes(df))) {
+    sum = hn::MulAdd(hn::LoadU(df, pairs.visible + begin + r),
+                     hn::LoadU(df, pairs.pdf_area + begin + r), sum);
+  }
+  return hn::SumOfLanes(df, sum);
+}
+
+// Adds what second vertex s sends to each receiver.
+HWY_INLINE void AddSuffix(const Wave& wave, uint32_t s) {
+  const DF df;
+  const Block& block = *wave.block;
+  const PairColumns& pairs = block.pairs;
+  const uint32_t begin = s * block.num_receivers;
+  const VF sum = SumOfDensities(pairs, begin, block.num_receivers);
+  if (hn::GetLane(sum) <= 0) return;
+  const float* color = ColorOf(wave, block.suffixes[s]);
+  const std::size_t stride = wave.buffer.stride;
+  const VF inverse = hn::Div(Splat(block.weights[s]), sum);
+  const VF l[3] = {hn::Mul(Splat(color[0]), inverse),
+                   hn::Mul(Splat(color[stride]), inverse),
+                   hn::Mul(Splat(color[2 * stride]), inverse)};
+  const float* f[3] = {pairs.f_r + begin, pairs.f_g + begin, pairs.f_b + begin};
+  for (uint32_t r = 0; r < block.num_receivers;
+       r += static_cast<uint32_t>(hn::Lanes(df))) {
+    const VF visible = hn::LoadU(df, pairs.visible + begin + r);
+    for (int c = 0; c < 3; ++c) {
+      float* to = block.sums[c] + r;
+      const VF carried = hn::Mul(hn::Mul(visible, l[c]), hn::LoadU(df, f[c] + r));
+      hn::StoreU(hn::Add(hn::LoadU(df, to), carried), df, to);
+    }
+  }
+}
+
+// What a sample had before, where what it has gathered since has been shared out.
+HWY_INLINE void TakeBack(const Wave& wave) {
+  const Block& block = *wave.block;
+  const ReuseColumns& second = block.second;
+  for (uint32_t i = 0; i < block.size; ++i) {
+    const uint32_t r = block.records[i];
+    if (second.state[r] != static_cast<uint32_t>(ReuseState::kSecond)) continue;
+    float* color = ColorOf(wave, r);
+    color[0] = second.before_r[r];
+    color[wave.buffer.stride] = second.before_g[r];
+    color[2 * wave.buffer.stride] = second.before_b[r];
+  }
+}
+
+// Makes samples of light, once all of it is there.
+template <bool kSigned>
+HWY_INLINE void FinishSamples(Wave& wave) {
+  const DI di;
+  const Block& block = *wave.block;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
+  const std::size_t stride = wave.buffer.stride;
+  float* const red = wave.buffer.samples + block.sample;
+  const float* weights =
+      red + std::size_t(wave.run->planes.First(PlaneGroup::kWeight)) * stride;
+  const VI first = hn::Set(di, static_cast<int32_t>(block.sample * wave.work.num_pixels));
+  const VI samples = hn::Set(di, static_cast<int32_t>(wave.work.samples));
+  const VF exposure = Splat(wave.run->exposure);
+  for (uint32_t i = 0; i < block.size; i += lanes) {
+    const MF valid = hn::FirstN(DF(), block.size - i);
+    // Lanes past the end repeat the first.
+    const VI loaded = hn::BitCast(di, hn::LoadU(DU(), block.records + i));
+    const VI records =
+        hn::IfThenElse(hn::RebindMask(di, valid), loaded,
+                       hn::Set(di, static_cast<int32_t>(block.records[i])));
+    const VI at = hn::Mul(hn::Sub(records, first), samples);
+    const V3 light = Gather3(red, red + stride, red + 2 * stride, at);
+    const V3 color = Mul(light, hn::Mul(Gather(weights, at), exposure));
+    const V3 value = Check<kSigned>(wave.health, color, valid).value;
+    Scatter3(value, red, red + stride, red + 2 * stride, at);
+  }
+}
+
+template <bool kSigned>
+HWY_INLINE void ConnectBlock(Wave& wave) {
+  const Block& block = *wave.block;
+  for (float* sums : block.sums) {
+    for (uint32_t r = 0; r < block.num_receivers; ++r) sums[r] = 0;
+  }
+  for (uint32_t s = 0; s < block.num_suffixes; ++s) AddSuffix(wave, s);
+  TakeBack(wave);
+  // Padding repeats the last of its kind: each counts once.
+  for (uint32_t r = 0; r < block.num_receivers; ++r) {
+    if (r > 0 && block.receivers[r] == block.receivers[r - 1]) continue;
+    float* color = ColorOf(wave, block.receivers[r]);
+    for (int c = 0; c < 3; ++c) color[c * wave.buffer.stride] += block.sums[c][r];
+  }
+  FinishSamples<kSigned>(wave);
+}
+
+void ConnectPlain(Wave& wave) { ConnectBlock<false>(wave); }
+void ConnectSigned(Wave& wave) { ConnectBlock<true>(wave); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(TracePairs);
+HWY_EXPORT(ConnectPlain);
+HWY_EXPORT(ConnectSigned);
+
+Stage ReuseShadowStage() {
+  return {.name = "reuse_shadow",
+          .meaning = "finds out which pairs of a block see each other",
+          .input = QueueId::kShadow,
+          .needs = {Feature::kReuse, Feature::kScatters},
+          .of_blocks = true,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(TracePairs);
+          }};
+}
+
+Stage ReuseConnectStage() {
+  return {.name = "reuse_connect",
+          .meaning = "shares the light of second vertices out to the block",
+          .input = QueueId::kScratch,
+          .needs = {Feature::kReuse, Feature::kScatters},
+          .of_blocks = true,
+          .resolve = [](const FeatureSet& features) -> StageFn {
+            return features.Has(Feature::kSignedFilter)
+                       ? HWY_DYNAMIC_DISPATCH(ConnectSigned)
+                       : HWY_DYNAMIC_DISPATCH(ConnectPlain);
+          }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE

@@ -1,0 +1,152 @@
+// reuse=block has the mean of paths that serve their own pixels, with every roulette,
+// proposal, layout and material. (tests/strategy/unbiased_test.cc compares it with the
+// scalar reference.) Renders are compared by tiles, whose pixels depend on each other.
+#include <catch2/catch.hpp>
+
+#include "src/core/error.h"
+#include "src/stat/hypothesis.h"
+#include "tests/reference/scenes.h"
+#include "tests/strategy/tiles.h"
+
+namespace lanelight::test {
+namespace {
+
+constexpr double kFalseAlarm = 1e-6;  // of each comparison
+
+struct Scene {
+  SceneDescription description;
+  std::uint64_t spp = 8192;
+  double power = 0.02;  // relative error of the image that is found
+};
+
+// Neighbours may gain what others lose: the image as a whole, and tile by tile, each for
+// itself, as tiles depend on each other too.
+constexpr int kTile = 2;
+
+stat::ImageEstimate OfPixel(const stat::ImageEstimate& image, std::size_t pixel) {
+  return {1, 1, image.observations, {image.mean[pixel]}, {image.variance[pixel]}};
+}
+
+void CheckSame(const Scene& scene, const std::string& alone, const std::string& reuse) {
+  const int side = scene.description.film.width;
+  for (const int tile : {side, kTile}) {
+    const stat::ImageEstimate truth =
+        RenderTiles(scene.description, alone, 4 * scene.spp, 1, tile);
+    const stat::ImageEstimate image =
+        RenderTiles(scene.description, alone + "," + reuse, scene.spp, 7, tile);
+    const auto tiles = static_cast<int>(image.mean.size());
+    for (std::size_t i = 0; i < image.mean.size(); ++i) {
+      const stat::ImageTestResult result =
+          stat::CompareMeans(OfPixel(image, i), OfPixel(truth, i),
+                             {1, kFalseAlarm / tiles, kFloatTolerance, 1e-7});
+      INFO(alone << "," << reuse << ", tile " << i << ": " << result.ToString());
+      CHECK(result.same);
+      if (tile == side) CHECK(result.detectable_bias < scene.power);
+    }
+  }
+}
+
+// A room that is seen by way of a mirror for a part, whose paths are cut at a depth.
+Scene Room() { return {SmallRoom(8, 4, 0.3)}; }
+
+// Under a lamp as large as the ceiling, side walls, the materials behind the first, that
+// are made of something else.
+Scene WithSides(const Material& sides, int max_depth) {
+  Scene room = {SmallRoom(8, max_depth, 0.95)};
+  for (const std::size_t i : {1u, 2u}) room.description.materials[i] = sides;
+  return room;
+}
+
+// Plastic, whose coat is a mirror.
+Scene PlasticSides() {
+  Material plastic;
+  plastic.kind = MaterialKind::kCoatedDiffuse;
+  plastic.reflectance.constant = Grey(0.7);
+  plastic.uroughness.constant = plastic.vroughness.constant = 0;
+  return WithSides(plastic, 4);
+}
+
+// Mirrors, in which first vertices come an event later, with no suffix left.
+Scene MirrorSides() {
+  Material mirror;
+  mirror.kind = MaterialKind::kConductor;
+  mirror.eta.constant = {0.2, 0.2, 0.2};
+  mirror.k.constant = {3.9, 3.9, 3.9};
+  mirror.uroughness.constant = mirror.vroughness.constant = 0;
+  return WithSides(mirror, 2);
+}
+
+}  // namespace
+
+TEST_CASE("no roulette takes light away on the way to a second vertex", "[reuse]") {
+  for (const char* roulette :
+       {"roulette=none", "roulette=constant:0.25", "roulette=throughput:0:1",
+        "roulette=luminance:0:1", "roulette=throughput"}) {
+    CheckSame(Room(), std::string("points=sobol,") + roulette, "reuse=block:16");
+  }
+}
+
+TEST_CASE("every proposal of directions finds second vertices as it says", "[reuse]") {
+  Scene uniform = Room();
+  uniform.power = 0.05;
+  CheckSame(uniform, "points=sobol,directions=uniform", "reuse=block:8");
+  CheckSame(uniform, "points=sobol,directions=bsdf", "reuse=block:8");
+  CheckSame(Room(), "points=sobol,directions=light", "reuse=block:8");
+  CheckSame(Room(), "points=sobol,guiding=radiance", "reuse=block:8");
+  CheckSame(Room(), "points=sobol,light-candidates=resampled", "reuse=block:8");
+}
+
+TEST_CASE("blocks of every layout and size share the same light", "[reuse]") {
+  for (const char* reuse : {"reuse=block:2", "reuse=block:4:compact",
+                            "reuse=block:32:apart", "reuse=block:64"}) {
+    CheckSame(Room(), "points=sobol", reuse);
+  }
+  Scene odd = Room();
+  odd.description.film.width = 7;
+  odd.description.film.height = 7;
+  CheckSame(odd, "points=sobol", "reuse=block:16");
+}
+
+TEST_CASE("materials of every kind receive, and are seen", "[reuse]") {
+  for (const Material& material : MaterialZoo()) {
+    INFO(material.name);
+    Scene plate = {Plate(material, 8, 3), 2048, 0.03};
+    CheckSame(plate, "points=sobol", "reuse=block:16");
+  }
+  // A coin decides between the coat's mirror and uniform directions.
+  Scene uniform = PlasticSides();
+  uniform.power = 0.02;
+  CheckSame(uniform, "points=sobol,directions=uniform", "reuse=block:16");
+  CheckSame(PlasticSides(), "points=sobol", "reuse=block:16");
+}
+
+TEST_CASE("first vertices in mirrors are apart from those before", "[reuse]") {
+  CheckSame(MirrorSides(), "points=sobol", "reuse=block:64");
+}
+
+TEST_CASE("what reuse=block does not go with is refused", "[reuse]") {
+  for (const char* other : {"roulette=adjoint", "roulette=efficiency",
+                            "control=regression", "allocation=error"}) {
+    INFO(other);
+    CHECK_THROWS_AS(
+        RenderWith(Room().description, std::string("reuse=block,") + other, 4, 1),
+        InputError);
+  }
+}
+
+TEST_CASE("without reuse=block nothing of it is there", "[reuse]") {
+  TestRender options;
+  const Plan none = RenderDescription(Room().description, options).plan;
+  CHECK(none.block_stages.empty());
+  CHECK_FALSE(none.features.Has(Feature::kReuse));
+  for (const PlannedStage& planned : none.stages) {
+    CHECK(std::string(planned.stage.name).find("reuse") == std::string::npos);
+  }
+  for (const Field field : none.live_fields) CHECK(field != Field::reuse);
+  options.strategy = "reuse=block";
+  const Plan block = RenderDescription(Room().description, options).plan;
+  CHECK(block.block_stages.size() == 3);
+  CHECK(block.bytes_per_path <= none.bytes_per_path + 8);
+}
+
+}  // namespace lanelight::test

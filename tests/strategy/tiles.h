@@ -1,0 +1,70 @@
+// Renders as estimates that tests compare: pixel by pixel, or tile by tile where pixels
+// depend on each other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/prepare/path_values.h"
+#include "tests/wavefront/agreement.h"
+
+namespace lanelight::test {
+
+inline stat::ImageEstimate RenderWith(const SceneDescription& scene,
+                                      const std::string& strategy, std::uint64_t spp,
+                                      std::uint64_t seed) {
+  TestRender options;
+  options.spp = spp;
+  options.seed = seed;
+  options.strategy = strategy;
+  options.planned_samples = kLeastPilot;  // what is learned need not be good
+  const Rendered render = RenderDescription(scene, options);
+  CHECK(render.result.health.Total() == 0);
+  return Estimate(render);
+}
+
+// Pixels of a block depend on each other, so that tiles are what several renders tell of:
+// an image of one pixel for each.
+inline stat::ImageEstimate TilesOf(const stat::ImageEstimate& image, int tile) {
+  const int width = image.width / tile, height = image.height / tile;
+  stat::ImageEstimate out = {width, height, image.observations, {}, {}};
+  const double pixels = tile * tile;
+  for (int i = 0; i < width * height; ++i) {
+    Rgb mean, variance;
+    for (int p = 0; p < tile * tile; ++p) {
+      const int x = i % width * tile + p % tile, y = i / width * tile + p / tile;
+      const auto at = static_cast<std::size_t>(y * image.width + x);
+      mean += image.mean[at] / pixels;
+      variance += image.variance[at] / (pixels * pixels);
+    }
+    out.mean.push_back(mean);
+    out.variance.push_back(variance);
+  }
+  return out;
+}
+
+inline stat::ImageEstimate RenderTiles(const SceneDescription& scene,
+                                       const std::string& strategy, std::uint64_t spp,
+                                       std::uint64_t seed, int tile) {
+  constexpr int kRenders = 16;
+  std::vector<stat::ImageEstimate> renders;
+  for (int i = 0; i < kRenders; ++i) {
+    renders.push_back(
+        TilesOf(RenderWith(scene, strategy, spp / kRenders, kRenders * seed + i), tile));
+  }
+  stat::ImageEstimate out = renders[0];
+  out.observations = kRenders;
+  for (std::size_t p = 0; p < out.mean.size(); ++p) {
+    Rgb sum, squares;
+    for (const auto& render : renders) sum += render.mean[p];
+    out.mean[p] = sum / kRenders;
+    for (const auto& render : renders) {
+      const Rgb d = render.mean[p] - out.mean[p];
+      squares += d * d;
+    }
+    out.variance[p] = squares / (kRenders * (kRenders - 1.0));
+  }
+  return out;
+}
+
+}  // namespace lanelight::test
