@@ -84,7 +84,7 @@ template <bool kSigned, bool kAov>
 void Accumulate(Wave& wave) {
   const PathColumns& p = wave.path;
   // With reuse=block a sample is light until its block has been connected.
-  const bool is_light = p.reuse != nullptr;
+  const bool is_light = wave.run->planes.Has(PlaneGroup::kWeight);
   const VF exposure = Splat(is_light ? 1.0f : wave.run->exposure);
   ForEachBatch(wave, wave.queue(QueueId::kDone),
                [&](const Slots& slots, MF valid) HWY_ATTR {
@@ -155,7 +155,7 @@ Stage AccumulateStage() {
           .input = QueueId::kDone,
           .reads = fields::kRadiance | fields::kAov | fields::kGbuffer |
                    fields::kControl | fields::kFirstNumbers |
-                   FieldSet{Field::output, Field::weight, Field::reuse},
+                   FieldSet{Field::output, Field::weight},
           .resolve = ResolveAccumulate};
 }
 

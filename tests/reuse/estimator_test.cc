@@ -129,7 +129,7 @@ TEST_CASE("what reuse=block does not go with is refused", "[reuse]") {
                             "control=regression", "allocation=error"}) {
     INFO(other);
     CHECK_THROWS_AS(
-        RenderWith(Room().description, std::string("reuse=block,") + other, 4, 1),
+        EstimateWith(Room().description, std::string("reuse=block,") + other, 4, 1),
         InputError);
   }
 }

@@ -56,6 +56,16 @@ done
 render sun-sky.pbrt --resolution 81x61 --spp 16 --strategy control=ambient
 # Media with what else there is to paths.
 render media.pbrt --resolution 40x30 --spp 4 --strategy guiding=radiance,pairs=antithetic
+# Paths that serve their block: tiles that are cut off, all kinds of materials, a guide.
+for layout in random compact apart; do
+  render cornell-box.pbrt --resolution 81x61 --spp 5 --strategy "reuse=block:16:$layout"
+done
+for scene in patterns glass textured-layers relief; do
+  render "$scene.pbrt" --resolution 41x33 --spp 3 --strategy reuse=block
+done
+render cornell-box.pbrt --resolution 41x33 --spp 4 \
+  --strategy reuse=block,guiding=radiance,directions=mis
+render cornell-box.pbrt --resolution 41x33 --spp 4 --strategy reuse=block,directions=uniform
 # Paths that split into copies, after a pilot of their own.
 render veach-mis.pbrt --resolution 81x61 --spp 16 --strategy roulette=adjoint
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy roulette=efficiency

@@ -10,9 +10,9 @@
 
 namespace lanelight::test {
 
-inline stat::ImageEstimate RenderWith(const SceneDescription& scene,
-                                      const std::string& strategy, std::uint64_t spp,
-                                      std::uint64_t seed) {
+inline stat::ImageEstimate EstimateWith(const SceneDescription& scene,
+                                        const std::string& strategy, std::uint64_t spp,
+                                        std::uint64_t seed) {
   TestRender options;
   options.spp = spp;
   options.seed = seed;
@@ -49,8 +49,8 @@ inline stat::ImageEstimate RenderTiles(const SceneDescription& scene,
   constexpr int kRenders = 16;
   std::vector<stat::ImageEstimate> renders;
   for (int i = 0; i < kRenders; ++i) {
-    renders.push_back(
-        TilesOf(RenderWith(scene, strategy, spp / kRenders, kRenders * seed + i), tile));
+    renders.push_back(TilesOf(
+        EstimateWith(scene, strategy, spp / kRenders, kRenders * seed + i), tile));
   }
   stat::ImageEstimate out = renders[0];
   out.observations = kRenders;

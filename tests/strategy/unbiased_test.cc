@@ -241,7 +241,7 @@ stat::ImageTestResult Compare(const HardScene& hard, const std::string& strategy
                               std::uint64_t seed, double false_alarm) {
   const stat::ImageTestOptions options = {hard.tile, false_alarm, kFloatTolerance, 1e-7};
   if (strategy.find("reuse=block") == std::string::npos) {
-    return stat::CompareMeans(RenderWith(hard.scene, strategy, spp, seed), truth,
+    return stat::CompareMeans(EstimateWith(hard.scene, strategy, spp, seed), truth,
                               options);
   }
   return stat::CompareMeans(RenderTiles(hard.scene, strategy, spp, seed, hard.tile),
@@ -360,9 +360,9 @@ TEST_CASE("a bias of 1 % is found", "[strategy]") {
   SceneDescription brighter = scene;
   for (AreaLight& light : brighter.area_lights) light.scale *= 1.01;
   const std::string strategy = "directions=mis,points=independent";
-  const stat::ImageEstimate image = RenderWith(scene, strategy, 65536, 1);
-  const stat::ImageEstimate truth = RenderWith(scene, strategy, 65536, 2);
-  const stat::ImageEstimate planted = RenderWith(brighter, strategy, 65536, 2);
+  const stat::ImageEstimate image = EstimateWith(scene, strategy, 65536, 1);
+  const stat::ImageEstimate truth = EstimateWith(scene, strategy, 65536, 2);
+  const stat::ImageEstimate planted = EstimateWith(brighter, strategy, 65536, 2);
   const stat::ImageTestOptions options = {8, 1e-6, kFloatTolerance, 1e-7};
   CHECK(stat::CompareMeans(image, truth, options).same);
   CHECK(stat::CompareMeans(image, truth, options).detectable_bias < 0.01);
