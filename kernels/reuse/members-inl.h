@@ -1,0 +1,87 @@
+// Who takes part in a block: first vertices by kind of material, and second vertices that
+// carry light and that roulette has left.
+#if defined(LANELIGHT_REUSE_MEMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_REUSE_MEMBERS_INL_H_
+#undef LANELIGHT_REUSE_MEMBERS_INL_H_
+#else
+#define LANELIGHT_REUSE_MEMBERS_INL_H_
+#endif
+
+#include "kernels/reuse/block-inl.h"
+#include "src/compiled/scene.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// Receivers of a kind; behind the valid ones there is padding.
+struct KindRange {
+  uint32_t begin, end, valid;
+};
+
+// Appends the members whose first vertex is of this kind, padded by the last of them.
+HWY_INLINE uint32_t ListReceivers(Block& block, const MaterialTable& materials,
+                                  uint32_t kind) {
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DF()));
+  const uint32_t begin = block.num_receivers;
+  uint32_t n = begin;
+  for (uint32_t i = 0; i < block.size; ++i) {
+    const uint32_t r = block.records[i];
+    if (block.second.state[r] == static_cast<uint32_t>(ReuseState::kNoVertex)) continue;
+    if (static_cast<uint32_t>(materials.kind[block.first->path.material[r]]) != kind) {
+      continue;
+    }
+    block.receivers[n++] = r;
+  }
+  const uint32_t valid = n - begin;
+  for (; n % lanes != 0; ++n) block.receivers[n] = block.receivers[n - 1];
+  block.num_receivers = n;
+  return valid;
+}
+
+// Roulette on what second vertices send, in proportion to it where it is below
+// kSuffixRoulette times its mean in the tile: dim ones cost as many shadow rays as bright
+// ones. Any probability above 0 leaves the estimator unbiased, whatever it depends on.
+// One number decides for the block (systematic sampling), so that about as many stay as
+// are to.
+struct SuffixRoulette {
+  float whole, sum;  // what the dim ones so far add up to, from u on
+
+  explicit SuffixRoulette(float u) : whole(0), sum(u) {}
+  bool Keeps(float q) {
+    if (q >= 1) return true;
+    sum += q;
+    if (sum - whole < 1) return false;
+    whole += 1;
+    return true;
+  }
+};
+
+// Of a 128 x 128 render of the Cornell box with blocks of 64, 16 spp, gains at equal time
+// are 1.0 without, 1.6 at 1, 1.76 at 2, 1.55 at 4; interiors lit by bounces care little.
+constexpr float kSuffixRoulette = 2;
+
+HWY_INLINE void ListSuffixes(const Wave& wave) {
+  Block& block = *wave.block;
+  const std::size_t stride = wave.buffer.stride;
+  SuffixRoulette roulette(block.u);
+  block.num_suffixes = 0;
+  for (uint32_t i = 0; i < block.size; ++i) {
+    const uint32_t r = block.records[i];
+    if (block.second.state[r] != static_cast<uint32_t>(ReuseState::kSecond)) continue;
+    const uint32_t place = r - block.sample * wave.work.num_pixels;
+    const float* color = wave.buffer.samples + place * wave.work.samples + block.sample;
+    const float most = HWY_MAX(color[0], HWY_MAX(color[stride], color[2 * stride]));
+    if (!(most > 0)) continue;
+    const float q = HWY_MIN(1.0f, most / (kSuffixRoulette * block.mean_sent));
+    if (!roulette.Keeps(q)) continue;
+    block.weights[block.num_suffixes] = 1 / q;
+    block.suffixes[block.num_suffixes++] = r;
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#endif
