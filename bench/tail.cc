@@ -92,12 +92,12 @@ void MeasureThreads(const Job& job, const Flags& flags, int threads,
 // Processor seconds of each tile by itself.
 std::vector<double> TileCosts(const Job& job, const std::vector<PixelRect>& tiles) {
   const ThreadLimit limit(1);
-  FilmAccumulator film = MakeFilm(job);
-  RunOptions options = RunOptionsOf(job, film);
+  const FilmAccumulator whole = MakeFilm(job);
+  RunOptions options = RunOptionsOf(job, whole);
   std::vector<double> costs;
   for (const PixelRect& tile : tiles) {
     options.tiles = {tile};
-    FilmAccumulator own = film;
+    FilmAccumulator own = MakeFilm(job);
     const RunResult result = Run(job.scene, job.plan, options, own);
     double seconds = 0;
     for (const StageProfile& stage : result.stages) seconds += stage.seconds;

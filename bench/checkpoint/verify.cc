@@ -1,6 +1,7 @@
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "bench/checkpoint/cases.h"
 #include "src/path/sample_planes.h"
@@ -73,7 +74,7 @@ void VerifyMerge(const CheckpointBench& bench, const Job& job, BenchFilm& whole)
   MergedRender merged = MergeStates(paths);
   for (const std::string& path : paths) std::filesystem::remove(path);
   BenchFilm film(job);
-  film.film = *merged.film;
+  film.film = std::move(*merged.film);
   Expect(merged.missing == 0 && film.SameAs(whole),
          "the merged film is not the uncut one");
 }

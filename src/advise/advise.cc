@@ -100,9 +100,7 @@ class Adviser {
 
   bool Round(std::vector<TriedCandidate>& tried, double share) {
     const std::uint64_t samples = std::max(SamplesFor(tried, share), kLeastSamples);
-    const std::chrono::duration<double> passed = Clock::now() - start_;
-    advice_.interrupted |=
-        passed.count() > kPatience * pilot_ || !trial_.Round(tried, samples);
+    advice_.interrupted |= IsTooSlow() || !trial_.Round(tried, samples);
     if (advice_.interrupted) return false;
     for (const TriedCandidate& t : tried) {
       AdvisedCandidate& advised = advice_.candidates[t.index];
