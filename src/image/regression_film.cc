@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kFunctions = RegressionFilm::kFunctions;
 constexpr std::uint32_t kAtOnce = 32;  // samples
+constexpr float kCaution = 1;          // see Scatter::Fit
 
 // Orthonormal P1 in the middle of a cell.
 float Linear(std::uint32_t cell, int bits) {
@@ -40,30 +41,39 @@ float Finite(float v) { return std::abs(v) < 1e30f ? v : 0; }
 struct RegressionFilm::Scatter {
   float freedom = 0, ff[3] = {};  // freedom: samples less one per mean
   Values squares = {}, products[3] = {};
+  Values scattered = {};  // sums of (g - its mean)^2 phi^2, g the mean of the channels
 
   void Add(const Scatter& o) {
     freedom += o.freedom;
     for (int j = 0; j < kFunctions; ++j) {
       const auto i = static_cast<std::size_t>(j);
       squares[i] += o.squares[i];
+      scattered[i] += o.scattered[i];
       for (int c = 0; c < 3; ++c) products[c][i] += o.products[c][i];
     }
     for (int c = 0; c < 3; ++c) ff[c] += o.ff[c];
   }
 
-  // Coefficients of a channel, shrunk as FitCoefficient (control_film.h) shrinks its one,
-  // with the same weight of the neighbours. One sample more, with phi = 1 and f at its
-  // mean, keeps those of events that have hardly been seen finite.
+  // Coefficients of a channel. That of noise alone has the variance sum (f - its mean)^2
+  // phi^2 / (sum phi^2)^2, whatever f and phi have in common (White 1980): where both
+  // live on the same few paths, samples that are neither tell nothing. They are shrunk
+  // as if kCaution times that had been seen, with the same weight of the neighbours as
+  // FitCoefficient (control_film.h). One sample more, with phi = 1 and f at its mean,
+  // keeps those of events that have hardly been seen finite.
   void Fit(const Scatter& block, int c, Values& b) const {
     const float around = block.freedom - freedom;
     const float w = around > 0 ? std::min(1.0f, float(kNeighbourFreedom) / around) : 0;
-    const float n = (1 - w) * freedom + w * block.freedom;
-    const float f = (1 - w) * ff[c] + w * block.ff[c];
+    const auto mix = [w](float of_own, float of_block) {
+      return (1 - w) * of_own + w * of_block;
+    };
+    float g = 0;  // standard deviation, as if channels rose and fell together
+    for (int k = 0; k < 3; ++k) g += std::sqrt(mix(ff[k], block.ff[k])) / 3;
+    const float caution = g > 0 ? kCaution * mix(ff[c], block.ff[c]) / (g * g) : 0;
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const float square = 1 + (1 - w) * squares[j] + w * block.squares[j];
-      const float product = (1 - w) * products[c][j] + w * block.products[c][j];
-      const float slope = product / square, explained = product * slope;
-      const float noise = 2 * (f - explained) / n;
+      const float square = 1 + mix(squares[j], block.squares[j]);
+      const float slope = mix(products[c][j], block.products[c][j]) / square;
+      const float explained = slope * slope * square;
+      const float noise = caution * mix(scattered[j], block.scattered[j]) / square;
       b[j] = explained > noise ? Finite(slope - slope * noise / explained) : 0;
     }
   }
@@ -137,7 +147,15 @@ void RegressionFilm::AddHalf(std::size_t pixel, std::uint32_t half,
       colors.ff[c] += f * f;
     }
     if (sample >= kMostFitted) continue;
-    for (std::size_t j = 0; j < kFunctions; ++j) sums.squares[j] += phi[i][j] * phi[i][j];
+    const float g = (samples.colors[0][begin + i] + samples.colors[1][begin + i] +
+                     samples.colors[2][begin + i]) /
+                    3;
+    for (std::size_t j = 0; j < kFunctions; ++j) {
+      const float square = phi[i][j] * phi[i][j], once = g * square;
+      sums.squares[j] += square;
+      sums.once[j] += once;
+      sums.twice[j] += g * once;
+    }
     for (int c = 0; c < 3; ++c) {
       const float f = samples.colors[c][begin + i];
       for (std::size_t j = 0; j < kFunctions; ++j) sums.products[c][j] += f * phi[i][j];
@@ -174,8 +192,11 @@ RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors
     for (std::size_t j = 0; j < phi.size(); ++j) phi[j] += Sums(pixel, t)[j];
   }
   const auto inverse = static_cast<float>(share * share / n);
+  const auto g = static_cast<float>((own.f[0] + own.f[1] + own.f[2]) / (3 * all));
   for (std::size_t j = 0; j < phi.size(); ++j) {
     out.squares[j] = std::max(0.0f, sums.squares[j] - phi[j] * phi[j] * inverse);
+    const float about = sums.twice[j] - g * (2 * sums.once[j] - g * sums.squares[j]);
+    out.scattered[j] = std::max(0.0f, about);
   }
   for (int c = 0; c < 3; ++c) {
     const double mean = own.f[c] / all;
@@ -301,17 +322,17 @@ ControlReport RegressionFilm::Report(const ControlledColors& colors) const {
 }
 
 std::vector<MutableStateColumn> RegressionFilm::Columns() {
-  return {
-      MakeStateColumn<float>("regression_sums",
-                             "sums of the functions, by replicate or half", sums_,
-                             {turns_, kFunctions}),
-      MakeStateColumn<double>("regression_colors",
-                              "sums of f, then of its square, by half and channel",
-                              colors_, {2, 2, 3}),
-      MakeStateColumn<float>("regression_products",
-                             "sums of the functions' squares, then of f times them by "
-                             "channel, for each half",
-                             products_, {2, 4, kFunctions})};
+  return {MakeStateColumn<float>("regression_sums",
+                                 "sums of the functions, by replicate or half", sums_,
+                                 {turns_, kFunctions}),
+          MakeStateColumn<double>("regression_colors",
+                                  "sums of f, then of its square, by half and channel",
+                                  colors_, {2, 2, 3}),
+          MakeStateColumn<float>("regression_products",
+                                 "sums of the functions' squares, then of f times the "
+                                 "functions by channel, of their squares times the mean "
+                                 "channel and its square, for each half",
+                                 products_, {2, 6, kFunctions})};
 }
 
 }  // namespace lanelight

@@ -67,6 +67,7 @@ class RegressionFilm final : public FilmControl {
   // Over the first kMostFitted samples, of which a half has half.
   struct Products {
     Values squares = {}, products[3] = {};  // of phi, of f and phi
+    Values once = {}, twice = {};           // of g phi^2, of g^2 phi^2; g: mean of f
   };
   template <class T>
   using Halves = std::array<T, 2>;
