@@ -16,8 +16,8 @@
 //               low-discrepancy points integrate that share already (Hickernell, Lemieux
 //               and Owen 2005): little is left to gain there, nor where rare bright
 //               samples are most of the variance
-//   cost        per sample four multiply-adds per function, and a fit at the end (and at
-//               looks at the error): sums over blocks of 4 x 4 pixels; some 650 bytes per
+//   cost        per sample six multiply-adds per function, and a fit at the end (and at
+//               looks at the error): sums over blocks of 4 x 4 pixels; some 750 bytes per
 //               pixel
 //   source      Salaun et al. 2022, "Regression-based Monte Carlo Integration"; Lavenberg
 //               and Welch 1981, "A Perspective on the Use of Control Variables" (optimal

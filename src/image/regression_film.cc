@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kFunctions = RegressionFilm::kFunctions;
 constexpr std::uint32_t kAtOnce = 32;  // samples
-constexpr float kCaution = 1;          // see Scatter::Fit
+constexpr float kCaution = 2;          // see Scatter::Fit
 
 // Orthonormal P1 in the middle of a cell.
 float Linear(std::uint32_t cell, int bits) {
@@ -57,8 +57,9 @@ struct RegressionFilm::Scatter {
   // Coefficients of a channel. That of noise alone has the variance sum (f - its mean)^2
   // phi^2 / (sum phi^2)^2, whatever f and phi have in common (White 1980): where both
   // live on the same few paths, samples that are neither tell nothing. They are shrunk
-  // as if kCaution times that had been seen, with the same weight of the neighbours as
-  // FitCoefficient (control_film.h). One sample more, with phi = 1 and f at its mean,
+  // as if kCaution times that had been seen, less the share that the function explains,
+  // with the same weight of the neighbours as FitCoefficient (control_film.h). One sample
+  // more, with phi = 1 and f at its mean,
   // keeps those of events that have hardly been seen finite.
   void Fit(const Scatter& block, int c, Values& b) const {
     const float around = block.freedom - freedom;
@@ -68,12 +69,14 @@ struct RegressionFilm::Scatter {
     };
     float g = 0;  // standard deviation, as if channels rose and fell together
     for (int k = 0; k < 3; ++k) g += std::sqrt(mix(ff[k], block.ff[k])) / 3;
-    const float caution = g > 0 ? kCaution * mix(ff[c], block.ff[c]) / (g * g) : 0;
+    const float f = mix(ff[c], block.ff[c]), scale = g > 0 ? kCaution * f / (g * g) : 0;
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const float square = 1 + mix(squares[j], block.squares[j]);
-      const float slope = mix(products[c][j], block.products[c][j]) / square;
-      const float explained = slope * slope * square;
-      const float noise = caution * mix(scattered[j], block.scattered[j]) / square;
+      const float square = mix(squares[j], block.squares[j]);
+      const float product = mix(products[c][j], block.products[c][j]);
+      const float left = std::max(0.0f, 1 - product * product / (square * f));
+      const float slope = product / (square + 1), explained = slope * product;
+      const float noise =
+          scale * left * mix(scattered[j], block.scattered[j]) / (square + 1);
       b[j] = explained > noise ? Finite(slope - slope * noise / explained) : 0;
     }
   }
