@@ -84,7 +84,7 @@ struct PixelEstimate {
 /// is none.
 ErrorEstimate EstimateError(const FilmAccumulator& film);
 inline constexpr double kMostTimes = 32;
-inline constexpr double kSkew = 0.2, kSkewDoubt = 0.3, kMostSkewed = 0.01;
+inline constexpr double kSkew = 0.3, kSkewDoubt = 0.5, kMostSkewed = 0.01;
 
 /// The same for any source of pixels of the window, which may be asked from several
 /// threads at once. Pixels of a tile of `side`, which begins at a multiple of it, depend
