@@ -303,12 +303,23 @@ ErrorEstimate FromSums(const Sums& sums) {
   return out;
 }
 
-ErrorEstimate Unseen(ErrorEstimate out) {
+ErrorEstimate Unseen(ErrorEstimate out, std::string why) {
   out.has_interval = false;
   out.rmse = AtLeast(out.rmse);
   out.relmse = AtLeast(out.relmse);
-  out.why = "no sample has met any light: is there any that the camera can see?";
+  out.why = std::move(why);
   return out;
+}
+
+// How often samples are expected to have met what shines.
+double Met(const FilmAccumulator& film) {
+  double samples = 0;
+  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
+    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
+      samples += static_cast<double>(film.Samples(x, y));
+    }
+  }
+  return samples * film.chance_of_light();
 }
 
 // By what factor more samples would give an interval; 0 if none does.
@@ -340,7 +351,10 @@ ErrorEstimate EstimateError(const PixelRect& window,
   const Sums sums = grid.Total();
   ErrorEstimate out = FromSums(sums);
   // Samples that are all black are equal, and say nothing of a lamp that they missed.
-  if (out.available && grid.IsBlack()) return Unseen(out);
+  if (out.available && grid.IsBlack()) {
+    return Unseen(std::move(out),
+                  "no sample has met any light: is there any that the camera can see?");
+  }
   if (!out.available || out.has_interval) return out;
   const auto times = [](const Interval& v) { return v.high / v.value; };
   const double rmse = times(out.rmse), most = std::max(rmse * rmse, times(out.relmse));
@@ -371,7 +385,15 @@ ErrorEstimate EstimateError(const FilmAccumulator& film) {
     p.freedom = static_cast<double>(film.Observations(x, y) - 1);
     return p;
   };
-  return EstimateError(window, pixel, film.groups().side);
+  ErrorEstimate out = EstimateError(window, pixel, film.groups().side);
+  const double met = Met(film);
+  if (!out.has_interval || film.chance_of_light() >= 1 || met >= kLeastMet) return out;
+  return Unseen(
+      std::move(out),
+      fmt::format("lamps are met by chance alone, by {:.2g} of the samples, and may be "
+                  "missing: an interval takes {:.2g} times as many, or "
+                  "directions=mis, which samples lights",
+                  met, kLeastMet / met));
 }
 
 }  // namespace lanelight

@@ -81,9 +81,11 @@ struct PixelEstimate {
 ///
 /// Holds for two groups or more, best for four. What no group has sampled cannot be seen.
 /// Where the upper end is more than kMostTimes the estimate, it would say nothing: there
-/// is none.
+/// is none. Nor is there where directions find lamps by chance alone, and all samples
+/// together are expected to have met what shines less than kLeastMet times: what none has
+/// met is in no estimate.
 ErrorEstimate EstimateError(const FilmAccumulator& film);
-inline constexpr double kMostTimes = 32;
+inline constexpr double kMostTimes = 32, kLeastMet = 50;
 inline constexpr double kSkew = 0.3, kSkewDoubt = 0.5, kMostSkewed = 0.01;
 
 /// The same for any source of pixels of the window, which may be asked from several

@@ -30,6 +30,9 @@ class FilmAccumulator {
   int width() const { return width_; }
   int height() const { return height_; }
   const SampleGroups& groups() const { return groups_; }
+  /// Of ChanceOfLight (src/prepare/chance_of_light.h).
+  double chance_of_light() const { return chance_of_light_; }
+  void set_chance_of_light(double chance) { chance_of_light_ = chance; }
   bool has_aov() const { return !aov_.empty(); }
   bool has_gbuffer() const { return !gbuffer_.empty(); }
   static std::size_t BytesPerPixel(const SampleGroups& groups, Auxiliary auxiliary);
@@ -111,6 +114,7 @@ class FilmAccumulator {
 
   int x0_, y0_, width_, height_;
   SampleGroups groups_;
+  double chance_of_light_ = 1;
   std::vector<std::uint64_t> samples_;
   std::vector<ReplicateSums> replicates_;  // with replicates
   std::vector<UnitSums> units_;            // without

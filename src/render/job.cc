@@ -1,15 +1,16 @@
-#include "src/prepare/groups.h"
 #include "src/render/job.h"
 
 #include <chrono>
 #include <utility>
 
 #include "src/core/parallel.h"
-#include "src/scene/rendered_pixels.h"
-#include "src/render/memory.h"
-#include "src/prepare/prepare_scene.h"
 #include "src/parse/parse.h"
+#include "src/prepare/chance_of_light.h"
+#include "src/prepare/groups.h"
+#include "src/prepare/prepare_scene.h"
 #include "src/prepare/use_strategy.h"
+#include "src/render/memory.h"
+#include "src/scene/rendered_pixels.h"
 
 namespace lanelight {
 namespace {
@@ -96,9 +97,11 @@ void SetStrategy(Job& job, const Strategy& strategy) {
 }
 
 FilmAccumulator MakeFilm(const Job& job) {
-  return FilmAccumulator(job.window.x0, job.window.y0, job.window.width(),
-                         job.window.height(), GroupsOf(job.scene.strategy),
-                         job.plan.options.auxiliary);
+  FilmAccumulator film(job.window.x0, job.window.y0, job.window.width(),
+                       job.window.height(), GroupsOf(job.scene.strategy),
+                       job.plan.options.auxiliary);
+  film.set_chance_of_light(ChanceOfLight(job.scene));
+  return film;
 }
 
 RunOptions RunOptionsOf(const Job& job, const FilmAccumulator& film) {

@@ -56,6 +56,7 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
                                                   GroupsOf(strategy), auxiliary);
   merged.films = std::make_unique<Films>(SamplePlanes(features),
                                          strategy.coefficient.value_or(1), *merged.film);
+  merged.film->set_chance_of_light(merged.head.value("chance_of_light", 1.0));
   if (file.HasPixels("weights")) merged.films->UseWeights();
 }
 
@@ -208,8 +209,8 @@ class Merger {
     const Json report = ParseJson(file.report());
     const Json& training = report.at("training");
     if (!merged.films) {
-      MakeFilms(file, merged);
       merged.head = report.at("head");
+      MakeFilms(file, merged);
       merged.training = training;
       merged.tables = TablesOf(file, training);
     }

@@ -1,4 +1,3 @@
-#include "src/prepare/groups.h"
 #include "src/render/report.h"
 
 #include <cmath>
@@ -6,6 +5,8 @@
 
 #include "kernels/simd/target.h"
 #include "src/core/parallel.h"
+#include "src/prepare/chance_of_light.h"
+#include "src/prepare/groups.h"
 #include "src/render/machine_json.h"
 #include "src/scene/image_changes.h"
 
@@ -144,6 +145,7 @@ Json HeadJson(const Job& job, const std::string& scene, bool half) {
           {"scene", scene},
           {"scene_hash", fmt::format("{:016x}", job.scene_hash)},
           {"scale", job.scene.scale},
+          {"chance_of_light", ChanceOfLight(job.scene)},
           {"plan", ToJson(job.plan)},
           {"settings", SettingsJson(job, half)},
           {"target", TargetJson()},

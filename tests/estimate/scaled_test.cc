@@ -15,7 +15,7 @@ constexpr int kSide = 24;
 constexpr std::uint32_t kSamples = 8;
 
 // Pixels of different brightness, times 2^exponent.
-FilmAccumulator Film(int exponent) {
+FilmAccumulator NoisyFilm(int exponent) {
   FilmAccumulator film(0, 0, kSide, kSide, SampleGroups{}, Auxiliary::kNone);
   std::mt19937 random(3);
   for (int y = 0; y < kSide; ++y) {
@@ -62,11 +62,11 @@ Image FilmFile(const FilmAccumulator& film, int exponent) {
 
 TEST_CASE("estimates: a larger unit gives the same relative error", "[estimate]") {
   // The epsilon is 1e-2 against squares of 1e12 and more.
-  const ErrorEstimate one = EstimateError(Film(20));
+  const ErrorEstimate one = EstimateError(NoisyFilm(20));
   REQUIRE(one.available);
   for (const int exponent : {40, 80, 100, 120}) {
     INFO(exponent);
-    const ErrorEstimate other = EstimateError(Film(exponent));
+    const ErrorEstimate other = EstimateError(NoisyFilm(exponent));
     CHECK(other.available);
     CHECK(other.has_interval == one.has_interval);
     CheckScaled(one.relmse, other.relmse, 1);
@@ -77,10 +77,10 @@ TEST_CASE("estimates: a larger unit gives the same relative error", "[estimate]"
 
 TEST_CASE("estimates: a smaller unit scales both errors", "[estimate]") {
   // The epsilon is all that the relative error divides by.
-  const ErrorEstimate one = EstimateError(Film(-30));
+  const ErrorEstimate one = EstimateError(NoisyFilm(-30));
   for (const int exponent : {-60, -90, -110}) {
     INFO(exponent);
-    const ErrorEstimate other = EstimateError(Film(exponent));
+    const ErrorEstimate other = EstimateError(NoisyFilm(exponent));
     REQUIRE(other.available);
     CheckScaled(one.rmse, other.rmse, std::ldexp(1.0, exponent + 30));
     CheckScaled(one.relmse, other.relmse, std::ldexp(1.0, 2 * (exponent + 30)));
@@ -88,7 +88,7 @@ TEST_CASE("estimates: a smaller unit scales both errors", "[estimate]") {
 }
 
 TEST_CASE("compare: variances in another unit are the same variances", "[estimate]") {
-  const FilmAccumulator film = Film(0);
+  const FilmAccumulator film = NoisyFilm(0);
   const Image plain = FilmFile(film, 0), other = FilmFile(film, 37);
   Image reference = plain;
   for (std::size_t i = 0; i < reference.pixels.size(); ++i) {

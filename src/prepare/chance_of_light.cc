@@ -1,0 +1,67 @@
+#include "src/prepare/chance_of_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/core/pi.h"
+#include "src/prepare/light_bounds.h"
+
+namespace lanelight {
+namespace {
+
+// Of texels with equal shares of the sphere.
+double ShareOf(const Environment& environment) {
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i + 2 < environment.rgb.size(); i += 3) {
+    double light = 0;
+    for (std::size_t c = 0; c < 3; ++c) light += double(environment.rgb[i + c]);
+    sum += light;
+    squares += light * light;
+  }
+  return squares > 0 ? sum * sum / (squares * double(environment.rgb.size() / 3)) : 1;
+}
+
+// Flat shapes are seen at half their area on average, balls at a quarter. The scene's
+// half diagonal is between 1 and 2: nothing in it is seen from much nearer.
+double ShareOf(const CompiledScene& scene, const LightRecord& light) {
+  const bool is_ball = static_cast<LightShape>(light.shape) == LightShape::kSphere;
+  const Vec3d middle = BoundsOf(scene.geometry, light).Center();
+  const double square = std::max(1.0, Dot(middle, middle));
+  return std::min(1.0, light.area / (is_ball ? 4 : 2) / (4 * kPi * square));
+}
+
+// 0 where nothing can meet it: such lights are sampled by all strategies.
+double Share(const CompiledScene& scene, const LightRecord& light) {
+  switch (static_cast<LightShape>(light.shape)) {
+    case LightShape::kTriangle:
+    case LightShape::kRectangle:
+    case LightShape::kSphere:
+    case LightShape::kDisk:
+      return ShareOf(scene, light);
+    case LightShape::kInfiniteImage:
+      return ShareOf(
+          scene.lights.environments[static_cast<std::size_t>(light.environment)]);
+    case LightShape::kInfiniteConstant:
+    case LightShape::kPortal:
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
+double ChanceOfLight(const CompiledScene& scene) {
+  const Directions directions = scene.strategy.directions;
+  if (directions != Directions::kBsdf && directions != Directions::kUniform) return 1;
+  double power = 0, squares = 0;
+  for (std::size_t i = 0; i < scene.lights.lights.size(); ++i) {
+    const double share = Share(scene, scene.lights.lights[i]);
+    const double p = share > 0 ? scene.lights.power[i] : 0;
+    power += p;
+    if (p > 0) squares += p * p / share;
+  }
+  return squares > 0 ? std::min(1.0, power * power / squares) : 1;
+}
+
+}  // namespace lanelight

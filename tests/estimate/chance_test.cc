@@ -1,0 +1,53 @@
+// Where lamps are found by chance alone, what no sample has met is in no estimate: no
+// interval is printed where it may be missing.
+#include "src/prepare/chance_of_light.h"
+
+#include <catch2/catch.hpp>
+
+#include "src/core/pi.h"
+#include "src/estimate/estimate.h"
+#include "src/render/job.h"
+
+namespace lanelight {
+namespace {
+
+Job JobWith(const std::string& scene, const std::string& strategy) {
+  RenderSettings settings;
+  settings.spp = 16;
+  settings.resolution = {48, 48};
+  settings.strategy = ParseStrategy(strategy, {});
+  return PrepareJob(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/" + scene, settings);
+}
+
+ErrorEstimate ErrorOf(const std::string& scene, const std::string& strategy) {
+  const Job job = JobWith(scene, strategy);
+  FilmAccumulator film = MakeFilm(job);
+  RunJob(job, film);
+  return EstimateError(film);
+}
+
+}  // namespace
+
+TEST_CASE("a sun that chance hardly finds leaves errors without an interval",
+          "[estimate]") {
+  for (const char* strategy : {"directions=bsdf", "directions=uniform"}) {
+    INFO(strategy);
+    const ErrorEstimate blinds = ErrorOf("blinds.pbrt", strategy);
+    CHECK_FALSE(blinds.has_interval);
+    CHECK_THAT(blinds.why, Catch::Contains("met by chance"));
+    CHECK(ErrorOf("cornell-box.pbrt", strategy).has_interval);
+  }
+  CHECK(ErrorOf("blinds.pbrt", "directions=mis").why.find("chance") == std::string::npos);
+}
+
+TEST_CASE("the chance to meet light is its share of directions", "[estimate]") {
+  CHECK(ChanceOfLight(JobWith("blinds.pbrt", "directions=mis").scene) == 1);
+  CHECK(ChanceOfLight(JobWith("furnace.pbrt", "directions=bsdf").scene) == 1);
+  // A disk of 0.27 degrees, straight on, whose light is nearly all there is.
+  const double sun = 6.8e-5 / (4 * kPi);
+  const double chance = ChanceOfLight(JobWith("blinds.pbrt", "directions=bsdf").scene);
+  CHECK(chance > sun / 4);
+  CHECK(chance < sun * 2);
+}
+
+}  // namespace lanelight
