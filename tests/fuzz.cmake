@@ -1,7 +1,7 @@
 # One fuzz target per file of tests/fuzz, with libFuzzer and the address and undefined
 # behaviour sanitizers; needs clang and its run-time libraries. Only what reads input is
 # compiled again for it. Inputs are first those of fuzz/corpus/<target>, where there are any,
-# and those that <target>_ARGUMENTS names.
+# and those that <target>_ARGUMENTS names; new ones go to the first folder, in the build.
 set(parse_fuzz_ARGUMENTS ${CMAKE_CURRENT_SOURCE_DIR}/broken ${CMAKE_SOURCE_DIR}/scenes)
 set(nanovdb_fuzz_ARGUMENTS -max_len=121 -len_control=0)  # ten changes
 set(LANELIGHT_FUZZ_SECONDS 10 CACHE STRING "Seconds that ctest fuzzes each target")
@@ -62,8 +62,8 @@ foreach(file ${FUZZ_SOURCES})
     list(APPEND seeds ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name})
   endif()
   add_test(NAME fuzz/${name} COMMAND ${name} -max_total_time=${LANELIGHT_FUZZ_SECONDS}
-    -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 ${${name}_ARGUMENTS}
-    ${seeds}
+    -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 ${seeds}
+    ${${name}_ARGUMENTS}
     WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
   set_tests_properties(fuzz/${name} PROPERTIES LABELS fuzz TIMEOUT 300)
 endforeach()

@@ -53,7 +53,7 @@ std::vector<PixelRect> TilesToRender(const Job& job, const Part& part) {
         "allocation=uniform",
         part.index, part.count));
   }
-  return TilesOfPart(job.window, part, strategy.reuse == Reuse::kNone ? 1 : kReuseTile);
+  return TilesOfPart(job.window, part, strategy.MayReuse() ? kReuseTile : 1);
 }
 
 std::uint64_t PixelsOf(const std::vector<PixelRect>& tiles) {

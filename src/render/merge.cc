@@ -43,6 +43,9 @@ Json WithoutSeed(Json identity) {
 void MakeFilms(const StateFile& file, MergedRender& merged) {
   Strategy strategy;
   ApplyStrategy(merged.identity.at("strategy").get<std::string>(), {}, strategy);
+  if (!merged.training.is_null()) {
+    ApplyStrategy(merged.training.at("changes").get<std::string>(), {}, strategy);
+  }
   const PixelRect& w = merged.window;
   const Auxiliary auxiliary = file.HasPixels("gbuffer") ? Auxiliary::kGbuffer
                               : file.HasPixels("aov")   ? Auxiliary::kAov
@@ -210,8 +213,8 @@ class Merger {
     const Json& training = report.at("training");
     if (!merged.films) {
       merged.head = report.at("head");
-      MakeFilms(file, merged);
       merged.training = training;
+      MakeFilms(file, merged);
       merged.tables = TablesOf(file, training);
     }
     AddMachines(report, merged.machines);

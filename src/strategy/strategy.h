@@ -75,6 +75,9 @@ struct Strategy {
   bool Splits() const {
     return roulette == Roulette::kAdjoint || roulette == Roulette::kEfficiency;
   }
+  /// Paths serve their tile, or a pilot may yet decide so: tiles must be the same for any
+  /// number of samples.
+  bool MayReuse() const { return reuse != Reuse::kNone || decide == Decide::kPilot; }
 };
 
 enum class StrategyKey {

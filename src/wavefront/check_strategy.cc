@@ -163,7 +163,7 @@ void NotePaths(const Checked& c) {
                : ": no path scatters a second time from a diffuse surface");
   }
   if (s.decide == Decide::kPilot && c.plan.Has(Feature::kReuse)) {
-    c.Note("decide=pilot", ": it knows no paths that serve others, as with reuse=block");
+    c.Note("decide=pilot", ": with reuse=block asked for it tries nothing else");
   }
   if (s.guiding == Guiding::kNone) return;
   const std::string guiding = std::string("guiding=") + Name(s.guiding);

@@ -20,8 +20,8 @@ struct PlanOptions {
   /// Of a training pass (src/wavefront/training.h): what it turns on to record. It has
   /// independent points, no pairs and no control variate.
   std::optional<FeatureSet> training;
-  /// Of a training pass: it has the strategy's points all the same, so that its samples
-  /// depend on each other as those of a render do.
+  /// Of a training pass: it has the strategy's points all the same, and its reuse, so
+  /// that its samples depend on each other as those of a render do.
   bool own_points = false;
   /// To the scene's strategy, as in --strategy: what a training has found to be better
   /// (roulette, guiding, decide). Empty: none.

@@ -132,7 +132,9 @@ Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options)
   Strategy strategy = scene.strategy;
   ApplyStrategy(options.changes, {}, strategy);
   if (options.camera_only) strategy.control = Control::kNone;
-  if (options.camera_only || options.training) strategy.reuse = Reuse::kNone;
+  if (options.camera_only || (options.training && !options.own_points)) {
+    strategy.reuse = Reuse::kNone;
+  }
   if (!options.training) return strategy;
   if (!options.own_points) strategy.points = Points::kIndependent;
   strategy.pairs = Pairs::kNone;

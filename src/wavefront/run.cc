@@ -35,7 +35,8 @@ class Runner {
         looks_(setting_),
         watch_(setting_, looks_),
         parts_(setting_, looks_, watch_) {
-    LL_CHECK(film.groups() == GroupsOf(scene.strategy));
+    LL_CHECK_EQ(film.groups().replicates, GroupsOf(scene.strategy).replicates);
+    LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
     films_.UseResponse(scene.film.response);
     LL_CHECK(options.windows.empty() || crew_.ranks() == 1);
     if (!setting_.allocates()) return;
@@ -81,6 +82,7 @@ void Runner::Start() {
                  strategy_.trained(), strategy_.training().changes, strategy_.Tables()}));
   }
   if (!restored) strategy_.Train();
+  films_.film().set_side(strategy_.SideOfGroups());
   strategy_.Agree();
   parts_.Start();
   watch_.Start();
@@ -131,6 +133,7 @@ RunResult Runner::Run() {
 void Runner::Serve(const CrewStart& start, const std::atomic<bool>* stop) {
   clock_.Start();
   strategy_.TrainLike(start);
+  films_.film().set_side(strategy_.SideOfGroups());
   strategy_.Agree();
   crew_.Serve({tasks_, films_,
                [this](std::uint64_t first) { strategy_.BeginWith(first); }, stop});

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "src/prepare/groups.h"
 #include "src/scene/rendered_pixels.h"
 #include "src/wavefront/plan_features.h"
 #include "src/wavefront/profile.h"
@@ -98,6 +99,10 @@ void RunStrategy::UseTraining() {
   if (PlannedStrategy(scene_, changed) == scene_.strategy) return;
   plan_ = MakePlan(scene_, changed);
   run_ = Parameters();
+}
+
+std::int32_t RunStrategy::SideOfGroups() const {
+  return GroupsOf(PlannedStrategy(scene_, plan_.options)).side;
 }
 
 std::vector<TrainedTable> RunStrategy::Tables() const {

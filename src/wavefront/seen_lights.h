@@ -48,6 +48,8 @@ class SeenLightEdges {
   /// from several threads. Whether anything was done.
   bool Correct(std::size_t tile, const SeenLightTask& task, RunCounts& counts);
 
+  /// Pixels of a tile with edges, as places in its TilePixels.
+  const std::vector<std::uint32_t>& Of(std::size_t tile) const { return edges_[tile]; }
   /// Pixels of all tiles with edges.
   std::uint64_t pixels() const;
 

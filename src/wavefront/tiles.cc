@@ -37,7 +37,7 @@ TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp) {
 
 TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp,
                             const Strategy& strategy) {
-  return Partition(pixels, spp, strategy.reuse == Reuse::kNone ? 64 : kReuseTile);
+  return Partition(pixels, spp, strategy.MayReuse() ? kReuseTile : 64);
 }
 
 std::uint32_t SamplesPerTask(std::uint64_t pixels, std::uint64_t spp) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <optional>
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
@@ -10,6 +11,7 @@
 #include "src/prepare/groups.h"
 #include "src/prepare/parameters.h"
 #include "src/prepare/tables.h"
+#include "src/wavefront/block_reuse.h"
 #include "src/wavefront/copies.h"
 #include "src/wavefront/plan_features.h"
 #include "src/wavefront/drive.h"
@@ -45,9 +47,10 @@ class Pass {
   }
 
   TrainingSamples Run() {
-    const std::size_t pixels = std::max<std::size_t>(kSamplesPerTask / work_.spp, 1);
-    const std::size_t tasks = (work_.pixels.size() + pixels - 1) / pixels;
-    ParallelFor(tasks, [&](std::size_t task) { RunTask(task * pixels, pixels); });
+    const std::vector<std::size_t> begins = Begins();
+    ParallelFor(begins.size() - 1, [&](std::size_t task) {
+      RunTask(task, begins[task], begins[task + 1] - begins[task]);
+    });
     for (const auto& wavefront : wavefronts_) {
       if (!wavefront) continue;
       samples_.rays_closest += wavefront->wave().rays_closest;
@@ -57,6 +60,20 @@ class Pass {
   }
 
  private:
+  // First pixels of tasks, and the end.
+  std::vector<std::size_t> Begins() const {
+    std::vector<std::size_t> begins = {0};
+    if (!work_.tiles.empty()) {
+      for (const PixelRect& t : work_.tiles) begins.push_back(begins.back() + t.pixels());
+      return begins;
+    }
+    const std::size_t pixels = std::max<std::size_t>(kSamplesPerTask / work_.spp, 1);
+    while (begins.back() < work_.pixels.size()) {
+      begins.push_back(std::min(begins.back() + pixels, work_.pixels.size()));
+    }
+    return begins;
+  }
+
   static bool OwnPoints(const CompiledScene& scene, const PlanOptions& options) {
     return GroupsOf(PlannedStrategy(scene, options)).replicates;
   }
@@ -76,18 +93,23 @@ class Pass {
     return run;
   }
 
-  void RunTask(std::size_t first, std::size_t pixels) {
+  void RunTask(std::size_t task, std::size_t first, std::size_t pixels) {
     auto& wavefront = wavefronts_[static_cast<std::size_t>(ThreadIndex())];
     if (!wavefront) wavefront = std::make_unique<Wavefront>(scene_, plan_, run_);
     TileWork work;
     work.pixels = work_.pixels.data() + first;
-    work.num_pixels =
-        static_cast<std::uint32_t>(std::min(pixels, work_.pixels.size() - first));
+    work.num_pixels = static_cast<std::uint32_t>(pixels);
     work.samples = work_.spp;
     const std::uint32_t count = work.num_pixels * work_.spp, rows = count * copies_;
     const auto planes = static_cast<std::size_t>(run_.planes.count());
     std::vector<float> values(rows * planes);
+    std::optional<BlockReuse> reuse;
+    if (plan_.features.Has(Feature::kReuse)) {
+      reuse.emplace(plan_, PlannedStrategy(scene_, plan_.options));
+      reuse->Begin(work, wavefront->wave());
+    }
     if (!Drive(*wavefront, plan_, work, {values.data(), rows}, nullptr, watcher_)) return;
+    if (reuse) reuse->Connect(work_.tiles[task], wavefront->wave(), nullptr);
     if (copies_ > 1) FoldCopies(values.data(), rows, run_.planes);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t sample = first * work_.spp + i;
@@ -119,7 +141,7 @@ TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples,
   const std::uint64_t count = std::max<std::uint64_t>(samples / spp, 1);
   if (count >= all.size()) {
     const std::uint64_t more = std::max<std::uint64_t>(samples / all.size(), spp);
-    return {std::move(all), static_cast<std::uint32_t>(more)};
+    return {std::move(all), {}, static_cast<std::uint32_t>(more)};
   }
   // Whole blocks, if there are enough: rays of neighbours are traced together.
   const std::uint64_t run = RunLength(count, spp), runs = count / run;
@@ -133,6 +155,25 @@ TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples,
     jitter = jitter * 6364136223846793005u + 1442695040888963407u;
     const std::uint64_t at = (begin + (jitter >> 33) % (end - begin)) * run;
     for (std::uint64_t k = 0; k < run; ++k) work.pixels.push_back(all[at + k]);
+  }
+  return work;
+}
+
+TrainingWork MakeTileWork(const CompiledScene& scene, std::uint64_t samples,
+                          std::uint32_t spp) {
+  const std::vector<PixelRect> all = TilesOf(RenderedPixels(scene.film), kReuseTile);
+  const std::uint64_t wanted = samples / spp / (kReuseTile * kReuseTile);
+  const std::size_t count = std::clamp<std::size_t>(wanted, 1, all.size());
+  TrainingWork work;
+  work.spp = spp;
+  std::uint64_t jitter = 0x9e3779b97f4a7c15u;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t begin = i * all.size() / count, end = (i + 1) * all.size() / count;
+    jitter = jitter * 6364136223846793005u + 1442695040888963407u;
+    work.tiles.push_back(all[begin + (jitter >> 33) % (end - begin)]);
+    std::vector<std::uint32_t> pixels;
+    TilePixels(work.tiles.back(), scene.film.width, &pixels);
+    work.pixels.insert(work.pixels.end(), pixels.begin(), pixels.end());
   }
   return work;
 }

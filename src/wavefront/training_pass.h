@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/core/vec.h"
+#include "src/image/pixel_rect.h"
 #include "src/path/wave.h"
 #include "src/wavefront/plan.h"
 
@@ -17,6 +18,8 @@ class TaskWatcher;  // src/wavefront/task_watcher.h
 struct TrainingWork {
   static constexpr std::uint32_t kLeastSpp = 4;
   std::vector<std::uint32_t> pixels;  // y * width + x
+  /// Whose pixels these are, one tile after the other; empty: of none.
+  std::vector<PixelRect> tiles;
   std::uint32_t spp = kLeastSpp;
 
   std::size_t samples() const { return pixels.size() * spp; }
@@ -43,6 +46,10 @@ struct TrainingSamples {
 TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples,
                               std::uint32_t spp = TrainingWork::kLeastSpp,
                               std::uint64_t turn = 0);
+
+/// The same of whole tiles, as reuse=block needs them.
+TrainingWork MakeTileWork(const CompiledScene& scene, std::uint64_t samples,
+                          std::uint32_t spp);
 
 /// About a sixteenth of it.
 TrainingWork FewOf(const TrainingWork& work);
