@@ -1,10 +1,12 @@
-// roulette=throughput: a path survives with probability s = min(1, max(floor, largest
-// component of its throughput)), the factor eta^2 of refractions undone.
+// roulette=throughput: a path survives with probability s = min(1, max(floor, scale times
+// the largest component of its throughput)), the factor eta^2 of refractions undone.
 //   estimator   survive-inl.h
 //   unbiased    s > 0: a scattered path has a positive component
-//   variance    bounded weights: a survivor's throughput is at least its maximum's, so
-//               never above 1 after division
-//   from        the second scattering event on, as in pbrt-v4 (throughput:FLOOR:FIRST)
+//   variance    bounded weights: a survivor's throughput is never above 1 after division;
+//               never above 1 / scale where it was below, so that long paths are more
+//               even the larger the scale, and more of them
+//   from        the second scattering event on, as in pbrt-v4
+//               (throughput:FLOOR:FIRST:SCALE)
 //   cost        one division and a compaction
 //   source      Arvo and Kirk 1990, "Particle Transport and Image Synthesis"
 #include "kernels/targets.h"
@@ -24,7 +26,8 @@ namespace HWY_NAMESPACE {
 struct ThroughputSurvival {
   static HWY_INLINE VF Survival(const Wave& wave, const Slots& slots, V3 beta) {
     const VF s = WithoutRefraction(wave.path, slots, MaxComponent(beta));
-    return hn::Max(s, Splat(wave.run->roulette.floor));
+    const RouletteParameters& roulette = wave.run->roulette;
+    return hn::Max(hn::Mul(s, Splat(roulette.scale)), Splat(roulette.floor));
   }
 };
 

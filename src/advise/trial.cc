@@ -45,6 +45,7 @@ void Trial::Use(TriedCandidate& tried) {
   prepared.termination = usual.termination;
   prepared.floor = usual.floor;
   prepared.first = usual.first;
+  prepared.scale = usual.scale;
   prepared.guiding = usual.guiding;
   UseStrategy(prepared, job_.scene);
   if (tried.has_learned) return;

@@ -39,6 +39,7 @@ struct RouletteParameters {
   float termination = 0;    // constant: probability of ending
   float floor = 0;          // throughput, luminance: least survival probability
   std::uint32_t first = 2;  // scattering events before the first decision
+  float scale = 1;          // throughput: of it
 };
 
 /// Tables that some strategies need (src/prepare/tables.h).

@@ -50,7 +50,7 @@ MisParameters MakeMisParameters(const Strategy& strategy) {
 
 RouletteParameters MakeRouletteParameters(const Strategy& strategy) {
   return {static_cast<float>(strategy.termination), static_cast<float>(strategy.Floor()),
-          strategy.First()};
+          strategy.First(), static_cast<float>(strategy.scale)};
 }
 
 std::uint32_t CandidatesOf(const Strategy& strategy, const FeatureSet& features) {

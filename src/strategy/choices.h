@@ -72,8 +72,8 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(None, PLAIN, ({}), "none", "", "paths end at the maximum depth only", "f", "") \
   X(Constant, STAGE, ({kRoulette}), "constant", "[:Q[:FIRST]]", "ends with probability q = " LANELIGHT_TEXT(LANELIGHT_CONSTANT_TERMINATION) " at every event from the FIRST = 1st on", \
     "f / (1 - q) or 0", "paper eq. 8; Arvo and Kirk 1990")                                \
-  X(Throughput, STAGE, ({kRoulette}), "throughput", "[:FLOOR[:FIRST]]", "survives with the largest component of the throughput (default)", \
-    "f / s or 0, s = min(1, max(FLOOR = 0, max beta)), from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
+  X(Throughput, STAGE, ({kRoulette}), "throughput", "[:FLOOR[:FIRST[:SCALE]]]", "survives with the largest component of the throughput (default)", \
+    "f / s or 0, s = min(1, max(FLOOR = 0, SCALE max beta)), SCALE = 1, from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
   X(Luminance, STAGE, ({kRoulette}), "luminance", "[:FLOOR[:FIRST]]", "survives with the luminance of the throughput", \
     "f / s or 0, s = min(1, max(FLOOR = 0.05, Y(beta))), from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
   X(Adjoint, STAGE, ({kSplitting, kPathValues}), "adjoint", "", "weight window around the expected contribution, by roulette and splitting; pilot pass", \

@@ -81,11 +81,11 @@ std::string RouletteText(const Strategy& s) {
   std::string text = Name(s.roulette);
   if (s.roulette == Roulette::kConstant) {
     text += fmt::format(":{}", s.termination);
-  } else if (s.floor || s.first) {
+  } else if (s.floor || s.first || s.scale != 1) {
     text += fmt::format(":{}", s.Floor());
   }
-  if (s.first) text += fmt::format(":{}", *s.first);
-  return text;
+  if (s.first || s.scale != 1) text += fmt::format(":{}", s.First());
+  return s.scale != 1 ? text + fmt::format(":{}", s.scale) : text;
 }
 
 std::string LightText(const Strategy& s) {

@@ -37,6 +37,7 @@ struct Strategy {
   double termination = kConstantTermination;
   std::optional<double> floor;         // of kThroughput, kLuminance: least survival
   std::optional<std::uint32_t> first;  // first scattering event with roulette
+  double scale = 1;                    // of kThroughput: of the throughput
   LightSelection light_selection = LightSelection::kPower;
   SeenLights seen_lights = SeenLights::kApart;
   LightPoints light_points = LightPoints::kArea;

@@ -258,12 +258,13 @@ class Parser {
   }
 
   void SetRoulette(std::string_view value) {
-    const auto parts = Parts("roulette", value, 3);
+    const auto parts = Parts("roulette", value, value.starts_with("throughput") ? 4 : 3);
     const auto kind = static_cast<Roulette>(Choose("roulette", parts[0], kRoulettes));
     strategy_.roulette = kind;
     strategy_.termination = Strategy{}.termination;
     strategy_.floor.reset();
     strategy_.first.reset();
+    strategy_.scale = 1;
     if (parts.size() < 2) return;
     if (kind == Roulette::kConstant) {
       strategy_.termination = Number("roulette=constant", parts[1], 0.001, 0.999);
@@ -276,6 +277,8 @@ class Parser {
     const double first = Number("roulette", parts[2], 1, 1000000);
     if (first != std::floor(first)) Fail("the first event of roulette must be whole");
     strategy_.first = static_cast<std::uint32_t>(first);
+    if (parts.size() < 4) return;
+    strategy_.scale = Number("roulette=throughput", parts[3], 0.1, 100);
   }
 
   std::string_view text_;
@@ -312,6 +315,7 @@ void Apply(const StrategyChanges& changes, Strategy& strategy) {
     strategy.termination = from.termination;
     strategy.floor = from.floor;
     strategy.first = from.first;
+    strategy.scale = from.scale;
   }
   if (has(StrategyKey::kLightSelection)) strategy.light_selection = from.light_selection;
   if (has(StrategyKey::kSeenLights)) strategy.seen_lights = from.seen_lights;

@@ -25,8 +25,9 @@ inline constexpr double kReusePrice = 1.16;
 
 // Costs are counted in rays, so that a choice hangs on nothing but the scene; prices make
 // up for what rays do not say. They are means over 28 scenes, 128 pixels wide, one
-// thread, AVX-512: adjoint 0.95 to 1.38, throughput:0:5 0.99 to 1.35, none 0.95 to 1.54,
-// tree 0.99 to 2.06 (where lights are many and paths long).
+// thread, AVX-512: adjoint 0.95 to 1.38, throughput:0:2:4 0.81 to 1.17 (12 scenes),
+// throughput:0:5 0.99 to 1.35, none 0.95 to 1.54, tree 0.99 to 2.06 (where lights are
+// many and paths long).
 //
 // Left out: directions=bsdf and light, which differ from combining both most in rare
 // bright samples that a trial does not see, and gain 1.3 at most (Veach and Guibas 1995:
@@ -37,10 +38,12 @@ inline constexpr double kReusePrice = 1.16;
 // pairs, which undo what strata gain, a constant roulette.
 inline constexpr DecisionCandidate kDecisionCandidates[] = {
     {"roulette=adjoint", "pays where little of the scene carries the light", 1.15, 0.09},
+    {"roulette=throughput:0:2:4", "pays where what paths bring late is worth their rays",
+     1.03, 0.1},
+    // Only those above may be chosen without being asked for. With the next but one paths
+    // may not end.
     {"roulette=throughput:0:5", "pays where bright light arrives after a few events",
      1.07, 0.07},
-    // Only those above may be chosen without being asked for: with the next, paths may
-    // not end.
     {"roulette=none", "pays where paths are short or end late on bright lights", 1.07,
      0.12},
     {"light-selection=tree", "pays with many lights, each near a part of the scene", 1.12,

@@ -112,7 +112,8 @@ bool DecisionPilot::RecordsUnsplit(const DecisionEntry& entry,
                                    const DecisionEntry& usual) const {
   const Strategy given = PlannedStrategy(scene_, usual.options);
   return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
-         given.First() == kThroughputFirst && entry.changes == "roulette=adjoint";
+         given.scale == 1 && given.First() == kThroughputFirst &&
+         entry.changes == "roulette=adjoint";
 }
 
 TrainingSamples DecisionPilot::Render(const DecisionEntry& entry, bool records) {

@@ -73,8 +73,8 @@ std::string ParametersText(const Strategy& s, const FeatureSet& features) {
   }
   if (features.HasAny({Feature::kRoulette, Feature::kSplitting})) {
     const RouletteParameters r = MakeRouletteParameters(s);
-    text += fmt::format(" roulette {} {} {} {}", Name(s.roulette), r.termination, r.floor,
-                        r.first);
+    text += fmt::format(" roulette {} {} {} {} {}", Name(s.roulette), r.termination,
+                        r.floor, r.first, r.scale);
   }
   if (features.Has(Feature::kContributionShadowRoulette)) {
     text += fmt::format(" shadow floor {}", s.ShadowFloor());

@@ -43,7 +43,7 @@ const std::map<std::string, std::vector<std::string>>& Variants() {
       {"regression", {"regression,c=1"}},
       {"block", {"block:8", "block:64:compact", "block:16:apart"}},
       {"constant", {"constant:0.2"}},
-      {"throughput", {"throughput:0.1:1"}},
+      {"throughput", {"throughput:0.1:1", "throughput:0:2:4"}},
       {"contribution", {"contribution", "contribution:0.02"}}};
   return kVariants;
 }

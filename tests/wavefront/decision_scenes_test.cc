@@ -32,7 +32,7 @@ Choices ChoicesFor(const std::string& scene) {
     const RunResult result = Run(job.scene, job.plan, options, film);
     UNSCOPED_INFO(seed << ": " << result.pilot_note);
     chosen.adjoint += result.pilot_changes == "roulette=adjoint,decide=none";
-    chosen.blocks += result.pilot_changes.starts_with("reuse=block");
+    chosen.blocks += result.pilot_changes.find("reuse=block") != std::string::npos;
   }
   return chosen;
 }

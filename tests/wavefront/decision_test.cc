@@ -65,25 +65,27 @@ double Efficiency(const Rendered& r) {
 
 }  // namespace
 
-TEST_CASE("the pilot finds splitting where a room needs it", "[decision]") {
+TEST_CASE("the pilot plays a milder roulette where late light is most", "[decision]") {
   // Where samples of a pixel are not as many, paths serve no others.
   const Rendered r = Decide(Room(0.9, 100), "allocation=error,decide=pilot");
   INFO(r.result.pilot_note);
-  CHECK(r.result.roulette == Roulette::kAdjoint);
-  CHECK(r.result.pilot_changes == "roulette=adjoint,decide=none");
-  CHECK_THAT(r.result.pilot_note, Catch::Contains("rendered with roulette=adjoint") &&
-                                      Catch::Contains("roulette=throughput:0:5"));
+  CHECK(r.result.roulette == Roulette::kThroughput);
+  CHECK(r.result.pilot_changes == "roulette=throughput:0:2:4,decide=none");
+  CHECK_THAT(r.result.pilot_note,
+             Catch::Contains("rendered with roulette=throughput:0:2:4") &&
+                 Catch::Contains("roulette=adjoint"));
   // The image is what it is with that asked for: the pilot leaves nothing behind.
-  CHECK(SameImage(r, Decide(Room(0.9, 100), "allocation=error,roulette=adjoint")));
+  CHECK(
+      SameImage(r, Decide(Room(0.9, 100), "allocation=error,roulette=throughput:0:2:4")));
 }
 
 TEST_CASE("the pilot has paths serve their block where light comes by bounces",
           "[decision]") {
   const Rendered r = Decide(Room(0.9, 100), "decide=pilot");
   INFO(r.result.pilot_note);
-  CHECK(r.result.pilot_changes == "reuse=block,decide=none");
+  CHECK(r.result.pilot_changes == "roulette=throughput:0:2:4,reuse=block,decide=none");
   CHECK(r.film.groups().side == kReuseTile);  // errors are those of tiles
-  CHECK(SameImage(r, Decide(Room(0.9, 100), "reuse=block")));
+  CHECK(SameImage(r, Decide(Room(0.9, 100), "roulette=throughput:0:2:4,reuse=block")));
   // Nothing is shared by what leaves after one event, nor by mirrors.
   SceneDescription plane = PolygonLight(32);
   plane.integrator.max_depth = 6;
@@ -139,7 +141,7 @@ TEST_CASE("what the pilot chooses is not far below the best candidate", "[decisi
   for (const auto& [name, scene] : scenes) {
     double best = 0;
     std::string found;
-    for (const char* roulette : {"throughput", "adjoint", "throughput:0:5"}) {
+    for (const char* roulette : {"throughput", "adjoint", "throughput:0:2:4"}) {
       const std::string change = std::string("roulette=") + roulette;
       const double efficiency = Efficiency(Decide(scene, change, kPlanned, kRenderSpp));
       best = std::max(best, efficiency);
