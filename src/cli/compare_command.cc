@@ -59,6 +59,8 @@ std::string Text(const CompareResult& r) {
          fmt::format("MSE            {:.6g}\nRMSE           {:.6g}\n", r.mse, r.rmse) +
          fmt::format("relative MSE   {:.6g} (without the worst 0.1 %: {:.6g})\n",
                      r.relmse, r.relmse_trimmed) +
+         fmt::format("  after filters of 2, 4, 8 pixels: {:.6g}\n",
+                     fmt::join(r.relmse_filtered, ", ")) +
          fmt::format("MAE            {:.6g}\nMAPE           {:.4g} %\n", r.mae,
                      100 * r.mape) +
          fmt::format("PSNR           {:.2f} dB\n", r.psnr) + ChannelText(r) +

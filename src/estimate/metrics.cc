@@ -130,6 +130,10 @@ class Comparison {
     const bool variances = channel.test_variance >= 0 || channel.reference_variance >= 0;
     has_variance_ |= variances;
     TileGrid tiles(test_.width, test_.height, options_.tile);
+    std::vector<TileGrid> squares;
+    for (int side : kFilterSides) {
+      squares.emplace_back(test_.width, test_.height, side);
+    }
     double sum_a = 0, sum_b = 0;
     std::uint64_t count = 0;
     for (int y = 0; y < test_.height; ++y) {
@@ -141,11 +145,15 @@ class Comparison {
         if (!std::isfinite(a) || !std::isfinite(b)) continue;
         AddSample(a, b);
         tiles.Add(x, y, a, b);
+        for (TileGrid& grid : squares) grid.Add(x, y, a, b);
         if (variances) z_.Add(a - b, Variance(channel, x, y));
         sum_a += a, sum_b += b, ++count;
       }
     }
     tiles.AppendErrors(options_.epsilon, &tile_errors_);
+    for (std::size_t k = 0; k < kFilters; ++k) {
+      squares[k].AppendErrors(options_.epsilon, &filtered_[k]);
+    }
     const double n = static_cast<double>(count);
     result_.mean_test.push_back(sum_a / n);
     result_.mean_reference.push_back(sum_b / n);
@@ -181,6 +189,9 @@ class Comparison {
     result_.mape = percentage_ / n;
     result_.relmse = TrimmedMean(relative_, 0);
     result_.relmse_trimmed = TrimmedMean(std::move(relative_), options_.trim);
+    for (std::size_t k = 0; k < kFilters; ++k) {
+      result_.relmse_filtered[k] = TrimmedMean(std::move(filtered_[k]), 0);
+    }
     result_.psnr = 10 * std::log10(peak_ * peak_ / result_.mse);
     result_.tile_relmse_max =
         tile_errors_.empty()
@@ -199,6 +210,7 @@ class Comparison {
   ZCollector z_;
   bool has_variance_ = false;
   std::vector<double> relative_, tile_errors_;
+  std::array<std::vector<double>, kFilters> filtered_;
   double squares_ = 0, absolute_ = 0, percentage_ = 0, peak_ = 0;
 };
 
@@ -238,25 +250,27 @@ CompareResult CompareImages(const Image& test, const Image& reference,
 }
 
 nlohmann::json ToJson(const CompareResult& r) {
-  return {{"width", r.width},
-          {"height", r.height},
-          {"channels", r.channels},
-          {"samples", r.samples},
-          {"invalid_test", r.invalid_test},
-          {"invalid_reference", r.invalid_reference},
-          {"mse", Number(r.mse)},
-          {"rmse", Number(r.rmse)},
-          {"mae", Number(r.mae)},
-          {"relmse", Number(r.relmse)},
-          {"relmse_trimmed", Number(r.relmse_trimmed)},
-          {"mape", Number(r.mape)},
-          {"psnr", Number(r.psnr)},
-          {"mean_test", Numbers(r.mean_test)},
-          {"mean_reference", Numbers(r.mean_reference)},
-          {"mean_ratio", Numbers(r.mean_ratio)},
-          {"tile_relmse_median", Number(r.tile_relmse_median)},
-          {"tile_relmse_max", Number(r.tile_relmse_max)},
-          {"z", ToJson(r.z)}};
+  return {
+      {"width", r.width},
+      {"height", r.height},
+      {"channels", r.channels},
+      {"samples", r.samples},
+      {"invalid_test", r.invalid_test},
+      {"invalid_reference", r.invalid_reference},
+      {"mse", Number(r.mse)},
+      {"rmse", Number(r.rmse)},
+      {"mae", Number(r.mae)},
+      {"relmse", Number(r.relmse)},
+      {"relmse_trimmed", Number(r.relmse_trimmed)},
+      {"relmse_filtered", Numbers({r.relmse_filtered.begin(), r.relmse_filtered.end()})},
+      {"mape", Number(r.mape)},
+      {"psnr", Number(r.psnr)},
+      {"mean_test", Numbers(r.mean_test)},
+      {"mean_reference", Numbers(r.mean_reference)},
+      {"mean_ratio", Numbers(r.mean_ratio)},
+      {"tile_relmse_median", Number(r.tile_relmse_median)},
+      {"tile_relmse_max", Number(r.tile_relmse_max)},
+      {"z", ToJson(r.z)}};
 }
 
 }  // namespace lanelight

@@ -1,7 +1,9 @@
 // How far an image is from a reference, and whether noise explains it.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <iterator>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -18,6 +20,12 @@ struct CompareOptions {
   double trim = 0.001;
   int tile = 16;  // pixels per side of the tiles of the tile measures
 };
+
+/// Sides of the box filters after which errors are told as well, in pixels: whether
+/// errors of neighbours have something in common, which a filter or the eye does not
+/// average away.
+inline constexpr int kFilterSides[] = {2, 4, 8};
+inline constexpr std::size_t kFilters = std::size(kFilterSides);
 
 /// Distribution of z = (test - reference) / sqrt(variance of test + variance of
 /// reference) over pixels and channels: standard normal if noise alone separates the
@@ -44,8 +52,11 @@ struct CompareResult {
   double mse = 0, rmse = 0, mae = 0;
   double relmse = 0;          // mean of (a-b)^2 / (b^2 + epsilon)
   double relmse_trimmed = 0;  // the same without the largest `trim` share
-  double mape = 0;            // mean of |a-b| / (|b| + epsilon); 1 = 100 %
-  double psnr = 0;            // dB, peak = largest reference value; infinite if equal
+  /// relMSE of the means of squares with kFilterSides, from the image's corner on. Errors
+  /// of independent pixels fall as 1 / side^2.
+  std::array<double, kFilters> relmse_filtered = {};
+  double mape = 0;  // mean of |a-b| / (|b| + epsilon); 1 = 100 %
+  double psnr = 0;  // dB, peak = largest reference value; infinite if equal
   std::vector<double> mean_test, mean_reference;  // per channel
   std::vector<double> mean_ratio;                 // test / reference; 1 if both are 0
   double tile_relmse_median = 0;  // of (mean a - mean b)^2 / ((mean b)^2 + epsilon)

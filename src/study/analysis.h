@@ -48,6 +48,7 @@ struct LevelAnalysis {
   std::uint64_t spp = 0;
   std::size_t repetitions = 0;
   Interval rmse, relmse, relmse_trimmed, mape, variance, bias2, bias;
+  Interval relmse_2, relmse_4, relmse_8;  // after filters
   Interval cpu_seconds, wall_seconds;
   std::optional<double> bias_p;
   Rgb mean;

@@ -45,6 +45,35 @@ void MeasureRelative(std::vector<PixelError> errors, Measurement& m) {
   m.relmse_trimmed = n > trimmed ? kept / double(n - trimmed) : m.relmse;
 }
 
+// Of means over squares, less the reference's own.
+double FilteredError(const std::vector<Rgb>& image, const Reference& reference,
+                     std::size_t side) {
+  const auto width = static_cast<std::size_t>(reference.width);
+  const std::size_t height = image.size() / width;
+  double sum = 0, squares = 0;
+  for (std::size_t y = 0; y < height; y += side) {
+    for (std::size_t x = 0; x < width; x += side) {
+      Rgb d, r, variance;
+      double n = 0;
+      for (std::size_t b = y; b < std::min(y + side, height); ++b) {
+        for (std::size_t a = x; a < std::min(x + side, width); ++a, ++n) {
+          const std::size_t i = b * width + a;
+          d += image[i] - reference.mean[i];
+          r += reference.mean[i];
+          variance += reference.Variance(i);
+        }
+      }
+      for (int c = 0; c < 3; ++c) {
+        const double mean = r[c] / n;
+        sum +=
+            (d[c] * d[c] - variance[c]) / (n * n) / (mean * mean + kRelativeEpsilon) / 3;
+      }
+      ++squares;
+    }
+  }
+  return sum / squares;
+}
+
 }  // namespace
 
 void MeasureErrors(const std::vector<Rgb>& image, const Reference& reference,
@@ -78,6 +107,9 @@ void MeasureErrors(const std::vector<Rgb>& image, const Reference& reference,
   m.worst_x = at % static_cast<std::size_t>(reference.width);
   m.worst_y = at / static_cast<std::size_t>(reference.width);
   MeasureRelative(std::move(errors), m);
+  m.relmse_2 = FilteredError(image, reference, 2);
+  m.relmse_4 = FilteredError(image, reference, 4);
+  m.relmse_8 = FilteredError(image, reference, 8);
 }
 
 }  // namespace lanelight

@@ -165,6 +165,9 @@ LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
   level.rmse = Root(interval([](const Measurement& m) { return m.mse; }));
   level.relmse = interval([](const Measurement& m) { return m.relmse; });
   level.relmse_trimmed = interval([](const Measurement& m) { return m.relmse_trimmed; });
+  level.relmse_2 = interval([](const Measurement& m) { return m.relmse_2; });
+  level.relmse_4 = interval([](const Measurement& m) { return m.relmse_4; });
+  level.relmse_8 = interval([](const Measurement& m) { return m.relmse_8; });
   level.mape = interval([](const Measurement& m) { return m.mape; });
   level.worst_share =
       Mean(Collect(all, [](const Measurement& m) { return m.worst_share; }));

@@ -25,6 +25,9 @@ namespace lanelight {
   X(double, rmse)                                                                        \
   X(double, relmse)                                                                      \
   X(double, relmse_trimmed) /* without the worst kTrimmedShare of the pixels */          \
+  X(double, relmse_2)       /* of means over squares of 2 x 2 pixels, and so on */       \
+  X(double, relmse_4)                                                                    \
+  X(double, relmse_8)                                                                    \
   X(double, raw_relmse)                                                                  \
   X(double, worst_share) /* part of raw_relmse in the worst kWorstShare of the pixels */ \
   X(double, mape)                                                                        \

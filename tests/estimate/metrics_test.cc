@@ -48,6 +48,10 @@ TEST_CASE("metrics of two pixels by hand", "[metrics]") {
   CHECK(r.rmse == Approx(std::sqrt(25 / 6.0)));
   CHECK(r.mae == Approx(9 / 6.0));
   CHECK(r.relmse == Approx((1 / 1.5 + 4 / 1.5 + 4 / 4.5 + 16 / 100.5) / 6));
+  // All squares hold both pixels.
+  for (double filtered : r.relmse_filtered) {
+    CHECK(filtered == Approx((1 / 2.75 + 0.25 / 9.5 + 1 / 30.75) / 3));
+  }
   CHECK(r.mape == Approx((1 / 1.5 + 2 / 1.5 + 2 / 2.5 + 4 / 10.5) / 6));
   CHECK(r.psnr == Approx(10 * std::log10(100 / (25 / 6.0))));
   CHECK(r.mean_test == std::vector<double>{2.5, 3.5, 4.5});

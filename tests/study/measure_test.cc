@@ -35,6 +35,10 @@ TEST_CASE("errors of a small image are what one computes by hand", "[study]") {
   CHECK(m.worst_x == 1);
   CHECK(m.worst_y == 0);
   CHECK(m.relmse_trimmed == Approx(1 / 1.01 / 3));
+  // One square: means 0.5, 1.5, 0.5, differences 0.5, 0, 0.15.
+  for (double filtered : {m.relmse_2, m.relmse_4, m.relmse_8}) {
+    CHECK(filtered == Approx((0.25 + 0.0225) / 0.26 / 3));
+  }
   CHECK(m.mean_r == Approx(1));
   CHECK(m.mean_b == Approx(0.65));
 }

@@ -300,7 +300,7 @@ TEST_CASE("sample counts", "[study]") {
     const TemporaryFolder folder;
     StudyOptions budget = TinyStudy(folder, "out");
     budget.spp.clear();
-    budget.budget = 0.25;
+    budget.budget = 0.05;
     budget.repetitions = 2;
     const auto studies = Study(budget, {});
     for (const StrategyRuns& runs : studies[0].runs.strategies) {
