@@ -30,10 +30,10 @@ double Weight(double mean, double noise = 0) {
 struct Shares {
   double sum = 0, squares = 0, by_freedom = 0;
 
-  void Add(double share, double freedom) {
+  void Add(double share, double freedom, double dependents) {
     sum += share;
     // E[s^4] = sigma^4 (G + 1) / (G - 1) for normal observations.
-    const double square = share * share * freedom / (freedom + 2);
+    const double square = dependents * share * share * freedom / (freedom + 2);
     squares += square;
     by_freedom += square / freedom;
   }
@@ -68,52 +68,31 @@ struct ChannelTruth {
   double pooled = 0, pooled_noise = 0;
 };
 
-// Pixels whose errors may rise and fall together: one, or all of a tile.
-struct Together {
-  double square = 0, relative = 0;
+struct Sums {
+  Shares square, relative;
   double pooled = 0;  // relative error, by ChannelTruth::pooled
-  double up = 0;      // how much the relative error may grow, at most
-  double most_up = 0;
-  std::size_t most_up_at = 0;  // index of that pixel
-  double freedom = std::numeric_limits<double>::infinity();
+  // How much the relative errors may grow: squares; the most, and the index of its pixel.
+  double up_squares = 0, most_up = 0;
+  std::size_t most_up_at = 0;
   std::uint64_t pixels = 0;
 
-  // `share`: of the variance that is left.
+  // `share`: of the variance that is left; `dependents`: SampleGroups.
   void Add(std::size_t index, const PixelEstimate& p,
-           const std::array<ChannelTruth, 3>& truth, double share) {
-    double own_square = 0, own_relative = 0, own_up = 0;
+           const std::array<ChannelTruth, 3>& truth, double share, double dependents) {
+    double own_square = 0, own_relative = 0, up = 0;
     for (int c = 0; c < 3; ++c) {
       const double v = p.variance[c] * share / 3;
       const double weight = Weight(truth[c].own.Quantile(0), truth[c].noise);
       own_square += v;
       own_relative += v * weight;
       pooled += v * Weight(truth[c].pooled, truth[c].pooled_noise);
-      own_up += v * (Weight(truth[c].own.Quantile(-kTwoSided)) - weight);
+      up += v * (Weight(truth[c].own.Quantile(-kTwoSided)) - weight);
     }
-    square += own_square;
-    relative += own_relative;
-    up += own_up;
-    if (own_up > most_up) most_up = own_up, most_up_at = index;
-    freedom = std::min(freedom, p.freedom);
+    square.Add(own_square, p.freedom, dependents);
+    relative.Add(own_relative, p.freedom, dependents);
+    up_squares += dependents * up * up;
+    if (up > most_up) most_up = up, most_up_at = index;
     ++pixels;
-  }
-};
-
-struct Sums {
-  Shares square, relative;
-  double pooled = 0, up_squares = 0;  // of Together
-  double most_up = 0;
-  std::size_t most_up_at = 0;
-  std::uint64_t pixels = 0;
-
-  void Add(const Together& one) {
-    if (one.pixels == 0) return;
-    square.Add(one.square, one.freedom);
-    relative.Add(one.relative, one.freedom);
-    pooled += one.pooled;
-    up_squares += one.up * one.up;
-    if (one.most_up > most_up) most_up = one.most_up, most_up_at = one.most_up_at;
-    pixels += one.pixels;
   }
   void Add(const Sums& other) {
     square.Add(other.square);
@@ -130,13 +109,11 @@ struct Sums {
 // The pixels of an image, and what their neighbours say of them.
 class PixelGrid {
  public:
-  PixelGrid(const PixelRect& window, int side,
+  PixelGrid(const PixelRect& window, double dependents,
             const std::function<PixelEstimate(int, int)>& pixel)
       : width_(window.width()),
         height_(window.height()),
-        side_(side),
-        left_(window.x0 % side),
-        top_(window.y0 % side),
+        dependents_(dependents),
         pixels_(Count()),
         neighbours_(Count()) {
     ForRows([&](int y) {
@@ -152,10 +129,14 @@ class PixelGrid {
   // In the order of the rows, so that it is the same for any number of threads; `share`
   // of the variances, as more samples would leave it.
   Sums Total(double share = 1) const {
-    std::vector<Sums> rows(static_cast<std::size_t>((top_ + height_ - 1) / side_ + 1));
-    ParallelFor(rows.size(), [&](std::size_t row) {
-      const int y = static_cast<int>(row) * side_ - top_;
-      for (int x = -left_; x < width_; x += side_) rows[row].Add(Tile(x, y, share));
+    std::vector<Sums> rows(static_cast<std::size_t>(height_));
+    ForRows([&](int y) {
+      Sums& row = rows[static_cast<std::size_t>(y)];
+      for (int x = 0; x < width_; ++x) {
+        const std::size_t i = Index(x, y);
+        if (!pixels_[i].known) continue;
+        row.Add(i, pixels_[i], Truth(x, y, share), share, dependents_);
+      }
     });
     Sums total;
     for (const Sums& row : rows) total.Add(row);
@@ -169,17 +150,6 @@ class PixelGrid {
   }
 
  private:
-  // That begins at (x, y), perhaps outside of the window.
-  Together Tile(int x, int y, double share) const {
-    Together tile;
-    for (int b = std::max(y, 0); b < std::min(y + side_, height_); ++b) {
-      for (int a = std::max(x, 0); a < std::min(x + side_, width_); ++a) {
-        const PixelEstimate& p = pixels_[Index(a, b)];
-        if (p.known) tile.Add(Index(a, b), p, Truth(a, b, share), share);
-      }
-    }
-    return tile;
-  }
   std::size_t Count() const {
     return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   }
@@ -261,7 +231,7 @@ class PixelGrid {
   }
 
   int width_, height_;
-  int side_, left_, top_;  // of tiles; where in the first one the window begins
+  double dependents_;
   std::vector<PixelEstimate> pixels_;
   std::vector<Rgb> neighbours_;
 };
@@ -346,8 +316,8 @@ Interval ErrorInterval(double estimate, double k1, double k2) {
 
 ErrorEstimate EstimateError(const PixelRect& window,
                             const std::function<PixelEstimate(int, int)>& pixel,
-                            int side) {
-  const PixelGrid grid(window, side, pixel);
+                            double dependents) {
+  const PixelGrid grid(window, dependents, pixel);
   const Sums sums = grid.Total();
   ErrorEstimate out = FromSums(sums);
   // Samples that are all black are equal, and say nothing of a lamp that they missed.
@@ -385,7 +355,7 @@ ErrorEstimate EstimateError(const FilmAccumulator& film) {
     p.freedom = static_cast<double>(film.Observations(x, y) - 1);
     return p;
   };
-  ErrorEstimate out = EstimateError(window, pixel, film.groups().side);
+  ErrorEstimate out = EstimateError(window, pixel, film.groups().dependents);
   const double met = Met(film);
   if (!out.has_interval || film.chance_of_light() >= 1 || met >= kLeastMet) return out;
   return Unseen(

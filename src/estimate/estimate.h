@@ -89,12 +89,10 @@ inline constexpr double kMostTimes = 32, kLeastMet = 50;
 inline constexpr double kSkew = 0.3, kSkewDoubt = 0.5, kMostSkewed = 0.01;
 
 /// The same for any source of pixels of the window, which may be asked from several
-/// threads at once. Pixels of a tile of `side`, which begins at a multiple of it, depend
-/// on each other (reuse=block): their errors count as one, as if they rose and fell
-/// together, which is the worst that they can do.
+/// threads at once. `dependents`: SampleGroups; pixels then count for so much less.
 ErrorEstimate EstimateError(const PixelRect& window,
                             const std::function<PixelEstimate(int, int)>& pixel,
-                            int side = 1);
+                            double dependents = 1);
 
 /// Interval of the true error: the estimate times quantiles of the F distribution with
 /// k1 and k2 degrees of freedom.

@@ -30,8 +30,8 @@ class FilmAccumulator {
   int width() const { return width_; }
   int height() const { return height_; }
   const SampleGroups& groups() const { return groups_; }
-  /// Of SampleGroups: a pilot may decide that paths serve their tile.
-  void set_side(std::int32_t side) { groups_.side = side; }
+  /// Of SampleGroups: a pilot may decide that paths serve their block.
+  void set_dependents(double dependents) { groups_.dependents = dependents; }
   /// Of ChanceOfLight (src/prepare/chance_of_light.h).
   double chance_of_light() const { return chance_of_light_; }
   void set_chance_of_light(double chance) { chance_of_light_ = chance; }

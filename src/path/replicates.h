@@ -22,8 +22,9 @@ struct SampleGroups {
       1;  // successive samples that belong together: 2 in antithetic pairs
   /// Units take turns at kReplicates observations; else each is one by itself.
   bool replicates = false;
-  /// Pixels of a tile with this side, in pixels of the image, depend on each other.
-  std::int32_t side = 1;
+  /// Sum over all pixels of the squared correlation of their errors with one's own, at
+  /// most: 1 where pixels are independent. So many pixels say as much as one that is.
+  double dependents = 1;
 
   bool operator==(const SampleGroups&) const = default;
 

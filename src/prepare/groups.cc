@@ -25,6 +25,20 @@ std::uint32_t LogSequence(Points points) {
   return 0;
 }
 
+namespace {
+
+// Errors of two pixels have no more in common than the share of samples in which they are
+// in one block: (N - 1) / 255 of a tile's pixels by chance. Rectangles hold the same
+// neighbours again and again, but no more than N.
+double Dependents(const Strategy& strategy) {
+  if (strategy.reuse == Reuse::kNone) return 1;
+  const double n = strategy.reused_paths;
+  if (strategy.block_layout != BlockLayout::kRandom) return n;
+  return 1 + (n - 1) * (n - 1) / (kReuseTile * kReuseTile - 1);
+}
+
+}  // namespace
+
 SampleGroups GroupsOf(const Strategy& strategy) {
   SampleGroups groups;
   groups.unit = strategy.pairs == Pairs::kAntithetic ? 2 : 1;
@@ -32,7 +46,7 @@ SampleGroups GroupsOf(const Strategy& strategy) {
   // their own: those of four turns say it.
   groups.replicates = strategy.points != Points::kIndependent ||
                       (groups.unit == 2 && strategy.control == Control::kRegression);
-  if (strategy.reuse != Reuse::kNone) groups.side = kReuseTile;
+  groups.dependents = Dependents(strategy);
   return groups;
 }
 

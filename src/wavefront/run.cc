@@ -82,7 +82,7 @@ void Runner::Start() {
                  strategy_.trained(), strategy_.training().changes, strategy_.Tables()}));
   }
   if (!restored) strategy_.Train();
-  films_.film().set_side(strategy_.SideOfGroups());
+  films_.film().set_dependents(strategy_.Dependents());
   strategy_.Agree();
   parts_.Start();
   watch_.Start();
@@ -133,7 +133,7 @@ RunResult Runner::Run() {
 void Runner::Serve(const CrewStart& start, const std::atomic<bool>* stop) {
   clock_.Start();
   strategy_.TrainLike(start);
-  films_.film().set_side(strategy_.SideOfGroups());
+  films_.film().set_dependents(strategy_.Dependents());
   strategy_.Agree();
   crew_.Serve({tasks_, films_,
                [this](std::uint64_t first) { strategy_.BeginWith(first); }, stop});

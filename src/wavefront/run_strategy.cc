@@ -101,8 +101,8 @@ void RunStrategy::UseTraining() {
   run_ = Parameters();
 }
 
-std::int32_t RunStrategy::SideOfGroups() const {
-  return GroupsOf(PlannedStrategy(scene_, plan_.options)).side;
+double RunStrategy::Dependents() const {
+  return GroupsOf(PlannedStrategy(scene_, plan_.options)).dependents;
 }
 
 std::vector<TrainedTable> RunStrategy::Tables() const {

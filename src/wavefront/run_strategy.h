@@ -50,8 +50,8 @@ class RunStrategy {
   const TrainingOutcome& training() const { return training_; }
   /// Empty if not trained().
   std::vector<TrainedTable> Tables() const;
-  /// SampleGroups::side of what is rendered: after training.
-  std::int32_t SideOfGroups() const;
+  /// SampleGroups::dependents of what is rendered: after training.
+  double Dependents() const;
   /// Says in a result which strategy it was, and what the training has cost.
   void Describe(RunResult& result) const;
 

@@ -83,7 +83,8 @@ TEST_CASE("cuts: the same bits for every kind of film and training", "[cuts]") {
        {"points=independent", "points=sobol", "pairs=antithetic",
         "points=independent,pairs=antithetic", "control=analytic",
         "control=analytic,points=independent", "roulette=adjoint", "roulette=efficiency",
-        "points=cmj", "points=halton", "decide=pilot"}) {
+        "points=cmj", "points=halton", "decide=pilot", "reuse=block:16",
+        "points=independent,reuse=block:64:compact"}) {
     INFO(strategy);
     CheckCuts(RenderOf("cornell-box", strategy), {1, 3, 7});
   }
