@@ -3,6 +3,7 @@
 #include "src/prepare/chance_of_light.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "src/core/pi.h"
 #include "src/estimate/estimate.h"
@@ -38,6 +39,21 @@ TEST_CASE("a sun that chance hardly finds leaves errors without an interval",
     CHECK(ErrorOf("cornell-box.pbrt", strategy).has_interval);
   }
   CHECK(ErrorOf("blinds.pbrt", "directions=mis").why.find("chance") == std::string::npos);
+}
+
+TEST_CASE("pixels that depend on each other count for less", "[estimate]") {
+  const auto pixel = [](int x, int y) {
+    const double v = 1 + 0.1 * ((x * 7 + y * 3) % 5);
+    return PixelEstimate{true, {1, 1, 1}, {v, v, v}, 3};
+  };
+  const PixelRect window = {0, 0, 64, 64};
+  const ErrorEstimate alone = EstimateError(window, pixel);
+  const ErrorEstimate shared = EstimateError(window, pixel, 16);
+  CHECK(shared.relmse.value == Approx(alone.relmse.value));
+  CHECK(shared.effective_pixels == Approx(alone.effective_pixels / 16).epsilon(0.01));
+  // Standard errors of a variance grow as the square root.
+  const auto width = [](const Interval& v) { return std::log(v.high / v.low); };
+  CHECK(width(shared.rmse) == Approx(4 * width(alone.rmse)).epsilon(0.1));
 }
 
 TEST_CASE("the chance to meet light is its share of directions", "[estimate]") {
