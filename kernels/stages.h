@@ -111,6 +111,7 @@ namespace lanelight {
   X(ShadowMedia)                               \
   X(ShadowThrough)                             \
   X(Connect)                                   \
+  X(RecordReuseLight)                          \
   X(AmbientScattered)                          \
   X(RecordDecision)                            \
   X(UnsplitDecision)                           \
@@ -125,7 +126,9 @@ namespace lanelight {
   X(RecordRays)                                \
   X(Accumulate)                                \
   X(Pack)                                      \
+  X(ReuseSplit)                                \
   X(ReusePairs)                                \
+  X(ReuseGlossy)                               \
   X(ReuseShadow)                               \
   X(ReuseConnect)
 

@@ -8,6 +8,9 @@
 //     static BsdfValue Eval(const Params&, V3 wo, V3 wi);
 //     static BsdfSample Sample(const Params&, V3 wo, const BsdfPoints&);
 //     static VF EtaScale(const Params&, V3 wo, V3 wi);  with Eval and kRefracts
+//     static BsdfValue EvalShared(const Params&, V3 wo, V3 wi);  of the lobes that are
+//     wide
+//                                 enough to serve others (kernels/reuse/), if not of all
 //     static VF FirstLobe(const Params&, V3 wo);  probability of the first of two lobes,
 //                                 which BsdfPoints::lobe below it chooses: if control/
 //                                 choices.cc has a line for the kind

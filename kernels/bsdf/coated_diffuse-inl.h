@@ -179,12 +179,20 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
     return m.base.CoatProbability(hn::Sub(Splat(1.0f), to), to);
   }
 
+  /// Which lobes of an evaluation.
+  enum class Lobes { kBoth, kBase };
   /// Both directions on the upper side; n = their half vector.
+  template <Lobes kLobes = Lobes::kBoth>
   LANELIGHT_LONG_BSDF_CALL static BsdfValue EvalUpper(const Params& m, V3 wo, V3 wi,
                                                       V3 n) {
     const VF half = Splat(0.5f), one = Splat(1.0f);
     const VF to = Transmittance(m, wo.z), ti = Transmittance(m, wi.z);
     const VF coat = m.base.CoatProbability(hn::Sub(one, to), to);
+    const VF base_pdf = PdfCosineHemisphere(wi.z);
+    const V3 base = Mul(m.base.Lambert(wi.z), hn::Mul(to, ti));
+    if constexpr (kLobes == Lobes::kBase) {
+      return {base, hn::Mul(hn::Sub(one, coat), base_pdf)};
+    }
     const VF cosine = hn::Clamp(Dot(wo, n), hn::Zero(DF()), one);
     const VF f = DielectricInterface(cosine, m.base.eta).reflectance;
     const VF half_d = hn::Mul(half, m.ggx.D(n));
@@ -192,8 +200,7 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
     const VF reflection =
         hn::Mul(hn::Mul(half_d, f), HalfPairMasking(wo.z, so, wi.z, si));
     const VF coat_pdf = hn::Div(half_d, hn::Add(wo.z, so));
-    const VF base_pdf = PdfCosineHemisphere(wi.z);
-    return {Mul(m.base.Lambert(wi.z), hn::Mul(to, ti)) + Grey(reflection),
+    return {base + Grey(reflection),
             hn::MulAdd(coat, hn::Sub(coat_pdf, base_pdf), base_pdf)};
   }
 
@@ -202,6 +209,13 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
     const BsdfValue value = EvalUpper(m, wo_up, wi_up, Normalize(wo_up + wi_up));
     const MF same = SameSide(wo, wi);
     return {IfThenElseZero(same, value.f_cos), hn::IfThenElseZero(same, value.pdf)};
+  }
+
+  LANELIGHT_LONG_BSDF_CALL static BsdfValue EvalShared(const Params& m, V3 wo, V3 wi) {
+    const V3 wo_up = {wo.x, wo.y, hn::Abs(wo.z)}, wi_up = {wi.x, wi.y, hn::Abs(wi.z)};
+    const BsdfValue base = EvalUpper<Lobes::kBase>(m, wo_up, wi_up, wi_up);
+    const MF same = SameSide(wo, wi);
+    return {IfThenElseZero(same, base.f_cos), hn::IfThenElseZero(same, base.pdf)};
   }
 
   LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo_any,

@@ -8,7 +8,7 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/path/block.h"
+#include "src/path/sent.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lanelight {

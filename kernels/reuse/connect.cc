@@ -24,49 +24,50 @@ void TracePairs(Wave& wave) {
   for (uint32_t i = 0; i < rays.size; ++i) visible[rays.items[i]] = 1;
 }
 
-// The colour planes of the sample of a record.
-HWY_INLINE float* ColorOf(const Wave& wave, uint32_t record) {
-  const uint32_t place = record - wave.block->sample * wave.work.num_pixels;
-  return wave.buffer.samples + place * wave.work.samples + wave.block->sample;
-}
-
-HWY_INLINE VF SumOfDensities(const PairColumns& pairs, uint32_t begin, uint32_t n) {
+// Of a row of pairs, whose rays may be those of another row.
+HWY_INLINE VF SumOfDensities(const float* pdf_area, const float* visible, uint32_t n) {
   const DF df;
   VF sum = hn::Zero(df);
   for (uint32_t r = 0; r < n; r += static_cast<uint32_t>(hn::Lanes(df))) {
-    sum = hn::MulAdd(hn::LoadU(df, pairs.visible + begin + r),
-                     hn::LoadU(df, pairs.pdf_area + begin + r), sum);
+    sum = hn::MulAdd(hn::LoadU(df, visible + r), hn::LoadU(df, pdf_area + r), sum);
   }
   return hn::SumOfLanes(df, sum);
 }
 
-// Adds what second vertex s sends to each receiver.
-HWY_INLINE void AddSuffix(const Wave& wave, uint32_t s) {
+// What the second vertex sends to all alike, where that is not in its pairs.
+HWY_INLINE V3 EvenColor(const Wave& wave, const SuffixRow& row) {
+  if (row.part != SuffixPart::kEven) return Splat3(1, 1, 1);
+  const float* color = ColorOf(wave, row.record);
+  const std::size_t stride = wave.buffer.stride;
+  return Splat3(color[0], color[stride], color[2 * stride]);
+}
+
+// Adds what a second vertex sends to each receiver.
+HWY_INLINE void AddRow(const Wave& wave, uint32_t s) {
   const DF df;
   const Block& block = *wave.block;
   const PairColumns& pairs = block.pairs;
+  const SuffixRow& row = block.rows[s];
   const uint32_t begin = s * block.num_receivers;
-  const VF sum = SumOfDensities(pairs, begin, block.num_receivers);
+  const float* visible = pairs.visible + row.rays * block.num_receivers;
+  const VF sum = SumOfDensities(pairs.pdf_area + begin, visible, block.num_receivers);
   if (hn::GetLane(sum) <= 0) return;
-  const float* color = ColorOf(wave, block.suffixes[s]);
-  const std::size_t stride = wave.buffer.stride;
-  const VF inverse = hn::Div(Splat(block.weights[s]), sum);
-  const VF l[3] = {hn::Mul(Splat(color[0]), inverse),
-                   hn::Mul(Splat(color[stride]), inverse),
-                   hn::Mul(Splat(color[2 * stride]), inverse)};
+  const V3 color = Mul(EvenColor(wave, row), hn::Div(Splat(row.weight), sum));
+  const VF l[3] = {color.x, color.y, color.z};
   const float* f[3] = {pairs.f_r + begin, pairs.f_g + begin, pairs.f_b + begin};
   for (uint32_t r = 0; r < block.num_receivers;
        r += static_cast<uint32_t>(hn::Lanes(df))) {
-    const VF visible = hn::LoadU(df, pairs.visible + begin + r);
+    const VF seen = hn::LoadU(df, visible + r);
     for (int c = 0; c < 3; ++c) {
       float* to = block.sums[c] + r;
-      const VF carried = hn::Mul(hn::Mul(visible, l[c]), hn::LoadU(df, f[c] + r));
+      const VF carried = hn::Mul(hn::Mul(seen, l[c]), hn::LoadU(df, f[c] + r));
       hn::StoreU(hn::Add(hn::LoadU(df, to), carried), df, to);
     }
   }
 }
 
-// What a sample had before, where what it has gathered since has been shared out.
+// What a sample had before, where all that it has gathered since has been shared out. (Of
+// glossy second vertices it has its own already.)
 HWY_INLINE void TakeBack(const Wave& wave) {
   const Block& block = *wave.block;
   const ReuseColumns& second = block.second;
@@ -114,7 +115,7 @@ HWY_INLINE void ConnectBlock(Wave& wave) {
   for (float* sums : block.sums) {
     for (uint32_t r = 0; r < block.num_receivers; ++r) sums[r] = 0;
   }
-  for (uint32_t s = 0; s < block.num_suffixes; ++s) AddSuffix(wave, s);
+  for (uint32_t s = 0; s < block.num_rows; ++s) AddRow(wave, s);
   TakeBack(wave);
   // Padding repeats the last of its kind: each counts once.
   for (uint32_t r = 0; r < block.num_receivers; ++r) {
@@ -146,7 +147,7 @@ Stage ReuseShadowStage() {
           .meaning = "finds out which pairs of a block see each other",
           .input = QueueId::kShadow,
           .needs = {Feature::kReuse, Feature::kScatters},
-          .of_blocks = true,
+          .scope = StageScope::kBlock,
           .resolve = [](const FeatureSet&) -> StageFn {
             return HWY_DYNAMIC_DISPATCH(TracePairs);
           }};
@@ -157,7 +158,7 @@ Stage ReuseConnectStage() {
           .meaning = "shares the light of second vertices out to the block",
           .input = QueueId::kScratch,
           .needs = {Feature::kReuse, Feature::kScatters},
-          .of_blocks = true,
+          .scope = StageScope::kBlock,
           .resolve = [](const FeatureSet& features) -> StageFn {
             return features.Has(Feature::kSignedFilter)
                        ? HWY_DYNAMIC_DISPATCH(ConnectSigned)

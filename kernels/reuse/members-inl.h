@@ -39,11 +39,10 @@ HWY_INLINE uint32_t ListReceivers(Block& block, const MaterialTable& materials,
   return valid;
 }
 
-// Roulette on what second vertices send, in proportion to it where it is below
-// kSuffixRoulette times its mean in the tile: dim ones cost as many shadow rays as bright
-// ones. Any probability above 0 leaves the estimator unbiased, whatever it depends on.
-// One number decides for the block (systematic sampling), so that about as many stay as
-// are to.
+// Roulette on what second vertices send, in proportion to it below Block::surely_kept:
+// dim ones cost as many shadow rays as bright ones. Any probability above 0 leaves the
+// estimator unbiased, whatever it depends on. One number decides for the block
+// (systematic sampling), so that about as many stay as are to.
 struct SuffixRoulette {
   float whole, sum;  // what the dim ones so far add up to, from u on
 
@@ -57,27 +56,20 @@ struct SuffixRoulette {
   }
 };
 
-// Of a 128 x 128 render of the Cornell box with blocks of 64, 16 spp, gains at equal time
-// are 1.0 without, 1.6 at 1, 1.76 at 2, 1.55 at 4; interiors lit by bounces care little.
-constexpr float kSuffixRoulette = 2;
-
 HWY_INLINE void ListSuffixes(const Wave& wave) {
   Block& block = *wave.block;
-  const std::size_t stride = wave.buffer.stride;
   SuffixRoulette roulette(block.u);
   block.num_suffixes = 0;
   for (uint32_t i = 0; i < block.size; ++i) {
     const uint32_t r = block.records[i];
-    if (block.second.state[r] != static_cast<uint32_t>(ReuseState::kSecond)) continue;
-    const uint32_t place = r - block.sample * wave.work.num_pixels;
-    const float* color = wave.buffer.samples + place * wave.work.samples + block.sample;
-    const float most = HWY_MAX(color[0], HWY_MAX(color[stride], color[2 * stride]));
+    const float most = MostSent(wave, r);
     if (!(most > 0)) continue;
-    const float q = HWY_MIN(1.0f, most / (kSuffixRoulette * block.mean_sent));
+    const float q = HWY_MIN(1.0f, most / block.surely_kept);
     if (!roulette.Keeps(q)) continue;
-    block.weights[block.num_suffixes] = 1 / q;
-    block.suffixes[block.num_suffixes++] = r;
+    SuffixRow& row = block.rows[block.num_suffixes];
+    row = {r, block.num_suffixes++, 1 / q, SuffixPart::kEven};
   }
+  block.num_rows = block.num_suffixes;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -9,6 +9,7 @@
 //               beta_i the throughput up to x_i, G the cosine at y over the distance
 //               squared, p_k in area measure at y, V whether x and y see each other:
 //               one sample of each of N techniques by the balance heuristic
+//               of a glossy y more than that: kernels/reuse/glossy.cc
 //   density     what material, mixture with a guide, or uniform directions say; less the
 //               probability of a mirror's lobe. A path that finds y by such a lobe, or no
 //               y at all, offers nothing. Roulette is not played between x and y
@@ -189,7 +190,7 @@ HWY_NOINLINE void PairsOfKind(Wave& wave, const KindRange& range) {
     const Receivers<Bsdf, Proposal> x(reader, records);
     const MF there = hn::FirstN(DF(), range.valid - (r - range.begin));
     for (uint32_t s = 0; s < block.num_suffixes; ++s) {
-      const SecondVertex y(block, block.suffixes[s]);
+      const SecondVertex y(block, block.rows[s].record);
       StorePair(wave, s * block.num_receivers + r, x, y, there);
     }
   }
@@ -250,7 +251,7 @@ Stage ReusePairsStage() {
           .meaning = "evaluates second vertices of a block from all first ones",
           .input = QueueId::kScratch,
           .needs = {Feature::kReuse, Feature::kScatters},
-          .of_blocks = true,
+          .scope = StageScope::kBlock,
           .resolve = [](const FeatureSet& features) -> StageFn {
             if (features.Has(Feature::kGuided)) {
               return HWY_DYNAMIC_DISPATCH(PairsOfGuide);

@@ -16,7 +16,9 @@ namespace {
 
 // Shares of the trial: a few samples of all candidates; those that may be better; the
 // best again; the very best alone.
-constexpr double kProbe = 0.15, kFirst = 0.3, kSecond = 0.25, kLast = 0.3;
+constexpr double kProbe = 0.15, kFirst = 0.25, kSecond = 0.2, kLast = 0.25;
+// And of paths that serve their block, beside what has been chosen.
+constexpr double kTiles = 0.15;
 // Fewer samples say nothing of a candidate: rather leave candidates out.
 constexpr std::uint64_t kLeastSamples = 4096;
 constexpr std::size_t kBest = 2;  // that are tried again, beside what they make together
@@ -47,6 +49,7 @@ class Adviser {
       DropWorse(tried);
       if (tried.size() > 1 && Round(tried, kFirst)) Second(tried);
     }
+    if (advice_.rays > 0 && !advice_.interrupted) TryBlocks(tried);
     Conclude();
     return advice_;
   }
@@ -176,6 +179,42 @@ class Adviser {
     all_.push_back(both);
     Add(both);
     tried.push_back({both, all_.size() - 1, {}, false});
+  }
+
+  // Paths that split serve no others: there it is one or the other.
+  void TryBlocks(std::vector<TriedCandidate>& tried) {
+    TriedCandidate& chosen = chosen_ == 0 ? tried.front() : tried.back();
+    const bool splits = chosen.candidate.strategy.Splits();
+    TriedCandidate& base = splits ? tried.front() : chosen;
+    const double must = splits ? chosen.Efficiency().value : kMustGain;
+    // Half as many again since they cost more.
+    const auto samples = static_cast<std::uint64_t>(kTiles * pilot_ * kRaysPerSecond /
+                                                    (2.5 * base.entry.measure.cost));
+    for (const TriedBlocks& blocks : trial_.Blocks(base, samples, must)) {
+      Add(base, blocks);
+      advice_.candidates.back().samples = samples;
+      if (blocks.verdict.pays) chosen_ = all_.size() - 1;
+    }
+    advice_.rays = trial_.rays();
+  }
+
+  // What `base` makes together with the blocks.
+  void Add(const TriedCandidate& base, const TriedBlocks& blocks) {
+    Candidate both = base.candidate;
+    both.strategy = Changed(both.strategy, blocks.changes);
+    both.changes += (both.changes.empty() ? "" : ",") + std::string(blocks.changes);
+    both.meaning = "pays where most of the noise is indirect light";
+    all_.push_back(both);
+    Add(both);
+    AdvisedCandidate& advised = advice_.candidates.back();
+    const Interval usual = base.index == 0 ? Interval{1, 1, 1} : base.Efficiency();
+    const Interval more = EfficiencyOf(blocks.verdict);
+    advised.efficiency = {usual.value * more.value, usual.low * more.low,
+                          usual.high * more.high};
+    advised.status = CandidateStatus::kDropped;
+    advised.reason = blocks.verdict.pays_per_pixel
+                         ? "gains by pixels, and loses after a filter"
+                         : "not clearly better";
   }
 
   void Conclude() {

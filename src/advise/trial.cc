@@ -29,6 +29,12 @@ Interval TriedCandidate::Efficiency() const {
           std::exp(all.most + error)};
 }
 
+Interval EfficiencyOf(const ReuseVerdict& verdict) {
+  const PilotGain& gain = verdict.gain;
+  const double error = kNormal95 * std::hypot(gain.standard_error, kReusePriceSpread);
+  return {verdict.per_pixel, std::exp(gain.least - error), std::exp(gain.most + error)};
+}
+
 double TriedCandidate::Beyond() const { return entry.Beyond(kMustGain, kNormal95); }
 
 Trial::Trial(Job& job, std::uint64_t planned, const std::atomic<bool>* stop) : job_(job) {
@@ -72,6 +78,17 @@ bool Trial::Round(std::vector<TriedCandidate>& tried, std::uint64_t samples) {
   }
   rays_ += pilot.spent().rays;
   return true;
+}
+
+std::vector<TriedBlocks> Trial::Blocks(TriedCandidate& base, std::uint64_t samples,
+                                       double must_gain) {
+  Use(base);
+  const StopWatcher watcher(training_.stop);
+  const std::vector<TriedBlocks> tried =
+      TryBlocks(job_.scene, {base.entry.options, &base.entry.tables},
+                {SeedOf(job_.seed, 0), samples, must_gain, &watcher});
+  for (const TriedBlocks& blocks : tried) rays_ += blocks.verdict.rays;
+  return tried;
 }
 
 }  // namespace lanelight

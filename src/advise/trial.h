@@ -7,6 +7,7 @@
 #include "src/advise/candidates.h"
 #include "src/render/job.h"
 #include "src/wavefront/decision_pilot.h"
+#include "src/wavefront/reuse_trial.h"
 
 namespace lanelight {
 
@@ -25,6 +26,9 @@ struct TriedCandidate {
   double Beyond() const;
 };
 
+/// The same of paths that serve their block, over those that do not.
+Interval EfficiencyOf(const ReuseVerdict& verdict);
+
 class Trial {
  public:
   /// `job` is left with the strategy of whatever was tried last. `planned`: samples of
@@ -35,6 +39,11 @@ class Trial {
   /// other round has. False: the user has stopped it. What the scene refuses in the end
   /// is removed.
   bool Round(std::vector<TriedCandidate>& tried, std::uint64_t samples);
+
+  /// Paths that serve their block beside `base`, which a round has tried, with about so
+  /// many samples of whole tiles.
+  std::vector<TriedBlocks> Blocks(TriedCandidate& base, std::uint64_t samples,
+                                  double must_gain);
 
   std::uint64_t rays() const { return rays_; }
 

@@ -84,6 +84,7 @@ namespace lanelight {
   X(kLightCandidates, "several candidates for each light sample")             \
   X(kGuided, "a guide that proposes directions, from training passes")        \
   X(kReuse, "paths that serve the pixels of their block (reuse=block)")       \
+  X(kReuseGlossy, "glossy surfaces that serve the pixels of a block")         \
   X(kDecides, "a strategy chosen by a pilot")                                 \
   X(kRecordsGuide, "a training pass that records what a guide learns from")   \
   X(kRecordsUnsplit, "a training pass: what paths would bring unsplit")       \

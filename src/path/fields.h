@@ -66,7 +66,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, l, ({}), kGathered, (0.0f), "radiance gathered so far")           \
   X(f32, bsdf_pdf, ({kMis, kRecordsGuide, kReuse}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
   LANELIGHT_XYZ(X, f32, start_n, ({kProjectedHits}), kRay, (0.0f), "shading normal where the ray starts, on the side that the path came from") \
-  X(f32, eta_scale, ({kRefraction, kGuided}), kPath, (1.0f), "product of eta^2 of refractions, and of densities over the material's: undone by roulette") \
+  X(f32, eta_scale, ({kRefraction, kGuided, kReuse}), kPath, (1.0f), "product of eta^2 of refractions, and of densities over the material's: undone by roulette") \
   X(u32, reuse, ({kReuse}), kPath, (0u), "how far the path has come: ReuseState (src/path/block.h)") \
   /* film sample points */                                                                \
   LANELIGHT_2(X, f32, u_film, ({}), kCamera, (), "position in the pixel")               \

@@ -8,13 +8,21 @@
 
 namespace lanelight {
 
+/// What a stage works on.
+enum class StageScope : std::uint8_t {
+  kWave,  // paths, by its input queue
+  // Paths that have ended (Wave::block, src/path/block.h):
+  kTile,  // one sample of all pixels of a tile
+  kBlock  // of these one block
+};
+
 struct Stage {
   const char* name;       // also the profile row
   const char* meaning;    // one line
   QueueId input;          // skipped when empty
   FeatureSet needs = {};  // all of these, or the stage is absent
   FieldSet reads = {}, writes = {};
-  bool of_blocks = false;  // works on a block of paths that have ended: Wave::block
+  StageScope scope = StageScope::kWave;
   /// Kernel for these features on the chosen target; the features select among the
   /// stage's few template variants.
   StageFn (*resolve)(const FeatureSet& features);

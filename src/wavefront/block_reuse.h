@@ -7,6 +7,7 @@
 
 #include "src/core/untouched.h"
 #include "src/path/block.h"
+#include "src/path/stage.h"
 #include "src/path/wave.h"
 #include "src/wavefront/block_layout.h"
 #include "src/wavefront/plan.h"
@@ -29,7 +30,8 @@ class BlockReuse {
  private:
   void MakeRoom(std::uint32_t samples, const PathColumns& paths);
   void PlacePairs();
-  float MeanSent(std::uint32_t sample) const;
+  float SurelyKept(std::uint32_t sample);
+  void RunStages(StageScope scope, StageClock* clock);
   void ConnectSample(const BlockKey& key, std::uint32_t sample, StageClock* clock);
 
   const Plan& plan_;
@@ -37,10 +39,12 @@ class BlockReuse {
   const BlockLayout layout_;
   std::uint32_t room_ = 0;  // samples
   UntouchedVector<std::uint32_t> records_, pairs_;
-  Wave first_, wave_;  // whose slots are records; pairs
+  Wave first_, glossy_;  // whose slots are records
+  Wave wave_;            // whose slots are pairs
   Block block_;
   BlockOrder order_;
   std::vector<std::uint32_t> members_;
+  std::vector<float> sent_;
 };
 
 }  // namespace lanelight

@@ -19,9 +19,9 @@ struct DecisionCandidate {
 /// costs more than one that is missed.
 inline constexpr double kMustGain = 1.05;
 
-/// Processor time of a counted ray with reuse=block over that without, likewise: 0.96 to
-/// 1.46 over 16 scenes.
-inline constexpr double kReusePrice = 1.16;
+/// Processor time of a counted ray with reuse=block over that without, and its scatter,
+/// likewise: 0.96 to 1.46 over 16 scenes.
+inline constexpr double kReusePrice = 1.16, kReusePriceSpread = 0.13;
 
 // Costs are counted in rays, so that a choice hangs on nothing but the scene; prices make
 // up for what rays do not say. They are means over 28 scenes, 128 pixels wide, one

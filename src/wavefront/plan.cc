@@ -122,7 +122,7 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
   plan.notes = CheckStrategy(scene, options);
   for (const Stage& stage : RegisteredStages()) {
     if (plan.features.HasAll(stage.needs)) {
-      auto& stages = stage.of_blocks ? plan.block_stages : plan.stages;
+      auto& stages = stage.scope == StageScope::kWave ? plan.stages : plan.block_stages;
       stages.push_back({stage, stage.resolve(plan.features)});
     } else {
       plan.omitted.push_back({stage, ReasonToOmit(stage, plan.features)});

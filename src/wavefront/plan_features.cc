@@ -33,15 +33,20 @@ bool CanGuide(const Strategy& strategy, const FeatureSet& f) {
   return strategy.directions != Directions::kUniform && f.HasAny(kinds);
 }
 
-// There is something to serve, and something to serve it with.
-bool CanReuse(const PlanOptions& options, const FeatureSet& f) {
+bool HasAnyOf(const FeatureSet& f, std::uint32_t shade_kinds) {
   FeatureSet kinds;
   for (int k = 0; k < kNumShadeKinds; ++k) {
-    if ((kEvenSidedKinds >> k & 1) != 0) {
-      kinds.Add(ShadeFeature(static_cast<ShadeKind>(k)));
-    }
+    if ((shade_kinds >> k & 1) != 0) kinds.Add(ShadeFeature(static_cast<ShadeKind>(k)));
   }
-  return options.max_depth > 1 && !f.Has(Feature::kMedia) && f.HasAny(kinds);
+  return f.HasAny(kinds);
+}
+
+// There is something to serve, and something to serve it with.
+void AddReuse(const Strategy& strategy, const PlanOptions& options, FeatureSet& f) {
+  if (options.max_depth < 2 || f.Has(Feature::kMedia)) return;
+  if (!HasAnyOf(f, kEvenSidedKinds | kGlossyKinds)) return;
+  f.Add(TurnsOn(strategy.reuse));
+  if (f.Has(Feature::kReuse) && HasAnyOf(f, kGlossyKinds)) f.Add(Feature::kReuseGlossy);
 }
 
 bool HasDeltaLights(const FeatureSet& f) {
@@ -113,7 +118,7 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
     }
     if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
     if (CanGuide(strategy, f)) f.Add(TurnsOn(strategy.guiding));
-    if (CanReuse(options, f)) f.Add(TurnsOn(strategy.reuse));
+    AddReuse(strategy, options, f);
     // What it compares serves no other pixels.
     if (!f.Has(Feature::kReuse)) f.Add(TurnsOn(strategy.decide));
   } else {

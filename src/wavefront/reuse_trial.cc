@@ -5,9 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/wavefront/decision_candidates.h"
+#include "src/core/error.h"
 #include "src/wavefront/path_records.h"
-#include "src/wavefront/pilot_comparison.h"
 #include "src/wavefront/seen_lights.h"
 
 namespace lanelight {
@@ -16,6 +15,8 @@ namespace {
 constexpr std::uint32_t kSpp = 8;
 constexpr int kSquare = 8;  // pixels per side
 constexpr double kStandardErrors = 1;
+// After a filter, where it has gained by pixels.
+constexpr double kMayLose = 0.95;
 
 // Places of pixels in the work that count: light that the camera sees at the edge of a
 // lamp is integrated apart in the image, but not in a trial.
@@ -99,26 +100,32 @@ std::vector<double> Summed(const std::vector<double>& values,
 }
 
 TrainingSamples Render(const CompiledScene& scene, const ReuseRival& rival,
-                       std::uint32_t seed, const TrainingWork& work,
-                       const TaskWatcher* watcher) {
+                       const ReuseTrial& trial, const TrainingWork& work) {
   PlanOptions options = rival.options;
   options.auxiliary = Auxiliary::kNone;
   RunParameters run = MakeRunParameters(scene, MakePlan(scene, options));
-  run.seed = seed;
+  run.seed = trial.seed;
   run.tables = rival.tables;
   options.training = FeatureSet{};
   options.own_points = true;
-  return RunTrainingPass(scene, options, run, work, watcher);
+  return RunTrainingPass(scene, options, run, work, trial.watcher);
+}
+
+bool Takes(const CompiledScene& scene, const ReuseRival& rival) {
+  try {
+    return MakePlan(scene, rival.options).features.Has(Feature::kReuse);
+  } catch (const InputError&) {
+    return false;  // it does not go together with all else
+  }
 }
 
 }  // namespace
 
 ReuseVerdict TryReuse(const CompiledScene& scene, const ReuseRival& usual,
-                      const ReuseRival& reuse, std::uint32_t seed, std::uint64_t samples,
-                      const TaskWatcher* watcher) {
-  const TrainingWork work = MakeTileWork(scene, samples, kSpp);
-  const TrainingSamples plain = Render(scene, usual, seed, work, watcher);
-  const TrainingSamples shared = Render(scene, reuse, seed, work, watcher);
+                      const ReuseRival& reuse, const ReuseTrial& trial) {
+  const TrainingWork work = MakeTileWork(scene, trial.samples, kSpp);
+  const TrainingSamples plain = Render(scene, usual, trial, work);
+  const TrainingSamples shared = Render(scene, reuse, trial, work);
   ReuseVerdict out;
   out.samples = plain.colors.size() + shared.colors.size();
   for (const TrainingSamples* of : {&plain, &shared}) {
@@ -134,16 +141,31 @@ ReuseVerdict TryReuse(const CompiledScene& scene, const ReuseRival& usual,
                                  Summed(RelativeVariances(plain, work, image), tiles)};
   const PilotMeasure of_shared = {kReusePrice * shared.Cost(),
                                   Summed(RelativeVariances(shared, work, image), tiles)};
-  const PilotGain gain = GainOf(of_shared, of_plain);
+  out.gain = GainOf(of_shared, of_plain);
   const PilotGain filtered =
       GainOf({of_shared.cost, VariancesOfMeans(shared, work, image, squares)},
              {of_plain.cost, VariancesOfMeans(plain, work, image, squares)});
-  out.per_pixel = std::exp(gain.log);
+  out.per_pixel = std::exp(out.gain.log);
   out.filtered = std::exp(filtered.log);
-  const double clear = gain.least - kStandardErrors * gain.standard_error;
-  out.pays_per_pixel = clear > std::log(kMustGain);
-  out.pays = out.pays_per_pixel && filtered.log > 0;
+  const double clear = out.gain.least - kStandardErrors * out.gain.standard_error;
+  out.pays_per_pixel = clear > std::log(kMustGain) && out.per_pixel > trial.must_gain;
+  out.pays = out.pays_per_pixel && out.filtered > kMayLose;
   return out;
+}
+
+std::vector<TriedBlocks> TryBlocks(const CompiledScene& scene, const ReuseRival& usual,
+                                   const ReuseTrial& trial) {
+  std::vector<TriedBlocks> tried;
+  for (const char* const changes : {"reuse=block", "reuse=block:32"}) {
+    ReuseRival blocks = usual;
+    blocks.options.Change(changes);
+    if (!Takes(scene, blocks)) break;
+    const ReuseVerdict verdict = TryReuse(scene, usual, blocks, trial);
+    if (trial.watcher != nullptr && trial.watcher->PutsDown()) break;
+    tried.push_back({changes, verdict});
+    if (verdict.pays || !verdict.pays_per_pixel) break;
+  }
+  return tried;
 }
 
 }  // namespace lanelight

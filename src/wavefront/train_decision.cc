@@ -66,13 +66,14 @@ class Decider {
     }
     DecisionEntry* chosen = &entries_.front();
     if (entries_.size() == 1) {
-      note_ = "no candidate does anything else here: the strategy is as given";
+      note_ = "no candidate does anything else here";
     } else if (planned_ / kCompared < kLeastToCompare) {
-      note_ = "the image has too few samples to compare: the strategy is as given";
+      note_ = "the image has too few samples to compare";
     } else {
       chosen = Compare();
     }
-    if (!pilot_.Stopped() && planned_ / kCompared >= kLeastToCompare) TryBlocks(*chosen);
+    if (!pilot_.Stopped() && planned_ / kCompared >= kLeastToCompare)
+      TryBlocksBeside(*chosen);
     if (!pilot_.Stopped()) TrainFor(*chosen);
     outcome_.samples = pilot_.spent().samples + tried_samples_;
     outcome_.rays = pilot_.spent().rays + tried_rays_;
@@ -110,44 +111,24 @@ class Decider {
   }
 
   // Paths that serve their block, beside what has been chosen. Where that splits paths,
-  // it is one or the other. Smaller blocks gain less by pixels, and more after a filter.
-  void TryBlocks(DecisionEntry& chosen) {
+  // it is one or the other.
+  void TryBlocksBeside(DecisionEntry& chosen) {
     const bool splits = PlannedStrategy(scene_, chosen.options).Splits();
-    DecisionEntry& base = splits ? entries_.front() : chosen;
-    for (const char* const changes : {"reuse=block", "reuse=block:32"}) {
-      DecisionEntry blocks = base;
-      blocks.options.Change(changes);
-      if (!CanReuse(blocks)) return;
-      const ReuseVerdict verdict = Try(base, blocks);
-      if (pilot_.Stopped()) return;
-      const bool best = !splits || std::log(verdict.per_pixel) > chosen.Gain().log;
+    DecisionEntry blocks = splits ? entries_.front() : chosen;
+    const StopWatcher watcher(training_.stop);
+    ReuseTrial trial = {seed_, planned_ / kTiled, kMustGain, &watcher};
+    if (splits) trial.must_gain = std::exp(chosen.Gain().log);
+    for (const auto& [changes, verdict] :
+         TryBlocks(scene_, {blocks.options, &blocks.tables}, trial)) {
+      tried_samples_ += verdict.samples;
+      tried_rays_ += verdict.rays;
       note_ += fmt::format("; {} is {:.2f} times as efficient, {:.2f} after a filter",
                            changes, verdict.per_pixel, verdict.filtered);
-      if (verdict.pays && best) {
-        note_ += fmt::format("; rendered with {}", changes);
-        blocks.changes = Joined(base.changes, changes);
-        chosen = std::move(blocks);
-      }
-      if (verdict.pays || !verdict.pays_per_pixel || !best) return;
+      if (!verdict.pays) continue;
+      blocks.options.Change(changes);
+      blocks.changes = Joined(blocks.changes, changes);
+      chosen = std::move(blocks);
     }
-  }
-
-  bool CanReuse(const DecisionEntry& entry) const {
-    try {
-      return MakePlan(scene_, entry.options).features.Has(Feature::kReuse);
-    } catch (const InputError&) {
-      return false;  // it does not go together with all else
-    }
-  }
-
-  ReuseVerdict Try(const DecisionEntry& base, const DecisionEntry& blocks) {
-    const StopWatcher watcher(training_.stop);
-    const ReuseVerdict verdict =
-        TryReuse(scene_, {base.options, &base.tables}, {blocks.options, &blocks.tables},
-                 seed_, planned_ / kTiled, &watcher);
-    tried_samples_ += verdict.samples;
-    tried_rays_ += verdict.rays;
-    return verdict;
   }
 
   static std::string Joined(const std::string& a, const std::string& b) {
@@ -169,11 +150,11 @@ class Decider {
       most = beyond;
       chosen = &entry;
     }
-    Explain(*chosen);
+    Explain();
     return chosen;
   }
 
-  void Explain(const DecisionEntry& chosen) {
+  void Explain() {
     std::string others;
     for (const DecisionEntry& entry : entries_) {
       if (entry.changes.empty()) continue;
@@ -181,13 +162,14 @@ class Decider {
       others += fmt::format("{}{} {:.2f}", others.empty() ? "" : ", ", entry.changes,
                             std::exp(gain.log));
     }
-    const std::string what = chosen.changes.empty()
-                                 ? "nothing is clearly better than the strategy as given"
-                                 : "rendered with " + chosen.changes;
     note_ = fmt::format(
-        "{}; efficiency relative to the strategy as given, by {} samples "
-        "of a few pixels: {}",
-        what, pilot_.samples(), others);
+        "efficiency relative to the strategy as given, by {} samples of a few pixels: {}",
+        pilot_.samples(), others);
+  }
+
+  static std::string Verdict(const DecisionEntry& chosen) {
+    return chosen.changes.empty() ? "rendered with the strategy as given"
+                                  : "rendered with " + chosen.changes;
   }
 
   void TrainFor(DecisionEntry& chosen) {
@@ -195,7 +177,8 @@ class Decider {
     const TrainingOutcome out = pilot_.Learn(chosen, training_.planned_samples, tables_);
     outcome_.changes = Undecided(chosen);
     if (!out.changes.empty()) outcome_.changes += "," + out.changes;
-    outcome_.note = note_ + (out.note.empty() ? "" : "; " + out.note);
+    outcome_.note = fmt::format("{}; {}{}{}", Verdict(chosen), note_,
+                                out.note.empty() ? "" : "; ", out.note);
   }
 
   const CompiledScene& scene_;

@@ -1,64 +1,19 @@
 // reuse=block has the mean of paths that serve their own pixels, with every roulette,
 // proposal, layout and material. (tests/strategy/unbiased_test.cc compares it with the
-// scalar reference.) Renders are compared by tiles, whose pixels depend on each other.
+// scalar reference.)
 #include <catch2/catch.hpp>
 
 #include "src/core/error.h"
-#include "src/stat/hypothesis.h"
-#include "tests/reference/scenes.h"
-#include "tests/strategy/tiles.h"
+#include "tests/reuse/same_light.h"
 
 namespace lanelight::test {
 namespace {
 
-constexpr double kFalseAlarm = 1e-6;  // of each comparison
-
-struct Scene {
-  SceneDescription description;
-  std::uint64_t spp = 8192;
-  double power = 0.02;  // relative error of the image that is found
-};
-
-// Neighbours may gain what others lose: the image as a whole, and tile by tile, each for
-// itself, as tiles depend on each other too.
-constexpr int kTile = 2;
-
-stat::ImageEstimate OfPixel(const stat::ImageEstimate& image, std::size_t pixel) {
-  return {1, 1, image.observations, {image.mean[pixel]}, {image.variance[pixel]}};
-}
-
-void CheckSame(const Scene& scene, const std::string& alone, const std::string& reuse) {
-  const int side = scene.description.film.width;
-  for (const int tile : {side, kTile}) {
-    const stat::ImageEstimate truth =
-        RenderTiles(scene.description, alone, 4 * scene.spp, 1, tile);
-    const stat::ImageEstimate image =
-        RenderTiles(scene.description, alone + "," + reuse, scene.spp, 7, tile);
-    const auto tiles = static_cast<int>(image.mean.size());
-    for (std::size_t i = 0; i < image.mean.size(); ++i) {
-      const stat::ImageTestResult result =
-          stat::CompareMeans(OfPixel(image, i), OfPixel(truth, i),
-                             {1, kFalseAlarm / tiles, kFloatTolerance, 1e-7});
-      INFO(alone << "," << reuse << ", tile " << i << ": " << result.ToString());
-      CHECK(result.same);
-      if (tile == side) CHECK(result.detectable_bias < scene.power);
-    }
-  }
-}
-
 // A room that is seen by way of a mirror for a part, whose paths are cut at a depth.
-Scene Room() { return {SmallRoom(8, 4, 0.3)}; }
-
-// Under a lamp as large as the ceiling, side walls, the materials behind the first, that
-// are made of something else.
-Scene WithSides(const Material& sides, int max_depth) {
-  Scene room = {SmallRoom(8, max_depth, 0.95)};
-  for (const std::size_t i : {1u, 2u}) room.description.materials[i] = sides;
-  return room;
-}
+ReuseScene Room() { return {SmallRoom(8, 4, 0.3)}; }
 
 // Plastic, whose coat is a mirror.
-Scene PlasticSides() {
+ReuseScene PlasticSides() {
   Material plastic;
   plastic.kind = MaterialKind::kCoatedDiffuse;
   plastic.reflectance.constant = Grey(0.7);
@@ -67,7 +22,7 @@ Scene PlasticSides() {
 }
 
 // Mirrors, in which first vertices come an event later, with no suffix left.
-Scene MirrorSides() {
+ReuseScene MirrorSides() {
   Material mirror;
   mirror.kind = MaterialKind::kConductor;
   mirror.eta.constant = {0.2, 0.2, 0.2};
@@ -87,7 +42,7 @@ TEST_CASE("no roulette takes light away on the way to a second vertex", "[reuse]
 }
 
 TEST_CASE("every proposal of directions finds second vertices as it says", "[reuse]") {
-  Scene uniform = Room();
+  ReuseScene uniform = Room();
   uniform.power = 0.05;
   CheckSame(uniform, "points=sobol,directions=uniform", "reuse=block:8");
   CheckSame(uniform, "points=sobol,directions=bsdf", "reuse=block:8");
@@ -101,7 +56,7 @@ TEST_CASE("blocks of every layout and size share the same light", "[reuse]") {
                             "reuse=block:32:apart", "reuse=block:64"}) {
     CheckSame(Room(), "points=sobol", reuse);
   }
-  Scene odd = Room();
+  ReuseScene odd = Room();
   odd.description.film.width = 7;
   odd.description.film.height = 7;
   CheckSame(odd, "points=sobol", "reuse=block:16");
@@ -110,11 +65,11 @@ TEST_CASE("blocks of every layout and size share the same light", "[reuse]") {
 TEST_CASE("materials of every kind receive, and are seen", "[reuse]") {
   for (const Material& material : MaterialZoo()) {
     INFO(material.name);
-    Scene plate = {Plate(material, 8, 3), 2048, 0.03};
+    ReuseScene plate = {Plate(material, 8, 3), 2048, 0.03};
     CheckSame(plate, "points=sobol", "reuse=block:16");
   }
   // A coin decides between the coat's mirror and uniform directions.
-  Scene uniform = PlasticSides();
+  ReuseScene uniform = PlasticSides();
   uniform.power = 0.02;
   CheckSame(uniform, "points=sobol,directions=uniform", "reuse=block:16");
   CheckSame(PlasticSides(), "points=sobol", "reuse=block:16");
@@ -146,7 +101,7 @@ TEST_CASE("without reuse=block nothing of it is there", "[reuse]") {
   options.strategy = "reuse=block";
   const Plan block = RenderDescription(Room().description, options).plan;
   CHECK(block.block_stages.size() == 3);
-  CHECK(block.bytes_per_path <= none.bytes_per_path + 8);
+  CHECK(block.bytes_per_path <= none.bytes_per_path + 12);
 }
 
 }  // namespace lanelight::test

@@ -1,0 +1,155 @@
+// reuse=block: what glossy second vertices send to each first one.
+//
+// Path j has found y from x_j, and there taken a light sample from direction w_l and gone
+// on in direction w_b. What it gathered is f(o_j, w), o_j being the direction to x_j,
+// times a factor that knows nothing of o_j: another first vertex x_i gets that factor
+// times f(o_i, w), of the lobes that are shared (kernels/reuse/split.cc). Three parts:
+//
+//   lit    by the light sample, from w_l
+//   hit    of a lamp, or the environment, that the path has met next, from w_b
+//   far    gathered from there on, from w_b
+//
+//   weights    lit and hit: those of the pair (kernels/reuse/pairs.cc), beside which the
+//              two have weights of their own, whose sum is 1 for each j. No factor is
+//              above what light samples have without those.
+//              far: p_k(y) V_k g_k(w_b) / sum of the same, g_k being the density with
+//              which the lobes at y scatter to w_b what comes from x_k: that of y and w_b
+//              together, so that what a lobe has found goes to those that would have
+//   unbiased   both sets of weights sum to 1 over the k that may have found y (and w_b)
+//   source     as kernels/reuse/pairs.cc; Veach and Guibas 1995
+//
+// Lanes are first vertices; the material of y is the same in all of them. The f of pairs
+// then has the light in it; a row of pairs more is made where there are near parts, lit
+// and hit, as well as a far one.
+#include "kernels/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/reuse/glossy.cc"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "kernels/reuse/glossy-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lanelight {
+namespace HWY_NAMESPACE {
+
+// Of a second vertex, the same in all lanes.
+struct SentColors {
+  V3 lit, hit, far;
+  bool any_lit, any_hit, any_far;
+
+  HWY_INLINE SentColors(const GlossyColumns& c, uint32_t r) {
+    lit = Splat3(c.lit_r[r], c.lit_g[r], c.lit_b[r]);
+    hit = Splat3(c.hit_r[r], c.hit_g[r], c.hit_b[r]);
+    far = Splat3(c.far_r[r], c.far_g[r], c.far_b[r]);
+    any_lit = IsAny(lit), any_hit = IsAny(hit), any_far = IsAny(far);
+  }
+
+ private:
+  HWY_INLINE static bool IsAny(V3 c) {
+    return hn::GetLane(hn::Max(c.x, hn::Max(c.y, c.z))) > 0;
+  }
+};
+
+HWY_INLINE V3 LoadF(const PairColumns& pairs, uint32_t at) {
+  const DF df;
+  return {hn::LoadU(df, pairs.f_r + at), hn::LoadU(df, pairs.f_g + at),
+          hn::LoadU(df, pairs.f_b + at)};
+}
+
+HWY_INLINE void StoreF(V3 f, const PairColumns& pairs, uint32_t at) {
+  const DF df;
+  const auto finite = [](VF v)
+                          HWY_ATTR { return hn::IfThenElseZero(IsPositiveFinite(v), v); };
+  hn::StoreU(finite(f.x), df, pairs.f_r + at);
+  hn::StoreU(finite(f.y), df, pairs.f_g + at);
+  hn::StoreU(finite(f.z), df, pairs.f_b + at);
+}
+
+// Where pairs of a second vertex begin, by part: one of the two has those that there are.
+struct PartRows {
+  uint32_t near, far;
+};
+
+HWY_INLINE PartRows MakeRows(Block& block, uint32_t s, const SentColors& light) {
+  const uint32_t begin = s * block.num_receivers;
+  SuffixRow& row = block.rows[s];
+  const bool any_near = light.any_lit || light.any_hit;
+  row.part = any_near ? SuffixPart::kNear : SuffixPart::kFar;
+  if (!any_near || !light.any_far) return {begin, begin};
+  const uint32_t added = block.num_rows++;
+  block.rows[added] = row;
+  block.rows[added].part = SuffixPart::kFar;
+  return {begin, added * block.num_receivers};
+}
+
+template <class Bsdf>
+HWY_NOINLINE void LightRow(Wave& wave, uint32_t s) {
+  const DF df;
+  Block& block = *wave.block;
+  const PairColumns& pairs = block.pairs;
+  const uint32_t r = block.rows[s].record;
+  const Slots same(hn::Set(DI(), static_cast<int32_t>(r)));
+  const GlossyVertices<Bsdf> y(block, same);
+  const V3 to_light = y.ToLight(same), to_next = y.ToNext(same);
+  const SentColors light(block.glossy, r);
+  const PartRows rows = MakeRows(block, s, light);
+  const uint32_t begin = s * block.num_receivers;
+  for (uint32_t i = 0; i < block.num_receivers;
+       i += static_cast<uint32_t>(hn::Lanes(df))) {
+    const VI records = hn::BitCast(DI(), hn::LoadU(DU(), block.receivers + i));
+    const V3 f = LoadF(pairs, begin + i), wo = y.ToFirst(Slots(records));
+    V3 near = Splat3(0, 0, 0);
+    if (light.any_lit) {
+      near = Mul(EvalShared<Bsdf>(y.material, wo, to_light).f_cos, light.lit);
+    }
+    if (light.any_hit || light.any_far) {
+      const BsdfValue next = EvalShared<Bsdf>(y.material, wo, to_next);
+      near = near + Mul(next.f_cos, light.hit);
+      if (light.any_far) {
+        const VF pdf = hn::Mul(hn::LoadU(df, pairs.pdf_area + begin + i), next.pdf);
+        StoreF(Mul(f, Mul(next.f_cos, light.far)), pairs, rows.far + i);
+        hn::StoreU(pdf, df, pairs.pdf_area + rows.far + i);
+      }
+    }
+    if (light.any_lit || light.any_hit) StoreF(Mul(f, near), pairs, rows.near + i);
+  }
+}
+
+void LightGlossy(Wave& wave) {
+  Block& block = *wave.block;
+  for (uint32_t s = 0; s < block.num_suffixes; ++s) {
+    const uint32_t record = block.rows[s].record;
+    if (!ServesGlossily(block.second.state[record])) continue;
+    OfGlossyKind(GlossyKindOf(wave, record),
+                 [&]<class Bsdf>() HWY_ATTR { LightRow<Bsdf>(wave, s); });
+    wave.lanes.items += block.size;
+    wave.lanes.vectors += block.num_receivers / static_cast<uint32_t>(hn::Lanes(DF()));
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lanelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+HWY_EXPORT(LightGlossy);
+
+Stage ReuseGlossyStage() {
+  return {.name = "reuse_glossy",
+          .meaning = "evaluates what glossy second vertices send to all first ones",
+          .input = QueueId::kScratch,
+          .needs = {Feature::kReuseGlossy, Feature::kScatters},
+          .scope = StageScope::kBlock,
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(LightGlossy);
+          }};
+}
+
+}  // namespace lanelight
+#endif  // HWY_ONCE
