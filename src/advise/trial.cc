@@ -11,6 +11,10 @@ namespace lanelight {
 namespace {
 
 constexpr double kNormal95 = 1.645;
+// Of standard errors by the scatter over pixels, where intervals are stated: few pixels
+// carry an error, and those that would have are not among them. Of 555 intervals on 26
+// scenes 85 % held without, 89 % with it, of 90.
+constexpr double kDoubt = 1.5;
 // Samples of a pixel. What strata gain in longer randomisations than a quarter of them is
 // not seen, so there are many, as long as there are many pixels too.
 constexpr std::uint64_t kLeastSpp = 32, kMostSpp = 512, kPixels = 256;
@@ -24,14 +28,16 @@ std::uint32_t SppFor(std::uint64_t samples) {
 
 Interval TriedCandidate::Efficiency() const {
   const PilotGain all = GainOf(entry.measure, entry.usual);
-  const double error = kNormal95 * std::hypot(all.standard_error, candidate.price_spread);
+  const double error =
+      kNormal95 * std::hypot(kDoubt * all.standard_error, candidate.price_spread);
   return {std::exp(all.log), std::exp(entry.Gain().log - error),
           std::exp(all.most + error)};
 }
 
 Interval EfficiencyOf(const ReuseVerdict& verdict) {
   const PilotGain& gain = verdict.gain;
-  const double error = kNormal95 * std::hypot(gain.standard_error, kReusePriceSpread);
+  const double error =
+      kNormal95 * std::hypot(kDoubt * gain.standard_error, kReusePriceSpread);
   return {verdict.per_pixel, std::exp(gain.least - error), std::exp(gain.most + error)};
 }
 
