@@ -30,11 +30,11 @@ inline stat::ImageEstimate OfPixel(const stat::ImageEstimate& image, std::size_t
 inline void CheckSame(const ReuseScene& scene, const std::string& alone,
                       const std::string& reuse) {
   const int side = scene.description.film.width;
+  const auto truths = RenderOften(scene.description, alone, 4 * scene.spp, 1);
+  const auto images = RenderOften(scene.description, alone + "," + reuse, scene.spp, 7);
   for (const int tile : {side, kServedTile}) {
-    const stat::ImageEstimate truth =
-        RenderTiles(scene.description, alone, 4 * scene.spp, 1, tile);
-    const stat::ImageEstimate image =
-        RenderTiles(scene.description, alone + "," + reuse, scene.spp, 7, tile);
+    const stat::ImageEstimate truth = TilesOf(truths, tile);
+    const stat::ImageEstimate image = TilesOf(images, tile);
     const auto tiles = static_cast<int>(image.mean.size());
     for (std::size_t i = 0; i < image.mean.size(); ++i) {
       const stat::ImageTestResult result =

@@ -43,28 +43,45 @@ inline stat::ImageEstimate TilesOf(const stat::ImageEstimate& image, int tile) {
   return out;
 }
 
-inline stat::ImageEstimate RenderTiles(const SceneDescription& scene,
-                                       const std::string& strategy, std::uint64_t spp,
-                                       std::uint64_t seed, int tile) {
+/// Renders of different seeds, `spp` in all.
+inline std::vector<stat::ImageEstimate> RenderOften(const SceneDescription& scene,
+                                                    const std::string& strategy,
+                                                    std::uint64_t spp,
+                                                    std::uint64_t seed) {
   constexpr int kRenders = 16;
   std::vector<stat::ImageEstimate> renders;
   for (int i = 0; i < kRenders; ++i) {
-    renders.push_back(TilesOf(
-        EstimateWith(scene, strategy, spp / kRenders, kRenders * seed + i), tile));
+    renders.push_back(EstimateWith(scene, strategy, spp / kRenders, kRenders * seed + i));
   }
-  stat::ImageEstimate out = renders[0];
-  out.observations = kRenders;
+  return renders;
+}
+
+inline stat::ImageEstimate TilesOf(const std::vector<stat::ImageEstimate>& renders,
+                                   int tile) {
+  std::vector<stat::ImageEstimate> tiles;
+  for (const stat::ImageEstimate& render : renders) {
+    tiles.push_back(TilesOf(render, tile));
+  }
+  const double n = double(tiles.size());
+  stat::ImageEstimate out = tiles[0];
+  out.observations = tiles.size();
   for (std::size_t p = 0; p < out.mean.size(); ++p) {
     Rgb sum, squares;
-    for (const auto& render : renders) sum += render.mean[p];
-    out.mean[p] = sum / kRenders;
-    for (const auto& render : renders) {
+    for (const auto& render : tiles) sum += render.mean[p];
+    out.mean[p] = sum / n;
+    for (const auto& render : tiles) {
       const Rgb d = render.mean[p] - out.mean[p];
       squares += d * d;
     }
-    out.variance[p] = squares / (kRenders * (kRenders - 1.0));
+    out.variance[p] = squares / (n * (n - 1));
   }
   return out;
+}
+
+inline stat::ImageEstimate RenderTiles(const SceneDescription& scene,
+                                       const std::string& strategy, std::uint64_t spp,
+                                       std::uint64_t seed, int tile) {
+  return TilesOf(RenderOften(scene, strategy, spp, seed), tile);
 }
 
 }  // namespace lanelight::test
