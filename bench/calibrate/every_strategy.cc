@@ -1,6 +1,7 @@
 #include "bench/calibrate/every_strategy.h"
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,15 +11,21 @@
 namespace lanelight::bench {
 namespace {
 
-// Arguments that are choices of their own: words, not numbers ("[:all|:pixel]").
+// Arguments that are choices of their own: words, not numbers ("[:all|:pixel]"). Behind a
+// number, which reuse=block alone has ("[:N[:random|:compact]]"), they come with that.
 std::vector<std::string> Words(std::string_view arguments) {
   std::vector<std::string> words = {""};
+  std::string before;
   for (std::size_t at = 0; (at = arguments.find(':', at)) != arguments.npos;) {
     const std::size_t end = arguments.find_first_of("|[]", ++at);
     const std::string_view word = arguments.substr(at, end - at);
     const bool is_word =
         word.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == std::string_view::npos;
-    if (is_word) words.push_back(":" + std::string(word));
+    if (is_word) {
+      words.push_back(before + ":" + std::string(word));
+    } else if (word == "N") {
+      before = ":" + std::to_string(kDefaultReusedPaths);
+    }
   }
   return words;
 }
