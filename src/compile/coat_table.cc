@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "src/core/check.h"
 
@@ -75,14 +76,17 @@ Fluxes Rough(const Side& s, double mu, int rings, int spokes) {
   const double x = std::sqrt(1 - mu * mu);
   const double length = std::hypot(s.alpha * x, mu);
   const double vx = s.alpha * x / length, vz = mu / length;
+  std::vector<Vec3d> around(spokes);  // of the halves of a circle, which are alike
+  for (int j = 0; j < spokes; ++j) {
+    const double phi = std::numbers::pi * (j + 0.5) / spokes;
+    around[j] = {std::cos(phi), std::sin(phi), 0};
+  }
   Fluxes sum;
   for (int i = 0; i < rings; ++i) {
     const double height = (1 - (i + 0.5) / rings) * (1 + vz), z = height - vz;
     const double r = std::sqrt(std::max(0., 1 - z * z));
-    for (int j = 0; j < spokes; ++j) {  // the two halves of the circle are alike
-      const double phi = std::numbers::pi * (j + 0.5) / spokes;
-      const Vec3d h = {s.alpha * (r * std::cos(phi) + vx), s.alpha * r * std::sin(phi),
-                       height};
+    for (const Vec3d& at : around) {
+      const Vec3d h = {s.alpha * (r * at.x + vx), s.alpha * r * at.y, height};
       AddMicrofacet(s, x, mu, Normalize(h), 1. / (rings * spokes), &sum);
     }
   }
@@ -110,11 +114,11 @@ CoatTable ComputeCoatTable(double alpha, double eta, double thickness) {
   // Mean over a cosine distribution: density 2 mu. The light has crossed the medium once
   // on its way to the interface.
   const Side inside = {alpha, 1 / eta, thickness, true, false};
-  const int nodes = alpha < kSmoothAlpha ? 20000 : 200;
+  const int nodes = alpha < kSmoothAlpha ? 20000 : 64;
   double sum = 0;
   for (int i = 0; i < nodes; ++i) {
     const double mu = (i + 0.5) / nodes;
-    sum += 2 * mu * Crossing(thickness, mu) * At(inside, mu, 32, 24).reflected;
+    sum += 2 * mu * Crossing(thickness, mu) * At(inside, mu, 64, 8).reflected;
   }
   table.internal_reflectance = static_cast<float>(sum / nodes);
   return table;

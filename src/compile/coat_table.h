@@ -22,7 +22,7 @@ struct CoatTable {
 /// that absorbs exp(-thickness / cos) per crossing (pbrt-v4's coats, whose medium has
 /// unit extinction). Both include the losses of single-scattering GGX: light scattered to
 /// the wrong side and masked light is gone. Quadrature in double precision, absolute
-/// error below 1e-3 (smooth: 1e-6). Throws CheckFailure for values out of range.
+/// error below 2e-3 (smooth: 1e-6). Throws CheckFailure for values out of range.
 CoatTable ComputeCoatTable(double alpha, double eta, double thickness);
 
 }  // namespace lanelight

@@ -16,7 +16,8 @@ Spectrum NormalizedBlackbody(double kelvin) {
   return [kelvin](double nm) {
     const double x = kSecondConstant / (nm * kelvin);
     if (x > 700) return 0.0;  // below 1e-290
-    return std::pow(x / kPeak, 5) * std::expm1(kPeak) / std::expm1(x);
+    const double q = x / kPeak, q2 = q * q;
+    return q2 * q2 * q * (std::expm1(kPeak) / std::expm1(x));
   };
 }
 

@@ -1,10 +1,12 @@
 """A headless Chromium with one report in it, and what the checks ask of it."""
 
 import base64
+import os
 import pathlib
 import shutil
 import sys
 
+PICTURES = "LANELIGHT_SCREENSHOTS" in os.environ  # as sharp as a phone has them
 SKIPPED = 77  # what CTest takes for "skipped"
 
 FLAGS = [
@@ -67,8 +69,8 @@ class Page:
 
     def resize(self, width, height, mobile=False):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": width, "height": height, "deviceScaleFactor": 2 if mobile else 1,
-            "mobile": mobile})
+            "width": width, "height": height, "mobile": mobile,
+            "deviceScaleFactor": 2 if mobile and PICTURES else 1})
 
     def prefer(self, scheme):
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
@@ -92,12 +94,12 @@ class Page:
     def all(self, selector):
         return self.js("return [...document.querySelectorAll(arguments[0])]", selector)
 
-    def settle(self, frames=4):
-        """Waits until the page has drawn that many times."""
+    def settle(self, frames=4, pause_ms=60):
+        """Waits until the page has drawn that many times after a pause."""
         self.driver.execute_async_script(
-            "const done = arguments[1]; let left = arguments[0];"
+            "const done = arguments[2]; let left = arguments[0];"
             "const step = () => left-- > 0 ? requestAnimationFrame(step) : done();"
-            "setTimeout(step, 60);", frames)
+            "setTimeout(step, arguments[1]);", frames, pause_ms)
 
     def show(self, selector):
         self.js("document.querySelector(arguments[0])"
@@ -107,10 +109,10 @@ class Page:
     def scroll_through(self):
         """Everything that draws itself when it comes near the screen, does."""
         self.js("document.documentElement.style.scrollBehavior = 'auto'")
-        height = self.js("return document.documentElement.scrollHeight")
-        for y in range(0, height, 600):
+        height, step = self.js("return [document.documentElement.scrollHeight, innerHeight]")
+        for y in range(0, height, step):
             self.js("scrollTo(0, arguments[0])", y)
-            self.settle(2)
+            self.settle(2, 0)
         self.js("scrollTo(0, 0)")
         self.settle()
 

@@ -15,7 +15,6 @@ def scenes_switch(page):
         page.settle()
         require(page.find("#content").get_attribute("data-scene") == name, "not", name)
         require(page.find("h1").text == name, "wrong title for", name)
-        page.scroll_through()
         page.driver.refresh()
         page.settle()
         require(page.find("h1").text == name, name, "is not remembered")

@@ -9,9 +9,8 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "FAILED: $*"; exit 1; }
 
-# configure TARGETS: into $folder/build, with what it says in $folder/log.
+# configure TARGETS: into $folder/build, anew, with what it says in $folder/log.
 configure() {
-  rm -rf "$folder/build"
   "$cmake" -S "$source" -B "$folder/build" -G Ninja -DCMAKE_CXX_COMPILER="$cxx" \
     -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DLANELIGHT_TARGETS="$1" >"$folder/log" 2>&1
 }
