@@ -61,7 +61,7 @@ LANELIGHT_INLINE VD UpperAngle(VD s, VD c) {
 }
 
 /// The corners of a triangle: one of them, and the edges that lead from it around.
-struct TriangleEdges {
+struct LightEdges {
   D3 corner, e01, e12;
 };
 
@@ -109,7 +109,7 @@ struct HorizonClip {
   }
 };
 
-LANELIGHT_INLINE VD TriangleIrradiance(const TriangleEdges& t, D3 n) {
+LANELIGHT_INLINE VD TriangleIrradiance(const LightEdges& t, D3 n) {
   const D3 e02 = Plus(t.e01, t.e12);
   const VD z0 = Dot(n, t.corner);
   const VD z1 = hn::Add(z0, Dot(n, t.e01)), z2 = hn::Add(z0, Dot(n, e02));

@@ -1,5 +1,5 @@
 // What messages about batches of tiles consist of: values one after the other, and the
-// rows of the tiles (src/wavefront/tile_rows.h).
+// rows of the tiles (src/wavefront/tile_columns.h).
 #pragma once
 
 #include <cstdint>

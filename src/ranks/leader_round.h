@@ -15,7 +15,7 @@
 #include "src/wavefront/hand_out.h"
 #include "src/wavefront/task_watcher.h"
 #include "src/wavefront/tasks.h"
-#include "src/wavefront/tile_rows.h"
+#include "src/wavefront/tile_columns.h"
 
 namespace lanelight {
 
@@ -61,7 +61,7 @@ class LeaderRound {
   Mail& mail_;
   std::vector<Member>& members_;
   HandOut& queue_;
-  const TileRows rows_;
+  const TileColumns rows_;
   std::exception_ptr problem_;
   std::atomic<bool> ended_{false}, own_done_{false};
   bool gave_up_ = false;

@@ -15,7 +15,7 @@
 #include "src/wavefront/hand_out.h"
 #include "src/wavefront/run_state.h"
 #include "src/wavefront/stop_watcher.h"
-#include "src/wavefront/tile_rows.h"
+#include "src/wavefront/tile_columns.h"
 
 namespace lanelight {
 
@@ -48,7 +48,7 @@ class Workshop {
 
   const Service& service_;
   StopWatcher signal_;  // to this rank: ends its batches
-  const TileRows rows_;
+  const TileColumns rows_;
   std::mutex mutex_;  // of all that follows
   std::condition_variable more_;
   std::list<Batch> batches_;

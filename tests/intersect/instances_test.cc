@@ -28,15 +28,15 @@ InstanceRecord MakeInstance(const Transform& scene_from_object) {
   return record;
 }
 
-struct Pair {
+struct InstancedAndFlat {
   Geometry instanced, flat;
   std::vector<std::uint32_t> prim, inst;  // of each triangle of `flat`
 };
 
 // A world soup and two object definitions of different size, placed several times with
 // rotation, uneven scale, mirroring and translation.
-Pair MakePair(Random& random, int instances) {
-  Pair pair;
+InstancedAndFlat MakePair(Random& random, int instances) {
+  InstancedAndFlat pair;
   Geometry& g = pair.instanced;
   g = brute::Soup(random, 5, 2, 0.5f);
   g.groups = {{0, 5}};
@@ -82,7 +82,7 @@ TEST_CASE("instances give the hits of the flattened scene", "[intersect]") {
     CAPTURE(target);
     Random random(41);
     for (const int instances : {1, 9, 40}) {
-      const Pair pair = MakePair(random, instances);
+      const InstancedAndFlat pair = MakePair(random, instances);
       const CompiledScene instanced = MakeScene(pair.instanced),
                           flat = MakeScene(pair.flat);
       std::vector<TestRay> rays;
@@ -268,7 +268,7 @@ TEST_CASE("surfaces of instances lie on the flattened triangles", "[surface]") {
     ForceTarget(target);
     CAPTURE(target);
     Random random(42);
-    const Pair pair = MakePair(random, 12);
+    const InstancedAndFlat pair = MakePair(random, 12);
     const CompiledScene scene = MakeScene(pair.instanced);
     std::vector<TestRay> rays;
     for (int i = 0; i < 800; ++i) rays.push_back({random.Point(2), random.Direction()});

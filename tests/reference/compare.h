@@ -13,15 +13,15 @@ inline stat::ImageEstimate Estimate(const ReferenceImage& image) {
 
 /// Renders and compares with a closed form f(x, y) per pixel (x, y integer).
 inline stat::ImageTestResult CompareWithClosedForm(
-    const SceneDescription& scene, const ReferenceOptions& options,
+    const SceneDescription& scene, const TwinOptions& options,
     const std::function<Rgb(int, int)>& f, const stat::ImageTestOptions& test = {}) {
   const ReferenceImage image = RenderReference(scene, options);
   return stat::CompareMeans(Estimate(image),
                             stat::KnownImage(image.width, image.height, f), test);
 }
 
-inline ReferenceOptions Options(ReferenceEstimator estimator, int samples) {
-  ReferenceOptions options;
+inline TwinOptions Options(ReferenceEstimator estimator, int samples) {
+  TwinOptions options;
   options.estimator = estimator;
   options.samples = samples;
   return options;

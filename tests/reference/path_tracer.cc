@@ -19,7 +19,7 @@ struct Tracer {
   const SceneDescription& scene;
   const Geometry& geometry;
   const Lights& lights;
-  const ReferenceOptions& options;
+  const TwinOptions& options;
   Random& random;
 
   bool samples_lights() const {
@@ -143,7 +143,7 @@ Rgb Tracer::Trace(Ray ray) const {
 
 Rgb ReferenceRadiance(const SceneDescription& scene, const reference::Geometry& geometry,
                       const reference::Lights& lights, reference::Ray ray,
-                      const ReferenceOptions& options, reference::Random& random) {
+                      const TwinOptions& options, reference::Random& random) {
   return reference::Tracer{scene, geometry, lights, options, random}.Trace(ray);
 }
 
@@ -167,7 +167,7 @@ Rgb OnFilm(const Film& film, Rgb radiance) {
 }  // namespace
 
 ReferenceImage RenderReference(const SceneDescription& scene,
-                               const ReferenceOptions& options) {
+                               const TwinOptions& options) {
   LL_CHECK_GE(options.samples, 2);
   const Film& film = scene.film;
   int crop[4] = {0, film.width, 0, film.height};

@@ -29,7 +29,7 @@ enum class ReferenceEstimator {
   kLightSampling
 };
 
-struct ReferenceOptions {
+struct TwinOptions {
   ReferenceEstimator estimator = ReferenceEstimator::kLightSampling;
   int samples = 64;  // per pixel
   std::uint64_t seed = 1;
@@ -48,11 +48,11 @@ struct ReferenceImage {
 };
 
 ReferenceImage RenderReference(const SceneDescription& scene,
-                               const ReferenceOptions& options = {});
+                               const TwinOptions& options = {});
 
 /// Radiance that arrives along one ray: one sample.
 Rgb ReferenceRadiance(const SceneDescription& scene, const reference::Geometry& geometry,
                       const reference::Lights& lights, reference::Ray ray,
-                      const ReferenceOptions& options, reference::Random& random);
+                      const TwinOptions& options, reference::Random& random);
 
 }  // namespace lanelight

@@ -181,7 +181,7 @@ void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth, std::uint
 
 stat::ImageEstimate Reference(const SceneDescription& scene, int samples) {
   const reference::Textures textures(scene.textures);
-  ReferenceOptions options =
+  TwinOptions options =
       TexturedOptions(textures, ReferenceEstimator::kLightSampling, samples);
   options.environment = SkyRadiance;
   return Estimate(RenderReference(scene, options));

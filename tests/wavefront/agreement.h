@@ -41,9 +41,9 @@ inline stat::ImageEstimate RenderWavefront(const SceneDescription& scene,
 }
 
 /// Options of the reference with a scene's textures.
-inline ReferenceOptions TexturedOptions(const reference::Textures& textures,
-                                        ReferenceEstimator estimator, int samples) {
-  ReferenceOptions options = Options(estimator, samples);
+inline TwinOptions TexturedOptions(const reference::Textures& textures,
+                                   ReferenceEstimator estimator, int samples) {
+  TwinOptions options = Options(estimator, samples);
   options.texture = [&](Index index, const reference::TexturePoint& at) {
     return textures.Eval(index, at);
   };
@@ -60,7 +60,7 @@ inline stat::ImageTestResult CompareWithReference(const SceneDescription& scene,
                                                   double tolerance = kFloatTolerance,
                                                   const std::string& strategy = "") {
   const reference::Textures textures(scene.textures);
-  const ReferenceOptions options =
+  const TwinOptions options =
       TexturedOptions(textures, ReferenceEstimator::kLightSampling, reference_spp);
   return stat::CompareMeans(RenderWavefront(scene, wavefront_spp, strategy),
                             Estimate(RenderReference(scene, options)),

@@ -9,7 +9,7 @@
 #include "src/core/check.h"
 #include "src/wavefront/crew_start.h"
 #include "src/wavefront/hand_out.h"
-#include "src/wavefront/tile_rows.h"
+#include "src/wavefront/tile_columns.h"
 
 namespace lanelight {
 namespace {
@@ -24,7 +24,7 @@ struct Columns {
     std::iota(ones.begin(), ones.end(), static_cast<std::uint64_t>(first));
     std::iota(threes.begin(), threes.end(), first);
   }
-  TileRows Rows() {
+  TileColumns Rows() {
     return {{MakeStateColumn<std::uint64_t>("ones", "", ones),
              MakeStateColumn<double>("threes", "", threes, {3})},
             kWindow};

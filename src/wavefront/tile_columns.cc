@@ -1,4 +1,4 @@
-#include "src/wavefront/tile_rows.h"
+#include "src/wavefront/tile_columns.h"
 
 #include <cstring>
 #include <utility>
@@ -7,14 +7,14 @@
 
 namespace lanelight {
 
-TileRows::TileRows(std::vector<MutableStateColumn> columns, const PixelRect& window)
+TileColumns::TileColumns(std::vector<MutableStateColumn> columns, const PixelRect& window)
     : columns_(std::move(columns)), window_(window) {
   for (const MutableStateColumn& column : columns_) {
     LL_CHECK_EQ(column.rows, window.pixels());
   }
 }
 
-std::size_t TileRows::BytesOf(const PixelRect& tile) const {
+std::size_t TileColumns::BytesOf(const PixelRect& tile) const {
   std::size_t bytes = 0;
   for (const MutableStateColumn& column : columns_) bytes += column.RowBytes();
   return bytes * tile.pixels();
@@ -22,7 +22,7 @@ std::size_t TileRows::BytesOf(const PixelRect& tile) const {
 
 // Calls run(address, bytes) for each row of the tile in each column.
 template <class Do>
-void TileRows::ForEachRun(const PixelRect& tile, Do&& run) const {
+void TileColumns::ForEachRun(const PixelRect& tile, Do&& run) const {
   LL_CHECK(tile.x0 >= window_.x0 && tile.x1 <= window_.x1);
   LL_CHECK(tile.y0 >= window_.y0 && tile.y1 <= window_.y1);
   for (const MutableStateColumn& column : columns_) {
@@ -37,11 +37,11 @@ void TileRows::ForEachRun(const PixelRect& tile, Do&& run) const {
   }
 }
 
-void TileRows::Append(const PixelRect& tile, std::string& bytes) const {
+void TileColumns::Append(const PixelRect& tile, std::string& bytes) const {
   ForEachRun(tile, [&](char* at, std::size_t size) { bytes.append(at, size); });
 }
 
-void TileRows::Put(const PixelRect& tile, std::string_view bytes) const {
+void TileColumns::Put(const PixelRect& tile, std::string_view bytes) const {
   LL_CHECK_EQ(bytes.size(), BytesOf(tile));
   ForEachRun(tile, [&](char* at, std::size_t size) {
     std::memcpy(at, bytes.data(), size);

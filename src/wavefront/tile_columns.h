@@ -11,10 +11,10 @@
 
 namespace lanelight {
 
-class TileRows {
+class TileColumns {
  public:
   /// Of columns of the pixels of `window`, row by row; refers to their memory.
-  TileRows(std::vector<MutableStateColumn> columns, const PixelRect& window);
+  TileColumns(std::vector<MutableStateColumn> columns, const PixelRect& window);
 
   std::size_t BytesOf(const PixelRect& tile) const;
   /// Appends what the columns hold of the pixels of `tile`, of the full image.
