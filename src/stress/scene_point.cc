@@ -22,7 +22,7 @@ Rendered RenderText(const SceneText& scene) {
 Point MeanOf(const Rendered& rendered) {
   const FilmAccumulator& film = rendered.film;
   Point point;
-  double sum = 0, variance = 0, quartic = 0;
+  double sum = 0, variance = 0, quartic = 0, deviations = 0;
   bool has_variance = true;
   for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
     for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
@@ -33,6 +33,7 @@ Point MeanOf(const Rendered& rendered) {
           (std::sqrt(own.x) + std::sqrt(own.y) + std::sqrt(own.z)) / 3;
       const double square = deviation * deviation;
       variance += square;
+      deviations += deviation;
       // Welch and Satterthwaite: degrees of freedom of a sum of estimated variances.
       const std::uint64_t observations = film.Observations(x, y);
       has_variance &= observations >= 2;
@@ -42,7 +43,10 @@ Point MeanOf(const Rendered& rendered) {
   const double pixels = double(film.width()) * film.height();
   point.measured = sum / pixels;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  point.standard_error = has_variance ? std::sqrt(variance) / pixels : kNan;
+  // Errors of pixels that paths serve together may be one and the same.
+  const bool served = film.groups().dependents > 1;
+  const double error = served ? deviations : std::sqrt(variance);
+  point.standard_error = has_variance ? error / pixels : kNan;
   if (quartic > 0) point.degrees_of_freedom = variance * variance / quartic;
   const RunResult& result = rendered.result;
   point.samples = result.samples;

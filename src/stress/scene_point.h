@@ -26,8 +26,9 @@ struct Rendered {
 Rendered RenderText(const SceneText& scene);
 
 /// Mean over all pixels and the three channels, with its standard error from the pixels'
-/// own variances (NaN where a pixel has fewer than two observations, so that the point
-/// cannot pass), counts of rays, invalid samples, lanes and seconds.
+/// own variances, at most where they depend on each other (NaN where a pixel has fewer
+/// than two observations, so that the point cannot pass), counts of rays, invalid
+/// samples, lanes and seconds.
 Point MeanOf(const Rendered& rendered);
 
 }  // namespace lanelight::stress

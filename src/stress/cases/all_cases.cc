@@ -23,6 +23,7 @@ std::vector<Case> AllCases() {
   AddManyLightCases(cases);
   AddRadianceCases(cases);
   AddTransportCases(cases);
+  AddReuseCases(cases);
   AddMediaCases(cases);
   AddFilmCases(cases);
   AddSampleCases(cases);

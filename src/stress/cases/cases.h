@@ -33,6 +33,7 @@ void AddLightSizeCases(
 void AddManyLightCases(std::vector<Case>& cases);  // many_lights.cc: very many lights
 void AddRadianceCases(std::vector<Case>& cases);   // radiance.cc: strength of light
 void AddTransportCases(std::vector<Case>& cases);  // transport.cc: long paths
+void AddReuseCases(std::vector<Case>& cases);      // reuse.cc: reuse=block
 void AddMediaCases(std::vector<Case>& cases);      // media.cc: media
 void AddFilmCases(std::vector<Case>& cases);       // film.cc: sums, filters, lenses
 void AddSampleCases(std::vector<Case>& cases);     // samples.cc: sample points, warps

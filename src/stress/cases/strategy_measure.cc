@@ -5,24 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/strategy/choice_names.h"
+#include "src/strategy/strategy.h"
 
 namespace lanelight::stress {
 namespace {
 
 // One choice changed at a time, of the default strategy.
 std::vector<std::string> Strategies() {
-  std::vector<std::string> all;
-  const auto add = [&](const char* axis, auto& names) {
-    for (const char* name : names) all.push_back(fmt::format("{}={}", axis, name));
-  };
-  add("directions", kDirections);
-  all.push_back("directions=mis:balance");
-  add("points", kPoints);
-  add("pairs", kPairs);
-  add("control", kControls);
-  add("roulette", kRoulettes);
-  add("light-selection", kLightSelections);
+  std::vector<std::string> all = {"directions=mis:balance"};
+  for (const ChoiceInfo& choice : AllChoices()) {
+    if (choice.axis == std::string("decide")) continue;  // for one of the others
+    all.push_back(fmt::format("{}={}", choice.axis, choice.name));
+  }
   return all;
 }
 
@@ -78,7 +72,8 @@ bool FindsLightsByChance(const std::string& strategy) {
 }
 
 bool HasPilot(const std::string& strategy) {
-  return strategy == "roulette=adjoint" || strategy == "roulette=efficiency";
+  return strategy == "roulette=adjoint" || strategy == "roulette=efficiency" ||
+         strategy == "guiding=radiance";
 }
 
 std::vector<Point> MeasureAll(const StrategyScene& scene, const Effort& effort) {

@@ -1,0 +1,131 @@
+// Paths that serve their block (reuse=block): first and second vertices at any distance,
+// in a corner, and behind metals on both sides of the least alpha that is shared.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/stress/cases/cases.h"
+#include "src/stress/cases/transport_setup.h"
+#include "src/stress/closed_forms.h"
+
+namespace lanelight::stress {
+namespace {
+
+const char* const kLayouts[] = {"block:64", "block:16:compact", "block:32:apart"};
+
+constexpr int kSeeds = 32;
+
+// Pixels of a tile depend on each other: the error is what images of several seeds differ
+// by.
+Point Served(const std::string& reuse, double expected, const std::string& text,
+             int depth, const Effort& effort) {
+  Quality quality = {16, 512, depth, 16};
+  quality.strategy = "roulette=none,reuse=" + reuse;
+  SceneText scene = Setup(text, quality, effort);
+  Point sum;
+  double mean = 0, squares = 0;
+  for (int i = 1; i <= kSeeds; ++i) {
+    scene.settings.seed = effort.seed * kSeeds + i;
+    const Point one = Expect(expected, scene);
+    const double delta = one.measured - mean;
+    mean += delta / i;
+    squares += delta * (one.measured - mean);
+    sum.invalid += one.invalid;
+    sum.samples += one.samples, sum.rays += one.rays;
+    sum.lanes_used += one.lanes_used, sum.lane_slots += one.lane_slots;
+    sum.seconds += one.seconds;
+    sum.expected = one.expected, sum.tolerance = one.tolerance;
+  }
+  sum.series = reuse;
+  sum.measured = mean;
+  sum.standard_error = std::sqrt(squares / (kSeeds - 1) / kSeeds);
+  sum.degrees_of_freedom = kSeeds - 1;
+  return sum;
+}
+
+// All distances of a closed room at once: densities by area go with their square.
+std::vector<Point> ByDistance(double radius, const Effort& effort) {
+  const std::string room =
+      ViewFrom({0.05 * radius, 0.08 * radius, 0.75 * radius}, 50) +
+      fmt::format(
+          "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [0.2 0.2 0.2]\n"
+          "ReverseOrientation\nMaterial {}\nShape \"sphere\" \"float radius\" "
+          "{:.17g}\nAttributeEnd\n",
+          Diffuse(0.8), radius);
+  std::vector<Point> points;
+  for (const char* layout : kLayouts) {
+    points.push_back(
+        Served(layout, ClosedRoom(double(0.2f), double(0.8f), 8), room, 8, effort));
+  }
+  return points;
+}
+
+std::string PlaneTowards(const char* turn, const std::string& material) {
+  return fmt::format("AttributeBegin\n{}\nMaterial {}\nShape \"plane\"\nAttributeEnd\n",
+                     turn, material);
+}
+
+// The right angle between two planes, which sees `half` to each side of the edge.
+std::string Corner(double half, const std::string& wall) {
+  return fmt::format(
+             "LookAt 1 0 1  0 0 0  0 1 0\nCamera \"orthographic\" \"float "
+             "screenwindow\" [{0:.17g} {1:.17g} {0:.17g} {1:.17g}]\n"
+             "PixelFilter \"box\"\nWorldBegin\n",
+             -half, half) +
+         Sky(1) + PlaneTowards("", Diffuse(0.8)) + PlaneTowards("Rotate 90 0 1 0", wall);
+}
+
+// Nothing in a corner has a size: each plane has the radiance of the series of albedo /
+// 2, as each sees half of the sky and half of the other. At the edge both vertices of a
+// path come together.
+std::vector<Point> ByCorner(double half, const Effort& effort) {
+  double expected = 0, term = 1;
+  for (int event = 1; event <= 8; ++event) expected += term *= 0.5 * double(0.8f);
+  std::vector<Point> points;
+  for (const char* layout : kLayouts) {
+    points.push_back(Served(layout, expected, Corner(half, Diffuse(0.8)), 8, effort));
+  }
+  return points;
+}
+
+// A metal in the corner, seen from the diffuse floor, held against paths of their own.
+std::vector<Point> BySharedAlpha(double alpha, const Effort& effort) {
+  const std::string scene =
+      Corner(1, fmt::format("\"conductor\" \"rgb reflectance\" [0.8 0.8 0.8] \"float "
+                            "roughness\" {:.17g} \"bool remaproughness\" false",
+                            alpha));
+  const Point alone = Served("none", 1, scene, 4, effort);
+  std::vector<Point> points;
+  for (const char* layout : kLayouts) {
+    points.push_back(Served(layout, alone.measured, scene, 4, effort));
+    Point& point = points.back();
+    point.standard_error = std::hypot(point.standard_error, alone.standard_error);
+  }
+  return points;
+}
+
+}  // namespace
+
+void AddReuseCases(std::vector<Case>& cases) {
+  cases.push_back({"reuse-distance", "transport",
+                   "vertices 1e-6 to 1e6 apart, of paths that serve their block",
+                   "a closed room keeps its balance", "", Truth::kClosedForm,
+                   LogAxis("radius of the room", "", 1e-6, 1e6, Decades(-6, 6, 3),
+                           Decades(-12, 12, 2)),
+                   ByDistance});
+  cases.push_back(
+      {"reuse-corner", "transport",
+       "first and second vertices that come together in a corner",
+       "both planes have the radiance of the series, at any distance", "",
+       Truth::kClosedForm,
+       LogAxis("half of what is seen", "", 1e-4, 100, Decades(-4, 2, 2), Decades(-6, 4)),
+       ByCorner});
+  cases.push_back({"reuse-alpha", "transport",
+                   "second vertices of metal through the least alpha that is shared",
+                   "the image of paths that serve their own pixels", "", Truth::kTwin,
+                   LogAxis("alpha", "", 1e-3, 1, {1e-3, 0.09, 0.11, 0.3},
+                           {1e-3, 0.03, 0.09, 0.0999, 0.1001, 0.11, 0.3, 1}),
+                   BySharedAlpha});
+}
+
+}  // namespace lanelight::stress
