@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kReach = 1;           // neighbours: 3 x 3 pixels
 constexpr int kSpread = 2;          // where their scatter is taken from: 5 x 5
+constexpr double kRounding = 1e-5;  // of a mean, at most (docs/numbers.md)
 constexpr double kTwoSided = 1.96;  // kEstimateConfidence of a normal is within
 constexpr int kMostMoreSamples = 4096;
 
@@ -74,6 +75,8 @@ struct Sums {
   // How much the relative errors may grow: squares; the most, and the index of its pixel.
   double up_squares = 0, most_up = 0;
   std::size_t most_up_at = 0;
+  double squares = 0,
+         relative_squares = 0;  // of means, which rounding is in proportion to
   std::uint64_t pixels = 0;
 
   // `share`: of the variance that is left; `dependents`: SampleGroups.
@@ -91,6 +94,11 @@ struct Sums {
     square.Add(own_square, p.freedom, dependents);
     relative.Add(own_relative, p.freedom, dependents);
     up_squares += dependents * up * up;
+    for (int c = 0; c < 3; ++c) {
+      const double s = p.mean[c] * p.mean[c] / 3;
+      squares += s;
+      relative_squares += s / (3 * s + kRelativeEpsilon);
+    }
     if (up > most_up) most_up = up, most_up_at = index;
     ++pixels;
   }
@@ -99,6 +107,8 @@ struct Sums {
     relative.Add(other.relative);
     pooled += other.pooled;
     up_squares += other.up_squares;
+    squares += other.squares;
+    relative_squares += other.relative_squares;
     if (other.most_up > most_up) {
       most_up = other.most_up, most_up_at = other.most_up_at;
     }
@@ -270,6 +280,10 @@ ErrorEstimate FromSums(const Sums& sums) {
       WithWeights(ErrorInterval(relative.sum / n, relative.K1(), relative.K2()), sums);
   out.has_interval = mse.high <= kMostTimes * mse.value &&
                      out.relmse.high <= kMostTimes * out.relmse.value;
+  // Rounding is no noise, and shows where there is none.
+  constexpr double kSquare = kRounding * kRounding;
+  out.relmse.high += kSquare * sums.relative_squares / n;
+  out.rmse.high = std::sqrt(mse.high + kSquare * sums.squares / n);
   return out;
 }
 
