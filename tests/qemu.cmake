@@ -23,8 +23,8 @@ set(long
   guide/unbiased_test image/accumulator_test image/long_sums_test
   lights/emission_images_test lights/image_lights_test lights/portal_test
   lights/projected_test media/agreement_test media/coloured_test media/distances_test
-  media/transmittance_test media/varying_test parse/format_test points/convergence_test
-  reference/closed_form_test reference/estimators_test render/allocated_test
+  media/varying_test parse/format_test points/convergence_test
+  reference/closed_form_test reference/estimators_test
   render/cuts_test render/many_samples_test report/page_test roulette/closed_room_test
   roulette/efficiency_test roulette/shadow_test roulette/splitting_test
   roulette/unsplit_test scenes/closed_form_scenes_test scenes/scenes_test
@@ -33,8 +33,8 @@ set(long
   stress/geometry_cases_test stress/suite_test stress/transport_cases_test
   study/calibration_test study/render_reference_test study/shared_bias_test
   study/study_test sweep/again_test sweep/parts_test sweep/ten_thousand_test
-  texture/pattern_kernel_test wavefront/agreement_test wavefront/allocated_render_test
-  wavefront/allocation_test wavefront/alpha_places_test wavefront/closed_form_test
+  texture/pattern_kernel_test wavefront/agreement_test
+  wavefront/alpha_places_test wavefront/closed_form_test
   wavefront/convergence_test wavefront/decision_test wavefront/declared_fields_test
   wavefront/determinism_test wavefront/force_diffuse_test wavefront/mirrored_lights_test
   wavefront/open_ended_test wavefront/relief_agreement_test

@@ -26,29 +26,15 @@ LANELIGHT_INLINE VI ShadowStartMedium(const Wave& wave, const Slots& slots) {
 }
 
 /// What a tentative collision leaves of a ray, of which `real` is the share of collisions
-/// in each channel, by transmittance=ratio: all but that share (Novak, Selle and Jarosz
-/// 2014), and nothing below 0.
-struct RatioTracking {
-  LANELIGHT_INLINE static V3 Leaves(V3 left, V3 real, VF) {
-    const V3 after = Mul(left, Splat3(1, 1, 1) - real);
-    return IfThenElse(hn::Gt(MaxComponent(after), Splat(0)), after, Splat3(0, 0, 0));
-  }
-};
-
-/// By transmittance=delta: nothing where it is real, with u in [0, 1) for all channels
-/// (Woodcock et al. 1965).
-struct DeltaTracking {
-  LANELIGHT_INLINE static V3 Leaves(V3 left, V3 real, VF u) {
-    const auto one = [&](VF channel, VF share) HWY_ATTR {
-      return hn::IfThenElseZero(hn::Ge(u, share), channel);
-    };
-    return {one(left.x, real.x), one(left.y, real.y), one(left.z, real.z)};
-  }
-};
+/// in each channel: all but that share (ratio tracking: Novak, Selle and Jarosz 2014),
+/// and nothing below 0.
+LANELIGHT_INLINE V3 Leaves(V3 left, V3 real) {
+  const V3 after = Mul(left, Splat3(1, 1, 1) - real);
+  return IfThenElse(hn::Gt(MaxComponent(after), Splat(0)), after, Splat3(0, 0, 0));
+}
 
 /// What `length` of a medium that varies leaves of a ray: tentative collisions, with one
 /// majorant for all channels, so that none needs another's weight.
-template <class Tracking>
 LANELIGHT_INLINE V3 TrackedTransmittance(const GridMedium& medium, V3 o, V3 d, VF length,
                                          WalkRandom& random) {
   CellWalk at(medium, o, d, length);
@@ -72,12 +58,11 @@ LANELIGHT_INLINE V3 TrackedTransmittance(const GridMedium& medium, V3 o, V3 d, V
     depth = hn::IfThenElse(collides, ExponentialOf(u0), depth);
     const Coefficients c = medium.At(at.Point(at.t), collides);
     const V3 real = Mul(c.sigma_a + c.sigma_s, hn::Div(Splat(1.0f), sigma_m));
-    left = IfThenElse(collides, Tracking::Leaves(left, real, u1), left);
+    left = IfThenElse(collides, Leaves(left, real), left);
   }
 }
 
 /// Of lanes in media with a grid; 1 for the others.
-template <class Tracking>
 HWY_NOINLINE V3 GridTransmittance(const Wave& wave, const Slots& slots, VI index, V3 o,
                                   V3 d, VF length, uint32_t leg) {
   const MediumTable& table = wave.scene->media;
@@ -91,7 +76,7 @@ HWY_NOINLINE V3 GridTransmittance(const Wave& wave, const Slots& slots, VI index
     WalkRandom random(wave, slots, 0xcc9e2d51u + leg * 0x85ebca6bu);
     const MF lanes = hn::RebindMask(DF(), mine);
     const VF own = hn::IfThenElseZero(lanes, length);
-    left = Mul(left, TrackedTransmittance<Tracking>(medium, o, d, own, random));
+    left = Mul(left, TrackedTransmittance(medium, o, d, own, random));
   }
   return left;
 }
@@ -99,7 +84,6 @@ HWY_NOINLINE V3 GridTransmittance(const Wave& wave, const Slots& slots, VI index
 /// Takes away from what the shadow ray carries what `length` from o in a medium takes.
 /// Zero where nothing is left, which Connect adds like any other. `leg`: how many such
 /// lengths of the ray came before.
-template <class Tracking>
 LANELIGHT_INLINE void DimShadow(const Wave& wave, const StoreSlots& slots, VI index, V3 o,
                                 VF length, uint32_t leg) {
   const PathColumns& p = wave.path;
@@ -110,7 +94,7 @@ LANELIGHT_INLINE void DimShadow(const Wave& wave, const StoreSlots& slots, VI in
   if (!table.grids.empty()) {
     homogeneous = hn::AndNot(medium.Varies(), homogeneous);
     const V3 d = Gather3(p.ls_x, p.ls_y, p.ls_z, slots);
-    left = GridTransmittance<Tracking>(wave, slots, index, o, d, length, leg);
+    left = GridTransmittance(wave, slots, index, o, d, length, leg);
   }
   const V3 sigma_t = IfThenElseZero(homogeneous, medium.SigmaT());
   left = Mul(left, Transmittance(sigma_t, length));

@@ -12,26 +12,20 @@ HWY_BEFORE_NAMESPACE();
 namespace lanelight {
 namespace HWY_NAMESPACE {
 
-template <bool kChanges, class Tracking>
+template <bool kChanges>
 void ShadowMediaOf(Wave& wave) {
   const PathColumns& p = wave.path;
-  ForEachBatch(
-      wave, wave.queue(QueueId::kShadow), [&](const StoreSlots& slots, MF) HWY_ATTR {
-        const VI medium = ShadowStartMedium<kChanges>(wave, slots);
-        const V3 o = Gather3(p.p_x, p.p_y, p.p_z, slots);
-        DimShadow<Tracking>(wave, slots, medium, o, Gather(p.ls_distance, slots), 0);
-      });
-}
-
-template <class Tracking>
-StageFn BySides(const FeatureSet& features) {
-  return features.Has(Feature::kMediumChanges) ? ShadowMediaOf<true, Tracking>
-                                               : ShadowMediaOf<false, Tracking>;
+  ForEachBatch(wave, wave.queue(QueueId::kShadow),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const VI medium = ShadowStartMedium<kChanges>(wave, slots);
+                 const V3 o = Gather3(p.p_x, p.p_y, p.p_z, slots);
+                 DimShadow(wave, slots, medium, o, Gather(p.ls_distance, slots), 0);
+               });
 }
 
 StageFn ResolveShadowMedia(const FeatureSet& features) {
-  return features.Has(Feature::kDeltaTransmittance) ? BySides<DeltaTracking>(features)
-                                                    : BySides<RatioTracking>(features);
+  return features.Has(Feature::kMediumChanges) ? ShadowMediaOf<true>
+                                               : ShadowMediaOf<false>;
 }
 
 }  // namespace HWY_NAMESPACE

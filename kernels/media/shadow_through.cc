@@ -61,7 +61,6 @@ HWY_INLINE void RunOn(Wave& wave, const PathColumns& columns, QueueId place,
 
 // Of the rays whose nearest surface is known: those that reach the light go to kShadow,
 // those that meet an interface stay in kActive, with what the way there leaves.
-template <class Tracking>
 HWY_INLINE void SortLegs(Wave& wave, uint32_t leg) {
   const PathColumns& p = wave.path;
   Queue& legs = wave.queue(QueueId::kActive);
@@ -72,8 +71,7 @@ HWY_INLINE void SortLegs(Wave& wave, uint32_t leg) {
     const MF passes =
         hn::AndNot(arrives, Sides(wave.scene->media, Gather(p.sh_prim, slots)).Passes());
     const V3 o = Gather3(p.sh_o_x, p.sh_o_y, p.sh_o_z, slots);
-    DimShadow<Tracking>(wave, slots, Gather(p.sh_medium, slots), o, hn::Min(t, left),
-                        leg);
+    DimShadow(wave, slots, Gather(p.sh_medium, slots), o, hn::Min(t, left), leg);
     Push(wave.queue(QueueId::kShadow), slots, hn::And(valid, arrives));
     Push(rest, slots, hn::And(valid, passes));
   });
@@ -98,7 +96,6 @@ HWY_INLINE void NextLegs(Wave& wave) {
       });
 }
 
-template <class Tracking>
 void ShadowThrough(Wave& wave) {
   const PathColumns ray = RestAsRay(wave);
   const RayKernels& kernels = wave.kernels;
@@ -110,16 +107,13 @@ void ShadowThrough(Wave& wave) {
   wave.queue(QueueId::kShadow).size = 0;
   for (uint32_t leg = 0; legs.size > 0 && leg < kMostCrossings; ++leg) {
     RunOn(wave, ray, QueueId::kActive, legs, kernels.closest, kernels.num_closest);
-    SortLegs<Tracking>(wave, leg);
+    SortLegs(wave, leg);
     RunOn(wave, ray, QueueId::kSurface, legs, kernels.surface, kernels.num_surface);
     NextLegs(wave);
   }
   legs.size = 0;
   wave.queue(QueueId::kSurface) = surfaces;
 }
-
-void ShadowThroughRatio(Wave& wave) { ShadowThrough<RatioTracking>(wave); }
-void ShadowThroughDelta(Wave& wave) { ShadowThrough<DeltaTracking>(wave); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lanelight
@@ -130,8 +124,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace lanelight {
 
-HWY_EXPORT(ShadowThroughRatio);
-HWY_EXPORT(ShadowThroughDelta);
+HWY_EXPORT(ShadowThrough);
 
 Stage ShadowThroughStage() {
   const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
@@ -146,10 +139,8 @@ Stage ShadowThroughStage() {
                    FieldSet{Field::medium, Field::prim},
           .writes = fields::kShadow | fields::kShadowRest |
                     FieldSet{Field::b1, Field::b2, Field::inst},
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kDeltaTransmittance)
-                       ? HWY_DYNAMIC_DISPATCH(ShadowThroughDelta)
-                       : HWY_DYNAMIC_DISPATCH(ShadowThroughRatio);
+          .resolve = [](const FeatureSet&) -> StageFn {
+            return HWY_DYNAMIC_DISPATCH(ShadowThrough);
           }};
 }
 

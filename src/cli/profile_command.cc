@@ -38,7 +38,6 @@ RunResult Measure(const ProfileCommandOptions& options, const Job& job,
   run.spp = job.spp;
   run.seed = job.seed;
   run.stop = &stop;
-  if (job.settings.copy_per_node) run.nodes = &NodesOfMachine();
   run.on_progress = [&](const Progress& p) { progress.Update(p); };
   run.profiling.counters = true;
   if (!options.trace.empty()) run.profiling.trace_events = options.trace_events;

@@ -196,8 +196,6 @@ void AddExecutionOptions(CLI::App& command, SceneOptions& options) {
                       options.settings.copied_triangles))
       ->check(CLI::Range(std::uint64_t{0}, kMostCopiedTriangles).description(""))
       ->type_name("N");
-  command.add_flag("--copy-per-node", options.settings.copy_per_node,
-                   "Give each memory node (NUMA) a copy of the scene");
   AddThreadsOption(command, options.threads);
   command
       .add_option("--target", options.target,
@@ -250,7 +248,6 @@ std::string FlagsText(const SceneOptions& options) {
   if (s.copied_triangles != kCopiedTriangles) {
     text += fmt::format(" --copied-triangles {}", s.copied_triangles);
   }
-  if (s.copy_per_node) text += " --copy-per-node";
   if (s.wavefront > 0) text += fmt::format(" --wavefront {}", s.wavefront);
   if (options.threads > 0) text += fmt::format(" --threads {}", options.threads);
   if (!options.target.empty()) text += " --target " + options.target;

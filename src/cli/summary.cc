@@ -65,12 +65,6 @@ std::string SpeedRows(const RunResult& r) {
                                  CountText((closest + shadow) / seconds)));
 }
 
-std::string CopiesText(const RunResult& r, const Job& job) {
-  if (!job.settings.copy_per_node) return "";
-  if (r.scene_copies == 0) return "; one memory node, no copies";
-  return fmt::format("; a copy of the scene in each of {} memory nodes", r.scene_copies);
-}
-
 }  // namespace
 
 std::string ErrorText(const ErrorEstimate& e) {
@@ -152,12 +146,11 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
                           DurationText(job.load_seconds), DurationText(job.build_seconds),
                           Name(job.trees.origin), DurationText(job.trees.seconds),
                           DurationText(r.seconds), DurationText(report.write_seconds)));
-  text +=
-      Row("machine", MachineText(ThisMachine())) +
-      Row("kernels",
-          fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes{}",
-                      CurrentTarget(), CurrentLanes(), MaxThreads(), job.plan.wavefront,
-                      job.plan.bytes_per_path, CopiesText(r, job)));
+  text += Row("machine", MachineText(ThisMachine())) +
+          Row("kernels",
+              fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes",
+                          CurrentTarget(), CurrentLanes(), MaxThreads(),
+                          job.plan.wavefront, job.plan.bytes_per_path));
   return text + "\n" + StageTable(r) + DiffersRow(job.description.notes);
 }
 

@@ -126,17 +126,6 @@ FeatureSet TurnsOn(Distances choice) {
   return {};
 }
 
-FeatureSet TurnsOn(Transmittance choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case Transmittance::k##name:  \
-    return Union(LANELIGHT_OWN_##own(k##name##Transmittance), FeatureSet also);
-    LANELIGHT_TRANSMITTANCES(X)
-#undef X
-  }
-  return {};
-}
-
 FeatureSet TurnsOn(Guiding choice) {
   switch (choice) {
 #define X(name, own, also, ...) \

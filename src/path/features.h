@@ -108,8 +108,6 @@ namespace lanelight {
   LANELIGHT_OWN_FEATURE_##own(k##name##ShadowRoulette, "shadow-roulette=" text)
 #define LANELIGHT_DISTANCES_FEATURE(name, own, also, text, ...) \
   LANELIGHT_OWN_FEATURE_##own(k##name##Distances, "distances=" text)
-#define LANELIGHT_TRANSMITTANCE_FEATURE(name, own, also, text, ...) \
-  LANELIGHT_OWN_FEATURE_##own(k##name##Transmittance, "transmittance=" text)
 #define LANELIGHT_SHADE_FEATURE(name, traits, meaning) X(k##name, meaning)
 
 // X(bit name, meaning), by that name: the lists that this one is made of ask for it.
@@ -122,8 +120,7 @@ namespace lanelight {
   LANELIGHT_CONTROLS(LANELIGHT_CONTROL_FEATURE)                 \
   LANELIGHT_ROULETTES(LANELIGHT_ROULETTE_FEATURE)               \
   LANELIGHT_SHADOW_ROULETTES(LANELIGHT_SHADOW_ROULETTE_FEATURE) \
-  LANELIGHT_DISTANCES(LANELIGHT_DISTANCES_FEATURE)              \
-  LANELIGHT_TRANSMITTANCES(LANELIGHT_TRANSMITTANCE_FEATURE)
+  LANELIGHT_DISTANCES(LANELIGHT_DISTANCES_FEATURE)
 
 enum class Feature : std::uint8_t {
 #define X(name, meaning) name,

@@ -9,7 +9,6 @@
 #include "src/render/identity.h"
 #include "src/render/output.h"
 #include "src/render/saving.h"
-#include "src/wavefront/share.h"
 #include "src/wavefront/tiles.h"
 
 namespace lanelight {
@@ -44,14 +43,6 @@ std::vector<PixelRect> TilesToRender(const Job& job, const Part& part) {
   if (part.count == 1) {
     return MakePartition(job.window, job.OpenEnded() ? kPilotSpp : job.spp, strategy)
         .tiles;
-  }
-  if (strategy.allocation == Allocation::kError) {
-    throw InputError(fmt::format(
-        "--part {}/{}: with allocation=error the samples of a pixel depend on the errors "
-        "of others, which a part does not know: render with several ranks "
-        "(docs/mpi.md), merge whole renders of different seeds, or take "
-        "allocation=uniform",
-        part.index, part.count));
   }
   return TilesOfPart(job.window, part, strategy.MayReuse() ? kReuseTile : 1);
 }
@@ -164,7 +155,7 @@ void Checkpoint::CheckNotTooMany(const Films& films) const {
   if (job_.spp == 0) return;
   const auto check = [&](int x, int y) {
     const std::uint64_t samples = films.film().Samples(x, y);
-    if (samples <= ShareOf(films, x, y).Samples(job_.spp)) return;
+    if (samples <= job_.spp) return;
     throw InputError(
         fmt::format("'{}' has {} samples of pixel {},{}, more than the {} asked for",
                     from_->path(), samples, x, y, job_.spp));

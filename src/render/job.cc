@@ -109,10 +109,9 @@ RunOptions RunOptionsOf(const Job& job, const FilmAccumulator& film) {
   options.spp = job.spp;
   options.seconds = job.seconds;
   options.seed = job.seed;
-  if (job.settings.copy_per_node) options.nodes = &NodesOfMachine();
   if (job.target.Any()) {
-    options.samples_needed = [&](std::uint64_t done) {
-      return SamplesNeeded(job.target, EstimateError(film), done);
+    options.samples_needed = [target = job.target, &film](std::uint64_t done) {
+      return SamplesNeeded(target, EstimateError(film), done);
     };
   }
   return options;

@@ -51,8 +51,7 @@ std::uint64_t FilmBytes(const PixelRect& window, Auxiliary auxiliary,
   // The planes exist twice for a moment: as planes, and packed into the file's bytes.
   const std::uint64_t per_pixel =
       FilmAccumulator::BytesPerPixel(GroupsOf(strategy), auxiliary) +
-      2 * kPlanesPerPixel + 2 * AuxiliaryPerPixel(auxiliary) + ControlPerPixel(strategy) +
-      (strategy.allocation == Allocation::kError ? sizeof(double) : 0);
+      2 * kPlanesPerPixel + 2 * AuxiliaryPerPixel(auxiliary) + ControlPerPixel(strategy);
   return window.pixels() * per_pixel;
 }
 

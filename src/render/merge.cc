@@ -11,7 +11,6 @@
 #include "src/render/identity.h"
 #include "src/render/machine_json.h"
 #include "src/strategy/strategy.h"
-#include "src/wavefront/share.h"
 
 namespace lanelight {
 namespace {
@@ -60,7 +59,6 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
   merged.films = std::make_unique<Films>(SamplePlanes(features),
                                          strategy.coefficient.value_or(1), *merged.film);
   merged.film->set_chance_of_light(merged.head.value("chance_of_light", 1.0));
-  if (file.HasPixels("weights")) merged.films->UseWeights();
 }
 
 // Which pixels files of one seed have already brought, and whose they are.
@@ -224,31 +222,14 @@ class Merger {
     merged.tiles.insert(merged.tiles.end(), input.tiles.begin(), input.tiles.end());
   }
 
-  // Where pixels have shares of the samples, these are told by their mean.
   static void FindSamples(MergedRender& merged) {
-    const Json& spp = merged.head.at("settings").at("spp");
-    const std::uint64_t wanted = spp.is_number() ? spp.get<std::uint64_t>() : 0;
     merged.least = ~std::uint64_t{0};
-    ForPixels(merged, [&](std::uint64_t samples, const Share& share) {
-      const std::uint64_t mean =
-          samples == share.Samples(wanted) ? wanted : share.Mean(samples);
-      merged.least = std::min(merged.least, mean);
-      merged.most = std::max(merged.most, mean);
-    });
-    // The same mean may be known within bounds only.
-    bool even = true;
-    ForPixels(merged, [&](std::uint64_t samples, const Share& share) {
-      even = even && samples == share.Samples(merged.least);
-    });
-    if (even) merged.most = merged.least;
-  }
-
-  template <class Do>
-  static void ForPixels(const MergedRender& merged, Do&& body) {
     for (const PixelRect& t : merged.tiles) {
       for (int y = t.y0; y < t.y1; ++y) {
         for (int x = t.x0; x < t.x1; ++x) {
-          body(merged.film->Samples(x, y), ShareOf(*merged.films, x, y));
+          const std::uint64_t samples = merged.film->Samples(x, y);
+          merged.least = std::min(merged.least, samples);
+          merged.most = std::max(merged.most, samples);
         }
       }
     }

@@ -33,9 +33,8 @@ struct MergedRender {
   std::vector<TrainedTable> tables;
   std::vector<MachineInfo> machines;  // where parts were rendered
   std::uint64_t missing = 0;          // pixels of the window that no file has
-  std::uint64_t least = 0,
-                most = 0;  // samples per pixel; their mean with allocation=error
-  std::vector<std::uint64_t> seeds;  // more than one: of different renders
+  std::uint64_t least = 0, most = 0;  // samples per pixel
+  std::vector<std::uint64_t> seeds;   // more than one: of different renders
 };
 
 /// Reads states, one after the other, into one film. Throws InputError for files that are

@@ -66,8 +66,7 @@ Json SettingsJson(const Job& job, bool half) {
           {"depth", half ? "half" : "float"},
           {"build", BuildName(job.scene.accel.quality)},
           {"copied_triangles", job.settings.copied_triangles},
-          {"threads", MaxThreads()},
-          {"copy_per_node", job.settings.copy_per_node}};
+          {"threads", MaxThreads()}};
 }
 
 Json NotesJson(const Job& job) {
@@ -194,7 +193,6 @@ Json ToJson(const RenderReport& report, const Json& head) {
         {"infinite", r.health.infinite},
         {"negative", r.health.negative}}},
       {"stages", ProfileJson(r.stages)},
-      {"scene_copies", r.scene_copies},
       {"wavefront_bytes", r.wavefront_bytes}};
   json.update(head);
   return json;

@@ -42,8 +42,7 @@ struct RenderSettings {
   std::optional<BuildQuality> build;                  // of the trees over shapes
   TreeSource trees;                                   // where these may be found
   std::uint64_t copied_triangles = kCopiedTriangles;  // as in CompileOptions
-  bool copy_per_node = false;   // the scene, in the memory of each node
-  std::uint32_t wavefront = 0;  // paths; 0 = chosen by the plan
+  std::uint32_t wavefront = 0;                        // paths; 0 = chosen by the plan
   bool aov = false;
   std::optional<Gbuffer> gbuffer;
   bool skip_unsupported = false;

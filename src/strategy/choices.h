@@ -124,17 +124,6 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(Equiangular, STAGE, ({}), "equiangular", "", "points in homogeneous media also uniform in the angle around a light", \
     "f / p, p = (sigma_t T(d) + (1 - T(t)) p_angle(d)) / 2, p_angle = D / (theta (D^2 + (d - d_0)^2))", "Kulla and Fajardo 2012")
 
-#define LANELIGHT_TRANSMITTANCES(X)                                                       \
-  X(Ratio, PLAIN, ({}), "ratio", "", "shadow rays keep the share of null collisions at each one in media that vary (default)", \
-    "prod (1 - sigma_t / sigma_m)", "Novak, Selle and Jarosz 2014")                       \
-  X(Delta, STAGE, ({}), "delta", "", "they end at the first collision that is real", \
-    "1 or 0, 0 with probability sigma_t / sigma_m at each", "Woodcock et al. 1965")
-
-#define LANELIGHT_ALLOCATIONS(X)                                                          \
-  X(Uniform, PLAIN, ({}), "uniform", "", "every pixel has as many samples (default)", "N", "") \
-  X(Error, PLAIN, ({}), "error", "", "more samples where they lower the relative error of the image most", \
-    "N_i ~ sigma_i / sqrt(mean_i^2 + epsilon)", "Neyman 1934")
-
 #define LANELIGHT_GUIDINGS(X)                                                             \
   X(None, PLAIN, ({}), "none", "", "directions by the material alone (default)", "f / p", "") \
   X(Radiance, PLAIN, ({kGuided}), "radiance", "", "directions by the material or by the incident radiance that training passes have found; pilot passes", \
@@ -179,8 +168,6 @@ LANELIGHT_ENUM(LightCandidates, LANELIGHT_LIGHT_CANDIDATE_CHOICES(X));
 LANELIGHT_ENUM(EnvironmentPoints, LANELIGHT_ENVIRONMENT_CHOICES(X));
 LANELIGHT_ENUM(ShadowRoulette, LANELIGHT_SHADOW_ROULETTES(X));
 LANELIGHT_ENUM(Distances, LANELIGHT_DISTANCES(X));
-LANELIGHT_ENUM(Transmittance, LANELIGHT_TRANSMITTANCES(X));
-LANELIGHT_ENUM(Allocation, LANELIGHT_ALLOCATIONS(X));
 LANELIGHT_ENUM(Guiding, LANELIGHT_GUIDINGS(X));
 LANELIGHT_ENUM(Reuse, LANELIGHT_REUSES(X));
 LANELIGHT_ENUM(BlockLayout, LANELIGHT_BLOCK_LAYOUTS(X));

@@ -48,12 +48,6 @@ constexpr ChoiceInfo kChoices[] = {
 #define X(enumerator, ...) ROW("distances", __VA_ARGS__)
     LANELIGHT_DISTANCES(X)
 #undef X
-#define X(enumerator, ...) ROW("transmittance", __VA_ARGS__)
-    LANELIGHT_TRANSMITTANCES(X)
-#undef X
-#define X(enumerator, ...) ROW("allocation", __VA_ARGS__)
-    LANELIGHT_ALLOCATIONS(X)
-#undef X
 #define X(enumerator, ...) ROW("guiding", __VA_ARGS__)
     LANELIGHT_GUIDINGS(X)
 #undef X
@@ -120,10 +114,8 @@ std::string ToText(const Strategy& s) {
   text += fmt::format(",roulette={},light-selection={},seen-lights={}", RouletteText(s),
                       Name(s.light_selection), Name(s.seen_lights));
   return text + LightText(s) +
-         fmt::format(
-             ",distances={},transmittance={},allocation={},guiding={},reuse={},decide={}",
-             Name(s.distances), Name(s.transmittance), Name(s.allocation),
-             Name(s.guiding), ReuseText(s), Name(s.decide));
+         fmt::format(",distances={},guiding={},reuse={},decide={}", Name(s.distances),
+                     Name(s.guiding), ReuseText(s), Name(s.decide));
 }
 
 std::span<const ChoiceInfo> AllChoices() { return kChoices; }
@@ -149,10 +141,6 @@ const char* Name(ShadowRoulette choice) {
   return kShadowRoulettes[static_cast<int>(choice)];
 }
 const char* Name(Distances choice) { return kDistances[static_cast<int>(choice)]; }
-const char* Name(Transmittance choice) {
-  return kTransmittances[static_cast<int>(choice)];
-}
-const char* Name(Allocation choice) { return kAllocations[static_cast<int>(choice)]; }
 const char* Name(Guiding choice) { return kGuidings[static_cast<int>(choice)]; }
 const char* Name(Reuse choice) { return kReuses[static_cast<int>(choice)]; }
 const char* Name(BlockLayout choice) { return kBlockLayouts[static_cast<int>(choice)]; }

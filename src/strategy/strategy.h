@@ -48,8 +48,6 @@ struct Strategy {
   ShadowRoulette shadow_roulette = ShadowRoulette::kNone;
   std::optional<double> shadow_floor;  // of kContribution: least probability of a ray
   Distances distances = Distances::kExponential;
-  Transmittance transmittance = Transmittance::kRatio;
-  Allocation allocation = Allocation::kUniform;
   Guiding guiding = Guiding::kNone;
   Reuse reuse = Reuse::kNone;
   std::uint32_t reused_paths = kDefaultReusedPaths;  // of kBlock
@@ -95,8 +93,6 @@ enum class StrategyKey {
   kEnvironment,
   kShadowRoulette,
   kDistances,
-  kTransmittance,
-  kAllocation,
   kGuiding,
   kReuse,
   kDecide,
@@ -149,8 +145,6 @@ const char* Name(LightCandidates choice);
 const char* Name(EnvironmentPoints choice);
 const char* Name(ShadowRoulette choice);
 const char* Name(Distances choice);
-const char* Name(Transmittance choice);
-const char* Name(Allocation choice);
 const char* Name(Guiding choice);
 const char* Name(Reuse choice);
 const char* Name(BlockLayout choice);

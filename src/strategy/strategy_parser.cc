@@ -16,17 +16,17 @@ namespace {
 
 // By StrategyKey.
 constexpr const char* kKeys[] = {
-    "directions",  "points",          "pairs",       "control",       "c",
-    "roulette",    "light-selection", "seen-lights", "light-points",  "light-candidates",
-    "environment", "shadow-roulette", "distances",   "transmittance", "allocation",
-    "guiding",     "reuse",           "decide"};
+    "directions",  "points",          "pairs",       "control",      "c",
+    "roulette",    "light-selection", "seen-lights", "light-points", "light-candidates",
+    "environment", "shadow-roulette", "distances",   "guiding",      "reuse",
+    "decide"};
 static_assert(std::size(kKeys) == static_cast<std::size_t>(StrategyKey::kCount));
 
 constexpr const char kPlain[] =
     "directions=mis:power,points=independent,pairs=none,control=none,c=optimal,"
     "roulette=none,light-selection=power,seen-lights=paths,light-points=area,"
     "light-candidates=single,environment=plain,shadow-roulette=none,"
-    "distances=exponential,transmittance=ratio,allocation=uniform,guiding=none,"
+    "distances=exponential,guiding=none,"
     "reuse=none,decide=none";
 
 class Parser {
@@ -169,13 +169,6 @@ class Parser {
         return SetShadowRoulette(value);
       case StrategyKey::kDistances:
         strategy_.distances = static_cast<Distances>(Choose(key, value, kDistances));
-        return;
-      case StrategyKey::kTransmittance:
-        strategy_.transmittance =
-            static_cast<Transmittance>(Choose(key, value, kTransmittances));
-        return;
-      case StrategyKey::kAllocation:
-        strategy_.allocation = static_cast<Allocation>(Choose(key, value, kAllocations));
         return;
       case StrategyKey::kGuiding:
         strategy_.guiding = static_cast<Guiding>(Choose(key, value, kGuidings));
@@ -330,8 +323,6 @@ void Apply(const StrategyChanges& changes, Strategy& strategy) {
     strategy.shadow_floor = from.shadow_floor;
   }
   if (has(StrategyKey::kDistances)) strategy.distances = from.distances;
-  if (has(StrategyKey::kTransmittance)) strategy.transmittance = from.transmittance;
-  if (has(StrategyKey::kAllocation)) strategy.allocation = from.allocation;
   if (has(StrategyKey::kGuiding)) strategy.guiding = from.guiding;
   if (has(StrategyKey::kReuse)) {
     strategy.reuse = from.reuse;

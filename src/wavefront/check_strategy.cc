@@ -68,11 +68,6 @@ void CheckReuse(const Strategy& s) {
     Refuse(std::string("reuse=block needs paths that do not split, as with roulette=") +
            Name(s.roulette) + ": use roulette=throughput");
   }
-  if (s.allocation == Allocation::kError) {
-    Refuse(
-        "reuse=block needs pixels with as many samples, which allocation=error does not "
-        "leave them: use allocation=uniform");
-  }
   if (s.control != Control::kNone) {
     Refuse(std::string("control=") + Name(s.control) +
            " needs samples of one path each, which reuse=block does not leave: leave out "
@@ -140,12 +135,6 @@ void NoteMedia(const Checked& c) {
       !c.plan.Has(Feature::kEquiangularDistances)) {
     c.Note("distances=equiangular",
            ": there is no homogeneous medium that scatters, or no light with a place");
-  }
-  if (s.transmittance != Transmittance::kRatio &&
-      !c.plan.Has(Feature::kDeltaTransmittance)) {
-    c.Note("transmittance=delta", c.scene.Has(Feature::kMediumGrids)
-                                      ? ": no light is sampled"
-                                      : ": there is no medium that varies");
   }
 }
 

@@ -45,26 +45,4 @@ void Films::Add(const TileSamples& tile) {
   }
 }
 
-void Films::UseWeights() {
-  weights_.resize(static_cast<std::size_t>(film_.width()) *
-                  static_cast<std::size_t>(film_.height()));
-}
-
-double Films::WeightAt(int x, int y) const {
-  if (weights_.empty()) return 0;
-  return weights_[static_cast<std::size_t>(y - film_.y0()) *
-                      static_cast<std::size_t>(film_.width()) +
-                  static_cast<std::size_t>(x - film_.x0())];
-}
-
-std::vector<MutableStateColumn> Films::Columns() {
-  std::vector<MutableStateColumn> columns = film_.Columns();
-  if (!weights_.empty()) {
-    columns.push_back(MakeStateColumn<double>(
-        "weights", "samples beyond the pilot, over their mean; 0: not known yet",
-        weights_, {}));
-  }
-  return columns;
-}
-
 }  // namespace lanelight

@@ -35,16 +35,9 @@ class Films {
   /// From here on (before any sample) the film responds to light like this.
   void UseResponse(const FilmResponse& response);
 
-  /// From here on (before any sample) pixels have weights (src/wavefront/allocation.h).
-  void UseWeights();
-  /// By pixel of the film, row by row; 0 until they are known. Empty without UseWeights.
-  std::vector<double>& weights() { return weights_; }
-  /// 0 without.
-  double WeightAt(int x, int y) const;
-
   /// All that Add has brought, by pixel of the film, row by row: films of the same
   /// pixels, planes and groups that are given these go on from there.
-  std::vector<MutableStateColumn> Columns();
+  std::vector<MutableStateColumn> Columns() { return film_.Columns(); }
   const FilmAccumulator& film() const { return film_; }
   FilmAccumulator& film() { return film_; }
 
@@ -53,7 +46,6 @@ class Films {
 
   SamplePlanes planes_;
   FilmAccumulator& film_;
-  std::vector<double> weights_;
   std::optional<FilmResponse> response_;
 };
 

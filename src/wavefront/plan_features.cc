@@ -82,7 +82,6 @@ void AddMedia(const Strategy& strategy, const CompiledScene& scene, FeatureSet& 
   f.Add(Feature::kOtherEvents);
   if (!f.Has(Feature::kLights)) return;
   if (HasAnchors(strategy, scene)) f.Add(TurnsOn(strategy.distances));
-  if (f.Has(Feature::kMediumGrids)) f.Add(TurnsOn(strategy.transmittance));
 }
 
 void AddControl(const Strategy& strategy, FeatureSet& f) {

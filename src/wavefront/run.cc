@@ -5,7 +5,6 @@
 #include "src/core/check.h"
 #include "src/core/clock.h"
 #include "src/prepare/groups.h"
-#include "src/scene/rendered_pixels.h"
 #include "src/wavefront/error_looks.h"
 #include "src/wavefront/profile.h"
 #include "src/wavefront/run_parts.h"
@@ -31,7 +30,7 @@ class Runner {
         strategy_(scene, plan, options, crew_, clock_),
         tasks_(scene, strategy_.plan(), strategy_.run(), options, PlannedSpp(options)),
         films_(strategy_.run().planes, scene.strategy.coefficient.value_or(1), film),
-        setting_{scene, options, crew_, clock_, tasks_, films_},
+        setting_{options, crew_, clock_, tasks_, films_},
         looks_(setting_),
         watch_(setting_, looks_),
         parts_(setting_, looks_, watch_) {
@@ -39,9 +38,6 @@ class Runner {
     LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
     films_.UseResponse(scene.film.response);
     LL_CHECK(options.windows.empty() || crew_.ranks() == 1);
-    if (!setting_.allocates()) return;
-    LL_CHECK_EQ(tasks_.pixels(), RenderedPixels(scene.film).pixels());  // no part
-    films_.UseWeights();
   }
 
   /// All of a run.
@@ -76,7 +72,6 @@ void Runner::Start() {
   if (!restored) strategy_.PlanTraining();
   if (crew_.ranks() > 1) {
     // Ranks are told once which tiles there are.
-    if (setting_.allocates()) tasks_.CutIntoCells();
     crew_.Share(
         ToBytes({tasks_.rects(), strategy_.planned_samples(), restored,
                  strategy_.trained(), strategy_.training().changes, strategy_.Tables()}));

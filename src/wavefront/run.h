@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "src/core/hardware_counters.h"
-#include "src/core/memory_nodes.h"
 #include "src/core/untouched.h"
 #include "src/image/accumulator.h"
 #include "src/image/pixel_rect.h"
@@ -63,11 +62,9 @@ struct RunOptions {
   bool keep_roulette = false;
   /// Renders these windows of the image only, all of the same width and height, up to 64.
   /// The film is then a strip in which they lie side by side, in order, from (0, 0) on.
-  /// They have the samples that a render of the whole image gives these pixels, and
-  /// equally many with allocation=error too.
+  /// They have the samples that a render of the whole image gives these pixels.
   std::vector<PixelRect> windows;
-  /// Renders these tiles of the image only, disjoint; empty: all of it. With
-  /// allocation=error all pixels.
+  /// Renders these tiles of the image only, disjoint; empty: all of it.
   std::vector<PixelRect> tiles;
   /// What pilot passes are sized for; 0: kPilotSpp samples of every pixel of the image,
   /// and kLeastPilot at least. With decide=pilot DecidedBy (src/wavefront/training.h), or
@@ -75,8 +72,6 @@ struct RunOptions {
   std::uint64_t planned_samples = 0;
   /// Keeps the state while the run goes on; null: nobody does.
   RunKeeper* keeper = nullptr;
-  /// If set, each of these nodes, where there are several, has a copy of the scene.
-  const MemoryNodes* nodes = nullptr;
   /// Who renders, without `windows`; null: this process alone.
   Crew* crew = nullptr;
 };
@@ -147,7 +142,6 @@ struct RunResult {
   bool stopped_early = false;            // by RunOptions::stop
   std::optional<ControlReport> control;  // of control variates that are fitted
   std::size_t wavefront_bytes = 0;       // all wavefronts and sample buffers together
-  int scene_copies = 0;                  // in memory nodes; 0: none were made
   std::size_t bytes_in_flight = 0;       // live columns of the paths of one wavefront
   // Training (src/wavefront/training.h); its time is part of `seconds`, its samples and
   // rays are not part of those above.

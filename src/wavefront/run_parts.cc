@@ -2,10 +2,6 @@
 
 #include <algorithm>
 
-#include "src/scene/rendered_pixels.h"
-#include "src/wavefront/allocation.h"
-#include "src/wavefront/share.h"
-
 namespace lanelight {
 
 void RunParts::Start() {
@@ -13,10 +9,7 @@ void RunParts::Start() {
   if (budget > 0) pace_.emplace(budget, PaceTasks());
 }
 
-void RunParts::GoOn() {
-  AllocateIfDue();
-  looks_.LookAgain();
-}
+void RunParts::GoOn() { looks_.LookAgain(); }
 
 std::optional<RunPart> RunParts::Next() {
   const std::uint64_t done = setting_.tasks.Done(), limit = setting_.limit();
@@ -26,8 +19,8 @@ std::optional<RunPart> RunParts::Next() {
   RunPart part;
   part.begin = done;
   part.first = done / kSamplesPerSeed * kSamplesPerSeed;
-  part.end = std::min({limit, looks_.After(done), NextDecision(done),
-                       done + round.samples(), part.first + kSamplesPerSeed});
+  part.end = std::min(
+      {limit, looks_.After(done), done + round.samples(), part.first + kSamplesPerSeed});
   part.per_task = round.per_task;
   part.start = std::chrono::steady_clock::now();
   return part;
@@ -37,29 +30,7 @@ void RunParts::Finish(const RunPart& part) {
   if (pace_) pace_->Took(part.end - part.begin, SecondsSince(part.start));
   const bool halfway = 2 * setting_.clock.Elapsed() > setting_.options.seconds;
   if (pace_ && watch_.reserved() == 0 && halfway) TimeFit();
-  AllocateIfDue();
   looks_.LookIfDue(part.end);
-}
-
-// Where pixels begin to differ in their samples.
-std::uint64_t RunParts::NextDecision(std::uint64_t done) const {
-  return setting_.allocates() && done < kAllocationPilot ? kAllocationPilot
-                                                         : kMostSamplesPerPixel;
-}
-
-// What the pilot says is in the films, for a run that goes on later.
-void RunParts::AllocateIfDue() {
-  Tasks& tasks = setting_.tasks;
-  if (!setting_.allocates() || allocated_ || tasks.Done() < kAllocationPilot) return;
-  allocated_ = true;
-  Films& films = setting_.films;
-  if (tasks.IsAt(kAllocationPilot)) {
-    const PixelRect window = RenderedPixels(setting_.scene.film);
-    const int side = CellSide(window);
-    films.weights() = WeighPixels(films.film(), side);
-  }
-  tasks.UseShares(films);
-  if (pace_) pace_->Cut(PaceTasks());
 }
 
 Pace::Tasks RunParts::PaceTasks() const {

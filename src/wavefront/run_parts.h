@@ -1,5 +1,5 @@
-// What a run renders next: parts after which it may look at its error, give pixels other
-// shares of the samples, keep its state, or end.
+// What a run renders next: parts after which it may look at its error, keep its state, or
+// end.
 #pragma once
 
 #include <chrono>
@@ -37,8 +37,6 @@ class RunParts {
   void Finish(const RunPart& part);
 
  private:
-  std::uint64_t NextDecision(std::uint64_t done) const;
-  void AllocateIfDue();
   Pace::Tasks PaceTasks() const;
   Round NextRound() const;
   void TimeFit();
@@ -47,7 +45,6 @@ class RunParts {
   ErrorLooks& looks_;
   RunWatch& watch_;
   std::optional<Pace> pace_;  // with a time budget
-  bool allocated_ = false;    // samples, by their weights
 };
 
 }  // namespace lanelight

@@ -21,7 +21,6 @@ TaskRunner::TaskRunner(const CompiledScene& scene, const Plan& plan,
       workspaces_(static_cast<std::size_t>(ThreadSlots())) {}
 
 void TaskRunner::Begin(const std::vector<PixelRect>& tiles) {
-  if (!copies_) copies_.emplace(scene_, options_.nodes);
   seen_lights_ = SeenLightEdges::Make(scene_, plan_.options, run_);
   if (seen_lights_) seen_lights_->Find(tiles);
 }
@@ -44,7 +43,7 @@ TileWork TaskRunner::SetUp(const TileTask& task, Workspace& space) const {
   work.samples = task.samples;
   work.together = SamplesTogether(scene_, plan_);
   Wave& wave = space.wavefront.wave();
-  wave.scene = &copies_->Here();
+  wave.scene = &scene_;
   wave.rays_closest = wave.rays_shadow = 0;
   wave.health = {};
   return work;
@@ -110,7 +109,6 @@ void TaskRunner::Merge(const PixelRect& place, TaskSamples& samples, Films& film
 }
 
 void TaskRunner::AddCounts(RunResult& result) {
-  result.scene_copies = copies_ ? copies_->count() : 0;
   for (const auto& space : workspaces_) {
     if (space) lanelight::AddCounts(space->wavefront, space->Clock(), result);
   }

@@ -8,7 +8,6 @@
 
 #include "src/wavefront/films.h"
 #include "src/wavefront/run.h"
-#include "src/wavefront/scene_copies.h"
 #include "src/wavefront/seen_lights.h"
 #include "src/wavefront/task_watcher.h"
 #include "src/wavefront/workspace.h"
@@ -52,7 +51,6 @@ class TaskRunner {
   const Plan& plan_;
   const RunParameters& run_;
   const RunOptions& options_;
-  std::optional<SceneCopies> copies_;            // once there are tasks
   std::unique_ptr<SeenLightEdges> seen_lights_;  // null: not apart
   std::vector<std::unique_ptr<Workspace>> workspaces_;
 };

@@ -4,17 +4,13 @@
 #include <utility>
 
 #include "src/core/parallel.h"
-#include "src/scene/rendered_pixels.h"
-#include "src/wavefront/allocation.h"
 #include "src/wavefront/partition.h"
 
 namespace lanelight {
 
 Tasks::Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
              const RunOptions& options, std::uint64_t planned_spp)
-    : scene_(scene),
-      options_(options),
-      planned_spp_(planned_spp),
+    : options_(options),
       partition_(PartitionOf(scene, options, planned_spp)),
       done_(partition_.tiles.size()),
       runner_(scene, plan, run, options) {
@@ -32,45 +28,13 @@ void Tasks::GoOn(const Films& films, const RunCounts& counts) {
   }
 }
 
-void Tasks::CutIntoCells() {
-  const int side = CellSide(RenderedPixels(scene_.film));
-  std::vector<PixelRect> cells;
-  std::vector<std::uint64_t> done;
-  for (std::size_t tile = 0; tile < done_.size(); ++tile) {
-    for (const PixelRect& cell : TilesOf(partition_.tiles[tile], side)) {
-      cells.push_back(cell);
-      done.push_back(done_[tile]);
-    }
-  }
-  partition_.tiles = std::move(cells);
-  partition_.samples = SamplesPerTask(
-      static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side), planned_spp_);
-  done_ = std::move(done);
-  begun_ = false;  // what is known of tiles is of others
-}
-
-void Tasks::UseShares(const Films& films) {
-  CutIntoCells();
-  shares_.clear();
-  for (const PixelRect& tile : partition_.tiles) {
-    shares_.push_back(ShareOf(films, tile.x0, tile.y0));
-  }
-}
-
 std::uint64_t Tasks::Done() const {
-  if (shares_.empty()) return *std::min_element(done_.begin(), done_.end());
-  std::uint64_t least = ~std::uint64_t{0};
-  for (std::size_t tile = 0; tile < done_.size(); ++tile) {
-    least = std::min(least, shares_[tile].Mean(done_[tile]));
-  }
-  return least;
+  return *std::min_element(done_.begin(), done_.end());
 }
 
 bool Tasks::IsAt(std::uint64_t limit) const {
-  for (std::size_t tile = 0; tile < done_.size(); ++tile) {
-    if (done_[tile] != Goal(tile, limit)) return false;
-  }
-  return true;
+  return std::all_of(done_.begin(), done_.end(),
+                     [&](std::uint64_t done) { return done == limit; });
 }
 
 Round Tasks::FullRound() const {
@@ -93,10 +57,9 @@ void Tasks::BeginRound(const RoundWork& work) {
 std::vector<TileRange> Tasks::Behind(std::uint64_t limit) const {
   std::vector<TileRange> ranges;
   for (std::size_t tile = 0; tile < done_.size(); ++tile) {
-    const std::uint64_t end = Goal(tile, limit);
-    if (done_[tile] >= end) continue;
-    ranges.push_back({static_cast<std::uint32_t>(tile), done_[tile], end,
-                      partition_.tiles[tile].pixels() * (end - done_[tile])});
+    if (done_[tile] >= limit) continue;
+    ranges.push_back({static_cast<std::uint32_t>(tile), done_[tile], limit,
+                      partition_.tiles[tile].pixels() * (limit - done_[tile])});
   }
   return ranges;
 }
@@ -124,17 +87,12 @@ void Tasks::Credit(const RunCounts& counts) {
 void Tasks::RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films) {
   BeginRound(work);
   const std::uint64_t limit = work.limit;
-  if (InChunks(limit)) return RunRoundInChunks(limit, watcher, films);
+  // Where there are few tiles for the threads, ranges of samples are rendered at once,
+  // and wait in memory until it is their turn.
+  if (limit - Done() > per_task_) return RunRoundInChunks(limit, watcher, films);
   ParallelFor(partition_.tiles.size(), [&](std::size_t tile) {
-    BringOn({static_cast<std::uint32_t>(tile), done_[tile], Goal(tile, limit), 0},
-            watcher, films);
+    BringOn({static_cast<std::uint32_t>(tile), done_[tile], limit, 0}, watcher, films);
   });
-}
-
-// Where there are few tiles for the threads, ranges of samples are rendered at once, and
-// wait in memory until it is their turn. Tiles that have a large share do not ask for it.
-bool Tasks::InChunks(std::uint64_t limit) const {
-  return limit - Done() > per_task_ && (shares_.empty() || FullRound().chunks > 1);
 }
 
 std::vector<TileRange> Tasks::Chunks(std::uint64_t limit) const {

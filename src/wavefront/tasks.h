@@ -11,7 +11,6 @@
 #include "src/wavefront/hand_out.h"
 #include "src/wavefront/run.h"
 #include "src/wavefront/schedule.h"
-#include "src/wavefront/share.h"
 #include "src/wavefront/task_runner.h"
 #include "src/wavefront/task_watcher.h"
 #include "src/wavefront/tiles.h"
@@ -33,15 +32,9 @@ class Tasks {
   const RunCounts& counts() const { return counts_; }
   /// Begins with films that have samples, and what had been counted for them.
   void GoOn(const Films& films, const RunCounts& counts);
-  /// Makes each cell of allocation=error a tile; larger ones take less time while all
-  /// pixels have as many samples.
-  void CutIntoCells();
-  /// From here on tiles, now cells, have their shares of the samples, by the films'
-  /// weights. Between rounds.
-  void UseShares(const Films& films);
-  /// Samples per pixel that all tiles have, or have their share of.
+  /// Samples per pixel that all tiles have.
   std::uint64_t Done() const;
-  /// All tiles have just (their share of) so many.
+  /// All tiles have just so many.
   bool IsAt(std::uint64_t limit) const;
   /// The round that keeps all threads busy.
   Round FullRound() const;
@@ -55,7 +48,7 @@ class Tasks {
   const std::vector<PixelRect>& rects() const { return partition_.tiles; }
   /// Begins a round: its first sample and samples per task.
   void BeginRound(const RoundWork& work);
-  /// What tiles lack to (their share of) `limit` samples per pixel.
+  /// What tiles lack to `limit` samples per pixel.
   std::vector<TileRange> Behind(std::uint64_t limit) const;
   std::uint64_t Done(std::size_t tile) const { return done_[tile]; }
   /// Brings a tile to `range.end` samples per pixel, in its order, or less far where the
@@ -71,25 +64,18 @@ class Tasks {
   void AddCounts(RunResult& result);
 
  private:
-  std::uint64_t Goal(std::size_t tile, std::uint64_t limit) const {
-    return shares_.empty() ? limit : shares_[tile].Samples(limit);
-  }
-  bool InChunks(std::uint64_t limit) const;
   std::vector<TileRange> Chunks(std::uint64_t limit) const;
   void RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& films);
   void MergeChunks(const std::vector<TileRange>& chunks, Films& films);
   bool RunTask(const TileRange& range, const TaskWatcher& watcher, TaskSamples& out);
   void Merge(std::size_t tile, TaskSamples& task, Films& films);
 
-  const CompiledScene& scene_;
   const RunOptions& options_;
-  std::uint64_t planned_spp_;
   TilePartition partition_;
   std::uint64_t pixel_count_ = 0;
   std::uint64_t first_ = 0;          // of the current round
   std::uint32_t per_task_ = 1;       // of the current round
   std::vector<std::uint64_t> done_;  // samples per pixel of each tile
-  std::vector<Share> shares_;        // of each tile; empty: all the same
   TaskRunner runner_;
   bool begun_ = false;  // the runner knows the tiles
   std::vector<TaskSamples> buffers_;

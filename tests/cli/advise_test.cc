@@ -109,7 +109,6 @@ TEST_CASE("the command that advise prints has the flags that it was given", "[cl
                                         "uniform",
                                         "--copied-triangles",
                                         "0",
-                                        "--copy-per-node",
                                         "--wavefront",
                                         "512"});
   INFO(r.err);
@@ -119,7 +118,7 @@ TEST_CASE("the command that advise prints has the flags that it was given", "[cl
              Contains(" --resolution 32x24 --crop 0,0,16,16 --aov --max-depth 3 "
                       "--seed 7 --scattering uniform --build fast --build-cache '" +
                       (directory / "a cache") +
-                      "' --build-cache-size 1048576 --copied-triangles 0 --copy-per-node "
+                      "' --build-cache-size 1048576 --copied-triangles 0 "
                       "--wavefront 512 --threads 1\n"));
 }
 

@@ -18,8 +18,7 @@ import uuid
 
 SIZE = ["--resolution", "72x56"]
 STRATEGIES = ["points=sobol", "points=independent", "pairs=antithetic", "control=analytic",
-              "control=regression", "roulette=adjoint", "allocation=error",
-              "allocation=error,control=regression"]
+              "control=regression", "roulette=adjoint"]
 INTERRUPTED = 6
 
 

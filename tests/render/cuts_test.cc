@@ -96,19 +96,6 @@ TEST_CASE("cuts: fits within blocks of pixels", "[cuts]") {
   CheckCuts(r, {3, 7});
 }
 
-TEST_CASE("cuts: samples shared out by the error", "[cuts]") {
-  for (const char* strategy :
-       {"allocation=error", "allocation=error,points=independent,control=analytic",
-        "allocation=error,roulette=adjoint"}) {
-    INFO(strategy);
-    KeptRender r = RenderOf("cornell-box", strategy, 48, 40, 40);
-    r.settings.crop = {5, 3, 47, 39};  // cells that the window cuts
-    CheckCuts(r, {});
-  }
-  CheckCuts(RenderOf("cornell-box", "allocation=error,control=regression", 70, 48, 40),
-            {});
-}
-
 TEST_CASE("cuts: 64 parts, auxiliary planes", "[cuts]") {
   KeptRender r = RenderOf("cornell-box", "");
   r.settings.gbuffer = Gbuffer::kCamera;

@@ -80,8 +80,8 @@ TEST_CASE("first vertices in mirrors are apart from those before", "[reuse]") {
 }
 
 TEST_CASE("what reuse=block does not go with is refused", "[reuse]") {
-  for (const char* other : {"roulette=adjoint", "roulette=efficiency",
-                            "control=regression", "allocation=error"}) {
+  for (const char* other :
+       {"roulette=adjoint", "roulette=efficiency", "control=regression"}) {
     INFO(other);
     CHECK_THROWS_AS(
         EstimateWith(Room().description, std::string("reuse=block,") + other, 4, 1),

@@ -69,9 +69,9 @@ render cornell-box.pbrt --resolution 41x33 --spp 4 --strategy reuse=block,direct
 # Paths that split into copies, after a pilot of their own.
 render veach-mis.pbrt --resolution 81x61 --spp 16 --strategy roulette=adjoint
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy roulette=efficiency
-# What learns before the image, or shares its samples out.
+# What learns before the image.
 for strategy in guiding=radiance guiding=radiance,roulette=adjoint \
-  shadow-roulette=contribution allocation=error; do
+  shadow-roulette=contribution; do
   render corridor.pbrt --resolution 81x61 --spp 40 --strategy "$strategy"
 done
 render veach-mis.pbrt --resolution 24x18 --spp 16 --strategy decide=pilot

@@ -100,7 +100,7 @@ Combination FitTo(const SceneDescription& scene, const Combination& combination,
   if (fits()) return fitted;
   if (combination[AxisOf("reuse")] != 0) {
     if (keep_reuse) {
-      for (const char* key : {"control", "roulette", "allocation"}) {
+      for (const char* key : {"control", "roulette"}) {
         fitted[AxisOf(key)] = 0;
       }
       CHECK(fits());

@@ -66,8 +66,8 @@ double Efficiency(const Rendered& r) {
 }  // namespace
 
 TEST_CASE("the pilot plays a milder roulette where late light is most", "[decision]") {
-  // Where samples of a pixel are not as many, paths serve no others.
-  const Rendered r = Decide(Room(0.9, 100), "allocation=error,decide=pilot");
+  // With a control variate paths serve no others.
+  const Rendered r = Decide(Room(0.9, 100), "control=analytic,decide=pilot");
   INFO(r.result.pilot_note);
   CHECK(r.result.roulette == Roulette::kThroughput);
   CHECK(r.result.pilot_changes == "roulette=throughput:0:2:4,decide=none");
@@ -76,7 +76,7 @@ TEST_CASE("the pilot plays a milder roulette where late light is most", "[decisi
                  Catch::Contains("roulette=adjoint"));
   // The image is what it is with that asked for: the pilot leaves nothing behind.
   CHECK(
-      SameImage(r, Decide(Room(0.9, 100), "allocation=error,roulette=throughput:0:2:4")));
+      SameImage(r, Decide(Room(0.9, 100), "control=analytic,roulette=throughput:0:2:4")));
 }
 
 TEST_CASE("the pilot has paths serve their block where light comes by bounces",

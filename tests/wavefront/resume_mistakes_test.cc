@@ -115,19 +115,4 @@ TEST_CASE("a state whose tables do not fit the image is refused", "[resume]") {
   }
 }
 
-TEST_CASE("planted: a run that forgets its weights ends elsewhere", "[resume]") {
-  Request request;
-  request.strategy = "points=sobol,allocation=error";
-  request.spp = 60;
-  const FilmAccumulator whole = Render(request).film;
-  const Rest rest = HalfOf(request, 60);  // after the pilot
-  CHECK(Identical(RestOf(request, rest), whole));
-  Rest damaged = rest;
-  KeptColumn& weights = damaged.columns.back();
-  REQUIRE(weights.name == "weights");
-  std::fill(weights.bytes.begin(), weights.bytes.end(), 0);
-  CHECK_FALSE(weights == rest.columns.back());
-  CHECK_FALSE(Identical(RestOf(request, damaged), whole));
-}
-
 }  // namespace lanelight::resume

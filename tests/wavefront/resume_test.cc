@@ -19,10 +19,7 @@ const char* const kStrategies[] = {
     "points=halton,roulette=adjoint",
     "points=sobol,roulette=efficiency",
     "points=sobol,decide=pilot",
-    "points=sobol,allocation=error",
-    "points=independent,control=analytic,allocation=error",
-    "points=cmj,pairs=antithetic,allocation=error",
-    "points=sobol,control=regression,allocation=error",
+    "points=cmj,pairs=antithetic",
     "points=sobol,shadow-roulette=contribution",
     "points=sobol,reuse=block:16",
     "points=independent,pairs=antithetic,reuse=block:32:compact",
@@ -49,8 +46,7 @@ TEST_CASE("a run in parts ends at the bits of one run, toward more samples too",
     const Rendered parts = RenderInParts(request, ends, rest, pauses, 7);
     CHECK(pauses >= 3);
     CHECK(rest.counts.samples == whole.result.samples);
-    const bool shared = std::string(strategy).find("allocation") != std::string::npos;
-    if (!shared) CHECK(rest.counts.samples == 45 * kWidth * kHeight);
+    CHECK(rest.counts.samples == 45 * kWidth * kHeight);
     CHECK(Identical(parts.film, whole.film));
     CHECK(Same(parts.result, whole.result));
     CHECK(whole.film.Variance(kWidth / 2, kHeight - 1).x > 0);
@@ -60,9 +56,8 @@ TEST_CASE("a run in parts ends at the bits of one run, toward more samples too",
 }
 
 TEST_CASE("a run in parts may want a finer error each time", "[resume]") {
-  for (const char* strategy :
-       {"points=sobol", "points=independent,pairs=antithetic",
-        "points=cmj,control=analytic", "points=sobol,allocation=error"}) {
+  for (const char* strategy : {"points=sobol", "points=independent,pairs=antithetic",
+                               "points=cmj,control=analytic"}) {
     for (double finest : {0.0004, 0.002}) {
       INFO(strategy << ", " << finest);
       Request request;
