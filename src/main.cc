@@ -31,6 +31,7 @@ constexpr const char* kFooter =
     "  lanelight advise scenes/cornell-box.pbrt --time 60 -o box.exr\n"
     "  lanelight plan scenes/glass.pbrt\n"
     "  lanelight profile scenes/glass.pbrt --trace trace.json\n"
+    "  lanelight bench\n"
     "  lanelight strategies\n"
     "  lanelight compare box.exr reference.exr --max-relmse 0.01\n"
     "  lanelight study scenes/cornell-box.pbrt --out box-study\n"
@@ -39,7 +40,7 @@ constexpr const char* kFooter =
     "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
     "samples, 4 compare: over the limit, 5 render: the target error was not reached,\n"
     "6 interrupted, to go on from what is kept, 7 stress: a case failed, 8 render: the\n"
-    "image is not what the scene asks for.";
+    "image is not what the scene asks for, 9 bench: slower than before.";
 
 // CLI11 treats an unknown first word as an unexpected argument; naming the commands
 // helps.
@@ -92,6 +93,7 @@ void AddCommands(CLI::App& root, Crew& crew, Command& chosen) {
   AddGuideCommand(root, chosen);
   AddPlanCommand(root, chosen);
   AddProfileCommand(root, chosen);
+  AddBenchCommand(root, chosen);
   AddInfoCommand(root, chosen);
   AddStrategiesCommand(root, chosen);
   AddMergeCommand(root, chosen);

@@ -18,6 +18,7 @@ void AddAdviseCommand(CLI::App& root, Command& chosen);
 void AddGuideCommand(CLI::App& root, Command& chosen);
 void AddPlanCommand(CLI::App& root, Command& chosen);
 void AddProfileCommand(CLI::App& root, Command& chosen);
+void AddBenchCommand(CLI::App& root, Command& chosen);
 void AddInfoCommand(CLI::App& root, Command& chosen);
 void AddStrategiesCommand(CLI::App& root, Command& chosen);
 void AddMergeCommand(CLI::App& root, Command& chosen);

@@ -106,6 +106,8 @@ void SetStrategyChanges(RenderSettings& settings, const std::string& text) {
   }
 }
 
+}  // namespace
+
 void AddStrategyOptions(CLI::App& command, RenderSettings& s) {
   std::map<std::string, Points> samplers;
   for (int i = 0; i < kNumPoints; ++i) {
@@ -120,8 +122,6 @@ void AddStrategyOptions(CLI::App& command, RenderSettings& s) {
   AddNameOption<Points>(command, "--sampler", s.points, samplers,
                         WithDefault("Sample points", "those of the strategy"));
 }
-
-}  // namespace
 
 void AddSeedOption(CLI::App& command, RenderSettings& s) {
   command

@@ -17,6 +17,7 @@ struct SceneOptions {
 
 /// Declare flags on `command`; what they are stored in must outlive parsing.
 void AddWindowOptions(CLI::App& command, RenderSettings& settings);
+void AddStrategyOptions(CLI::App& command, RenderSettings& settings);
 void AddSeedOption(CLI::App& command, RenderSettings& settings);
 void AddThreadsOption(CLI::App& command, int& threads);
 void AddTransportOptions(CLI::App& command, RenderSettings& settings);

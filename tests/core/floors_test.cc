@@ -61,6 +61,7 @@ constexpr Floor kFloors[] = {
     {"src/estimate",       "errors, when to stop, comparison"},
     {"src/render",         "a job from settings to outputs"},
     {"src/ranks",          "processes that render together"},
+    {"src/throughput",     "how fast scenes render"},
     {"src/sweep",          "grids of renders"},
     {"src/study",          "measuring strategies"},
     {"src/advise",         "choosing one"},

@@ -1,0 +1,168 @@
+// `lanelight bench [SCENE...]`: how fast this machine renders, and whether another
+// program or machine is faster.
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "kernels/simd/target.h"
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/cli/defaults.h"
+#include "src/cli/exit_codes.h"
+#include "src/cli/interrupt.h"
+#include "src/cli/render_outputs.h"
+#include "src/cli/scene_options.h"
+#include "src/cli/validators.h"
+#include "src/core/json_text.h"
+#include "src/core/parallel.h"
+#include "src/render/saving.h"
+#include "src/throughput/bench_scenes.h"
+#include "src/throughput/throughput_table.h"
+
+namespace lanelight {
+namespace {
+
+struct BenchCommandOptions {
+  ThroughputOptions bench;
+  std::string json, csv, markdown, against;
+  double tolerance = 0.05;
+  bool all_targets = false, quiet = false;
+};
+
+constexpr const char* kBenchInterruptText =
+    "\nstopping: what was measured so far is printed (once more to abort)\n";
+
+void Complete(BenchCommandOptions& options) {
+  ThroughputOptions& bench = options.bench;
+  if (bench.scenes.empty()) {
+    for (const BenchScene& scene : BenchScenes()) bench.scenes.push_back(scene.name);
+  }
+  if (options.all_targets) bench.targets = AvailableTargets();
+  if (bench.targets.empty()) bench.targets = {CurrentTarget()};
+  if (bench.threads.empty()) {
+    bench.threads = {1};
+    if (MaxThreads() > 1) bench.threads.push_back(MaxThreads());
+  }
+}
+
+std::vector<ThroughputRow> MeasureRows(const BenchCommandOptions& options) {
+  const InterruptGuard interrupt(kBenchInterruptText);
+  return MeasureThroughput(options.bench, interrupt.stop(), [&](const BenchProgress& p) {
+    if (options.quiet || p.repeats > 0) return;
+    PrintError(fmt::format("measuring {} ({} of {})", p.scene, p.done + 1, p.scenes));
+  });
+}
+
+int Bench(BenchCommandOptions options) {
+  Complete(options);
+  const OutputPaths outputs = {{options.json, options.csv, options.markdown}};
+  CheckOutputPaths(outputs, {options.against});
+  std::optional<KnownThroughput> before;
+  if (!options.against.empty()) before = ReadThroughput(options.against);
+  const std::vector<ThroughputRow> rows = MeasureRows(options);
+  const nlohmann::json json = ToJson(rows);
+  if (options.json != "-") {
+    Print(ThroughputText(rows, options.bench.within, TableStyle::kTerminal));
+  }
+  bool good = true;
+  const auto save = [&](const std::string& path, const std::string& text) {
+    if (!path.empty()) good &= SaveOrPrint(path, text);
+  };
+  save(options.json, DumpJson(json, 1) + "\n");
+  save(options.csv, ThroughputCsv(rows));
+  save(options.markdown,
+       ThroughputText(rows, options.bench.within, TableStyle::kMarkdown));
+  if (!good) return kExitBadInput;
+  if (!before) return kExitGood;
+  const RateComparison comparison = CompareRates(*before, ThroughputFromJson(json));
+  if (options.json != "-") {
+    Print("\n" + ComparisonText(comparison, *before, options.tolerance));
+  }
+  for (const RateRatio& row : comparison.rows) {
+    if (row.Regresses(options.tolerance)) return kExitSlower;
+  }
+  return kExitGood;
+}
+
+void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
+  ThroughputOptions& bench = options.bench;
+  command
+      .add_option("SCENE", bench.scenes,
+                  "Scene files; default: five that are part of the program")
+      ->type_name("");
+  AddWindowOptions(command, bench.settings);
+  command
+      .add_option("--spp", bench.settings.spp,
+                  WithDefault("Samples per pixel of a render",
+                              fmt::format("as many as take {} s", kRunSeconds)))
+      ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
+      ->type_name("N");
+  AddStrategyOptions(command, bench.settings);
+  command
+      .add_option("--threads", bench.threads,
+                  WithDefault("Numbers of threads, one row each", "1, and all cores"))
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("T,...");
+  CLI::Option* targets =
+      command
+          .add_option("--target", bench.targets,
+                      WithDefault("SIMD targets, one row each", "the best there is"))
+          ->delimiter(',')
+          ->transform(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))
+          ->type_name("NAME,...");
+  command.add_flag("--all-targets", options.all_targets, "Measure all SIMD targets")
+      ->excludes(targets);
+  command
+      .add_option(
+          "--within", bench.within,
+          WithDefault("Repeat until medians are known so well, of 1", bench.within))
+      ->check(FiniteRange(1e-4, 1))
+      ->type_name("X");
+  command
+      .add_option("--time", bench.seconds,
+                  WithDefault("Seconds by the clock for each row at most, unless six "
+                              "repeats take longer",
+                              bench.seconds))
+      ->check(FiniteRange(0.01, 1e6))
+      ->type_name("S");
+}
+
+void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
+  command.add_option("--json", options.json, "Write all numbers as JSON ('-': print it)")
+      ->type_name("FILE");
+  command.add_option("--csv", options.csv, "Write one line a row")->type_name("FILE");
+  command.add_option("--markdown", options.markdown, "Write the tables in Markdown")
+      ->type_name("FILE");
+  command
+      .add_option("--against", options.against,
+                  "Compare with JSON of before; a row that is slower beyond doubt makes "
+                  "the exit code 9")
+      ->type_name("FILE");
+  command
+      .add_option("--tolerance", options.tolerance,
+                  WithDefault("Part by which a row may be slower", options.tolerance))
+      ->check(FiniteRange(0, 1))
+      ->type_name("X");
+  command.add_flag("--quiet", options.quiet, "No progress");
+}
+
+}  // namespace
+
+void AddBenchCommand(CLI::App& root, Command& chosen) {
+  CLI::App* command =
+      root.add_subcommand("bench", "Measure samples and rays per second of this machine");
+  auto options = std::make_shared<BenchCommandOptions>();
+  AddBenchOptions(*command, *options);
+  AddBenchOutputs(*command, *options);
+  command->footer(
+      "\nRenders of all rows take turns, so that a machine that slows down slows all of\n"
+      "them. docs/bench.md says what the columns mean, and which scenes these are.\n"
+      "\nExamples:\n"
+      "  lanelight bench --json today.json --markdown today.md\n"
+      "  lanelight bench --against yesterday.json --tolerance 0.03\n"
+      "  lanelight bench scene.pbrt --threads 1,2,4,8 --all-targets");
+  command->callback(
+      [options, &chosen] { chosen = [options] { return Bench(*options); }; });
+}
+
+}  // namespace lanelight

@@ -1,0 +1,221 @@
+#include "src/throughput/throughput.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "kernels/simd/target.h"
+#include "src/core/check.h"
+#include "src/core/parallel.h"
+#include "src/render/job.h"
+#include "src/throughput/bench_scenes.h"
+
+namespace lanelight {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Samples of a pixel in the first render, which tells how many fill kRunSeconds.
+constexpr std::uint64_t kFirstSpp = 4;
+// Rounding, and paths that went another way for it, between targets.
+constexpr double kSameImage = 5e-3;
+
+double Since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Jobs of one scene: kernels of each target want trees of their own.
+struct TargetJob {
+  std::string target;
+  Job job;
+};
+
+double MeanOf(const FilmAccumulator& film) {
+  double sum = 0;
+  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
+    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
+      const Rgb c = film.Mean(x, y);
+      sum += c.x + c.y + c.z;
+    }
+  }
+  return sum / (3.0 * film.width() * film.height());
+}
+
+// Renders it once, and returns the mean of the image.
+double Render(const TargetJob& at, ThroughputRow& row, const std::atomic<bool>& stop) {
+  ForceTarget(at.target);
+  const ThreadLimit limit(row.threads);
+  FilmAccumulator film = MakeFilm(at.job);
+  row.counts = RunJob(at.job, film, {}, &stop);
+  return MeanOf(film);
+}
+
+class SceneBench {
+ public:
+  SceneBench(const ThroughputOptions& options, const std::string& scene)
+      : options_(options), scene_(scene) {
+    for (const std::string& target : options.targets) {
+      ForceTarget(target);
+      jobs_.push_back({target, PrepareJob(ReadBenchScene(scene), options.settings)});
+    }
+    for (const TargetJob& at : jobs_) {
+      for (const int threads : options.threads) rows_.push_back(RowOf(at, threads));
+    }
+  }
+
+  /// Warms caches, checks images, and chooses the number of samples.
+  void Begin(const std::atomic<bool>& stop) {
+    if (!options_.settings.spp) SetSpp(kFirstSpp);
+    double first = 0, fastest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < rows_.size() && !stop; ++i) {
+      const double mean = Render(JobOf(i), rows_[i], stop);
+      if (stop) return;
+      if (i == 0) first = mean;
+      LL_CHECK(std::abs(mean - first) <= kSameImage * std::abs(first) + 1e-9);
+      fastest = std::min(fastest, rows_[i].counts.seconds);
+    }
+    if (options_.settings.spp) return;
+    const double wanted = double(kFirstSpp) * kRunSeconds / std::max(fastest, 1e-6);
+    SetSpp(std::bit_ceil(static_cast<std::uint64_t>(std::clamp(wanted, 1.0, 65536.0))));
+  }
+
+  void Repeat(const std::atomic<bool>& stop) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      Render(JobOf(i), rows_[i], stop);
+      if (stop) return;
+      rows_[i].seconds.push_back(rows_[i].counts.seconds);
+    }
+  }
+
+  double Worst() const {
+    double worst = 0;
+    for (const ThroughputRow& row : rows_) worst = std::max(worst, row.Spread());
+    return worst;
+  }
+  std::vector<ThroughputRow>& rows() { return rows_; }
+
+ private:
+  const TargetJob& JobOf(std::size_t row) const {
+    return jobs_[row / options_.threads.size()];
+  }
+  ThroughputRow RowOf(const TargetJob& at, int threads) const {
+    ThroughputRow row;
+    row.scene = scene_;
+    row.target = at.target;
+    row.strategy = ToText(at.job.scene.strategy);
+    row.threads = threads;
+    row.width = at.job.window.width();
+    row.height = at.job.window.height();
+    row.spp = at.job.spp;
+    row.bytes_per_path = at.job.plan.bytes_per_path;
+    row.wavefront = at.job.plan.wavefront;
+    return row;
+  }
+  void SetSpp(std::uint64_t spp) {
+    for (TargetJob& at : jobs_) at.job.spp = spp;
+    for (ThroughputRow& row : rows_) row.spp = spp;
+  }
+
+  const ThroughputOptions& options_;
+  const std::string scene_;
+  std::vector<TargetJob> jobs_;
+  std::vector<ThroughputRow> rows_;
+};
+
+struct GroupOfStages {
+  const char *begins, *group;
+};
+// By how names of stages begin; what is not here is "other".
+constexpr GroupOfStages kGroups[] = {
+    {"generate", "generate"},    {"camera_", "generate"},
+    {"points_", "generate"},     {"antithetic_", "generate"},
+    {"intersect_", "closest"},   {"shadow_", "shadow"},
+    {"surface_", "surface"},     {"shade_", "shade"},
+    {"texture", "shade"},        {"mix", "shade"},
+    {"light_", "lights"},        {"emission_", "lights"},
+    {"escape", "lights"},        {"connect", "lights"},
+    {"accumulate", "film"},      {"film", "film"},
+    {"task set-up", "generate"}, {"seen lights", "lights seen"}};
+constexpr const char* kGroupNames[] = {"generate",    "closest", "shadow",
+                                       "surface",     "shade",   "lights",
+                                       "lights seen", "film",    "other"};
+
+std::string GroupOf(const std::string& stage) {
+  for (const GroupOfStages& g : kGroups) {
+    if (stage.starts_with(g.begins)) return g.group;
+  }
+  return "other";
+}
+
+}  // namespace
+
+Interval ThroughputRow::Seconds() const {
+  return stat::MedianInterval(seconds, kBenchConfidence);
+}
+
+Interval ThroughputRow::Rate() const {
+  const Interval s = Seconds();
+  const double samples = double(counts.samples);
+  return {samples / s.value, samples / s.high, samples / s.low};
+}
+
+double ThroughputRow::Spread() const {
+  if (seconds.size() < kLeastRepeats) return std::numeric_limits<double>::infinity();
+  const Interval s = Seconds();
+  return (s.high - s.low) / (2 * s.value);
+}
+
+std::vector<StageGroup> StageGroups(const ThroughputRow& row) {
+  std::vector<StageGroup> groups;
+  for (const char* name : kGroupNames) groups.push_back({name});
+  const auto group_of = [&](const StageProfile& s) -> StageGroup& {
+    const std::string name = GroupOf(s.name);
+    return *std::find_if(groups.begin(), groups.end(),
+                         [&](const StageGroup& g) { return name == g.name; });
+  };
+  const double ns = 1e9 / double(row.counts.samples);
+  for (const StageProfile& s : row.counts.stages) {
+    StageGroup& group = group_of(s);
+    group.ns_per_sample += ns * s.seconds;
+    group.items += s.items;
+    group.lane_slots += s.lane_slots;
+  }
+  // What tasks do beside stages has no lanes.
+  for (const StageProfile& s : row.counts.parts) {
+    group_of(s).ns_per_sample += ns * s.seconds;
+  }
+  return groups;
+}
+
+std::vector<ThroughputRow> MeasureThroughput(
+    const ThroughputOptions& options, const std::atomic<bool>& stop,
+    const std::function<void(const BenchProgress&)>& on_progress) {
+  std::vector<ThroughputRow> rows;
+  BenchProgress progress;
+  progress.scenes = options.scenes.size();
+  for (const std::string& scene : options.scenes) {
+    if (stop) break;
+    progress.scene = scene;
+    SceneBench bench(options, scene);
+    bench.Begin(stop);
+    const auto start = Clock::now();
+    const double most = options.seconds * double(bench.rows().size());
+    for (progress.repeats = 0; !stop; ++progress.repeats) {
+      const bool enough = progress.repeats >= kLeastRepeats;
+      if (enough && (bench.Worst() <= options.within || Since(start) >= most)) break;
+      bench.Repeat(stop);
+      progress.worst = bench.Worst();
+      on_progress(progress);
+    }
+    ++progress.done;
+    for (ThroughputRow& row : bench.rows()) {
+      if (!row.seconds.empty()) rows.push_back(std::move(row));
+    }
+  }
+  ForceTarget("");
+  return rows;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,30 @@
+// Two measurements of throughput, of two programs or two machines: which rows are faster.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/throughput/throughput_json.h"
+
+namespace lanelight {
+
+struct RateRatio {
+  std::string row;  // KnownRow::Key()
+  Interval ratio;   // rate of the new one over that of the old
+
+  /// Slower by more than `tolerance`, beyond doubt.
+  bool Regresses(double tolerance) const {
+    return ratio.value < 1 - tolerance && ratio.high < 1;
+  }
+};
+
+struct RateComparison {
+  std::vector<RateRatio> rows;  // of both
+  std::vector<std::string> only_in_one;
+  /// Geometric mean of the ratios; 1 without rows.
+  double Mean() const;
+};
+
+RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput& now);
+
+}  // namespace lanelight

@@ -1,0 +1,87 @@
+#include "src/throughput/throughput_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "src/core/error.h"
+#include "src/core/input_file.h"
+#include "src/core/json_text.h"
+#include "src/core/version.h"
+#include "src/render/machine_json.h"
+
+namespace lanelight {
+namespace {
+
+using Json = nlohmann::json;
+
+Json ToJson(const ThroughputRow& row) {
+  const Interval rate = row.Rate();
+  Json groups = Json::array(), stages = Json::array();
+  for (const StageGroup& g : StageGroups(row)) {
+    groups.push_back(
+        {{"name", g.name}, {"ns_per_sample", g.ns_per_sample}, {"lanes", g.Lanes()}});
+  }
+  for (const StageProfile& s : row.counts.stages) {
+    stages.push_back({{"name", s.name},
+                      {"items", s.items},
+                      {"lanes", s.Occupancy()},
+                      {"ns_per_sample", 1e9 * s.seconds / double(row.counts.samples)}});
+  }
+  return {{"scene", row.scene},
+          {"target", row.target},
+          {"strategy", row.strategy},
+          {"threads", row.threads},
+          {"resolution", {row.width, row.height}},
+          {"spp", row.spp},
+          {"seconds", row.seconds},
+          {"samples", row.counts.samples},
+          {"rays",
+           {{"closest", row.counts.rays_closest}, {"shadow", row.counts.rays_shadow}}},
+          {"samples_per_second",
+           {{"value", rate.value}, {"low", rate.low}, {"high", rate.high}}},
+          {"rays_per_second", double(row.rays()) / row.Seconds().value},
+          {"bytes_per_path", row.bytes_per_path},
+          {"wavefront", row.wavefront},
+          {"groups", groups},
+          {"stages", stages}};
+}
+
+}  // namespace
+
+Json ToJson(const std::vector<ThroughputRow>& rows) {
+  Json out = {{"schema", kBenchSchema},
+              {"machine", ToJson(ThisMachine())},
+              {"program", FullVersion()},
+              {"confidence", kBenchConfidence},
+              {"rows", Json::array()}};
+  for (const ThroughputRow& row : rows) out["rows"].push_back(ToJson(row));
+  return out;
+}
+
+std::string KnownRow::Key() const {
+  return fmt::format("{}, {}, {} thread{}, {}x{}, {}", scene, target, threads,
+                     threads == 1 ? "" : "s", width, height, strategy);
+}
+
+KnownThroughput ThroughputFromJson(const Json& json) {
+  KnownThroughput known;
+  known.machine = json.at("machine").at("text");
+  known.program = json.at("program");
+  for (const Json& row : json.at("rows")) {
+    const Json& rate = row.at("samples_per_second");
+    known.rows.push_back({row.at("scene"),
+                          row.at("target"),
+                          row.at("strategy"),
+                          row.at("threads"),
+                          row.at("resolution").at(0),
+                          row.at("resolution").at(1),
+                          {rate.at("value"), rate.at("low"), rate.at("high")}});
+  }
+  return known;
+}
+
+KnownThroughput ReadThroughput(const std::string& path) {
+  return FromJsonOf(path,
+                    [&] { return ThroughputFromJson(ParseJson(ReadWholeFile(path))); });
+}
+
+}  // namespace lanelight

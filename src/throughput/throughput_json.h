@@ -1,0 +1,35 @@
+// Throughputs as JSON, to be kept, posted, and compared with.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "src/throughput/throughput.h"
+
+namespace lanelight {
+
+/// Changes when a member changes its meaning or goes away, not when one is added.
+inline constexpr int kBenchSchema = 1;
+
+/// Machine, program, and every row with the seconds of all its repeats; docs/bench.md.
+nlohmann::json ToJson(const std::vector<ThroughputRow>& rows);
+
+/// What of a row a comparison needs.
+struct KnownRow {
+  std::string scene, target, strategy;
+  int threads = 0, width = 0, height = 0;
+  Interval rate;  // samples per second
+
+  std::string Key() const;  // of rows that can be compared
+};
+struct KnownThroughput {
+  std::string machine, program;
+  std::vector<KnownRow> rows;
+};
+
+/// Reads what ToJson has written. Throws InputError.
+KnownThroughput ReadThroughput(const std::string& path);
+KnownThroughput ThroughputFromJson(const nlohmann::json& json);
+
+}  // namespace lanelight

@@ -1,0 +1,182 @@
+#include "src/throughput/throughput_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "src/core/machine_info.h"
+#include "src/core/version.h"
+#include "src/render/machine_json.h"
+#include "src/report/csv.h"
+
+namespace lanelight {
+namespace {
+
+using Cells = std::vector<std::string>;
+
+std::string MarkdownLine(const Cells& cells) {
+  std::string line = "|";
+  for (const std::string& cell : cells) line += " " + cell + " |";
+  return line + "\n";
+}
+
+// The first column to the left, numbers to the right.
+std::string Table(const std::vector<Cells>& lines, TableStyle style) {
+  std::string text;
+  if (style == TableStyle::kMarkdown) {
+    text = MarkdownLine(lines[0]) + "|";
+    for (std::size_t c = 0; c < lines[0].size(); ++c) text += c < 2 ? "---|" : "---:|";
+    text += "\n";
+    for (std::size_t i = 1; i < lines.size(); ++i) text += MarkdownLine(lines[i]);
+    return text;
+  }
+  std::vector<std::size_t> widths(lines[0].size());
+  for (const Cells& line : lines) {
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      widths[c] = std::max(widths[c], line[c].size());
+    }
+  }
+  for (const Cells& line : lines) {
+    std::string row;
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      row += c < 2 ? fmt::format("{:<{}}  ", line[c], widths[c])
+                   : fmt::format("{:>{}}  ", line[c], widths[c]);
+    }
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + "\n";
+  }
+  return text;
+}
+
+// Of the same scene and target on one thread; empty without one.
+std::string Scaling(const std::vector<ThroughputRow>& rows, const ThroughputRow& row) {
+  for (const ThroughputRow& one : rows) {
+    if (one.scene == row.scene && one.target == row.target && one.threads == 1) {
+      return fmt::format("{:.2f}", row.Rate().value / one.Rate().value);
+    }
+  }
+  return "";
+}
+
+double Lanes(const ThroughputRow& row) {
+  std::uint64_t items = 0, slots = 0;
+  for (const StageProfile& s : row.counts.stages) {
+    items += s.items;
+    slots += s.lane_slots;
+  }
+  return slots ? double(items) / double(slots) : 0;
+}
+
+std::string Millions(double value) { return fmt::format("{:.3g}", 1e-6 * value); }
+
+Cells RateCells(const std::vector<ThroughputRow>& rows, const ThroughputRow& row) {
+  const double seconds = row.Seconds().value;
+  const std::string spread = std::isfinite(row.Spread())
+                                 ? fmt::format("{:.1f} %", 100 * row.Spread())
+                                 : "unknown";
+  return {row.scene,
+          row.target,
+          std::to_string(row.threads),
+          Millions(row.Rate().value),
+          spread,
+          Scaling(rows, row),
+          Millions(double(row.counts.rays_closest) / seconds),
+          Millions(double(row.counts.rays_shadow) / seconds),
+          fmt::format("{:.0f} %", 100 * Lanes(row)),
+          std::to_string(row.bytes_per_path),
+          std::to_string(row.spp),
+          std::to_string(row.seconds.size())};
+}
+
+// Where the time of a sample goes is the same on several threads, but for the machine.
+std::string GroupTable(const std::vector<ThroughputRow>& rows, TableStyle style) {
+  std::vector<Cells> lines = {{"ns per sample", "target"}};
+  for (const StageGroup& g : StageGroups(rows[0])) lines[0].push_back(g.name);
+  std::set<std::string> seen;
+  for (const ThroughputRow& row : rows) {
+    if (!seen.insert(row.scene + " " + row.target).second) continue;
+    Cells& line = lines.emplace_back(Cells{row.scene, row.target});
+    for (const StageGroup& g : StageGroups(row)) {
+      line.push_back(fmt::format("{:.0f}", g.ns_per_sample));
+    }
+  }
+  return Table(lines, style);
+}
+
+std::string Precision(const std::vector<ThroughputRow>& rows, double within) {
+  double worst = 0;
+  for (const ThroughputRow& row : rows) worst = std::max(worst, row.Spread());
+  if (worst <= within) {
+    return fmt::format("All medians are known within {:.3g} % (95 % intervals).\n",
+                       100 * within);
+  }
+  return fmt::format(
+      "Not all medians are known within {:.3g} %, the worst within {}: the machine is "
+      "not "
+      "quiet, or --time too short.\n",
+      100 * within,
+      std::isfinite(worst) ? fmt::format("{:.2g} %", 100 * worst) : "nothing certain");
+}
+
+}  // namespace
+
+std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within,
+                           TableStyle style) {
+  if (rows.empty()) return "Nothing was measured.\n";
+  std::vector<Cells> lines = {{"scene", "target", "threads", "Msamples/s", "+-",
+                               "scaling", "closest M/s", "shadow M/s", "lanes",
+                               "bytes/path", "spp", "repeats"}};
+  for (const ThroughputRow& row : rows) lines.push_back(RateCells(rows, row));
+  const char* const end = style == TableStyle::kMarkdown ? "\n\n" : "\n";
+  return "machine  " + MachineText(ThisMachine()) + end + "program  " + FullVersion() +
+         "\n\n" + Table(lines, style) + "\n" + GroupTable(rows, style) + "\n" +
+         Precision(rows, within);
+}
+
+std::string ThroughputCsv(const std::vector<ThroughputRow>& rows) {
+  std::string text =
+      "scene,target,threads,width_pixels,height_pixels,spp,repeats,seconds,"
+      "samples_per_second,samples_per_second_low,samples_per_second_high,"
+      "rays_closest_per_second,rays_shadow_per_second,bytes_per_path,strategy," +
+      MachineCsvHeader() + "\n";
+  for (const ThroughputRow& row : rows) {
+    const Interval rate = row.Rate();
+    const double seconds = row.Seconds().value;
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                        CsvField(row.scene), row.target, row.threads, row.width,
+                        row.height, row.spp, row.seconds.size(), seconds, rate.value,
+                        rate.low, rate.high, double(row.counts.rays_closest) / seconds,
+                        double(row.counts.rays_shadow) / seconds, row.bytes_per_path,
+                        CsvField(row.strategy), MachineCsvRow(ThisMachine()));
+  }
+  return text;
+}
+
+std::string ComparisonText(const RateComparison& comparison,
+                           const KnownThroughput& before, double tolerance) {
+  std::string text =
+      "against  " + before.machine + "\n         " + before.program + "\n\n";
+  std::string slower;
+  for (const RateRatio& row : comparison.rows) {
+    const bool regresses = row.Regresses(tolerance);
+    text += fmt::format("{:.3f} [{:.3f}, {:.3f}]  {}{}\n", row.ratio.value, row.ratio.low,
+                        row.ratio.high, row.row, regresses ? "  SLOWER" : "");
+    if (regresses) slower += (slower.empty() ? "" : "; ") + row.row;
+  }
+  for (const std::string& row : comparison.only_in_one) {
+    text += "only in one of them: " + row + "\n";
+  }
+  if (comparison.rows.empty()) return text + "\nNothing can be compared.\n";
+  return text +
+         fmt::format(
+             "\n{} as fast (geometric mean of {}); {}.\n",
+             fmt::format("{:.3g} times", comparison.Mean()), comparison.rows.size(),
+             slower.empty()
+                 ? fmt::format("nothing is slower by more than {:.3g} %", 100 * tolerance)
+                 : "slower: " + slower);
+}
+
+}  // namespace lanelight

@@ -1,0 +1,22 @@
+// Throughputs as tables: for a terminal, in Markdown, and as comma-separated values.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/throughput/throughput_comparison.h"
+
+namespace lanelight {
+
+enum class TableStyle { kTerminal, kMarkdown };
+
+/// Two tables, rates and nanoseconds per sample by kind of stage, below the machine.
+std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within,
+                           TableStyle style);
+/// One line per row, machine included.
+std::string ThroughputCsv(const std::vector<ThroughputRow>& rows);
+/// Ratios by row, and a sentence: which are slower by more than `tolerance`.
+std::string ComparisonText(const RateComparison& comparison,
+                           const KnownThroughput& before, double tolerance);
+
+}  // namespace lanelight

@@ -1,0 +1,91 @@
+// `lanelight bench` from the outside: tables, files, comparisons and their exit codes.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "src/cli/exit_codes.h"
+#include "tests/cli/process.h"
+#include "tests/support/json.h"
+
+namespace lanelight {
+namespace {
+
+using Catch::Contains;
+using test::ReadJson;
+using Json = nlohmann::json;
+
+ProcessResult Bench(const TempDirectory& directory, std::vector<std::string> flags) {
+  std::vector<std::string> arguments = {
+      "bench", WriteSphereScene(directory), "--spp", "2", "--threads", "1", "--time",
+      "0.01"};
+  arguments.insert(arguments.end(), flags.begin(), flags.end());
+  return RunLanelight(arguments);
+}
+
+// The measurement with all rates multiplied.
+std::string Scaled(const std::string& path, double factor, const std::string& to) {
+  Json json = ReadJson(path);
+  for (Json& row : json["rows"]) {
+    for (const char* end : {"value", "low", "high"}) {
+      Json& rate = row["samples_per_second"][end];
+      rate = factor * rate.get<double>();
+    }
+  }
+  return WriteText(to, json.dump());
+}
+
+}  // namespace
+
+TEST_CASE("bench prints rates, and writes what can be posted", "[cli]") {
+  const TempDirectory directory;
+  const ProcessResult r =
+      Bench(directory, {"--json", directory / "b.json", "--csv", directory / "b.csv",
+                        "--markdown", directory / "b.md"});
+  INFO(r.err);
+  REQUIRE(r.exit_code == kExitGood);
+  CHECK_THAT(r.out, Contains("Msamples/s") && Contains("machine") && Contains("lanes"));
+  const Json json = ReadJson(directory / "b.json");
+  CHECK(json.at("schema") == 1);
+  CHECK(json.at("machine").contains("processor"));
+  REQUIRE(json.at("rows").size() == 1);
+  const Json& row = json.at("rows")[0];
+  CHECK(row.at("samples") == 2 * 32 * 24);
+  CHECK(row.at("seconds").size() == 6);
+  CHECK(row.at("samples_per_second").at("value") > 0);
+  std::ifstream csv(directory / "b.csv"), markdown(directory / "b.md");
+  int lines = 0;
+  for (std::string line; std::getline(csv, line);) ++lines;
+  CHECK(lines == 2);
+  std::string text((std::istreambuf_iterator<char>(markdown)), {});
+  CHECK_THAT(text, Contains("| scene | target |") && Contains("|---|---|---:|"));
+}
+
+TEST_CASE("bench says what is slower than before, by its exit code too", "[cli]") {
+  const TempDirectory directory;
+  const std::string path = directory / "b.json";
+  REQUIRE(Bench(directory, {"--json", path}).exit_code == kExitGood);
+  const std::string fast = Scaled(path, 1000, directory / "fast.json");
+  const ProcessResult slower = Bench(directory, {"--against", fast});
+  CHECK(slower.exit_code == kExitSlower);
+  CHECK_THAT(slower.out, Contains("SLOWER"));
+  const std::string slow = Scaled(path, 1e-3, directory / "slow.json");
+  const ProcessResult faster = Bench(directory, {"--against", slow});
+  CHECK(faster.exit_code == kExitGood);
+  CHECK_THAT(faster.out, Contains("nothing is slower"));
+}
+
+TEST_CASE("bench refuses what it cannot read or do", "[cli]") {
+  const TempDirectory directory;
+  const std::string broken = WriteText(directory / "broken.json", "{\"rows\": 1}");
+  const ProcessResult r = Bench(directory, {"--against", broken});
+  CHECK(r.exit_code == kExitBadInput);
+  CHECK_THAT(r.err, Contains("broken.json"));
+  CHECK(Bench(directory, {"--against", directory / "none"}).exit_code == kExitBadInput);
+  CHECK(Bench(directory, {"--within", "0"}).exit_code == kExitUsage);
+  CHECK(Bench(directory, {"--target", "Z80"}).exit_code == kExitUsage);
+  CHECK(Bench(directory, {"--all-targets", "--target", "EMU128"}).exit_code ==
+        kExitUsage);
+  CHECK(RunLanelight({"bench", "no-such.pbrt"}).exit_code == kExitBadInput);
+}
+
+}  // namespace lanelight

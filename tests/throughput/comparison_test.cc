@@ -1,0 +1,52 @@
+// Rates of two measurements: ratios, their intervals, and what counts as slower.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "src/throughput/throughput_comparison.h"
+
+namespace lanelight::test {
+namespace {
+
+KnownThroughput Known(std::vector<Interval> rates) {
+  KnownThroughput known = {"a machine", "a program", {}};
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    known.rows.push_back({"scene", "AVX2", "default", int(i) + 1, 64, 64, rates[i]});
+  }
+  return known;
+}
+
+}  // namespace
+
+TEST_CASE("half widths of the logarithms of two rates add as squares", "[throughput]") {
+  const RateComparison c = CompareRates(Known({{100, 90, 110}}), Known({{50, 45, 56}}));
+  REQUIRE(c.rows.size() == 1);
+  const Interval& ratio = c.rows[0].ratio;
+  CHECK(ratio.value == Approx(0.5));
+  CHECK(std::log(ratio.value / ratio.low) ==
+        Approx(std::hypot(std::log(50.0 / 45), std::log(110.0 / 100))));
+  CHECK(std::log(ratio.high / ratio.value) ==
+        Approx(std::hypot(std::log(56.0 / 50), std::log(100.0 / 90))));
+}
+
+TEST_CASE("slower is what is so beyond doubt, and by more than is allowed",
+          "[throughput]") {
+  const KnownThroughput before = Known({{100, 99, 101}});
+  const auto regresses = [&](Interval now) {
+    return CompareRates(before, Known({now})).rows[0].Regresses(0.05);
+  };
+  CHECK(regresses({90, 89, 91}));
+  CHECK_FALSE(regresses({97, 96.5, 97.5}));  // within the tolerance
+  CHECK_FALSE(regresses({90, 70, 105}));     // not certain
+  CHECK_FALSE(regresses({110, 109, 111}));
+}
+
+TEST_CASE("rows of one measurement alone are named, and not compared", "[throughput]") {
+  const RateComparison c =
+      CompareRates(Known({{1, 1, 1}, {2, 2, 2}}), Known({{3, 3, 3}}));
+  CHECK(c.rows.size() == 1);
+  REQUIRE(c.only_in_one.size() == 1);
+  CHECK(c.only_in_one[0] == "scene, AVX2, 2 threads, 64x64, default");
+  CHECK(c.Mean() == Approx(3));
+}
+
+}  // namespace lanelight::test
