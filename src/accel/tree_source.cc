@@ -1,6 +1,5 @@
 #include "src/accel/tree_source.h"
 
-#include <chrono>
 #include <filesystem>
 #include <system_error>
 
@@ -9,6 +8,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/core/error_text.h"
+#include "src/core/stopwatch.h"
 #include "src/geometry/geometry.h"
 
 namespace lanelight {
@@ -118,11 +118,10 @@ const char* Name(TreeOrigin origin) {
 
 FoundTree FindTree(const Geometry& geometry, const AccelOptions& options,
                    const TreeSource& source) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   FoundTree tree;
   Find(geometry, options, source, tree);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  tree.report.seconds = time.count();
+  tree.report.seconds = watch.Seconds();
   tree.report.bytes = tree.accel.Bytes();
   return tree;
 }

@@ -1,9 +1,9 @@
 #include "src/render/job.h"
 
-#include <chrono>
 #include <utility>
 
 #include "src/core/parallel.h"
+#include "src/core/stopwatch.h"
 #include "src/parse/parse.h"
 #include "src/prepare/chance_of_light.h"
 #include "src/prepare/groups.h"
@@ -14,18 +14,6 @@
 
 namespace lanelight {
 namespace {
-
-class Stopwatch {
- public:
-  double Lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> lap = now - std::exchange(last_, now);
-    return lap.count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 // The compiled scene has its own copy; what reports still need is names and places.
 void ReleaseCopies(SceneDescription& description) {

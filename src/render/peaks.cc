@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 
@@ -12,19 +11,14 @@
 #include "src/core/check.h"
 #include "src/core/hardware_counters.h"
 #include "src/core/huge_pages.h"
+#include "src/core/stopwatch.h"
 #include "src/render/memory.h"
 
 namespace lanelight {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::size_t kKiB = 1024, kMiB = 1024 * kKiB;
 constexpr int kTrials = 5;
-
-double Since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::size_t CacheBytes(int name, std::size_t otherwise) {
   const long bytes = sysconf(name);
@@ -69,9 +63,9 @@ class ReadBuffer {
   }
 
   double Read(std::size_t words, std::size_t passes) const {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const std::uint32_t sum = ReadSum(data_, words, passes);
-    const double taken = Since(start);
+    const double taken = watch.Seconds();
     const std::uint64_t once = std::uint64_t{words} * (words - 1) / 2;
     LL_CHECK_EQ(sum, static_cast<std::uint32_t>(once * passes));
     return std::max(taken, 1e-9);
@@ -89,9 +83,9 @@ void MeasureMultiplyAdds(bool counters, Peaks& peaks) {
   CounterValues before{}, after{};
   for (int trial = 0; trial < kTrials; ++trial) {
     const bool read = counters && group.Read(&before);
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const float x = MultiplyAdds(kIterations, kFactor, kAddend);
-    const double taken = Since(start);
+    const double taken = watch.Seconds();
     LL_CHECK(std::abs(x - 2) < 1e-5f);
     peaks.flops =
         std::max(peaks.flops, double(kIterations) * MultiplyAddsOperations() / taken);
@@ -111,7 +105,7 @@ const MemoryLevel& Peaks::LevelOf(double bytes) const {
 }
 
 Peaks MeasurePeaks(bool counters) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   Peaks peaks;
   MeasureMultiplyAdds(counters, peaks);
   const std::size_t l1 = CacheBytes(_SC_LEVEL1_DCACHE_SIZE, 32 * kKiB);
@@ -130,7 +124,7 @@ Peaks MeasurePeaks(bool counters) {
   // A part that other programs leave to us.
   if (l3 > 2 * l2) add("L3", l3, std::min(l3 / 4, 8 * l2));
   add("memory", machine, far);
-  peaks.seconds = Since(start);
+  peaks.seconds = watch.Seconds();
   return peaks;
 }
 

@@ -1,9 +1,9 @@
 #include "src/render/render.h"
 
-#include <chrono>
 #include <optional>
 
 #include "src/core/json_text.h"
+#include "src/core/stopwatch.h"
 #include "src/image/png.h"
 #include "src/render/identity.h"
 #include "src/render/output.h"
@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
                 const RenderTargets& targets, Saver& saver, RenderReport& report) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   RunCounts counts;
   counts.samples = report.result.samples;
   counts.seconds = report.result.seconds;
@@ -30,8 +30,7 @@ void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
     WritePng(path, FilmImage(film, identity.value("color_space", std::string("srgb"))),
              targets.exposure);
   });
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  report.write_seconds = taken.count();
+  report.write_seconds = watch.Seconds();
 }
 
 std::uint64_t CountUnsampled(const FilmAccumulator& film) {

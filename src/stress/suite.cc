@@ -1,13 +1,12 @@
 #include "src/stress/suite.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 
 #include "kernels/simd/target.h"
-#include "src/core/clock.h"
 #include "src/core/error.h"
+#include "src/core/stopwatch.h"
 
 namespace lanelight::stress {
 namespace {
@@ -46,9 +45,9 @@ std::vector<JudgedPoint> Try(const Case& about, double parameter, const Effort& 
 
 void Measure(const std::string& target, double parameter, const Effort& effort,
              CaseResult& result) {
-  const double start = ProcessCpuSeconds();
+  const Stopwatch watch;
   std::vector<JudgedPoint> points = Try(result.about, parameter, effort);
-  const double each = (ProcessCpuSeconds() - start) / double(points.size());
+  const double each = watch.CpuSeconds() / double(points.size());
   for (JudgedPoint& judged : points) {
     judged.target = target;
     judged.total_seconds = each;
@@ -122,10 +121,8 @@ std::vector<double> ValuesOf(const Case& about, bool full) {
 
 SuiteResult RunSuite(std::span<const Case> cases, const SuiteOptions& options,
                      const SuiteHooks& hooks) {
-  using Clock = std::chrono::steady_clock;
   const TargetGuard guard;
-  const auto start = Clock::now();
-  const double start_cpu = ProcessCpuSeconds();
+  const Stopwatch watch;
   SuiteResult result;
   result.options = options;
   result.options.targets = ResolveTargets(options.targets);
@@ -138,8 +135,8 @@ SuiteResult RunSuite(std::span<const Case> cases, const SuiteOptions& options,
     result.interrupted = !run.Measure(one);
     if (result.interrupted) break;
   }
-  result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  result.cpu_seconds = ProcessCpuSeconds() - start_cpu;
+  result.seconds = watch.Seconds();
+  result.cpu_seconds = watch.CpuSeconds();
   JudgeSuite(result);
   return result;
 }

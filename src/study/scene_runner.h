@@ -1,12 +1,12 @@
 // The renders of a study on one scene.
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "src/core/error.h"
+#include "src/core/stopwatch.h"
 #include "src/study/runs.h"
 #include "src/sweep/claims.h"
 
@@ -26,7 +26,7 @@ class StudyClock {
   void StartScene(double work);
   void Worked(double work) { done_ += work; }
   void FinishScene();
-  double Seconds() const;
+  double Seconds() const { return watch_.Seconds(); }
   /// Of the whole study, in [0, 1].
   double Fraction() const;
   double SecondsLeft() const;
@@ -34,7 +34,7 @@ class StudyClock {
  private:
   double Total() const;
 
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
   std::size_t scenes_left_, scenes_started_ = 0;
   double planned_ = 0, done_ = 0;
   bool started_ = false;

@@ -1,18 +1,18 @@
 #include "src/study/study.h"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 #include <nlohmann/json.hpp>
 
 #include "src/core/json_text.h"
+#include "src/core/stopwatch.h"
 #include "src/image/atomic_file.h"
 #include "src/study/study_images.h"
 
 namespace lanelight {
 
 std::vector<SceneStudy> Study(const StudyOptions& options, const StudyHooks& hooks) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   std::vector<SceneStudy> studies;
   std::vector<ReportImage> images;
   for (SceneRuns& runs : RunStudy(options, hooks)) {
@@ -28,8 +28,7 @@ std::vector<SceneStudy> Study(const StudyOptions& options, const StudyHooks& hoo
   }
   const int scale = ShrinkImages(images, kReportValues);
   for (SceneStudy& study : studies) study.analysis.report_scale = scale;
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  const nlohmann::json json = StudyJson(studies, options, taken.count());
+  const nlohmann::json json = StudyJson(studies, options, watch.Seconds());
   WriteFileAtomically(options.out + "/study.json", DumpJson(json, 2) + "\n");
   WriteFileAtomically(options.out + "/study.csv", StudyCsv(studies));
   WriteFileAtomically(options.out + "/report.html", ReportPage(json, images));

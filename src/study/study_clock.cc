@@ -4,11 +4,6 @@
 
 namespace lanelight {
 
-double StudyClock::Seconds() const {
-  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-  return passed.count();
-}
-
 void StudyClock::StartScene(double work) {
   started_ = true;
   --scenes_left_;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 
+#include "src/core/stopwatch.h"
 #include "src/wavefront/patience.h"
 #include "src/wavefront/task_watcher.h"
 
@@ -19,14 +19,12 @@ class StopWatcher : public TaskWatcher {
   bool Interrupted() const override { return Stopped(); }
   bool PutsDown() const override {
     if (!Stopped()) return false;
-    const std::chrono::duration<double> now = Clock::now() - start_;
-    return patience_.IsOver(true, false, now.count());
+    return patience_.IsOver(true, false, watch_.Seconds());
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
   const std::atomic<bool>* stop_;
-  const Clock::time_point start_ = Clock::now();
+  const Stopwatch watch_;
   mutable Patience patience_;
 };
 
