@@ -16,6 +16,7 @@
 #include "src/core/parallel.h"
 #include "src/render/machine_json.h"
 #include "src/render/report.h"
+#include "src/report/values.h"
 #include "src/advise/advise.h"
 #include "src/advise/candidates.h"
 
@@ -27,13 +28,6 @@ struct AdviseCommandOptions {
   RenderOutputs outputs;
   double seconds = 0, pilot = 0;
 };
-
-std::string EfficiencyText(const AdvisedCandidate& c) {
-  if (c.samples == 0) return "";
-  const Interval& e = c.efficiency;
-  if (!e.HasBounds()) return fmt::format("{:.3g}", e.value);
-  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", e.value, e.low, e.high);
-}
 
 // "skipped    a, b: the trial's time did not reach them; --pilot 2 would".
 std::string SkippedText(const Advice& advice) {
@@ -57,8 +51,9 @@ std::string AdviceText(const Advice& advice) {
     const std::string changes = c.changes.empty()           ? "(the default)"
                                 : c.meaning == kOwnStrategy ? "(the scene's own)"
                                                             : c.changes;
-    text += fmt::format("{:<44} {:<22} {:<8} {}\n", changes, EfficiencyText(c),
-                        Name(c.status), c.reason);
+    text += fmt::format("{:<44} {:<22} {:<8} {}\n", changes,
+                        c.samples > 0 ? EstimateText(c.efficiency) : "", Name(c.status),
+                        c.reason);
   }
   return text +
          fmt::format("\n{}advice     {}\nstrategy   {}\npilot      {}, {:.3g} rays\n",

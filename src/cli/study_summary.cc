@@ -4,29 +4,25 @@
 #include <cmath>
 
 #include "src/cli/progress.h"
+#include "src/report/values.h"
 
 namespace lanelight {
 namespace {
 
 constexpr std::size_t kColumns = 90, kLongestName = 30;
 
-std::string Known(double v, const char* format) {
-  return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "-";
-}
-
-std::string Range(const Interval& v) {
-  if (!v.HasBounds()) return Known(v.value, "{:.3g}");
-  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", v.value, v.low, v.high);
+std::string Known(const Interval& v) {
+  return std::isfinite(v.value) ? EstimateText(v) : "-";
 }
 
 // For intervals about their middle.
 std::string PlusMinus(const Interval& v) {
-  if (!v.HasBounds()) return Known(v.value, "{:.3g}");
+  if (!v.HasBounds()) return Known(v);
   return fmt::format("{:.2f} ±{:.2f}", v.value, v.high - v.value);
 }
 
 std::string Percent(const Interval& v) {
-  if (!v.HasBounds() || !(v.value > 0)) return Known(v.value, "{:.3g}");
+  if (!v.HasBounds() || !(v.value > 0)) return Known(WithoutBounds(v.value));
   return fmt::format("{:.3g} ±{:.0f} %", v.value, 100 * (v.high - v.value) / v.value);
 }
 
@@ -50,7 +46,7 @@ constexpr const char* kStrategyRow =
 std::string Row(const StrategyRuns& runs, const StrategyAnalysis& s) {
   const LevelAnalysis& level = s.AtLevel();
   return fmt::format(fmt::runtime(kStrategyRow), RankText(s.rank), Short(runs.named.name),
-                     level.spp, Range(*s.efficiency), Range(*s.efficiency_trimmed),
+                     level.spp, Known(*s.efficiency), Known(*s.efficiency_trimmed),
                      Percent(level.relmse), DurationText(level.cpu_seconds.value),
                      s.order ? PlusMinus(*s.order) : "-", TargetText(s.to_target),
                      s.heavy_tailed ? "  heavy tail" : "");

@@ -11,7 +11,10 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/estimate/z_scores.h"
+#include "src/image/color_channels.h"
 #include "src/image/variance_unit.h"
+#include "src/report/values.h"
+#include "src/stat/interval.h"
 
 namespace lanelight {
 namespace {
@@ -42,16 +45,10 @@ std::vector<Channel> CommonChannels(const Image& test, const Image& reference) {
   }
   if (channels.empty()) {
     throw InputError(
-        fmt::format("the images share neither R, G, B nor Y: one has {}, the "
-                    "other {}",
+        fmt::format("the images share neither R, G, B nor Y: one has {}, the other {}",
                     fmt::join(test.names, ", "), fmt::join(reference.names, ", ")));
   }
   return channels;
-}
-
-double Value(const Image& image, int x, int y, int channel) {
-  if (!image.is_bytes()) return image.At(x, y, channel);
-  return SrgbToLinear(image.bytes[image.Offset(x, y, channel)] / 255.0);
 }
 
 // Means of the tiles of one channel.
@@ -81,15 +78,6 @@ class TileGrid {
   int tile_, columns_;
   std::vector<Tile> tiles_;
 };
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return kNan;
-  const std::size_t middle = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + middle, values.end());
-  const double upper = values[middle];
-  if (values.size() % 2 == 1) return upper;
-  return (upper + *std::max_element(values.begin(), values.begin() + middle)) / 2;
-}
 
 // Mean without the largest `share` of the values.
 double TrimmedMean(std::vector<double> values, double share) {
@@ -138,8 +126,8 @@ class Comparison {
     std::uint64_t count = 0;
     for (int y = 0; y < test_.height; ++y) {
       for (int x = 0; x < test_.width; ++x) {
-        const double a = Value(test_, x, y, channel.test);
-        const double b = Value(reference_, x, y, channel.reference);
+        const double a = LinearValue(test_, x, y, channel.test);
+        const double b = LinearValue(reference_, x, y, channel.reference);
         result_.invalid_test += !std::isfinite(a);
         result_.invalid_reference += !std::isfinite(b);
         if (!std::isfinite(a) || !std::isfinite(b)) continue;
@@ -163,10 +151,10 @@ class Comparison {
   double Variance(const Channel& channel, int x, int y) const {
     double sum = 0;
     if (channel.test_variance >= 0) {
-      sum += test_unit_ * Value(test_, x, y, channel.test_variance);
+      sum += test_unit_ * LinearValue(test_, x, y, channel.test_variance);
     }
     if (channel.reference_variance >= 0) {
-      sum += reference_unit_ * Value(reference_, x, y, channel.reference_variance);
+      sum += reference_unit_ * LinearValue(reference_, x, y, channel.reference_variance);
     }
     return sum;
   }
@@ -197,7 +185,7 @@ class Comparison {
         tile_errors_.empty()
             ? kNan
             : *std::max_element(tile_errors_.begin(), tile_errors_.end());
-    result_.tile_relmse_median = Median(std::move(tile_errors_));
+    result_.tile_relmse_median = stat::Median(std::move(tile_errors_));
     if (has_variance_) result_.z = z_.Finish();
     return result_;
   }
@@ -214,11 +202,9 @@ class Comparison {
   double squares_ = 0, absolute_ = 0, percentage_ = 0, peak_ = 0;
 };
 
-nlohmann::json Number(double v) { return std::isfinite(v) ? nlohmann::json(v) : nullptr; }
-
 nlohmann::json Numbers(const std::vector<double>& values) {
   nlohmann::json array = nlohmann::json::array();
-  for (double v : values) array.push_back(Number(v));
+  for (double v : values) array.push_back(NumberJson(v));
   return array;
 }
 
@@ -228,11 +214,11 @@ nlohmann::json ToJson(const ZScores& z) {
           {"exact", z.exact},
           {"mismatched", z.mismatched},
           {"invalid", z.invalid},
-          {"mean", Number(z.mean)},
-          {"standard_deviation", Number(z.standard_deviation)},
-          {"beyond_2", Number(z.beyond_2)},
-          {"beyond_3", Number(z.beyond_3)},
-          {"ks_distance", Number(z.ks_distance)}};
+          {"mean", NumberJson(z.mean)},
+          {"standard_deviation", NumberJson(z.standard_deviation)},
+          {"beyond_2", NumberJson(z.beyond_2)},
+          {"beyond_3", NumberJson(z.beyond_3)},
+          {"ks_distance", NumberJson(z.ks_distance)}};
 }
 
 }  // namespace
@@ -257,19 +243,19 @@ nlohmann::json ToJson(const CompareResult& r) {
       {"samples", r.samples},
       {"invalid_test", r.invalid_test},
       {"invalid_reference", r.invalid_reference},
-      {"mse", Number(r.mse)},
-      {"rmse", Number(r.rmse)},
-      {"mae", Number(r.mae)},
-      {"relmse", Number(r.relmse)},
-      {"relmse_trimmed", Number(r.relmse_trimmed)},
+      {"mse", NumberJson(r.mse)},
+      {"rmse", NumberJson(r.rmse)},
+      {"mae", NumberJson(r.mae)},
+      {"relmse", NumberJson(r.relmse)},
+      {"relmse_trimmed", NumberJson(r.relmse_trimmed)},
       {"relmse_filtered", Numbers({r.relmse_filtered.begin(), r.relmse_filtered.end()})},
-      {"mape", Number(r.mape)},
-      {"psnr", Number(r.psnr)},
+      {"mape", NumberJson(r.mape)},
+      {"psnr", NumberJson(r.psnr)},
       {"mean_test", Numbers(r.mean_test)},
       {"mean_reference", Numbers(r.mean_reference)},
       {"mean_ratio", Numbers(r.mean_ratio)},
-      {"tile_relmse_median", Number(r.tile_relmse_median)},
-      {"tile_relmse_max", Number(r.tile_relmse_max)},
+      {"tile_relmse_median", NumberJson(r.tile_relmse_median)},
+      {"tile_relmse_max", NumberJson(r.tile_relmse_max)},
       {"z", ToJson(r.z)}};
 }
 

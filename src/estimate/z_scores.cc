@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "src/stat/distributions.h"
 
 namespace lanelight {
-namespace {
-
-double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
-
-}  // namespace
 
 void ZCollector::Add(double difference, double variance) {
   if (!std::isfinite(variance) || variance < 0) {
@@ -47,7 +43,7 @@ double ZCollector::KsDistance() {
   const double n = static_cast<double>(z_.size());
   double distance = 0;
   for (std::size_t i = 0; i < z_.size(); ++i) {
-    const double cdf = NormalCdf(z_[i]);
+    const double cdf = stat::NormalCdf(z_[i]);
     distance = std::max({distance, cdf - i / n, (i + 1) / n - cdf});
   }
   return distance;

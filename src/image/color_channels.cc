@@ -18,6 +18,11 @@ std::optional<std::array<int, 3>> ColorChannels(const Image& image) {
   return {{grey, grey, grey}};
 }
 
+double LinearValue(const Image& image, int x, int y, int channel) {
+  if (!image.is_bytes()) return image.At(x, y, channel);
+  return SrgbToLinear(image.bytes[image.Offset(x, y, channel)] / 255.0);
+}
+
 std::string NoColorChannels(const Image& image) {
   return fmt::format(
       "its channels ({}) are no colour; supported are R, G and B, or a grey one: Y, or a "

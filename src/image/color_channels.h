@@ -14,6 +14,9 @@ namespace lanelight {
 /// X or RY and BY Y is a part of one.
 std::optional<std::array<int, 3>> ColorChannels(const Image& image);
 
+/// A sample; one of a byte is decoded as sRGB.
+double LinearValue(const Image& image, int x, int y, int channel);
+
 /// For errors where there are none: what the image has, and what would do.
 std::string NoColorChannels(const Image& image);
 

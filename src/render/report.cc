@@ -1,6 +1,5 @@
 #include "src/render/report.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
@@ -8,6 +7,7 @@
 #include "src/prepare/chance_of_light.h"
 #include "src/prepare/groups.h"
 #include "src/render/machine_json.h"
+#include "src/report/values.h"
 #include "src/scene/image_changes.h"
 
 namespace lanelight {
@@ -16,11 +16,6 @@ namespace {
 using Json = nlohmann::json;
 
 // An end that is not known is null.
-Json IntervalJson(const Interval& v) {
-  const auto end = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
-  return {{"value", v.value}, {"low", end(v.low)}, {"high", end(v.high)}};
-}
-
 Json StageJson(const StageProfile& s, double total) {
   return {{"name", s.name},
           {"calls", s.calls},

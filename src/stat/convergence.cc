@@ -85,12 +85,6 @@ Repetitions ToRepetitions(std::span<const Level> levels) {
   return out;
 }
 
-double Mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (double v : values) sum += v;
-  return sum / static_cast<double>(values.size());
-}
-
 // Ascending, without levels that have no logarithm.
 std::vector<Level> Usable(std::span<const Level> levels) {
   std::vector<Level> out;

@@ -4,11 +4,6 @@
 
 namespace lanelight::stat {
 
-/// Regularised incomplete gamma functions P(a, x) and Q(a, x) = 1 - P, a > 0, x >= 0.
-/// Relative error below 1e-12 for a <= 1e4.
-double GammaP(double a, double x);
-double GammaQ(double a, double x);
-
 /// Regularised incomplete beta function I_x(a, b), a, b > 0, 0 <= x <= 1. Relative error
 /// below 1e-11 for a, b <= 1e4.
 double BetaI(double a, double b, double x);
@@ -23,24 +18,12 @@ double NormalQuantile(double p);
 /// P(|T| >= |t|) of Student's t with nu > 0 degrees of freedom (need not be whole, may be
 /// infinite).
 double StudentTwoSided(double t, double nu);
-/// P(T <= t).
-double StudentCdf(double t, double nu);
 /// The t >= 0 with StudentTwoSided(t, nu) = p, 0 < p <= 1 (relative error 1e-10).
 double StudentTwoSidedQuantile(double p, double nu);
-
-/// P(X >= x) of chi-square with nu degrees of freedom.
-double ChiSquareSurvival(double x, double nu);
-/// The x with P(X <= x) = p, 0 < p < 1, nu > 0 (relative error 1e-10).
-double ChiSquareQuantile(double p, double nu);
 
 /// The f with P(F <= f) = p of Snedecor's F with d1 and d2 degrees of freedom, 0.1 to 1e9
 /// each, 0 < p < 1. Relative error 1e-9 up to 1e4 degrees, 1e-7 beyond. Infinite or 0
 /// where f leaves the range of double.
 double FQuantile(double p, double d1, double d2);
-
-/// P(D_n >= d) of the two-sided Kolmogorov-Smirnov statistic of n samples. Kolmogorov's
-/// series with Stephens' (1970) correction sqrt(n) + 0.12 + 0.11 / sqrt(n): within 0.01
-/// absolute for n >= 10, and within 20 % relative down to 1e-4.
-double KolmogorovSurvival(double d, int n);
 
 }  // namespace lanelight::stat

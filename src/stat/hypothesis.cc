@@ -49,16 +49,4 @@ double SidakLevel(double family, int n) {
   return -std::expm1(std::log1p(-family) / n);
 }
 
-double KsUniformPValue(std::vector<double> values) {
-  LL_CHECK(!values.empty());
-  std::sort(values.begin(), values.end());
-  const double n = static_cast<double>(values.size());
-  double d = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double below = static_cast<double>(i) / n;
-    d = std::max({d, values[i] - below, below + 1 / n - values[i]});
-  }
-  return KolmogorovSurvival(d, static_cast<int>(values.size()));
-}
-
 }  // namespace lanelight::stat

@@ -25,7 +25,4 @@ double WelchPValue(const MeanEstimate& a, const MeanEstimate& b, double toleranc
 /// probability `family`. Conservative for positively dependent tests.
 double SidakLevel(double family, int n);
 
-/// p-value of the Kolmogorov-Smirnov test that `values` are uniform on [0, 1].
-double KsUniformPValue(std::vector<double> values);
-
 }  // namespace lanelight::stat

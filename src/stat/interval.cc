@@ -1,6 +1,7 @@
 #include "src/stat/interval.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "src/core/check.h"
@@ -18,6 +19,17 @@ Interval Wilson(double p, double n, double z) {
 }
 
 }  // namespace
+
+double Median(std::vector<double> values) {
+  const std::size_t n = values.size();
+  if (n == 0) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  return (values[(n - 1) / 2] + values[n / 2]) / 2;
+}
+
+double Mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
 
 Interval MeanInterval(std::span<const double> values, double confidence) {
   LL_CHECK(confidence > 0 && confidence < 1);

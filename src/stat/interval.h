@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace lanelight {
 
@@ -27,6 +28,10 @@ namespace stat {
 /// Mean of independent values with Student's t interval; without bounds for fewer than
 /// two values, NaN for none. `confidence` in (0, 1), here and below.
 Interval MeanInterval(std::span<const double> values, double confidence);
+
+/// NaN for none, as the next.
+double Median(std::vector<double> values);
+double Mean(std::span<const double> values);
 
 /// Median with the interval between two order statistics whose coverage is at least
 /// `confidence` for any continuous distribution; the whole range where the values are too

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "src/image/atomic_file.h"
 #include "src/render/machine_json.h"
 #include "src/report/page.h"
+#include "src/report/values.h"
 #include "src/stress/efficiency.h"
 
 namespace lanelight::stress {
@@ -22,30 +22,28 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json Number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
-
 Json VerdictJson(const PointVerdict& v) {
   return {{"good", v.good()},
           {"fault", Name(v.fault)},
           {"why", v.why},
-          {"z", Number(v.z)},
-          {"allowance", Number(v.allowance)},
-          {"detectable", Number(v.detectable)},
+          {"z", NumberJson(v.z)},
+          {"allowance", NumberJson(v.allowance)},
+          {"detectable", NumberJson(v.detectable)},
           {"weak", v.weak}};
 }
 
 Json PointJson(const JudgedPoint& judged) {
   const Point& p = judged.point;
   return {{"target", judged.target},
-          {"parameter", Number(p.parameter)},
+          {"parameter", NumberJson(p.parameter)},
           {"series", p.series},
           {"promised", judged.promised},
-          {"expected", Number(p.expected)},
-          {"measured", Number(p.measured)},
-          {"standard_error", Number(p.standard_error)},
-          {"degrees_of_freedom", Number(p.degrees_of_freedom)},
-          {"tolerance", Number(p.tolerance)},
-          {"scale", Number(ScaleOf(p))},
+          {"expected", NumberJson(p.expected)},
+          {"measured", NumberJson(p.measured)},
+          {"standard_error", NumberJson(p.standard_error)},
+          {"degrees_of_freedom", NumberJson(p.degrees_of_freedom)},
+          {"tolerance", NumberJson(p.tolerance)},
+          {"scale", NumberJson(ScaleOf(p))},
           {"failures", p.failures},
           {"trials", p.trials},
           {"invalid", p.invalid},
@@ -53,16 +51,12 @@ Json PointJson(const JudgedPoint& judged) {
           {"rays", p.rays},
           {"lanes_used", p.lanes_used},
           {"lane_slots", p.lane_slots},
-          {"seconds", Number(p.seconds)},
-          {"total_seconds", Number(judged.total_seconds)},
+          {"seconds", NumberJson(p.seconds)},
+          {"total_seconds", NumberJson(judged.total_seconds)},
           {"refused", p.refused},
           {"not_measured", p.not_measured},
           {"crash", judged.crash},
           {"verdict", VerdictJson(judged.verdict)}};
-}
-
-Json IntervalJson(const Interval& x) {
-  return {{"value", Number(x.value)}, {"low", Number(x.low)}, {"high", Number(x.high)}};
 }
 
 Json PointsJson(const CaseResult& result, bool strategies) {
@@ -70,8 +64,7 @@ Json PointsJson(const CaseResult& result, bool strategies) {
   for (const JudgedPoint& judged : result.points) {
     Json point = PointJson(judged);
     if (strategies) {
-      const auto efficiency = RelativeEfficiency(result, judged);
-      point["efficiency"] = efficiency ? IntervalJson(*efficiency) : Json();
+      point["efficiency"] = IntervalJson(RelativeEfficiency(result, judged));
     }
     points.push_back(std::move(point));
   }
@@ -82,13 +75,13 @@ Json AxisJson(const Axis& axis) {
   return {{"name", axis.name},
           {"unit", axis.unit},
           {"logarithmic", axis.logarithmic},
-          {"promised_low", Number(axis.promised_low)},
-          {"promised_high", Number(axis.promised_high)}};
+          {"promised_low", NumberJson(axis.promised_low)},
+          {"promised_high", NumberJson(axis.promised_high)}};
 }
 
 Json BreakJson(const BreakPlace& place) {
   return {{"target", place.target},     {"series", place.series},
-          {"above", place.above},       {"parameter", Number(place.parameter)},
+          {"above", place.above},       {"parameter", NumberJson(place.parameter)},
           {"fault", Name(place.fault)}, {"why", place.why}};
 }
 
@@ -108,7 +101,7 @@ Json CaseJson(const CaseResult& result) {
                {"failed", result.failed},
                {"weak", result.weak},
                {"not_measured", result.not_measured},
-               {"detectable", Number(result.detectable)},
+               {"detectable", NumberJson(result.detectable)},
                {"worst", result.worst < 0 ? Json() : Json(result.worst)},
                {"strategies", strategies},
                {"baseline", strategies ? Json(BaselineOf(result)) : Json()},

@@ -169,6 +169,8 @@ std::string CalibrationText(const SceneRuns& runs, const SceneAnalysis& analysis
 std::string Verdict(const SceneRuns& runs, const SceneAnalysis& analysis);
 /// The verdict's sentences about bias; may be empty.
 std::string BiasText(const SceneRuns& runs, const SceneAnalysis& analysis);
+/// Puts a sentence, which may be empty, behind what there is.
+void AddSentence(const std::string& sentence, std::string& text);
 /// "A, B and C"; "7 strategies" of more than `most`.
 std::string NamesText(const SceneRuns& runs, const std::vector<std::size_t>& strategies,
                       std::size_t most = kMostNames);

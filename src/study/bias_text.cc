@@ -1,83 +1,64 @@
 // What a study's tests of bias say, in words.
+#include <algorithm>
+
 #include "src/study/analysis.h"
 
 namespace lanelight {
 namespace {
 
-class BiasSentences {
- public:
-  BiasSentences(const SceneRuns& runs, const SceneAnalysis& analysis)
-      : runs_(runs), analysis_(analysis) {}
+// Heavy-tailed strategies are not tested.
+bool AnyHeavy(const SceneAnalysis& analysis) {
+  return std::any_of(analysis.strategies.begin(), analysis.strategies.end(),
+                     [](const StrategyAnalysis& s) { return s.heavy_tailed; });
+}
 
-  std::string Text() {
-    Images();
-    Tiles();
-    Reference();
-    return text_;
+std::string ImagesText(const SceneRuns& runs, const SceneAnalysis& analysis) {
+  if (!analysis.biased.empty()) {
+    return fmt::format(
+        "The mean image of {} differs from the reference by more than noise (level {:g} "
+        "for all tests together).",
+        NamesText(runs, analysis.biased), analysis.bias_level);
   }
+  if (analysis.bias_tests == 0 || !analysis.biased_alike.empty()) return "";
+  return fmt::format(
+      "No {}mean image differs from the reference by more than noise ({} test{}).",
+      AnyHeavy(analysis) ? "other " : "", analysis.bias_tests,
+      analysis.bias_tests == 1 ? "" : "s");
+}
 
- private:
-  void Say(const std::string& sentence) {
-    text_ += (text_.empty() ? "" : " ") + sentence;
+std::string TilesText(const SceneRuns& runs, const SceneAnalysis& analysis) {
+  std::vector<std::size_t> differing;
+  for (std::size_t i = 0; i < analysis.strategies.size(); ++i) {
+    const std::optional<TileTest>& tiles = analysis.strategies[i].tiles;
+    if (tiles && !tiles->failed.empty()) differing.push_back(i);
   }
+  if (differing.empty()) return "";
+  return "Parts of the image differ by more than noise for " +
+         NamesText(runs, differing) + ".";
+}
 
-  // Heavy-tailed strategies are not tested.
-  bool AnyHeavy() const {
-    for (const StrategyAnalysis& s : analysis_.strategies) {
-      if (s.heavy_tailed) return true;
-    }
-    return false;
-  }
+std::string ReferenceText(const SceneRuns& runs, const SceneAnalysis& analysis) {
+  if (analysis.biased_alike.empty()) return "";
+  return fmt::format(
+      "The mean image of {} differs from the reference by more than noise, but not from "
+      "those of the others: that points at the reference.",
+      NamesText(runs, analysis.biased_alike));
+}
 
-  void Images() {
-    if (!analysis_.biased.empty()) {
-      return Say(
-          fmt::format("The mean image of {} differs from the reference by more than "
-                      "noise (level {:g} "
-                      "for all tests together).",
-                      NamesText(runs_, analysis_.biased), analysis_.bias_level));
-    }
-    if (analysis_.bias_tests == 0 || !analysis_.biased_alike.empty()) return;
-    Say(
-        fmt::format("No {}mean image differs from the reference by more than noise ({} "
-                    "test{}).",
-                    AnyHeavy() ? "other " : "", analysis_.bias_tests,
-                    analysis_.bias_tests == 1 ? "" : "s"));
-  }
-
-  void Tiles() {
-    std::vector<std::size_t> differing;
-    for (std::size_t i = 0; i < analysis_.strategies.size(); ++i) {
-      const std::optional<TileTest>& tiles = analysis_.strategies[i].tiles;
-      if (tiles && !tiles->failed.empty()) differing.push_back(i);
-    }
-    if (differing.empty()) return;
-    Say("Parts of the image differ by more than noise for " +
-        NamesText(runs_, differing) + ".");
-  }
-
-  void Reference() {
-    if (!analysis_.biased_alike.empty()) {
-      Say(
-          fmt::format("The mean image of {} differs from the reference by more than "
-                      "noise, but not from those of the others: that points at the "
-                      "reference.",
-                      NamesText(runs_, analysis_.biased_alike)));
-    }
-    const std::size_t tiles = analysis_.suspect_tiles.size();
-    if (tiles == 0) return;
-    Say(
-        fmt::format("In {} tile{} of the image the strategies agree with each other and "
-                    "not with the reference, which is less sure there than it says.",
-                    tiles, tiles == 1 ? "" : "s"));
-  }
-
-  const SceneRuns& runs_;
-  const SceneAnalysis& analysis_;
-  std::string text_;
-};
+std::string SuspectTilesText(const SceneAnalysis& analysis) {
+  const std::size_t tiles = analysis.suspect_tiles.size();
+  if (tiles == 0) return "";
+  return fmt::format(
+      "In {} tile{} of the image the strategies agree with each other and not with the "
+      "reference, which is less sure there than it says.",
+      tiles, tiles == 1 ? "" : "s");
+}
 
 }  // namespace
+
+void AddSentence(const std::string& sentence, std::string& text) {
+  text += (text.empty() || sentence.empty() ? "" : " ") + sentence;
+}
 
 std::string NamesText(const SceneRuns& runs, const std::vector<std::size_t>& strategies,
                       std::size_t most) {
@@ -91,7 +72,12 @@ std::string NamesText(const SceneRuns& runs, const std::vector<std::size_t>& str
 }
 
 std::string BiasText(const SceneRuns& runs, const SceneAnalysis& analysis) {
-  return BiasSentences(runs, analysis).Text();
+  std::string text;
+  AddSentence(ImagesText(runs, analysis), text);
+  AddSentence(TilesText(runs, analysis), text);
+  AddSentence(ReferenceText(runs, analysis), text);
+  AddSentence(SuspectTilesText(analysis), text);
+  return text;
 }
 
 }  // namespace lanelight

@@ -16,12 +16,6 @@ std::vector<double> Collect(const std::vector<Measurement>& all, Get&& get) {
   return values;
 }
 
-double Mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (double v : values) sum += v;
-  return sum / double(values.size());
-}
-
 // A squared error is not negative, whatever its t interval says. (Its estimate may be,
 // where the reference's own error was subtracted.)
 Interval NotNegative(Interval v) {
@@ -127,16 +121,10 @@ void CountRays(const std::vector<Measurement>& all, LevelAnalysis& level) {
 
 }  // namespace
 
-// Mean over pixels and channels of the reference, and the variance of that mean; the
-// channels of a pixel are taken as fully dependent. How many samples make a pixel's
-// variance is not known: one degree of freedom each.
 stat::MeanEstimate ReferenceMean(const Reference& reference) {
   std::vector<stat::MeanEstimate> pixels;
   for (std::size_t i = 0; i < reference.mean.size(); ++i) {
-    const Rgb& m = reference.mean[i];
-    const Rgb v = reference.Variance(i);
-    const double deviation = (std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z)) / 3;
-    pixels.push_back({(m.x + m.y + m.z) / 3, deviation * deviation, 1});
+    pixels.push_back(reference.GreyEstimate(i));
   }
   return stat::Average(pixels);
 }
@@ -146,9 +134,8 @@ stat::MeanEstimate ReferenceMean(const Reference& reference) {
 // of a few repetitions.
 stat::MeanEstimate ImageMean(const Moments& moments) {
   std::vector<stat::MeanEstimate> pixels;
-  const double n = double(moments.count());
   for (std::size_t i = 0; i < moments.size(); ++i) {
-    pixels.push_back({moments.GreyMean(i), moments.GreyVariance(i) / n, n - 1});
+    pixels.push_back(moments.GreyEstimate(i));
   }
   return stat::Average(pixels);
 }
@@ -170,9 +157,9 @@ LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
   level.relmse_8 = interval([](const Measurement& m) { return m.relmse_8; });
   level.mape = interval([](const Measurement& m) { return m.mape; });
   level.worst_share =
-      Mean(Collect(all, [](const Measurement& m) { return m.worst_share; }));
+      stat::Mean(Collect(all, [](const Measurement& m) { return m.worst_share; }));
   const double raw =
-      Mean(Collect(all, [](const Measurement& m) { return m.raw_relmse; }));
+      stat::Mean(Collect(all, [](const Measurement& m) { return m.raw_relmse; }));
   level.reference_share = raw > 0 ? (raw - level.relmse.value) / raw : 0;
   level.cpu_seconds = stat::MedianInterval(
       Collect(all, [](const Measurement& m) { return m.cpu_seconds; }), confidence);

@@ -6,12 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "src/render/machine_json.h"
+#include "src/report/values.h"
 
 namespace lanelight {
 namespace {
 
 nlohmann::json Value(std::uint64_t v) { return v; }
-nlohmann::json Value(double v) { return std::isfinite(v) ? nlohmann::json(v) : nullptr; }
+nlohmann::json Value(double v) { return NumberJson(v); }
 
 std::string Text(std::uint64_t v) { return std::to_string(v); }
 std::string Text(double v) { return std::isfinite(v) ? fmt::format("{}", v) : ""; }

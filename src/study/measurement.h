@@ -49,7 +49,6 @@ struct Measurement {
 #undef X
   MachineInfo machine;  // that rendered it
 
-  double MeanOfChannels() const { return (mean_r + mean_g + mean_b) / 3; }
   bool HasSelf() const { return self_low <= self_high; }
   bool SelfHolds() const { return self_low <= relmse && relmse <= self_high; }
 

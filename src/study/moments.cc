@@ -37,8 +37,9 @@ Rgb Moments::Variance(std::size_t pixel) const {
   return {PlaneVariance(p, 0), PlaneVariance(p, 1), PlaneVariance(p, 2)};
 }
 
-double Moments::GreyMean(std::size_t pixel) const {
-  return pixels_[pixel].sum[3] / double(count_);
+stat::MeanEstimate Moments::GreyEstimate(std::size_t pixel) const {
+  const double n = double(count_);
+  return {pixels_[pixel].sum[3] / n, GreyVariance(pixel) / n, n - 1};
 }
 
 double Moments::GreyVariance(std::size_t pixel) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/core/vec.h"
+#include "src/stat/hypothesis.h"
 
 namespace lanelight {
 
@@ -24,8 +25,9 @@ class Moments {
   /// Variance of one render; zero for fewer than two.
   Rgb Variance(std::size_t pixel) const;
   /// Of the mean of the three channels.
-  double GreyMean(std::size_t pixel) const;
   double GreyVariance(std::size_t pixel) const;
+  /// That mean over the repetitions.
+  stat::MeanEstimate GreyEstimate(std::size_t pixel) const;
 
   /// The sums as bytes of this machine, and back (of the same number of pixels).
   std::string Save() const;

@@ -26,11 +26,6 @@ bool FindVariance(const Image& image, const std::array<int, 3>& of,
   return true;
 }
 
-double Value(const Image& image, int x, int y, int channel) {
-  if (!image.is_bytes()) return image.At(x, y, channel);
-  return SrgbToLinear(image.bytes[image.Offset(x, y, channel)] / 255.0);
-}
-
 // The window of the image in one set of channels; `offset`: of the window in the image.
 std::vector<Rgb> Cut(const Image& image, const std::array<int, 3>& channels, int x0,
                      int y0, const PixelRect& window) {
@@ -40,7 +35,7 @@ std::vector<Rgb> Cut(const Image& image, const std::array<int, 3>& channels, int
     for (int x = x0; x < x0 + window.width(); ++x) {
       Rgb value;
       for (int c = 0; c < 3; ++c) {
-        value[c] = Value(image, x, y, channels[static_cast<std::size_t>(c)]);
+        value[c] = LinearValue(image, x, y, channels[static_cast<std::size_t>(c)]);
       }
       pixels.push_back(value);
     }
@@ -109,6 +104,12 @@ void Combine(const std::vector<Piece>& pieces, Reference& reference) {
 }
 
 }  // namespace
+
+stat::MeanEstimate Reference::GreyEstimate(std::size_t pixel) const {
+  const Rgb m = mean[pixel], v = Variance(pixel);
+  const double deviation = (std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z)) / 3;
+  return {(m.x + m.y + m.z) / 3, deviation * deviation, 1};
+}
 
 Rgb Reference::Weight(std::size_t pixel) const {
   Rgb weight;

@@ -7,6 +7,7 @@
 
 #include "src/core/vec.h"
 #include "src/render/job.h"
+#include "src/stat/hypothesis.h"
 
 namespace lanelight {
 
@@ -25,6 +26,9 @@ struct Reference {
   Rgb Variance(std::size_t pixel) const {
     return has_variance() ? variance[pixel] : Rgb{};
   }
+  /// Mean of the channels, which are taken as fully dependent. How many of its samples
+  /// found what makes its variance is not known: one degree of freedom.
+  stat::MeanEstimate GreyEstimate(std::size_t pixel) const;
   /// 1 / (squared mean + 0.01), per channel.
   Rgb Weight(std::size_t pixel) const;
   /// Estimated mean squared error of the reference itself, absolute and relative; 0 if

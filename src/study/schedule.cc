@@ -20,10 +20,6 @@ std::vector<std::uint64_t> Sorted(std::vector<std::uint64_t> counts) {
   return counts;
 }
 
-double Median(const std::vector<double>& values) {
-  return stat::MedianInterval(values, 0.5).value;
-}
-
 double StandardDeviation(const std::vector<double>& values) {
   double mean = 0, squares = 0;
   for (double v : values) mean += v / double(values.size());
@@ -97,9 +93,10 @@ class Pilots {
     // The standard error of a median of normal values.
     const double spread = StandardDeviation(logarithms) *
                           std::sqrt(std::numbers::pi / 2 / double(logarithms.size()));
-    const double samples = SamplesOfBudget(seconds_ / Median(wall_per_cpu_),
-                                           {double(pilot.spp), Median(pilot.seconds)},
-                                           {double(pilot.FewSpp()), Median(pilot.few)});
+    const double samples =
+        SamplesOfBudget(seconds_ / stat::Median(wall_per_cpu_),
+                        {double(pilot.spp), stat::Median(pilot.seconds)},
+                        {double(pilot.FewSpp()), stat::Median(pilot.few)});
     return {std::clamp(samples, 1.0, double(kMostSpp)), spread};
   }
 

@@ -7,23 +7,16 @@
 #include "src/core/parallel.h"
 #include "src/render/machine_json.h"
 #include "src/render/report.h"
+#include "src/report/values.h"
 
 namespace lanelight {
 namespace {
 
 using Json = nlohmann::json;
 
-Json Number(double v) { return std::isfinite(v) ? Json(v) : Json(); }
-
-Json Range(const Interval& v) {
-  return {{"value", Number(v.value)}, {"low", Number(v.low)}, {"high", Number(v.high)}};
-}
-
-Json Range(const std::optional<Interval>& v) { return v ? Range(*v) : Json(); }
-
 Json Text(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
-Json Color(const Rgb& c) { return {Number(c.x), Number(c.y), Number(c.z)}; }
+Json Color(const Rgb& c) { return {NumberJson(c.x), NumberJson(c.y), NumberJson(c.z)}; }
 
 template <class T>
 Json Optional(const std::optional<T>& v) {
@@ -32,7 +25,7 @@ Json Optional(const std::optional<T>& v) {
 
 Json SelfJson(const SelfCheck& self) {
   if (self.total + self.refused == 0) return nullptr;
-  return {{"relmse", Range(self.relmse)},
+  return {{"relmse", IntervalJson(self.relmse)},
           {"inside", self.inside},
           {"total", self.total},
           {"refused", self.refused}};
@@ -41,24 +34,24 @@ Json SelfJson(const SelfCheck& self) {
 Json LevelJson(const LevelAnalysis& l) {
   return {{"spp", l.spp},
           {"repetitions", l.repetitions},
-          {"rmse", Range(l.rmse)},
-          {"relmse", Range(l.relmse)},
-          {"relmse_trimmed", Range(l.relmse_trimmed)},
-          {"relmse_2", Range(l.relmse_2)},
-          {"relmse_4", Range(l.relmse_4)},
-          {"relmse_8", Range(l.relmse_8)},
-          {"mape", Range(l.mape)},
-          {"worst_share", Number(l.worst_share)},
-          {"variance", Range(l.variance)},
-          {"bias2", Range(l.bias2)},
+          {"rmse", IntervalJson(l.rmse)},
+          {"relmse", IntervalJson(l.relmse)},
+          {"relmse_trimmed", IntervalJson(l.relmse_trimmed)},
+          {"relmse_2", IntervalJson(l.relmse_2)},
+          {"relmse_4", IntervalJson(l.relmse_4)},
+          {"relmse_8", IntervalJson(l.relmse_8)},
+          {"mape", IntervalJson(l.mape)},
+          {"worst_share", NumberJson(l.worst_share)},
+          {"variance", IntervalJson(l.variance)},
+          {"bias2", IntervalJson(l.bias2)},
           {"mean", Color(l.mean)},
-          {"bias", Range(l.bias)},
-          {"bias_p", l.bias_p ? Number(*l.bias_p) : Json()},
-          {"cpu_seconds", Range(l.cpu_seconds)},
-          {"wall_seconds", Range(l.wall_seconds)},
-          {"rays_per_sample", Number(l.rays_per_sample)},
-          {"path_length", Number(l.path_length)},
-          {"reference_share", Number(l.reference_share)},
+          {"bias", IntervalJson(l.bias)},
+          {"bias_p", l.bias_p ? NumberJson(*l.bias_p) : Json()},
+          {"cpu_seconds", IntervalJson(l.cpu_seconds)},
+          {"wall_seconds", IntervalJson(l.wall_seconds)},
+          {"rays_per_sample", NumberJson(l.rays_per_sample)},
+          {"path_length", NumberJson(l.path_length)},
+          {"reference_share", NumberJson(l.reference_share)},
           {"reference_limited", l.ReferenceLimited()},
           {"invalid", l.invalid},
           {"self", SelfJson(l.self)}};
@@ -86,7 +79,7 @@ Json TilesJson(const std::optional<TileTest>& tiles) {
     z.push_back(Json::array());
     for (int column = 0; column < tiles->columns; ++column) {
       const std::size_t i = static_cast<std::size_t>(row) * tiles->columns + column;
-      z.back().push_back(Number(tiles->z[i]));
+      z.back().push_back(NumberJson(tiles->z[i]));
     }
   }
   return {{"side", tiles->side},     {"columns", tiles->columns},
@@ -97,8 +90,8 @@ Json TilesJson(const std::optional<TileTest>& tiles) {
 
 Json TargetJson(const std::optional<stat::TargetCost>& target) {
   if (!target) return nullptr;
-  return {{"spp", Range(target->samples)},
-          {"seconds", Range(target->seconds)},
+  return {{"spp", IntervalJson(target->samples)},
+          {"seconds", IntervalJson(target->seconds)},
           {"extrapolated", target->extrapolated}};
 }
 
@@ -111,12 +104,12 @@ Json StrategyJson(const StrategyRuns& runs, const StrategyAnalysis& s) {
               {"same_as", Optional(runs.same_as)},
               {"figure", figure > 0 ? Json(figure) : Json()},
               {"levels", Json::array()},
-              {"order", Range(s.order)},
-              {"order_relmse", Range(s.order_relmse)},
+              {"order", IntervalJson(s.order)},
+              {"order_relmse", IntervalJson(s.order_relmse)},
               {"to_target", TargetJson(s.to_target)},
-              {"efficiency", Range(s.efficiency)},
-              {"efficiency_trimmed", Range(s.efficiency_trimmed)},
-              {"budget_doubt", Number(s.budget_doubt)},
+              {"efficiency", IntervalJson(s.efficiency)},
+              {"efficiency_trimmed", IntervalJson(s.efficiency_trimmed)},
+              {"budget_doubt", NumberJson(s.budget_doubt)},
               {"at_spp", s.HasRuns() ? Json(s.AtLevel().spp) : Json()},
               {"rank", s.HasRuns() ? Json({s.rank.best, s.rank.worst}) : Json()},
               {"heavy_tailed", s.heavy_tailed},
@@ -141,8 +134,8 @@ Json ReferenceJson(const SceneRuns& runs, const SceneAnalysis& analysis) {
           {"files", r.files},
           {"strategy", Text(r.strategy)},
           {"spp", r.rendered() ? Json(r.spp) : Json()},
-          {"relmse", r.has_variance() ? Number(r.OwnRelMse()) : Json()},
-          {"rmse", r.has_variance() ? Number(std::sqrt(r.OwnMse())) : Json()},
+          {"relmse", r.has_variance() ? NumberJson(r.OwnRelMse()) : Json()},
+          {"rmse", r.has_variance() ? NumberJson(std::sqrt(r.OwnMse())) : Json()},
           {"independent", r.has_variance()},
           {"note", Text(r.note)},
           {"image", Text(analysis.reference_image)}};
@@ -157,13 +150,13 @@ Json CalibrationJson(const SceneAnalysis& analysis) {
                       {"inside", f.inside},
                       {"total", f.total},
                       {"pixel", f.pixel},
-                      {"worst_share", Number(f.worst_share)}});
+                      {"worst_share", NumberJson(f.worst_share)}});
   }
   return {{"inside", self.inside},
           {"total", self.total},
           {"refused", self.refused},
           {"seeds", analysis.calibration_seeds},
-          {"share", Range(analysis.calibration_share)},
+          {"share", IntervalJson(analysis.calibration_share)},
           {"stated", kEstimateConfidence},
           {"failed", failed}};
 }
@@ -201,7 +194,7 @@ Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
   out["reference"] = ReferenceJson(runs, analysis);
   out["baseline"] = analysis.baseline;
   out["counts"] = options.spp;
-  out["target_relmse"] = Number(analysis.target_relmse);
+  out["target_relmse"] = NumberJson(analysis.target_relmse);
   out["strategies"] = Json::array();
   for (std::size_t i = 0; i < analysis.strategies.size(); ++i) {
     out["strategies"].push_back(StrategyJson(runs.strategies[i], analysis.strategies[i]));

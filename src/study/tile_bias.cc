@@ -18,18 +18,9 @@ int TileSide(const Reference& r) {
   return std::max(kLeastSide, static_cast<int>(std::ceil(std::sqrt(pixels / kTiles))));
 }
 
+// Of the pixels of a tile.
 struct TileMeans {
   std::vector<stat::MeanEstimate> image, reference;
-
-  void Add(const Moments& moments, const Reference& r, std::size_t pixel) {
-    const double n = double(moments.count());
-    image.push_back({moments.GreyMean(pixel), moments.GreyVariance(pixel) / n, n - 1});
-    const Rgb m = r.mean[pixel], v = r.Variance(pixel);
-    const double deviation = (std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z)) / 3;
-    // How many of its samples found what makes its variance is not known: a tile whose
-    // variance is that of a few pixels has few degrees of freedom.
-    reference.push_back({(m.x + m.y + m.z) / 3, deviation * deviation, 1});
-  }
 };
 
 // Where the mean is made of rare bright samples, an image may have missed them all, and
@@ -80,8 +71,9 @@ TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint
     for (int x = 0; x < reference.width; ++x) {
       const std::size_t tile =
           static_cast<std::size_t>(y / test.side) * test.columns + x / test.side;
-      tiles[tile].Add(moments, reference,
-                      static_cast<std::size_t>(y) * reference.width + x);
+      const std::size_t pixel = static_cast<std::size_t>(y) * reference.width + x;
+      tiles[tile].image.push_back(moments.GreyEstimate(pixel));
+      tiles[tile].reference.push_back(reference.GreyEstimate(pixel));
     }
   }
   for (const TileMeans& tile : tiles) {

@@ -2,15 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/report/values.h"
 #include "src/study/analysis.h"
 
 namespace lanelight {
 namespace {
-
-std::string Numbers(const Interval& v) {
-  if (!v.HasBounds()) return fmt::format("{:.3g}", v.value);
-  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", v.value, v.low, v.high);
-}
 
 class Writer {
  public:
@@ -31,9 +27,7 @@ class Writer {
     return runs_.strategies[i].named.name;
   }
   const StrategyAnalysis& Of(std::size_t i) const { return analysis_.strategies[i]; }
-  void Say(const std::string& sentence) {
-    text_ += (text_.empty() ? "" : " ") + sentence;
-  }
+  void Say(const std::string& sentence) { AddSentence(sentence, text_); }
 
   std::string List(const std::vector<std::size_t>& indices) const {
     return NamesText(runs_, indices, indices.size());
@@ -54,13 +48,13 @@ class Writer {
       return Say(fmt::format(
           "{} has the least error for the time here, {} times the efficiency of {}; {} "
           "repetition{} cannot say how sure that is.",
-          NameOf(best), Numbers(gain), NameOf(analysis_.baseline), repetitions,
+          NameOf(best), EstimateText(gain), NameOf(analysis_.baseline), repetitions,
           repetitions == 1 ? "" : "s"));
     }
     const std::string amount =
         best == analysis_.baseline
             ? "the baseline"
-            : fmt::format("{} times the efficiency of {}", Numbers(gain),
+            : fmt::format("{} times the efficiency of {}", EstimateText(gain),
                           NameOf(analysis_.baseline));
     if (first.size() == 1) {
       return Say(fmt::format("{} gives the least error for the time: {}.", NameOf(best),
@@ -100,10 +94,11 @@ class Writer {
   void Order() {
     const auto& order = Of(analysis_.ranking.front()).order;
     if (!order) return;
-    Say(fmt::format(
-        "Its RMSE falls with the number of samples to the power {}{}.", Numbers(*order),
-        order->HasBounds() && order->high < -0.5 ? ", faster than independent samples"
-                                                 : ""));
+    Say(fmt::format("Its RMSE falls with the number of samples to the power {}{}.",
+                    EstimateText(*order),
+                    order->HasBounds() && order->high < -0.5
+                        ? ", faster than independent samples"
+                        : ""));
   }
 
   void TrimmedWinner() {
@@ -114,14 +109,13 @@ class Writer {
         *std::max_element(analysis_.ranking.begin(), analysis_.ranking.end(), better);
     if (best == analysis_.baseline) return;
     Say(fmt::format(
-        "Without the worst 1 % of the pixels {} is the most efficient, {} times "
-        "{}.",
-        NameOf(best), Numbers(*Of(best).efficiency_trimmed), NameOf(analysis_.baseline)));
+        "Without the worst 1 % of the pixels {} is the most efficient, {} times {}.",
+        NameOf(best), EstimateText(*Of(best).efficiency_trimmed),
+        NameOf(analysis_.baseline)));
   }
 
   void Warnings() {
-    const std::string calibration = CalibrationText(runs_, analysis_);
-    if (!calibration.empty()) Say(calibration);
+    Say(CalibrationText(runs_, analysis_));
     std::vector<std::size_t> heavy, failed;
     for (std::size_t i = 0; i < analysis_.strategies.size(); ++i) {
       if (Of(i).heavy_tailed) heavy.push_back(i);
@@ -131,22 +125,16 @@ class Writer {
       Say(fmt::format(
           "Rare bright samples carry much of the error of {}: intervals there "
           "may not hold, and bias cannot be tested.",
-          Named(heavy)));
+          NamesText(runs_, heavy)));
       TrimmedWinner();
     }
-    const std::string bias = BiasText(runs_, analysis_);
-    if (!bias.empty()) Say(bias);
+    Say(BiasText(runs_, analysis_));
     if (!failed.empty()) Say("Failed: " + List(failed) + ".");
     if (Of(analysis_.ranking.front()).AtLevel().ReferenceLimited()) {
       Say("The reference is too noisy for the smallest errors: more than half of what "
-          "was "
-          "measured there is its own.");
+          "was measured there is its own.");
     }
     if (runs_.interrupted) Say("The study was interrupted; --resume continues it.");
-  }
-
-  std::string Named(const std::vector<std::size_t>& indices) const {
-    return NamesText(runs_, indices);
   }
 
   const SceneRuns& runs_;

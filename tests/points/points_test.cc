@@ -9,6 +9,7 @@
 #include "src/prepare/groups.h"
 #include "tests/points/draw.h"
 #include "tests/stat/chi2.h"
+#include "tests/stat/kolmogorov.h"
 #include "src/stat/distributions.h"
 #include "src/stat/hypothesis.h"
 

@@ -12,7 +12,7 @@ using Json = nlohmann::json;
 
 constexpr int kSide = 16;  // pixels of a tile
 
-Json Interval(double value, double relative) {
+Json Around(double value, double relative) {
   const double width = std::abs(value) * relative;
   return {{"value", value}, {"low", value - width}, {"high", value + width}};
 }
@@ -22,7 +22,7 @@ Json Unbounded(double value) {
 }
 
 Json Optional(double value, double relative, bool repeated) {
-  return repeated ? Interval(value, relative) : Unbounded(value);
+  return repeated ? Around(value, relative) : Unbounded(value);
 }
 
 Json MakeLevel(const Recipe& recipe, int spp, bool repeated) {
@@ -150,8 +150,8 @@ Json MakeStrategy(const Recipe& recipe, const std::string& prefix,
   if (counts.size() > 1) s["order"] = Optional(recipe.order, 0.03, repeated);
   if (repeated) {
     s["tiles"] = MakeTiles(recipe, seed);
-    s["to_target"] = {{"spp", Interval(1500 * recipe.noise * recipe.noise, 0.2)},
-                      {"seconds", Interval(1.5 * recipe.noise * recipe.noise, 0.22)},
+    s["to_target"] = {{"spp", Around(1500 * recipe.noise * recipe.noise, 0.2)},
+                      {"seconds", Around(1.5 * recipe.noise * recipe.noise, 0.22)},
                       {"extrapolated", recipe.noise > 0.9}};
   }
   return s;

@@ -1,13 +1,24 @@
 #include "tests/stat/chi2.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <cstddef>
 
 #include "src/core/check.h"
-#include "src/stat/distributions.h"
 
 namespace lanelight::stat {
+
+double ChiSquareSurvival(double x, double nu) {
+  return x <= 0 ? 1 : boost::math::gamma_q(nu / 2, x / 2);
+}
+
+double ChiSquareQuantile(double p, double nu) {
+  LL_CHECK(p > 0 && p < 1 && nu > 0);
+  // The smaller of the two tails is the one known to full relative precision.
+  return 2 * (p < 0.5 ? boost::math::gamma_p_inv(nu / 2, p)
+                      : boost::math::gamma_q_inv(nu / 2, 1 - p));
+}
 
 ChiSquareResult ChiSquareTest(const std::vector<double>& observed,
                               const std::vector<double>& expected) {

@@ -6,6 +6,11 @@
 
 namespace lanelight::stat {
 
+/// P(X >= x) of chi-square with nu degrees of freedom.
+double ChiSquareSurvival(double x, double nu);
+/// The x with P(X <= x) = p, 0 < p < 1, nu > 0.
+double ChiSquareQuantile(double p, double nu);
+
 struct ChiSquareResult {
   double statistic = 0;
   int degrees = 0;

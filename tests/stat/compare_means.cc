@@ -5,6 +5,7 @@
 #include "src/core/check.h"
 #include "src/stat/distributions.h"
 #include "src/stat/hypothesis.h"
+#include "tests/stat/kolmogorov.h"
 
 namespace lanelight::stat {
 namespace {

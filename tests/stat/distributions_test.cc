@@ -6,27 +6,10 @@
 #include <limits>
 #include <numbers>
 
-namespace lanelight::stat {
+#include "tests/stat/chi2.h"
+#include "tests/stat/kolmogorov.h"
 
-TEST_CASE("the incomplete gamma function of whole a is a Poisson sum", "[stat]") {
-  for (int a : {1, 2, 5, 40, 99, 101, 400}) {
-    for (double x : {0.01, 0.5, 2.0, 30.0, 41.0, 120.0, 450.0}) {
-      // Q(a, x) = e^-x sum_{k<a} x^k / k!
-      double sum = 0;
-      for (int k = 0; k < a; ++k)
-        sum += std::exp(k * std::log(x) - x - std::lgamma(k + 1));
-      INFO("a = " << a << ", x = " << x);
-      CHECK(GammaQ(a, x) == Approx(sum).epsilon(2e-12).margin(1e-300));
-      CHECK(GammaP(a, x) + GammaQ(a, x) == Approx(1).epsilon(1e-14));
-    }
-  }
-  for (double x : {0.1, 1.0, 6.0}) {
-    CHECK(GammaP(0.5, x) == Approx(std::erf(std::sqrt(x))).epsilon(1e-13));
-  }
-  // Continuity where the prefix switches to Stirling's series.
-  CHECK(GammaQ(100, 103) == Approx(GammaQ(std::nextafter(100, 0), 103)).epsilon(1e-11));
-  CHECK(GammaQ(1e4, 1e4) == Approx(0.49867).epsilon(1e-4));  // 1/2 - 1/(3 sqrt(2 pi a))
-}
+namespace lanelight::stat {
 
 TEST_CASE("the incomplete beta function of whole a, b is a binomial sum", "[stat]") {
   for (int a : {1, 3, 20, 150}) {
@@ -68,7 +51,6 @@ TEST_CASE("Student's t has its closed forms for one and two degrees", "[stat]") 
   CHECK(StudentTwoSided(1.7, infinite) == 2 * NormalCdf(-1.7));
   CHECK(StudentTwoSidedQuantile(0.05, infinite) == Approx(-NormalQuantile(0.025)));
   CHECK(StudentTwoSided(2.5, 7.3) == StudentTwoSided(-2.5, 7.3));
-  CHECK(StudentCdf(-2.5, 7.3) + StudentCdf(2.5, 7.3) == Approx(1));
   for (double p : {0.9, 0.05, 1e-8}) {
     CHECK(StudentTwoSided(StudentTwoSidedQuantile(p, 4.5), 4.5) ==
           Approx(p).epsilon(1e-9));
@@ -89,8 +71,8 @@ TEST_CASE("chi-square quantiles invert the distribution function", "[stat]") {
     for (double p : {1e-6, 0.025, 0.5, 0.975, 1 - 1e-6}) {
       INFO("nu = " << nu << ", p = " << p);
       const double x = ChiSquareQuantile(p, nu);
-      if (p < 0.5) CHECK(GammaP(nu / 2, x / 2) == Approx(p).epsilon(1e-8));
-      if (p >= 0.5) CHECK(GammaQ(nu / 2, x / 2) == Approx(1 - p).epsilon(1e-8));
+      if (p < 0.5) CHECK(1 - ChiSquareSurvival(x, nu) == Approx(p).epsilon(1e-8));
+      if (p >= 0.5) CHECK(ChiSquareSurvival(x, nu) == Approx(1 - p).epsilon(1e-8));
     }
   }
   // Tables: 3.841459 (A&S 26.8). Wilson and Hilferty's (1931) cube for many degrees.

@@ -8,6 +8,7 @@
 #include "tests/reference/random.h"
 #include "src/stat/distributions.h"
 #include "tests/stat/compare_means.h"
+#include "tests/stat/kolmogorov.h"
 
 namespace lanelight::stat {
 namespace {

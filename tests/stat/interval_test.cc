@@ -51,6 +51,17 @@ TEST_CASE("intervals of means hold as often as stated", "[stat]") {
   }
 }
 
+TEST_CASE("medians and means of few values", "[stat]") {
+  CHECK(std::isnan(Median({})));
+  CHECK(Median({7}) == 7);
+  // Planted: without sorting, or with the upper one of two.
+  CHECK(Median({9, 1, 4}) == 4);
+  CHECK(Median({9, 1, 4, 6}) == 5);
+  const std::vector<double> values = {9, 1, 4, 6};
+  CHECK(Mean(values) == 5);
+  CHECK(std::isnan(Mean({})));
+}
+
 TEST_CASE("intervals of means have defined ends", "[stat]") {
   CHECK(std::isnan(MeanInterval({}, 0.95).value));
   const std::vector<double> one = {4}, equal = {4, 4, 4, 4};
