@@ -161,8 +161,7 @@ nlohmann::json Measure(const std::string& scene, const Flags& flags) {
                         {"tile", flags.tile},
                         {"start_seconds", job.load_seconds + job.build_seconds}};
   for (int threads : {1, 2}) MeasureThreads(job, flags, threads, out);
-  FilmAccumulator film = MakeFilm(job);
-  const RunResult whole = RunJob(job, film);
+  const RunResult whole = RunJob(job).result;
   const std::vector<double> costs = TileCosts(job, TilesOf(job.window, flags.tile));
   SimulateThreads(costs, double(whole.rays_closest + whole.rays_shadow), out);
   for (double cost : costs) {

@@ -89,8 +89,7 @@ void Calibration::Row(Job& job, const std::string& strategy, std::uint64_t spp,
   for (int seed = 1; seed <= options_.seeds; ++seed) {
     if (seed > options_.least_seeds && deadline.Over()) break;
     job.seed = static_cast<std::uint64_t>(seed);
-    FilmAccumulator film = MakeFilm(job);
-    RunJob(job, film);
+    FilmAccumulator film = RunJob(job).film;
     const ErrorEstimate stated = EstimateError(film);
     if (!stated.available) {
       fmt::print("{:<48} states no error: too few samples\n", name);

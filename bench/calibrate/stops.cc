@@ -28,8 +28,7 @@ void Calibration::Stops(Job& job, const std::string& strategy, double target,
   for (int seed = 1; seed <= options_.seeds; ++seed) {
     if (seed > kLeastSeeds && deadline.Over()) break;
     job.seed = static_cast<std::uint64_t>(seed);
-    FilmAccumulator film = MakeFilm(job);
-    const RunResult result = RunJob(job, film);
+    const auto [film, result] = RunJob(job);
     ++renders;
     if (result.stop_reason != StopReason::kTarget) continue;
     const double truth = TrueErrors(film, reference).relmse;

@@ -58,14 +58,12 @@ Reference MakeReference(Job& job, std::uint64_t spp, double seconds) {
   UseStrategy(job, "points=sobol", kTrialSpp);
   job.seed = kReferenceSeed;
   if (spp == 0) {  // a short render says how long samples take
-    FilmAccumulator trial = MakeFilm(job);
-    const double fit = seconds / RunJob(job, trial).seconds * double(kTrialSpp);
+    const double fit = seconds / RunJob(job).result.seconds * double(kTrialSpp);
     spp = kLeastReferenceSpp *
           std::uint64_t(std::clamp(fit / kLeastReferenceSpp, 1.0, kMostReference));
   }
   job.spp = spp;
-  FilmAccumulator film = MakeFilm(job);
-  RunJob(job, film);
+  FilmAccumulator film = RunJob(job).film;
   return FromFilm(film, spp);
 }
 

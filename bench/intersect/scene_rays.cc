@@ -70,8 +70,7 @@ void InsertTaps(Plan& plan) {
 
 void Render(Job& job, std::uint64_t spp) {
   job.spp = spp;
-  FilmAccumulator film = MakeFilm(job);
-  RunJob(job, film);
+  RunJob(job);
 }
 
 }  // namespace

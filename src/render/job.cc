@@ -69,19 +69,30 @@ Job PrepareJob(SceneDescription description, const RenderSettings& asked) {
   ReleaseCopies(job.description);
   job.plan = MakePlan(job.scene, PlanOptionsOf(settings, job.description));
   job.build_seconds = watch.Lap();
+  SetAmount(job, settings);
+  return job;
+}
 
+void SetAmount(Job& job, const RenderSettings& settings) {
+  const Sampler& own = job.description.sampler;
   job.seconds = settings.seconds.value_or(0);
   job.target = {settings.target_relmse.value_or(0), settings.target_rmse.value_or(0)};
   const bool scene_decides = !settings.seconds && !job.target.Any();
-  job.spp = settings.spp.value_or(
-      scene_decides ? static_cast<std::uint64_t>(job.description.sampler.spp) : 0);
-  job.seed = job.description.sampler.seed;
-  return job;
+  job.spp =
+      settings.spp.value_or(scene_decides ? static_cast<std::uint64_t>(own.spp) : 0);
+  job.seed = settings.seed.value_or(own.seed);
 }
 
 void SetStrategy(Job& job, const Strategy& strategy) {
   UseStrategy(strategy, job.scene);
   job.plan = MakePlan(job.scene, job.plan.options);
+}
+
+void SetRender(Job& job, const Strategy& strategy, std::uint64_t spp,
+               std::uint64_t seed) {
+  job.spp = spp;
+  job.seed = seed;
+  SetStrategy(job, strategy);
 }
 
 FilmAccumulator MakeFilm(const Job& job) {
@@ -105,13 +116,14 @@ RunOptions RunOptionsOf(const Job& job, const FilmAccumulator& film) {
   return options;
 }
 
-RunResult RunJob(const Job& job, FilmAccumulator& film,
-                 std::function<void(const Progress&)> on_progress,
-                 const std::atomic<bool>* stop) {
-  RunOptions options = RunOptionsOf(job, film);
+JobRun RunJob(const Job& job, std::function<void(const Progress&)> on_progress,
+              const std::atomic<bool>* stop) {
+  JobRun run = {MakeFilm(job), {}};
+  RunOptions options = RunOptionsOf(job, run.film);
   options.on_progress = std::move(on_progress);
   options.stop = stop;
-  return Run(job.scene, job.plan, options, film);
+  run.result = Run(job.scene, job.plan, options, run.film);
+  return run;
 }
 
 }  // namespace lanelight

@@ -46,16 +46,26 @@ Job PrepareJob(SceneDescription description, const RenderSettings& settings);
 /// InputError if the scene does not take it; then the job is to be given another.
 void SetStrategy(Job& job, const Strategy& strategy);
 
+/// Makes it a render of so many samples per pixel, likewise.
+void SetRender(Job& job, const Strategy& strategy, std::uint64_t spp, std::uint64_t seed);
+
+/// How much of it is rendered, and with what seed: as the settings say, else the scene.
+void SetAmount(Job& job, const RenderSettings& settings);
+
 /// An empty film of the job's size.
 FilmAccumulator MakeFilm(const Job& job);
 
 /// How the job is to be run; refers to both, for as long as it is used.
 RunOptions RunOptionsOf(const Job& job, const FilmAccumulator& film);
 
+/// A render of a job, and what it came to.
+struct JobRun {
+  FilmAccumulator film;
+  RunResult result;
+};
 /// Runs the job's plan. `stop` and `on_progress` as in RunOptions.
-RunResult RunJob(const Job& job, FilmAccumulator& film,
-                 std::function<void(const Progress&)> on_progress = {},
-                 const std::atomic<bool>* stop = nullptr);
+JobRun RunJob(const Job& job, std::function<void(const Progress&)> on_progress = {},
+              const std::atomic<bool>* stop = nullptr);
 
 /// 64-bit hash (FNV-1a over 8-byte words) of the scene file and, recursively, of every
 /// file that a quoted string in it names: included scenes, meshes, images. Missing files

@@ -2,24 +2,20 @@
 
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "src/parse/parse.h"
 
 namespace lanelight::stress {
 
-Rendered RenderText(const SceneText& scene) {
+JobRun RenderText(const SceneText& scene) {
   ParseOptions parse;
   parse.allow_files = false;
   RenderSettings settings = scene.settings;
   settings.copied_triangles = 0;  // instances are to be stressed, not their copies
-  const Job job = PrepareJob(ParseSceneText(scene.text, "scene", ".", parse), settings);
-  FilmAccumulator film = MakeFilm(job);
-  RunResult result = RunJob(job, film);
-  return {std::move(film), std::move(result)};
+  return RunJob(PrepareJob(ParseSceneText(scene.text, "scene", ".", parse), settings));
 }
 
-Point MeanOf(const Rendered& rendered) {
+Point MeanOf(const JobRun& rendered) {
   const FilmAccumulator& film = rendered.film;
   Point point;
   double sum = 0, variance = 0, quartic = 0, deviations = 0;

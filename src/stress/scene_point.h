@@ -16,19 +16,13 @@ struct SceneText {
   RenderSettings settings;  // resolution, spp, seed, strategy, depth
 };
 
-/// A rendered scene.
-struct Rendered {
-  FilmAccumulator film;
-  RunResult result;
-};
-
 /// Parses, compiles, plans, renders. Throws InputError for what is refused.
-Rendered RenderText(const SceneText& scene);
+JobRun RenderText(const SceneText& scene);
 
 /// Mean over all pixels and the three channels, with its standard error from the pixels'
 /// own variances, at most where they depend on each other (NaN where a pixel has fewer
 /// than two observations, so that the point cannot pass), counts of rays, invalid
 /// samples, lanes and seconds.
-Point MeanOf(const Rendered& rendered);
+Point MeanOf(const JobRun& rendered);
 
 }  // namespace lanelight::stress

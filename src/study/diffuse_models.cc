@@ -18,8 +18,7 @@ constexpr Model kModels[] = {
     {Scattering::kUniform, "completely diffuse: directions uniform over the hemisphere"},
     {Scattering::kLambertian, "Lambertian: directions in proportion to the cosine"},
     {Scattering::kInSphere,
-     "the paper's Lambertian: the normal plus a point from within "
-     "the unit sphere"},
+     "the paper's Lambertian: the normal plus a point from within the unit sphere"},
 };
 
 bool HasDiffuse(const FeatureSet& features) {
@@ -45,8 +44,7 @@ void SceneRunner::RunDiffuseModels() {
     settings.spp = MostSamples();
     settings.trees.known = TreesOf(job_.scene);
     const Job job = PrepareJob(scene_.path, settings);
-    FilmAccumulator film = MakeFilm(job);
-    RunJob(job, film, {}, hooks_.stop);
+    const FilmAccumulator film = RunJob(job, {}, hooks_.stop).film;
     if (Stopped()) return;
     diffuse.image = FilmColors(film);
     for (Rgb& c : diffuse.image) c = RoundToFloat(c);

@@ -8,7 +8,6 @@
 #include "src/render/checkpoint.h"
 #include "src/render/report.h"
 #include "src/study/reference.h"
-#include "src/sweep/cell_job.h"
 
 namespace lanelight {
 namespace {
@@ -56,7 +55,7 @@ void Finish(Checkpoint& checkpoint, const ReferenceOptions& options) {
 Reference RenderReference(Job& job, const ReferenceOptions& options) {
   Strategy strategy;
   strategy.points = Points::kIndependent;
-  SetCell(job, {strategy, options.spp, 0, {}, options.seed});
+  SetRender(job, strategy, options.spp, options.seed);
   FilmAccumulator film = MakeFilm(job);
   RunOptions run = RunOptionsOf(job, film);
   run.on_progress = options.on_progress;

@@ -9,7 +9,6 @@
 #include "src/study/errors.h"
 #include "src/estimate/estimate.h"
 #include "src/study/schedule.h"
-#include "src/sweep/cell_job.h"
 
 namespace lanelight {
 namespace {
@@ -21,6 +20,7 @@ std::string CellKey(const StrategyRuns& runs, std::uint64_t spp) {
 void Describe(const RunResult& result, const ErrorEstimate& self, Measurement& m) {
   m.samples = result.samples;
   m.wall_seconds = result.seconds;
+  m.cpu_seconds = result.cpu_seconds;
   m.pilot_seconds = result.pilot_seconds;
   m.rays_closest = result.rays_closest;
   m.rays_shadow = result.rays_shadow;
@@ -182,12 +182,11 @@ bool SceneRunner::RenderRepetition(StrategyRuns& runs, std::uint64_t spp, int re
 
 Measurement SceneRunner::Render(const StrategyRuns& runs, std::uint64_t spp,
                                 int repetition, Cells& cells) {
-  SetCell(job_, {runs.named.strategy, spp, 0, {}, Seed(repetition)});
-  const CellRun run = RunCell(job_, {}, hooks_.stop);
+  SetRender(job_, runs.named.strategy, spp, Seed(repetition));
+  const JobRun run = RunJob(job_, {}, hooks_.stop);
   Measurement m;
   m.machine = ThisMachine();
   m.seed = job_.seed;
-  m.cpu_seconds = run.cpu_seconds;
   if (Stopped()) return m;
   Describe(run.result, EstimateError(run.film), m);
   const std::vector<Rgb> image = FilmColors(run.film);

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "src/stat/interval.h"
-#include "src/sweep/cell_job.h"
 
 namespace lanelight {
 namespace {
@@ -60,10 +59,10 @@ class Pilots {
   bool Stopped() const { return stop_ != nullptr && *stop_; }
 
   Seconds Render(const Strategy& strategy, std::uint64_t spp) {
-    SetCell(job_, {strategy, spp, 0, {}, job_.seed});
-    const CellRun run = RunCell(job_, {}, stop_);
-    return {std::max(run.result.seconds, kLeastSeconds),
-            std::max(run.cpu_seconds, kLeastSeconds)};
+    SetRender(job_, strategy, spp, job_.seed);
+    const RunResult result = RunJob(job_, {}, stop_).result;
+    return {std::max(result.seconds, kLeastSeconds),
+            std::max(result.cpu_seconds, kLeastSeconds)};
   }
 
   // Renders of doubling size until one is as long as a pilot: its samples. What they

@@ -6,7 +6,6 @@
 #include "src/core/parallel.h"
 #include "src/render/memory.h"
 #include "src/strategy/named_strategy.h"
-#include "src/sweep/cell_job.h"
 
 namespace lanelight {
 namespace {
@@ -19,20 +18,6 @@ constexpr Axis kCompiled[] = {Axis::kScene, Axis::kResolution, Axis::kMaxDepth,
 std::string TreeKeyOf(const AxisValues& values) {
   return Get(values, Axis::kScene).value_or("") + "\n" +
          Get(values, Axis::kBuild).value_or("");
-}
-
-// Of the cell; what it does not say is the scene's.
-CellSettings SettingsOf(const RenderSettings& settings, const Strategy& strategy,
-                        const Job& job) {
-  CellSettings cell;
-  cell.strategy = strategy;
-  cell.seconds = settings.seconds.value_or(0);
-  cell.target = {settings.target_relmse.value_or(0), settings.target_rmse.value_or(0)};
-  const bool scene_decides = !settings.seconds && !cell.target.Any();
-  cell.spp = settings.spp.value_or(
-      scene_decides ? static_cast<std::uint64_t>(job.description.sampler.spp) : 0);
-  cell.seed = settings.seed.value_or(job.description.sampler.seed);
-  return cell;
 }
 
 }  // namespace
@@ -89,7 +74,8 @@ Job& CellRenderer::Prepare(const SweepCell& cell) {
       Get(cell.values, Axis::kStrategy).value_or(kSceneStrategyName), {}, own_);
   CheckFilmFits(job_->window, AuxiliaryOf(settings, job_->description.film), strategy,
                 PhysicalMemory());
-  SetCell(*job_, SettingsOf(settings, strategy, *job_));
+  SetAmount(*job_, settings);
+  SetStrategy(*job_, strategy);
   return *job_;
 }
 

@@ -22,8 +22,7 @@ Job JobWith(const std::string& scene, const std::string& strategy) {
 
 ErrorEstimate ErrorOf(const std::string& scene, const std::string& strategy) {
   const Job job = JobWith(scene, strategy);
-  FilmAccumulator film = MakeFilm(job);
-  RunJob(job, film);
+  FilmAccumulator film = RunJob(job).film;
   return EstimateError(film);
 }
 

@@ -35,8 +35,7 @@ Responses RenderWith(const FilmResponse& response, const std::string& strategy) 
   settings.spp = 16;
   settings.strategy = ParseStrategy(strategy, {});
   Job job = PrepareJob(std::move(scene), settings);
-  FilmAccumulator film = MakeFilm(job);
-  RunJob(job, film);
+  FilmAccumulator film = RunJob(job).film;
   return {std::move(job), std::move(film)};
 }
 
@@ -118,8 +117,7 @@ TEST_CASE("film response: the limit is on single camera rays", "[film]") {
     AreaLightSource "diffuse" "rgb L" [ 4 4 4 ] "bool twosided" true
     Shape "bilinearmesh" "point3 P" [ 0.5 0 1  1 0 1  0.5 1 1  1 1 1 ])";
   Job job = PrepareJob(ParseSceneText(lamp, "lamp.pbrt", "."), {});
-  FilmAccumulator film = MakeFilm(job);
-  RunJob(job, film);
+  FilmAccumulator film = RunJob(job).film;
   const double limited = 1 / (XyzFromSrgb() * Rgb{1, 1, 1}).z;
   CHECK(limited == Approx(0.918).epsilon(1e-3));
   for (int y = 0; y < 5; ++y) {

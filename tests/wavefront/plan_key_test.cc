@@ -33,8 +33,7 @@ Keyed Render(Job& job, const std::string& strategy) {
   SetStrategy(job, Named(strategy));
   Keyed out = {PlanKey(job.scene, job.plan), {}};
   job.spp = 5;
-  FilmAccumulator film = MakeFilm(job);
-  RunJob(job, film);
+  FilmAccumulator film = RunJob(job).film;
   for (int y = 0; y < film.height(); ++y) {
     for (int x = 0; x < film.width(); ++x) out.pixels.push_back(film.Mean(x, y));
   }

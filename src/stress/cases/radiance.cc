@@ -71,7 +71,7 @@ std::vector<Point> InOneImage(double ratio, const Effort& effort) {
         x0, x1, radiance);
   };
   Quality quality = kDirect;
-  const Rendered image = RenderText(
+  const JobRun image = RenderText(
       Setup(ViewOfPlane(1, 1) + lamp(-1, 0, 1) + lamp(0, 1, ratio), quality, effort));
   Point whole = MeanOf(image);
   // Which half is on the left is the camera's business.

@@ -45,7 +45,7 @@ Point Measure(const StrategyScene& scene, const std::string& strategy,
                                    hits, samples));
   }
   try {
-    const Rendered rendered = RenderText(setup);
+    const JobRun rendered = RenderText(setup);
     if (FoundNothing(strategy, rendered.result)) {
       return NotMeasured(strategy, rendered.result.pilot_note);
     }
