@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "src/advise/candidates.h"
 #include "src/render/job.h"
-#include "src/stat/interval.h"
 
 namespace lanelight {
 
@@ -24,27 +24,6 @@ struct AdviceOptions {
 /// Of the time. Advice that changes nothing must not cost much.
 inline constexpr double kPilotShare = 0.03;
 
-enum class CandidateStatus {
-  kChosen,
-  kKept,     // compared to the end, and not chosen
-  kDropped,  // less efficient than others when all had been tried once
-  kSkipped,  // the trial's time did not reach it
-  kRefused,  // the scene does not take it
-};
-/// "chosen", "kept", "dropped", "skipped", "refused".
-const char* Name(CandidateStatus status);
-
-struct AdvisedCandidate {
-  std::string strategy, changes;  // complete; against the default, which has none
-  std::string meaning;            // when it pays
-  CandidateStatus status = CandidateStatus::kSkipped;
-  std::string reason;
-  /// How many times as efficient as the default (1, without bounds, for that itself),
-  /// with its 90 % interval; by samples that have chosen nothing.
-  Interval efficiency = WithoutBounds(1);
-  std::uint64_t samples = 0;  // of all rounds; 0: not compared
-};
-
 struct Advice {
   /// The renderer's default first, then changes of one axis of it, among them the scene's
   /// own strategy, then a combination of the two best.
@@ -58,7 +37,7 @@ struct Advice {
 };
 
 /// Runs the trial. Candidates are compared by relative variance times counted work, on
-/// the same pixels (DecisionPilot): first all; then the default, the best two and what
+/// the same pixels (StrategyTrial): first all; then the default, the best two and what
 /// both make together; last the best and the default on yet other pixels, which decide.
 /// What is advised is a function of scene, settings and seed, unless the trial has to be
 /// ended since it takes three times what it should. `job` then has the chosen strategy, a

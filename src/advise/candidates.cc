@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "src/prepare/use_strategy.h"
+#include "src/wavefront/decision_candidates.h"
 #include "src/wavefront/plan_key.h"
 
 namespace lanelight {
@@ -40,45 +42,73 @@ std::string Refusal(const Strategy& strategy, const PlanOptions& options,
   return "";
 }
 
-}  // namespace
-
+// The axis of a change: "roulette" of "roulette=none".
 std::string AxisOf(const std::string& changes) {
   return changes.substr(0, changes.find('='));
 }
 
-Strategy Changed(const Strategy& strategy, const std::string& changes) {
-  Strategy changed = strategy;
-  ApplyStrategy(changes, {std::make_shared<const std::string>("advise"), 0, 0}, changed);
-  return changed;
+}  // namespace
+
+const char* Name(CandidateStatus status) {
+  constexpr const char* kNames[] = {"chosen", "kept", "dropped", "skipped", "refused"};
+  return kNames[static_cast<int>(status)];
 }
 
-std::vector<Candidate> CandidatesFor(CompiledScene& scene, const PlanOptions& options) {
+AdvisedCandidate WithMore(AdvisedCandidate candidate, const std::string& changes) {
+  ApplyStrategy(changes, {std::make_shared<const std::string>("advise"), 0, 0},
+                candidate.strategy);
+  candidate.changes = JoinedChanges(candidate.changes, changes);
+  return candidate;
+}
+
+std::optional<AdvisedCandidate> Together(const AdvisedCandidate& a,
+                                         const AdvisedCandidate& b) {
+  if (a.meaning == kOwnStrategy || b.meaning == kOwnStrategy ||
+      AxisOf(a.changes) == AxisOf(b.changes)) {
+    return std::nullopt;
+  }
+  AdvisedCandidate both;
+  both.strategy = a.strategy;
+  both.changes = a.changes;
+  both.meaning = "both pay";
+  both.price = a.price * b.price;
+  both.price_spread = std::hypot(a.price_spread, b.price_spread);
+  return WithMore(both, b.changes);
+}
+
+std::vector<AdvisedCandidate> CandidatesFor(CompiledScene& scene,
+                                            const PlanOptions& options) {
   const Strategy own = scene.strategy, usual;
-  std::vector<Candidate> out = {{usual, "", "the renderer's default", 1, 0, ""}};
+  std::vector<AdvisedCandidate> out = {{usual, "", "the renderer's default"}};
   for (const DecisionCandidate& c : kDecisionCandidates) {
-    const Strategy changed = Changed(usual, c.changes);
-    if (changed == own) continue;
-    out.push_back({changed, c.changes, c.reason, c.price, c.price_spread, ""});
+    AdvisedCandidate changed = WithMore({}, c.changes);
+    if (changed.strategy == own) continue;
+    changed.meaning = c.reason;
+    changed.price = c.price;
+    changed.price_spread = c.price_spread;
+    out.push_back(changed);
   }
   if (own != usual) {
     out.insert(out.begin() + kPlaceOfOwn,
-               {own, ToText(own), kOwnStrategy, 1, kUnknownSpread, ""});
+               {own, ToText(own), kOwnStrategy, 1, kUnknownSpread});
   }
   std::vector<std::string> keys;
-  for (Candidate& candidate : out) {
+  for (AdvisedCandidate& candidate : out) {
     std::string key;
-    candidate.refused = Refusal(candidate.strategy, options, scene, key);
+    candidate.reason = Refusal(candidate.strategy, options, scene, key);
     // Equal plans give equal bits: what would differ is their timing alone.
     const auto twin = std::find(keys.begin(), keys.end(), key);
-    if (candidate.refused.empty() && twin != keys.end()) {
+    if (candidate.reason.empty() && twin != keys.end()) {
       const std::string& changes = out[std::size_t(twin - keys.begin())].changes;
-      candidate.refused = "does on this scene exactly what " +
-                          (changes.empty() ? "the default" : changes) + " does";
+      candidate.reason = "does on this scene exactly what " +
+                         (changes.empty() ? "the default" : changes) + " does";
     }
-    keys.push_back(candidate.refused.empty() ? key : "-");
+    if (!candidate.reason.empty()) candidate.status = CandidateStatus::kRefused;
+    keys.push_back(candidate.reason.empty() ? key : "-");
   }
   // A comparison needs its first.
-  if (!out.front().refused.empty()) std::swap(out[0], out[kPlaceOfOwn]);
+  if (out.front().status == CandidateStatus::kRefused)
+    std::swap(out[0], out[kPlaceOfOwn]);
   UseStrategy(own, scene);
   return out;
 }

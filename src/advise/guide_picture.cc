@@ -11,7 +11,6 @@
 #include "src/core/error.h"
 #include "src/prepare/guide_records.h"
 #include "src/prepare/guide_square.h"
-#include "src/wavefront/wavefront.h"
 #include "src/wavefront/training.h"
 #include "src/wavefront/training_pass.h"
 
@@ -35,35 +34,31 @@ class Study {
       : job_(job), options_(options) {
     PlanOptions guided = job.plan.options;
     guided.Change("guiding=radiance,decide=none");
-    guided.auxiliary = Auxiliary::kNone;
     plan_ = MakePlan(job.scene, guided);
     if (!plan_.features.Has(Feature::kGuided)) {
       throw InputError("nothing in this scene can be guided: no surface scatters light");
     }
     tables_ = MakeStrategyTables(job.scene);
-    run_ = MakeRunParameters(job.scene, plan_);
-    run_.seed = static_cast<std::uint32_t>(job.seed);
-    run_.tables = &tables_;
   }
 
   std::string Learn() {
     TrainingOptions training;
     training.planned_samples = options_.samples;
     training.stop = options_.stop;
-    const TrainingOutcome outcome = Train({job_.scene, plan_, run_, training, tables_});
+    const TrainingOutcome outcome = Train({job_.scene, plan_, Seed(), training, tables_});
     if (options_.stop != nullptr && *options_.stop) throw InputError("interrupted");
     return outcome.note;
   }
 
   // The first rays of the pixel's paths.
   std::vector<GuideRecord> Rays() const {
-    PlanOptions options = plan_.options;
-    options.training = FeatureSet{Feature::kRecordsGuide};
+    TrainingPass pass = {job_.scene, plan_.options, &tables_, Seed()};
+    pass.options.training = FeatureSet{Feature::kRecordsGuide};
     TrainingWork work;
     const int width = job_.description.film.width;
     work.pixels = {static_cast<std::uint32_t>(options_.y * width + options_.x)};
     work.spp = static_cast<std::uint32_t>(options_.rays);
-    const TrainingSamples found = RunTrainingPass(job_.scene, options, run_, work);
+    const TrainingSamples found = RunTrainingPass(pass, work);
     std::vector<float> first;
     for (std::size_t at = 0; at < found.recorded.size(); at += kGuidePlanes) {
       const auto sample = found.recorded.begin() + static_cast<std::ptrdiff_t>(at);
@@ -88,11 +83,12 @@ class Study {
   const Guide& guide() const { return tables_.guide; }
 
  private:
+  std::uint32_t Seed() const { return static_cast<std::uint32_t>(job_.seed); }
+
   const Job& job_;
   const GuidePictureOptions& options_;
   Plan plan_;
   StrategyTables tables_;
-  RunParameters run_;
 };
 
 // Relative to the cosine: what arrives through each square.

@@ -9,17 +9,10 @@
 
 #include "src/core/error.h"
 #include "src/prepare/guide_restore.h"
+#include "src/wavefront/trained_tables.h"
 
 namespace lanelight {
 namespace {
-
-const std::vector<double>& ValuesOf(const std::vector<TrainedTable>& trained,
-                                    const std::string& name) {
-  for (const TrainedTable& table : trained) {
-    if (table.name == name) return table.values;
-  }
-  throw InputError(fmt::format("the state has no table '{}'", name));
-}
 
 std::uint32_t Whole(double value, const char* table) {
   if (!(value >= 0 && value <= std::numeric_limits<std::uint32_t>::max()) ||
@@ -60,16 +53,16 @@ std::vector<TrainedTable> TakeGuide(const Guide& guide) {
 
 void PutGuide(const std::vector<TrainedTable>& trained, Guide& out) {
   Guide guide;
-  const std::vector<double>& at = ValuesOf(trained, "guide_at");
-  const std::vector<double>& next = ValuesOf(trained, "guide_next");
+  const std::vector<double>& at = TableOf(trained, "guide_at");
+  const std::vector<double>& next = TableOf(trained, "guide_next");
   if (at.size() != next.size()) {
     throw InputError("the state's table 'guide_next' does not fit 'guide_at'");
   }
   for (std::size_t i = 0; i < at.size(); ++i) {
     guide.nodes.push_back({static_cast<float>(at[i]), Whole(next[i], "guide_next")});
   }
-  PutFloats(ValuesOf(trained, "guide_cumulative"), guide.cumulative);
-  PutFloats(ValuesOf(trained, "guide_fraction"), guide.fraction);
+  PutFloats(TableOf(trained, "guide_cumulative"), guide.cumulative);
+  PutFloats(TableOf(trained, "guide_fraction"), guide.fraction);
   const std::string fault = CompleteGuide(guide);
   if (!fault.empty()) {
     throw InputError(fmt::format("the guide in the state's tables is broken: {}", fault));

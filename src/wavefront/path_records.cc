@@ -52,28 +52,45 @@ PathSamples ReadRecords(TrainingSamples samples) {
   return out;
 }
 
-std::vector<double> RelativeVariances(const TrainingSamples& samples,
-                                      const TrainingWork& work, const ImageGuess& image) {
+ImageGuess GuessImage(const CompiledScene& scene, const TrainingSamples& samples,
+                      const TrainingWork& work) {
+  return {static_cast<std::uint32_t>(scene.film.width),
+          static_cast<std::uint32_t>(scene.film.height), work.pixels, samples.colors};
+}
+
+double VarianceOfMean(const TrainingSamples& samples, const TrainingWork& work,
+                      const ImageGuess& image, std::span<const std::size_t> places) {
   const std::uint32_t n = samples.observations;  // of a pixel
-  std::vector<double> variances(work.pixels.size());
-  for (std::size_t i = 0; i < variances.size(); ++i) {
-    const Vec3f* const colors = samples.colors.data() + i * work.spp;
-    Vec3d sum, squares;
-    for (std::uint32_t k = 0; k < n; ++k) {
-      Vec3d of_one;
+  Vec3d sum, squares, weight;
+  for (std::uint32_t k = 0; k < n; ++k) {
+    Vec3d of_one;
+    for (const std::size_t i : places) {
       // Randomisations take turns (src/path/replicates.h).
       for (std::uint32_t j = k; j < work.spp; j += n) {
-        of_one += {colors[j].x, colors[j].y, colors[j].z};
+        of_one += VecCast<double>(samples.colors[i * work.spp + j]);
       }
-      sum += of_one;
-      squares += {of_one.x * of_one.x, of_one.y * of_one.y, of_one.z * of_one.z};
     }
-    for (int c = 0; c < 3; ++c) {
-      // Of the sum over an observation; per sample.
-      const double scatter = std::max(0.0, squares[c] - sum[c] * sum[c] / n) * n;
-      variances[i] +=
-          scatter / (n - 1) / work.spp * image.ErrorWeight(work.pixels[i], c) / 3;
+    sum += of_one;
+    squares += of_one * of_one;
+  }
+  double variance = 0;
+  for (int c = 0; c < 3; ++c) {
+    for (const std::size_t i : places) {
+      weight[c] += image.ErrorWeight(work.pixels[i], c);
     }
+    // Of the sum over an observation; per sample.
+    const double scatter = std::max(0.0, squares[c] - sum[c] * sum[c] / n) * n;
+    variance += scatter / (n - 1) / work.spp * weight[c] / 3;
+  }
+  const double pixels = double(places.size());
+  return variance / (pixels * pixels * pixels);
+}
+
+std::vector<double> RelativeVariances(const TrainingSamples& samples,
+                                      const TrainingWork& work, const ImageGuess& image) {
+  std::vector<double> variances;
+  for (std::size_t i = 0; i < work.pixels.size(); ++i) {
+    variances.push_back(VarianceOfMean(samples, work, image, std::span(&i, 1)));
   }
   return variances;
 }

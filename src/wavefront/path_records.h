@@ -1,6 +1,7 @@
 // What training passes find out of paths, and variances from their few samples.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "src/path/sample_planes.h"
@@ -35,8 +36,17 @@ struct PathSamples : TrainingSamples {
 /// Reads the planes of PlaneGroup::kRecord, if there are any.
 PathSamples ReadRecords(TrainingSamples samples);
 
-/// Variances of a sample in each pixel of `work`, as relative errors weigh them: of the
-/// means of observations, times the samples of one.
+/// What the image is like, by the samples of `work`.
+ImageGuess GuessImage(const CompiledScene& scene, const TrainingSamples& samples,
+                      const TrainingWork& work);
+
+/// Variance of the mean of some pixels of `work` (their places in it), of a sample in
+/// each, as relative errors weigh it: of the means of observations, times the samples of
+/// one.
+double VarianceOfMean(const TrainingSamples& samples, const TrainingWork& work,
+                      const ImageGuess& image, std::span<const std::size_t> places);
+
+/// The same of each pixel by itself.
 std::vector<double> RelativeVariances(const TrainingSamples& samples,
                                       const TrainingWork& work, const ImageGuess& image);
 

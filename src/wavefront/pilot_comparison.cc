@@ -42,14 +42,15 @@ double RobustMean(std::vector<double> values) {
          static_cast<double>(values.size());
 }
 
+double PilotMeasure::Variance() const {
+  return std::accumulate(variances.begin(), variances.end(), 0.0);
+}
+
 double PilotMeasure::Score() const { return cost * RobustMean(variances); }
 
 PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual) {
   LL_CHECK_EQ(other.variances.size(), usual.variances.size());
-  const auto sum = [](const PilotMeasure& m) {
-    return std::accumulate(m.variances.begin(), m.variances.end(), 0.0);
-  };
-  const double others = sum(other), usuals = sum(usual);
+  const double others = other.Variance(), usuals = usual.Variance();
   const auto log_ratio = [&](double without_usual, double without_other) {
     constexpr double kMost = 100;
     const double u = usuals - without_usual, o = others - without_other;

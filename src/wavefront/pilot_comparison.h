@@ -12,6 +12,8 @@ struct PilotMeasure {
   double cost = 1;                // of a sample (TrainingSamples::Cost)
   std::vector<double> variances;  // of a sample, relative (RelativeVariances)
 
+  /// Of all pixels.
+  double Variance() const;
   /// 1 / efficiency: the mean of the variances without the worst thousandth of them,
   /// times the cost.
   double Score() const;

@@ -13,6 +13,11 @@
 
 namespace lanelight {
 
+/// Changes of a strategy (as in --strategy) one after the other; either may be empty.
+inline std::string JoinedChanges(const std::string& first, const std::string& then) {
+  return first + (first.empty() || then.empty() ? "" : ",") + then;
+}
+
 struct PlanOptions {
   std::uint32_t max_depth = 5;
   Auxiliary auxiliary = Auxiliary::kNone;
@@ -30,9 +35,7 @@ struct PlanOptions {
   bool camera_only = false;
 
   /// Changes the strategy further.
-  void Change(const std::string& text) {
-    changes += (changes.empty() || text.empty() ? "" : ",") + text;
-  }
+  void Change(const std::string& text) { changes = JoinedChanges(changes, text); }
 };
 
 struct PlannedStage {

@@ -52,7 +52,8 @@ std::uint64_t RunStrategy::PlannedSamples() const {
   const bool decides = plan_.features.Has(Feature::kDecides);
   if (decides && options_.seconds > 0) {
     const StopWatcher watcher(options_.stop);
-    return SamplesWithin(options_.seconds, scene_, plan_.options, run_, &watcher);
+    return SamplesWithin(options_.seconds,
+                         {scene_, plan_.options, &tables_, run_.seed, &watcher});
   }
   return decides ? DecidedBy(pixels) : std::max(pixels * kPilotSpp, kLeastPilot);
 }
@@ -67,7 +68,7 @@ void RunStrategy::Train() {
     options.seconds = options_.seconds;
   }
   options.stop = options_.stop;
-  training_ = lanelight::Train({scene_, plan_, run_, options, tables_});
+  training_ = lanelight::Train({scene_, plan_, run_.seed, options, tables_});
   training_.seconds = clock_.Seconds();
   training_.cpu_seconds = clock_.CpuSeconds();
   // What was cut short is trained anew when the run goes on.

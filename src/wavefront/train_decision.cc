@@ -28,11 +28,10 @@
 
 #include "src/core/error.h"
 #include "src/wavefront/decision_candidates.h"
-#include "src/wavefront/decision_pilot.h"
 #include "src/wavefront/plan_features.h"
 #include "src/wavefront/plan_key.h"
-#include "src/wavefront/reuse_trial.h"
 #include "src/wavefront/run.h"
+#include "src/wavefront/strategy_trial.h"
 
 namespace lanelight {
 namespace {
@@ -56,15 +55,14 @@ class Decider {
         training_(context.options),
         planned_(std::min(context.options.planned_samples, kMostDecidedBy)),
         tables_(context.tables),
-        seed_(context.run.seed),
-        pilot_(scene_, training_, context.run.seed, {planned_ / kCompared}) {}
+        trial_(scene_, training_, context.seed, planned_ / kLearned) {}
 
   TrainingOutcome Run() {
     Add("", 1);
     for (const DecisionCandidate& c : std::span(kDecisionCandidates, kDecidedUnasked)) {
       Add(c.changes, c.price);
     }
-    DecisionEntry* chosen = &entries_.front();
+    TriedStrategy* chosen = &entries_.front();
     if (entries_.size() == 1) {
       note_ = "no candidate does anything else here";
     } else if (planned_ / kCompared < kLeastToCompare) {
@@ -72,22 +70,18 @@ class Decider {
     } else {
       chosen = Compare();
     }
-    if (!pilot_.Stopped() && planned_ / kCompared >= kLeastToCompare)
+    if (!trial_.Stopped() && planned_ / kCompared >= kLeastToCompare)
       TryBlocksBeside(*chosen);
-    if (!pilot_.Stopped()) TrainFor(*chosen);
-    outcome_.samples = pilot_.spent().samples + tried_samples_;
-    outcome_.rays = pilot_.spent().rays + tried_rays_;
+    if (!trial_.Stopped()) TrainFor(*chosen);
+    outcome_.samples = trial_.spent().samples;
+    outcome_.rays = trial_.spent().rays;
     return outcome_;
   }
 
  private:
   // Unless the scene refuses it, or another does the same there.
   void Add(const std::string& changes, double price) {
-    DecisionEntry entry;
-    entry.changes = changes;
-    entry.price = price;
-    entry.options = options_;
-    entry.options.changes = Undecided(entry);
+    TriedStrategy entry = ToTry(scene_, options_, changes, price);
     try {
       const std::string key = PlanKey(scene_, MakePlan(scene_, entry.options));
       if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) return;
@@ -96,54 +90,37 @@ class Decider {
       if (entries_.empty()) throw;
       return;
     }
-    entry.tables = MakeStrategyTables(scene_);
     entries_.push_back(std::move(entry));
   }
 
-  DecisionEntry* Compare() {
-    for (DecisionEntry& entry : entries_) {
-      const TrainingOutcome out = pilot_.Learn(entry, planned_ / kLearned, entry.tables);
-      // It may have found that it had better be something else.
-      entry.options.Change(out.changes);
-      if (!pilot_.Measure(entry, entries_.front())) return &entries_.front();
+  TriedStrategy* Compare() {
+    trial_.Begin(planned_ / kCompared);
+    for (TriedStrategy& entry : entries_) {
+      if (!trial_.Try(entry, entries_.front())) return &entries_.front();
     }
     return Choose();
   }
 
   // Paths that serve their block, beside what has been chosen. Where that splits paths,
   // it is one or the other.
-  void TryBlocksBeside(DecisionEntry& chosen) {
+  void TryBlocksBeside(TriedStrategy& chosen) {
     const bool splits = PlannedStrategy(scene_, chosen.options).Splits();
-    DecisionEntry blocks = splits ? entries_.front() : chosen;
-    const StopWatcher watcher(training_.stop);
-    ReuseTrial trial = {seed_, planned_ / kTiled, kMustGain, &watcher};
-    if (splits) trial.must_gain = std::exp(chosen.Gain().log);
-    for (const auto& [changes, verdict] :
-         TryBlocks(scene_, {blocks.options, &blocks.tables}, trial)) {
-      tried_samples_ += verdict.samples;
-      tried_rays_ += verdict.rays;
+    const double must_gain = splits ? std::exp(chosen.Gain().log) : kMustGain;
+    TriedStrategy usual = splits ? entries_.front() : chosen;
+    for (const TriedBlocks& blocks :
+         trial_.TryBlocks(usual, planned_ / kTiled, must_gain)) {
       note_ += fmt::format("; {} is {:.2f} times as efficient, {:.2f} after a filter",
-                           changes, verdict.per_pixel, verdict.filtered);
-      if (!verdict.pays) continue;
-      blocks.options.Change(changes);
-      blocks.changes = Joined(blocks.changes, changes);
-      chosen = std::move(blocks);
+                           blocks.changes, blocks.per_pixel, blocks.filtered);
+      if (!blocks.pays) continue;
+      usual.changes = JoinedChanges(usual.changes, blocks.changes);
+      chosen = std::move(usual);
     }
   }
 
-  static std::string Joined(const std::string& a, const std::string& b) {
-    return a + (a.empty() ? "" : ",") + b;
-  }
-
-  // To the plan's own strategy.
-  static std::string Undecided(const DecisionEntry& entry) {
-    return entry.changes + (entry.changes.empty() ? "decide=none" : ",decide=none");
-  }
-
-  DecisionEntry* Choose() {
-    DecisionEntry* chosen = &entries_.front();
+  TriedStrategy* Choose() {
+    TriedStrategy* chosen = &entries_.front();
     double most = 0;
-    for (DecisionEntry& entry : entries_) {
+    for (TriedStrategy& entry : entries_) {
       if (entry.changes.empty()) continue;
       const double beyond = entry.Beyond(kMustGain, kStandardErrors);
       if (beyond <= most) continue;
@@ -156,7 +133,7 @@ class Decider {
 
   void Explain() {
     std::string others;
-    for (const DecisionEntry& entry : entries_) {
+    for (const TriedStrategy& entry : entries_) {
       if (entry.changes.empty()) continue;
       const PilotGain gain = GainOf(entry.measure, entry.usual);
       others += fmt::format("{}{} {:.2f}", others.empty() ? "" : ", ", entry.changes,
@@ -164,21 +141,17 @@ class Decider {
     }
     note_ = fmt::format(
         "efficiency relative to the strategy as given, by {} samples of a few pixels: {}",
-        pilot_.samples(), others);
+        trial_.samples(), others);
   }
 
-  static std::string Verdict(const DecisionEntry& chosen) {
-    return chosen.changes.empty() ? "rendered with the strategy as given"
-                                  : "rendered with " + chosen.changes;
-  }
-
-  void TrainFor(DecisionEntry& chosen) {
-    chosen.options.changes = Undecided(chosen);
-    const TrainingOutcome out = pilot_.Learn(chosen, training_.planned_samples, tables_);
-    outcome_.changes = Undecided(chosen);
-    if (!out.changes.empty()) outcome_.changes += "," + out.changes;
-    outcome_.note = fmt::format("{}; {}{}{}", Verdict(chosen), note_,
-                                out.note.empty() ? "" : "; ", out.note);
+  void TrainFor(TriedStrategy& chosen) {
+    chosen.options.changes = JoinedChanges(chosen.changes, "decide=none");
+    const TrainingOutcome out = trial_.Learn(chosen, training_.planned_samples, tables_);
+    outcome_.changes = JoinedChanges(chosen.options.changes, out.changes);
+    outcome_.note =
+        fmt::format("rendered with {}; {}{}{}",
+                    chosen.changes.empty() ? "the strategy as given" : chosen.changes,
+                    note_, out.note.empty() ? "" : "; ", out.note);
   }
 
   const CompiledScene& scene_;
@@ -186,10 +159,8 @@ class Decider {
   const TrainingOptions& training_;
   const std::uint64_t planned_;
   StrategyTables& tables_;
-  const std::uint32_t seed_;
-  DecisionPilot pilot_;
-  std::uint64_t tried_samples_ = 0, tried_rays_ = 0;  // of blocks
-  std::vector<DecisionEntry> entries_;                // the first: the strategy as given
+  StrategyTrial trial_;
+  std::vector<TriedStrategy> entries_;  // the first: the strategy as given
   std::vector<std::string> keys_;
   std::string note_;
   TrainingOutcome outcome_;

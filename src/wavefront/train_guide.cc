@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
+#include "src/core/stopwatch.h"
 #include "src/prepare/guide_build.h"
 #include "src/prepare/guide_cell.h"
 #include "src/wavefront/stop_watcher.h"
@@ -34,7 +34,6 @@ class GuideTraining {
         guide_(context.tables.guide),
         watcher_(context.options.stop),
         options_(context.plan.options) {
-    options_.auxiliary = Auxiliary::kNone;
     options_.training = FeatureSet{Feature::kRecordsGuide};
     // A path that splits would be on record with its first copy only.
     if (context.plan.features.Has(Feature::kSplitting)) {
@@ -46,7 +45,7 @@ class GuideTraining {
     guide_ = UnknowingGuide();
     for (std::uint64_t samples = FirstRound(); samples > 0; samples = NextRound()) {
       Round(samples);
-      if (Stopped()) return outcome_;
+      if (watcher_.Stopped()) return outcome_;
       guide_ = BuildGuide(records_, {}, &summary_);
       ++rounds_;
     }
@@ -55,12 +54,6 @@ class GuideTraining {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  bool Stopped() const { return context_.options.stop && *context_.options.stop; }
-  double Elapsed() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-  }
   double Seconds() const { return kShare * context_.options.seconds; }
   bool Timed() const { return context_.options.seconds > 0; }
 
@@ -83,18 +76,19 @@ class GuideTraining {
     const std::uint64_t next = 2 * last_round_;
     if (!Timed()) return outcome_.samples + next <= Planned() ? next : 0;
     // It will take twice as long; the last one takes what is left.
-    const double left = Seconds() - Elapsed(), needs = 2 * (Elapsed() - round_start_);
+    const double left = Seconds() - watch_.Seconds();
+    const double needs = 2 * (watch_.Seconds() - round_start_);
     if (outcome_.samples >= kMostSamples || left < 0.25 * needs) return 0;
     const double share = left < 1.5 * needs ? std::min(1.5, left / needs) : 1;
     return static_cast<std::uint64_t>(share * double(next));
   }
 
   void Round(std::uint64_t samples) {
-    round_start_ = Elapsed();
+    round_start_ = watch_.Seconds();
     last_round_ = samples;
     // What other guides have proposed says nothing of this one.
     for (GuideRecord& r : records_) r.guide = 0;
-    for (std::uint64_t done = 0; done < samples && !Stopped();) {
+    for (std::uint64_t done = 0; done < samples && !watcher_.Stopped();) {
       done += Pass(std::min(samples - done, kPassSamples));
     }
     if (records_.size() > kMostRecords) {
@@ -104,16 +98,16 @@ class GuideTraining {
   }
 
   std::uint64_t Pass(std::uint64_t samples) {
-    RunParameters run = context_.run;
-    run.tables = &context_.tables;
-    run.seed = GuidePassSeed(run.seed, ++passes_);
+    ++passes_;
     const TrainingWork work =
         MakeTrainingWork(context_.scene, samples, TrainingWork::kLeastSpp, passes_);
     const TrainingSamples found =
-        RunTrainingPass(context_.scene, options_, run, work, &watcher_);
+        RunTrainingPass({context_.scene, options_, &context_.tables,
+                         GuidePassSeed(context_.seed, passes_), &watcher_},
+                        work);
     outcome_.samples += found.colors.size();
-    outcome_.rays += found.rays_closest + found.rays_shadow;
-    if (!Stopped()) ReadGuideRecords(found.recorded, guide_, records_);
+    outcome_.rays += found.rays();
+    if (!watcher_.Stopped()) ReadGuideRecords(found.recorded, guide_, records_);
     return found.colors.size();
   }
 
@@ -130,7 +124,7 @@ class GuideTraining {
   Guide& guide_;
   const StopWatcher watcher_;
   PlanOptions options_;
-  const Clock::time_point start_ = Clock::now();
+  const Stopwatch watch_;
   double round_start_ = 0;
   std::vector<GuideRecord> records_;
   std::uint64_t last_round_ = 0;

@@ -17,6 +17,7 @@
 #include "src/wavefront/stop_watcher.h"
 #include "src/wavefront/training.h"
 #include "src/wavefront/training_pass.h"
+#include "src/wavefront/wavefront.h"
 
 namespace lanelight {
 namespace {
@@ -48,12 +49,12 @@ class Pilot {
   explicit Pilot(const TrainingContext& context)
       : scene_(context.scene),
         plan_(context.plan),
-        run_(context.run),
+        tables_(context.tables),
+        seed_(context.seed),
         options_(context.options),
         values_(context.tables.path_values),
         watcher_(context.options.stop),
         efficiency_(plan_.features.Has(Feature::kEfficiencyRoulette)) {
-    run_.tables = &context.tables;
     const std::uint64_t planned = options_.planned_samples;
     samples_ = efficiency_ ? std::min(planned * 3 / 400, kMostPilotSamples / 4)
                            : std::min(planned / 25, kMostPilotSamples);
@@ -71,33 +72,30 @@ class Pilot {
       outcome_.changes = Change(Roulette::kThroughput);
     }
     const PathSamples recorded = RecordPass();
-    if (!efficiency_ || Stopped()) return outcome_;
+    if (!efficiency_ || watcher_.Stopped()) return outcome_;
     Compare(recorded);
     return outcome_;
   }
 
  private:
-  bool Stopped() const { return options_.stop != nullptr && *options_.stop; }
-
   static constexpr FeatureSet kMeasure = {}, kRecord = {Feature::kRecordsPaths};
 
   PathSamples Pass(const FeatureSet& records, Roulette roulette,
                    const TrainingWork& work) {
     PlanOptions options = plan_.options;
-    options.auxiliary = Auxiliary::kNone;
     options.training = records;
     options.Change(Change(roulette));
     PathSamples samples =
-        ReadRecords(RunTrainingPass(scene_, options, run_, work, &watcher_));
+        ReadRecords(RunTrainingPass({scene_, options, &tables_, seed_, &watcher_}, work));
     outcome_.samples += samples.colors.size();
-    outcome_.rays += samples.rays_closest + samples.rays_shadow;
+    outcome_.rays += samples.rays();
     return samples;
   }
 
   // The colour of the image: brightness weighs the channels with it.
   void WeighChannels(const TrainingWork& few) {
-    const PathSamples samples = Pass(kMeasure, Roulette::kThroughput, few);
-    const ImageGuess image(run_.width, run_.height, few.pixels, samples.colors);
+    const ImageGuess image =
+        GuessImage(scene_, Pass(kMeasure, Roulette::kThroughput, few), few);
     for (int c = 0; c < 3; ++c) values_.channel[c] = image.Channel(c);
   }
 
@@ -107,8 +105,7 @@ class Pilot {
                                 std::uint64_t{work_.samples()} * 2);
     WeighChannels(FewOf(work_));
     const PathSamples samples = Pass(kRecord, Roulette::kThroughput, work_);
-    image_ = std::make_unique<ImageGuess>(run_.width, run_.height, work_.pixels,
-                                          samples.colors);
+    image_ = std::make_unique<ImageGuess>(GuessImage(scene_, samples, work_));
     values_.inverse_pixel = image_->Inverse(!efficiency_);
     std::vector<CellSums> sums(values_.grid.cells());
     if (!image_->black()) Deposit(samples, sums);
@@ -120,6 +117,7 @@ class Pilot {
   // An event (a shadow ray and a scattered one, as far as the scene has them) costs what
   // remains after a ray from the camera per sample.
   void Deposit(const PathSamples& samples, std::vector<CellSums>& sums) const {
+    const float exposure = ExposureOf(scene_);
     double events = 0;
     for (const PathRecord& r : samples.records) events += r.depth;
     const double cost_of_event =
@@ -132,8 +130,7 @@ class Pilot {
       for (int k = 0; k < kRecordedVertices; ++k) {
         const PathRecord::Vertex& v = r.vertices[k];
         if (v.cell == kNoCell || !(v.at > 0)) continue;
-        const double gathered =
-            std::clamp<double>((r.end - v.got) * run_.exposure, 0, most);
+        const double gathered = std::clamp<double>((r.end - v.got) * exposure, 0, most);
         const double cost = std::max(1.0, double(r.depth) - k) * cost_of_event;
         sums[v.cell].Add(gathered / v.at, cost);
       }
@@ -180,9 +177,9 @@ class Pilot {
   void Compare(const PathSamples& recorded) {
     const Candidate throughput = Measure(Roulette::kThroughput, recorded);
     const Candidate splitting = MeasureSplitting(throughput);
-    if (options_.keep_roulette || Stopped()) return;
+    if (options_.keep_roulette || watcher_.Stopped()) return;
     const Candidate plain = BetterPlain(throughput);
-    if (Stopped()) return;
+    if (watcher_.Stopped()) return;
     const Roulette chosen = IsClearlyBetter(splitting, plain, kMargin)
                                 ? Roulette::kEfficiency
                                 : plain.roulette;
@@ -196,7 +193,8 @@ class Pilot {
 
   const CompiledScene& scene_;
   const Plan& plan_;
-  RunParameters run_;
+  const StrategyTables& tables_;
+  const std::uint32_t seed_;
   const TrainingOptions& options_;
   PathValues& values_;
   const StopWatcher watcher_;

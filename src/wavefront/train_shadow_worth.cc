@@ -11,29 +11,25 @@
 #include "src/wavefront/stop_watcher.h"
 #include "src/wavefront/training.h"
 #include "src/wavefront/training_pass.h"
+#include "src/wavefront/wavefront.h"
 
 namespace lanelight {
 namespace {
 
 constexpr std::uint64_t kMostShadowSamples = 60'000;
-// Cost of a shadow ray in the unit of TrainingSamples::Cost.
-constexpr double kShadowRayCost = 0.5;
 // Points that are stratified leave less variance than the independent ones of the pass,
 // and the pass has that between the points of a pixel too; roulette adds noise that no
 // stratification lowers.
 constexpr double kStratified = 0.25;
 
-PathSamples ShadowPass(const TrainingContext& context, const TrainingWork& work) {
+TrainingSamples ShadowPass(const TrainingContext& context, const TrainingWork& work) {
   const StopWatcher watcher(context.options.stop);
   PlanOptions options = context.plan.options;
-  options.auxiliary = Auxiliary::kNone;
-  options.training = FeatureSet{};
   if (context.plan.features.Has(Feature::kSplitting)) {
     options.Change("roulette=throughput");
   }
-  RunParameters run = context.run;
-  run.tables = &context.tables;
-  return ReadRecords(RunTrainingPass(context.scene, options, run, work, &watcher));
+  return RunTrainingPass(
+      {context.scene, options, &context.tables, context.seed, &watcher}, work);
 }
 
 // The square of the mean standard deviation. By the mean variance a few pixels that see
@@ -54,17 +50,17 @@ TrainingOutcome TrainShadowWorth(const TrainingContext& context) {
   const TrainingWork work = MakeTrainingWork(context.scene, samples);
   ShadowWorth& worth = context.tables.shadow_worth;
   worth.inverse.clear();  // the pass traces every ray
-  const PathSamples pass = ShadowPass(context, work);
-  const RunParameters& run = context.run;
-  const ImageGuess image(run.width, run.height, work.pixels, pass.colors);
+  const TrainingSamples pass = ShadowPass(context, work);
+  const ImageGuess image = GuessImage(context.scene, pass, work);
   const double variance = UsualVariance(RelativeVariances(pass, work, image));
   const double share = kShadowRayCost / std::max(pass.Cost(), kShadowRayCost);
-  worth.inverse =
-      InverseShadowWorth(image, run.width * run.height,
-                         std::sqrt(kStratified * variance * share), double{run.exposure});
+  const Film& film = context.scene.film;
+  worth.inverse = InverseShadowWorth(
+      image, static_cast<std::uint32_t>(film.width * film.height),
+      std::sqrt(kStratified * variance * share), double{ExposureOf(context.scene)});
   TrainingOutcome outcome;
   outcome.samples = pass.colors.size();
-  outcome.rays = pass.rays_closest + pass.rays_shadow;
+  outcome.rays = pass.rays();
   outcome.note = fmt::format("{} pilot samples for shadow rays", outcome.samples);
   return outcome;
 }

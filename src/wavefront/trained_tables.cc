@@ -51,19 +51,19 @@ std::vector<TrainedTable> TakeTraining(const StrategyTables& tables) {
   return trained;
 }
 
-namespace {
-
-bool HasTable(const std::vector<TrainedTable>& trained, const std::string& name) {
-  return std::any_of(trained.begin(), trained.end(),
-                     [&](const TrainedTable& table) { return table.name == name; });
-}
-
 const std::vector<double>& TableOf(const std::vector<TrainedTable>& trained,
                                    const std::string& name) {
   for (const TrainedTable& table : trained) {
     if (table.name == name) return table.values;
   }
   throw InputError(fmt::format("the state has no table '{}'", name));
+}
+
+namespace {
+
+bool HasTable(const std::vector<TrainedTable>& trained, const std::string& name) {
+  return std::any_of(trained.begin(), trained.end(),
+                     [&](const TrainedTable& table) { return table.name == name; });
 }
 
 // `why` says what the right size comes from.

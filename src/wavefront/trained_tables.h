@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "src/prepare/tables.h"
@@ -10,6 +11,10 @@
 #include "src/wavefront/run_state.h"
 
 namespace lanelight {
+
+/// The values of a table. Throws InputError if there is none of this name.
+const std::vector<double>& TableOf(const std::vector<TrainedTable>& trained,
+                                   const std::string& name);
 
 /// What Train has put into the tables.
 std::vector<TrainedTable> TakeTraining(const StrategyTables& tables);

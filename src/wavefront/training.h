@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 
-#include "src/path/run_parameters.h"
 #include "src/prepare/tables.h"
 #include "src/wavefront/plan.h"
 #include "src/wavefront/run_state.h"
@@ -31,11 +30,11 @@ inline constexpr std::uint64_t kLeastDecidedBy = std::uint64_t{1} << 23;
 /// What that is for an image of so many pixels, unless a time budget says it.
 std::uint64_t DecidedBy(std::uint64_t pixels);
 
-/// What a training knows: `plan` and `run` are those of the image.
+/// What a training knows: `plan` and `seed` are those of the image.
 struct TrainingContext {
   const CompiledScene& scene;
   const Plan& plan;
-  const RunParameters& run;
+  std::uint32_t seed = 0;
   const TrainingOptions& options;
   StrategyTables& tables;  // to be filled
 };

@@ -9,13 +9,13 @@
 #include "src/core/parallel.h"
 #include "src/scene/rendered_pixels.h"
 #include "src/prepare/groups.h"
-#include "src/prepare/parameters.h"
 #include "src/prepare/tables.h"
 #include "src/wavefront/block_reuse.h"
 #include "src/wavefront/copies.h"
 #include "src/wavefront/plan_features.h"
 #include "src/wavefront/drive.h"
 #include "src/wavefront/tiles.h"
+#include "src/wavefront/wavefront.h"
 
 namespace lanelight {
 namespace {
@@ -30,18 +30,19 @@ std::uint64_t RunLength(std::uint64_t pixels, std::uint32_t spp) {
 
 class Pass {
  public:
-  Pass(const CompiledScene& scene, const PlanOptions& options, const RunParameters& run,
-       const TrainingWork& work, const TaskWatcher* watcher)
-      : scene_(scene),
-        plan_(MakePlan(scene, options)),
-        run_(Parameters(scene, plan_, run)),
+  Pass(const TrainingPass& pass, const TrainingWork& work)
+      : scene_(pass.scene),
+        plan_(MakePlan(scene_, pass.options)),
+        strategy_(PlannedStrategy(scene_, plan_.options)),
+        own_points_(GroupsOf(strategy_).replicates),
+        run_(Parameters(pass)),
         work_(work),
-        watcher_(watcher),
+        watcher_(pass.watcher),
         copies_(plan_.features.Has(Feature::kSplitting) ? kMostCopies : 1) {
     wavefronts_.resize(static_cast<std::size_t>(ThreadSlots()));
     samples_.colors.resize(work.samples());
     samples_.planes = run_.planes.count() - kColorPlanes;
-    samples_.observations = OwnPoints(scene, options) ? kReplicates : work.spp;
+    samples_.observations = own_points_ ? kReplicates : work.spp;
     LL_CHECK(work.spp % samples_.observations == 0 && samples_.observations > 1);
     samples_.recorded.resize(work.samples() * static_cast<std::size_t>(samples_.planes));
   }
@@ -74,22 +75,12 @@ class Pass {
     return begins;
   }
 
-  static bool OwnPoints(const CompiledScene& scene, const PlanOptions& options) {
-    return GroupsOf(PlannedStrategy(scene, options)).replicates;
-  }
-
-  static RunParameters Parameters(const CompiledScene& scene, const Plan& plan,
-                                  RunParameters run) {
-    const Strategy strategy = PlannedStrategy(scene, plan.options);
-    run.seed ^= 0x5bd1e995u;  // apart from the image's
-    run.points = MakePointsParameters(strategy.points);
+  RunParameters Parameters(const TrainingPass& pass) const {
+    RunParameters run = MakeRunParameters(scene_, plan_);
+    run.seed = pass.seed ^ 0x5bd1e995u;  // apart from the image's
+    run.tables = pass.tables;
     // Without points of its own every sample is randomised anew: independent.
-    if (!OwnPoints(scene, plan.options)) run.points.group_shift = 0;
-    run.pairs = MakePairParameters(strategy);
-    run.roulette = MakeRouletteParameters(strategy);
-    run.candidates = CandidatesOf(strategy, plan.features);
-    run.features = plan.features;
-    run.planes = SamplePlanes(plan.features);
+    if (!own_points_) run.points.group_shift = 0;
     return run;
   }
 
@@ -105,7 +96,7 @@ class Pass {
     std::vector<float> values(rows * planes);
     std::optional<BlockReuse> reuse;
     if (plan_.features.Has(Feature::kReuse)) {
-      reuse.emplace(plan_, PlannedStrategy(scene_, plan_.options));
+      reuse.emplace(plan_, strategy_);
       reuse->Begin(work, wavefront->wave());
     }
     if (!Drive(*wavefront, plan_, work, {values.data(), rows}, nullptr, watcher_)) return;
@@ -123,6 +114,8 @@ class Pass {
 
   const CompiledScene& scene_;
   const Plan plan_;
+  const Strategy strategy_;
+  const bool own_points_;
   const RunParameters run_;
   const TrainingWork& work_;
   const TaskWatcher* const watcher_;
@@ -191,10 +184,10 @@ TrainingWork FewOf(const TrainingWork& work) {
   return few;
 }
 
-TrainingSamples RunTrainingPass(const CompiledScene& scene, const PlanOptions& options,
-                                const RunParameters& run, const TrainingWork& work,
-                                const TaskWatcher* watcher) {
-  return Pass(scene, options, run, work, watcher).Run();
+TrainingSamples RunTrainingPass(TrainingPass pass, const TrainingWork& work) {
+  pass.options.auxiliary = Auxiliary::kNone;
+  if (!pass.options.training) pass.options.training = FeatureSet{};
+  return Pass(pass, work).Run();
 }
 
 }  // namespace lanelight

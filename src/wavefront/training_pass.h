@@ -7,11 +7,27 @@
 #include "src/core/vec.h"
 #include "src/image/pixel_rect.h"
 #include "src/path/wave.h"
+#include "src/prepare/tables.h"
 #include "src/wavefront/plan.h"
 
 namespace lanelight {
 
 class TaskWatcher;  // src/wavefront/task_watcher.h
+
+/// Price of a ray that only asks for a hit, over that of one that finds the closest and
+/// leads to shading there.
+inline constexpr double kShadowRayCost = 0.5;
+
+/// What a pass renders with.
+struct TrainingPass {
+  const CompiledScene& scene;
+  /// `training` says what is recorded: by default nothing. No auxiliary planes are kept.
+  PlanOptions options;
+  const StrategyTables* tables = nullptr;
+  std::uint32_t seed = 0;  // of a render: the pass has random numbers apart from it
+  /// The samples are of no use where it has had some put down; null: nobody does.
+  const TaskWatcher* watcher = nullptr;
+};
 
 /// Pixels of a pass, and samples of each: at least four, so that it shows the
 /// variance within a pixel.
@@ -34,10 +50,11 @@ struct TrainingSamples {
   std::uint32_t observations = 1;
   std::uint64_t rays_closest = 0, rays_shadow = 0;
 
-  /// Of a sample, in rays that find the closest hit and lead to shading there; one that
-  /// only asks for a hit takes about half the time.
+  std::uint64_t rays() const { return rays_closest + rays_shadow; }
+  /// Of a sample, in rays that find the closest hit and lead to shading there.
   double Cost() const {
-    return (double(rays_closest) + 0.5 * double(rays_shadow)) / double(colors.size());
+    return (double(rays_closest) + kShadowRayCost * double(rays_shadow)) /
+           double(colors.size());
   }
 };
 
@@ -54,12 +71,7 @@ TrainingWork MakeTileWork(const CompiledScene& scene, std::uint64_t samples,
 /// About a sixteenth of it.
 TrainingWork FewOf(const TrainingWork& work);
 
-/// Renders the samples with the plan of `options` (PlanOptions::training says what is
-/// recorded), with random numbers apart from the image's. The result does not depend on
-/// the number of threads. It is of no use where the watcher has had samples put down;
-/// null: nobody does.
-TrainingSamples RunTrainingPass(const CompiledScene& scene, const PlanOptions& options,
-                                const RunParameters& run, const TrainingWork& work,
-                                const TaskWatcher* watcher = nullptr);
+/// Renders the samples. The result does not depend on the number of threads.
+TrainingSamples RunTrainingPass(TrainingPass pass, const TrainingWork& work);
 
 }  // namespace lanelight

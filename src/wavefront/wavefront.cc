@@ -40,6 +40,10 @@ void Place(T*& column, Field field, const Plan& plan, std::uint32_t*& next,
 
 }  // namespace
 
+float ExposureOf(const CompiledScene& scene) {
+  return static_cast<float>(scene.film.imaging_ratio);
+}
+
 RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan) {
   RunParameters run;
   run.width = static_cast<std::uint32_t>(scene.film.width);
@@ -52,7 +56,7 @@ RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan) {
   run.control_coefficient = static_cast<float>(strategy.coefficient.value_or(1));
   run.candidates = CandidatesOf(strategy, plan.features);
   run.max_depth = plan.options.max_depth;
-  run.exposure = static_cast<float>(scene.film.imaging_ratio);
+  run.exposure = ExposureOf(scene);
   run.features = plan.features;
   run.planes = SamplePlanes(plan.features);
   return run;

@@ -13,6 +13,8 @@ namespace lanelight {
 
 /// The constants of a render that scene and plan decide; without seed and tables.
 RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan);
+/// RunParameters::exposure.
+float ExposureOf(const CompiledScene& scene);
 
 class Wavefront {
  public:

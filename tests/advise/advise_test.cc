@@ -7,7 +7,7 @@
 
 #include "src/core/parallel.h"
 #include "src/wavefront/decision_candidates.h"
-#include "src/wavefront/decision_pilot.h"
+#include "src/wavefront/strategy_trial.h"
 
 namespace lanelight {
 namespace {
@@ -104,7 +104,7 @@ TEST_CASE("what pays is advised, and what loses is not", "[advise]") {
 }
 
 TEST_CASE("what misses light is not advised, however even it looks", "[advise]") {
-  DecisionEntry entry;
+  TriedStrategy entry;
   entry.usual = {1, std::vector<double>(1000, 1.0)};
   entry.measure = {1, std::vector<double>(1000, 0.01)};
   entry.usual_light = {100, 1};

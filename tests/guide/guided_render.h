@@ -31,9 +31,6 @@ inline stat::ImageEstimate RenderGuided(const SceneDescription& description,
   if (options.guide != nullptr) tables.guide = *options.guide;
   PlanOptions plan_options;
   plan_options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
-  RunParameters run = MakeRunParameters(scene, MakePlan(scene, plan_options));
-  run.tables = &tables;
-  run.seed = options.seed;
   const int width = scene.film.width, height = scene.film.height;
   const double n = options.spp;
   TrainingWork work;
@@ -41,7 +38,8 @@ inline stat::ImageEstimate RenderGuided(const SceneDescription& description,
   for (int i = 0; i < width * height; ++i) {
     work.pixels.push_back(static_cast<std::uint32_t>(i));
   }
-  const TrainingSamples samples = RunTrainingPass(scene, plan_options, run, work);
+  const TrainingSamples samples =
+      RunTrainingPass({scene, plan_options, &tables, options.seed}, work);
   stat::ImageEstimate out = {width, height, n, {}, {}};
   for (std::size_t pixel = 0; pixel < work.pixels.size(); ++pixel) {
     Rgb sum, squares;

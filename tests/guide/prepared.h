@@ -37,14 +37,14 @@ struct Prepared {
   TrainingOutcome TrainWith(std::uint64_t planned) {
     TrainingOptions options;
     options.planned_samples = planned;
-    return Train({scene, plan, run, options, tables});
+    return Train({scene, plan, run.seed, options, tables});
   }
 
   std::vector<GuideRecord> Records(std::uint64_t samples) const {
     PlanOptions options = plan.options;
     options.training = FeatureSet{Feature::kRecordsGuide};
-    const TrainingSamples found =
-        RunTrainingPass(scene, options, run, MakeTrainingWork(scene, samples));
+    const TrainingSamples found = RunTrainingPass({scene, options, &tables, run.seed},
+                                                  MakeTrainingWork(scene, samples));
     std::vector<GuideRecord> records;
     CHECK(ReadGuideRecords(found.recorded, tables.guide, records) == 0);
     return records;

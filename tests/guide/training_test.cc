@@ -72,9 +72,8 @@ TEST_CASE("no samples of a guide's training are those of the image", "[guide]") 
   const Prepared room(test::SmallRoom(16, 5), "guiding=none");
   const TrainingWork work = MakeTrainingWork(room.scene, 1024);
   const auto colors = [&](std::uint32_t seed) {
-    RunParameters run = room.run;
-    run.seed = seed;
-    return RunTrainingPass(room.scene, room.plan.options, run, work).colors;
+    return RunTrainingPass({room.scene, room.plan.options, &room.tables, seed}, work)
+        .colors;
   };
   CHECK(colors(GuidePassSeed(7, 1)) == colors(GuidePassSeed(7, 1)));
   CHECK(colors(GuidePassSeed(7, 1)) != colors(7));

@@ -52,7 +52,7 @@ TrainingSamples Pass(const Prepared& room, const char* roulette, bool records) {
   PlanOptions options = room.plan.options;
   options.Change(std::string("roulette=") + roulette);
   options.training = records ? FeatureSet{Feature::kRecordsUnsplit} : FeatureSet{};
-  return RunTrainingPass(room.scene, options, room.run,
+  return RunTrainingPass({room.scene, options, &room.tables, room.run.seed},
                          MakeTrainingWork(room.scene, kSamples));
 }
 

@@ -1,11 +1,12 @@
 // decide=pilot: what it chooses, that the image then is that of the choice, bit by bit,
 // and the pieces that it decides with.
 #include <catch2/catch.hpp>
+#include <numeric>
 #include <random>
 
-#include "src/wavefront/decision_pilot.h"
 #include "src/wavefront/path_records.h"
 #include "src/wavefront/pilot_comparison.h"
+#include "src/wavefront/strategy_trial.h"
 #include "src/wavefront/training.h"
 #include "tests/wavefront/agreement.h"
 
@@ -245,7 +246,7 @@ TEST_CASE("gains are of all pixels, and know how sure they are", "[decision]") {
 }
 
 TEST_CASE("what few bright samples carry is not chosen", "[decision]") {
-  DecisionEntry entry;
+  TriedStrategy entry;
   entry.paired = true;
   entry.measure = MeasureOf(1, 1, 2);
   entry.usual = MeasureOf(3, 1, 2);
@@ -300,6 +301,18 @@ TEST_CASE("variances of samples that depend on each other are of their observati
   const double noise = 6 * std::sqrt(2.0 / 3 / (64 * 64)) + 0.02;
   CHECK(mean(RelativeVariances(samples, work, image)) ==
         Approx(2 * 0.0625 * weight).epsilon(noise));
+  // The mean of 16 pixels that are independent has a sixteenth of that, and of pixels
+  // that are one and the same as much as each.
+  std::vector<std::size_t> square(16), one(16, 7);
+  double of_means = 0;
+  for (std::size_t first = 0; first < work.pixels.size(); first += 16) {
+    std::iota(square.begin(), square.end(), first);
+    of_means += VarianceOfMean(samples, work, image, square) / (64 * 64 / 16);
+  }
+  CHECK(of_means ==
+        Approx(2 * 0.0625 * weight / 16).epsilon(6 * std::sqrt(2.0 / 3 / 256)));
+  CHECK(VarianceOfMean(samples, work, image, one) ==
+        Approx(VarianceOfMean(samples, work, image, std::span(one).first(1))));
   // Planted: as if all were independent.
   samples.observations = 8;
   CHECK(mean(RelativeVariances(samples, work, image)) <

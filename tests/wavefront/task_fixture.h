@@ -88,7 +88,7 @@ class TaskFixture {
     TrainingOptions options;
     options.planned_samples = 100000;
     options.keep_roulette = true;
-    Train({scene_, plan, run_, options, tables_});
+    Train({scene_, plan, run_.seed, options, tables_});
   }
 
   CompiledScene scene_;
