@@ -54,6 +54,8 @@ Pilot RenderPilot(const Job& job, double seconds, bool half) {
   const int width = windows.front().width() * static_cast<int>(windows.size());
   const int height = windows.front().height();
   Pilot pilot;
+  pilot.pixels = double(job.window.pixels());
+  pilot.spp = static_cast<std::uint64_t>(job.description.sampler.spp);
   pilot.load_seconds = job.load_seconds;
   pilot.build_seconds = job.build_seconds;
   RunOptions options;

@@ -8,6 +8,8 @@
 namespace lanelight {
 
 struct Pilot {
+  double pixels = 0;      // of the image
+  std::uint64_t spp = 0;  // the scene's own
   double load_seconds = 0, build_seconds = 0;
   double sample_seconds = 0;   // wall clock of one sample
   double bytes_per_pixel = 0;  // of the image file

@@ -47,7 +47,6 @@ class Predictor {
   double MeanLog(const std::string& scene) const;
   const Pilot* Nearest(const std::string& scene, const std::string& strategy) const;
   void PredictCell(const SweepCell& cell, bool first_of_scene, CellPrediction& p) const;
-  double Pixels(const std::string& scene) const;
 
   const Sweep& sweep_;
   SweepFolder folder_;
@@ -56,8 +55,6 @@ class Predictor {
   std::vector<Combination> combinations_;
   std::map<std::pair<std::string, std::string>, Pilot> pilots_;  // scene, strategy
   std::map<std::pair<std::string, std::string>, std::string> failures_;
-  std::map<std::string, double> pixels_;      // by scene
-  std::map<std::string, std::uint64_t> spp_;  // the scenes' own
 };
 
 SweepPrediction Predictor::Predict(std::size_t most_pilots) {
@@ -96,8 +93,6 @@ void Predictor::RenderPilots(std::size_t most, SweepPrediction& out) {
     const ThreadLimit threads(CellRenderer::Threads(*c.cell));
     try {
       const Job& job = renderer_.Prepare(*c.cell);
-      pixels_[c.scene] = double(job.window.pixels());
-      spp_[c.scene] = static_cast<std::uint64_t>(job.description.sampler.spp);
       pilots_[{c.scene, c.strategy}] =
           RenderPilot(job, kPilotSeconds, sweep_.settings.half);
       ++out.pilots;
@@ -148,15 +143,10 @@ const Pilot* Predictor::Nearest(const std::string& scene,
   return pilots_.empty() ? nullptr : &pilots_.begin()->second;
 }
 
-double Predictor::Pixels(const std::string& scene) const {
-  const auto found = pixels_.find(scene);
-  return found != pixels_.end() ? found->second : pixels_.begin()->second;
-}
-
 // Samples per pixel that the cell will have, at `pixel_seconds` a sample of every pixel.
-double SamplesOf(const RenderSettings& settings, const Pilot& pilot, std::uint64_t own,
+double SamplesOf(const RenderSettings& settings, const Pilot& pilot,
                  double pixel_seconds) {
-  double spp = settings.spp ? double(*settings.spp) : double(own);
+  double spp = double(settings.spp.value_or(pilot.spp));
   if (!settings.seconds && !HasTarget(settings)) return spp;
   if (!settings.spp) spp = std::numeric_limits<double>::infinity();
   if (settings.seconds) spp = std::min(spp, *settings.seconds / pixel_seconds);
@@ -181,13 +171,11 @@ void Predictor::PredictCell(const SweepCell& cell, bool first_of_scene,
   p.measured = pilots_.count({scene, strategy}) > 0;
   RenderSettings settings = sweep_.settings.render;
   ApplyValues(cell.values, settings);
-  const double pixels = Pixels(scene);
-  const double pixel_seconds = SampleSeconds(scene, strategy) * pixels;
-  const auto own = spp_.count(scene) > 0 ? spp_.at(scene) : spp_.begin()->second;
-  p.seconds = SamplesOf(settings, *pilot, own, pixel_seconds) * pixel_seconds;
+  const double pixel_seconds = SampleSeconds(scene, strategy) * pilot->pixels;
+  p.seconds = SamplesOf(settings, *pilot, pixel_seconds) * pixel_seconds;
   if (first_of_scene) p.seconds += pilot->load_seconds + pilot->build_seconds;
-  p.bytes = pilot->bytes_per_pixel * pixels + kReportBytes;
-  if (sweep_.settings.png) p.bytes += 3 * pixels;  // at most
+  p.bytes = pilot->bytes_per_pixel * pilot->pixels + kReportBytes;
+  if (sweep_.settings.png) p.bytes += 3 * pilot->pixels;  // at most
 }
 
 }  // namespace
