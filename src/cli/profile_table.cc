@@ -16,12 +16,6 @@ namespace {
 constexpr std::size_t kColumns = 100;
 constexpr std::size_t kLabel = 12;
 
-std::string Total(double value) {
-  std::string text = CountText(value);
-  if (text.back() == ' ') text.pop_back();
-  return text;
-}
-
 // "label      words ...", continued below the first word.
 std::string Row(const std::string& label, const std::string& text) {
   std::string out, line = fmt::format("{:<{}}", label, kLabel);
@@ -102,8 +96,8 @@ std::string CostRow(const ProfileRow& row, std::size_t width) {
   const StageProfile& c = row.counts;
   std::string text = fmt::format("{:<{}}{:>6.1f}%", c.name, width, 100 * row.share);
   if (c.calls == 0) return text + "\n";
-  text += fmt::format("{:>9}{:>8}{:>8}", Ns(row.NsPerItem()), Total(double(c.items)),
-                      Total(double(c.calls)));
+  text += fmt::format("{:>9}{:>8}{:>8}", Ns(row.NsPerItem()), TotalText(double(c.items)),
+                      TotalText(double(c.calls)));
   if (row.kind != RowKind::kStage) return text + "\n";
   return text + fmt::format("{:>6.1f}%{:>5.0f}{:>6.0f}{:>7.1f}{:>5.0f}%  {}\n",
                             100 * c.Occupancy(), c.bytes_read, c.bytes_written,

@@ -56,6 +56,12 @@ std::string CountText(double value) {
   return fmt::format("{:.{}f} {}", value, decimals, kUnits[unit]);
 }
 
+std::string TotalText(double value) {
+  std::string text = CountText(value);
+  if (text.back() == ' ') text.pop_back();
+  return text;
+}
+
 std::string DurationText(double seconds) {
   if (!(seconds >= 0) || seconds > 1e9) return "unknown";
   if (seconds > 0 && seconds < 0.00995) return fmt::format("{:.2g} ms", 1e3 * seconds);

@@ -24,6 +24,8 @@ void RedrawLine(const std::string& text);
 
 /// Three digits and the prefix of a unit: "512 ", "12.3 k", "1.24 G".
 std::string CountText(double value);
+/// The same of a count that stands alone.
+std::string TotalText(double value);
 /// "850 ms", "12.3 s", "4 min 05 s", "2 h 07 min".
 std::string DurationText(double seconds);
 

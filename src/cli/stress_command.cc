@@ -1,5 +1,6 @@
 // `lanelight stress [CASE...]`: takes the renderer to its limits and says where they are.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -10,13 +11,12 @@
 #include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
-#include "src/cli/progress.h"
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/stress_exit.h"
-#include "src/cli/stress_progress.h"
 #include "src/cli/stress_table.h"
 #include "src/cli/validators.h"
+#include "src/cli/work_progress.h"
 #include "src/core/json_text.h"
 #include "src/core/parallel.h"
 #include "src/render/saving.h"
@@ -57,12 +57,22 @@ std::vector<std::string> TargetsOf(const std::vector<std::string>& words) {
   return all ? AvailableTargets() : words;
 }
 
+// "3 of 40  sizes unit of length 1e-15 (AVX2)"
+WorkStep StepOf(const stress::SuiteProgress& p) {
+  std::string where = " (" + p.target + ")";
+  if (std::isfinite(p.parameter)) {
+    where = fmt::format(" {} {:g}{}", p.now->axis.name, p.parameter, where);
+  }
+  return {double(p.done) / double(p.total), p.now->name, 0,
+          fmt::format("{} of {}  {}", p.done + 1, p.total, p.now->name), where};
+}
+
 stress::SuiteResult Measure(const std::vector<stress::Case>& cases,
                             const StressCommandOptions& options) {
-  StressProgressPrinter progress(ChooseProgressStyle(options.quiet));
+  WorkProgress progress(ChooseProgressStyle(options.quiet), "stress: ");
   const InterruptGuard interrupt(kStressInterruptText);
   stress::SuiteHooks hooks;
-  hooks.on_progress = [&](const stress::SuiteProgress& p) { progress.Update(p); };
+  hooks.on_progress = [&](const stress::SuiteProgress& p) { progress.Update(StepOf(p)); };
   hooks.stop = &interrupt.stop();
   stress::SuiteResult result = stress::RunSuite(cases, options.suite, hooks);
   progress.Finish();

@@ -1,5 +1,6 @@
 // `lanelight study SCENE... --out DIR`: which strategy gives the least error for the
 // time.
+#include <cmath>
 #include <memory>
 
 #include "kernels/simd/target.h"
@@ -9,9 +10,9 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/scene_options.h"
-#include "src/cli/study_progress.h"
 #include "src/cli/study_summary.h"
 #include "src/cli/validators.h"
+#include "src/cli/work_progress.h"
 #include "src/core/error.h"
 #include "src/core/parallel.h"
 #include "src/study/study.h"
@@ -38,6 +39,15 @@ void CheckCombination(const StudyOptions& study) {
   }
 }
 
+// " 37 %  cornell-box: mis, 64 spp, repetition 3  2 min 03 s left"; a line for each
+// twentieth.
+WorkStep StepOf(const StudyProgress& p) {
+  std::string text =
+      fmt::format("{:3.0f} %  {}: {}", std::floor(100 * p.fraction), p.scene, p.what);
+  if (p.fraction > 0.01) text += fmt::format("  {} left", DurationText(p.seconds_left));
+  return {p.fraction, p.scene, static_cast<int>(20 * p.fraction), text};
+}
+
 int RunStudyCommand(StudyCommandOptions& options) {
   options.study.strategies = SplitStrategies(options.strategies);
   CheckCombination(options.study);
@@ -45,13 +55,13 @@ int RunStudyCommand(StudyCommandOptions& options) {
   const ThreadLimit threads(options.machine.threads);
   options.study.settings = options.machine.settings;
 
-  StudyProgressPrinter progress(ChooseProgressStyle(options.quiet));
+  WorkProgress progress(ChooseProgressStyle(options.quiet), "study ");
   const InterruptGuard interrupt(
       "\nstopping: the report will be of what is finished; --resume goes on (once more "
       "to "
       "abort)\n");
   StudyHooks hooks;
-  hooks.on_progress = [&](const StudyProgress& p) { progress.Update(p); };
+  hooks.on_progress = [&](const StudyProgress& p) { progress.Update(StepOf(p)); };
   hooks.on_problem = [&](const std::string& text) { progress.Say(text); };
   hooks.stop = &interrupt.stop();
   TreeFolder& trees = options.study.settings.trees.folder;

@@ -12,13 +12,6 @@
 namespace lanelight {
 namespace {
 
-// A count that stands alone.
-std::string Total(double value) {
-  std::string text = CountText(value);
-  if (text.back() == ' ') text.pop_back();
-  return text;
-}
-
 std::string Row(const std::string& label, const std::string& text) {
   return fmt::format("{:<10} {}\n", label, text);
 }
@@ -57,12 +50,13 @@ std::string SpeedRows(const RunResult& r) {
   const double seconds = r.seconds > 0 ? r.seconds : 1e-9;
   const double closest = double(r.rays_closest), shadow = double(r.rays_shadow);
   return Row("samples",
-             fmt::format("{} in {}: {}samples/s{}", Total(double(r.samples)),
+             fmt::format("{} in {}: {}samples/s{}", TotalText(double(r.samples)),
                          DurationText(r.seconds), CountText(double(r.samples) / seconds),
                          StopText(r))) +
-         Row("rays", fmt::format("{} ({} closest hit, {} shadow): {}rays/s",
-                                 Total(closest + shadow), Total(closest), Total(shadow),
-                                 CountText((closest + shadow) / seconds)));
+         Row("rays",
+             fmt::format("{} ({} closest hit, {} shadow): {}rays/s",
+                         TotalText(closest + shadow), TotalText(closest),
+                         TotalText(shadow), CountText((closest + shadow) / seconds)));
 }
 
 }  // namespace
@@ -82,11 +76,11 @@ std::string StageTable(const RunResult& result) {
       fmt::format("{:<24}{:>9}{:>10}{:>8}{:>10}{:>8}{:>9}\n", "stage", "calls", "items",
                   "lanes", "seconds", "share", "ns/item");
   for (const StageProfile& s : result.stages) {
-    text +=
-        fmt::format("{:<24}{:>9}{:>10}{:>6.1f} %{:>10.3f}{:>6.1f} %{:>9.2f}\n", s.name,
-                    Total(double(s.calls)), Total(double(s.items)), 100 * s.Occupancy(),
-                    s.seconds, total > 0 ? 100 * s.seconds / total : 0,
-                    s.items ? 1e9 * s.seconds / double(s.items) : 0);
+    text += fmt::format("{:<24}{:>9}{:>10}{:>6.1f} %{:>10.3f}{:>6.1f} %{:>9.2f}\n",
+                        s.name, TotalText(double(s.calls)), TotalText(double(s.items)),
+                        100 * s.Occupancy(), s.seconds,
+                        total > 0 ? 100 * s.seconds / total : 0,
+                        s.items ? 1e9 * s.seconds / double(s.items) : 0);
   }
   return text +
          fmt::format("{:<24}{:>37.3f}  seconds of all threads together\n", "", total);

@@ -10,7 +10,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/scene_options.h"
-#include "src/cli/sweep_progress.h"
+#include "src/cli/work_progress.h"
 #include "src/sweep/prediction.h"
 #include "src/sweep/runner.h"
 
@@ -100,17 +100,23 @@ int DryRun(const Sweep& sweep, SweepCommandOptions& options) {
   return interrupt.stop() ? kExitInterrupted : kExitGood;
 }
 
+WorkStep StepOf(const SweepProgress& p) {
+  return {(double(p.done) + p.render.fraction) / double(p.total), p.cell->name, 0,
+          fmt::format("{} of {}  {}", p.done + 1, p.total, p.cell->name),
+          ProgressPrinter::Describe(p.render)};
+}
+
 int RunSweepCommand(SweepCommandOptions& options) {
   const Sweep sweep = ReadSweep(options.file);
   TreeFolder& trees = options.sweep.build_cache;
   if (options.quiet) trees.on_wait = nullptr;
   if (options.dry_run) return DryRun(sweep, options);
-  SweepProgressPrinter progress(ChooseProgressStyle(options.quiet));
+  WorkProgress progress(ChooseProgressStyle(options.quiet), "sweep: ");
   const InterruptGuard interrupt(
       "\nstopping: the cell in hand is given up; the same command goes on with it (once "
       "more to abort)\n");
   SweepHooks hooks;
-  hooks.on_progress = [&](const SweepProgress& p) { progress.Update(p); };
+  hooks.on_progress = [&](const SweepProgress& p) { progress.Update(StepOf(p)); };
   hooks.on_problem = [&](const std::string& text) { progress.Say(text); };
   hooks.stop = &interrupt.stop();
   trees.stop = hooks.stop;
