@@ -1,24 +1,35 @@
 #!/usr/bin/env python3
 """Turns the report's pages into one C++ file: embed_page.py PAGE_DIR OUTPUT.cc
 
-Reads PAGE_DIR/index.html (of a study), sweep.html and stress.html, replaces every
-<link rel="stylesheet"> and <script src> by the file that it names, puts the hashes of what is inlined into the content security policy, and
-cuts each result at the line <!-- data -->. Standard library only.
+Makes each page of PAGE_DIR/page.html, with its styles and scripts in it, puts their hashes
+into the content security policy, and cuts the result at the line <!-- data -->. Standard
+library only.
 """
 
 import base64
 import hashlib
 import pathlib
-import re
 import sys
 
-STYLE = re.compile(r'<link rel="stylesheet" href="([^"]+)">')
-SCRIPT = re.compile(r'<script src="([^"]+)"></script>')
-DATA = "<!-- data -->"
-STYLE_HASHES, SCRIPT_HASHES = "STYLE_HASHES", "SCRIPT_HASHES"
-LICENSE = "<!-- licence -->"
-PAGES = (("index.html", "Page"), ("sweep.html", "SweepPage"),
-         ("stress.html", "StressPage"))
+# Of the pages: what stands where page.html has these words; styles after base.css, table.css
+# and plots.css, and before print.css; scripts, in this order.
+PLOTS = "logaxis logplot_draw logplot guides curves"
+PAGES = {
+    "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv"},
+             "images",
+             f"""dom format data view strategies whisker table hero warnings summary ranking
+             ranking_columns {PLOTS} calibration tone picture pan pane comparator controls
+             readout figures insets maps stages levels glossary main"""),
+    "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv"}, "sweep",
+                  f"""dom format data view strategies whisker table {PLOTS} stages
+                  sweep_cells sweep_choice sweep_lines sweep_plots sweep_stages sweep_table
+                  sweep_summary sweep_main"""),
+    "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json"}, "stress",
+                   """dom format data strategies whisker table logaxis stress_data
+                   stress_scale stress_plot stress_tiles stress_about stress_detail
+                   stress_strategies stress_table stress_summary stress_main"""),
+}
+DATA, STYLES, SCRIPTS = "<!-- data -->", "<!-- styles -->", "<!-- scripts -->"
 PIECE = 12000  # characters of one literal; compilers must take 65535
 
 HEADER = """// Written by src/report/embed_page.py from src/report/page/; not to be edited.
@@ -33,29 +44,39 @@ def digest(text):
     return f"'sha256-{base64.b64encode(hashed).decode()}'"
 
 
-def inline(page_dir, tag, hashes, match):
-    text = "\n" + (page_dir / match[1]).read_text(encoding="utf-8").strip() + "\n"
-    if f"</{tag}" in text.lower() or "<!--" in text:
-        raise SystemExit(f"embed_page: {match[1]} contains </{tag} or <!--")
-    hashes.append(digest(text))
-    return f"<{tag}>{text}</{tag}>"
+def inline(page_dir, tag, files):
+    """The files in elements of their own, and their hashes."""
+    elements, hashes = [], []
+    for file in files:
+        text = "\n" + (page_dir / file).read_text(encoding="utf-8").strip() + "\n"
+        if f"</{tag}" in text.lower() or "<!--" in text:
+            raise SystemExit(f"embed_page: {file} contains </{tag} or <!--")
+        elements.append(f"<{tag}>{text}</{tag}>")
+        hashes.append(digest(text))
+    return "\n".join(elements), " ".join(hashes)
 
 
-def assemble(page_dir, name):
-    html = (page_dir / name).read_text(encoding="utf-8")
-    # The licence of uPlot goes where uPlot goes.
-    licences = 1 if "vendor/" in html else 0
-    for marker, count in ((DATA, 1), (STYLE_HASHES, 1), (SCRIPT_HASHES, 1),
-                          (LICENSE, licences)):
-        if html.count(marker) != count:
-            raise SystemExit(f"embed_page: {name} must contain {marker} {count} times")
-    licence = (page_dir / "vendor/LICENSE").read_text(encoding="utf-8").strip()
-    html = html.replace(LICENSE, f"<!--\nuPlot 1.6.32\n{licence}\n-->")
-    styles, scripts = [], []
-    html = STYLE.sub(lambda m: inline(page_dir, "style", styles, m), html)
-    html = SCRIPT.sub(lambda m: inline(page_dir, "script", scripts, m), html)
-    html = html.replace(STYLE_HASHES, " ".join(styles))
-    return html.replace(SCRIPT_HASHES, " ".join(scripts))
+def assemble(page_dir, words, style, scripts):
+    has_plots = PLOTS in scripts
+    styles = ["base.css", "table.css", "plots.css", f"{style}.css", "print.css"]
+    scripts = [f"{name}.js" for name in scripts.split()]
+    licence = ""
+    if has_plots:
+        styles.insert(0, "vendor/uPlot.min.css")
+        scripts.insert(0, "vendor/uPlot.iife.min.js")
+        text = (page_dir / "vendor/LICENSE").read_text(encoding="utf-8").strip()
+        licence = f"<!--\nuPlot 1.6.32\n{text}\n-->\n"
+    style_text, style_hashes = inline(page_dir, "style", styles)
+    script_text, script_hashes = inline(page_dir, "script", scripts)
+    theme_text, theme_hash = inline(page_dir, "script", ["theme.js"])
+    html = (page_dir / "page.html").read_text(encoding="utf-8")
+    for marker, text in {**words, STYLES: licence + style_text, SCRIPTS: script_text,
+                         "<!-- theme -->": theme_text, "STYLE_HASHES": style_hashes,
+                         "SCRIPT_HASHES": f"{theme_hash} {script_hashes}"}.items():
+        if marker not in html:
+            raise SystemExit(f"embed_page: page.html has no {marker}")
+        html = html.replace(marker, text)
+    return html.split(DATA)
 
 
 def literal(name, text):
@@ -72,10 +93,10 @@ def literal(name, text):
 def main():
     page_dir, output = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     body = HEADER
-    for name, prefix in PAGES:
-        head, tail = assemble(page_dir, name).split(DATA)
-        body += "\n" + literal(f"{prefix}Head", head)
-        body += "\n" + literal(f"{prefix}Tail", tail)
+    for name, page in PAGES.items():
+        head, tail = assemble(page_dir, *page)
+        body += "\n" + literal(f"{name}Head", head)
+        body += "\n" + literal(f"{name}Tail", tail)
     output.write_text(body + "\n}  // namespace lanelight\n", encoding="utf-8")
 
 

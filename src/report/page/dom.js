@@ -45,6 +45,25 @@ function section(id, title, ...children) {
   );
 }
 
+// Fills the navigation: [[id, title], ...] of sections.
+function linkSections(sections, hash = (id) => `#${id}`) {
+  document
+    .getElementById("sections")
+    .replaceChildren(...sections.map(([id, title]) => el("a", { href: hash(id) }, title)));
+}
+
+// A choice of many. options: [[value, text], ...]; data: attributes of the selection.
+function menu(label, data, options, value, onChoose) {
+  const select = el(
+    "select",
+    { ...data, onchange: () => onChoose(select.value) },
+    options.map(([key, text]) =>
+      el("option", { value: key, selected: key === value }, text),
+    ),
+  );
+  return el("label", { class: "menu" }, el("span", {}, label), select);
+}
+
 // A pair of a list of facts; none if the value is not known.
 function fact(term, value, note, attributes = {}) {
   if (!value) return null;

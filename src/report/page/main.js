@@ -48,13 +48,7 @@ function fillNavigation(scene) {
           ),
         )),
   );
-  document
-    .getElementById("sections")
-    .replaceChildren(
-      ...(scene.error
-        ? []
-        : SECTIONS.map(([id, title]) => el("a", { href: sceneHash(scene, id) }, title))),
-    );
+  linkSections(scene.error ? [] : SECTIONS, (id) => sceneHash(scene, id));
 }
 
 function errorScene(scene) {

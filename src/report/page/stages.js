@@ -119,6 +119,21 @@ function stagesTable(view, names) {
   );
 }
 
+// A bar with its name, and a few words on the whole.
+function stageRow(strategy, text, bar, attributes = {}) {
+  return el(
+    "div",
+    { class: "stage-row", ...attributes },
+    el(
+      "div",
+      { class: "stage-name" },
+      strategyLabel(strategy),
+      el("span", { class: "bounds" }, text),
+    ),
+    bar,
+  );
+}
+
 function stagesSection(view) {
   const names = stageNames(view);
   if (names.length === 0) {
@@ -129,17 +144,7 @@ function stagesSection(view) {
     );
   }
   const rows = view.ranked.map((s) =>
-    el(
-      "div",
-      { class: "stage-row" },
-      el(
-        "div",
-        { class: "stage-name" },
-        strategyLabel(s),
-        el("span", { class: "bounds" }, fmtSeconds(stageSeconds(s))),
-      ),
-      stageBar(s, names),
-    ),
+    stageRow(s, fmtSeconds(stageSeconds(s)), stageBar(s, names)),
   );
   return section(
     "stages",

@@ -26,18 +26,15 @@ function fillTargets(onTarget) {
 }
 
 function fillSections() {
-  const sections = [
-    ["summary", "Verdict"],
-    maps.length > 0 && ["map", "Map"],
-    compared.length > 0 && ["strategies", "Strategies"],
-    ["cases", "Cases"],
-    ["reading", "How to read this"],
-  ].filter(Boolean);
-  document
-    .getElementById("sections")
-    .replaceChildren(
-      ...sections.map(([id, title]) => el("a", { href: `#${id}` }, title)),
-    );
+  linkSections(
+    [
+      ["summary", "Verdict"],
+      maps.length > 0 && ["map", "Map"],
+      compared.length > 0 && ["strategies", "Strategies"],
+      ["cases", "Cases"],
+      ["reading", "How to read this"],
+    ].filter(Boolean),
+  );
 }
 
 // The map to begin with: one that fails, or breaks, or the first.

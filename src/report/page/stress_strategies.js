@@ -122,19 +122,15 @@ function heatRow(name, blocks) {
 function heatMap(target) {
   const blocks = compared.map((aCase) => heatColumns(aCase, target));
   const names = [...new Set(blocks.flatMap(({ lines }) => [...lines.keys()]))];
-  return el(
-    "div",
-    { class: "scroll", tabindex: 0, role: "region", "aria-label": "Efficiencies" },
+  return scrollingTable(
+    "Efficiencies",
+    heatHead(blocks),
     el(
-      "table",
-      { class: "data heat-map" },
-      heatHead(blocks),
-      el(
-        "tbody",
-        {},
-        names.map((name) => heatRow(name, blocks)),
-      ),
+      "tbody",
+      {},
+      names.map((name) => heatRow(name, blocks)),
     ),
+    "data heat-map",
   );
 }
 

@@ -123,12 +123,7 @@ function caseColumns(onChoose) {
 }
 
 function filterMenu(label, key, options, onChange) {
-  const select = el(
-    "select",
-    { "data-filter": key, onchange: () => onChange(select.value) },
-    [["", "all"], ...options].map(([value, text]) => el("option", { value }, text)),
-  );
-  return el("label", { class: "menu" }, el("span", {}, label), select);
+  return menu(label, { "data-filter": key }, [["", "all"], ...options], "", onChange);
 }
 
 function tableSection(onChoose) {

@@ -60,21 +60,10 @@ function isChosen(cell, choice) {
   return true;
 }
 
-function menu(name, label, options, value, onChoose) {
-  const select = el(
-    "select",
-    { "data-menu": name, onchange: () => onChoose(select.value) },
-    options.map(([key, text]) =>
-      el("option", { value: key, selected: key === value }, text),
-    ),
-  );
-  return el("label", { class: "menu" }, el("span", {}, label), select);
-}
-
 function axisMenu(name, label, choice, onChange) {
   const options = varyingAxes.map((axis) => [axis.name, axis.title]);
   const other = name === "along" ? "lines" : "along";
-  return menu(name, label, options, choice[name].name, (value) => {
+  return menu(label, { "data-menu": name }, options, choice[name].name, (value) => {
     const axis = varyingAxes.find((candidate) => candidate.name === value);
     const next = { ...choice, [name]: axis };
     if (next[other] === axis) next[other] = choice[name]; // they change places
@@ -85,7 +74,8 @@ function axisMenu(name, label, choice, onChange) {
 function fixedMenu(axis, choice, onChange) {
   const values = axisValues(axis).map((value) => [value, valueLabel(axis, value)]);
   const options = [...values, [MEAN, "mean of all"]];
-  return menu(axis.name, axis.title, options, choice.fixed.get(axis), (value) => {
+  const chosen = choice.fixed.get(axis);
+  return menu(axis.title, { "data-menu": axis.name }, options, chosen, (value) => {
     const fixed = new Map(choice.fixed).set(axis, value);
     onChange({ ...choice, fixed });
   });

@@ -24,19 +24,6 @@ function plotArea(choice, onChange) {
   ];
 }
 
-function fillNavigation() {
-  const sections = [
-    ["plots", "Plots"],
-    ["stages", "Stage costs"],
-    ["cells", "Cells"],
-  ];
-  document
-    .getElementById("sections")
-    .replaceChildren(
-      ...sections.map(([id, title]) => el("a", { href: `#${id}` }, title)),
-    );
-}
-
 function start() {
   theme.bindButton(document.getElementById("theme"));
   document.title = `${study.file.split("/").pop()} – Lanelight sweep`;
@@ -48,7 +35,11 @@ function start() {
     content.replaceChildren(sweepSummary(), tableSection());
     return;
   }
-  fillNavigation();
+  linkSections([
+    ["plots", "Plots"],
+    ["stages", "Stage costs"],
+    ["cells", "Cells"],
+  ]);
   const area = el("div", { id: "area" });
   const show = (choice) => {
     const focused = document.activeElement && document.activeElement.dataset.menu;

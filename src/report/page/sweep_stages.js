@@ -38,21 +38,9 @@ function costSection(view, choice, lines) {
     const length = bar.perSample / most;
     const whole = stageBar(bar, names, length);
     whole.style.width = `${length * 100}%`;
-    return el(
-      "div",
-      { class: "stage-row", "data-line": bar.line.index },
-      el(
-        "div",
-        { class: "stage-name" },
-        strategyLabel(bar.line),
-        el(
-          "span",
-          { class: "bounds" },
-          `${choice.along ? `${bar.point.name}: ` : ""}${fmtSeconds(bar.perSample)} per sample`,
-        ),
-      ),
-      whole,
-    );
+    const where = choice.along ? `${bar.point.name}: ` : "";
+    const text = `${where}${fmtSeconds(bar.perSample)} per sample`;
+    return stageRow(bar.line, text, whole, { "data-line": bar.line.index });
   });
   const show = (shown) =>
     rows.forEach((row) => {

@@ -42,14 +42,19 @@ function sortableTable({
     columns.map((c) => headerCell(c, headers, choose)),
   );
   fill();
+  return scrollingTable(caption, el("thead", {}, head), body);
+}
+
+// A table in a box of its own, which scrolls sideways.
+function scrollingTable(caption, head, body, kind = "data") {
   return el(
     "div",
     { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
     el(
       "table",
-      { class: "data" },
+      { class: kind },
       el("caption", { class: "hidden" }, caption),
-      el("thead", {}, head),
+      head,
       body,
     ),
   );
@@ -123,39 +128,19 @@ function twoLines({ value, bounds }, note) {
 
 // A plain table of texts. head: titles; rows: arrays of cells, the first names the row.
 function plainTable(caption, head, rows) {
-  return el(
-    "div",
-    { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
+  const title = (text, i) =>
+    el("th", { scope: "col", class: i === 0 ? "text" : null }, text);
+  const cell = (content, i) =>
+    i === 0
+      ? el("th", { scope: "row", class: "text" }, content)
+      : el("td", {}, content);
+  return scrollingTable(
+    caption,
+    el("thead", {}, el("tr", {}, head.map(title))),
     el(
-      "table",
-      { class: "data" },
-      el("caption", { class: "hidden" }, caption),
-      el(
-        "thead",
-        {},
-        el(
-          "tr",
-          {},
-          head.map((title, i) =>
-            el("th", { scope: "col", class: i === 0 ? "text" : null }, title),
-          ),
-        ),
-      ),
-      el(
-        "tbody",
-        {},
-        rows.map((cells) =>
-          el(
-            "tr",
-            {},
-            cells.map((cell, i) =>
-              i === 0
-                ? el("th", { scope: "row", class: "text" }, cell)
-                : el("td", {}, cell),
-            ),
-          ),
-        ),
-      ),
+      "tbody",
+      {},
+      rows.map((cells) => el("tr", {}, cells.map(cell))),
     ),
   );
 }
