@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "src/report/csv.h"
+#include "src/report/values.h"
 
 namespace lanelight {
 

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "src/core/json_text.h"
+
 namespace lanelight {
 
 nlohmann::json NumberJson(double value) {
@@ -15,6 +17,19 @@ nlohmann::json IntervalJson(const std::optional<Interval>& interval) {
   return {{"value", NumberJson(interval->value)},
           {"low", NumberJson(interval->low)},
           {"high", NumberJson(interval->high)}};
+}
+
+std::string CsvQuoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string CsvField(const nlohmann::json& value) {
+  if (value.is_null()) return "";
+  if (!value.is_string()) return DumpJson(value);
+  const auto text = value.get<std::string>();
+  return text.find_first_of(",\"\r\n") == std::string::npos ? text : CsvQuoted(text);
 }
 
 std::string EstimateText(const Interval& v) {

@@ -229,12 +229,6 @@ Json SettingsJson(const StudyOptions& options) {
           {"target_relmse", Optional(options.target_relmse)}};
 }
 
-std::string Quoted(const std::string& text) {
-  std::string out = "\"";
-  for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 }  // namespace
 
 nlohmann::json StudyJson(const std::vector<SceneStudy>& scenes,
@@ -266,8 +260,8 @@ std::string StudyCsv(const std::vector<SceneStudy>& scenes) {
         const Cells cells = store.Load(runs.Text(), spp);
         for (std::size_t r = 0; r < cells.repetitions.size(); ++r) {
           const Measurement& m = cells.repetitions[r];
-          text += fmt::format("{},{},{},{},{},{},{}\n", Quoted(scene.runs.name),
-                              Quoted(runs.named.name), spp, r + 1, CsvRow(m),
+          text += fmt::format("{},{},{},{},{},{},{}\n", CsvQuoted(scene.runs.name),
+                              CsvQuoted(runs.named.name), spp, r + 1, CsvRow(m),
                               m.HasSelf() ? m.SelfHolds() ? "1" : "0" : "",
                               MachineCsvRow(m.machine));
         }

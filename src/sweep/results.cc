@@ -2,13 +2,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "src/core/json_text.h"
 #include "src/core/version.h"
 #include "src/image/atomic_file.h"
 #include "src/render/machine_json.h"
-#include "src/report/csv.h"
+#include "src/report/values.h"
 #include "src/sweep/sweep_page.h"
 
 namespace lanelight {
@@ -19,37 +21,40 @@ using Json = nlohmann::json;
 // Columns of the table beside the axes, each with its place in report.json.
 struct Measure {
   const char *name, *place;
+  bool on_page = false;
 };
 constexpr Measure kColumns[] = {
-    {"samples", "/samples"},
-    {"render_seconds", "/seconds/render"},
-    {"cpu_seconds", "/sweep/cpu_seconds"},
+    {"samples", "/samples", true},
+    {"render_seconds", "/seconds/render", true},
+    {"cpu_seconds", "/sweep/cpu_seconds", true},
     {"load_seconds", "/seconds/load"},
     {"build_seconds", "/seconds/build"},
     {"pilot_seconds", "/seconds/pilot"},
     {"write_seconds", "/seconds/write"},
-    {"samples_per_second", "/samples_per_second"},
+    {"samples_per_second", "/samples_per_second", true},
     {"rays", "/rays/total"},
-    {"rays_per_second", "/rays_per_second"},
-    {"relmse", "/error/relmse/value"},
-    {"relmse_low", "/error/relmse/low"},
-    {"relmse_high", "/error/relmse/high"},
-    {"rmse", "/error/rmse/value"},
-    {"rmse_low", "/error/rmse/low"},
-    {"rmse_high", "/error/rmse/high"},
+    {"rays_per_second", "/rays_per_second", true},
+    {"relmse", "/error/relmse/value", true},
+    {"relmse_low", "/error/relmse/low", true},
+    {"relmse_high", "/error/relmse/high", true},
+    {"rmse", "/error/rmse/value", true},
+    {"rmse_low", "/error/rmse/low", true},
+    {"rmse_high", "/error/rmse/high", true},
     {"stop_reason", "/stop_reason"},
     {"wavefront_bytes", "/wavefront_bytes"},
-    {"used_threads", "/settings/threads"},
+    {"used_threads", "/settings/threads", true},
     {"used_simd_target", "/target/name"},
     {"used_strategy", "/settings/strategy"},
-    {"width_pixels", "/settings/resolution/0"},
-    {"height_pixels", "/settings/resolution/1"},
+    {"width_pixels", "/settings/resolution/0", true},
+    {"height_pixels", "/settings/resolution/1", true},
     {"used_max_depth", "/settings/max_depth"},
     {"used_seed", "/settings/seed"},
     {"scene_hash", "/scene_hash"},
-    {"machine", "/sweep/machine"},
-    {"program", "/sweep/program"},
+    {"machine", "/sweep/machine", true},
+    {"program", "/sweep/program", true},
 };
+
+constexpr const char* kInvalidSamples = "invalid_samples";
 
 std::string MachineName() {
   char name[256] = "";
@@ -63,14 +68,6 @@ Json InvalidSamples(const Json& report) {
     invalid += count.get<std::uint64_t>();
   }
   return invalid;
-}
-
-std::vector<std::string> StageNames(const std::vector<Json>& cells) {
-  std::set<std::string> names;
-  for (const Json& cell : cells) {
-    for (const auto& [name, seconds] : cell.at("stages").items()) names.insert(name);
-  }
-  return {names.begin(), names.end()};
 }
 
 std::string Header(const std::vector<std::string>& stages) {
@@ -92,7 +89,7 @@ std::string Row(const Json& cell, const std::vector<std::string>& stages) {
   for (const Measure& column : kColumns) {
     text += "," + CsvField(cell.at("measured").value(column.name, Json()));
   }
-  text += "," + CsvField(cell.at("measured").value("invalid_samples", Json())) + "," +
+  text += "," + CsvField(cell.at("measured").value(kInvalidSamples, Json())) + "," +
           MachineCsvRow(MachineFromJson(cell.at("machine")));
   for (const std::string& stage : stages) {
     text += "," + CsvField(cell.at("stages").value(stage, Json()));
@@ -101,6 +98,20 @@ std::string Row(const Json& cell, const std::vector<std::string>& stages) {
 }
 
 }  // namespace
+
+std::vector<std::string> StageNames(const std::vector<Json>& cells) {
+  std::set<std::string> names;
+  for (const Json& cell : cells) {
+    for (const auto& [name, seconds] : cell.at("stages").items()) names.insert(name);
+  }
+  return {names.begin(), names.end()};
+}
+
+bool IsOnPage(const std::string& measure) {
+  return measure == kInvalidSamples ||
+         std::any_of(std::begin(kColumns), std::end(kColumns),
+                     [&](const Measure& m) { return m.on_page && m.name == measure; });
+}
 
 Json CellReport(const Rendering& rendering) {
   Json report = ParseJson(rendering.json);
@@ -129,7 +140,7 @@ Json CellJson(const SweepCell& cell, const CellRecord& record) {
       json["measured"][column.name] = record.report.at(place);
     }
   }
-  json["measured"]["invalid_samples"] = InvalidSamples(record.report);
+  json["measured"][kInvalidSamples] = InvalidSamples(record.report);
   json["machine"] = record.report.value("machine", Json());  // older ones lack it
   for (const Json& stage : record.report.at("stages")) {
     json["stages"][stage.at("name").get<std::string>()] = stage.at("seconds");
@@ -153,7 +164,7 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome
       if (record.state != CellState::kDone) return;
       ++outcome.done;
       outcome.invalid_samples +=
-          cells.back()["measured"]["invalid_samples"].get<std::uint64_t>();
+          cells.back()["measured"][kInvalidSamples].get<std::uint64_t>();
       outcome.differing += record.report.value("differs", false);
     });
     if (record.state == CellState::kFailed) {

@@ -7,6 +7,7 @@
 
 #include "src/render/machine_json.h"
 #include "src/report/page.h"
+#include "src/sweep/results.h"
 #include "src/sweep/sweep_folder.h"
 
 namespace lanelight {
@@ -31,33 +32,6 @@ Json AxisJson(const Sweep& sweep, Axis axis) {
           {"unset", unset}};
 }
 
-// Of a cell, what the page uses.
-constexpr const char* kMeasured[] = {"samples",
-                                     "render_seconds",
-                                     "cpu_seconds",
-                                     "samples_per_second",
-                                     "rays_per_second",
-                                     "relmse",
-                                     "relmse_low",
-                                     "relmse_high",
-                                     "rmse",
-                                     "rmse_low",
-                                     "rmse_high",
-                                     "used_threads",
-                                     "width_pixels",
-                                     "height_pixels",
-                                     "invalid_samples",
-                                     "machine",
-                                     "program"};
-
-Json StageNames(const std::vector<Json>& cells) {
-  std::set<std::string> names;
-  for (const Json& cell : cells) {
-    for (const auto& [name, unused] : cell.at("stages").items()) names.insert(name);
-  }
-  return names;
-}
-
 Json MachinesJson(const std::vector<Json>& cells) {
   std::vector<MachineInfo> machines;
   for (const Json& cell : cells) {
@@ -68,16 +42,15 @@ Json MachinesJson(const std::vector<Json>& cells) {
 }
 
 // Ten thousand cells fit into a page: stages are numbers of four digits without names.
-Json PageCell(const Json& cell, const Json& stage_names) {
+Json PageCell(const Json& cell, const std::vector<std::string>& stage_names) {
   Json json = {{"name", cell.at("name")},       {"status", cell.at("status")},
                {"message", cell.at("message")}, {"values", cell.at("values")},
                {"measured", Json::object()},    {"stages", Json::array()}};
-  for (const char* name : kMeasured) {
-    if (cell.at("measured").contains(name))
-      json["measured"][name] = cell["measured"][name];
+  for (const auto& [name, value] : cell.at("measured").items()) {
+    if (IsOnPage(name)) json["measured"][name] = value;
   }
-  for (const Json& name : stage_names) {
-    const auto stage = cell.at("stages").find(name.get<std::string>());
+  for (const std::string& name : stage_names) {
+    const auto stage = cell.at("stages").find(name);
     if (stage == cell.at("stages").end()) {
       json["stages"].push_back(nullptr);
     } else {
@@ -93,7 +66,7 @@ Json PageCell(const Json& cell, const Json& stage_names) {
 Json SweepJson(const Sweep& sweep, const std::vector<Json>& cells) {
   Json axes = Json::array();
   for (const Axis axis : sweep.UsedAxes()) axes.push_back(AxisJson(sweep, axis));
-  const Json stages = StageNames(cells);
+  const std::vector<std::string> stages = StageNames(cells);
   Json page_cells = Json::array();
   for (const Json& cell : cells) page_cells.push_back(PageCell(cell, stages));
   return {{"schema", 1},

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/render/machine_json.h"
-#include "src/report/csv.h"
+#include "src/report/values.h"
 
 namespace lanelight {
 
