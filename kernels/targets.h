@@ -1,5 +1,5 @@
-// Included first by every kernel file: which Highway targets are compiled, and why not
-// the others. LANELIGHT_TARGETS, a list of some of these, comes from the build
+// Which Highway targets kernels are compiled for, and why not for others; and what their
+// code stands between. LANELIGHT_TARGETS, a list of some of these, comes from the build
 // (cmake/targets.cmake). At run time the best one that the machine has is chosen;
 // `--target` forces one (kernels/simd/target.h).
 //
@@ -23,3 +23,14 @@
 // elsewhere: Highway compiles it, and all better ones that are not disabled.
 #define HWY_DISABLED_TARGETS (~(LANELIGHT_TARGETS))
 #define HWY_BASELINE_TARGETS LANELIGHT_FLOOR_TARGET
+
+// What stands between these is compiled for each target, in a namespace of its own
+// (kernels/simd/each_target-inl.h).
+#define LANELIGHT_BEGIN_KERNELS \
+  HWY_BEFORE_NAMESPACE();       \
+  namespace lanelight {         \
+  namespace HWY_NAMESPACE {
+#define LANELIGHT_END_KERNELS \
+  }                           \
+  }                           \
+  HWY_AFTER_NAMESPACE();

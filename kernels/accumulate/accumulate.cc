@@ -1,20 +1,13 @@
 // Finished paths: checks the sample, writes it to the task's buffer, frees the slot.
 // A sample that is not finite, or negative though the filter is positive, is counted by
 // kind and written as zero: nothing bad reaches the film, and nothing is hidden.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/accumulate/accumulate.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/accumulate/check-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // The planes of one group in the task's buffer.
 struct PlaneWriter {
@@ -117,37 +110,12 @@ void Accumulate(Wave& wave) {
                });
 }
 
-void AccumulatePlain(Wave& wave) { Accumulate<false, false>(wave); }
-void AccumulateSigned(Wave& wave) { Accumulate<true, false>(wave); }
-void AccumulateAov(Wave& wave) { Accumulate<false, true>(wave); }
-void AccumulateSignedAov(Wave& wave) { Accumulate<true, true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(AccumulatePlain);
-HWY_EXPORT(AccumulateSigned);
-HWY_EXPORT(AccumulateAov);
-HWY_EXPORT(AccumulateSignedAov);
-
-namespace {
-
 StageFn ResolveAccumulate(const FeatureSet& features) {
   if (features.HasAny({Feature::kSignedFilter, Feature::kControl})) {
-    return features.Has(Feature::kAov) ? HWY_DYNAMIC_DISPATCH(AccumulateSignedAov)
-                                       : HWY_DYNAMIC_DISPATCH(AccumulateSigned);
+    return features.Has(Feature::kAov) ? Accumulate<true, true> : Accumulate<true, false>;
   }
-  return features.Has(Feature::kAov) ? HWY_DYNAMIC_DISPATCH(AccumulateAov)
-                                     : HWY_DYNAMIC_DISPATCH(AccumulatePlain);
+  return features.Has(Feature::kAov) ? Accumulate<false, true> : Accumulate<false, false>;
 }
-
-}  // namespace
 
 Stage AccumulateStage() {
   return {.name = "accumulate",
@@ -159,5 +127,4 @@ Stage AccumulateStage() {
           .resolve = ResolveAccumulate};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

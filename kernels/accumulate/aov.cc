@@ -1,19 +1,12 @@
 // Auxiliary output of the first hit: albedo, shading normal, distance. A miss leaves the
 // zeros that the camera stage wrote.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/accumulate/aov.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/vec3-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Lanes whose kind has a trait.
 HWY_INLINE MF HasTrait(VI kind, ShadeTraits trait) {
@@ -67,38 +60,14 @@ void Aov(Wave& wave) {
   });
 }
 
-void AovPlain(Wave& wave) { Aov<false, false>(wave); }
-void AovNormals(Wave& wave) { Aov<false, true>(wave); }
-void AovTextures(Wave& wave) { Aov<true, false>(wave); }
-void AovTexturesNormals(Wave& wave) { Aov<true, true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(AovPlain);
-HWY_EXPORT(AovNormals);
-HWY_EXPORT(AovTextures);
-HWY_EXPORT(AovTexturesNormals);
-
-namespace {
-
 StageFn ResolveAov(const FeatureSet& features) {
   const bool normals =
       features.HasAny({Feature::kVertexNormals, Feature::kBumps, Feature::kNormalMaps});
   if (features.Has(Feature::kTextures)) {
-    return normals ? HWY_DYNAMIC_DISPATCH(AovTexturesNormals)
-                   : HWY_DYNAMIC_DISPATCH(AovTextures);
+    return normals ? Aov<true, true> : Aov<true, false>;
   }
-  return normals ? HWY_DYNAMIC_DISPATCH(AovNormals) : HWY_DYNAMIC_DISPATCH(AovPlain);
+  return normals ? Aov<false, true> : Aov<false, false>;
 }
-
-}  // namespace
 
 Stage AovStage() {
   return {.name = "aov",
@@ -111,5 +80,4 @@ Stage AovStage() {
           .resolve = ResolveAov};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -9,9 +9,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/path/wave.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// A sample, black where it was bad.
 struct Checked {
@@ -41,8 +39,6 @@ HWY_INLINE Checked Check(Health& counts, V3 v, MF valid) {
   return {IfThenElse(bad, zero, v), bad};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

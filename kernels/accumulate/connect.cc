@@ -1,17 +1,10 @@
 // Adds the radiance of unoccluded shadow rays. A path has at most one per bounce.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/accumulate/connect.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 void Connect(Wave& wave) {
   const PathColumns& p = wave.path;
@@ -23,17 +16,6 @@ void Connect(Wave& wave) {
       });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(Connect);
-
 Stage ConnectStage() {
   return {.name = "connect",
           .meaning = "adds the light of unoccluded shadow rays",
@@ -41,10 +23,7 @@ Stage ConnectStage() {
           .needs = {Feature::kLights, Feature::kScatters},
           .reads = fields::kRadiance | fields::kShadow,
           .writes = fields::kRadiance,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(Connect);
-          }};
+          .resolve = Always<Connect>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

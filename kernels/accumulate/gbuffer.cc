@@ -1,19 +1,12 @@
 // Where the first hit is: what pbrt-v4's GBufferFilm keeps of it (Pharr, Jakob and
 // Humphreys 2023, section 5.4.3). A miss leaves the zeros that the camera stage wrote.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/accumulate/gbuffer.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/surface/pixel_steps-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE V3 Rows(Vec3f x, Vec3f y, Vec3f z, V3 v) {
   return {Dot(SplatVec(x), v), Dot(SplatVec(y), v), Dot(SplatVec(z), v)};
@@ -56,17 +49,6 @@ void Gbuffer(Wave& wave) {
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(Gbuffer);
-
 Stage GbufferStage() {
   return {
       .name = "gbuffer",
@@ -75,10 +57,7 @@ Stage GbufferStage() {
       .needs = {Feature::kGbuffer, Feature::kScatters},
       .reads = fields::kPoint | fields::kNormal | fields::kUv | FieldSet{Field::depth},
       .writes = fields::kGbuffer,
-      .resolve = [](const FeatureSet&) -> StageFn {
-        return HWY_DYNAMIC_DISPATCH(Gbuffer);
-      }};
+      .resolve = Always<Gbuffer>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -33,9 +33,7 @@
 #undef LANELIGHT_LONG_BSDF_CALL
 #define LANELIGHT_LONG_BSDF_CALL HWY_NOINLINE
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Uniform in [0,1): the choice of a lobe, and a direction within it.
 struct BsdfPoints {
@@ -183,8 +181,6 @@ LANELIGHT_INLINE MF SameSide(V3 a, V3 b) {
 /// v with its height taken to the side of wo, for v on the upper side.
 LANELIGHT_INLINE V3 ToSideOf(V3 wo, V3 v) { return {v.x, v.y, hn::CopySign(v.z, wo.z)}; }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

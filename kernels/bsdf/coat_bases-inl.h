@@ -11,9 +11,7 @@
 #include "kernels/bsdf/coated_conductor-inl.h"
 #include "kernels/warp/hemisphere-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// A Lambertian base, met from above.
 struct DiffuseLayer {
@@ -60,8 +58,6 @@ struct MetalBelowMedium {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -9,9 +9,7 @@
 
 #include "kernels/bsdf/bsdf-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// The four tables around a coat, two roughnesses for each of two thicknesses, and what
 /// each counts. An axis of one node has one neighbour only, twice.
@@ -77,8 +75,6 @@ struct CoatCell {
   };
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -11,9 +11,7 @@
 #include "kernels/bsdf/layer-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Both Eval and Sample are estimates: unbiased, with random numbers of their own beyond
 /// the sample points. The density of the walk is unknown, but multiple importance
@@ -175,8 +173,6 @@ struct CoatedConductorBsdf : PlainBsdf {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

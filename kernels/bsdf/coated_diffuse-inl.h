@@ -20,9 +20,7 @@
 #include "kernels/warp/hemisphere-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// The base under a coat.
 struct CoatedBase {
@@ -237,8 +235,6 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

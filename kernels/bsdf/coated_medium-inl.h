@@ -22,9 +22,7 @@
 #include "kernels/bsdf/coat_bases-inl.h"
 #include "kernels/bsdf/henyey_greenstein-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <class Base>
 struct CoatedMediumBsdf : PlainBsdf {
@@ -226,8 +224,6 @@ struct CoatedMediumBsdf : PlainBsdf {
 struct CoatedDiffuseMediumBsdf : CoatedMediumBsdf<DiffuseLayer> {};
 struct CoatedConductorMediumBsdf : CoatedMediumBsdf<MetalBelowMedium> {};
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -10,9 +10,7 @@
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/bsdf/ggx-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Mirror: delta direction, weight = Fresnel reflectance.
 struct ConductorSmoothBsdf : PlainBsdf {
@@ -72,8 +70,6 @@ struct ConductorRoughBsdf : PlainBsdf {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -10,9 +10,7 @@
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/bsdf/ggx-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Index seen from wo's side: eta from above (outside), 1 / eta from below.
 LANELIGHT_INLINE VF RelativeIndex(VF eta, V3 wo) {
@@ -155,8 +153,6 @@ struct DielectricRoughBsdf : PlainBsdf {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

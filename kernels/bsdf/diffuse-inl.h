@@ -10,9 +10,7 @@
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/warp/hemisphere-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// A diffuse model is a density p(cos) on the hemisphere: f * cos = albedo * p, so that
 /// the weight f * cos / p is the albedo.
@@ -63,8 +61,6 @@ struct InSphereHemisphere {
 };
 using DiffuseInSphereBsdf = DiffuseModel<InSphereHemisphere>;
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -9,9 +9,7 @@
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/warp/hemisphere-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// f = reflectance / pi on wo's side and transmittance / pi on the other. A side is
 /// chosen with probability proportional to its largest component; density = that
@@ -54,8 +52,6 @@ struct DiffuseTransmissionBsdf : PlainBsdf {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

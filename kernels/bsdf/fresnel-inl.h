@@ -9,9 +9,7 @@
 
 #include "kernels/simd/math-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// What a smooth dielectric interface does to light at incident cosine c.
 struct Interface {
@@ -90,8 +88,6 @@ LANELIGHT_INLINE V3 FresnelConductor(VF c, V3 eta, V3 k) {
           FresnelConductor(c, eta.z, k.z)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -9,9 +9,7 @@
 
 #include "kernels/bsdf/fresnel-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Everything is expressed by Spread(w) = |stretched w| = sqrt(z^2 + ax^2 x^2 + ay^2
 /// y^2):
@@ -72,8 +70,6 @@ LANELIGHT_INLINE VF MaskingRatio(VF zo, VF so, VF zi, VF si) {
   return hn::Mul(HalfPairMasking(zo, so, zi, si), hn::Add(zo, so));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -10,9 +10,7 @@
 
 #include "kernels/bsdf/bsdf-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct HenyeyGreensteinBsdf : PlainBsdf {
   static constexpr bool kTransmits = true;
@@ -62,8 +60,6 @@ struct HenyeyGreensteinBsdf : PlainBsdf {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

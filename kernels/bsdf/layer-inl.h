@@ -11,9 +11,7 @@
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/bsdf/ggx-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// pbrt-v4 treats a surface below this roughness as smooth.
 inline constexpr float kSmoothAlpha = 1e-3f;
@@ -169,8 +167,6 @@ struct MetalLayer {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -10,9 +10,7 @@
 #include "kernels/simd/rng-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Uniform numbers in [0, 1) with 24 bits, a pure function of the four key words and of
 /// how many were drawn before. Each hash (Pcg4d) gives four numbers. The counter advances
@@ -35,8 +33,6 @@ struct LaneRandom {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

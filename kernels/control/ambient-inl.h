@@ -9,9 +9,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/prepare/ambient.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Three quadratics, one per channel, at unit direction d.
 LANELIGHT_INLINE V3 EvalQuadratics(const Quadratic* q, V3 d) {
@@ -33,8 +31,6 @@ LANELIGHT_INLINE V3 EvalQuadratics(const Quadratic* q, V3 d) {
   return {out[0], out[1], out[2]};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -19,23 +19,17 @@
 //   cost        two quadratics per vertex and environment, no table
 //   source      Ramamoorthi and Hanrahan 2001, "An Efficient Representation for
 //               Irradiance Environment Maps"
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/control/ambient.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/control/ambient-inl.h"
 #include "kernels/control/apply-inl.h"
 #include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/bsdf/diffuse_transmission-inl.h"
 #include "kernels/queue/batch-inl.h"
+#include "kernels/control/control_stage.h"
 #include "src/prepare/tables.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // (f cos) L_h / p of the light sample, weighted, if it is of an environment.
 template <class Bsdf, class Proposal>
@@ -98,38 +92,20 @@ StageFn ResolveAmbient(const FeatureSet& features) {
                                         : Ambient<Bsdf, kKind, MaterialProposal>;
 }
 
-StageFn AmbientDiffuse(const FeatureSet& features) {
-  return ResolveAmbient<DiffuseBsdf, ShadeKind::kDiffuse>(features);
-}
 StageFn AmbientTransmission(const FeatureSet& features) {
   return ResolveAmbient<DiffuseTransmissionBsdf, ShadeKind::kDiffuseTransmission>(
       features);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/control/control_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(AmbientDiffuse);
-HWY_EXPORT(AmbientTransmission);
-
 Stage AmbientDiffuseStage() {
-  return SurfaceControlStage(
-      "control_ambient", "control by the unoccluded environment",
-      Feature::kAmbientControl, ShadeKind::kDiffuse,
-      [](const FeatureSet& f) { return HWY_DYNAMIC_DISPATCH(AmbientDiffuse)(f); });
+  return SurfaceControlStage("control_ambient", "control by the unoccluded environment",
+                             Feature::kAmbientControl, ShadeKind::kDiffuse,
+                             ResolveAmbient<DiffuseBsdf, ShadeKind::kDiffuse>);
 }
 Stage AmbientTransmissionStage() {
   return SurfaceControlStage(
       "control_ambient_sheet", "control by the unoccluded environment on both sides",
-      Feature::kAmbientControl, ShadeKind::kDiffuseTransmission,
-      [](const FeatureSet& f) { return HWY_DYNAMIC_DISPATCH(AmbientTransmission)(f); });
+      Feature::kAmbientControl, ShadeKind::kDiffuseTransmission, AmbientTransmission);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -1,11 +1,6 @@
 // The part of control=ambient that scattered rays estimate (ambient.cc): before roulette,
 // which would only add noise to h, and which the expectation knows nothing of.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/control/ambient_scattered.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/control/ambient-inl.h"
 #include "kernels/control/apply-inl.h"
@@ -14,9 +9,7 @@
 #include "src/prepare/tables.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Paths that have just left a surface that the control variate works on.
 HWY_INLINE const Queue& FromDiffuse(Wave& wave) {
@@ -63,21 +56,6 @@ void AmbientScattered(Wave& wave) {
   });
 }
 
-void AmbientScatteredMis(Wave& wave) { AmbientScattered<true>(wave); }
-void AmbientScatteredPlain(Wave& wave) { AmbientScattered<false>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(AmbientScatteredMis);
-HWY_EXPORT(AmbientScatteredPlain);
-
 Stage AmbientScatteredStage() {
   using namespace fields;
   return {.name = "control_ambient_scattered",
@@ -87,12 +65,8 @@ Stage AmbientScatteredStage() {
           .reads = kRay | kThroughput | kRadiance | kControl |
                    FieldSet{Field::material, Field::bsdf_pdf},
           .writes = kRadiance | kControl,
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kMis)
-                       ? HWY_DYNAMIC_DISPATCH(AmbientScatteredMis)
-                       : HWY_DYNAMIC_DISPATCH(AmbientScatteredPlain);
-          }};
+          .resolve =
+              ByFeature<Feature::kMis, AmbientScattered<true>, AmbientScattered<false>>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -20,22 +20,16 @@
 //               triangle, 2 per sphere, none per disk. Meant for few lights
 //   source      Lambert 1760 (polygons); formulas of disk and sphere in irradiance-inl.h;
 //               Fan et al. 2006, "Optimizing Control Variate Estimators for Rendering"
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/control/analytic.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/control/apply-inl.h"
 #include "kernels/control/area_lights-inl.h"
 #include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/bsdf/diffuse_transmission-inl.h"
 #include "kernels/queue/batch-inl.h"
+#include "kernels/control/control_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <class Bsdf>
 HWY_INLINE void Analytic(Wave& wave, ShadeKind kind) {
@@ -62,32 +56,16 @@ void AnalyticTransmission(Wave& wave) {
   Analytic<DiffuseTransmissionBsdf>(wave, ShadeKind::kDiffuseTransmission);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/control/control_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(AnalyticDiffuse);
-HWY_EXPORT(AnalyticTransmission);
-
 Stage AnalyticDiffuseStage() {
-  return SurfaceControlStage(
-      "control_analytic", "control by unshadowed area lights", Feature::kAnalyticControl,
-      ShadeKind::kDiffuse,
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(AnalyticDiffuse); });
+  return SurfaceControlStage("control_analytic", "control by unshadowed area lights",
+                             Feature::kAnalyticControl, ShadeKind::kDiffuse,
+                             Always<AnalyticDiffuse>);
 }
 Stage AnalyticTransmissionStage() {
   return SurfaceControlStage("control_analytic_sheet",
                              "control by unshadowed area lights on both sides",
                              Feature::kAnalyticControl, ShadeKind::kDiffuseTransmission,
-                             [](const FeatureSet&) -> StageFn {
-                               return HWY_DYNAMIC_DISPATCH(AnalyticTransmission);
-                             });
+                             Always<AnalyticTransmission>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -9,9 +9,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/shade/shade-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// `difference` is weighted with the throughput. A given coefficient is applied at once;
 /// an estimated one is not known yet, so that the difference travels along.
@@ -64,8 +62,6 @@ struct DiffuseVertex {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

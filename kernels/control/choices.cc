@@ -9,12 +9,7 @@
 //   the
 //               camera sees of clear glass is little else than noise of this kind
 //   cost        a Fresnel term per event with a choice; none without such materials
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/control/choices.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/coated_diffuse-inl.h"
 #include "kernels/bsdf/dielectric-inl.h"
@@ -23,9 +18,7 @@
 #include "kernels/shade/shade-inl.h"
 #include "src/path/first_numbers.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // As ChoiceCode, of 16 bits.
 template <class Bsdf>
@@ -74,19 +67,6 @@ StageFn ResolveChoices(ShadeKind kind) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ResolveChoices);
-
-namespace {
-
 template <ShadeKind kKind>
 Stage ChoiceStage(const char* name) {
   using namespace fields;
@@ -98,12 +78,8 @@ Stage ChoiceStage(const char* name) {
                    FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material,
                             Field::u_lobe, Field::choices},
           .writes = {Field::choices},
-          .resolve = [](const FeatureSet&) {
-            return HWY_DYNAMIC_DISPATCH(ResolveChoices)(kKind);
-          }};
+          .resolve = [](const FeatureSet&) { return ResolveChoices(kKind); }};
 }
-
-}  // namespace
 
 Stage ChooseGlassStage() {
   return ChoiceStage<ShadeKind::kDielectricSmooth>("control_choice_glass");
@@ -121,5 +97,4 @@ Stage ChooseRoughCoatStage() {
   return ChoiceStage<ShadeKind::kCoatedDiffuseRough>("control_choice_rough_coat");
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -22,9 +22,7 @@
 #include "hwy/contrib/math/math-inl.h"
 #include "kernels/surface/point-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 using MD = hn::Mask<DD>;
 
@@ -177,8 +175,6 @@ LANELIGHT_INLINE VD DiskIrradiance(D3 center, D3 axis, VD radius, D3 n) {
                  SplatD(0));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

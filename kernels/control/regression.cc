@@ -22,20 +22,13 @@
 //   source      Salaun et al. 2022, "Regression-based Monte Carlo Integration"; Lavenberg
 //               and Welch 1981, "A Perspective on the Use of Control Variables" (optimal
 //               c, what the fit costs); Nelson 1990, "Control Variate Remedies" (halves)
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/control/regression.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/filter-inl.h"
 #include "src/compiled/scene.h"
 #include "src/path/first_numbers.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // As PairCode.
 HWY_INLINE VI PairCodes(VF first, VF second) {
@@ -83,18 +76,6 @@ void FirstBounce(Wave& wave) {
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(FirstFilm);
-HWY_EXPORT(FirstBounce);
-
 Stage FirstFilmStage() {
   return {.name = "control_first_film",
           .meaning = "keeps the position in the pixel",
@@ -102,9 +83,7 @@ Stage FirstFilmStage() {
           .needs = {Feature::kRegressionControl},
           .reads = {Field::u_film_0, Field::u_film_1},
           .writes = {Field::first_film},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(FirstFilm);
-          }};
+          .resolve = Always<FirstFilm>};
 }
 Stage FirstBounceStage() {
   return {.name = "control_first_bounce",
@@ -113,10 +92,7 @@ Stage FirstBounceStage() {
           .needs = {Feature::kRegressionControl, Feature::kScatters},
           .reads = fields::kBouncePoints | FieldSet{Field::material, Field::first_bsdf},
           .writes = {Field::first_bsdf, Field::first_light},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(FirstBounce);
-          }};
+          .resolve = Always<FirstBounce>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -27,9 +27,7 @@
 #include "src/path/wave.h"
 #include "src/prepare/tables.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// A proposal as in material-inl.h, of paths that the guide stage has seen.
 struct GuidedProposal {
@@ -119,8 +117,6 @@ struct GuidedProposal {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

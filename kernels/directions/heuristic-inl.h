@@ -18,9 +18,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/path/run_parameters.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Weight of the technique of density `mine` > 0 against `other`, in a form that neither
 /// overflows nor divides zero by zero. Which heuristic: see MisParameters.
@@ -50,8 +48,6 @@ LANELIGHT_INLINE VF EmissionWeight(const MisParameters& mis, VF bsdf_pdf, VF lig
   return hn::IfThenElse(specular, one, hn::Mul(Splat(mis.hits), weight));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

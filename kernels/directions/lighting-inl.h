@@ -8,9 +8,7 @@
 
 #include "kernels/directions/heuristic-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Light samples count in full, and scattered rays find no light that is sampled.
 struct UnweightedLighting {
@@ -28,8 +26,6 @@ struct MisLighting {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

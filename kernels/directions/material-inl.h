@@ -18,9 +18,7 @@
 #include "kernels/bsdf/bsdf-inl.h"
 #include "src/path/wave.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// A proposal of the next direction is made for a batch of paths and their shading frame.
 /// It has two members, with the measure of solid angle:
@@ -43,8 +41,6 @@ struct MaterialProposal {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

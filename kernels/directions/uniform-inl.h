@@ -20,9 +20,7 @@
 #include "kernels/warp/hemisphere-inl.h"
 #include "src/path/wave.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Uniform over the hemisphere of wo, or over the sphere; the density is kept apart from
 /// 0 at the horizon, as wi.z must not be 0.
@@ -74,8 +72,6 @@ struct UniformProposal {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

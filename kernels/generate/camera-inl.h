@@ -13,9 +13,7 @@
 #include "kernels/generate/film-inl.h"
 #include "kernels/warp/disk-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// In camera space; `direction` has the depth 1 and is not normalised.
 struct CameraRay {
@@ -82,8 +80,6 @@ StageFn ResolveCamera(const FeatureSet& features) {
                                           : Camera<Projection, true, false>;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

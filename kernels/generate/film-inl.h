@@ -10,9 +10,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Film position in pixels: pixel centre plus a point distributed like |filter|.
 template <bool kBox>
@@ -54,8 +52,6 @@ HWY_INLINE void FilmPosition(const Wave& wave, const StoreSlots& slots, VF* x, V
   *y = hn::Add(hn::Add(hn::ConvertTo(DF(), row), Splat(0.5f)), dy);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

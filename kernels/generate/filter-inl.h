@@ -9,9 +9,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/compiled/camera.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Offset in [-radius, radius) distributed like the piecewise-constant |f|, and the sign
 /// of f there. Monotone in u, so it keeps the stratification of the sample points.
@@ -34,8 +32,6 @@ HWY_INLINE VF SampleFilterAxis(const float* cdf, const float* signs, float radiu
   return hn::MulAdd(position, Splat(bin_width), Splat(-radius));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

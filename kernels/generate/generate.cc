@@ -1,18 +1,11 @@
 // Refills free slots with the next samples of the task, so that lanes stay full until the
 // work runs out.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/generate/generate.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "src/prepare/path_values.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // A vector of samples of one pixel, from `sample` of the task on, in the slots on top of
 // the stack of free ones; `top` is one past them.
@@ -92,33 +85,13 @@ HWY_INLINE void Start(Wave& wave) {
   CountBatches(wave, camera);
 }
 
-void Generate(Wave& wave) { Start<false>(wave); }
-void GenerateSplitting(Wave& wave) { Start<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(Generate);
-HWY_EXPORT(GenerateSplitting);
-
 Stage GenerateStage() {
   return {.name = "generate",
           .meaning = "starts the next samples in free slots",
           .input = QueueId::kFree,
           .writes = {Field::pixel, Field::sample, Field::output, Field::depth,
                      Field::branch, Field::budget},
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kSplitting)
-                       ? HWY_DYNAMIC_DISPATCH(GenerateSplitting)
-                       : HWY_DYNAMIC_DISPATCH(Generate);
-          }};
+          .resolve = ByFeature<Feature::kSplitting, Start<true>, Start<false>>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

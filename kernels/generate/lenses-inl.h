@@ -10,9 +10,7 @@
 #include "kernels/simd/records-inl.h"
 #include "src/compiled/camera.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// `d` is a unit vector; `weight` is 0 from where the ray is stopped.
 struct LensRay {
@@ -129,8 +127,6 @@ LANELIGHT_INLINE void TraceLenses(const LensSystem& lenses, LensRay& ray) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

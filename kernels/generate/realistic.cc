@@ -7,19 +7,13 @@
 //               k t^2 + 2 (k p.d - d_z) t + k |p|^2 - 2 p_z = 0 for unit d. The root near
 //               p, in the form that has no cancellation, however flat the surface is
 //   source      Kolb, Mitchell and Hanrahan 1995; pbrt-v4
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/generate/realistic.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/generate/lenses-inl.h"
 #include "kernels/generate/camera-inl.h"
+#include "kernels/generate/camera_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kBox>
 HWY_INLINE void LensBatch(Wave& wave, const StoreSlots& slots, MF valid) {
@@ -58,24 +52,10 @@ StageFn ResolveRealistic(const FeatureSet& features) {
   return features.Has(Feature::kFiltered) ? Realistic<false> : Realistic<true>;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/generate/camera_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ResolveRealistic);
-
 Stage RealisticCameraStage() {
   return MakeCameraStage("camera_realistic",
                          "rays through lenses, and the first values of a path",
-                         Feature::kRealisticCamera, [](const FeatureSet& features) {
-                           return HWY_DYNAMIC_DISPATCH(ResolveRealistic)(features);
-                         });
+                         Feature::kRealisticCamera, ResolveRealistic);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

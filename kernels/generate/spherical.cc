@@ -3,20 +3,14 @@
 //   equal-area        the octahedral map of kernels/warp/octahedral-inl.h; where a pixel
 //                     filter leaves the film it goes on across the square's edge
 // Both about the camera's y axis, which is up, as pbrt has it.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/generate/spherical.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/generate/camera-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/warp/octahedral-inl.h"
+#include "kernels/generate/camera_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct Equirectangular {
   static HWY_INLINE CameraRay Project(V3 film) {
@@ -61,24 +55,10 @@ StageFn ResolveSpherical(const FeatureSet& features) {
   return features.Has(Feature::kFiltered) ? SphericalRays<false> : SphericalRays<true>;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/generate/camera_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ResolveSpherical);
-
 Stage SphericalCameraStage() {
   return MakeCameraStage("camera_spherical",
                          "rays in all directions, and the first values of a path",
-                         Feature::kSphericalCamera, [](const FeatureSet& features) {
-                           return HWY_DYNAMIC_DISPATCH(ResolveSpherical)(features);
-                         });
+                         Feature::kSphericalCamera, ResolveSpherical);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

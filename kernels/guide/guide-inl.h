@@ -18,9 +18,7 @@
 #include "kernels/simd/records-inl.h"
 #include "src/prepare/guide.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Component `axis` of (p, n); any for other axes.
 LANELIGHT_INLINE VF GuideCoordinate(VI axis, V3 p, V3 n) {
@@ -165,8 +163,6 @@ LANELIGHT_INLINE GuideSample SampleGuide(const Guide& guide, VI cell, VF u0, VF 
   return sample;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -8,20 +8,14 @@
 //               what is not in L1
 //   source      Mueller, Gross and Novak 2017, "Practical Path Guiding for Efficient
 //               Light-Transport Simulation"
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/guide/propose.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/guide/guide-inl.h"
 #include "kernels/queue/batch-inl.h"
+#include "kernels/guide/guide_fields.h"
 #include "src/prepare/tables.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 void GuideProposals(Wave& wave) {
   const PathColumns& p = wave.path;
@@ -45,18 +39,6 @@ void GuideProposals(Wave& wave) {
       });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/guide/guide_fields.h"
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(GuideProposals);
-
 Stage GuideProposalsStage() {
   using namespace fields;
   const FieldSet direction = {Field::d_x, Field::d_y, Field::d_z};
@@ -69,10 +51,7 @@ Stage GuideProposalsStage() {
       .reads = direction | normal | kPoint |
                FieldSet{Field::u_guide, Field::u_bsdf_0, Field::u_bsdf_1},
       .writes = kGuideProposal,
-      .resolve = [](const FeatureSet&) -> StageFn {
-        return HWY_DYNAMIC_DISPATCH(GuideProposals);
-      }};
+      .resolve = Always<GuideProposals>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -12,19 +12,12 @@
 //
 // The stages keep the rays in columns and write them behind the colour of the finished
 // path; src/wavefront/train_guide.cc reads them in the order of the samples.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/guide/record.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct RayColumns {
   float *x[kRecordedVertices], *y[kRecordedVertices], *z[kRecordedVertices];
@@ -142,14 +135,6 @@ void RecordRays(Wave& wave) {
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
 namespace {
 
 constexpr FieldSet kStarts = {
@@ -165,10 +150,6 @@ constexpr FieldSet kRays = {
 
 }  // namespace
 
-HWY_EXPORT(RecordStart);
-HWY_EXPORT(RecordRay);
-HWY_EXPORT(RecordRays);
-
 Stage RecordStartStage() {
   return {.name = "guide_record_start",
           .meaning = "records where a ray of a training pass will start",
@@ -177,9 +158,7 @@ Stage RecordStartStage() {
           .reads = fields::kRay | fields::kPoint | fields::kNormal | kStarts |
                    FieldSet{Field::depth},
           .writes = kStarts,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(RecordStart);
-          }};
+          .resolve = Always<RecordStart>};
 }
 Stage RecordRayStage() {
   return {.name = "guide_record_ray",
@@ -189,9 +168,7 @@ Stage RecordRayStage() {
           .reads = fields::kRay | fields::kThroughput | fields::kRadiance | kRays |
                    FieldSet{Field::depth, Field::bsdf_pdf},
           .writes = kRays,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(RecordRay);
-          }};
+          .resolve = Always<RecordRay>};
 }
 Stage RecordRaysStage() {
   return {.name = "guide_record_path",
@@ -199,10 +176,7 @@ Stage RecordRaysStage() {
           .input = QueueId::kDone,
           .needs = {Feature::kRecordsGuide},
           .reads = kStarts | kRays | fields::kRadiance | FieldSet{Field::output},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(RecordRays);
-          }};
+          .resolve = Always<RecordRays>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -9,9 +9,7 @@
 
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 LANELIGHT_INLINE Frame GuideFrame(V3 n) {
   const VF one = Splat(1.0f), zero = hn::Zero(DF());
@@ -57,8 +55,6 @@ LANELIGHT_INLINE V3 FromGuideSquare(VF a, VF b, VF* to_solid_angle) {
   return {x, y, z};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

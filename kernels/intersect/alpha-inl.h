@@ -13,9 +13,7 @@
 #include "kernels/texture/texture-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Opacity of primitive `prim` at (u, v), in [0, 1]; outside values mean the nearest end.
 /// where() -> PointOfAlpha: asked for by textures that depend on it alone.
@@ -77,8 +75,6 @@ inline bool TrianglePassesAlpha(const CompiledScene& scene, const float o[3],
   return AlphaHash(o, d, prim) < alpha;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

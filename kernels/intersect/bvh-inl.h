@@ -22,14 +22,10 @@
 #include <cmath>
 #include <limits>
 
-#include "hwy/highway.h"
 #include "kernels/intersect/triangle-inl.h"
 #include "src/accel/accel.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 // Lanes of node and leaf tests: 8, or 4 twice on narrow targets.
 using D8 = hn::CappedTag<float, kBvhWidth>;
@@ -160,8 +156,6 @@ LANELIGHT_INLINE void Traverse(const WideNode* HWY_RESTRICT nodes, uint32_t root
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -8,14 +8,10 @@
 
 #include <bit>
 
-#include "hwy/highway.h"
 #include "kernels/intersect/bvh-inl.h"
 #include "kernels/intersect/child_order.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// Where compression is a table's work anyway, one table does both.
 enum class OrderBy { kCompress, kTableOf8, kTableOf4 };
@@ -101,8 +97,6 @@ class ChildOrder<OrderBy::kCompress> {
 
 using EnteredChildren = ChildOrder<kOrderBy>;
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -6,12 +6,7 @@
 #define LANELIGHT_INTERSECT_DOUBLE_INL_H_
 #endif
 
-#include "hwy/highway.h"
-
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// fn(tag of doubles, v...) of the promoted lanes, rounded to float once.
 template <class D, class Fn, class... V>
@@ -23,8 +18,6 @@ LANELIGHT_INLINE hn::Vec<D> InDouble(D d, Fn&& fn, V... v) {
   return hn::Combine(d, hn::DemoteTo(dh, upper), hn::DemoteTo(dh, lower));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -10,10 +10,7 @@
 #include "kernels/intersect/many-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// Distinct vertices of the scene, sheared for the rays of one batch.
 class FewVertices {
@@ -94,8 +91,6 @@ LANELIGHT_INLINE MF BlockedFew(const CompiledScene& scene, const Rays& rays) {
   return blocked;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -9,10 +9,7 @@
 
 #include "kernels/intersect/rays-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// Points (w = 1) or directions (w = 0) through the maps of instances, 3x4 row by row.
 LANELIGHT_INLINE V3 MapLanes(const VF m[12], V3 p, bool point) {
@@ -42,8 +39,6 @@ LANELIGHT_INLINE VI PrimsToBeat(VI prim, VI inst, uint32_t instance) {
   return hn::Add(prim, hn::IfThenElseZero(hn::And(larger, some), hn::Set(di, 1)));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

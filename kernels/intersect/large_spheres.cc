@@ -1,46 +1,10 @@
 // Closest hit on large spheres, and shadow rays against them.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/intersect/large_spheres.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/intersect/shapes-inl.h"
-
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-
-void LargeSpheresWorld(Wave& wave) {
-  IntersectShapes<LargeSphereShape, false, false>(wave);
-}
-void LargeSpheresWorldAlpha(Wave& wave) {
-  IntersectShapes<LargeSphereShape, true, false>(wave);
-}
-void LargeSpheresInstances(Wave& wave) {
-  IntersectShapes<LargeSphereShape, false, true>(wave);
-}
-void LargeSpheresInstancesAlpha(Wave& wave) {
-  IntersectShapes<LargeSphereShape, true, true>(wave);
-}
-void LargeSpheresShadow(Wave& wave) { ShadowShapes<LargeSphereShape, false>(wave); }
-void LargeSpheresShadowAlpha(Wave& wave) { ShadowShapes<LargeSphereShape, true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
 #include "kernels/intersect/stages.h"
 
-namespace lanelight {
-HWY_EXPORT(LargeSpheresWorld);
-HWY_EXPORT(LargeSpheresWorldAlpha);
-HWY_EXPORT(LargeSpheresInstances);
-HWY_EXPORT(LargeSpheresInstancesAlpha);
-HWY_EXPORT(LargeSpheresShadow);
-HWY_EXPORT(LargeSpheresShadowAlpha);
+LANELIGHT_BEGIN_KERNELS
 
 Stage IntersectLargeSpheresStage() {
   return {.name = "intersect_large_spheres",
@@ -52,11 +16,11 @@ Stage IntersectLargeSpheresStage() {
           .resolve = [](const FeatureSet& features) -> StageFn {
             const bool alpha = features.Has(Feature::kAlpha);
             if (features.Has(Feature::kInstances)) {
-              return alpha ? HWY_DYNAMIC_DISPATCH(LargeSpheresInstancesAlpha)
-                           : HWY_DYNAMIC_DISPATCH(LargeSpheresInstances);
+              return alpha ? IntersectShapes<LargeSphereShape, true, true>
+                           : IntersectShapes<LargeSphereShape, false, true>;
             }
-            return alpha ? HWY_DYNAMIC_DISPATCH(LargeSpheresWorldAlpha)
-                         : HWY_DYNAMIC_DISPATCH(LargeSpheresWorld);
+            return alpha ? IntersectShapes<LargeSphereShape, true, false>
+                         : IntersectShapes<LargeSphereShape, false, false>;
           }};
 }
 
@@ -66,12 +30,8 @@ Stage ShadowLargeSpheresStage() {
           .input = QueueId::kShadow,
           .needs = {Feature::kLargeSpheres, Feature::kLights, Feature::kOpaqueShadows},
           .reads = ShadowRayFields(),
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kAlpha)
-                       ? HWY_DYNAMIC_DISPATCH(LargeSpheresShadowAlpha)
-                       : HWY_DYNAMIC_DISPATCH(LargeSpheresShadow);
-          }};
+          .resolve = ByFeature<Feature::kAlpha, ShadowShapes<LargeSphereShape, true>,
+                               ShadowShapes<LargeSphereShape, false>>};
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

@@ -13,10 +13,7 @@
 #include "kernels/intersect/packet_leaf-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kAlpha>
 class LastBlockers {
@@ -68,8 +65,6 @@ class LastBlockers {
   uint32_t count_ = 0;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

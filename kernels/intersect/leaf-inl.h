@@ -12,14 +12,10 @@
 #include <cmath>
 #include <type_traits>
 
-#include "hwy/highway.h"
 #include "kernels/intersect/triangle-inl.h"
 #include "src/accel/accel.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// Lanes of a leaf test: all triangles at once, or a part on narrower targets.
 template <class Leaf>
@@ -314,8 +310,6 @@ LANELIGHT_INLINE bool FinishLane(const Leaf& leaf, const LeafWeights& weights,
   return LaneIsAhead(leaf, lane, o, dir);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

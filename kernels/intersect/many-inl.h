@@ -13,10 +13,7 @@
 #include "kernels/intersect/triangle-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// Lane-wise choice of the axis along which the direction is largest: x unless |y| is
 /// larger, z if |z| is larger than both.
@@ -141,8 +138,6 @@ class ManyClosest {
   MF any_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -15,10 +15,7 @@
 #include "kernels/intersect/packet_leaf-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// Intervals of the rays of a packet, axis by axis.
 struct PacketBounds {
@@ -166,8 +163,6 @@ LANELIGHT_INLINE MF BlockedFrustum(const CompiledScene& scene, const Rays& rays,
   return MaskOf(DF(), best.found);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -12,10 +12,7 @@
 #include "kernels/intersect/stream_rays-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// The subtrees that the rays of a packet put off, in the order in which they would visit
 /// them. How many rays enter one cannot be predicted: they are listed by compression, and
@@ -98,8 +95,6 @@ class DeferredSubtrees {
   float entry_[kEntries ? kMost : 1];
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

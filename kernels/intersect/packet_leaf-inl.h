@@ -11,10 +11,7 @@
 #include "kernels/intersect/beam-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// The hits of a packet so far. In a shadow query t is the end of each ray, and negative
 /// once the ray is blocked.
@@ -204,8 +201,6 @@ LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, uint32_t ref,
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

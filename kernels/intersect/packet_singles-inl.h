@@ -15,10 +15,7 @@
 #include "kernels/intersect/stream_rays-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// At most so many shadow rays of a packet are tested by themselves at a leaf of separate
 /// triangles, where a packet shears three vertices for each. At other leaves, and for
@@ -96,8 +93,6 @@ LANELIGHT_INLINE void TestLeafSingles(const CompiledScene& scene, const Leaf& le
   best.t = hn::IfThenElse(MaskOf(DF(), blocked), Splat(-1.0f), best.t);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

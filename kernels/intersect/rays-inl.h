@@ -11,10 +11,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// One vector of rays. `t_max` is the distance to beat (closest hit: a candidate at t_max
 /// still wins with a smaller id) or the exclusive end (shadow). `from` is the primitive
@@ -108,8 +105,6 @@ LANELIGHT_INLINE void RemoveOccluded(Wave& wave, Occluded&& occluded) {
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -17,10 +17,7 @@
 #include "kernels/intersect/rays-inl.h"
 #include "kernels/intersect/triangle-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 template <class V>
 struct RayLanes {
@@ -211,8 +208,6 @@ LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const PlaneLanes<V>& s,
   return hit;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -1,20 +1,14 @@
 // Shadow rays against triangles.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/intersect/shadow_triangles.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/intersect/few-inl.h"
 #include "kernels/intersect/packet-inl.h"
 #include "kernels/intersect/stream-inl.h"
 #include "kernels/queue/batch-inl.h"
+#include "kernels/intersect/stages.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // As in triangles.cc. Rays stay in order: the queue is written behind the place where it
 // is read, at most a stream later.
@@ -43,24 +37,6 @@ void ShadowRays(Wave& wave) {
   if (!stream.empty()) flush();
 }
 
-void ShadowWorld(Wave& wave) { ShadowRays<false, false>(wave); }
-void ShadowWorldAlpha(Wave& wave) { ShadowRays<true, false>(wave); }
-void ShadowInstanced(Wave& wave) { ShadowRays<false, true>(wave); }
-void ShadowInstancedAlpha(Wave& wave) { ShadowRays<true, true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/intersect/stages.h"
-
-namespace lanelight {
-HWY_EXPORT(ShadowWorld);
-HWY_EXPORT(ShadowWorldAlpha);
-HWY_EXPORT(ShadowInstanced);
-HWY_EXPORT(ShadowInstancedAlpha);
-
 Stage ShadowTrianglesStage() {
   return {.name = "shadow_triangles",
           .meaning = "drop shadow rays blocked by triangles",
@@ -70,13 +46,10 @@ Stage ShadowTrianglesStage() {
           .resolve = [](const FeatureSet& features) -> StageFn {
             const bool alpha = features.Has(Feature::kAlpha);
             if (features.Has(Feature::kInstances)) {
-              return alpha ? HWY_DYNAMIC_DISPATCH(ShadowInstancedAlpha)
-                           : HWY_DYNAMIC_DISPATCH(ShadowInstanced);
+              return alpha ? ShadowRays<true, true> : ShadowRays<false, true>;
             }
-            return alpha ? HWY_DYNAMIC_DISPATCH(ShadowWorldAlpha)
-                         : HWY_DYNAMIC_DISPATCH(ShadowWorld);
+            return alpha ? ShadowRays<true, false> : ShadowRays<false, false>;
           }};
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

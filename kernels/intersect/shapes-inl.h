@@ -15,10 +15,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 template <class D>
 LANELIGHT_INLINE P3<hn::Vec<D>> Broadcast3(D d, const float p[3]) {
@@ -300,8 +297,6 @@ LANELIGHT_INLINE void ShadowShapes(Wave& wave) {
   ShadowRecords<Shape, kAlpha>(wave);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

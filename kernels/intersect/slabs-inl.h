@@ -11,10 +11,7 @@
 #include "kernels/intersect/rays-inl.h"
 #include "src/accel/accel.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// As SlabRay, each lane a ray. Bit a of `octant` is set where the direction is negative
 /// along axis a, which `negative[a]` says as a mask.
@@ -71,8 +68,6 @@ struct PacketSlabs {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

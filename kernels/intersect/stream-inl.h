@@ -16,10 +16,7 @@
 #include "kernels/intersect/stream_single-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kAny, bool kAlpha, bool kInstances>
 class RayStream {
@@ -110,8 +107,6 @@ class RayStream {
   SinglePhase<kAny, kAlpha, kInstances> singles_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

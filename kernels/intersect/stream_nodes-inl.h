@@ -11,10 +11,7 @@
 #include "kernels/intersect/bvh-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// The children of a node that the packet is in, in the order in which its
 /// first ray visits them: which lanes enter, and at what distances, unless any hit ends
@@ -78,8 +75,6 @@ struct PacketFrame {
 /// So many hold the path from the root to a node.
 inline constexpr int kPacketFrames = kTraversalStack / (kBvhWidth - 1) + 2;
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -18,10 +18,7 @@
 #include "kernels/intersect/stream_spaces-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// A packet goes on into a node, or a leaf, that at least so many of its rays enter.
 /// Fewer are left to the second phase. More at nodes and fewer at leaves would suit
@@ -283,8 +280,6 @@ class PacketPhase {
   uint32_t home_ = 0;  // in an instance: their place in the space of the scene
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

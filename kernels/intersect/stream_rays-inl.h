@@ -13,10 +13,7 @@
 #include "kernels/intersect/ray_stacks.h"
 #include "kernels/intersect/slabs-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// What the slab test of a single ray needs along one axis: as in SlabRay, but `lower` is
 /// the byte offset of the near planes in WideNode::bounds[axis], as bits.
@@ -155,8 +152,6 @@ struct StreamRays {
   static LANELIGHT_INLINE VF BitsOf(VI v) { return hn::BitCast(DF(), v); }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -19,10 +19,7 @@
 #include "kernels/intersect/stream_spaces-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// Leaves tested before their hits are taken.
 inline constexpr uint32_t kLeafBlock = 16;
@@ -270,8 +267,6 @@ class SinglePhase {
   LeafWeights weights_[kLeafBlock + kTogether];
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

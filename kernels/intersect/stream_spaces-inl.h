@@ -15,10 +15,7 @@
 #include "kernels/intersect/stream_rays-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// What a ray's stack holds under the subtrees of an instance: the way back.
 inline constexpr uint32_t kReturnRef = kEmptyRef - 1;
@@ -157,8 +154,6 @@ struct NoSpaces {
 template <bool kInstances>
 using Spaces = std::conditional_t<kInstances, RaySpaces, NoSpaces>;
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -14,10 +14,7 @@
 #include "kernels/intersect/stream_spaces-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// Copies of it are cheap: a step that has its own keeps it in registers, whatever its
 /// vectors are stored to.
@@ -146,8 +143,6 @@ class RayStacks {
   LeafPlaces leaf_places_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -26,14 +26,10 @@
 
 #include <cfloat>
 
-#include "hwy/highway.h"
 #include "kernels/intersect/double-inl.h"
 #include "kernels/intersect/recheck.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// Bits of a mask of at most 16 lanes.
 template <class D, class M>
@@ -248,8 +244,6 @@ LANELIGHT_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const
   return FinishHits(d, ray, a, b, c, e.mask, e, t_det, is_ahead);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -1,10 +1,5 @@
 // Closest hit on triangles.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/intersect/triangles.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include <algorithm>
 
@@ -14,11 +9,10 @@
 #include "kernels/intersect/packet_instances-inl.h"
 #include "kernels/intersect/stream-inl.h"
 #include "kernels/queue/batch-inl.h"
+#include "kernels/intersect/stages.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // World triangles, batch by batch: through a frustum if the rays are nearly the same,
 // else the plain loop if there are few triangles, else collected to a stream.
@@ -74,24 +68,6 @@ void IntersectInstanced(Wave& wave) {
   if (!stream.empty()) flush();
 }
 
-void TrianglesWorld(Wave& wave) { IntersectWorld<false>(wave); }
-void TrianglesWorldAlpha(Wave& wave) { IntersectWorld<true>(wave); }
-void TrianglesInstanced(Wave& wave) { IntersectInstanced<false>(wave); }
-void TrianglesInstancedAlpha(Wave& wave) { IntersectInstanced<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/intersect/stages.h"
-
-namespace lanelight {
-HWY_EXPORT(TrianglesWorld);
-HWY_EXPORT(TrianglesWorldAlpha);
-HWY_EXPORT(TrianglesInstanced);
-HWY_EXPORT(TrianglesInstancedAlpha);
-
 Stage IntersectTrianglesStage() {
   return {.name = "intersect_triangles",
           .meaning = "closest hit on triangles",
@@ -102,13 +78,10 @@ Stage IntersectTrianglesStage() {
           .resolve = [](const FeatureSet& features) -> StageFn {
             const bool alpha = features.Has(Feature::kAlpha);
             if (features.Has(Feature::kInstances)) {
-              return alpha ? HWY_DYNAMIC_DISPATCH(TrianglesInstancedAlpha)
-                           : HWY_DYNAMIC_DISPATCH(TrianglesInstanced);
+              return alpha ? IntersectInstanced<true> : IntersectInstanced<false>;
             }
-            return alpha ? HWY_DYNAMIC_DISPATCH(TrianglesWorldAlpha)
-                         : HWY_DYNAMIC_DISPATCH(TrianglesWorld);
+            return alpha ? IntersectWorld<true> : IntersectWorld<false>;
           }};
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

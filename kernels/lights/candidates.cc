@@ -19,19 +19,12 @@
 //               sample that adds light is found more often
 //   cost        per further candidate a light sample and an evaluation of the material
 //   source      Talbot, Cline and Egbert 2005; reservoir: Chao 1982; steps: Roberts 2018
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/candidates.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 void BeginCandidates(Wave& wave) {
   ForEachBatch(wave, wave.queue(QueueId::kLit),
@@ -67,27 +60,13 @@ void KeepCandidate(Wave& wave) {
       });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(BeginCandidates);
-HWY_EXPORT(KeepCandidate);
-
 Stage BeginCandidatesStage() {
   return {.name = "light_candidates",
           .meaning = "begins with the candidates of light samples",
           .input = QueueId::kLit,
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
           .writes = {Field::worth_sum},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(BeginCandidates);
-          }};
+          .resolve = Always<BeginCandidates>};
 }
 
 Stage KeepCandidateStage() {
@@ -98,10 +77,7 @@ Stage KeepCandidateStage() {
           .reads = fields::kKeptSample | fields::kLightSample |
                    FieldSet{Field::worth_sum, Field::ls_light},
           .writes = fields::kLightSample | FieldSet{Field::ls_light, Field::kept_worth},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(KeepCandidate);
-          }};
+          .resolve = Always<KeepCandidate>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

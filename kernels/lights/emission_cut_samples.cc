@@ -3,19 +3,13 @@
 // the same light. A constant alpha of 0 leaves nothing to meet: such a lamp shines as if
 // it were whole (as in pbrt-v4), light samples alone find it, and no weight is left to
 // rays.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/emission_cut_samples.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/sampled_points-inl.h"
 #include "kernels/texture/texture-inl.h"
+#include "kernels/lights/light_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kMany>
 void CutSamples(Wave& wave) {
@@ -36,29 +30,11 @@ void CutSamples(Wave& wave) {
   MultiplySamples<kMany>(wave, left);
 }
 
-void CutSamplesOne(Wave& wave) { CutSamples<false>(wave); }
-void CutSamplesMany(Wave& wave) { CutSamples<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(CutSamplesOne);
-HWY_EXPORT(CutSamplesMany);
-
 Stage EmissionCutSamplesStage() {
   return EmittedThereStage(
       "light_emission_cut", "what alpha leaves of emitting shapes at sampled points",
-      Feature::kEmissionCuts, [](const FeatureSet& features) -> StageFn {
-        return features.Has(Feature::kManyLights) ? HWY_DYNAMIC_DISPATCH(CutSamplesMany)
-                                                  : HWY_DYNAMIC_DISPATCH(CutSamplesOne);
-      });
+      Feature::kEmissionCuts,
+      ByFeature<Feature::kManyLights, CutSamples<true>, CutSamples<false>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -1,19 +1,13 @@
 // Emission of hit disks, weighted against light sampling of the same point.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/emission_disk.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/emission_image-inl.h"
 #include "kernels/lights/geometry-inl.h"
 #include "kernels/queue/batch-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kMis, bool kImages>
 void EmissionDisk(Wave& wave) {
@@ -69,23 +63,9 @@ StageFn ResolveEmissionDisk(const FeatureSet& features) {
   return images ? EmissionDisk<false, true> : EmissionDisk<false, false>;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ResolveEmissionDisk);
-
 Stage EmissionDiskStage() {
   return EmissionStage("emission_disk", "adds the emission of hit disks",
-                       Feature::kDiskLights, [](const FeatureSet& features) {
-                         return HWY_DYNAMIC_DISPATCH(ResolveEmissionDisk)(features);
-                       });
+                       Feature::kDiskLights, ResolveEmissionDisk);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -12,9 +12,7 @@
 #include "src/compiled/scene.h"
 #include "src/strategy/choices.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Index of the light of triangle `prim`; -1: none.
 LANELIGHT_INLINE VI LightOfTriangle(const CompiledScene& scene, VI prim) {
@@ -118,8 +116,6 @@ StageFn ResolveEmissionOfFlat(const FeatureSet& features) {
              : ResolveEmissionByPoints<kShape, false>(features);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

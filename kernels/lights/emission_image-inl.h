@@ -11,9 +11,7 @@
 #include "kernels/lights/light_image-inl.h"
 #include "kernels/surface/store-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct LightUv {
   VF u, v;
@@ -68,8 +66,6 @@ LANELIGHT_INLINE V3 ImageAt(const CompiledScene& scene, const Lights& light, Lig
   return images.Bilinear(at.u, hn::Sub(Splat(1.0f), at.v));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -1,17 +1,11 @@
 // Light samples on emitting shapes with an image: what the image has at the sampled
 // point.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/emission_image_samples.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/sampled_points-inl.h"
+#include "kernels/lights/light_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kMany>
 void ImageSamples(Wave& wave) {
@@ -20,29 +14,11 @@ void ImageSamples(Wave& wave) {
                 HWY_ATTR { return ImageAt(*wave.scene, light, {at.u, at.v}); });
 }
 
-void ImageSamplesOne(Wave& wave) { ImageSamples<false>(wave); }
-void ImageSamplesMany(Wave& wave) { ImageSamples<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ImageSamplesOne);
-HWY_EXPORT(ImageSamplesMany);
-
 Stage EmissionImageSamplesStage() {
   return EmittedThereStage(
       "light_emission_image", "what the images of emitting shapes have at sampled points",
-      Feature::kEmissionImages, [](const FeatureSet& features) -> StageFn {
-        return features.Has(Feature::kManyLights) ? HWY_DYNAMIC_DISPATCH(ImageSamplesMany)
-                                                  : HWY_DYNAMIC_DISPATCH(ImageSamplesOne);
-      });
+      Feature::kEmissionImages,
+      ByFeature<Feature::kManyLights, ImageSamples<true>, ImageSamples<false>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

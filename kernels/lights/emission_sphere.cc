@@ -1,19 +1,13 @@
 // Emission of hit spheres, weighted against light sampling of the same point.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/emission_sphere.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/emission_image-inl.h"
 #include "kernels/lights/geometry-inl.h"
 #include "kernels/queue/batch-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kMis, bool kImages>
 void EmissionSphere(Wave& wave) {
@@ -76,23 +70,9 @@ StageFn ResolveEmissionSphere(const FeatureSet& features) {
   return images ? EmissionSphere<false, true> : EmissionSphere<false, false>;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ResolveEmissionSphere);
-
 Stage EmissionSphereStage() {
   return EmissionStage("emission_sphere", "adds the emission of hit spheres",
-                       Feature::kSphereLights, [](const FeatureSet& features) {
-                         return HWY_DYNAMIC_DISPATCH(ResolveEmissionSphere)(features);
-                       });
+                       Feature::kSphereLights, ResolveEmissionSphere);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

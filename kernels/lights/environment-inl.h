@@ -10,9 +10,7 @@
 #include "kernels/warp/octahedral-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 LANELIGHT_INLINE void TexelValues(const Environment& e, VI row, VI column,
                                   MapSample* out) {
@@ -97,8 +95,6 @@ LANELIGHT_INLINE MapSample SampleEnvironment(const Environment& e, VF u0, VF u1)
   return out;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

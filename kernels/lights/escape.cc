@@ -1,19 +1,12 @@
 // Rays that left the scene see every environment; the path ends.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/escape.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/environment-inl.h"
 #include "kernels/lights/portal-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kMis, bool kPortals>
 void Escape(Wave& wave) {
@@ -60,17 +53,6 @@ StageFn ResolveEscape(const FeatureSet& features) {
   return portals ? Escape<false, true> : Escape<false, false>;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ResolveEscape);
-
 Stage EscapeStage() {
   return {.name = "escape",
           .meaning = "adds the environment to rays that left the scene",
@@ -79,10 +61,7 @@ Stage EscapeStage() {
           .reads = fields::kRay | fields::kThroughput | fields::kRadiance |
                    FieldSet{Field::bsdf_pdf},
           .writes = fields::kRadiance,
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(ResolveEscape)(features);
-          }};
+          .resolve = ResolveEscape};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

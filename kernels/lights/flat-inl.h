@@ -23,9 +23,7 @@
 #include "kernels/warp/spherical_rectangle-inl.h"
 #include "kernels/warp/spherical_triangle-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Weights of the corners from their cosines; `middle`: the cosine there.
 LANELIGHT_INLINE Bilinear FlooredCosines(const Bilinear& c, VF middle) {
@@ -123,8 +121,6 @@ struct SeenRectangle {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -12,9 +12,7 @@
 #include "kernels/warp/solid_angle-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct LightTriangle {
   V3 p0, e1, e2, n;
@@ -92,8 +90,6 @@ struct LightDisk {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

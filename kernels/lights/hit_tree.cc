@@ -1,20 +1,13 @@
 // With light-selection=tree: the probability with which the tree would have selected the
 // light that a ray has hit, for multiple importance sampling. The way up from its leaf.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/hit_tree.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/lights/tree-inl.h"
 #include "kernels/queue/filter-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE VF ClimbingProbability(const LightTree& tree, VI node, V3 p) {
   const DI di;
@@ -53,17 +46,6 @@ void HitLightTree(Wave& wave) {
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(HitLightTree);
-
 Stage HitLightTreeStage() {
   return {.name = "light_hit_tree",
           .meaning = "probability of having selected the light that was hit",
@@ -71,10 +53,7 @@ Stage HitLightTreeStage() {
           .needs = {Feature::kAreaLights, Feature::kLightTree, Feature::kMis},
           .reads = fields::kRay | FieldSet{Field::prim},
           .writes = {Field::light_pmf},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(HitLightTree);
-          }};
+          .resolve = Always<HitLightTree>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -14,9 +14,7 @@
 #include "kernels/simd/records-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// The lights of a vector of lanes.
 struct Lights : RecordWords<LightRecord> {
@@ -167,8 +165,6 @@ LANELIGHT_INLINE void AddRadiance(const PathColumns& p, const StoreSlots& slots,
   Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -11,9 +11,7 @@
 #include "kernels/simd/records-inl.h"
 #include "src/compiled/lights.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// (s, t) in [0, 1]^2 from the upper left corner. Texels beyond the edges are those on
 /// them, whatever s and t are.
@@ -69,8 +67,6 @@ class LightImages : RecordWords<LightImage> {
   VI first_, width_, height_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -10,9 +10,7 @@
 
 #include "kernels/lights/light-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// A direction drawn from a map.
 struct MapSample {
@@ -56,8 +54,6 @@ HWY_INLINE void SampleMaps(Wave& wave, LightShape shape, const Maps& maps,
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -19,9 +19,7 @@
 #include "kernels/surface/point-inl.h"
 #include "src/compiled/lights.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct PortalPlace {
   VF s, t;
@@ -225,8 +223,6 @@ inline HWY_NOINLINE MapSample LookThrough(const Portal& portal, V3 from, V3 dire
           hn::IfThenElseZero(seen, hn::Div(FromHalves(a, b), place.solid_angle))};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

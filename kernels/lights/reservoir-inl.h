@@ -12,9 +12,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/path/fields.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// A candidate of this worth takes the place of the one kept so far with probability
 /// worth / (sum of the worths up to it): in the end, whichever is kept has been so with
@@ -90,8 +88,6 @@ LANELIGHT_INLINE void AdvanceCandidate(const PathColumns& p, std::uint32_t count
   Advance(p.u_light_1, OnGrid(0.5698402909980532), slots);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -1,19 +1,13 @@
 // Light samples on emitting disks and rings: uniform over the area.
 //   density     pdf_area = pmf / area; pdf_sa = pdf_area d^2 / |cos|
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/sample_disk.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/geometry-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
+#include "kernels/lights/light_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kMany>
 void SampleDiskLight(Wave& wave) {
@@ -37,29 +31,10 @@ void SampleDiskLight(Wave& wave) {
       });
 }
 
-void SampleDiskLightOne(Wave& wave) { SampleDiskLight<false>(wave); }
-void SampleDiskLightMany(Wave& wave) { SampleDiskLight<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(SampleDiskLightOne);
-HWY_EXPORT(SampleDiskLightMany);
-
 Stage SampleDiskLightStage() {
-  return SampleLightStage("light_disk", "samples emitting disks", Feature::kDiskLights,
-                          [](const FeatureSet& features) -> StageFn {
-                            return features.Has(Feature::kManyLights)
-                                       ? HWY_DYNAMIC_DISPATCH(SampleDiskLightMany)
-                                       : HWY_DYNAMIC_DISPATCH(SampleDiskLightOne);
-                          });
+  return SampleLightStage(
+      "light_disk", "samples emitting disks", Feature::kDiskLights,
+      ByFeature<Feature::kManyLights, SampleDiskLight<true>, SampleDiskLight<false>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -1,18 +1,12 @@
 // Light samples of distant lights: one delta direction for the whole scene.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/sample_distant.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/queue/batch-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kMany>
 void SampleDistantLight(Wave& wave) {
@@ -27,30 +21,11 @@ void SampleDistantLight(Wave& wave) {
       });
 }
 
-void SampleDistantLightOne(Wave& wave) { SampleDistantLight<false>(wave); }
-void SampleDistantLightMany(Wave& wave) { SampleDistantLight<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(SampleDistantLightOne);
-HWY_EXPORT(SampleDistantLightMany);
-
 Stage SampleDistantLightStage() {
   return SampleLightStage("light_distant", "connects to distant lights",
                           Feature::kDistantLights,
-                          [](const FeatureSet& features) -> StageFn {
-                            return features.Has(Feature::kManyLights)
-                                       ? HWY_DYNAMIC_DISPATCH(SampleDistantLightMany)
-                                       : HWY_DYNAMIC_DISPATCH(SampleDistantLightOne);
-                          });
+                          ByFeature<Feature::kManyLights, SampleDistantLight<true>,
+                                    SampleDistantLight<false>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

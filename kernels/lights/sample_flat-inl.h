@@ -10,9 +10,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "src/strategy/choices.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// The shading normal of the vertex, on the side that the path comes from.
 LANELIGHT_INLINE V3 FacingNormal(const PathColumns& p, const Slots& slots) {
@@ -75,8 +73,6 @@ StageFn ResolveSampleFlat(const FeatureSet& features) {
   return kernel(std::integral_constant<LightPoints, kArea>());
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -1,22 +1,16 @@
 // Light samples of goniometric and projection lights: point lights whose intensity is an
 // image of the direction, looked up without interpolation as pbrt does. A delta
 // direction, radiance I(w) / d^2.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/sample_image.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/lights/light_image-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/warp/octahedral-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct Goniometric {
   static constexpr LightShape kShape = LightShape::kGoniometric;
@@ -72,30 +66,11 @@ void SampleImageLight(Wave& wave) {
   SampleKind<kMany, Projection>(wave);
 }
 
-void SampleImageLightOne(Wave& wave) { SampleImageLight<false>(wave); }
-void SampleImageLightMany(Wave& wave) { SampleImageLight<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(SampleImageLightOne);
-HWY_EXPORT(SampleImageLightMany);
-
 Stage SampleImageLightStage() {
-  return SampleLightStage("light_image", "connects to goniometric and projection lights",
-                          Feature::kImageLights,
-                          [](const FeatureSet& features) -> StageFn {
-                            return features.Has(Feature::kManyLights)
-                                       ? HWY_DYNAMIC_DISPATCH(SampleImageLightMany)
-                                       : HWY_DYNAMIC_DISPATCH(SampleImageLightOne);
-                          });
+  return SampleLightStage(
+      "light_image", "connects to goniometric and projection lights",
+      Feature::kImageLights,
+      ByFeature<Feature::kManyLights, SampleImageLight<true>, SampleImageLight<false>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

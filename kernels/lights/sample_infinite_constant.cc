@@ -1,19 +1,13 @@
 // Light samples of a constant environment: uniform over the sphere of directions.
 //   density     pdf_sa = pmf / (4 pi)
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/sample_infinite_constant.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
+#include "kernels/lights/light_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kMany>
 void SampleInfiniteConstant(Wave& wave) {
@@ -34,30 +28,11 @@ void SampleInfiniteConstant(Wave& wave) {
       });
 }
 
-void SampleInfiniteConstantOne(Wave& wave) { SampleInfiniteConstant<false>(wave); }
-void SampleInfiniteConstantMany(Wave& wave) { SampleInfiniteConstant<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(SampleInfiniteConstantOne);
-HWY_EXPORT(SampleInfiniteConstantMany);
-
 Stage SampleInfiniteConstantStage() {
   return SampleLightStage("light_infinite_constant", "samples constant environments",
                           Feature::kInfiniteConstant,
-                          [](const FeatureSet& features) -> StageFn {
-                            return features.Has(Feature::kManyLights)
-                                       ? HWY_DYNAMIC_DISPATCH(SampleInfiniteConstantMany)
-                                       : HWY_DYNAMIC_DISPATCH(SampleInfiniteConstantOne);
-                          });
+                          ByFeature<Feature::kManyLights, SampleInfiniteConstant<true>,
+                                    SampleInfiniteConstant<false>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

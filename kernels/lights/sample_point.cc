@@ -1,18 +1,12 @@
 // Light samples of point lights: a delta direction, radiance I / d^2.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/sample_point.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/queue/batch-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kMany>
 void SamplePointLight(Wave& wave) {
@@ -31,30 +25,10 @@ void SamplePointLight(Wave& wave) {
       });
 }
 
-void SamplePointLightOne(Wave& wave) { SamplePointLight<false>(wave); }
-void SamplePointLightMany(Wave& wave) { SamplePointLight<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(SamplePointLightOne);
-HWY_EXPORT(SamplePointLightMany);
-
 Stage SamplePointLightStage() {
-  return SampleLightStage("light_point", "connects to point lights",
-                          Feature::kPointLights,
-                          [](const FeatureSet& features) -> StageFn {
-                            return features.Has(Feature::kManyLights)
-                                       ? HWY_DYNAMIC_DISPATCH(SamplePointLightMany)
-                                       : HWY_DYNAMIC_DISPATCH(SamplePointLightOne);
-                          });
+  return SampleLightStage(
+      "light_point", "connects to point lights", Feature::kPointLights,
+      ByFeature<Feature::kManyLights, SamplePointLight<true>, SamplePointLight<false>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

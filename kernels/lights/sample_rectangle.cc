@@ -5,19 +5,13 @@
 //   cost        by solid angle, two arctangents and a sine more; of the warp, as much as
 //               for triangles
 //   source      Urena, Fajardo and King 2013 (kernels/warp/spherical_rectangle-inl.h)
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/sample_rectangle.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/sample_flat-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // What a sample needs of the lights of a batch.
 struct RectangleEmitters {
@@ -54,27 +48,10 @@ struct RectangleSampling {
   }
 };
 
-StageFn ResolveSampleRectangle(const FeatureSet& features) {
-  return ResolveSampleFlat<RectangleSampling>(features);
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ResolveSampleRectangle);
-
 Stage SampleRectangleLightStage() {
   return SampleLightStage("light_rectangle", "samples emitting rectangles",
-                          Feature::kRectangleLights, [](const FeatureSet& features) {
-                            return HWY_DYNAMIC_DISPATCH(ResolveSampleRectangle)(features);
-                          });
+                          Feature::kRectangleLights,
+                          ResolveSampleFlat<RectangleSampling>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

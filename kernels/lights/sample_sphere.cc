@@ -4,21 +4,15 @@
 //   density     outside pdf_sa = pmf / (2 pi (1 - cos_max)); inside pdf_area = pmf / area
 //   source      Shirley, Wang and Zimmerman 1996, "Monte Carlo Techniques for Direct
 //               Lighting Calculations"; 1 - cos_max in a form exact for tiny spheres
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/sample_sphere.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/geometry-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Distance along unit direction w (from outside) to the near side of the sphere at
 // relative centre c: with the closest approach h = c - (c.w) w, t = c.w - sqrt(r^2 -
@@ -150,30 +144,10 @@ void SampleSphereLight(Wave& wave) {
       });
 }
 
-void SampleSphereLightOne(Wave& wave) { SampleSphereLight<false>(wave); }
-void SampleSphereLightMany(Wave& wave) { SampleSphereLight<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(SampleSphereLightOne);
-HWY_EXPORT(SampleSphereLightMany);
-
 Stage SampleSphereLightStage() {
-  return SampleLightStage("light_sphere", "samples emitting spheres",
-                          Feature::kSphereLights,
-                          [](const FeatureSet& features) -> StageFn {
-                            return features.Has(Feature::kManyLights)
-                                       ? HWY_DYNAMIC_DISPATCH(SampleSphereLightMany)
-                                       : HWY_DYNAMIC_DISPATCH(SampleSphereLightOne);
-                          });
+  return SampleLightStage(
+      "light_sphere", "samples emitting spheres", Feature::kSphereLights,
+      ByFeature<Feature::kManyLights, SampleSphereLight<true>, SampleSphereLight<false>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

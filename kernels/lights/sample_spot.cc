@@ -1,19 +1,13 @@
 // Light samples of spot lights: a delta direction, radiance I s(theta) / d^2, where s
 // falls from 1 inside the falloff cone to 0 at the edge as a smooth step, as in pbrt-v4.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/sample_spot.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/queue/batch-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kMany>
 void SampleSpotLight(Wave& wave) {
@@ -47,29 +41,10 @@ void SampleSpotLight(Wave& wave) {
       });
 }
 
-void SampleSpotLightOne(Wave& wave) { SampleSpotLight<false>(wave); }
-void SampleSpotLightMany(Wave& wave) { SampleSpotLight<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(SampleSpotLightOne);
-HWY_EXPORT(SampleSpotLightMany);
-
 Stage SampleSpotLightStage() {
-  return SampleLightStage("light_spot", "connects to spot lights", Feature::kSpotLights,
-                          [](const FeatureSet& features) -> StageFn {
-                            return features.Has(Feature::kManyLights)
-                                       ? HWY_DYNAMIC_DISPATCH(SampleSpotLightMany)
-                                       : HWY_DYNAMIC_DISPATCH(SampleSpotLightOne);
-                          });
+  return SampleLightStage(
+      "light_spot", "connects to spot lights", Feature::kSpotLights,
+      ByFeature<Feature::kManyLights, SampleSpotLight<true>, SampleSpotLight<false>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -9,19 +9,13 @@
 //               and four divisions, and at hits an arctangent and five roots
 //   source      Turk 1990, "Generating Random Points in Triangles" (square-root warp);
 //               Arvo 1995 (kernels/warp/spherical_triangle-inl.h)
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/sample_triangle.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/sample_flat-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // What a sample needs of the lights of a batch.
 struct TriangleEmitters {
@@ -106,27 +100,9 @@ struct TriangleSampling {
   }
 };
 
-StageFn ResolveSampleTriangle(const FeatureSet& features) {
-  return ResolveSampleFlat<TriangleSampling>(features);
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/lights/light_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ResolveSampleTriangle);
-
 Stage SampleTriangleLightStage() {
   return SampleLightStage("light_triangle", "samples emitting triangles",
-                          Feature::kTriangleLights, [](const FeatureSet& features) {
-                            return HWY_DYNAMIC_DISPATCH(ResolveSampleTriangle)(features);
-                          });
+                          Feature::kTriangleLights, ResolveSampleFlat<TriangleSampling>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -12,9 +12,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/texture/mapping-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct TriangleWeights {
   VF b1, b2;
@@ -111,8 +109,6 @@ LANELIGHT_INLINE void MultiplySamples(Wave& wave, const Factor& factor) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -5,21 +5,14 @@
 //               notion of distance, so poor for many small lights
 //   cost        two gathers
 //   source      Walker 1977; Vose 1991
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/select_table.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/rng-inl.h"
 #include "kernels/simd/vec3-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // The number chooses a bin, and its fraction between the bin's own light and its alias.
 // Of many lights little is left of its 24 bits: with a million, 16 steps, by which a
@@ -52,17 +45,6 @@ void SelectLight(Wave& wave) {
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(SelectLight);
-
 Stage SelectLightStage() {
   return {.name = "light_select_table",
           .meaning = "chooses a light by the table",
@@ -70,10 +52,7 @@ Stage SelectLightStage() {
           .needs = {Feature::kManyLights, Feature::kLightTable, Feature::kScatters},
           .reads = {Field::u_select},
           .writes = {Field::ls_light},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(SelectLight);
-          }};
+          .resolve = Always<SelectLight>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

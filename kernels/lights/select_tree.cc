@@ -9,20 +9,13 @@
 //               that is hit, to know its pmf
 //   source      Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with
 //               Adaptive Tree Splitting" (without the splitting)
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/lights/select_tree.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/tree-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // One descent per lane: u is stretched back to [0, 1) after each choice.
 HWY_INLINE VI Descend(const LightTree& tree, V3 p, VF u, VF* pmf) {
@@ -76,17 +69,6 @@ void SelectLightTree(Wave& wave) {
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(SelectLightTree);
-
 Stage SelectLightTreeStage() {
   return {.name = "light_select_tree",
           .meaning = "chooses a light by descending the tree",
@@ -94,10 +76,7 @@ Stage SelectLightTreeStage() {
           .needs = {Feature::kManyLights, Feature::kLightTree, Feature::kScatters},
           .reads = fields::kPoint | FieldSet{Field::u_select},
           .writes = {Field::ls_light, Field::light_pmf},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(SelectLightTree);
-          }};
+          .resolve = Always<SelectLightTree>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

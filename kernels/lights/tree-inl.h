@@ -10,9 +10,7 @@
 #include "kernels/simd/records-inl.h"
 #include "src/compiled/lights.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// The nodes of a vector of lanes.
 struct LightNodes : RecordWords<LightNode> {
@@ -69,8 +67,6 @@ LANELIGHT_INLINE ChildProbabilities ProbabilitiesOf(const LightTree& tree, VI fi
   return {hn::Mul(a, scale), hn::Mul(b, scale)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -9,9 +9,7 @@
 #include "kernels/media/medium-inl.h"
 #include "kernels/texture/noise-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Differences of the noise over 0.01, as pbrt-v4 approximates its derivatives.
 LANELIGHT_INLINE V3 NoiseSlope(V3 p) {
@@ -48,8 +46,6 @@ inline HWY_NOINLINE VF CloudDensity(const CloudShape& cloud, V3 p) {
   return hn::Min(hn::MulAdd(Splat(2.0f), solid, lumps), one);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

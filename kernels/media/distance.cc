@@ -12,21 +12,16 @@
 //   interfaces  optical depth left over is again exponential: the same number goes on
 //   source      Novak et al. 2018, "Monte Carlo Methods for Volumetric Light Transport
 //               Simulation"; Wilkie et al. 2014 (spectral sampling)
-#include "kernels/targets.h"
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/media/distance.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "hwy/contrib/math/math-inl.h"
 
 #include "kernels/media/equiangular-inl.h"
 #include "kernels/media/event-inl.h"
 #include "kernels/queue/filter-inl.h"
+#include "kernels/media/media_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // The integral of emission T over a length.
 HWY_INLINE V3 EmittedOver(V3 emission, V3 sigma_t, VF length) {
@@ -139,23 +134,9 @@ StageFn ResolveMediumDistance(const FeatureSet& features) {
                                             : ByEmission<false>(features);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/media/media_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ResolveMediumDistance);
-
 Stage MediumDistanceStage() {
   return MediumEventStage("medium_distance", "how far rays get in homogeneous media",
-                          Feature::kMedia, [](const FeatureSet& features) {
-                            return HWY_DYNAMIC_DISPATCH(ResolveMediumDistance)(features);
-                          });
+                          Feature::kMedia, ResolveMediumDistance);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

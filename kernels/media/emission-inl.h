@@ -10,9 +10,7 @@
 
 #include "kernels/media/voxels-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Colour of a black body of (t - offset) * scale kelvin; none up to kLeastKelvin.
 LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF t) {
@@ -53,8 +51,6 @@ inline HWY_NOINLINE V3 EmissionFactor(const MediumGrid& grid, V3 p, MF mask) {
   return Mul(factor, BlackbodyColor(emission.blackbody, t));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

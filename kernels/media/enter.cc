@@ -1,16 +1,10 @@
 // Which medium a scattered ray goes into: what lies on its side of the surface. A ray
 // that scattered in a medium, or on a surface with nothing beside it, stays where it is.
-#include "kernels/targets.h"
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/media/enter.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/media/medium-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kInterfaces>
 void Enter(Wave& wave) {
@@ -29,21 +23,6 @@ void Enter(Wave& wave) {
                });
 }
 
-void EnterMediaPlain(Wave& wave) { Enter<false>(wave); }
-void EnterMediaInterfaces(Wave& wave) { Enter<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(EnterMediaPlain);
-HWY_EXPORT(EnterMediaInterfaces);
-
 Stage EnterMediaStage() {
   const FieldSet ray = {Field::medium, Field::passed, Field::crossings};
   return {.name = "enter_media",
@@ -53,12 +32,7 @@ Stage EnterMediaStage() {
           .reads = FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::prim} |
                    fields::kNormal | ray,
           .writes = ray,
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kInterfaces)
-                       ? HWY_DYNAMIC_DISPATCH(EnterMediaInterfaces)
-                       : HWY_DYNAMIC_DISPATCH(EnterMediaPlain);
-          }};
+          .resolve = ByFeature<Feature::kInterfaces, Enter<true>, Enter<false>>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

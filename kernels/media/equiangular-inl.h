@@ -11,9 +11,7 @@
 #include "kernels/media/medium-inl.h"
 #include "kernels/media/walk_random-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// The middle of a light, drawn by power with two numbers in [0, 1); infinite for lights
 /// that have no place.
@@ -118,8 +116,6 @@ struct EquiangularHalf {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

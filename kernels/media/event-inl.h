@@ -9,9 +9,7 @@
 
 #include "kernels/media/medium-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// What is known of a path, to be changed by what happens to it.
 struct Stretch {
@@ -77,8 +75,6 @@ LANELIGHT_INLINE void LeaveWithEvents(Wave& wave) {
   wave.rays_closest += before - rest.size;  // the others are counted by the stage `split`
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -12,9 +12,7 @@
 #include "kernels/media/cloud-inl.h"
 #include "kernels/media/voxels-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Absorption and scattering at a point.
 struct Coefficients {
@@ -156,8 +154,6 @@ struct CellWalk {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

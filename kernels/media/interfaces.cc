@@ -2,17 +2,11 @@
 // neither scatter nor take part in roulette. Two stages: one takes them out of the
 // surfaces that scatter, ends those of the others that may scatter no more (which stage
 // `limit` left to this one), the other sends them on.
-#include "kernels/targets.h"
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/media/interfaces.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/media/medium-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 void Interfaces(Wave& wave) {
   const PathColumns& p = wave.path;
@@ -55,27 +49,13 @@ void PassInterfaces(Wave& wave) {
                });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(Interfaces);
-HWY_EXPORT(PassInterfaces);
-
 Stage InterfacesStage() {
   return {.name = "interfaces",
           .meaning = "takes out the paths that go through interfaces of media",
           .input = QueueId::kSurface,
           .needs = {Feature::kInterfaces, Feature::kScatters},
           .reads = {Field::prim, Field::depth, Field::crossings},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(Interfaces);
-          }};
+          .resolve = Always<Interfaces>};
 }
 
 Stage PassInterfacesStage() {
@@ -87,10 +67,7 @@ Stage PassInterfacesStage() {
           .reads = fields::kRay | fields::kPoint | fields::kNormal | ray |
                    FieldSet{Field::prim},
           .writes = fields::kRay | ray,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(PassInterfaces);
-          }};
+          .resolve = Always<PassInterfaces>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -22,9 +22,7 @@
 #include "kernels/simd/records-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// The media of a vector of lanes. Vacuum: any record.
 struct Media : RecordWords<MediumRecord> {
@@ -134,8 +132,6 @@ struct Channel {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -9,9 +9,7 @@
 #include "kernels/media/grid-inl.h"
 #include "kernels/media/walk_random-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// The medium that a shadow ray starts in: that of the path, or what lies on the light's
 /// side of the surface.
@@ -102,8 +100,6 @@ LANELIGHT_INLINE void DimShadow(const Wave& wave, const StoreSlots& slots, VI in
   Scatter3(sh, p.sh_r, p.sh_g, p.sh_b, slots);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

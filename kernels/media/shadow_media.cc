@@ -1,16 +1,10 @@
 // What media leave of shadow rays that no surface stops. Where surfaces can only stop
 // them, all of a shadow ray lies in the medium that it starts in.
-#include "kernels/targets.h"
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/media/shadow_media.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/media/shadow-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kChanges>
 void ShadowMediaOf(Wave& wave) {
@@ -28,17 +22,6 @@ StageFn ResolveShadowMedia(const FeatureSet& features) {
                                                : ShadowMediaOf<false>;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ResolveShadowMedia);
-
 Stage ShadowMediaStage() {
   const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
   return {.name = "media_dim",
@@ -51,10 +34,7 @@ Stage ShadowMediaStage() {
                             Field::crossings} |
                    FieldSet{Field::medium, Field::prim},
           .writes = fields::kShadow,
-          .resolve = [](const FeatureSet& features) {
-            return HWY_DYNAMIC_DISPATCH(ResolveShadowMedia)(features);
-          }};
+          .resolve = ResolveShadowMedia};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

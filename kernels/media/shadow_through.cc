@@ -3,19 +3,13 @@
 // surface of a path's ray, on columns of the shadow ray in the place of the path's.
 //   orientation  of interfaces is that of their shading normal, hence both are found
 //   cost         a traversal for each interface in between
-#include "kernels/targets.h"
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/media/shadow_through.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include <utility>
 
 #include "kernels/media/shadow-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // The columns as the intersection and surface stages are to see them.
 HWY_INLINE PathColumns RestAsRay(const Wave& wave) {
@@ -115,17 +109,6 @@ void ShadowThrough(Wave& wave) {
   wave.queue(QueueId::kSurface) = surfaces;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ShadowThrough);
-
 Stage ShadowThroughStage() {
   const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
   return {.name = "media_shadow",
@@ -139,10 +122,7 @@ Stage ShadowThroughStage() {
                    FieldSet{Field::medium, Field::prim},
           .writes = fields::kShadow | fields::kShadowRest |
                     FieldSet{Field::b1, Field::b2, Field::inst},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(ShadowThrough);
-          }};
+          .resolve = Always<ShadowThrough>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -8,21 +8,16 @@
 //   emission    sigma_a Le / sigma_m at each tentative collision
 //   cost        of the majorants along the ray, not of the density
 //   source      Woodcock et al. 1965; Kutz et al. 2017; Miller, Georgiev and Jarosz 2019
-#include "kernels/targets.h"
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/media/tracking.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/media/emission-inl.h"
 #include "kernels/media/event-inl.h"
 #include "kernels/media/grid-inl.h"
 #include "kernels/media/walk_random-inl.h"
 #include "kernels/queue/filter-inl.h"
+#include "kernels/media/media_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // A walk of a vector of rays: f and the densities of the channels over that of the one
 // drawn, where it ended, and what the medium emitted on the way.
@@ -148,30 +143,10 @@ void MediumTracking(Wave& wave) {
   LeaveWithEvents(wave);
 }
 
-void TrackingDark(Wave& wave) { MediumTracking<false>(wave); }
-void TrackingEmitting(Wave& wave) { MediumTracking<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/media/media_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(TrackingDark);
-HWY_EXPORT(TrackingEmitting);
-
 Stage MediumTrackingStage() {
-  return MediumEventStage("medium_tracking", "how far rays get in media that vary",
-                          Feature::kMediumGrids,
-                          [](const FeatureSet& features) -> StageFn {
-                            return features.Has(Feature::kMediumEmission)
-                                       ? HWY_DYNAMIC_DISPATCH(TrackingEmitting)
-                                       : HWY_DYNAMIC_DISPATCH(TrackingDark);
-                          });
+  return MediumEventStage(
+      "medium_tracking", "how far rays get in media that vary", Feature::kMediumGrids,
+      ByFeature<Feature::kMediumEmission, MediumTracking<true>, MediumTracking<false>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -11,9 +11,7 @@
 
 #include "kernels/media/medium-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Linear interpolation along one axis: the two samples and how much of the second.
 struct AxisSamples {
@@ -88,8 +86,6 @@ inline HWY_NOINLINE VF SparseValue(const PlacedSparseGrid& placed, V3 p, MF mask
   return hn::Load(df, out);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

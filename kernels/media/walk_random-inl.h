@@ -12,9 +12,7 @@
 #include "kernels/simd/rng-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Exponential with mean 1, from u in [0, 1).
 LANELIGHT_INLINE VF ExponentialOf(VF u) {
@@ -56,8 +54,6 @@ struct WalkRandom {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -12,19 +12,12 @@
 //   dependence  a pair is one observation
 //   cost        a few instructions per number; half of the hashes could be spared
 //   source      Hammersley and Morton 1956; the paper's equation 6
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/pairs/antithetic.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // 1 - u on the grid of 24 bits that sample points live on: a permutation of the grid, so
 // exactly as uniform, and never 1.
@@ -95,18 +88,6 @@ void AntitheticBounce(Wave& wave) {
   CountBatches(wave, queue);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(AntitheticCamera);
-HWY_EXPORT(AntitheticBounce);
-
 Stage AntitheticCameraStage() {
   const FieldSet points = {Field::u_film_0, Field::u_film_1,   Field::u_lens_0,
                            Field::u_lens_1, Field::u_medium_0, Field::u_medium_1};
@@ -116,9 +97,7 @@ Stage AntitheticCameraStage() {
           .needs = {Feature::kAntitheticPairs},
           .reads = points | FieldSet{Field::sample, Field::depth},
           .writes = points,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(AntitheticCamera);
-          }};
+          .resolve = Always<AntitheticCamera>};
 }
 Stage AntitheticBounceStage() {
   return {.name = "antithetic_bounce",
@@ -127,10 +106,7 @@ Stage AntitheticBounceStage() {
           .needs = {Feature::kAntitheticPairs, Feature::kScatters},
           .reads = fields::kBouncePoints | FieldSet{Field::sample, Field::depth},
           .writes = fields::kBouncePoints,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(AntitheticBounce);
-          }};
+          .resolve = Always<AntitheticBounce>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

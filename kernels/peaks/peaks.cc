@@ -1,21 +1,10 @@
 // Read bandwidth and multiply-add peak, for src/render/peaks.h.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/peaks/peaks.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/peaks/peaks.h"
+#include "kernels/simd/lanes-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DU = hn::ScalableTag<uint32_t>;
-using DF = hn::ScalableTag<float>;
-using VF = hn::Vec<DF>;
+LANELIGHT_BEGIN_KERNELS
 
 uint32_t SumOfWords(const uint32_t* words, size_t count, size_t passes) {
   const DU du;
@@ -61,9 +50,7 @@ float TwelveChains(uint64_t iterations, float factor, float addend) {
 
 int OperationsOfChains() { return 2 * 12 * static_cast<int>(hn::Lanes(DF())); }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 #include "src/core/check.h"

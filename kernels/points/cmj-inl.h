@@ -30,9 +30,7 @@
 
 #include "kernels/points/permute-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct CmjPoints {
   static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
@@ -59,8 +57,6 @@ struct CmjPoints {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -20,9 +20,7 @@
 #include "kernels/queue/key-inl.h"
 #include "kernels/queue/batch-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <class Policy>
 concept HasNumber = requires(const PointsParameters& points, VU v, GroupIndex at) {
@@ -156,8 +154,6 @@ LANELIGHT_INLINE void FillBounce(Wave& wave) {
                      : FillBounceBatches<Policy, false>(wave);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

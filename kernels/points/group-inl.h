@@ -10,9 +10,7 @@
 #include "src/path/replicates.h"
 #include "src/path/run_parameters.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// A group of samples shares one randomisation; different groups, pixels, keys and seeds
 /// are independent of each other.
@@ -41,8 +39,6 @@ LANELIGHT_INLINE VU UnpairedSample(VU sample) {
   return hn::Or(hn::Or(turn, of_pair), replicate);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -22,9 +22,7 @@
 #include "kernels/points/permute-inl.h"
 #include "kernels/points/sobol-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct QuotientRemainder {
   VU quotient, remainder;
@@ -81,8 +79,6 @@ struct HaltonPoints {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

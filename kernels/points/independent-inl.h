@@ -11,9 +11,7 @@
 
 #include "kernels/points/group-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct IndependentPoints {
   static LANELIGHT_INLINE GroupIndex Group(const PointsParameters&, VU sample) {
@@ -27,8 +25,6 @@ struct IndependentPoints {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

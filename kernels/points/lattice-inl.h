@@ -25,9 +25,7 @@
 #include "kernels/points/sobol-inl.h"
 #include "src/prepare/lattice.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct LatticePoints {
   static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
@@ -43,8 +41,6 @@ struct LatticePoints {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -16,9 +16,7 @@
 
 #include "kernels/points/strata-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Rounds on x; pair(x, random) gives the partner of x under 32 random bits of the round,
 /// such that pair(pair(x, random), random) = x.
@@ -76,8 +74,6 @@ LANELIGHT_INLINE VU PermuteOctaves(VU i, VU key) {
   return hn::Add(octave.first, PermuteMasked(octave.place, octave.mask, own));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

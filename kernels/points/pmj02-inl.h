@@ -23,9 +23,7 @@
 #include "kernels/points/permute-inl.h"
 #include "src/prepare/pmj02.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct Pmj02Points {
   static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
@@ -47,8 +45,6 @@ struct Pmj02Points {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -18,9 +18,7 @@
 
 #include "kernels/points/group-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Random nested (Owen) permutation of bit-reversed numbers: bit i of the result depends
 // on the bits below i only.
@@ -56,8 +54,6 @@ struct SobolPoints {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

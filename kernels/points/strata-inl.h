@@ -9,9 +9,7 @@
 
 #include "kernels/points/group-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// `count` equal parts of a whole: floor((2^64 - 1) / count) = whole 2^32 + part.
 struct Strata {
@@ -52,8 +50,6 @@ LANELIGHT_INLINE VU InBinaryStratum(VU stratum, VU log, VU random) {
   return hn::Or(hn::Shl(hn::ShiftLeft<1>(stratum), up), hn::Shr(random, log));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -23,9 +23,7 @@
 
 #include "kernels/points/sobol-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Bits 1, 3, 5, ... of v, from the highest on: in the upper half of the result.
 LANELIGHT_INLINE VU OddBits(VU v) {
@@ -67,8 +65,6 @@ struct StratifiedPoints {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

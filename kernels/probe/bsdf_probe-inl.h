@@ -9,9 +9,7 @@
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/probe/bsdf_probe.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE V3 Load3(const float* const a[3], std::uint32_t i) {
   const DF df;
@@ -69,8 +67,6 @@ BsdfProbe ProbeOf() {
   return probe;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

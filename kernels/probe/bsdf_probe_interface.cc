@@ -1,17 +1,10 @@
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/probe/bsdf_probe_interface.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/conductor-inl.h"
 #include "kernels/bsdf/dielectric-inl.h"
 #include "kernels/probe/bsdf_probe-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 BsdfProbe ProbeInterface(ShadeKind kind) {
   switch (kind) {
@@ -30,9 +23,7 @@ BsdfProbe ProbeInterface(ShadeKind kind) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 namespace lanelight {

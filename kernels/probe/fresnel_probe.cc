@@ -1,17 +1,10 @@
 #include "kernels/probe/fresnel_probe.h"
 
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/probe/fresnel_probe.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/fresnel-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 void RunFresnel(const FresnelBatch& batch) {
   const DF df;
@@ -28,9 +21,7 @@ void RunFresnel(const FresnelBatch& batch) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 namespace lanelight {

@@ -1,17 +1,10 @@
 #include "kernels/probe/guide_probe.h"
 
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/probe/guide_probe.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/guide/guide-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 LANELIGHT_INLINE V3 LoadAt(const float* const a[3], std::uint32_t i) {
   const DF df;
@@ -48,9 +41,7 @@ void GuidePdfs(const GuideBatch& b) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 namespace lanelight {

@@ -1,9 +1,4 @@
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/probe/points_probe.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/points/cmj-inl.h"
 #include "kernels/points/fill-inl.h"
@@ -15,9 +10,7 @@
 #include "kernels/points/sobol-inl.h"
 #include "kernels/points/stratified-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Calls body(i, pixels, samples) for each vector of the query: lanes are pixels or, of a
 // single pixel, samples. The last one is repeated past the end, as in a queue (PadTail);
@@ -121,9 +114,7 @@ void ProbePermuted(uint32_t count, uint32_t key, bool octaves, uint32_t* out) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 namespace lanelight {

@@ -1,17 +1,10 @@
 #include "kernels/probe/warp_probe.h"
 
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/probe/warp_probe.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/warp/hemisphere-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Applies warp `id`: in u, out the point, its density, and the inverse.
 void ApplyWarp(WarpId id, const WarpBatch& w) {
@@ -54,9 +47,7 @@ void ApplyWarp(WarpId id, const WarpBatch& w) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 namespace lanelight {

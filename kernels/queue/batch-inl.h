@@ -6,14 +6,10 @@
 #define LANELIGHT_QUEUE_BATCH_INL_H_
 #endif
 
-#include "hwy/highway.h"
 #include "kernels/queue/slots-inl.h"
-#include "src/path/wave.h"
+#include "src/path/stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// Repeats the last slot over one vector past the end. A batch that runs past the end
 /// then recomputes that path: every store of a kernel is a function of the slot alone,
@@ -58,8 +54,6 @@ LANELIGHT_INLINE void Push(Queue& queue, VI slots, MF mask) {
   queue.size += static_cast<uint32_t>(hn::CountTrue(DF(), mask));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

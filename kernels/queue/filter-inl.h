@@ -9,9 +9,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Collects into kScratch, in order, the slots of `queue` for which predicate(slots) is
 /// true. Filtering is not counted as occupancy; the loop over the result is.
@@ -47,8 +45,6 @@ HWY_INLINE const Queue& FilterPrimitives(Wave& wave, const Queue& queue, uint32_
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

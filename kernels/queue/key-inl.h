@@ -10,9 +10,7 @@
 #include "src/path/dimensions.h"
 #include "src/path/fields.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Key of dimension 0 at a depth.
 HWY_INLINE VU FirstKey(VU depth) { return hn::ShiftLeft<kDepthShift>(depth); }
@@ -31,8 +29,6 @@ HWY_INLINE VU KeyOf(const PathColumns& p, Dimension dimension, VU depth,
   return hn::Add(FirstKey(p, depth, slots), hn::Set(DU(), place));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -15,9 +15,8 @@
 
 #include "kernels/simd/lanes-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
+
 /// The slots of one batch. Converts to their vector.
 struct Slots {
   enum class Layout : uint32_t { kRun, kWindow, kAnywhere };
@@ -127,8 +126,6 @@ LANELIGHT_INLINE void Scatter(VI v, uint32_t* column, const S& slots) {
   Scatter(hn::BitCast(DF(), v), reinterpret_cast<float*>(column), slots);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

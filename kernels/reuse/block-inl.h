@@ -10,9 +10,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/path/sent.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE VI StateLanes(ReuseState state) {
   return hn::Set(DI(), static_cast<int32_t>(state));
@@ -31,8 +29,6 @@ HWY_INLINE VI RecordOf(const TileWork& work, VI output) {
                  place);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

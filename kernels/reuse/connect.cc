@@ -1,18 +1,11 @@
 // reuse=block: which pairs see each other, and what each pixel of the block gets
 // (kernels/reuse/pairs.cc has the estimator).
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/reuse/connect.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/accumulate/check-inl.h"
 #include "kernels/reuse/block-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 void TracePairs(Wave& wave) {
   const Queue& rays = wave.queue(QueueId::kShadow);
@@ -126,31 +119,13 @@ HWY_INLINE void ConnectBlock(Wave& wave) {
   FinishSamples<kSigned>(wave);
 }
 
-void ConnectPlain(Wave& wave) { ConnectBlock<false>(wave); }
-void ConnectSigned(Wave& wave) { ConnectBlock<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(TracePairs);
-HWY_EXPORT(ConnectPlain);
-HWY_EXPORT(ConnectSigned);
-
 Stage ReuseShadowStage() {
   return {.name = "reuse_shadow",
           .meaning = "finds out which pairs of a block see each other",
           .input = QueueId::kShadow,
           .needs = {Feature::kReuse, Feature::kScatters},
           .scope = StageScope::kBlock,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(TracePairs);
-          }};
+          .resolve = Always<TracePairs>};
 }
 
 Stage ReuseConnectStage() {
@@ -159,12 +134,8 @@ Stage ReuseConnectStage() {
           .input = QueueId::kScratch,
           .needs = {Feature::kReuse, Feature::kScatters},
           .scope = StageScope::kBlock,
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kSignedFilter)
-                       ? HWY_DYNAMIC_DISPATCH(ConnectSigned)
-                       : HWY_DYNAMIC_DISPATCH(ConnectPlain);
-          }};
+          .resolve =
+              ByFeature<Feature::kSignedFilter, ConnectBlock<true>, ConnectBlock<false>>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -11,9 +11,7 @@
 #include "kernels/reuse/block-inl.h"
 #include "kernels/shade/shade-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Of the lobes that serve others.
 template <class Bsdf>
@@ -79,8 +77,6 @@ HWY_INLINE uint32_t GlossyKindOf(const Wave& wave, uint32_t record) {
   return static_cast<uint32_t>(wave.scene->materials.kind[material]);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -21,18 +21,11 @@
 // Lanes are first vertices; the material of y is the same in all of them. The f of pairs
 // then has the light in it; a row of pairs more is made where there are near parts, lit
 // and hit, as well as a far one.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/reuse/glossy.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/reuse/glossy-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Of a second vertex, the same in all lanes.
 struct SentColors {
@@ -129,27 +122,13 @@ void LightGlossy(Wave& wave) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(LightGlossy);
-
 Stage ReuseGlossyStage() {
   return {.name = "reuse_glossy",
           .meaning = "evaluates what glossy second vertices send to all first ones",
           .input = QueueId::kScratch,
           .needs = {Feature::kReuseGlossy, Feature::kScatters},
           .scope = StageScope::kBlock,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(LightGlossy);
-          }};
+          .resolve = Always<LightGlossy>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -10,9 +10,7 @@
 #include "kernels/reuse/block-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Receivers of a kind; behind the valid ones there is padding.
 struct KindRange {
@@ -72,8 +70,6 @@ HWY_INLINE void ListSuffixes(const Wave& wave) {
   block.num_rows = block.num_suffixes;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -25,12 +25,7 @@
 //               Paths"; Veach and Guibas 1995 (balance heuristic)
 //
 // Lanes are first vertices of one kind of material.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/reuse/pairs.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/coated_conductor-inl.h"
 #include "kernels/bsdf/coated_diffuse-inl.h"
@@ -44,9 +39,7 @@
 #include "kernels/reuse/members-inl.h"
 #include "kernels/shade/shade-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // A second vertex, the same in all lanes.
 struct SecondVertex {
@@ -229,23 +222,6 @@ HWY_INLINE void ConnectPairs(Wave& wave) {
       block.num_suffixes * block.num_receivers / static_cast<uint32_t>(hn::Lanes(DF()));
 }
 
-void PairsOfMaterial(Wave& wave) { ConnectPairs<MaterialProposal>(wave); }
-void PairsOfGuide(Wave& wave) { ConnectPairs<GuidedProposal>(wave); }
-void PairsOfUniform(Wave& wave) { ConnectPairs<UniformProposal>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(PairsOfMaterial);
-HWY_EXPORT(PairsOfGuide);
-HWY_EXPORT(PairsOfUniform);
-
 Stage ReusePairsStage() {
   return {.name = "reuse_pairs",
           .meaning = "evaluates second vertices of a block from all first ones",
@@ -254,13 +230,12 @@ Stage ReusePairsStage() {
           .scope = StageScope::kBlock,
           .resolve = [](const FeatureSet& features) -> StageFn {
             if (features.Has(Feature::kGuided)) {
-              return HWY_DYNAMIC_DISPATCH(PairsOfGuide);
+              return ConnectPairs<GuidedProposal>;
             }
             return features.Has(Feature::kUniformDirections)
-                       ? HWY_DYNAMIC_DISPATCH(PairsOfUniform)
-                       : HWY_DYNAMIC_DISPATCH(PairsOfMaterial);
+                       ? ConnectPairs<UniformProposal>
+                       : ConnectPairs<MaterialProposal>;
           }};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

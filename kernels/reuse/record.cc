@@ -11,19 +11,12 @@
 // with 1. What others see of a glossy one depends on where its light comes from: of those
 // the material is kept as well, and the parts of what is gathered by themselves
 // (kernels/reuse/glossy.cc).
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/reuse/record.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/reuse/block-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE MF IsOfKinds(const Wave& wave, const Slots& slots, uint32_t kinds) {
   const DU du;
@@ -190,17 +183,6 @@ void RecordReuse(Wave& wave) {
   RecordFirsts(wave);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(RecordReuse);
-
 Stage RecordReuseStage() {
   using namespace fields;
   const FieldSet state = {Field::reuse, Field::eta_scale};
@@ -211,10 +193,7 @@ Stage RecordReuseStage() {
           .reads = FirstVertexFields() | kRadiance | state |
                    FieldSet{Field::output, Field::bsdf_pdf},
           .writes = kRadiance | kThroughput | state,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(RecordReuse);
-          }};
+          .resolve = Always<RecordReuse>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -1,18 +1,11 @@
 // reuse=block: of glossy second vertices, once their light sample has been connected,
 // where its light comes from and how much, and where the path goes on.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/reuse/record_light.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/reuse/block-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE void KeepLight(const Wave& wave, const Slots& slots, VI record) {
   const PathColumns& p = wave.path;
@@ -46,17 +39,6 @@ void RecordReuseLight(Wave& wave) {
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(RecordReuseLight);
-
 Stage RecordReuseLightStage() {
   using namespace fields;
   return {.name = "reuse_light",
@@ -67,10 +49,7 @@ Stage RecordReuseLightStage() {
                    FieldSet{Field::output, Field::bsdf_pdf, Field::reuse, Field::d_x,
                             Field::d_y, Field::d_z},
           .writes = {Field::reuse},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(RecordReuseLight);
-          }};
+          .resolve = Always<RecordReuseLight>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -6,18 +6,11 @@
 // reflection of a coat, and of mirrors have nothing for others. What is shared is divided
 // by f(o, w), so that any first vertex may be put in (kernels/reuse/glossy.cc). Both
 // parts have the densities and the weights with which the path has found them.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/reuse/split.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/reuse/glossy-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE V3 Map(V3 v, VF (*of)(VF)) { return {of(v.x), of(v.y), of(v.z)}; }
 
@@ -141,27 +134,13 @@ void SplitGlossy(Wave& wave) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(SplitGlossy);
-
 Stage ReuseSplitStage() {
   return {.name = "reuse_split",
           .meaning = "takes what serves others out of what paths have gathered",
           .input = QueueId::kScratch,
           .needs = {Feature::kReuseGlossy, Feature::kScatters},
           .scope = StageScope::kTile,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(SplitGlossy);
-          }};
+          .resolve = Always<SplitGlossy>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -16,19 +16,13 @@
 //   cost        two gathers of tables and a hash per vertex; the pilot pass
 //   source      Vorba and Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting
 //               in Light Transport Simulation"
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/roulette/adjoint.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/window-inl.h"
+#include "kernels/roulette/window_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct AdjointWindow {
   static HWY_INLINE VF Factor(const Wave& wave, const Slots& slots, V3 beta) {
@@ -43,25 +37,10 @@ struct AdjointWindow {
   }
 };
 
-void AdjointRoulette(Wave& wave) { PlayWindow<AdjointWindow>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/roulette/window_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(AdjointRoulette);
-
 Stage AdjointRouletteStage() {
-  return WindowStage(
-      "roulette_adjoint", "roulette and splitting on the expected contribution",
-      Feature::kAdjointRoulette,
-      [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(AdjointRoulette); });
+  return WindowStage("roulette_adjoint",
+                     "roulette and splitting on the expected contribution",
+                     Feature::kAdjointRoulette, Always<PlayWindow<AdjointWindow>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -10,9 +10,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/prepare/path_values.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Brightness, with the weights of the channels that suit the image.
 LANELIGHT_INLINE VF Brightness(const PathValues& values, V3 c) {
@@ -53,8 +51,6 @@ LANELIGHT_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path,
   return hn::Add(hn::Mul(index, constant(6)), face);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -7,18 +7,12 @@
 //   from        the first scattering event on (constant:Q:FIRST)
 //   cost        one division and a compaction
 //   source      Arvo and Kirk 1990; Maughan, equation 8
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/roulette/constant.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/roulette/survive-inl.h"
+#include "kernels/roulette/roulette_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct ConstantSurvival {
   static HWY_INLINE VF Survival(const Wave& wave, VI, V3) {
@@ -26,25 +20,10 @@ struct ConstantSurvival {
   }
 };
 
-void ConstantRoulette(Wave& wave) { PlayRoulette<ConstantSurvival>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/roulette/roulette_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ConstantRoulette);
-
 Stage ConstantRouletteStage() {
   return RouletteStage("roulette_constant", "Russian roulette of constant probability",
-                       Feature::kConstantRoulette, [](const FeatureSet&) -> StageFn {
-                         return HWY_DYNAMIC_DISPATCH(ConstantRoulette);
-                       });
+                       Feature::kConstantRoulette,
+                       Always<PlayRoulette<ConstantSurvival>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

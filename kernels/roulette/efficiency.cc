@@ -18,19 +18,13 @@
 //   cost        three gathers of tables and a hash per vertex; the pilot passes
 //   source      Rath, Grittmann, Herholz, Weier and Slusallek 2022, "EARS: Efficiency-
 //               Aware Russian Roulette and Splitting"
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/roulette/efficiency.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/window-inl.h"
+#include "kernels/roulette/window_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct EfficiencyWindow {
   static HWY_INLINE VF Factor(const Wave& wave, const Slots& slots, V3 beta) {
@@ -47,25 +41,9 @@ struct EfficiencyWindow {
   }
 };
 
-void EfficiencyRoulette(Wave& wave) { PlayWindow<EfficiencyWindow>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/roulette/window_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(EfficiencyRoulette);
-
 Stage EfficiencyRouletteStage() {
   return WindowStage("roulette_efficiency", "roulette and splitting for efficiency",
-                     Feature::kEfficiencyRoulette, [](const FeatureSet&) -> StageFn {
-                       return HWY_DYNAMIC_DISPATCH(EfficiencyRoulette);
-                     });
+                     Feature::kEfficiencyRoulette, Always<PlayWindow<EfficiencyWindow>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -7,19 +7,13 @@
 //   from        the second scattering event on (luminance:FLOOR:FIRST)
 //   cost        one division and a compaction
 //   source      Arvo and Kirk 1990, "Particle Transport and Image Synthesis"
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/roulette/luminance.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/survive-inl.h"
+#include "kernels/roulette/roulette_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct LuminanceSurvival {
   static HWY_INLINE VF Survival(const Wave& wave, const Slots& slots, V3 beta) {
@@ -31,25 +25,10 @@ struct LuminanceSurvival {
   }
 };
 
-void LuminanceRoulette(Wave& wave) { PlayRoulette<LuminanceSurvival>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/roulette/roulette_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(LuminanceRoulette);
-
 Stage LuminanceRouletteStage() {
   return RouletteStage("roulette_luminance", "Russian roulette on the luminance",
-                       Feature::kLuminanceRoulette, [](const FeatureSet&) -> StageFn {
-                         return HWY_DYNAMIC_DISPATCH(LuminanceRoulette);
-                       });
+                       Feature::kLuminanceRoulette,
+                       Always<PlayRoulette<LuminanceSurvival>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

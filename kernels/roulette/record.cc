@@ -14,20 +14,13 @@
 // The stages keep cell, Y(beta) and Y(l) in columns and write them behind the colour of
 // the finished path; src/wavefront/train_path_values.cc adds them up in the order of the
 // samples, so that the sums depend on no order of execution.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/roulette/record.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
 #include "src/prepare/tables.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct VertexColumns {
   uint32_t* cell[kRecordedVertices];
@@ -107,19 +100,6 @@ void RecordPath(Wave& wave) {
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(RecordVertex);
-HWY_EXPORT(RecordDecision);
-HWY_EXPORT(RecordPath);
-
 Stage RecordVertexStage() {
   return {.name = "record_vertex",
           .meaning = "records a vertex of a pilot path",
@@ -129,9 +109,7 @@ Stage RecordVertexStage() {
                    fields::kPoint | fields::kNormal | fields::kVertices |
                    FieldSet{Field::depth},
           .writes = fields::kVertices,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(RecordVertex);
-          }};
+          .resolve = Always<RecordVertex>};
 }
 Stage RecordDecisionStage() {
   return {.name = "record_decision",
@@ -141,9 +119,7 @@ Stage RecordDecisionStage() {
           .reads = fields::kThroughput | fields::kRadiance | fields::kRisk |
                    FieldSet{Field::depth, Field::eta_scale},
           .writes = fields::kRisk,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(RecordDecision);
-          }};
+          .resolve = Always<RecordDecision>};
 }
 Stage RecordPathStage() {
   return {.name = "record_path",
@@ -152,10 +128,7 @@ Stage RecordPathStage() {
           .needs = {Feature::kRecordsPaths},
           .reads = fields::kVertices | fields::kRisk | fields::kRadiance |
                    FieldSet{Field::output, Field::depth},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(RecordPath);
-          }};
+          .resolve = Always<RecordPath>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

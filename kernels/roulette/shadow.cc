@@ -9,20 +9,13 @@
 //   cost        a gather of three and a compaction per ray
 //   source      Arvo and Kirk 1990; Veach 1997, section 10.4 (efficiency-optimised);
 //               Shirley, Wang and Zimmerman 1996 (fewer rays to what is dim)
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/roulette/shadow.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 #include "src/prepare/tables.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE VF ShadowSurvival(const ShadowWorth& worth, VI pixel, V3 carried) {
   const VI at = hn::Mul(pixel, hn::Set(DI(), 3));
@@ -49,17 +42,6 @@ void ShadowRoulette(Wave& wave) {
   queue.size = survivors.size;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ShadowRoulette);
-
 Stage ShadowRouletteStage() {
   return {.name = "roulette_shadow",
           .meaning = "Russian roulette on shadow rays",
@@ -68,10 +50,7 @@ Stage ShadowRouletteStage() {
                     Feature::kScatters},
           .reads = fields::kShadow | FieldSet{Field::pixel, Field::u_shadow},
           .writes = fields::kShadow,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(ShadowRoulette);
-          }};
+          .resolve = Always<ShadowRoulette>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

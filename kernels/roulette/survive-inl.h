@@ -17,9 +17,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/path/block.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// With reuse=block the density with which a path finds its second vertex is to be known
 /// of any point (kernels/reuse/pairs.cc): no roulette is played on the way there.
@@ -57,8 +55,6 @@ LANELIGHT_INLINE VF WithoutRefraction(const PathColumns& p, const Slots& slots, 
   return p.eta_scale != nullptr ? hn::Mul(s, Gather(p.eta_scale, slots)) : s;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

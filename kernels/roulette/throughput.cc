@@ -9,19 +9,13 @@
 //               (throughput:FLOOR:FIRST:SCALE)
 //   cost        one division and a compaction
 //   source      Arvo and Kirk 1990, "Particle Transport and Image Synthesis"
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/roulette/throughput.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/survive-inl.h"
+#include "kernels/roulette/roulette_stage.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct ThroughputSurvival {
   static HWY_INLINE VF Survival(const Wave& wave, const Slots& slots, V3 beta) {
@@ -31,25 +25,10 @@ struct ThroughputSurvival {
   }
 };
 
-void ThroughputRoulette(Wave& wave) { PlayRoulette<ThroughputSurvival>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/roulette/roulette_stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ThroughputRoulette);
-
 Stage ThroughputRouletteStage() {
   return RouletteStage("roulette_throughput", "Russian roulette on the throughput",
-                       Feature::kThroughputRoulette, [](const FeatureSet&) -> StageFn {
-                         return HWY_DYNAMIC_DISPATCH(ThroughputRoulette);
-                       });
+                       Feature::kThroughputRoulette,
+                       Always<PlayRoulette<ThroughputSurvival>>);
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

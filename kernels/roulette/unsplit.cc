@@ -16,20 +16,13 @@
 //
 // L in terms of what is gathered: between two decisions l grows by w times what the path
 // alone would gather. A copy begins with no l of its own, but with L.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/roulette/unsplit.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
 #include "src/prepare/tables.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // 3 sqrt(3): ImageGuess::Inverse is 1 / (3 sqrt(3) channel color).
 inline constexpr float kBrightnessOfInverse = 5.1961524f;
@@ -133,20 +126,6 @@ void UnsplitPath(Wave& wave) {
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(UnsplitBefore);
-HWY_EXPORT(UnsplitAfter);
-HWY_EXPORT(UnsplitDecision);
-HWY_EXPORT(UnsplitPath);
-
 namespace {
 constexpr FieldSet kTransport =
     fields::kThroughput | fields::kRadiance | fields::kUnsplit | fields::kRisk;
@@ -159,9 +138,7 @@ Stage UnsplitBeforeStage() {
           .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
           .reads = fields::kThroughput | fields::kRadiance | fields::kUnsplit,
           .writes = FieldSet{Field::unsplit, Field::unsplit_l, Field::decided_at},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(UnsplitBefore);
-          }};
+          .resolve = Always<UnsplitBefore>};
 }
 Stage UnsplitAfterStage() {
   return {.name = "unsplit_after",
@@ -170,9 +147,7 @@ Stage UnsplitAfterStage() {
           .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
           .reads = fields::kThroughput | FieldSet{Field::copy_weight, Field::decided_at},
           .writes = FieldSet{Field::copy_weight, Field::decided_at},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(UnsplitAfter);
-          }};
+          .resolve = Always<UnsplitAfter>};
 }
 Stage UnsplitDecisionStage() {
   return {.name = "unsplit_decision",
@@ -182,9 +157,7 @@ Stage UnsplitDecisionStage() {
           .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
           .reads = kTransport | FieldSet{Field::depth, Field::eta_scale},
           .writes = fields::kRisk,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(UnsplitDecision);
-          }};
+          .resolve = Always<UnsplitDecision>};
 }
 Stage UnsplitPathStage() {
   return {
@@ -193,10 +166,7 @@ Stage UnsplitPathStage() {
       .input = QueueId::kDone,
       .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
       .reads = kTransport | FieldSet{Field::output, Field::pixel},
-      .resolve = [](const FeatureSet&) -> StageFn {
-        return HWY_DYNAMIC_DISPATCH(UnsplitPath);
-      }};
+      .resolve = Always<UnsplitPath>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

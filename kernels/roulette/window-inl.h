@@ -30,9 +30,7 @@
 #include "src/core/check.h"
 #include "src/prepare/tables.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// The smallest r.
 inline constexpr float kLeast = 0.05f;
@@ -148,8 +146,6 @@ LANELIGHT_INLINE void PlayWindow(Wave& wave) {
   if (splits) SplitPaths(wave, queue, copies.items);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -6,12 +6,7 @@
 // rays, with the density of the material alone. Cheaper bounds such as radiance times
 // cosine pick what glossy surfaces do not reflect, or what the weight then takes away.
 // Coats over metal, whose value is a random walk, make do with such a bound.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/shade/consider.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/coated_conductor-inl.h"
 #include "kernels/bsdf/coated_diffuse-inl.h"
@@ -24,9 +19,7 @@
 #include "kernels/lights/reservoir-inl.h"
 #include "kernels/shade/shade-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Without scattered rays that find lights, light samples count in full.
 HWY_INLINE MisParameters CandidateMis(const Wave& wave) {
@@ -86,22 +79,11 @@ HWY_INLINE void ConsiderIfThere(Wave& wave) {
   }
 }
 
-void Consider(Wave& wave) {
+void Consider(Wave& wave){
 #define X(name, traits, meaning) ConsiderIfThere<name##Bsdf, ShadeKind::k##name>(wave);
-  LANELIGHT_SHADE_KINDS(X)
+    LANELIGHT_SHADE_KINDS(X)
 #undef X
 }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(Consider);
 
 Stage ConsiderStage() {
   using namespace fields;
@@ -116,10 +98,7 @@ Stage ConsiderStage() {
           numbers | kThroughput | kNormal | kTangent | kParameters | kLightSample |
           FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material, Field::ls_light},
       .writes = numbers | kKeptSample,
-      .resolve = [](const FeatureSet&) -> StageFn {
-        return HWY_DYNAMIC_DISPATCH(Consider);
-      }};
+      .resolve = Always<Consider>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -2,12 +2,7 @@
 // from its material carries. The mean of that is the reflectance, to both sides, for
 // light that goes to where the surface is seen from (pbrt-v4,
 // SurfaceInteraction::GetBSDF).
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/shade/force_diffuse.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/coated_conductor-inl.h"
 #include "kernels/bsdf/coated_diffuse-inl.h"
@@ -19,9 +14,7 @@
 #include "kernels/queue/filter-inl.h"
 #include "kernels/shade/shade-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Of a stream of their own: those of the bounce go on to choose the direction.
 HWY_NOINLINE void DrawPoints(const Wave& wave, const Slots& slots, VF out[4]) {
@@ -75,22 +68,11 @@ HWY_INLINE void ForceKind(Wave& wave) {
 
 // A path whose material has been replaced may be met again by the kind that it has now;
 // that gives back its colour.
-void ForceDiffuse(Wave& wave) {
+void ForceDiffuse(Wave& wave){
 #define X(name, traits, meaning) ForceKind<name##Bsdf, ShadeKind::k##name>(wave);
-  LANELIGHT_SHADE_KINDS(X)
+    LANELIGHT_SHADE_KINDS(X)
 #undef X
 }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(ForceDiffuse);
 
 Stage ForceDiffuseStage() {
   using namespace fields;
@@ -103,10 +85,7 @@ Stage ForceDiffuseStage() {
           .reads = kNormal | kTangent | kParameters | identity |
                    FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material},
           .writes = color | FieldSet{Field::material},
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(ForceDiffuse);
-          }};
+          .resolve = Always<ForceDiffuse>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

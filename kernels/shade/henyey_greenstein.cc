@@ -1,38 +1,16 @@
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/shade/henyey_greenstein.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/shade/shade_stage.h"
 #include "kernels/bsdf/henyey_greenstein-inl.h"
 #include "kernels/shade/shade-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-
-StageFn ResolveHenyeyGreenstein(const FeatureSet& features) {
-  return ResolveShade<HenyeyGreensteinBsdf, ShadeKind::kHenyeyGreenstein>(features);
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace lanelight {
-
-HWY_EXPORT(ResolveHenyeyGreenstein);
+LANELIGHT_BEGIN_KERNELS
 
 Stage ShadeHenyeyGreensteinStage() {
   return MakeShadeStage("shade_henyey_greenstein",
                         "phase function of Henyey and Greenstein",
-                        ShadeKind::kHenyeyGreenstein, [](const FeatureSet& features) {
-                          return HWY_DYNAMIC_DISPATCH(ResolveHenyeyGreenstein)(features);
-                        });
+                        ShadeKind::kHenyeyGreenstein,
+                        ResolveShade<HenyeyGreensteinBsdf, ShadeKind::kHenyeyGreenstein>);
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

@@ -16,9 +16,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Shading frame around n with the first axis along the surface tangent; where the
 /// tangent is missing or along n, any frame.
@@ -243,8 +241,6 @@ StageFn ResolveShade(const FeatureSet& features) {
   return ShadeKernel<Bsdf, kKind, MaterialProposal, UnweightedLighting>;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -22,9 +22,7 @@
 #define LANELIGHT_INLINE HWY_INLINE
 #endif
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The lane types of all kernels: full vectors of 4-byte lanes.
@@ -79,8 +77,6 @@ HWY_INLINE auto Lookup(const Column& table, VI index) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -12,9 +12,7 @@
 
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// A few words of one record per lane, by their offsets in the record.
 template <class Record>
@@ -91,8 +89,6 @@ class Records {
   HWY_ALIGN int32_t at_[hn::MaxLanes(DI())];
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

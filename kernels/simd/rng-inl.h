@@ -9,9 +9,7 @@
 
 #include "kernels/simd/lanes-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct U4 {
   VU x, y, z, w;
@@ -62,8 +60,6 @@ LANELIGHT_INLINE VU ReverseBits32(VU v) {
                 reversed(hn::And(hn::ShiftRight<4>(v), half)));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

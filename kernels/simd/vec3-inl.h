@@ -8,9 +8,7 @@
 
 #include "kernels/simd/lanes-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct V3 {
   VF x, y, z;
@@ -114,8 +112,6 @@ LANELIGHT_INLINE V3 OffsetOrigin(V3 p, V3 ng, VF p_error, V3 direction) {
   return MulAdd(ng, side, p);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -1,20 +1,13 @@
 // Ends paths that have used up their scattering events; the others go on to the surface
 // stages. As in pbrt, a path of maximum depth D sees emission after D events.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/sort/limit.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include <utility>
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Where paths go through interfaces of media, stage `interfaces` ends the others.
 template <bool kInterfaces>
@@ -34,32 +27,13 @@ void LimitDepth(Wave& wave) {
       });
 }
 
-void Limit(Wave& wave) { LimitDepth<false>(wave); }
-void LimitInterfaces(Wave& wave) { LimitDepth<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(Limit);
-HWY_EXPORT(LimitInterfaces);
-
 Stage LimitStage() {
-  return {.name = "limit",
-          .meaning = "ends paths at the maximum depth",
-          .input = QueueId::kHit,
-          .reads = {Field::depth},
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kInterfaces)
-                       ? HWY_DYNAMIC_DISPATCH(LimitInterfaces)
-                       : HWY_DYNAMIC_DISPATCH(Limit);
-          }};
+  return {
+      .name = "limit",
+      .meaning = "ends paths at the maximum depth",
+      .input = QueueId::kHit,
+      .reads = {Field::depth},
+      .resolve = ByFeature<Feature::kInterfaces, LimitDepth<true>, LimitDepth<false>>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

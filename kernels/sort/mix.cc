@@ -1,12 +1,7 @@
 // Resolves mix materials to one of their two, chosen with the probability of its weight;
 // a mix of mixes takes several rounds. The number is a pure function of the path, so the
 // choice is the same for any order of evaluation.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/sort/mix.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/queue/key-inl.h"
@@ -14,9 +9,7 @@
 #include "kernels/texture/texture-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Weight of the second material, from its texture where it has one (then the scene has
 // texture coordinates: compile sees to it).
@@ -65,21 +58,6 @@ HWY_INLINE void Mix(Wave& wave) {
   });
 }
 
-void MixByUv(Wave& wave) { Mix<false>(wave); }
-void MixByPlace(Wave& wave) { Mix<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(MixByUv);
-HWY_EXPORT(MixByPlace);
-
 Stage MixStage() {
   return {.name = "mix",
           .meaning = "chooses one material of a mix",
@@ -89,12 +67,7 @@ Stage MixStage() {
                             Field::material} |
                    fields::kUv | fields::kPoint | fields::kNormal,
           .writes = {Field::material},
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kTexturePlaces)
-                       ? HWY_DYNAMIC_DISPATCH(MixByPlace)
-                       : HWY_DYNAMIC_DISPATCH(MixByUv);
-          }};
+          .resolve = ByFeature<Feature::kTexturePlaces, Mix<true>, Mix<false>>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -1,18 +1,11 @@
 // Moves the paths that go on into the first slots, in the order of their slots, so that
 // the next wave reads its columns by whole vectors (slots-inl.h) and new paths start in
 // neighbouring slots. Numbers and sums of a path do not depend on where it lies.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/sort/pack.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // One past the highest slot of the queue; 0 if it is empty.
 HWY_INLINE uint32_t EndOf(const Queue& queue) {
@@ -74,26 +67,13 @@ void Pack(Wave& wave) {
   CountBatches(wave, live);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(Pack);
-
 Stage PackStage() {
-  return {
-      .name = "pack",
-      .meaning = "moves the paths that go on into the first slots",
-      .input = QueueId::kDone,
-      .reads = fields::EverCarried(),
-      .writes = fields::EverCarried(),
-      .resolve = [](const FeatureSet&) -> StageFn { return HWY_DYNAMIC_DISPATCH(Pack); }};
+  return {.name = "pack",
+          .meaning = "moves the paths that go on into the first slots",
+          .input = QueueId::kDone,
+          .reads = fields::EverCarried(),
+          .writes = fields::EverCarried(),
+          .resolve = Always<Pack>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -1,19 +1,12 @@
 // Bins what scatters into one queue per kind of material, so that each shading kernel
 // runs on full vectors of its own kind; those that take light samples also go to kLit.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/sort/route.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kLights>
 void Route(Wave& wave) {
@@ -44,32 +37,13 @@ void Route(Wave& wave) {
   });
 }
 
-void RouteLit(Wave& wave) { Route<true>(wave); }
-void RouteUnlit(Wave& wave) { Route<false>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(RouteLit);
-HWY_EXPORT(RouteUnlit);
-
 Stage RouteStage() {
   return {.name = "route",
           .meaning = "bins what scatters by material kind",
           .input = QueueId::kVertex,
           .needs = {Feature::kScatters},
           .reads = {Field::material},
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kLights) ? HWY_DYNAMIC_DISPATCH(RouteLit)
-                                                  : HWY_DYNAMIC_DISPATCH(RouteUnlit);
-          }};
+          .resolve = ByFeature<Feature::kLights, Route<true>, Route<false>>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -1,17 +1,10 @@
 // Sorts intersected paths into those that hit something and those that left the scene.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/sort/split.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <bool kEnvironment>
 void Split(Wave& wave) {
@@ -28,32 +21,12 @@ void Split(Wave& wave) {
   });
 }
 
-void SplitOpen(Wave& wave) { Split<true>(wave); }
-void SplitClosed(Wave& wave) { Split<false>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(SplitOpen);
-HWY_EXPORT(SplitClosed);
-
 Stage SplitStage() {
   return {.name = "split",
           .meaning = "sorts paths into hits and misses",
           .input = QueueId::kActive,
           .reads = {Field::t},
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kInfiniteLights)
-                       ? HWY_DYNAMIC_DISPATCH(SplitOpen)
-                       : HWY_DYNAMIC_DISPATCH(SplitClosed);
-          }};
+          .resolve = ByFeature<Feature::kInfiniteLights, Split<true>, Split<false>>};
 }
 
-}  // namespace lanelight
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

@@ -9,22 +9,15 @@
 //
 // pbrt-v4 adds h dn/du to dp'/du. It is left out here: it changes the slopes in the
 // ratio of the height to the radius of curvature, and needs six more numbers per hit.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/surface/bumps.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/surface/instance-inl.h"
 #include "kernels/surface/relief-inl.h"
 #include "kernels/texture/levels-inl.h"
+#include "kernels/surface/stages.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 // The surface before it is bumped.
 struct BumpAxes {
@@ -120,20 +113,6 @@ void Bumps(Wave& wave) {
                });
 }
 
-void BumpsPlain(Wave& wave) { Bumps<false>(wave); }
-void BumpsInstances(Wave& wave) { Bumps<true>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/surface/stages.h"
-
-namespace lanelight {
-HWY_EXPORT(BumpsPlain);
-HWY_EXPORT(BumpsInstances);
-
 Stage BumpsStage() {
   return {.name = "bumps",
           .meaning = "shading normals of displacement textures",
@@ -141,12 +120,7 @@ Stage BumpsStage() {
           .needs = {Feature::kBumps, Feature::kScatters},
           .reads = ReliefReads() | fields::kSpread | FieldSet{Field::prim, Field::inst},
           .writes = ReliefWrites(),
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return features.Has(Feature::kInstances)
-                       ? HWY_DYNAMIC_DISPATCH(BumpsInstances)
-                       : HWY_DYNAMIC_DISPATCH(BumpsPlain);
-          }};
+          .resolve = ByFeature<Feature::kInstances, Bumps<true>, Bumps<false>>};
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

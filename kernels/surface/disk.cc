@@ -1,20 +1,13 @@
 // The surface at hits on disks.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/surface/disk.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
+#include "kernels/surface/stages.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE void DiskBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
@@ -71,16 +64,6 @@ void SurfaceDisk(Wave& wave) {
                [&](const StoreSlots& slots, MF) HWY_ATTR { DiskBatch(wave, slots); });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/surface/stages.h"
-
-namespace lanelight {
-HWY_EXPORT(SurfaceDisk);
-
 Stage SurfaceDiskStage() {
   return {.name = "surface_disk",
           .meaning = "point, normals and material of hits on disks",
@@ -88,10 +71,7 @@ Stage SurfaceDiskStage() {
           .needs = {Feature::kDisks, Feature::kScatters},
           .reads = fields::kRay | FieldSet{Field::t, Field::prim},
           .writes = SurfaceFields(),
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(SurfaceDisk);
-          }};
+          .resolve = Always<SurfaceDisk>};
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

@@ -2,21 +2,14 @@
 // footprint.h). The step from one pixel to the next, at the distance of the hit, is
 // carried along the line of sight into the tangent plane; least squares give the steps in
 // u and v (as in pbrt-v4, SurfaceInteraction::ComputeDifferentials).
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/surface/footprints.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/surface/pixel_steps-inl.h"
+#include "kernels/surface/stages.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 // dp/du and dp/dv as unit vectors with lengths: their squares may underflow.
 struct UvAxes {
@@ -59,16 +52,6 @@ void Footprints(Wave& wave) {
       });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/surface/stages.h"
-
-namespace lanelight {
-HWY_EXPORT(Footprints);
-
 Stage FootprintsStage() {
   return {.name = "footprints",
           .meaning = "footprint of a pixel in surface coordinates",
@@ -76,10 +59,7 @@ Stage FootprintsStage() {
           .needs = {Feature::kTextureFootprints, Feature::kScatters},
           .reads = fields::kPoint | fields::kNormal | fields::kTangents,
           .writes = fields::kSpread,
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(Footprints);
-          }};
+          .resolve = Always<Footprints>};
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

@@ -11,10 +11,7 @@
 #include "kernels/surface/point-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 struct Map34 {
   V3 row[3];  // linear part
@@ -79,8 +76,6 @@ LANELIGHT_INLINE VF MappingError(const InstanceMaps& maps, V3 p_object, V3 n) {
   return hn::Mul(Splat(12 * 0x1p-24f), Dot(Abs(n), abs_s.Vector(in_object)));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -1,20 +1,13 @@
 // The surface at hits on large spheres.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/surface/large_sphere.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
+#include "kernels/surface/stages.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 struct LargeSphereHits {
   V3 point, normal;
@@ -98,16 +91,6 @@ void SurfaceLargeSphere(Wave& wave) {
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/surface/stages.h"
-
-namespace lanelight {
-HWY_EXPORT(SurfaceLargeSphere);
-
 Stage SurfaceLargeSphereStage() {
   return {.name = "surface_large_sphere",
           .meaning = "point, normals and material of hits on large spheres",
@@ -115,10 +98,7 @@ Stage SurfaceLargeSphereStage() {
           .needs = {Feature::kLargeSpheres, Feature::kScatters},
           .reads = fields::kRay | FieldSet{Field::t, Field::prim},
           .writes = SurfaceFields(),
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(SurfaceLargeSphere);
-          }};
+          .resolve = Always<SurfaceLargeSphere>};
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

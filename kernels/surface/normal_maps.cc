@@ -1,20 +1,13 @@
 // Normal maps: the texel c holds the shading normal 2 c - 1 in the frame of dp/du across
 // the normal, n x dp/du, and the normal, as in pbrt-v4 (bilinear, repeated, no levels).
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/surface/normal_maps.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/surface/relief-inl.h"
 #include "kernels/texture/texture-inl.h"
+#include "kernels/surface/stages.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 // dp/du across n, unit; any direction across it where there is none.
 HWY_INLINE V3 UnitTangent(V3 n, V3 tangent) {
@@ -42,16 +35,6 @@ void NormalMaps(Wave& wave) {
       });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/surface/stages.h"
-
-namespace lanelight {
-HWY_EXPORT(NormalMaps);
-
 Stage NormalMapsStage() {
   return {.name = "normal_maps",
           .meaning = "shading normals of normal maps",
@@ -59,10 +42,7 @@ Stage NormalMapsStage() {
           .needs = {Feature::kNormalMaps, Feature::kScatters},
           .reads = ReliefReads(),
           .writes = ReliefWrites(),
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(NormalMaps);
-          }};
+          .resolve = Always<NormalMaps>};
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

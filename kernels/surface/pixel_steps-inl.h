@@ -10,10 +10,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/compiled/footprint.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE V3 SplatVec(Vec3f v) { return Splat3(v.x, v.y, v.z); }
 
@@ -59,8 +56,6 @@ HWY_INLINE VF Bounded(VF step) {
   return hn::Max(hn::Neg(limit), hn::Min(finite, limit));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -1,20 +1,13 @@
 // The surface at hits on planes.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/surface/plane.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
+#include "kernels/surface/stages.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE void PlaneBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
@@ -64,16 +57,6 @@ void SurfacePlane(Wave& wave) {
                [&](const StoreSlots& slots, MF) HWY_ATTR { PlaneBatch(wave, slots); });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/surface/stages.h"
-
-namespace lanelight {
-HWY_EXPORT(SurfacePlane);
-
 Stage SurfacePlaneStage() {
   return {.name = "surface_plane",
           .meaning = "point, normals and material of hits on planes",
@@ -81,10 +64,7 @@ Stage SurfacePlaneStage() {
           .needs = {Feature::kPlanes, Feature::kScatters},
           .reads = fields::kRay | FieldSet{Field::t, Field::prim},
           .writes = SurfaceFields(),
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(SurfacePlane);
-          }};
+          .resolve = Always<SurfacePlane>};
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

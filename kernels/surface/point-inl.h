@@ -16,10 +16,7 @@
 
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 // Half a vector of floats, as doubles.
 using DHalf = hn::Half<DF>;
@@ -71,8 +68,6 @@ LANELIGHT_INLINE VF RoundingError(V3 p, V3 n, VF size) {
   return hn::MulAdd(Splat(0x1p-22f), Dot(Abs(p), Abs(n)), hn::Mul(Splat(0x1p-48f), size));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

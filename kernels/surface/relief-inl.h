@@ -25,10 +25,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// Least cosine of the viewer to a normal, and of the mirrored viewer to the surface.
 inline constexpr float kLeastCosine = 1.0f / 64;
@@ -93,8 +90,6 @@ HWY_INLINE void StoreNormal(const Wave& wave, const StoreSlots& slots, V3 n, V3 
   Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

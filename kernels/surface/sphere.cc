@@ -1,20 +1,13 @@
 // The surface at hits on spheres.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/surface/sphere.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
+#include "kernels/surface/stages.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 struct SphereHits {
   V3 center;
@@ -84,16 +77,6 @@ void SurfaceSphere(Wave& wave) {
                [&](const StoreSlots& slots, MF) HWY_ATTR { SphereBatch(wave, slots); });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/surface/stages.h"
-
-namespace lanelight {
-HWY_EXPORT(SurfaceSphere);
-
 Stage SurfaceSphereStage() {
   return {.name = "surface_sphere",
           .meaning = "point, normals and material of hits on spheres",
@@ -101,10 +84,7 @@ Stage SurfaceSphereStage() {
           .needs = {Feature::kSpheres, Feature::kScatters},
           .reads = fields::kRay | FieldSet{Field::t, Field::prim},
           .writes = SurfaceFields(),
-          .resolve = [](const FeatureSet&) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(SurfaceSphere);
-          }};
+          .resolve = Always<SurfaceSphere>};
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

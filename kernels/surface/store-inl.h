@@ -14,10 +14,7 @@
 #include "kernels/surface/point-inl.h"
 #include "kernels/surface/stages.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 /// The surface at a vector of hits.
 struct SurfaceLanes {
@@ -92,8 +89,6 @@ LANELIGHT_INLINE V3 SphereBitangent(V3 out, V3 z_axis, VF radius) {
       up, hn::Mul(hn::Mul(radius, Splat(std::numbers::pi_v<float>)), Rsqrt(Dot(up, up))));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -1,10 +1,5 @@
 // The surface at hits on triangles.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/surface/triangle.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/records-inl.h"
@@ -13,10 +8,7 @@
 #include "kernels/surface/stages.h"
 #include "src/compiled/scene.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LANELIGHT_BEGIN_KERNELS
 
 // A vector of hits: vertices in the space of the triangle, barycentric weights.
 struct TriangleLanes {
@@ -250,16 +242,6 @@ StageFn ChooseSurfaceTriangle(const FeatureSet& features) {
                                            : SurfaceTriangle<false>;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-#include "kernels/surface/stages.h"
-
-namespace lanelight {
-HWY_EXPORT(ChooseSurfaceTriangle);
-
 Stage SurfaceTriangleStage() {
   return {.name = "surface_triangle",
           .meaning = "point, normals and material of hits on triangles",
@@ -267,10 +249,7 @@ Stage SurfaceTriangleStage() {
           .needs = {Feature::kTriangles, Feature::kScatters},
           .reads = {Field::prim, Field::b1, Field::b2, Field::inst},
           .writes = SurfaceFields(),
-          .resolve = [](const FeatureSet& features) -> StageFn {
-            return HWY_DYNAMIC_DISPATCH(ChooseSurfaceTriangle)(features);
-          }};
+          .resolve = ChooseSurfaceTriangle};
 }
 
-}  // namespace lanelight
-#endif
+LANELIGHT_END_KERNELS

@@ -1,16 +1,9 @@
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/texture/alpha.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/texture/alpha.h"
 #include "kernels/texture/texture-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 float EvalPlacedAlpha(const TextureTable& table, int32_t texture, float u, float v,
                       const PointOfAlpha& at) {
@@ -19,9 +12,7 @@ float EvalPlacedAlpha(const TextureTable& table, int32_t texture, float u, float
   return hn::GetLane(EvalTexture(table, texture, point).x);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 namespace lanelight {

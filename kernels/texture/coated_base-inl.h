@@ -10,9 +10,7 @@
 #include "src/compile/coat_fit.h"
 #include "src/compiled/texture_table.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// k of a metal of index 1 with this reflectance r head-on: r = k^2 / (4 + k^2).
 LANELIGHT_INLINE V3 MetalExtinction(V3 r) {
@@ -64,8 +62,6 @@ inline HWY_NOINLINE V3 CoatedBaseColor(const float* fit, V3 color) {
   return {hn::Max(c.x, zero), hn::Max(c.y, zero), hn::Max(c.z, zero)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -16,9 +16,7 @@
 #include "kernels/texture/texture-inl.h"
 #include "src/path/fields.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Steps in surface coordinates from one pixel to the next.
 struct Footprint {
@@ -140,8 +138,6 @@ inline HWY_NOINLINE V3 EvalFiltered(const TextureTable& table, const TextureNode
   return FinishTexel(node, EvalTrilinear(table, node, width, s, t));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

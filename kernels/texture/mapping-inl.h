@@ -10,9 +10,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "src/compiled/texture_table.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// A point for textures that depend on its surface coordinates alone.
 struct UvPoint {
@@ -80,8 +78,6 @@ LANELIGHT_INLINE TexturePair MapPoint(const TextureNode& node, const Point& at) 
           hn::MulAdd(at.v, Splat(node.sv), Splat(node.dv))};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

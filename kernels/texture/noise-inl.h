@@ -9,9 +9,7 @@
 #include "kernels/simd/vec3-inl.h"
 #include "kernels/texture/noise_table.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Frequency from octave to octave; not 2, so that the zeros of octaves do not coincide.
 inline constexpr float kLacunarity = 1.99f;
@@ -115,8 +113,6 @@ LANELIGHT_INLINE VF Turbulence(V3 p, int32_t octaves, float roughness) {
   return hn::Add(sum, Splat(0.2f * amplitude));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

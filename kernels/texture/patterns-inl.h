@@ -10,9 +10,7 @@
 #include "kernels/texture/marble_colors.h"
 #include "kernels/texture/noise-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// 1 where floor(x) is odd, else 0. Without integers, so that it holds for every float.
 LANELIGHT_INLINE VF OddCell(VF x) {
@@ -88,8 +86,6 @@ LANELIGHT_INLINE V3 EvalPattern(const TextureNode& node, V3 p) {
   return {value, value, value};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -13,9 +13,7 @@
 #include "kernels/texture/patterns-inl.h"
 #include "src/compiled/texture_table.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Two neighbouring texels along one axis: indices before wrapping, weight of the second.
 struct TexelPair {
@@ -263,8 +261,6 @@ LANELIGHT_INLINE float EvalAlphaAt(const TextureTable& table, int32_t id, float 
   return hn::GetLane(EvalTexture(table, id, UvPoint{Splat(u), Splat(v)}).x);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -1,19 +1,13 @@
 // The texture stage: material parameters of every surface hit, from the material's
 // constants or its textures.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/texture/texture.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/texture/levels-inl.h"
 #include "src/compiled/scene.h"
+#include "src/core/check.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // What bounds a colour parameter from above: reflectances end at 1, indices do not.
 HWY_INLINE VF ColorLimit(const MaterialTable& materials, VI material) {
@@ -93,11 +87,6 @@ HWY_INLINE void Textures(Wave& wave) {
       });
 }
 
-void TexturesColor(Wave& wave) { Textures<false, false>(wave); }
-void TexturesRoughness(Wave& wave) { Textures<true, false>(wave); }
-void TexturesColor1(Wave& wave) { Textures<false, true>(wave); }
-void TexturesBoth(Wave& wave) { Textures<true, true>(wave); }
-
 // The layers of coats.
 template <class Point>
 HWY_INLINE void EvalCoat(const CompiledScene& scene, const PathColumns& path,
@@ -166,29 +155,6 @@ HWY_INLINE void AllTextures(Wave& wave) {
                });
 }
 
-void TexturesCoat(Wave& wave) { AllTextures<UvPoint>(wave); }
-void TexturesPlaces(Wave& wave) { AllTextures<PlacedPoint>(wave); }
-void TexturesFiltered(Wave& wave) { AllTextures<FilteredPoint>(wave); }
-
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-
-#include "src/core/check.h"
-#include "src/path/stage.h"
-
-namespace lanelight {
-
-HWY_EXPORT(TexturesColor);
-HWY_EXPORT(TexturesRoughness);
-HWY_EXPORT(TexturesColor1);
-HWY_EXPORT(TexturesBoth);
-HWY_EXPORT(TexturesCoat);
-HWY_EXPORT(TexturesPlaces);
-HWY_EXPORT(TexturesFiltered);
-
 Stage TextureStage() {
   return {.name = "texture",
           .meaning = "textured material parameters of surface hits",
@@ -200,23 +166,21 @@ Stage TextureStage() {
           .resolve = [](const FeatureSet& features) -> StageFn {
             LL_CHECK(features.Has(Feature::kUv));
             if (features.Has(Feature::kTextureFootprints)) {
-              return HWY_DYNAMIC_DISPATCH(TexturesFiltered);
+              return AllTextures<FilteredPoint>;
             }
             if (features.Has(Feature::kTexturePlaces)) {
-              return HWY_DYNAMIC_DISPATCH(TexturesPlaces);
+              return AllTextures<PlacedPoint>;
             }
             if (features.HasAny({Feature::kTexturedCoat, Feature::kTexturedCoatMedium})) {
-              return HWY_DYNAMIC_DISPATCH(TexturesCoat);
+              return AllTextures<UvPoint>;
             }
             const bool roughness = features.Has(Feature::kTexturedRoughness);
             const bool color1 = features.Has(Feature::kTexturedColor1);
-            if (roughness && color1) return HWY_DYNAMIC_DISPATCH(TexturesBoth);
-            if (roughness) return HWY_DYNAMIC_DISPATCH(TexturesRoughness);
-            if (color1) return HWY_DYNAMIC_DISPATCH(TexturesColor1);
-            return HWY_DYNAMIC_DISPATCH(TexturesColor);
+            if (roughness && color1) return Textures<true, true>;
+            if (roughness) return Textures<true, false>;
+            if (color1) return Textures<false, true>;
+            return Textures<false, false>;
           }};
 }
 
-}  // namespace lanelight
-
-#endif  // HWY_ONCE
+LANELIGHT_END_KERNELS

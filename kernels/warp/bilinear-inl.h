@@ -16,9 +16,7 @@
 
 #include "kernels/simd/math-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct UnitSquarePoint {
   VF u0, u1;
@@ -54,8 +52,6 @@ struct Bilinear {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

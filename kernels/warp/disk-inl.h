@@ -9,9 +9,7 @@
 
 #include "kernels/simd/math-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 struct V2 {
   VF x, y;
@@ -53,8 +51,6 @@ HWY_INLINE V2 InvertDisk(V2 p) {
   return {hn::MulAdd(a, half, half), hn::MulAdd(b, half, half)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

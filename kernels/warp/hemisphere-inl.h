@@ -9,9 +9,7 @@
 
 #include "kernels/warp/disk-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Density cos / pi: a uniform point of the disk, lifted (Malley's method). u in [0,1]^2.
 HWY_INLINE V3 SampleCosineHemisphere(VF u0, VF u1) {
@@ -65,8 +63,6 @@ HWY_INLINE V2 InvertInSphere(V3 w) {
   return {hn::NegMulAdd(Sqr(w.z), Sqr(w.z), Splat(1.0f)), TurnOf(w)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -11,9 +11,7 @@
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Unit direction of a point of the square.
 LANELIGHT_INLINE V3 OctahedralDirection(VF s, VF t) {
@@ -48,8 +46,6 @@ LANELIGHT_INLINE void OctahedralSquare(V3 d, VF* s, VF* t) {
   *t = hn::MulAdd(v, half, half);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

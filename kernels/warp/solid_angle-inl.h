@@ -17,9 +17,7 @@
 
 #include "kernels/simd/math-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Below this solid angle (steradians) lights are sampled by area instead. Points on a
 /// light are rounded to about 4e-7 rad, as seen by the receiver: 1e-3 of the width of a
@@ -93,8 +91,6 @@ struct LocalRectangle {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

@@ -21,9 +21,7 @@
 #include "kernels/warp/bilinear-inl.h"
 #include "kernels/warp/solid_angle-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// Two values y0 < y1 and their distances from a point: y1 r0 - y0 r1, without
 /// cancellation where they have the same sign. rest2 = r^2 - y^2 of both.
@@ -151,8 +149,6 @@ LANELIGHT_INLINE UnitSquarePoint InvertSphericalRectangle(const LocalRectangle& 
   return {u0, hn::Min(hn::Div(part, hn::Max(whole, Splat(1e-37f))), one)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

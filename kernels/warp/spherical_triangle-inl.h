@@ -20,9 +20,7 @@
 #include "kernels/warp/bilinear-inl.h"
 #include "kernels/warp/solid_angle-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 /// A direction (of length 1 but for rounding) inside the triangle, for u0, u1 in [0, 1).
 /// omega: its solid angle, positive.
@@ -76,8 +74,6 @@ LANELIGHT_INLINE UnitSquarePoint InvertSphericalTriangle(V3 to_corner, V3 e1, V3
   return {u0, hn::Min(u1, one)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #endif

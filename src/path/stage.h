@@ -28,4 +28,16 @@ struct Stage {
   StageFn (*resolve)(const FeatureSet& features);
 };
 
+/// Stage::resolve of a stage with one kernel.
+template <StageFn kKernel>
+StageFn Always(const FeatureSet&) {
+  return kKernel;
+}
+
+/// Stage::resolve of a stage with a variant for one feature.
+template <Feature kFeature, StageFn kWith, StageFn kWithout>
+StageFn ByFeature(const FeatureSet& features) {
+  return features.Has(kFeature) ? kWith : kWithout;
+}
+
 }  // namespace lanelight

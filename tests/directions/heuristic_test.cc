@@ -1,18 +1,11 @@
 // Weights of multiple importance sampling: what light samples and hits get of the light
 // along one direction adds up to all of it.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/directions/heuristic_test.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/directions/heuristic-inl.h"
 #include "tests/directions/heuristics.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 void Weigh(const WeightBatch& w) {
   const DF df;
@@ -23,9 +16,7 @@ void Weigh(const WeightBatch& w) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 #include <catch2/catch.hpp>

@@ -1,16 +1,9 @@
 // The density of clouds on every target against the scalar twin.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/media/cloud_test.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/media/cloud-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // At a multiple of 16 points of the box; planes of x, y, z.
 void CloudDensityAt(const CloudShape& cloud, const float* xyz, float* value,
@@ -23,9 +16,7 @@ void CloudDensityAt(const CloudShape& cloud, const float* xyz, float* value,
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 

@@ -1,16 +1,9 @@
 // Columns reached by whole vectors hold what plain loops would read and write.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/queue/slots_test.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // out[k] = column[slots[k]], and again by each kind of store: columns a and b.
 void Move(const std::uint32_t* slots, const float* column, float* out, float* a,
@@ -33,9 +26,7 @@ bool LooksUp(const float* table, std::size_t count) {
   return hn::AllTrue(DF(), hn::Eq(Lookup(table, count, index), Gather(table, index)));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 #include <algorithm>

@@ -1,16 +1,9 @@
 // Elementary functions against libm in double: the bounds that math-inl.h states.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/simd/math_test.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/simd/math-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 template <class Function>
 void Map(const float* x, const float* y, float* a, float* b, int n, Function f) {
@@ -35,9 +28,7 @@ void MapExp(const float* x, const float* y, float* a, float* b, int n) {
   Map(x, y, a, b, n, [](VF u, VF) HWY_ATTR { return SinCosPair{Exp(u), u}; });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 #include <catch2/catch.hpp>

@@ -1,17 +1,10 @@
 // Records, bit reversal and renormalisation against plain loops.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/simd/vectors_test.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/simd/records-inl.h"
 #include "kernels/simd/rng-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 std::size_t VectorLanes() { return hn::Lanes(DF()); }
 
@@ -43,9 +36,7 @@ void RenormalizeAll(float* x, float* y, float* z, std::size_t count) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 #include <catch2/catch.hpp>

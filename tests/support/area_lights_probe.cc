@@ -1,16 +1,9 @@
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/support/area_lights_probe.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/control/area_lights-inl.h"
 #include "tests/support/area_lights_probe.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 void AreaLightsProbe(const IrradianceBatch& batch) {
   const DF df;
@@ -32,9 +25,7 @@ void AreaLightsProbe(const IrradianceBatch& batch) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 namespace lanelight {

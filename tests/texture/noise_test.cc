@@ -1,16 +1,9 @@
 // Noise of every target against the scalar twin, and what must be true of it.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/texture/noise_test.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/texture/noise-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // At a multiple of 16 points; planes of x, y, z.
 void NoiseAt(const float* xyz, float* value, std::size_t count) {
@@ -33,9 +26,7 @@ void OctavesAt(const float* xyz, float* value, std::size_t count) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 

@@ -1,16 +1,9 @@
 // Procedural textures and mappings of every target against the scalar twin.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/texture/pattern_kernel_test.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/texture/texture-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Texture `id` at a multiple of 16 points: planes u, v, p, n in, planes of rgb out.
 void EvalPlaces(const TextureTable& table, int32_t id, const float* in, float* rgb,
@@ -30,9 +23,7 @@ void EvalPlaces(const TextureTable& table, int32_t id, const float* in, float* r
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 

@@ -1,16 +1,9 @@
 // The texture kernel of every target against the scalar twin.
-#include "kernels/targets.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/texture/texture_kernel_test.cc"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "kernels/simd/each_target-inl.h"
 
 #include "kernels/texture/texture-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lanelight {
-namespace HWY_NAMESPACE {
+LANELIGHT_BEGIN_KERNELS
 
 // Textures ids[i] at (u[i], v[i]) for a multiple of 16 points; planes of rgb. Lanes
 // without a texture get (-1, -2, -3).
@@ -31,9 +24,7 @@ void AlphaPoint(const TextureTable& table, int32_t id, float u, float v, float* 
   *alpha = EvalAlphaAt(table, id, u, v, 0.25f);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lanelight
-HWY_AFTER_NAMESPACE();
+LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 
