@@ -1,6 +1,6 @@
 #include "bench/cpu_clock.h"
 #include "bench/intersect/tracer.h"
-#include "kernels/intersect/stages.h"
+#include "kernels/stages.h"
 
 namespace lanelight::bench {
 namespace {

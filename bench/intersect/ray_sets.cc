@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "kernels/intersect/stages.h"
-#include "kernels/surface/stages.h"
+#include "kernels/stages.h"
 
 namespace lanelight::bench {
 namespace {

@@ -26,7 +26,6 @@
 #include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/bsdf/diffuse_transmission-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "kernels/control/control_stage.h"
 #include "src/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -92,11 +91,6 @@ StageFn ResolveAmbient(const FeatureSet& features) {
                                         : Ambient<Bsdf, kKind, MaterialProposal>;
 }
 
-StageFn AmbientTransmission(const FeatureSet& features) {
-  return ResolveAmbient<DiffuseTransmissionBsdf, ShadeKind::kDiffuseTransmission>(
-      features);
-}
-
 Stage AmbientDiffuseStage() {
   return SurfaceControlStage("control_ambient", "control by the unoccluded environment",
                              Feature::kAmbientControl, ShadeKind::kDiffuse,
@@ -105,7 +99,8 @@ Stage AmbientDiffuseStage() {
 Stage AmbientTransmissionStage() {
   return SurfaceControlStage(
       "control_ambient_sheet", "control by the unoccluded environment on both sides",
-      Feature::kAmbientControl, ShadeKind::kDiffuseTransmission, AmbientTransmission);
+      Feature::kAmbientControl, ShadeKind::kDiffuseTransmission,
+      ResolveAmbient<DiffuseTransmissionBsdf, ShadeKind::kDiffuseTransmission>);
 }
 
 LANELIGHT_END_KERNELS

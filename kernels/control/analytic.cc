@@ -27,15 +27,14 @@
 #include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/bsdf/diffuse_transmission-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "kernels/control/control_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-template <class Bsdf>
-HWY_INLINE void Analytic(Wave& wave, ShadeKind kind) {
+template <class Bsdf, ShadeKind kKind>
+void Analytic(Wave& wave) {
   const PathColumns& path = wave.path;
   const SurfaceReader<Bsdf> reader(wave);
-  ForEachBatch(wave, wave.queue(ShadeQueue(kind)), [&](const Slots& slots, MF) HWY_ATTR {
+  ForEachBatch(wave, wave.queue(ShadeQueue(kKind)), [&](const Slots& slots, MF) HWY_ATTR {
     const DiffuseVertex<Bsdf> vertex(reader, slots);
     const VI selected =
         path.ls_light != nullptr ? Gather(path.ls_light, slots) : hn::Zero(DI());
@@ -51,21 +50,16 @@ HWY_INLINE void Analytic(Wave& wave, ShadeKind kind) {
   });
 }
 
-void AnalyticDiffuse(Wave& wave) { Analytic<DiffuseBsdf>(wave, ShadeKind::kDiffuse); }
-void AnalyticTransmission(Wave& wave) {
-  Analytic<DiffuseTransmissionBsdf>(wave, ShadeKind::kDiffuseTransmission);
-}
-
 Stage AnalyticDiffuseStage() {
   return SurfaceControlStage("control_analytic", "control by unshadowed area lights",
                              Feature::kAnalyticControl, ShadeKind::kDiffuse,
-                             Always<AnalyticDiffuse>);
+                             Always<Analytic<DiffuseBsdf, ShadeKind::kDiffuse>>);
 }
 Stage AnalyticTransmissionStage() {
-  return SurfaceControlStage("control_analytic_sheet",
-                             "control by unshadowed area lights on both sides",
-                             Feature::kAnalyticControl, ShadeKind::kDiffuseTransmission,
-                             Always<AnalyticTransmission>);
+  return SurfaceControlStage(
+      "control_analytic_sheet", "control by unshadowed area lights on both sides",
+      Feature::kAnalyticControl, ShadeKind::kDiffuseTransmission,
+      Always<Analytic<DiffuseTransmissionBsdf, ShadeKind::kDiffuseTransmission>>);
 }
 
 LANELIGHT_END_KERNELS

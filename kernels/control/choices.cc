@@ -52,22 +52,7 @@ void Choices(Wave& wave) {
   });
 }
 
-StageFn ResolveChoices(ShadeKind kind) {
-  switch (kind) {
-    case ShadeKind::kThinDielectric:
-      return Choices<ThinDielectricBsdf, ShadeKind::kThinDielectric>;
-    case ShadeKind::kDiffuseTransmission:
-      return Choices<DiffuseTransmissionBsdf, ShadeKind::kDiffuseTransmission>;
-    case ShadeKind::kCoatedDiffuseSmooth:
-      return Choices<CoatedDiffuseSmoothBsdf, ShadeKind::kCoatedDiffuseSmooth>;
-    case ShadeKind::kCoatedDiffuseRough:
-      return Choices<CoatedDiffuseRoughBsdf, ShadeKind::kCoatedDiffuseRough>;
-    default:
-      return Choices<DielectricSmoothBsdf, ShadeKind::kDielectricSmooth>;
-  }
-}
-
-template <ShadeKind kKind>
+template <class Bsdf, ShadeKind kKind>
 Stage ChoiceStage(const char* name) {
   using namespace fields;
   return {.name = name,
@@ -78,23 +63,28 @@ Stage ChoiceStage(const char* name) {
                    FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material,
                             Field::u_lobe, Field::choices},
           .writes = {Field::choices},
-          .resolve = [](const FeatureSet&) { return ResolveChoices(kKind); }};
+          .resolve = Always<Choices<Bsdf, kKind>>};
 }
 
 Stage ChooseGlassStage() {
-  return ChoiceStage<ShadeKind::kDielectricSmooth>("control_choice_glass");
+  return ChoiceStage<DielectricSmoothBsdf, ShadeKind::kDielectricSmooth>(
+      "control_choice_glass");
 }
 Stage ChooseThinGlassStage() {
-  return ChoiceStage<ShadeKind::kThinDielectric>("control_choice_thin");
+  return ChoiceStage<ThinDielectricBsdf, ShadeKind::kThinDielectric>(
+      "control_choice_thin");
 }
 Stage ChooseSheetStage() {
-  return ChoiceStage<ShadeKind::kDiffuseTransmission>("control_choice_sheet");
+  return ChoiceStage<DiffuseTransmissionBsdf, ShadeKind::kDiffuseTransmission>(
+      "control_choice_sheet");
 }
 Stage ChooseCoatStage() {
-  return ChoiceStage<ShadeKind::kCoatedDiffuseSmooth>("control_choice_coat");
+  return ChoiceStage<CoatedDiffuseSmoothBsdf, ShadeKind::kCoatedDiffuseSmooth>(
+      "control_choice_coat");
 }
 Stage ChooseRoughCoatStage() {
-  return ChoiceStage<ShadeKind::kCoatedDiffuseRough>("control_choice_rough_coat");
+  return ChoiceStage<CoatedDiffuseRoughBsdf, ShadeKind::kCoatedDiffuseRough>(
+      "control_choice_rough_coat");
 }
 
 LANELIGHT_END_KERNELS

@@ -52,6 +52,20 @@ HWY_INLINE void FilmPosition(const Wave& wave, const StoreSlots& slots, VF* x, V
   *y = hn::Add(hn::Add(hn::ConvertTo(DF(), row), Splat(0.5f)), dy);
 }
 
+/// A camera, present where the plan has `projection`.
+inline Stage MakeCameraStage(const char* name, const char* meaning, Feature projection,
+                             StageFn (*resolve)(const FeatureSet&)) {
+  return {.name = name,
+          .meaning = meaning,
+          .input = QueueId::kCamera,
+          .needs = {projection},
+          .reads = {Field::pixel, Field::u_film_0, Field::u_film_1, Field::u_lens_0,
+                    Field::u_lens_1},
+          .writes = fields::kRay | fields::WithFirstValue() |
+                    FieldSet{Field::weight, Field::medium},
+          .resolve = resolve};
+}
+
 LANELIGHT_END_KERNELS
 
 #endif

@@ -2,7 +2,6 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/generate/camera-inl.h"
-#include "kernels/generate/camera_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -11,7 +11,6 @@
 
 #include "kernels/generate/lenses-inl.h"
 #include "kernels/generate/camera-inl.h"
-#include "kernels/generate/camera_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -48,14 +47,11 @@ void Realistic(Wave& wave) {
                    HWY_ATTR { LensBatch<kBox>(wave, slots, valid); });
 }
 
-StageFn ResolveRealistic(const FeatureSet& features) {
-  return features.Has(Feature::kFiltered) ? Realistic<false> : Realistic<true>;
-}
-
 Stage RealisticCameraStage() {
-  return MakeCameraStage("camera_realistic",
-                         "rays through lenses, and the first values of a path",
-                         Feature::kRealisticCamera, ResolveRealistic);
+  return MakeCameraStage(
+      "camera_realistic", "rays through lenses, and the first values of a path",
+      Feature::kRealisticCamera,
+      ByFeature<Feature::kFiltered, Realistic<false>, Realistic<true>>);
 }
 
 LANELIGHT_END_KERNELS

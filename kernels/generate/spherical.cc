@@ -8,7 +8,6 @@
 #include "kernels/generate/camera-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/warp/octahedral-inl.h"
-#include "kernels/generate/camera_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -51,14 +50,11 @@ void SphericalRays(Wave& wave) {
   }
 }
 
-StageFn ResolveSpherical(const FeatureSet& features) {
-  return features.Has(Feature::kFiltered) ? SphericalRays<false> : SphericalRays<true>;
-}
-
 Stage SphericalCameraStage() {
-  return MakeCameraStage("camera_spherical",
-                         "rays in all directions, and the first values of a path",
-                         Feature::kSphericalCamera, ResolveSpherical);
+  return MakeCameraStage(
+      "camera_spherical", "rays in all directions, and the first values of a path",
+      Feature::kSphericalCamera,
+      ByFeature<Feature::kFiltered, SphericalRays<false>, SphericalRays<true>>);
 }
 
 LANELIGHT_END_KERNELS

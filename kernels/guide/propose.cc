@@ -12,7 +12,6 @@
 
 #include "kernels/guide/guide-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "kernels/guide/guide_fields.h"
 #include "src/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -13,6 +13,18 @@
 
 LANELIGHT_BEGIN_KERNELS
 
+/// What a closest-hit query is made of: t is an upper bound, +inf at first, and is
+/// lowered, with prim, b1, b2 and inst, where a nearer hit is found. Equal distances go
+/// to the smaller primitive id. Where t is still +inf there is no hit yet, and prim is
+/// the primitive that the ray starts on (kNoPrimitive: none), which triangles leave out.
+inline constexpr FieldSet kClosestRay = fields::kRay | FieldSet{Field::t};
+
+/// What a shadow ray is made of: its offset origin, direction and length. Blocked ones
+/// leave the queue, the others keep their order.
+inline constexpr FieldSet kShadowRay =
+    fields::kPoint | FieldSet{Field::ng_x, Field::ng_y, Field::ng_z,       Field::ls_x,
+                              Field::ls_y, Field::ls_z, Field::ls_distance};
+
 /// One vector of rays. `t_max` is the distance to beat (closest hit: a candidate at t_max
 /// still wins with a smaller id) or the exclusive end (shadow). `from` is the primitive
 /// that the ray starts on, kNoPrimitive if there is none or it is not known: if it is a

@@ -5,7 +5,6 @@
 #include "kernels/intersect/packet-inl.h"
 #include "kernels/intersect/stream-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "kernels/intersect/stages.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -42,7 +41,7 @@ Stage ShadowTrianglesStage() {
           .meaning = "drop shadow rays blocked by triangles",
           .input = QueueId::kShadow,
           .needs = {Feature::kTriangles, Feature::kLights, Feature::kOpaqueShadows},
-          .reads = ShadowRayFields() | FieldSet{Field::prim},
+          .reads = kShadowRay | FieldSet{Field::prim},
           .resolve = [](const FeatureSet& features) -> StageFn {
             const bool alpha = features.Has(Feature::kAlpha);
             if (features.Has(Feature::kInstances)) {

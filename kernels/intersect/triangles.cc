@@ -9,7 +9,6 @@
 #include "kernels/intersect/packet_instances-inl.h"
 #include "kernels/intersect/stream-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "kernels/intersect/stages.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -73,7 +72,7 @@ Stage IntersectTrianglesStage() {
           .meaning = "closest hit on triangles",
           .input = QueueId::kActive,
           .needs = {Feature::kTriangles},
-          .reads = ClosestRayFields() | FieldSet{Field::prim},
+          .reads = kClosestRay | FieldSet{Field::prim},
           .writes = fields::kHit,
           .resolve = [](const FeatureSet& features) -> StageFn {
             const bool alpha = features.Has(Feature::kAlpha);

@@ -6,8 +6,8 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/sampled_points-inl.h"
-#include "kernels/texture/texture-inl.h"
 #include "kernels/lights/light_stage.h"
+#include "kernels/texture/texture-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

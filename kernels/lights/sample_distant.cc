@@ -2,8 +2,8 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/light-inl.h"
-#include "kernels/queue/batch-inl.h"
 #include "kernels/lights/light_stage.h"
+#include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -5,9 +5,9 @@
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/lights/light_image-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/warp/octahedral-inl.h"
-#include "kernels/lights/light_stage.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS

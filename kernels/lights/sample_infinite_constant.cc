@@ -3,9 +3,9 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/light-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
-#include "kernels/lights/light_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 

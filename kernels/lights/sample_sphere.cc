@@ -7,9 +7,9 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/geometry-inl.h"
+#include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
-#include "kernels/lights/light_stage.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS

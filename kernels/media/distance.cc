@@ -19,7 +19,6 @@
 #include "kernels/media/equiangular-inl.h"
 #include "kernels/media/event-inl.h"
 #include "kernels/queue/filter-inl.h"
-#include "kernels/media/media_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 

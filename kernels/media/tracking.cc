@@ -15,7 +15,6 @@
 #include "kernels/media/grid-inl.h"
 #include "kernels/media/walk_random-inl.h"
 #include "kernels/queue/filter-inl.h"
-#include "kernels/media/media_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 

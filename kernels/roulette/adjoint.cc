@@ -20,7 +20,6 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/window-inl.h"
-#include "kernels/roulette/window_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -38,9 +37,9 @@ struct AdjointWindow {
 };
 
 Stage AdjointRouletteStage() {
-  return WindowStage("roulette_adjoint",
-                     "roulette and splitting on the expected contribution",
-                     Feature::kAdjointRoulette, Always<PlayWindow<AdjointWindow>>);
+  return WindowStage<AdjointWindow>("roulette_adjoint",
+                                    "roulette and splitting on the expected contribution",
+                                    Feature::kAdjointRoulette);
 }
 
 LANELIGHT_END_KERNELS

@@ -10,7 +10,6 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/roulette/survive-inl.h"
-#include "kernels/roulette/roulette_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -21,9 +20,9 @@ struct ConstantSurvival {
 };
 
 Stage ConstantRouletteStage() {
-  return RouletteStage("roulette_constant", "Russian roulette of constant probability",
-                       Feature::kConstantRoulette,
-                       Always<PlayRoulette<ConstantSurvival>>);
+  return RouletteStage<ConstantSurvival>("roulette_constant",
+                                         "Russian roulette of constant probability",
+                                         Feature::kConstantRoulette);
 }
 
 LANELIGHT_END_KERNELS

@@ -22,7 +22,6 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/window-inl.h"
-#include "kernels/roulette/window_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -42,8 +41,9 @@ struct EfficiencyWindow {
 };
 
 Stage EfficiencyRouletteStage() {
-  return WindowStage("roulette_efficiency", "roulette and splitting for efficiency",
-                     Feature::kEfficiencyRoulette, Always<PlayWindow<EfficiencyWindow>>);
+  return WindowStage<EfficiencyWindow>("roulette_efficiency",
+                                       "roulette and splitting for efficiency",
+                                       Feature::kEfficiencyRoulette);
 }
 
 LANELIGHT_END_KERNELS

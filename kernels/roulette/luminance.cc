@@ -11,7 +11,6 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/survive-inl.h"
-#include "kernels/roulette/roulette_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -26,9 +25,9 @@ struct LuminanceSurvival {
 };
 
 Stage LuminanceRouletteStage() {
-  return RouletteStage("roulette_luminance", "Russian roulette on the luminance",
-                       Feature::kLuminanceRoulette,
-                       Always<PlayRoulette<LuminanceSurvival>>);
+  return RouletteStage<LuminanceSurvival>("roulette_luminance",
+                                          "Russian roulette on the luminance",
+                                          Feature::kLuminanceRoulette);
 }
 
 LANELIGHT_END_KERNELS

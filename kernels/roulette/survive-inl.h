@@ -55,6 +55,19 @@ LANELIGHT_INLINE VF WithoutRefraction(const PathColumns& p, const Slots& slots, 
   return p.eta_scale != nullptr ? hn::Mul(s, Gather(p.eta_scale, slots)) : s;
 }
 
+/// The stage of a roulette on scattered rays.
+template <class Policy>
+Stage RouletteStage(const char* name, const char* meaning, Feature kind) {
+  return {.name = name,
+          .meaning = meaning,
+          .input = QueueId::kScattered,
+          .needs = {Feature::kRoulette, kind},
+          .reads = fields::kThroughput | FieldSet{Field::eta_scale, Field::depth,
+                                                  Field::u_roulette, Field::reuse},
+          .writes = fields::kThroughput,
+          .resolve = Always<PlayRoulette<Policy>>};
+}
+
 LANELIGHT_END_KERNELS
 
 #endif

@@ -13,7 +13,6 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/survive-inl.h"
-#include "kernels/roulette/roulette_stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -26,9 +25,9 @@ struct ThroughputSurvival {
 };
 
 Stage ThroughputRouletteStage() {
-  return RouletteStage("roulette_throughput", "Russian roulette on the throughput",
-                       Feature::kThroughputRoulette,
-                       Always<PlayRoulette<ThroughputSurvival>>);
+  return RouletteStage<ThroughputSurvival>("roulette_throughput",
+                                           "Russian roulette on the throughput",
+                                           Feature::kThroughputRoulette);
 }
 
 LANELIGHT_END_KERNELS

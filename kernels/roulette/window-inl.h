@@ -146,6 +146,21 @@ LANELIGHT_INLINE void PlayWindow(Wave& wave) {
   if (splits) SplitPaths(wave, queue, copies.items);
 }
 
+/// The stage of a roulette that splits.
+template <class Policy>
+Stage WindowStage(const char* name, const char* meaning, Feature kind) {
+  const FieldSet identity = {Field::pixel,  Field::sample, Field::depth,
+                             Field::output, Field::branch, Field::budget};
+  return {.name = name,
+          .meaning = meaning,
+          .input = QueueId::kVertex,
+          .needs = {Feature::kSplitting, Feature::kScatters, kind},
+          .reads = fields::kThroughput | fields::kRay | fields::kPoint | fields::kNormal |
+                   identity | FieldSet{Field::eta_scale},
+          .writes = fields::kThroughput | fields::kRadiance | fields::kControl | identity,
+          .resolve = Always<PlayWindow<Policy>>};
+}
+
 LANELIGHT_END_KERNELS
 
 #endif

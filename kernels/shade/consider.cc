@@ -8,14 +8,7 @@
 // Coats over metal, whose value is a random walk, make do with such a bound.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/bsdf/coated_conductor-inl.h"
-#include "kernels/bsdf/coated_diffuse-inl.h"
-#include "kernels/bsdf/coated_medium-inl.h"
-#include "kernels/bsdf/conductor-inl.h"
-#include "kernels/bsdf/dielectric-inl.h"
-#include "kernels/bsdf/diffuse-inl.h"
-#include "kernels/bsdf/diffuse_transmission-inl.h"
-#include "kernels/bsdf/henyey_greenstein-inl.h"
+#include "kernels/bsdf/kinds-inl.h"
 #include "kernels/lights/reservoir-inl.h"
 #include "kernels/shade/shade-inl.h"
 

@@ -4,13 +4,7 @@
 // SurfaceInteraction::GetBSDF).
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/bsdf/coated_conductor-inl.h"
-#include "kernels/bsdf/coated_diffuse-inl.h"
-#include "kernels/bsdf/coated_medium-inl.h"
-#include "kernels/bsdf/conductor-inl.h"
-#include "kernels/bsdf/dielectric-inl.h"
-#include "kernels/bsdf/diffuse-inl.h"
-#include "kernels/bsdf/diffuse_transmission-inl.h"
+#include "kernels/bsdf/kinds-inl.h"
 #include "kernels/queue/filter-inl.h"
 #include "kernels/shade/shade-inl.h"
 

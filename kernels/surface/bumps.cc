@@ -15,7 +15,6 @@
 #include "kernels/surface/instance-inl.h"
 #include "kernels/surface/relief-inl.h"
 #include "kernels/texture/levels-inl.h"
-#include "kernels/surface/stages.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -118,8 +117,8 @@ Stage BumpsStage() {
           .meaning = "shading normals of displacement textures",
           .input = QueueId::kSurface,
           .needs = {Feature::kBumps, Feature::kScatters},
-          .reads = ReliefReads() | fields::kSpread | FieldSet{Field::prim, Field::inst},
-          .writes = ReliefWrites(),
+          .reads = kReliefReads | fields::kSpread | FieldSet{Field::prim, Field::inst},
+          .writes = kReliefWrites,
           .resolve = ByFeature<Feature::kInstances, Bumps<true>, Bumps<false>>};
 }
 

@@ -4,7 +4,6 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
-#include "kernels/surface/stages.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -56,22 +55,11 @@ HWY_INLINE void DiskBatch(const Wave& wave, const StoreSlots& slots) {
   }
 }
 
-void SurfaceDisk(Wave& wave) {
-  const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
-  const Queue& hits =
-      FilterPrimitives(wave, wave.queue(QueueId::kSurface), ranges.disks, ranges.planes);
-  ForEachBatch(wave, hits,
-               [&](const StoreSlots& slots, MF) HWY_ATTR { DiskBatch(wave, slots); });
-}
-
 Stage SurfaceDiskStage() {
-  return {.name = "surface_disk",
-          .meaning = "point, normals and material of hits on disks",
-          .input = QueueId::kSurface,
-          .needs = {Feature::kDisks, Feature::kScatters},
-          .reads = fields::kRay | FieldSet{Field::t, Field::prim},
-          .writes = SurfaceFields(),
-          .resolve = Always<SurfaceDisk>};
+  return ShapeStage(
+      "surface_disk", "point, normals and material of hits on disks", Feature::kDisks,
+      Always<
+          SurfaceOfShape<DiskBatch, &PrimitiveRanges::disks, &PrimitiveRanges::planes>>);
 }
 
 LANELIGHT_END_KERNELS

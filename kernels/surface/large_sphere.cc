@@ -4,7 +4,6 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
-#include "kernels/surface/stages.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -54,51 +53,17 @@ HWY_INLINE void LargeSphereBatch(const Wave& wave, const StoreSlots& slots) {
                        .material = record.I(offsetof(LargeSphereRecord, material))};
   surface.error = RoundingError(surface.p, out, FromHalves(size[0], size[1]));
   StoreSurface(path, slots, surface);
-  if (path.tg_x != nullptr || path.uv_u != nullptr) {
-    const V3 x_axis = record.F3(offsetof(LargeSphereRecord, x_axis));
-    const V3 z_axis = record.F3(offsetof(LargeSphereRecord, z_axis));
-    const V3 y_axis =
-        Mul(Cross(z_axis, x_axis), record.F(offsetof(LargeSphereRecord, y_sign)));
-    const VF x = Dot(out, x_axis);
-    const VF y = Dot(out, y_axis);
-    if (path.uv_u != nullptr) {
-      // v = 1 - theta / pi, theta from the pole z; half a turn of (z, across).
-      const VF z = Dot(out, z_axis);
-      const VF across = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
-      const VF theta = TurnFraction(across, z);
-      Scatter(TurnFraction(y, x), path.uv_u, slots);
-      Scatter(hn::NegMulAdd(Splat(2.0f), theta, Splat(1.0f)), path.uv_v, slots);
-    }
-    if (path.tg_x != nullptr) {
-      const V3 around = MulAdd(y_axis, x, Mul(x_axis, hn::Neg(y)));
-      const VF scale = hn::Div(Splat(2 * std::numbers::pi_v<float>), s.curvature);
-      Scatter3(TangentOr(Mul(around, scale), out), path.tg_x, path.tg_y, path.tg_z,
-               slots);
-      if (path.tv_x != nullptr) {
-        const VF radius = hn::Div(Splat(1.0f), s.curvature);
-        StoreBitangent(path, slots, SphereBitangent(out, z_axis, radius), out);
-      }
-    }
-  }
-}
-
-void SurfaceLargeSphere(Wave& wave) {
-  const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
-  const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
-                                       ranges.large_spheres, ranges.end);
-  ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
-    LargeSphereBatch(wave, slots);
-  });
+  StoreSphereCoordinates(path, slots, record,
+                         {out, hn::Div(Splat(1.0f), s.curvature),
+                          hn::Div(Splat(2 * std::numbers::pi_v<float>), s.curvature)});
 }
 
 Stage SurfaceLargeSphereStage() {
-  return {.name = "surface_large_sphere",
-          .meaning = "point, normals and material of hits on large spheres",
-          .input = QueueId::kSurface,
-          .needs = {Feature::kLargeSpheres, Feature::kScatters},
-          .reads = fields::kRay | FieldSet{Field::t, Field::prim},
-          .writes = SurfaceFields(),
-          .resolve = Always<SurfaceLargeSphere>};
+  return ShapeStage(
+      "surface_large_sphere", "point, normals and material of hits on large spheres",
+      Feature::kLargeSpheres,
+      Always<SurfaceOfShape<LargeSphereBatch, &PrimitiveRanges::large_spheres,
+                            &PrimitiveRanges::end>>);
 }
 
 LANELIGHT_END_KERNELS

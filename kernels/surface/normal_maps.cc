@@ -5,7 +5,6 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/surface/relief-inl.h"
 #include "kernels/texture/texture-inl.h"
-#include "kernels/surface/stages.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -40,8 +39,8 @@ Stage NormalMapsStage() {
           .meaning = "shading normals of normal maps",
           .input = QueueId::kSurface,
           .needs = {Feature::kNormalMaps, Feature::kScatters},
-          .reads = ReliefReads(),
-          .writes = ReliefWrites(),
+          .reads = kReliefReads,
+          .writes = kReliefWrites,
           .resolve = Always<NormalMaps>};
 }
 

@@ -4,7 +4,6 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
-#include "kernels/surface/stages.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -49,22 +48,11 @@ HWY_INLINE void PlaneBatch(const Wave& wave, const StoreSlots& slots) {
   }
 }
 
-void SurfacePlane(Wave& wave) {
-  const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
-  const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface), ranges.planes,
-                                       ranges.large_spheres);
-  ForEachBatch(wave, hits,
-               [&](const StoreSlots& slots, MF) HWY_ATTR { PlaneBatch(wave, slots); });
-}
-
 Stage SurfacePlaneStage() {
-  return {.name = "surface_plane",
-          .meaning = "point, normals and material of hits on planes",
-          .input = QueueId::kSurface,
-          .needs = {Feature::kPlanes, Feature::kScatters},
-          .reads = fields::kRay | FieldSet{Field::t, Field::prim},
-          .writes = SurfaceFields(),
-          .resolve = Always<SurfacePlane>};
+  return ShapeStage("surface_plane", "point, normals and material of hits on planes",
+                    Feature::kPlanes,
+                    Always<SurfaceOfShape<PlaneBatch, &PrimitiveRanges::planes,
+                                          &PrimitiveRanges::large_spheres>>);
 }
 
 LANELIGHT_END_KERNELS

@@ -15,8 +15,14 @@
 #endif
 
 #include "kernels/simd/vec3-inl.h"
+#include "src/path/fields.h"
 
 LANELIGHT_BEGIN_KERNELS
+
+/// What every surface stage writes (where the columns exist).
+inline constexpr FieldSet kSurfaceFields = fields::kPoint | fields::kNormal |
+                                           fields::kTangents | fields::kUv |
+                                           FieldSet{Field::material};
 
 // Half a vector of floats, as doubles.
 using DHalf = hn::Half<DF>;

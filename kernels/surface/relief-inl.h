@@ -27,6 +27,13 @@
 
 LANELIGHT_BEGIN_KERNELS
 
+/// What stages that give a surface another shading normal read and write.
+inline constexpr FieldSet kReliefReads =
+    fields::kNormal | fields::kTangents | fields::kUv |
+    FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material};
+inline constexpr FieldSet kReliefWrites =
+    fields::kTangent | FieldSet{Field::ns_x, Field::ns_y, Field::ns_z};
+
 /// Least cosine of the viewer to a normal, and of the mirrored viewer to the surface.
 inline constexpr float kLeastCosine = 1.0f / 64;
 

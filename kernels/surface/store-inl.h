@@ -11,8 +11,8 @@
 
 #include "hwy/contrib/math/math-inl.h"
 #include "kernels/queue/filter-inl.h"
+#include "kernels/simd/records-inl.h"
 #include "kernels/surface/point-inl.h"
-#include "kernels/surface/stages.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -87,6 +87,65 @@ LANELIGHT_INLINE V3 SphereBitangent(V3 out, V3 z_axis, VF radius) {
   const V3 up = MulAdd(out, hn::Neg(Dot(out, z_axis)), z_axis);
   return Mul(
       up, hn::Mul(hn::Mul(radius, Splat(std::numbers::pi_v<float>)), Rsqrt(Dot(up, up))));
+}
+
+/// The unit vector `out` from the centre of a sphere.
+struct SpherePoint {
+  V3 out;
+  VF radius, circumference;
+};
+
+/// Coordinates and tangents of a sphere. v = 1 - theta / pi, theta from the pole z.
+template <class Record>
+LANELIGHT_INLINE void StoreSphereCoordinates(const PathColumns& path,
+                                             const StoreSlots& slots,
+                                             const RecordWords<Record>& record,
+                                             const SpherePoint& at) {
+  const V3 out = at.out;
+  if (path.tg_x == nullptr && path.uv_u == nullptr) return;
+  const V3 x_axis = record.F3(offsetof(Record, x_axis));
+  const V3 z_axis = record.F3(offsetof(Record, z_axis));
+  const V3 y_axis = Mul(Cross(z_axis, x_axis), record.F(offsetof(Record, y_sign)));
+  const VF x = Dot(out, x_axis);
+  const VF y = Dot(out, y_axis);
+  if (path.uv_u != nullptr) {
+    // Half a turn of (z, across).
+    const VF z = Dot(out, z_axis);
+    const VF across = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
+    const VF theta = TurnFraction(across, z);
+    Scatter(TurnFraction(y, x), path.uv_u, slots);
+    Scatter(hn::NegMulAdd(Splat(2.0f), theta, Splat(1.0f)), path.uv_v, slots);
+  }
+  if (path.tg_x == nullptr) return;
+  const V3 around = MulAdd(y_axis, x, Mul(x_axis, hn::Neg(y)));
+  Scatter3(TangentOr(Mul(around, at.circumference), out), path.tg_x, path.tg_y, path.tg_z,
+           slots);
+  if (path.tv_x != nullptr) {
+    StoreBitangent(path, slots, SphereBitangent(out, z_axis, at.radius), out);
+  }
+}
+
+/// Does the hits on primitives of one shape, those from one range to the next.
+template <auto kBatch, std::uint32_t PrimitiveRanges::* kFirst,
+          std::uint32_t PrimitiveRanges::* kNext>
+void SurfaceOfShape(Wave& wave) {
+  const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
+  const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
+                                       ranges.*kFirst, ranges.*kNext);
+  ForEachBatch(wave, hits,
+               [&](const StoreSlots& slots, MF) HWY_ATTR { kBatch(wave, slots); });
+}
+
+/// The surface stage of a shape with that kernel.
+inline Stage ShapeStage(const char* name, const char* meaning, Feature shape,
+                        StageFn (*resolve)(const FeatureSet&)) {
+  return {.name = name,
+          .meaning = meaning,
+          .input = QueueId::kSurface,
+          .needs = {shape, Feature::kScatters},
+          .reads = fields::kRay | FieldSet{Field::t, Field::prim},
+          .writes = kSurfaceFields,
+          .resolve = resolve};
 }
 
 LANELIGHT_END_KERNELS

@@ -5,7 +5,6 @@
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/instance-inl.h"
 #include "kernels/surface/point-inl.h"
-#include "kernels/surface/stages.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -237,19 +236,16 @@ void SurfaceTriangle(Wave& wave) {
   }
 }
 
-StageFn ChooseSurfaceTriangle(const FeatureSet& features) {
-  return features.Has(Feature::kInstances) ? SurfaceTriangle<true>
-                                           : SurfaceTriangle<false>;
-}
-
 Stage SurfaceTriangleStage() {
-  return {.name = "surface_triangle",
-          .meaning = "point, normals and material of hits on triangles",
-          .input = QueueId::kSurface,
-          .needs = {Feature::kTriangles, Feature::kScatters},
-          .reads = {Field::prim, Field::b1, Field::b2, Field::inst},
-          .writes = SurfaceFields(),
-          .resolve = ChooseSurfaceTriangle};
+  return {
+      .name = "surface_triangle",
+      .meaning = "point, normals and material of hits on triangles",
+      .input = QueueId::kSurface,
+      .needs = {Feature::kTriangles, Feature::kScatters},
+      .reads = {Field::prim, Field::b1, Field::b2, Field::inst},
+      .writes = kSurfaceFields,
+      .resolve =
+          ByFeature<Feature::kInstances, SurfaceTriangle<true>, SurfaceTriangle<false>>};
 }
 
 LANELIGHT_END_KERNELS

@@ -298,6 +298,8 @@ inline constexpr FieldSet kShadowRest = {
 inline constexpr FieldSet kLightSample = {Field::ls_x,        Field::ls_y,  Field::ls_z,
                                           Field::ls_distance, Field::ls_r,  Field::ls_g,
                                           Field::ls_b,        Field::ls_pdf};
+inline constexpr FieldSet kGuideProposal = {
+    Field::guide_cell, Field::guide_x, Field::guide_y, Field::guide_z, Field::guide_pdf};
 inline constexpr FieldSet kKeptSample = {
     Field::kept_x,     Field::kept_y,    Field::kept_z, Field::kept_distance,
     Field::kept_r,     Field::kept_g,    Field::kept_b, Field::kept_pdf,

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "kernels/simd/target.h"
-#include "kernels/surface/stages.h"
+#include "kernels/stages.h"
 #include "src/core/transform.h"
 #include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"

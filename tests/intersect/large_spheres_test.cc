@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/simd/target.h"
-#include "kernels/surface/stages.h"
+#include "kernels/stages.h"
 #include "tests/intersect/trace.h"
 #include "tests/support/brute_force.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kernels/intersect/stages.h"
+#include "kernels/stages.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

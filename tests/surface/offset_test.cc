@@ -2,9 +2,8 @@
 // origin, on either side; and they do meet a surface just beyond it.
 #include <catch2/catch.hpp>
 
-#include "kernels/intersect/stages.h"
 #include "kernels/simd/target.h"
-#include "kernels/surface/stages.h"
+#include "kernels/stages.h"
 #include "tests/support/brute_force.h"
 
 namespace lanelight {

@@ -2,9 +2,8 @@
 // kind of shape; footprints of pixels.
 #include <catch2/catch.hpp>
 
-#include "kernels/intersect/stages.h"
 #include "kernels/simd/target.h"
-#include "kernels/surface/stages.h"
+#include "kernels/stages.h"
 #include "src/core/pi.h"
 #include "src/prepare/prepare_scene.h"
 #include "tests/reference/relief.h"

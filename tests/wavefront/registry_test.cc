@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "kernels/simd/target.h"
 #include "src/path/fields.h"
 
 namespace lanelight {
@@ -41,6 +42,9 @@ std::set<std::string> RegisteredStages() {
   };
 }
 
+void KernelWith(Wave&) {}
+void KernelWithout(Wave&) {}
+
 }  // namespace
 
 TEST_CASE("every stage in kernels/ is registered", "[registry]") {
@@ -60,6 +64,26 @@ TEST_CASE("every stage has a name of its own, a meaning and a kernel", "[registr
     CHECK(stage.resolve != nullptr);
     CHECK(names.insert(stage.name).second);
   }
+}
+
+TEST_CASE("a stage resolves to the kernel of the target that is chosen then",
+          "[registry]") {
+  const Stage stage = PackStage();  // made before
+  std::set<StageFn> kernels;
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    kernels.insert(stage.resolve({}));
+    CHECK(stage.resolve({}) == PackStage().resolve({}));
+  }
+  ForceTarget("");
+  CHECK(kernels.size() == AvailableTargets().size());
+}
+
+TEST_CASE("a kernel is always the same, or chosen by a feature", "[registry]") {
+  CHECK(Always<KernelWith>({}) == KernelWith);
+  constexpr auto by_lens = ByFeature<Feature::kLens, KernelWith, KernelWithout>;
+  CHECK(by_lens({Feature::kLens}) == KernelWith);
+  CHECK(by_lens({Feature::kLights}) == KernelWithout);
 }
 
 TEST_CASE("every path field is documented and four bytes wide", "[registry]") {

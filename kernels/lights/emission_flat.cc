@@ -1,4 +1,5 @@
-// Emission of hit triangles, weighted against light sampling of the same point.
+// Emission of hit triangles and rectangles, weighted against light sampling of the same
+// point.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/emission_flat-inl.h"
@@ -10,6 +11,11 @@ Stage EmissionTriangleStage() {
   return EmissionStage("emission_triangle", "adds the emission of hit triangles",
                        Feature::kTriangleLights,
                        ResolveEmissionOfFlat<LightShape::kTriangle>);
+}
+Stage EmissionRectangleStage() {
+  return EmissionStage("emission_rectangle", "adds the emission of hit rectangles",
+                       Feature::kRectangleLights,
+                       ResolveEmissionOfFlat<LightShape::kRectangle>);
 }
 
 LANELIGHT_END_KERNELS

@@ -1,0 +1,19 @@
+// The policies of all kinds of materials (LANELIGHT_SHADE_KINDS), by the name of the
+// kind.
+#if defined(LANELIGHT_BSDF_KINDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LANELIGHT_BSDF_KINDS_INL_H_
+#undef LANELIGHT_BSDF_KINDS_INL_H_
+#else
+#define LANELIGHT_BSDF_KINDS_INL_H_
+#endif
+
+#include "kernels/bsdf/coated_conductor-inl.h"
+#include "kernels/bsdf/coated_diffuse-inl.h"
+#include "kernels/bsdf/coated_medium-inl.h"
+#include "kernels/bsdf/conductor-inl.h"
+#include "kernels/bsdf/dielectric-inl.h"
+#include "kernels/bsdf/diffuse-inl.h"
+#include "kernels/bsdf/diffuse_transmission-inl.h"
+#include "kernels/bsdf/henyey_greenstein-inl.h"
+
+#endif
