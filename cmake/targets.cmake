@@ -61,11 +61,13 @@ if("EMU128" IN_LIST targets AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU"
     "(its bug 106322); g++ 12.3, or clang, does not: CXX=clang++-19")
 endif()
 
-# Highway is told the list, and that the last of it may be taken for granted.
+# Highway is told the list, and that the last of it may be taken for granted. (And what
+# cmake/kernel_groups.cmake writes is found.)
 list(TRANSFORM targets PREPEND "HWY_" OUTPUT_VARIABLE bits)
 list(GET bits -1 floor)
 list(JOIN bits "|" bits)
-set(HIGHWAY_OPTIONS "-DLANELIGHT_TARGETS=(${bits})" -DLANELIGHT_FLOOR_TARGET=${floor})
+set(HIGHWAY_OPTIONS "-DLANELIGHT_TARGETS=(${bits})" -DLANELIGHT_FLOOR_TARGET=${floor}
+  -I${CMAKE_BINARY_DIR})
 set(KERNEL_OPTIONS ${HIGHWAY_OPTIONS})
 
 # With one target, all vector code is of it, and the compiler may know: these are the

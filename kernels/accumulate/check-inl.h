@@ -1,10 +1,6 @@
 // Samples that are not finite, or negative where they must not be.
-#if defined(LANELIGHT_ACCUMULATE_CHECK_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_ACCUMULATE_CHECK_INL_H_
-#undef LANELIGHT_ACCUMULATE_CHECK_INL_H_
-#else
+#ifndef LANELIGHT_ACCUMULATE_CHECK_INL_H_
 #define LANELIGHT_ACCUMULATE_CHECK_INL_H_
-#endif
 
 #include "kernels/simd/vec3-inl.h"
 #include "src/path/wave.h"

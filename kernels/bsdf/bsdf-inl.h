@@ -16,12 +16,8 @@
 //                                 choices.cc has a line for the kind
 //   };
 // wo and wi are unit and point away from the surface; wo.z is never 0.
-#if defined(LANELIGHT_BSDF_BSDF_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_BSDF_INL_H_
-#undef LANELIGHT_BSDF_BSDF_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_BSDF_INL_H_
 #define LANELIGHT_BSDF_BSDF_INL_H_
-#endif
 
 #include "kernels/bsdf/random-inl.h"
 #include "kernels/queue/slots-inl.h"

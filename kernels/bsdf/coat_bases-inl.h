@@ -1,12 +1,8 @@
 // What lies below a medium that scatters (coated_medium-inl.h): Load, whether the base
 // is a mirror, Sample, Eval, and the proxy of the density of the
 // whole coat (coated_conductor-inl.h says what that is).
-#if defined(LANELIGHT_BSDF_COAT_BASES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_COAT_BASES_INL_H_
-#undef LANELIGHT_BSDF_COAT_BASES_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_COAT_BASES_INL_H_
 #define LANELIGHT_BSDF_COAT_BASES_INL_H_
-#endif
 
 #include "kernels/bsdf/coated_conductor-inl.h"
 #include "kernels/warp/hemisphere-inl.h"

@@ -1,11 +1,7 @@
 // Tables of coats whose roughness or thickness is textured: a grid of the tables of
 // src/compile/coat_table.h, interpolated per path.
-#if defined(LANELIGHT_BSDF_COAT_GRID_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_COAT_GRID_INL_H_
-#undef LANELIGHT_BSDF_COAT_GRID_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_COAT_GRID_INL_H_
 #define LANELIGHT_BSDF_COAT_GRID_INL_H_
-#endif
 
 #include "kernels/bsdf/bsdf-inl.h"
 

@@ -1,12 +1,8 @@
 // Lacquered metal: a dielectric coat over a conductor, by a random walk between the two
 // layers (the position-free walk of Guo, Hasan and Zhao 2018, as in pbrt-v4's
 // LayeredBxDF, whose depth limit and absorbing medium are kept).
-#if defined(LANELIGHT_BSDF_COATED_CONDUCTOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_COATED_CONDUCTOR_INL_H_
-#undef LANELIGHT_BSDF_COATED_CONDUCTOR_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_COATED_CONDUCTOR_INL_H_
 #define LANELIGHT_BSDF_COATED_CONDUCTOR_INL_H_
-#endif
 
 #include "kernels/bsdf/layer-inl.h"
 #include "src/compiled/scene.h"

@@ -7,12 +7,8 @@
 // denser medium. n base bounces: pbrt-v4 follows a random walk of at most coat_depth
 // layer crossings, which meets the base at every second one; the series stops there too.
 // Both faces of the surface are coated.
-#if defined(LANELIGHT_BSDF_COATED_DIFFUSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_COATED_DIFFUSE_INL_H_
-#undef LANELIGHT_BSDF_COATED_DIFFUSE_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_COATED_DIFFUSE_INL_H_
 #define LANELIGHT_BSDF_COATED_DIFFUSE_INL_H_
-#endif
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/bsdf/coat_grid-inl.h"

@@ -11,12 +11,8 @@
 // straight out; walks that leave straight from the base report density 0, so that each is
 // found by exactly one technique or by both with weights. (Of lights that no ray can hit
 // they find nothing, nor do pbrt's.)
-#if defined(LANELIGHT_BSDF_COATED_MEDIUM_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_COATED_MEDIUM_INL_H_
-#undef LANELIGHT_BSDF_COATED_MEDIUM_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_COATED_MEDIUM_INL_H_
 #define LANELIGHT_BSDF_COATED_MEDIUM_INL_H_
-#endif
 
 #include "hwy/contrib/math/math-inl.h"
 #include "kernels/bsdf/coat_bases-inl.h"

@@ -1,11 +1,7 @@
 // Metals: the exact Fresnel reflectance of a complex index per channel, on a smooth or a
 // GGX surface. Both sides of the surface reflect.
-#if defined(LANELIGHT_BSDF_CONDUCTOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_CONDUCTOR_INL_H_
-#undef LANELIGHT_BSDF_CONDUCTOR_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_CONDUCTOR_INL_H_
 #define LANELIGHT_BSDF_CONDUCTOR_INL_H_
-#endif
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/bsdf/ggx-inl.h"

@@ -1,11 +1,7 @@
 // Glass: smooth and rough boundaries between two media, and thin sheets. Radiance is
 // scaled by 1 / eta^2 when it is refracted; eta_scale records it for the roulette.
-#if defined(LANELIGHT_BSDF_DIELECTRIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_DIELECTRIC_INL_H_
-#undef LANELIGHT_BSDF_DIELECTRIC_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_DIELECTRIC_INL_H_
 #define LANELIGHT_BSDF_DIELECTRIC_INL_H_
-#endif
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/bsdf/ggx-inl.h"

@@ -1,11 +1,7 @@
 // The diffuse models of the founding paper. Each reflects on wo's side only, and sampling
 // it weighs a path with exactly the albedo.
-#if defined(LANELIGHT_BSDF_DIFFUSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_DIFFUSE_INL_H_
-#undef LANELIGHT_BSDF_DIFFUSE_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_DIFFUSE_INL_H_
 #define LANELIGHT_BSDF_DIFFUSE_INL_H_
-#endif
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/warp/hemisphere-inl.h"

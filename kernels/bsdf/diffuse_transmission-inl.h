@@ -1,10 +1,6 @@
 // A thin translucent sheet: Lambertian reflection and Lambertian transmission.
-#if defined(LANELIGHT_BSDF_DIFFUSE_TRANSMISSION_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_DIFFUSE_TRANSMISSION_INL_H_
-#undef LANELIGHT_BSDF_DIFFUSE_TRANSMISSION_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_DIFFUSE_TRANSMISSION_INL_H_
 #define LANELIGHT_BSDF_DIFFUSE_TRANSMISSION_INL_H_
-#endif
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/warp/hemisphere-inl.h"

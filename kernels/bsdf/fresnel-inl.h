@@ -1,11 +1,7 @@
 // Fresnel equations for unpolarised light, in forms that keep their relative accuracy at
 // grazing angles and for indices close to 1.
-#if defined(LANELIGHT_BSDF_FRESNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_FRESNEL_INL_H_
-#undef LANELIGHT_BSDF_FRESNEL_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_FRESNEL_INL_H_
 #define LANELIGHT_BSDF_FRESNEL_INL_H_
-#endif
 
 #include "kernels/simd/math-inl.h"
 

@@ -1,11 +1,7 @@
 // GGX (Trowbridge-Reitz) microfacets with the height-correlated Smith masking of pbrt-v4,
 // in the frame of the shading normal; all directions here have z > 0.
-#if defined(LANELIGHT_BSDF_GGX_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_GGX_INL_H_
-#undef LANELIGHT_BSDF_GGX_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_GGX_INL_H_
 #define LANELIGHT_BSDF_GGX_INL_H_
-#endif
 
 #include "kernels/bsdf/fresnel-inl.h"
 

@@ -1,12 +1,8 @@
 // The phase function of Henyey and Greenstein 1941, as a policy of the shading skeleton:
 //   p(wo, wi) = (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^(3/2)),  cos between -wo and wi
 // normalised over the sphere, so that a sample weighs one. The normal is arbitrary.
-#if defined(LANELIGHT_BSDF_HENYEY_GREENSTEIN_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_HENYEY_GREENSTEIN_INL_H_
-#undef LANELIGHT_BSDF_HENYEY_GREENSTEIN_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_HENYEY_GREENSTEIN_INL_H_
 #define LANELIGHT_BSDF_HENYEY_GREENSTEIN_INL_H_
-#endif
 
 #include "kernels/bsdf/bsdf-inl.h"
 

@@ -1,11 +1,7 @@
 // The policies of all kinds of materials (LANELIGHT_SHADE_KINDS), by the name of the
 // kind.
-#if defined(LANELIGHT_BSDF_KINDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_KINDS_INL_H_
-#undef LANELIGHT_BSDF_KINDS_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_KINDS_INL_H_
 #define LANELIGHT_BSDF_KINDS_INL_H_
-#endif
 
 #include "kernels/bsdf/coated_conductor-inl.h"
 #include "kernels/bsdf/coated_diffuse-inl.h"

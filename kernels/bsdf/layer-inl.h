@@ -1,12 +1,8 @@
 // The two layers of a coated metal, each sampled and evaluated on its own: a dielectric
 // interface and a metal, smooth or GGX per lane. Directions may lie on either side of the
 // interface; the metal is met from above.
-#if defined(LANELIGHT_BSDF_LAYER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_LAYER_INL_H_
-#undef LANELIGHT_BSDF_LAYER_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_LAYER_INL_H_
 #define LANELIGHT_BSDF_LAYER_INL_H_
-#endif
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/bsdf/ggx-inl.h"

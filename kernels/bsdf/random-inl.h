@@ -1,11 +1,7 @@
 // Random numbers for materials that are evaluated by a random walk and so need more than
 // the three sample points of a bounce: a counter-based hash of the path's own identity.
-#if defined(LANELIGHT_BSDF_RANDOM_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_BSDF_RANDOM_INL_H_
-#undef LANELIGHT_BSDF_RANDOM_INL_H_
-#else
+#ifndef LANELIGHT_BSDF_RANDOM_INL_H_
 #define LANELIGHT_BSDF_RANDOM_INL_H_
-#endif
 
 #include "kernels/simd/rng-inl.h"
 #include "kernels/simd/vec3-inl.h"

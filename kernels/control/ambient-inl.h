@@ -1,10 +1,6 @@
 // Environments as control=ambient sees them (src/prepare/ambient.h).
-#if defined(LANELIGHT_CONTROL_AMBIENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_CONTROL_AMBIENT_INL_H_
-#undef LANELIGHT_CONTROL_AMBIENT_INL_H_
-#else
+#ifndef LANELIGHT_CONTROL_AMBIENT_INL_H_
 #define LANELIGHT_CONTROL_AMBIENT_INL_H_
-#endif
 
 #include "kernels/simd/vec3-inl.h"
 #include "src/prepare/ambient.h"

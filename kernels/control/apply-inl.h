@@ -1,10 +1,6 @@
 // What control variates on surfaces do with a difference h - E[h].
-#if defined(LANELIGHT_CONTROL_APPLY_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_CONTROL_APPLY_INL_H_
-#undef LANELIGHT_CONTROL_APPLY_INL_H_
-#else
+#ifndef LANELIGHT_CONTROL_APPLY_INL_H_
 #define LANELIGHT_CONTROL_APPLY_INL_H_
-#endif
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/shade/shade-inl.h"

@@ -1,11 +1,7 @@
 // The area lights as a control variate sees them: which of them take part at a vertex,
 // and the irradiance from those, unshadowed.
-#if defined(LANELIGHT_CONTROL_AREA_LIGHTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_CONTROL_AREA_LIGHTS_INL_H_
-#undef LANELIGHT_CONTROL_AREA_LIGHTS_INL_H_
-#else
+#ifndef LANELIGHT_CONTROL_AREA_LIGHTS_INL_H_
 #define LANELIGHT_CONTROL_AREA_LIGHTS_INL_H_
-#endif
 
 #include "kernels/control/irradiance-inl.h"
 #include "kernels/lights/geometry-inl.h"

@@ -12,12 +12,8 @@
 // Errors against quadrature, relative to the irradiance of a receiver that faces the
 // light: below 5e-7 (tests/control/irradiance_test.cc), which is the rounding of the
 // result and of the normal to float.
-#if defined(LANELIGHT_CONTROL_IRRADIANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_CONTROL_IRRADIANCE_INL_H_
-#undef LANELIGHT_CONTROL_IRRADIANCE_INL_H_
-#else
+#ifndef LANELIGHT_CONTROL_IRRADIANCE_INL_H_
 #define LANELIGHT_CONTROL_IRRADIANCE_INL_H_
-#endif
 
 #include "hwy/contrib/math/math-inl.h"
 #include "kernels/surface/point-inl.h"

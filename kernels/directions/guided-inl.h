@@ -15,12 +15,8 @@
 //               weighed against the mixture
 //   cost        one evaluation of the material more, and two look-ups of g
 //   source      Veach and Guibas 1995 (one-sample model); Vorba et al. 2014
-#if defined(LANELIGHT_DIRECTIONS_GUIDED_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_DIRECTIONS_GUIDED_INL_H_
-#undef LANELIGHT_DIRECTIONS_GUIDED_INL_H_
-#else
+#ifndef LANELIGHT_DIRECTIONS_GUIDED_INL_H_
 #define LANELIGHT_DIRECTIONS_GUIDED_INL_H_
-#endif
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/guide/guide-inl.h"

@@ -8,12 +8,8 @@
 //               other heuristic is better by more than (1/min n_i - 1/sum n_i) I^2
 //   cost        one division
 //   source      Veach and Guibas 1995, "Optimally Combining Sampling Techniques"
-#if defined(LANELIGHT_DIRECTIONS_HEURISTIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_DIRECTIONS_HEURISTIC_INL_H_
-#undef LANELIGHT_DIRECTIONS_HEURISTIC_INL_H_
-#else
+#ifndef LANELIGHT_DIRECTIONS_HEURISTIC_INL_H_
 #define LANELIGHT_DIRECTIONS_HEURISTIC_INL_H_
-#endif
 
 #include "kernels/simd/vec3-inl.h"
 #include "src/path/run_parameters.h"

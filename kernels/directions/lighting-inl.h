@@ -1,10 +1,6 @@
 // What light samples are compared with, and what scattered rays must know for that.
-#if defined(LANELIGHT_DIRECTIONS_LIGHTING_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_DIRECTIONS_LIGHTING_INL_H_
-#undef LANELIGHT_DIRECTIONS_LIGHTING_INL_H_
-#else
+#ifndef LANELIGHT_DIRECTIONS_LIGHTING_INL_H_
 #define LANELIGHT_DIRECTIONS_LIGHTING_INL_H_
-#endif
 
 #include "kernels/directions/heuristic-inl.h"
 

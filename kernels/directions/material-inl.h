@@ -8,12 +8,8 @@
 //               under even light); unbounded as lights get small
 //   cost        nothing beyond the next ray; no shadow rays but to delta lights
 //   source      the paper's section 3.5.2
-#if defined(LANELIGHT_DIRECTIONS_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_DIRECTIONS_MATERIAL_INL_H_
-#undef LANELIGHT_DIRECTIONS_MATERIAL_INL_H_
-#else
+#ifndef LANELIGHT_DIRECTIONS_MATERIAL_INL_H_
 #define LANELIGHT_DIRECTIONS_MATERIAL_INL_H_
-#endif
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "src/path/wave.h"

@@ -9,12 +9,8 @@
 //               none
 //   cost        one evaluation of the BSDF more than importance sampling
 //   source      Maughan, "Path Tracing Renderer Using Monte Carlo Methods", 3.5.1
-#if defined(LANELIGHT_DIRECTIONS_UNIFORM_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_DIRECTIONS_UNIFORM_INL_H_
-#undef LANELIGHT_DIRECTIONS_UNIFORM_INL_H_
-#else
+#ifndef LANELIGHT_DIRECTIONS_UNIFORM_INL_H_
 #define LANELIGHT_DIRECTIONS_UNIFORM_INL_H_
-#endif
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/warp/hemisphere-inl.h"

@@ -3,12 +3,8 @@
 //   static CameraRay Project(V3 film)
 // giving the ray through a point of CompiledCamera's film, in camera space, whose
 // direction reaches the depth 1 at its end. The depth of focus then is a plane.
-#if defined(LANELIGHT_GENERATE_CAMERA_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_GENERATE_CAMERA_INL_H_
-#undef LANELIGHT_GENERATE_CAMERA_INL_H_
-#else
+#ifndef LANELIGHT_GENERATE_CAMERA_INL_H_
 #define LANELIGHT_GENERATE_CAMERA_INL_H_
-#endif
 
 #include "kernels/generate/film-inl.h"
 #include "kernels/warp/disk-inl.h"

@@ -1,10 +1,6 @@
 // Where on the film a sample lies.
-#if defined(LANELIGHT_GENERATE_FILM_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_GENERATE_FILM_INL_H_
-#undef LANELIGHT_GENERATE_FILM_INL_H_
-#else
+#ifndef LANELIGHT_GENERATE_FILM_INL_H_
 #define LANELIGHT_GENERATE_FILM_INL_H_
-#endif
 
 #include "kernels/generate/filter-inl.h"
 #include "kernels/queue/batch-inl.h"

@@ -1,10 +1,6 @@
 // Importance sampling of a separable pixel filter from a tabulated CDF of |f| per axis.
-#if defined(LANELIGHT_GENERATE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_GENERATE_FILTER_INL_H_
-#undef LANELIGHT_GENERATE_FILTER_INL_H_
-#else
+#ifndef LANELIGHT_GENERATE_FILTER_INL_H_
 #define LANELIGHT_GENERATE_FILTER_INL_H_
-#endif
 
 #include "kernels/simd/vec3-inl.h"
 #include "src/compiled/camera.h"

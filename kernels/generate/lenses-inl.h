@@ -1,11 +1,7 @@
 // Rays through a lens system (src/compiled/camera.h, LensSystem), in millimetres from the
 // middle of the film, z towards the scene.
-#if defined(LANELIGHT_GENERATE_LENSES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_GENERATE_LENSES_INL_H_
-#undef LANELIGHT_GENERATE_LENSES_INL_H_
-#else
+#ifndef LANELIGHT_GENERATE_LENSES_INL_H_
 #define LANELIGHT_GENERATE_LENSES_INL_H_
-#endif
 
 #include "kernels/simd/records-inl.h"
 #include "src/compiled/camera.h"

@@ -5,12 +5,8 @@
 //   density     the square of the direction (a root), then a gather
 //   direction   four gathers of the bounds of rows, four of those of a row's squares: two
 //               cache lines
-#if defined(LANELIGHT_GUIDE_GUIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_GUIDE_GUIDE_INL_H_
-#undef LANELIGHT_GUIDE_GUIDE_INL_H_
-#else
+#ifndef LANELIGHT_GUIDE_GUIDE_INL_H_
 #define LANELIGHT_GUIDE_GUIDE_INL_H_
-#endif
 
 #include <algorithm>
 

@@ -1,11 +1,7 @@
 // The map between directions above a surface and the square of a guide's cell, as in
 // src/prepare/guide_square.h, which says what it is.
-#if defined(LANELIGHT_GUIDE_SQUARE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_GUIDE_SQUARE_INL_H_
-#undef LANELIGHT_GUIDE_SQUARE_INL_H_
-#else
+#ifndef LANELIGHT_GUIDE_SQUARE_INL_H_
 #define LANELIGHT_GUIDE_SQUARE_INL_H_
-#endif
 
 #include "kernels/simd/vec3-inl.h"
 

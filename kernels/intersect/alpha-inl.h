@@ -1,11 +1,7 @@
 // Alpha cut-outs: whether a candidate hit counts. Scalar, since few scenes have them and
 // few candidates need it.
-#if defined(LANELIGHT_INTERSECT_ALPHA_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_ALPHA_INL_H_
-#undef LANELIGHT_INTERSECT_ALPHA_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_ALPHA_INL_H_
 #define LANELIGHT_INTERSECT_ALPHA_INL_H_
-#endif
 
 #include <bit>
 

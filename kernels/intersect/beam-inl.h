@@ -1,12 +1,8 @@
 // A packet of similar rays against the triangles of a leaf at once: the lanes are
 // triangles, and those that no ray of the packet can meet drop out. Of 13 triangles that
 // a leaf holds, camera rays keep 6.
-#if defined(LANELIGHT_INTERSECT_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_BEAM_INL_H_
-#undef LANELIGHT_INTERSECT_BEAM_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_BEAM_INL_H_
 #define LANELIGHT_INTERSECT_BEAM_INL_H_
-#endif
 
 #include <algorithm>
 #include <cmath>

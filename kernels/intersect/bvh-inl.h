@@ -9,12 +9,8 @@
 // with Ize 2013, "Robust BVH Ray Traversal", whose growth is relative to t, this also
 // covers the rounding of the shape tests, which is relative to the coordinates. The slab
 // test itself errs by at most 5 u (|b| + |o|) / |d|, b the plane, u = 2^-24.
-#if defined(LANELIGHT_INTERSECT_BVH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_BVH_INL_H_
-#undef LANELIGHT_INTERSECT_BVH_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_BVH_INL_H_
 #define LANELIGHT_INTERSECT_BVH_INL_H_
-#endif
 
 #include <algorithm>
 #include <bit>

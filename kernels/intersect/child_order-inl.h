@@ -1,10 +1,6 @@
 // The children of a node that a ray enters, brought in the order in which it visits them.
-#if defined(LANELIGHT_INTERSECT_CHILD_ORDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_CHILD_ORDER_INL_H_
-#undef LANELIGHT_INTERSECT_CHILD_ORDER_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_CHILD_ORDER_INL_H_
 #define LANELIGHT_INTERSECT_CHILD_ORDER_INL_H_
-#endif
 
 #include <bit>
 

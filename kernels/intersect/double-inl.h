@@ -1,10 +1,6 @@
 // A step of a float kernel done in double precision, half a vector at a time.
-#if defined(LANELIGHT_INTERSECT_DOUBLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_DOUBLE_INL_H_
-#undef LANELIGHT_INTERSECT_DOUBLE_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_DOUBLE_INL_H_
 #define LANELIGHT_INTERSECT_DOUBLE_INL_H_
-#endif
 
 LANELIGHT_BEGIN_KERNELS
 

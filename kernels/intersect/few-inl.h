@@ -1,11 +1,7 @@
 // A vector of rays against every triangle of a small scene. Vertices shared by triangles
 // are transformed once per vector of rays.
-#if defined(LANELIGHT_INTERSECT_FEW_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_FEW_INL_H_
-#undef LANELIGHT_INTERSECT_FEW_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_FEW_INL_H_
 #define LANELIGHT_INTERSECT_FEW_INL_H_
-#endif
 
 #include "kernels/intersect/many-inl.h"
 #include "src/compiled/scene.h"

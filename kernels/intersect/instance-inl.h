@@ -1,11 +1,7 @@
 // Rays in the spaces of instances. Distances are the same in all spaces, so that a hit in
 // one culls in all.
-#if defined(LANELIGHT_INTERSECT_INSTANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_INSTANCE_INL_H_
-#undef LANELIGHT_INTERSECT_INSTANCE_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_INSTANCE_INL_H_
 #define LANELIGHT_INTERSECT_INSTANCE_INL_H_
-#endif
 
 #include "kernels/intersect/rays-inl.h"
 

@@ -1,12 +1,8 @@
 // The triangles that blocked the last shadow rays of a wave. Rays from one part of a
 // scene to one light are often blocked by the same wall or table top: a packet is tested
 // against these first, each at about a fiftieth of the cost of tracing it.
-#if defined(LANELIGHT_INTERSECT_LAST_BLOCKERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_LAST_BLOCKERS_INL_H_
-#undef LANELIGHT_INTERSECT_LAST_BLOCKERS_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_LAST_BLOCKERS_INL_H_
 #define LANELIGHT_INTERSECT_LAST_BLOCKERS_INL_H_
-#endif
 
 #include <algorithm>
 

@@ -1,10 +1,6 @@
 // One ray against the triangles of a leaf: the lanes are triangles.
-#if defined(LANELIGHT_INTERSECT_LEAF_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_LEAF_INL_H_
-#undef LANELIGHT_INTERSECT_LEAF_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_LEAF_INL_H_
 #define LANELIGHT_INTERSECT_LEAF_INL_H_
-#endif
 
 #include <algorithm>
 #include <bit>

@@ -1,11 +1,7 @@
 // Many rays, one per lane, against one triangle: what the kernels for small scenes and
 // for coherent rays share.
-#if defined(LANELIGHT_INTERSECT_MANY_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_MANY_INL_H_
-#undef LANELIGHT_INTERSECT_MANY_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_MANY_INL_H_
 #define LANELIGHT_INTERSECT_MANY_INL_H_
-#endif
 
 #include "kernels/intersect/alpha-inl.h"
 #include "kernels/intersect/double-inl.h"

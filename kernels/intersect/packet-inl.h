@@ -2,12 +2,8 @@
 // and the children in a node, where one slab test bounds all rays by intervals of origin
 // and reciprocal direction (a frustum; Boulos, Wald and Benthin 2008). Which leaves are
 // visited depends on the company of a ray, the hit does not.
-#if defined(LANELIGHT_INTERSECT_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_PACKET_INL_H_
-#undef LANELIGHT_INTERSECT_PACKET_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_PACKET_INL_H_
 #define LANELIGHT_INTERSECT_PACKET_INL_H_
-#endif
 
 #include <limits>
 

@@ -1,10 +1,6 @@
 // What the packets of a stream leave to its single rays.
-#if defined(LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_
-#undef LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_
 #define LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_
-#endif
 
 #include <algorithm>
 #include <bit>

@@ -1,10 +1,6 @@
 // A vector of coherent rays through the world and instances: a frustum in each space.
-#if defined(LANELIGHT_INTERSECT_PACKET_INSTANCES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_PACKET_INSTANCES_INL_H_
-#undef LANELIGHT_INTERSECT_PACKET_INSTANCES_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_PACKET_INSTANCES_INL_H_
 #define LANELIGHT_INTERSECT_PACKET_INSTANCES_INL_H_
-#endif
 
 #include "kernels/intersect/instance-inl.h"
 #include "kernels/intersect/packet-inl.h"

@@ -1,10 +1,6 @@
 // A vector of rays against the triangles of a leaf: the lanes are rays.
-#if defined(LANELIGHT_INTERSECT_PACKET_LEAF_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_PACKET_LEAF_INL_H_
-#undef LANELIGHT_INTERSECT_PACKET_LEAF_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_PACKET_LEAF_INL_H_
 #define LANELIGHT_INTERSECT_PACKET_LEAF_INL_H_
-#endif
 
 #include <bit>
 

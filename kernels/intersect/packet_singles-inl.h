@@ -1,12 +1,8 @@
 // The few shadow rays of a packet that are at one leaf, two at a time: the lanes are
 // triangles. A packet's own test (packet_leaf-inl.h) costs as much for one of its rays as
 // for all.
-#if defined(LANELIGHT_INTERSECT_PACKET_SINGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_PACKET_SINGLES_INL_H_
-#undef LANELIGHT_INTERSECT_PACKET_SINGLES_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_PACKET_SINGLES_INL_H_
 #define LANELIGHT_INTERSECT_PACKET_SINGLES_INL_H_
-#endif
 
 #include <bit>
 

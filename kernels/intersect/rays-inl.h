@@ -1,11 +1,7 @@
 // How intersect stages read rays from the path columns and write hits or the surviving
 // shadow rays back.
-#if defined(LANELIGHT_INTERSECT_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_RAYS_INL_H_
-#undef LANELIGHT_INTERSECT_RAYS_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_RAYS_INL_H_
 #define LANELIGHT_INTERSECT_RAYS_INL_H_
-#endif
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"

@@ -5,12 +5,8 @@
 // one. Where the origin lies within rounding error of the shape the sign of the distance
 // is decided in double precision, so surface points need only be moved by the rounding of
 // their own coordinates.
-#if defined(LANELIGHT_INTERSECT_ROUND_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_ROUND_INL_H_
-#undef LANELIGHT_INTERSECT_ROUND_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_ROUND_INL_H_
 #define LANELIGHT_INTERSECT_ROUND_INL_H_
-#endif
 
 #include <cfloat>
 

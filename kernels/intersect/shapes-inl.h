@@ -1,11 +1,7 @@
 // Stages over spheres, disks or planes: which records, which tree, how lanes are filled.
 // `Shape` is one of the policies below.
-#if defined(LANELIGHT_INTERSECT_SHAPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_SHAPES_INL_H_
-#undef LANELIGHT_INTERSECT_SHAPES_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_SHAPES_INL_H_
 #define LANELIGHT_INTERSECT_SHAPES_INL_H_
-#endif
 
 #include "kernels/intersect/alpha-inl.h"
 #include "kernels/intersect/bvh-inl.h"

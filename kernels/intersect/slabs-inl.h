@@ -1,10 +1,6 @@
 // A vector of rays prepared for the slab tests of a tree.
-#if defined(LANELIGHT_INTERSECT_SLABS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_SLABS_INL_H_
-#undef LANELIGHT_INTERSECT_SLABS_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_SLABS_INL_H_
 #define LANELIGHT_INTERSECT_SLABS_INL_H_
-#endif
 
 #include <limits>
 

@@ -1,12 +1,8 @@
 // A stream of independent rays through the triangle BVH: at the top of the tree vectors
 // of rays together (stream_packet-inl.h), below that single rays, interleaved
 // (stream_single-inl.h).
-#if defined(LANELIGHT_INTERSECT_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_STREAM_INL_H_
-#undef LANELIGHT_INTERSECT_STREAM_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_STREAM_INL_H_
 #define LANELIGHT_INTERSECT_STREAM_INL_H_
-#endif
 
 #include <algorithm>
 #include <new>

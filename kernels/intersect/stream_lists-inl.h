@@ -1,10 +1,6 @@
 // What the rays of a stream are at: lists of places, made anew in each round.
-#if defined(LANELIGHT_INTERSECT_STREAM_LISTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_STREAM_LISTS_INL_H_
-#undef LANELIGHT_INTERSECT_STREAM_LISTS_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_STREAM_LISTS_INL_H_
 #define LANELIGHT_INTERSECT_STREAM_LISTS_INL_H_
-#endif
 
 #include <type_traits>
 

@@ -1,10 +1,6 @@
 // Nodes in the first phase of a stream: each ray of a packet has its own slab test.
-#if defined(LANELIGHT_INTERSECT_STREAM_NODES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_STREAM_NODES_INL_H_
-#undef LANELIGHT_INTERSECT_STREAM_NODES_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_STREAM_NODES_INL_H_
 #define LANELIGHT_INTERSECT_STREAM_NODES_INL_H_
-#endif
 
 #include <bit>
 

@@ -1,11 +1,7 @@
 // First phase of a stream: a vector of rays through the top of the tree together, as far
 // as enough of them go the same way. The lanes are rays, each with its own slab test.
-#if defined(LANELIGHT_INTERSECT_STREAM_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_STREAM_PACKET_INL_H_
-#undef LANELIGHT_INTERSECT_STREAM_PACKET_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_STREAM_PACKET_INL_H_
 #define LANELIGHT_INTERSECT_STREAM_PACKET_INL_H_
-#endif
 
 #include <algorithm>
 #include <bit>

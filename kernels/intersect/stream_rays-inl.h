@@ -1,11 +1,7 @@
 // The rays of a stream (stream-inl.h) in columns; what single rays need at nodes and at
 // leaves, by their place in the stream; and their stacks.
-#if defined(LANELIGHT_INTERSECT_STREAM_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_STREAM_RAYS_INL_H_
-#undef LANELIGHT_INTERSECT_STREAM_RAYS_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_STREAM_RAYS_INL_H_
 #define LANELIGHT_INTERSECT_STREAM_RAYS_INL_H_
-#endif
 
 #include <bit>
 

@@ -2,12 +2,8 @@
 // step (a node or a leaf). A ray by itself is a chain of dependent loads and of branches
 // that cannot be predicted; here a node step has no branch, steps of different rays
 // overlap in the processor, and what a ray needs next is prefetched a round before.
-#if defined(LANELIGHT_INTERSECT_STREAM_SINGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_STREAM_SINGLE_INL_H_
-#undef LANELIGHT_INTERSECT_STREAM_SINGLE_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_STREAM_SINGLE_INL_H_
 #define LANELIGHT_INTERSECT_STREAM_SINGLE_INL_H_
-#endif
 
 #include <algorithm>
 #include <bit>

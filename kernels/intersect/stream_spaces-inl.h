@@ -1,10 +1,6 @@
 // Rays of a stream in the space of the scene and in those of instances.
-#if defined(LANELIGHT_INTERSECT_STREAM_SPACES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_STREAM_SPACES_INL_H_
-#undef LANELIGHT_INTERSECT_STREAM_SPACES_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_STREAM_SPACES_INL_H_
 #define LANELIGHT_INTERSECT_STREAM_SPACES_INL_H_
-#endif
 
 #include <algorithm>
 #include <bit>

@@ -1,10 +1,6 @@
 // The stacks of the single rays of a stream: what a ray has yet to visit.
-#if defined(LANELIGHT_INTERSECT_STREAM_STACKS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_STREAM_STACKS_INL_H_
-#undef LANELIGHT_INTERSECT_STREAM_STACKS_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_STREAM_STACKS_INL_H_
 #define LANELIGHT_INTERSECT_STREAM_STACKS_INL_H_
-#endif
 
 #include "hwy/cache_control.h"
 #include "kernels/intersect/bvh-inl.h"

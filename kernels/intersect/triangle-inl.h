@@ -17,12 +17,8 @@
 //   t = sum(U_i z_i) / sum(U_i)  12u R |Sz|: the U_i have one sign, so t is a mean of the
 //                         z_i and nothing cancels but the z_i themselves
 // Hence o + t d lies within 20u R of the triangle: what the boxes must be grown by.
-#if defined(LANELIGHT_INTERSECT_TRIANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_INTERSECT_TRIANGLE_INL_H_
-#undef LANELIGHT_INTERSECT_TRIANGLE_INL_H_
-#else
+#ifndef LANELIGHT_INTERSECT_TRIANGLE_INL_H_
 #define LANELIGHT_INTERSECT_TRIANGLE_INL_H_
-#endif
 
 #include <cfloat>
 

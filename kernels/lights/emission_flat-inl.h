@@ -1,10 +1,6 @@
 // Emission of hit triangles, of lights that are one or a rectangle of two.
-#if defined(LANELIGHT_LIGHTS_EMISSION_FLAT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_EMISSION_FLAT_INL_H_
-#undef LANELIGHT_LIGHTS_EMISSION_FLAT_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_EMISSION_FLAT_INL_H_
 #define LANELIGHT_LIGHTS_EMISSION_FLAT_INL_H_
-#endif
 
 #include "kernels/lights/emission_image-inl.h"
 #include "kernels/lights/flat-inl.h"

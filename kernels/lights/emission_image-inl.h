@@ -1,11 +1,7 @@
 // Emitting shapes with an image of their radiance: surface coordinates at points of
 // lights, and what is emitted there.
-#if defined(LANELIGHT_LIGHTS_EMISSION_IMAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_EMISSION_IMAGE_INL_H_
-#undef LANELIGHT_LIGHTS_EMISSION_IMAGE_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_EMISSION_IMAGE_INL_H_
 #define LANELIGHT_LIGHTS_EMISSION_IMAGE_INL_H_
-#endif
 
 #include "kernels/lights/geometry-inl.h"
 #include "kernels/lights/light_image-inl.h"

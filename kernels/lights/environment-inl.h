@@ -1,10 +1,6 @@
 // Environment images: look-up and sampling by texel.
-#if defined(LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_
-#undef LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_
 #define LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_
-#endif
 
 #include "kernels/lights/map_samples-inl.h"
 #include "kernels/warp/octahedral-inl.h"

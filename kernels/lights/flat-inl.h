@@ -11,12 +11,8 @@
 //               surround the receiver, whose corners say nothing
 //   below       a light that the receiver's normal does not see at all is not warped
 //   source      Hart et al. 2020 (kernels/warp/bilinear-inl.h)
-#if defined(LANELIGHT_LIGHTS_FLAT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_FLAT_INL_H_
-#undef LANELIGHT_LIGHTS_FLAT_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_FLAT_INL_H_
 #define LANELIGHT_LIGHTS_FLAT_INL_H_
-#endif
 
 #include "kernels/lights/geometry-inl.h"
 #include "kernels/warp/bilinear-inl.h"

@@ -1,12 +1,8 @@
 // Emitting primitives: their geometry by record, and the densities of sampling them. The
 // sampling kernels and the emission kernels use the same functions, so that the two sides
 // of multiple importance sampling cannot disagree.
-#if defined(LANELIGHT_LIGHTS_GEOMETRY_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_GEOMETRY_INL_H_
-#undef LANELIGHT_LIGHTS_GEOMETRY_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_GEOMETRY_INL_H_
 #define LANELIGHT_LIGHTS_GEOMETRY_INL_H_
-#endif
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/warp/solid_angle-inl.h"

@@ -1,11 +1,7 @@
 // What the light kernels share: records, the loop over one shape of light, the columns of
 // a light sample.
-#if defined(LANELIGHT_LIGHTS_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_LIGHT_INL_H_
-#undef LANELIGHT_LIGHTS_LIGHT_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_LIGHT_INL_H_
 #define LANELIGHT_LIGHTS_LIGHT_INL_H_
-#endif
 
 #include <cstddef>
 

@@ -1,10 +1,6 @@
 // Look-ups in the images of lights, one image per lane.
-#if defined(LANELIGHT_LIGHTS_LIGHT_IMAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_LIGHT_IMAGE_INL_H_
-#undef LANELIGHT_LIGHTS_LIGHT_IMAGE_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_LIGHT_IMAGE_INL_H_
 #define LANELIGHT_LIGHTS_LIGHT_IMAGE_INL_H_
-#endif
 
 #include <cstddef>
 

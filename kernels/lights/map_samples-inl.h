@@ -1,10 +1,6 @@
 // Light samples of what lies infinitely far away, by maps of its directions.
-#if defined(LANELIGHT_LIGHTS_MAP_SAMPLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_MAP_SAMPLES_INL_H_
-#undef LANELIGHT_LIGHTS_MAP_SAMPLES_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_MAP_SAMPLES_INL_H_
 #define LANELIGHT_LIGHTS_MAP_SAMPLES_INL_H_
-#endif
 
 #include <limits>
 

@@ -6,12 +6,8 @@
 //   source      Bitterli, Novak and Jarosz 2015
 // The long routines are called, not inlined: each has hundreds of instructions for a
 // vector, and a kernel that holds all their copies takes half a minute to compile.
-#if defined(LANELIGHT_LIGHTS_PORTAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_PORTAL_INL_H_
-#undef LANELIGHT_LIGHTS_PORTAL_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_PORTAL_INL_H_
 #define LANELIGHT_LIGHTS_PORTAL_INL_H_
-#endif
 
 #include "hwy/contrib/math/math-inl.h"
 #include "kernels/lights/map_samples-inl.h"

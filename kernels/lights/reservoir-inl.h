@@ -1,10 +1,6 @@
 // One candidate of light after the other, of which one is kept (light-candidates).
-#if defined(LANELIGHT_LIGHTS_RESERVOIR_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_RESERVOIR_INL_H_
-#undef LANELIGHT_LIGHTS_RESERVOIR_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_RESERVOIR_INL_H_
 #define LANELIGHT_LIGHTS_RESERVOIR_INL_H_
-#endif
 
 #include <cstdint>
 

@@ -1,10 +1,6 @@
 // Light samples on emitting triangles and rectangles, by light-points.
-#if defined(LANELIGHT_LIGHTS_SAMPLE_FLAT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_SAMPLE_FLAT_INL_H_
-#undef LANELIGHT_LIGHTS_SAMPLE_FLAT_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_SAMPLE_FLAT_INL_H_
 #define LANELIGHT_LIGHTS_SAMPLE_FLAT_INL_H_
-#endif
 
 #include "kernels/lights/flat-inl.h"
 #include "kernels/queue/batch-inl.h"

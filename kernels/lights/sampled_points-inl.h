@@ -1,12 +1,8 @@
 // Light samples on emitting shapes whose radiance is not the same everywhere: where on
 // the shape a sample lies, and the loop that multiplies samples by what is there. The
 // samplers choose points as if the light were evenly bright; their densities stay.
-#if defined(LANELIGHT_LIGHTS_SAMPLED_POINTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_SAMPLED_POINTS_INL_H_
-#undef LANELIGHT_LIGHTS_SAMPLED_POINTS_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_SAMPLED_POINTS_INL_H_
 #define LANELIGHT_LIGHTS_SAMPLED_POINTS_INL_H_
-#endif
 
 #include "kernels/lights/emission_image-inl.h"
 #include "kernels/queue/batch-inl.h"

@@ -1,10 +1,6 @@
 // light-selection=tree: importance of a node of the tree of lights for a point.
-#if defined(LANELIGHT_LIGHTS_TREE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_LIGHTS_TREE_INL_H_
-#undef LANELIGHT_LIGHTS_TREE_INL_H_
-#else
+#ifndef LANELIGHT_LIGHTS_TREE_INL_H_
 #define LANELIGHT_LIGHTS_TREE_INL_H_
-#endif
 
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/records-inl.h"

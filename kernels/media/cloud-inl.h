@@ -1,10 +1,6 @@
 // pbrt-v4's procedural cloud: noise whose threshold rises with the height.
-#if defined(LANELIGHT_MEDIA_CLOUD_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_MEDIA_CLOUD_INL_H_
-#undef LANELIGHT_MEDIA_CLOUD_INL_H_
-#else
+#ifndef LANELIGHT_MEDIA_CLOUD_INL_H_
 #define LANELIGHT_MEDIA_CLOUD_INL_H_
-#endif
 
 #include "kernels/media/medium-inl.h"
 #include "kernels/texture/noise-inl.h"

@@ -1,10 +1,6 @@
 // What a medium's emission is multiplied with at a point.
-#if defined(LANELIGHT_MEDIA_EMISSION_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_MEDIA_EMISSION_INL_H_
-#undef LANELIGHT_MEDIA_EMISSION_INL_H_
-#else
+#ifndef LANELIGHT_MEDIA_EMISSION_INL_H_
 #define LANELIGHT_MEDIA_EMISSION_INL_H_
-#endif
 
 #include "hwy/contrib/math/math-inl.h"
 

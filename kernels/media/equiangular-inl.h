@@ -1,12 +1,8 @@
 // Distances along rays that are uniform in the angle around a light (Kulla and Fajardo
 // 2012, "Importance Sampling Techniques for Path Tracing in Participating Media"): they
 // are found where its light, which falls with the square of the distance, is strong.
-#if defined(LANELIGHT_MEDIA_EQUIANGULAR_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_MEDIA_EQUIANGULAR_INL_H_
-#undef LANELIGHT_MEDIA_EQUIANGULAR_INL_H_
-#else
+#ifndef LANELIGHT_MEDIA_EQUIANGULAR_INL_H_
 #define LANELIGHT_MEDIA_EQUIANGULAR_INL_H_
-#endif
 
 #include "kernels/media/medium-inl.h"
 #include "kernels/media/walk_random-inl.h"

@@ -1,11 +1,7 @@
 // Where a path meets something in a medium: what is stored of it, and how the paths that
 // do leave the queue of rays.
-#if defined(LANELIGHT_MEDIA_EVENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_MEDIA_EVENT_INL_H_
-#undef LANELIGHT_MEDIA_EVENT_INL_H_
-#else
+#ifndef LANELIGHT_MEDIA_EVENT_INL_H_
 #define LANELIGHT_MEDIA_EVENT_INL_H_
-#endif
 
 #include "kernels/media/medium-inl.h"
 

@@ -1,11 +1,7 @@
 // Media that vary within a box, for a vector of rays in the same medium: the cells of the
 // majorant grid that rays go through, and what the medium is like at a point.
-#if defined(LANELIGHT_MEDIA_GRID_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_MEDIA_GRID_INL_H_
-#undef LANELIGHT_MEDIA_GRID_INL_H_
-#else
+#ifndef LANELIGHT_MEDIA_GRID_INL_H_
 #define LANELIGHT_MEDIA_GRID_INL_H_
-#endif
 
 #include <limits>
 

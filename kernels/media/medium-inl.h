@@ -8,12 +8,8 @@
 // p. So the throughput f / p is at most three times that of the best channel, however
 // many events a path has (the balance heuristic over whole paths: Wilkie et al. 2014,
 // "Hero Wavelength Spectral Sampling"; Miller, Georgiev and Jarosz 2019).
-#if defined(LANELIGHT_MEDIA_MEDIUM_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_MEDIA_MEDIUM_INL_H_
-#undef LANELIGHT_MEDIA_MEDIUM_INL_H_
-#else
+#ifndef LANELIGHT_MEDIA_MEDIUM_INL_H_
 #define LANELIGHT_MEDIA_MEDIUM_INL_H_
-#endif
 
 #include <cstddef>
 

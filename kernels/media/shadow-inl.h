@@ -1,10 +1,6 @@
 // Media along shadow rays.
-#if defined(LANELIGHT_MEDIA_SHADOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_MEDIA_SHADOW_INL_H_
-#undef LANELIGHT_MEDIA_SHADOW_INL_H_
-#else
+#ifndef LANELIGHT_MEDIA_SHADOW_INL_H_
 #define LANELIGHT_MEDIA_SHADOW_INL_H_
-#endif
 
 #include "kernels/media/grid-inl.h"
 #include "kernels/media/walk_random-inl.h"

@@ -1,11 +1,7 @@
 // Numbers of grids at a vector of points: voxels one after the other, and the sparse ones
 // of NanoVDB.
-#if defined(LANELIGHT_MEDIA_VOXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_MEDIA_VOXELS_INL_H_
-#undef LANELIGHT_MEDIA_VOXELS_INL_H_
-#else
+#ifndef LANELIGHT_MEDIA_VOXELS_INL_H_
 #define LANELIGHT_MEDIA_VOXELS_INL_H_
-#endif
 
 #include <limits>
 

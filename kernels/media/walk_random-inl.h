@@ -1,10 +1,6 @@
 // Numbers of walks through media that need nobody knows how many.
-#if defined(LANELIGHT_MEDIA_WALK_RANDOM_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_MEDIA_WALK_RANDOM_INL_H_
-#undef LANELIGHT_MEDIA_WALK_RANDOM_INL_H_
-#else
+#ifndef LANELIGHT_MEDIA_WALK_RANDOM_INL_H_
 #define LANELIGHT_MEDIA_WALK_RANDOM_INL_H_
-#endif
 
 #include "hwy/contrib/math/math-inl.h"
 

@@ -21,12 +21,8 @@
 //   cost        two PCG-4D hashes and three permutations per point
 // Source: Kensler 2013, "Correlated Multi-Jittered Sampling" (the permutations are ours:
 // permute-inl.h, the blocks too).
-#if defined(LANELIGHT_POINTS_CMJ_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_POINTS_CMJ_INL_H_
-#undef LANELIGHT_POINTS_CMJ_INL_H_
-#else
+#ifndef LANELIGHT_POINTS_CMJ_INL_H_
 #define LANELIGHT_POINTS_CMJ_INL_H_
-#endif
 
 #include "kernels/points/permute-inl.h"
 

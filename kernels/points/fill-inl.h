@@ -9,12 +9,8 @@
 // different keys are independent of each other. A scalar dimension takes u0; a policy
 // whose u0 alone is less well stratified than one dimension can be has also
 //   static VF Number(const PointsParameters&, VU pixel, GroupIndex, VU key, VU seed)
-#if defined(LANELIGHT_POINTS_FILL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_POINTS_FILL_INL_H_
-#undef LANELIGHT_POINTS_FILL_INL_H_
-#else
+#ifndef LANELIGHT_POINTS_FILL_INL_H_
 #define LANELIGHT_POINTS_FILL_INL_H_
-#endif
 
 #include "kernels/points/group-inl.h"
 #include "kernels/queue/key-inl.h"

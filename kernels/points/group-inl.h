@@ -1,10 +1,6 @@
 // Which randomisation a sample belongs to, and its index in it.
-#if defined(LANELIGHT_POINTS_GROUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_POINTS_GROUP_INL_H_
-#undef LANELIGHT_POINTS_GROUP_INL_H_
-#else
+#ifndef LANELIGHT_POINTS_GROUP_INL_H_
 #define LANELIGHT_POINTS_GROUP_INL_H_
-#endif
 
 #include "kernels/simd/rng-inl.h"
 #include "src/path/replicates.h"

@@ -12,12 +12,8 @@
 //   dependence  the samples of one group share one randomisation: one observation
 //   cost        a hash, a permutation and eight steps of twenty instructions per point
 // Sources: Halton 1964; Owen 2017, "A randomized Halton algorithm in R".
-#if defined(LANELIGHT_POINTS_HALTON_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_POINTS_HALTON_INL_H_
-#undef LANELIGHT_POINTS_HALTON_INL_H_
-#else
+#ifndef LANELIGHT_POINTS_HALTON_INL_H_
 #define LANELIGHT_POINTS_HALTON_INL_H_
-#endif
 
 #include "kernels/points/permute-inl.h"
 #include "kernels/points/sobol-inl.h"

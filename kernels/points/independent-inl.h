@@ -2,12 +2,8 @@
 //   estimator   mean of N independent samples; variance sigma^2 / N
 //   unbiased    always
 //   cost        one PCG-4D hash per point
-#if defined(LANELIGHT_POINTS_INDEPENDENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_POINTS_INDEPENDENT_INL_H_
-#undef LANELIGHT_POINTS_INDEPENDENT_INL_H_
-#else
+#ifndef LANELIGHT_POINTS_INDEPENDENT_INL_H_
 #define LANELIGHT_POINTS_INDEPENDENT_INL_H_
-#endif
 
 #include "kernels/points/group-inl.h"
 

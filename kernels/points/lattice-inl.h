@@ -15,12 +15,8 @@
 //   cost        a hash, a permutation and a multiplication per point
 // Sources: Cranley and Patterson 1976; Hickernell, Hong, L'Ecuyer and Lemieux 2000
 // ("Extensible lattice sequences").
-#if defined(LANELIGHT_POINTS_LATTICE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_POINTS_LATTICE_INL_H_
-#undef LANELIGHT_POINTS_LATTICE_INL_H_
-#else
+#ifndef LANELIGHT_POINTS_LATTICE_INL_H_
 #define LANELIGHT_POINTS_LATTICE_INL_H_
-#endif
 
 #include "kernels/points/sobol-inl.h"
 #include "src/prepare/lattice.h"

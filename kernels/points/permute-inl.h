@@ -7,12 +7,8 @@
 //             whatever n
 // Source: Hoang, Morris and Rogaway 2012, "An Enciphering Scheme Based on a Card
 // Shuffle".
-#if defined(LANELIGHT_POINTS_PERMUTE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_POINTS_PERMUTE_INL_H_
-#undef LANELIGHT_POINTS_PERMUTE_INL_H_
-#else
+#ifndef LANELIGHT_POINTS_PERMUTE_INL_H_
 #define LANELIGHT_POINTS_PERMUTE_INL_H_
-#endif
 
 #include "kernels/points/strata-inl.h"
 

@@ -13,12 +13,8 @@
 //   cost        a hash, a short permutation and two gathers from a table of 64 KiB
 // Source: Christensen, Kensler and Kilpatrick 2018, "Progressive Multi-Jittered Sample
 // Sequences".
-#if defined(LANELIGHT_POINTS_PMJ02_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_POINTS_PMJ02_INL_H_
-#undef LANELIGHT_POINTS_PMJ02_INL_H_
-#else
+#ifndef LANELIGHT_POINTS_PMJ02_INL_H_
 #define LANELIGHT_POINTS_PMJ02_INL_H_
-#endif
 
 #include "kernels/points/permute-inl.h"
 #include "src/prepare/pmj02.h"

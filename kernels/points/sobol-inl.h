@@ -9,12 +9,8 @@
 // Sources: Burley 2020, "Practical Hash-based Owen Scrambling"; Laine and Karras 2011
 // (the hash, here with the constants found by Vegdahl 2021); Joe and Kuo direction
 // numbers of dimension 2 form Pascal's triangle mod 2.
-#if defined(LANELIGHT_POINTS_SOBOL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_POINTS_SOBOL_INL_H_
-#undef LANELIGHT_POINTS_SOBOL_INL_H_
-#else
+#ifndef LANELIGHT_POINTS_SOBOL_INL_H_
 #define LANELIGHT_POINTS_SOBOL_INL_H_
-#endif
 
 #include "kernels/points/group-inl.h"
 

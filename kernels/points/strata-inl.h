@@ -1,11 +1,7 @@
 // Random numbers in one of n equal strata, and fractions of the unit interval, in fixed
 // point: 32 bits after the point, of which a float keeps the first 24.
-#if defined(LANELIGHT_POINTS_STRATA_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_POINTS_STRATA_INL_H_
-#undef LANELIGHT_POINTS_STRATA_INL_H_
-#else
+#ifndef LANELIGHT_POINTS_STRATA_INL_H_
 #define LANELIGHT_POINTS_STRATA_INL_H_
-#endif
 
 #include "kernels/points/group-inl.h"
 

@@ -14,12 +14,8 @@
 //   cost        a PCG-4D hash, two nested permutations and a spread of bits per point
 // Sources: the paper's section 3.5.3; Cook 1986, "Stochastic Sampling in Computer
 // Graphics"; Mitchell 1996 (rates); Owen 1995 (nested permutations).
-#if defined(LANELIGHT_POINTS_STRATIFIED_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_POINTS_STRATIFIED_INL_H_
-#undef LANELIGHT_POINTS_STRATIFIED_INL_H_
-#else
+#ifndef LANELIGHT_POINTS_STRATIFIED_INL_H_
 #define LANELIGHT_POINTS_STRATIFIED_INL_H_
-#endif
 
 #include "kernels/points/sobol-inl.h"
 

@@ -1,10 +1,6 @@
 // Loop over a queue of path slots, a vector at a time.
-#if defined(LANELIGHT_QUEUE_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_QUEUE_BATCH_INL_H_
-#undef LANELIGHT_QUEUE_BATCH_INL_H_
-#else
+#ifndef LANELIGHT_QUEUE_BATCH_INL_H_
 #define LANELIGHT_QUEUE_BATCH_INL_H_
-#endif
 
 #include "kernels/queue/slots-inl.h"
 #include "src/path/stage.h"

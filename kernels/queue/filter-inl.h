@@ -1,10 +1,6 @@
 // Sub-queues: the part of a queue that one kernel handles.
-#if defined(LANELIGHT_QUEUE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_QUEUE_FILTER_INL_H_
-#undef LANELIGHT_QUEUE_FILTER_INL_H_
-#else
+#ifndef LANELIGHT_QUEUE_FILTER_INL_H_
 #define LANELIGHT_QUEUE_FILTER_INL_H_
-#endif
 
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"

@@ -1,10 +1,6 @@
 // Keys of random numbers (src/path/dimensions.h), for a batch of paths.
-#if defined(LANELIGHT_QUEUE_KEY_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_QUEUE_KEY_INL_H_
-#undef LANELIGHT_QUEUE_KEY_INL_H_
-#else
+#ifndef LANELIGHT_QUEUE_KEY_INL_H_
 #define LANELIGHT_QUEUE_KEY_INL_H_
-#endif
 
 #include "kernels/queue/slots-inl.h"
 #include "src/path/dimensions.h"

@@ -6,12 +6,8 @@
 //   run      slots first, first + 1, ...: one load or store
 //   window   all slots in two adjacent aligned blocks: two loads and permutations
 //   anywhere gather and scatter
-#if defined(LANELIGHT_QUEUE_SLOTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_QUEUE_SLOTS_INL_H_
-#undef LANELIGHT_QUEUE_SLOTS_INL_H_
-#else
+#ifndef LANELIGHT_QUEUE_SLOTS_INL_H_
 #define LANELIGHT_QUEUE_SLOTS_INL_H_
-#endif
 
 #include "kernels/simd/lanes-inl.h"
 

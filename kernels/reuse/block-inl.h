@@ -1,10 +1,6 @@
 // Records of a task (src/path/block.h), by lane.
-#if defined(LANELIGHT_REUSE_BLOCK_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_REUSE_BLOCK_INL_H_
-#undef LANELIGHT_REUSE_BLOCK_INL_H_
-#else
+#ifndef LANELIGHT_REUSE_BLOCK_INL_H_
 #define LANELIGHT_REUSE_BLOCK_INL_H_
-#endif
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"

@@ -1,10 +1,6 @@
 // Second vertices of reuse=block that are glossy: their materials, by kind.
-#if defined(LANELIGHT_REUSE_GLOSSY_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_REUSE_GLOSSY_INL_H_
-#undef LANELIGHT_REUSE_GLOSSY_INL_H_
-#else
+#ifndef LANELIGHT_REUSE_GLOSSY_INL_H_
 #define LANELIGHT_REUSE_GLOSSY_INL_H_
-#endif
 
 #include "kernels/bsdf/coated_diffuse-inl.h"
 #include "kernels/bsdf/conductor-inl.h"

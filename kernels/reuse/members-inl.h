@@ -1,11 +1,7 @@
 // Who takes part in a block: first vertices by kind of material, and second vertices that
 // carry light and that roulette has left.
-#if defined(LANELIGHT_REUSE_MEMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_REUSE_MEMBERS_INL_H_
-#undef LANELIGHT_REUSE_MEMBERS_INL_H_
-#else
+#ifndef LANELIGHT_REUSE_MEMBERS_INL_H_
 #define LANELIGHT_REUSE_MEMBERS_INL_H_
-#endif
 
 #include "kernels/reuse/block-inl.h"
 #include "src/compiled/scene.h"

@@ -1,10 +1,6 @@
 // Cells of the cache of path values (src/prepare/path_values.h).
-#if defined(LANELIGHT_ROULETTE_CELL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_ROULETTE_CELL_INL_H_
-#undef LANELIGHT_ROULETTE_CELL_INL_H_
-#else
+#ifndef LANELIGHT_ROULETTE_CELL_INL_H_
 #define LANELIGHT_ROULETTE_CELL_INL_H_
-#endif
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"

@@ -6,12 +6,8 @@
 //   unbiased    s > 0 wherever the path can still carry light
 //   variance    grows by E[x^2] (1/s - 1) per decision; pays when it saves more time
 //               than that
-#if defined(LANELIGHT_ROULETTE_SURVIVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_ROULETTE_SURVIVE_INL_H_
-#undef LANELIGHT_ROULETTE_SURVIVE_INL_H_
-#else
+#ifndef LANELIGHT_ROULETTE_SURVIVE_INL_H_
 #define LANELIGHT_ROULETTE_SURVIVE_INL_H_
-#endif
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"

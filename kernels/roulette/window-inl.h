@@ -15,17 +15,12 @@
 //               [branch + c b / k, branch + (c + 1) b / k) of its parent's b. So the
 //               result does not depend on how many slots happen to be free, names are
 //               unique, and live paths never need more than kMostCopies slots per sample
-#if defined(LANELIGHT_ROULETTE_WINDOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_ROULETTE_WINDOW_INL_H_
-#undef LANELIGHT_ROULETTE_WINDOW_INL_H_
-#else
+#ifndef LANELIGHT_ROULETTE_WINDOW_INL_H_
 #define LANELIGHT_ROULETTE_WINDOW_INL_H_
-#endif
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/queue/key-inl.h"
 #include "kernels/simd/rng-inl.h"
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
 #include "src/core/check.h"
 #include "src/prepare/tables.h"

@@ -1,11 +1,7 @@
 // The skeleton of every shading stage: light sample, then the next ray. A material policy
 // (kernels/bsdf/bsdf-inl.h) fills in the physics.
-#if defined(LANELIGHT_SHADE_SHADE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_SHADE_SHADE_INL_H_
-#undef LANELIGHT_SHADE_SHADE_INL_H_
-#else
+#ifndef LANELIGHT_SHADE_SHADE_INL_H_
 #define LANELIGHT_SHADE_SHADE_INL_H_
-#endif
 
 #include <limits>
 

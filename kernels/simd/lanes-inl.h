@@ -1,10 +1,6 @@
 // The lane types of all kernels, and tables reached by lane.
-#if defined(LANELIGHT_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_SIMD_LANES_INL_H_
-#undef LANELIGHT_SIMD_LANES_INL_H_
-#else
+#ifndef LANELIGHT_SIMD_LANES_INL_H_
 #define LANELIGHT_SIMD_LANES_INL_H_
-#endif
 
 #include <cstddef>
 #include <cstdint>

@@ -1,12 +1,8 @@
 // Elementary functions on vectors of float, without branches or tables. Each states its
 // range and error bound; tests/simd/math_test.cc asserts the same numbers per target.
 // Polynomials are Chebyshev fits made for this file.
-#if defined(LANELIGHT_SIMD_MATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_SIMD_MATH_INL_H_
-#undef LANELIGHT_SIMD_MATH_INL_H_
-#else
+#ifndef LANELIGHT_SIMD_MATH_INL_H_
 #define LANELIGHT_SIMD_MATH_INL_H_
-#endif
 
 #include "kernels/simd/vec3-inl.h"
 

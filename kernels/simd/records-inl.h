@@ -1,11 +1,7 @@
 // Fixed-size records, one per lane: word by word, or four words at a time and a
 // transposition, which costs about a third of four gathers.
-#if defined(LANELIGHT_SIMD_RECORDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_SIMD_RECORDS_INL_H_
-#undef LANELIGHT_SIMD_RECORDS_INL_H_
-#else
+#ifndef LANELIGHT_SIMD_RECORDS_INL_H_
 #define LANELIGHT_SIMD_RECORDS_INL_H_
-#endif
 
 #include <bit>
 #include <cstddef>

@@ -1,11 +1,7 @@
 // Counter-based random numbers: four 32-bit words from four 32-bit words, so that every
 // number is a pure function of (seed, pixel, sample, dimension).
-#if defined(LANELIGHT_SIMD_RNG_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_SIMD_RNG_INL_H_
-#undef LANELIGHT_SIMD_RNG_INL_H_
-#else
+#ifndef LANELIGHT_SIMD_RNG_INL_H_
 #define LANELIGHT_SIMD_RNG_INL_H_
-#endif
 
 #include "kernels/simd/lanes-inl.h"
 

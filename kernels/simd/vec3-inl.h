@@ -1,10 +1,6 @@
 // Three vectors that form a vector of points or directions, one per lane.
-#if defined(LANELIGHT_SIMD_VEC3_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_SIMD_VEC3_INL_H_
-#undef LANELIGHT_SIMD_VEC3_INL_H_
-#else
+#ifndef LANELIGHT_SIMD_VEC3_INL_H_
 #define LANELIGHT_SIMD_VEC3_INL_H_
-#endif
 
 #include "kernels/simd/lanes-inl.h"
 

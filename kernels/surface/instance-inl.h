@@ -1,11 +1,7 @@
 // Instance maps of a vector of hits: word i of a 3x4 row-major map per lane, identity for
 // hits on the world.
-#if defined(LANELIGHT_SURFACE_INSTANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_SURFACE_INSTANCE_INL_H_
-#undef LANELIGHT_SURFACE_INSTANCE_INL_H_
-#else
+#ifndef LANELIGHT_SURFACE_INSTANCE_INL_H_
 #define LANELIGHT_SURFACE_INSTANCE_INL_H_
-#endif
 
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/point-inl.h"

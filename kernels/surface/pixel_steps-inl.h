@@ -1,11 +1,7 @@
 // What lies one pixel beside a point (src/compiled/footprint.h): in line of sight, and in
 // the tangent plane there.
-#if defined(LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
-#undef LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
-#else
+#ifndef LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
 #define LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
-#endif
 
 #include "kernels/simd/vec3-inl.h"
 #include "src/compiled/footprint.h"

@@ -7,12 +7,8 @@
 //   p + n p_error is rounded twice: 2u sum |n_i p_i| (product and sum without fma)
 // Their sum is 3u; RoundingError gives 4u, plus a part of the shape's size that covers
 // the double-precision roundings (2^-50 of it) where p is near the origin.
-#if defined(LANELIGHT_SURFACE_POINT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_SURFACE_POINT_INL_H_
-#undef LANELIGHT_SURFACE_POINT_INL_H_
-#else
+#ifndef LANELIGHT_SURFACE_POINT_INL_H_
 #define LANELIGHT_SURFACE_POINT_INL_H_
-#endif
 
 #include "kernels/simd/vec3-inl.h"
 #include "src/path/fields.h"

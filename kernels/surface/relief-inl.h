@@ -14,12 +14,8 @@
 // Elsewhere normals and images are those of pbrt-v4. Light that a diffuse bump scatters
 // below the horizon of the surface goes on there, as in pbrt-v4; at a tilt of theta that
 // is (1 - cos theta) / 2 of it.
-#if defined(LANELIGHT_SURFACE_RELIEF_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_SURFACE_RELIEF_INL_H_
-#undef LANELIGHT_SURFACE_RELIEF_INL_H_
-#else
+#ifndef LANELIGHT_SURFACE_RELIEF_INL_H_
 #define LANELIGHT_SURFACE_RELIEF_INL_H_
-#endif
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/vec3-inl.h"

@@ -1,10 +1,6 @@
 // What the surface kernels of spheres, disks and planes have in common.
-#if defined(LANELIGHT_SURFACE_STORE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_SURFACE_STORE_INL_H_
-#undef LANELIGHT_SURFACE_STORE_INL_H_
-#else
+#ifndef LANELIGHT_SURFACE_STORE_INL_H_
 #define LANELIGHT_SURFACE_STORE_INL_H_
-#endif
 
 #include <limits>
 #include <numbers>

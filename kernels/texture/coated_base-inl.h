@@ -1,10 +1,6 @@
 // Colours that a material makes of a texture's: below a coat, and of a metal.
-#if defined(LANELIGHT_TEXTURE_COATED_BASE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_TEXTURE_COATED_BASE_INL_H_
-#undef LANELIGHT_TEXTURE_COATED_BASE_INL_H_
-#else
+#ifndef LANELIGHT_TEXTURE_COATED_BASE_INL_H_
 #define LANELIGHT_TEXTURE_COATED_BASE_INL_H_
-#endif
 
 #include "kernels/simd/vec3-inl.h"
 #include "src/compile/coat_fit.h"

@@ -4,12 +4,8 @@
 // axis and averages along the longer one, in steps of the shorter, with the Gaussian
 // weights of Heckbert's ellipse (McCormack, Perry, Farkas and Jouppi 1999, "Feline: Fast
 // Elliptical Lines for Anisotropic Texture Mapping"); `maxanisotropy` bounds their ratio.
-#if defined(LANELIGHT_TEXTURE_LEVELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_TEXTURE_LEVELS_INL_H_
-#undef LANELIGHT_TEXTURE_LEVELS_INL_H_
-#else
+#ifndef LANELIGHT_TEXTURE_LEVELS_INL_H_
 #define LANELIGHT_TEXTURE_LEVELS_INL_H_
-#endif
 
 #include "hwy/contrib/math/math-inl.h"
 #include "kernels/queue/slots-inl.h"

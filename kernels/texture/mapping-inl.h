@@ -1,10 +1,6 @@
 // Where a texture is looked up: at surface coordinates, or at the place of a point.
-#if defined(LANELIGHT_TEXTURE_MAPPING_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_TEXTURE_MAPPING_INL_H_
-#undef LANELIGHT_TEXTURE_MAPPING_INL_H_
-#else
+#ifndef LANELIGHT_TEXTURE_MAPPING_INL_H_
 #define LANELIGHT_TEXTURE_MAPPING_INL_H_
-#endif
 
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/vec3-inl.h"

@@ -1,10 +1,6 @@
 // Perlin noise and the sums of octaves that patterns are made of.
-#if defined(LANELIGHT_TEXTURE_NOISE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_TEXTURE_NOISE_INL_H_
-#undef LANELIGHT_TEXTURE_NOISE_INL_H_
-#else
+#ifndef LANELIGHT_TEXTURE_NOISE_INL_H_
 #define LANELIGHT_TEXTURE_NOISE_INL_H_
-#endif
 
 #include "kernels/simd/vec3-inl.h"
 #include "kernels/texture/noise_table.h"

@@ -1,10 +1,6 @@
 // Procedural textures, of surface coordinates or of places.
-#if defined(LANELIGHT_TEXTURE_PATTERNS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_TEXTURE_PATTERNS_INL_H_
-#undef LANELIGHT_TEXTURE_PATTERNS_INL_H_
-#else
+#ifndef LANELIGHT_TEXTURE_PATTERNS_INL_H_
 #define LANELIGHT_TEXTURE_PATTERNS_INL_H_
-#endif
 
 #include "kernels/texture/mapping-inl.h"
 #include "kernels/texture/marble_colors.h"

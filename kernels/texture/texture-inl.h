@@ -2,12 +2,8 @@
 // each distinct one is evaluated for the whole vector, under a mask, so that its program
 // runs without a branch per lane. Indices are clamped to the image whatever uv are, NaN
 // and infinity included.
-#if defined(LANELIGHT_TEXTURE_TEXTURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_TEXTURE_TEXTURE_INL_H_
-#undef LANELIGHT_TEXTURE_TEXTURE_INL_H_
-#else
+#ifndef LANELIGHT_TEXTURE_TEXTURE_INL_H_
 #define LANELIGHT_TEXTURE_TEXTURE_INL_H_
-#endif
 
 #include "kernels/texture/coated_base-inl.h"
 #include "kernels/texture/patterns-inl.h"

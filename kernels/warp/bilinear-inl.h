@@ -7,12 +7,8 @@
 //   error       below 1e-6 of the density of a point, for weights of one sign
 //   source      Hart, Pharr, Muller, Lopes, McGuire and Shirley 2020, "Practical Product
 //               Sampling by Fitting and Composing Warps"
-#if defined(LANELIGHT_WARP_BILINEAR_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_WARP_BILINEAR_INL_H_
-#undef LANELIGHT_WARP_BILINEAR_INL_H_
-#else
+#ifndef LANELIGHT_WARP_BILINEAR_INL_H_
 #define LANELIGHT_WARP_BILINEAR_INL_H_
-#endif
 
 #include "kernels/simd/math-inl.h"
 

@@ -1,11 +1,7 @@
 // The unit disk: concentric map (Shirley and Chiu 1997). Preserves area and
 // neighbourhoods, so stratified points stay stratified.
-#if defined(LANELIGHT_WARP_DISK_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_WARP_DISK_INL_H_
-#undef LANELIGHT_WARP_DISK_INL_H_
-#else
+#ifndef LANELIGHT_WARP_DISK_INL_H_
 #define LANELIGHT_WARP_DISK_INL_H_
-#endif
 
 #include "kernels/simd/math-inl.h"
 

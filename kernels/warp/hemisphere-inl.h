@@ -1,11 +1,7 @@
 // Directions on the hemisphere around +z. Densities are with respect to solid angle. No
 // sampler returns a direction with z = 0, where the density of two of them vanishes.
-#if defined(LANELIGHT_WARP_HEMISPHERE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_WARP_HEMISPHERE_INL_H_
-#undef LANELIGHT_WARP_HEMISPHERE_INL_H_
-#else
+#ifndef LANELIGHT_WARP_HEMISPHERE_INL_H_
 #define LANELIGHT_WARP_HEMISPHERE_INL_H_
-#endif
 
 #include "kernels/warp/disk-inl.h"
 

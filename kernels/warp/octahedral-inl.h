@@ -1,12 +1,8 @@
 // The equal-area octahedral map between the square [0,1]^2 and the sphere (Clarberg 2008,
 // "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD"; orientation as in pbrt-v4;
 // in double: src/image/octahedral.h).
-#if defined(LANELIGHT_WARP_OCTAHEDRAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_WARP_OCTAHEDRAL_INL_H_
-#undef LANELIGHT_WARP_OCTAHEDRAL_INL_H_
-#else
+#ifndef LANELIGHT_WARP_OCTAHEDRAL_INL_H_
 #define LANELIGHT_WARP_OCTAHEDRAL_INL_H_
-#endif
 
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/vec3-inl.h"

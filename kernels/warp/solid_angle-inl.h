@@ -8,12 +8,8 @@
 //               tests/lights/solid_angle_test.cc asserts it. The second part is the
 //               rounding of the height, which area sampling meets as well
 //   source      van Oosterom and Strackee 1983, "The Solid Angle of a Plane Triangle"
-#if defined(LANELIGHT_WARP_SOLID_ANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_WARP_SOLID_ANGLE_INL_H_
-#undef LANELIGHT_WARP_SOLID_ANGLE_INL_H_
-#else
+#ifndef LANELIGHT_WARP_SOLID_ANGLE_INL_H_
 #define LANELIGHT_WARP_SOLID_ANGLE_INL_H_
-#endif
 
 #include "kernels/simd/math-inl.h"
 

@@ -11,12 +11,8 @@
 //               alpha(x0) below a few omega
 //   source      Urena, Fajardo and King 2013, "An Area-Preserving Parametrization for
 //               Spherical Rectangles"
-#if defined(LANELIGHT_WARP_SPHERICAL_RECTANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_WARP_SPHERICAL_RECTANGLE_INL_H_
-#undef LANELIGHT_WARP_SPHERICAL_RECTANGLE_INL_H_
-#else
+#ifndef LANELIGHT_WARP_SPHERICAL_RECTANGLE_INL_H_
 #define LANELIGHT_WARP_SPHERICAL_RECTANGLE_INL_H_
-#endif
 
 #include "kernels/warp/bilinear-inl.h"
 #include "kernels/warp/solid_angle-inl.h"

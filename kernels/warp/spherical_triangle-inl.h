@@ -10,12 +10,8 @@
 //               subtracted from each other, only points from points
 //   source      Arvo 1995, "Stratified Sampling of Spherical Triangles"; the arc by
 //               reflection: Peters 2021, "BRDF Importance Sampling for Polygonal Lights"
-#if defined(LANELIGHT_WARP_SPHERICAL_TRIANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LANELIGHT_WARP_SPHERICAL_TRIANGLE_INL_H_
-#undef LANELIGHT_WARP_SPHERICAL_TRIANGLE_INL_H_
-#else
+#ifndef LANELIGHT_WARP_SPHERICAL_TRIANGLE_INL_H_
 #define LANELIGHT_WARP_SPHERICAL_TRIANGLE_INL_H_
-#endif
 
 #include "kernels/warp/bilinear-inl.h"
 #include "kernels/warp/solid_angle-inl.h"

@@ -2,6 +2,7 @@
 // consistent with itself.
 #include "kernels/stages.h"
 
+#include <cctype>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -15,18 +16,36 @@
 namespace lanelight {
 namespace {
 
+namespace fs = std::filesystem;
+
+const fs::path kKernels = fs::path(LANELIGHT_SOURCE_DIR) / "kernels";
+
+std::string TextOfKernel(const fs::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// Whether a header of kernels/ is guarded by the name that the build takes back between
+// targets (cmake/kernel_groups.cmake).
+bool IsGuardedByPath(std::string path, const std::string& text) {
+  for (char& c : path) {
+    c = std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::toupper(c))
+                                                    : '_';
+  }
+  const std::string guard = "LANELIGHT_" + path + "_";
+  return text.find("\n#ifndef " + guard + "\n#define " + guard + "\n") !=
+         std::string::npos;
+}
+
 // Names X of every "Stage XStage() {" in kernels/**.cc.
 std::set<std::string> StagesInFiles() {
   std::set<std::string> names;
   const std::regex definition(R"(\nStage (\w+)Stage\(\) \{)");
-  const std::filesystem::path root =
-      std::filesystem::path(LANELIGHT_SOURCE_DIR) / "kernels";
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+  for (const auto& entry : fs::recursive_directory_iterator(kKernels)) {
     if (entry.path().extension() != ".cc") continue;
-    std::ifstream file(entry.path());
-    std::stringstream text;
-    text << file.rdbuf();
-    const std::string s = text.str();
+    const std::string s = TextOfKernel(entry.path());
     for (std::sregex_iterator it(s.begin(), s.end(), definition), end; it != end; ++it) {
       names.insert((*it)[1]);
     }
@@ -77,6 +96,23 @@ TEST_CASE("a stage resolves to the kernel of the target that is chosen then",
   }
   ForceTarget("");
   CHECK(kernels.size() == AvailableTargets().size());
+}
+
+TEST_CASE("headers of kernels are guarded by their paths", "[registry]") {
+  int headers = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(kKernels)) {
+    const std::string name = fs::relative(entry.path(), kKernels).generic_string();
+    if (!name.ends_with("-inl.h") || name == "simd/each_target-inl.h") continue;
+    INFO(name);
+    CHECK(IsGuardedByPath(name, TextOfKernel(entry.path())));
+    ++headers;
+  }
+  CHECK(headers > 100);
+  CHECK(IsGuardedByPath(
+      "a/b_c-inl.h",
+      "\n#ifndef LANELIGHT_A_B_C_INL_H_\n#define LANELIGHT_A_B_C_INL_H_\n"));
+  CHECK(!IsGuardedByPath(
+      "a/b_c-inl.h", "\n#ifndef LANELIGHT_A_B_INL_H_\n#define LANELIGHT_A_B_INL_H_\n"));
 }
 
 TEST_CASE("a kernel is always the same, or chosen by a feature", "[registry]") {
