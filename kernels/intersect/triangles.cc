@@ -13,42 +13,16 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// World triangles, batch by batch: through a frustum if the rays are nearly the same,
-// else the plain loop if there are few triangles, else collected to a stream.
-template <bool kAlpha>
-void IntersectWorld(Wave& wave) {
-  const Accel& accel = wave.scene->accel;
-  FrustumTrial frustum(accel);
-  auto& stream = RayStream<false, kAlpha, false>::OfThread(*wave.scene);
-  const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
-  ForEachBatch(wave, wave.queue(QueueId::kActive),
-               [&](const Slots& slots, MF valid) HWY_ATTR {
-                 Rays rays = LoadRays(wave.path, slots);
-                 rays.from = StartsOf(wave.path, slots, rays.t_max);
-                 PacketBounds bounds;
-                 if (bounds.Compute(rays) && bounds.IsNarrow(accel.groups[0].reach) &&
-                     frustum.IsOn()) {
-                   int left = frustum.most();
-                   ClosestFrustum<kAlpha>(wave, rays, bounds, slots, left);
-                   frustum.Add(left);
-                   if (left >= 0) return;
-                   rays.t_max = Gather(wave.path.t, slots);
-                 }
-                 if (!accel.few.triangles.empty())
-                   return ClosestFew<kAlpha>(wave, rays, slots);
-                 stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
-               });
-  if (!stream.empty()) flush();
-}
-
-// World and instances: through frustums if the rays are nearly the same, else in a
+// Batch by batch: through a frustum (with instances, one in each space) if the rays are
+// nearly the same, else the plain loop if there are few triangles, else collected to a
 // stream.
-template <bool kAlpha>
-void IntersectInstanced(Wave& wave) {
+template <bool kAlpha, bool kInstances>
+void IntersectRays(Wave& wave) {
   const Accel& accel = wave.scene->accel;
-  const float reach = std::max(accel.groups[0].reach, accel.top.reach);
+  float reach = accel.groups[0].reach;
+  if constexpr (kInstances) reach = std::max(reach, accel.top.reach);
   FrustumTrial frustum(accel);
-  auto& stream = RayStream<false, kAlpha, true>::OfThread(*wave.scene);
+  auto& stream = RayStream<false, kAlpha, kInstances>::OfThread(*wave.scene);
   const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
   ForEachBatch(wave, wave.queue(QueueId::kActive),
                [&](const Slots& slots, MF valid) HWY_ATTR {
@@ -57,10 +31,17 @@ void IntersectInstanced(Wave& wave) {
                  PacketBounds bounds;
                  if (bounds.Compute(rays) && bounds.IsNarrow(reach) && frustum.IsOn()) {
                    int left = frustum.most();
-                   ClosestFrustumInstanced<kAlpha>(wave, rays, bounds, slots, left);
+                   if constexpr (kInstances) {
+                     ClosestFrustumInstanced<kAlpha>(wave, rays, bounds, slots, left);
+                   } else {
+                     ClosestFrustum<kAlpha>(wave, rays, bounds, slots, left);
+                   }
                    frustum.Add(left);
                    if (left >= 0) return;
                    rays.t_max = Gather(wave.path.t, slots);
+                 }
+                 if (!kInstances && !accel.few.triangles.empty()) {
+                   return ClosestFew<kAlpha>(wave, rays, slots);
                  }
                  stream.Add(rays, slots, Gather(wave.path.prim, slots), valid, flush);
                });
@@ -77,9 +58,9 @@ Stage IntersectTrianglesStage() {
           .resolve = [](const FeatureSet& features) -> StageFn {
             const bool alpha = features.Has(Feature::kAlpha);
             if (features.Has(Feature::kInstances)) {
-              return alpha ? IntersectInstanced<true> : IntersectInstanced<false>;
+              return alpha ? IntersectRays<true, true> : IntersectRays<false, true>;
             }
-            return alpha ? IntersectWorld<true> : IntersectWorld<false>;
+            return alpha ? IntersectRays<true, false> : IntersectRays<false, false>;
           }};
 }
 

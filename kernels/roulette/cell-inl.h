@@ -1,4 +1,5 @@
-// Cells of the cache of path values (src/prepare/path_values.h).
+// Cells of the cache of path values (src/prepare/path_values.h), and what its pilot
+// passes have in common.
 #ifndef LANELIGHT_ROULETTE_CELL_INL_H_
 #define LANELIGHT_ROULETTE_CELL_INL_H_
 
@@ -45,6 +46,25 @@ LANELIGHT_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path,
   const VI row = hn::Add(y, hn::Mul(z, constant(grid.size[1])));
   const VI index = hn::Add(x, hn::Mul(row, constant(grid.size[0])));
   return hn::Add(hn::Mul(index, constant(6)), face);
+}
+
+/// What roulette on the throughput would add to the second moment of paths that have
+/// gathered g and have this throughput (record.cc has the formula).
+LANELIGHT_INLINE void AddRisk(const PathColumns& p, const Slots& slots, VF throughput,
+                              VF g) {
+  const VF one = Splat(1.0f), risk = Gather(p.risk_0, slots);
+  const VF weight = hn::Add(one, risk);
+  // The throughput that a survivor of the decisions before would have.
+  VF s = hn::Mul(throughput, weight);
+  if (p.eta_scale != nullptr) s = hn::Mul(s, Gather(p.eta_scale, slots));
+  const VI before = hn::Set(DI(), kThroughputFirst - 1);
+  const MF late = hn::RebindMask(DF(), hn::Gt(Gather(p.depth, slots), before));
+  s = hn::Min(hn::IfThenElse(late, s, one), one);
+  const VF a = hn::Mul(weight, hn::Sub(hn::Div(one, s), one));
+  const VF ag = hn::Mul(a, g);
+  Scatter(hn::Add(risk, a), p.risk_0, slots);
+  Scatter(hn::Add(Gather(p.risk_1, slots), ag), p.risk_1, slots);
+  Scatter(hn::MulAdd(ag, g, Gather(p.risk_2, slots)), p.risk_2, slots);
 }
 
 LANELIGHT_END_KERNELS

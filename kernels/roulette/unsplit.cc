@@ -82,24 +82,11 @@ void UnsplitAfter(Wave& wave) {
 
 void UnsplitDecision(Wave& wave) {
   const PathColumns& p = wave.path;
-  const VI before = hn::Set(DI(), kThroughputFirst - 1);
   ForEachBatch(
       wave, wave.queue(QueueId::kScattered), [&](const Slots& slots, MF) HWY_ATTR {
-        const VF one = Splat(1.0f), risk = Gather(p.risk_0, slots);
-        const VF weight = hn::Add(one, risk);
-        VF s = hn::Div(MaxComponent(Gather3(p.beta_r, p.beta_g, p.beta_b, slots)),
-                       Gather(p.copy_weight, slots));
-        // The throughput that a survivor of the decisions before would have.
-        s = hn::Mul(s, weight);
-        if (p.eta_scale != nullptr) s = hn::Mul(s, Gather(p.eta_scale, slots));
-        const MF late = hn::RebindMask(DF(), hn::Gt(Gather(p.depth, slots), before));
-        s = hn::Min(hn::IfThenElse(late, s, one), one);
-        const VF g = Alone(p, slots, Gathered(wave, slots));
-        const VF a = hn::Mul(weight, hn::Sub(hn::Div(one, s), one));
-        const VF ag = hn::Mul(a, g);
-        Scatter(hn::Add(risk, a), p.risk_0, slots);
-        Scatter(hn::Add(Gather(p.risk_1, slots), ag), p.risk_1, slots);
-        Scatter(hn::MulAdd(ag, g, Gather(p.risk_2, slots)), p.risk_2, slots);
+        const VF beta = MaxComponent(Gather3(p.beta_r, p.beta_g, p.beta_b, slots));
+        AddRisk(p, slots, hn::Div(beta, Gather(p.copy_weight, slots)),
+                Alone(p, slots, Gathered(wave, slots)));
       });
 }
 
