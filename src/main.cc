@@ -84,11 +84,11 @@ int ReportParse(const CLI::App& root, const CLI::ParseError& error, int argc,
   return kExitUsage;
 }
 
-void AddCommands(CLI::App& root, Crew& crew, Command& chosen) {
+void AddCommands(CLI::App& root, RankGroup& group, Command& chosen) {
   root.footer(kFooter);
   root.set_version_flag("--version", FullVersion());
   root.require_subcommand(1);
-  AddRenderCommand(root, crew, chosen);
+  AddRenderCommand(root, group, chosen);
   AddAdviseCommand(root, chosen);
   AddGuideCommand(root, chosen);
   AddPlanCommand(root, chosen);
@@ -149,37 +149,46 @@ int Execute(const CLI::App& root, const Command& chosen, int argc, char** argv,
 }
 
 // Several ranks render; everything else is for a process alone.
-bool ForRanks(const CLI::App& root, const Crew& crew) {
-  if (crew.ranks() == 1) return true;
+bool ForRanks(const CLI::App& root, const RankGroup& group) {
+  if (group.ranks() == 1) return true;
   const std::string name = root.get_subcommands().front()->get_name();
   if (name == "render") return true;
   PrintError(
       fmt::format("error: {} ranks can `render`; run `lanelight {}` without mpirun",
-                  crew.ranks(), name));
+                  group.ranks(), name));
   return false;
 }
 
-int Run(CLI::App& root, const Command& chosen, Ranks& ranks, int argc, char** argv) {
+// On the leader: which rank's number is another than its own; empty if none is.
+std::string WhoDiffers(RankGroup& group, int number) {
+  const std::vector<int> numbers = group.AllGather(number);
+  for (int r = 1; group.leads() && r < group.ranks(); ++r) {
+    if (numbers[static_cast<std::size_t>(r)] != number) return group.Name(r);
+  }
+  return "";
+}
+
+int Run(CLI::App& root, const Command& chosen, RankGroup& group, int argc, char** argv) {
   int exit_code = Parse(root, argc, argv);
-  if (const std::string who = ranks.WhoDiffers(exit_code); !who.empty()) {
+  if (const std::string who = WhoDiffers(group, exit_code); !who.empty()) {
     PrintError("error: " + who +
                " does not take this command line as rank 0 does: is a "
                "file missing there, or its program another?");
-    return ranks.Fail(kExitUsage, "");
+    return group.Fail(kExitUsage, "");
   }
   if (exit_code != kGoOn) {
-    return ranks.Leave(FlushOutput() ? exit_code : static_cast<int>(kExitBadInput));
+    return group.Leave(FlushOutput() ? exit_code : static_cast<int>(kExitBadInput));
   }
-  if (!ForRanks(root, ranks.crew())) return ranks.Leave(kExitUsage);
+  if (!ForRanks(root, group)) return group.Leave(kExitUsage);
   std::string message;
   exit_code = Execute(root, chosen, argc, argv, message);
   if (!message.empty()) {
     PrintError(message);
     FlushOutput();
-    return ranks.Fail(exit_code, message);
+    return group.Fail(exit_code, message);
   }
   if (!FlushOutput()) exit_code = kExitBadInput;
-  return ranks.Leave(exit_code);
+  return group.Leave(exit_code);
 }
 
 }  // namespace
@@ -191,10 +200,10 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   // Nor must a limit on the size of files (`ulimit -f`): they fail with EFBIG.
   std::signal(SIGXFSZ, SIG_IGN);
-  const std::unique_ptr<Ranks> ranks = JoinRanks(&argc, &argv);
-  if (!ranks->crew().leads()) SilenceConsole();
+  const std::unique_ptr<RankGroup> group = JoinRanks(&argc, &argv);
+  if (!group->leads()) SilenceConsole();
   CLI::App root(kDescription, "lanelight");
   Command chosen;
-  AddCommands(root, ranks->crew(), chosen);
-  return Run(root, chosen, *ranks, argc, argv);
+  AddCommands(root, *group, chosen);
+  return Run(root, chosen, *group, argc, argv);
 }

@@ -6,14 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "src/wavefront/crew.h"
+#include "src/wavefront/rank_group.h"
 
 namespace lanelight {
 
 using Command = std::function<int()>;
 
-/// `crew`: who renders; it must outlive the command.
-void AddRenderCommand(CLI::App& root, Crew& crew, Command& chosen);
+/// `group`: who renders; it must outlive the command.
+void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen);
 void AddAdviseCommand(CLI::App& root, Command& chosen);
 void AddGuideCommand(CLI::App& root, Command& chosen);
 void AddPlanCommand(CLI::App& root, Command& chosen);

@@ -23,36 +23,35 @@ struct RenderCommandOptions {
 
 // The default decides by a pilot in long renders; one that is gone on with has what it
 // began with. Ranks have what the leader says, who has the state.
-DefaultDecision DecisionFor(const RenderCommandOptions& options, Crew& crew) {
+DefaultDecision DecisionFor(const RenderCommandOptions& options, RankGroup& group) {
   DefaultDecision decision = DefaultDecision::kIfLong;
-  if (crew.leads()) {
+  if (group.leads()) {
     if (const auto began = DecisionOfState(options.outputs.targets.checkpoint)) {
       decision =
           *began == Decide::kPilot ? DefaultDecision::kAlways : DefaultDecision::kNever;
     }
   }
-  if (crew.ranks() == 1) return decision;
-  const std::string leaders = crew.Share(std::to_string(static_cast<int>(decision)));
+  const std::string leaders = group.Share(std::to_string(static_cast<int>(decision)));
   return static_cast<DefaultDecision>(std::stoi(leaders));
 }
 
 // What a rank does that does not lead.
 int Serve(const RenderCommandOptions& options, const RenderSettings& settings,
-          Crew& crew) {
+          RankGroup& group) {
   const Job job = PrepareJob(options.scene.scene, settings);
   const InterruptGuard interrupt("");
-  ServeRender(job, crew, &interrupt.stop());
+  ServeRender(job, group, &interrupt.stop());
   return kExitGood;
 }
 
-int Render(const RenderCommandOptions& options, Crew& crew) {
+int Render(const RenderCommandOptions& options, RankGroup& group) {
   ForceTarget(options.scene.target);
   const ThreadLimit threads(options.scene.threads);
-  if (crew.leads()) CheckOutputs(options.outputs, {options.scene.scene});
+  if (group.leads()) CheckOutputs(options.outputs, {options.scene.scene});
   RenderSettings settings = options.scene.settings;
-  settings.decision = DecisionFor(options, crew);
+  settings.decision = DecisionFor(options, group);
   if (options.outputs.quiet) settings.trees.folder.on_wait = nullptr;
-  if (!crew.leads()) return Serve(options, settings, crew);
+  if (!group.leads()) return Serve(options, settings, group);
   const Job job = PrepareJob(options.scene.scene, settings);
   CheckOutputs(options.outputs, job.files);
   if (!options.outputs.quiet) PrintNotes(job);
@@ -61,7 +60,7 @@ int Render(const RenderCommandOptions& options, Crew& crew) {
   const InterruptGuard interrupt(keeps ? kKeepingMessage : kStoppingMessage);
   ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
   RenderHooks hooks = PrintingHooks(progress, interrupt.stop());
-  if (crew.ranks() > 1) hooks.crew = &crew;
+  if (group.ranks() > 1) hooks.group = &group;
   const Rendering rendering =
       RenderToFiles(job, options.scene.scene, options.outputs.targets, hooks);
   return PrintRendering(rendering, job, options.outputs);
@@ -105,7 +104,7 @@ void CheckAmountOptions(const RenderSettings& settings) {
 
 }  // namespace
 
-void AddRenderCommand(CLI::App& root, Crew& crew, Command& chosen) {
+void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen) {
   CLI::App* command = root.add_subcommand("render", "Render a scene to an OpenEXR image");
   auto options = std::make_shared<RenderCommandOptions>();
   AddAmountOptions(*command, options->scene.settings);
@@ -125,11 +124,11 @@ void AddRenderCommand(CLI::App& root, Crew& crew, Command& chosen) {
       "  lanelight render scene.pbrt -o out.exr --spp 65536 --checkpoint out.state "
       "--resume\n"
       "  lanelight render scene.pbrt --spp 4096 --part 3/16 --checkpoint part-3.state");
-  command->callback([options, &crew, &chosen] {
+  command->callback([options, &group, &chosen] {
     ResolveOutputs(options->outputs);
     CheckAmountOptions(options->scene.settings);
     ResolveCheckpoint(options->checkpoint, options->outputs.targets);
-    chosen = [options, &crew] { return Render(*options, crew); };
+    chosen = [options, &group] { return Render(*options, group); };
   });
 }
 

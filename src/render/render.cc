@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "src/core/error.h"
 #include "src/core/json_text.h"
 #include "src/core/stopwatch.h"
 #include "src/image/png.h"
@@ -44,12 +45,15 @@ std::uint64_t CountUnsampled(const FilmAccumulator& film) {
 }
 
 // All ranks are to render the same, bit by bit.
-void AgreeOnJob(const Job& job, Crew& crew) {
-  crew.Agree("would render something else", DumpJson(IdentityOf(job)),
-             [](const std::string& leaders, const std::string& its) {
-               return IdentityDifferences(ParseJson(leaders), "rank 0", ParseJson(its),
-                                          "it");
-             });
+void AgreeOnJob(const Job& job, RankGroup& group) {
+  const std::string own = DumpJson(IdentityOf(job));
+  group.Gather(own, [&](int rank, std::string_view its) {
+    const std::string differs =
+        IdentityDifferences(ParseJson(own), "rank 0", ParseJson(std::string(its)), "it");
+    if (differs.empty()) return;
+    throw InputError(
+        fmt::format("{} would render something else:{}", group.Name(rank), differs));
+  });
 }
 
 RunResult RunKept(const Job& job, FilmAccumulator& film, const Json& head,
@@ -58,9 +62,9 @@ RunResult RunKept(const Job& job, FilmAccumulator& film, const Json& head,
   RunOptions options = RunOptionsOf(job, film);
   options.on_progress = hooks.on_progress;
   options.stop = hooks.stop;
-  options.crew = hooks.crew;
+  options.group = hooks.group;
   if (!settings.Any()) {
-    if (hooks.crew != nullptr) AgreeOnJob(job, *hooks.crew);
+    if (hooks.group != nullptr) AgreeOnJob(job, *hooks.group);
     return Run(job.scene, job.plan, options, film);
   }
   const auto on_problem = [&](const std::string& problem) {
@@ -69,7 +73,7 @@ RunResult RunKept(const Job& job, FilmAccumulator& film, const Json& head,
   Checkpoint checkpoint(job, settings, head, on_problem);
   options.tiles = checkpoint.tiles();
   options.keeper = &checkpoint;
-  if (hooks.crew != nullptr) AgreeOnJob(job, *hooks.crew);
+  if (hooks.group != nullptr) AgreeOnJob(job, *hooks.group);
   try {
     RunResult result = Run(job.scene, job.plan, options, film);
     out.problems = checkpoint.Finish();
@@ -101,12 +105,12 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   return out;
 }
 
-void ServeRender(const Job& job, Crew& crew, const std::atomic<bool>* stop) {
+void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop) {
   FilmAccumulator film = MakeFilm(job);
   RunOptions options = RunOptionsOf(job, film);
   options.stop = stop;
-  options.crew = &crew;
-  AgreeOnJob(job, crew);
+  options.group = &group;
+  AgreeOnJob(job, group);
   ServeRun(job.scene, job.plan, options, film);
 }
 

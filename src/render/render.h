@@ -27,7 +27,7 @@ struct RenderHooks {
   std::function<void()> on_rendered;  // before anything is written
   /// Of a state or watched image that could not be written; from any thread.
   std::function<void(const std::string&)> on_problem;
-  Crew* crew = nullptr;                     // who renders; null: this process alone
+  RankGroup* group = nullptr;               // who renders; null: this process alone
   const std::atomic<bool>* stop = nullptr;  // ends the render early; what is there counts
   nlohmann::json members = nlohmann::json::object();  // of the report, beside its own
 };
@@ -46,8 +46,8 @@ struct Rendering {
 Rendering RenderToFiles(const Job& job, const std::string& scene,
                         const RenderTargets& targets, const RenderHooks& hooks);
 
-/// The same for a rank that serves (src/wavefront/crew.h): nothing is written.
-void ServeRender(const Job& job, Crew& crew, const std::atomic<bool>* stop);
+/// The same for a worker (src/wavefront/rank_group.h): nothing is written.
+void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop);
 
 /// The second half of it, for a film whoever has rendered it: `identity` and `head` say
 /// what (src/render/identity.h, HeadJson). out.report.result is what it came to.

@@ -32,6 +32,7 @@ bool ErrorLooks::IsLook(std::uint64_t done) const {
 void ErrorLooks::LookIfDue(std::uint64_t done) {
   if (!setting_.options.samples_needed || done == 0) return;
   if (!setting_.tasks.IsAt(done) || !IsLook(done)) return;
+  setting_.work.Gather();
   setting_.films.film().FitControl();
   needed_ = setting_.options.samples_needed(done);
   hopeless_ = needed_ < 0;

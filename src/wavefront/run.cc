@@ -9,6 +9,7 @@
 #include "src/wavefront/profile.h"
 #include "src/wavefront/run_parts.h"
 #include "src/wavefront/run_setting.h"
+#include "src/wavefront/run_start.h"
 #include "src/wavefront/run_strategy.h"
 #include "src/wavefront/run_watch.h"
 
@@ -26,24 +27,25 @@ class Runner {
  public:
   Runner(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
          FilmAccumulator& film)
-      : crew_(options.crew != nullptr ? *options.crew : alone_),
-        strategy_(scene, plan, options, crew_, clock_),
+      : group_(options.group != nullptr ? *options.group : alone_),
+        strategy_(scene, plan, options, clock_),
         tasks_(scene, strategy_.plan(), strategy_.run(), options, PlannedSpp(options)),
         films_(strategy_.run().planes, scene.strategy.coefficient.value_or(1), film),
-        setting_{options, crew_, clock_, tasks_, films_},
+        work_(group_, clock_, tasks_, films_),
+        setting_{options, clock_, tasks_, films_, work_},
         looks_(setting_),
         watch_(setting_, looks_),
         parts_(setting_, looks_, watch_) {
     LL_CHECK_EQ(film.groups().replicates, GroupsOf(scene.strategy).replicates);
     LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
     films_.UseResponse(scene.film.response);
-    LL_CHECK(options.windows.empty() || crew_.ranks() == 1);
+    LL_CHECK(options.windows.empty() || group_.ranks() == 1);
   }
 
   /// All of a run.
   RunResult Run();
-  /// The same for a rank that serves.
-  void Serve(const CrewStart& start, const std::atomic<bool>* stop);
+  /// The same for a worker.
+  void Serve(const RunStart& start, const std::atomic<bool>* stop);
 
  private:
   void Start();
@@ -53,11 +55,12 @@ class Runner {
   RunResult Result();
 
   RunClock clock_;
-  OneProcess alone_;
-  Crew& crew_;
+  RankGroup alone_;
+  RankGroup& group_;
   RunStrategy strategy_;
   Tasks tasks_;
   Films films_;
+  GroupTasks work_;
   const RunSetting setting_;
   ErrorLooks looks_;
   RunWatch watch_;
@@ -69,19 +72,17 @@ class Runner {
 void Runner::Start() {
   clock_.Start();
   const bool restored = setting_.options.keeper != nullptr && Restore();
-  if (!restored) strategy_.PlanTraining();
-  if (crew_.ranks() > 1) {
-    // Ranks are told once which tiles there are.
-    crew_.Share(
-        ToBytes({tasks_.rects(), strategy_.planned_samples(), restored,
-                 strategy_.trained(), strategy_.training().changes, strategy_.Tables()}));
-  }
   if (!restored) strategy_.Train();
   films_.film().set_dependents(strategy_.Dependents());
-  strategy_.Agree();
+  const bool have_samples = tasks_.counts().samples > 0;
+  if (group_.ranks() > 1) {
+    group_.Share(ToBytes({tasks_.tiles(), have_samples, strategy_.trained(),
+                          strategy_.training().changes, strategy_.Tables()}));
+  }
+  work_.Deal(have_samples);
   parts_.Start();
   watch_.Start();
-  if (restored) parts_.GoOn();
+  if (restored) looks_.LookAgain();
 }
 
 bool Runner::Restore() {
@@ -95,6 +96,7 @@ bool Runner::Restore() {
 }
 
 void Runner::Keep(bool finished) {
+  work_.Gather();
   RunState state = {
       films_,  Counts(), strategy_.trained(), strategy_.training(), strategy_.Tables(),
       finished};
@@ -114,30 +116,33 @@ RunResult Runner::Run() {
   RunKeeper* const keeper = setting_.options.keeper;
   while (const auto part = parts_.Next()) {
     strategy_.BeginWith(part->first);
-    crew_.RunRound({part->first, part->end, part->per_task}, tasks_, watch_, films_);
+    work_.RunRound({part->first, part->end, part->per_task}, watch_);
     if (keeper != nullptr && keeper->Due() && !watch_.Ended()) Keep(false);
     // It may have been stopped before its end.
     if (tasks_.Done() >= part->end) parts_.Finish(*part);
   }
+  work_.Gather();
   // The last state is kept too, also where another rank has failed.
   if (keeper != nullptr) Keep(watch_.Reason() != StopReason::kInterrupted);
-  crew_.Dismiss();
+  work_.Dismiss();
   return Result();
 }
 
-void Runner::Serve(const CrewStart& start, const std::atomic<bool>* stop) {
+void Runner::Serve(const RunStart& start, const std::atomic<bool>* stop) {
   clock_.Start();
-  strategy_.TrainLike(start);
-  films_.film().set_dependents(strategy_.Dependents());
-  strategy_.Agree();
-  crew_.Serve({tasks_, films_,
-               [this](std::uint64_t first) { strategy_.BeginWith(first); }, stop});
+  if (start.trained) {
+    TrainingOutcome training;
+    training.changes = start.changes;
+    strategy_.Restore(std::move(training), start.tables);
+  }
+  work_.Deal(start.have_samples);
+  work_.Serve([this](std::uint64_t first) { strategy_.BeginWith(first); }, stop);
 }
 
 RunResult Runner::Result() {
   RunResult result;
-  result.ranks = crew_.ranks();
-  result.bytes_between_ranks = crew_.bytes();
+  result.ranks = group_.ranks();
+  result.bytes_between_ranks = group_.bytes();
   films_.film().FitControl();
   const RunCounts counts = Counts();
   result.seconds = counts.seconds;
@@ -171,11 +176,10 @@ RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& op
 
 void ServeRun(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film) {
-  LL_CHECK(options.crew != nullptr);
-  const CrewStart start = CrewStartFromBytes(options.crew->Share(""));
+  LL_CHECK(options.group != nullptr);
+  const RunStart start = RunStartFromBytes(options.group->Share(""));
   RunOptions own = options;
   own.tiles = start.tiles;
-  own.stop = nullptr;  // who leads says when training and tasks end
   Runner(scene, plan, own, film).Serve(start, options.stop);
 }
 

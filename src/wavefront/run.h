@@ -14,8 +14,8 @@
 #include "src/image/accumulator.h"
 #include "src/image/pixel_rect.h"
 #include "src/path/wave.h"
-#include "src/wavefront/crew.h"
 #include "src/wavefront/plan.h"
+#include "src/wavefront/rank_group.h"
 #include "src/wavefront/run_state.h"
 
 namespace lanelight {
@@ -73,7 +73,7 @@ struct RunOptions {
   /// Keeps the state while the run goes on; null: nobody does.
   RunKeeper* keeper = nullptr;
   /// Who renders, without `windows`; null: this process alone.
-  Crew* crew = nullptr;
+  RankGroup* group = nullptr;
 };
 
 struct StageProfile {
@@ -158,9 +158,9 @@ struct RunResult {
 RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 
-/// The same for a rank of options.crew that serves: as the leader wants it, until it lets
-/// it go. `film` is only where tiles stay while they are rendered; of `options`, what
-/// says how much to render and the keeper are the leader's business.
+/// The same for a worker of options.group: as the leader wants it, until it lets it go.
+/// `film` has the worker's part of the image alone; of `options`, what says how much to
+/// render and the keeper are the leader's business.
 void ServeRun(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 

@@ -2,25 +2,30 @@
 
 #include <algorithm>
 
+#include "src/core/parallel.h"
+
 namespace lanelight {
 
 void RunParts::Start() {
   const double budget = setting_.options.seconds;
-  if (budget > 0) pace_.emplace(budget, PaceTasks());
+  if (budget <= 0) return;
+  const Tasks& tasks = setting_.tasks;
+  pace_.emplace(budget, Pace::Tasks{tasks.tiles().size(), MaxThreads(), tasks.per_task(),
+                                    setting_.unit()});
 }
-
-void RunParts::GoOn() { looks_.LookAgain(); }
 
 std::optional<RunPart> RunParts::Next() {
   const std::uint64_t done = setting_.tasks.Done(), limit = setting_.limit();
   if (done >= limit || watch_.Ended() || looks_.reached() || looks_.hopeless())
     return std::nullopt;
-  const Round round = NextRound();
+  // Without a budget nothing else ends a round.
+  Round round = {setting_.tasks.per_task(), limit};
+  if (pace_) round = pace_->Next(setting_.clock.Elapsed());
   RunPart part;
   part.begin = done;
   part.first = done / kSamplesPerSeed * kSamplesPerSeed;
   part.end = std::min(
-      {limit, looks_.After(done), done + round.samples(), part.first + kSamplesPerSeed});
+      {limit, looks_.After(done), done + round.samples, part.first + kSamplesPerSeed});
   part.per_task = round.per_task;
   part.start = std::chrono::steady_clock::now();
   return part;
@@ -31,20 +36,6 @@ void RunParts::Finish(const RunPart& part) {
   const bool halfway = 2 * setting_.clock.Elapsed() > setting_.options.seconds;
   if (pace_ && watch_.reserved() == 0 && halfway) TimeFit();
   looks_.LookIfDue(part.end);
-}
-
-Pace::Tasks RunParts::PaceTasks() const {
-  Pace::Tasks tasks;
-  tasks.tiles = setting_.tasks.tiles();
-  tasks.threads = setting_.crew.threads();
-  tasks.most = setting_.tasks.FullRound();
-  tasks.unit = setting_.unit();
-  return tasks;
-}
-
-Round RunParts::NextRound() const {
-  if (pace_) return pace_->Next(setting_.clock.Elapsed());
-  return setting_.crew.Widen(setting_.tasks.FullRound());
 }
 
 // A control variate is fitted once more after the last part.

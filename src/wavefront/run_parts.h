@@ -29,16 +29,12 @@ class RunParts {
 
   /// Before the first part, after any training.
   void Start();
-  /// After Start: the films have samples already.
-  void GoOn();
   /// What to render next; nothing once the render is done.
   std::optional<RunPart> Next();
   /// A part has been rendered to its end.
   void Finish(const RunPart& part);
 
  private:
-  Pace::Tasks PaceTasks() const;
-  Round NextRound() const;
   void TimeFit();
 
   const RunSetting& setting_;

@@ -1,7 +1,5 @@
 #include "src/wavefront/run_strategy.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -10,7 +8,6 @@
 #include "src/scene/rendered_pixels.h"
 #include "src/wavefront/plan_features.h"
 #include "src/wavefront/profile.h"
-#include "src/wavefront/run_setting.h"
 #include "src/wavefront/sample_rate.h"
 #include "src/wavefront/stop_watcher.h"
 #include "src/wavefront/trained_tables.h"
@@ -22,11 +19,10 @@ std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
 }
 
 RunStrategy::RunStrategy(const CompiledScene& scene, const Plan& plan,
-                         const RunOptions& options, Crew& crew, const RunClock& clock)
+                         const RunOptions& options, const RunClock& clock)
     : scene_(scene),
       plan_(plan),
       options_(options),
-      crew_(crew),
       clock_(clock),
       tables_(MakeStrategyTables(scene)),
       run_(Parameters()) {}
@@ -40,10 +36,6 @@ RunParameters RunStrategy::Parameters() const {
 
 void RunStrategy::BeginWith(std::uint64_t first) {
   run_.seed = SeedOf(options_.seed, first);
-}
-
-void RunStrategy::PlanTraining() {
-  if (NeedsTraining()) planned_samples_ = PlannedSamples();
 }
 
 std::uint64_t RunStrategy::PlannedSamples() const {
@@ -61,27 +53,15 @@ std::uint64_t RunStrategy::PlannedSamples() const {
 void RunStrategy::Train() {
   if (!NeedsTraining()) return;
   TrainingOptions options;
-  options.planned_samples = planned_samples_;
+  options.planned_samples = PlannedSamples();
   options.keep_roulette = options_.keep_roulette;
-  // Ranks train for themselves and have to agree: their clocks would not.
-  if (options_.spp == 0 && !options_.samples_needed && crew_.ranks() == 1) {
-    options.seconds = options_.seconds;
-  }
+  if (options_.spp == 0 && !options_.samples_needed) options.seconds = options_.seconds;
   options.stop = options_.stop;
   training_ = lanelight::Train({scene_, plan_, run_.seed, options, tables_});
   training_.seconds = clock_.Seconds();
   training_.cpu_seconds = clock_.CpuSeconds();
   // What was cut short is trained anew when the run goes on.
-  if (!Interrupted(options_, crew_)) UseTraining();
-}
-
-void RunStrategy::TrainLike(const CrewStart& start) {
-  planned_samples_ = start.planned_samples;
-  if (!start.restored) Train();
-  if (!start.trained) return;
-  TrainingOutcome training;
-  training.changes = start.changes;
-  Restore(std::move(training), start.tables);
+  if (!StopWatcher(options_.stop).Stopped()) UseTraining();
 }
 
 void RunStrategy::Restore(TrainingOutcome training,
@@ -120,17 +100,6 @@ void RunStrategy::Describe(RunResult& result) const {
   result.roulette = PlannedStrategy(scene_, plan_.options).roulette;
   result.stages = EmptyProfiles(plan_);
   result.bytes_in_flight = plan_.wavefront * plan_.bytes_per_path;
-}
-
-// Another processor or library might learn other numbers.
-void RunStrategy::Agree() const {
-  if (crew_.ranks() == 1) return;
-  const std::string own = trained_ ? Fingerprint(training_, Tables()) : "nothing";
-  crew_.Agree("has learned something else before the image", own,
-              [&](const std::string& leaders, const std::string& its) {
-                if (leaders == its || Interrupted(options_, crew_)) return std::string();
-                return fmt::format("\n  rank 0: {}\n  it:     {}", leaders, its);
-              });
 }
 
 }  // namespace lanelight

@@ -5,10 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/wavefront/crew.h"
-#include "src/wavefront/crew_start.h"
 #include "src/wavefront/run.h"
 #include "src/wavefront/run_clock.h"
+#include "src/wavefront/run_state.h"
 #include "src/wavefront/training.h"
 
 namespace lanelight {
@@ -21,7 +20,7 @@ class RunStrategy {
  public:
   /// Refers to all but the plan for as long as it lives.
   RunStrategy(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
-              Crew& crew, const RunClock& clock);
+              const RunClock& clock);
   // Others refer to plan and parameters.
   RunStrategy(const RunStrategy&) = delete;
   RunStrategy& operator=(const RunStrategy&) = delete;
@@ -32,18 +31,11 @@ class RunStrategy {
   void BeginWith(std::uint64_t first);
 
   bool NeedsTraining() const { return lanelight::NeedsTraining(plan_); }
-  /// Decides for all ranks, whose clocks differ, what pilot passes are sized for.
-  void PlanTraining();
-  std::uint64_t planned_samples() const { return planned_samples_; }
   /// Trains, if the strategy asks for it. What a signal cuts short does not count.
   void Train();
-  /// Of a rank that serves: the same, as the leader does it or has done it.
-  void TrainLike(const CrewStart& start);
   /// Takes what has been learned before. Throws InputError for tables that kernels must
   /// not be given, and for changes to the strategy that there are not.
   void Restore(TrainingOutcome training, const std::vector<TrainedTable>& tables);
-  /// The leader throws InputError if a rank has learned something else.
-  void Agree() const;
 
   /// What follows has been learned to the end, and the image is rendered with it.
   bool trained() const { return trained_; }
@@ -63,13 +55,11 @@ class RunStrategy {
   const CompiledScene& scene_;
   Plan plan_;
   const RunOptions& options_;
-  Crew& crew_;
   const RunClock& clock_;
   StrategyTables tables_;
   RunParameters run_;
   TrainingOutcome training_;
   bool trained_ = false;
-  std::uint64_t planned_samples_ = 0;  // that the training is sized for
 };
 
 }  // namespace lanelight

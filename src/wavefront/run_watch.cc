@@ -8,10 +8,6 @@ void RunWatch::Start() {
   patience_.emplace(setting_.options.seconds, setting_.clock.Elapsed());
 }
 
-bool RunWatch::Interrupted() const {
-  return lanelight::Interrupted(setting_.options, setting_.crew);
-}
-
 bool RunWatch::OutOfTime() const {
   const double budget = setting_.options.seconds;
   // The first round always ends: an image with unsampled pixels is no image.

@@ -29,7 +29,12 @@ class RunWatch : public TaskWatcher {
   /// Why the run has ended.
   StopReason Reason() const;
 
-  bool Interrupted() const override;
+  /// By a signal, to this process or another one.
+  bool Interrupted() const override {
+    const std::atomic<bool>* const stop = setting_.options.stop;
+    return (stop != nullptr && stop->load(std::memory_order_relaxed)) ||
+           setting_.work.Stopped();
+  }
   bool Stopped() const override;
   bool PutsDown() const override;
   void TaskDone() override;

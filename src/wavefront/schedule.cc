@@ -32,20 +32,20 @@ int LooksUpTo(std::uint64_t done, std::uint32_t unit) {
 
 std::uint32_t Pace::Whole(double samples) const {
   const double units = std::floor(samples / tasks_.unit);
-  const double most = tasks_.most.per_task / tasks_.unit;
+  const double most = tasks_.per_task / tasks_.unit;
   return static_cast<std::uint32_t>(std::clamp(units, 1.0, std::max(1.0, most))) *
          tasks_.unit;
 }
 
 Round Pace::Next(double elapsed) const {
-  if (speed_ == 0) return {tasks_.unit, 1};
+  if (speed_ == 0) return {tasks_.unit, tasks_.unit};
   // Seconds of one sample of all pixels of a tile.
   const double tile = tasks_.threads / (speed_ * double(tasks_.tiles));
   const double most = Reach(elapsed) / 2;
   Round round;
   round.per_task = Whole(std::min(most, kTaskShare * budget_ / tile));
-  round.chunks = static_cast<std::uint32_t>(
-      std::clamp(most / round.per_task, 1.0, double(tasks_.most.chunks)));
+  round.samples =
+      round.per_task * static_cast<std::uint64_t>(std::max(1.0, most / round.per_task));
   return round;
 }
 

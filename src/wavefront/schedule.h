@@ -17,10 +17,10 @@ std::uint64_t LookFrom(std::uint64_t done, std::uint32_t unit);
 /// How many there are up to `done`, itself included.
 int LooksUpTo(std::uint64_t done, std::uint32_t unit);
 
-/// A part of a render: all tiles take `chunks` times `per_task` samples per pixel.
+/// A part of a render: all tiles take so many samples per pixel, in tasks of `per_task`.
 struct Round {
-  std::uint32_t per_task = 1, chunks = 1;
-  std::uint64_t samples() const { return std::uint64_t{per_task} * chunks; }
+  std::uint32_t per_task = 1;
+  std::uint64_t samples = 1;
 };
 
 /// Rounds of a render with a time budget. The first is as small as can be; each later one
@@ -32,13 +32,11 @@ class Pace {
   struct Tasks {
     std::size_t tiles = 1;
     int threads = 1;
-    Round most;              // of one round
-    std::uint32_t unit = 1;  // samples that must not be divided
+    std::uint32_t per_task = 1;  // at most
+    std::uint32_t unit = 1;      // samples that must not be divided
   };
   Pace(double budget, const Tasks& tasks) : budget_(budget), tasks_(tasks) {}
 
-  /// The same work is cut otherwise from here on.
-  void Cut(const Tasks& tasks) { tasks_ = tasks; }
   /// The next round, `elapsed` seconds after the start of rendering.
   Round Next(double elapsed) const;
   /// A round of so many samples per pixel took `seconds`.

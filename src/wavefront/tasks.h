@@ -1,21 +1,36 @@
 // The work of a run: (tile x sample range) tasks over threads (task_runner.h), merged
-// into the films in their order.
+// into the films in their order (tile_queue.h).
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <vector>
 
-#include "src/wavefront/crew.h"
 #include "src/wavefront/films.h"
-#include "src/wavefront/hand_out.h"
 #include "src/wavefront/run.h"
-#include "src/wavefront/schedule.h"
 #include "src/wavefront/task_runner.h"
 #include "src/wavefront/task_watcher.h"
+#include "src/wavefront/tile_queue.h"
 #include "src/wavefront/tiles.h"
 
 namespace lanelight {
+
+/// Every tile is to have `limit` samples per pixel, in tasks of `per_task` of them.
+/// Indices in kernels begin with sample `first`, which no tile is behind.
+struct RoundWork {
+  std::uint64_t first = 0, limit = 0;
+  std::uint32_t per_task = 1;
+};
+
+/// Samples per pixel that tiles have: the least, and the most.
+struct TileLevels {
+  std::uint64_t least = kMostSamplesPerPixel, most = 0;
+  void Add(const TileLevels& others) {
+    least = std::min(least, others.least);
+    most = std::max(most, others.most);
+  }
+};
 
 class Tasks {
  public:
@@ -24,63 +39,70 @@ class Tasks {
   Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
         const RunOptions& options, std::uint64_t planned_spp);
 
+  /// Of all ranks, if the run has several.
   std::uint64_t pixels() const { return pixel_count_; }
-  std::size_t tiles() const { return partition_.tiles.size(); }
-  /// Samples of all pixels together, of tasks that may not be merged yet.
-  std::uint64_t taken() const { return taken_; }
-  /// What has been merged into the films; without seconds.
-  const RunCounts& counts() const { return counts_; }
+  /// Of this rank, of the full image.
+  const std::vector<PixelRect>& tiles() const { return partition_.tiles; }
+  /// Samples per pixel that keep a thread busy.
+  std::uint32_t per_task() const { return partition_.samples; }
+  /// Samples of all pixels together, of tasks that may not be merged yet; of all ranks,
+  /// and of this one.
+  std::uint64_t taken() const { return taken_ + taken_elsewhere_; }
+  std::uint64_t own_taken() const { return taken_; }
+  /// What has been merged into the films, and gathered of other ranks; without seconds.
+  RunCounts counts() const;
   /// Begins with films that have samples, and what had been counted for them.
   void GoOn(const Films& films, const RunCounts& counts);
-  /// Samples per pixel that all tiles have.
+  /// Samples per pixel that all tiles of all ranks have.
   std::uint64_t Done() const;
-  /// All tiles have just so many.
+  /// All tiles of all ranks have just so many.
   bool IsAt(std::uint64_t limit) const;
-  /// The round that keeps all threads busy.
-  Round FullRound() const;
+  /// Of this rank.
+  TileLevels Levels() const;
 
-  /// Does the work. Tiles may be left behind where the watcher has stopped it; a task
-  /// that was put down is as if it had not begun.
+  /// Brings this rank's tiles to the limit. Tiles may be left behind where the watcher
+  /// has stopped it; a task that was put down is as if it had not begun.
   void RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films);
 
-  // The same tile by tile, for who shares the work with others.
-  /// Of the full image.
-  const std::vector<PixelRect>& rects() const { return partition_.tiles; }
-  /// Begins a round: its first sample and samples per task.
-  void BeginRound(const RoundWork& work);
-  /// What tiles lack to `limit` samples per pixel.
-  std::vector<TileRange> Behind(std::uint64_t limit) const;
-  std::uint64_t Done(std::size_t tile) const { return done_[tile]; }
-  /// Brings a tile to `range.end` samples per pixel, in its order, or less far where the
-  /// watcher has stopped it; returns what that came to, without seconds. Safe for
-  /// different tiles from different threads.
-  RunCounts BringOn(const TileRange& range, TaskWatcher& watcher, Films& films);
-  /// The films have been given so many samples of the pixels of a tile.
-  void Put(std::size_t tile, std::uint64_t done) { done_[tile] = done; }
-  /// Counts what others have rendered.
-  void Credit(const RunCounts& counts);
+  // Of several ranks, each renders a part of the tiles:
+  /// Deals the tiles out to ranks of so many threads; this one, `rank`, keeps its part.
+  /// Returns the parts of all. The films have what they begin with.
+  std::vector<std::vector<PixelRect>> Deal(const std::vector<int>& threads, int rank,
+                                           const Films& films);
+  /// The others have counted this and their tiles are there: of one rank after the other,
+  /// after ForgetOthers.
+  void AddOthers(const RunCounts& counts, const TileLevels& levels);
+  void ForgetOthers() { others_ = {}; }
+  /// All others have brought their tiles to the limit.
+  void OthersAreAt(std::uint64_t limit);
+  /// The others have taken so many samples; whether these are more than before.
+  bool OthersHaveTaken(std::uint64_t samples);
 
   /// Takes the trace along. After the last round; the result has its rows and its scale.
   void AddCounts(RunResult& result);
 
  private:
-  std::vector<TileRange> Chunks(std::uint64_t limit) const;
-  void RunRoundInChunks(std::uint64_t limit, TaskWatcher& watcher, Films& films);
-  void MergeChunks(const std::vector<TileRange>& chunks, Films& films);
+  void RenderFrom(TileQueue& queue, TaskWatcher& watcher, Films& films);
   bool RunTask(const TileRange& range, const TaskWatcher& watcher, TaskSamples& out);
   void Merge(std::size_t tile, TaskSamples& task, Films& films);
 
+  struct Others {
+    RunCounts counts;
+    TileLevels levels;
+  };
+
+  const CompiledScene& scene_;
   const RunOptions& options_;
+  const std::uint64_t planned_spp_;
   TilePartition partition_;
   std::uint64_t pixel_count_ = 0;
   std::uint64_t first_ = 0;          // of the current round
-  std::uint32_t per_task_ = 1;       // of the current round
   std::vector<std::uint64_t> done_;  // samples per pixel of each tile
   TaskRunner runner_;
   bool begun_ = false;  // the runner knows the tiles
-  std::vector<TaskSamples> buffers_;
-  std::atomic<std::uint64_t> taken_{0};
-  RunCounts counts_;
+  std::atomic<std::uint64_t> taken_{0}, taken_elsewhere_{0};
+  RunCounts counts_;  // of this rank
+  Others others_;     // by what has been gathered, or is known
   std::mutex counts_mutex_;
 };
 

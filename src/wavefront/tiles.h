@@ -31,6 +31,14 @@ std::uint32_t SamplesPerTask(std::uint64_t pixels, std::uint64_t spp);
 /// The window in tiles whose sides are `side`, from the image's origin on.
 std::vector<PixelRect> TilesOf(const PixelRect& window, int side);
 
+/// Tiles in parts, one for each of so many threads, whose cost is expected to be in
+/// proportion to these: dealt out in turn along a Z-order curve, which passes neighbours,
+/// whose cost is alike, one after the other. Where there are few tiles for the parts they
+/// are halved, down to `least_side`. Parts may be empty.
+std::vector<std::vector<PixelRect>> DealTiles(const std::vector<PixelRect>& tiles,
+                                              const std::vector<int>& threads,
+                                              int least_side);
+
 /// Pixel indices (y * image_width + x) of a tile in 4x4 blocks, so that a vector of lanes
 /// starts with neighbouring rays.
 void TilePixels(const PixelRect& tile, int image_width,

@@ -21,21 +21,21 @@ void FailingStage(Wave& wave) {
   good_stage(wave);
 }
 
-void Render(const char* scene, const char* state, Crew& crew) {
+void Render(const char* scene, const char* state, RankGroup& group) {
   const ThreadLimit threads(1);
   RenderSettings settings;
   settings.resolution = {72, 56};
   settings.spp = 1000;
   Job job = PrepareJob(scene, settings);
-  if (crew.rank() == 1) {
+  if (group.rank() == 1) {
     good_stage = job.plan.stages[0].kernel;
     job.plan.stages[0].kernel = FailingStage;
   }
-  if (!crew.leads()) return ServeRender(job, crew, nullptr);
+  if (!group.leads()) return ServeRender(job, group, nullptr);
   RenderTargets targets;
   targets.checkpoint.path = state;
   RenderHooks hooks;
-  hooks.crew = &crew;
+  hooks.group = &group;
   RenderToFiles(job, scene, targets, hooks);
 }
 
@@ -44,13 +44,13 @@ void Render(const char* scene, const char* state, Crew& crew) {
 
 int main(int argc, char** argv) {
   using namespace lanelight;
-  const auto ranks = JoinRanks(&argc, &argv);
-  if (argc != 3) return ranks->Leave(2);
+  const auto group = JoinRanks(&argc, &argv);
+  if (argc != 3) return group->Leave(2);
   try {
-    Render(argv[1], argv[2], ranks->crew());
+    Render(argv[1], argv[2], *group);
   } catch (const std::exception& error) {
-    if (ranks->crew().leads()) std::fprintf(stderr, "%s\n", error.what());
-    return ranks->Fail(1, error.what());
+    if (group->leads()) std::fprintf(stderr, "%s\n", error.what());
+    return group->Fail(1, error.what());
   }
-  return ranks->Leave(0);
+  return group->Leave(0);
 }

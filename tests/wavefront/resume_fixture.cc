@@ -32,7 +32,12 @@ Rendered Render(const Request& request) {
       return SamplesNeeded({request.target, 0}, EstimateError(out.film), done);
     };
   }
-  out.result = Run(scene, plan, options, out.film);
+  options.group = request.group;
+  if (options.group != nullptr && !options.group->leads()) {
+    ServeRun(scene, plan, options, out.film);
+  } else {
+    out.result = Run(scene, plan, options, out.film);
+  }
   return out;
 }
 

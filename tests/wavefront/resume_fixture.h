@@ -68,6 +68,7 @@ struct Request {
   std::uint32_t wavefront = 0;
   RunKeeper* keeper = nullptr;
   const std::atomic<bool>* stop = nullptr;
+  RankGroup* group = nullptr;  // of which this is a rank
   bool keep_roulette = true;
 };
 

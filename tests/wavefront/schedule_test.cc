@@ -48,8 +48,7 @@ Played Play(double budget, double per_sample, double overhead, const Pace::Tasks
   double now = 0;
   while (true) {
     const Round round = pace.Next(now);
-    const double seconds =
-        overhead + per_sample * double(round.samples()) / tasks.threads;
+    const double seconds = overhead + per_sample * double(round.samples) / tasks.threads;
     if (now + seconds > budget) break;
     if (played.rounds > 0) {
       played.task =
@@ -58,7 +57,7 @@ Played Play(double budget, double per_sample, double overhead, const Pace::Tasks
     CHECK(round.per_task % tasks.unit == 0);
     now += seconds;
     ++played.rounds;
-    pace.Took(round.samples(), seconds);
+    pace.Took(round.samples, seconds);
   }
   played.end = now;
   return played;
@@ -70,32 +69,24 @@ TEST_CASE("rounds fill a time budget", "[schedule]") {
   for (int threads : {1, 2, 16}) {
     for (double per_sample : {0.001, 0.01, 0.1}) {
       for (std::uint32_t unit : {1u, 2u}) {
-        const Pace::Tasks tasks{1000, threads, {32, 1}, unit};
+        const Pace::Tasks tasks{1000, threads, 32, unit};
         const Played played = Play(10, per_sample, 1e-4, tasks);
         // Only less than one round of the smallest kind is left to a part of the tiles.
         CHECK(played.end >= 10 - 2 * (unit * per_sample / threads + 1e-4));
         CHECK(played.task <= 0.006 * 10);
-        // The number of rounds is that of full ones and a few.
-        CHECK(played.rounds <= 10 * threads / (32 * per_sample) + 60);
+        // Each takes half of what is left.
+        CHECK(played.rounds <= 60);
       }
     }
   }
 }
 
 TEST_CASE("a first round that takes too long is the only one", "[schedule]") {
-  Pace pace(1, {100, 2, {32, 1}, 1});
-  CHECK(pace.Next(0).samples() == 1);
+  Pace pace(1, {100, 2, 32, 1});
+  CHECK(pace.Next(0).samples == 1);
   pace.Took(1, 5);
   CHECK(pace.Reach(5) == 0);
-  CHECK(pace.Next(5).samples() == 1);  // the caller sees that the time is over
-}
-
-TEST_CASE("few tiles are shared out among threads by sample ranges", "[schedule]") {
-  Pace pace(10, {1, 2, {32, 16}, 1});
-  pace.Took(1, 1e-4);
-  const Round round = pace.Next(0.1);
-  CHECK(round.chunks == 16);
-  CHECK(round.per_task > 1);
+  CHECK(pace.Next(5).samples == 1);  // the caller sees that the time is over
 }
 
 }  // namespace lanelight

@@ -44,4 +44,50 @@ TEST_CASE("tiles hold whole blocks from the image's origin on", "[tiles]") {
   }
 }
 
+TEST_CASE("parts cover all tiles once, as threads are many", "[tiles]") {
+  const std::vector<PixelRect> tiles = TilesOf({3, 5, 203, 105}, 16);
+  for (const std::vector<int>& threads : {std::vector<int>{4},
+                                          {1, 1},
+                                          {2, 2, 2},
+                                          {1, 3},
+                                          {8, 0, 8},
+                                          std::vector<int>(40, 2)}) {
+    for (const int least : {1, 16}) {
+      const auto parts = DealTiles(tiles, threads, least);
+      REQUIRE(parts.size() == threads.size());
+      std::vector<std::uint32_t> all, pixels;
+      int seats = 0;
+      for (const int t : threads) seats += t;
+      for (std::size_t r = 0; r < parts.size(); ++r) {
+        std::uint64_t of_part = 0;
+        for (const PixelRect& tile : parts[r]) {
+          TilePixels(tile, 1000, &pixels);
+          all.insert(all.end(), pixels.begin(), pixels.end());
+          of_part += pixels.size();
+        }
+        // Whole tiles, some of which the window cuts off.
+        if (least == 1)
+          CHECK(of_part == Approx(20000.0 * threads[r] / seats).margin(900));
+        if (least == 16) CHECK(parts[r].size() >= tiles.size() * threads[r] / seats);
+      }
+      std::sort(all.begin(), all.end());
+      CHECK(all.size() == 20000);
+      CHECK(std::adjacent_find(all.begin(), all.end()) == all.end());
+    }
+  }
+}
+
+TEST_CASE("parts have neighbours in turn, and tiles enough", "[tiles]") {
+  const std::vector<PixelRect> tiles = TilesOf({0, 0, 64, 64}, 16);
+  const auto parts = DealTiles(tiles, {1, 1, 1, 1}, 1);
+  for (const auto& part : parts) CHECK(part.size() == 64);
+  // Tiles of 4 x 4 pixels: of each block of 8 x 8 every part has one.
+  CHECK(parts[0][5].x0 / 8 == parts[3][5].x0 / 8);
+  CHECK(parts[0][5].y0 / 8 == parts[3][5].y0 / 8);
+  // The tiles of reuse=block stay whole, whoever has none then.
+  const auto whole = DealTiles(tiles, std::vector<int>(20, 1), 16);
+  CHECK(whole[15].size() == 1);
+  CHECK(whole[16].empty());
+}
+
 }  // namespace lanelight

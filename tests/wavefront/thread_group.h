@@ -1,0 +1,116 @@
+// A group of ranks that are threads of one process.
+#pragma once
+
+#include <condition_variable>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "src/wavefront/rank_group.h"
+
+namespace lanelight {
+
+/// Where all ranks of a group meet.
+class Meeting {
+ public:
+  explicit Meeting(int ranks) : brought_(static_cast<std::size_t>(ranks)) {}
+  int ranks() const { return static_cast<int>(brought_.size()); }
+
+  /// Returns what all have brought, by rank.
+  std::vector<std::string> Exchange(int rank, std::string bytes) {
+    std::unique_lock lock(mutex_);
+    brought_[static_cast<std::size_t>(rank)] = std::move(bytes);
+    const int round = round_;
+    if (++arrived_ == ranks()) {
+      all_ = brought_;
+      arrived_ = 0;
+      ++round_;
+      changed_.notify_all();
+    }
+    changed_.wait(lock, [&] { return round_ != round; });
+    return all_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::string> brought_, all_;
+  int arrived_ = 0, round_ = 0;
+};
+
+class ThreadRank : public RankGroup {
+ public:
+  ThreadRank(Meeting& meeting, int rank) : meeting_(meeting), rank_(rank) {}
+
+  int rank() const override { return rank_; }
+  int ranks() const override { return meeting_.ranks(); }
+  std::string Name(int rank) const override { return "rank " + std::to_string(rank); }
+  std::vector<int> AllGather(int number) override {
+    std::vector<int> numbers;
+    for (const std::string& text : meeting_.Exchange(rank_, std::to_string(number))) {
+      numbers.push_back(std::stoi(text));
+    }
+    return numbers;
+  }
+  void Broadcast(std::span<char> bytes) override {
+    const auto all = meeting_.Exchange(rank_, {bytes.begin(), bytes.end()});
+    std::copy(all[0].begin(), all[0].end(), bytes.begin());
+  }
+  void Gather(std::string_view bytes, const Take& take) override {
+    const auto all = meeting_.Exchange(rank_, std::string(bytes));
+    for (int r = 1; leads() && r < ranks(); ++r) {
+      gathered_ += all[static_cast<std::size_t>(r)].size();
+      take(r, all[static_cast<std::size_t>(r)]);
+    }
+  }
+  std::optional<RankStatus> Sum(const RankStatus& own,
+                                const std::function<bool()>&) override {
+    constexpr std::size_t kCount = sizeof(RankStatus) / sizeof(std::uint64_t);
+    std::uint64_t sum[kCount] = {}, values[kCount];
+    for (const std::string& bytes :
+         meeting_.Exchange(rank_, {reinterpret_cast<const char*>(&own), sizeof(own)})) {
+      std::memcpy(values, bytes.data(), sizeof(values));
+      for (std::size_t i = 0; i < kCount; ++i) sum[i] += values[i];
+    }
+    RankStatus status;
+    std::memcpy(&status, sum, sizeof(sum));
+    return status;
+  }
+  std::uint64_t bytes() const override { return gathered_; }
+  int Leave(int exit_code) override { return exit_code; }
+  int Fail(int exit_code, const std::string&) override { return exit_code; }
+
+ private:
+  Meeting& meeting_;
+  const int rank_;
+  std::uint64_t gathered_ = 0;
+};
+
+/// Calls body(group) for each of so many ranks, the leader's on this thread; rethrows
+/// what a worker has thrown, who must have come to the end of what is collective.
+template <class Body>
+void OnRanks(int ranks, const Body& body) {
+  Meeting meeting(ranks);
+  std::vector<std::thread> workers;
+  std::exception_ptr problem;
+  for (int r = 1; r < ranks; ++r) {
+    workers.emplace_back([&, r] {
+      ThreadRank worker(meeting, r);
+      try {
+        body(worker);
+      } catch (...) {
+        problem = std::current_exception();
+      }
+    });
+  }
+  ThreadRank leader(meeting, 0);
+  body(leader);
+  for (std::thread& worker : workers) worker.join();
+  if (problem) std::rethrow_exception(problem);
+}
+
+}  // namespace lanelight
