@@ -6,12 +6,11 @@ Nothing here knows of Lanelight's code; docs/scale.md says what was measured and
 """
 
 import functools
-import heapq
 import math
 import random
 
 TILE = 16  # pixels on a side, of an ordinary tile
-TILES_PER_PART = 64  # wanted by src/render/parts.cc
+TILES_PER_PART = 64  # wanted by src/wavefront/tiles.cc
 
 
 class Scene:
@@ -46,8 +45,8 @@ class Scene:
 
     @functools.lru_cache(maxsize=None)
     def parts(self, count):
-        """Share of the work of each of `count` parts: TilesOfPart of
-        src/render/parts.cc."""
+        """Share of the work of each of `count` parts: DealTiles of
+        src/wavefront/tiles.cc."""
         side = TILE
         while count > 1 and side > 1 and self.number(side) < TILES_PER_PART * count:
             side //= 2
@@ -127,44 +126,19 @@ def fixed_parts(machine, scene, core_seconds, shares):
     return max(ends) + merge, sum(ends) + merge
 
 
-def deal_round(cost, nodes, cores, k, per_range):
-    """How long a round of tiles lasts that rank 0 hands out, as src/wavefront/hand_out.cc
-    does. `cost`: seconds of work of each range; `per_range`: seconds that each takes of
-    rank 0, for the pixels there and back."""
-    ranges, threads = len(cost), nodes * cores
-    mean = sum(cost) / ranges
-    wanted = cores * int(min(max(k["batch"] / mean, 1), 1e6))
-    # Who asks next: when, free when, who. A node asks for a second batch ahead.
-    asking = [(0.0, 0.0, n) for n in range(min(nodes, ranges))]
-    leader, last, at = 0.0, 0.0, 0
-    while at < ranges:
-        asked, free, node = heapq.heappop(asking)
-        left = ranges - at
-        count = min(wanted, max(left * cores // (2 * threads), cores), left)
-        batch = cost[at : at + count]
-        at += count
-        leader = max(leader, asked) + k["message"] + count * per_range
-        begin = max(free, leader + k["latency"])
-        # Of the node's threads: no faster than the longest range.
-        end = begin + max(sum(batch) / cores, max(batch))
-        last = max(last, end)
-        ahead = ranges - at >= 2 * threads
-        heapq.heappush(asking, (begin if ahead else end, end, node))
-    return last + k["latency"]
-
-
-def handed_out(machine, scene, core_seconds, side=TILE):
-    """One MPI job on all nodes: any failure ends it. Returns what fixed_parts does."""
+def ranks(machine, scene, core_seconds, shares):
+    """One MPI job on all nodes, each with its part of the tiles from the first sample to
+    the last: any failure ends it. All wait for the slowest part, and at every state until
+    rank 0 has the parts of all. Returns what fixed_parts does."""
     k, nodes, cores = machine.k, machine.nodes, machine.cores
-    tiles = scene.tiles(side)
-    total = sum(tiles)
-    # A round is as long as src/ranks/mpi_crew.cc makes it, unless a range would be too long.
-    mean = min(k["longest_range"] * total / len(tiles) / max(tiles),
-               k["round"] * nodes * cores / len(tiles), core_seconds / len(tiles))
-    cost = [t / total * mean * len(tiles) for t in tiles]
-    per_range = 2 * k["film_bytes"] / len(tiles) / k["network_bytes_per_second"]
-    work = core_seconds / sum(cost) * deal_round(cost, nodes, cores, k, per_range)
-    # Everybody has the scene; what a training says goes down a tree.
-    work += math.ceil(math.log2(max(2, nodes))) * k["latency"]
-    end, _ = machine.finish(work, nodes, pause_seconds(k, cores))
+    # What all agree on goes through a tree.
+    sums = math.ceil(math.log2(max(2, nodes))) * k["latency"]
+    gather = sums + machine.film_seconds(k["network_bytes_per_second"])
+    gather += nodes * k["message"]
+    # A state ends a round: threads wait for the tasks in flight, everybody for the last
+    # sum and the next order.
+    pause = k["node_tail"] + 3 * sums + gather + pause_seconds(k, cores)
+    work = max(shares) * core_seconds / cores + k["node_tail"]
+    end, _ = machine.finish(work, nodes, pause)
+    end += 3 * sums + gather
     return end, end * nodes

@@ -18,7 +18,7 @@ import statistics
 import sys
 import unittest
 
-from cluster_model import Machine, Scene, deal_round, fixed_parts, handed_out
+from cluster_model import Machine, Scene, fixed_parts, ranks
 
 HERE = pathlib.Path(__file__).parent
 
@@ -47,12 +47,12 @@ def duration(seconds):
 
 
 def row(scene, k, core_hours, nodes, cores, failures, seeds):
-    """Both schedulers: medians of time and efficiency, and the spread of the latter."""
+    """Both ways: medians of time and efficiency, and the spread of the latter."""
     work = 3600 * core_hours
     shares = scene.parts(nodes)
     ways = {
         "parts": lambda m: fixed_parts(m, scene, work, shares),
-        "handed out": lambda m: handed_out(m, scene, work),
+        "ranks": lambda m: ranks(m, scene, work, shares),
     }
     out = {}
     for name, way in ways.items():
@@ -74,7 +74,7 @@ def cell(time, efficiency):
 def print_table(scenes, k, options):
     print(f"{options.hours:g} core-hours, {options.seeds} seeds")
     print(f"{'scene':8} {'failures':>9} {'nodes':>6} {'cores':>6}  "
-          f"{'fixed parts':>28}  {'handed out':>28}")
+          f"{'jobs of a part':>28}  {'ranks of one job':>28}")
     for scene in scenes:
         for failures in options.failures:
             for cores in options.cores:
@@ -83,7 +83,7 @@ def print_table(scenes, k, options):
                                  options.seeds)
                     print(f"{scene.name:8} {failures:>7g}/h {nodes:>6} {cores:>6}  "
                           f"{cell(*result['parts']):>28}  "
-                          f"{cell(*result['handed out']):>28}")
+                          f"{cell(*result['ranks']):>28}")
                     sys.stdout.flush()
 
 
@@ -93,9 +93,8 @@ class Test(unittest.TestCase):
     K = {
         "film_bytes": 2e8, "merge_bytes_per_second": 1e9, "merge_per_part": 0.0,
         "start": 0.0, "requeue": 100.0, "checkpoint_interval": 60.0, "node_tail": 0.0,
-        "pause_cpu": 0.0, "pause_scales_to": 16, "batch": 0.2,
-        "latency": 0.0, "message": 0.0, "network_bytes_per_second": 1e30, "round": 3.0,
-        "longest_range": 0.2,
+        "pause_cpu": 0.0, "pause_scales_to": 16, "latency": 0.0, "message": 0.0,
+        "network_bytes_per_second": 1e30,
     }
     EVEN = Scene("even", 1920, 1080, 2, [1, 1, 1, 1])
     UNEVEN = Scene("uneven", 1920, 1080, 2, [1, 9, 1, 1])
@@ -125,8 +124,8 @@ class Test(unittest.TestCase):
         work = 3600 * 160.0
         time, _ = fixed_parts(self.machine(), self.EVEN, work, [0.1] * 10)
         self.assertAlmostEqual(time, 3600 + 0.2, places=6)
-        time, _ = handed_out(self.machine(), self.EVEN, work)
-        self.assertLess(abs(time / 3600 - 1), 0.1)  # the ends of rounds
+        time, _ = ranks(self.machine(), self.EVEN, work, [0.1] * 10)
+        self.assertAlmostEqual(time, 3600, places=6)
 
     def test_pauses_add_up(self):
         end, failures = self.machine().finish(600.0, 1, 1.5)
@@ -150,12 +149,18 @@ class Test(unittest.TestCase):
         runs = [self.machine(failures=0.01, seed=s).until_failure(500) for s in range(4000)]
         self.assertLess(abs(statistics.mean(runs) / 720 - 1), 0.05)
 
-    def test_a_round_is_never_shorter_than_work_or_range(self):
-        cost = [1.0] * 100
-        self.assertAlmostEqual(deal_round(cost, 1, 10, self.K, 0.0), 10, places=9)
-        self.assertAlmostEqual(deal_round(cost, 1000, 16, self.K, 0.0), 1, places=9)
-        # Rank 0 with half a second for each range is the limit.
-        self.assertGreaterEqual(deal_round(cost, 1000, 16, self.K, 0.5), 50)
+    def test_ranks_wait_for_the_slowest_and_for_the_film(self):
+        work = 3600 * 160.0
+        time, _ = ranks(self.machine(), self.EVEN, work, [0.2] + [0.8 / 9] * 9)
+        self.assertAlmostEqual(time, 7200, places=6)
+        # The film goes to rank 0 at each of 59 states, and at the end.
+        slow = self.machine(network_bytes_per_second=2e8)
+        time, _ = ranks(slow, self.EVEN, work, [0.1] * 10)
+        self.assertAlmostEqual(time, 3660, places=6)
+        # Of 1000 nodes each says its word to rank 0, by way of ten others.
+        busy = self.machine(nodes=1000, message=0.001, latency=0.01)
+        time, _ = ranks(busy, self.EVEN, work * 100, [0.001] * 1000)
+        self.assertAlmostEqual(time, 3660 + 60 * 4 * 0.1, places=6)
 
     def test_seeds_repeat(self):
         a = [self.machine(failures=5, seed=3).finish(1e4, 1, 0.1) for _ in range(2)]
