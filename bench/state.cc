@@ -1,5 +1,6 @@
-// The state file of a film: bytes, and seconds and GB/s of film to compress it, to write
-// it, to check it and to read it back, beside a copy of its memory. Verified first.
+// The state file of a film: bytes, and seconds, by the wall and of the processor, and
+// GB/s of film to copy it, to compress and write the copy, to check the file and to read
+// it back, beside a copy of its memory. Verified first.
 //
 //   bench_state [--resolution WxH] [--spp N] [--group N] [--threads N] [--repeats N]
 //               [--folder .]
@@ -15,6 +16,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "src/core/clock.h"
 #include "src/core/error.h"
 #include "src/core/machine_info.h"
 #include "src/core/parallel.h"
@@ -90,21 +92,26 @@ double WallSeconds() {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
+double Median(std::vector<double>& values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
 struct Step {
   const char* name;
-  std::vector<double> seconds = {};
+  std::vector<double> seconds = {}, processor = {};
 
   template <class Action>
   void Time(const Action& action) {
-    const double start = WallSeconds();
+    const double start = WallSeconds(), cpu = ProcessCpuSeconds();
     action();
+    processor.push_back(ProcessCpuSeconds() - cpu);
     seconds.push_back(WallSeconds() - start);
   }
   void Print(double bytes) {
-    std::sort(seconds.begin(), seconds.end());
-    const double median = seconds[seconds.size() / 2];
-    fmt::print("{:<10} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.2f}\n", name, median,
-               seconds.front(), seconds.back(), bytes / median * 1e-9);
+    const double median = Median(seconds);
+    fmt::print("{:<10} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.2f}\n", name, median,
+               seconds.front(), seconds.back(), Median(processor), bytes / median * 1e-9);
   }
 };
 
@@ -119,20 +126,20 @@ void Measure(const BenchOptions& options) {
   std::vector<MutableStateColumn> columns = film.Columns();
   const StateContent content = {
       "{}", "{}", window, {window}, {columns.begin(), columns.end()}, {}};
-  Step steps[] = {{"memcpy"}, {"serialise"}, {"write"}, {"verify"}, {"read"}};
+  Step steps[] = {{"memcpy"}, {"copy"}, {"write"}, {"verify"}, {"read"}};
   std::size_t bytes = 0;
   for (int i = 0; i <= options.repeats; ++i) {
     if (i == 1) {
-      for (Step& step : steps) step.seconds.clear();  // the first one warmed up
+      for (Step& step : steps) step = {step.name};  // the first one warmed up
     }
     steps[0].Time([&] {
       std::memcpy(copy.sums.data(), film.sums.data(), film.sums.size() * sizeof(Sums));
       copy.samples = film.samples;
     });
-    std::optional<SerialisedState> state;
-    steps[1].Time([&] { state.emplace(SerialiseState(content)); });
-    bytes = state->bytes().size();
+    std::optional<StateCopy> state;
+    steps[1].Time([&] { state.emplace(content); });
     steps[2].Time([&] { state->Write(path); });
+    bytes = std::filesystem::file_size(path);
     std::fill(copy.sums.begin(), copy.sums.end(), Sums{});
     std::optional<StateFile> file;
     steps[3].Time([&] { file.emplace(path); });
@@ -144,7 +151,8 @@ void Measure(const BenchOptions& options) {
   fmt::print("{}, {} samples, {} threads: {:.1f} MB of film, {:.1f} MB of file\n",
              options.resolution, options.spp, MaxThreads(), double(film.Bytes()) * 1e-6,
              double(bytes) * 1e-6);
-  fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9}\n", "", "median s", "least", "most", "GB/s");
+  fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "", "median s", "least", "most",
+             "cpu s", "GB/s");
   for (Step& step : steps) step.Print(double(film.Bytes()));
 }
 

@@ -177,21 +177,22 @@ void Checkpoint::Keep(RunState& state) {
     kept_ = true;
     return;
   }
-  if (!settings_.path.empty()) {
-    last_ = std::make_unique<SerialisedState>(Serialise(state));
-  }
+  last_.reset();
+  if (!settings_.path.empty()) last_ = Copy(state);
   writing_ = std::async(std::launch::async, [this, watch = Watch(state)] {
     const bool watched = !watch || Try(watch);
-    const bool kept = !last_ || Try([this] { last_->Write(settings_.path); });
-    if (watched && kept) told_.clear();
-    return last_ != nullptr && kept;
+    const bool wanted = last_ != nullptr;
+    const bool kept = wanted && Try([this] { last_->Write(settings_.path); });
+    if (watched && kept == wanted) told_.clear();
+    if (kept) last_.reset();  // as much memory as the film has
+    return kept;
   });
   ++count_;
   pause_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
   next_ = Milliseconds() + static_cast<std::int64_t>(1000 * settings_.seconds);
 }
 
-SerialisedState Checkpoint::Serialise(RunState& state) const {
+std::unique_ptr<StateCopy> Checkpoint::Copy(RunState& state) const {
   StateContent content;
   content.identity = identity_;
   const Json report = {{"head", ParseJson(head_)},
@@ -207,7 +208,7 @@ SerialisedState Checkpoint::Serialise(RunState& state) const {
     content.tables.push_back(
         MakeStateColumn<double>(table.name, table.meaning, table.values));
   }
-  return SerialiseState(content);
+  return std::make_unique<StateCopy>(content);
 }
 
 std::function<void()> Checkpoint::Watch(RunState& state) const {

@@ -75,7 +75,7 @@ class Checkpoint : public RunKeeper {
   void CheckSame(const StateFile& file);
   void RestoreReport(RunState& state) const;
   void CheckNotTooMany(const Films& films) const;
-  SerialisedState Serialise(RunState& state) const;
+  std::unique_ptr<StateCopy> Copy(RunState& state) const;
   /// What writes the image so far; nothing if nobody watches.
   std::function<void()> Watch(RunState& state) const;
   /// False after an exception, of which on_problem is told, once until all is well.
@@ -89,9 +89,9 @@ class Checkpoint : public RunKeeper {
   std::vector<PixelRect> tiles_;
   std::optional<StateLock> lock_;
   std::unique_ptr<StateFile> from_;
-  std::atomic<std::int64_t> next_{0};      // milliseconds of the steady clock
-  std::unique_ptr<SerialisedState> last_;  // of the last Keep
-  std::future<bool> writing_;              // of last_; whether it is on the disk
+  std::atomic<std::int64_t> next_{0};  // milliseconds of the steady clock
+  std::unique_ptr<StateCopy> last_;    // of the last Keep, until it is on the disk
+  std::future<bool> writing_;          // of last_; whether it is on the disk
   bool kept_ = false;
   int count_ = 0;
   double pause_seconds_ = 0;

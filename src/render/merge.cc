@@ -300,7 +300,7 @@ void WriteMergedState(MergedRender& merged, const std::string& path) {
     content.tables.push_back(
         MakeStateColumn<double>(table.name, table.meaning, table.values));
   }
-  SerialiseState(content).Write(path);
+  WriteState(content, path);
 }
 
 }  // namespace lanelight

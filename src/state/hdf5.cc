@@ -33,11 +33,13 @@ void Fail(const std::string& what) {
   throw Failure(reason.empty() ? what : fmt::format("{}: {}", what, reason));
 }
 
-Quiet::Quiet() {
+Session::Session() {
+  static std::mutex alone;
+  lock_ = std::unique_lock(alone);
   H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
-Quiet::~Quiet() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+Session::~Session() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
 
 hid_t TypeInFile(StateType type) {
   switch (type) {
@@ -75,14 +77,6 @@ bool Has(hid_t parent, const std::string& name) {
   return Check(H5Lexists(parent, name.c_str(), H5P_DEFAULT), name) > 0;
 }
 
-void SetText(hid_t object, const char* name, const std::string& text) {
-  const Handle type = TextType(text), space = NewSpace({});
-  const Handle attribute(
-      H5Acreate2(object, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
-      H5Aclose, name);
-  Check(H5Awrite(attribute.get(), type.get(), DataOf(text)), name);
-}
-
 void SetNumber(hid_t object, const char* name, std::uint64_t number) {
   const Handle space = NewSpace({});
   const Handle attribute(
@@ -91,15 +85,14 @@ void SetNumber(hid_t object, const char* name, std::uint64_t number) {
   Check(H5Awrite(attribute.get(), H5T_NATIVE_UINT64, &number), name);
 }
 
-Handle NewDataset(hid_t parent, const std::string& name, const std::string& meaning,
-                  hid_t type, const std::vector<hsize_t>& dims,
-                  const Handle& properties) {
+Handle NewDataset(hid_t parent, const Title& title, hid_t type,
+                  const std::vector<hsize_t>& dims, const Handle& properties) {
   const Handle space = NewSpace(dims);
   Check(H5Pset_obj_track_times(properties.get(), false), "no times");
-  Handle dataset(H5Dcreate2(parent, name.c_str(), type, space.get(), H5P_DEFAULT,
+  Handle dataset(H5Dcreate2(parent, title.name.c_str(), type, space.get(), H5P_DEFAULT,
                             properties.get(), H5P_DEFAULT),
-                 H5Dclose, name);
-  SetText(dataset.get(), "meaning", meaning);
+                 H5Dclose, title.name);
+  SetText(dataset.get(), "meaning", title.meaning);
   return dataset;
 }
 
@@ -115,10 +108,18 @@ std::vector<hsize_t> DimsOf(const Handle& dataset) {
   return dims;
 }
 
+void SetText(hid_t object, const char* name, const std::string& text) {
+  const Handle type = TextType(text), space = NewSpace({});
+  const Handle attribute(
+      H5Acreate2(object, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose, name);
+  Check(H5Awrite(attribute.get(), type.get(), DataOf(text)), name);
+}
+
 void WriteText(hid_t parent, const Title& title, const std::string& text) {
   const Handle type = TextType(text);
-  const Handle dataset = NewDataset(parent, title.name, title.meaning, type.get(), {},
-                                    NewProperties(H5P_DATASET_CREATE));
+  const Handle dataset =
+      NewDataset(parent, title, type.get(), {}, NewProperties(H5P_DATASET_CREATE));
   Check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, DataOf(text)),
         title.name);
 }
@@ -136,31 +137,6 @@ std::string ReadText(hid_t parent, const char* name) {
         name);
   if (text == std::string(1, '\0')) text.clear();
   return text;
-}
-
-void WriteFours(hid_t parent, const Title& title,
-                const std::vector<std::int32_t>& values) {
-  const Handle dataset =
-      NewDataset(parent, title.name, title.meaning, H5T_STD_I32LE, {values.size() / 4, 4},
-                 NewProperties(H5P_DATASET_CREATE));
-  if (values.empty()) return;
-  Check(H5Dwrite(dataset.get(), H5T_NATIVE_INT32, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                 values.data()),
-        title.name);
-}
-
-std::vector<std::int32_t> ReadFours(hid_t parent, const char* name) {
-  const Handle dataset = OpenDataset(parent, name);
-  const std::vector<hsize_t> dims = DimsOf(dataset);
-  if (dims.size() != 2 || dims[1] != 4) {
-    throw Failure(fmt::format("{} is not a list of four numbers each", name));
-  }
-  std::vector<std::int32_t> values(dims[0] * 4);
-  if (values.empty()) return values;
-  Check(H5Dread(dataset.get(), H5T_NATIVE_INT32, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                values.data()),
-        name);
-  return values;
 }
 
 }  // namespace lanelight::hdf5

@@ -3,6 +3,7 @@
 
 #include <hdf5.h>
 
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -39,23 +40,23 @@ class Handle {
       : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Handle& operator=(Handle&&) = delete;
   hid_t get() const { return id_; }
-  /// Closes it now and says if that fails.
-  void Close(const std::string& what) { Check(close_(std::exchange(id_, -1)), what); }
 
  private:
   hid_t id_;
   Closer close_;
 };
 
-/// While it lives HDF5 prints nothing when something fails in this thread.
-class Quiet {
+/// While it lives HDF5 is this thread's alone, since not every build of it knows threads,
+/// and prints nothing when something fails. None while another one of the thread lives.
+class Session {
  public:
-  Quiet();
-  ~Quiet();
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
+  Session();
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
 
  private:
+  std::unique_lock<std::mutex> lock_;
   H5E_auto2_t print_ = nullptr;
   void* data_ = nullptr;
 };
@@ -68,27 +69,23 @@ Handle NewSpace(const std::vector<hsize_t>& dims);  // none: one value
 Handle NewGroup(hid_t parent, const char* name);
 bool Has(hid_t parent, const std::string& name);
 
-/// Attributes.
-void SetText(hid_t object, const char* name, const std::string& text);
+/// An attribute of one number.
 void SetNumber(hid_t object, const char* name, std::uint64_t number);
-
-/// `dims`: none for a single value; `properties` of H5P_DATASET_CREATE. The same datasets
-/// give the same bytes at any time.
-Handle NewDataset(hid_t parent, const std::string& name, const std::string& meaning,
-                  hid_t type, const std::vector<hsize_t>& dims, const Handle& properties);
-Handle OpenDataset(hid_t parent, const std::string& name);
-std::vector<hsize_t> DimsOf(const Handle& dataset);
 
 /// What a dataset is called, and its attribute "meaning".
 struct Title {
-  const char *name, *meaning;
+  std::string name, meaning;
 };
-/// Datasets of one text, UTF-8.
+/// `dims`: none for a single value; `properties` of H5P_DATASET_CREATE. The same datasets
+/// give the same bytes at any time.
+Handle NewDataset(hid_t parent, const Title& title, hid_t type,
+                  const std::vector<hsize_t>& dims, const Handle& properties);
+Handle OpenDataset(hid_t parent, const std::string& name);
+std::vector<hsize_t> DimsOf(const Handle& dataset);
+
+/// Texts, UTF-8: attributes, and datasets of one text each.
+void SetText(hid_t object, const char* name, const std::string& text);
 void WriteText(hid_t parent, const Title& title, const std::string& text);
 std::string ReadText(hid_t parent, const char* name);
-/// Datasets of whole numbers, four in a row.
-void WriteFours(hid_t parent, const Title& title,
-                const std::vector<std::int32_t>& values);
-std::vector<std::int32_t> ReadFours(hid_t parent, const char* name);
 
 }  // namespace lanelight::hdf5

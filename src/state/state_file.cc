@@ -4,7 +4,7 @@
 
 #include "src/core/error.h"
 #include "src/core/input_file.h"
-#include "src/state/column_reader.h"
+#include "src/state/columns.h"
 #include "src/state/hdf5.h"
 #include "src/state/seal.h"
 #include "src/state/tiles.h"
@@ -27,15 +27,13 @@ hdf5::Handle OpenHdf5(int fd) {
 constexpr std::int32_t kFarthest = 1 << 30;
 
 std::vector<PixelRect> ReadRects(hid_t file, const char* name) {
-  const std::vector<std::int32_t> numbers = hdf5::ReadFours(file, name);
-  std::vector<PixelRect> rects;
-  for (std::size_t i = 0; i < numbers.size(); i += 4) {
-    for (std::size_t k = i; k < i + 4; ++k) {
-      if (numbers[k] < -kFarthest || numbers[k] > kFarthest) {
-        throw hdf5::Failure(fmt::format("{} has a coordinate {}", name, numbers[k]));
-      }
+  std::vector<PixelRect> rects(ColumnRows(file, "", name));
+  ReadColumns(file, "", {MakeStateColumn<std::int32_t>(name, "", rects)}, nullptr);
+  for (const PixelRect& r : rects) {
+    for (int value : {r.x0, r.y0, r.x1, r.y1}) {
+      if (value >= -kFarthest && value <= kFarthest) continue;
+      throw hdf5::Failure(fmt::format("{} has a coordinate {}", name, value));
     }
-    rects.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
   }
   return rects;
 }
@@ -52,12 +50,12 @@ struct StateFile::Impl {
   PixelRect window;
   std::vector<PixelRect> tiles;
 
-  // Calls action(file); what HDF5 cannot do is an error of this file.
+  // What HDF5 cannot do in action() is an error of this file.
   template <class Action>
   auto Do(const Action& action) const {
-    const hdf5::Quiet quiet;
+    const hdf5::Session session;
     try {
-      return action(file->get());
+      return action();
     } catch (const hdf5::Failure& failure) {
       throw InputError(fmt::format("{}: {}", path, failure.what()));
     }
@@ -65,13 +63,15 @@ struct StateFile::Impl {
 
   explicit Impl(const std::string& p)
       : path(p), fd(OpenInputFile(p).fd), bytes(CheckSeal(fd.get(), p, kStateSchema)) {
-    const hdf5::Quiet quiet;
-    try {
+    Do([this] {
       file.emplace(OpenHdf5(fd.get()));
       ReadHead(file->get());
-    } catch (const hdf5::Failure& failure) {
-      throw InputError(fmt::format("{}: {}", path, failure.what()));
-    }
+    });
+  }
+
+  ~Impl() {
+    const hdf5::Session session;
+    file.reset();
   }
 
   void ReadHead(hid_t f) {
@@ -103,28 +103,28 @@ void StateFile::ReadPixels(const std::vector<MutableStateColumn>& into,
   for (const MutableStateColumn& column : into) {
     LL_CHECK_EQ(column.rows, window.pixels());
   }
-  impl_->Do([&](hid_t file) {
+  impl_->Do([&] {
     const std::string problem = TileProblem(impl_->tiles, window);
     if (!problem.empty()) throw hdf5::Failure(problem);
     const TileRows tiles(impl_->tiles, window);
-    ReadColumns(file, "pixels", into, &tiles);
+    ReadColumns(impl_->file->get(), "pixels", into, &tiles);
   });
 }
 
 bool StateFile::HasPixels(const std::string& name) const {
-  return impl_->Do([&](hid_t file) { return HasColumn(file, "pixels", name); });
+  return impl_->Do([&] { return HasColumn(impl_->file->get(), "pixels", name); });
 }
 
 bool StateFile::HasTable(const std::string& name) const {
-  return impl_->Do([&](hid_t file) { return HasColumn(file, "tables", name); });
+  return impl_->Do([&] { return HasColumn(impl_->file->get(), "tables", name); });
 }
 
 std::size_t StateFile::TableRows(const std::string& name) const {
-  return impl_->Do([&](hid_t file) { return ColumnRows(file, "tables", name); });
+  return impl_->Do([&] { return ColumnRows(impl_->file->get(), "tables", name); });
 }
 
 void StateFile::ReadTable(const MutableStateColumn& into) const {
-  impl_->Do([&](hid_t file) { ReadColumns(file, "tables", {into}, nullptr); });
+  impl_->Do([&] { ReadColumns(impl_->file->get(), "tables", {into}, nullptr); });
 }
 
 }  // namespace lanelight

@@ -1,10 +1,6 @@
 // The state of a render as a file: HDF5, compressed, with checksums; docs/state.md says
 // what is in it. A file that is torn, cut or has a bit flipped is refused before anything
 // of it is used.
-//
-// HDF5 runs in the thread that calls; no two threads may be in SerialiseState or in
-// functions of a StateFile at a time. SerialisedState::Write knows nothing of HDF5 and
-// may run beside them.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "src/image/pixel_rect.h"
 #include "src/core/column.h"
+#include "src/core/untouched.h"
+#include "src/image/pixel_rect.h"
 
 namespace lanelight {
 
@@ -35,32 +32,26 @@ struct StateContent {
   std::vector<StateColumn> tables;  // whole
 };
 
-/// A state as bytes, ready for the disk.
-class SerialisedState {
- public:
-  SerialisedState(SerialisedState&&) noexcept;
-  SerialisedState& operator=(SerialisedState&&) noexcept;
-  ~SerialisedState();
+/// Compresses the content, in the thread that calls and in memory of the file's size,
+/// writes it beside `path` and renames it, so that `path` is the old or the new state at
+/// any time, whole and on the disk. Throws InputError with path and reason if that fails
+/// (full disk, no permission, no such directory); then the old file stays and nothing
+/// else does. What does not fit together (a column with too few rows, tiles that overlap,
+/// a name used twice) fails a check. The same content gives the same bytes.
+void WriteState(const StateContent& content, const std::string& path);
 
-  /// The whole file. The same content gives the same bytes.
-  std::string_view bytes() const;
-  /// Writes the file beside `path` and renames it, so that `path` is the old or the new
-  /// state at any time, whole and on the disk. Throws InputError with path and reason if
-  /// that fails (full disk, no permission, no such directory); then the old file stays
-  /// and nothing else does.
-  void Write(const std::string& path) const;
+/// A copy of a content, to be written while the render goes on: all its columns, in
+/// memory that is freed with it.
+class StateCopy {
+ public:
+  /// Copies with all threads. Afterwards the columns may change.
+  explicit StateCopy(const StateContent& content);
+  void Write(const std::string& path) const { WriteState(content_, path); }
 
  private:
-  friend SerialisedState SerialiseState(const StateContent& content);
-  class Bytes;
-  explicit SerialisedState(std::unique_ptr<Bytes> bytes);
-  std::unique_ptr<Bytes> bytes_;
+  StateContent content_;
+  std::vector<UntouchedVector<char>> memory_;  // of its columns
 };
-
-/// Compresses the content, with all threads. Afterwards the columns may change. What does
-/// not fit together (a column with too few rows, tiles that overlap, a name used twice)
-/// fails a check.
-SerialisedState SerialiseState(const StateContent& content);
 
 /// A state on the disk, open. Renaming or removing `path` afterwards changes nothing.
 class StateFile {

@@ -13,7 +13,7 @@ cpack --config "$build/CPackConfig.cmake" -B "$folder" >"$folder/log" 2>&1 ||
   { cat "$folder/log"; fail "cpack"; }
 deb=$(echo "$folder"/lanelight_*.deb)
 dpkg-deb --info "$deb" >"$folder/info"
-for library in libopenexr libtbb12 libhwy1 libhdf5 libdeflate libxxhash zlib1g libc6 \
+for library in libopenexr libtbb12 libhwy1 libhdf5 libxxhash zlib1g libc6 \
   libstdc++6; do
   grep -q "^ Depends:.*$library" "$folder/info" || fail "does not depend on $library"
 done

@@ -61,7 +61,7 @@ TEST_CASE("the example of a state can be written", "[state]") {
   const TemporaryFolder folder;
   const std::string path = wanted != nullptr ? wanted : folder.File("state");
   const Film film;
-  SerialiseState(film.Content()).Write(path);
+  WriteState(film.Content(), path);
   CHECK(StateFile(path).identity() == R"({"scene": "Köln.pbrt"})");
 }
 

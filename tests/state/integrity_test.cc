@@ -21,7 +21,7 @@ using Catch::Contains;
 
 std::string SmallState() {
   const RandomFilm film = RandomFilm::Make({0, 0, 2, 2}, 1);
-  return std::string(SerialiseState(film.Content({film.window})).bytes());
+  return StateBytes(film.Content({film.window}));
 }
 
 // The error, or "" if the file opens.
@@ -128,15 +128,28 @@ TEST_CASE("what is sealed but has not what states have is an input error", "[sta
   CHECK_THAT(ErrorOf(folder.Write("empty", bytes)), Contains("identity"));
 }
 
+TEST_CASE("rows that do not expand are an error of their file", "[state]") {
+  const TemporaryFolder folder;
+  const PixelRect window = {0, 0, 50, 50};
+  const RandomFilm film = RandomFilm::Make(window, 1);
+  std::string bytes = StateBytes(film.Content({window}));
+  bytes[bytes.size() / 2] ^= 1;  // of a sum: these take most of the file
+  Seal(bytes.data(), bytes.size(), kStateSchema);
+  const StateFile file(folder.Write("state", bytes));
+  RandomFilm read(window);
+  CHECK_THROWS_WITH(file.ReadPixels(read.Columns(), window),
+                    Contains(folder.File("state")) && Contains("sums"));
+}
+
 TEST_CASE("an open state stays what it was when its path is replaced", "[state]") {
   const TemporaryFolder folder;
   const PixelRect window = {0, 0, 50, 50};
   const RandomFilm old_film = RandomFilm::Make(window, 1),
                    new_film = RandomFilm::Make(window, 2);
   const std::string path = folder.File("state");
-  SerialiseState(old_film.Content({window})).Write(path);
+  WriteState(old_film.Content({window}), path);
   const StateFile file(path);
-  SerialiseState(new_film.Content({window})).Write(path);
+  WriteState(new_film.Content({window}), path);
   RandomFilm read(window);
   file.ReadPixels(read.Columns(), window);
   CHECK(HoldsTiles(read, old_film, {window}));

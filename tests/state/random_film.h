@@ -5,7 +5,9 @@
 #include <random>
 #include <vector>
 
+#include "src/core/input_file.h"
 #include "src/state/state_file.h"
+#include "tests/image/temporary_folder.h"
 
 namespace lanelight {
 
@@ -80,6 +82,13 @@ struct RandomFilm {
             MakeStateColumn<std::int32_t>("pairs", "two numbers", film.pairs)};
   }
 };
+
+/// The file of a state.
+inline std::string StateBytes(const StateContent& content) {
+  const TemporaryFolder folder;
+  WriteState(content, folder.File("state"));
+  return ReadWholeFile(folder.File("state"));
+}
 
 /// Whether each pixel of the window is that of `expected` in the tiles, and zero outside.
 inline bool HoldsTiles(const RandomFilm& film, const RandomFilm& expected,

@@ -15,9 +15,14 @@ namespace {
 
 using Catch::Contains;
 
-SerialisedState State(unsigned seed) {
+StateCopy State(unsigned seed) {
   const RandomFilm film = RandomFilm::Make({0, 0, 33, 31}, seed);
-  return SerialiseState(film.Content({film.window}));
+  return StateCopy(film.Content({film.window}));
+}
+
+std::string BytesOfState(unsigned seed) {
+  const RandomFilm film = RandomFilm::Make({0, 0, 33, 31}, seed);
+  return StateBytes(film.Content({film.window}));
 }
 
 // What permissions say holds for root too while this lives; `folder` becomes that user's.
@@ -43,33 +48,33 @@ class WithoutPrivileges {
 TEST_CASE("a full disk leaves the old state and nothing else", "[state]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("state");
-  const SerialisedState first = State(1), second = State(2);
-  first.Write(path);
-  const rlim_t size = second.bytes().size();
+  const std::string first = BytesOfState(1), second = BytesOfState(2);
+  State(1).Write(path);
+  const rlim_t size = second.size();
   for (rlim_t room : {rlim_t{0}, rlim_t{1}, rlim_t{511}, rlim_t{512}, rlim_t{4096},
                       size / 2, size - 4097, size - 1}) {
     INFO(room);
     const std::string error = [&] {
       const FileSizeLimit limit(room);
       try {
-        second.Write(path);
+        State(2).Write(path);
       } catch (const InputError& e) {
         return std::string(e.what());
       }
       return std::string("written");
     }();
     CHECK_THAT(error, Contains(path) && Contains("File too large"));
-    CHECK(ReadWholeFile(path) == first.bytes());
+    CHECK(ReadWholeFile(path) == first);
     CHECK(folder.Count() == 1);
   }
   const FileSizeLimit enough(size);
-  second.Write(path);
-  CHECK(ReadWholeFile(path) == second.bytes());
+  State(2).Write(path);
+  CHECK(ReadWholeFile(path) == second);
 }
 
 TEST_CASE("places that cannot be written are input errors with the reason", "[state]") {
   const TemporaryFolder folder;
-  const SerialisedState state = State(1);
+  const StateCopy state = State(1);
   CHECK_THROWS_WITH(state.Write(folder.File("gone/state")),
                     Contains("gone/state") && Contains("No such file or directory"));
   std::filesystem::create_directory(folder.File("directory"));
@@ -82,7 +87,7 @@ TEST_CASE("a folder needs permission to write, none to list", "[state]") {
   const TemporaryFolder folder;
   const std::string inner = folder.File("inner"), path = inner + "/state";
   std::filesystem::create_directory(inner);
-  const SerialisedState state = State(1);
+  const StateCopy state = State(1);
   std::string refused;
   {
     const WithoutPrivileges user(inner);
@@ -97,13 +102,13 @@ TEST_CASE("a folder needs permission to write, none to list", "[state]") {
     std::filesystem::permissions(inner, std::filesystem::perms(0700));
   }
   CHECK_THAT(refused, Contains(path) && Contains("Permission denied"));
-  CHECK(ReadWholeFile(path) == state.bytes());
+  CHECK(ReadWholeFile(path) == BytesOfState(1));
 }
 
 TEST_CASE("two processes may write a path that a third reads", "[state]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("state");
-  const SerialisedState states[] = {State(1), State(2)};
+  const StateCopy states[] = {State(1), State(2)};
   states[0].Write(path);
   pid_t writers[2];
   for (int i = 0; i < 2; ++i) {

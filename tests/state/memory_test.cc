@@ -1,11 +1,10 @@
-// Parts of the state file by themselves: tiles, shuffling, chunks, memory.
+// Tiles, and what copies, files and readers of a state take of memory and of the disk.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <thread>
+#include <utility>
 
-#include "src/core/parallel.h"
-#include "src/state/chunk_codec.h"
-#include "src/state/shuffle.h"
 #include "src/state/tiles.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/state/random_film.h"
@@ -14,13 +13,6 @@ namespace lanelight {
 namespace {
 
 using Catch::Contains;
-
-std::vector<unsigned char> Noise(std::size_t n) {
-  std::mt19937 random(7);
-  std::vector<unsigned char> bytes(n);
-  for (unsigned char& b : bytes) b = static_cast<unsigned char>(random());
-  return bytes;
-}
 
 // Kilobytes of a line of /proc/self/status.
 long Status(const std::string& key) {
@@ -32,48 +24,6 @@ long Status(const std::string& key) {
 }
 
 }  // namespace
-
-TEST_CASE("shuffling is what HDF5 says it is", "[state]") {
-  for (std::size_t size : {4u, 8u}) {
-    for (std::size_t count : {0u, 1u, 7u, 511u, 512u, 513u, 5000u}) {
-      const std::vector<unsigned char> values = Noise(size * count);
-      std::vector<unsigned char> planes(values.size()), back(values.size());
-      Shuffle(values.data(), size, count, planes.data());
-      bool right = true;
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        right &= planes[i % size * count + i / size] == values[i];
-      }
-      CHECK(right);
-      Unshuffle(planes.data(), size, count, back.data());
-      CHECK(back == values);
-    }
-  }
-}
-
-TEST_CASE("noise is stored, other planes shrink, and both come back", "[state]") {
-  const std::vector<unsigned char> noise = Noise(8 * 32768);
-  ChunkEncoder encoder;
-  ChunkDecoder decoder;
-  std::vector<unsigned char> chunk, back(noise.size());
-  encoder.Encode(noise.data(), 8, 32768, chunk);
-  CHECK(chunk.size() < noise.size() + 200);
-  REQUIRE(decoder.Decode(chunk, 8, 32768, back.data()));
-  CHECK(back == noise);
-
-  // One plane of zeros, one of two values, six of noise.
-  std::vector<unsigned char> mixed = noise;
-  for (std::size_t i = 0; i < mixed.size(); i += 8) mixed[i] = 0, mixed[i + 3] %= 2;
-  encoder.Encode(mixed.data(), 8, 32768, chunk);
-  CHECK(chunk.size() < 6.3 * 32768);
-  REQUIRE(decoder.Decode(chunk, 8, 32768, back.data()));
-  CHECK(back == mixed);
-
-  CHECK_FALSE(decoder.Decode(chunk, 8, 32767, back.data()));
-  chunk.back() ^= 1;
-  CHECK_FALSE(decoder.Decode(chunk, 8, 32768, back.data()));
-  chunk.resize(chunk.size() / 2);
-  CHECK_FALSE(decoder.Decode(chunk, 8, 32768, back.data()));
-}
 
 TEST_CASE("tiles that are wrong are found", "[state]") {
   const PixelRect film = {0, 0, 10, 10};
@@ -106,6 +56,47 @@ TEST_CASE("tiles that are wrong are found", "[state]") {
   CHECK(overlaps < 2900);
 }
 
+TEST_CASE("a copy stays what it was, and is written while a state is read", "[state]") {
+  const TemporaryFolder folder;
+  const PixelRect window = {0, 0, 70, 50};
+  RandomFilm film = RandomFilm::Make(window, 1);
+  const RandomFilm before = film;
+  WriteState(film.Content({window}), folder.File("old"));
+  const StateCopy copy(film.Content({window}));
+  film = RandomFilm(window);
+  std::thread writer([&] {
+    for (int i = 0; i < 20; ++i) copy.Write(folder.File("state"));
+  });
+  int wrong = 0;
+  for (int i = 0; i < 20; ++i) {
+    RandomFilm read(window);
+    StateFile(folder.File("old")).ReadPixels(read.Columns(), window);
+    wrong += !HoldsTiles(read, before, {window});
+  }
+  writer.join();
+  CHECK(wrong == 0);
+  RandomFilm read(window);
+  StateFile(folder.File("state")).ReadPixels(read.Columns(), window);
+  CHECK(HoldsTiles(read, before, {window}));
+  CHECK(HoldsTiles(film, before, {}));
+}
+
+TEST_CASE("what has few bits takes little of the disk", "[state]") {
+  std::mt19937_64 random(1);
+  // A sixteenth of the bits, and three quarters of the values zero.
+  std::vector<double> sums(12 * 10000);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (i % 12 < 3) sums[i] = static_cast<double>(random() % 16);
+  }
+  const std::vector<std::uint64_t> samples(10000, 64);
+  StateContent content;
+  content.window = {0, 0, 100, 100};
+  content.tiles = {content.window};
+  content.pixels = {MakeStateColumn<double>("sums", "", std::as_const(sums), {4, 3}),
+                    MakeStateColumn<std::uint64_t>("samples", "", samples)};
+  CHECK(StateBytes(content).size() < 10000 * (12 + 1) * 8 / 20);
+}
+
 TEST_CASE("memory for reading does not grow with the state", "[state]") {
   const TemporaryFolder folder;
   std::vector<std::uint64_t> table(6u << 20), read(table.size());  // 48 MiB
@@ -113,7 +104,7 @@ TEST_CASE("memory for reading does not grow with the state", "[state]") {
   for (std::uint64_t& n : table) n = random();
   StateContent content;
   content.tables = {MakeStateColumn<std::uint64_t>("table", "", table)};
-  SerialiseState(content).Write(folder.File("state"));
+  WriteState(content, folder.File("state"));
   std::fill(read.begin(), read.end(), 1);
   std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins here
   const long before = Status("VmHWM");
@@ -122,7 +113,7 @@ TEST_CASE("memory for reading does not grow with the state", "[state]") {
   const long grown = Status("VmHWM") - before;
   CHECK(read == table);
   REQUIRE(before > 0);
-  CHECK(grown < 4096 + 3072 * MaxThreads());
+  CHECK(grown < 4096);
 }
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-// From datasets to live columns.
+// Columns as datasets of a state file: from live memory, and back.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,18 @@
 
 namespace lanelight {
 
-/// Whether `group` ("pixels", "tables") has a column of this name.
+/// Writes the rows of a column that `tiles` names, or all if it is null: compressed, and
+/// in memory of a few chunks.
+void WriteColumn(hid_t group, const StateColumn& column, const TileRows* tiles);
+
+/// Whether `group` ("pixels", "tables", or "", the file) has a column of this name.
 bool HasColumn(hid_t file, const std::string& group, const std::string& name);
 /// Its rows; throws hdf5::Failure if there is none.
 std::size_t ColumnRows(hid_t file, const std::string& group, const std::string& name);
 
-/// Fills the columns, with all threads: the rows that `tiles` names, or all if it is
-/// null. Throws hdf5::Failure before anything is read if a column is not there with its
-/// type, shape and number of rows.
+/// Fills the columns: the rows that `tiles` names, or all if it is null. Throws
+/// hdf5::Failure before anything is read if a column is not there with its type, shape
+/// and number of rows.
 void ReadColumns(hid_t file, const std::string& group,
                  const std::vector<MutableStateColumn>& into, const TileRows* tiles);
 
