@@ -25,11 +25,11 @@ constexpr Directive kDirectives[] = {
     {"CoordSysTransform", Block::kAny, RunCoordSysTransform},
     {"ActiveTransform", Block::kAny, RunActiveTransform},
     {"TransformTimes", Block::kOptions, RunTransformTimes},
-    {"Camera", Block::kOptions, RunCamera},
-    {"Film", Block::kOptions, RunFilm},
-    {"PixelFilter", Block::kOptions, RunPixelFilter},
-    {"Sampler", Block::kOptions, RunSampler},
-    {"Integrator", Block::kOptions, RunIntegrator},
+    {"Camera", Block::kOptions, RunObject},
+    {"Film", Block::kOptions, RunObject},
+    {"PixelFilter", Block::kOptions, RunObject},
+    {"Sampler", Block::kOptions, RunObject},
+    {"Integrator", Block::kOptions, RunObject},
     {"Accelerator", Block::kOptions, RunAccelerator},
     {"Option", Block::kOptions, RunOption},
     {"WorldBegin", Block::kOptions, RunWorldBegin},
@@ -42,13 +42,13 @@ constexpr Directive kDirectives[] = {
     {"TransformBegin", Block::kWorld, RunTransformBegin},
     {"TransformEnd", Block::kWorld, RunTransformEnd},
     {"ReverseOrientation", Block::kWorld, RunReverseOrientation},
-    {"Material", Block::kWorld, RunMaterial},
+    {"Material", Block::kWorld, RunObject},
     {"MakeNamedMaterial", Block::kWorld, RunMakeNamedMaterial},
     {"NamedMaterial", Block::kWorld, RunNamedMaterial},
     {"Texture", Block::kWorld, RunTexture},
-    {"LightSource", Block::kWorld, RunLightSource},
-    {"AreaLightSource", Block::kWorld, RunAreaLightSource},
-    {"Shape", Block::kWorld, RunShape},
+    {"LightSource", Block::kWorld, RunObject},
+    {"AreaLightSource", Block::kWorld, RunObject},
+    {"Shape", Block::kWorld, RunObject},
     {"ObjectBegin", Block::kWorld, RunObjectBegin},
     {"ObjectEnd", Block::kWorld, RunObjectEnd},
     {"ObjectInstance", Block::kWorld, RunObjectInstance},
@@ -84,12 +84,12 @@ double Statement::Number() {
                                                      operand.Describe(), token.text));
 }
 
-std::string Statement::String() {
+NameOperand Statement::Name() {
   const Token operand = lexer.Next();
-  if (operand.kind == TokenKind::kString) return std::string(operand.text);
-  throw InputError(lexer.Where(operand),
-                   fmt::format("found {} where {} needs a name in quotes",
-                               operand.Describe(), token.text));
+  const SourceLocation where = lexer.Where(operand);
+  if (operand.kind == TokenKind::kString) return {std::string(operand.text), where};
+  throw InputError(where, fmt::format("found {} where {} needs a name in quotes",
+                                      operand.Describe(), token.text));
 }
 
 std::vector<double> Statement::Numbers(std::size_t count) {

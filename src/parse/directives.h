@@ -7,6 +7,12 @@
 
 namespace lanelight {
 
+/// A string, and where it stands.
+struct NameOperand {
+  std::string text;
+  SourceLocation where;
+};
+
 /// One occurrence of a directive: where its operands come from.
 struct Statement {
   Lexer& lexer;
@@ -15,7 +21,7 @@ struct Statement {
   SourceLocation where() const { return lexer.Where(token); }
   /// The next token as a number / a string; InputError naming the directive otherwise.
   double Number();
-  std::string String();
+  NameOperand Name();
   /// `count` numbers, in brackets or bare.
   std::vector<double> Numbers(std::size_t count);
 };
@@ -51,20 +57,12 @@ void RunReverseOrientation(ParseState&, Statement&);
 void RunColorSpace(ParseState&, Statement&);
 
 // directives_object.cc, option.cc
-void RunCamera(ParseState&, Statement&);
-void RunFilm(ParseState&, Statement&);
-void RunPixelFilter(ParseState&, Statement&);
-void RunSampler(ParseState&, Statement&);
-void RunIntegrator(ParseState&, Statement&);
+void RunObject(ParseState&, Statement&);  // those of a type and parameters alone
 void RunAccelerator(ParseState&, Statement&);
 void RunOption(ParseState&, Statement&);
-void RunMaterial(ParseState&, Statement&);
 void RunMakeNamedMaterial(ParseState&, Statement&);
 void RunNamedMaterial(ParseState&, Statement&);
 void RunTexture(ParseState&, Statement&);
-void RunLightSource(ParseState&, Statement&);
-void RunAreaLightSource(ParseState&, Statement&);
-void RunShape(ParseState&, Statement&);
 void RunMakeNamedMedium(ParseState&, Statement&);
 void RunMediumInterface(ParseState&, Statement&);
 

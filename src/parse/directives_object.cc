@@ -1,7 +1,8 @@
-#include "src/parse/directives.h"
-#include "src/parse/format.h"
-#include "src/parse/interpret.h"
+#include <optional>
+
 #include "src/core/suggest.h"
+#include "src/parse/directives.h"
+#include "src/parse/interpret.h"
 
 namespace lanelight {
 namespace {
@@ -11,126 +12,128 @@ struct TypedObject {
   ParamSet params;
 };
 
-// InputError for what the table of the format refuses with a reason. Where unsupported
-// things are to be skipped, the interpreters say what happens instead.
-void CheckRefused(const ParseState& state, const SourceLocation& where,
-                  std::string_view directive, std::string_view kind,
-                  const std::string& type) {
-  const std::string_view why = WhyRefused(directive, type);
-  if (why.empty() || state.options.skip_unsupported) return;
-  throw InputError(where,
-                   fmt::format("{} {} is not supported: {} (--skip-unsupported goes on "
-                               "without it)",
-                               kind, Quoted(type), why));
+// Types that are refused whatever their parameters are, and why.
+struct Refusal {
+  std::string_view directive, type, why;
+};
+constexpr Refusal kRefusals[] = {
+    {"Film", "spectral",
+     "light is transported as linear sRGB, so there are no spectra to write"},
+    {"Shape", "curve",
+     "hair and curves are not in this renderer; a mesh can stand for them"},
+    {"Material", "hair", "hair and curves are not in this renderer"},
+    {"Material", "measured", "measured BRDFs are not in this renderer"},
+    {"Material", "subsurface",
+     "light that leaves a surface elsewhere than it entered is not in this renderer; "
+     "\"dielectric\" around a medium is the same in full"},
+    {"Texture", "ptex",
+     "textures per face (Ptex files) are not in this renderer; an image with surface "
+     "coordinates can stand for one"}};
+
+// InputError for what is refused. Where unsupported things are to be skipped, the
+// interpreters say what happens instead.
+void CheckRefused(const ParseState& state, const NameOperand& type,
+                  std::string_view directive, std::string_view kind) {
+  if (state.options.skip_unsupported) return;
+  for (const Refusal& refusal : kRefusals) {
+    if (directive != refusal.directive || type.text != refusal.type) continue;
+    throw InputError(
+        type.where,
+        fmt::format("{} {} is not supported: {} (--skip-unsupported goes on without it)",
+                    kind, Quoted(type.text), refusal.why));
+  }
+}
+
+// What messages call an object, and where its defaults come from.
+struct ObjectKind {
+  const char* word;
+  std::optional<AttributeTarget> defaults = {};
+};
+
+ParamSet ReadParamSet(ParseState& state, Statement& statement, const ObjectKind& kind,
+                      const NameOperand& name) {
+  ParamList own = ReadParams(statement.lexer, state.graphics.color_space);
+  return {fmt::format("{} {}", kind.word, Quoted(name.text)), name.where, std::move(own),
+          kind.defaults ? state.Inherited(*kind.defaults) : nullptr, &state.scene.notes};
 }
 
 // Reads "type" and parameters; the type's own place is where errors about it point.
-TypedObject ReadObject(ParseState& state, Statement& statement, const char* kind,
-                       std::shared_ptr<const ParamList> inherited = nullptr) {
-  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
-  std::string type = statement.String();
-  CheckRefused(state, where, statement.token.text, kind, type);
-  ParamList own = ReadParams(statement.lexer, state.graphics.color_space);
-  ParamSet params(fmt::format("{} {}", kind, Quoted(type)), where, std::move(own),
-                  std::move(inherited), &state.scene.notes);
-  return {std::move(type), std::move(params)};
+TypedObject ReadObject(ParseState& state, Statement& statement, const ObjectKind& kind) {
+  const NameOperand type = statement.Name();
+  CheckRefused(state, type, statement.token.text, kind.word);
+  return {type.text, ReadParamSet(state, statement, kind, type)};
 }
+
+constexpr ObjectKind kMaterial = {"material", AttributeTarget::kMaterial};
+
+void SetMaterial(ParseState& state, const std::string& type, ParamSet& params) {
+  state.graphics.material = InterpretMaterial(state, "", type, params);
+}
+
+void SetAreaLight(ParseState& state, const std::string& type, ParamSet& params) {
+  state.graphics.area_light = InterpretAreaLight(state, type, params);
+}
+
+// Directives that are followed by a type and parameters, and nothing else.
+struct ObjectDirective {
+  ObjectKind kind;
+  void (*interpret)(ParseState&, const std::string&, ParamSet&);
+};
+constexpr std::pair<std::string_view, ObjectDirective> kObjects[] = {
+    {"Camera", {{"camera"}, InterpretCamera}},
+    {"Film", {{"film"}, InterpretFilm}},
+    {"PixelFilter", {{"pixel filter"}, InterpretFilter}},
+    {"Sampler", {{"sampler"}, InterpretSampler}},
+    {"Integrator", {{"integrator"}, InterpretIntegrator}},
+    {"Material", {kMaterial, SetMaterial}},
+    {"LightSource", {{"light", AttributeTarget::kLight}, InterpretLight}},
+    {"AreaLightSource", {{"area light", AttributeTarget::kLight}, SetAreaLight}},
+    {"Shape", {{"shape", AttributeTarget::kShape}, InterpretShape}}};
 
 }  // namespace
 
-void RunCamera(ParseState& state, Statement& statement) {
-  TypedObject object = ReadObject(state, statement, "camera");
-  InterpretCamera(state, object.type, object.params);
+void RunObject(ParseState& state, Statement& statement) {
+  const auto& [kind, interpret] =
+      Lookup(kObjects, std::string(statement.token.text), statement.where(), "directive");
+  TypedObject object = ReadObject(state, statement, kind);
+  interpret(state, object.type, object.params);
 }
 
-void RunFilm(ParseState& state, Statement& statement) {
-  TypedObject object = ReadObject(state, statement, "film");
-  InterpretFilm(state, object.type, object.params);
-}
-
-void RunPixelFilter(ParseState& state, Statement& statement) {
-  TypedObject object = ReadObject(state, statement, "pixel filter");
-  InterpretFilter(state, object.type, object.params);
-}
-
-void RunSampler(ParseState& state, Statement& statement) {
-  TypedObject object = ReadObject(state, statement, "sampler");
-  InterpretSampler(state, object.type, object.params);
-}
-
-void RunIntegrator(ParseState& state, Statement& statement) {
-  TypedObject object = ReadObject(state, statement, "integrator");
-  InterpretIntegrator(state, object.type, object.params);
-}
-
-// Every parameter of the table is noted; anything else is unknown.
 void RunAccelerator(ParseState& state, Statement& statement) {
-  TypedObject object = ReadObject(state, statement, "accelerator");
-  std::vector<std::string> types;
-  bool known = false;
-  for (const FormatObject& o : PbrtFormat()) {
-    if (o.directive != std::string("Accelerator")) continue;
-    types.emplace_back(o.type);
-    if (object.type != o.type) continue;
-    known = true;
-    for (const FormatLine& line : o.lines) {
-      const std::string_view parameter = line.parameter;
-      object.params.Ignore(parameter.substr(parameter.rfind(' ') + 1), line.why);
-    }
-  }
-  if (!known) ThrowUnknown(object.params.where(), "accelerator", object.type, types);
-  object.params.CheckAllUsed();
+  TypedObject object = ReadObject(state, statement, {"accelerator"});
+  InterpretAccelerator(object.type, object.params);
   state.AddNote(statement.where(),
                 fmt::format("accelerator {} has no effect: there is one kind",
                             Quoted(object.type)));
 }
 
-void RunMaterial(ParseState& state, Statement& statement) {
-  TypedObject object = ReadObject(state, statement, "material",
-                                  state.Inherited(AttributeTarget::kMaterial));
-  state.graphics.material = InterpretMaterial(state, "", object.type, object.params);
-}
-
 void RunMakeNamedMaterial(ParseState& state, Statement& statement) {
-  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
-  const std::string name = statement.String();
-  ParamList own = ReadParams(statement.lexer, state.graphics.color_space);
-  if (state.materials.contains(name)) {
-    throw InputError(where, fmt::format("material {} is defined twice", Quoted(name)));
+  const NameOperand name = statement.Name();
+  ParamSet params = ReadParamSet(state, statement, kMaterial, name);
+  if (state.materials.contains(name.text)) {
+    throw InputError(name.where,
+                     fmt::format("material {} is defined twice", Quoted(name.text)));
   }
-  ParamSet params(fmt::format("material {}", Quoted(name)), where, std::move(own),
-                  state.Inherited(AttributeTarget::kMaterial), &state.scene.notes);
+  params.Need("type", ParamType::kString);
   const std::string type = params.String("type", "");
-  if (params.Find("type", {}) == nullptr) {
-    throw InputError(where,
-                     fmt::format("material {} has no \"string type\"", Quoted(name)));
-  }
-  CheckRefused(state, where, "Material", "material", type);
-  state.materials[name] = InterpretMaterial(state, name, type, params);
+  CheckRefused(state, {type, name.where}, "Material", "material");
+  state.materials[name.text] = InterpretMaterial(state, name.text, type, params);
 }
 
 void RunNamedMaterial(ParseState& state, Statement& statement) {
-  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
-  const std::string name = statement.String();
-  const auto it = state.materials.find(name);
-  if (it == state.materials.end()) {
-    ThrowUnknown(where, "named material", name, Names(state.materials));
-  }
-  state.graphics.material = it->second;
+  const auto [name, where] = statement.Name();
+  state.graphics.material = Lookup(state.materials, name, where, "named material");
 }
 
 void RunTexture(ParseState& state, Statement& statement) {
-  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
-  const std::string name = statement.String();
-  const SourceLocation value_where = statement.lexer.Where(statement.lexer.Peek());
-  const std::string value = statement.String();
+  static constexpr std::pair<const char*, bool> kIsFloat[] = {{"float", true},
+                                                              {"spectrum", false}};
+  const auto [name, where] = statement.Name();
+  const auto [value, value_where] = statement.Name();
   TypedObject object =
-      ReadObject(state, statement, "texture", state.Inherited(AttributeTarget::kTexture));
-  if (value != "float" && value != "spectrum") {
-    ThrowUnknown(value_where, "value type of a texture:", value, {"float", "spectrum"});
-  }
-  const bool is_float = value == "float";
-  auto& names = is_float ? state.float_textures : state.color_textures;
+      ReadObject(state, statement, {"texture", AttributeTarget::kTexture});
+  const bool is_float = Lookup(kIsFloat, value, value_where, "value type of a texture:");
+  const auto& names = is_float ? state.float_textures : state.color_textures;
   if (names.contains(name)) {
     throw InputError(where,
                      fmt::format("{} texture {} is defined twice", value, Quoted(name)));
@@ -138,51 +141,26 @@ void RunTexture(ParseState& state, Statement& statement) {
   InterpretTexture(state, name, is_float, object.type, object.params);
 }
 
-void RunLightSource(ParseState& state, Statement& statement) {
-  TypedObject object =
-      ReadObject(state, statement, "light", state.Inherited(AttributeTarget::kLight));
-  InterpretLight(state, object.type, object.params);
-}
-
-void RunAreaLightSource(ParseState& state, Statement& statement) {
-  TypedObject object = ReadObject(state, statement, "area light",
-                                  state.Inherited(AttributeTarget::kLight));
-  state.graphics.area_light = InterpretAreaLight(state, object.type, object.params);
-}
-
-void RunShape(ParseState& state, Statement& statement) {
-  TypedObject object =
-      ReadObject(state, statement, "shape", state.Inherited(AttributeTarget::kShape));
-  InterpretShape(state, object.type, object.params);
-}
-
 void RunMakeNamedMedium(ParseState& state, Statement& statement) {
-  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
-  const std::string name = statement.String();
-  ParamList own = ReadParams(statement.lexer, state.graphics.color_space);
-  if (name.empty()) {
-    throw InputError(where, "the empty name is that of empty space; give another");
+  const NameOperand name = statement.Name();
+  ParamSet params =
+      ReadParamSet(state, statement, {"medium", AttributeTarget::kMedium}, name);
+  if (name.text.empty()) {
+    throw InputError(name.where, "the empty name is that of empty space; give another");
   }
-  if (state.media.contains(name)) {
-    throw InputError(where, fmt::format("medium {} is defined twice", Quoted(name)));
+  if (state.media.contains(name.text)) {
+    throw InputError(name.where,
+                     fmt::format("medium {} is defined twice", Quoted(name.text)));
   }
-  ParamSet params(fmt::format("medium {}", Quoted(name)), where, std::move(own),
-                  state.Inherited(AttributeTarget::kMedium), &state.scene.notes);
-  InterpretMedium(state, name, params);
+  InterpretMedium(state, name.text, params);
 }
 
 namespace {
 
 // The medium that the next string names; "": empty space.
 Index NextMedium(const ParseState& state, Statement& statement) {
-  const SourceLocation where = statement.lexer.Where(statement.lexer.Peek());
-  const std::string name = statement.String();
-  if (name.empty()) return kNone;
-  const auto it = state.media.find(name);
-  if (it == state.media.end()) {
-    ThrowUnknown(where, "named medium", name, Names(state.media));
-  }
-  return it->second;
+  const auto [name, where] = statement.Name();
+  return name.empty() ? kNone : Lookup(state.media, name, where, "named medium");
 }
 
 }  // namespace

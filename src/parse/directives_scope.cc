@@ -45,10 +45,6 @@ GraphicsState Pop(ParseState& state, const Statement& statement, ScopeKind kind)
   return saved;
 }
 
-SourceLocation NextPlace(Statement& statement) {
-  return statement.lexer.Where(statement.lexer.Peek());
-}
-
 }  // namespace
 
 void RunWorldBegin(ParseState& state, Statement&) {
@@ -75,8 +71,7 @@ void RunTransformEnd(ParseState& state, Statement& statement) {
 }
 
 void RunObjectBegin(ParseState& state, Statement& statement) {
-  const SourceLocation where = NextPlace(statement);
-  const std::string name = statement.String();
+  const auto [name, where] = statement.Name();
   if (state.open_object != kNone) {
     throw InputError(
         statement.where(),
@@ -99,32 +94,27 @@ void RunObjectEnd(ParseState& state, Statement& statement) {
 }
 
 void RunObjectInstance(ParseState& state, Statement& statement) {
-  const SourceLocation where = NextPlace(statement);
-  const std::string name = statement.String();
+  const auto [name, where] = statement.Name();
   if (state.open_object != kNone) {
     throw InputError(statement.where(),
                      "ObjectInstance inside an object definition; "
                      "instances do not nest");
   }
-  const auto it = state.objects.find(name);
-  if (it == state.objects.end()) {
-    ThrowUnknown(where, "object", name, Names(state.objects));
-  }
+  const Index object = Lookup(state.objects, name, where, "object");
   // A shape of the object lands at (transform here) * (transform at its Shape directive).
-  state.scene.instances.push_back({it->second, state.graphics.ctm, statement.where()});
+  state.scene.instances.push_back({object, state.graphics.ctm, statement.where()});
 }
 
 void RunInclude(ParseState& state, Statement& statement) {
-  const SourceLocation where = NextPlace(statement);
-  RunFile(state, ResolvePath(state, statement.String()), where);
+  const auto [name, where] = statement.Name();
+  RunFile(state, ResolvePath(state, name), where);
 }
 
 // Like Include, but changes to the graphics state end with the file.
 void RunImport(ParseState& state, Statement& statement) {
-  const SourceLocation where = NextPlace(statement);
-  const std::string path = ResolvePath(state, statement.String());
+  const auto [name, where] = statement.Name();
   Push(state, statement, ScopeKind::kImport);
-  RunFile(state, path, where);
+  RunFile(state, ResolvePath(state, name), where);
   const Scope& scope = state.scopes.back();
   if (scope.kind != ScopeKind::kImport) {
     throw InputError(scope.where, fmt::format("this {} has no end in the imported file",
@@ -135,17 +125,16 @@ void RunImport(ParseState& state, Statement& statement) {
 }
 
 void RunAttribute(ParseState& state, Statement& statement) {
-  static const std::vector<std::string> kTargets = {"shape", "light", "material",
-                                                    "medium", "texture"};
-  const SourceLocation where = NextPlace(statement);
-  const std::string name = statement.String();
-  int target = 0;
-  while (target < kAttributeTargets && kTargets[target] != name) ++target;
-  if (target == kAttributeTargets) {
-    ThrowUnknown(where, "target of Attribute:", name, kTargets);
-  }
+  static constexpr std::pair<const char*, AttributeTarget> kTargets[] = {
+      {"shape", AttributeTarget::kShape},
+      {"light", AttributeTarget::kLight},
+      {"material", AttributeTarget::kMaterial},
+      {"medium", AttributeTarget::kMedium},
+      {"texture", AttributeTarget::kTexture}};
+  const auto [name, where] = statement.Name();
+  const AttributeTarget target = Lookup(kTargets, name, where, "target of Attribute:");
   const ParamList added = ReadParams(statement.lexer, state.graphics.color_space);
-  auto& current = state.graphics.attributes[target];
+  auto& current = state.graphics.attributes[static_cast<int>(target)];
   // Scopes share the list until it changes.
   auto list =
       current ? std::make_shared<ParamList>(*current) : std::make_shared<ParamList>();
@@ -163,8 +152,7 @@ void RunReverseOrientation(ParseState& state, Statement&) {
 void RunColorSpace(ParseState& state, Statement& statement) {
   static const std::vector<std::string> kSpaces = {"srgb", "dci-p3", "rec2020",
                                                    "aces2065-1"};
-  const SourceLocation where = NextPlace(statement);
-  const std::string name = statement.String();
+  const auto [name, where] = statement.Name();
   if (std::find(kSpaces.begin(), kSpaces.end(), name) == kSpaces.end()) {
     ThrowUnknown(where, "color space", name, kSpaces);
   }

@@ -125,18 +125,13 @@ void RunConcatTransform(ParseState& state, Statement& statement) {
 }
 
 void RunCoordinateSystem(ParseState& state, Statement& statement) {
-  state.coordinate_systems[statement.String()] = state.graphics.ctm;
+  state.coordinate_systems[statement.Name().text] = state.graphics.ctm;
 }
 
 void RunCoordSysTransform(ParseState& state, Statement& statement) {
-  const Token name_token = statement.lexer.Peek();
-  const std::string name = statement.String();
-  const auto it = state.coordinate_systems.find(name);
-  if (it == state.coordinate_systems.end()) {
-    ThrowUnknown(statement.lexer.Where(name_token), "coordinate system", name,
-                 Names(state.coordinate_systems));
-  }
-  Set(state, statement, it->second);
+  const auto [name, where] = statement.Name();
+  Set(state, statement,
+      Lookup(state.coordinate_systems, name, where, "coordinate system"));
 }
 
 void RunActiveTransform(ParseState& state, Statement& statement) {

@@ -12,9 +12,6 @@
 
 namespace lanelight {
 
-/// Of parameters that have no natural limit.
-inline constexpr double kHuge = 1e30;
-
 // interpret_color.cc ----------------------------------------------------------------
 /// Linear sRGB of an rgb, spectrum or blackbody parameter. Colours outside sRGB's gamut
 /// are clamped to non-negative, with a note.
@@ -26,9 +23,9 @@ Rgb PlainColor(ParseState& state, ParamSet& params, std::string_view name, Rgb a
 /// A colour or the index of a spectrum texture.
 ColorValue TexturedColor(ParseState& state, ParamSet& params, std::string_view name,
                          Rgb absent, SpectrumUse use);
-/// A number of at least `low` and at most `high`, or the index of a float texture.
+/// A number within the limits, or the index of a float texture.
 FloatValue TexturedFloat(ParseState& state, ParamSet& params, std::string_view name,
-                         double absent, double low, double high);
+                         double absent, Limits limits = {});
 
 // interpret_spectrum.cc -------------------------------------------------------------
 /// (wavelength in nm, value) samples of a spectrum parameter with numbers or of the .spd
@@ -51,12 +48,23 @@ void ConductorIor(ParseState& state, ParamSet& params, const std::string& prefix
 const Param* NumberArray(ParamSet& params, std::string_view name, ParamType type,
                          std::size_t count);
 
+// parse_files.cc --------------------------------------------------------------------
+/// The file that a string parameter names; an empty name is an InputError.
+struct NamedFile {
+  const Param* param = nullptr;  // null: it is not given
+  std::string path;
+
+  explicit operator bool() const { return param != nullptr; }
+};
+NamedFile FileOf(const ParseState& state, ParamSet& params, std::string_view name);
+
 // One per concept -------------------------------------------------------------------
 void InterpretCamera(ParseState& state, const std::string& type, ParamSet& params);
 void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params);
 void InterpretFilter(ParseState& state, const std::string& type, ParamSet& params);
 void InterpretSampler(ParseState& state, const std::string& type, ParamSet& params);
 void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& params);
+void InterpretAccelerator(const std::string& type, ParamSet& params);
 
 /// Appends the material and returns its index.
 Index InterpretMaterial(ParseState& state, const std::string& name,
@@ -67,7 +75,7 @@ void InterpretTexture(ParseState& state, const std::string& name, bool is_float,
 /// Appends the medium `name`.
 void InterpretMedium(ParseState& state, const std::string& name, ParamSet& params);
 void InterpretLight(ParseState& state, const std::string& type, ParamSet& params);
-/// Appends the area light and returns its index, or kNone if it is skipped.
+/// Appends the area light and returns its index.
 Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& params);
 /// Appends the shape to the scene or the open object definition.
 void InterpretShape(ParseState& state, const std::string& type, ParamSet& params);

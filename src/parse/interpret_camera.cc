@@ -21,7 +21,7 @@ const Param* NumberArray(ParamSet& params, std::string_view name, ParamType type
 namespace {
 
 void ReadWindow(ParamSet& params, Camera* camera) {
-  camera->frame_aspect = params.Float("frameaspectratio", 0, 1e-6, 1e6);
+  camera->frame_aspect = params.Float("frameaspectratio", 0, {1e-6, 1e6});
   const Param* window = NumberArray(params, "screenwindow", ParamType::kFloat, 4);
   if (window == nullptr) return;
   const std::vector<double>& n = window->numbers;
@@ -87,14 +87,13 @@ void CheckLenses(ParseState& state, ParamSet& params, const Param& file,
 }
 
 void ReadRealistic(ParseState& state, ParamSet& params, Camera& camera) {
-  camera.kind = CameraKind::kRealistic;
   const Param* file = params.Find("lensfile", {ParamType::kString});
   const std::string name = params.String("lensfile", "");
   if (file == nullptr || name.empty()) {
     throw InputError(params.where(), "a realistic camera needs \"string lensfile\"");
   }
-  camera.aperture_diameter = params.Float("aperturediameter", 1, 1e-6, kHuge);
-  camera.focal_distance = params.Float("focusdistance", 10, 1e-30, kHuge);
+  camera.aperture_diameter = params.Float("aperturediameter", 1, {1e-6, kHuge});
+  camera.focal_distance = params.Float("focusdistance", 10, {1e-30, kHuge});
   camera.aperture = params.String("aperture", "");
   static constexpr std::string_view kShapes[] = {"", "gaussian", "square", "pentagon",
                                                  "star"};
@@ -104,29 +103,43 @@ void ReadRealistic(ParseState& state, ParamSet& params, Camera& camera) {
   }
   camera.lens = ReadLensFile(state, params, *file, ResolvePath(state, name));
   CheckLenses(state, params, *file, camera);
-  ReadShutter(state, params);
-  params.CheckAllUsed();
-  state.scene.camera = camera;
 }
 
 // All directions: no lens, and all of the film.
-void ReadSpherical(ParseState& state, ParamSet& params, Camera& camera) {
-  camera.kind = CameraKind::kSpherical;
-  const Param* param = params.Find("mapping", {ParamType::kString});
-  const std::string mapping = params.String("mapping", "equalarea");
-  if (mapping == "equirectangular") {
-    camera.mapping = SphericalMapping::kEquirectangular;
-  } else if (mapping != "equalarea") {
-    ThrowUnknown(param->where, "mapping", mapping, {"equalarea", "equirectangular"});
+void ReadSpherical(ParseState&, ParamSet& params, Camera& camera) {
+  static constexpr std::pair<const char*, SphericalMapping> kMappings[] = {
+      {"equalarea", SphericalMapping::kEqualArea},
+      {"equirectangular", SphericalMapping::kEquirectangular}};
+  if (const Param* mapping = params.Find("mapping", {ParamType::kString})) {
+    camera.mapping =
+        Lookup(kMappings, params.String("mapping", ""), mapping->where, "mapping");
   }
   for (const char* name :
        {"lensradius", "focaldistance", "frameaspectratio", "screenwindow"}) {
     params.Ignore(name, "a spherical camera has neither lens nor window");
   }
-  ReadShutter(state, params);
-  params.CheckAllUsed();
-  state.scene.camera = camera;
 }
+
+void ReadOrthographic(ParseState&, ParamSet& params, Camera& camera) {
+  camera.lens_radius = params.Float("lensradius", 0, kNotNegative);
+  camera.focal_distance = params.Float("focaldistance", 1e6, {1e-30, kHuge});
+  ReadWindow(params, &camera);
+}
+
+void ReadPerspective(ParseState& state, ParamSet& params, Camera& camera) {
+  camera.fov = params.Float("fov", 90, {1e-6, 179.999});
+  ReadOrthographic(state, params, camera);
+}
+
+struct CameraType {
+  CameraKind kind;
+  void (*read)(ParseState&, ParamSet&, Camera&);
+};
+constexpr std::pair<const char*, CameraType> kCameraTypes[] = {
+    {"perspective", {CameraKind::kPerspective, ReadPerspective}},
+    {"orthographic", {CameraKind::kOrthographic, ReadOrthographic}},
+    {"spherical", {CameraKind::kSpherical, ReadSpherical}},
+    {"realistic", {CameraKind::kRealistic, ReadRealistic}}};
 
 }  // namespace
 
@@ -137,54 +150,37 @@ void InterpretCamera(ParseState& state, const std::string& type, ParamSet& param
   camera.world_from_camera = state.graphics.ctm.Inverse();
   camera.medium = state.graphics.media.outside;
   state.coordinate_systems["camera"] = camera.world_from_camera;
-  if (type == "perspective") {
-    camera.kind = CameraKind::kPerspective;
-    camera.fov = params.Float("fov", 90, 1e-6, 179.999);
-  } else if (type == "orthographic") {
-    camera.kind = CameraKind::kOrthographic;
-  } else if (type == "spherical") {
-    return ReadSpherical(state, params, camera);
-  } else if (type == "realistic") {
-    return ReadRealistic(state, params, camera);
-  } else {
-    ThrowUnknown(params.where(), "camera", type,
-                 {"perspective", "orthographic", "spherical", "realistic"});
-  }
-  camera.lens_radius = params.Float("lensradius", 0, 0, kHuge);
-  camera.focal_distance = params.Float("focaldistance", 1e6, 1e-30, kHuge);
-  ReadWindow(params, &camera);
+  const auto& [kind, read] = Lookup(kCameraTypes, type, params.where(), "camera");
+  camera.kind = kind;
+  read(state, params, camera);
   ReadShutter(state, params);
   params.CheckAllUsed();
   state.scene.camera = camera;
 }
 
 void InterpretFilter(ParseState& state, const std::string& type, ParamSet& params) {
-  struct Kind {
-    const char* name;
+  struct Type {
     FilterKind kind;
     double radius;
   };
-  static constexpr Kind kKinds[] = {{"box", FilterKind::kBox, 0.5},
-                                    {"triangle", FilterKind::kTriangle, 2},
-                                    {"gaussian", FilterKind::kGaussian, 1.5},
-                                    {"mitchell", FilterKind::kMitchell, 2},
-                                    {"sinc", FilterKind::kLanczos, 4}};
-  std::vector<std::string> names;
-  for (const Kind& kind : kKinds) names.emplace_back(kind.name);
-  const auto it = std::find(names.begin(), names.end(), type);
-  if (it == names.end()) ThrowUnknown(params.where(), "pixel filter", type, names);
-  const Kind& kind = kKinds[it - names.begin()];
+  static constexpr std::pair<const char*, Type> kTypes[] = {
+      {"box", {FilterKind::kBox, 0.5}},
+      {"triangle", {FilterKind::kTriangle, 2}},
+      {"gaussian", {FilterKind::kGaussian, 1.5}},
+      {"mitchell", {FilterKind::kMitchell, 2}},
+      {"sinc", {FilterKind::kLanczos, 4}}};
+  constexpr Limits kLimits = {1e-3, 100};
+  const auto& [kind, radius] = Lookup(kTypes, type, params.where(), "pixel filter");
   Filter filter;
-  filter.kind = kind.kind;
-  filter.x_radius = params.Float("xradius", kind.radius, 1e-3, 100);
-  filter.y_radius = params.Float("yradius", kind.radius, 1e-3, 100);
-  if (kind.kind == FilterKind::kGaussian)
-    filter.sigma = params.Float("sigma", 0.5, 1e-3, 100);
-  if (kind.kind == FilterKind::kMitchell) {
-    filter.b = params.Float("B", filter.b, -10, 10);
-    filter.c = params.Float("C", filter.c, -10, 10);
+  filter.kind = kind;
+  filter.x_radius = params.Float("xradius", radius, kLimits);
+  filter.y_radius = params.Float("yradius", radius, kLimits);
+  if (kind == FilterKind::kGaussian) filter.sigma = params.Float("sigma", 0.5, kLimits);
+  if (kind == FilterKind::kMitchell) {
+    filter.b = params.Float("B", filter.b, {-10, 10});
+    filter.c = params.Float("C", filter.c, {-10, 10});
   }
-  if (kind.kind == FilterKind::kLanczos) filter.tau = params.Float("tau", 3, 1e-3, 100);
+  if (kind == FilterKind::kLanczos) filter.tau = params.Float("tau", 3, kLimits);
   params.CheckAllUsed();
   state.scene.filter = filter;
 }

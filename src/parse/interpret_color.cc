@@ -52,12 +52,10 @@ Index FindTexture(const ParamSet& params, const Param& param,
                   const std::map<std::string, Index>& same,
                   const std::map<std::string, Index>& other, const char* kind) {
   const std::string& name = param.strings[0];
-  const auto it = same.find(name);
-  if (it != same.end()) return it->second;
-  if (other.contains(name)) {
+  if (!same.contains(name) && other.contains(name)) {
     params.Fail(param, fmt::format("texture {} is not a {} texture", Quoted(name), kind));
   }
-  ThrowUnknown(param.where, fmt::format("{} texture", kind), name, Names(same));
+  return Lookup(same, name, param.where, fmt::format("{} texture", kind));
 }
 
 }  // namespace
@@ -103,11 +101,11 @@ ColorValue TexturedColor(ParseState& state, ParamSet& params, std::string_view n
 }
 
 FloatValue TexturedFloat(ParseState& state, ParamSet& params, std::string_view name,
-                         double absent, double low, double high) {
+                         double absent, Limits limits) {
   const Param* param = params.Find(name, {ParamType::kFloat, ParamType::kTexture});
   if (param == nullptr) return {absent, kNone};
   if (param->type == ParamType::kFloat)
-    return {params.Float(name, absent, low, high), kNone};
+    return {params.Float(name, absent, limits), kNone};
   return {absent, FindTexture(params, *param, state.float_textures, state.color_textures,
                               "float")};
 }

@@ -74,12 +74,12 @@ void ReadSensor(ParseState& state, ParamSet& params, Film* film) {
   film->color_space = state.graphics.color_space;
   film->response.matrix = FilmMatrix(FindColorSpace(film->color_space), kelvin);
   film->response.max_component =
-      params.Float("maxcomponentvalue", film->response.max_component, 1e-30, 1e30);
+      params.Float("maxcomponentvalue", film->response.max_component, {1e-30, 1e30});
 }
 
 void ReadGbuffer(ParamSet& params, Film* film) {
-  constexpr Gbuffer kSpaces[] = {Gbuffer::kCamera, Gbuffer::kWorld};
-  film->gbuffer = kSpaces[params.Choice("coordinatesystem", {"camera", "world"})];
+  film->gbuffer = params.Choice<Gbuffer>(
+      "coordinatesystem", {{"camera", Gbuffer::kCamera}, {"world", Gbuffer::kWorld}});
 }
 
 }  // namespace
@@ -90,8 +90,8 @@ void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params)
   }
   Film film;
   if (type == "gbuffer") ReadGbuffer(params, &film);
-  film.width = params.Integer("xresolution", 1280, 1, kLargestSide);
-  film.height = params.Integer("yresolution", 720, 1, kLargestSide);
+  film.width = params.Integer("xresolution", 1280, {1, kLargestSide});
+  film.height = params.Integer("yresolution", 720, {1, kLargestSide});
   if (static_cast<double>(film.width) * film.height > kMostPixels) {
     throw InputError(params.where(),
                      fmt::format("{} x {} pixels; at most {} are supported", film.width,
@@ -99,9 +99,9 @@ void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params)
   }
   film.filename = params.String("filename", film.filename);
   ReadCrop(params, &film);
-  state.iso = params.Float("iso", 100, 1e-6, 1e9);
+  state.iso = params.Float("iso", 100, {1e-6, 1e9});
   params.Ignore("savefp16", "--depth chooses half or float");
-  state.scene.camera.film_diagonal = params.Float("diagonal", 35, 1e-3, 1e6);
+  state.scene.camera.film_diagonal = params.Float("diagonal", 35, {1e-3, 1e6});
   ReadSensor(state, params, &film);
   params.CheckAllUsed();
   state.scene.film = film;

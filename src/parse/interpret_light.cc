@@ -27,7 +27,7 @@ double Versine(double degrees) {
 
 // A target such as "power"; 0 or less means not given, as in pbrt.
 double Target(ParamSet& params, const char* name) {
-  return params.Float(name, -1, -1, kHuge);
+  return params.Float(name, -1, {-1, kHuge});
 }
 
 void ReadDirection(ParamSet& params, Light* light) {
@@ -43,25 +43,23 @@ void ReadDirection(ParamSet& params, Light* light) {
 }
 
 void ReadPoint(ParseState& state, ParamSet& params, Light* light) {
-  light->kind = LightKind::kPoint;
   light->from = params.Point3("from", {0, 0, 0});
-  const double scale = params.Float("scale", 1, 0, kHuge);
+  const double scale = params.Float("scale", 1, kNotNegative);
   const double power = Target(params, "power");
   const Rgb intensity = LightColor(state, params, "I");
   light->emission = intensity * (power > 0 ? scale * power / (4 * kPi) : scale);
 }
 
 void ReadSpot(ParseState& state, ParamSet& params, Light* light) {
-  light->kind = LightKind::kSpot;
   ReadDirection(params, light);
-  light->cone_angle = params.Float("coneangle", 30, 1e-6, 180);
-  light->cone_delta = params.Float("conedeltaangle", 5, 0, 180);
+  light->cone_angle = params.Float("coneangle", 30, {1e-6, 180});
+  light->cone_delta = params.Float("conedeltaangle", 5, {0, 180});
   if (light->cone_delta > light->cone_angle) {
     throw InputError(params.where(), fmt::format("conedeltaangle {} of the spot light is "
                                                  "larger than its coneangle {}",
                                                  light->cone_delta, light->cone_angle));
   }
-  double scale = params.Float("scale", 1, 0, kHuge);
+  double scale = params.Float("scale", 1, kNotNegative);
   const double power = Target(params, "power");
   if (power > 0) {
     // Power of a cone of unit intensity whose edge falls off smoothly: the full inner cap
@@ -74,9 +72,8 @@ void ReadSpot(ParseState& state, ParamSet& params, Light* light) {
 }
 
 void ReadDistant(ParseState& state, ParamSet& params, Light* light) {
-  light->kind = LightKind::kDistant;
   ReadDirection(params, light);
-  const double scale = params.Float("scale", 1, 0, kHuge);
+  const double scale = params.Float("scale", 1, kNotNegative);
   const double illuminance = Target(params, "illuminance");
   light->emission =
       LightColor(state, params, "L") * (illuminance > 0 ? scale * illuminance : scale);
@@ -107,22 +104,26 @@ Rgb ConstantSky(ParseState& state, ParamSet& params, bool portal) {
   return radiance * (illuminance / (portal ? 2 * kPi * Luminance(radiance) : kPi));
 }
 
+// An image instead of the colour L, if there is one: of any kind of light that has both.
+template <typename T>
+bool ReadEmissionImage(ParseState& state, ParamSet& params, T* light) {
+  const NamedFile file = FileOf(state, params, "filename");
+  if (!file) return false;
+  if (params.Find("L", {}) != nullptr) {
+    params.Fail(*file.param, "\"filename\" and \"L\" exclude each other");
+  }
+  light->image_path = file.path;
+  light->where = file.param->where;  // what a missing image is reported at
+  return true;
+}
+
 void ReadInfinite(ParseState& state, ParamSet& params, Light* light) {
-  light->kind = LightKind::kInfinite;
   ReadPortal(params, light);
-  const double scale = params.Float("scale", 1, 0, kHuge);
-  const Param* file = params.Find("filename", {ParamType::kString});
-  if (file == nullptr) {
+  const double scale = params.Float("scale", 1, kNotNegative);
+  if (!ReadEmissionImage(state, params, light)) {
     light->emission = ConstantSky(state, params, !light->portal.empty()) * scale;
     return;
   }
-  if (params.Find("L", {}) != nullptr) {
-    params.Fail(*file, "\"filename\" and \"L\" exclude each other");
-  }
-  const std::string name = params.String("filename", "");
-  if (name.empty()) params.Fail(*file, "the file name is empty");
-  light->image_path = ResolvePath(state, name);
-  light->where = file->where;  // what a missing image is reported at
   light->image_scale = scale;
   const double illuminance = Target(params, "illuminance");
   light->illuminance = illuminance > 0 ? illuminance : -1;
@@ -142,19 +143,30 @@ std::string ImageFile(ParseState& state, ParamSet& params, Light* light) {
 
 // What its power comes to depends on the image.
 void ReadGoniometric(ParseState& state, ParamSet& params, Light* light) {
-  light->kind = LightKind::kGoniometric;
-  light->emission = LightColor(state, params, "I") * params.Float("scale", 1, 0, kHuge);
+  light->emission =
+      LightColor(state, params, "I") * params.Float("scale", 1, kNotNegative);
   light->power = Target(params, "power");
   light->image_path = ImageFile(state, params, light);
 }
 
 void ReadProjection(ParseState& state, ParamSet& params, Light* light) {
-  light->kind = LightKind::kProjection;
-  light->emission = kWhite * params.Float("scale", 1, 0, kHuge);
+  light->emission = kWhite * params.Float("scale", 1, kNotNegative);
   light->power = Target(params, "power");
-  light->fov = params.Float("fov", 90, 1e-6, 179.999);
+  light->fov = params.Float("fov", 90, {1e-6, 179.999});
   light->image_path = ImageFile(state, params, light);
 }
+
+struct LightType {
+  LightKind kind;
+  void (*read)(ParseState&, ParamSet&, Light*);
+};
+constexpr std::pair<const char*, LightType> kLights[] = {
+    {"point", {LightKind::kPoint, ReadPoint}},
+    {"spot", {LightKind::kSpot, ReadSpot}},
+    {"distant", {LightKind::kDistant, ReadDistant}},
+    {"infinite", {LightKind::kInfinite, ReadInfinite}},
+    {"goniometric", {LightKind::kGoniometric, ReadGoniometric}},
+    {"projection", {LightKind::kProjection, ReadProjection}}};
 
 void CheckEmission(const ParamSet& params, Rgb emission) {
   if (!std::isfinite(emission.x + emission.y + emission.z)) {
@@ -165,25 +177,12 @@ void CheckEmission(const ParamSet& params, Rgb emission) {
 }  // namespace
 
 void InterpretLight(ParseState& state, const std::string& type, ParamSet& params) {
+  const auto& [kind, read] = Lookup(kLights, type, params.where(), "light");
   Light light;
+  light.kind = kind;
   light.where = params.where();
   light.world_from_light = state.graphics.ctm;
-  if (type == "point") {
-    ReadPoint(state, params, &light);
-  } else if (type == "spot") {
-    ReadSpot(state, params, &light);
-  } else if (type == "distant") {
-    ReadDistant(state, params, &light);
-  } else if (type == "infinite") {
-    ReadInfinite(state, params, &light);
-  } else if (type == "goniometric") {
-    ReadGoniometric(state, params, &light);
-  } else if (type == "projection") {
-    ReadProjection(state, params, &light);
-  } else {
-    ThrowUnknown(params.where(), "light", type,
-                 {"point", "spot", "distant", "infinite", "goniometric", "projection"});
-  }
+  read(state, params, &light);
   params.CheckAllUsed();
   CheckEmission(params, light.emission);
   state.scene.lights.push_back(std::move(light));
@@ -194,20 +193,11 @@ Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& p
   AreaLight light;
   light.where = params.where();
   light.radiance = LightColor(state, params, "L");
-  light.scale = params.Float("scale", 1, 0, kHuge);
+  light.scale = params.Float("scale", 1, kNotNegative);
   light.power = Target(params, "power");
   if (light.power <= 0) light.power = -1;
   light.two_sided = params.Bool("twosided", false);
-  if (const Param* file = params.Find("filename", {ParamType::kString})) {
-    if (params.Find("L", {}) != nullptr) {
-      params.Fail(*file, "\"filename\" and \"L\" exclude each other");
-    }
-    const std::string name = params.String("filename", "");
-    if (name.empty()) params.Fail(*file, "the file name is empty");
-    light.image_path = ResolvePath(state, name);
-    light.where = file->where;  // what a missing image is reported at
-    light.radiance = kWhite;
-  }
+  if (ReadEmissionImage(state, params, &light)) light.radiance = kWhite;
   params.CheckAllUsed();
   CheckEmission(params, light.radiance * light.scale);
   state.scene.area_lights.push_back(light);

@@ -9,24 +9,12 @@ namespace {
 
 constexpr double kRoughest = 1e4;  // of roughness parameters; alpha above 1 is legal
 
-const std::map<std::string, MaterialKind> kMaterials = {
-    {"diffuse", MaterialKind::kDiffuse},
-    {"conductor", MaterialKind::kConductor},
-    {"dielectric", MaterialKind::kDielectric},
-    {"thindielectric", MaterialKind::kThinDielectric},
-    {"coateddiffuse", MaterialKind::kCoatedDiffuse},
-    {"coatedconductor", MaterialKind::kCoatedConductor},
-    {"diffusetransmission", MaterialKind::kDiffuseTransmission},
-    {"mix", MaterialKind::kMix},
-    {"interface", MaterialKind::kInterface}};
-const std::vector<std::string> kForeignMaterials = {"hair", "measured", "subsurface"};
-
 // `<prefix>roughness` for both directions, `<prefix>uroughness`, `<prefix>vroughness`.
 void ReadRoughness(ParseState& state, ParamSet& params, const std::string& prefix,
                    FloatValue* u, FloatValue* v) {
   const auto read = [&](const char* name, FloatValue absent) {
     const FloatValue value =
-        TexturedFloat(state, params, prefix + name, absent.constant, 0, kRoughest);
+        TexturedFloat(state, params, prefix + name, absent.constant, {0, kRoughest});
     const bool given = params.Find(prefix + name, {}) != nullptr;
     return given ? value : absent;
   };
@@ -35,18 +23,29 @@ void ReadRoughness(ParseState& state, ParamSet& params, const std::string& prefi
   *v = read("vroughness", both);
 }
 
-void ReadDiffuse(ParseState& state, ParamSet& params, Material* material) {
+// Of a surface without a coat.
+void ReadOwnRoughness(ParseState& state, ParamSet& params, const std::string& prefix,
+                      Material* material) {
+  ReadRoughness(state, params, prefix, &material->uroughness, &material->vroughness);
+  material->remap_roughness = params.Bool("remaproughness", true);
+}
+
+void ReadReflectance(ParseState& state, ParamSet& params, Material* material) {
   material->reflectance =
       TexturedColor(state, params, "reflectance", {0.5, 0.5, 0.5}, SpectrumUse::kAlbedo);
-  constexpr Scattering kModels[] = {Scattering::kLambertian, Scattering::kUniform,
-                                    Scattering::kInSphere};
+}
+
+void ReadDiffuse(ParseState& state, ParamSet& params, Material* material) {
+  ReadReflectance(state, params, material);
   material->scattering =
-      kModels[params.Choice("scattering", {"lambertian", "uniform", "insphere"})];
+      params.Choice<Scattering>("scattering", {{"lambertian", Scattering::kLambertian},
+                                               {"uniform", Scattering::kUniform},
+                                               {"insphere", Scattering::kInSphere}});
 }
 
 // `reflectance`, or else `<prefix>eta` and `<prefix>k`.
-void ReadConductor(ParseState& state, ParamSet& params, const std::string& prefix,
-                   Material* material) {
+void ReadMetal(ParseState& state, ParamSet& params, const std::string& prefix,
+               Material* material) {
   const Param* reflectance = params.Find(
       "reflectance", {ParamType::kRgb, ParamType::kSpectrum, ParamType::kTexture});
   material->has_reflectance = reflectance != nullptr;
@@ -59,12 +58,25 @@ void ReadConductor(ParseState& state, ParamSet& params, const std::string& prefi
     params.Fail(*reflectance,
                 fmt::format("reflectance excludes {0}eta and {0}k", prefix));
   }
-  material->reflectance =
-      TexturedColor(state, params, "reflectance", {0.5, 0.5, 0.5}, SpectrumUse::kAlbedo);
+  ReadReflectance(state, params, material);
+}
+
+void ReadConductor(ParseState& state, ParamSet& params, Material* material) {
+  ReadMetal(state, params, "", material);
+  ReadOwnRoughness(state, params, "", material);
+}
+
+void ReadThinDielectric(ParseState& state, ParamSet& params, Material* material) {
+  material->interface_eta = DielectricEta(state, params, "eta", 1.5);
+}
+
+void ReadDielectric(ParseState& state, ParamSet& params, Material* material) {
+  ReadThinDielectric(state, params, material);
+  ReadOwnRoughness(state, params, "", material);
 }
 
 void ReadCoatMedium(ParseState& state, ParamSet& params, Material* material) {
-  material->coat_g = TexturedFloat(state, params, "g", 0, -0.9999, 0.9999);
+  material->coat_g = TexturedFloat(state, params, "g", 0, {-0.9999, 0.9999});
   material->coat_albedo =
       TexturedColor(state, params, "albedo", {0, 0, 0}, SpectrumUse::kAlbedo);
 }
@@ -74,14 +86,25 @@ void ReadCoatMedium(ParseState& state, ParamSet& params, Material* material) {
 void ReadCoat(ParseState& state, ParamSet& params, const std::string& prefix,
               Material* material) {
   material->interface_eta = DielectricEta(state, params, prefix + "eta", 1.5);
-  ReadRoughness(state, params, prefix, &material->uroughness, &material->vroughness);
-  material->remap_roughness = params.Bool("remaproughness", true);
-  const FloatValue thickness = TexturedFloat(state, params, "thickness", 0.01, 0, 1e6);
+  ReadOwnRoughness(state, params, prefix, material);
+  const FloatValue thickness = TexturedFloat(state, params, "thickness", 0.01, {0, 1e6});
   material->thickness = thickness.constant;
   material->thickness_texture = thickness.texture;
   ReadCoatMedium(state, params, material);
-  material->coat_max_depth = params.Integer("maxdepth", 10, 1, 10000);
+  material->coat_max_depth = params.Integer("maxdepth", 10, {1, 10000});
   params.Ignore("nsamples", "each path takes one walk, and more paths are less noise");
+}
+
+void ReadCoatedDiffuse(ParseState& state, ParamSet& params, Material* material) {
+  ReadCoat(state, params, "", material);
+  ReadReflectance(state, params, material);
+}
+
+void ReadCoatedConductor(ParseState& state, ParamSet& params, Material* material) {
+  ReadCoat(state, params, "interface.", material);
+  ReadMetal(state, params, "conductor.", material);
+  ReadRoughness(state, params, "conductor.", &material->conductor_uroughness,
+                &material->conductor_vroughness);
 }
 
 // A colour times a constant; a textured one gets a scale texture of its own.
@@ -100,7 +123,7 @@ ColorValue Scaled(ParseState& state, const ParamSet& params, ColorValue value,
 
 void ReadDiffuseTransmission(ParseState& state, ParamSet& params, Material* material) {
   const Rgb quarter = {0.25, 0.25, 0.25};
-  const double scale = params.Float("scale", 1, 0, 1e6);
+  const double scale = params.Float("scale", 1, {0, 1e6});
   const ColorValue r =
       TexturedColor(state, params, "reflectance", quarter, SpectrumUse::kAlbedo);
   const ColorValue t =
@@ -110,60 +133,35 @@ void ReadDiffuseTransmission(ParseState& state, ParamSet& params, Material* mate
 }
 
 void ReadMix(ParseState& state, ParamSet& params, Material* material) {
-  const Param* names = params.Find("materials", {ParamType::kString});
-  if (names == nullptr) {
-    throw InputError(params.where(), params.object() + " has no \"string materials\"");
-  }
-  if (names->strings.size() != 2) {
-    params.Fail(*names, fmt::format("{} names; a mix takes 2", names->strings.size()));
+  const Param& names = params.Need("materials", ParamType::kString);
+  if (names.strings.size() != 2) {
+    params.Fail(names, fmt::format("{} names; a mix takes 2", names.strings.size()));
   }
   for (int i = 0; i < 2; ++i) {
-    const auto it = state.materials.find(names->strings[i]);
-    if (it == state.materials.end()) {
-      ThrowUnknown(names->where, "named material", names->strings[i],
-                   Names(state.materials));
-    }
-    material->mix[i] = it->second;
+    material->mix[i] =
+        Lookup(state.materials, names.strings[i], names.where, "named material");
   }
-  material->mix_amount = TexturedFloat(state, params, "amount", 0.5, 0, 1);
+  material->mix_amount = TexturedFloat(state, params, "amount", 0.5, {0, 1});
 }
 
-void ReadKind(ParseState& state, ParamSet& params, Material* material) {
-  switch (material->kind) {
-    case MaterialKind::kDiffuse:
-      return ReadDiffuse(state, params, material);
-    case MaterialKind::kConductor:
-      ReadConductor(state, params, "", material);
-      ReadRoughness(state, params, "", &material->uroughness, &material->vroughness);
-      material->remap_roughness = params.Bool("remaproughness", true);
-      return;
-    case MaterialKind::kDielectric:
-      material->interface_eta = DielectricEta(state, params, "eta", 1.5);
-      ReadRoughness(state, params, "", &material->uroughness, &material->vroughness);
-      material->remap_roughness = params.Bool("remaproughness", true);
-      return;
-    case MaterialKind::kThinDielectric:
-      material->interface_eta = DielectricEta(state, params, "eta", 1.5);
-      return;
-    case MaterialKind::kCoatedDiffuse:
-      ReadCoat(state, params, "", material);
-      material->reflectance = TexturedColor(state, params, "reflectance", {0.5, 0.5, 0.5},
-                                            SpectrumUse::kAlbedo);
-      return;
-    case MaterialKind::kCoatedConductor:
-      ReadCoat(state, params, "interface.", material);
-      ReadConductor(state, params, "conductor.", material);
-      ReadRoughness(state, params, "conductor.", &material->conductor_uroughness,
-                    &material->conductor_vroughness);
-      return;
-    case MaterialKind::kDiffuseTransmission:
-      return ReadDiffuseTransmission(state, params, material);
-    case MaterialKind::kMix:
-      return ReadMix(state, params, material);
-    case MaterialKind::kInterface:
-      return;
-  }
-}
+void ReadInterface(ParseState&, ParamSet&, Material*) {}
+
+struct MaterialType {
+  MaterialKind kind;
+  void (*read)(ParseState&, ParamSet&, Material*);
+};
+const std::map<std::string, MaterialType> kMaterials = {
+    {"diffuse", {MaterialKind::kDiffuse, ReadDiffuse}},
+    {"conductor", {MaterialKind::kConductor, ReadConductor}},
+    {"dielectric", {MaterialKind::kDielectric, ReadDielectric}},
+    {"thindielectric", {MaterialKind::kThinDielectric, ReadThinDielectric}},
+    {"coateddiffuse", {MaterialKind::kCoatedDiffuse, ReadCoatedDiffuse}},
+    {"coatedconductor", {MaterialKind::kCoatedConductor, ReadCoatedConductor}},
+    {"diffusetransmission",
+     {MaterialKind::kDiffuseTransmission, ReadDiffuseTransmission}},
+    {"mix", {MaterialKind::kMix, ReadMix}},
+    {"interface", {MaterialKind::kInterface, ReadInterface}}};
+const std::vector<std::string> kForeignMaterials = {"hair", "measured", "subsurface"};
 
 // Materials that do not scatter themselves have no normal to change.
 void ReadRelief(ParseState& state, ParamSet& params, Material* material) {
@@ -176,12 +174,10 @@ void ReadRelief(ParseState& state, ParamSet& params, Material* material) {
     params.Ignore("normalmap", why);
     return;
   }
-  material->displacement = TexturedFloat(state, params, "displacement", 0, -kHuge, kHuge);
-  const Param* map = params.Find("normalmap", {ParamType::kString});
-  if (map == nullptr) return;
-  const std::string name = params.String("normalmap", "");
-  if (name.empty()) params.Fail(*map, "the file name is empty");
-  material->normal_map = ResolvePath(state, name);
+  material->displacement = TexturedFloat(state, params, "displacement", 0);
+  const NamedFile map = FileOf(state, params, "normalmap");
+  if (!map) return;
+  material->normal_map = map.path;
   if (params.Find("displacement", {}) != nullptr) {
     params.Ignore("displacement", "the normal map counts");
   }
@@ -203,17 +199,15 @@ Index InterpretMaterial(ParseState& state, const std::string& name,
                               Quoted(type)),
                   true);
   } else {
-    const auto known = kMaterials.find(type);
-    if (known != kMaterials.end()) {
-      material.kind = known->second;
-    } else if (type.empty() || type == "none") {
+    const bool none = type.empty() || type == "none";
+    if (none) {
       state.AddNote(params.where(),
                     "material \"\" and \"none\" are taken as \"interface\"");
-      material.kind = MaterialKind::kInterface;
-    } else {
-      ThrowUnknown(params.where(), "material", type, Names(kMaterials));
     }
-    ReadKind(state, params, &material);
+    const auto& [kind, read] =
+        Lookup(kMaterials, none ? "interface" : type, params.where(), "material");
+    material.kind = kind;
+    read(state, params, &material);
     ReadRelief(state, params, &material);
     params.Find("type", {ParamType::kString});  // of MakeNamedMaterial, or superfluous
     params.CheckAllUsed();

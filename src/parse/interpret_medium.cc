@@ -9,8 +9,6 @@
 namespace lanelight {
 namespace {
 
-using MediumReader = void (*)(ParseState&, ParamSet&, Medium*);
-
 struct Measured {
   Rgb sigma_s, sigma_a;  // per millimetre; sigma_s is the reduced one
 };
@@ -35,36 +33,38 @@ const std::map<std::string, Measured> kPresets = {
 void ReadCoefficients(ParseState& state, ParamSet& params, Medium* medium) {
   const Param* preset = params.Find("preset", {ParamType::kString});
   const std::string name = params.String("preset", "Wholemilk");
-  const auto it = kPresets.find(name);
-  if (it == kPresets.end()) {
-    ThrowUnknown(preset->where, "preset of a medium:", name, Names(kPresets));
-  }
+  const SourceLocation& where = preset == nullptr ? params.where() : preset->where;
+  const Measured& milk = Lookup(kPresets, name, where, "preset of a medium:");
   for (const char* sigma : {"sigma_a", "sigma_s"}) {
     if (preset == nullptr || params.Find(sigma, {}) == nullptr) continue;
     params.Fail(*preset, fmt::format("\"preset\" and \"{}\" exclude each other", sigma));
   }
   medium->sigma_a =
-      PlainColor(state, params, "sigma_a", it->second.sigma_a, SpectrumUse::kUnbounded);
+      PlainColor(state, params, "sigma_a", milk.sigma_a, SpectrumUse::kUnbounded);
   medium->sigma_s =
-      PlainColor(state, params, "sigma_s", it->second.sigma_s, SpectrumUse::kUnbounded);
+      PlainColor(state, params, "sigma_s", milk.sigma_s, SpectrumUse::kUnbounded);
 }
 
 void ReadHomogeneous(ParseState& state, ParamSet& params, Medium* medium) {
   ReadCoefficients(state, params, medium);
-  const double scale = params.Float("scale", 1, 0, kHuge);
+  const double scale = params.Float("scale", 1, kNotNegative);
   medium->sigma_a *= scale;
   medium->sigma_s *= scale;
   medium->emission =
       PlainColor(state, params, "Le", {0, 0, 0}, SpectrumUse::kIlluminant) *
-      params.Float("Lescale", 1, 0, kHuge);
+      params.Float("Lescale", 1, kNotNegative);
 }
 
-const std::map<std::string, MediumReader> kMediumReaders = {
-    {"homogeneous", ReadHomogeneous},
-    {"uniformgrid", ReadUniformGrid},
-    {"rgbgrid", ReadRgbGrid},
-    {"cloud", ReadCloud},
-    {"nanovdb", ReadNanoVdb}};
+struct MediumType {
+  MediumKind kind;
+  void (*read)(ParseState&, ParamSet&, Medium*);
+};
+const std::map<std::string, MediumType> kMediumTypes = {
+    {"homogeneous", {MediumKind::kHomogeneous, ReadHomogeneous}},
+    {"uniformgrid", {MediumKind::kUniformGrid, ReadUniformGrid}},
+    {"rgbgrid", {MediumKind::kRgbGrid, ReadRgbGrid}},
+    {"cloud", {MediumKind::kCloud, ReadCloud}},
+    {"nanovdb", {MediumKind::kNanoVdb, ReadNanoVdb}}};
 
 }  // namespace
 
@@ -73,17 +73,12 @@ void InterpretMedium(ParseState& state, const std::string& name, ParamSet& param
   medium.name = name;
   medium.where = params.where();
   medium.world_from_medium = state.graphics.ctm;
-  const Param* type_param = params.Find("type", {ParamType::kString});
+  const SourceLocation& where = params.Need("type", ParamType::kString).where;
   const std::string type = params.String("type", "");
-  if (type_param == nullptr) {
-    throw InputError(params.where(), params.object() + " has no \"string type\"");
-  }
-  const auto reader = kMediumReaders.find(type);
-  if (reader == kMediumReaders.end()) {
-    ThrowUnknown(type_param->where, "type of medium", type, Names(kMediumReaders));
-  }
-  reader->second(state, params, &medium);
-  medium.g = params.Float("g", 0, -0.9999, 0.9999);
+  const auto& [kind, read] = Lookup(kMediumTypes, type, where, "type of medium");
+  medium.kind = kind;
+  read(state, params, &medium);
+  medium.g = params.Float("g", 0, {-0.9999, 0.9999});
   params.CheckAllUsed();
   state.media[name] = static_cast<Index>(state.scene.media.size());
   state.scene.media.push_back(std::move(medium));

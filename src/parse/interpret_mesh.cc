@@ -39,10 +39,7 @@ void ReadAttributes(ParamSet& params, TriangleMesh& mesh) {
 // P, and indices with `corners` of them per face.
 TriangleMesh ReadFaces(ParamSet& params, std::size_t corners) {
   TriangleMesh mesh;
-  const Param* p = params.Find("P", {ParamType::kPoint3});
-  if (p == nullptr)
-    throw InputError(params.where(), params.object() + " has no \"point3 P\"");
-  mesh.positions = Triples(p);
+  mesh.positions = Triples(&params.Need("P", ParamType::kPoint3));
   const Param* indices = params.Find("indices", {ParamType::kInteger});
   if (indices == nullptr) {
     if (mesh.positions.size() != corners) {
@@ -90,7 +87,7 @@ constexpr double kMostTriangles = 1e8;
 
 int SubdivisionLevels(ParamSet& params, std::size_t faces) {
   constexpr int kMost = 12;
-  const int levels = params.Integer("levels", 3, 0, kMost);
+  const int levels = params.Integer("levels", 3, {0, kMost});
   const double triangles = std::ldexp(static_cast<double>(faces), 2 * levels);
   if (triangles <= kMostTriangles) return levels;
   params.Fail(
@@ -124,7 +121,7 @@ std::shared_ptr<const TriangleMesh> InterpretBilinearMesh(ParamSet& params) {
 std::shared_ptr<const TriangleMesh> InterpretLoopSubdivision(ParamSet& params) {
   const TriangleMesh control = ReadFaces(params, 3);
   const int levels = SubdivisionLevels(params, control.indices.size() / 3);
-  params.Choice("scheme", {"loop"});
+  params.Choice<bool>("scheme", {{"loop", true}});
   const std::string problem = SubdivisionProblem(control);
   if (!problem.empty()) {
     throw InputError(params.where(), fmt::format("{} cannot be subdivided: {}",

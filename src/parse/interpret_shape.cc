@@ -8,12 +8,8 @@ namespace {
 
 constexpr double kTiny = 1e-30;
 
-const std::vector<std::string> kShapeNames = {"sphere",       "disk",    "cylinder",
-                                              "trianglemesh", "plymesh", "bilinearmesh",
-                                              "loopsubdiv",   "plane"};
-
 void ReadPhi(ParamSet& params, Shape* shape) {
-  shape->phi_max = std::min(params.Float("phimax", 360, 0, kHuge), 360.0);
+  shape->phi_max = std::min(params.Float("phimax", 360, kNotNegative), 360.0);
 }
 
 // `most`: how far from the middle they can be. pbrt takes them in either order.
@@ -30,25 +26,22 @@ bool IsVisible(const Shape& shape) {
          shape.radius > 0;
 }
 
-void ReadSphere(ParamSet& params, Shape* shape) {
-  shape->kind = ShapeKind::kSphere;
-  shape->radius = params.Float("radius", 1, 0, kHuge);
+void ReadSphere(ParseState&, ParamSet& params, Shape* shape) {
+  shape->radius = params.Float("radius", 1, kNotNegative);
   ReadHeights(params, shape->radius, shape->radius, shape);
   ReadPhi(params, shape);
 }
 
-void ReadCylinder(ParamSet& params, Shape* shape) {
-  shape->kind = ShapeKind::kCylinder;
-  shape->radius = params.Float("radius", 1, 0, kHuge);
+void ReadCylinder(ParseState&, ParamSet& params, Shape* shape) {
+  shape->radius = params.Float("radius", 1, kNotNegative);
   ReadHeights(params, 1, kHuge, shape);
   ReadPhi(params, shape);
 }
 
-void ReadDisk(ParamSet& params, Shape* shape) {
-  shape->kind = ShapeKind::kDisk;
-  shape->radius = params.Float("radius", 1, 0, kHuge);
-  shape->inner_radius = params.Float("innerradius", 0, 0, kHuge);
-  shape->height = params.Float("height", 0, -kHuge, kHuge);
+void ReadDisk(ParseState&, ParamSet& params, Shape* shape) {
+  shape->radius = params.Float("radius", 1, kNotNegative);
+  shape->inner_radius = params.Float("innerradius", 0, kNotNegative);
+  shape->height = params.Float("height", 0, Limits());
   if (shape->inner_radius >= shape->radius && shape->radius > 0) {
     params.Fail(*params.Find("innerradius", {}),
                 fmt::format("the inner radius {} is not below the radius {}",
@@ -57,47 +50,43 @@ void ReadDisk(ParamSet& params, Shape* shape) {
   ReadPhi(params, shape);
 }
 
-void ReadPly(ParseState& state, ParamSet& params) {
-  const Param* file = params.Find("filename", {ParamType::kString});
-  if (file == nullptr) {
-    throw InputError(params.where(), "shape \"plymesh\" has no \"string filename\"");
-  }
-  const std::string name = params.String("filename", "");
-  if (name.empty()) params.Fail(*file, "the file name is empty");
-  MeshRequest request{ResolvePath(state, name), file->where, state.open_object,
+void ReadPly(ParseState& state, ParamSet& params, Shape*) {
+  params.Need("filename", ParamType::kString);
+  const NamedFile file = FileOf(state, params, "filename");
+  MeshRequest request{file.path, file.param->where, state.open_object,
                       state.OpenShapes().size()};
   if (params.Find("displacement", {ParamType::kTexture}) != nullptr) {
-    const FloatValue height = TexturedFloat(state, params, "displacement", 0, 0, 0);
+    const FloatValue height = TexturedFloat(state, params, "displacement", 0, {0, 0});
     request.displacement = height.texture;
   }
   for (const char* foreign : {"displacement.uvscale", "edgelength"}) {
     params.Ignore(foreign, "pbrt-v4 has no such parameter");
   }
   request.edge_length =
-      params.Float("displacement.edgelength", 1, kTiny, kHuge) * state.edge_scale;
+      params.Float("displacement.edgelength", 1, {kTiny, kHuge}) * state.edge_scale;
   state.meshes.push_back(std::move(request));
 }
 
-void ReadGeometry(ParseState& state, const std::string& type, ParamSet& params,
-                  Shape* shape) {
-  if (type == "sphere") return ReadSphere(params, shape);
-  if (type == "disk") return ReadDisk(params, shape);
-  if (type == "cylinder") return ReadCylinder(params, shape);
-  if (type == "plane") {
-    shape->kind = ShapeKind::kPlane;
-    return;
-  }
-  shape->kind = ShapeKind::kMesh;
-  if (type == "trianglemesh") {
-    shape->mesh = InterpretTriangleMesh(params);
-  } else if (type == "bilinearmesh") {
-    shape->mesh = InterpretBilinearMesh(params);
-  } else if (type == "loopsubdiv") {
-    shape->mesh = InterpretLoopSubdivision(params);
-  } else {
-    ReadPly(state, params);
-  }
+void ReadPlane(ParseState&, ParamSet&, Shape*) {}
+
+template <std::shared_ptr<const TriangleMesh> (*kInterpret)(ParamSet&)>
+void ReadMesh(ParseState&, ParamSet& params, Shape* shape) {
+  shape->mesh = kInterpret(params);
 }
+
+struct ShapeType {
+  ShapeKind kind;
+  void (*read)(ParseState&, ParamSet&, Shape*);
+};
+constexpr std::pair<const char*, ShapeType> kShapes[] = {
+    {"sphere", {ShapeKind::kSphere, ReadSphere}},
+    {"disk", {ShapeKind::kDisk, ReadDisk}},
+    {"cylinder", {ShapeKind::kCylinder, ReadCylinder}},
+    {"trianglemesh", {ShapeKind::kMesh, ReadMesh<InterpretTriangleMesh>}},
+    {"plymesh", {ShapeKind::kMesh, ReadPly}},
+    {"bilinearmesh", {ShapeKind::kMesh, ReadMesh<InterpretBilinearMesh>}},
+    {"loopsubdiv", {ShapeKind::kMesh, ReadMesh<InterpretLoopSubdivision>}},
+    {"plane", {ShapeKind::kPlane, ReadPlane}}};
 
 Index CurrentMaterial(ParseState& state, const SourceLocation& where) {
   if (state.graphics.material != kNone) return state.graphics.material;
@@ -138,19 +127,18 @@ void InterpretShape(ParseState& state, const std::string& type, ParamSet& params
         params.where(),
         fmt::format("shape \"curve\" is not supported, as hair and curves are not; "
                     "supported: {}",
-                    QuotedList(kShapeNames)));
+                    QuotedList(Names(kShapes))));
   }
-  if (std::find(kShapeNames.begin(), kShapeNames.end(), type) == kShapeNames.end()) {
-    ThrowUnknown(params.where(), "shape", type, kShapeNames);
-  }
+  const auto& [kind, read] = Lookup(kShapes, type, params.where(), "shape");
   Shape shape;
+  shape.kind = kind;
   shape.where = params.where();
   shape.world_from_object = state.graphics.ctm;
   shape.reverse_orientation = state.graphics.reverse_orientation;
   shape.material = CurrentMaterial(state, params.where());
   shape.media = state.graphics.media;
-  ReadGeometry(state, type, params, &shape);
-  shape.alpha = TexturedFloat(state, params, "alpha", 1, 0, 1);
+  read(state, params, &shape);
+  shape.alpha = TexturedFloat(state, params, "alpha", 1, {0, 1});
   params.CheckAllUsed();
   if (!IsVisible(shape)) {
     return state.AddNote(shape.where,

@@ -111,7 +111,7 @@ double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
   constexpr double kLow = 0.01, kHigh = 100;
   const Param* param = params.Find(name, {ParamType::kFloat, ParamType::kSpectrum});
   if (param == nullptr) return absent;
-  if (param->type == ParamType::kFloat) return params.Float(name, absent, kLow, kHigh);
+  if (param->type == ParamType::kFloat) return params.Float(name, absent, {kLow, kHigh});
   double eta = 0;
   if (param->strings.empty() || !NamedGlassEta(param->strings[0], &eta)) {
     if (!IsSampled(param)) {

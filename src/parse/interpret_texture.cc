@@ -21,20 +21,21 @@ ColorValue Operand(ParseState& state, ParamSet& params, std::string_view name,
     return TexturedColor(state, params, name, {absent, absent, absent},
                          SpectrumUse::kUnbounded);
   }
-  const FloatValue value = TexturedFloat(state, params, name, absent, -kHuge, kHuge);
+  const FloatValue value = TexturedFloat(state, params, name, absent);
   return {{value.constant, value.constant, value.constant}, value.texture};
 }
 
 void ReadMapping(ParamSet& params, UvMapping* mapping) {
-  constexpr MappingKind kMappings[] = {MappingKind::kUv, MappingKind::kSpherical,
-                                       MappingKind::kCylindrical, MappingKind::kPlanar};
   mapping->kind =
-      kMappings[params.Choice("mapping", {"uv", "spherical", "cylindrical", "planar"})];
+      params.Choice<MappingKind>("mapping", {{"uv", MappingKind::kUv},
+                                             {"spherical", MappingKind::kSpherical},
+                                             {"cylindrical", MappingKind::kCylindrical},
+                                             {"planar", MappingKind::kPlanar}});
   // All are read whatever the mapping: pbrt takes no notice of the others.
-  mapping->su = params.Float("uscale", 1, -kHuge, kHuge);
-  mapping->sv = params.Float("vscale", 1, -kHuge, kHuge);
-  mapping->du = params.Float("udelta", 0, -kHuge, kHuge);
-  mapping->dv = params.Float("vdelta", 0, -kHuge, kHuge);
+  mapping->su = params.Float("uscale", 1, Limits());
+  mapping->sv = params.Float("vscale", 1, Limits());
+  mapping->du = params.Float("udelta", 0, Limits());
+  mapping->dv = params.Float("vdelta", 0, Limits());
   mapping->v1 = VectorOf(params, "v1", {1, 0, 0});
   mapping->v2 = VectorOf(params, "v2", {0, 1, 0});
 }
@@ -68,37 +69,35 @@ void ReadEncoding(ParamSet& params, Texture* texture) {
 }
 
 void ReadImage(ParseState& state, ParamSet& params, Texture* texture) {
-  const Param* file = params.Find("filename", {ParamType::kString});
-  if (file == nullptr) {
-    throw InputError(params.where(), "texture \"imagemap\" has no \"string filename\"");
-  }
-  const std::string name = params.String("filename", "");
-  if (name.empty()) params.Fail(*file, "the file name is empty");
-  texture->path = ResolvePath(state, name);
-  texture->where = file->where;  // what a missing image is reported at
-  constexpr WrapMode kWraps[] = {WrapMode::kRepeat, WrapMode::kClamp, WrapMode::kBlack,
-                                 WrapMode::kOctahedralSphere};
-  texture->wrap =
-      kWraps[params.Choice("wrap", {"repeat", "clamp", "black", "octahedralsphere"})];
-  constexpr ImageFilter kFilters[] = {ImageFilter::kBilinear, ImageFilter::kPoint,
-                                      ImageFilter::kTrilinear, ImageFilter::kEwa,
-                                      ImageFilter::kEwa};
+  params.Need("filename", ParamType::kString);
+  const NamedFile file = FileOf(state, params, "filename");
+  texture->path = file.path;
+  texture->where = file.param->where;  // what a missing image is reported at
+  texture->wrap = params.Choice<WrapMode>(
+      "wrap", {{"repeat", WrapMode::kRepeat},
+               {"clamp", WrapMode::kClamp},
+               {"black", WrapMode::kBlack},
+               {"octahedralsphere", WrapMode::kOctahedralSphere}});
   texture->filter =
-      kFilters[params.Choice("filter", {"bilinear", "point", "trilinear", "ewa", "EWA"})];
+      params.Choice<ImageFilter>("filter", {{"bilinear", ImageFilter::kBilinear},
+                                            {"point", ImageFilter::kPoint},
+                                            {"trilinear", ImageFilter::kTrilinear},
+                                            {"ewa", ImageFilter::kEwa},
+                                            {"EWA", ImageFilter::kEwa}});
   // Footprints of no extent: pbrt then interpolates in the finest image.
   if (state.unfiltered_images && texture->filter >= ImageFilter::kTrilinear) {
     texture->filter = ImageFilter::kBilinear;
   }
   texture->bilinear = texture->filter != ImageFilter::kPoint;
-  texture->max_anisotropy = params.Float("maxanisotropy", 8, 1, 64);
-  texture->scale = params.Float("scale", 1, -kHuge, kHuge);
+  texture->max_anisotropy = params.Float("maxanisotropy", 8, {1, 64});
+  texture->scale = params.Float("scale", 1, Limits());
   texture->invert = params.Bool("invert", false);
   ReadEncoding(params, texture);
   ReadMapping(params, &texture->mapping);
 }
 
 void ReadCheckerboard(ParseState& state, ParamSet& params, Texture* texture) {
-  texture->dimension = params.Integer("dimension", 2, 2, 3);
+  texture->dimension = params.Integer("dimension", 2, {2, 3});
   texture->tex1 = Operand(state, params, "tex1", 1, texture->is_float);
   texture->tex2 = Operand(state, params, "tex2", 0, texture->is_float);
   ReadMapping(params, &texture->mapping);
@@ -117,13 +116,13 @@ void ReadConstant(ParseState& state, ParamSet& params, Texture* texture) {
 
 void ReadScale(ParseState& state, ParamSet& params, Texture* texture) {
   texture->tex1 = Operand(state, params, "tex", 1, texture->is_float);
-  texture->amount = TexturedFloat(state, params, "scale", 1, -kHuge, kHuge);
+  texture->amount = TexturedFloat(state, params, "scale", 1);
 }
 
 void ReadMix(ParseState& state, ParamSet& params, Texture* texture) {
   texture->tex1 = Operand(state, params, "tex1", 0, texture->is_float);
   texture->tex2 = Operand(state, params, "tex2", 1, texture->is_float);
-  texture->amount = TexturedFloat(state, params, "amount", 0.5, 0, 1);
+  texture->amount = TexturedFloat(state, params, "amount", 0.5, {0, 1});
 }
 
 void ReadDirectionMix(ParseState& state, ParamSet& params, Texture* texture) {
@@ -156,14 +155,14 @@ void ReadBilinear(ParseState& state, ParamSet& params, Texture* texture) {
 constexpr int kMostOctaves = 64;
 
 void ReadOctaves(ParseState&, ParamSet& params, Texture* texture) {
-  texture->octaves = params.Integer("octaves", 8, 0, kMostOctaves);
-  texture->roughness = params.Float("roughness", 0.5, -kHuge, kHuge);
+  texture->octaves = params.Integer("octaves", 8, {0, kMostOctaves});
+  texture->roughness = params.Float("roughness", 0.5, Limits());
 }
 
 void ReadMarble(ParseState& state, ParamSet& params, Texture* texture) {
   ReadOctaves(state, params, texture);
-  texture->noise_scale = params.Float("scale", 1, -kHuge, kHuge);
-  texture->variation = params.Float("variation", 0.2, -kHuge, kHuge);
+  texture->noise_scale = params.Float("scale", 1, Limits());
+  texture->variation = params.Float("variation", 0.2, Limits());
 }
 
 void ReadNothing(ParseState&, ParamSet&, Texture*) {}

@@ -13,7 +13,7 @@ std::size_t ReadVoxels(ParamSet& params, Medium* medium) {
   static constexpr const char* kSides[] = {"nx", "ny", "nz"};
   std::size_t voxels = 1;
   for (int a = 0; a < 3; ++a) {
-    medium->grid_size[a] = params.Integer(kSides[a], 1, 1, kLongestSide);
+    medium->grid_size[a] = params.Integer(kSides[a], 1, {1, kLongestSide});
     voxels *= static_cast<std::size_t>(medium->grid_size[a]);
   }
   return voxels;
@@ -38,7 +38,7 @@ const Param* Samples(ParamSet& params, std::string_view name, ParamType type,
 double ReadEmissionScale(ParamSet& params, std::size_t voxels, Medium* medium) {
   const Param* param = params.Find("Lescale", {ParamType::kFloat});
   if (param == nullptr || param->numbers.size() == 1) {
-    return params.Float("Lescale", 1, 0, kHuge);
+    return params.Float("Lescale", 1, kNotNegative);
   }
   Samples(params, "Lescale", ParamType::kFloat, voxels, 1);
   medium->emission_grid.assign(param->numbers.begin(), param->numbers.end());
@@ -84,19 +84,16 @@ void ReadSigmas(ParseState& state, ParamSet& params, double scale, Medium* mediu
 void ReadTemperatureScale(ParamSet& params, Medium* medium) {
   const double cutoff = params.Float("temperaturecutoff", 0);
   medium->temperature_offset = params.Float("temperatureoffset", cutoff);
-  medium->temperature_scale = params.Float("temperaturescale", 1, 0, kHuge);
+  medium->temperature_scale = params.Float("temperaturescale", 1, kNotNegative);
 }
 
 void ReadUniformGrid(ParseState& state, ParamSet& params, Medium* medium) {
-  medium->kind = MediumKind::kUniformGrid;
   const std::size_t voxels = ReadVoxels(params, medium);
   ReadBox(params, medium);
   const Param* density = Samples(params, "density", ParamType::kFloat, voxels, 1);
-  if (density == nullptr) {
-    throw InputError(params.where(), params.object() + " has no \"float density\"");
-  }
+  if (density == nullptr) params.Need("density", ParamType::kFloat);
   medium->grid.assign(density->numbers.begin(), density->numbers.end());
-  ReadSigmas(state, params, params.Float("scale", 1, 0, kHuge), medium);
+  ReadSigmas(state, params, params.Float("scale", 1, kNotNegative), medium);
   ReadTemperatureScale(params, medium);
   const double scale = ReadEmissionScale(params, voxels, medium);
   medium->emission =
@@ -111,7 +108,6 @@ void ReadUniformGrid(ParseState& state, ParamSet& params, Medium* medium) {
 }
 
 void ReadRgbGrid(ParseState&, ParamSet& params, Medium* medium) {
-  medium->kind = MediumKind::kRgbGrid;
   const std::size_t voxels = ReadVoxels(params, medium);
   ReadBox(params, medium);
   const Param* a = Samples(params, "sigma_a", ParamType::kRgb, voxels, 3);
@@ -121,7 +117,7 @@ void ReadRgbGrid(ParseState&, ParamSet& params, Medium* medium) {
         params.where(),
         params.object() + " has neither \"rgb sigma_a\" nor \"rgb sigma_s\"");
   }
-  const double scale = params.Float("scale", 1, 0, kHuge);
+  const double scale = params.Float("scale", 1, kNotNegative);
   const auto value = [&](const Param* of, std::size_t i) {
     return static_cast<float>(scale * (of == nullptr ? 1 : of->numbers[i]));
   };
@@ -131,7 +127,7 @@ void ReadRgbGrid(ParseState&, ParamSet& params, Medium* medium) {
       for (std::size_t c = 0; c < 3; ++c) medium->grid.push_back(value(of, 3 * v + c));
     }
   }
-  const double emission_scale = params.Float("Lescale", 1, 0, kHuge);
+  const double emission_scale = params.Float("Lescale", 1, kNotNegative);
   const Param* le = Samples(params, "Le", ParamType::kRgb, voxels, 3);
   if (le == nullptr) return;
   if (a == nullptr) params.Fail(*le, "\"Le\" needs \"rgb sigma_a\" beside it");

@@ -28,16 +28,14 @@ void SetBox(Medium* medium) {
 }  // namespace
 
 void ReadCloud(ParseState& state, ParamSet& params, Medium* medium) {
-  medium->kind = MediumKind::kCloud;
   ReadBox(params, medium);
   ReadSigmas(state, params, 1, medium);
-  medium->density = params.Float("density", 1, 0, kHuge);
-  medium->wispiness = params.Float("wispiness", 1, 0, kHuge);
-  medium->frequency = params.Float("frequency", 5, 0, kHuge);
+  medium->density = params.Float("density", 1, kNotNegative);
+  medium->wispiness = params.Float("wispiness", 1, kNotNegative);
+  medium->frequency = params.Float("frequency", 5, kNotNegative);
 }
 
 void ReadNanoVdb(ParseState& state, ParamSet& params, Medium* medium) {
-  medium->kind = MediumKind::kNanoVdb;
   const Param* file = params.Find("filename", {ParamType::kString});
   const std::string name = params.String("filename", "");
   if (file == nullptr || name.empty()) {
@@ -61,11 +59,11 @@ void ReadNanoVdb(ParseState& state, ParamSet& params, Medium* medium) {
   }
   const std::string temperature = params.String("temperaturename", "temperature");
   medium->sparse_temperature = ReadGrid(params, *file, path, temperature);
-  ReadSigmas(state, params, params.Float("scale", 1, 0, kHuge), medium);
+  ReadSigmas(state, params, params.Float("scale", 1, kNotNegative), medium);
   ReadTemperatureScale(params, medium);
   // Earlier versions of pbrt wrote it with another capital.
-  const double le_scale = params.Float("LeScale", 1, 0, kHuge);
-  const double scale = params.Float("Lescale", le_scale, 0, kHuge);
+  const double le_scale = params.Float("LeScale", 1, kNotNegative);
+  const double scale = params.Float("Lescale", le_scale, kNotNegative);
   if (medium->sparse_temperature != nullptr) medium->emission = Rgb{1, 1, 1} * scale;
   SetBox(medium);
 }

@@ -3,7 +3,6 @@
 
 #include "src/core/suggest.h"
 #include "src/parse/directives.h"
-#include "src/parse/format.h"
 
 namespace lanelight {
 namespace {
@@ -14,64 +13,6 @@ struct OptionStatement {
   Token value;
   SourceLocation value_where;
 };
-
-[[noreturn]] void Misfit(const OptionStatement& option, std::string_view takes) {
-  throw InputError(option.value_where,
-                   fmt::format("found {} as the value of option {}; it takes {}",
-                               option.value.Describe(), Quoted(option.name), takes));
-}
-
-// The options are those of the table of the format.
-const std::vector<FormatLine>& Options() {
-  static const std::vector<FormatLine> kOptions = [] {
-    for (const FormatObject& object : PbrtFormat()) {
-      if (object.directive == std::string_view("Option")) return object.lines;
-    }
-    return std::vector<FormatLine>();
-  }();
-  return kOptions;
-}
-
-const FormatLine& FindOption(const OptionStatement& option) {
-  std::vector<std::string> names;
-  for (const FormatLine& line : Options()) {
-    const std::string_view parameter = line.parameter;
-    names.emplace_back(parameter.substr(parameter.rfind(' ') + 1));
-    if (names.back() == option.name) return line;
-  }
-  ThrowUnknown(option.where, "option", option.name, names);
-}
-
-void CheckType(const OptionStatement& option, std::string_view type) {
-  const Token& value = option.value;
-  if (type == "bool" && value.text != "true" && value.text != "false") {
-    Misfit(option, "true or false");
-  }
-  if (type == "string" && value.kind != TokenKind::kString) Misfit(option, "a string");
-  if ((type == "float" || type == "integer") && value.kind != TokenKind::kNumber) {
-    Misfit(option, "a number");
-  }
-}
-
-// A value may stand in brackets, as that of a parameter.
-OptionStatement ReadOption(Statement& statement) {
-  OptionStatement option;
-  option.where = statement.lexer.Where(statement.lexer.Peek());
-  option.name = statement.String();
-  option.name = option.name.substr(option.name.find_last_of(' ') + 1);
-  const bool bracket = statement.lexer.Peek().kind == TokenKind::kOpen;
-  if (bracket) statement.lexer.Next();
-  option.value = statement.lexer.Next();
-  option.value_where = statement.lexer.Where(option.value);
-  if (!bracket) return option;
-  const Token close = statement.lexer.Next();
-  if (close.kind != TokenKind::kClose) {
-    throw InputError(statement.lexer.Where(close),
-                     fmt::format("found {} where option {} needs ] after one value",
-                                 close.Describe(), Quoted(option.name)));
-  }
-  return option;
-}
 
 void SetSeed(ParseState& state, const OptionStatement& option) {
   const double number = option.value.number;
@@ -91,30 +32,87 @@ void SetEdgeScale(ParseState& state, const OptionStatement& option) {
   state.edge_scale = option.value.number;
 }
 
+template <bool ParseState::* kFlag>
+void SetFlag(ParseState& state, const OptionStatement& option) {
+  state.*kFlag = option.value.text == "true";
+}
+
+struct OptionInfo {
+  const char *type, *name;
+  void (*set)(ParseState&, const OptionStatement&);  // null: it has no effect ...
+  const char* why = "";                              // ... and why
+};
+
+constexpr OptionInfo kOptions[] = {
+    {"integer", "seed", SetSeed},
+    {"bool", "disablepixeljitter", SetFlag<&ParseState::pixel_centers>},
+    {"bool", "disabletexturefiltering", SetFlag<&ParseState::unfiltered_images>},
+    {"bool", "disablewavelengthjitter", nullptr, "there are no wavelengths"},
+    {"float", "displacementedgescale", SetEdgeScale},
+    {"bool", "forcediffuse", SetFlag<&ParseState::force_diffuse>},
+    {"string", "msereferenceimage", nullptr, "`lanelight compare` does it"},
+    {"string", "msereferenceout", nullptr, "`lanelight compare` does it"},
+    {"bool", "pixelstats", nullptr, "`lanelight profile` does it"},
+    {"string", "rendercoordsys", nullptr, "the program chooses its own"},
+    {"bool", "stats", nullptr, "`--json` writes them"},
+    {"bool", "wavefront", nullptr, "everything is a wavefront here"}};
+
+[[noreturn]] void Misfit(const OptionStatement& option, std::string_view takes) {
+  throw InputError(option.value_where,
+                   fmt::format("found {} as the value of option {}; it takes {}",
+                               option.value.Describe(), Quoted(option.name), takes));
+}
+
+const OptionInfo& FindOption(const OptionStatement& option) {
+  std::vector<std::string> names;
+  for (const OptionInfo& info : kOptions) {
+    names.emplace_back(info.name);
+    if (option.name == info.name) return info;
+  }
+  ThrowUnknown(option.where, "option", option.name, names);
+}
+
+void CheckType(const OptionStatement& option, std::string_view type) {
+  const Token& value = option.value;
+  if (type == "bool" && value.text != "true" && value.text != "false") {
+    Misfit(option, "true or false");
+  }
+  if (type == "string" && value.kind != TokenKind::kString) Misfit(option, "a string");
+  if ((type == "float" || type == "integer") && value.kind != TokenKind::kNumber) {
+    Misfit(option, "a number");
+  }
+}
+
+// A value may stand in brackets, as that of a parameter.
+OptionStatement ReadOption(Statement& statement) {
+  const auto [typed, where] = statement.Name();
+  OptionStatement option;
+  option.where = where;
+  option.name = typed.substr(typed.find_last_of(' ') + 1);
+  const bool bracket = statement.lexer.Peek().kind == TokenKind::kOpen;
+  if (bracket) statement.lexer.Next();
+  option.value = statement.lexer.Next();
+  option.value_where = statement.lexer.Where(option.value);
+  if (!bracket) return option;
+  const Token close = statement.lexer.Next();
+  if (close.kind != TokenKind::kClose) {
+    throw InputError(statement.lexer.Where(close),
+                     fmt::format("found {} where option {} needs ] after one value",
+                                 close.Describe(), Quoted(option.name)));
+  }
+  return option;
+}
+
 }  // namespace
 
 void RunOption(ParseState& state, Statement& statement) {
   const OptionStatement option = ReadOption(statement);
-  const FormatLine& line = FindOption(option);
-  const std::string_view parameter = line.parameter;
-  CheckType(option, parameter.substr(0, parameter.find(' ')));
-  if (option.name == "seed") return SetSeed(state, option);
-  if (option.name == "displacementedgescale") return SetEdgeScale(state, option);
-  if (option.name == "disablepixeljitter") {
-    state.pixel_centers = option.value.text == "true";
-    return;
-  }
-  if (option.name == "disabletexturefiltering") {
-    state.unfiltered_images = option.value.text == "true";
-    return;
-  }
-  if (option.name == "forcediffuse") {
-    state.force_diffuse = option.value.text == "true";
-    return;
-  }
+  const OptionInfo& info = FindOption(option);
+  CheckType(option, info.type);
+  if (info.set != nullptr) return info.set(state, option);
   if (option.value.text == "false") return;  // what is the case anyway
   state.AddNote(option.where, fmt::format("option {} has no effect: {}",
-                                          Quoted(option.name), line.why));
+                                          Quoted(option.name), info.why));
 }
 
 }  // namespace lanelight

@@ -60,6 +60,12 @@ const Param* ParamSet::Find(std::string_view name,
   return nullptr;
 }
 
+const Param& ParamSet::Need(std::string_view name, ParamType type) {
+  const Param* param = Find(name, {type});
+  if (param != nullptr) return *param;
+  throw InputError(where_, fmt::format("{} has no \"{}\"", object_, Typed(type, name)));
+}
+
 const Param* ParamSet::Single(std::string_view name, ParamType type) {
   const Param* param = Find(name, {type});
   if (param == nullptr) return nullptr;
@@ -75,24 +81,25 @@ double ParamSet::Float(std::string_view name, double absent) {
   return param == nullptr ? absent : param->numbers[0];
 }
 
-double ParamSet::Float(std::string_view name, double absent, double low, double high) {
-  const Param* param = Single(name, ParamType::kFloat);
-  if (param == nullptr) return absent;
-  const double value = param->numbers[0];
-  if (value < low || value > high) {
-    Fail(*param, fmt::format("the value {} is outside {} to {}", value, low, high));
-  }
-  return value;
+void ParamSet::CheckLimits(const Param& param, Limits limits) const {
+  const double value = param.numbers[0];
+  if (value >= limits.low && value <= limits.high) return;
+  Fail(param,
+       fmt::format("the value {} is outside {} to {}", value, limits.low, limits.high));
 }
 
-int ParamSet::Integer(std::string_view name, int absent, int low, int high) {
+double ParamSet::Float(std::string_view name, double absent, Limits limits) {
+  const Param* param = Single(name, ParamType::kFloat);
+  if (param == nullptr) return absent;
+  CheckLimits(*param, limits);
+  return param->numbers[0];
+}
+
+int ParamSet::Integer(std::string_view name, int absent, Limits limits) {
   const Param* param = Single(name, ParamType::kInteger);
   if (param == nullptr) return absent;
-  const int value = static_cast<int>(param->numbers[0]);
-  if (value < low || value > high) {
-    Fail(*param, fmt::format("the value {} is outside {} to {}", value, low, high));
-  }
-  return value;
+  CheckLimits(*param, limits);
+  return static_cast<int>(param->numbers[0]);
 }
 
 bool ParamSet::Bool(std::string_view name, bool absent) {
@@ -111,7 +118,8 @@ Vec3d ParamSet::Point3(std::string_view name, Vec3d absent) {
   return {param->numbers[0], param->numbers[1], param->numbers[2]};
 }
 
-int ParamSet::Choice(std::string_view name, const std::vector<std::string>& choices) {
+std::size_t ParamSet::ChoiceOf(std::string_view name,
+                               const std::vector<std::string>& choices) {
   const Param* param = Single(name, ParamType::kString);
   if (param == nullptr) return 0;
   const auto it = std::find(choices.begin(), choices.end(), param->strings[0]);
@@ -120,7 +128,7 @@ int ParamSet::Choice(std::string_view name, const std::vector<std::string>& choi
                  fmt::format("value of \"string {}\" of {}:", name, object_),
                  param->strings[0], choices);
   }
-  return static_cast<int>(it - choices.begin());
+  return static_cast<std::size_t>(it - choices.begin());
 }
 
 void ParamSet::NoteIgnored(std::string_view name, const std::string& why,

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "src/scene/description.h"
@@ -46,6 +47,15 @@ struct Param {
 };
 using ParamList = std::vector<Param>;
 
+/// Of parameters that have no natural limit.
+inline constexpr double kHuge = 1e30;
+
+/// What a number must lie in, ends included.
+struct Limits {
+  double low = -kHuge, high = kHuge;
+};
+inline constexpr Limits kNotNegative = {0, kHuge};
+
 /// Reads parameters up to the first token that starts none. Throws InputError for an
 /// unknown type, values that do not fit it, an incomplete tuple, a name given twice.
 ParamList ReadParams(Lexer& lexer, const std::string& color_space);
@@ -62,18 +72,26 @@ class ParamSet {
 
   /// The parameter, or null; a type not in `types` is an InputError. `types` empty: any.
   const Param* Find(std::string_view name, std::initializer_list<ParamType> types);
+  /// The same of one that there must be: InputError `<object> has no "type name"`.
+  const Param& Need(std::string_view name, ParamType type);
 
-  /// Single values. Out of [low, high] is an InputError that states the range.
-  double Float(std::string_view name, double absent, double low, double high);
+  /// Single values. Out of the limits is an InputError that states them.
+  double Float(std::string_view name, double absent, Limits limits);
   /// Float without a range (any finite number).
   double Float(std::string_view name, double absent);
-  int Integer(std::string_view name, int absent, int low, int high);
+  int Integer(std::string_view name, int absent, Limits limits);
   bool Bool(std::string_view name, bool absent);
   std::string String(std::string_view name, const std::string& absent);
   Vec3d Point3(std::string_view name, Vec3d absent);
 
-  /// A string out of `choices`; returns its position. The first choice is the default.
-  int Choice(std::string_view name, const std::vector<std::string>& choices);
+  /// What a string out of `choices` means. The first choice is the default.
+  template <typename T>
+  T Choice(std::string_view name,
+           std::initializer_list<std::pair<const char*, T>> choices) {
+    std::vector<std::string> names;
+    for (const auto& choice : choices) names.emplace_back(choice.first);
+    return choices.begin()[ChoiceOf(name, names)].second;
+  }
 
   /// Accepts the parameter whatever its type, notes that it has no effect, and `why`.
   void Ignore(std::string_view name, const std::string& why);
@@ -90,6 +108,9 @@ class ParamSet {
  private:
   void NoteIgnored(std::string_view name, const std::string& why, bool changes_image);
   const Param* Single(std::string_view name, ParamType type);
+  void CheckLimits(const Param& param, Limits limits) const;
+  // The position of a string in `choices`; 0 if it is not given.
+  std::size_t ChoiceOf(std::string_view name, const std::vector<std::string>& choices);
 
   std::string object_;
   SourceLocation where_;

@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "src/core/input_file.h"
-#include "src/parse/parse_state.h"
+#include "src/parse/interpret.h"
 #include "src/core/suggest.h"
 
 namespace lanelight {
@@ -49,6 +49,14 @@ std::string ResolvePath(const ParseState& state, const std::string& name) {
   const fs::path& found = !Exists(main) && Exists(local) ? local : main;
   if (state.options.files != nullptr) state.options.files->insert(found.string());
   return found.string();
+}
+
+NamedFile FileOf(const ParseState& state, ParamSet& params, std::string_view name) {
+  const Param* param = params.Find(name, {ParamType::kString});
+  const std::string file = params.String(name, "");
+  if (param == nullptr) return {};
+  if (file.empty()) params.Fail(*param, "the file name is empty");
+  return {param, ResolvePath(state, file)};
 }
 
 std::string ReadSceneFile(const ParseState& state, const std::string& path,

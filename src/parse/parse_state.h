@@ -3,13 +3,16 @@
 // (interpret.h) turn parameters into the objects of a SceneDescription.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "src/core/suggest.h"
 #include "src/parse/params.h"
 #include "src/parse/parse.h"
 
@@ -95,12 +98,30 @@ struct ParseState {
   }
 };
 
-/// The keys of a map of names, for ThrowUnknown.
-template <typename T>
-std::vector<std::string> Names(const std::map<std::string, T>& map) {
+/// The names of a table of pairs, for ThrowUnknown.
+template <typename Table>
+std::vector<std::string> Names(const Table& table) {
   std::vector<std::string> names;
-  for (const auto& [name, value] : map) names.push_back(name);
+  for (const auto& [name, meaning] : table) names.emplace_back(name);
   return names;
+}
+
+/// What `name` means in a table of pairs, or a map. InputError with all of its names if
+/// it is none: unknown <kind> "<name>".
+template <typename Table>
+const auto& Lookup(const Table& table, const std::string& name,
+                   const SourceLocation& where, std::string_view kind) {
+  const auto find = [&] {
+    if constexpr (requires { table.find(name); }) {
+      return table.find(name);
+    } else {
+      return std::find_if(std::begin(table), std::end(table),
+                          [&](const auto& entry) { return entry.first == name; });
+    }
+  };
+  const auto found = find();
+  if (found == std::end(table)) ThrowUnknown(where, kind, name, Names(table));
+  return found->second;
 }
 
 /// Path of a file named in the scene: relative to the main file's directory (as pbrt), or
