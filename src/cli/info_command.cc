@@ -81,7 +81,7 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
   command->callback([options, &chosen] {
     chosen = [options] {
       if (options->format) {
-        Print(FormatDocument());
+        Print(std::string(FormatDocument()));
         return kExitGood;
       }
       ForceTarget(options->target);

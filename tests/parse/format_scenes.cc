@@ -8,6 +8,7 @@
 #include "src/compile/compile.h"
 #include "src/parse/parse.h"
 #include "tests/image/sparse_grid_file.h"
+#include "tests/parse/format_values.h"
 
 namespace lanelight {
 namespace {
@@ -26,29 +27,14 @@ MakeNamedMaterial "first" "string type" "diffuse"
 MakeNamedMaterial "second" "string type" "conductor"
 )";
 
-// The value of a line without one.
-std::string AnyValue(const std::string& type) {
-  static const std::map<std::string, std::string> kValues = {
-      {"bool", "true"},
-      {"integer", "2"},
-      {"float", "0.5"},
-      {"rgb", "[ 0.2 0.3 0.4 ]"},
-      {"spectrum", "[ 400 0.2 700 0.4 ]"},
-      {"blackbody", "3000"},
-      {"texture", "\"tex\""}};
-  return kValues.at(type);
-}
-
-std::string ParameterText(const FormatLine& line, const std::string& parameter) {
-  const std::string value = line.value;
-  const std::string type = parameter.substr(0, parameter.find(' '));
-  return " \"" + parameter + "\" " + (value.empty() ? AnyValue(type) : value);
+std::string ParameterText(const FormatParameter& parameter) {
+  return " \"" + parameter.typed + "\" " + parameter.value;
 }
 
 // `object` with its operands, and what makes it part of the picture.
 std::string Statement(const FormatObject& object, const std::string& params,
                       const std::string& value_type) {
-  const std::string directive = object.directive, type = object.type;
+  const std::string &directive = object.directive, &type = object.type;
   const std::string quoted = " \"" + type + "\"";
   if (directive == "Texture") {
     const std::string use = value_type == "float"
@@ -95,25 +81,24 @@ std::string ParameterName(const std::string& parameter) {
   return parameter.substr(parameter.find_last_of(' ') + 1);
 }
 
-std::string FormatScene(const FormatObject& object, const FormatLine* line,
-                        const std::string& parameter, const std::string& extra,
-                        const std::string& value_type) {
+std::string FormatScene(const FormatObject& object, const FormatParameter& parameter,
+                        const std::string& extra, const std::string& value_type) {
   std::string params;
-  for (const FormatLine& other : object.lines) {
-    const std::string typed = TypedParameters(other).front();
-    if (!other.needed || ParameterName(typed) == ParameterName(parameter)) continue;
-    params += ParameterText(other, typed);
+  for (const std::string& needed : NeededParameters(object)) {
+    if (ParameterName(needed) == ParameterName(parameter.typed)) continue;
+    params += ParameterText({needed, FormatValues(object, {}, needed).front()});
   }
-  if (line != nullptr) params += ParameterText(*line, parameter);
+  if (!parameter.typed.empty()) params += ParameterText(parameter);
   return Scene(object.directive, Statement(object, params + extra, value_type));
 }
 
 std::string OperandScene(const FormatObject& object, const FormatLine& line) {
-  const std::string directive = object.directive;
-  std::string value = line.value;
+  const std::string& directive = object.directive;
   if (directive == "Option") {
-    return Scene(directive, directive + ParameterText(line, line.parameter));
+    const std::string value = FormatValues(object, line, line.parameter).front();
+    return Scene(directive, directive + ParameterText({line.parameter, value}));
   }
+  std::string value = FormatOperands(object, line);
   const std::size_t at = value.find('@');
   if (at == value.npos) return Scene(directive, directive + " " + value);
   return Scene(directive, value.replace(at, 1, directive));

@@ -1,11 +1,11 @@
 // Scenes that have one object and one parameter of pbrt-v4's format, for the tests of
-// its table, and what becomes of them.
+// its document, and what becomes of them.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "src/parse/format.h"
+#include "tests/parse/format_document.h"
 
 namespace lanelight {
 
@@ -20,12 +20,16 @@ std::vector<std::string> TypedParameters(const FormatLine& line);
 /// The last word of "float fov".
 std::string ParameterName(const std::string& parameter);
 
-/// The scene with the object, what it cannot do without, and `parameter` (typed, with the
-/// line's value), which may be "". `extra`: more text among the object's parameters.
-/// `value_type`: of a texture.
-std::string FormatScene(const FormatObject& object, const FormatLine* line,
-                        const std::string& parameter, const std::string& extra,
-                        const std::string& value_type);
+/// A parameter with its type, and what it is given.
+struct FormatParameter {
+  std::string typed, value;
+};
+
+/// The scene with the object, what it cannot do without, and the parameter, which may be
+/// of no name. `extra`: more text among the object's parameters. `value_type`: of a
+/// texture.
+std::string FormatScene(const FormatObject& object, const FormatParameter& parameter,
+                        const std::string& extra, const std::string& value_type);
 
 /// The scene of an operand of a directive without an object, or of an option.
 std::string OperandScene(const FormatObject& object, const FormatLine& line);
