@@ -115,17 +115,8 @@ void JudgeCase(const SuiteResult& suite, CaseResult& result) {
 }  // namespace
 
 const char* Name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kGood:
-      return "good";
-    case Outcome::kWeak:
-      return "weak";
-    case Outcome::kFailed:
-      return "failed";
-    case Outcome::kUnfinished:
-      return "unfinished";
-  }
-  return "?";
+  constexpr const char* kNames[] = {"good", "weak", "failed", "unfinished"};
+  return kNames[static_cast<int>(outcome)];
 }
 
 int SuiteResult::Count(Outcome outcome) const {

@@ -7,12 +7,16 @@
 
 namespace lanelight::stress {
 
-JobRun RenderText(const SceneText& scene) {
+Job PrepareText(const SceneText& scene) {
   ParseOptions parse;
   parse.allow_files = false;
   RenderSettings settings = scene.settings;
   settings.copied_triangles = 0;  // instances are to be stressed, not their copies
-  return RunJob(PrepareJob(ParseSceneText(scene.text, "scene", ".", parse), settings));
+  return PrepareJob(ParseSceneText(scene.text, "scene", ".", parse), settings);
+}
+
+JobRun RenderText(const SceneText& scene) {
+  return RunJob(PrepareText(scene));
 }
 
 Point MeanOf(const JobRun& rendered) {

@@ -16,7 +16,9 @@ struct SceneText {
   RenderSettings settings;  // resolution, spp, seed, strategy, depth
 };
 
-/// Parses, compiles, plans, renders. Throws InputError for what is refused.
+/// Parses, compiles and plans. Throws InputError for what is refused.
+Job PrepareText(const SceneText& scene);
+/// The same, and renders.
 JobRun RenderText(const SceneText& scene);
 
 /// Mean over all pixels and the three channels, with its standard error from the pixels'

@@ -19,8 +19,10 @@ enum class Truth {
   kBound,       // the measured value must not exceed the expected one
   kRate,        // failures among trials must not be more frequent than the expected rate
 };
-/// "closed form", "invariance", "twin", "bound", "rate".
-const char* Name(Truth truth);
+inline const char* Name(Truth truth) {
+  constexpr const char* kNames[] = {"closed form", "invariance", "twin", "bound", "rate"};
+  return kNames[static_cast<int>(truth)];
+}
 
 /// One measurement, at one value of the parameter. What has no meaning stays as it is.
 struct Point {

@@ -3,24 +3,16 @@
 #include <string_view>
 
 #include "src/accel/accel.h"
-#include "src/parse/parse.h"
+#include "src/stress/scene_point.h"
 
 namespace lanelight::stress {
 namespace {
 
 constexpr std::size_t kPadding = 32;  // kernels may store a vector past the last path
 
-Job Prepare(const std::string& text) {
-  ParseOptions parse;
-  parse.allow_files = false;
-  RenderSettings settings;
-  settings.copied_triangles = 0;  // instances are to be traced, not their copies
-  return PrepareJob(ParseSceneText(text, "scene", ".", parse), settings);
-}
-
 }  // namespace
 
-RayTracer::RayTracer(const std::string& text) : job_(Prepare(text)) {
+RayTracer::RayTracer(const std::string& text) : job_(PrepareText({text, {}})) {
   wave_.scene = &job_.scene;
   wave_.run = &run_;
 }

@@ -119,25 +119,10 @@ double LevelOf(double family, std::size_t points) {
 }
 
 const char* Name(Fault fault) {
-  switch (fault) {
-    case Fault::kNone:
-      return "";
-    case Fault::kOff:
-      return "off";
-    case Fault::kOver:
-      return "over";
-    case Fault::kTooOften:
-      return "too often";
-    case Fault::kInvalid:
-      return "invalid samples";
-    case Fault::kNotNumber:
-      return "not a number";
-    case Fault::kRefused:
-      return "refused";
-    case Fault::kCrashed:
-      return "crashed";
-  }
-  return "?";
+  constexpr const char* kNames[] = {
+      "",        "off",    "over", "too often", "invalid samples", "not a number",
+      "refused", "crashed"};
+  return kNames[static_cast<int>(fault)];
 }
 
 double ScaleOf(const Point& point) {

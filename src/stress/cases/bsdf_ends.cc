@@ -6,32 +6,28 @@
 #include <vector>
 
 #include "kernels/probe/bsdf_probe.h"
-#include "src/parse/parse.h"
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/transport_setup.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/cases/scene_text.h"
 
 namespace lanelight::stress {
 namespace {
 
 // One shape of each material, so that all are compiled.
 CompiledScene Materials(double alpha) {
-  const std::string rough =
-      fmt::format(" \"float roughness\" {:.17g} \"bool remaproughness\" false", alpha);
+  const std::string rough = Alphas(alpha, alpha);
   std::string text = ViewOfPlane() + Sky(1);
   for (const std::string& material : std::vector<std::string>{
            Diffuse(0.5), "\"diffuse\" \"string scattering\" \"uniform\"",
            "\"diffuse\" \"string scattering\" \"insphere\"", "\"conductor\"" + rough,
-           "\"dielectric\"" + rough, "\"dielectric\" \"float eta\" 1.0001" + rough,
-           "\"dielectric\" \"float eta\" 100" + rough, "\"thindielectric\"",
-           "\"coateddiffuse\"" + rough,
+           Glass(1.5, alpha), Glass(1.0001, alpha), Glass(100, alpha),
+           "\"thindielectric\"", "\"coateddiffuse\"" + rough,
            "\"coatedconductor\" \"float interface.roughness\" 0.1 \"float "
            "conductor.roughness\" 0.1",
            "\"diffusetransmission\""}) {
     text += Sphere({0, 0, 0}, 1, material);
   }
-  ParseOptions parse;
-  parse.allow_files = false;
-  return PrepareJob(ParseSceneText(text, "materials", ".", parse), {}).scene;
+  return PrepareText({text, {}}).scene;
 }
 
 bool Sane(float v) { return v >= 0 && std::isfinite(v); }
@@ -120,12 +116,12 @@ std::vector<Point> ByAlpha(double alpha, const Effort&) {
 }  // namespace
 
 void AddBsdfEndCases(std::vector<Case>& cases) {
-  cases.push_back(
-      {"materials-at-ends", "sampling",
+  const CaseAdder add{cases, "sampling", Truth::kRate};
+  add({"materials-at-ends",
        "random numbers 0 and 1 - 2^-24 in the sampling of every material, alpha "
        "from 1e-4 to 1, cosines to 1e-7",
-       "finite directions, weights and densities, none negative", "", Truth::kRate,
-       LogAxis("GGX alpha", "", 1e-4, 1, {1e-4, 1e-3, 0.1, 1}, Decades(-4, 0, 0.25)),
+       "finite directions, weights and densities, none negative",
+       LogAxis("GGX alpha", "", {1e-4, 1}, {1e-4, 1e-3, 0.1, 1}, Decades(-4, 0, 0.25)),
        ByAlpha});
 }
 

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/transport_setup.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/cases/scene_text.h"
 
 namespace lanelight::stress {
 namespace {
@@ -115,13 +116,12 @@ Point HalfPlane(const std::string& series, double lens, double focus,
   // Rays meet the lamp's plane up to the radius times |1 - 1 / focus| aside.
   const double wide = 2 * (1 + lens * std::abs(1 - 1 / focus));
   const std::string text =
-      "LookAt 0 0 0  0 0 1  0 1 0\nCamera \"perspective\" \"float fov\" 40" +
-      fmt::format(" \"float lensradius\" {:.17g} \"float focaldistance\" {:.17g}", lens,
-                  focus) +
-      "\nPixelFilter \"box\"\nWorldBegin\nAreaLightSource \"diffuse\" \"rgb L\" [1 1 1] "
-      "\"bool twosided\" true\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 "
-      "3] " +
-      fmt::format("\"point3 P\" [0 -{0} 1 {0} -{0} 1 {0} {0} 1 0 {0} 1]\n", wide);
+      fmt::format(
+          "LookAt 0 0 0  0 0 1  0 1 0\nCamera \"perspective\" \"float fov\" 40 "
+          "\"float lensradius\" {:.17g} \"float focaldistance\" {:.17g}\n",
+          lens, focus) +
+      "PixelFilter \"box\"\nWorldBegin\n" + Glow(1, true) +
+      Rectangle({0, -wide, 1}, {wide, wide, 1});
   return Named(series, Expect(0.5, text, {64, 4096, 1}, effort));
 }
 
@@ -139,32 +139,29 @@ std::vector<Point> ByFocus(double focus, const Effort& effort) {
 }  // namespace
 
 void AddFilmCases(std::vector<Case>& cases) {
-  cases.push_back({"film-sum", "film", "1 to 1e7 samples of a pixel",
-                   "their mean, to 1.1e-16 of itself per sample", "", Truth::kTwin,
-                   LogAxis("samples", "", 1, 1e10, Decades(0, 6), Decades(0, 8)),
-                   ByCount});
-  cases.push_back({"film-variance", "film", "samples that scatter by 1 around 1 to 1e7",
-                   "their variance", "", Truth::kClosedForm,
-                   LogAxis("mean over scatter", "", 1, 1e6, Decades(0, 7)), ByOffset});
-  cases.push_back({"samples-per-pixel", "film", "1 to 1e6 samples of a sky per pixel",
-                   "its radiance, to a rounding", "", Truth::kClosedForm,
-                   LogAxis("samples", "", 1, 1e12, Decades(0, 5), Decades(0, 7)),
-                   BySamples});
-  cases.push_back({"filter-radius", "film",
-                   "radius of every pixel filter, from 1e-3 to 100 pixels",
-                   "a furnace shows 1", "", Truth::kClosedForm,
-                   LogAxis("radius", "pixels", 1e-3, 100, {1e-3, 0.5, 2, 10, 100},
-                           Decades(-3, 2, 0.5)),
-                   ByFilterRadius});
-  cases.push_back(
-      {"lens-radius", "film", "a lens of radius 1e-6 to 1000",
-       "the edge of a lamp in the middle is half of it", "", Truth::kClosedForm,
-       LogAxis("lens radius", "", 1e-6, 1e3, Decades(-6, 3, 3), Decades(-6, 3)), ByLens});
-  cases.push_back(
-      {"focal-distance", "film", "a focal distance of 1e-6 to 1e9",
-       "the edge of a lamp in the middle is half of it", "", Truth::kClosedForm,
-       LogAxis("focal distance", "", 1e-6, 1e9, Decades(-6, 9, 3), Decades(-6, 9)),
-       ByFocus});
+  const CaseAdder twins{cases, "film", Truth::kTwin};
+  const CaseAdder closed{cases, "film", Truth::kClosedForm};
+  twins({"film-sum", "1 to 1e7 samples of a pixel",
+         "their mean, to 1.1e-16 of itself per sample",
+         LogAxis("samples", "", {1, 1e10}, Decades(0, 6), Decades(0, 8)), ByCount});
+  closed({"film-variance", "samples that scatter by 1 around 1 to 1e7", "their variance",
+          LogAxis("mean over scatter", "", {1, 1e6}, Decades(0, 7)), ByOffset});
+  closed({"samples-per-pixel", "1 to 1e6 samples of a sky per pixel",
+          "its radiance, to a rounding",
+          LogAxis("samples", "", {1, 1e12}, Decades(0, 5), Decades(0, 7)), BySamples});
+  closed({"filter-radius", "radius of every pixel filter, from 1e-3 to 100 pixels",
+          "a furnace shows 1",
+          LogAxis("radius", "pixels", {1e-3, 100}, {1e-3, 0.5, 2, 10, 100},
+                  Decades(-3, 2, 0.5)),
+          ByFilterRadius});
+  closed({"lens-radius", "a lens of radius 1e-6 to 1000",
+          "the edge of a lamp in the middle is half of it",
+          LogAxis("lens radius", "", {1e-6, 1e3}, Decades(-6, 3, 3), Decades(-6, 3)),
+          ByLens});
+  closed({"focal-distance", "a focal distance of 1e-6 to 1e9",
+          "the edge of a lamp in the middle is half of it",
+          LogAxis("focal distance", "", {1e-6, 1e9}, Decades(-6, 9, 3), Decades(-6, 9)),
+          ByFocus});
 }
 
 }  // namespace lanelight::stress

@@ -7,7 +7,7 @@
 
 #include "kernels/probe/fresnel_probe.h"
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/transport_setup.h"
+#include "src/stress/cases/points.h"
 #include "src/stress/closed_forms.h"
 
 namespace lanelight::stress {
@@ -67,7 +67,7 @@ std::vector<Point> Critical(double distance, const Effort&) {
   return points;
 }
 
-std::vector<Point> Metal(double extinction, const Effort&) {
+std::vector<Point> ByExtinction(double extinction, const Effort&) {
   std::vector<Point> points;
   for (double eta : {0.01, 1.0, 100.0}) {
     for (double cosine : {1.0, 0.1, 1e-4, 1e-7}) {
@@ -82,27 +82,23 @@ std::vector<Point> Metal(double extinction, const Effort&) {
 }  // namespace
 
 void AddFresnelCases(std::vector<Case>& cases) {
-  cases.push_back(
-      {"fresnel-dielectric", "materials",
+  const CaseAdder add{cases, "materials", Truth::kTwin};
+  add({"fresnel-dielectric",
        "index of refraction from 1 + 1e-7 to 1e3, cosines from 1 to 1e-7",
-       "the reflectance is that of double precision, within 3e-5 of itself", "Ignis #16",
-       Truth::kTwin,
-       LogAxis("index - 1", "", 1e-7, 99, Decades(-7, 3), Decades(-7, 3, 0.1)),
-       Dielectric});
-  cases.push_back(
-      {"fresnel-critical-angle", "materials",
+       "the reflectance is that of double precision, within 3e-5 of itself",
+       LogAxis("index - 1", "", {1e-7, 99}, Decades(-7, 3), Decades(-7, 3, 0.1)),
+       Dielectric, "Ignis #16"});
+  add({"fresnel-critical-angle",
        "cosines from 1 to 1e-7 above that of the critical angle",
        "the reflectance is that of double precision, but for a rounding of the "
        "cosine",
-       "", Truth::kTwin,
-       LogAxis("cosine above the critical", "", 1e-7, 1, Decades(-7, 0),
+       LogAxis("cosine above the critical", "", {1e-7, 1}, Decades(-7, 0),
                Decades(-7, 0, 0.1)),
        Critical});
-  cases.push_back(
-      {"fresnel-metal", "materials", "extinction from 1e-9 to 1e9",
-       "the reflectance is that of complex numbers in double precision", "", Truth::kTwin,
-       LogAxis("extinction", "", 1e-9, 1e9, Decades(-9, 9, 1.5), Decades(-9, 12, 0.25)),
-       Metal});
+  add({"fresnel-metal", "extinction from 1e-9 to 1e9",
+       "the reflectance is that of complex numbers in double precision",
+       LogAxis("extinction", "", {1e-9, 1e9}, Decades(-9, 9, 1.5), Decades(-9, 12, 0.25)),
+       ByExtinction});
 }
 
 }  // namespace lanelight::stress

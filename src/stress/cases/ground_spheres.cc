@@ -1,12 +1,11 @@
 // Spheres of a radius up to 1e9 times the height from which they are seen.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/points.h"
-#include "src/stress/shapes_text.h"
-#include "src/stress/trace_rays.h"
+#include "src/stress/cases/ray_trial.h"
 
 namespace lanelight::stress {
 namespace {
@@ -28,16 +27,15 @@ long double NearestRoot(const WorldRay& ray, Vec3d center, double radius) {
 }
 
 // Along no axis, so that no coordinate is a round number.
-const Vec3d kUp = Normalize(Vec3d{0.3, -0.5, 0.8});
+const Vec3d& kUp = kLeaning;
 
 // Its top is the origin.
-std::string Ground(double radius) { return SphereText(-radius * kUp, radius); }
+std::string Ground(double radius) { return Sphere(-radius * kUp, radius); }
 
 // The eye one unit above: the ground is as bright as the sky makes it.
 std::vector<Point> GroundUnderSky(double radius, const Effort& effort) {
   const std::string camera = CameraText(kUp, 0.05 * Across(kUp).u, 20);
-  return MeasureFurnace({.text = SkyScene(camera, 0.6, Ground(radius)), .expected = 0.6},
-                        effort);
+  return ExpectBothWays(0.6, SkyScene(camera, 0.6, Ground(radius)), {}, effort);
 }
 
 // A point light of intensity 1 two units above the ground, seen straight from above. Off
@@ -45,43 +43,41 @@ std::vector<Point> GroundUnderSky(double radius, const Effort& effort) {
 std::vector<Point> GroundUnderLamp(double radius, const Effort& effort) {
   const std::string text =
       CameraText(kUp, {}, 0.1) + "WorldBegin\n" +
-      fmt::format("LightSource \"point\" \"point3 from\" [{:.17g} {:.17g} {:.17g}]\n",
-                  2 * kUp.x, 2 * kUp.y, 2 * kUp.z) +
-
-      "Material \"diffuse\" \"rgb reflectance\" [0.6 0.6 0.6]\n" + Ground(radius);
-  return {Measure({.text = text, .expected = 0.6 / M_PI / 4, .quick = 16}, effort)};
+      fmt::format("LightSource \"point\" \"point3 from\" [{}]\n", Numbers(2 * kUp)) +
+      "Material " + Diffuse(0.6) + "\n" + Ground(radius);
+  return {Expect(0.6 / M_PI / 4, text, {.quick = 16}, effort)};
 }
 
 // A ball of radius 1 that rests on the ground, lit by it from below and by the sky.
 // Everything is of albedo 1, so that all light is that of the sky.
 std::vector<Point> BallOnGround(double radius, const Effort& effort) {
   const std::string camera = CameraText(kUp - 5.0 * Across(kUp).u, kUp, 20);
-  const std::string shapes = Ground(radius) + SphereText(kUp, 1);
-  return MeasureFurnace({.text = SkyScene(camera, 1, shapes),
-                         .expected = 1,
-                         .relative = 1e-4,
-                         .full = 1024,
-                         .depth = 1000},
-                        effort);
+  return ExpectBothWays(1, SkyScene(camera, 1, Ground(radius) + Sphere(kUp, 1)),
+                        {.full = 1024, .depth = 1000, .relative = 1e-4}, effort);
 }
 
-// Distances along rays from one unit above the ground, against extended precision.
-std::vector<Point> GroundByRays(double radius, const Effort& effort) {
-  Draws draws(effort.seed);
+// Rays from one unit above the ground.
+void LookDown(const Effort& effort, Draws& draws, RayTrial& trial) {
   const Across flat(kUp);
-  RayTracer tracer(RayScene(Ground(radius), kUp));
-  std::vector<WorldRay> rays;
   for (int i = 0; i < effort(2000, 200000); ++i) {
     const Vec3d aside = draws(-1, 1) * flat.u + draws(-1, 1) * flat.v;
-    rays.push_back({kUp + aside, -draws.Above(kUp, 0.05)});
+    trial.rays.push_back({kUp + aside, -draws.Above(kUp, 0.05)});
   }
-  const std::vector<WorldHit> hits = tracer.Trace(rays);
+}
+
+// Distances along rays, against extended precision.
+std::vector<Point> GroundByRays(double radius, const Effort& effort) {
+  Draws draws(effort.seed);
+  RayTrial trial(Ground(radius), kUp);
+  LookDown(effort, draws, trial);
+  const std::vector<WorldHit> hits = trial.tracer.Trace(trial.rays);
   double worst = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const double t = double(NearestRoot(rays[i], -radius * kUp, radius));
+    const WorldRay& ray = trial.rays[i];
+    const double t = double(NearestRoot(ray, -radius * kUp, radius));
     if (std::isinf(t) && !hits[i].found) continue;
     // Off the ground, not along the ray: the angle to it would multiply any error.
-    const double sine = std::abs(Dot(hits[i].normal, rays[i].direction));
+    const double sine = std::abs(Dot(hits[i].normal, ray.direction));
     worst = std::max(worst, hits[i].found ? std::abs(hits[i].t / t - 1) * sine : 1.0);
   }
   return {BoundPoint(worst, 1e-5)};
@@ -90,52 +86,39 @@ std::vector<Point> GroundByRays(double radius, const Effort& effort) {
 // Rays that leave the ground do not meet it again.
 std::vector<Point> LeaveGround(double radius, const Effort& effort) {
   Draws draws(effort.seed);
-  const Across flat(kUp);
-  RayTracer tracer(RayScene(Ground(radius), kUp));
-  std::vector<WorldRay> rays;
-  std::vector<Vec3d> leaving;
-  for (int i = 0; i < effort(2000, 200000); ++i) {
-    const Vec3d aside = draws(-1, 1) * flat.u + draws(-1, 1) * flat.v;
-    rays.push_back({kUp + aside, -draws.Above(kUp, 0.05)});
-  }
-  const std::vector<WorldHit> hits = tracer.Trace(rays);
-  std::uint64_t failures = 0, trials = 0;
-  for (const WorldHit& hit : hits) {
-    leaving.push_back(draws.Above(hit.normal, 1e-3));
-    trials += hit.found;
-  }
-  for (const bool blocked : tracer.Blocked(leaving)) failures += blocked;
-  return {RatePoint(failures, trials)};
+  RayTrial trial(Ground(radius), kUp);
+  LookDown(effort, draws, trial);
+  const std::uint64_t missed = trial.CountBad([&](const WorldHit& hit, std::size_t) {
+    trial.leaving.push_back(draws.Above(hit.normal, 1e-3));
+    return hit.found;
+  });
+  return {NoFailures(trial.CountMet(), trial.rays.size() - missed)};
 }
 
 }  // namespace
 
 void AddGroundSphereCases(std::vector<Case>& cases) {
-  const auto radii = [](double promised) {
-    return Decades("radius over height of the eye", "", 0, 9, 1, 0, promised);
-  };
-  cases.push_back({"ground-sphere-sky", "geometry",
-                   "the eye one unit above a sphere of radius 1 to 1e9",
-                   "a sky of 1 makes it as bright as its albedo", "", Truth::kClosedForm,
-                   radii(8), GroundUnderSky});
-  cases.push_back({"ground-sphere-lamp", "geometry",
-                   "a lamp two units above a sphere of radius 1e3 to 1e9",
-                   "the ground below has albedo / pi / 4", "", Truth::kClosedForm,
-                   Decades("radius over height of the eye", "", 4, 9, 1, 4, 8),
-                   GroundUnderLamp});
-  cases.push_back({"ball-on-ground-sphere", "geometry",
-                   "a unit ball resting on a sphere of radius 1 to 1e9, albedo 1",
-                   "everything is as bright as the sky", "", Truth::kClosedForm,
-                   Decades("radius of the ground over the ball's", "", 0, 9, 3, 0, 8),
-                   BallOnGround});
-  cases.push_back({"ground-sphere-rays", "geometry",
-                   "rays from one unit above a sphere of radius 1 to 1e9",
-                   "they end within 1e-5 of the distance off the exact sphere", "",
-                   Truth::kBound, radii(8), GroundByRays});
-  cases.push_back({"ground-sphere-leave", "geometry",
-                   "rays that leave a sphere of radius 1 to 1e9, seen from close by",
-                   "none meets the sphere again", "", Truth::kRate, radii(8),
-                   LeaveGround});
+  const CaseAdder closed{cases, "geometry", Truth::kClosedForm};
+  const CaseAdder bounds{cases, "geometry", Truth::kBound};
+  const CaseAdder rates{cases, "geometry", Truth::kRate};
+  const Axis radii = DecadesAxis("radius over height of the eye", "", {0, 9}, {0, 8});
+  closed({"ground-sphere-sky", "the eye one unit above a sphere of radius 1 to 1e9",
+          "a sky of 1 makes it as bright as its albedo", radii, GroundUnderSky});
+  closed({"ground-sphere-lamp", "a lamp two units above a sphere of radius 1e3 to 1e9",
+          "the ground below has albedo / pi / 4",
+          DecadesAxis("radius over height of the eye", "", {4, 9}, {4, 8}),
+          GroundUnderLamp});
+  closed({"ball-on-ground-sphere",
+          "a unit ball resting on a sphere of radius 1 to 1e9, albedo 1",
+          "everything is as bright as the sky",
+          DecadesAxis("radius of the ground over the ball's", "", {0, 9, 3}, {0, 8}),
+          BallOnGround});
+  bounds({"ground-sphere-rays", "rays from one unit above a sphere of radius 1 to 1e9",
+          "they end within 1e-5 of the distance off the exact sphere", radii,
+          GroundByRays});
+  rates({"ground-sphere-leave",
+         "rays that leave a sphere of radius 1 to 1e9, seen from close by",
+         "none meets the sphere again", radii, LeaveGround});
 }
 
 }  // namespace lanelight::stress

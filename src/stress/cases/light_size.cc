@@ -6,7 +6,8 @@
 
 #include "src/core/pi.h"
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/transport_setup.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/cases/scene_text.h"
 #include "src/stress/closed_forms.h"
 
 namespace lanelight::stress {
@@ -16,14 +17,14 @@ constexpr double kAlbedo = 0.5;
 // What a diffuse plane shows of an irradiance.
 constexpr double Shown(double irradiance) { return kAlbedo / kPi * irradiance; }
 
-std::string Emitting(double radiance, bool two_sided) {
-  return fmt::format(
-      "AreaLightSource \"diffuse\" \"rgb L\" [{0:.17g} {0:.17g} {0:.17g}] \"bool "
-      "twosided\" {1}\n{2}",
-      radiance, two_sided, two_sided ? "" : "ReverseOrientation\n");
-}
+const Quality kDirect = {.depth = 1};
 
-const Quality kDirect = {64, 4096, 1};
+// A point of the plane, aslant from above, and a lamp.
+std::string Below(const std::string& lamp) {
+  return "LookAt 0 -1 1  0 0 0  0 0 1\nCamera \"orthographic\" \"float screenwindow\" "
+         "[-1e-6 1e-6 -1e-6 1e-6]\nPixelFilter \"box\"\nWorldBegin\n" +
+         Plane(Diffuse(kAlbedo)) + Block(lamp);
+}
 
 // A disk above the origin, parallel to the plane: pi L r^2 / (r^2 + d^2).
 std::vector<Point> Disk(double radius, const Effort& effort) {
@@ -31,13 +32,10 @@ std::vector<Point> Disk(double radius, const Effort& effort) {
   const double radiance = 1 / (radius * radius);
   for (const bool two_sided : {false, true}) {
     const std::string text =
-        "LookAt 0 -1 1  0 0 0  0 0 1\nCamera \"orthographic\" \"float screenwindow\" "
-        "[-1e-6 1e-6 -1e-6 1e-6]\nPixelFilter \"box\"\nWorldBegin\n" +
-        Plane(Diffuse(kAlbedo)) + "AttributeBegin\n" + Emitting(radiance, two_sided) +
-        fmt::format(
-            "Translate 0 0 2\nMaterial {}\nShape \"disk\" \"float radius\" "
-            "{:.17g}\nAttributeEnd\n",
-            Diffuse(0), radius);
+        Below(Glow(radiance, two_sided) + (two_sided ? "" : "ReverseOrientation\n") +
+              fmt::format("Translate 0 0 2\nMaterial {}\nShape \"disk\" \"float radius\" "
+                          "{:.17g}",
+                          Diffuse(0), radius));
     points.push_back(
         Named(two_sided ? "two-sided" : "one-sided",
               Expect(Shown(kPi / (radius * radius + 4)), text, kDirect, effort)));
@@ -51,17 +49,9 @@ std::vector<Point> Quad(double half, const Effort& effort) {
   const std::array<Vec3d, 4> corner = {
       Vec3d{x - half, -half, 2}, Vec3d{x + half, -half, 2}, Vec3d{x + half, half, 2},
       Vec3d{x - half, half, 2}};
-  std::string positions;
-  for (const Vec3d& p : corner)
-    positions += fmt::format(" {:.17g} {:.17g} {:.17g}", p.x, p.y, p.z);
   const double radiance = 1 / (half * half);
-  const std::string text =
-      "LookAt 0 -1 1  0 0 0  0 0 1\nCamera \"orthographic\" \"float screenwindow\" "
-      "[-1e-6 1e-6 -1e-6 1e-6]\nPixelFilter \"box\"\nWorldBegin\n" +
-      Plane(Diffuse(kAlbedo)) + "AttributeBegin\n" + Emitting(radiance, true) +
-      "Material " + Diffuse(0) +
-      "\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [" +
-      positions + " ]\nAttributeEnd\n";
+  const std::string text = Below(Glow(radiance, true) + "Material " + Diffuse(0) + "\n" +
+                                 Rectangle(corner[0], corner[2]));
   return {Expect(Shown(radiance * PolygonIrradiance(corner)), text, kDirect, effort)};
 }
 
@@ -70,10 +60,8 @@ std::vector<Point> NearPoint(double height, const Effort& effort) {
   const double half = 5 * height;
   const std::string text =
       ViewOfPlane(1, half) + Plane(Diffuse(kAlbedo)) + Sphere({3, 3, -3}, 1, Diffuse(0)) +
-      fmt::format(
-          "LightSource \"point\" \"point3 from\" [0 0 {:.17g}] \"rgb I\" "
-          "[{:.17g} {:.17g} {:.17g}]\n",
-          height, height * height, height * height, height * height);
+      fmt::format("LightSource \"point\" \"point3 from\" [0 0 {:.17g}]{}\n", height,
+                  Grey("I", height * height));
   const double irradiance =
       height * height * SquareSolidAngle(half, height) / (4 * half * half);
   Point point = Expect(Shown(irradiance), text, kDirect, effort);
@@ -123,31 +111,24 @@ std::vector<Point> FarSun(double distance, const Effort& effort) {
 }  // namespace
 
 void AddLightSizeCases(std::vector<Case>& cases) {
-  cases.push_back({"disk-light-radius", "lights",
-                   "radius of a disk light, from 100 to 1e-8 of its distance",
-                   "the plane below shows the closed form, from one side and from both",
-                   "", Truth::kClosedForm,
-                   LogAxis("radius", "", 1e-8, 100, Decades(-8, 2, 2), Decades(-8, 2)),
-                   Disk});
-  cases.push_back({"quad-light-size", "lights",
-                   "size of a quad light, from 100 to 1e-8 of its distance",
-                   "Lambert's formula for polygons", "", Truth::kClosedForm,
-                   LogAxis("half side", "", 1e-6, 100, Decades(-8, 2, 2), Decades(-8, 2)),
-                   Quad});
-  cases.push_back(
-      {"point-light-height", "lights", "a point light 1 to 1e-8 above a surface",
+  const CaseAdder add{cases, "lights", Truth::kClosedForm};
+  add({"disk-light-radius", "radius of a disk light, from 100 to 1e-8 of its distance",
+       "the plane below shows the closed form, from one side and from both",
+       LogAxis("radius", "", {1e-8, 100}, Decades(-8, 2, 2), Decades(-8, 2)), Disk});
+  add({"quad-light-size", "size of a quad light, from 100 to 1e-8 of its distance",
+       "Lambert's formula for polygons",
+       LogAxis("half side", "", {1e-6, 100}, Decades(-8, 2, 2), Decades(-8, 2)), Quad});
+  add({"point-light-height", "a point light 1 to 1e-8 above a surface",
        "the light that reaches a square is its solid angle, as far as places are "
        "rounded",
-       "", Truth::kClosedForm, LogAxis("height", "", 1e-6, 1, Decades(-8, 0)),
-       NearPoint});
-  cases.push_back(
-      {"spot-cone-angle", "lights", "a spot light with a cone of 60 to 1e-3 degrees",
-       "the cone carries its intensity and its flux", "", Truth::kClosedForm,
-       LogAxis("cone angle", "degrees", 1e-3, 60, {1e-3, 1e-2, 0.1, 1, 10, 60}), Spot});
-  cases.push_back(
-      {"sun-distance", "lights", "a sun of the same angle, 10 to 1e9 units away",
-       "the plane shows the same", "povray #469", Truth::kClosedForm,
-       LogAxis("distance", "", 10, 1e7, Decades(1, 9, 2), Decades(1, 9)), FarSun});
+       LogAxis("height", "", {1e-6, 1}, Decades(-8, 0)), NearPoint});
+  add({"spot-cone-angle", "a spot light with a cone of 60 to 1e-3 degrees",
+       "the cone carries its intensity and its flux",
+       LogAxis("cone angle", "degrees", {1e-3, 60}, {1e-3, 1e-2, 0.1, 1, 10, 60}), Spot});
+  add({"sun-distance", "a sun of the same angle, 10 to 1e9 units away",
+       "the plane shows the same",
+       LogAxis("distance", "", {10, 1e7}, Decades(1, 9, 2), Decades(1, 9)), FarSun,
+       "povray #469"});
 }
 
 }  // namespace lanelight::stress

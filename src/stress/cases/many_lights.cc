@@ -6,7 +6,8 @@
 #include <string>
 
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/transport_scenes.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/cases/scene_text.h"
 #include "src/stress/closed_forms.h"
 
 namespace lanelight::stress {
@@ -37,11 +38,9 @@ std::string Tessellated(int n, double radiance) {
     indices += fmt::format(" {} {} {} {} {} {}", at, at + 1, at + n + 2, at, at + n + 2,
                            at + n + 1);
   }
-  return fmt::format(
-      "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [{0} {0} {0}] \"bool "
-      "twosided\" true\nMaterial {1}\nShape \"trianglemesh\" \"integer indices\" "
-      "[{2} ] \"point3 P\" [{3} ]\nAttributeEnd\n",
-      radiance, Diffuse(0), indices, positions);
+  return Block(Glow(radiance, true) + "Material " + Diffuse(0) +
+               "\nShape \"trianglemesh\" \"integer indices\" [" + indices +
+               "] \"point3 P\" [" + positions + "]");
 }
 
 std::vector<Point> Triangles(double count, const Effort& effort) {
@@ -59,16 +58,15 @@ std::vector<Point> Triangles(double count, const Effort& effort) {
 }  // namespace
 
 void AddManyLightCases(std::vector<Case>& cases) {
-  cases.push_back({"many-lights", "lights",
-                   "1 to 1e6 point lights, over six decades of intensity",
-                   "the plane below shows their sum", "", Truth::kClosedForm,
-                   LogAxis("lights", "", 1, 1e6, {1, 100, 1e4, 262144},
-                           {1, 10, 100, 1e3, 1e4, 1e5, 262144, 1e6}),
-                   Points});
-  cases.push_back(
-      {"emitting-triangles", "lights", "a lamp that is cut into 2 to 1e6 triangles",
-       "the plane below shows Lambert's formula of the whole", "", Truth::kClosedForm,
-       LogAxis("triangles", "", 1, 1e6, {2, 200, 20000}, {2, 200, 20000, 2e5, 2e6}),
+  const CaseAdder add{cases, "lights", Truth::kClosedForm};
+  add({"many-lights", "1 to 1e6 point lights, over six decades of intensity",
+       "the plane below shows their sum",
+       LogAxis("lights", "", {1, 1e6}, {1, 100, 1e4, 262144},
+               {1, 10, 100, 1e3, 1e4, 1e5, 262144, 1e6}),
+       Points});
+  add({"emitting-triangles", "a lamp that is cut into 2 to 1e6 triangles",
+       "the plane below shows Lambert's formula of the whole",
+       LogAxis("triangles", "", {1, 1e6}, {2, 200, 20000}, {2, 200, 20000, 2e5, 2e6}),
        Triangles});
 }
 

@@ -8,8 +8,7 @@
 #include "src/core/pi.h"
 #include "src/stress/cases/cases.h"
 #include "src/stress/cases/points.h"
-#include "src/stress/cases/transport_setup.h"
-#include "src/stress/shapes_text.h"
+#include "src/stress/cases/scene_text.h"
 
 namespace lanelight::stress {
 namespace {
@@ -20,11 +19,8 @@ const char* kPlainPaths = "directions=bsdf,roulette=none,points=independent";
 
 std::string Homogeneous(const std::string& name, double sigma_a, double sigma_s,
                         double g = 0, double emission = 0) {
-  const auto grey = [](const char* parameter, double value) {
-    return fmt::format(" \"rgb {0}\" [{1:.17g} {1:.17g} {1:.17g}]", parameter, value);
-  };
   return fmt::format("MakeNamedMedium \"{}\" \"string type\" \"homogeneous\"", name) +
-         grey("sigma_a", sigma_a) + grey("sigma_s", sigma_s) + grey("Le", emission) +
+         Grey("sigma_a", sigma_a) + Grey("sigma_s", sigma_s) + Grey("Le", emission) +
          fmt::format(" \"float g\" {:.17g}\n", g);
 }
 
@@ -38,10 +34,9 @@ std::string Slab(const std::string& medium, double unit = 1) {
   block.AddQuad({-w, w, 0}, {w, w, 0}, {w, w, d}, {-w, w, d});
   block.AddQuad({-w, -w, 0}, {-w, w, 0}, {-w, w, d}, {-w, -w, d});
   block.AddQuad({w, -w, d}, {w, w, d}, {w, w, 0}, {w, -w, 0});
-  return fmt::format(
-             "AttributeBegin\nMediumInterface \"{}\" \"\"\nMaterial \"interface\"\n",
-             medium) +
-         block.Text() + "AttributeEnd\n";
+  return Block(
+      fmt::format("MediumInterface \"{}\" \"\"\nMaterial \"interface\"\n", medium) +
+      block.Text());
 }
 
 std::string ViewOfSlab(double unit = 1) {
@@ -50,10 +45,8 @@ std::string ViewOfSlab(double unit = 1) {
 
 std::string Ball(const std::string& medium, const std::string& outside, double radius,
                  const std::string& material) {
-  return fmt::format(
-      "AttributeBegin\nMediumInterface \"{}\" \"{}\"\nMaterial {}\n"
-      "Shape \"sphere\" \"float radius\" {:.17g}\nAttributeEnd\n",
-      medium, outside, material, radius);
+  return Block(fmt::format("MediumInterface \"{}\" \"{}\"\n", medium, outside) +
+               Sphere({}, radius, material));
 }
 
 std::string ViewOfBall() { return ViewFrom({0, 0, 5}, 20); }
@@ -146,10 +139,9 @@ std::vector<Point> ByContrast(double contrast, const Effort& effort) {
   const double mean = (layers - 3 + 2 * 0.875 + contrast) / layers;
   const std::string grid = fmt::format(
       "MakeNamedMedium \"m\" \"string type\" \"uniformgrid\" \"integer nx\" 2 \"integer "
-      "ny\" 2 \"integer nz\" {0} \"point3 p0\" [-50 -50 -1] \"point3 p1\" [50 50 0] "
-      "\"rgb sigma_a\" [{1:.17g} {1:.17g} {1:.17g}] \"rgb sigma_s\" [0 0 0]\n"
-      "\"float density\" [{2}]\n",
-      layers, 1 / mean, values);
+      "ny\" 2 \"integer nz\" {} \"point3 p0\" [-50 -50 -1] \"point3 p1\" [50 50 0]{}{} "
+      "\"float density\" [{}]\n",
+      layers, Grey("sigma_a", 1 / mean), Grey("sigma_s", 0), values);
   return {Expect(std::exp(-1), ViewOfSlab() + grid + Slab("m") + Sky(1), {256, 4096},
                  effort)};
 }
@@ -161,8 +153,7 @@ std::vector<Point> ByShells(double shells, const Effort& effort) {
       ViewOfBall() + Homogeneous("0", 0, 1, 0.5) + Homogeneous("1", 0, 4, -0.3) + Sky(1);
   for (int i = 0; i < count; ++i) {
     text += Ball(std::to_string(i % 2), i == 0 ? "" : std::to_string((i + 1) % 2),
-                 1 - i / shells,
-                 fmt::format("\"dielectric\" \"float eta\" {}", i % 2 == 0 ? 1.5 : 0.8));
+                 1 - i / shells, Glass(i % 2 == 0 ? 1.5 : 0.8));
   }
   Quality quality = {4, 64, 1000000, 4};
   quality.strategy = kPlainPaths;
@@ -174,35 +165,30 @@ std::vector<Point> ByShells(double shells, const Effort& effort) {
 }  // namespace
 
 void AddMediaCases(std::vector<Case>& cases) {
-  cases.push_back(
-      {"slab-depth", "media", "a slab of optical depth 1e-6 to 1e6",
-       "it lets e^-depth of the sky through and emits the rest", "", Truth::kClosedForm,
-       LogAxis("optical depth", "", 1e-6, 1e6, {1e-6, 1e-4, 0.01, 1, 10, 80, 1e3, 1e6}),
+  const CaseAdder add{cases, "media", Truth::kClosedForm};
+  add({"slab-depth", "a slab of optical depth 1e-6 to 1e6",
+       "it lets e^-depth of the sky through and emits the rest",
+       LogAxis("optical depth", "", {1e-6, 1e6}, {1e-6, 1e-4, 0.01, 1, 10, 80, 1e3, 1e6}),
        ByDepthOfSlab});
-  cases.push_back({"slab-unit", "media", "a slab lit by a lamp, 1e-12 to 1e12 deep",
-                   "light that it scatters once is that of any other unit", "",
-                   Truth::kClosedForm,
-                   Decades("depth of the slab", "", -12, 12, 6, -12, 12), ByUnit});
-  cases.push_back(
-      {"ball-depth", "media", "a white ball of optical depth 1e-6 to 1e3",
-       "in front of an even sky it cannot be seen", "", Truth::kClosedForm,
-       LogAxis("optical depth", "", 1e-6, 1e3, {1e-6, 1e-3, 1, 10, 100, 1000}),
+  add({"slab-unit", "a slab lit by a lamp, 1e-12 to 1e12 deep",
+       "light that it scatters once is that of any other unit",
+       DecadesAxis("depth of the slab", "", {-12, 12, 6}, {-12, 12}), ByUnit});
+  add({"ball-depth", "a white ball of optical depth 1e-6 to 1e3",
+       "in front of an even sky it cannot be seen",
+       LogAxis("optical depth", "", {1e-6, 1e3}, {1e-6, 1e-3, 1, 10, 100, 1000}),
        ByDepthOfBall});
-  cases.push_back(
-      {"phase-g", "media", "asymmetry of scattering up to 1 - 1e-3 either way",
+  add({"phase-g", "asymmetry of scattering up to 1 - 1e-3 either way",
        "a white ball cannot be seen; what a slab scatters once is in closed form",
-       "Henyey and Greenstein 1941", Truth::kClosedForm,
-       LogAxis("1 - |g|", "", 1e-3, 1, {1e-3, 0.01, 0.1, 1}), ByPhase});
-  cases.push_back(
-      {"grid-contrast", "media",
-       "a grid with a layer up to 1e6 times as dense as the others",
-       "it lets e^-1 of the sky through", "", Truth::kClosedForm,
-       LogAxis("contrast", "", 1e-6, 1e6, Decades(-6, 6, 3), Decades(-6, 6, 1)),
+       LogAxis("1 - |g|", "", {1e-3, 1}, {1e-3, 0.01, 0.1, 1}), ByPhase,
+       "Henyey and Greenstein 1941"});
+  add({"grid-contrast", "a grid with a layer up to 1e6 times as dense as the others",
+       "it lets e^-1 of the sky through",
+       LogAxis("contrast", "", {1e-6, 1e6}, Decades(-6, 6, 3), Decades(-6, 6, 1)),
        ByContrast});
-  cases.push_back({"nested-glass-media", "media",
-                   "up to 32 shells of glass of two indices, filled with white media",
-                   "in front of an even sky they cannot be seen", "", Truth::kClosedForm,
-                   LogAxis("shells", "", 1, 32, {1, 2, 8, 32}), ByShells});
+  add({"nested-glass-media",
+       "up to 32 shells of glass of two indices, filled with white media",
+       "in front of an even sky they cannot be seen",
+       LogAxis("shells", "", {1, 32}, {1, 2, 8, 32}), ByShells});
 }
 
 }  // namespace lanelight::stress

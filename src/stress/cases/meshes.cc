@@ -2,49 +2,42 @@
 #include <limits>
 
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/points.h"
-#include "src/stress/shapes_text.h"
-#include "src/stress/trace_rays.h"
+#include "src/stress/cases/ray_trial.h"
 
 namespace lanelight::stress {
 namespace {
 
-// Rays from inside a closed mesh to its edges and vertices: how many get out.
-Point Leaks(const MeshText& mesh, Vec3d center, double inside, int rays,
-            std::uint64_t seed) {
-  Draws draws(seed);
-  RayTracer tracer(RayScene(mesh.Text(), center));
-  std::vector<WorldRay> all;
-  for (int i = 0; i < rays; ++i) {
+// Rays from inside a closed mesh of radius 1 to its edges and vertices: how many get out.
+std::vector<Point> Leaks(const MeshText& mesh, Vec3d center, const Effort& effort) {
+  Draws draws(effort.seed);
+  RayTrial trial(mesh.Text(), center);
+  for (int i = 0; i < effort(20000, 2000000); ++i) {
     const std::size_t k =
         static_cast<std::size_t>(draws(0, double(mesh.indices.size() / 3))) * 3;
     const Vec3d a = mesh.points[static_cast<std::size_t>(mesh.indices[k])];
     const Vec3d b = mesh.points[static_cast<std::size_t>(mesh.indices[k + 1])];
     const Vec3d target = i % 3 == 0 ? a : a + draws(0, 1) * (b - a);
-    const Vec3d o = center + inside * draws(0, 1) * draws.Direction();
-    all.push_back({o, Normalize(target - o)});
+    const Vec3d o = center + 0.5 * draws(0, 1) * draws.Direction();
+    trial.rays.push_back({o, Normalize(target - o)});
   }
-  std::uint64_t leaks = 0;
-  for (const WorldHit& hit : tracer.Trace(all)) leaks += !hit.found;
-  return RatePoint(leaks, all.size());
+  const std::uint64_t leaks =
+      trial.CountBad([](const WorldHit& hit, std::size_t) { return hit.found; });
+  return {NoFailures(leaks, trial.rays.size())};
 }
 
 std::vector<Point> Watertight(double, const Effort& effort) {
   const Vec3d center{148376, 1234, -223423};
-  return {Leaks(SphereMesh(100, 100, center, 1), center, 0.5, effort(20000, 2000000),
-                effort.seed)};
+  return Leaks(SphereMesh(100, 100, center, 1), center, effort);
 }
 
 std::vector<Point> WatertightFar(double distance, const Effort& effort) {
   const Vec3d center = distance * Normalize(Vec3d{148376, 1234, -223423});
-  return {Leaks(SphereMesh(40, 40, center, 1), center, 0.5, effort(20000, 2000000),
-                effort.seed)};
+  return Leaks(SphereMesh(40, 40, center, 1), center, effort);
 }
 
 // A sphere of two rings of needles, each as thin as 2 pi / segments.
 std::vector<Point> WatertightNeedles(double segments, const Effort& effort) {
-  return {Leaks(SphereMesh(2, static_cast<int>(segments), {}, 1), {}, 0.5,
-                effort(20000, 2000000), effort.seed)};
+  return Leaks(SphereMesh(2, static_cast<int>(segments), {}, 1), {}, effort);
 }
 
 // Triangles of sizes over twelve decades in one mesh: each is hit where it is aimed at.
@@ -63,19 +56,16 @@ std::vector<Point> AllSizes(double, const Effort& effort) {
     centers.push_back(c);
     sizes.push_back(size);
   }
-  RayTracer tracer(RayScene(mesh.Text(), {0, 0, 0}));
-  std::vector<WorldRay> rays;
+  RayTrial trial(mesh.Text(), {0, 0, 0});
   for (int i = 0; i < effort(2000, 200000); ++i) {
     const std::size_t k = static_cast<std::size_t>(i) % sizes.size();
-    rays.push_back({{}, Normalize(centers[k])});
+    trial.rays.push_back({{}, Normalize(centers[k])});
   }
-  std::uint64_t failures = 0;
-  const std::vector<WorldHit> hits = tracer.Trace(rays);
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    // Something smaller may stand before it, but nothing lies behind it.
-    failures += !hits[i].found || hits[i].t > 3.1 * sizes[i % sizes.size()];
-  }
-  return {RatePoint(failures, rays.size())};
+  // Something smaller may stand before it, but nothing lies behind it.
+  const std::uint64_t failures = trial.CountBad([&](const WorldHit& hit, std::size_t i) {
+    return hit.found && hit.t <= 3.1 * sizes[i % sizes.size()];
+  });
+  return {NoFailures(failures, trial.rays.size())};
 }
 
 // Rays that are no rays hit nothing, and the others are what they would be without.
@@ -86,7 +76,7 @@ std::vector<Point> Garbage(double, const Effort& effort) {
   std::uint64_t failures = 0, trials = 0;
   const std::string few = SphereMesh(4, 6, {}, 1).Text();
   const std::string many = SphereMesh(40, 60, {}, 1).Text();
-  const std::string round = SphereText({}, 1) + "Shape \"disk\"\nShape \"plane\"\n";
+  const std::string round = Sphere({}, 1) + "Shape \"disk\"\nShape \"plane\"\n";
   for (const std::string& shapes : {few, many, round}) {
     RayTracer tracer(RayScene(shapes));
     std::vector<WorldRay> clean, mixed;
@@ -110,35 +100,30 @@ std::vector<Point> Garbage(double, const Effort& effort) {
       failures += bad[i] ? all[i].found : all[i].t != good[i].t;
     }
   }
-  return {RatePoint(failures, trials)};
+  return {NoFailures(failures, trials)};
 }
 
 }  // namespace
 
 void AddMeshCases(std::vector<Case>& cases) {
-  cases.push_back({"watertight-embree", "geometry",
-                   "a closed mesh of radius 1 at (148376, 1234, -223423)",
-                   "no ray from inside gets out through edges or vertices",
-                   "embree, watertight test (2e-5 allowed there)", Truth::kRate, Single(),
-                   Watertight});
-  cases.push_back({"watertight-far", "geometry",
-                   "a closed mesh of radius 1 at a distance from the origin, to 1e9",
-                   "no ray from inside gets out", "", Truth::kRate,
-                   Decades("distance from the origin", "radii", 0, 12, 3, 0, 9),
-                   WatertightFar});
-  Axis needles = Decades("needles in a ring", "", 1, 5, 1, 1, 5);
+  const CaseAdder add{cases, "geometry", Truth::kRate};
+  add({"watertight-embree", "a closed mesh of radius 1 at (148376, 1234, -223423)",
+       "no ray from inside gets out through edges or vertices", Single(), Watertight,
+       "embree, watertight test (2e-5 allowed there)"});
+  add({"watertight-far",
+       "a closed mesh of radius 1 at a distance from the origin, to 1e9",
+       "no ray from inside gets out",
+       DecadesAxis("distance from the origin", "radii", {0, 12, 3}, {0, 9}),
+       WatertightFar});
+  Axis needles = DecadesAxis("needles in a ring", "", {1, 5}, {1, 5});
   needles.quick.pop_back();  // the last takes ten seconds to build
-  cases.push_back({"watertight-needles", "geometry",
-                   "a closed mesh of two rings of needles, as thin as 6e-5",
-                   "no ray from inside gets out", "", Truth::kRate, needles,
-                   WatertightNeedles});
-  cases.push_back(
-      {"mesh-of-all-sizes", "geometry", "squares of sides 1e-6 to 1e6 in one mesh",
-       "each is hit, or one before it", "", Truth::kRate, Single(), AllSizes});
-  cases.push_back({"garbage-rays", "geometry",
-                   "origins that are NaN or infinite, directions that are NaN",
-                   "they hit nothing, and the rays beside them what they would", "embree",
-                   Truth::kRate, Single(), Garbage});
+  add({"watertight-needles", "a closed mesh of two rings of needles, as thin as 6e-5",
+       "no ray from inside gets out", needles, WatertightNeedles});
+  add({"mesh-of-all-sizes", "squares of sides 1e-6 to 1e6 in one mesh",
+       "each is hit, or one before it", Single(), AllSizes});
+  add({"garbage-rays", "origins that are NaN or infinite, directions that are NaN",
+       "they hit nothing, and the rays beside them what they would", Single(), Garbage,
+       "embree"});
 }
 
 }  // namespace lanelight::stress

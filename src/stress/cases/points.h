@@ -1,78 +1,99 @@
-// How the cases of geometry put down axes and points.
+// What cases are made of: axes, renders of a text held against an expected value, rates
+// and bounds.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "src/core/vec.h"
+#include "src/stress/scene_point.h"
 #include "src/stress/stress_case.h"
 
 namespace lanelight::stress {
 
-/// A unit normal along no axis.
-inline const Vec3d kLeaning = Normalize(Vec3d{0.3, -0.5, 0.8});
+/// What means of images may be off by besides noise, of themselves (docs/numbers.md).
+inline constexpr double kFloatError = 1e-5;
 
-/// 10^low to 10^high, every `step` decades; three values a decade with full effort.
-/// Promised within [10^promised_low, 10^promised_high].
-inline Axis Decades(std::string name, std::string unit, int low, int high, int step,
-                    double promised_low, double promised_high) {
-  Axis axis{std::move(name),
-            std::move(unit),
-            true,
-            std::pow(10, promised_low) * 0.99,
-            std::pow(10, promised_high) * 1.01,
-            {},
-            {}};
-  for (int k = low; k <= high; k += step) axis.quick.push_back(std::pow(10.0, k));
-  for (int k = 3 * low; k <= 3 * high; ++k) axis.full.push_back(std::pow(10.0, k / 3.0));
-  return axis;
-}
-
-/// For Truth::kBound: the largest of errors against what it may be.
-inline Point BoundPoint(double worst, double bound, std::string series = "") {
-  Point point;
-  point.series = std::move(series);
-  point.measured = worst;
-  point.expected = bound;
-  return point;
-}
-
-/// For Truth::kRate: failures are promised not to happen more often than `rate`.
-inline Point RatePoint(std::uint64_t failures, std::uint64_t trials, double rate = 0,
-                       std::string series = "") {
-  Point point;
-  point.series = std::move(series);
-  point.failures = failures;
-  point.trials = trials;
-  point.expected = rate;
-  point.measured = trials == 0 ? 0 : double(failures) / double(trials);
-  return point;
-}
-
-/// A square image of a scene, and what its mean must be.
-struct SmallImage {
-  std::string text;          // the scene
-  double expected = 0;       // mean over pixels and channels
-  double relative = 1e-5;    // tolerance, of `expected`
-  int pixels = 8;            // in a row
-  std::uint64_t quick = 64;  // samples per pixel ...
-  std::uint64_t full = 4096;
-  int depth = 5;
-  std::string series = {};
+/// The part of an axis that is promised.
+struct Promise {
+  double low, high;
 };
 
-/// Renders it.
-Point Measure(const SmallImage& image, const Effort& effort);
+/// 10^first, 10^(first + step), ..., up to 10^last.
+std::vector<double> Decades(double first, double last, double step = 1);
 
-/// Renders it twice: paths that find the sky by hitting it, where every sample of a
-/// convex shape is its albedo exactly, and, with 16 times the samples, the usual ones
-/// with shadow rays. Two series.
-std::vector<Point> MeasureFurnace(SmallImage image, const Effort& effort);
+/// A logarithmic axis; without `full` its values are the quick ones.
+Axis LogAxis(std::string name, std::string unit, Promise promise,
+             std::vector<double> quick, std::vector<double> full = {});
+
+struct Exponents {
+  int low, high, step = 1;
+};
+/// 10^low to 10^high, every `step` decades; three values a decade with full effort.
+/// `promise`: exponents too.
+Axis DecadesAxis(std::string name, std::string unit, Exponents exponents,
+                 Promise promise);
 
 /// A case that is not a map.
 inline Axis Single() { return {}; }
+
+/// A case but for its group and its truth.
+struct CaseText {
+  std::string name, extreme, must;
+  Axis axis;
+  decltype(Case::measure) measure;
+  std::string source = {};
+};
+/// Adds cases of one group and truth.
+struct CaseAdder {
+  std::vector<Case>& cases;
+  const char* group;
+  Truth truth;
+
+  void operator()(const CaseText& text) const {
+    cases.push_back({text.name, group, text.extreme, text.must, text.source, truth,
+                     text.axis, text.measure});
+  }
+};
+
+/// How a text is rendered.
+struct Quality {
+  std::uint64_t quick = 64, full = 4096;  // samples per pixel
+  int depth = 5;
+  int size = 8;  // pixels per side
+  std::string strategy = {};
+  double relative = kFloatError;  // tolerance, of what is expected
+};
+
+SceneText Setup(const std::string& text, const Quality& quality, const Effort& effort);
+
+/// Renders and expects this mean, within kFloatError of it.
+Point Expect(double expected, const SceneText& scene);
+/// The same within the tolerance of the quality.
+Point Expect(double expected, const std::string& text, const Quality& quality,
+             const Effort& effort);
+/// Renders it twice: paths that find the sky by hitting it, where every sample of a
+/// convex shape is its albedo exactly, and, with 16 times the samples, the usual ones
+/// with shadow rays. Two series.
+std::vector<Point> ExpectBothWays(double expected, const std::string& text,
+                                  Quality quality, const Effort& effort);
+/// A plane of a material between two skies of radiance 1, seen under this cosine: what a
+/// single event makes of them.
+Point PlaneFurnace(double expected, const std::string& material, double cosine,
+                   const Effort& effort);
+
+/// The same, as a point of a series.
+Point Named(const std::string& series, Point point);
+/// A point of a series that is not measured, and why.
+Point NotMeasured(const std::string& series, const std::string& why);
+/// The point of a mean of two outcomes `difference` apart, the rarer with probability
+/// `rare`: the scatter of the samples alone says nothing where the rare one did not come.
+/// A few of them by chance are tolerated.
+Point WithRare(Point point, double rare, double difference);
+
+/// For Truth::kBound: the largest of errors against what it may be.
+Point BoundPoint(double worst, double bound);
+/// For Truth::kRate: failures among trials, of which none is promised.
+Point NoFailures(std::uint64_t failures, std::uint64_t trials);
 
 }  // namespace lanelight::stress

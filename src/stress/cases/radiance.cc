@@ -11,37 +11,32 @@
 #include "src/image/exr.h"
 #include "src/image/octahedral.h"
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/transport_setup.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/cases/scene_text.h"
 #include "src/stress/closed_forms.h"
 
 namespace lanelight::stress {
 namespace {
 
-const Quality kDirect = {64, 4096, 1};
+const Quality kLitOnce = {.depth = 1};
 
 std::string Light(const std::string& kind, const std::string& color, double value) {
-  return fmt::format("LightSource \"{0}\" \"rgb {1}\" [{2:.17g} {2:.17g} {2:.17g}]", kind,
-                     color, value);
+  return "LightSource \"" + kind + "\"" + Grey(color, value);
 }
 
 std::vector<Point> ByRadiance(double radiance, const Effort& effort) {
   const std::string view = ViewOfPlane() + Plane(Diffuse(0.5));
   const std::string down = " \"point3 from\" [0 0 2] \"point3 to\" [0 0 0]\n";
   const double delta = 0.5 / kPi * radiance;
-  std::vector<Point> points = {
-      Named("sky", Expect(0.5 * radiance, view + Sky(radiance), kDirect, effort)),
-      Named("sphere",
-            Expect(0.4 * radiance * 0.25,
-                   view + SphereLight({0.6, 0, 0.8}, 0.5, radiance), kDirect, effort)),
-      Named("point",
-            Expect(delta / 4,
-                   view + Light("point", "I", radiance) + " \"point3 from\" [0 0 2]\n",
-                   kDirect, effort)),
-      Named("spot", Expect(delta / 4, view + Light("spot", "I", radiance) + down, kDirect,
-                           effort)),
-      Named("distant", Expect(delta, view + Light("distant", "L", radiance) + down,
-                              kDirect, effort))};
-  return points;
+  const auto lit = [&](const char* series, double expected, const std::string& light) {
+    return Named(series, Expect(expected, view + light, kLitOnce, effort));
+  };
+  return {lit("sky", 0.5 * radiance, Sky(radiance)),
+          lit("sphere", 0.4 * radiance * 0.25, SphereLight({0.6, 0, 0.8}, 0.5, radiance)),
+          lit("point", delta / 4,
+              Light("point", "I", radiance) + " \"point3 from\" [0 0 2]\n"),
+          lit("spot", delta / 4, Light("spot", "I", radiance) + down),
+          lit("distant", delta, Light("distant", "L", radiance) + down)};
 }
 
 // Standard error of a noisy image, of the radiance.
@@ -49,7 +44,7 @@ std::vector<Point> NoiseByRadiance(double radiance, const Effort& effort) {
   const auto relative_error = [&](double l) {
     Point point = Expect(
         0, ViewOfPlane() + Plane(Diffuse(0.5)) + SphereLight({0.6, 0, 0.8}, 0.5, l),
-        kDirect, effort);
+        kLitOnce, effort);
     point.measured = point.standard_error / l;
     point.standard_error = 0;
     return point;
@@ -63,16 +58,10 @@ std::vector<Point> NoiseByRadiance(double radiance, const Effort& effort) {
 // Two lamps that fill half of the image each: neither light reaches the other half.
 std::vector<Point> InOneImage(double ratio, const Effort& effort) {
   const auto lamp = [](double x0, double x1, double radiance) {
-    return fmt::format(
-        "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [{2:.17g} {2:.17g} "
-        "{2:.17g}]\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 "
-        "P\" "
-        "[{0} -1 0 {1} -1 0 {1} 1 0 {0} 1 0]\nAttributeEnd\n",
-        x0, x1, radiance);
+    return Block(Glow(radiance) + Rectangle({x0, -1, 0}, {x1, 1, 0}));
   };
-  Quality quality = kDirect;
   const JobRun image = RenderText(
-      Setup(ViewOfPlane(1, 1) + lamp(-1, 0, 1) + lamp(0, 1, ratio), quality, effort));
+      Setup(ViewOfPlane(1, 1) + lamp(-1, 0, 1) + lamp(0, 1, ratio), kLitOnce, effort));
   Point whole = MeanOf(image);
   // Which half is on the left is the camera's business.
   const double left = image.film.Mean(1, 4).y, right = image.film.Mean(6, 4).y;
@@ -140,7 +129,7 @@ std::vector<Point> BrightTexel(double bright, const Effort& effort) {
     const double share = TexelShare(column, row);
     Point point =
         Expect(0.5 * (1 + (bright - 1) * share),
-               ViewOfPlane() + Plane(Diffuse(0.5)) + sky.Text(), kDirect, effort);
+               ViewOfPlane() + Plane(Diffuse(0.5)) + sky.Text(), kLitOnce, effort);
     // A light sample that picks another texel misses nearly all of the light.
     const double others = TexelSky::kSize * TexelSky::kSize - 1;
     if (share > 0) point = WithRare(point, others / (others + bright), point.expected);
@@ -152,26 +141,27 @@ std::vector<Point> BrightTexel(double bright, const Effort& effort) {
 }  // namespace
 
 void AddRadianceCases(std::vector<Case>& cases) {
-  cases.push_back(
-      {"radiance", "lights", "radiance of every kind of light, from 1e-30 to 1e30",
-       "what is seen is in proportion", "", Truth::kClosedForm,
-       LogAxis("radiance", "", 1e-30, 1e30, Decades(-30, 30, 15), Decades(-30, 30, 3)),
+  const CaseAdder closed_lights{cases, "lights", Truth::kClosedForm};
+  const CaseAdder invariant{cases, "lights", Truth::kInvariance};
+  const CaseAdder closed_film{cases, "film", Truth::kClosedForm};
+  const CaseAdder twins{cases, "lights", Truth::kTwin};
+  closed_lights(
+      {"radiance", "radiance of every kind of light, from 1e-30 to 1e30",
+       "what is seen is in proportion",
+       LogAxis("radiance", "", {1e-30, 1e30}, Decades(-30, 30, 15), Decades(-30, 30, 3)),
        ByRadiance});
-  cases.push_back(
-      {"noise-of-radiance", "lights", "noise of an image of radiance 1e-30 to 1e30",
-       "the standard error is in proportion", "", Truth::kInvariance,
-       LogAxis("radiance", "", 1e-30, 1e30, Decades(-30, 30, 15), Decades(-30, 30, 3)),
+  invariant(
+      {"noise-of-radiance", "noise of an image of radiance 1e-30 to 1e30",
+       "the standard error is in proportion",
+       LogAxis("radiance", "", {1e-30, 1e30}, Decades(-30, 30, 15), Decades(-30, 30, 3)),
        NoiseByRadiance});
-  cases.push_back({"decades-in-one-image", "film",
-                   "two lamps in one image, 1e-12 to 1e12 times as bright",
-                   "each is exact", "", Truth::kClosedForm,
-                   LogAxis("ratio", "", 1e-12, 1e12, Decades(-12, 12, 3)), InOneImage});
-  cases.push_back(
-      {"bright-texel", "lights",
-       "one texel of the sky 1 to 1e12 times as bright as the rest",
-       "the plane shows the sum over texels", "", Truth::kTwin,
-       LogAxis("times as bright", "", 1, 1e12, Decades(0, 12, 2), Decades(0, 12)),
-       BrightTexel});
+  closed_film({"decades-in-one-image",
+               "two lamps in one image, 1e-12 to 1e12 times as bright", "each is exact",
+               LogAxis("ratio", "", {1e-12, 1e12}, Decades(-12, 12, 3)), InOneImage});
+  twins({"bright-texel", "one texel of the sky 1 to 1e12 times as bright as the rest",
+         "the plane shows the sum over texels",
+         LogAxis("times as bright", "", {1, 1e12}, Decades(0, 12, 2), Decades(0, 12)),
+         BrightTexel});
 }
 
 }  // namespace lanelight::stress

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/transport_setup.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/cases/scene_text.h"
 #include "src/stress/closed_forms.h"
 
 namespace lanelight::stress {
@@ -45,24 +46,14 @@ Point Served(const std::string& reuse, double expected, const std::string& text,
 
 // All distances of a closed room at once: densities by area go with their square.
 std::vector<Point> ByDistance(double radius, const Effort& effort) {
-  const std::string room =
-      ViewFrom({0.05 * radius, 0.08 * radius, 0.75 * radius}, 50) +
-      fmt::format(
-          "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [0.2 0.2 0.2]\n"
-          "ReverseOrientation\nMaterial {}\nShape \"sphere\" \"float radius\" "
-          "{:.17g}\nAttributeEnd\n",
-          Diffuse(0.8), radius);
+  const std::string room = ViewFrom({0.05 * radius, 0.08 * radius, 0.75 * radius}, 50) +
+                           Walls(0.2, 0.8, radius);
   std::vector<Point> points;
   for (const char* layout : kLayouts) {
     points.push_back(
         Served(layout, ClosedRoom(double(0.2f), double(0.8f), 8), room, 8, effort));
   }
   return points;
-}
-
-std::string PlaneTowards(const char* turn, const std::string& material) {
-  return fmt::format("AttributeBegin\n{}\nMaterial {}\nShape \"plane\"\nAttributeEnd\n",
-                     turn, material);
 }
 
 // The right angle between two planes, which sees `half` to each side of the edge.
@@ -72,7 +63,7 @@ std::string Corner(double half, const std::string& wall) {
              "screenwindow\" [{0:.17g} {1:.17g} {0:.17g} {1:.17g}]\n"
              "PixelFilter \"box\"\nWorldBegin\n",
              -half, half) +
-         Sky(1) + PlaneTowards("", Diffuse(0.8)) + PlaneTowards("Rotate 90 0 1 0", wall);
+         Sky(1) + Plane(Diffuse(0.8)) + Block("Rotate 90 0 1 0\n" + Plane(wall));
 }
 
 // Nothing in a corner has a size: each plane has the radiance of the series of albedo /
@@ -90,10 +81,7 @@ std::vector<Point> ByCorner(double half, const Effort& effort) {
 
 // A metal in the corner, seen from the diffuse floor, held against paths of their own.
 std::vector<Point> BySharedAlpha(double alpha, const Effort& effort) {
-  const std::string scene =
-      Corner(1, fmt::format("\"conductor\" \"rgb reflectance\" [0.8 0.8 0.8] \"float "
-                            "roughness\" {:.17g} \"bool remaproughness\" false",
-                            alpha));
+  const std::string scene = Corner(1, Metal(0.8, alpha, alpha));
   const Point alone = Served("none", 1, scene, 4, effort);
   std::vector<Point> points;
   for (const char* layout : kLayouts) {
@@ -107,25 +95,23 @@ std::vector<Point> BySharedAlpha(double alpha, const Effort& effort) {
 }  // namespace
 
 void AddReuseCases(std::vector<Case>& cases) {
-  cases.push_back({"reuse-distance", "transport",
-                   "vertices 1e-6 to 1e6 apart, of paths that serve their block",
-                   "a closed room keeps its balance", "", Truth::kClosedForm,
-                   LogAxis("radius of the room", "", 1e-6, 1e6, Decades(-6, 6, 3),
-                           Decades(-12, 12, 2)),
-                   ByDistance});
-  cases.push_back(
-      {"reuse-corner", "transport",
-       "first and second vertices that come together in a corner",
-       "both planes have the radiance of the series, at any distance", "",
-       Truth::kClosedForm,
-       LogAxis("half of what is seen", "", 1e-4, 100, Decades(-4, 2, 2), Decades(-6, 4)),
-       ByCorner});
-  cases.push_back({"reuse-alpha", "transport",
-                   "second vertices of metal through the least alpha that is shared",
-                   "the image of paths that serve their own pixels", "", Truth::kTwin,
-                   LogAxis("alpha", "", 1e-3, 1, {1e-3, 0.09, 0.11, 0.3},
-                           {1e-3, 0.03, 0.09, 0.0999, 0.1001, 0.11, 0.3, 1}),
-                   BySharedAlpha});
+  const CaseAdder closed{cases, "transport", Truth::kClosedForm};
+  const CaseAdder twins{cases, "transport", Truth::kTwin};
+  closed({"reuse-distance", "vertices 1e-6 to 1e6 apart, of paths that serve their block",
+          "a closed room keeps its balance",
+          LogAxis("radius of the room", "", {1e-6, 1e6}, Decades(-6, 6, 3),
+                  Decades(-12, 12, 2)),
+          ByDistance});
+  closed({"reuse-corner", "first and second vertices that come together in a corner",
+          "both planes have the radiance of the series, at any distance",
+          LogAxis("half of what is seen", "", {1e-4, 100}, Decades(-4, 2, 2),
+                  Decades(-6, 4)),
+          ByCorner});
+  twins({"reuse-alpha", "second vertices of metal through the least alpha that is shared",
+         "the image of paths that serve their own pixels",
+         LogAxis("alpha", "", {1e-3, 1}, {1e-3, 0.09, 0.11, 0.3},
+                 {1e-3, 0.03, 0.09, 0.0999, 0.1001, 0.11, 0.3, 1}),
+         BySharedAlpha});
 }
 
 }  // namespace lanelight::stress

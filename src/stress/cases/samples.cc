@@ -10,7 +10,8 @@
 #include "src/path/dimensions.h"
 #include "src/strategy/choice_names.h"
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/transport_setup.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/cases/scene_text.h"
 
 namespace lanelight::stress {
 namespace {
@@ -108,27 +109,22 @@ std::vector<Point> Warps(double, const Effort&) {
 }  // namespace
 
 void AddSampleCases(std::vector<Case>& cases) {
-  cases.push_back(
-      {"points-by-sample", "sampling", "samples up to number 2^31 of every sampler",
-       "numbers in [0, 1) with mean 1/2", "", Truth::kRate,
-       LogAxis("sample", "", 0, 0x1p31, {1, 1e3, 1e5, 1e7, 0x1p31}, Decades(0, 9)),
+  const CaseAdder add{cases, "sampling", Truth::kRate};
+  add({"points-by-sample", "samples up to number 2^31 of every sampler",
+       "numbers in [0, 1) with mean 1/2",
+       LogAxis("sample", "", {0, 0x1p31}, {1, 1e3, 1e5, 1e7, 0x1p31}, Decades(0, 9)),
        BySample});
-  cases.push_back({"points-by-pixel", "sampling",
-                   "pixels up to number 2^32 - 1, every sampler",
-                   "numbers in [0, 1) with mean 1/2", "", Truth::kRate,
-                   LogAxis("pixel", "", 0, 0x1p32, {1, 65535, 65536, 0x1p32}), ByPixel});
-  cases.push_back({"points-by-depth", "sampling",
-                   "dimensions of events 1 to 2^20, every sampler",
-                   "numbers in [0, 1) with mean 1/2", "", Truth::kRate,
-                   LogAxis("event", "", 0, 0x1p20, {1, 100, 1e4, 0x1p20 - 1}), ByDepth});
-  cases.push_back({"warps-at-ends",
-                   "sampling",
-                   "random numbers 0, 2^-24, 1/2 and 1 - 2^-24 in every sampling routine",
-                   "finite unit directions above the ground, with densities",
-                   "",
-                   Truth::kRate,
-                   {},
-                   Warps});
+  add({"points-by-pixel", "pixels up to number 2^32 - 1, every sampler",
+       "numbers in [0, 1) with mean 1/2",
+       LogAxis("pixel", "", {0, 0x1p32}, {1, 65535, 65536, 0x1p32}), ByPixel});
+  add({"points-by-depth", "dimensions of events 1 to 2^20, every sampler",
+       "numbers in [0, 1) with mean 1/2",
+       LogAxis("event", "", {0, 0x1p20}, {1, 100, 1e4, 0x1p20 - 1}), ByDepth});
+  add({"warps-at-ends",
+       "random numbers 0, 2^-24, 1/2 and 1 - 2^-24 in every sampling routine",
+       "finite unit directions above the ground, with densities",
+       {},
+       Warps});
 }
 
 }  // namespace lanelight::stress

@@ -5,27 +5,22 @@
 #include <cmath>
 
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/transport_setup.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/cases/scene_text.h"
 
 namespace lanelight::stress {
 namespace {
 
 std::vector<Point> Transmission(double share, const Effort& effort) {
-  const auto material = [](double r, double t) {
-    return fmt::format(
-        "\"diffusetransmission\" \"rgb reflectance\" [{0:.17g} {0:.17g} {0:.17g}] \"rgb "
-        "transmittance\" [{1:.17g} {1:.17g} {1:.17g}]",
-        r, t);
+  const auto furnace = [&](const char* series, double expected, double r, double t) {
+    return Named(series, PlaneFurnace(expected,
+                                      "\"diffusetransmission\"" + Grey("reflectance", r) +
+                                          Grey("transmittance", t),
+                                      0.3, effort));
   };
-  Quality quality;
-  quality.depth = 1;
-  const std::string view = ViewOfPlane(0.3) + Sky(1);
-  return {
-      Named("all", Expect(1, view + Plane(material(1 - share, share)), quality, effort)),
-      Named("half", Expect(0.5, view + Plane(material(0.5 * (1 - share), 0.5 * share)),
-                           quality, effort)),
-      Named("transmission alone",
-            Expect(share, view + Plane(material(0, share)), quality, effort))};
+  return {furnace("all", 1, 1 - share, share),
+          furnace("half", 0.5, 0.5 * (1 - share), 0.5 * share),
+          furnace("transmission alone", share, 0, share)};
 }
 
 Point Mixed(const std::string& series, double amount, const Effort& effort) {
@@ -64,10 +59,9 @@ std::vector<Point> Checkered(double scale, const Effort& effort) {
   const std::string text =
       ViewOfPlane(1, 1) + Sky(1) +
       fmt::format(
-          "Texture \"cells\" \"spectrum\" \"checkerboard\" \"float uscale\" {0:.17g} "
-          "\"float vscale\" {0:.17g} \"rgb tex1\" [0.2 0.2 0.2] \"rgb tex2\" [0.8 0.8 "
-          "0.8]\n",
-          scale) +
+          "Texture \"cells\" \"spectrum\" \"checkerboard\" \"float uscale\" "
+          "{0:.17g} \"float vscale\" {0:.17g}{1}{2}\n",
+          scale, Grey("tex1", 0.2), Grey("tex2", 0.8)) +
       Plane("\"diffuse\" \"texture reflectance\" \"cells\"");
   return {Expect(0.5, text, {64, 4096, 1}, effort)};
 }
@@ -79,11 +73,8 @@ std::vector<Point> ManyMaterials(double count, const Effort& effort) {
   const double cell = 2.0 / side;
   for (int i = 0; i < side * side; ++i) {
     const double x = -1 + cell * (i % side), y = -1 + cell * int(i / side);
-    text += "Material " + Diffuse((i + 0.5) / (double(side) * side)) +
-            fmt::format(
-                "\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] "
-                "\"point3 P\" [{0} {1} 0 {2} {1} 0 {2} {3} 0 {0} {3} 0]\n",
-                x, y, x + cell, y + cell);
+    text += "Material " + Diffuse((i + 0.5) / (double(side) * side)) + "\n" +
+            Rectangle({x, y, 0}, {x + cell, y + cell, 0});
   }
   return {Expect(0.5, text, {64, 4096, 1}, effort)};
 }
@@ -91,28 +82,23 @@ std::vector<Point> ManyMaterials(double count, const Effort& effort) {
 }  // namespace
 
 void AddScatteringCases(std::vector<Case>& cases) {
-  cases.push_back(
-      {"diffuse-transmission", "materials",
-       "diffuse transmission of 1e-7 to all of the light",
-       "reflection and transmission add up: a furnace shows 1", "", Truth::kClosedForm,
-       LogAxis("transmitted share", "", 1e-7, 1, {1e-7, 1e-4, 0.1, 0.5, 0.999, 1}),
+  const CaseAdder add{cases, "materials", Truth::kClosedForm};
+  add({"diffuse-transmission", "diffuse transmission of 1e-7 to all of the light",
+       "reflection and transmission add up: a furnace shows 1",
+       LogAxis("transmitted share", "", {1e-7, 1}, {1e-7, 1e-4, 0.1, 0.5, 0.999, 1}),
        Transmission});
-  cases.push_back(
-      {"mix-amount", "materials", "a mix of 1e-7 of one material, and of all but 1e-7",
-       "a furnace shows the mean of both albedos", "", Truth::kClosedForm,
-       LogAxis("share of the rarer", "", 1e-9, 0.5, {1e-7, 0.03, 0.5}), ByMix});
-  cases.push_back(
-      {"alpha-cut-out", "materials", "alpha of 1e-7, and of 1 - 1e-7",
-       "a furnace shows the mean of sheet and background", "", Truth::kClosedForm,
-       LogAxis("share of the rarer", "", 1e-9, 0.5, {1e-7, 0.03, 0.5}), ByAlpha});
-  cases.push_back({"checkerboard-scale", "materials",
-                   "1 to 1e9 cells of a checkerboard per unit",
-                   "both colours are seen alike often", "", Truth::kClosedForm,
-                   LogAxis("cells per unit", "", 1, 1e5, Decades(0, 9)), Checkered});
-  cases.push_back({"many-materials", "materials", "1 to 10000 materials in one image",
-                   "the mean of all albedos", "", Truth::kClosedForm,
-                   LogAxis("materials", "", 1, 1e5, Decades(0, 4, 2), Decades(0, 5)),
-                   ManyMaterials});
+  add({"mix-amount", "a mix of 1e-7 of one material, and of all but 1e-7",
+       "a furnace shows the mean of both albedos",
+       LogAxis("share of the rarer", "", {1e-9, 0.5}, {1e-7, 0.03, 0.5}), ByMix});
+  add({"alpha-cut-out", "alpha of 1e-7, and of 1 - 1e-7",
+       "a furnace shows the mean of sheet and background",
+       LogAxis("share of the rarer", "", {1e-9, 0.5}, {1e-7, 0.03, 0.5}), ByAlpha});
+  add({"checkerboard-scale", "1 to 1e9 cells of a checkerboard per unit",
+       "both colours are seen alike often",
+       LogAxis("cells per unit", "", {1, 1e5}, Decades(0, 9)), Checkered});
+  add({"many-materials", "1 to 10000 materials in one image", "the mean of all albedos",
+       LogAxis("materials", "", {1, 1e5}, Decades(0, 4, 2), Decades(0, 5)),
+       ManyMaterials});
 }
 
 }  // namespace lanelight::stress

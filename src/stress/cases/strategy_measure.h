@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/stress/cases/transport_setup.h"
+#include "src/stress/cases/points.h"
 
 namespace lanelight::stress {
 

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/transport_scenes.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/cases/scene_text.h"
 #include "src/stress/closed_forms.h"
 
 namespace lanelight::stress {
@@ -66,9 +67,7 @@ std::vector<Point> BehindSheets(double transmitted, const Effort& effort) {
 // What Sample and Eval of every rough or random material give in a room of them, many
 // times: no sample may be invalid.
 std::vector<Point> NoInvalid(double samples, const Effort& effort) {
-  const std::string glass =
-      "\"dielectric\" \"float eta\" 1.5 \"float roughness\" 0.05 \"bool remaproughness\" "
-      "false";
+  const std::string glass = Glass(1.5, 0.05);
   const std::string text =
       ViewFrom({0, 0, 3.9}, 60) + Walls(1, 0.8) + Sphere({-1, -1, 0}, 1, glass) +
       Sphere({1, -1, 0}, 1, "\"coateddiffuse\" \"float roughness\" 0.001") +
@@ -78,10 +77,9 @@ std::vector<Point> NoInvalid(double samples, const Effort& effort) {
   SceneText scene = Setup(text, {1, 1, 32, 16}, effort);
   scene.settings.spp = static_cast<std::uint64_t>(samples) / 256;
   Point point = MeanOf(RenderText(scene));
-  const Point rate = NoFailures(point.invalid, point.samples);
-  point.failures = rate.failures;
-  point.trials = rate.trials;
-  point.measured = rate.measured;
+  point.failures = point.invalid;
+  point.trials = point.samples;
+  point.measured = double(point.failures) / double(point.trials);
   point.standard_error = 0;
   return {point};
 }
@@ -89,39 +87,35 @@ std::vector<Point> NoInvalid(double samples, const Effort& effort) {
 }  // namespace
 
 void AddTransportCases(std::vector<Case>& cases) {
-  cases.push_back({"path-sum", "transport",
-                   "paths of 40 to 1e6 events in a room that emits everywhere",
-                   "a path's sum is the geometric series, to 6e-8 of itself per event",
-                   "", Truth::kClosedForm,
-                   LogAxis("1 - albedo", "", 1e-5, 0.5, {1e-4, 1e-3, 1e-2, 0.1, 0.5},
-                           {1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5}),
-                   PathSum});
-  cases.push_back(
-      {"path-depth", "transport", "at most 1 to 1e4 events, albedo up to 1",
-       "the geometric series ends with the depth", "", Truth::kClosedForm,
-       LogAxis("depth", "", 1, 1e6, {1, 2, 32, 1000, 1e4}, {1, 2, 32, 1000, 1e4, 1e5}),
+  const CaseAdder closed{cases, "transport", Truth::kClosedForm};
+  const CaseAdder rates{cases, "transport", Truth::kRate};
+  closed({"path-sum", "paths of 40 to 1e6 events in a room that emits everywhere",
+          "a path's sum is the geometric series, to 6e-8 of itself per event",
+          LogAxis("1 - albedo", "", {1e-5, 0.5}, {1e-4, 1e-3, 1e-2, 0.1, 0.5},
+                  {1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5}),
+          PathSum});
+  closed(
+      {"path-depth", "at most 1 to 1e4 events, albedo up to 1",
+       "the geometric series ends with the depth",
+       LogAxis("depth", "", {1, 1e6}, {1, 2, 32, 1000, 1e4}, {1, 2, 32, 1000, 1e4, 1e5}),
        ByDepth});
-  cases.push_back(
-      {"roulette-constant", "transport",
-       "roulette that ends 0.001 to 0.7 of the paths at each event",
-       "a closed room keeps its balance", "", Truth::kClosedForm,
-       LogAxis("probability of ending", "", 1e-3, 0.7, {1e-3, 0.01, 0.1, 0.5, 0.7}),
-       ByTermination});
-  cases.push_back({"roulette-floor", "transport", "least survival of 1e-6 to 1",
-                   "a closed room keeps its balance", "", Truth::kClosedForm,
-                   LogAxis("least survival", "", 1e-6, 1, {1e-6, 1e-3, 0.3, 0.6, 1}),
-                   ByFloor});
-  cases.push_back(
-      {"behind-sheets", "transport",
-       "a sky behind sheets that let 1 to 1e-30 of it through",
-       "the product of what they let through", "", Truth::kClosedForm,
-       LogAxis("transmitted", "", 1e-30, 1, Decades(-36, 0, 6), Decades(-36, 0, 2)),
-       BehindSheets});
-  cases.push_back({"invalid-samples", "transport",
-                   "many samples of glass, coats and metal in a room with a tiny lamp",
-                   "no sample is NaN, infinite or negative", "pbrt-v4 #211", Truth::kRate,
-                   LogAxis("samples", "", 0, 1e9, {1 << 18}, {1 << 18, 1 << 22, 1 << 26}),
-                   NoInvalid});
+  closed({"roulette-constant",
+          "roulette that ends 0.001 to 0.7 of the paths at each event",
+          "a closed room keeps its balance",
+          LogAxis("probability of ending", "", {1e-3, 0.7}, {1e-3, 0.01, 0.1, 0.5, 0.7}),
+          ByTermination});
+  closed({"roulette-floor", "least survival of 1e-6 to 1",
+          "a closed room keeps its balance",
+          LogAxis("least survival", "", {1e-6, 1}, {1e-6, 1e-3, 0.3, 0.6, 1}), ByFloor});
+  closed({"behind-sheets", "a sky behind sheets that let 1 to 1e-30 of it through",
+          "the product of what they let through",
+          LogAxis("transmitted", "", {1e-30, 1}, Decades(-36, 0, 6), Decades(-36, 0, 2)),
+          BehindSheets});
+  rates({"invalid-samples",
+         "many samples of glass, coats and metal in a room with a tiny lamp",
+         "no sample is NaN, infinite or negative",
+         LogAxis("samples", "", {0, 1e9}, {1 << 18}, {1 << 18, 1 << 22, 1 << 26}),
+         NoInvalid, "pbrt-v4 #211"});
 }
 
 }  // namespace lanelight::stress

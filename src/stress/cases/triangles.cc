@@ -1,10 +1,8 @@
 // Single triangles and pairs of them, at every size, place and angle, by rays.
-#include <numbers>
+#include <cmath>
 
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/points.h"
-#include "src/stress/shapes_text.h"
-#include "src/stress/trace_rays.h"
+#include "src/stress/cases/ray_trial.h"
 
 namespace lanelight::stress {
 namespace {
@@ -12,19 +10,14 @@ namespace {
 std::vector<Point> FarFromOrigin(double distance, const Effort& effort) {
   Draws draws(effort.seed);
   const Vec3d center = distance * Normalize(Vec3d{1, -2, 0.5});
-  RayTracer tracer(RayScene(SquareMesh(center, kLeaning).Text(), center + 5 * kLeaning));
-  std::vector<WorldRay> rays;
+  RayTrial trial(SquareMesh(center, kLeaning).Text(), center + 5 * kLeaning);
   std::vector<Vec3d> targets;
   for (int i = 0; i < effort(1000, 100000); ++i) {
     targets.push_back(PointOfSquare(draws, center, kLeaning));
-    const Vec3d d = -draws.Above(kLeaning, 0.2);
-    rays.push_back({targets.back() - 3.0 * d, d});
+    trial.Aim(targets.back(), -draws.Above(kLeaning, 0.2), 3);
   }
-  const std::vector<WorldHit> hits = tracer.Trace(rays);
-  double worst = 0;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    worst = std::max(worst, hits[i].found ? Length(hits[i].point - targets[i]) : 1);
-  }
+  const double worst = trial.Worst(
+      [&](const WorldHit& hit, std::size_t i) { return Length(hit.point - targets[i]); });
   return {BoundPoint(worst, 5e-6)};
 }
 
@@ -35,20 +28,17 @@ std::vector<Point> Needle(double aspect, const Effort& effort) {
   const double width = 1 / aspect;
   MeshText mesh;
   mesh.AddTriangle({-0.5, 0, 0}, {0.5, -width / 2, 0}, {0.5, width / 2, 0});
-  RayTracer tracer(RayScene(mesh.Text()));
-  std::vector<WorldRay> rays;
+  RayTrial trial(mesh.Text());
   for (int i = 0; i < effort(1000, 100000); ++i) {
     const double x = draws(0.1, 0.9), y = x * width * draws(-0.4, 0.4);
     const Vec3d d = -draws.Above({0, 0, 1}, 0.3);
     // Across the needle the ray must be straight: a float is coarser than it is wide.
-    const Vec3d straight = Normalize(Vec3d{d.x, 0, d.z});
-    rays.push_back({Vec3d{x - 0.5, y, 0} - 2.0 * straight, straight});
+    trial.Aim({x - 0.5, y, 0}, Normalize(Vec3d{d.x, 0, d.z}), 2);
   }
-  std::uint64_t failures = 0;
-  for (const WorldHit& hit : tracer.Trace(rays)) {
-    failures += !hit.found || std::abs(std::abs(hit.normal.z) - 1) > 1e-6;
-  }
-  return {RatePoint(failures, rays.size())};
+  const std::uint64_t failures = trial.CountBad([](const WorldHit& hit, std::size_t) {
+    return hit.found && std::abs(std::abs(hit.normal.z) - 1) <= 1e-6;
+  });
+  return {NoFailures(failures, trial.rays.size())};
 }
 
 // Rays that leave a triangle whose vertices have coordinates of 10^-8 to 10^8 never meet
@@ -66,21 +56,18 @@ std::vector<Point> VerticesOfAllSizes(double, const Effort& effort) {
     MeshText mesh;
     mesh.AddTriangle(a, b, c);
     mesh.AddTriangle(b, c, a);
-    RayTracer tracer(RayScene(mesh.Text(), a + Length(b - a) * normal));
-    std::vector<WorldRay> rays;
-    std::vector<Vec3d> leaving;
+    RayTrial trial(mesh.Text(), a + Length(b - a) * normal);
     for (int i = 0; i < 1000; ++i) {
       const double u = draws(0.02, 0.97), v = draws(0.01, 0.98 - u);
-      const Vec3d target = a + u * (b - a) + v * (c - a);
-      rays.push_back({target + Length(c - a) * normal, -normal});
+      trial.Aim(a + u * (b - a) + v * (c - a), -normal, Length(c - a));
     }
-    for (const WorldHit& hit : tracer.Trace(rays)) {
+    for (const WorldHit& hit : trial.tracer.Trace(trial.rays)) {
       trials += hit.found;
-      leaving.push_back(draws.Above(draws(-1, 1) * hit.normal, 1e-3));
+      trial.leaving.push_back(draws.Above(draws(-1, 1) * hit.normal, 1e-3));
     }
-    for (const bool blocked : tracer.Blocked(leaving)) failures += blocked;
+    failures += trial.CountMet();
   }
-  return {RatePoint(failures, trials)};
+  return {NoFailures(failures, trials)};
 }
 
 // Triangles without area are never hit, nor do they hide what is behind. Coordinates are
@@ -99,67 +86,61 @@ std::vector<Point> Collinear(double, const Effort& effort) {
     mesh.AddTriangle(a, a, a);
   }
   const std::size_t slivers = mesh.indices.size() / 3;
-  const MeshText floor = SquareMesh({0, 0, -64}, {0, 0, 1}, 256);
-  RayTracer tracer(RayScene(mesh.Text() + floor.Text()));
-  std::vector<WorldRay> rays;
+  RayTrial trial(mesh.Text() + SquareMesh({0, 0, -64}, {0, 0, 1}, 256).Text());
   for (int i = 0; i < effort(2000, 200000); ++i) {
     const std::size_t k =
         i % 8 == 0 ? 0 : static_cast<std::size_t>(draws(0, double(slivers)));
     const Vec3d a = mesh.points[3 * k], b = mesh.points[3 * k + 1];
     const Vec3d target = a + draws(0, 1) * (b - a);
-    rays.push_back({target + 20.0 * draws.Direction(), {}});
-    rays.back().direction = Normalize(target - rays.back().origin);
+    const Vec3d origin = target + 20.0 * draws.Direction();
+    trial.rays.push_back({origin, Normalize(target - origin)});
   }
-  std::uint64_t failures = 0;
-  for (const WorldHit& hit : tracer.Trace(rays)) {
-    failures += hit.found && std::abs(hit.point.z + 64) > 1e-3;
-  }
-  return {RatePoint(failures, rays.size())};
+  const std::uint64_t failures = trial.CountBad([](const WorldHit& hit, std::size_t) {
+    return !hit.found || std::abs(hit.point.z + 64) <= 1e-3;
+  });
+  return {NoFailures(failures, trial.rays.size())};
 }
 
 // Rays at an angle to a square of two triangles, at points of the edge that they share.
 std::vector<Point> SharedEdge(double sine, const Effort& effort) {
   Draws draws(effort.seed);
-  MeshText mesh;
-  mesh.AddQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
-  RayTracer tracer(RayScene(mesh.Text()));
-  std::vector<WorldRay> rays;
+  RayTrial trial(Rectangle({-1, -1, 0}, {1, 1, 0}));
   for (int i = 0; i < effort(2000, 200000); ++i) {
-    const double along = draws(-0.8, 0.8), phi = draws(0, 2 * std::numbers::pi);
+    const double along = draws(-0.8, 0.8), phi = draws(0, 2 * M_PI);
     const double cosine = std::sqrt(1 - sine * sine);
-    const Vec3d d{cosine * std::cos(phi), cosine * std::sin(phi), -sine};
-    rays.push_back({Vec3d{along, along, 0} - 3.0 * d, d});
+    trial.Aim({along, along, 0}, {cosine * std::cos(phi), cosine * std::sin(phi), -sine},
+              3);
   }
-  std::uint64_t failures = 0;
-  for (const WorldHit& hit : tracer.Trace(rays)) failures += !hit.found;
-  return {RatePoint(failures, rays.size())};
+  const std::uint64_t failures =
+      trial.CountBad([](const WorldHit& hit, std::size_t) { return hit.found; });
+  return {NoFailures(failures, trial.rays.size())};
 }
 
 }  // namespace
 
 void AddTriangleCases(std::vector<Case>& cases) {
-  cases.push_back({"triangle-far-from-origin", "geometry",
-                   "a square of side 1 at a distance from the origin, to 1e9",
-                   "rays hit it within 5e-6 of where they are aimed", "", Truth::kBound,
-                   Decades("distance from the origin", "sides", 0, 12, 3, 0, 9),
-                   FarFromOrigin});
-  cases.push_back({"triangle-aspect", "geometry",
-                   "a triangle of length 1 and width 1 to 1e-8",
-                   "rays at points inside hit it, and see its normal", "", Truth::kRate,
-                   Decades("length over width", "", 0, 8, 1, 0, 8), Needle});
-  cases.push_back({"triangle-vertices-of-all-sizes", "geometry",
-                   "vertices with coordinates from 1e-8 to 1e8 in one triangle",
-                   "of 1000 rays that leave such a triangle and a copy of it, none "
-                   "meets them again",
-                   "pbrt-v4, shapes_test", Truth::kRate, Single(), VerticesOfAllSizes});
-  cases.push_back({"triangle-collinear", "geometry", "triangles without area",
-                   "none is hit", "pbrt-v4, BadCases", Truth::kRate, Single(),
-                   Collinear});
-  cases.push_back({"shared-edge-grazing", "geometry",
-                   "rays at the edge of two triangles, at angles from 1 to 1e-7",
-                   "none passes between the two",
-                   "mitsuba3, grazing rays on shared edges", Truth::kRate,
-                   Decades("sine of the angle", "", -8, 0, 1, -7, 0), SharedEdge});
+  const CaseAdder bounds{cases, "geometry", Truth::kBound};
+  const CaseAdder rates{cases, "geometry", Truth::kRate};
+  bounds({"triangle-far-from-origin",
+          "a square of side 1 at a distance from the origin, to 1e9",
+          "rays hit it within 5e-6 of where they are aimed",
+          DecadesAxis("distance from the origin", "sides", {0, 12, 3}, {0, 9}),
+          FarFromOrigin});
+  rates({"triangle-aspect", "a triangle of length 1 and width 1 to 1e-8",
+         "rays at points inside hit it, and see its normal",
+         DecadesAxis("length over width", "", {0, 8}, {0, 8}), Needle});
+  rates({"triangle-vertices-of-all-sizes",
+         "vertices with coordinates from 1e-8 to 1e8 in one triangle",
+         "of 1000 rays that leave such a triangle and a copy of it, none "
+         "meets them again",
+         Single(), VerticesOfAllSizes, "pbrt-v4, shapes_test"});
+  rates({"triangle-collinear", "triangles without area", "none is hit", Single(),
+         Collinear, "pbrt-v4, BadCases"});
+  rates({"shared-edge-grazing",
+         "rays at the edge of two triangles, at angles from 1 to 1e-7",
+         "none passes between the two",
+         DecadesAxis("sine of the angle", "", {-8, 0}, {-7, 0}), SharedEdge,
+         "mitsuba3, grazing rays on shared edges"});
 }
 
 }  // namespace lanelight::stress

@@ -5,44 +5,48 @@
 #include <utility>
 
 #include "src/stress/cases/cases.h"
-#include "src/stress/cases/transport_setup.h"
+#include "src/stress/cases/points.h"
+#include "src/stress/cases/scene_text.h"
 
 namespace lanelight::stress {
 namespace {
 
 // A mean that is known without noise, and the noise that is left, which is to be none.
-void AddExact(const std::string& series, double expected, const std::string& text,
-              const std::string& strategy, const Effort& effort,
-              std::vector<Point>& points) {
-  Quality quality = {64, 1024, 1};
-  quality.strategy = strategy;
-  Point mean = Expect(expected, text, quality, effort), noise = mean;
+std::vector<Point> Exact(double expected, const std::string& text,
+                         const std::string& strategy, const Effort& effort) {
+  Point mean =
+      Expect(expected, text,
+             {.quick = 64, .full = 1024, .depth = 1, .strategy = strategy}, effort);
+  Point noise = mean;
   noise.measured = std::exchange(mean.standard_error, 0) / expected;
   noise.expected = noise.standard_error = 0;
   noise.tolerance = 1e-6;
   noise.scale = 1;
-  points.push_back(Named(series + ", mean", mean));
-  points.push_back(Named(series + ", noise", noise));
+  return {Named("mean", mean), Named("noise", noise)};
 }
 
 // The control variate is the integrand itself.
 std::vector<Point> ByRadius(double radius, const Effort& effort) {
+  const struct {
+    const char *name, *control;
+    double expected;
+    std::string light;
+  } kinds[] = {{"sphere", "analytic", 0.4,
+                SphereLight({0.6, 0, 0.8}, radius, 1 / (radius * radius))},
+               {"sky", "ambient", 0.5, Sky(1)}};
   std::vector<Point> points;
-  const std::string view = ViewOfPlane() + Plane(Diffuse(0.5));
-  AddExact("sphere", 0.4,
-           view + SphereLight({0.6, 0, 0.8}, radius, 1 / (radius * radius)),
-           "control=analytic,c=1,directions=light", effort, points);
-  AddExact("sky", 0.5, view + Sky(1), "control=ambient,c=1,directions=light", effort,
-           points);
+  for (const auto& [name, control, expected, light] : kinds) {
+    const std::string strategy = fmt::format("control={},c=1,directions=light", control);
+    for (const Point& point :
+         Exact(expected, ViewOfPlane() + Plane(Diffuse(0.5)) + light, strategy, effort)) {
+      points.push_back(Named(fmt::format("{}, {}", name, point.series), point));
+    }
+  }
   return points;
 }
 
 std::string Lamp(double x0, double x1) {
-  return fmt::format(
-      "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" "
-      "true\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" "
-      "[{0:.17g} -2 0 {1:.17g} -2 0 {1:.17g} 2 0 {0:.17g} 2 0]\nAttributeEnd\n",
-      x0, x1);
+  return Block(Glow(1, true) + Rectangle({x0, -2, 0}, {x1, 2, 0}));
 }
 
 // One pixel, half of it a lamp: to one side of its middle (the pair of a sample is on the
@@ -68,17 +72,17 @@ std::vector<Point> ByEdge(double aside, const Effort& effort) {
 }  // namespace
 
 void AddVarianceCases(std::vector<Case>& cases) {
-  cases.push_back({"control-without-variance", "sampling",
-                   "control variates that are the integrand, for lights of radius 0.5 to "
-                   "1e-6 and a sky",
-                   "the mean is exact, and no noise is left", "", Truth::kClosedForm,
-                   LogAxis("radius", "", 1e-6, 0.5, {1e-6, 1e-4, 0.01, 0.1, 0.5}),
-                   ByRadius});
-  cases.push_back(
-      {"antithetic-edges", "sampling",
+  const CaseAdder add{cases, "sampling", Truth::kClosedForm};
+  add({"control-without-variance",
+       "control variates that are the integrand, for lights of radius 0.5 to "
+       "1e-6 and a sky",
+       "the mean is exact, and no noise is left",
+       LogAxis("radius", "", {1e-6, 0.5}, {1e-6, 1e-4, 0.01, 0.1, 0.5}), ByRadius});
+  add({"antithetic-edges",
        "edges in a pixel that are odd, even and neither to its middle",
-       "pairs keep the mean, whatever they do to the variance", "", Truth::kClosedForm,
-       LogAxis("edge aside", "pixels", 1e-6, 0.5, {1e-6, 1e-4, 0.01, 0.1, 0.5}), ByEdge});
+       "pairs keep the mean, whatever they do to the variance",
+       LogAxis("edge aside", "pixels", {1e-6, 0.5}, {1e-6, 1e-4, 0.01, 0.1, 0.5}),
+       ByEdge});
 }
 
 }  // namespace lanelight::stress
