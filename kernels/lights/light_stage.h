@@ -1,14 +1,14 @@
 // What the light-sampling stages have in common.
 #pragma once
 
+#include "src/path/light_shapes.h"
 #include "src/path/stage.h"
 
 namespace lanelight {
 
 /// Lights that a ray can hit are sampled only if the strategy wants it.
 inline constexpr bool IsHittable(Feature shape) {
-  return shape != Feature::kPointLights && shape != Feature::kSpotLights &&
-         shape != Feature::kDistantLights && shape != Feature::kImageLights;
+  return !LightsWith(kDeltaLight).Has(shape);
 }
 
 inline Stage SampleLightStage(const char* name, const char* meaning, Feature shape,

@@ -54,48 +54,10 @@ void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   if (kind == ShadeKind::kMix && m.alpha_x_texture[i] >= 0) features.Add(Feature::kUv);
 }
 
-void AddAlpha(const std::vector<PlacedShape>& shapes, FeatureSet& features) {
-  for (const PlacedShape& shape : shapes) {
-    if (!IsAlphaTested(shape)) continue;
-    features.Add(Feature::kAlpha);
-    if (shape.alpha.texture != kNone) features.Add(Feature::kUv);
-  }
-}
-
-Feature FeatureOf(LightShape shape) {
-  switch (shape) {
-    case LightShape::kTriangle:
-      return Feature::kTriangleLights;
-    case LightShape::kRectangle:
-      return Feature::kRectangleLights;
-    case LightShape::kSphere:
-      return Feature::kSphereLights;
-    case LightShape::kDisk:
-      return Feature::kDiskLights;
-    case LightShape::kPoint:
-      return Feature::kPointLights;
-    case LightShape::kSpot:
-      return Feature::kSpotLights;
-    case LightShape::kDistant:
-      return Feature::kDistantLights;
-    case LightShape::kInfiniteConstant:
-      return Feature::kInfiniteConstant;
-    case LightShape::kInfiniteImage:
-      return Feature::kInfiniteImage;
-    case LightShape::kPortal:
-      return Feature::kPortals;
-    case LightShape::kGoniometric:
-    case LightShape::kProjection:
-      return Feature::kImageLights;
-  }
-  LL_CHECK(!"unknown shape of light");
-  return Feature::kCount;
-}
-
 void AddLights(const CompiledScene& scene, FeatureSet& features) {
   const LightTable& lights = scene.lights;
   for (const LightRecord& light : lights.lights) {
-    features.Add(FeatureOf(static_cast<LightShape>(light.shape)));
+    features.Add(LightFeature(static_cast<LightShape>(light.shape)));
     // Point lights with an image have no area.
     if (light.image != 0 && light.area > 0) features.Add(Feature::kEmissionImages);
     if (IsCut(scene, light)) features.Add(Feature::kEmissionCuts);
@@ -104,10 +66,7 @@ void AddLights(const CompiledScene& scene, FeatureSet& features) {
   if (!lights.lights.empty()) features.Add(Feature::kLights);
   if (lights.lights.size() > 1) features.Add(Feature::kManyLights);
   if (!lights.infinite.empty()) features.Add(Feature::kInfiniteLights);
-  if (features.HasAny({Feature::kTriangleLights, Feature::kRectangleLights,
-                       Feature::kSphereLights, Feature::kDiskLights})) {
-    features.Add(Feature::kAreaLights);
-  }
+  if (features.HasAny(LightsWith(kEmittingShape))) features.Add(Feature::kAreaLights);
 }
 
 bool FiltersTextures(const TextureTable& textures) {
@@ -170,12 +129,11 @@ bool HasNegative(const AlignedVector<float>& signs) {
 FeatureSet MaterialFeatures(const MaterialTable& materials, const Placement& placement) {
   FeatureSet features;
   for (std::size_t i = 0; i < materials.size(); ++i) AddMaterial(materials, i, features);
-  AddAlpha(placement.meshes, features);
-  AddAlpha(placement.spheres, features);
-  AddAlpha(placement.disks, features);
-  AddAlpha(placement.planes, features);
-  AddAlpha(placement.large_spheres, features);
-  for (const PlacedObject& object : placement.objects) AddAlpha(object.meshes, features);
+  ForEachPlaced(placement, [&](const PlacedShape& shape) {
+    if (!IsAlphaTested(shape)) return;
+    features.Add(Feature::kAlpha);
+    if (shape.alpha.texture != kNone) features.Add(Feature::kUv);
+  });
   return features;
 }
 

@@ -61,6 +61,19 @@ struct Placement {
 Placement PlaceShapes(const SceneDescription& description,
                       std::uint64_t copied_triangles = 0);
 
+/// Calls visit(placed) for everything placed, the world's meshes first.
+template <typename Visit>
+void ForEachPlaced(const Placement& placement, const Visit& visit) {
+  for (const PlacedShape& mesh : placement.meshes) visit(mesh);
+  for (const PlacedObject& object : placement.objects) {
+    for (const PlacedShape& mesh : object.meshes) visit(mesh);
+  }
+  for (const auto* shapes : {&placement.spheres, &placement.disks, &placement.planes,
+                             &placement.large_spheres}) {
+    for (const PlacedShape& shape : *shapes) visit(shape);
+  }
+}
+
 /// Bounds of a shape, or nothing if it has none; the centre is exact.
 Box ShapeBox(const PlacedShape& placed);
 

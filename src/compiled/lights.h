@@ -5,23 +5,9 @@
 #include <vector>
 
 #include "src/core/aligned.h"
+#include "src/path/light_shapes.h"
 
 namespace lanelight {
-
-enum class LightShape : std::uint32_t {
-  kTriangle,
-  kSphere,
-  kDisk,
-  kPoint,
-  kSpot,
-  kDistant,
-  kInfiniteConstant,
-  kInfiniteImage,
-  kRectangle,  // two triangles of a mesh, which rays hit
-  kGoniometric,
-  kProjection,
-  kPortal
-};
 
 /// Light record: 24 words. Emitters in instances are copied into the world at compile.
 struct LightRecord {

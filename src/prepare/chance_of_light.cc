@@ -32,21 +32,11 @@ double ShareOf(const CompiledScene& scene, const LightRecord& light) {
 
 // 0 where nothing can meet it: such lights are sampled by all strategies.
 double Share(const CompiledScene& scene, const LightRecord& light) {
-  switch (static_cast<LightShape>(light.shape)) {
-    case LightShape::kTriangle:
-    case LightShape::kRectangle:
-    case LightShape::kSphere:
-    case LightShape::kDisk:
-      return ShareOf(scene, light);
-    case LightShape::kInfiniteImage:
-      return ShareOf(
-          scene.lights.environments[static_cast<std::size_t>(light.environment)]);
-    case LightShape::kInfiniteConstant:
-    case LightShape::kPortal:
-      return 1;
-    default:
-      return 0;
-  }
+  const auto shape = static_cast<LightShape>(light.shape);
+  if (HasTrait(shape, kDeltaLight)) return 0;
+  if (HasTrait(shape, kEmittingShape)) return ShareOf(scene, light);
+  if (light.environment < 0) return 1;
+  return ShareOf(scene.lights.environments[static_cast<std::size_t>(light.environment)]);
 }
 
 }  // namespace

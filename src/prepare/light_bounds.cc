@@ -57,9 +57,7 @@ double LightBounds::Orientation() const {
 }
 
 bool HasPlace(const LightRecord& light) {
-  const auto shape = static_cast<LightShape>(light.shape);
-  return shape != LightShape::kDistant && shape != LightShape::kInfiniteConstant &&
-         shape != LightShape::kInfiniteImage && shape != LightShape::kPortal;
+  return !HasTrait(static_cast<LightShape>(light.shape), kFarLight);
 }
 
 LightBounds BoundsOf(const Geometry& g, const LightRecord& light) {

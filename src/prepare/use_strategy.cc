@@ -9,11 +9,8 @@ namespace lanelight {
 namespace {
 
 bool IsHittable(const CompiledScene& scene, const LightRecord& light) {
-  if (IsUnseen(scene, light)) return false;
-  const auto shape = static_cast<LightShape>(light.shape);
-  return shape != LightShape::kGoniometric && shape != LightShape::kProjection &&
-         shape != LightShape::kPoint && shape != LightShape::kSpot &&
-         shape != LightShape::kDistant;
+  return !IsUnseen(scene, light) &&
+         !HasTrait(static_cast<LightShape>(light.shape), kDeltaLight);
 }
 
 // Relative probabilities; zero for lights that the strategy leaves to scattered rays.

@@ -2,6 +2,7 @@
 
 #include "src/path/block.h"
 #include "src/path/choice_features.h"
+#include "src/path/light_shapes.h"
 #include "src/prepare/light_anchors.h"
 
 namespace lanelight {
@@ -49,10 +50,7 @@ void AddReuse(const Strategy& strategy, const PlanOptions& options, FeatureSet& 
   if (f.Has(Feature::kReuse) && HasAnyOf(f, kGlossyKinds)) f.Add(Feature::kReuseGlossy);
 }
 
-bool HasDeltaLights(const FeatureSet& f) {
-  return f.HasAny({Feature::kPointLights, Feature::kSpotLights, Feature::kDistantLights,
-                   Feature::kImageLights});
-}
+bool HasDeltaLights(const FeatureSet& f) { return f.HasAny(LightsWith(kDeltaLight)); }
 
 void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
   f.Add(TurnsOn(strategy.directions));

@@ -12,6 +12,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/path/fields.h"
+#include "src/path/light_shapes.h"
 
 namespace lanelight {
 namespace {
@@ -64,7 +65,36 @@ std::set<std::string> RegisteredStages() {
 void KernelWith(Wave&) {}
 void KernelWithout(Wave&) {}
 
+// Of all stages, those that have this input and need this feature.
+std::vector<Stage> StagesFor(QueueId input, Feature feature) {
+  std::vector<Stage> stages = {
+#define X(name) name##Stage(),
+      LANELIGHT_STAGES(X)
+#undef X
+  };
+  std::erase_if(stages, [&](const Stage& stage) {
+    return stage.input != input || !stage.needs.Has(feature);
+  });
+  return stages;
+}
+
 }  // namespace
+
+TEST_CASE("every shape of light has the stages that its traits ask for", "[registry]") {
+  CHECK(StagesFor(QueueId::kLit, Feature::kTriangles).empty());
+  for (int i = 0; i < static_cast<int>(LightShape::kCount); ++i) {
+    const auto shape = static_cast<LightShape>(i);
+    INFO(FeatureName(LightFeature(shape)));
+    const std::vector<Stage> samplers = StagesFor(QueueId::kLit, LightFeature(shape));
+    REQUIRE(samplers.size() == 1);
+    CHECK(samplers[0].needs.Has(Feature::kSampledHittableLights) ==
+          !HasTrait(shape, kDeltaLight));
+    CHECK(StagesFor(QueueId::kHit, LightFeature(shape)).size() ==
+          (HasTrait(shape, kEmittingShape) ? 1 : 0));
+    CHECK(!(HasTrait(shape, kEmittingShape) && HasTrait(shape, kDeltaLight)));
+    CHECK(!(HasTrait(shape, kEmittingShape) && HasTrait(shape, kFarLight)));
+  }
+}
 
 TEST_CASE("every stage in kernels/ is registered", "[registry]") {
   CHECK(StagesInFiles() == RegisteredStages());
