@@ -83,9 +83,9 @@ using AxisBins = std::array<std::array<Bin, kCount>, kAxes>;
 
 // Bins along all three axes, or along one.
 template <int kCount, int kAxes>
-void Fill(const BuildItem* items, std::uint32_t begin, std::uint32_t end,
-          const Binning& binning, int axis, AxisBins<kCount, kAxes>& bins) {
-  for (std::uint32_t i = begin; i < end; ++i) {
+void Fill(const BuildItem* items, std::uint32_t count, const Binning& binning, int axis,
+          AxisBins<kCount, kAxes>& bins) {
+  for (std::uint32_t i = 0; i < count; ++i) {
     const Vec3f c = items[i].Center2();
     const Float4 lo = LowOf(items[i]), hi = HighOf(items[i]);
     for (int a = 0; a < kAxes; ++a) {
@@ -103,7 +103,7 @@ void FillTogether(const BuildItem* items, std::uint32_t count, const Binning& bi
   std::vector<AxisBins<kCount, kAxes>> parts((count + kPart - 1) / kPart);
   ParallelFor(parts.size(), [&](std::size_t i) {
     const std::uint32_t begin = static_cast<std::uint32_t>(i) * kPart;
-    Fill<kCount, kAxes>(items, begin, std::min(count, begin + kPart), binning, axis,
+    Fill<kCount, kAxes>(items + begin, std::min(count - begin, kPart), binning, axis,
                         parts[i]);
   });
   for (const auto& part : parts) {
@@ -125,7 +125,7 @@ ObjectSplit Find(const BuildItem* items, std::uint32_t count, const AccelBox& ce
   if (count >= 2 * kPart) {
     FillTogether<kCount, kAxes>(items, count, binning, longest, bins);
   } else {
-    Fill<kCount, kAxes>(items, 0, count, binning, longest, bins);
+    Fill<kCount, kAxes>(items, count, binning, longest, bins);
   }
   ObjectSplit best;
   for (int a = 0; a < kAxes; ++a) {

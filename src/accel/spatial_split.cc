@@ -25,6 +25,7 @@ class Slabs {
     scale_ = 1 / width_;
     ok_ = width_ > 0 && std::isfinite(width_) && std::isfinite(scale_);
   }
+  int axis() const { return axis_; }
   bool ok() const { return ok_; }
   int Of(float x) const {
     return std::clamp(static_cast<int>((x - lo_) * scale_), 0, kSlabs - 1);
@@ -65,7 +66,7 @@ class Slabs {
   bool ok_;
 };
 
-void SweepSlabs(const std::array<Slab, kSlabs>& bins, const Slabs& slabs, int axis,
+void SweepSlabs(const std::array<Slab, kSlabs>& bins, const Slabs& slabs,
                 std::uint32_t leaf_size, std::uint32_t most, SpatialSplit& best) {
   std::array<WideBox, kSlabs> right;
   std::array<std::uint32_t, kSlabs> right_count;
@@ -86,7 +87,8 @@ void SweepSlabs(const std::array<Slab, kSlabs>& bins, const Slabs& slabs, int ax
     const float cost = box.HalfArea() * Blocks(count, leaf_size) +
                        right[b].HalfArea() * Blocks(right_count[b], leaf_size);
     if (cost < best.cost) {
-      best = {axis, slabs.Plane(b), cost, {box, right[b]}, {count, right_count[b]}};
+      best = {
+          slabs.axis(), slabs.Plane(b), cost, {box, right[b]}, {count, right_count[b]}};
     }
   }
 }
@@ -159,7 +161,7 @@ SpatialSplit FindSpatialSplit(const BuildItem* items, ItemRange range,
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       slabs.Add(items[i], triangles, bins);
     }
-    SweepSlabs(bins, slabs, axis, leaf_size, most, best);
+    SweepSlabs(bins, slabs, leaf_size, most, best);
   }
   return best;
 }

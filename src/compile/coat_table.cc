@@ -44,9 +44,9 @@ Fluxes Smooth(const Side& s, double mu) {
 
 // Contribution of a microfacet normal m, of those visible from wo = (x, 0, mu): its
 // outcomes weighed by G2 / G1, zero when they end on the wrong side.
-void AddMicrofacet(const Side& s, double x, double mu, const Vec3d& m, double weight,
+void AddMicrofacet(const Side& s, const Vec3d& wo, const Vec3d& m, double weight,
                    Fluxes* sum) {
-  const double c = std::max(0., x * m.x + mu * m.z);
+  const double mu = wo.z, c = std::max(0., wo.x * m.x + mu * m.z);
   const double f = Fresnel(c, s.eta);
   const double a2 = s.alpha * s.alpha;
   const auto lambda = [a2](double z) {
@@ -87,7 +87,7 @@ Fluxes Rough(const Side& s, double mu, int rings, int spokes) {
     const double r = std::sqrt(std::max(0., 1 - z * z));
     for (const Vec3d& at : around) {
       const Vec3d h = {s.alpha * (r * at.x + vx), s.alpha * r * at.y, height};
-      AddMicrofacet(s, x, mu, Normalize(h), 1. / (rings * spokes), &sum);
+      AddMicrofacet(s, {x, 0, mu}, Normalize(h), 1. / (rings * spokes), &sum);
     }
   }
   return sum;

@@ -24,21 +24,9 @@
 namespace lanelight {
 namespace {
 
-// Calls visit(shape) for everything placed, world first.
-template <typename Visit>
-void ForEachShape(const Placement& placement, const Visit& visit) {
-  for (const auto* shapes : {&placement.meshes, &placement.spheres, &placement.disks,
-                             &placement.planes, &placement.large_spheres}) {
-    for (const PlacedShape& shape : *shapes) visit(shape);
-  }
-  for (const PlacedObject& object : placement.objects) {
-    for (const PlacedShape& shape : object.meshes) visit(shape);
-  }
-}
-
 std::vector<Index> UsedMaterials(const Placement& placement) {
   std::vector<Index> used;
-  ForEachShape(placement, [&](const PlacedShape& placed) {
+  ForEachPlaced(placement, [&](const PlacedShape& placed) {
     used.push_back(placed.shape->material);
   });
   std::sort(used.begin(), used.end());
@@ -49,49 +37,26 @@ std::vector<Index> UsedMaterials(const Placement& placement) {
 std::vector<Index> UsedTextures(const CompiledMaterials& materials,
                                 const Placement& placement) {
   std::vector<Index> used = materials.textures;
-  ForEachShape(placement, [&](const PlacedShape& placed) {
+  ForEachPlaced(placement, [&](const PlacedShape& placed) {
     if (placed.alpha.texture != kNone) used.push_back(placed.alpha.texture);
   });
   return used;
 }
 
-// Alpha of primitives [begin, end).
-void SetAlpha(const PlacedShape& placed, std::size_t begin, std::size_t end,
-              CompiledScene& scene) {
-  for (std::size_t i = begin; i < end; ++i) {
-    scene.alpha_texture[i] = placed.alpha.texture;
-    scene.alpha_constant[i] =
-        placed.alpha.texture == kNone ? static_cast<float>(placed.alpha.constant) : 1.0f;
-  }
-}
-
-void SetAlphas(const std::vector<PlacedShape>& shapes, std::size_t first,
-               CompiledScene& scene) {
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    SetAlpha(shapes[i], first + i, first + i + 1, scene);
-  }
-}
-
 void MakeAlpha(const Placement& placement, const CompiledGeometry& compiled,
                CompiledScene& scene) {
   if (!scene.features.Has(Feature::kAlpha)) return;
-  const PrimitiveRanges& ranges = compiled.geometry.ranges;
-  scene.alpha_texture.assign(ranges.end, -1);
-  scene.alpha_constant.assign(ranges.end, 1.0f);
-  const auto meshes = [&](const std::vector<PlacedShape>& shapes,
-                          const std::vector<MeshRange>& at) {
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      SetAlpha(shapes[i], at[i].begin, at[i].end, scene);
-    }
-  };
-  meshes(placement.meshes, compiled.meshes);
-  for (std::size_t o = 0; o < placement.objects.size(); ++o) {
-    meshes(placement.objects[o].meshes, compiled.object_meshes[o]);
-  }
-  SetAlphas(placement.spheres, ranges.spheres, scene);
-  SetAlphas(placement.disks, ranges.disks, scene);
-  SetAlphas(placement.planes, ranges.planes, scene);
-  SetAlphas(placement.large_spheres, ranges.large_spheres, scene);
+  scene.alpha_texture.assign(compiled.geometry.ranges.end, -1);
+  scene.alpha_constant.assign(compiled.geometry.ranges.end, 1.0f);
+  ForEachCompiled(placement, compiled,
+                  [&](const PlacedShape& placed, std::uint32_t begin, std::uint32_t end) {
+                    const FloatValue& alpha = placed.alpha;
+                    for (std::uint32_t i = begin; i < end; ++i) {
+                      scene.alpha_texture[i] = alpha.texture;
+                      if (alpha.texture != kNone) continue;
+                      scene.alpha_constant[i] = static_cast<float>(alpha.constant);
+                    }
+                  });
 }
 
 // Cut-outs are looked up during intersection, which knows a point of an instance in the

@@ -10,6 +10,7 @@
 #include "src/core/parallel.h"
 #include "src/compile/mesh.h"
 #include "src/compile/quadrics.h"
+#include "src/compile/store.h"
 
 namespace lanelight {
 namespace {
@@ -162,18 +163,14 @@ void MakeGroups(const CompiledGeometry& out, Geometry& g) {
   for (const auto& meshes : out.object_meshes) close(meshes);
 }
 
-void StoreAffine(const Transform& t, float out[12]) {
-  for (int i = 0; i < 12; ++i) out[i] = static_cast<float>(t(i / 4, i % 4));
-}
-
 void MakeInstances(const Placement& placement, Geometry& g) {
   for (const PlacedInstance& instance : placement.instances) {
     const Frame& object = placement.objects[instance.object].frame;
     const Transform scene_from_object =
         placement.frame.After(instance.world_from_object * object.Inverse());
     InstanceRecord record;
-    StoreAffine(scene_from_object, record.scene_from_object);
-    StoreAffine(scene_from_object.Inverse(), record.object_from_scene);
+    Store(scene_from_object, record.scene_from_object);
+    Store(scene_from_object.Inverse(), record.object_from_scene);
     g.instances.push_back(record);
     g.instance_group.push_back(static_cast<std::uint32_t>(instance.object) + 1);
   }

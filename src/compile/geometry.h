@@ -42,6 +42,29 @@ struct GeometryOptions {
   bool uvs = false;  // something looks at texture coordinates: keep them
 };
 
+/// Calls visit(placed, begin, end) for everything placed, in the order of ForEachPlaced,
+/// with the primitives that it has become.
+template <typename Visit>
+void ForEachCompiled(const Placement& placement, const CompiledGeometry& compiled,
+                     const Visit& visit) {
+  std::vector<const MeshRange*> meshes;
+  for (const MeshRange& range : compiled.meshes) meshes.push_back(&range);
+  for (const auto& object : compiled.object_meshes) {
+    for (const MeshRange& range : object) meshes.push_back(&range);
+  }
+  auto mesh = meshes.begin();
+  std::uint32_t next = compiled.geometry.ranges.spheres;  // the rest follow each other
+  ForEachPlaced(placement, [&](const PlacedShape& placed) {
+    if (mesh == meshes.end()) {
+      visit(placed, next, next + 1);
+      ++next;
+    } else {
+      visit(placed, (*mesh)->begin, (*mesh)->end);
+      ++mesh;
+    }
+  });
+}
+
 /// `material_index` maps described to compiled materials. Lights are left at -1.
 /// Throws InputError for quadrics under transforms that do not keep their shape.
 CompiledGeometry CompileGeometry(const Placement& placement,

@@ -19,10 +19,17 @@ Vec3d AxisOf(const Light& light, Vec3d axis) {
   return light.world_from_light.Vector(axis) / scale;
 }
 
-// Adds the light that `intensity` times the mean of `weight` times the image, integrated
-// over a domain of that size, has the power of; scaled to the power that is asked for.
-void AddWithPower(const Light& light, const Frame& frame, Rgb mean, double size,
+// What an image of intensity comes to: its mean, weighed, over a domain of some size.
+struct ImageFlux {
+  Rgb mean;
+  double size;
+};
+
+// Adds the light whose power is that of its image times its intensity, scaled to the
+// power that is asked for.
+void AddWithPower(const Light& light, const Frame& frame, const ImageFlux& flux,
                   LightRecord& record, LightList& lights) {
+  const auto& [mean, size] = flux;
   const double unit_power = size * Luminance(mean);
   Rgb intensity = light.emission;
   if (light.power > 0) intensity *= light.power / unit_power;
@@ -52,7 +59,7 @@ void AddGoniometric(const Light& light, const Frame& frame, LightImageTable& ima
   LightRecord record = EmptyRecord(LightShape::kGoniometric);
   record.image = images.Add(image);
   lights.table.has_goniometric = true;
-  AddWithPower(light, frame, mean, 4 * kPi, record, lights);
+  AddWithPower(light, frame, {mean, 4 * kPi}, record, lights);
 }
 
 void AddProjection(const Light& light, const Frame& frame, LightImageTable& images,
@@ -83,7 +90,7 @@ void AddProjection(const Light& light, const Frame& frame, LightImageTable& imag
                secant = std::hypot(1, std::sqrt(tangent2));
   record.versine_total = static_cast<float>(tangent2 / (secant * (1 + secant)));
   lights.table.has_projection = true;
-  AddWithPower(light, frame, mean, 4 * half_x * half_y, record, lights);
+  AddWithPower(light, frame, {mean, 4 * half_x * half_y}, record, lights);
 }
 
 }  // namespace lanelight

@@ -85,34 +85,6 @@ std::int32_t MediumBuilder::Use(Index medium) {
   return at = static_cast<std::int32_t>(table_.media.size()) - 1;
 }
 
-// Calls visit(placed, first, end) for everything placed, with its primitives.
-template <typename Visit>
-void ForEachPlaced(const Placement& placement, const CompiledGeometry* compiled,
-                   const Visit& visit) {
-  const auto meshes = [&](const std::vector<PlacedShape>& shapes,
-                          const std::vector<MeshRange>* ranges) {
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      const MeshRange range = ranges != nullptr ? (*ranges)[i] : MeshRange{};
-      visit(shapes[i], range.begin, range.end);
-    }
-  };
-  const auto single = [&](const std::vector<PlacedShape>& shapes, std::uint32_t first) {
-    for (const PlacedShape& shape : shapes) {
-      visit(shape, first, first + 1);
-      ++first;
-    }
-  };
-  const PrimitiveRanges at = compiled ? compiled->geometry.ranges : PrimitiveRanges{};
-  meshes(placement.meshes, compiled ? &compiled->meshes : nullptr);
-  for (std::size_t o = 0; o < placement.objects.size(); ++o) {
-    meshes(placement.objects[o].meshes, compiled ? &compiled->object_meshes[o] : nullptr);
-  }
-  single(placement.spheres, at.spheres);
-  single(placement.disks, at.disks);
-  single(placement.planes, at.planes);
-  single(placement.large_spheres, at.large_spheres);
-}
-
 }  // namespace
 
 MediumTable CompileMedia(const SceneDescription& d, const Placement& placement,
@@ -120,7 +92,7 @@ MediumTable CompileMedia(const SceneDescription& d, const Placement& placement,
   MediumBuilder builder(d, placement.frame, materials);
   const std::int32_t camera = builder.Use(d.camera.medium);
   std::vector<MediumSides> sides;
-  ForEachPlaced(placement, nullptr, [&](const PlacedShape& placed, auto, auto) {
+  ForEachPlaced(placement, [&](const PlacedShape& placed) {
     const MediumInterface& media = placed.shape->media;
     if (!media.IsTransition()) return;
     const bool passes =
@@ -142,13 +114,13 @@ void PlaceMedia(const Placement& placement, const CompiledGeometry& compiled,
   // Kernels look at one even where rays can hit nothing.
   table.primitives.assign(std::max(compiled.geometry.ranges.end, 1u), -1);
   std::int32_t next = 0;
-  ForEachPlaced(placement, &compiled,
-                [&](const PlacedShape& placed, std::uint32_t begin, std::uint32_t end) {
-                  if (!placed.shape->media.IsTransition()) return;
-                  std::fill(table.primitives.begin() + begin,
-                            table.primitives.begin() + end, next);
-                  ++next;
-                });
+  ForEachCompiled(placement, compiled,
+                  [&](const PlacedShape& placed, std::uint32_t begin, std::uint32_t end) {
+                    if (!placed.shape->media.IsTransition()) return;
+                    std::fill(table.primitives.begin() + begin,
+                              table.primitives.begin() + end, next);
+                    ++next;
+                  });
 }
 
 }  // namespace lanelight

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "src/compile/store.h"
 #include "src/image/blackbody.h"
 
 namespace lanelight {
@@ -39,11 +40,7 @@ PlacedSparseGrid PlaceSparseGrid(std::shared_ptr<const SparseGrid> grid,
   PlacedSparseGrid placed;
   const Transform map = grid->index_from_world() * Transform::Translate(medium.box_min) *
                         Transform::Scale(medium.box_max - medium.box_min);
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 4; ++c) {
-      placed.index_from_box[4 * r + c] = static_cast<float>(map(r, c));
-    }
-  }
+  Store(map, placed.index_from_box);
   placed.grid = std::move(grid);
   return placed;
 }

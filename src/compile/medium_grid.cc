@@ -134,13 +134,9 @@ void SetMap(const Medium& medium, const Frame& frame, MediumGrid& grid) {
       Transform::Translate(-medium.box_min);
   const Transform map =
       box_from_medium * medium.world_from_medium.Inverse() * frame.Inverse();
-  bool seen = true;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 4; ++c) {
-      seen = seen && std::abs(map(r, c)) <= kFarthestInScene;
-      grid.box_from_scene[4 * r + c] = static_cast<float>(map(r, c));
-    }
-  }
+  Store(map, grid.box_from_scene);
+  const bool seen = std::all_of(grid.box_from_scene, grid.box_from_scene + 12,
+                                [](float v) { return std::abs(v) <= kFarthestInScene; });
   if (seen) return;
   // Nothing would be seen of a box so small or so flat: all of the scene is beside it.
   std::fill_n(grid.box_from_scene, 12, 0.0f);

@@ -31,17 +31,24 @@ double Overlap(int i, double begin, double end) {
   return std::min(i + 1.0, end) - std::max<double>(i, begin);
 }
 
-// Averages `from` texels, `stride` floats apart, to `to` of them.
-void Shrink(const float* in, std::ptrdiff_t stride, int from, int to, float* out,
-            std::ptrdiff_t out_stride) {
-  const double size = static_cast<double>(from) / to;
-  for (int j = 0; j < to; ++j) {
-    const double begin = j * size, end = std::min<double>(begin + size, from);
+// Texels that are `stride` floats apart.
+template <class T>
+struct Line {
+  T* first;
+  int count;
+  std::ptrdiff_t stride;
+};
+
+// Averages the texels of a line to fewer.
+void Shrink(const Line<const float>& in, const Line<float>& out) {
+  const double size = static_cast<double>(in.count) / out.count;
+  for (int j = 0; j < out.count; ++j) {
+    const double begin = j * size, end = std::min<double>(begin + size, in.count);
     double sum = 0;
     for (int i = static_cast<int>(begin); i < end; ++i) {
-      sum += Overlap(i, begin, end) * in[i * stride];
+      sum += Overlap(i, begin, end) * in.first[i * in.stride];
     }
-    out[j * out_stride] = static_cast<float>(sum / size);
+    out.first[j * out.stride] = static_cast<float>(sum / size);
   }
 }
 
@@ -51,13 +58,13 @@ Level Halve(const Level& in) {
   rows.rgb.resize(std::size_t{3} * w * in.height);
   for (int y = 0; y < in.height; ++y) {
     for (int c = 0; c < 3; ++c) {
-      Shrink(&in.rgb[std::size_t{3} * y * in.width + c], 3, in.width, w,
-             &rows.rgb[std::size_t{3} * y * w + c], 3);
+      Shrink({&in.rgb[std::size_t{3} * y * in.width + c], in.width, 3},
+             {&rows.rgb[std::size_t{3} * y * w + c], w, 3});
     }
   }
   out.rgb.resize(std::size_t{3} * w * h);
   for (int x = 0; x < 3 * w; ++x) {
-    Shrink(&rows.rgb[x], 3 * w, in.height, h, &out.rgb[x], 3 * w);
+    Shrink({&rows.rgb[x], in.height, 3 * w}, {&out.rgb[x], h, 3 * w});
   }
   return out;
 }
