@@ -138,29 +138,15 @@ Rgb FilmAccumulator::Mean(int x, int y) const {
   return sum / static_cast<double>(samples);
 }
 
-Rgb FilmAccumulator::PlainMean(int x, int y) const {
-  const std::size_t index = Index(x, y);
-  if (samples_[index] == 0) return {};
-  return Sum(index) / static_cast<double>(samples_[index]);
-}
-
 Rgb FilmAccumulator::Variance(int x, int y) const {
-  return HasVariance(x, y) ? Variance(Index(x, y), control_.get()) : Rgb{};
+  if (!HasVariance(x, y)) return {};
+  const std::size_t index = Index(x, y);
+  return groups_.replicates ? ReplicateVariance(index) : UnitVariance(index);
 }
 
-Rgb FilmAccumulator::PlainVariance(int x, int y) const {
-  return HasVariance(x, y) ? Variance(Index(x, y), nullptr) : Rgb{};
-}
-
-Rgb FilmAccumulator::Variance(std::size_t index, const FilmControl* control) const {
-  return groups_.replicates ? ReplicateVariance(index, control)
-                            : UnitVariance(index, control);
-}
-
-Rgb FilmAccumulator::ReplicateVariance(std::size_t index,
-                                       const FilmControl* control) const {
+Rgb FilmAccumulator::ReplicateVariance(std::size_t index) const {
   ReplicateSums sums = replicates_[index];
-  if (control != nullptr) control->CorrectReplicates(index, sums);
+  if (control_) control_->CorrectReplicates(index, sums);
   Rgb variance;
   for (int c = 0; c < 3; ++c) {
     variance[c] = sums.VarianceOfMean(c, samples_[index], groups_);
@@ -170,11 +156,11 @@ Rgb FilmAccumulator::ReplicateVariance(std::size_t index,
 
 // Sample variance of the units' means, over their number for the variance of their mean,
 // and scaled down by the share of a sample that has no partner yet.
-Rgb FilmAccumulator::UnitVariance(std::size_t index, const FilmControl* control) const {
+Rgb FilmAccumulator::UnitVariance(std::size_t index) const {
   const double n = static_cast<double>(groups_.Observations(samples_[index]));
   const double share = n * groups_.unit / static_cast<double>(samples_[index]);
-  if (control != nullptr) {
-    return control->ResidualSquares(index, samples_[index]) * (share / (n * (n - 1)));
+  if (control_) {
+    return control_->ResidualSquares(index, samples_[index]) * (share / (n * (n - 1)));
   }
   Rgb variance;
   for (int c = 0; c < 3; ++c) {

@@ -66,10 +66,6 @@ class FilmAccumulator {
   /// NaN-free: zero where there are fewer than two (see HasVariance).
   Rgb Variance(int x, int y) const;
   bool HasVariance(int x, int y) const { return Observations(x, y) >= 2; }
-  /// The same without a control variate that the film fits: of this pixel's samples
-  /// alone, where Mean() and Variance() know its neighbours' too.
-  Rgb PlainMean(int x, int y) const;
-  Rgb PlainVariance(int x, int y) const;
   /// Independent observations of a pixel.
   std::uint64_t Observations(int x, int y) const {
     return groups_.Observations(Samples(x, y));
@@ -105,9 +101,8 @@ class FilmAccumulator {
   void AddPlanes(PlaneGroup group, const float* const* planes, std::uint32_t count,
                  std::span<double> sums);
   Rgb Sum(std::size_t index) const;
-  Rgb Variance(std::size_t index, const FilmControl* control) const;
-  Rgb UnitVariance(std::size_t index, const FilmControl* control) const;
-  Rgb ReplicateVariance(std::size_t index, const FilmControl* control) const;
+  Rgb UnitVariance(std::size_t index) const;
+  Rgb ReplicateVariance(std::size_t index) const;
 
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y - y0_) * static_cast<std::size_t>(width_) +
