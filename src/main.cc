@@ -90,7 +90,6 @@ void AddCommands(CLI::App& root, RankGroup& group, Command& chosen) {
   root.require_subcommand(1);
   AddRenderCommand(root, group, chosen);
   AddAdviseCommand(root, chosen);
-  AddGuideCommand(root, chosen);
   AddPlanCommand(root, chosen);
   AddProfileCommand(root, chosen);
   AddBenchCommand(root, chosen);

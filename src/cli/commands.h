@@ -15,7 +15,6 @@ using Command = std::function<int()>;
 /// `group`: who renders; it must outlive the command.
 void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen);
 void AddAdviseCommand(CLI::App& root, Command& chosen);
-void AddGuideCommand(CLI::App& root, Command& chosen);
 void AddPlanCommand(CLI::App& root, Command& chosen);
 void AddProfileCommand(CLI::App& root, Command& chosen);
 void AddBenchCommand(CLI::App& root, Command& chosen);

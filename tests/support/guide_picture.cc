@@ -1,4 +1,4 @@
-#include "src/advise/guide_picture.h"
+#include "tests/support/guide_picture.h"
 
 #include <fmt/format.h>
 

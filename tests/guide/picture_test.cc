@@ -1,6 +1,6 @@
 // The picture of a guide: what it must be whatever has been learned, and that it shows
 // it.
-#include "src/advise/guide_picture.h"
+#include "tests/support/guide_picture.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
