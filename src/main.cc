@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <memory>
 #include <sstream>
+#include <string_view>
 
 #include "kernels/simd/target.h"
 #include "src/cli/commands.h"
+#include "src/cli/completion.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/core/check.h"
@@ -112,6 +114,10 @@ int Parse(CLI::App& root, int argc, char** argv) {
   if (argc < 2) {
     PrintError(root.help());
     return kExitUsage;
+  }
+  if (std::string_view(argv[1]) == kCompleteWord) {
+    Print(Completions(root, {argv + 2, argv + argc}));
+    return kExitGood;
   }
   if (ReportUnknownCommand(root, argc, argv)) return kExitUsage;
   try {

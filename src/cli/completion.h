@@ -1,49 +1,23 @@
-// Shell completion, written from what the command line says of itself: nothing here knows
-// a flag by name.
+// Shell completion. The shells' scripts ask the program itself, `lanelight __complete
+// WORD...`, what may stand for the last of these words: nothing here knows a flag by
+// name.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 namespace lanelight {
 
-/// What a word of the command line stands for.
-struct CompletionValue {
-  enum class Kind { kNone, kFile, kFolder, kChoices, kOther };
-  Kind kind = Kind::kNone;           // kNone: a flag without a value
-  std::string name;                  // "FILE", "N"
-  std::string extension;             // of a file: ".pbrt"; empty: any
-  std::vector<std::string> choices;  // kChoices
-  bool optional = false;             // the flag may stand alone
-};
+/// The first word of a command line that asks.
+inline constexpr const char* kCompleteWord = "__complete";
 
-struct CompletionFlag {
-  std::vector<std::string> names;  // "-o", "--output"
-  std::string meaning;
-  CompletionValue value;
-  bool repeats = false;
-};
+/// A line for each word that the last of `words`, typed so far, may become: the word, a
+/// tabulator, and what it means. Or one of the lines ":files", ":files.pbrt" (those that
+/// end so, and folders) or ":folders", which shells look for themselves.
+std::string Completions(const CLI::App& root, std::vector<std::string> words);
 
-struct CompletionCommand {
-  std::string name, meaning;
-  std::vector<CompletionFlag> flags;
-  std::vector<CompletionValue> words;  // what stands on its own, in order
-  bool last_repeats = false;           // any number of the last one
-};
-
-/// The program: its name, its own flags, and its commands.
-struct CompletionProgram {
-  std::string name;
-  std::vector<CompletionFlag> flags;
-  std::vector<CompletionCommand> commands;
-};
-
-/// The text in single quotes, for any of the shells.
-std::string ShellQuoted(const std::string& text);
-
-/// Scripts for the shells; to be sourced, or to be installed where the shell looks.
-std::string BashCompletion(const CompletionProgram& program);
-std::string ZshCompletion(const CompletionProgram& program);
-std::string FishCompletion(const CompletionProgram& program);
+/// The script for a shell: to be sourced, or to be installed where the shell looks.
+std::string CompletionScript(const std::string& shell);
 
 }  // namespace lanelight

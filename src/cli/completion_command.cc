@@ -9,81 +9,75 @@
 namespace lanelight {
 namespace {
 
-std::vector<std::string> Split(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (char c : text) {
-    if (c == separator) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
+constexpr const char* kBash =
+    R"(# bash completion for lanelight; written by `lanelight completion bash`
+_lanelight() {
+  local cur=${COMP_WORDS[COMP_CWORD]} kind
+  mapfile -t COMPREPLY < <("${COMP_WORDS[0]}" __complete \
+    "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
+  COMPREPLY=("${COMPREPLY[@]%%$'\t'*}") kind=${COMPREPLY[0]-}
+  [[ $kind == :* ]] || return 0
+  [[ $cur != = ]] || cur=
+  compopt -o filenames 2>/dev/null
+  mapfile -t COMPREPLY < <(
+    [[ $kind == :files ]] || compgen -d -- "$cur"
+    [[ $kind == :folders ]] || compgen -f -X "!*${kind#:files}" -- "$cur")
 }
+complete -F _lanelight lanelight
+)";
 
-// The type names are the description: FILE, DIR, SCENE, half|float; in brackets if the
-// flag may stand alone. A positional without one is named like its type, or is a file.
-CompletionValue ValueOf(const CLI::Option& option) {
-  using Kind = CompletionValue::Kind;
-  CompletionValue value;
-  if (option.get_items_expected_max() == 0) return value;
-  std::string type = option.get_type_name();
-  if (type.size() > 2 && type.front() == '[' && type.back() == ']') {
-    type = type.substr(1, type.size() - 2);
-  }
-  const bool alone = option.get_positional();
-  value.optional = option.get_items_expected_min() == 0;
-  value.name = alone ? option.get_name(true) : type;
-  const bool file = type == "FILE" || (alone && type.empty());
-  value.kind = file ? Kind::kFile : Kind::kOther;
-  if (value.name == "SCENE") value.extension = ".pbrt";
-  if (value.name == "SWEEP") value.extension = ".toml";
-  if (type == "DIR") value.kind = Kind::kFolder;
-  if (type.find('|') != std::string::npos) {
-    value.kind = Kind::kChoices;
-    value.choices = Split(type, '|');
-  }
-  return value;
+// A function to be autoloaded, or a file to be sourced.
+constexpr const char* kZsh = R"(#compdef lanelight
+# zsh completion for lanelight; written by `lanelight completion zsh`
+_lanelight() {
+  local -a lines
+  lines=("${(@f)$("${(Q)words[1]}" __complete "${(@Q)words[2,CURRENT-1]}" \
+    "${(Q)PREFIX}" 2>/dev/null)}")
+  case $lines[1] in
+    :*) compset -P '--*=' ;|
+    :folders) _files -/ ;;
+    :files*) _files -g "*${lines[1]#:files}" ;;
+    ?*)
+      lines=("${(@)lines//:/\\:}")
+      lines=("${(@)lines/$'\t'/:}")
+      _describe value lines
+      ;;
+  esac
 }
+if [[ $funcstack[1] == _lanelight ]]; then
+  _lanelight "$@"
+else
+  compdef _lanelight lanelight
+fi
+)";
 
-bool Repeats(const CLI::Option& option) { return option.get_expected_max() > 1; }
-
-CompletionFlag FlagOf(const CLI::Option& option) {
-  CompletionFlag flag;
-  for (const std::string& name : option.get_snames()) flag.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) flag.names.push_back("--" + name);
-  flag.meaning = option.get_description();
-  flag.value = ValueOf(option);
-  flag.repeats = Repeats(option);
-  return flag;
-}
-
-CompletionCommand CommandOf(const CLI::App& app) {
-  CompletionCommand command;
-  command.name = app.get_name();
-  command.meaning = app.get_description();
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_positional()) {
-      command.words.push_back(ValueOf(*option));
-      command.last_repeats = Repeats(*option);
-    } else {
-      command.flags.push_back(FlagOf(*option));
-    }
-  }
-  return command;
-}
-
-CompletionProgram ProgramOf(const CLI::App& root) {
-  CompletionProgram program;
-  program.name = root.get_name();
-  program.flags = CommandOf(root).flags;
-  for (const CLI::App* command : root.get_subcommands(nullptr)) {
-    program.commands.push_back(CommandOf(*command));
-  }
-  return program;
-}
+constexpr const char* kFish =
+    R"(# fish completion for lanelight; written by `lanelight completion fish`
+function __lanelight_complete
+  set -l words (commandline -opc)
+  set -l program $words[1]
+  set -e words[1]
+  set -l typed (commandline -ct)
+  set -l lines ($program __complete $words "$typed" 2>/dev/null)
+  switch "$lines[1]"
+    case ':files'
+      __fish_complete_path "$typed"
+    case ':files*'
+      __fish_complete_suffix (string replace ':files' '' -- $lines[1])
+    case ':folders'
+      __fish_complete_directories
+    case '*'
+      printf '%s\n' $lines
+  end
+end
+complete -c lanelight -f -k -a '(__lanelight_complete)'
+)";
 
 }  // namespace
+
+std::string CompletionScript(const std::string& shell) {
+  return shell == "bash" ? kBash : shell == "zsh" ? kZsh : kFish;
+}
 
 void AddCompletionCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
@@ -97,12 +91,9 @@ void AddCompletionCommand(CLI::App& root, Command& chosen) {
       "\nExamples:\n"
       "  source <(lanelight completion bash)     # also with zsh\n"
       "  lanelight completion fish | source");
-  command->callback([shell, &root, &chosen] {
-    chosen = [shell, &root] {
-      const CompletionProgram program = ProgramOf(root);
-      Print(*shell == "bash"  ? BashCompletion(program)
-            : *shell == "zsh" ? ZshCompletion(program)
-                              : FishCompletion(program));
+  command->callback([shell, &chosen] {
+    chosen = [shell] {
+      Print(CompletionScript(*shell));
       return kExitGood;
     };
   });
