@@ -68,7 +68,7 @@ void MeasureThreads(const Job& job, const Flags& flags, int threads,
   Series alone, lost, rays;
   for (int i = 0; i <= flags.repeats; ++i) {
     FilmAccumulator film = MakeFilm(job);
-    RunOptions options = RunOptionsOf(job, film);
+    RunOptions options = RunOptionsOf(job);
     options.profiling.trace_events = 1 << 21;
     const RunResult result = Run(job.scene, job.plan, options, film);
     if (i == 0) continue;  // warmed up
@@ -92,8 +92,7 @@ void MeasureThreads(const Job& job, const Flags& flags, int threads,
 // Processor seconds of each tile by itself.
 std::vector<double> TileCosts(const Job& job, const std::vector<PixelRect>& tiles) {
   const ThreadLimit limit(1);
-  const FilmAccumulator whole = MakeFilm(job);
-  RunOptions options = RunOptionsOf(job, whole);
+  RunOptions options = RunOptionsOf(job);
   std::vector<double> costs;
   for (const PixelRect& tile : tiles) {
     options.tiles = {tile};

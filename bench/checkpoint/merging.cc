@@ -98,7 +98,7 @@ nlohmann::json MeasureMerging(const CheckpointBench& bench) {
   CheckpointSettings none;
   Checkpoint checkpoint(job, none, HeadOf(job), ThrowProblem);
   WatchedKeeper keeper(checkpoint, measure);
-  RunOptions options = RunOptionsOf(job, film.film);
+  RunOptions options = RunOptionsOf(job);
   options.tiles = checkpoint.tiles();
   options.keeper = &keeper;
   Run(job.scene, job.plan, options, film.film);

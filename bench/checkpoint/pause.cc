@@ -57,7 +57,7 @@ struct Speed {
 Speed RenderWith(const Job& job, const CheckpointBench& bench, double seconds) {
   BenchFilm film(job);
   Checkpoint checkpoint(job, SettingsOf(bench, seconds), HeadOf(job), ThrowProblem);
-  RunOptions options = RunOptionsOf(job, film.film);
+  RunOptions options = RunOptionsOf(job);
   options.tiles = checkpoint.tiles();
   if (seconds > 0) options.keeper = &checkpoint;
   const Clock::time_point start = Clock::now();
@@ -83,7 +83,7 @@ nlohmann::json MeasurePause(const CheckpointBench& bench) {
     checkpoint.Finish();
     for (int i = 0; i < bench.repeats; ++i) steps.Time(checkpoint, state);
   });
-  RunOptions options = RunOptionsOf(job, film.film);
+  RunOptions options = RunOptionsOf(job);
   options.tiles = checkpoint.tiles();
   options.keeper = &keeper;
   Run(job.scene, job.plan, options, film.film);

@@ -10,7 +10,7 @@ namespace {
 
 double CpuSeconds(const Job& job, const std::vector<PixelRect>& tiles) {
   BenchFilm film(job);
-  RunOptions options = RunOptionsOf(job, film.film);
+  RunOptions options = RunOptionsOf(job);
   options.tiles = tiles;
   const double start = ProcessCpuSeconds();
   Run(job.scene, job.plan, options, film.film);

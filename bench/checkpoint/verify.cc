@@ -17,7 +17,7 @@ constexpr std::array<int, 2> kSmall = {200, 120};
 void Render(const Job& job, BenchFilm& out, RunKeeper* keeper,
             const std::vector<PixelRect>& tiles,
             const std::atomic<bool>* stop = nullptr) {
-  RunOptions options = RunOptionsOf(job, out.film);
+  RunOptions options = RunOptionsOf(job);
   options.keeper = keeper;
   options.tiles = tiles;
   options.stop = stop;

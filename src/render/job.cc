@@ -103,13 +103,14 @@ FilmAccumulator MakeFilm(const Job& job) {
   return film;
 }
 
-RunOptions RunOptionsOf(const Job& job, const FilmAccumulator& film) {
+RunOptions RunOptionsOf(const Job& job) {
   RunOptions options;
   options.spp = job.spp;
   options.seconds = job.seconds;
   options.seed = job.seed;
   if (job.target.Any()) {
-    options.samples_needed = [target = job.target, &film](std::uint64_t done) {
+    options.samples_needed = [target = job.target](const FilmAccumulator& film,
+                                                   std::uint64_t done) {
       return SamplesNeeded(target, EstimateError(film), done);
     };
   }
@@ -119,7 +120,7 @@ RunOptions RunOptionsOf(const Job& job, const FilmAccumulator& film) {
 JobRun RunJob(const Job& job, std::function<void(const Progress&)> on_progress,
               const std::atomic<bool>* stop) {
   JobRun run = {MakeFilm(job), {}};
-  RunOptions options = RunOptionsOf(job, run.film);
+  RunOptions options = RunOptionsOf(job);
   options.on_progress = std::move(on_progress);
   options.stop = stop;
   run.result = Run(job.scene, job.plan, options, run.film);

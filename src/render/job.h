@@ -55,8 +55,8 @@ void SetAmount(Job& job, const RenderSettings& settings);
 /// An empty film of the job's size.
 FilmAccumulator MakeFilm(const Job& job);
 
-/// How the job is to be run; refers to both, for as long as it is used.
-RunOptions RunOptionsOf(const Job& job, const FilmAccumulator& film);
+/// How the job is to be run.
+RunOptions RunOptionsOf(const Job& job);
 
 /// A render of a job, and what it came to.
 struct JobRun {

@@ -59,7 +59,7 @@ void AgreeOnJob(const Job& job, RankGroup& group) {
 RunResult RunKept(const Job& job, FilmAccumulator& film, const Json& head,
                   const CheckpointSettings& settings, const RenderHooks& hooks,
                   Rendering& out) {
-  RunOptions options = RunOptionsOf(job, film);
+  RunOptions options = RunOptionsOf(job);
   options.on_progress = hooks.on_progress;
   options.stop = hooks.stop;
   options.group = hooks.group;
@@ -107,7 +107,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
 
 void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop) {
   FilmAccumulator film = MakeFilm(job);
-  RunOptions options = RunOptionsOf(job, film);
+  RunOptions options = RunOptionsOf(job);
   options.stop = stop;
   options.group = &group;
   AgreeOnJob(job, group);

@@ -57,7 +57,7 @@ Reference RenderReference(Job& job, const ReferenceOptions& options) {
   strategy.points = Points::kIndependent;
   SetRender(job, strategy, options.spp, options.seed);
   FilmAccumulator film = MakeFilm(job);
-  RunOptions run = RunOptionsOf(job, film);
+  RunOptions run = RunOptionsOf(job);
   run.on_progress = options.on_progress;
   run.stop = options.stop;
   std::unique_ptr<Checkpoint> checkpoint;

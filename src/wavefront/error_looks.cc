@@ -34,7 +34,7 @@ void ErrorLooks::LookIfDue(std::uint64_t done) {
   if (!setting_.tasks.IsAt(done) || !IsLook(done)) return;
   setting_.work.Gather();
   setting_.films.film().FitControl();
-  needed_ = setting_.options.samples_needed(done);
+  needed_ = setting_.options.samples_needed(setting_.films.film(), done);
   hopeless_ = needed_ < 0;
   reached_ = !hopeless_ && needed_ <= double(done);
 }

@@ -49,9 +49,9 @@ struct RunOptions {
   double seconds = 0;
   /// If set, the render looks at itself at certain numbers of samples per pixel
   /// (src/wavefront/schedule.h), and ends once this returns `done` or less: how many the
-  /// image is estimated to need, of which `done` are in the film; below 0: no number will
+  /// image is estimated to need, of which `done` are in its film; below 0: no number will
   /// do.
-  std::function<double(std::uint64_t done)> samples_needed;
+  std::function<double(const FilmAccumulator& film, std::uint64_t done)> samples_needed;
   std::uint64_t seed = 0;
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
   /// Finish the samples in flight; those that take longer are put down.

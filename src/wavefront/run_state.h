@@ -34,6 +34,9 @@ struct TrainingOutcome {
   std::string note;  // what was found, one line
   std::uint64_t samples = 0, rays = 0;
   double seconds = 0, cpu_seconds = 0;
+
+  /// Another training's, after this one: all of its changes, notes and counts count.
+  void Add(const TrainingOutcome& next);
 };
 
 struct RunState {

@@ -16,6 +16,16 @@ constexpr Training kTrainings[] = {
 
 }  // namespace
 
+void TrainingOutcome::Add(const TrainingOutcome& next) {
+  const auto join = [](std::string& all, const char* between, const std::string& more) {
+    all += (all.empty() || more.empty() ? "" : between) + more;
+  };
+  join(changes, ",", next.changes);
+  join(note, "; ", next.note);
+  samples += next.samples;
+  rays += next.rays;
+}
+
 bool NeedsTraining(const Plan& plan) {
   if (plan.features.Has(Feature::kDecides)) return true;
   for (const Training& t : kTrainings) {
@@ -29,11 +39,7 @@ TrainingOutcome Train(const TrainingContext& context) {
   TrainingOutcome all;
   for (const Training& t : kTrainings) {
     if (!context.plan.features.Has(t.asks)) continue;
-    const TrainingOutcome one = t.train(context);
-    if (!one.changes.empty()) all.changes = one.changes;
-    all.note += (all.note.empty() || one.note.empty() ? "" : "; ") + one.note;
-    all.samples += one.samples;
-    all.rays += one.rays;
+    all.Add(t.train(context));
   }
   return all;
 }

@@ -76,7 +76,7 @@ inline Outcome RenderKept(const KeptRender& r) {
   const ThreadLimit limit(r.threads);
   const Job job = PrepareJob(r.scene, r.settings);
   FilmAccumulator film = MakeFilm(job);
-  RunOptions options = RunOptionsOf(job, film);
+  RunOptions options = RunOptionsOf(job);
   if (!r.checkpoint.Any())
     return OutcomeOf(film, Run(job.scene, job.plan, options, film));
   std::vector<std::string> problems;

@@ -42,10 +42,11 @@ Rendered Render(const OpenEnded& o) {
   options.seconds = o.seconds;
   options.stop = o.stop;
   if (o.target > 0) {
-    options.samples_needed = [&](std::uint64_t done) {
-      CHECK(out.film.Samples(0, 0) == done);
-      CHECK(out.film.Samples(36, 28) == done);
-      return SamplesNeeded({o.target, 0}, EstimateError(out.film), done);
+    options.samples_needed = [&](const FilmAccumulator& film, std::uint64_t done) {
+      CHECK(&film == &out.film);
+      CHECK(film.Samples(0, 0) == done);
+      CHECK(film.Samples(36, 28) == done);
+      return SamplesNeeded({o.target, 0}, EstimateError(film), done);
     };
   }
   out.result = Run(scene, plan, options, out.film);

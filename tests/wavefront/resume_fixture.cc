@@ -28,8 +28,8 @@ Rendered Render(const Request& request) {
   options.keeper = request.keeper;
   options.stop = request.stop;
   if (request.target > 0) {
-    options.samples_needed = [&](std::uint64_t done) {
-      return SamplesNeeded({request.target, 0}, EstimateError(out.film), done);
+    options.samples_needed = [&](const FilmAccumulator& film, std::uint64_t done) {
+      return SamplesNeeded({request.target, 0}, EstimateError(film), done);
     };
   }
   options.group = request.group;
