@@ -6,7 +6,7 @@ using enum Feature;
 
 namespace {
 
-FeatureSet Union(FeatureSet a, FeatureSet b) {
+constexpr FeatureSet Union(FeatureSet a, FeatureSet b) {
   a.Add(b);
   return a;
 }
@@ -15,151 +15,51 @@ FeatureSet Union(FeatureSet a, FeatureSet b) {
 
 #define LANELIGHT_OWN_STAGE(feature) FeatureSet({feature})
 #define LANELIGHT_OWN_PLAIN(feature) FeatureSet()
-
-FeatureSet TurnsOn(Directions choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case Directions::k##name:     \
-    return Union(LANELIGHT_OWN_##own(k##name##Directions), FeatureSet also);
-    LANELIGHT_DIRECTIONS(X)
-#undef X
+#define LANELIGHT_TURNS_ON(Type, CHOICES)                                   \
+  FeatureSet TurnsOn(Type choice) {                                         \
+    constexpr FeatureSet kOfChoices[] = {CHOICES(LANELIGHT_ROW_OF_##Type)}; \
+    return kOfChoices[static_cast<int>(choice)];                            \
   }
-  return {};
-}
 
-FeatureSet TurnsOn(Points choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case Points::k##name:         \
-    return Union(LANELIGHT_OWN_##own(k##name##Points), FeatureSet also);
-    LANELIGHT_POINTS(X)
-#undef X
-  }
-  return {};
-}
+#define LANELIGHT_ROW_OF_Directions(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##Directions), FeatureSet also),
+#define LANELIGHT_ROW_OF_Points(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##Points), FeatureSet also),
+#define LANELIGHT_ROW_OF_Pairs(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##Pairs), FeatureSet also),
+#define LANELIGHT_ROW_OF_Control(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##Control), FeatureSet also),
+#define LANELIGHT_ROW_OF_Roulette(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##Roulette), FeatureSet also),
+#define LANELIGHT_ROW_OF_LightSelection(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##LightSelection), FeatureSet also),
+#define LANELIGHT_ROW_OF_LightPoints(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##LightPoints), FeatureSet also),
+#define LANELIGHT_ROW_OF_LightCandidates(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##LightCandidates), FeatureSet also),
+#define LANELIGHT_ROW_OF_ShadowRoulette(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##ShadowRoulette), FeatureSet also),
+#define LANELIGHT_ROW_OF_Distances(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##Distances), FeatureSet also),
+#define LANELIGHT_ROW_OF_Guiding(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##Guiding), FeatureSet also),
+#define LANELIGHT_ROW_OF_Reuse(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##Reuse), FeatureSet also),
+#define LANELIGHT_ROW_OF_Decide(name, own, also, ...) \
+  Union(LANELIGHT_OWN_##own(k##name##Decide), FeatureSet also),
 
-FeatureSet TurnsOn(Pairs choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case Pairs::k##name:          \
-    return Union(LANELIGHT_OWN_##own(k##name##Pairs), FeatureSet also);
-    LANELIGHT_PAIRS(X)
-#undef X
-  }
-  return {};
-}
-
-FeatureSet TurnsOn(Control choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case Control::k##name:        \
-    return Union(LANELIGHT_OWN_##own(k##name##Control), FeatureSet also);
-    LANELIGHT_CONTROLS(X)
-#undef X
-  }
-  return {};
-}
-
-FeatureSet TurnsOn(Roulette choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case Roulette::k##name:       \
-    return Union(LANELIGHT_OWN_##own(k##name##Roulette), FeatureSet also);
-    LANELIGHT_ROULETTES(X)
-#undef X
-  }
-  return {};
-}
-
-FeatureSet TurnsOn(LightSelection choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case LightSelection::k##name: \
-    return Union(LANELIGHT_OWN_##own(k##name##LightSelection), FeatureSet also);
-    LANELIGHT_LIGHT_SELECTIONS(X)
-#undef X
-  }
-  return {};
-}
-
-FeatureSet TurnsOn(LightPoints choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case LightPoints::k##name:    \
-    return Union(LANELIGHT_OWN_##own(k##name##LightPoints), FeatureSet also);
-    LANELIGHT_LIGHT_POINTS(X)
-#undef X
-  }
-  return {};
-}
-
-FeatureSet TurnsOn(LightCandidates choice) {
-  switch (choice) {
-#define X(name, own, also, ...)  \
-  case LightCandidates::k##name: \
-    return Union(LANELIGHT_OWN_##own(k##name##LightCandidates), FeatureSet also);
-    LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)
-#undef X
-  }
-  return {};
-}
-
-FeatureSet TurnsOn(ShadowRoulette choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case ShadowRoulette::k##name: \
-    return Union(LANELIGHT_OWN_##own(k##name##ShadowRoulette), FeatureSet also);
-    LANELIGHT_SHADOW_ROULETTES(X)
-#undef X
-  }
-  return {};
-}
-
-FeatureSet TurnsOn(Distances choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case Distances::k##name:      \
-    return Union(LANELIGHT_OWN_##own(k##name##Distances), FeatureSet also);
-    LANELIGHT_DISTANCES(X)
-#undef X
-  }
-  return {};
-}
-
-FeatureSet TurnsOn(Guiding choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case Guiding::k##name:        \
-    return Union(LANELIGHT_OWN_##own(k##name##Guiding), FeatureSet also);
-    LANELIGHT_GUIDINGS(X)
-#undef X
-  }
-  return {};
-}
-
-FeatureSet TurnsOn(Reuse choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case Reuse::k##name:          \
-    return Union(LANELIGHT_OWN_##own(k##name##Reuse), FeatureSet also);
-    LANELIGHT_REUSES(X)
-#undef X
-  }
-  return {};
-}
-
-FeatureSet TurnsOn(Decide choice) {
-  switch (choice) {
-#define X(name, own, also, ...) \
-  case Decide::k##name:         \
-    return Union(LANELIGHT_OWN_##own(k##name##Decide), FeatureSet also);
-    LANELIGHT_DECISIONS(X)
-#undef X
-  }
-  return {};
-}
-
-#undef LANELIGHT_OWN_STAGE
-#undef LANELIGHT_OWN_PLAIN
+LANELIGHT_TURNS_ON(Directions, LANELIGHT_DIRECTIONS)
+LANELIGHT_TURNS_ON(Points, LANELIGHT_POINTS)
+LANELIGHT_TURNS_ON(Pairs, LANELIGHT_PAIRS)
+LANELIGHT_TURNS_ON(Control, LANELIGHT_CONTROLS)
+LANELIGHT_TURNS_ON(Roulette, LANELIGHT_ROULETTES)
+LANELIGHT_TURNS_ON(LightSelection, LANELIGHT_LIGHT_SELECTIONS)
+LANELIGHT_TURNS_ON(LightPoints, LANELIGHT_LIGHT_POINTS)
+LANELIGHT_TURNS_ON(LightCandidates, LANELIGHT_LIGHT_CANDIDATE_CHOICES)
+LANELIGHT_TURNS_ON(ShadowRoulette, LANELIGHT_SHADOW_ROULETTES)
+LANELIGHT_TURNS_ON(Distances, LANELIGHT_DISTANCES)
+LANELIGHT_TURNS_ON(Guiding, LANELIGHT_GUIDINGS)
+LANELIGHT_TURNS_ON(Reuse, LANELIGHT_REUSES)
+LANELIGHT_TURNS_ON(Decide, LANELIGHT_DECISIONS)
 
 }  // namespace lanelight

@@ -113,7 +113,7 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
 }
 
 bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene) {
-  if (settings.decision == DefaultDecision::kNever || settings.strategy.keys.any() ||
+  if (settings.decision == DefaultDecision::kNever || !settings.strategy.text.empty() ||
       !scene.integrator.strategy.empty()) {
     return false;
   }

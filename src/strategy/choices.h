@@ -154,27 +154,33 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(Bsdf, "bsdf", "scattered direction and lobe")            \
   X(FirstBounce, "first-bounce", "light and direction at the first event")
 
-#define LANELIGHT_ENUM(Name, LIST) enum class Name : std::uint8_t { LIST }
+// Every axis, as in a strategy's text: X(type, member of Strategy, key, choices)
+#define LANELIGHT_AXES(X)                                                           \
+  X(Directions, directions, "directions", LANELIGHT_DIRECTIONS)                     \
+  X(Points, points, "points", LANELIGHT_POINTS)                                     \
+  X(Pairs, pairs, "pairs", LANELIGHT_PAIRS)                                         \
+  X(Control, control, "control", LANELIGHT_CONTROLS)                                \
+  X(Roulette, roulette, "roulette", LANELIGHT_ROULETTES)                            \
+  X(LightSelection, light_selection, "light-selection", LANELIGHT_LIGHT_SELECTIONS) \
+  X(SeenLights, seen_lights, "seen-lights", LANELIGHT_SEEN_LIGHTS)                  \
+  X(LightPoints, light_points, "light-points", LANELIGHT_LIGHT_POINTS)              \
+  X(LightCandidates, light_candidates, "light-candidates",                          \
+    LANELIGHT_LIGHT_CANDIDATE_CHOICES)                                              \
+  X(EnvironmentPoints, environment, "environment", LANELIGHT_ENVIRONMENT_CHOICES)   \
+  X(ShadowRoulette, shadow_roulette, "shadow-roulette", LANELIGHT_SHADOW_ROULETTES) \
+  X(Distances, distances, "distances", LANELIGHT_DISTANCES)                         \
+  X(Guiding, guiding, "guiding", LANELIGHT_GUIDINGS)                                \
+  X(Reuse, reuse, "reuse", LANELIGHT_REUSES)                                        \
+  X(Decide, decide, "decide", LANELIGHT_DECISIONS)
+
 #define X(name, ...) k##name,
-LANELIGHT_ENUM(Directions, LANELIGHT_DIRECTIONS(X));
-LANELIGHT_ENUM(Points, LANELIGHT_POINTS(X));
-LANELIGHT_ENUM(Pairs, LANELIGHT_PAIRS(X));
-LANELIGHT_ENUM(Control, LANELIGHT_CONTROLS(X));
-LANELIGHT_ENUM(Roulette, LANELIGHT_ROULETTES(X));
-LANELIGHT_ENUM(LightSelection, LANELIGHT_LIGHT_SELECTIONS(X));
-LANELIGHT_ENUM(SeenLights, LANELIGHT_SEEN_LIGHTS(X));
-LANELIGHT_ENUM(LightPoints, LANELIGHT_LIGHT_POINTS(X));
-LANELIGHT_ENUM(LightCandidates, LANELIGHT_LIGHT_CANDIDATE_CHOICES(X));
-LANELIGHT_ENUM(EnvironmentPoints, LANELIGHT_ENVIRONMENT_CHOICES(X));
-LANELIGHT_ENUM(ShadowRoulette, LANELIGHT_SHADOW_ROULETTES(X));
-LANELIGHT_ENUM(Distances, LANELIGHT_DISTANCES(X));
-LANELIGHT_ENUM(Guiding, LANELIGHT_GUIDINGS(X));
-LANELIGHT_ENUM(Reuse, LANELIGHT_REUSES(X));
-LANELIGHT_ENUM(BlockLayout, LANELIGHT_BLOCK_LAYOUTS(X));
-LANELIGHT_ENUM(Decide, LANELIGHT_DECISIONS(X));
-LANELIGHT_ENUM(Paired, LANELIGHT_PAIRED(X));
+#define LANELIGHT_AXIS(Type, member, key, CHOICES) \
+  enum class Type : std::uint8_t { CHOICES(X) };
+LANELIGHT_AXES(LANELIGHT_AXIS)
+#undef LANELIGHT_AXIS
+enum class BlockLayout : std::uint8_t { LANELIGHT_BLOCK_LAYOUTS(X) };
+enum class Paired : std::uint8_t { LANELIGHT_PAIRED(X) };
 #undef X
-#undef LANELIGHT_ENUM
 
 // How many choices an axis has.
 #define X(...) +1

@@ -8,59 +8,6 @@
 namespace lanelight {
 namespace {
 
-constexpr ChoiceInfo kChoices[] = {
-#define ROW(axis, own, also, name, arguments, meaning, formula, source) \
-  {axis, name, arguments, meaning, formula, source},
-// clang-format off
-#define X(enumerator, ...) ROW("directions", __VA_ARGS__)
-    LANELIGHT_DIRECTIONS(X)
-#undef X
-#define X(enumerator, ...) ROW("points", __VA_ARGS__)
-    LANELIGHT_POINTS(X)
-#undef X
-#define X(enumerator, ...) ROW("pairs", __VA_ARGS__)
-    LANELIGHT_PAIRS(X)
-#undef X
-#define X(enumerator, ...) ROW("control", __VA_ARGS__)
-    LANELIGHT_CONTROLS(X)
-#undef X
-#define X(enumerator, ...) ROW("roulette", __VA_ARGS__)
-    LANELIGHT_ROULETTES(X)
-#undef X
-#define X(enumerator, ...) ROW("light-selection", __VA_ARGS__)
-    LANELIGHT_LIGHT_SELECTIONS(X)
-#undef X
-#define X(enumerator, ...) ROW("seen-lights", __VA_ARGS__)
-    LANELIGHT_SEEN_LIGHTS(X)
-#undef X
-#define X(enumerator, ...) ROW("light-points", __VA_ARGS__)
-    LANELIGHT_LIGHT_POINTS(X)
-#undef X
-#define X(enumerator, ...) ROW("light-candidates", __VA_ARGS__)
-    LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)
-#undef X
-#define X(enumerator, ...) ROW("environment", __VA_ARGS__)
-    LANELIGHT_ENVIRONMENT_CHOICES(X)
-#undef X
-#define X(enumerator, ...) ROW("shadow-roulette", __VA_ARGS__)
-    LANELIGHT_SHADOW_ROULETTES(X)
-#undef X
-#define X(enumerator, ...) ROW("distances", __VA_ARGS__)
-    LANELIGHT_DISTANCES(X)
-#undef X
-#define X(enumerator, ...) ROW("guiding", __VA_ARGS__)
-    LANELIGHT_GUIDINGS(X)
-#undef X
-#define X(enumerator, ...) ROW("reuse", __VA_ARGS__)
-    LANELIGHT_REUSES(X)
-#undef X
-#define X(enumerator, ...) ROW("decide", __VA_ARGS__)
-    LANELIGHT_DECISIONS(X)
-#undef X
-// clang-format on
-#undef ROW
-};
-
 constexpr PresetInfo kPresets[] = {
     {"paper-plain", "", "the common base: mis, independent points, nothing else"},
     {"paper-uniform", "directions=uniform", "uniform sampling of directions"},
@@ -103,7 +50,7 @@ std::string ReuseText(const Strategy& s) {
 std::string ToText(const Strategy& s) {
   std::string text = fmt::format("directions={}", Name(s.directions));
   if (s.directions == Directions::kMis) {
-    text += fmt::format(":{}", kHeuristics[static_cast<int>(s.heuristic)]);
+    text += fmt::format(":{}", kHeuristicNames[static_cast<int>(s.heuristic)]);
   }
   text += fmt::format(",points={},pairs={}", Name(s.points), Name(s.pairs));
   if (s.pairs == Pairs::kAntithetic) text += fmt::format(":{}", Name(s.paired));
@@ -118,33 +65,31 @@ std::string ToText(const Strategy& s) {
                      Name(s.guiding), ReuseText(s), Name(s.decide));
 }
 
-std::span<const ChoiceInfo> AllChoices() { return kChoices; }
+std::span<const ChoiceInfo> AllChoices() {
+  static const std::vector<ChoiceInfo> choices = [] {
+    std::vector<ChoiceInfo> all;
+#define X(enumerator, own, also, name, arguments, meaning, formula, source) \
+  all.push_back({axis, name, arguments, meaning, formula, source});
+#define LANELIGHT_AXIS(Type, member, key, CHOICES) \
+  {                                                \
+    constexpr const char* axis = key;              \
+    CHOICES(X)                                     \
+  }
+    LANELIGHT_AXES(LANELIGHT_AXIS)
+#undef LANELIGHT_AXIS
+#undef X
+    return all;
+  }();
+  return choices;
+}
+
 std::span<const PresetInfo> AllPresets() { return kPresets; }
 
-const char* Name(Directions choice) { return kDirections[static_cast<int>(choice)]; }
-const char* Name(Points choice) { return kPoints[static_cast<int>(choice)]; }
-const char* Name(Pairs choice) { return kPairs[static_cast<int>(choice)]; }
-const char* Name(Control choice) { return kControls[static_cast<int>(choice)]; }
-const char* Name(Roulette choice) { return kRoulettes[static_cast<int>(choice)]; }
-const char* Name(LightSelection choice) {
-  return kLightSelections[static_cast<int>(choice)];
-}
-const char* Name(SeenLights choice) { return kSeenLights[static_cast<int>(choice)]; }
-const char* Name(LightPoints choice) { return kLightPoints[static_cast<int>(choice)]; }
-const char* Name(LightCandidates choice) {
-  return kLightCandidateChoices[static_cast<int>(choice)];
-}
-const char* Name(EnvironmentPoints choice) {
-  return kEnvironmentPoints[static_cast<int>(choice)];
-}
-const char* Name(ShadowRoulette choice) {
-  return kShadowRoulettes[static_cast<int>(choice)];
-}
-const char* Name(Distances choice) { return kDistances[static_cast<int>(choice)]; }
-const char* Name(Guiding choice) { return kGuidings[static_cast<int>(choice)]; }
-const char* Name(Reuse choice) { return kReuses[static_cast<int>(choice)]; }
-const char* Name(BlockLayout choice) { return kBlockLayouts[static_cast<int>(choice)]; }
-const char* Name(Decide choice) { return kDecisions[static_cast<int>(choice)]; }
-const char* Name(Paired choice) { return kPaired[static_cast<int>(choice)]; }
+#define LANELIGHT_NAME(Type, ...) \
+  const char* Name(Type choice) { return k##Type##Names[static_cast<int>(choice)]; }
+LANELIGHT_AXES(LANELIGHT_NAME)
+LANELIGHT_NAME(BlockLayout)
+LANELIGHT_NAME(Paired)
+#undef LANELIGHT_NAME
 
 }  // namespace lanelight

@@ -2,7 +2,6 @@
 // meaning: choices.h. Text form: `key=value,...`, optionally after the name of a preset.
 #pragma once
 
-#include <bitset>
 #include <optional>
 #include <span>
 #include <string>
@@ -79,30 +78,9 @@ struct Strategy {
   bool MayReuse() const { return reuse != Reuse::kNone || decide == Decide::kPilot; }
 };
 
-enum class StrategyKey {
-  kDirections,
-  kPoints,
-  kPairs,
-  kControl,
-  kCoefficient,
-  kRoulette,
-  kLightSelection,
-  kSeenLights,
-  kLightPoints,
-  kLightCandidates,
-  kEnvironment,
-  kShadowRoulette,
-  kDistances,
-  kGuiding,
-  kReuse,
-  kDecide,
-  kCount
-};
-
-/// What a text says of a strategy: the values of some keys.
+/// Changes of a strategy, as a text that has been understood; empty: none.
 struct StrategyChanges {
-  Strategy values;
-  std::bitset<static_cast<std::size_t>(StrategyKey::kCount)> keys;
+  std::string text;
 };
 
 /// A preset, which can only come first, sets all keys. Throws InputError at `where` with
@@ -133,22 +111,10 @@ struct PresetInfo {
 /// The figures of the founding paper: each changes one thing of paper-plain.
 std::span<const PresetInfo> AllPresets();
 
-const char* Name(Directions choice);
-const char* Name(Points choice);
-const char* Name(Pairs choice);
-const char* Name(Control choice);
-const char* Name(Roulette choice);
-const char* Name(LightSelection choice);
-const char* Name(SeenLights choice);
-const char* Name(LightPoints choice);
-const char* Name(LightCandidates choice);
-const char* Name(EnvironmentPoints choice);
-const char* Name(ShadowRoulette choice);
-const char* Name(Distances choice);
-const char* Name(Guiding choice);
-const char* Name(Reuse choice);
+#define LANELIGHT_AXIS(Type, ...) const char* Name(Type choice);
+LANELIGHT_AXES(LANELIGHT_AXIS)
+#undef LANELIGHT_AXIS
 const char* Name(BlockLayout choice);
-const char* Name(Decide choice);
 const char* Name(Paired choice);
 
 }  // namespace lanelight

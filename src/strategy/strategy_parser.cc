@@ -14,13 +14,11 @@
 namespace lanelight {
 namespace {
 
-// By StrategyKey.
 constexpr const char* kKeys[] = {
-    "directions",  "points",          "pairs",       "control",      "c",
-    "roulette",    "light-selection", "seen-lights", "light-points", "light-candidates",
-    "environment", "shadow-roulette", "distances",   "guiding",      "reuse",
-    "decide"};
-static_assert(std::size(kKeys) == static_cast<std::size_t>(StrategyKey::kCount));
+#define LANELIGHT_AXIS(Type, member, key, ...) key,
+    LANELIGHT_AXES(LANELIGHT_AXIS)
+#undef LANELIGHT_AXIS
+        "c"};
 
 constexpr const char kPlain[] =
     "directions=mis:power,points=independent,pairs=none,control=none,c=optimal,"
@@ -29,12 +27,13 @@ constexpr const char kPlain[] =
     "distances=exponential,guiding=none,"
     "reuse=none,decide=none";
 
+// Changes a strategy as a text says.
 class Parser {
  public:
-  Parser(std::string_view text, const SourceLocation& where)
-      : text_(text), where_(where) {}
+  Parser(std::string_view text, const SourceLocation& where, Strategy& strategy)
+      : text_(text), where_(where), strategy_(strategy) {}
 
-  StrategyChanges Parse() {
+  void Parse() {
     bool first = true;
     for (std::string_view rest = text_; !rest.empty() || !first;) {
       const std::size_t comma = rest.find(',');
@@ -43,10 +42,11 @@ class Parser {
       if (comma == std::string_view::npos) break;
       rest.remove_prefix(comma + 1);
     }
-    return changes_;
   }
 
  private:
+  using Parts = std::vector<std::string_view>;  // a name and its arguments
+
   [[noreturn]] void Fail(const std::string& message) const {
     throw InputError(where_, fmt::format("strategy {}: {}", Quoted(text_), message));
   }
@@ -66,7 +66,6 @@ class Parser {
       strategy_ = {};
       ApplyStrategy(kPlain, where_, strategy_);
       ApplyStrategy(preset.changes, where_, strategy_);
-      changes_.keys.set();
       return;
     }
     if (name.empty()) Fail("empty item: expected key=value,...");
@@ -81,14 +80,15 @@ class Parser {
                      QuotedList(known)));
   }
 
-  // Index of `found` among the names of a key.
-  template <std::size_t kSize>
-  std::size_t Choose(std::string_view key, std::string_view found,
-                     const char* const (&names)[kSize]) const {
-    for (std::size_t i = 0; i < kSize; ++i) {
-      if (found == names[i]) return i;
+  // The value of a key by one of its names.
+  template <class Choice, std::size_t kSize>
+  void Choose(std::string_view key, std::string_view found,
+              const char* const (&names)[kSize], Choice& choice) const {
+    const auto* name = std::find(names, names + kSize, found);
+    if (name == names + kSize) {
+      Unknown(fmt::format("value of \"{}\"", key), found, {names, names + kSize});
     }
-    Unknown(fmt::format("value of \"{}\"", key), found, {names, names + kSize});
+    choice = static_cast<Choice>(name - names);
   }
 
   double Number(std::string_view key, std::string_view text, double low,
@@ -104,129 +104,73 @@ class Parser {
     return value;
   }
 
-  // Splits "name:a:b" into at most `most` parts.
-  std::vector<std::string_view> Parts(std::string_view key, std::string_view value,
-                                      std::size_t most) const {
-    std::vector<std::string_view> parts;
-    for (;;) {
-      const std::size_t colon = value.find(':');
-      parts.push_back(value.substr(0, colon));
-      if (colon == std::string_view::npos) break;
-      value.remove_prefix(colon + 1);
-    }
-    if (parts.size() > most) {
-      Fail(fmt::format("\"{}\" of {} takes at most {} arguments after ':'", parts[0], key,
-                       most - 1));
-    }
-    return parts;
-  }
-
   void Set(std::string_view key, std::string_view value) {
-    const auto* end = std::end(kKeys);
-    const auto* found = std::find(std::begin(kKeys), end, key);
-    if (found == end) Unknown("key", key, {std::begin(kKeys), end});
-    const auto changed = static_cast<StrategyKey>(found - kKeys);
-    SetValue(changed, key, value);
-    changes_.keys.set(static_cast<std::size_t>(changed));
+    if (key == "c") return SetCoefficient(value);
+#define LANELIGHT_AXIS(Type, member, axis, ...) \
+  if (key == axis) return SetAxis(key, value, k##Type##Names, strategy_.member);
+    LANELIGHT_AXES(LANELIGHT_AXIS)
+#undef LANELIGHT_AXIS
+    Unknown("key", key, {std::begin(kKeys), std::end(kKeys)});
   }
 
-  void SetValue(StrategyKey changed, std::string_view key, std::string_view value) {
-    switch (changed) {
-      case StrategyKey::kDirections:
-        return SetDirections(value);
-      case StrategyKey::kPoints:
-        strategy_.points = static_cast<Points>(Choose(key, value, kPoints));
-        return;
-      case StrategyKey::kPairs:
-        return SetPairs(value);
-      case StrategyKey::kControl:
-        strategy_.control = static_cast<Control>(Choose(key, value, kControls));
-        return;
-      case StrategyKey::kCoefficient:
-        strategy_.coefficient.reset();
-        if (value != "optimal") strategy_.coefficient = Number(key, value, -1e6, 1e6);
-        return;
-      case StrategyKey::kRoulette:
-        return SetRoulette(value);
-      case StrategyKey::kLightSelection:
-        strategy_.light_selection =
-            static_cast<LightSelection>(Choose(key, value, kLightSelections));
-        return;
-      case StrategyKey::kSeenLights:
-        strategy_.seen_lights = static_cast<SeenLights>(Choose(key, value, kSeenLights));
-        return;
-      case StrategyKey::kLightPoints:
-        strategy_.light_points =
-            static_cast<LightPoints>(Choose(key, value, kLightPoints));
-        return;
-      case StrategyKey::kLightCandidates:
-        return SetLightCandidates(value);
-      case StrategyKey::kEnvironment:
-        strategy_.environment =
-            static_cast<EnvironmentPoints>(Choose(key, value, kEnvironmentPoints));
-        return;
-      case StrategyKey::kShadowRoulette:
-        return SetShadowRoulette(value);
-      case StrategyKey::kDistances:
-        strategy_.distances = static_cast<Distances>(Choose(key, value, kDistances));
-        return;
-      case StrategyKey::kGuiding:
-        strategy_.guiding = static_cast<Guiding>(Choose(key, value, kGuidings));
-        return;
-      case StrategyKey::kReuse:
-        return SetReuse(value);
-      case StrategyKey::kDecide:
-        strategy_.decide = static_cast<Decide>(Choose(key, value, kDecisions));
-        return;
-      case StrategyKey::kCount:
-        return;
+  // "name:argument:..."
+  template <class Choice, std::size_t kSize>
+  void SetAxis(std::string_view key, std::string_view value,
+               const char* const (&names)[kSize], Choice& choice) {
+    Parts parts;
+    for (std::size_t colon = 0; colon != value.npos;) {
+      colon = value.find(':');
+      parts.push_back(value.substr(0, colon));
+      if (colon != value.npos) value.remove_prefix(colon + 1);
     }
+    Choose(key, parts[0], names, choice);
+    key_ = key;
+    SetArguments(choice, parts);
   }
 
-  void SetDirections(std::string_view value) {
-    const auto parts = Parts("directions", value, 2);
-    strategy_.directions =
-        static_cast<Directions>(Choose("directions", parts[0], kDirections));
+  // Whether there are arguments, of which a choice takes at most so many.
+  bool Has(const Parts& parts, std::size_t most) const {
+    if (parts.size() <= most + 1) return parts.size() > 1;
+    if (most == 0) Fail(fmt::format("\"{}\" of {} takes no argument", parts[0], key_));
+    Fail(fmt::format("\"{}\" of {} takes at most {} arguments after ':'", parts[0], key_,
+                     most));
+  }
+
+  template <class Choice>
+  void SetArguments(Choice, const Parts& parts) {
+    Has(parts, 0);
+  }
+
+  void SetCoefficient(std::string_view value) {
+    strategy_.coefficient.reset();
+    if (value != "optimal") strategy_.coefficient = Number("c", value, -1e6, 1e6);
+  }
+
+  void SetArguments(Directions directions, const Parts& parts) {
     strategy_.heuristic = Heuristic::kPower;
-    if (parts.size() < 2) return;
-    if (strategy_.directions != Directions::kMis) {
-      Fail(fmt::format("\"{}\" of directions takes no argument", parts[0]));
-    }
-    strategy_.heuristic =
-        static_cast<Heuristic>(Choose("directions=mis", parts[1], kHeuristics));
+    if (!Has(parts, directions == Directions::kMis ? 1 : 0)) return;
+    Choose("directions=mis", parts[1], kHeuristicNames, strategy_.heuristic);
   }
 
-  void SetPairs(std::string_view value) {
-    const auto parts = Parts("pairs", value, 2);
-    strategy_.pairs = static_cast<Pairs>(Choose("pairs", parts[0], kPairs));
+  void SetArguments(Pairs pairs, const Parts& parts) {
     strategy_.paired = Paired::kAll;
-    if (parts.size() < 2) return;
-    if (strategy_.pairs == Pairs::kNone) Fail("\"none\" of pairs takes no argument");
-    strategy_.paired = static_cast<Paired>(Choose("pairs=antithetic", parts[1], kPaired));
+    if (!Has(parts, pairs == Pairs::kNone ? 0 : 1)) return;
+    Choose("pairs=antithetic", parts[1], kPairedNames, strategy_.paired);
   }
 
-  void SetLightCandidates(std::string_view value) {
-    const auto parts = Parts("light-candidates", value, 2);
-    strategy_.light_candidates = static_cast<LightCandidates>(
-        Choose("light-candidates", parts[0], kLightCandidateChoices));
+  void SetArguments(LightCandidates candidates, const Parts& parts) {
     strategy_.candidates = kDefaultLightCandidates;
-    if (parts.size() < 2) return;
-    if (strategy_.light_candidates == LightCandidates::kSingle) {
-      Fail("\"single\" of light-candidates takes no argument");
-    }
+    if (!Has(parts, candidates == LightCandidates::kSingle ? 0 : 1)) return;
     const double m =
         Number("light-candidates=resampled", parts[1], 2, kMostLightCandidates);
     if (m != std::floor(m)) Fail("the number of light candidates must be whole");
     strategy_.candidates = static_cast<std::uint32_t>(m);
   }
 
-  void SetReuse(std::string_view value) {
-    const auto parts = Parts("reuse", value, 3);
-    strategy_.reuse = static_cast<Reuse>(Choose("reuse", parts[0], kReuses));
+  void SetArguments(Reuse reuse, const Parts& parts) {
     strategy_.reused_paths = kDefaultReusedPaths;
     strategy_.block_layout = BlockLayout::kRandom;
-    if (parts.size() < 2) return;
-    if (strategy_.reuse == Reuse::kNone) Fail("\"none\" of reuse takes no argument");
+    if (!Has(parts, reuse == Reuse::kNone ? 0 : 2)) return;
     const double n = Number("reuse=block", parts[1], kLeastReusedPaths, kMostReusedPaths);
     strategy_.reused_paths = static_cast<std::uint32_t>(n);
     if (n != strategy_.reused_paths || !std::has_single_bit(strategy_.reused_paths)) {
@@ -234,37 +178,28 @@ class Parser {
           "the number of paths of a block must be a power of two: 2, 4, 8, 16, 32 or 64");
     }
     if (parts.size() < 3) return;
-    strategy_.block_layout =
-        static_cast<BlockLayout>(Choose("reuse=block:N", parts[2], kBlockLayouts));
+    Choose("reuse=block:N", parts[2], kBlockLayoutNames, strategy_.block_layout);
   }
 
-  void SetShadowRoulette(std::string_view value) {
-    const auto parts = Parts("shadow-roulette", value, 2);
-    strategy_.shadow_roulette = static_cast<ShadowRoulette>(
-        Choose("shadow-roulette", parts[0], kShadowRoulettes));
+  void SetArguments(ShadowRoulette roulette, const Parts& parts) {
     strategy_.shadow_floor.reset();
-    if (parts.size() < 2) return;
-    if (strategy_.shadow_roulette == ShadowRoulette::kNone) {
-      Fail("\"none\" of shadow-roulette takes no argument");
-    }
+    if (!Has(parts, roulette == ShadowRoulette::kNone ? 0 : 1)) return;
     strategy_.shadow_floor = Number("shadow-roulette", parts[1], 0.001, 1);
   }
 
-  void SetRoulette(std::string_view value) {
-    const auto parts = Parts("roulette", value, value.starts_with("throughput") ? 4 : 3);
-    const auto kind = static_cast<Roulette>(Choose("roulette", parts[0], kRoulettes));
-    strategy_.roulette = kind;
+  void SetArguments(Roulette roulette, const Parts& parts) {
+    const bool by_throughput = roulette == Roulette::kThroughput;
+    const bool has_floor = by_throughput || roulette == Roulette::kLuminance;
     strategy_.termination = Strategy{}.termination;
     strategy_.floor.reset();
     strategy_.first.reset();
     strategy_.scale = 1;
-    if (parts.size() < 2) return;
-    if (kind == Roulette::kConstant) {
+    const bool constant = roulette == Roulette::kConstant;
+    if (!Has(parts, by_throughput ? 3 : has_floor || constant ? 2 : 0)) return;
+    if (constant) {
       strategy_.termination = Number("roulette=constant", parts[1], 0.001, 0.999);
-    } else if (kind == Roulette::kThroughput || kind == Roulette::kLuminance) {
-      strategy_.floor = Number("roulette", parts[1], 0, 1);
     } else {
-      Fail(fmt::format("\"{}\" of roulette takes no argument", parts[0]));
+      strategy_.floor = Number("roulette", parts[1], 0, 1);
     }
     if (parts.size() < 3) return;
     const double first = Number("roulette", parts[2], 1, 1000000);
@@ -274,67 +209,29 @@ class Parser {
     strategy_.scale = Number("roulette=throughput", parts[3], 0.1, 100);
   }
 
-  std::string_view text_;
+  std::string_view text_, key_;
   const SourceLocation& where_;
-  StrategyChanges changes_;
-  Strategy& strategy_ = changes_.values;
+  Strategy& strategy_;
 };
 
 }  // namespace
 
 StrategyChanges ParseStrategy(std::string_view text, const SourceLocation& where) {
-  if (text.empty()) return {};
-  return Parser(text, where).Parse();
+  Strategy any;
+  ApplyStrategy(text, where, any);
+  return {std::string(text)};
 }
 
 void Apply(const StrategyChanges& changes, Strategy& strategy) {
-  const Strategy& from = changes.values;
-  const auto has = [&](StrategyKey key) {
-    return changes.keys.test(static_cast<std::size_t>(key));
-  };
-  if (has(StrategyKey::kDirections)) {
-    strategy.directions = from.directions;
-    strategy.heuristic = from.heuristic;
-  }
-  if (has(StrategyKey::kPoints)) strategy.points = from.points;
-  if (has(StrategyKey::kPairs)) {
-    strategy.pairs = from.pairs;
-    strategy.paired = from.paired;
-  }
-  if (has(StrategyKey::kControl)) strategy.control = from.control;
-  if (has(StrategyKey::kCoefficient)) strategy.coefficient = from.coefficient;
-  if (has(StrategyKey::kRoulette)) {
-    strategy.roulette = from.roulette;
-    strategy.termination = from.termination;
-    strategy.floor = from.floor;
-    strategy.first = from.first;
-    strategy.scale = from.scale;
-  }
-  if (has(StrategyKey::kLightSelection)) strategy.light_selection = from.light_selection;
-  if (has(StrategyKey::kSeenLights)) strategy.seen_lights = from.seen_lights;
-  if (has(StrategyKey::kLightPoints)) strategy.light_points = from.light_points;
-  if (has(StrategyKey::kLightCandidates)) {
-    strategy.light_candidates = from.light_candidates;
-    strategy.candidates = from.candidates;
-  }
-  if (has(StrategyKey::kEnvironment)) strategy.environment = from.environment;
-  if (has(StrategyKey::kShadowRoulette)) {
-    strategy.shadow_roulette = from.shadow_roulette;
-    strategy.shadow_floor = from.shadow_floor;
-  }
-  if (has(StrategyKey::kDistances)) strategy.distances = from.distances;
-  if (has(StrategyKey::kGuiding)) strategy.guiding = from.guiding;
-  if (has(StrategyKey::kReuse)) {
-    strategy.reuse = from.reuse;
-    strategy.reused_paths = from.reused_paths;
-    strategy.block_layout = from.block_layout;
-  }
-  if (has(StrategyKey::kDecide)) strategy.decide = from.decide;
+  ApplyStrategy(changes.text, {}, strategy);
 }
 
 void ApplyStrategy(std::string_view text, const SourceLocation& where,
                    Strategy& strategy) {
-  Apply(ParseStrategy(text, where), strategy);
+  if (text.empty()) return;
+  Strategy changed = strategy;  // a text that is not understood changes nothing
+  Parser(text, where, changed).Parse();
+  strategy = changed;
 }
 
 }  // namespace lanelight

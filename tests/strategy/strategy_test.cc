@@ -99,6 +99,9 @@ TEST_CASE("what is not understood is named, with what would be", "[strategy]") {
       {"roulette=constant:0.5:1.5", "must be whole"},
       {"roulette=constant:0.5:1:2", "at most 2 arguments"},
       {"roulette=adjoint:3", "takes no argument"},
+      {"roulette=throughput:0:1:1:1", "at most 3 arguments"},
+      {"points=sobol:3", "\"sobol\" of points takes no argument"},
+      {"decide=pilot:", "\"pilot\" of decide takes no argument"},
       {"c=best", "is not a number"},
       {"c=nan", "is not a number"},
       {"points=", "unknown value of \"points\" \"\""},
@@ -107,6 +110,30 @@ TEST_CASE("what is not understood is named, with what would be", "[strategy]") {
     INFO(text);
     CHECK_THAT(ErrorOf(text), Contains(message));
     CHECK_THAT(ErrorOf(text), Contains("--strategy"));
+  }
+}
+
+TEST_CASE("changes of a strategy are applied as they were read", "[strategy]") {
+  Strategy strategy = Parse("points=halton,roulette=throughput:0.2:3:2,reuse=block:8");
+  const StrategyChanges changes = ParseStrategy("points=cmj,roulette=constant", {});
+  Apply(changes, strategy);
+  CHECK(strategy == Parse("points=cmj,roulette=constant,reuse=block:8"));
+  const Strategy before = strategy;
+  Apply({}, strategy);
+  CHECK(strategy == before);
+  CHECK_THROWS_AS(ParseStrategy("points=cmj,pairs=twins", {}), InputError);
+  // Nothing of a text that is not understood is applied.
+  CHECK_THROWS_AS(ApplyStrategy("points=sobol,pairs=twins", {}, strategy), InputError);
+  CHECK(strategy == before);
+  Apply(ParseStrategy("paper-plain,points=cmj", {}), strategy);
+  CHECK(strategy == Parse("paper-plain,points=cmj"));
+  // Each axis has choices that say which one it is, and is told once in a text.
+  const std::string text = ToText(Strategy{});
+  for (const ChoiceInfo& choice : AllChoices()) {
+    const std::string key = std::string(choice.axis) + "=";
+    INFO(key << choice.name);
+    CHECK(text.find(key) != text.npos);
+    CHECK(ToText(Parse(key + choice.name)).find(key + choice.name) != text.npos);
   }
 }
 

@@ -42,8 +42,8 @@ std::vector<Point> BySample(double sample, const Effort& effort) {
     // The last block ends at 2^31: what comes later begins again under another seed.
     const auto first = static_cast<std::uint32_t>(std::min(sample, 0x1p31 - kCount));
     points.push_back(Check(
-        kPoints[i], {static_cast<Points>(i), static_cast<std::uint32_t>(effort.seed), 7,
-                     3, first, kCount}));
+        kPointsNames[i], {static_cast<Points>(i), static_cast<std::uint32_t>(effort.seed),
+                          7, 3, first, kCount}));
   }
   return points;
 }
@@ -52,9 +52,9 @@ std::vector<Point> ByPixel(double pixel, const Effort& effort) {
   std::vector<Point> points;
   for (int i = 0; i < kNumPoints; ++i) {
     const auto at = static_cast<std::uint32_t>(std::min(pixel, 0x1p32 - 1));
-    points.push_back(
-        Check(kPoints[i], {static_cast<Points>(i),
-                           static_cast<std::uint32_t>(effort.seed), at, 3, 5, kCount}));
+    points.push_back(Check(
+        kPointsNames[i], {static_cast<Points>(i), static_cast<std::uint32_t>(effort.seed),
+                          at, 3, 5, kCount}));
   }
   return points;
 }
@@ -63,9 +63,10 @@ std::vector<Point> ByDepth(double depth, const Effort& effort) {
   std::vector<Point> points;
   const std::uint32_t key = static_cast<std::uint32_t>(depth) << kDepthShift;
   for (int i = 0; i < kNumPoints; ++i) {
-    points.push_back(Check(
-        kPoints[i], {static_cast<Points>(i), static_cast<std::uint32_t>(effort.seed), 11,
-                     key + static_cast<std::uint32_t>(Dimension::kBsdf), 0, kCount}));
+    points.push_back(
+        Check(kPointsNames[i],
+              {static_cast<Points>(i), static_cast<std::uint32_t>(effort.seed), 11,
+               key + static_cast<std::uint32_t>(Dimension::kBsdf), 0, kCount}));
   }
   return points;
 }
