@@ -3,7 +3,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "kernels/simd/target.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
@@ -13,7 +12,6 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/validators.h"
 #include "src/core/json_text.h"
-#include "src/core/parallel.h"
 #include "src/render/machine_json.h"
 #include "src/render/report.h"
 #include "src/report/values.h"
@@ -26,7 +24,7 @@ namespace {
 struct AdviseCommandOptions {
   SceneOptions scene;
   RenderOutputs outputs;
-  double seconds = 0, pilot = 0;
+  double pilot = 0;  // seconds; 0: a share of the time
 };
 
 // "skipped    a, b: the trial's time did not reach them; --pilot 2 would".
@@ -63,9 +61,11 @@ std::string AdviceText(const Advice& advice) {
 
 // The command that renders as the advice says.
 std::string RenderCommand(const AdviseCommandOptions& options, const Advice& advice) {
-  return fmt::format("lanelight render {} -o FILE.exr --time {:g} --strategy {}{}",
-                     ShellWord(options.scene.scene), options.seconds,
-                     ToText(advice.chosen), FlagsText(options.scene));
+  RenderSettings settings = options.scene.settings;
+  settings.points.reset();  // which the strategy says
+  settings.strategy.text = ToText(advice.chosen);
+  return fmt::format("lanelight render {} -o FILE.exr{}", ShellWord(options.scene.scene),
+                     FlagsText(settings));
 }
 
 int PrintAdvice(const AdviseCommandOptions& options, const Advice& advice) {
@@ -81,18 +81,14 @@ int PrintAdvice(const AdviseCommandOptions& options, const Advice& advice) {
   return SaveOrPrint(json, DumpJson(report, 2) + "\n") ? kExitGood : kExitBadInput;
 }
 
-int RunAdvise(AdviseCommandOptions& options) {
-  ForceTarget(options.scene.target);
-  const ThreadLimit threads(options.scene.threads);
-  CheckOutputs(options.outputs, {options.scene.scene});
-  options.scene.settings.seconds = options.seconds;
-  if (options.outputs.quiet) options.scene.settings.trees.folder.on_wait = nullptr;
-  Job job = PrepareJob(options.scene.scene, options.scene.settings);
-  CheckOutputs(options.outputs, job.files);
-  if (!options.outputs.quiet) PrintNotes(job);
+int RunAdvise(const AdviseCommandOptions& options) {
+  const MachineGuard machine(options.scene.settings);
+  const RenderTargets& targets = options.outputs.targets;
+  Job job = OpenScene(options.scene, {{targets.exr, targets.png, targets.json}},
+                      options.outputs.quiet);
   const InterruptGuard interrupt;
   AdviceOptions advise;
-  advise.seconds = options.seconds;
+  advise.seconds = *options.scene.settings.seconds;
   advise.pilot = options.pilot;
   advise.stop = &interrupt.stop();
   const Advice advice = Advise(job, advise);
@@ -111,21 +107,18 @@ void AddAdviseCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "advise", "Find the strategy with the least error for the time, render with it");
   auto options = std::make_shared<AdviseCommandOptions>();
-  command
-      ->add_option("--time", options->seconds,
-                   "Seconds of the wall clock, for trial and render together")
+  AddSetting(*command, "time", options->scene.settings)
       ->required()
-      ->check(FiniteRange(1e-3, 1e9))
-      ->type_name("SECONDS");
+      ->description("Seconds of the wall clock, for trial and render together");
   command
       ->add_option(
           "--pilot", options->pilot,
           "Seconds of the trial of strategies, of 8 million rays each; default: 3 "
           "% of --time")
-      ->check(FiniteRange(1e-3, 1e9))
+      ->transform(ValueFrom(1e-3, 1e9))
       ->type_name("SECONDS");
-  AddSeedOption(*command, options->scene.settings);
-  AddOutputOptions(*command, options->outputs, false);
+  AddSetting(*command, "seed", options->scene.settings);
+  AddOutputOptions(*command, options->outputs, options->scene.settings);
   AddSceneOptions(*command, options->scene);
   command->footer(
       "\nChanges of the default strategy, and the scene's own (or --strategy), are tried "
@@ -144,7 +137,7 @@ void AddAdviseCommand(CLI::App& root, Command& chosen) {
     if (options->outputs.targets.exr.empty() && options->outputs.png_flag->count() > 0) {
       throw CLI::ValidationError("--png", "needs an image: name it with -o FILE.exr");
     }
-    ResolveOutputs(options->outputs);
+    ResolveOutputs(options->outputs, options->scene.settings);
     chosen = [options] { return RunAdvise(*options); };
   });
 }

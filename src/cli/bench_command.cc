@@ -89,14 +89,15 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
       .add_option("SCENE", bench.scenes,
                   "Scene files; default: five that are part of the program")
       ->type_name("");
-  AddWindowOptions(command, bench.settings);
+  for (const char* name : {"resolution", "crop", "strategy", "sampler"}) {
+    AddSetting(command, name, bench.settings);
+  }
   command
       .add_option("--spp", bench.settings.spp,
                   WithDefault("Samples per pixel of a render",
                               fmt::format("as many as take {} s", kRunSeconds)))
       ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
       ->type_name("N");
-  AddStrategyOptions(command, bench.settings);
   command
       .add_option("--threads", bench.threads,
                   WithDefault("Numbers of threads, one row each", "1, and all cores"))

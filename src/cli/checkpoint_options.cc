@@ -21,7 +21,7 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
       ->type_name("FILE");
   command
       .add_option("--every", s.seconds, WithDefault("Seconds between states", s.seconds))
-      ->check(FiniteRange(0.01, 1e6))
+      ->transform(ValueFrom(0.01, 1e6))
       ->type_name("SECONDS");
   flags.resume_flag =
       command
@@ -46,26 +46,14 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
 }
 
 Part ParsePart(const std::string& text) {
-  Part part;
-  const std::size_t slash = text.find('/');
-  const auto number = [&](const std::string& digits) {
-    const bool good = !digits.empty() && digits.size() < 8 &&
-                      digits.find_first_not_of("0123456789") == digits.npos;
-    return good ? std::stoi(digits) : 0;
-  };
-  if (slash != text.npos) {
-    part.index = number(text.substr(0, slash));
-    part.count = number(text.substr(slash + 1));
+  const std::vector<int> v = ParseNumbers<int>(text, '/');
+  if (v.size() == 2 && v[0] >= 1 && v[0] <= v[1] && v[1] <= kMostParts) {
+    return {v[0], v[1]};
   }
-  if (slash == text.npos || part.index < 1 || part.index > part.count ||
-      part.count > kMostParts) {
-    throw CLI::ValidationError(
-        "--part",
-        fmt::format("'{}' is not I/N with I from 1 to N, and N at most {}, e.g. "
-                    "3/16",
-                    text, kMostParts));
-  }
-  return part;
+  throw CLI::ValidationError(
+      "--part",
+      fmt::format("{} is not I/N with I from 1 to N, and N at most {}, e.g. 3/16",
+                  ShownValue(text), kMostParts));
 }
 
 void ResolveCheckpoint(const CheckpointFlags& flags, RenderTargets& targets) {

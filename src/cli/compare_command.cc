@@ -120,7 +120,7 @@ void AddCompareCommand(CLI::App& root, Command& chosen) {
   command
       ->add_option("--max-relmse", options->max_relmse,
                    "Exit with 4 if the relative MSE exceeds this, or a value is invalid")
-      ->check(FiniteRange(0, 1e30))
+      ->transform(ValueFrom(0.0, 1e30))
       ->type_name("X");
   command->add_flag("--json", options->json, "Print JSON");
   command->footer(

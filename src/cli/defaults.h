@@ -15,10 +15,4 @@ std::string WithDefault(const std::string& meaning, const T& value) {
   return fmt::format("{}; default: {}", meaning, value);
 }
 
-/// "Samples per pixel; default: the scene's, else 16": flags override what scenes say.
-template <class T>
-std::string WithSceneDefault(const std::string& meaning, const T& value) {
-  return fmt::format("{}; default: the scene's, else {}", meaning, value);
-}
-
 }  // namespace lanelight

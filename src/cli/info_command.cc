@@ -20,8 +20,7 @@ namespace lanelight {
 namespace {
 
 struct InfoOptions {
-  std::string target;
-  int threads = 0;
+  RenderSettings settings;
   bool json = false, format = false;
 };
 
@@ -65,12 +64,9 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "info", "Print the machine, the SIMD target, threads, and versions of libraries");
   auto options = std::make_shared<InfoOptions>();
-  command
-      ->add_option("--target", options->target,
-                   WithDefault("SIMD target to show", "the best there is"))
-      ->check(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))
-      ->type_name("NAME");
-  AddThreadsOption(*command, options->threads);
+  AddSetting(*command, "target", options->settings)
+      ->description(WithDefault("SIMD target to show", "the best there is"));
+  AddSetting(*command, "threads", options->settings);
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--format", options->format,
                     "Print what becomes of every directive and parameter of pbrt-v4's "
@@ -84,8 +80,7 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
         Print(std::string(FormatDocument()));
         return kExitGood;
       }
-      ForceTarget(options->target);
-      const ThreadLimit threads(options->threads);
+      const MachineGuard machine(options->settings);
       Print(options->json ? JsonText() : Text());
       return kExitGood;
     };

@@ -9,7 +9,7 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/summary.h"
 #include "src/core/error.h"
-#include "src/core/parallel.h"
+#include "src/core/json_text.h"
 #include "src/render/machine_json.h"
 #include "src/render/merge.h"
 #include "src/render/render.h"
@@ -24,7 +24,7 @@ struct MergeOptions {
   RenderOutputs outputs;
   std::string state;  // to write
   bool partial = false;
-  int threads = 0;
+  RenderSettings settings;  // of images, and threads
 };
 
 void CheckOutputs(const MergeOptions& o) {
@@ -54,7 +54,7 @@ void CheckComplete(const MergedRender& merged, bool partial) {
 }
 
 int Merge(const MergeOptions& options) {
-  const ThreadLimit threads(options.threads);
+  const MachineGuard machine(options.settings);
   CheckOutputs(options);
   std::optional<StateLock> lock;
   if (!options.state.empty()) lock.emplace(options.state, PrintWarning);
@@ -64,7 +64,7 @@ int Merge(const MergeOptions& options) {
   merged.film->FitControl();
   Rendering rendering;
   rendering.report.scene = merged.head.at("scene");
-  rendering.report.half = options.outputs.targets.half;
+  rendering.report.half = options.outputs.targets.image.half;
   rendering.report.result = ResultOf(merged);
   nlohmann::json members = nlohmann::json::object();
   members["merged"] = {{"states", options.states.size()},
@@ -75,7 +75,7 @@ int Merge(const MergeOptions& options) {
                  members, rendering);
   const bool good = PrintProblems(rendering.problems);
   if (options.outputs.targets.json == "-") {
-    Print(rendering.json);
+    Print(DumpJson(rendering.json, 2) + "\n");
   } else if (!options.outputs.quiet) {
     Print(MergeSummaryText(rendering.report, merged));
   }
@@ -92,19 +92,19 @@ void AddMergeCommand(CLI::App& root, Command& chosen) {
   command->add_option("STATES", options->states, "States of `render --checkpoint`")
       ->required()
       ->type_name("");
-  AddOutputOptions(*command, options->outputs, false);
+  AddOutputOptions(*command, options->outputs, options->settings);
   command->add_option("--state", options->state, "Write the merged state too")
       ->type_name("FILE");
   command->add_flag("--partial", options->partial,
                     "Pixels may be missing or have fewer samples");
-  AddThreadsOption(*command, options->threads);
+  AddSetting(*command, "threads", options->settings);
   command->footer(
       "\nExamples:\n"
       "  lanelight merge part-*.state -o out.exr --json out.json\n"
       "  lanelight merge part-*.state --partial -o so-far.exr\n"
       "  lanelight merge seed-1.state seed-2.state -o both.exr");
   command->callback([options, &chosen] {
-    ResolveOutputs(options->outputs);
+    ResolveOutputs(options->outputs, options->settings);
     if (options->outputs.targets.exr.empty() && options->state.empty()) {
       throw CLI::RequiredError("--output or --state");
     }

@@ -9,7 +9,6 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/summary.h"
 #include "src/core/json_text.h"
-#include "src/core/parallel.h"
 #include "src/prepare/groups.h"
 #include "src/render/job.h"
 #include "src/render/machine_json.h"
@@ -114,8 +113,7 @@ std::string JsonText(const Job& job, const std::string& scene) {
 
 int PrintPlan(const PlanCommandOptions& options) {
   const SceneOptions& scene = options.scene;
-  ForceTarget(scene.target);
-  const ThreadLimit threads(scene.threads);
+  const MachineGuard machine(scene.settings);
   const Job job = PrepareJob(scene.scene, scene.settings);
   Print(options.json ? JsonText(job, scene.scene) : Text(job, scene.scene));
   return kExitGood;

@@ -2,7 +2,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "kernels/simd/target.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/defaults.h"
@@ -12,8 +11,8 @@
 #include "src/cli/progress.h"
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
+#include "src/cli/validators.h"
 #include "src/core/json_text.h"
-#include "src/core/parallel.h"
 #include "src/render/saving.h"
 #include "src/render/trace_json.h"
 
@@ -61,21 +60,14 @@ bool SaveTrace(const ProfileCommandOptions& options, const RunResult& result) {
 }
 
 int Profile(const ProfileCommandOptions& options) {
-  ForceTarget(options.scene.target);
-  const ThreadLimit threads(options.scene.threads);
-  const std::string& scene = options.scene.scene;
-  const OutputPaths outputs = {{options.json, options.trace}};
-  CheckOutputPaths(outputs, {scene});
-  RenderSettings settings = options.scene.settings;
-  if (options.quiet) settings.trees.folder.on_wait = nullptr;
-  const Job job = PrepareJob(scene, settings);
-  CheckOutputPaths(outputs, job.files);
-  if (!options.quiet) PrintNotes(job);
+  const MachineGuard machine(options.scene.settings);
+  const Job job =
+      OpenScene(options.scene, {{options.json, options.trace}}, options.quiet);
   const Peaks peaks = MeasurePeaks(true);
   const InterruptGuard interrupt(kProfileInterruptText);
   const RunResult result = Measure(options, job, interrupt.stop());
   const ProfileReport report = MakeProfileReport(result, peaks);
-  if (options.json != "-") Print(ProfileText(report, job, result, scene));
+  if (options.json != "-") Print(ProfileText(report, job, result, options.scene.scene));
   bool good = SaveTrace(options, result);
   if (!options.json.empty()) {
     good &= SaveOrPrint(options.json, DumpJson(ToJson(report, job, result), 2) + "\n");
@@ -86,11 +78,8 @@ int Profile(const ProfileCommandOptions& options) {
 void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
   RenderSettings& settings = options.scene.settings;
   settings.spp = 16;
-  command
-      .add_option("--spp", settings.spp, WithDefault("Samples per pixel", *settings.spp))
-      ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
-      ->type_name("N");
-  AddSeedOption(command, settings);
+  AddSetting(command, "spp", settings);
+  AddSetting(command, "seed", settings);
   command.add_option("--json", options.json, "Write the profile as JSON ('-': print it)")
       ->type_name("FILE");
   command
@@ -104,7 +93,7 @@ void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
       .add_option(
           "--trace-events", options.trace_events,
           WithDefault("Stage calls a thread writes down at most", options.trace_events))
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 26).description(""))
+      ->transform(ValueFrom(std::size_t{1}, std::size_t{1} << 26))
       ->type_name("N");
   command.add_flag("--quiet", options.quiet, "No progress and no notes");
 }

@@ -1,16 +1,12 @@
 // `lanelight render SCENE`: the flags, and the render from start to end.
 #include <memory>
 
-#include "kernels/simd/target.h"
 #include "src/cli/checkpoint_options.h"
 #include "src/cli/commands.h"
-#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
-#include "src/cli/validators.h"
-#include "src/core/parallel.h"
 
 namespace lanelight {
 namespace {
@@ -45,8 +41,7 @@ int Serve(const RenderCommandOptions& options, const RenderSettings& settings,
 }
 
 int Render(const RenderCommandOptions& options, RankGroup& group) {
-  ForceTarget(options.scene.target);
-  const ThreadLimit threads(options.scene.threads);
+  const MachineGuard machine(options.scene.settings);
   if (group.leads()) CheckOutputs(options.outputs, {options.scene.scene});
   RenderSettings settings = options.scene.settings;
   settings.decision = DecisionFor(options, group);
@@ -66,33 +61,6 @@ int Render(const RenderCommandOptions& options, RankGroup& group) {
   return PrintRendering(rendering, job, options.outputs);
 }
 
-void AddTargetOption(CLI::App& command, const char* name, const char* meaning,
-                     std::optional<double>& target) {
-  command.add_option(name, target, meaning)
-      ->check(FiniteRange(1e-12, 1e12))
-      ->type_name("X");
-}
-
-void AddAmountOptions(CLI::App& command, RenderSettings& settings) {
-  command
-      .add_option("--spp", settings.spp,
-                  WithSceneDefault("Samples per pixel", Sampler{}.spp))
-      ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
-      ->type_name("N");
-  command
-      .add_option("--time", settings.seconds,
-                  "Render for this many seconds of the wall clock instead")
-      ->check(FiniteRange(1e-3, 1e9))
-      ->type_name("SECONDS");
-  AddTargetOption(command, "--target-relmse",
-                  "Stop once the relative MSE is below X, at 95 % confidence; --spp and "
-                  "--time then are the most it may take",
-                  settings.target_relmse);
-  AddTargetOption(command, "--target-rmse", "Stop once the RMSE is below X, likewise",
-                  settings.target_rmse);
-  AddSeedOption(command, settings);
-}
-
 // Without a target both would say how much to render.
 void CheckAmountOptions(const RenderSettings& settings) {
   if (!settings.spp || !settings.seconds || HasTarget(settings)) return;
@@ -107,8 +75,8 @@ void CheckAmountOptions(const RenderSettings& settings) {
 void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen) {
   CLI::App* command = root.add_subcommand("render", "Render a scene to an OpenEXR image");
   auto options = std::make_shared<RenderCommandOptions>();
-  AddAmountOptions(*command, options->scene.settings);
-  AddOutputOptions(*command, options->outputs, false);
+  AddSettings(*command, kAmountFlag, options->scene.settings);
+  AddOutputOptions(*command, options->outputs, options->scene.settings);
   AddCheckpointOptions(*command, options->checkpoint);
   AddSceneOptions(*command, options->scene);
   command->footer(
@@ -125,7 +93,7 @@ void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen) {
       "--resume\n"
       "  lanelight render scene.pbrt --spp 4096 --part 3/16 --checkpoint part-3.state");
   command->callback([options, &group, &chosen] {
-    ResolveOutputs(options->outputs);
+    ResolveOutputs(options->outputs, options->scene.settings);
     CheckAmountOptions(options->scene.settings);
     ResolveCheckpoint(options->checkpoint, options->outputs.targets);
     chosen = [options, &group] { return Render(*options, group); };

@@ -3,11 +3,9 @@
 #include <filesystem>
 
 #include "src/cli/console.h"
-#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/summary.h"
-#include "src/cli/validators.h"
-#include "src/render/saving.h"
+#include "src/core/json_text.h"
 #include "src/scene/image_changes.h"
 
 namespace lanelight {
@@ -61,32 +59,23 @@ int CheckImageChanges(const Job& job, const RenderOutputs& options) {
 
 }  // namespace
 
-void AddOutputOptions(CLI::App& command, RenderOutputs& options, bool required) {
+void AddOutputOptions(CLI::App& command, RenderOutputs& options,
+                      RenderSettings& settings) {
   command
       .add_option("-o,--output", options.targets.exr,
                   "Write the image to this file (.exr)")
-      ->required(required)
       ->check([](const std::string& path) {
         return fs::path(path).extension() == ".exr"
                    ? std::string()
                    : "'" + path + "' does not end in .exr (for a PNG add --png FILE)";
       })
       ->type_name("FILE");
-  command
-      .add_option("--depth", options.depth,
-                  WithDefault("Type of colours in the EXR", options.depth))
-      ->check(CLI::IsMember({"half", "float"}).description(""))
-      ->type_name("half|float");
   options.png_flag = command
                          .add_option("--png", options.targets.png,
                                      "Write a PNG too; named after the EXR if bare")
                          ->expected(0, 1)
                          ->type_name("[FILE]");
-  command
-      .add_option("--exposure", options.targets.exposure,
-                  WithDefault("Exposure of the PNG in stops", options.targets.exposure))
-      ->check(FiniteRange(-100, 100))
-      ->type_name("EV");
+  AddSettings(command, kImageFlag, settings);
   command
       .add_option("--json", options.targets.json,
                   "Write a report for scripts ('-': print it)")
@@ -94,9 +83,9 @@ void AddOutputOptions(CLI::App& command, RenderOutputs& options, bool required) 
   command.add_flag("--quiet", options.quiet, "Print errors only");
 }
 
-void ResolveOutputs(RenderOutputs& options) {
+void ResolveOutputs(RenderOutputs& options, const RenderSettings& settings) {
   RenderTargets& targets = options.targets;
-  targets.half = options.depth == "half";
+  targets.image = settings.image;
   if (options.png_flag->count() == 0) return;
   if (targets.png.empty()) targets.png = fs::path(targets.exr).replace_extension(".png");
   if (fs::path(targets.png).extension() == ".png") return;
@@ -113,6 +102,16 @@ void CheckOutputs(const RenderOutputs& options, const std::set<std::string>& inp
   if (!t.checkpoint.from.empty()) CheckOutputPaths(outputs, {t.checkpoint.from});
   outputs.files.push_back(t.checkpoint.path);
   CheckOutputPaths(outputs, inputs);
+}
+
+Job OpenScene(const SceneOptions& options, const OutputPaths& outputs, bool quiet) {
+  CheckOutputPaths(outputs, {options.scene});
+  RenderSettings settings = options.settings;
+  if (quiet) settings.trees.folder.on_wait = nullptr;
+  Job job = PrepareJob(options.scene, settings);
+  CheckOutputPaths(outputs, job.files);
+  if (!quiet) PrintNotes(job);
+  return job;
 }
 
 void PrintNotes(const Job& job) {
@@ -148,7 +147,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
   const RenderReport& report = rendering.report;
   const bool good = PrintProblems(rendering.problems);
   if (options.targets.json == "-") {
-    Print(rendering.json);
+    Print(DumpJson(rendering.json, 2) + "\n");
   } else if (!options.quiet) {
     Print(preface + SummaryText(report, job));
   }

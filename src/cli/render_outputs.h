@@ -7,27 +7,32 @@
 #include <vector>
 
 #include "src/cli/progress.h"
+#include "src/cli/scene_options.h"
 #include "src/render/render.h"
+#include "src/render/saving.h"
 
 namespace lanelight {
 
 struct RenderOutputs {
   RenderTargets targets;
-  std::string depth = "float";
   bool quiet = false;
   CLI::Option* png_flag = nullptr;
 };
 
-/// Declares the flags on `command`; `options` must outlive parsing. `required`: an image
-/// must be named.
-void AddOutputOptions(CLI::App& command, RenderOutputs& options, bool required);
+/// Declares the flags on `command`; `options` and `settings` must outlive parsing.
+void AddOutputOptions(CLI::App& command, RenderOutputs& options,
+                      RenderSettings& settings);
 
 /// After parsing: "--png" alone names the file after the EXR. Throws CLI::ValidationError
 /// for a word after it that is no PNG: most likely the scene, swallowed.
-void ResolveOutputs(RenderOutputs& options);
+void ResolveOutputs(RenderOutputs& options, const RenderSettings& settings);
 
 /// CheckOutputPaths() with the scene, and once that is read, with all its files.
 void CheckOutputs(const RenderOutputs& options, const std::set<std::string>& inputs);
+
+/// The scene as its flags want it. Throws InputError if one of its files would be written
+/// over. Unless `quiet`, notes are printed.
+Job OpenScene(const SceneOptions& options, const OutputPaths& outputs, bool quiet);
 
 /// Prints what of the scene file and of the strategy is not used.
 void PrintNotes(const Job& job);

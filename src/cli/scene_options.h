@@ -1,36 +1,43 @@
-// The flags that several commands share: which scene, and what overrides it.
+// The flags that several commands share: which scene, and the settings that override it.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "src/render/settings.h"
+#include "kernels/simd/target.h"
+#include "src/core/parallel.h"
+#include "src/render/setting.h"
 
 namespace lanelight {
 
 struct SceneOptions {
   std::string scene;
   RenderSettings settings;
-  int threads = 0;     // 0: all cores
-  std::string target;  // empty: the best available
 };
 
-/// Declare flags on `command`; what they are stored in must outlive parsing.
-void AddWindowOptions(CLI::App& command, RenderSettings& settings);
-void AddStrategyOptions(CLI::App& command, RenderSettings& settings);
-void AddSeedOption(CLI::App& command, RenderSettings& settings);
-void AddThreadsOption(CLI::App& command, int& threads);
-void AddTransportOptions(CLI::App& command, RenderSettings& settings);
-/// What is waited for is printed, unless folder.on_wait is set otherwise.
-void AddBuildCacheOptions(CLI::App& command, TreeFolder& folder);
-void AddExecutionOptions(CLI::App& command, SceneOptions& options);
+/// Declares the flag of one setting on `command`; `settings` must outlive parsing. What
+/// they have already is the default that help tells.
+CLI::Option* AddSetting(CLI::App& command, const std::string& name,
+                        RenderSettings& settings);
+/// All settings of that use, in their order.
+void AddSettings(CLI::App& command, SettingUse use, RenderSettings& settings);
 
-/// These, the scene itself, the strategy and --aov.
+/// The SIMD target and the threads that settings ask for, while it lives.
+class MachineGuard {
+ public:
+  explicit MachineGuard(const RenderSettings& settings) : threads_(settings.threads) {
+    ForceTarget(settings.target);
+  }
+
+ private:
+  ThreadLimit threads_;
+};
+
+/// The scene itself, and the settings of commands that read one.
 void AddSceneOptions(CLI::App& command, SceneOptions& options);
 
-/// The flags of AddSceneOptions and the seed that give these options, each with a space
-/// before it; without scene and strategy.
-std::string FlagsText(const SceneOptions& options);
+/// The flags that give these settings, each with a space before it.
+std::string FlagsText(const RenderSettings& settings);
 
 /// The text as one word of a shell.
 std::string ShellWord(const std::string& text);

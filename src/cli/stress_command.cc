@@ -15,10 +15,8 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/stress_exit.h"
 #include "src/cli/stress_table.h"
-#include "src/cli/validators.h"
 #include "src/cli/work_progress.h"
 #include "src/core/json_text.h"
-#include "src/core/parallel.h"
 #include "src/render/saving.h"
 #include "src/stress/cases/cases.h"
 #include "src/stress/select.h"
@@ -32,7 +30,7 @@ struct StressCommandOptions {
   std::vector<std::string> words, targets;
   stress::SuiteOptions suite;
   std::string out, json, part;
-  int threads = 0;
+  RenderSettings settings;  // its seed and threads
   bool list = false, quiet = false;
 };
 
@@ -47,8 +45,7 @@ std::vector<stress::Case> Selected(const StressCommandOptions& options) {
     const Part part = ParsePart(options.part);
     return stress::PartOf(cases, part.index, part.count);
   } catch (const InputError& error) {
-    const std::string message = error.what();
-    throw CLI::ValidationError("CASE", message.substr(message.find("no case")));
+    throw CLI::ValidationError("CASE", error.message());
   }
 }
 
@@ -98,8 +95,9 @@ int RunStressCommand(StressCommandOptions& options) {
                          {options.out + "/stress.json", options.out + "/report.html"});
   }
   CheckOutputPaths(outputs, {});
-  const ThreadLimit threads(options.threads);
+  const MachineGuard machine(options.settings);
   options.suite.targets = TargetsOf(options.targets);
+  options.suite.effort.seed = *options.settings.seed;
   const stress::SuiteResult result = Measure(cases, options);
   if (options.json != "-") Print(StressTable(result));
   if (!Save(result, options)) return kExitBadInput;
@@ -136,12 +134,9 @@ void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
       ->check(CLI::IsMember(targets, CLI::ignore_case).description(""))
       ->delimiter(',')
       ->type_name("NAME");
-  command
-      .add_option("--seed", options.suite.effort.seed,
-                  WithDefault("Seed of the random numbers", options.suite.effort.seed))
-      ->check(SeedRange())
-      ->type_name("S");
-  AddThreadsOption(command, options.threads);
+  options.settings.seed = options.suite.effort.seed;
+  AddSetting(command, "seed", options.settings);
+  AddSetting(command, "threads", options.settings);
   command.add_flag("--quiet", options.quiet, "No progress");
 }
 

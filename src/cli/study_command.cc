@@ -3,7 +3,6 @@
 #include <cmath>
 #include <memory>
 
-#include "kernels/simd/target.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/defaults.h"
@@ -14,7 +13,6 @@
 #include "src/cli/validators.h"
 #include "src/cli/work_progress.h"
 #include "src/core/error.h"
-#include "src/core/parallel.h"
 #include "src/study/study.h"
 
 namespace lanelight {
@@ -22,7 +20,6 @@ namespace {
 
 struct StudyCommandOptions {
   StudyOptions study;
-  SceneOptions machine;  // threads, target; its settings go to `study`
   std::string strategies;
   bool quiet = false;
 };
@@ -34,8 +31,7 @@ void CheckCombination(const StudyOptions& study) {
   try {
     StudyStrategies(study, {});
   } catch (const InputError& error) {
-    const std::string message = error.what();
-    throw CLI::ValidationError("--strategies", message.substr(message.find("strategy ")));
+    throw CLI::ValidationError("--strategies", error.message());
   }
 }
 
@@ -51,10 +47,7 @@ WorkStep StepOf(const StudyProgress& p) {
 int RunStudyCommand(StudyCommandOptions& options) {
   options.study.strategies = SplitStrategies(options.strategies);
   CheckCombination(options.study);
-  ForceTarget(options.machine.target);
-  const ThreadLimit threads(options.machine.threads);
-  options.study.settings = options.machine.settings;
-
+  const MachineGuard machine(options.study.settings);
   WorkProgress progress(ChooseProgressStyle(options.quiet), "study ");
   const InterruptGuard interrupt(
       "\nstopping: the report will be of what is finished; --resume goes on (once more "
@@ -103,25 +96,25 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
                       "Samples per pixel, e.g. 1,4,16,64; default: powers of two up to "
                       "what the baseline renders in a second")
           ->delimiter(',')
-          ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
+          ->transform(ValueFrom(std::uint64_t{1}, kMaxSpp))
           ->type_name("N,...");
   command
       .add_option(
           "--budget", s.budget,
           "Render for equal times instead, of the wall clock: each strategy takes "
           "up to so many samples as it can; compared by processor time")
-      ->check(FiniteRange(1e-3, 1e6))
+      ->transform(ValueFrom(1e-3, 1e6))
       ->type_name("SECONDS")
       ->excludes(spp);
   command
       .add_option("--repetitions", s.repetitions,
                   "Independent renders of each; default: enough for the confidence")
-      ->check(CLI::Range(1, 10000).description(""))
+      ->transform(ValueFrom(1, 10000))
       ->type_name("R");
   command
       .add_option("--confidence", s.confidence,
                   WithDefault("Of all intervals", s.confidence))
-      ->check(FiniteRange(0.5, 0.9999))
+      ->transform(ValueFrom(0.5, 0.9999))
       ->type_name("C");
   command
       .add_option("--reference", s.references,
@@ -133,7 +126,7 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
       .add_option("--target-relmse", s.target_relmse,
                   "Measure the time to this relative MSE; default: what the baseline "
                   "reaches")
-      ->check(FiniteRange(1e-30, 1e30))
+      ->transform(ValueFrom(1e-30, 1e30))
       ->type_name("X");
 }
 
@@ -152,10 +145,7 @@ void AddStudyCommand(CLI::App& root, Command& chosen) {
   AddMeasureOptions(*command, *options);
   command->add_flag("--resume", options->study.resume,
                     "Continue the study in DIR; what is finished is not done again");
-  AddWindowOptions(*command, options->machine.settings);
-  AddTransportOptions(*command, options->machine.settings);
-  AddSeedOption(*command, options->machine.settings);
-  AddExecutionOptions(*command, options->machine);
+  AddSettings(*command, kStudyFlag, options->study.settings);
   command->add_flag("--quiet", options->quiet, "Print errors only");
   command->footer(
       "\nWrites DIR/report.html, study.json, study.csv (docs/study.md) and EXR images.\n"

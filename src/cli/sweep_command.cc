@@ -1,15 +1,16 @@
 // `lanelight sweep SWEEP.toml --out DIR`: a grid of renders, filled by any number of
 // processes.
-#include <charconv>
 #include <map>
 #include <memory>
 
+#include "src/cli/checkpoint_options.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/scene_options.h"
+#include "src/cli/validators.h"
 #include "src/cli/work_progress.h"
 #include "src/sweep/prediction.h"
 #include "src/sweep/runner.h"
@@ -19,28 +20,11 @@ namespace {
 
 struct SweepCommandOptions {
   std::string file, part;
+  RenderSettings settings;  // its trees
   SweepOptions sweep;
   bool dry_run = false, quiet = false;
   int pilots = 24;
 };
-
-std::size_t Number(std::string_view text) {
-  std::size_t value = 0;
-  const auto [end, error] =
-      std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : 0;
-}
-
-// "2/5": the second of five parts.
-void SetPart(const std::string& text, SweepOptions& options) {
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  options.part = Number(std::string_view(text).substr(0, slash));
-  options.parts =
-      slash == text.size() ? 0 : Number(std::string_view(text).substr(slash + 1));
-  if (options.part >= 1 && options.part <= options.parts) return;
-  throw CLI::ValidationError("--part",
-                             "'" + text + "' is not I/N with I from 1 to N, e.g. 2/5");
-}
 
 // A line for each message; sweep.csv has them all.
 void PrintFailures(const std::vector<CellFailure>& failures) {
@@ -108,7 +92,7 @@ WorkStep StepOf(const SweepProgress& p) {
 
 int RunSweepCommand(SweepCommandOptions& options) {
   const Sweep sweep = ReadSweep(options.file);
-  TreeFolder& trees = options.sweep.build_cache;
+  TreeFolder& trees = options.sweep.build_cache = options.settings.trees.folder;
   if (options.quiet) trees.on_wait = nullptr;
   if (options.dry_run) return DryRun(sweep, options);
   WorkProgress progress(ChooseProgressStyle(options.quiet), "sweep: ");
@@ -156,7 +140,8 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
       ->required()
       ->type_name("DIR");
   AddSharingOptions(*command, *options);
-  AddBuildCacheOptions(*command, options->sweep.build_cache);
+  AddSetting(*command, "build-cache", options->settings);
+  AddSetting(*command, "build-cache-size", options->settings);
   CLI::Option* dry = command->add_flag(
       "--dry-run", options->dry_run,
       "Print the cells, and the time and space they will take, and render none");
@@ -165,7 +150,7 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
           "--pilots", options->pilots,
           WithDefault("Most short renders that --dry-run predicts from; 0: no times",
                       options->pilots))
-      ->check(CLI::Range(0, 100000).description(""))
+      ->transform(ValueFrom(0, 100000))
       ->needs(dry)
       ->type_name("N");
   command
@@ -186,7 +171,7 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
       "  lanelight sweep sweep.toml --out out\n"
       "  lanelight sweep sweep.toml --out out --part 2/5");
   command->callback([options, &chosen] {
-    if (!options->part.empty()) SetPart(options->part, options->sweep);
+    if (!options->part.empty()) options->sweep.part = ParsePart(options->part);
     chosen = [options] { return RunSweepCommand(*options); };
   });
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace lanelight {
@@ -29,9 +30,18 @@ struct SourceLocation {
 class InputError : public std::runtime_error {
  public:
   InputError(const SourceLocation& where, const std::string& message)
-      : std::runtime_error(where.ToString() + ": error: " + message) {}
+      : std::runtime_error(fmt::format("{}: error: {}", where.ToString(), message)),
+        place_(where.ToString().size() + kError.size()) {}
   explicit InputError(const std::string& message)
-      : std::runtime_error("error: " + message) {}
+      : std::runtime_error("error: " + message), place_(kError.size() - 2) {}
+
+  /// What is wrong, without the place.
+  const char* message() const { return what() + place_; }
+
+ private:
+  static constexpr std::string_view kError = ": error: ";
+
+  std::size_t place_;  // its length in what()
 };
 
 }  // namespace lanelight

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "kernels/simd/target.h"
 #include "src/core/json_text.h"
 #include "src/core/version.h"
+#include "src/render/setting.h"
 
 namespace lanelight {
 namespace {
@@ -23,24 +23,12 @@ const char* Remedy(const std::string& name) {
 }  // namespace
 
 Json IdentityOf(const Job& job) {
-  const Film& film = job.description.film;
-  const PixelRect& w = job.window;
-  Json scattering;
-  if (job.settings.scattering) scattering = ScatteringName(*job.settings.scattering);
-  return {{"scene_hash", fmt::format("{:016x}", job.scene_hash)},
-          {"resolution", {film.width, film.height}},
-          {"crop", {w.x0, w.y0, w.x1, w.y1}},
-          {"max_depth", job.plan.options.max_depth},
-          {"seed", job.seed},
-          {"strategy", ToText(job.scene.strategy)},
-          {"scattering", scattering},
-          {"copied_triangles", job.settings.copied_triangles},
-          {"aov", job.plan.options.auxiliary != Auxiliary::kNone},
-          {"gbuffer", GbufferName(film.gbuffer)},
-          {"color_space", film.color_space},
-          {"skip_unsupported", job.settings.skip_unsupported},
-          {"target", CurrentTarget()},
-          {"version", FullVersion()}};
+  Json identity = SettingsJson(SettingsInForce(job), kIdentity);
+  identity.update({{"scene_hash", fmt::format("{:016x}", job.scene_hash)},
+                   {"strategy", ToText(job.scene.strategy)},
+                   {"color_space", job.description.film.color_space},
+                   {"version", FullVersion()}});
+  return identity;
 }
 
 std::string IdentityDifferences(const Json& a, const std::string& who_a, const Json& b,

@@ -24,12 +24,12 @@ void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
   report.exr = targets.exr;
   saver.Save(report.exr, [&](const std::string& path) {
     WriteExr(path, film.width(), film.height(), FilmPlanes(film, scale),
-             OutputOptions(identity, counts, film, targets.half));
+             OutputOptions(identity, counts, film, targets.image.half));
   });
   report.png = targets.png;
   saver.Save(report.png, [&](const std::string& path) {
     WritePng(path, FilmImage(film, identity.value("color_space", std::string("srgb"))),
-             targets.exposure);
+             targets.image.exposure);
   });
   report.write_seconds = watch.Seconds();
 }
@@ -93,9 +93,9 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
                         const RenderTargets& targets, const RenderHooks& hooks) {
   FilmAccumulator film = MakeFilm(job);
   Rendering out;
-  const Json head = HeadJson(job, scene, targets.half);
+  const Json head = HeadJson(job, scene, targets.image.half);
   out.report.scene = scene;
-  out.report.half = targets.half;
+  out.report.half = targets.image.half;
   out.report.load_seconds = job.load_seconds;
   out.report.build_seconds = job.build_seconds;
   out.report.trees = job.trees;
@@ -121,11 +121,10 @@ void WriteRendering(const FilmAccumulator& film, const Json& identity, const Jso
   Saver saver;
   SaveImages(film, identity, head.at("scale"), targets, saver, out.report);
   if (!targets.json.empty()) {
-    Json json = ToJson(out.report, head);
-    json.update(members);
-    out.json = DumpJson(json, 2) + "\n";
+    out.json = ToJson(out.report, head);
+    out.json.update(members);
   }
-  if (targets.json != "-") saver.SaveText(targets.json, out.json);
+  if (targets.json != "-") saver.SaveText(targets.json, DumpJson(out.json, 2) + "\n");
   const std::vector<std::string>& problems = saver.problems();
   out.problems.insert(out.problems.end(), problems.begin(), problems.end());
 }

@@ -16,9 +16,8 @@ namespace lanelight {
 /// Where results go; an empty path: nowhere.
 struct RenderTargets {
   std::string exr, png;
-  std::string json;     // "-": only into Rendering::json
-  double exposure = 0;  // of the PNG, stops
-  bool half = false;    // colours of the EXR in 16 bits
+  std::string json;  // "-": only into Rendering::json
+  ImageSettings image;
   CheckpointSettings checkpoint;
 };
 
@@ -34,7 +33,7 @@ struct RenderHooks {
 
 struct Rendering {
   RenderReport report;
-  std::string json;                   // the report as text
+  nlohmann::json json;                // the report, if the targets have one
   std::vector<std::string> problems;  // of writing; see Saver
   bool state_kept = false;            // the last state is on the disk
 };

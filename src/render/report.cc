@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
-#include "src/core/parallel.h"
 #include "src/prepare/chance_of_light.h"
 #include "src/prepare/groups.h"
 #include "src/render/machine_json.h"
+#include "src/render/setting.h"
 #include "src/report/values.h"
 #include "src/scene/image_changes.h"
 
@@ -42,26 +42,12 @@ Json ControlJson(const std::optional<ControlReport>& control) {
           {"correlation", control->correlation}};
 }
 
-Json SettingsJson(const Job& job, bool half) {
-  const Film& film = job.description.film;
-  const PixelRect& w = job.window;
-  return {{"resolution", {film.width, film.height}},
-          {"crop", {w.x0, w.y0, w.x1, w.y1}},
-          {"spp", job.spp ? Json(job.spp) : Json(nullptr)},
-          {"time_budget", job.seconds > 0 ? Json(job.seconds) : Json(nullptr)},
-          {"target_relmse", job.target.relmse > 0 ? Json(job.target.relmse) : Json()},
-          {"target_rmse", job.target.rmse > 0 ? Json(job.target.rmse) : Json()},
-          {"max_depth", job.plan.options.max_depth},
-          {"seed", job.seed},
-          {"sampler", Name(job.scene.strategy.points)},
-          {"strategy", ToText(job.scene.strategy)},
-          {"points", PointsText(job)},
-          {"aov", job.plan.options.auxiliary != Auxiliary::kNone},
-          {"gbuffer", GbufferName(job.description.film.gbuffer)},
-          {"depth", half ? "half" : "float"},
-          {"build", BuildName(job.scene.accel.quality)},
-          {"copied_triangles", job.settings.copied_triangles},
-          {"threads", MaxThreads()}};
+Json ReportedSettings(const Job& job, bool half) {
+  Json settings = SettingsJson(SettingsInForce(job), kReported);
+  settings.update({{"strategy", ToText(job.scene.strategy)},
+                   {"points", PointsText(job)},
+                   {"depth", half ? "half" : "float"}});
+  return settings;
 }
 
 Json NotesJson(const Job& job) {
@@ -141,7 +127,7 @@ Json HeadJson(const Job& job, const std::string& scene, bool half) {
           {"scale", job.scene.scale},
           {"chance_of_light", ChanceOfLight(job.scene)},
           {"plan", ToJson(job.plan)},
-          {"settings", SettingsJson(job, half)},
+          {"settings", ReportedSettings(job, half)},
           {"target", TargetJson()},
           {"machine", ToJson(ThisMachine())},
           {"notes", NotesJson(job)},

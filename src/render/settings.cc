@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "kernels/simd/target.h"
-#include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/image/image.h"
 #include "src/scene/rendered_pixels.h"
@@ -152,36 +151,6 @@ PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription
   options.auxiliary = AuxiliaryOf(settings, scene.film);
   options.wavefront = settings.wavefront;
   return options;
-}
-
-const char* GbufferName(Gbuffer gbuffer) {
-  switch (gbuffer) {
-    case Gbuffer::kNone:
-      return "";
-    case Gbuffer::kCamera:
-      return "camera";
-    case Gbuffer::kWorld:
-      return "world";
-  }
-  LL_CHECK(false);
-  return "";
-}
-
-const char* BuildName(BuildQuality quality) {
-  return quality == BuildQuality::kFast ? "fast" : "high";
-}
-
-const char* ScatteringName(Scattering model) {
-  switch (model) {
-    case Scattering::kLambertian:
-      return "lambertian";
-    case Scattering::kUniform:
-      return "uniform";
-    case Scattering::kInSphere:
-      return "insphere";
-  }
-  LL_CHECK(false);
-  return "";
 }
 
 }  // namespace lanelight

@@ -25,6 +25,13 @@ enum class DefaultDecision {
 inline constexpr std::uint64_t kCopiedTriangles = 1u << 17;
 inline constexpr std::uint64_t kMostCopiedTriangles = 1u << 30;
 
+/// How images are written.
+struct ImageSettings {
+  bool half = false;    // colours of the EXR in 16 bits
+  bool png = false;     // in a sweep: beside each EXR
+  double exposure = 0;  // of the PNG, stops
+};
+
 /// Overrides of the scene file; what is empty stays as the scene says.
 struct RenderSettings {
   std::optional<std::uint64_t> spp;
@@ -46,6 +53,9 @@ struct RenderSettings {
   bool aov = false;
   std::optional<Gbuffer> gbuffer;
   bool skip_unsupported = false;
+  ImageSettings image;
+  int threads = 0;     // 0: all cores
+  std::string target;  // SIMD; empty: the best available
 };
 
 bool HasTarget(const RenderSettings& settings);
@@ -54,6 +64,7 @@ bool HasTarget(const RenderSettings& settings);
 inline constexpr std::uint64_t kMaxSpp = kMostSamplesPerPixel;
 inline constexpr std::uint32_t kMaxWavefront = 1u << 20;
 inline constexpr int kMaxDepth = 1 << 20;
+inline constexpr int kMaxThreads = 1024;
 
 /// Puts the overrides into the description. A crop window of the scene is scaled along
 /// with a new resolution. Throws InputError for sizes, windows, depths and sample counts
@@ -70,11 +81,5 @@ Auxiliary AuxiliaryOf(const RenderSettings& settings, const Film& film);
 
 CompileOptions CompileOptionsOf(const RenderSettings& settings);
 PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene);
-
-/// "camera" or "world"; empty for none.
-const char* GbufferName(Gbuffer gbuffer);
-const char* ScatteringName(Scattering model);
-/// "fast" or "high".
-const char* BuildName(BuildQuality quality);
 
 }  // namespace lanelight

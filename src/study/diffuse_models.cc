@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "src/image/colors.h"
+#include "src/render/setting.h"
 #include "src/study/scene_runner.h"
 
 namespace lanelight {
@@ -31,7 +32,7 @@ bool HasDiffuse(const FeatureSet& features) {
 void SceneRunner::RunDiffuseModels() {
   if (!HasDiffuse(job_.scene.features)) return;
   for (const Model& model : kModels) {
-    DiffuseModel diffuse = {ScatteringName(model.scattering), model.meaning, {}};
+    DiffuseModel diffuse = {ScatteringNames().Write(model.scattering), model.meaning, {}};
     const std::string path = scene_.folder + "/diffuse-" + diffuse.name + ".exr";
     if (fs::exists(path)) {
       diffuse.image = ReadColors(path);

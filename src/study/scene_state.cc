@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "kernels/simd/target.h"
 #include "src/core/input_file.h"
 #include "src/core/json_text.h"
 #include "src/image/atomic_file.h"
 #include "src/image/colors.h"
+#include "src/render/setting.h"
 #include "src/study/scene_runner.h"
 #include "src/study/schedule.h"
 
@@ -19,23 +19,15 @@ namespace fs = std::filesystem;
 constexpr int kFormat = 1;
 constexpr std::uint64_t kReferenceSeed = 0x9e3779b97f4a7c15u;
 
-nlohmann::json ScatteringJson(const std::optional<Scattering>& scattering) {
-  return scattering ? nlohmann::json(ScatteringName(*scattering)) : nlohmann::json();
-}
-
 // Everything that finished renders depend on, beyond their strategy.
 nlohmann::json Identity(const StudyOptions& options, const Job& job) {
-  const PixelRect& w = job.window;
-  return {{"format", kFormat},
-          {"scene_hash", fmt::format("{:016x}", job.scene_hash)},
-          {"target", CurrentTarget()},
-          {"resolution", {job.description.film.width, job.description.film.height}},
-          {"crop", {w.x0, w.y0, w.x1, w.y1}},
-          {"max_depth", job.plan.options.max_depth},
-          {"seed", job.description.sampler.seed},
-          {"scattering", ScatteringJson(options.settings.scattering)},
-          {"copied_triangles", options.settings.copied_triangles},
-          {"references", options.references}};
+  RenderSettings settings = SettingsInForce(job);
+  settings.seed = job.description.sampler.seed;  // repetitions have seeds of their own
+  nlohmann::json identity = SettingsJson(settings, kStudyIdentity);
+  identity.update({{"format", kFormat},
+                   {"scene_hash", fmt::format("{:016x}", job.scene_hash)},
+                   {"references", options.references}});
+  return identity;
 }
 
 }  // namespace

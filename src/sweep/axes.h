@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/core/error.h"
-#include "src/render/settings.h"
+#include "src/render/setting.h"
 
 namespace lanelight {
 
@@ -41,9 +41,10 @@ std::vector<std::string> AxisNames();
 /// The axis of that name, if there is one.
 std::optional<Axis> SweepAxisOf(const std::string& name);
 
-/// Which kind of TOML value an axis takes.
-enum class AxisType { kText, kInteger, kNumber };
-AxisType TypeOf(Axis axis);
+/// What its values are in a TOML file.
+ValueForm FormOf(Axis axis);
+/// A value as it stands in the names of cells: "16spp".
+std::string ValueInNames(Axis axis, const std::string& value);
 
 /// One text per axis; empty: the scene, or the program, decides.
 using AxisValues = std::array<std::optional<std::string>, kNumAxes>;
@@ -57,8 +58,8 @@ inline const std::optional<std::string>& Get(const AxisValues& values, Axis axis
 std::string CanonicalValue(Axis axis, const std::string& text,
                            const SourceLocation& where);
 
-/// Puts these values into the settings of a render. The scene, the SIMD target, the
-/// threads and the strategy are not among them.
+/// Puts these values into the settings of a render. The scene and the strategy are not
+/// among them.
 void ApplyValues(const AxisValues& values, RenderSettings& settings);
 
 }  // namespace lanelight

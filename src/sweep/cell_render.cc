@@ -84,11 +84,10 @@ Rendering CellRenderer::Render(const SweepCell& cell, const std::string& folder,
   const ThreadLimit threads(Threads(cell));
   const Job& job = Prepare(cell);
   RenderTargets targets;
+  targets.image = sweep_.settings.render.image;
   targets.exr = folder + "/image.exr";
-  if (sweep_.settings.png) targets.png = folder + "/image.png";
+  if (targets.image.png) targets.png = folder + "/image.png";
   targets.json = "-";
-  targets.exposure = sweep_.settings.exposure;
-  targets.half = sweep_.settings.half;
   targets.checkpoint.path = folder + "/state";
   targets.checkpoint.resume = Resume::kIfAny;
   targets.checkpoint.finished = false;

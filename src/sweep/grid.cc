@@ -86,29 +86,6 @@ std::string Stem(const std::string& path) {
   return dot == std::string::npos || dot == 0 ? file : file.substr(0, dot);
 }
 
-std::string Readable(Axis axis, const std::string& value) {
-  switch (axis) {
-    case Axis::kScene:
-      return Plain(Stem(value));
-    case Axis::kMaxDepth:
-      return "depth" + value;
-    case Axis::kThreads:
-      return value + "threads";
-    case Axis::kSpp:
-      return value + "spp";
-    case Axis::kTime:
-      return value + "s";
-    case Axis::kTargetRelmse:
-      return "relmse" + value;
-    case Axis::kTargetRmse:
-      return "rmse" + value;
-    case Axis::kSeed:
-      return "seed" + value;
-    default:
-      return Plain(value);
-  }
-}
-
 std::vector<AxisValues> AllCombinations(const std::vector<SubGrid>& grids) {
   std::vector<AxisValues> all;
   std::set<AxisValues> seen;
@@ -137,7 +114,8 @@ std::string CellName(const AxisValues& values) {
     const auto axis = static_cast<Axis>(i);
     const auto& value = Get(values, axis);
     if (!value) continue;
-    readable += (readable.empty() ? "" : "_") + Readable(axis, *value);
+    readable += (readable.empty() ? "" : "_") +
+                Plain(ValueInNames(axis, axis == Axis::kScene ? Stem(*value) : *value));
     all += fmt::format("{}={}\n", Name(axis), *value);
   }
   readable.resize(std::min(readable.size(), kLongest));

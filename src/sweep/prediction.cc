@@ -94,7 +94,7 @@ void Predictor::RenderPilots(std::size_t most, SweepPrediction& out) {
     try {
       const Job& job = renderer_.Prepare(*c.cell);
       pilots_[{c.scene, c.strategy}] =
-          RenderPilot(job, kPilotSeconds, sweep_.settings.half);
+          RenderPilot(job, kPilotSeconds, sweep_.settings.render.image.half);
       ++out.pilots;
     } catch (const Interrupted&) {
       break;
@@ -175,7 +175,7 @@ void Predictor::PredictCell(const SweepCell& cell, bool first_of_scene,
   p.seconds = SamplesOf(settings, *pilot, pixel_seconds) * pixel_seconds;
   if (first_of_scene) p.seconds += pilot->load_seconds + pilot->build_seconds;
   p.bytes = pilot->bytes_per_pixel * pilot->pixels + kReportBytes;
-  if (sweep_.settings.png) p.bytes += 3 * pilot->pixels;  // at most
+  if (settings.image.png) p.bytes += 3 * pilot->pixels;  // at most
 }
 
 }  // namespace

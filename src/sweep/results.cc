@@ -114,7 +114,7 @@ bool IsOnPage(const std::string& measure) {
 }
 
 Json CellReport(const Rendering& rendering) {
-  Json report = ParseJson(rendering.json);
+  Json report = rendering.json;
   report["sweep"] = {{"cpu_seconds", rendering.report.result.cpu_seconds},
                      {"machine", MachineName()},
                      {"program", FullVersion()}};

@@ -29,7 +29,7 @@ class Runner {
         options_(options),
         hooks_(hooks),
         folder_(folder),
-        claims_(folder.File("claims"), options.parts > 1),
+        claims_(folder.File("claims"), options.part.count > 1),
         renderer_(sweep, options.build_cache, folder.Outputs()) {}
 
   void Run(SweepOutcome& outcome);
@@ -81,7 +81,8 @@ void Runner::FindPart() {
   std::map<std::string, std::size_t> group_of;
   for (const SweepCell& cell : sweep_.cells) {
     const CellState state = folder_.Look(cell).state;
-    if (cell.index % options_.parts != options_.part - 1) continue;
+    const auto [index, count] = options_.part;
+    if (cell.index % std::size_t(count) != std::size_t(index - 1)) continue;
     const auto [entry, is_new] =
         group_of.try_emplace(renderer_.SceneKey(cell), groups_.size());
     if (is_new) groups_.emplace_back();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/accel/tree_folder.h"
+#include "src/render/parts.h"
 #include "src/sweep/sweep_file.h"
 #include "src/wavefront/run.h"
 
@@ -14,8 +15,9 @@ namespace lanelight {
 
 struct SweepOptions {
   std::string out;
-  /// This process renders the cells whose index leaves part - 1 when divided by parts.
-  std::size_t part = 1, parts = 1;
+  /// This process renders the cells whose index leaves part.index - 1 when divided by
+  /// part.count.
+  Part part;
   bool wait = false;  // for cells that other processes render, and do them if those die
   bool table_only = false;      // render nothing
   TreeFolder build_cache = {};  // of trees over shapes

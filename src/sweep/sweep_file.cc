@@ -14,19 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The text of a number as CanonicalValue() takes it.
-std::string ValueText(const TomlFile& file, Axis axis, const toml::node& node) {
-  switch (TypeOf(axis)) {
-    case AxisType::kText:
-      return file.Text(Name(axis), node);
-    case AxisType::kInteger:
-      return std::to_string(file.Integer(Name(axis), node));
-    case AxisType::kNumber:
-      return fmt::format("{}", file.Number(Name(axis), node));
-  }
-  return "";
-}
-
 // Two names of one strategy would be rendered twice. What "scene" is depends on the
 // scene.
 bool Same(Axis axis, const std::string& a, const std::string& b) {
@@ -40,7 +27,8 @@ bool Same(Axis axis, const std::string& a, const std::string& b) {
 void AddValue(const TomlFile& file, Axis axis, const toml::node& node,
               std::vector<GridValue>& values) {
   const SourceLocation where = file.Where(node);
-  const std::string text = CanonicalValue(axis, ValueText(file, axis, node), where);
+  const std::string text =
+      CanonicalValue(axis, file.Value(Name(axis), FormOf(axis), node), where);
   for (const GridValue& other : values) {
     if (!Same(axis, other.text, text)) continue;
     throw InputError(where, fmt::format("{} {} is there twice: it is the same as {}, "

@@ -13,9 +13,6 @@ namespace lanelight {
 /// [settings]: what is the same for all cells.
 struct SweepSettings {
   RenderSettings render;
-  bool half = false;    // depth = "half"
-  bool png = false;     // beside the EXR file
-  double exposure = 0;  // of the PNG, stops
   /// What the file says, by key, in one form each: part of what a cell is.
   std::map<std::string, std::string> texts;
 };

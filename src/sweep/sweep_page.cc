@@ -27,7 +27,8 @@ Json AxisJson(const Sweep& sweep, Axis axis) {
   }
   return {{"name", Name(axis)},
           {"title", Title(axis)},
-          {"numeric", TypeOf(axis) != AxisType::kText},
+          {"numeric",
+           FormOf(axis) == ValueForm::kInteger || FormOf(axis) == ValueForm::kNumber},
           {"values", values},
           {"unset", unset}};
 }

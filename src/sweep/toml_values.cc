@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "src/core/check.h"
 #include "src/core/suggest.h"
 #include "src/sweep/toml_nesting.h"
 
@@ -72,6 +73,35 @@ std::vector<const toml::table*> TomlFile::Tables(const std::string& key,
     tables.push_back(item.as_table());
   }
   return tables;
+}
+
+std::string TomlFile::Value(const std::string& key, ValueForm form,
+                            const toml::node& node) const {
+  switch (form) {
+    case ValueForm::kFlag:
+      return Flag(key, node) ? "true" : "false";
+    case ValueForm::kInteger:
+      return std::to_string(Integer(key, node));
+    case ValueForm::kNumber:
+      return fmt::format("{}", Number(key, node));
+    case ValueForm::kText:
+    case ValueForm::kSize:
+      return Text(key, node);
+    case ValueForm::kWindow:
+      return Window(key, node);
+  }
+  LL_CHECK(false);
+  return "";
+}
+
+std::string TomlFile::Window(const std::string& key, const toml::node& node) const {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) Refuse(key, node, "an array: [x0, y0, x1, y1]");
+  std::string text;
+  for (const toml::node& side : *array) {
+    text += (text.empty() ? "" : ",") + std::to_string(Integer(key, side));
+  }
+  return text;
 }
 
 std::string TomlFile::Text(const std::string& key, const toml::node& node) const {

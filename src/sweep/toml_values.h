@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/core/error.h"
+#include "src/render/setting.h"
 
 namespace lanelight {
 
@@ -25,13 +26,16 @@ class TomlFile {
   /// Of [[key]]: at least one table.
   std::vector<const toml::table*> Tables(const std::string& key,
                                          const toml::node& node) const;
+  /// The value as the text of a setting (src/render/setting.h).
+  std::string Value(const std::string& key, ValueForm form, const toml::node& node) const;
+
+ private:
   std::string Text(const std::string& key, const toml::node& node) const;
   bool Flag(const std::string& key, const toml::node& node) const;
+  std::string Window(const std::string& key, const toml::node& node) const;
   std::int64_t Integer(const std::string& key, const toml::node& node) const;
   /// An integer will do. Finite.
   double Number(const std::string& key, const toml::node& node) const;
-
- private:
   [[noreturn]] void Refuse(const std::string& key, const toml::node& node,
                            const std::string& right) const;
 

@@ -113,13 +113,15 @@ TEST_CASE("the command that advise prints has the flags that it was given", "[cl
                                         "512"});
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
-  CHECK_THAT(r.out, Contains("it'\\''s a sphere.pbrt' -o FILE.exr --time 0.3"));
+  CHECK_THAT(r.out, Contains("it'\\''s a sphere.pbrt' -o FILE.exr --time 0.3 "));
   CHECK_THAT(r.out,
-             Contains(" --resolution 32x24 --crop 0,0,16,16 --aov --max-depth 3 "
-                      "--seed 7 --scattering uniform --build fast --build-cache '" +
+             Contains(" --time 0.3 --seed 7 --resolution 32x24 --crop 0,0,16,16 --aov "
+                      "--strategy directions="));
+  CHECK_THAT(r.out,
+             Contains(" --max-depth 3 --scattering uniform --wavefront 512 --build fast "
+                      "--build-cache '" +
                       (directory / "a cache") +
-                      "' --build-cache-size 1048576 --copied-triangles 0 "
-                      "--wavefront 512 --threads 1\n"));
+                      "' --build-cache-size 1048576 --copied-triangles 0 --threads 1\n"));
 }
 
 TEST_CASE("advise refuses flags that make no sense", "[cli]") {

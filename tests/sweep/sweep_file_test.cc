@@ -121,17 +121,21 @@ png = true
 exposure = -1
 scattering = "insphere"
 wavefront = 512
+copied-triangles = 5
 skip-unsupported = false
 )")
                               .settings;
   CHECK(s.render.crop == std::array<int, 4>{1, 2, 30, 40});
   CHECK(s.render.gbuffer == Gbuffer::kWorld);
-  CHECK((s.render.aov && s.half && s.png && !s.render.skip_unsupported));
-  CHECK(s.exposure == -1);
+  CHECK((s.render.aov && s.render.image.half && s.render.image.png));
+  CHECK_FALSE(s.render.skip_unsupported);
+  CHECK(s.render.image.exposure == -1);
+  CHECK(s.render.copied_triangles == 5);
   CHECK(s.render.scattering == Scattering::kInSphere);
   CHECK(s.render.wavefront == 512);
-  CHECK(s.texts.size() == 9);
+  CHECK(s.texts.size() == 10);
   CHECK(s.texts.at("crop") == "1,2,30,40");
+  CHECK(s.texts.at("skip-unsupported") == "false");
 }
 
 TEST_CASE("sweep: what a cell's values do to a render", "[sweep]") {
@@ -141,6 +145,8 @@ scene = "a.pbrt"
 resolution = "64x48"
 max-depth = 0
 build = "fast"
+threads = 3
+target = "rvv"
 spp = 2
 time = 3
 target-relmse = 0.5
@@ -153,6 +159,8 @@ seed = 7
   CHECK(s.resolution == std::array<int, 2>{64, 48});
   CHECK(s.max_depth == 0);
   CHECK(s.build == BuildQuality::kFast);
+  CHECK(s.threads == 3);
+  CHECK(s.target == "RVV");
   CHECK(s.spp == 2u);
   CHECK(s.seconds == 3.0);
   CHECK(s.target_relmse == 0.5);
@@ -169,7 +177,7 @@ TEST_CASE("sweep: mistakes are named with their place and a remedy", "[sweep]") 
       {"[gird]\nscene = 'a.pbrt'", "1:2", {"unknown table \"gird\"", "mean \"grid\""}},
       {"[grid]\nspp = 4", "1:1", {"no scene", "scene = \"box.pbrt\""}},
       {"[grid]\nscene = 'c.pbrt'", "2:9", {"no scene file", "c.pbrt", "relative"}},
-      {"[grid]\nscene = ''", "2:9", {"empty"}},
+      {"[grid]\nscene = ''", "2:9", {"is not the name of a scene"}},
       {"[grid]\nscene = 3", "2:9", {"scene is the integer 3", "text in quotes"}},
       {"[grid]\nscene = []", "2:9", {"no values", "leave the line out"}},
       {"[grid]\nscene = 'a.pbrt'\nsp = 4", "3:1", {"axis \"sp\"", "mean \"spp\""}},
@@ -198,7 +206,9 @@ TEST_CASE("sweep: mistakes are named with their place and a remedy", "[sweep]") 
       {"[grid]\nscene = 'a.pbrt'\nresolution = '64x48x3'", "3:14", {"640x480"}},
       {"[grid]\nscene = 'a.pbrt'\nresolution = '99999x1'", "3:14", {"1 to 65536"}},
       {"[grid]\nscene = 'a.pbrt'\nbuild = 'fats'", "3:9", {"build", "mean \"fast\""}},
-      {"[grid]\nscene = 'a.pbrt'\ntarget = 'avx9'", "3:10", {"SIMD target", "\"AVX2\""}},
+      {"[grid]\nscene = 'a.pbrt'\ntarget = 'avx9'",
+       "3:10",
+       {"target \"avx9\" is not", "\"AVX2\""}},
       {"[grid]\nscene = 'a.pbrt'\nstrategy = 'points=sobbol'",
        "3:12",
        {"sobbol", "sobol"}},
@@ -230,6 +240,12 @@ TEST_CASE("sweep: mistakes are named with their place and a remedy", "[sweep]") 
        {"camera", "world"}},
       {"[grid]\nscene = 'a.pbrt'\n[settings]\naov = 1", "4:7", {"true or false"}},
       {"[grid]\nscene = 'a.pbrt'\n[settings]\ncrop = '0,0,1,1'", "4:8", {"[x0, y0"}},
+      {"[grid]\nscene = 'a.pbrt'\n[settings]\ncopied-triangles = 1e9",
+       "4:20",
+       {"copied-triangles is the number", "an integer"}},
+      {"[grid]\nscene = 'a.pbrt'\n[settings]\ncopied-triangles = 2000000000",
+       "4:20",
+       {"copied-triangles 2000000000 is not an integer from 0 to"}},
       {"[grid]\nscene = 'a.pbrt'\n[settings]\ncrop = [4, 0, 4, 2]", "4:8", {"x0 < x1"}},
       {"[grid]\nscene = 'a.pbrt'\n[settings]\ndepth = 'full'", "4:9", {"\"half\""}},
       {"[grid]\nscene = 'a.pbrt'\n[settings]\nexposure = 1000", "4:12", {"-100 to 100"}},

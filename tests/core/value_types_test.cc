@@ -1,0 +1,111 @@
+// Values as text: what is read, what is written, and what is said of all else.
+#include "src/core/value_types.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+namespace lanelight {
+namespace {
+
+using Catch::Contains;
+
+template <class Type>
+std::string RefusalOf(const Type& type, const std::string& text) {
+  try {
+    ReadValue(type, text);
+  } catch (const InputError& error) {
+    return error.message();
+  }
+  return "no error";
+}
+
+// The one text of what a text means.
+template <class Type>
+std::string Rewritten(const Type& type, const std::string& text) {
+  return type.Write(ReadValue(type, text));
+}
+
+}  // namespace
+
+TEST_CASE("numbers are decimal, of their range, and nothing else", "[core]") {
+  const NumberType<std::uint64_t> count{1, 1000};
+  CHECK(Rewritten(count, "010") == "10");
+  CHECK(Rewritten(count, "+7") == "7");
+  CHECK(ReadValue(count, "1000") == 1000);
+  for (const char* text : {"0", "1001", "-1", "+-1", "++1", "0x10", "1e2", "4.0", "4 ",
+                           "", "18446744073709551617"}) {
+    INFO(text);
+    CHECK_THAT(RefusalOf(count, text), Contains("is not an integer from 1 to 1000"));
+  }
+  const NumberType<double> stops{-100, 100};
+  CHECK(Rewritten(stops, "-1.50") == "-1.5");
+  CHECK(Rewritten(stops, "1e-3") == "0.001");
+  for (const char* text : {"nan", "inf", "-101", "1,5", "two"}) {
+    INFO(text);
+    CHECK_THAT(RefusalOf(stops, text), Contains("is not a number from -100 to 100"));
+  }
+  CHECK(RefusalOf(count, "0").starts_with("0 is not"));
+  CHECK(RefusalOf(count, "no").starts_with("\"no\" is not"));
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+  CHECK(ReadValue(NumberType<std::uint64_t>{0, kMost}, "18446744073709551615") == kMost);
+}
+
+TEST_CASE("sizes and windows are read whole", "[core]") {
+  const SizeType size{65536};
+  CHECK(Rewritten(size, "064x48") == "64x48");
+  for (const char* text : {"64", "64*48", "0x48", "64x48x3", "64x", "65537x1", "x", ""}) {
+    INFO(text);
+    CHECK_THAT(RefusalOf(size, text), Contains("WIDTHxHEIGHT with sides of 1 to 65536"));
+  }
+  const WindowType window;
+  CHECK(Rewritten(window, "0,1,20,3") == "0,1,20,3");
+  for (const char* text : {"0,0,1", "0,0,1,1,1", "-1,0,1,1", "4,0,4,2", "0,3,1,2", ""}) {
+    INFO(text);
+    CHECK_THAT(RefusalOf(window, text), Contains("0 <= x0 < x1"));
+  }
+  CHECK(ParseNumbers<int>("3/16", '/') == std::vector<int>{3, 16});
+  CHECK(ParseNumbers<int>("3//16", '/').empty());
+}
+
+TEST_CASE("sizes in bytes have decimal and binary units", "[core]") {
+  const BytesType bytes;
+  CHECK(ReadValue(bytes, "0") == 0);
+  CHECK(ReadValue(bytes, "010") == 10);
+  CHECK(ReadValue(bytes, "12B") == 12);
+  CHECK(ReadValue(bytes, "500MB") == 500'000'000);
+  CHECK(ReadValue(bytes, "500m") == 500'000'000);
+  CHECK(ReadValue(bytes, "10 gb") == 10'000'000'000);
+  CHECK(ReadValue(bytes, "16GiB") == std::uint64_t{16} << 30);
+  CHECK(ReadValue(bytes, "15EiB") == std::uint64_t{15} << 60);
+  for (const char* text : {"16EiB", "18446744073709551616", "-1", "1.5GB", "5 apples",
+                           "GB", "1iB", "1kk", "1ib", ""}) {
+    INFO(text);
+    CHECK_THAT(RefusalOf(bytes, text), Contains("below 16EiB"));
+  }
+}
+
+TEST_CASE("names are told with the nearest one", "[core]") {
+  enum class Fruit { kApple, kPear };
+  const NamesType<Fruit> fruits = {{{"apple", Fruit::kApple}, {"pear", Fruit::kPear}}};
+  CHECK(ReadValue(fruits, "pear") == Fruit::kPear);
+  CHECK(fruits.Write(Fruit::kApple) == "apple");
+  CHECK(RefusalOf(fruits, "aple") ==
+        "\"aple\" is not one of \"apple\", \"pear\"; did you mean \"apple\"?");
+  CHECK(RefusalOf(fruits, "Apple").starts_with("\"Apple\" is not one of"));
+  CHECK(ReadValue(FlagType{}, "false") == false);
+  CHECK_THAT(RefusalOf(FlagType{}, "yes"), Contains("true or false"));
+  CHECK_THAT(RefusalOf(TextType{"the name of a directory"}, ""),
+             Contains("is not the name of a directory"));
+}
+
+TEST_CASE("errors have their place and their message apart", "[core]") {
+  const SourceLocation where = {std::make_shared<const std::string>("a: error: b"), 3, 7};
+  const InputError placed(where, "x is not y");
+  CHECK(std::string(placed.what()) == "a: error: b:3:7: error: x is not y");
+  CHECK(std::string(placed.message()) == "x is not y");
+  CHECK(std::string(InputError("no file").message()) == "no file");
+  CHECK(std::string(InputError({}, "").message()).empty());
+}
+
+}  // namespace lanelight
