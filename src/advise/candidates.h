@@ -31,7 +31,7 @@ struct AdvisedCandidate {
   std::string meaning;                 // when it pays
   double price = 1, price_spread = 0;  // DecisionCandidate
   CandidateStatus status = CandidateStatus::kSkipped;
-  std::string reason;  // of the status
+  std::string reason = {};  // of the status
   /// How many times as efficient as the default (1, without bounds, for that itself),
   /// with its 90 % interval; by samples that have chosen nothing.
   Interval efficiency = WithoutBounds(1);
