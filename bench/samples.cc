@@ -40,7 +40,7 @@ void RunOnce(const std::string& scene, std::uint64_t spp, int crop, Runs& runs) 
   const double before = double(ResidentBytes());
   if (!ForgetPeak()) throw std::runtime_error("the peak of memory cannot be reset");
   const double start = ProcessCpuSeconds();
-  const RunResult result = Run(job.scene, job.plan, RunOptionsOf(job, film), film);
+  const RunResult result = Run(job.scene, job.plan, RunOptionsOf(job), film);
   const double seconds = ProcessCpuSeconds() - start;
   const std::uint64_t wanted = spp * static_cast<std::uint64_t>(crop * crop);
   if (result.samples != wanted || film.Samples(x, y) != spp) {

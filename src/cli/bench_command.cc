@@ -89,20 +89,18 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
       .add_option("SCENE", bench.scenes,
                   "Scene files; default: five that are part of the program")
       ->type_name("");
-  for (const char* name : {"resolution", "crop", "strategy", "sampler"}) {
-    AddSetting(command, name, bench.settings);
-  }
-  command
-      .add_option("--spp", bench.settings.spp,
-                  WithDefault("Samples per pixel of a render",
-                              fmt::format("as many as take {} s", kRunSeconds)))
-      ->check(CLI::Range(std::uint64_t{1}, kMaxSpp).description(""))
-      ->type_name("N");
+  AddSetting(command, "resolution", bench.settings);
+  AddSetting(command, "crop", bench.settings);
+  AddSetting(command, "spp", bench.settings)
+      ->description(WithDefault("Samples per pixel of a render",
+                                fmt::format("as many as take {} s", kRunSeconds)));
+  AddSetting(command, "strategy", bench.settings);
+  AddSetting(command, "sampler", bench.settings);
   command
       .add_option("--threads", bench.threads,
                   WithDefault("Numbers of threads, one row each", "1, and all cores"))
       ->delimiter(',')
-      ->check(CLI::Range(1, 1024).description(""))
+      ->transform(ValueFrom(1, kMaxThreads))
       ->type_name("T,...");
   CLI::Option* targets =
       command
@@ -117,14 +115,14 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
       .add_option(
           "--within", bench.within,
           WithDefault("Repeat until medians are known so well, of 1", bench.within))
-      ->check(FiniteRange(1e-4, 1))
+      ->transform(ValueFrom(1e-4, 1.0))
       ->type_name("X");
   command
       .add_option("--time", bench.seconds,
                   WithDefault("Seconds by the clock for each row at most, unless six "
                               "repeats take longer",
                               bench.seconds))
-      ->check(FiniteRange(0.01, 1e6))
+      ->transform(ValueFrom(0.01, 1e6))
       ->type_name("S");
 }
 
@@ -142,7 +140,7 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
   command
       .add_option("--tolerance", options.tolerance,
                   WithDefault("Part by which a row may be slower", options.tolerance))
-      ->check(FiniteRange(0, 1))
+      ->transform(ValueFrom(0.0, 1.0))
       ->type_name("X");
   command.add_flag("--quiet", options.quiet, "No progress");
 }

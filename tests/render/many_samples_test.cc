@@ -41,7 +41,7 @@ Render RenderCrop(std::uint64_t spp, const std::string& points) {
   // A second thread may come to work, and need memory, in one render and not in another.
   const ThreadLimit limit(1);
   ForgetPeak();
-  const RunResult result = Run(job.scene, job.plan, RunOptionsOf(job, film), film);
+  const RunResult result = Run(job.scene, job.plan, RunOptionsOf(job), film);
   Render out;
   out.peak = PeakMemory();
   out.buffers = result.wavefront_bytes;
