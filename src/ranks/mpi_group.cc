@@ -12,10 +12,11 @@
 namespace lanelight {
 namespace {
 
-// Whether the request has ended; if not, the caller has given up.
+// Whether the request has ended; if not, the caller has given up. Naps last no longer
+// than what has been waited, and wake a waiting rank seldom enough to cost nothing.
 bool Await(MPI_Request request, const std::function<bool()>& gives_up = nullptr) {
   using std::chrono::microseconds;
-  constexpr microseconds kLongest(2000);
+  constexpr microseconds kLongest(10000);
   int done = 0;
   for (microseconds nap(50);; nap = std::min(2 * nap, kLongest)) {
     MPI_Test(&request, &done, MPI_STATUS_IGNORE);

@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 // How often ranks hear of each other while they render: a few times within what a signal
 // leaves them, and seldom enough to cost nothing.
-constexpr auto kBetweenSums = std::chrono::milliseconds(30);
+constexpr auto kBetweenSums = std::chrono::milliseconds(50);
 // After a signal mpirun leaves a second; for those who do not answer until then nobody
 // waits.
 constexpr double kPatienceSeconds = 0.6;
