@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-/// The document, put in when the library is built (format_text.cc.in).
+/// The document, put in when the library is built (CMakeLists.txt).
 std::string_view FormatDocument();
 
 }  // namespace lanelight
