@@ -1,7 +1,5 @@
 #include "src/accel/tree_file.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <cstring>
 #include <string_view>
@@ -11,6 +9,7 @@
 #include "src/accel/tree_parts.h"
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/core/hash.h"
 #include "src/core/input_file.h"
 #include "src/core/mapped_file.h"
 #include "src/core/parallel.h"
@@ -40,7 +39,7 @@ static_assert(sizeof(TreeHeader) <= kPageBytes &&
               std::is_trivially_copyable_v<TreeHeader>);
 
 std::uint64_t HashOfHeader(const TreeHeader& header) {
-  return XXH3_64bits(&header, offsetof(TreeHeader, hash));
+  return Hash64(&header, offsetof(TreeHeader, hash));
 }
 
 std::uint64_t HashOfPart(const char* data, std::size_t bytes) {
@@ -48,9 +47,9 @@ std::uint64_t HashOfPart(const char* data, std::size_t bytes) {
   std::vector<std::uint64_t> hashes((bytes + kBlock - 1) / kBlock);
   ParallelFor(hashes.size(), [&](std::size_t i) {
     const std::size_t begin = i * kBlock;
-    hashes[i] = XXH3_64bits(data + begin, std::min(kBlock, bytes - begin));
+    hashes[i] = Hash64(data + begin, std::min(kBlock, bytes - begin));
   });
-  return XXH3_64bits(hashes.data(), hashes.size() * sizeof(hashes[0]));
+  return Hash64(hashes.data(), hashes.size() * sizeof(hashes[0]));
 }
 
 std::size_t RoundUp(std::size_t value, std::size_t unit) {

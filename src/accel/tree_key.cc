@@ -1,7 +1,6 @@
 #include "src/accel/tree_key.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cstring>
@@ -36,14 +35,14 @@ class KeyText {
   void AddFloats(const Records& records, std::size_t floats, const Take& take) {
     constexpr std::size_t kPart = 8192;
     const std::size_t parts = (records.size() + kPart - 1) / kPart;
-    std::vector<XXH128_hash_t> hashes(parts);
+    std::vector<Hash128> hashes(parts);
     ParallelFor(parts, [&](std::size_t p) {
       const std::size_t begin = p * kPart, end = std::min(begin + kPart, records.size());
       std::vector<float> values(floats * (end - begin));
       for (std::size_t i = begin; i < end; ++i) {
         take(records[i], &values[floats * (i - begin)]);
       }
-      hashes[p] = XXH3_128bits(values.data(), values.size() * sizeof(float));
+      hashes[p] = HashTo128(values.data(), values.size() * sizeof(float));
     });
     Add(records.size());
     AddBytes(hashes.data(), parts * sizeof(hashes[0]));
@@ -53,10 +52,7 @@ class KeyText {
     text_.append(static_cast<const char*>(bytes), size);
   }
 
-  TreeKey Key() const {
-    const XXH128_hash_t hash = XXH3_128bits(text_.data(), text_.size());
-    return {hash.low64, hash.high64};
-  }
+  TreeKey Key() const { return HashTo128(text_.data(), text_.size()); }
 
  private:
   std::string text_;
@@ -93,8 +89,6 @@ void AddShapes(const Geometry& g, KeyText& text) {
 }
 
 }  // namespace
-
-std::string TreeKey::Hex() const { return fmt::format("{:016x}{:016x}", high, low); }
 
 TreeKey KeyOf(const Geometry& geometry, const AccelOptions& options) {
   KeyText text;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "src/accel/accel.h"
+#include "src/core/hash.h"
 
 namespace lanelight {
 
@@ -13,12 +13,7 @@ namespace lanelight {
 /// part of the key anyway.)
 inline constexpr std::uint64_t kTreeVersion = 5;
 
-struct TreeKey {
-  std::uint64_t low = 0, high = 0;
-  friend bool operator==(const TreeKey&, const TreeKey&) = default;
-  /// 32 digits.
-  std::string Hex() const;
-};
+using TreeKey = Hash128;
 
 /// XXH3 (128 bits) of everything that BuildAccel reads: places of shapes, groups,
 /// instances and options; and of this program. Materials, lights, normals and texture

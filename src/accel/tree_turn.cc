@@ -2,10 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
-#include <thread>
-
 #include "src/core/error.h"
 #include "src/core/error_text.h"
 #include "src/core/interrupted.h"
@@ -13,21 +9,14 @@
 namespace lanelight {
 namespace {
 
-using Seconds = std::chrono::duration<double>;
-
-constexpr Seconds kFirstPause(1e-3), kLongestPause(50e-3), kSilence(0.5);
-
-// Bytes beyond the end of a file can be locked too.
-std::uint64_t ByteOf(const TreeKey& key) {
-  return key.low & ((std::uint64_t{1} << 62) - 1);
-}
+constexpr double kSilence = 0.5;  // seconds
 
 }  // namespace
 
 TreeTurn::TreeTurn(const TreeFolder& folder, const TreeKey& key, double patience) {
   std::string why;
   try {
-    lock_.emplace(folder.path + "/locks");
+    file_.emplace(folder.path + "/locks");
     why = Wait(folder, key, patience);
   } catch (const InputError& error) {
     why = WithoutPrefix(error);
@@ -35,48 +24,36 @@ TreeTurn::TreeTurn(const TreeFolder& folder, const TreeKey& key, double patience
   if (why.empty()) return;
   problem_ = why + (waited_ ? "; the trees were built here too"
                             : "; processes that start at once build the same trees");
-  lock_.reset();
 }
 
 void TreeTurn::Abandon() {
-  if (lock_ && lock_->IsNamed()) unlink(lock_->path().c_str());
+  if (file_ && file_->IsNamed()) unlink(file_->path().c_str());
 }
 
 // Why there is no waiting; empty: it is over.
 std::string TreeTurn::Wait(const TreeFolder& folder, const TreeKey& key,
                            double patience) {
-  const auto start = std::chrono::steady_clock::now();
+  if (!file_->locking()) return file_->path() + ": this file system knows no locks";
   const std::string path = TreePath(folder, key);
-  bool told = !folder.on_wait;
-  for (Seconds pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
-    const LockOutcome outcome = lock_->TryLock(ByteOf(key), 1);
-    if (outcome == LockOutcome::kTaken) return "";
-    if (outcome == LockOutcome::kUnknown) {
-      return lock_->path() + ": this file system knows no locks";
-    }
+  bool told = !folder.on_wait, abandoned = false;
+  lock_ = file_->Wait(key.Hex(), [&](double waited) {
     waited_ = true;
-    if (!lock_->IsNamed()) {  // abandoned, or somebody has emptied the folder
-      lock_.reset();
-      return "";
-    }
+    abandoned = !file_->IsNamed();  // or somebody has emptied the folder
+    if (abandoned) return false;
     if (folder.stop != nullptr && *folder.stop) {
       throw Interrupted("stopped while another process was building " + path);
     }
-    const Seconds waited = std::chrono::steady_clock::now() - start;
-    if (waited.count() >= patience) {
-      return fmt::format("{}: another process has been building it for {:.0f} s and more",
-                         path, patience);
-    }
+    if (waited >= patience) return false;
     if (!told && waited > kSilence) {
-      folder.on_wait(
-          fmt::format("waiting for another process to build {}, {:.0f} s at "
-                      "most",
-                      path, patience));
+      folder.on_wait(fmt::format(
+          "waiting for another process to build {}, {:.0f} s at most", path, patience));
       told = true;
     }
-    // Not F_OFD_SETLKW, which signals do not end where they restart system calls.
-    std::this_thread::sleep_for(pause);
-  }
+    return true;
+  });
+  if (lock_ || abandoned) return "";
+  return fmt::format("{}: another process has been building it for {:.0f} s and more",
+                     path, patience);
 }
 
 }  // namespace lanelight

@@ -10,8 +10,7 @@
 
 namespace lanelight {
 
-/// A lock on a byte of the folder's file `locks`, the byte being of the key: nothing has
-/// to be cleared up, and the kernel frees the lock when its process ends in whatever way.
+/// A lock of the folder's file `locks`, by the name of the key.
 class TreeTurn {
  public:
   /// Returns at once if nobody else has the turn for `key`. If somebody has, waits until
@@ -33,7 +32,8 @@ class TreeTurn {
  private:
   std::string Wait(const TreeFolder& folder, const TreeKey& key, double patience);
 
-  std::optional<LockFile> lock_;
+  std::optional<LockFile> file_;
+  std::optional<HeldLock> lock_;
   bool waited_ = false;
   std::string problem_;
 };

@@ -67,7 +67,7 @@ struct JobRun {
 JobRun RunJob(const Job& job, std::function<void(const Progress&)> on_progress = {},
               const std::atomic<bool>* stop = nullptr);
 
-/// 64-bit hash (FNV-1a over 8-byte words) of the scene file and, recursively, of every
+/// 64-bit hash of the scene file and, recursively, of every
 /// file that a quoted string in it names: included scenes, meshes, images. Missing files
 /// are left out; the parser reports them.
 std::uint64_t HashSceneFiles(const std::string& scene_path);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -7,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/core/hash.h"
 #include "src/core/input_file.h"
 #include "src/parse/lex.h"
 #include "src/render/job.h"
@@ -15,29 +15,6 @@ namespace lanelight {
 namespace {
 
 namespace fs = std::filesystem;
-
-// FNV-1a, eight bytes a step: meshes are tens of megabytes.
-class Hash {
- public:
-  void Add(std::string_view bytes) {
-    std::size_t i = 0;
-    for (; i + 8 <= bytes.size(); i += 8) {
-      std::uint64_t word;
-      std::memcpy(&word, bytes.data() + i, 8);
-      Mix(word);
-    }
-    for (; i < bytes.size(); ++i) Mix(static_cast<unsigned char>(bytes[i]));
-    Mix(bytes.size());
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  void Mix(std::uint64_t word) {
-    hash_ = (hash_ ^ word) * 0x100000001b3u;
-    hash_ ^= hash_ >> 29;  // carries the high bytes of the word down
-  }
-  std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
 
 // Quoted strings of scene text that could be names of files to be read: with an
 // extension, and none of a Film directive, which names the output.
@@ -102,19 +79,19 @@ class SceneHasher {
     } catch (const Unreadable&) {
       return;  // most are no names of files
     }
-    hash_.Add(content);
+    hash_.AddArray(content);
     if (path.extension() != ".pbrt") return;
     for (std::string_view name : QuotedNames(content).Find()) {
       AddFile(directory_ / fs::path(name));
       if (path.parent_path() != directory_) AddFile(path.parent_path() / fs::path(name));
     }
   }
-  std::uint64_t value() const { return hash_.value(); }
+  std::uint64_t value() const { return hash_.Digest(); }
 
  private:
   fs::path directory_;
   std::set<std::string> seen_;
-  Hash hash_;
+  StreamHash hash_;
 };
 
 }  // namespace

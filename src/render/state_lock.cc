@@ -20,32 +20,30 @@ std::string WhoAmI() {
 
 StateLock::StateLock(const std::string& path,
                      const std::function<void(const std::string&)>& on_problem) {
-  const std::string name = path + ".lock";
-  for (;;) {
-    auto file = std::make_unique<LockFile>(name);
-    const LockOutcome outcome = file->TryLock(0, 1);
-    if (outcome == LockOutcome::kUnknown) {
+  do {
+    lock_.reset();
+    file_.emplace(path + ".lock");
+    if (!file_->locking()) {
       on_problem(fmt::format(
           "{}: this file system knows no locks: see to it that nobody else keeps '{}'",
-          name, path));
-      unlink(name.c_str());
+          file_->path(), path));
+      unlink(file_->path().c_str());
+      file_.reset();
       return;
     }
-    if (outcome == LockOutcome::kBusy) {
-      const std::string who = file->Note();
+    lock_ = file_->Take("state");
+    if (!lock_) {
+      const std::string who = file_->Note();
       throw InputError(fmt::format(
           "'{}' is being kept by {}: let that end or stop it, or keep this state "
           "in another file",
           path, who.empty() ? "another process" : who));
     }
     // Who had it before may have removed the file just after it was opened here.
-    if (!file->IsNamed()) continue;
-    file->SetNote(WhoAmI());
-    file_ = std::move(file);
-    // Only who keeps a state writes it: with the lock, nobody is at work on these.
-    RemoveTemporaries(path);
-    return;
-  }
+  } while (!file_->IsNamed());
+  file_->SetNote(WhoAmI());
+  // Only who keeps a state writes it: with the lock, nobody is at work on these.
+  RemoveTemporaries(path);
 }
 
 // Removed first, unlocked then: nobody else can have the lock of a file that is there.

@@ -2,16 +2,15 @@
 #pragma once
 
 #include <functional>
-#include <memory>
+#include <optional>
 #include <string>
 
 #include "src/core/file_lock.h"
 
 namespace lanelight {
 
-/// While it lives, no other process keeps the state `path`: a lock on the file PATH.lock,
-/// which goes away in the end. After a SIGKILL the file stays, and means nothing: only
-/// the lock counts, and the kernel frees that.
+/// While it lives, no other process keeps the state `path`: a lock of the file PATH.lock,
+/// which goes away in the end. After a SIGKILL the file stays, and means nothing.
 class StateLock {
  public:
   /// Throws InputError, which says who, if the state is being kept already. Removes what
@@ -24,7 +23,8 @@ class StateLock {
   StateLock& operator=(const StateLock&) = delete;
 
  private:
-  std::unique_ptr<LockFile> file_;  // locked; null: no locks here
+  std::optional<LockFile> file_;  // none: no locks here
+  std::optional<HeldLock> lock_;
 };
 
 }  // namespace lanelight

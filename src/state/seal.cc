@@ -3,18 +3,16 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include <bit>
 #include <cerrno>
 #include <cstring>
-#include <memory>
-#include <new>
 #include <string_view>
 #include <vector>
 
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/core/hash.h"
 
 namespace lanelight {
 namespace {
@@ -32,7 +30,7 @@ struct SealBlock {
 static_assert(sizeof(SealBlock) == kSealBytes && kMagic.size() == 16);
 
 std::uint64_t HashOfSeal(const SealBlock& block) {
-  return XXH3_64bits(&block, offsetof(SealBlock, seal));
+  return Hash64(&block, offsetof(SealBlock, seal));
 }
 
 [[noreturn]] void Refuse(const std::string& path, const std::string& why) {
@@ -70,24 +68,6 @@ void CheckBlock(const SealBlock& block, std::size_t size, const std::string& pat
   }
 }
 
-class StreamHash {
- public:
-  StreamHash() : state_(XXH3_createState()) {
-    if (state_ == nullptr) throw std::bad_alloc();
-    XXH3_64bits_reset(state_);
-  }
-  ~StreamHash() { XXH3_freeState(state_); }
-  StreamHash(const StreamHash&) = delete;
-  StreamHash& operator=(const StreamHash&) = delete;
-  void Add(const void* bytes, std::size_t size) {
-    XXH3_64bits_update(state_, bytes, size);
-  }
-  std::uint64_t Digest() const { return XXH3_64bits_digest(state_); }
-
- private:
-  XXH3_state_t* state_;
-};
-
 }  // namespace
 
 void Seal(char* file, std::size_t bytes, std::uint64_t schema) {
@@ -96,7 +76,7 @@ void Seal(char* file, std::size_t bytes, std::uint64_t schema) {
   std::memcpy(block.magic, kMagic.data(), kMagic.size());
   block.schema = schema;
   block.length = bytes;
-  block.content = XXH3_64bits(file + kSealBytes, bytes - kSealBytes);
+  block.content = Hash64(file + kSealBytes, bytes - kSealBytes);
   block.seal = HashOfSeal(block);
   std::memcpy(file, &block, sizeof(block));
 }

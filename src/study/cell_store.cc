@@ -7,9 +7,9 @@
 
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/core/hash.h"
 #include "src/core/json_text.h"
 #include "src/image/atomic_file.h"
-#include "src/sweep/grid.h"
 
 namespace lanelight {
 namespace {
@@ -77,7 +77,7 @@ CellStore::CellStore(std::string folder, std::size_t pixels)
 }
 
 std::string CellStore::Path(const std::string& strategy, std::uint64_t spp) const {
-  return fmt::format("{}/{:016x}-{}.cells", folder_, HashText(strategy), spp);
+  return fmt::format("{}/{:016x}-{}.cells", folder_, Hash64(strategy), spp);
 }
 
 Cells CellStore::Load(const std::string& strategy, std::uint64_t spp) const {

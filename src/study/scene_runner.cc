@@ -49,7 +49,7 @@ void SceneRunner::Run() {
 
 // By one process; the others wait, and take over what it has found.
 void SceneRunner::Settle() {
-  const auto claim = claims_->Wait("scene", hooks_.stop);
+  const auto claim = WaitForClaim("scene");
   if (!claim) return;
   CheckState();
   FindCounts();
@@ -81,7 +81,7 @@ void SceneRunner::Prepare() {
                                      scene_.full_height);
   }
   store_ = std::make_unique<CellStore>(scene_.folder + "/cells", job_.window.pixels());
-  claims_ = std::make_unique<Claims>(scene_.folder + "/cells/claims", true);
+  claims_ = std::make_unique<LockFile>(scene_.folder + "/cells/claims");
 }
 
 std::uint64_t SceneRunner::Seed(int repetition) const {
@@ -102,6 +102,10 @@ double SceneRunner::Work(std::uint64_t spp) const {
 }
 
 bool SceneRunner::Stopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
+
+std::optional<HeldLock> SceneRunner::WaitForClaim(const std::string& name) const {
+  return claims_->Wait(name, [this](double) { return !Stopped(); });
+}
 
 void SceneRunner::Report(const std::string& what) {
   if (!hooks_.on_progress) return;
@@ -142,7 +146,7 @@ bool SceneRunner::RunRepetition(StrategyRuns& runs, std::uint64_t spp, int repet
 void SceneRunner::WaitForOthers() {
   for (const auto& [runs, spp] : elsewhere_) {
     Report(fmt::format("waiting for {}, {} spp", runs->named.name, spp));
-    const auto claim = claims_->Wait(CellKey(*runs, spp), hooks_.stop);
+    const auto claim = WaitForClaim(CellKey(*runs, spp));
     if (!claim || !FillCell(*runs, spp, options_.Repetitions() - 1)) return;
   }
 }

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "src/core/error.h"
+#include "src/core/file_lock.h"
 #include "src/core/stopwatch.h"
 #include "src/study/runs.h"
-#include "src/sweep/claims.h"
 
 namespace lanelight {
 
@@ -73,6 +73,8 @@ class SceneRunner {
   std::uint64_t MostSamples() const;
   std::uint64_t Seed(int repetition) const;
   bool Stopped() const;
+  /// Waits for the claim of this name; empty if the study is stopped before.
+  std::optional<HeldLock> WaitForClaim(const std::string& name) const;
   void Report(const std::string& what);
   double Work(std::uint64_t spp) const;  // of one render, in samples
 
@@ -82,7 +84,7 @@ class SceneRunner {
   SceneRuns& scene_;
   Job job_;
   std::unique_ptr<CellStore> store_;
-  std::unique_ptr<Claims> claims_;      // of its cells: a strategy at a sample count
+  std::unique_ptr<LockFile> claims_;    // of its cells: a strategy at a sample count
   std::vector<std::string> plan_keys_;  // of the strategies; empty: refused
   std::set<std::pair<StrategyRuns*, std::uint64_t>> elsewhere_;  // others had them
   nlohmann::json state_;                                         // scene.json

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "src/core/check.h"
+#include "src/core/hash.h"
 #include "src/core/suggest.h"
 
 namespace lanelight {
@@ -101,12 +102,6 @@ std::vector<AxisValues> AllCombinations(const std::vector<SubGrid>& grids) {
 
 }  // namespace
 
-std::uint64_t HashText(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (unsigned char c : text) hash = (hash ^ c) * 0x100000001b3u;
-  return hash;
-}
-
 std::string CellName(const AxisValues& values) {
   constexpr std::size_t kLongest = 120;  // of the readable part
   std::string readable, all;
@@ -119,7 +114,7 @@ std::string CellName(const AxisValues& values) {
     all += fmt::format("{}={}\n", Name(axis), *value);
   }
   readable.resize(std::min(readable.size(), kLongest));
-  return fmt::format("{}-{:010x}", readable, HashText(all) >> 24);
+  return fmt::format("{}-{:010x}", readable, Hash64(all) >> 24);
 }
 
 std::vector<SweepCell> ExpandGrid(const std::vector<SubGrid>& grids,

@@ -43,7 +43,4 @@ std::vector<SweepCell> ExpandGrid(const std::vector<SubGrid>& grids,
 /// For example "box_64x48_points=pmj02_16spp_seed1-83a1c09b52".
 std::string CellName(const AxisValues& values);
 
-/// FNV-1a, 64 bits.
-std::uint64_t HashText(const std::string& text);
-
 }  // namespace lanelight

@@ -8,10 +8,10 @@
 #include <set>
 #include <thread>
 
+#include "src/core/file_lock.h"
 #include "src/core/interrupted.h"
 #include "src/render/memory.h"
 #include "src/sweep/cell_render.h"
-#include "src/sweep/claims.h"
 #include "src/sweep/results.h"
 #include "src/sweep/sweep_folder.h"
 
@@ -29,7 +29,7 @@ class Runner {
         options_(options),
         hooks_(hooks),
         folder_(folder),
-        claims_(folder.File("claims"), options.part.count > 1),
+        claims_(folder.File("claims")),
         renderer_(sweep, options.build_cache, folder.Outputs()) {}
 
   void Run(SweepOutcome& outcome);
@@ -55,7 +55,7 @@ class Runner {
   const SweepOptions& options_;
   const SweepHooks& hooks_;
   SweepFolder& folder_;
-  Claims claims_;
+  const LockFile claims_;  // of cells and scenes, by their names
   CellRenderer renderer_;
   std::vector<const SweepCell*> part_;  // that this process may render
   std::vector<Known> known_;            // of each
@@ -67,6 +67,12 @@ class Runner {
 };
 
 void Runner::Run(SweepOutcome& outcome) {
+  if (!claims_.locking() && options_.parts == 1) {
+    throw InputError(fmt::format(
+        "the file system of '{}' has no locks, by which processes agree on who renders "
+        "what; give each process a part of its own with --part I/N",
+        claims_.path()));
+  }
   FindPart();
   FirstOfAll();
   Help();
@@ -230,8 +236,8 @@ SweepOutcome RunSweep(const Sweep& sweep, const SweepOptions& options,
   if (!options.table_only) Runner(sweep, options, hooks, folder).Run(outcome);
   // One after the other: the last process to get here sees all that is done, and what it
   // writes stays.
-  const Claims claims(folder.File("claims"), true);
-  const auto claim = claims.Wait("the table");
+  const LockFile claims(folder.File("claims"));
+  const auto claim = claims.Wait("the table", [](double) { return true; });
   WriteResults(sweep, folder, outcome);
   return outcome;
 }

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
-#include <type_traits>
-
+#include "src/core/hash.h"
 #include "src/prepare/groups.h"
 #include "src/prepare/parameters.h"
 #include "src/prepare/use_strategy.h"
@@ -14,40 +12,16 @@
 namespace lanelight {
 namespace {
 
-// FNV-1a, 64 bits.
-class Hash {
- public:
-  template <class Values>
-  void Add(const Values& values) {
-    using Value = typename Values::value_type;
-    static_assert(std::is_trivially_copyable_v<Value>);
-    AddWord(values.size());
-    for (const Value& value : values) {
-      unsigned char bytes[sizeof(Value)];
-      std::memcpy(bytes, &value, sizeof(Value));
-      for (unsigned char byte : bytes) AddByte(byte);
-    }
-  }
-  void AddWord(std::uint64_t word) {
-    for (int i = 0; i < 8; ++i) AddByte(static_cast<unsigned char>(word >> (8 * i)));
-  }
-  std::uint64_t value() const { return state_; }
-
- private:
-  void AddByte(unsigned char byte) { state_ = (state_ ^ byte) * 0x100000001b3u; }
-  std::uint64_t state_ = 0xcbf29ce484222325u;
-};
-
 std::uint64_t HashLights(const LightTable& table) {
   std::vector<float> pmf;
   for (const LightRecord& light : table.lights) pmf.push_back(light.pmf);
-  Hash hash;
-  hash.Add(pmf);
-  hash.Add(table.alias_q);
-  hash.Add(table.alias);
-  hash.Add(table.tree.nodes);
-  hash.Add(table.tree.far);
-  return hash.value();
+  StreamHash hash;
+  hash.AddArray(pmf);
+  hash.AddArray(table.alias_q);
+  hash.AddArray(table.alias);
+  hash.AddArray(table.tree.nodes);
+  hash.AddArray(table.tree.far);
+  return hash.Digest();
 }
 
 std::string FeaturesText(const FeatureSet& features) {

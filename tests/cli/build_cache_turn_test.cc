@@ -1,5 +1,6 @@
 // Processes that want the trees of one --build-cache at once, and folders where they
 // cannot agree.
+#include <fcntl.h>
 #include <signal.h>
 
 #include <atomic>
@@ -9,7 +10,7 @@
 #include <thread>
 
 #include "src/cli/exit_codes.h"
-#include "src/core/file_lock.h"
+#include "src/core/file_descriptor.h"
 #include "tests/cli/process.h"
 #include "tests/support/json.h"
 
@@ -46,11 +47,14 @@ struct SharedCache {
     return test::ReadJson(Report(name)).at("trees").at("origin");
   }
   // As another process would that builds, whatever the tree.
-  std::unique_ptr<LockFile> Occupy() const {
+  std::unique_ptr<FileDescriptor> Occupy() const {
     fs::create_directories(cache);
-    auto lock = std::make_unique<LockFile>(cache + "/locks");
-    REQUIRE(lock->TryLock(0, std::uint64_t{1} << 62) == LockOutcome::kTaken);
-    return lock;
+    auto file = std::make_unique<FileDescriptor>(
+        open((cache + "/locks").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    struct flock all = {};  // bytes, to the last one there may be
+    all.l_type = F_WRLCK;
+    REQUIRE(fcntl(file->get(), F_OFD_SETLK, &all) == 0);
+    return file;
   }
 };
 
