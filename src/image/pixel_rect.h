@@ -13,6 +13,7 @@ struct PixelRect {
   std::uint64_t pixels() const {
     return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height());
   }
+  friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
 }  // namespace lanelight

@@ -24,7 +24,6 @@ std::vector<hsize_t> DimsInFile(std::size_t rows, const std::vector<std::size_t>
 // zeros do not stand among noise.
 hdf5::Handle Compressed(const StateColumn& column, const std::vector<hsize_t>& dims) {
   hdf5::Handle properties = hdf5::NewProperties(H5P_DATASET_CREATE);
-  if (dims[0] == 0) return properties;
   std::vector<hsize_t> chunk(dims.size(), 1);
   if (dims.size() > 1) chunk.back() = dims.back();
   const std::size_t row = chunk.back() * SizeOf(column.type);
@@ -134,13 +133,16 @@ std::string Layout(const std::string& type, const std::vector<hsize_t>& dims) {
 
 }  // namespace
 
-void WriteColumn(hid_t group, const StateColumn& column, const TileRows* tiles) {
+void WriteColumn(hid_t group, const StateColumn& column, const TileRows* tiles,
+                 bool compress) {
   const std::size_t rows = tiles != nullptr ? tiles->size() : column.rows;
   const std::size_t size = column.RowBytes();
   const std::vector<hsize_t> dims = DimsInFile(rows, column.shape);
   const hid_t type = hdf5::TypeInFile(column.type);
-  const hdf5::Handle dataset = hdf5::NewDataset(group, {column.name, column.meaning},
-                                                type, dims, Compressed(column, dims));
+  const hdf5::Handle dataset =
+      hdf5::NewDataset(group, {column.name, column.meaning}, type, dims,
+                       compress && rows > 0 ? Compressed(column, dims)
+                                            : hdf5::NewProperties(H5P_DATASET_CREATE));
   std::vector<char> values;
   ForBlocks(dataset, [&](const Block& block) {
     values.resize(block.rows * size);

@@ -11,9 +11,10 @@
 
 namespace lanelight {
 
-/// Writes the rows of a column that `tiles` names, or all if it is null: compressed, and
-/// in memory of a few chunks.
-void WriteColumn(hid_t group, const StateColumn& column, const TileRows* tiles);
+/// Writes the rows of a column that `tiles` names, or all if it is null. Compressed, that
+/// takes memory of a few chunks.
+void WriteColumn(hid_t group, const StateColumn& column, const TileRows* tiles,
+                 bool compress);
 
 /// Whether `group` ("pixels", "tables", or "", the file) has a column of this name.
 bool HasColumn(hid_t file, const std::string& group, const std::string& name);

@@ -30,6 +30,7 @@ struct StateContent {
   /// One row per pixel of the window, row by row; the file holds those of the tiles.
   std::vector<StateColumn> pixels;
   std::vector<StateColumn> tables;  // whole
+  bool compress = true;  // takes ten times as long as to write them as they are
 };
 
 /// Compresses the content, in the thread that calls and in memory of the file's size,

@@ -66,24 +66,26 @@ void WriteContent(hid_t file, const StateContent& content) {
                   content.identity);
   hdf5::WriteText(file, {"report", "what the run has done so far (JSON)"},
                   content.report);
+  const auto write = [&](hid_t group, const StateColumn& column, const TileRows* tiles) {
+    WriteColumn(group, column, tiles, content.compress);
+  };
   const PixelRect window[] = {content.window};
-  WriteColumn(
-      file,
-      MakeStateColumn<std::int32_t>(
-          "window", "the film: pixels [x0, x1) x [y0, y1), as x0 y0 x1 y1", window),
-      nullptr);
-  WriteColumn(file,
-              MakeStateColumn<std::int32_t>(
-                  "tiles",
-                  "tiles whose pixels are in /pixels, one after the other, row by row: "
-                  "x0 y0 x1 y1",
-                  content.tiles),
-              nullptr);
+  write(file,
+        MakeStateColumn<std::int32_t>(
+            "window", "the film: pixels [x0, x1) x [y0, y1), as x0 y0 x1 y1", window),
+        nullptr);
+  write(file,
+        MakeStateColumn<std::int32_t>(
+            "tiles",
+            "tiles whose pixels are in /pixels, one after the other, row by row: "
+            "x0 y0 x1 y1",
+            content.tiles),
+        nullptr);
   const TileRows tiles(content.tiles, content.window);
   const hdf5::Handle pixels = hdf5::NewGroup(file, "pixels"),
                      tables = hdf5::NewGroup(file, "tables");
-  for (const StateColumn& c : content.pixels) WriteColumn(pixels.get(), c, &tiles);
-  for (const StateColumn& c : content.tables) WriteColumn(tables.get(), c, nullptr);
+  for (const StateColumn& c : content.pixels) write(pixels.get(), c, &tiles);
+  for (const StateColumn& c : content.tables) write(tables.get(), c, nullptr);
 }
 
 // The column refers to a copy of its rows from now on, which is returned. Large pages:

@@ -34,7 +34,7 @@ class SceneAnalyser {
       : runs_(runs),
         options_(options),
         images_(images),
-        store_(runs.folder + "/cells", runs.window.pixels()) {}
+        store_(runs.folder + "/cells", runs.window) {}
 
   SceneAnalysis Run() {
     for (const StrategyRuns& runs : runs_.strategies) AddStrategy(runs);

@@ -1,12 +1,13 @@
-// The finished renders of a study on disk, so that a study can be continued. One file for
-// each strategy and sample count of a scene, written anew, whole or not at all, after
-// each of its repetitions.
+// The finished renders of a study on disk, so that a study can be continued. One state
+// file (src/state/state_file.h) for each strategy and sample count of a scene, written
+// anew after each of its repetitions.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "src/image/pixel_rect.h"
 #include "src/study/measurement.h"
 #include "src/study/moments.h"
 #include "src/wavefront/run.h"
@@ -18,13 +19,14 @@ struct Cells {
   std::vector<Measurement> repetitions;
   std::vector<StageProfile> stages;  // sums over the repetitions
   Moments moments;
-  std::vector<Rgb> first;  // image of the first repetition, float precision
+  std::vector<Rgb> first;  // image of the first repetition
 };
 
 class CellStore {
  public:
-  /// `folder` is made if needed. Files of images of another number of pixels are errors.
-  CellStore(std::string folder, std::size_t pixels);
+  /// `folder` is made if needed. `window`: the pixels of all images; files of others are
+  /// errors.
+  CellStore(std::string folder, const PixelRect& window);
 
   /// What there is of a strategy (complete text form) at a sample count; empty if
   /// nothing. Throws InputError for a file that is not what this program writes.
@@ -37,7 +39,7 @@ class CellStore {
   std::string Path(const std::string& strategy, std::uint64_t spp) const;
 
   std::string folder_;
-  std::size_t pixels_;
+  PixelRect window_;
 };
 
 /// Adds the profile of one more render.

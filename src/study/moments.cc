@@ -1,10 +1,15 @@
 #include "src/study/moments.h"
 
-#include <cstring>
-
 #include "src/core/check.h"
 
 namespace lanelight {
+namespace {
+
+constexpr char kColumn[] = "moments";
+constexpr char kMeaning[] =
+    "sums over the renders, then of their squares: R, G, B, their mean";
+
+}  // namespace
 
 void Moments::Add(const std::vector<Rgb>& image) {
   LL_CHECK_EQ(image.size(), pixels_.size());
@@ -46,16 +51,13 @@ double Moments::GreyVariance(std::size_t pixel) const {
   return PlaneVariance(pixels_[pixel], 3);
 }
 
-std::string Moments::Save() const {
-  std::string bytes(pixels_.size() * sizeof(Pixel), '\0');
-  std::memcpy(bytes.data(), pixels_.data(), bytes.size());
-  return bytes;
+StateColumn Moments::Column() const {
+  return MakeStateColumn<double>(kColumn, kMeaning, pixels_, {2, kPlanes});
 }
 
-void Moments::Load(std::string_view bytes, std::uint64_t count) {
-  LL_CHECK_EQ(bytes.size(), pixels_.size() * sizeof(Pixel));
-  std::memcpy(static_cast<void*>(pixels_.data()), bytes.data(), bytes.size());
+MutableStateColumn Moments::Restore(std::uint64_t count) {
   count_ = count;
+  return MakeStateColumn<double>(kColumn, kMeaning, pixels_, {2, kPlanes});
 }
 
 }  // namespace lanelight

@@ -4,10 +4,9 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <string_view>
 #include <vector>
 
+#include "src/core/column.h"
 #include "src/core/vec.h"
 #include "src/stat/hypothesis.h"
 
@@ -29,9 +28,10 @@ class Moments {
   /// That mean over the repetitions.
   stat::MeanEstimate GreyEstimate(std::size_t pixel) const;
 
-  /// The sums as bytes of this machine, and back (of the same number of pixels).
-  std::string Save() const;
-  void Load(std::string_view bytes, std::uint64_t count);
+  /// The sums, to be saved.
+  StateColumn Column() const;
+  /// The same to be filled with those of `count` images.
+  MutableStateColumn Restore(std::uint64_t count);
 
  private:
   static constexpr int kPlanes = 4;  // red, green, blue, their mean

@@ -80,7 +80,7 @@ void SceneRunner::Prepare() {
     scene_.reference = ReadReference(options_.references, job_.window, scene_.full_width,
                                      scene_.full_height);
   }
-  store_ = std::make_unique<CellStore>(scene_.folder + "/cells", job_.window.pixels());
+  store_ = std::make_unique<CellStore>(scene_.folder + "/cells", job_.window);
   claims_ = std::make_unique<LockFile>(scene_.folder + "/cells/claims");
 }
 

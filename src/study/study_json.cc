@@ -254,7 +254,7 @@ std::string StudyCsv(const std::vector<SceneStudy>& scenes) {
                      MachineCsvHeader() + "\n";
   for (const SceneStudy& scene : scenes) {
     if (!scene.runs.error.empty()) continue;
-    const CellStore store(scene.runs.folder + "/cells", scene.runs.window.pixels());
+    const CellStore store(scene.runs.folder + "/cells", scene.runs.window);
     for (const StrategyRuns& runs : scene.runs.strategies) {
       for (std::uint64_t spp : runs.counts) {
         const Cells cells = store.Load(runs.Text(), spp);

@@ -95,6 +95,8 @@ TEST_CASE("what has few bits takes little of the disk", "[state]") {
   content.pixels = {MakeStateColumn<double>("sums", "", std::as_const(sums), {4, 3}),
                     MakeStateColumn<std::uint64_t>("samples", "", samples)};
   CHECK(StateBytes(content).size() < 10000 * (12 + 1) * 8 / 20);
+  content.compress = false;
+  CHECK(StateBytes(content).size() > 10000 * (12 + 1) * 8);
 }
 
 TEST_CASE("memory for reading does not grow with the state", "[state]") {

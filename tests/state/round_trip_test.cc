@@ -13,20 +13,21 @@ namespace {
 
 using Catch::Contains;
 
-// Writes the tiles of a random film and reads them into one of zeros.
+// Writes the tiles of a random film, compressed and not, and reads them into one of
+// zeros.
 void CheckRoundTrip(const PixelRect& window, const std::vector<PixelRect>& tiles) {
   const TemporaryFolder folder;
   const RandomFilm film = RandomFilm::Make(window, 1);
-  WriteState(film.Content(tiles), folder.File("state"));
-  const StateFile file(folder.File("state"));
-  RandomFilm read(window);
-  file.ReadPixels(read.Columns(), window);
-  CHECK(HoldsTiles(read, film, tiles));
-  CHECK(file.tiles().size() == tiles.size());
-}
-
-bool Same(const PixelRect& a, const PixelRect& b) {
-  return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1;
+  for (bool compress : {true, false}) {
+    StateContent content = film.Content(tiles);
+    content.compress = compress;
+    WriteState(content, folder.File("state"));
+    const StateFile file(folder.File("state"));
+    RandomFilm read(window);
+    file.ReadPixels(read.Columns(), window);
+    CHECK(HoldsTiles(read, film, tiles));
+    CHECK(file.tiles().size() == tiles.size());
+  }
 }
 
 }  // namespace
@@ -55,10 +56,10 @@ TEST_CASE("texts, window and tiles come back", "[state]") {
   const StateFile file(folder.File("state"));
   CHECK(file.identity() == content.identity);
   CHECK(file.report().empty());
-  CHECK(Same(file.window(), content.window));
+  CHECK((file.window() == content.window));
   REQUIRE(file.tiles().size() == 2);
-  CHECK(Same(file.tiles()[0], content.tiles[0]));
-  CHECK(Same(file.tiles()[1], content.tiles[1]));
+  CHECK((file.tiles()[0] == content.tiles[0]));
+  CHECK((file.tiles()[1] == content.tiles[1]));
   CHECK(file.bytes() == std::filesystem::file_size(folder.File("state")));
 }
 

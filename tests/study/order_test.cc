@@ -47,7 +47,7 @@ SceneRuns Simulated(const TemporaryFolder& folder, double dark) {
   runs.reference.variance.assign(runs.reference.mean.size(), Rgb{});
   runs.strategies.push_back({{"simulated", {}}, RunStatus::kOk, "", {4, 16, 64, 256}});
   const StrategyRuns& strategy = runs.strategies.front();
-  const CellStore store(runs.folder + "/cells", runs.window.pixels());
+  const CellStore store(runs.folder + "/cells", runs.window);
   for (std::uint64_t spp : strategy.counts) {
     Cells cells;
     cells.moments = Moments(runs.window.pixels());
