@@ -9,7 +9,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::size_t kColumns = 90, kLongestName = 30;
+constexpr std::size_t kSummaryColumns = 90, kLongestName = 30;
 
 std::string Known(const Interval& v) {
   return std::isfinite(v.value) ? EstimateText(v) : "-";
@@ -58,7 +58,7 @@ std::string Wrap(const std::string& text) {
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find(' ', begin), text.size());
     const std::string word = text.substr(begin, end - begin);
-    if (!line.empty() && line.size() + 1 + word.size() > kColumns) {
+    if (!line.empty() && line.size() + 1 + word.size() > kSummaryColumns) {
       out += line + "\n";
       line.clear();
     }

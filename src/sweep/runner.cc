@@ -67,7 +67,7 @@ class Runner {
 };
 
 void Runner::Run(SweepOutcome& outcome) {
-  if (!claims_.locking() && options_.parts == 1) {
+  if (!claims_.locking() && options_.part.count == 1) {
     throw InputError(fmt::format(
         "the file system of '{}' has no locks, by which processes agree on who renders "
         "what; give each process a part of its own with --part I/N",

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kernels/simd/target.h"
 #include "src/core/check.h"
@@ -47,9 +48,9 @@ double MeanOf(const FilmAccumulator& film) {
 double Render(const TargetJob& at, ThroughputRow& row, const std::atomic<bool>& stop) {
   ForceTarget(at.target);
   const ThreadLimit limit(row.threads);
-  FilmAccumulator film = MakeFilm(at.job);
-  row.counts = RunJob(at.job, film, {}, &stop);
-  return MeanOf(film);
+  JobRun run = RunJob(at.job, {}, &stop);
+  row.counts = std::move(run.result);
+  return MeanOf(run.film);
 }
 
 class SceneBench {

@@ -7,6 +7,7 @@
 #include "src/core/json_text.h"
 #include "src/core/version.h"
 #include "src/render/machine_json.h"
+#include "src/report/values.h"
 
 namespace lanelight {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 using Json = nlohmann::json;
 
 Json ToJson(const ThroughputRow& row) {
-  const Interval rate = row.Rate();
   Json groups = Json::array(), stages = Json::array();
   for (const StageGroup& g : StageGroups(row)) {
     groups.push_back(
@@ -36,8 +36,7 @@ Json ToJson(const ThroughputRow& row) {
           {"samples", row.counts.samples},
           {"rays",
            {{"closest", row.counts.rays_closest}, {"shadow", row.counts.rays_shadow}}},
-          {"samples_per_second",
-           {{"value", rate.value}, {"low", rate.low}, {"high", rate.high}}},
+          {"samples_per_second", IntervalJson(row.Rate())},
           {"rays_per_second", double(row.rays()) / row.Seconds().value},
           {"bytes_per_path", row.bytes_per_path},
           {"wavefront", row.wavefront},

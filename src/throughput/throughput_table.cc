@@ -10,7 +10,7 @@
 #include "src/core/machine_info.h"
 #include "src/core/version.h"
 #include "src/render/machine_json.h"
-#include "src/report/csv.h"
+#include "src/report/values.h"
 
 namespace lanelight {
 namespace {
