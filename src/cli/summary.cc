@@ -127,10 +127,11 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
   text += Row("strategy", ToText(job.scene.strategy));
   text += Row("points", PointsText(job));
   text += SpeedRows(r);
-  if (!r.pilot_note.empty()) {
-    text += Row("pilot", fmt::format("{} ({:.1f} %): {}", DurationText(r.pilot_seconds),
-                                     100 * r.pilot_seconds / std::max(r.seconds, 1e-9),
-                                     r.pilot_note));
+  if (!r.training.note.empty()) {
+    text +=
+        Row("pilot", fmt::format("{} ({:.1f} %): {}", DurationText(r.training.seconds),
+                                 100 * r.training.seconds / std::max(r.seconds, 1e-9),
+                                 r.training.note));
   }
   text += Row("error", ErrorText(report.error));
   text += ControlRow(r, job.scene.strategy);

@@ -10,6 +10,7 @@
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
+#include "src/image/for_each_pixel.h"
 #include "src/stat/distributions.h"
 
 namespace lanelight {
@@ -298,11 +299,8 @@ ErrorEstimate Unseen(ErrorEstimate out, std::string why) {
 // How often samples are expected to have met what shines.
 double Met(const FilmAccumulator& film) {
   double samples = 0;
-  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
-    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
-      samples += static_cast<double>(film.Samples(x, y));
-    }
-  }
+  ForEachPixel(film,
+               [&](int x, int y) { samples += static_cast<double>(film.Samples(x, y)); });
   return samples * film.chance_of_light();
 }
 

@@ -2,16 +2,13 @@
 
 #include "src/core/check.h"
 #include "src/image/exr.h"
+#include "src/image/for_each_pixel.h"
 
 namespace lanelight {
 
 std::vector<Rgb> FilmColors(const FilmAccumulator& film) {
   std::vector<Rgb> colors;
-  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
-    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
-      colors.push_back(film.Mean(x, y));
-    }
-  }
+  ForEachPixel(film, [&](int x, int y) { colors.push_back(film.Mean(x, y)); });
   return colors;
 }
 

@@ -3,6 +3,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/core/parallel.h"
+#include "src/image/for_each_pixel.h"
 
 namespace lanelight {
 namespace {
@@ -17,12 +18,10 @@ void CheckWhole(const MergedRender& render) {
   const SampleGroups& groups = render.film->groups();
   const std::uint64_t turn = groups.unit * (groups.replicates ? kReplicates : 1);
   bool whole_turns = true;
-  for (const PixelRect& t : render.tiles) {
-    for (int y = t.y0; y < t.y1; ++y) {
-      for (int x = t.x0; x < t.x1; ++x) {
-        whole_turns = whole_turns && render.film->Samples(x, y) % turn == 0;
-      }
-    }
+  for (const PixelRect& tile : render.tiles) {
+    ForEachPixel(tile, [&](int x, int y) {
+      whole_turns = whole_turns && render.film->Samples(x, y) % turn == 0;
+    });
   }
   if (render.least == render.most && whole_turns) return;
   throw InputError(
@@ -55,7 +54,7 @@ void AddSeed(MergedRender& sum, MergedRender& more) {
         ? AddColumn<std::uint64_t>(columns[i], others[i])
         : AddColumn<double>(columns[i], others[i]);
   }
-  sum.counts.Add(more.counts);
+  sum.run.counts.Add(more.run.counts);
   for (const MachineInfo& machine : more.machines) AddMachine(machine, sum.machines);
   sum.seeds.push_back(more.seeds.front());
   sum.identity["seed"] = sum.seeds;

@@ -6,8 +6,10 @@
 #include "src/core/error.h"
 #include "src/core/json_text.h"
 #include "src/image/exr.h"
+#include "src/image/for_each_pixel.h"
 #include "src/render/identity.h"
 #include "src/render/output.h"
+#include "src/render/run_content.h"
 #include "src/render/saving.h"
 #include "src/wavefront/tiles.h"
 
@@ -27,13 +29,6 @@ std::int64_t Milliseconds() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
              Clock::now().time_since_epoch())
       .count();
-}
-
-bool SameTiles(const std::vector<PixelRect>& a, const std::vector<PixelRect>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const PixelRect& l, const PixelRect& r) {
-                      return l.x0 == r.x0 && l.y0 == r.y0 && l.x1 == r.x1 && l.y1 == r.y1;
-                    });
 }
 
 // Tiles as they are without a state where all of the image is rendered: larger ones if
@@ -72,8 +67,8 @@ Checkpoint::Checkpoint(const Job& job, const CheckpointSettings& settings,
                        std::function<void(const std::string&)> on_problem)
     : job_(job),
       settings_(settings),
-      identity_(DumpJson(IdentityOf(job), 1)),
-      head_(DumpJson(head)),
+      identity_(ParseJson(DumpJson(IdentityOf(job)))),  // as a file has it
+      head_(head),
       on_problem_(std::move(on_problem)) {
   tiles_ = TilesToRender(job, settings.part);
   if (!settings.path.empty()) lock_.emplace(settings.path, on_problem_);
@@ -102,14 +97,14 @@ void Checkpoint::Open() {
 
 void Checkpoint::CheckSame(const StateFile& file) {
   const std::string differences = FromJsonOf(file.path(), [&] {
-    return IdentityDifferences(ParseJson(file.identity()), "the state",
-                               ParseJson(identity_), "this render");
+    return IdentityDifferences(ParseJson(file.identity()), "the state", identity_,
+                               "this render");
   });
   if (!differences.empty()) {
     throw InputError("'" + file.path() +
                      "' is the state of another render:" + differences);
   }
-  if (SameTiles(file.tiles(), tiles_)) return;
+  if (file.tiles() == tiles_) return;
   // What a merge of parts has made goes on as a whole.
   const bool whole = PixelsOf(file.tiles()) == job_.window.pixels();
   if (whole && settings_.part.count == 1) {
@@ -127,43 +122,22 @@ void Checkpoint::CheckSame(const StateFile& file) {
 bool Checkpoint::Restore(RunState& state) {
   if (!from_) return false;
   from_->ReadPixels(state.films.Columns(), job_.window);
-  FromJsonOf(from_->path(), [&] { RestoreReport(state); });
+  static_cast<RunRecord&>(state) = FromJsonOf(
+      from_->path(), [&] { return ReadRecord(*from_, ParseJson(from_->report())); });
   CheckNotTooMany(state.films);
   return true;
 }
 
-void Checkpoint::RestoreReport(RunState& state) const {
-  const Json report = ParseJson(from_->report());
-  state.counts = CountsFromJson(report.at("counts"));
-  const Json& training = report.at("training");
-  if (training.is_null()) return;
-  state.trained = true;
-  state.training.note = training.at("note");
-  state.training.samples = training.at("samples");
-  state.training.rays = training.at("rays");
-  state.training.seconds = training.at("seconds");
-  state.training.cpu_seconds = training.at("cpu_seconds");
-  state.training.changes = training.at("changes");
-  for (const auto& [name, meaning] : training.at("tables").items()) {
-    TrainedTable table = {name, meaning, std::vector<double>(from_->TableRows(name))};
-    from_->ReadTable(MakeStateColumn<double>(name, meaning, table.values));
-    state.tables.push_back(std::move(table));
-  }
-}
-
 void Checkpoint::CheckNotTooMany(const Films& films) const {
   if (job_.spp == 0) return;
-  const auto check = [&](int x, int y) {
-    const std::uint64_t samples = films.film().Samples(x, y);
-    if (samples <= job_.spp) return;
-    throw InputError(
-        fmt::format("'{}' has {} samples of pixel {},{}, more than the {} asked for",
-                    from_->path(), samples, x, y, job_.spp));
-  };
-  for (const PixelRect& t : tiles_) {
-    for (int y = t.y0; y < t.y1; ++y) {
-      for (int x = t.x0; x < t.x1; ++x) check(x, y);
-    }
+  for (const PixelRect& tile : tiles_) {
+    ForEachPixel(tile, [&](int x, int y) {
+      const std::uint64_t samples = films.film().Samples(x, y);
+      if (samples <= job_.spp) return;
+      throw InputError(
+          fmt::format("'{}' has {} samples of pixel {},{}, more than the {} asked for",
+                      from_->path(), samples, x, y, job_.spp));
+    });
   }
 }
 
@@ -193,21 +167,9 @@ void Checkpoint::Keep(RunState& state) {
 }
 
 std::unique_ptr<StateCopy> Checkpoint::Copy(RunState& state) const {
-  StateContent content;
-  content.identity = identity_;
-  const Json report = {{"head", ParseJson(head_)},
-                       {"counts", CountsJson(state.counts)},
-                       {"training", TrainingJson(state)}};
-  content.report = DumpJson(report, 1);
+  StateContent content = ContentOf(identity_, {{"head", head_}}, state.films, state);
   content.window = job_.window;
   content.tiles = tiles_;
-  for (const MutableStateColumn& column : state.films.Columns()) {
-    content.pixels.push_back(column);
-  }
-  for (const TrainedTable& table : state.tables) {
-    content.tables.push_back(
-        MakeStateColumn<double>(table.name, table.meaning, table.values));
-  }
   return std::make_unique<StateCopy>(content);
 }
 
@@ -217,8 +179,7 @@ std::function<void()> Checkpoint::Watch(RunState& state) const {
   film.FitControl();
   auto planes =
       std::make_shared<std::vector<ExrPlane>>(FilmPlanes(film, job_.scene.scale));
-  const ExrOptions options =
-      OutputOptions(ParseJson(identity_), state.counts, film, /*half=*/false);
+  const ExrOptions options = OutputOptions(identity_, state.counts, film, /*half=*/false);
   return [path = settings_.watch, planes, options, width = film.width(),
           height = film.height()] { WriteExr(path, width, height, *planes, options); };
 }
@@ -241,36 +202,6 @@ std::vector<std::string> Checkpoint::Finish() {
   saver.Save(path, [&](const std::string& p) { last_->Write(p); });
   kept_ = path == settings_.path;
   return saver.problems();
-}
-
-Json CountsJson(const RunCounts& counts) {
-  return {{"samples", counts.samples},          {"rays_closest", counts.rays_closest},
-          {"rays_shadow", counts.rays_shadow},  {"nan", counts.health.nan},
-          {"infinite", counts.health.infinite}, {"negative", counts.health.negative},
-          {"seconds", counts.seconds},          {"cpu_seconds", counts.cpu_seconds}};
-}
-
-RunCounts CountsFromJson(const Json& json) {
-  RunCounts counts;
-  counts.samples = json.at("samples");
-  counts.rays_closest = json.at("rays_closest");
-  counts.rays_shadow = json.at("rays_shadow");
-  counts.health.nan = json.at("nan");
-  counts.health.infinite = json.at("infinite");
-  counts.health.negative = json.at("negative");
-  counts.seconds = json.at("seconds");
-  counts.cpu_seconds = json.at("cpu_seconds");
-  return counts;
-}
-
-Json TrainingJson(const RunState& state) {
-  if (!state.trained) return nullptr;
-  const TrainingOutcome& t = state.training;
-  Json tables = Json::object();
-  for (const TrainedTable& table : state.tables) tables[table.name] = table.meaning;
-  return {{"note", t.note},       {"samples", t.samples},         {"rays", t.rays},
-          {"seconds", t.seconds}, {"cpu_seconds", t.cpu_seconds}, {"changes", t.changes},
-          {"tables", tables}};
 }
 
 }  // namespace lanelight

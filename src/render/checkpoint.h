@@ -7,7 +7,7 @@
 #include <functional>
 #include <future>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -73,7 +73,6 @@ class Checkpoint : public RunKeeper {
  private:
   void Open();
   void CheckSame(const StateFile& file);
-  void RestoreReport(RunState& state) const;
   void CheckNotTooMany(const Films& films) const;
   std::unique_ptr<StateCopy> Copy(RunState& state) const;
   /// What writes the image so far; nothing if nobody watches.
@@ -83,7 +82,7 @@ class Checkpoint : public RunKeeper {
 
   const Job& job_;
   CheckpointSettings settings_;
-  std::string identity_, head_;
+  const nlohmann::json identity_, head_;
   std::function<void(const std::string&)> on_problem_;
   std::set<std::string> told_;  // problems
   std::vector<PixelRect> tiles_;
@@ -96,10 +95,5 @@ class Checkpoint : public RunKeeper {
   int count_ = 0;
   double pause_seconds_ = 0;
 };
-
-/// What a state's report says beside the head of the render's.
-nlohmann::json CountsJson(const RunCounts& counts);
-RunCounts CountsFromJson(const nlohmann::json& json);
-nlohmann::json TrainingJson(const RunState& state);
 
 }  // namespace lanelight

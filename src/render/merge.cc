@@ -1,15 +1,19 @@
 #include "src/render/merge.h"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "src/core/error.h"
 #include "src/core/json_text.h"
+#include "src/image/for_each_pixel.h"
 #include "src/prepare/groups.h"
 #include "src/render/add_seeds.h"
 #include "src/render/checkpoint.h"
 #include "src/render/identity.h"
 #include "src/render/machine_json.h"
+#include "src/render/run_content.h"
+#include "src/state/tiles.h"
 #include "src/strategy/strategy.h"
 
 namespace lanelight {
@@ -38,13 +42,17 @@ Json WithoutSeed(Json identity) {
   return identity;
 }
 
-// A film with all that the states keep of one.
-void MakeFilms(const StateFile& file, MergedRender& merged) {
+// What the image was rendered with.
+Strategy StrategyOf(const MergedRender& merged) {
   Strategy strategy;
   ApplyStrategy(merged.identity.at("strategy").get<std::string>(), {}, strategy);
-  if (!merged.training.is_null()) {
-    ApplyStrategy(merged.training.at("changes").get<std::string>(), {}, strategy);
-  }
+  if (merged.run.trained) ApplyStrategy(merged.run.training.changes, {}, strategy);
+  return strategy;
+}
+
+// A film with all that the states keep of one.
+void MakeFilms(const StateFile& file, MergedRender& merged) {
+  const Strategy strategy = StrategyOf(merged);
   const PixelRect& w = merged.window;
   const Auxiliary auxiliary = file.HasPixels("gbuffer") ? Auxiliary::kGbuffer
                               : file.HasPixels("aov")   ? Auxiliary::kAov
@@ -61,40 +69,21 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
   merged.film->set_chance_of_light(merged.head.value("chance_of_light", 1.0));
 }
 
-// Which pixels files of one seed have already brought, and whose they are.
-class Coverage {
- public:
-  explicit Coverage(const PixelRect& window)
-      : window_(window), owner_(window.pixels(), -1) {}
-
-  void Take(const std::vector<PixelRect>& tiles, int owner,
-            const std::vector<Input>& inputs) {
-    for (const PixelRect& t : tiles) {
-      for (int y = t.y0; y < t.y1; ++y) {
-        for (int x = t.x0; x < t.x1; ++x) {
-          int& had = owner_[static_cast<std::size_t>(y - window_.y0) *
-                                static_cast<std::size_t>(window_.width()) +
-                            static_cast<std::size_t>(x - window_.x0)];
-          if (had >= 0) {
-            throw InputError(fmt::format("'{}' and '{}' both have pixel {},{} of seed {}",
-                                         inputs[static_cast<std::size_t>(had)].path,
-                                         inputs[static_cast<std::size_t>(owner)].path, x,
-                                         y,
-                                         inputs[static_cast<std::size_t>(owner)].seed));
-          }
-          had = owner;
-        }
-      }
+// No two inputs, which are of one seed, may have the same pixels; `tiles` are all theirs.
+void CheckApart(std::span<const Input> inputs, const std::vector<PixelRect>& tiles,
+                const PixelRect& window) {
+  if (TileProblem(tiles, window).empty()) return;
+  for (const Input& a : inputs) {
+    for (const Input* b = &a + 1; b != inputs.data() + inputs.size(); ++b) {
+      std::vector<PixelRect> both = a.tiles;
+      both.insert(both.end(), b->tiles.begin(), b->tiles.end());
+      const std::string problem = TileProblem(both, window);
+      if (problem.empty()) continue;
+      throw InputError(fmt::format("'{}' and '{}' both have pixels of seed {}: {}",
+                                   a.path, b->path, a.seed, problem));
     }
   }
-  std::uint64_t Missing() const {
-    return static_cast<std::uint64_t>(std::count(owner_.begin(), owner_.end(), -1));
-  }
-
- private:
-  PixelRect window_;
-  std::vector<std::int32_t> owner_;
-};
+}
 
 void CheckSame(const Input& first, const Input& other) {
   const std::string differences =
@@ -115,33 +104,19 @@ void AddMachines(const Json& report, std::vector<MachineInfo>& machines) {
   }
 }
 
-void CheckTraining(const MergedRender& merged, const Json& training,
-                   const std::vector<TrainedTable>& tables, const std::string& path) {
+void CheckTraining(const RunRecord& first, const RunRecord& other,
+                   const std::string& path) {
   const auto same = [](const TrainedTable& a, const TrainedTable& b) {
     return a.name == b.name && a.values == b.values;
   };
-  const auto changes = [](const Json& t) {
-    return t.is_null() ? std::string() : t.at("changes").get<std::string>();
-  };
-  if (merged.training.is_null() == training.is_null() &&
-      changes(merged.training) == changes(training) &&
-      std::equal(tables.begin(), tables.end(), merged.tables.begin(), merged.tables.end(),
-                 same)) {
+  if (first.trained == other.trained &&
+      first.training.changes == other.training.changes &&
+      std::equal(first.tables.begin(), first.tables.end(), other.tables.begin(),
+                 other.tables.end(), same)) {
     return;
   }
   throw InputError("'" + path +
                    "' was rendered with another training than the files before it");
-}
-
-std::vector<TrainedTable> TablesOf(const StateFile& file, const Json& training) {
-  std::vector<TrainedTable> tables;
-  if (training.is_null()) return tables;
-  for (const auto& [name, meaning] : training.at("tables").items()) {
-    TrainedTable table = {name, meaning, std::vector<double>(file.TableRows(name))};
-    file.ReadTable(MakeStateColumn<double>(name, meaning, table.values));
-    tables.push_back(std::move(table));
-  }
-  return tables;
 }
 
 // Reads the files one by one: two would be in memory at a time only for different seeds.
@@ -181,7 +156,7 @@ class Merger {
                        "' holds several seeds; merge the states of single ones");
     }
     input.seed = input.identity.at("seed");
-    windows_.push_back(file->window());
+    window_ = file->window();  // the same for all: CheckSame
     // Opened again, it is read and checked once more.
     if (inputs_.size() < kMostOpen) input.file = std::move(file);
     inputs_.push_back(std::move(input));
@@ -190,14 +165,18 @@ class Merger {
   MergedRender MergeSeed(std::size_t begin, std::size_t end) {
     MergedRender merged;
     merged.identity = inputs_[begin].identity;
-    merged.window = windows_.front();
+    merged.window = window_;
     merged.seeds = {inputs_[begin].seed};
-    Coverage coverage(merged.window);
-    for (std::size_t i = begin; i < end; ++i) {
-      coverage.Take(inputs_[i].tiles, static_cast<int>(i), inputs_);
-      FromJsonOf(inputs_[i].path, [&] { AddState(inputs_[i], merged); });
+    const std::span<Input> inputs(&inputs_[begin], end - begin);
+    merged.missing = merged.window.pixels();
+    for (const Input& input : inputs) {
+      merged.tiles.insert(merged.tiles.end(), input.tiles.begin(), input.tiles.end());
     }
-    merged.missing = coverage.Missing();
+    CheckApart(inputs, merged.tiles, merged.window);
+    for (const PixelRect& tile : merged.tiles) merged.missing -= tile.pixels();
+    for (Input& input : inputs) {
+      FromJsonOf(input.path, [&] { AddState(input, merged); });
+    }
     FindSamples(merged);
     return merged;
   }
@@ -208,35 +187,32 @@ class Merger {
     if (!open) open = std::make_unique<StateFile>(input.path);
     const StateFile& file = *open;
     const Json report = ParseJson(file.report());
-    const Json& training = report.at("training");
+    const RunRecord run = ReadRecord(file, report);
     if (!merged.films) {
       merged.head = report.at("head");
-      merged.training = training;
+      merged.run = run;
+      merged.run.counts = {};
       MakeFilms(file, merged);
-      merged.tables = TablesOf(file, training);
     }
     AddMachines(report, merged.machines);
-    CheckTraining(merged, training, TablesOf(file, training), input.path);
+    CheckTraining(merged.run, run, input.path);
     file.ReadPixels(merged.films->Columns(), merged.window);
-    merged.counts.Add(CountsFromJson(report.at("counts")));
-    merged.tiles.insert(merged.tiles.end(), input.tiles.begin(), input.tiles.end());
+    merged.run.counts.Add(run.counts);
   }
 
   static void FindSamples(MergedRender& merged) {
     merged.least = ~std::uint64_t{0};
-    for (const PixelRect& t : merged.tiles) {
-      for (int y = t.y0; y < t.y1; ++y) {
-        for (int x = t.x0; x < t.x1; ++x) {
-          const std::uint64_t samples = merged.film->Samples(x, y);
-          merged.least = std::min(merged.least, samples);
-          merged.most = std::max(merged.most, samples);
-        }
-      }
+    for (const PixelRect& tile : merged.tiles) {
+      ForEachPixel(tile, [&](int x, int y) {
+        const std::uint64_t samples = merged.film->Samples(x, y);
+        merged.least = std::min(merged.least, samples);
+        merged.most = std::max(merged.most, samples);
+      });
     }
   }
 
   std::vector<Input> inputs_;
-  std::vector<PixelRect> windows_;
+  PixelRect window_;
   MergedRender merged_;
 };
 
@@ -251,30 +227,15 @@ MergedRender MergeStates(const std::vector<std::string>& paths) {
 
 RunResult ResultOf(const MergedRender& merged) {
   RunResult result;
-  result.seconds = merged.counts.seconds;
-  result.cpu_seconds = merged.counts.cpu_seconds;
-  result.samples = merged.counts.samples;
-  result.rays_closest = merged.counts.rays_closest;
-  result.rays_shadow = merged.counts.rays_shadow;
-  result.health = merged.counts.health;
+  static_cast<RunCounts&>(result) = merged.run.counts;
+  result.training = merged.run.training;
   const Json& spp = merged.head.at("settings").at("spp");
   const bool whole = merged.missing == 0 && merged.least == merged.most &&
                      (spp.is_null() || merged.least >= spp.get<std::uint64_t>());
   result.stop_reason = whole ? StopReason::kSamples : StopReason::kInterrupted;
   result.stopped_early = !whole;
   result.control = merged.film->Control();
-  Strategy strategy;
-  ApplyStrategy(merged.identity.at("strategy").get<std::string>(), {}, strategy);
-  result.roulette = strategy.roulette;
-  if (merged.training.is_null()) return result;
-  const Json& t = merged.training;
-  result.pilot_note = t.at("note");
-  result.pilot_samples = t.at("samples");
-  result.pilot_rays = t.at("rays");
-  result.pilot_seconds = t.at("seconds");
-  result.pilot_changes = t.at("changes");
-  ApplyStrategy(result.pilot_changes, {}, strategy);
-  result.roulette = strategy.roulette;
+  result.roulette = StrategyOf(merged).roulette;
   return result;
 }
 
@@ -284,22 +245,11 @@ void WriteMergedState(MergedRender& merged, const std::string& path) {
         "several seeds together are no state that can be gone on with or merged again: "
         "merge all of them at once");
   }
-  StateContent content;
-  content.identity = DumpJson(merged.identity, 1);
-  const Json report = {{"head", merged.head},
-                       {"machines", ToJson(merged.machines)},
-                       {"counts", CountsJson(merged.counts)},
-                       {"training", merged.training}};
-  content.report = DumpJson(report, 1);
+  StateContent content = ContentOf(
+      merged.identity, {{"head", merged.head}, {"machines", ToJson(merged.machines)}},
+      *merged.films, merged.run);
   content.window = merged.window;
   content.tiles = merged.tiles;
-  for (const MutableStateColumn& column : merged.films->Columns()) {
-    content.pixels.push_back(column);
-  }
-  for (const TrainedTable& table : merged.tables) {
-    content.tables.push_back(
-        MakeStateColumn<double>(table.name, table.meaning, table.values));
-  }
   WriteState(content, path);
 }
 

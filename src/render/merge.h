@@ -28,9 +28,7 @@ struct MergedRender {
   std::vector<PixelRect> tiles;  // that are there
   std::unique_ptr<FilmAccumulator> film;
   std::unique_ptr<Films> films;  // film, and what belongs to it
-  RunCounts counts;
-  nlohmann::json training;  // of TrainingJson
-  std::vector<TrainedTable> tables;
+  RunRecord run;
   std::vector<MachineInfo> machines;  // where parts were rendered
   std::uint64_t missing = 0;          // pixels of the window that no file has
   std::uint64_t least = 0, most = 0;  // samples per pixel

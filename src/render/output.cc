@@ -9,19 +9,18 @@
 #include "src/core/error.h"
 #include "src/core/json_text.h"
 #include "src/estimate/estimate.h"
+#include "src/image/for_each_pixel.h"
 #include "src/image/spectrum.h"
 #include "src/image/variance_unit.h"
 
 namespace lanelight {
 namespace {
 
-// Calls fill(pixel index, x, y) for every pixel of the film, rows from the top.
+// Calls fill(index of the pixel, x, y) for every pixel of the film.
 template <class Fill>
-void ForEachPixel(const FilmAccumulator& film, Fill&& fill) {
+void FillPixels(const FilmAccumulator& film, const Fill& fill) {
   std::size_t i = 0;
-  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
-    for (int x = film.x0(); x < film.x0() + film.width(); ++x) fill(i++, x, y);
-  }
+  ForEachPixel(film, [&](int x, int y) { fill(i++, x, y); });
 }
 
 std::vector<ExrPlane> NamedPlanes(std::initializer_list<const char*> names,
@@ -39,7 +38,7 @@ void AppendGbuffer(const FilmAccumulator& film, std::size_t pixels,
   auto gbuffer = NamedPlanes({"coverage", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z",
                               "Ns.X", "Ns.Y", "Ns.Z", "u", "v", "dzdx", "dzdy"},
                              pixels, true);
-  ForEachPixel(film, [&](std::size_t i, int x, int y) {
+  FillPixels(film, [&](std::size_t i, int x, int y) {
     for (int p = 0; p < kGbufferPlanes; ++p) {
       gbuffer[p].values[i] = static_cast<float>(film.Gbuffer(x, y, p));
     }
@@ -53,7 +52,7 @@ void AppendAov(const FilmAccumulator& film, double scale, std::size_t pixels,
       {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z"},
       pixels, false);
   aov[kAovPlanes - 1].always_float = true;  // half overflows at 65504 units
-  ForEachPixel(film, [&](std::size_t i, int x, int y) {
+  FillPixels(film, [&](std::size_t i, int x, int y) {
     for (int p = 0; p < kAovPlanes; ++p) {
       const double unit = p == kAovPlanes - 1 ? scale : 1;
       aov[p].values[i] = static_cast<float>(film.Aov(x, y, p) / unit);
@@ -66,7 +65,7 @@ void AppendAov(const FilmAccumulator& film, double scale, std::size_t pixels,
 
 int VarianceExponent(const FilmAccumulator& film) {
   double largest = 0;
-  ForEachPixel(film, [&](std::size_t, int x, int y) {
+  FillPixels(film, [&](std::size_t, int x, int y) {
     if (!film.HasVariance(x, y)) return;
     const Rgb variance = film.Variance(x, y);
     for (int c = 0; c < 3; ++c) {
@@ -85,7 +84,7 @@ std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale) {
     planes.push_back(std::move(p));
   }
   const double unit = std::ldexp(1.0, -VarianceExponent(film));
-  ForEachPixel(film, [&](std::size_t i, int x, int y) {
+  FillPixels(film, [&](std::size_t i, int x, int y) {
     const Rgb mean = film.Mean(x, y), variance = film.Variance(x, y) * unit;
     const bool known = film.HasVariance(x, y);
     for (int c = 0; c < 3; ++c) {
@@ -150,7 +149,7 @@ ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts
 
 Image FilmImage(const FilmAccumulator& film, const std::string& color_space) {
   Image image = MakeImage(film.width(), film.height(), {"R", "G", "B"});
-  ForEachPixel(film, [&](std::size_t i, int x, int y) {
+  FillPixels(film, [&](std::size_t i, int x, int y) {
     const Rgb mean = ToSrgb(color_space, film.Mean(x, y), SpectrumUse::kUnbounded);
     for (int c = 0; c < 3; ++c) image.pixels[3 * i + c] = static_cast<float>(mean[c]);
   });

@@ -29,7 +29,7 @@ ProfileRow MakeRow(RowKind kind, const char* name, double seconds) {
 
 // The rest is what the processor time of the process has beyond stages, parts and pilot.
 void AddRows(const RunResult& result, ProfileReport& report) {
-  double timed = result.pilot_cpu_seconds;
+  double timed = result.training.cpu_seconds;
   const auto add = [&](RowKind kind, const std::vector<StageProfile>& rows) {
     for (const StageProfile& counts : rows) {
       timed += counts.seconds;
@@ -40,9 +40,9 @@ void AddRows(const RunResult& result, ProfileReport& report) {
   };
   add(RowKind::kStage, result.stages);
   add(RowKind::kPart, result.parts);
-  if (result.pilot_cpu_seconds > 0) {
+  if (result.training.cpu_seconds > 0) {
     report.rows.push_back(
-        MakeRow(RowKind::kPilot, "pilot passes", result.pilot_cpu_seconds));
+        MakeRow(RowKind::kPilot, "pilot passes", result.training.cpu_seconds));
   }
   const double rest = std::max(0.0, result.cpu_seconds - timed);
   report.rows.push_back(MakeRow(RowKind::kOutside, "outside stages", rest));

@@ -5,6 +5,7 @@
 #include "src/core/error.h"
 #include "src/core/json_text.h"
 #include "src/core/stopwatch.h"
+#include "src/image/for_each_pixel.h"
 #include "src/image/png.h"
 #include "src/render/identity.h"
 #include "src/render/output.h"
@@ -18,13 +19,10 @@ using Json = nlohmann::json;
 void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
                 const RenderTargets& targets, Saver& saver, RenderReport& report) {
   const Stopwatch watch;
-  RunCounts counts;
-  counts.samples = report.result.samples;
-  counts.seconds = report.result.seconds;
   report.exr = targets.exr;
   saver.Save(report.exr, [&](const std::string& path) {
     WriteExr(path, film.width(), film.height(), FilmPlanes(film, scale),
-             OutputOptions(identity, counts, film, targets.image.half));
+             OutputOptions(identity, report.result, film, targets.image.half));
   });
   report.png = targets.png;
   saver.Save(report.png, [&](const std::string& path) {
@@ -36,11 +34,7 @@ void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
 
 std::uint64_t CountUnsampled(const FilmAccumulator& film) {
   std::uint64_t count = 0;
-  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
-    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
-      count += film.Samples(x, y) == 0;
-    }
-  }
+  ForEachPixel(film, [&](int x, int y) { count += film.Samples(x, y) == 0; });
   return count;
 }
 

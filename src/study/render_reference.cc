@@ -5,6 +5,7 @@
 
 #include "src/core/error.h"
 #include "src/image/colors.h"
+#include "src/image/for_each_pixel.h"
 #include "src/render/checkpoint.h"
 #include "src/render/report.h"
 #include "src/study/reference.h"
@@ -35,12 +36,10 @@ Reference FromFilm(const FilmAccumulator& film) {
   Reference reference;
   reference.width = film.width();
   reference.height = film.height();
-  for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
-    for (int x = film.x0(); x < film.x0() + film.width(); ++x) {
-      reference.mean.push_back(RoundToFloat(film.Mean(x, y)));
-      reference.variance.push_back(RoundToFloat(film.Variance(x, y)));
-    }
-  }
+  ForEachPixel(film, [&](int x, int y) {
+    reference.mean.push_back(RoundToFloat(film.Mean(x, y)));
+    reference.variance.push_back(RoundToFloat(film.Variance(x, y)));
+  });
   return reference;
 }
 

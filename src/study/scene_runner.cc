@@ -21,7 +21,7 @@ void Describe(const RunResult& result, const ErrorEstimate& self, Measurement& m
   m.samples = result.samples;
   m.wall_seconds = result.seconds;
   m.cpu_seconds = result.cpu_seconds;
-  m.pilot_seconds = result.pilot_seconds;
+  m.pilot_seconds = result.training.seconds;
   m.rays_closest = result.rays_closest;
   m.rays_shadow = result.rays_shadow;
   m.invalid = result.health.Total();

@@ -86,7 +86,7 @@ void Runner::Start() {
 }
 
 bool Runner::Restore() {
-  RunState state = {films_, {}, false, {}, {}, false};
+  RunState state = {{}, films_};
   if (!setting_.options.keeper->Restore(state)) return false;
   clock_.GoOn(state.counts.seconds);
   tasks_.GoOn(films_, state.counts);
@@ -98,7 +98,8 @@ bool Runner::Restore() {
 void Runner::Keep(bool finished) {
   work_.Gather();
   RunState state = {
-      films_,  Counts(), strategy_.trained(), strategy_.training(), strategy_.Tables(),
+      {Counts(), strategy_.trained(), strategy_.training(), strategy_.Tables()},
+      films_,
       finished};
   setting_.options.keeper->Keep(state);
 }
@@ -144,9 +145,7 @@ RunResult Runner::Result() {
   result.ranks = group_.ranks();
   result.bytes_between_ranks = group_.bytes();
   films_.film().FitControl();
-  const RunCounts counts = Counts();
-  result.seconds = counts.seconds;
-  result.cpu_seconds = counts.cpu_seconds;
+  static_cast<RunCounts&>(result) = Counts();
   result.stop_reason = watch_.Reason();
   result.stopped_early = result.stop_reason == StopReason::kInterrupted;
   result.looks = looks_.Count();

@@ -124,31 +124,24 @@ enum class StopReason { kSamples, kTime, kTarget, kInterrupted, kHopeless };
 /// "samples", "time", "target", "interrupted", "hopeless".
 const char* Name(StopReason reason);
 
-struct RunResult {
-  double seconds = 0;
+/// Counts are of all ranks: seconds of this Run, processor seconds of all threads.
+struct RunResult : RunCounts {
   StopReason stop_reason = StopReason::kSamples;
   int looks = 0;  // at which the error was compared with the target
   int ranks = 1;  // processes; profiles and memory are of this one
   std::uint64_t bytes_between_ranks = 0;
-  std::uint64_t samples = 0, rays_closest = 0, rays_shadow = 0;
-  Health health;
   std::vector<StageProfile> stages;      // in execution order
   std::vector<StageProfile> parts;       // of tasks, by TaskPart
   RunTrace trace;                        // with ProfileOptions::trace_events
   bool counters = false;                 // of the processor were read
   int counter_error = 0;                 // errno for which (some of) them are missing
-  double cpu_seconds = 0;                // of all threads of all ranks, during Run
   double waiting_seconds = 0;            // of tasks, while others had the processor
   bool stopped_early = false;            // by RunOptions::stop
   std::optional<ControlReport> control;  // of control variates that are fitted
   std::size_t wavefront_bytes = 0;       // all wavefronts and sample buffers together
   std::size_t bytes_in_flight = 0;       // live columns of the paths of one wavefront
-  // Training (src/wavefront/training.h); its time is part of `seconds`, its samples and
-  // rays are not part of those above.
-  double pilot_seconds = 0, pilot_cpu_seconds = 0;
-  std::uint64_t pilot_samples = 0, pilot_rays = 0;
-  std::string pilot_note;                     // empty: there was none
-  std::string pilot_changes;                  // to the strategy, that it has made
+  // Its time is part of `seconds`, its samples and rays are not part of the counts.
+  TrainingOutcome training;
   Roulette roulette = Roulette::kThroughput;  // that the image was rendered with
 };
 

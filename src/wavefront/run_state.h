@@ -39,12 +39,16 @@ struct TrainingOutcome {
   void Add(const TrainingOutcome& next);
 };
 
-struct RunState {
-  Films& films;
+/// What a run has done, beside its films.
+struct RunRecord {
   RunCounts counts;
   bool trained = false;  // what follows is of a training
   TrainingOutcome training;
   std::vector<TrainedTable> tables;
+};
+
+struct RunState : RunRecord {
+  Films& films;
   bool finished = false;  // to the run's own end, not to a signal
 };
 

@@ -91,12 +91,7 @@ std::vector<TrainedTable> RunStrategy::Tables() const {
 }
 
 void RunStrategy::Describe(RunResult& result) const {
-  result.pilot_seconds = training_.seconds;
-  result.pilot_cpu_seconds = training_.cpu_seconds;
-  result.pilot_samples = training_.samples;
-  result.pilot_rays = training_.rays;
-  result.pilot_note = training_.note;
-  result.pilot_changes = training_.changes;
+  result.training = training_;
   result.roulette = PlannedStrategy(scene_, plan_.options).roulette;
   result.stages = EmptyProfiles(plan_);
   result.bytes_in_flight = plan_.wavefront * plan_.bytes_per_path;

@@ -135,11 +135,6 @@ void Tasks::Merge(std::size_t tile, TaskSamples& task, Films& films) {
 }
 
 void Tasks::AddCounts(RunResult& result) {
-  const RunCounts all = counts();
-  result.samples = all.samples;
-  result.rays_closest = all.rays_closest;
-  result.rays_shadow = all.rays_shadow;
-  result.health = all.health;
   runner_.AddCounts(result);
 }
 

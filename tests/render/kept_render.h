@@ -34,8 +34,8 @@ inline Outcome OutcomeOf(const FilmAccumulator& film, const RunResult& result) {
                            {"shadow", result.rays_shadow},
                            {"invalid", result.health.Total()},
                            {"looks", result.looks},
-                           {"pilot", result.pilot_samples},
-                           {"note", result.pilot_note},
+                           {"pilot", result.training.samples},
+                           {"note", result.training.note},
                            {"roulette", Name(result.roulette)},
                            {"error", ToJson(EstimateError(film))}};
   if (result.control) {

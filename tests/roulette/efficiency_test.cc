@@ -34,9 +34,9 @@ Measured Measure(const SceneDescription& scene, const std::string& roulette,
       }
     }
   }
-  m.rays = double(r.result.rays_closest + r.result.rays_shadow + r.result.pilot_rays);
+  m.rays = double(r.result.rays_closest + r.result.rays_shadow + r.result.training.rays);
   m.roulette = r.result.roulette;
-  m.note = r.result.pilot_note;
+  m.note = r.result.training.note;
   return m;
 }
 
@@ -100,9 +100,9 @@ TEST_CASE("pilot passes take a small share of what they are planned for", "[roul
       t.planned_samples = spp * 16 * 16;
       t.strategy = std::string("roulette=") + roulette;
       const Rendered r = RenderDescription(SmallRoom(16, 5), t);
-      CHECK((r.result.pilot_samples > 0) == (spp == 256 || roulette[0] == 'a'));
-      CHECK(r.result.pilot_note != "");
-      CHECK(double(r.result.pilot_samples) < 0.12 * double(r.result.samples) + 64);
+      CHECK((r.result.training.samples > 0) == (spp == 256 || roulette[0] == 'a'));
+      CHECK(r.result.training.note != "");
+      CHECK(double(r.result.training.samples) < 0.12 * double(r.result.samples) + 64);
     }
   }
 }

@@ -151,7 +151,7 @@ TEST_CASE("what shadow rays are worth is kept and put back", "[roulette]") {
 TEST_CASE("roulette on shadow rays traces fewer for the same image", "[roulette]") {
   const Rendered all = RenderRoom("", 4096);
   const Rendered some = RenderRoom("shadow-roulette=contribution", 4096);
-  CHECK(some.result.pilot_samples > 0);
+  CHECK(some.result.training.samples > 0);
   CHECK(double(some.result.rays_shadow) < 0.95 * double(all.result.rays_shadow));
   CHECK(double(some.result.rays_shadow) > 0.1 * double(all.result.rays_shadow));
   CHECK(some.result.rays_closest == all.result.rays_closest);

@@ -170,7 +170,7 @@ TEST_CASE("splitting without light, at little depth, with few samples", "[roulet
     // One event: nothing to decide, nothing that splits.
     const Rendered shallow = RenderSplitting(SmallRoom(8, 1), strategy, 16);
     CHECK_FALSE(shallow.plan.features.Has(Feature::kSplitting));
-    CHECK(shallow.result.pilot_samples == 0);
+    CHECK(shallow.result.training.samples == 0);
   }
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("plans without splitting have none of it", "[roulette]") {
           0);
   }
   CHECK(plain.plan.slots == plain.plan.wavefront);
-  CHECK(plain.result.pilot_note.empty());
+  CHECK(plain.result.training.note.empty());
 }
 
 }  // namespace lanelight::test

@@ -30,9 +30,9 @@ Choices ChoicesFor(const std::string& scene) {
     options.seed = static_cast<std::uint64_t>(seed);
     options.planned_samples = kPlanned;
     const RunResult result = Run(job.scene, job.plan, options, film);
-    UNSCOPED_INFO(seed << ": " << result.pilot_note);
-    chosen.adjoint += result.pilot_changes == "roulette=adjoint,decide=none";
-    chosen.blocks += result.pilot_changes.find("reuse=block") != std::string::npos;
+    UNSCOPED_INFO(seed << ": " << result.training.note);
+    chosen.adjoint += result.training.changes == "roulette=adjoint,decide=none";
+    chosen.blocks += result.training.changes.find("reuse=block") != std::string::npos;
   }
   return chosen;
 }

@@ -69,10 +69,10 @@ double Efficiency(const Rendered& r) {
 TEST_CASE("the pilot plays a milder roulette where late light is most", "[decision]") {
   // With a control variate paths serve no others.
   const Rendered r = Decide(Room(0.9, 100), "control=analytic,decide=pilot");
-  INFO(r.result.pilot_note);
+  INFO(r.result.training.note);
   CHECK(r.result.roulette == Roulette::kThroughput);
-  CHECK(r.result.pilot_changes == "roulette=throughput:0:2:4,decide=none");
-  CHECK_THAT(r.result.pilot_note,
+  CHECK(r.result.training.changes == "roulette=throughput:0:2:4,decide=none");
+  CHECK_THAT(r.result.training.note,
              Catch::Contains("rendered with roulette=throughput:0:2:4") &&
                  Catch::Contains("roulette=adjoint"));
   // The image is what it is with that asked for: the pilot leaves nothing behind.
@@ -83,23 +83,23 @@ TEST_CASE("the pilot plays a milder roulette where late light is most", "[decisi
 TEST_CASE("the pilot has paths serve their block where light comes by bounces",
           "[decision]") {
   const Rendered r = Decide(Room(0.9, 100), "decide=pilot");
-  INFO(r.result.pilot_note);
-  CHECK(r.result.pilot_changes == "roulette=throughput:0:2:4,reuse=block,decide=none");
+  INFO(r.result.training.note);
+  CHECK(r.result.training.changes == "roulette=throughput:0:2:4,reuse=block,decide=none");
   CHECK(r.film.groups().dependents > 10);  // of pixels that share paths
   CHECK(SameImage(r, Decide(Room(0.9, 100), "roulette=throughput:0:2:4,reuse=block")));
   // Nothing is shared by what leaves after one event, nor by mirrors.
   SceneDescription plane = PolygonLight(32);
   plane.integrator.max_depth = 6;
   const Rendered none = Decide(plane, "decide=pilot");
-  CHECK(none.result.pilot_changes == "decide=none");
+  CHECK(none.result.training.changes == "decide=none");
   CHECK(none.film.groups().dependents == 1);
 }
 
 TEST_CASE("the pilot shortens paths that cost more than they bring", "[decision]") {
   // Nothing ends a path but the depth: that has the least variance by far the most rays.
   const Rendered r = Decide(SplitRoom(40), "roulette=throughput:1,decide=pilot");
-  INFO(r.result.pilot_note);
-  CHECK(r.result.pilot_changes != "decide=none");
+  INFO(r.result.training.note);
+  CHECK(r.result.training.changes != "decide=none");
 }
 
 TEST_CASE("the pilot leaves the strategy as it is where nothing pays", "[decision]") {
@@ -109,8 +109,8 @@ TEST_CASE("the pilot leaves the strategy as it is where nothing pays", "[decisio
   for (const char* strategy : {"", "roulette=throughput:0.05:5,", "points=cmj,"}) {
     const std::string text = strategy;
     const Rendered r = Decide(plane, text + "decide=pilot");
-    INFO(text << ": " << r.result.pilot_note);
-    CHECK(r.result.pilot_changes == "decide=none");
+    INFO(text << ": " << r.result.training.note);
+    CHECK(r.result.training.changes == "decide=none");
     CHECK(SameImage(r, Decide(plane, text + "decide=none")));
   }
 }
@@ -127,8 +127,8 @@ TEST_CASE("a decision does not hang on threads or wavefronts", "[decision]") {
       t.wavefront = wavefront;
       const Rendered other = RenderDescription(scene, t);
       CHECK(SameImage(other, one));
-      CHECK(other.result.pilot_note == one.result.pilot_note);
-      CHECK(other.result.pilot_rays == one.result.pilot_rays);
+      CHECK(other.result.training.note == one.result.training.note);
+      CHECK(other.result.training.rays == one.result.training.rays);
     }
   }
 }
@@ -149,7 +149,7 @@ TEST_CASE("what the pilot chooses is not far below the best candidate", "[decisi
       found += fmt::format("{} {:.3g}, ", roulette, efficiency);
     }
     const Rendered chosen = Decide(scene, "decide=pilot", kPlanned, kRenderSpp);
-    INFO(name << ": " << found << chosen.result.pilot_note);
+    INFO(name << ": " << found << chosen.result.training.note);
     // What must be gained is 8 to 21 percent. Each efficiency has a standard error of 4
     // percent (576 pixels of four observations each).
     CHECK(Efficiency(chosen) > 0.75 * best);
@@ -163,14 +163,14 @@ TEST_CASE("the pilot of a decision takes a few percent of what it is planned for
   for (const std::uint64_t planned :
        {std::uint64_t{1} << 14, std::uint64_t{1} << 19, std::uint64_t{1} << 26}) {
     const Rendered r = Decide(plane, "decide=pilot", planned);
-    const auto samples = double(r.result.pilot_samples);
+    const auto samples = double(r.result.training.samples);
     CHECK((samples > 0) == (planned > (1u << 14)));
     CHECK(samples < 0.05 * double(std::min(planned, kMostDecidedBy)));
   }
   // Nothing to choose from: paths end after one event.
   SceneDescription direct = SmallRoom(8, 1);
   const Rendered r = Decide(direct, "decide=pilot");
-  CHECK(r.result.pilot_samples == 0);
+  CHECK(r.result.training.samples == 0);
   CHECK(SameImage(r, Decide(direct, "decide=none")));
 }
 

@@ -44,8 +44,9 @@ Rendered Render(const Request& request) {
 bool Same(const RunResult& a, const RunResult& b) {
   return a.samples == b.samples && a.rays_closest == b.rays_closest &&
          a.rays_shadow == b.rays_shadow && a.health.Total() == b.health.Total() &&
-         a.pilot_samples == b.pilot_samples && a.pilot_rays == b.pilot_rays &&
-         a.pilot_note == b.pilot_note && a.roulette == b.roulette && a.looks == b.looks;
+         a.training.samples == b.training.samples && a.training.rays == b.training.rays &&
+         a.training.note == b.training.note && a.roulette == b.roulette &&
+         a.looks == b.looks;
 }
 
 Rendered RenderInParts(const Request& request, const std::vector<Request>& ends,

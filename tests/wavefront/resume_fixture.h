@@ -15,13 +15,9 @@ namespace lanelight::resume {
 inline constexpr int kWidth = 70, kHeight = 37;  // of the image
 
 /// What a run leaves.
-struct Rest {
+struct Rest : RunRecord {
   bool taken = false;
   std::vector<KeptColumn> columns;
-  RunCounts counts;
-  bool trained = false;
-  TrainingOutcome training;
-  std::vector<TrainedTable> tables;
 };
 
 /// Puts the run down once it has been asked so often, and lets it end there or go on.
@@ -33,16 +29,12 @@ class Pauser : public RunKeeper {
   bool Restore(RunState& state) override {
     if (!rest_.taken) return false;
     PutColumns(rest_.columns, state.films);
-    state.counts = rest_.counts;
-    state.trained = rest_.trained;
-    state.training = rest_.training;
-    state.tables = rest_.tables;
+    static_cast<RunRecord&>(state) = rest_;
     return true;
   }
   bool Due() const override { return asked_.fetch_add(1) >= patience_; }
   void Keep(RunState& state) override {
-    rest_ = {true,          CopyColumns(state.films), state.counts,
-             state.trained, state.training,           state.tables};
+    rest_ = {state, true, CopyColumns(state.films)};
     kept_ += 1;
     asked_ = 0;
     if (stops_) stop_ = true;

@@ -97,7 +97,7 @@ TEST_CASE("a roulette that the pilot passes prefer is kept", "[resume]") {
   CHECK(pauses > 0);
   CHECK(Identical(parts.film, whole.film));
   CHECK(Same(parts.result, whole.result));
-  CHECK(whole.result.pilot_samples > 0);
+  CHECK(whole.result.training.samples > 0);
 }
 
 TEST_CASE("a decision is kept, and nothing is decided anew", "[resume]") {
@@ -105,15 +105,15 @@ TEST_CASE("a decision is kept, and nothing is decided anew", "[resume]") {
   request.strategy = "points=sobol,decide=pilot";
   request.spp = 12;
   const Rendered whole = Render(request);
-  CHECK_THAT(whole.result.pilot_changes, Catch::Contains("decide=none"));
-  CHECK(whole.result.pilot_samples > 0);
+  CHECK_THAT(whole.result.training.changes, Catch::Contains("decide=none"));
+  CHECK(whole.result.training.samples > 0);
   int pauses = 0;
   Rest rest;
   const Rendered parts = RenderInParts(request, {}, rest, pauses, 10);
   CHECK(pauses > 0);
   CHECK(Identical(parts.film, whole.film));
   CHECK(Same(parts.result, whole.result));
-  CHECK(parts.result.pilot_changes == whole.result.pilot_changes);
+  CHECK(parts.result.training.changes == whole.result.training.changes);
 }
 
 }  // namespace lanelight::resume

@@ -47,13 +47,13 @@ Point Measure(const StrategyScene& scene, const std::string& strategy,
   try {
     const JobRun rendered = RenderText(setup);
     if (FoundNothing(strategy, rendered.result)) {
-      return NotMeasured(strategy, rendered.result.pilot_note);
+      return NotMeasured(strategy, rendered.result.training.note);
     }
     Point point = MeanOf(rendered);
     point.series = strategy;
     point.expected = scene.expected;
     point.tolerance = kFloatError * scene.expected;
-    point.seconds -= rendered.result.pilot_cpu_seconds;  // the same for any length
+    point.seconds -= rendered.result.training.cpu_seconds;  // the same for any length
     if (chance < 1) {
       // Found or not: what the scatter of so few is expected to be.
       const double rare = scene.expected * std::sqrt((1 - chance) / hits);
