@@ -19,7 +19,7 @@
 #include "src/core/parallel.h"
 #include "src/render/job.h"
 #include "src/render/machine_json.h"
-#include "src/wavefront/tiles.h"
+#include "src/wave/tiles.h"
 
 namespace lanelight::bench {
 namespace {

@@ -11,7 +11,7 @@
 // directions on record have the density pdf_sa, whatever roulette prefers.
 //
 // The stages keep the rays in columns and write them behind the colour of the finished
-// path; src/wavefront/train_guide.cc reads them in the order of the samples.
+// path; src/train/train_guide.cc reads them in the order of the samples.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"

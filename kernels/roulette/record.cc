@@ -12,7 +12,7 @@
 // two variances are compared on the same paths, and no rare survivor is missed.
 //
 // The stages keep cell, Y(beta) and Y(l) in columns and write them behind the colour of
-// the finished path; src/wavefront/train_path_values.cc adds them up in the order of the
+// the finished path; src/train/train_path_values.cc adds them up in the order of the
 // samples, so that the sums depend on no order of execution.
 #include "kernels/simd/each_target-inl.h"
 

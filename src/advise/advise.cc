@@ -11,8 +11,8 @@
 #include "src/core/stopwatch.h"
 #include "src/prepare/use_strategy.h"
 #include "src/report/values.h"
-#include "src/wavefront/run_strategy.h"
-#include "src/wavefront/strategy_trial.h"
+#include "src/run/run_strategy.h"
+#include "src/train/strategy_trial.h"
 
 namespace lanelight {
 namespace {

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "src/prepare/use_strategy.h"
-#include "src/wavefront/decision_candidates.h"
-#include "src/wavefront/plan_key.h"
+#include "src/train/decision_candidates.h"
+#include "src/plan/plan_key.h"
 
 namespace lanelight {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "src/compiled/scene.h"
 #include "src/stat/interval.h"
-#include "src/wavefront/plan.h"
+#include "src/plan/plan.h"
 
 namespace lanelight {
 

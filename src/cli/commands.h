@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "src/wavefront/rank_group.h"
+#include "src/run/rank_group.h"
 
 namespace lanelight {
 

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-#include "src/wavefront/run.h"
+#include "src/run/run.h"
 
 namespace lanelight {
 

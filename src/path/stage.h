@@ -1,5 +1,5 @@
 // A stage is one kernel file plus one line in kernels/stages.h. It says what it needs,
-// reads and writes; the plan (src/wavefront/plan.h) keeps the stages that the scene
+// reads and writes; the plan (src/plan/plan.h) keeps the stages that the scene
 // needs, checks that every live column read has been written, and resolves the kernel
 // for the chosen SIMD target once.
 #pragma once

@@ -13,7 +13,7 @@ namespace lanelight {
 struct CompiledScene;  // src/compiled/scene.h
 struct Block;          // src/path/block.h
 
-// Queues hold path slots. Stages append and read; the driver (src/wavefront/drive.cc)
+// Queues hold path slots. Stages append and read; the driver (src/wave/drive.cc)
 // clears all but kFree, and kActive, which it takes from kScattered, before a wave.
 // X(name, meaning)
 #define LANELIGHT_QUEUES(X)                                   \

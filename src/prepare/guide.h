@@ -1,4 +1,4 @@
-// Where light comes from, learned by training passes (src/wavefront/train_guide.cc) and
+// Where light comes from, learned by training passes (src/train/train_guide.cc) and
 // then frozen: a density of directions for every cell of space and orientation, in a form
 // that lanes read with few gathers.
 //

@@ -1,6 +1,6 @@
 // What a path is worth, for the roulettes that split: a coarse cache over space and
 // orientation, and the brightness of the pixels, both estimated by pilot passes
-// (src/wavefront/train_path_values.cc). The values steer the number of copies and never
+// (src/train/train_path_values.cc). The values steer the number of copies and never
 // enter the image.
 #pragma once
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "src/wavefront/rank_group.h"
+#include "src/run/rank_group.h"
 
 namespace lanelight {
 

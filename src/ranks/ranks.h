@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "src/wavefront/rank_group.h"
+#include "src/run/rank_group.h"
 
 namespace lanelight {
 

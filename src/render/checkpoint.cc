@@ -11,7 +11,7 @@
 #include "src/render/output.h"
 #include "src/render/run_content.h"
 #include "src/render/saving.h"
-#include "src/wavefront/tiles.h"
+#include "src/wave/tiles.h"
 
 namespace lanelight {
 namespace {

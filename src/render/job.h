@@ -9,8 +9,8 @@
 #include "src/compiled/scene.h"
 #include "src/scene/description.h"
 #include "src/estimate/target.h"
-#include "src/wavefront/plan.h"
-#include "src/wavefront/run.h"
+#include "src/plan/plan.h"
+#include "src/run/run.h"
 
 namespace lanelight {
 

@@ -15,9 +15,9 @@
 #include "src/core/machine_info.h"
 #include "src/image/accumulator.h"
 #include "src/state/state_file.h"
-#include "src/wavefront/films.h"
-#include "src/wavefront/run.h"
-#include "src/wavefront/run_state.h"
+#include "src/wave/films.h"
+#include "src/run/run.h"
+#include "src/wave/run_state.h"
 
 namespace lanelight {
 

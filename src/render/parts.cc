@@ -5,7 +5,7 @@
 
 #include "src/core/check.h"
 #include "src/core/error.h"
-#include "src/wavefront/tiles.h"
+#include "src/wave/tiles.h"
 
 namespace lanelight {
 namespace {

@@ -45,7 +45,7 @@ struct Rendering {
 Rendering RenderToFiles(const Job& job, const std::string& scene,
                         const RenderTargets& targets, const RenderHooks& hooks);
 
-/// The same for a worker (src/wavefront/rank_group.h): nothing is written.
+/// The same for a worker (src/run/rank_group.h): nothing is written.
 void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop);
 
 /// The second half of it, for a film whoever has rendered it: `identity` and `head` say

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "src/state/state_file.h"
-#include "src/wavefront/run_state.h"
+#include "src/wave/run_state.h"
 
 namespace lanelight {
 

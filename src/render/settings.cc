@@ -8,7 +8,7 @@
 #include "src/core/error.h"
 #include "src/image/image.h"
 #include "src/scene/rendered_pixels.h"
-#include "src/wavefront/training.h"
+#include "src/train/training.h"
 
 namespace lanelight {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "src/compile/compile.h"
 #include "src/scene/description.h"
-#include "src/wavefront/plan.h"
-#include "src/wavefront/run.h"
+#include "src/plan/plan.h"
+#include "src/run/run.h"
 
 namespace lanelight {
 

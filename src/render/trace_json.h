@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "src/wavefront/run.h"
+#include "src/run/run.h"
 
 namespace lanelight {
 

@@ -10,7 +10,7 @@
 #include "src/image/pixel_rect.h"
 #include "src/study/measurement.h"
 #include "src/study/moments.h"
-#include "src/wavefront/run.h"
+#include "src/run/run.h"
 
 namespace lanelight {
 

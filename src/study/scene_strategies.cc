@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "src/study/scene_runner.h"
-#include "src/wavefront/plan_key.h"
+#include "src/plan/plan_key.h"
 
 namespace lanelight {
 

@@ -9,7 +9,7 @@
 #include "src/accel/tree_folder.h"
 #include "src/render/parts.h"
 #include "src/sweep/sweep_file.h"
-#include "src/wavefront/run.h"
+#include "src/run/run.h"
 
 namespace lanelight {
 

@@ -10,7 +10,7 @@
 
 #include "src/render/settings.h"
 #include "src/stat/interval.h"
-#include "src/wavefront/run.h"
+#include "src/run/run.h"
 
 namespace lanelight {
 

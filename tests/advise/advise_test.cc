@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "src/core/parallel.h"
-#include "src/wavefront/decision_candidates.h"
-#include "src/wavefront/strategy_trial.h"
+#include "src/train/decision_candidates.h"
+#include "src/train/strategy_trial.h"
 
 namespace lanelight {
 namespace {

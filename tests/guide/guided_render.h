@@ -4,8 +4,8 @@
 #include <string>
 
 #include "src/prepare/tables.h"
-#include "src/wavefront/training_pass.h"
-#include "src/wavefront/wavefront.h"
+#include "src/train/training_pass.h"
+#include "src/wave/wavefront.h"
 #include "tests/wavefront/agreement.h"
 
 namespace lanelight::test {

@@ -7,9 +7,9 @@
 
 #include "src/prepare/guide_records.h"
 #include "src/prepare/parameters.h"
-#include "src/wavefront/training.h"
-#include "src/wavefront/training_pass.h"
-#include "src/wavefront/wavefront.h"
+#include "src/train/training.h"
+#include "src/train/training_pass.h"
+#include "src/wave/wavefront.h"
 #include "tests/reference/scenes.h"
 #include "tests/wavefront/render_fixture.h"
 

@@ -6,9 +6,9 @@
 
 #include "src/core/error.h"
 #include "src/prepare/guide_cell.h"
-#include "src/wavefront/guide_tables.h"
-#include "src/wavefront/train_guide.h"
-#include "src/wavefront/trained_tables.h"
+#include "src/train/guide_tables.h"
+#include "src/train/train_guide.h"
+#include "src/train/trained_tables.h"
 #include "tests/guide/prepared.h"
 
 namespace lanelight {

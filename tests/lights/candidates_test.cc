@@ -7,7 +7,7 @@
 
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
-#include "src/wavefront/check_strategy.h"
+#include "src/plan/check_strategy.h"
 #include "tests/control/control_scenes.h"
 #include "tests/support/wave_fixture.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "src/compile/compile.h"
-#include "src/wavefront/plan.h"
+#include "src/plan/plan.h"
 #include "tests/media/scenes.h"
 
 namespace lanelight::test {

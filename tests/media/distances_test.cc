@@ -5,7 +5,7 @@
 #include "src/core/pi.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/prepare/use_strategy.h"
-#include "src/wavefront/plan.h"
+#include "src/plan/plan.h"
 #include "tests/media/scenes.h"
 #include "tests/wavefront/agreement.h"
 

@@ -5,7 +5,7 @@
 
 #include "src/prepare/parameters.h"
 #include "src/prepare/pmj02.h"
-#include "src/wavefront/run.h"
+#include "src/run/run.h"
 #include "tests/points/draw.h"
 
 namespace lanelight::test {

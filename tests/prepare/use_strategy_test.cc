@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include "src/image/exr.h"
-#include "src/wavefront/check_strategy.h"
-#include "src/wavefront/plan_features.h"
-#include "src/wavefront/plan_key.h"
+#include "src/plan/check_strategy.h"
+#include "src/plan/plan_features.h"
+#include "src/plan/plan_key.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/wavefront/agreement.h"
 

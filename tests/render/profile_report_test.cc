@@ -8,7 +8,7 @@
 
 #include "src/render/roofline.h"
 #include "src/render/trace_json.h"
-#include "src/wavefront/profile.h"
+#include "src/wave/profile.h"
 
 namespace lanelight {
 namespace {

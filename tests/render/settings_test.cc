@@ -6,7 +6,7 @@
 
 #include "src/core/error.h"
 #include "src/render/memory.h"
-#include "src/wavefront/run.h"
+#include "src/run/run.h"
 
 namespace lanelight {
 

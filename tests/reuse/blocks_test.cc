@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "src/wavefront/block_layout.h"
-#include "src/wavefront/tiles.h"
+#include "src/wave/block_layout.h"
+#include "src/wave/tiles.h"
 
 namespace lanelight {
 namespace {

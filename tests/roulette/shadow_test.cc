@@ -7,7 +7,7 @@
 #include "kernels/simd/target.h"
 #include "kernels/stages.h"
 #include "src/prepare/tables.h"
-#include "src/wavefront/trained_tables.h"
+#include "src/train/trained_tables.h"
 #include "tests/control/control_scenes.h"
 #include "tests/support/wave_fixture.h"
 

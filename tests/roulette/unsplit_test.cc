@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "src/stat/hypothesis.h"
-#include "src/wavefront/path_records.h"
-#include "src/wavefront/unsplit_variances.h"
+#include "src/train/path_records.h"
+#include "src/train/unsplit_variances.h"
 #include "tests/guide/prepared.h"
 
 namespace lanelight::test {

@@ -11,8 +11,8 @@
 #include "src/core/error.h"
 #include "src/prepare/guide_records.h"
 #include "src/prepare/guide_square.h"
-#include "src/wavefront/training.h"
-#include "src/wavefront/training_pass.h"
+#include "src/train/training.h"
+#include "src/train/training_pass.h"
 
 namespace lanelight {
 namespace {

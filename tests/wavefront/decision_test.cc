@@ -4,10 +4,10 @@
 #include <numeric>
 #include <random>
 
-#include "src/wavefront/path_records.h"
-#include "src/wavefront/pilot_comparison.h"
-#include "src/wavefront/strategy_trial.h"
-#include "src/wavefront/training.h"
+#include "src/train/path_records.h"
+#include "src/train/pilot_comparison.h"
+#include "src/train/strategy_trial.h"
+#include "src/train/training.h"
 #include "tests/wavefront/agreement.h"
 
 namespace lanelight::test {

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "src/prepare/tables.h"
-#include "src/wavefront/group_tasks.h"
+#include "src/run/group_tasks.h"
 #include "tests/wavefront/lamp_scene.h"
 #include "tests/wavefront/render_fixture.h"
 #include "tests/wavefront/thread_group.h"

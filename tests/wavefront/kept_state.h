@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/wavefront/films.h"
+#include "src/wave/films.h"
 
 namespace lanelight {
 

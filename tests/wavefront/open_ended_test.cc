@@ -6,7 +6,7 @@
 
 #include "src/estimate/target.h"
 #include "src/prepare/prepare_scene.h"
-#include "src/wavefront/schedule.h"
+#include "src/run/schedule.h"
 #include "tests/wavefront/lamp_scene.h"
 #include "tests/wavefront/render_fixture.h"
 

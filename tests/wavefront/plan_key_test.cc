@@ -1,5 +1,5 @@
 // Strategies with equal keys render the same bits; what differs has another key.
-#include "src/wavefront/plan_key.h"
+#include "src/plan/plan_key.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // The plan: what a scene does not need is not planned, not allocated, not run.
-#include "src/wavefront/plan.h"
+#include "src/plan/plan.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -7,7 +7,7 @@
 
 #include "src/core/check.h"
 #include "src/prepare/prepare_scene.h"
-#include "src/wavefront/wavefront.h"
+#include "src/wave/wavefront.h"
 #include "tests/wavefront/render_fixture.h"
 
 namespace lanelight {

@@ -5,9 +5,9 @@
 #include <thread>
 
 #include "src/prepare/tables.h"
-#include "src/wavefront/patience.h"
-#include "src/wavefront/tasks.h"
-#include "src/wavefront/wavefront.h"
+#include "src/wave/patience.h"
+#include "src/run/tasks.h"
+#include "src/wave/wavefront.h"
 #include "tests/wavefront/render_fixture.h"
 
 namespace lanelight {

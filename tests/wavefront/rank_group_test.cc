@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/wavefront/run_start.h"
+#include "src/run/run_start.h"
 #include "tests/wavefront/resume_fixture.h"
 #include "tests/wavefront/thread_group.h"
 

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/wavefront/plan.h"
+#include "src/plan/plan.h"
 #include "tests/surface/relief_files.h"
 #include "tests/wavefront/agreement.h"
 

@@ -9,7 +9,7 @@
 #include "src/parse/parse.h"
 #include "src/prepare/groups.h"
 #include "src/prepare/use_strategy.h"
-#include "src/wavefront/run.h"
+#include "src/run/run.h"
 
 namespace lanelight {
 

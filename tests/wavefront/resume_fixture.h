@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/wavefront/run_state.h"
+#include "src/wave/run_state.h"
 #include "tests/wavefront/kept_state.h"
 #include "tests/wavefront/render_fixture.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "src/wavefront/seen_light_places.h"
-#include "src/wavefront/seen_lights.h"
+#include "src/wave/seen_light_places.h"
+#include "src/wave/seen_lights.h"
 #include "tests/reference/scenes.h"
 #include "tests/wavefront/render_fixture.h"
 

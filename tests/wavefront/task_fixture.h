@@ -8,9 +8,9 @@
 #include "src/prepare/path_values.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/prepare/tables.h"
-#include "src/wavefront/drive.h"
-#include "src/wavefront/tiles.h"
-#include "src/wavefront/training.h"
+#include "src/wave/drive.h"
+#include "src/wave/tiles.h"
+#include "src/train/training.h"
 #include "tests/wavefront/render_fixture.h"
 
 namespace lanelight {
@@ -40,7 +40,7 @@ inline std::string MeshScene() {
          "] \"integer indices\" [ " + indices + "]\n";
 }
 
-/// What a task of a render does (src/wavefront/tasks.cc), with a plan to tamper with.
+/// What a task of a render does (src/run/tasks.cc), with a plan to tamper with.
 class TaskFixture {
  public:
   TaskFixture(const std::string& text, const std::string& strategy, Auxiliary auxiliary)

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "src/wavefront/rank_group.h"
+#include "src/run/rank_group.h"
 
 namespace lanelight {
 

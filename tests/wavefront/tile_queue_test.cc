@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
-#include "src/wavefront/tile_queue.h"
+#include "src/run/tile_queue.h"
 
 namespace lanelight {
 namespace {

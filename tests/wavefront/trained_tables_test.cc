@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "src/core/error.h"
-#include "src/wavefront/trained_tables.h"
+#include "src/train/trained_tables.h"
 
 namespace lanelight {
 namespace {

@@ -1,0 +1,190 @@
+#include "src/plan/check_strategy.h"
+
+#include "src/core/error.h"
+#include "src/path/features.h"
+#include "src/prepare/ambient.h"
+#include "src/plan/plan_features.h"
+
+namespace lanelight {
+namespace {
+
+using Notes = std::vector<std::string>;
+
+[[noreturn]] void Refuse(const std::string& message) {
+  throw InputError("strategy: " + message);
+}
+
+// Light samples alone must find every direction of at least one environment.
+void CheckAmbient(const Strategy& s, const CompiledScene& scene) {
+  if (s.directions != Directions::kLight) return;
+  for (std::uint32_t index : scene.lights.infinite) {
+    const std::int32_t e = scene.lights.lights[index].environment;
+    if (e < 0) return;
+    if (SamplesEveryDirection(scene.lights.environments[static_cast<std::size_t>(e)]))
+      return;
+  }
+  Refuse(
+      "control=ambient with directions=light needs an environment that light samples "
+      "find all of; this one has black or very dark directions: use directions=mis");
+}
+
+void CheckControl(const Strategy& s, const CompiledScene& scene,
+                  const PlanOptions& options) {
+  if (s.control == Control::kNone) return;
+  const FeatureSet& f = scene.features;
+  const std::string name = std::string("control=") + Name(s.control);
+  if (s.control == Control::kRegression) return;
+  if (options.max_depth == 0) Refuse(name + " needs a maximum depth of at least 1");
+  if (!f.HasAny({Feature::kDiffuse, Feature::kDiffuseTransmission})) {
+    Refuse(name +
+           " works on Lambertian surfaces, and this scene has none; control=regression "
+           "works on any");
+  }
+  if (s.control == Control::kAmbient && !f.Has(Feature::kInfiniteLights)) {
+    Refuse("control=ambient needs an environment, and this scene has none" +
+           std::string(f.Has(Feature::kAreaLights)
+                           ? "; control=analytic is for its area lights"
+                           : "; control=regression needs no light of a kind"));
+  }
+  if (s.control == Control::kAmbient) CheckAmbient(s, scene);
+  if (s.control != Control::kAnalytic) return;
+  if (!f.Has(Feature::kAreaLights)) {
+    Refuse("control=analytic needs emitting shapes, and this scene has none" +
+           std::string(f.Has(Feature::kInfiniteLights)
+                           ? "; control=ambient is for its environment"
+                           : "; control=regression needs no light of a kind"));
+  }
+  if (!s.SamplesHittableLights()) {
+    Refuse(std::string("control=analytic needs samples of the area lights: "
+                       "directions=light or mis, not ") +
+           Name(s.directions));
+  }
+}
+
+// A sample of a block is not what one path has brought.
+void CheckReuse(const Strategy& s) {
+  if (s.reuse == Reuse::kNone) return;
+  if (s.Splits()) {
+    Refuse(std::string("reuse=block needs paths that do not split, as with roulette=") +
+           Name(s.roulette) + ": use roulette=throughput");
+  }
+  if (s.control != Control::kNone) {
+    Refuse(std::string("control=") + Name(s.control) +
+           " needs samples of one path each, which reuse=block does not leave: leave out "
+           "one of the two");
+  }
+}
+
+// What the checks of single keys know.
+struct Checked {
+  const Strategy& strategy;
+  const FeatureSet &scene, &plan;  // features
+  const PlanOptions& options;
+  Notes& notes;
+
+  void Note(const std::string& choice, const std::string& why) const {
+    notes.push_back(choice + " has no effect" + why);
+  }
+};
+
+void NoteLights(const Checked& c) {
+  const Strategy& s = c.strategy;
+  if (s.light_selection != LightSelection::kPower && !c.scene.Has(Feature::kManyLights)) {
+    c.Note(std::string("light-selection=") + Name(s.light_selection),
+           ": there are no two lights to choose from");
+  }
+  if (s.light_points != LightPoints::kArea && !SamplesFlatLights(c.plan)) {
+    c.Note(std::string("light-points=") + Name(s.light_points),
+           ": no triangle or rectangle that emits is sampled");
+  }
+  if (s.light_candidates != LightCandidates::kSingle && !SamplesOfLightDiffer(c.plan)) {
+    c.Note("light-candidates=resampled", c.plan.Has(Feature::kLights)
+                                             ? ": all samples of the only light are alike"
+                                             : ": no light is sampled");
+  }
+  if (s.directions == Directions::kLight && !c.scene.Has(Feature::kLights)) {
+    c.notes.push_back(
+        "directions=light: there is no light to sample, only what the camera "
+        "sees itself or in mirrors");
+  }
+  if (s.shadow_roulette != ShadowRoulette::kNone && !c.plan.Has(Feature::kLights)) {
+    c.Note("shadow-roulette=contribution", ": no light is sampled");
+  }
+  if (s.pairs == Pairs::kAntithetic && s.paired == Paired::kLight &&
+      !c.plan.Has(Feature::kLights)) {
+    c.Note("pairs=antithetic:light", ": no light is sampled");
+  }
+}
+
+void NoteEnvironment(const Checked& c) {
+  const Strategy& s = c.strategy;
+  if (s.environment != EnvironmentPoints::kCompensated) return;
+  if (!c.scene.Has(Feature::kInfiniteImage)) {
+    c.Note("environment=compensated", ": there is no environment image");
+  } else if (s.directions != Directions::kMis) {
+    c.Note("environment=compensated",
+           std::string(" with directions=") + Name(s.directions) +
+               ": only with directions=mis do scattered rays find what light samples "
+               "leave out");
+  }
+}
+
+void NoteMedia(const Checked& c) {
+  const Strategy& s = c.strategy;
+  if (s.distances != Distances::kExponential &&
+      !c.plan.Has(Feature::kEquiangularDistances)) {
+    c.Note("distances=equiangular",
+           ": there is no homogeneous medium that scatters, or no light with a place");
+  }
+}
+
+void NotePaths(const Checked& c) {
+  const Strategy& s = c.strategy;
+  if (s.roulette != Roulette::kThroughput && s.roulette != Roulette::kNone &&
+      c.options.max_depth <= 1) {
+    c.Note(std::string("roulette=") + Name(s.roulette),
+           ": paths end after one scattering event");
+  }
+  if (s.reuse != Reuse::kNone && !c.plan.Has(Feature::kReuse)) {
+    c.Note(std::string("reuse=") + Name(s.reuse),
+           c.scene.Has(Feature::kMedia)
+               ? ": there are media"
+               : ": no path scatters a second time from a diffuse surface");
+  }
+  if (s.decide == Decide::kPilot && c.plan.Has(Feature::kReuse)) {
+    c.Note("decide=pilot", ": with reuse=block asked for it tries nothing else");
+  }
+  if (s.guiding == Guiding::kNone) return;
+  const std::string guiding = std::string("guiding=") + Name(s.guiding);
+  if (s.directions == Directions::kUniform) {
+    c.Note(guiding, ": directions=uniform asks nobody");
+  } else if (!c.plan.Has(Feature::kGuided)) {
+    c.Note(guiding, ": nothing scatters, or mirrors and clear glass alone");
+  }
+}
+
+}  // namespace
+
+Notes CheckStrategy(const CompiledScene& scene, const PlanOptions& options) {
+  const Strategy s = PlannedStrategy(scene, options);
+  CheckControl(s, scene, options);
+  CheckReuse(s);
+  Notes notes;
+  const FeatureSet plan = PlanFeatures(scene, options);
+  const Checked checked = {s, scene.features, plan, options, notes};
+  NoteLights(checked);
+  NoteEnvironment(checked);
+  NoteMedia(checked);
+  NotePaths(checked);
+  if (s.control == Control::kRegression && !plan.Has(Feature::kRegressionControl)) {
+    checked.Note("control=regression", ": nothing scatters");
+  } else if (s.control == Control::kRegression && s.points != Points::kIndependent) {
+    notes.push_back(std::string("control=regression gains little with points=") +
+                    Name(s.points) +
+                    ", which integrate polynomials well already: its place is "
+                    "points=independent");
+  }
+  return notes;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,74 @@
+// The plan of a render: the stages, columns and kernel variants that this scene and these
+// options need, and nothing else; with a reason for everything left out.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/compiled/scene.h"
+#include "src/path/sample_planes.h"
+#include "src/path/stage.h"
+
+namespace lanelight {
+
+/// Changes of a strategy (as in --strategy) one after the other; either may be empty.
+inline std::string JoinedChanges(const std::string& first, const std::string& then) {
+  return first + (first.empty() || then.empty() ? "" : ",") + then;
+}
+
+struct PlanOptions {
+  std::uint32_t max_depth = 5;
+  Auxiliary auxiliary = Auxiliary::kNone;
+  std::uint32_t wavefront = 0;  // paths; 0 = sized so that the live columns fit in L2
+  /// Of a training pass (src/train/training.h): what it turns on to record. It has
+  /// independent points, no pairs and no control variate.
+  std::optional<FeatureSet> training;
+  /// Of a training pass: it has the strategy's points all the same, and its reuse, so
+  /// that its samples depend on each other as those of a render do.
+  bool own_points = false;
+  /// To the scene's strategy, as in --strategy: what a training has found to be better
+  /// (roulette, guiding, decide). Empty: none.
+  std::string changes;
+  /// Camera rays and the emission that they see, nothing else; with max_depth 0.
+  bool camera_only = false;
+
+  /// Changes the strategy further.
+  void Change(const std::string& text) { changes = JoinedChanges(changes, text); }
+};
+
+struct PlannedStage {
+  Stage stage;
+  StageFn kernel = nullptr;
+};
+struct OmittedStage {
+  Stage stage;
+  std::string reason;  // "no spheres", ...
+};
+
+struct Plan {
+  FeatureSet features;               // of scene and options together
+  std::vector<PlannedStage> stages;  // in execution order
+  /// Of blocks of paths that have ended (reuse=block), likewise.
+  std::vector<PlannedStage> block_stages;
+  /// Of them, [first, last) make and consider one candidate of a light sample: run once
+  /// for each (RunParameters::candidates). None where light samples are not resampled.
+  std::size_t first_repeated = 0, last_repeated = 0;
+  /// For stages that send rays of their own; none without kInterfaces or kReuse.
+  RayKernels ray_kernels;
+  std::vector<OmittedStage> omitted;
+  std::vector<Field> live_fields, absent_fields;
+  std::size_t bytes_per_path = 0;
+  std::uint32_t wavefront = 0;     // paths per wavefront
+  std::uint32_t slots = 0;         // room in it: more where paths split
+  std::vector<std::string> notes;  // choices of the strategy that do nothing here
+  PlanOptions options;
+};
+
+/// The plan of the scene's strategy. Throws InputError for a strategy that cannot work on
+/// this scene, CheckFailure if a stage would read a live column that no earlier stage
+/// writes.
+Plan MakePlan(const CompiledScene& scene, const PlanOptions& options);
+
+}  // namespace lanelight

@@ -1,0 +1,48 @@
+#include "src/run/run_parts.h"
+
+#include <algorithm>
+
+#include "src/core/parallel.h"
+
+namespace lanelight {
+
+void RunParts::Start() {
+  const double budget = setting_.options.seconds;
+  if (budget <= 0) return;
+  const Tasks& tasks = setting_.tasks;
+  pace_.emplace(budget, Pace::Tasks{tasks.tiles().size(), MaxThreads(), tasks.per_task(),
+                                    setting_.unit()});
+}
+
+std::optional<RunPart> RunParts::Next() {
+  const std::uint64_t done = setting_.tasks.Done(), limit = setting_.limit();
+  if (done >= limit || watch_.Ended() || looks_.reached() || looks_.hopeless())
+    return std::nullopt;
+  // Without a budget nothing else ends a round.
+  Round round = {setting_.tasks.per_task(), limit};
+  if (pace_) round = pace_->Next(setting_.clock.Elapsed());
+  RunPart part;
+  part.begin = done;
+  part.first = done / kSamplesPerSeed * kSamplesPerSeed;
+  part.end = std::min(
+      {limit, looks_.After(done), done + round.samples, part.first + kSamplesPerSeed});
+  part.per_task = round.per_task;
+  part.start = std::chrono::steady_clock::now();
+  return part;
+}
+
+void RunParts::Finish(const RunPart& part) {
+  if (pace_) pace_->Took(part.end - part.begin, SecondsSince(part.start));
+  const bool halfway = 2 * setting_.clock.Elapsed() > setting_.options.seconds;
+  if (pace_ && watch_.reserved() == 0 && halfway) TimeFit();
+  looks_.LookIfDue(part.end);
+}
+
+// A control variate is fitted once more after the last part.
+void RunParts::TimeFit() {
+  const auto begin = std::chrono::steady_clock::now();
+  setting_.films.film().FitControl();
+  watch_.Reserve(SecondsSince(begin));
+}
+
+}  // namespace lanelight

@@ -1,0 +1,56 @@
+// Watches the tasks of a run: when they have to end, and how far they have come.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <optional>
+
+#include "src/run/error_looks.h"
+#include "src/wave/patience.h"
+#include "src/run/run_setting.h"
+#include "src/wave/task_watcher.h"
+
+namespace lanelight {
+
+class RunWatch : public TaskWatcher {
+ public:
+  /// Refers to both for as long as it lives.
+  RunWatch(const RunSetting& setting, const ErrorLooks& looks)
+      : setting_(setting), looks_(looks) {}
+
+  /// Tasks begin, after any training. Before it only Interrupted may be asked.
+  void Start();
+  /// Between rounds: whether the run ends here, before its samples are done.
+  bool Ended();
+  /// Between rounds: so many seconds of a time budget are needed after the last task.
+  void Reserve(double seconds) { reserved_ = seconds; }
+  double reserved() const { return reserved_; }
+  /// Why the run has ended.
+  StopReason Reason() const;
+
+  /// By a signal, to this process or another one.
+  bool Interrupted() const override {
+    const std::atomic<bool>* const stop = setting_.options.stop;
+    return (stop != nullptr && stop->load(std::memory_order_relaxed)) ||
+           setting_.work.Stopped();
+  }
+  bool Stopped() const override;
+  bool PutsDown() const override;
+  void TaskDone() override;
+
+ private:
+  bool OutOfTime() const;
+  double Fraction(double seconds, std::uint64_t samples) const;
+
+  const RunSetting& setting_;
+  const ErrorLooks& looks_;
+  mutable std::optional<Patience> patience_;
+  mutable std::atomic<bool> put_down_{false};  // tasks were; that ends the run
+  bool every_pixel_ = false;                   // has a sample
+  double reserved_ = 0;
+  std::chrono::steady_clock::time_point last_report_;
+  std::mutex progress_mutex_;
+};
+
+}  // namespace lanelight

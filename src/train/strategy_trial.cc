@@ -1,0 +1,178 @@
+#include "src/train/strategy_trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/train/path_records.h"
+#include "src/plan/plan_features.h"
+#include "src/train/unsplit_variances.h"
+#include "src/wave/wavefront.h"
+
+namespace lanelight {
+namespace {
+
+constexpr double kMissing = 3;  // standard errors
+
+// Pixels that must carry a candidate's error: its sum is known to a quarter then. In last
+// rounds of advice for 10 s, five seeds each, adjoint had 1.0 to 7.1 where caustics carry
+// its error (material-testball, media: 0.46 times as efficient in long renders, although
+// each of these rounds had it ahead), and 32 to 75 where it pays (corridor, veach-ajar;
+// 14 once).
+constexpr double kLeastPixels = 16;
+
+// A mean over pixels whose standard error is below this part of it needs no second
+// estimate. Where all is that even, what stratified points gain also hangs on the numbers
+// that decisions themselves use (a closed room), which copies know nothing of.
+constexpr double kSure = 0.1;
+
+bool IsSure(const std::vector<double>& variances) {
+  double sum = 0, squares = 0;
+  for (double v : variances) sum += v, squares += v * v;
+  return squares - sum * sum / double(variances.size()) <= kSure * kSure * sum * sum;
+}
+
+// Both estimate the same; but what has seen less bright samples than the other tells
+// nothing new, and where it is all noise it may be negative.
+PilotMeasure Both(const PilotMeasure& own, PilotMeasure unsplit) {
+  if (unsplit.Variance() < own.Variance()) return own;
+  for (std::size_t i = 0; i < own.variances.size(); ++i) {
+    unsplit.variances[i] = (own.variances[i] + unsplit.variances[i]) / 2;
+  }
+  return unsplit;
+}
+
+}  // namespace
+
+PilotGain TriedStrategy::Gain() const {
+  PilotGain gain = GainOf(measure, usual);
+  if (!paired) gain.log = std::min(gain.log, std::log(usual.Score() / measure.Score()));
+  gain.log = std::min(gain.log, gain.least);
+  return gain;
+}
+
+bool TriedStrategy::MissesLight() const {
+  const double error = std::hypot(light.standard_error, usual_light.standard_error);
+  return light.sum + kMissing * error < usual_light.sum;
+}
+
+// Without any error at all it is exact.
+bool TriedStrategy::IsCarriedByFew() const {
+  return measure.Variance() > 0 && EffectivePixels(measure.variances) < kLeastPixels;
+}
+
+double TriedStrategy::Beyond(double must_gain, double standard_errors) const {
+  const PilotGain all = GainOf(measure, usual);
+  const double must = std::log(must_gain);
+  if (all.least - standard_errors * all.standard_error <= must || MissesLight()) return 0;
+  if (IsCarriedByFew()) return 0;
+  // What has not seen the usual strategy's bright samples may owe its gain to one.
+  if (!paired && !IsClearlyBetter(measure, usual, 1 / must_gain, standard_errors)) {
+    return 0;
+  }
+  return Gain().log - must;
+}
+
+TriedStrategy ToTry(const CompiledScene& scene, const PlanOptions& options,
+                    const std::string& changes, double price) {
+  TriedStrategy tried;
+  tried.changes = changes;
+  tried.price = price;
+  tried.options = options;
+  tried.options.changes = JoinedChanges(changes, "decide=none");
+  tried.tables = MakeStrategyTables(scene);
+  return tried;
+}
+
+StrategyTrial::StrategyTrial(const CompiledScene& scene, const TrainingOptions& training,
+                             std::uint32_t seed, std::uint64_t planned)
+    : scene_(scene),
+      training_(training),
+      seed_(seed),
+      planned_(planned),
+      watcher_(training.stop) {}
+
+void StrategyTrial::Begin(std::uint64_t samples, std::uint32_t spp, std::uint64_t turn) {
+  work_ = MakeTrainingWork(scene_, samples, spp, turn);
+  work_.spp -= work_.spp % kReplicates;
+  image_.reset();
+}
+
+TrainingOutcome StrategyTrial::Learn(const TriedStrategy& tried, std::uint64_t planned,
+                                     StrategyTables& tables) {
+  const Plan plan = MakePlan(scene_, tried.options);
+  if (!NeedsTraining(plan)) return {};
+  TrainingOptions options = training_;
+  options.planned_samples = planned;
+  options.keep_roulette |= !tried.changes.empty();
+  const TrainingOutcome out = Train({scene_, plan, seed_, options, tables});
+  spent_.samples += out.samples;
+  spent_.rays += out.rays;
+  return out;
+}
+
+// It splits what otherwise plays the roulette that the records tell of.
+bool StrategyTrial::RecordsUnsplit(const TriedStrategy& tried,
+                                   const TriedStrategy& usual) const {
+  const Strategy given = PlannedStrategy(scene_, usual.options);
+  return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
+         given.scale == 1 && given.First() == kThroughputFirst &&
+         tried.changes == "roulette=adjoint";
+}
+
+TrainingSamples StrategyTrial::Render(const PlanOptions& options,
+                                      const StrategyTables& tables,
+                                      const TrainingWork& work) {
+  TrainingPass pass = {scene_, options, &tables, seed_, &watcher_};
+  pass.options.own_points = true;
+  TrainingSamples samples = RunTrainingPass(pass, work);
+  spent_.samples += samples.colors.size();
+  spent_.rays += samples.rays();
+  return samples;
+}
+
+PilotLight StrategyTrial::LightOf(const TrainingSamples& samples,
+                                  const PilotMeasure& measure) const {
+  PilotLight light;
+  for (std::size_t i = 0; i < samples.colors.size(); ++i) {
+    const std::uint32_t pixel = work_.pixels[i / work_.spp];
+    for (int c = 0; c < 3; ++c) {
+      light.sum +=
+          samples.colors[i][c] * std::sqrt(image_->ErrorWeight(pixel, c)) / 3 / work_.spp;
+    }
+  }
+  light.standard_error = std::sqrt(measure.Variance() / work_.spp);
+  return light;
+}
+
+bool StrategyTrial::Try(TriedStrategy& tried, const TriedStrategy& usual) {
+  if (!tried.has_learned) {
+    // It may have found that it had better be something else.
+    tried.options.Change(Learn(tried, planned_, tried.tables).changes);
+    tried.has_learned = true;
+  }
+  if (!Stopped()) Measure(tried, usual);
+  return !Stopped();
+}
+
+void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& usual) {
+  PlanOptions options = tried.options;
+  const bool records = RecordsUnsplit(tried, usual);
+  if (records) options.training = FeatureSet{Feature::kRecordsUnsplit};
+  const TrainingSamples samples = Render(options, tried.tables, work_);
+  if (Stopped()) return;
+  // Weights are those of the image that the usual strategy shows.
+  if (!image_) image_ = GuessImage(scene_, samples, work_);
+  tried.measure = {tried.price * samples.Cost(),
+                   RelativeVariances(samples, work_, *image_)};
+  tried.light = LightOf(samples, tried.measure);
+  tried.usual = usual.measure;
+  tried.usual_light = usual.light;
+  tried.paired = records && !IsSure(usual.measure.variances);
+  if (!tried.paired) return;
+  PilotMeasure unsplit = usual.measure;
+  unsplit.variances = UnsplitVariances(samples, work_, *image_, tried.tables.path_values,
+                                       ExposureOf(scene_), tried.measure.variances);
+  tried.usual = Both(usual.measure, std::move(unsplit));
+}
+
+}  // namespace lanelight

@@ -1,0 +1,23 @@
+// The loop of one task: waves of stages until all of its samples are done.
+#pragma once
+
+#include "src/plan/plan.h"
+#include "src/wave/stage_clock.h"
+#include "src/wave/task_watcher.h"
+#include "src/wave/wavefront.h"
+
+namespace lanelight {
+
+/// Samples of a pixel in adjacent slots of a plan's wavefront: their rays share more of
+/// the scene than those of neighbouring pixels. Never more than it has slots; even where
+/// samples come in pairs.
+std::uint32_t SamplesTogether(const CompiledScene& scene, const Plan& plan);
+
+/// The loop of one task: runs `work` to the end on `wavefront`, writing finished samples
+/// to `buffer`. `clock` times the stages; null: nothing is timed. Returns false if the
+/// watcher has had it put down; then the buffer is of no use. Null: nobody does.
+bool Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
+           const SampleBuffer& buffer, StageClock* clock,
+           const TaskWatcher* watcher = nullptr);
+
+}  // namespace lanelight

@@ -1,0 +1,31 @@
+// The watcher of work that nothing but a signal ends early.
+#pragma once
+
+#include <atomic>
+
+#include "src/core/stopwatch.h"
+#include "src/wave/patience.h"
+#include "src/wave/task_watcher.h"
+
+namespace lanelight {
+
+class StopWatcher : public TaskWatcher {
+ public:
+  /// `stop` is set by a signal; null: never.
+  explicit StopWatcher(const std::atomic<bool>* stop) : stop_(stop) {}
+
+  bool Stopped() const override { return stop_ != nullptr && *stop_; }
+  void TaskDone() override {}
+  bool Interrupted() const override { return Stopped(); }
+  bool PutsDown() const override {
+    if (!Stopped()) return false;
+    return patience_.IsOver(true, false, watch_.Seconds());
+  }
+
+ private:
+  const std::atomic<bool>* stop_;
+  const Stopwatch watch_;
+  mutable Patience patience_;
+};
+
+}  // namespace lanelight

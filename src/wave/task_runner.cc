@@ -1,0 +1,117 @@
+#include "src/wave/task_runner.h"
+
+#include <algorithm>
+
+#include "src/core/check.h"
+#include "src/core/parallel.h"
+#include "src/prepare/path_values.h"
+#include "src/wave/copies.h"
+#include "src/wave/drive.h"
+#include "src/wave/profile.h"
+#include "src/wave/tiles.h"
+
+namespace lanelight {
+
+TaskRunner::TaskRunner(const CompiledScene& scene, const Plan& plan,
+                       const RunParameters& run, const RunOptions& options)
+    : scene_(scene),
+      plan_(plan),
+      run_(run),
+      options_(options),
+      workspaces_(static_cast<std::size_t>(ThreadSlots())) {}
+
+void TaskRunner::Begin(const std::vector<PixelRect>& tiles) {
+  seen_lights_ = SeenLightEdges::Make(scene_, plan_.options, run_);
+  if (seen_lights_) seen_lights_->Find(tiles);
+}
+
+Workspace& TaskRunner::ThreadWorkspace() {
+  const std::size_t thread = static_cast<std::size_t>(ThreadIndex());
+  LL_CHECK_LT(thread, workspaces_.size());
+  if (!workspaces_[thread]) {
+    workspaces_[thread] = std::make_unique<Workspace>(scene_, plan_, run_, options_);
+  }
+  return *workspaces_[thread];
+}
+
+TileWork TaskRunner::SetUp(const TileTask& task, Workspace& space) const {
+  TilePixels(task.rect, scene_.film.width, &space.pixels);
+  TileWork work;
+  work.pixels = space.pixels.data();
+  work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
+  work.first_sample = task.first_sample;
+  work.samples = task.samples;
+  work.together = SamplesTogether(scene_, plan_);
+  Wave& wave = space.wavefront.wave();
+  wave.scene = &scene_;
+  wave.rays_closest = wave.rays_shadow = 0;
+  wave.health = {};
+  return work;
+}
+
+SampleBuffer TaskRunner::Buffer(const TileWork& work, TaskSamples& out) const {
+  const bool splits = plan_.features.Has(Feature::kSplitting);
+  const std::uint32_t rows = work.num_pixels * work.samples * (splits ? kMostCopies : 1);
+  const std::size_t size =
+      std::size_t{rows} * static_cast<std::size_t>(run_.planes.count());
+  if (out.values.size() < size) out.values.resize(size);
+  // A sample that has not split leaves the rows of its further copies alone.
+  if (splits) std::fill_n(out.values.begin(), size, 0.0f);
+  return {out.values.data(), rows};
+}
+
+bool TaskRunner::Run(const TileTask& task, const TaskWatcher& watcher, TaskSamples& out) {
+  Workspace& space = ThreadWorkspace();
+  StageClock* const clock = space.Clock();
+  if (clock) clock->StartTask();
+  const TileWork work = SetUp(task, space);
+  const SampleBuffer buffer = Buffer(work, out);
+  if (space.reuse) space.reuse->Begin(work, space.wavefront.wave());
+  const bool ended = Drive(space.wavefront, plan_, work, buffer, clock, &watcher);
+  out.count = ended ? task.samples : 0;
+  if (ended) {
+    const std::uint32_t stride = work.num_pixels * work.samples;
+    if (space.reuse) space.reuse->Connect(task.rect, space.wavefront.wave(), clock);
+    const Wave& wave = space.wavefront.wave();
+    out.counts = {stride, wave.rays_closest, wave.rays_shadow, wave.health};
+    if (plan_.features.Has(Feature::kSplitting)) {
+      FoldCopies(out.values.data(), buffer.stride, run_.planes);
+      if (clock) clock->FinishPart(TaskPart::kCopies, stride);
+    }
+    if (seen_lights_) SeeLights(task, out, space);
+  }
+  if (clock) clock->EndTask();
+  return ended;
+}
+
+void TaskRunner::SeeLights(const TileTask& task, TaskSamples& out,
+                           Workspace& space) const {
+  const SeenLightTask seen = {space.pixels, task.first_sample, task.samples,
+                              out.values.data(), space.pixels.size() * task.samples};
+  const bool corrected = seen_lights_->Correct(task.tile, seen, out.counts);
+  StageClock* const clock = space.Clock();
+  if (clock && corrected) clock->FinishPart(TaskPart::kSeen, seen.stride);
+}
+
+void TaskRunner::Merge(const PixelRect& place, TaskSamples& samples, Films& films) {
+  // Row length behind the indices of the film's pixels.
+  const int width = options_.windows.empty()
+                        ? scene_.film.width
+                        : place.width() * static_cast<int>(options_.windows.size());
+  Workspace& space = ThreadWorkspace();
+  StageClock* const clock = space.Clock();
+  if (clock) clock->StartTask();
+  TilePixels(place, width, &space.pixels);
+  films.Add({place, space.pixels, width, samples.values.data(), samples.count});
+  if (!clock) return;
+  clock->FinishPart(TaskPart::kFilm, space.pixels.size() * samples.count);
+  clock->EndTask();
+}
+
+void TaskRunner::AddCounts(RunResult& result) {
+  for (const auto& space : workspaces_) {
+    if (space) lanelight::AddCounts(space->wavefront, space->Clock(), result);
+  }
+}
+
+}  // namespace lanelight

@@ -1,0 +1,59 @@
+// One task: samples of the pixels of a tile, in the wavefront of the thread that runs it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "src/wave/films.h"
+#include "src/wave/run_options.h"
+#include "src/wave/run_result.h"
+#include "src/wave/seen_lights.h"
+#include "src/wave/task_watcher.h"
+#include "src/wave/workspace.h"
+
+namespace lanelight {
+
+struct TileTask {
+  std::size_t tile = 0;                         // in what Begin has been given
+  PixelRect rect;                               // its pixels, of the full image
+  std::uint32_t first_sample = 0, samples = 0;  // of each pixel, as kernels count them
+};
+
+class TaskRunner {
+ public:
+  /// Refers to all of these for as long as it lives; plan and parameters may change until
+  /// the first task.
+  TaskRunner(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
+             const RunOptions& options);
+
+  /// Tasks are of these tiles from here on.
+  void Begin(const std::vector<PixelRect>& tiles);
+
+  // Safe from different threads:
+  /// False, and no samples, if the watcher has had it put down.
+  bool Run(const TileTask& task, const TaskWatcher& watcher, TaskSamples& out);
+  /// Adds samples to the films, whose pixels lie at `place`, and counts their time.
+  void Merge(const PixelRect& place, TaskSamples& samples, Films& films);
+  /// Room for samples, of this thread.
+  TaskSamples& Samples() { return ThreadWorkspace().samples; }
+
+  /// What all threads have counted, and their memory. Takes the trace along.
+  void AddCounts(RunResult& result);
+
+ private:
+  Workspace& ThreadWorkspace();
+  TileWork SetUp(const TileTask& task, Workspace& space) const;
+  SampleBuffer Buffer(const TileWork& work, TaskSamples& out) const;
+  void SeeLights(const TileTask& task, TaskSamples& out, Workspace& space) const;
+
+  const CompiledScene& scene_;
+  const Plan& plan_;
+  const RunParameters& run_;
+  const RunOptions& options_;
+  std::unique_ptr<SeenLightEdges> seen_lights_;  // null: not apart
+  std::vector<std::unique_ptr<Workspace>> workspaces_;
+};
+
+}  // namespace lanelight

@@ -1,0 +1,35 @@
+// The memory of one wavefront: live columns and queues, allocated once per thread and
+// reused by every task.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "src/core/untouched.h"
+#include "src/plan/plan.h"
+#include "src/path/wave.h"
+
+namespace lanelight {
+
+/// The constants of a render that scene and plan decide; without seed and tables.
+RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan);
+/// RunParameters::exposure.
+float ExposureOf(const CompiledScene& scene);
+
+class Wavefront {
+ public:
+  Wavefront(const CompiledScene& scene, const Plan& plan, const RunParameters& run);
+
+  Wave& wave() { return wave_; }
+  /// Bytes of columns and queues.
+  std::size_t bytes() const { return memory_.size() * sizeof(std::uint32_t); }
+  /// Empties every queue and frees every slot.
+  void Reset();
+
+ private:
+  // The room for copies of paths that split is mostly never touched.
+  UntouchedVector<std::uint32_t> memory_;
+  Wave wave_;
+};
+
+}  // namespace lanelight

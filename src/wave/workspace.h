@@ -1,0 +1,46 @@
+// Memory that a run keeps between tasks.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "src/core/aligned.h"
+#include "src/wave/block_reuse.h"
+#include "src/plan/plan_features.h"
+#include "src/wave/run_state.h"
+#include "src/wave/stage_clock.h"
+#include "src/wave/wavefront.h"
+
+namespace lanelight {
+
+/// Samples of one finished task, until they are merged in order.
+struct TaskSamples {
+  AlignedVector<float> values;
+  std::uint32_t count = 0;  // samples per pixel; 0 = not run
+  RunCounts counts;
+};
+
+/// What a thread keeps between tasks.
+struct Workspace {
+  Workspace(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
+            const RunOptions& options)
+      : wavefront(scene, plan, run) {
+    if (options.profile) {
+      clock.emplace(plan.stages.size() + plan.block_stages.size(), options.profiling);
+    }
+    if (plan.features.Has(Feature::kReuse)) {
+      reuse.emplace(plan, PlannedStrategy(scene, plan.options));
+    }
+  }
+  /// Null if nothing is timed.
+  StageClock* Clock() { return clock ? &*clock : nullptr; }
+
+  Wavefront wavefront;
+  std::optional<BlockReuse> reuse;
+  std::optional<StageClock> clock;
+  std::vector<std::uint32_t> pixels;
+  TaskSamples samples;
+};
+
+}  // namespace lanelight
