@@ -134,8 +134,8 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
       ->type_name("FILE");
   command
       .add_option("--against", options.against,
-                  "Compare with JSON of before; a row that is slower beyond doubt makes "
-                  "the exit code 9")
+                  "Exit with 9 if a row is slower, beyond doubt, than in this JSON of "
+                  "before, and print all ratios")
       ->type_name("FILE");
   command
       .add_option("--tolerance", options.tolerance,
