@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
+#include "src/core/json_text.h"
 #include "src/core/parallel.h"
 #include "src/render/job.h"
 
@@ -41,11 +42,11 @@ nlohmann::json ValueJson(ValueForm form, const std::optional<std::string>& text)
   if (form == ValueForm::kText) return *text;
   if (form == ValueForm::kNumber) return std::stod(*text);
   if (form != ValueForm::kSize && form != ValueForm::kWindow) {
-    return nlohmann::json::parse(*text);
+    return ParseJson(*text);
   }
   std::string list = "[" + *text + "]";
   std::replace(list.begin(), list.end(), 'x', ',');
-  return nlohmann::json::parse(list);
+  return ParseJson(list);
 }
 
 std::string KeyOf(const SettingText& setting) {

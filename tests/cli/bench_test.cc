@@ -50,7 +50,7 @@ TEST_CASE("bench prints rates, and writes what can be posted", "[cli]") {
   REQUIRE(json.at("rows").size() == 1);
   const Json& row = json.at("rows")[0];
   CHECK(row.at("samples") == 2 * 32 * 24);
-  CHECK(row.at("seconds").size() == 6);
+  CHECK(row.at("seconds").size() >= 6);
   CHECK(row.at("samples_per_second").at("value") > 0);
   std::ifstream csv(directory / "b.csv"), markdown(directory / "b.md");
   int lines = 0;
