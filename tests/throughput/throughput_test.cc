@@ -54,7 +54,7 @@ TEST_CASE("rows are measured six times at least, with the samples asked for",
     CHECK(row.threads == int(i) + 1);
     CHECK(row.spp == 2);
     CHECK(row.counts.samples == 2 * 16 * 16);
-    CHECK(row.seconds.size() == std::size_t(kLeastRepeats));
+    CHECK(row.seconds.size() >= std::size_t(kLeastRepeats));
     const Interval rate = row.Rate();
     CHECK(rate.low <= rate.value);
     CHECK(rate.value <= rate.high);
