@@ -134,8 +134,6 @@ void Tasks::Merge(std::size_t tile, TaskSamples& task, Films& films) {
   counts_.Add(task.counts);
 }
 
-void Tasks::AddCounts(RunResult& result) {
-  runner_.AddCounts(result);
-}
+void Tasks::AddCounts(RunResult& result) { runner_.AddCounts(result); }
 
 }  // namespace lanelight

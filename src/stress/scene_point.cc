@@ -15,9 +15,7 @@ Job PrepareText(const SceneText& scene) {
   return PrepareJob(ParseSceneText(scene.text, "scene", ".", parse), settings);
 }
 
-JobRun RenderText(const SceneText& scene) {
-  return RunJob(PrepareText(scene));
-}
+JobRun RenderText(const SceneText& scene) { return RunJob(PrepareText(scene)); }
 
 Point MeanOf(const JobRun& rendered) {
   const FilmAccumulator& film = rendered.film;

@@ -17,7 +17,7 @@ struct SweepOptions {
   std::string out;
   /// This process renders the cells whose index leaves part.index - 1 when divided by
   /// part.count.
-  Part part;
+  Part part = {};
   bool wait = false;  // for cells that other processes render, and do them if those die
   bool table_only = false;      // render nothing
   TreeFolder build_cache = {};  // of trees over shapes

@@ -168,6 +168,7 @@ SeenLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from,
     case LightShape::kGoniometric:  // image_lights_test.cc
     case LightShape::kProjection:
     case LightShape::kPortal:
+    case LightShape::kCount:
       break;
   }
   seen.radiance = ToVec(light.radiance);

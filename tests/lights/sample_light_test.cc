@@ -40,6 +40,7 @@ Stage StageOf(LightShape shape) {
     case LightShape::kGoniometric:  // image_lights_test.cc
     case LightShape::kProjection:
     case LightShape::kPortal:
+    case LightShape::kCount:
       LL_CHECK(false);
   }
   return SampleInfiniteImageStage();
