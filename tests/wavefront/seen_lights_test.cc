@@ -5,6 +5,7 @@
 #include <set>
 
 #include "src/wave/seen_light_places.h"
+#include "src/plan/plan_features.h"
 #include "src/wave/seen_lights.h"
 #include "tests/reference/scenes.h"
 #include "tests/wavefront/render_fixture.h"
