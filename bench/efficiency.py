@@ -3,7 +3,8 @@
 
     ./run bench efficiency [SCENE...] [--strategies 'A;B;...'] [--programs P,Q,...]
                            [--times 2,10,60 | --spp N,...] [--rounds N]
-                           [--resolution WxH] [--reference-time S] [--json FILE]
+                           [--resolution WxH] [--filter N] [--reference-time S]
+                           [--json FILE]
 
 Candidates are all strategies with all programs ('default' is a strategy; a program may also
 be named with its own strategies, 'P:A'); the first is the baseline. All render in turns,
@@ -15,6 +16,8 @@ line has, at that time:
   worst      the share of the error in the worst 1 % of a render's pixels
   gain       (baseline's error times its time) / (error times time), and 95 % interval
   trimmed    the same without the worst 1 % of each render's pixels
+  filtered   the same of means over squares of --filter pixels (8): what is left of errors
+             once neighbours are averaged
   means      p-value for equal expectations; below 0.001 the line is marked BIASED?
 
 Time is the processor time that the render reports, pilots and training included. Exit
@@ -117,7 +120,17 @@ def reference(options, scene, who, everything):
     return statistics.mean_image([v for v, _ in renders], [s for _, s in renders])
 
 
-def compare(runs, mean, size, who):
+def filtered_gains(runs, mean, size, side):
+    """The gain of each candidate but the first once squares of pixels are averaged."""
+    boxed = [[(statistics.box_means(image, *size, side)[0], seconds)
+              for image, seconds in run] for run in runs]
+    mean, *small = statistics.box_means(mean, *size, side)
+    of, blocks = statistics.block_of(*small)
+    errors = [blocks_of_errors(run, mean, of, blocks)[0] for run in boxed]
+    return [statistics.efficiency(errors[0], e) for e in errors[1:]]
+
+
+def compare(runs, mean, size, who, side=8):
     """One row for each candidate; errors are relative to `mean`."""
     of, blocks = statistics.block_of(*size)
     parts = [blocks_of_errors(run, mean, of, blocks) for run in runs]
@@ -132,6 +145,8 @@ def compare(runs, mean, size, who):
             row["trimmed"] = statistics.efficiency(parts[0][1], parts[k][1])
             row["means"] = statistics.means_differ(parts[0][3], parts[k][3])
         rows.append(row)
+    for row, gain in zip(rows[1:], filtered_gains(runs, mean, size, side)):
+        row["filtered"] = gain
     return rows
 
 
@@ -142,12 +157,13 @@ def interval(values):
 def print_rows(scene, length, rows):
     print(f"\n{scene} {' '.join(length)}")
     print(f"  {'candidate':40} {'seconds':>8} {'error':>10} {'worst':>6} "
-          f"{'gain':>22} {'trimmed':>22} {'means':>7}")
+          f"{'gain':>22} {'trimmed':>22} {'filtered':>22} {'means':>7}")
     for row in rows:
         line = f"  {row['candidate']:40} {row['seconds']:8.2f} {row['error']:10.4g}"
         line += f" {row['worst']:6.0%}"
         if "gain" in row:
             line += f" {interval(row['gain']):>22} {interval(row['trimmed']):>22}"
+            line += f" {interval(row['filtered']):>22}"
             line += f" {row['means']:7.2g}"
             line += " BIASED?" if row["means"] < FALSE_ALARM else ""
         print(line, flush=True)
@@ -164,6 +180,8 @@ def read_options():
     length.add_argument("--spp", help="samples per pixel instead")
     parser.add_argument("--rounds", type=int, default=8, help="renders of each, at least 3")
     parser.add_argument("--resolution")
+    parser.add_argument("--filter", type=int, default=8, metavar="N",
+                        help="side of the squares whose means are compared as well")
     parser.add_argument("--reference-time", metavar="S",
                         help="errors relative to a render of the baseline, all cores")
     parser.add_argument("--seed", type=int, default=1, help="the first one")
@@ -188,7 +206,7 @@ def main():
         rendered = [render_all(options, scene, who, length) for length in lengths]
         mean = reference(options, scene, who, [runs for runs, _ in rendered])
         for length, (runs, size) in zip(lengths, rendered):
-            rows = compare(runs, mean, size, who)
+            rows = compare(runs, mean, size, who, options.filter)
             print_rows(scene, length, rows)
             table.append({"scene": scene, "machine": here, "length": length,
                           "rows": rows})

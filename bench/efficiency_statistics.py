@@ -30,6 +30,20 @@ def mean_image(images, weights):
     return mean
 
 
+def box_means(image, width, height, side):
+    """The image's means over squares of so many pixels (what of them lies within), and its
+    new width and height: errors that an eye, or a filter, does not average away."""
+    across, down = -(-width // side), -(-height // side)
+    sums, counts = [0.0] * (across * down * 3), [0] * (across * down)
+    for y in range(height):
+        for x in range(width):
+            box, pixel = y // side * across + x // side, 3 * (y * width + x)
+            counts[box] += 1
+            for c in range(3):
+                sums[3 * box + c] += image[pixel + c]
+    return [s / counts[k // 3] for k, s in enumerate(sums)], across, down
+
+
 def pixel_errors(image, total, count, mean):
     """Of each pixel of a render: e_i / (m^2 + 0.01), mean of R, G, B. `total` is the sum of
     the candidate's `count` renders, `mean` what errors are relative to."""

@@ -95,6 +95,26 @@ class StatisticsTest(unittest.TestCase):
         self.assertEqual(blocks, 6)
         self.assertEqual([of[0], of[15], of[16], of[32], of[33 * 16]], [0, 0, 1, 2, 3])
 
+    def test_squares_have_the_means_of_their_pixels(self):
+        # 3 x 2 pixels in squares of 2: the second one has a column of pixels only.
+        image = [float(v) for k in range(6) for v in (k, 10 * k, 1)]
+        means, width, height = statistics.box_means(image, 3, 2, 2)
+        self.assertEqual((width, height), (2, 1))
+        self.assertEqual(means, [2, 20, 1, 3.5, 35, 1])
+
+    def test_shared_errors_of_neighbours_do_not_average_away(self):
+        # Both have errors of one variance; those of the second one are alike in squares.
+        rng, size = random.Random(11), (32, 32)
+        def render(side):
+            boxes = [rng.gauss(1, 0.3) for _ in range(32 * 32)]
+            return [boxes[(y // side) * 32 + x // side] for y in range(32)
+                    for x in range(32) for _ in range(3)], 1.0
+        runs = [[render(side) for _ in range(8)] for side in (1, 4)]
+        gain, low, high = efficiency.filtered_gains(runs, [1.0] * 3072, size, 4)[0]
+        self.assertLess(low, 1 / 16)
+        self.assertGreater(high, 1 / 16)
+        self.assertLess(high, 0.5)
+
     def test_student(self):
         # df = 1 is Cauchy's, df = 2 has a closed form; 2.2281 is tabulated for df = 10.
         for t in (0.1, 1.0, 3.0, 50.0):
