@@ -35,10 +35,10 @@ struct Batch {
   std::vector<float> u0 = std::vector<float>(kPoints + 16), u1 = u0;
   std::vector<double> seconds = {};
 
-  void Run(std::uint32_t call) {
+  void Run(SimdTarget target, std::uint32_t call) {
     const PointsQuery query = {
         points, 1, call * kPixels, call % 50, call % 7 * kSamples, kSamples, kPixels};
-    ProbePoints(query, parameters, u0.data(), u1.data());
+    ProbePoints(target, query, parameters, u0.data(), u1.data());
   }
   double Sum() const {
     double sum = 0;
@@ -52,20 +52,17 @@ struct Batch {
 void Verify(Batch& batch, const std::string& target) {
   double sum = 0;
   for (std::uint32_t call = 0; call < 50; ++call) {
-    ForceTarget(target);
-    batch.Run(call);
+    batch.Run(SimdTarget(target), call);
     const std::vector<float> u0 = batch.u0, u1 = batch.u1;
     sum += batch.Sum();
     const std::vector<std::string> all = AvailableTargets();
-    ForceTarget(all.back());
-    batch.Run(call);
+    batch.Run(SimdTarget(all.back()), call);
     if (!std::equal(u0.begin(), u0.begin() + kPoints, batch.u0.begin()) ||
         !std::equal(u1.begin(), u1.begin() + kPoints, batch.u1.begin())) {
       throw std::runtime_error(
           fmt::format("{}: differs from target {}", Name(batch.points), all.back()));
     }
   }
-  ForceTarget(target);
   const double n = 50.0 * 2 * kPoints;
   if (std::abs(sum / n - 0.5) > 6 * std::sqrt(1 / (12 * n))) {
     throw std::runtime_error(fmt::format("{}: mean {}", Name(batch.points), sum / n));
@@ -80,6 +77,7 @@ int Main(int argc, char** argv) {
   app.add_option("--calls", o.calls, "batches per repetition")
       ->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
+  const SimdTarget target(o.target);
   std::vector<Batch> batches;
   for (Points points : kSamplers) {
     batches.push_back({points, MakePointsParameters(points)});
@@ -89,13 +87,13 @@ int Main(int argc, char** argv) {
     for (Batch& batch : batches) {
       const CpuTimer timer;
       for (int call = 0; call < o.calls; ++call) {
-        batch.Run(static_cast<std::uint32_t>(call));
+        batch.Run(target, static_cast<std::uint32_t>(call));
       }
       batch.seconds.push_back(timer.Seconds());
     }
   }
   fmt::print("{}\n", MachineText(ThisMachine()));
-  fmt::print("target {}, {} lanes, {} repetitions\n", CurrentTarget(), CurrentLanes(),
+  fmt::print("target {}, {} lanes, {} repetitions\n", target.name(), target.lanes(),
              o.repeat);
   fmt::print("{:12} {:>11} {:>9} {:>9}\n", "points", "ns/number", "lowest", "highest");
   for (Batch& batch : batches) {

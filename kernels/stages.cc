@@ -1,4 +1,4 @@
-// The stages of all targets, found by name.
+// The stages of all targets, found by name and target.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/stages.h"
@@ -14,17 +14,9 @@ LANELIGHT_END_KERNELS
 #if HWY_ONCE
 namespace lanelight {
 
-// What a stage says of itself is the same for all targets; its kernel is that of the
-// target that is chosen when it is resolved.
-#define X(name)                                                     \
-  HWY_EXPORT(name##Stage);                                          \
-  Stage name##Stage() {                                             \
-    Stage stage = HWY_DYNAMIC_DISPATCH(name##Stage)();              \
-    stage.resolve = [](const FeatureSet& features) {                \
-      return HWY_DYNAMIC_DISPATCH(name##Stage)().resolve(features); \
-    };                                                              \
-    return stage;                                                   \
-  }
+#define X(name)            \
+  HWY_EXPORT(name##Stage); \
+  Stage name##Stage(SimdTarget target) { return LANELIGHT_ON(target, name##Stage)(); }
 LANELIGHT_STAGES(X)
 #undef X
 

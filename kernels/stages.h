@@ -3,6 +3,7 @@
 // line here fails tests/wavefront/registry_test.cc; a line without a file fails to link.
 #pragma once
 
+#include "kernels/simd/target.h"
 #include "src/path/stage.h"
 
 namespace lanelight {
@@ -132,7 +133,9 @@ namespace lanelight {
   X(ReuseShadow)                               \
   X(ReuseConnect)
 
-#define X(name) Stage name##Stage();
+/// A stage, with the kernels of a target.
+using StageOn = Stage (*)(SimdTarget target);
+#define X(name) Stage name##Stage(SimdTarget target);
 LANELIGHT_STAGES(X)
 #undef X
 

@@ -61,14 +61,14 @@ int Main(const Flags& flags) {
   std::printf("%s\n", MachineText(ThisMachine()).c_str());
   std::printf("%s, %dx%d, %d threads, %s\n", flags.bench.scene.c_str(),
               flags.bench.resolution[0], flags.bench.resolution[1], MaxThreads(),
-              CurrentTarget().c_str());
+              SimdTarget().name().c_str());
   VerifyResumeAndMerge(flags.bench);
   std::printf("verified: resumed and merged films have the bits of the uncut one\n");
   nlohmann::json out = {{"schema", 1},
                         {"scene", flags.bench.scene},
                         {"resolution", flags.bench.resolution},
                         {"threads", MaxThreads()},
-                        {"target", TargetJson()},
+                        {"target", TargetJson({})},
                         {"machine", ToJson(ThisMachine())}};
   for (const Case& c : kCases) {
     const bool wanted =

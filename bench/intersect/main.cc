@@ -9,7 +9,7 @@
 #include "bench/intersect/options.h"
 #include "bench/intersect/results.h"
 #include "bench/intersect/scene_rays.h"
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/core/parallel.h"
 #include "src/render/machine_json.h"
 
@@ -45,10 +45,10 @@ class RayBench {
   }
 
   void Write() const {
-    if (!o_.csv.empty()) WriteSetsCsv(o_.csv, CurrentTarget(), results_);
+    if (!o_.csv.empty()) WriteSetsCsv(o_.csv, TestTarget().name(), results_);
     if (o_.json.empty()) return;
     const nlohmann::json out = {{"schema", 1},
-                                {"target", CurrentTarget()},
+                                {"target", TestTarget().name()},
                                 {"wave", o_.compare.wave},
                                 {"repeat", o_.compare.repeat},
                                 {"closed", !o_.open},
@@ -64,7 +64,7 @@ void BenchBuild(const Options& o, const std::string& name, nlohmann::json& out) 
   const Mesh mesh = FindMesh(o, name);
   const CompiledScene scene = MakeScene(ToGeometry(mesh), o.Accel());
   const std::vector<BuildResult> builds = BenchBuilds(
-      mesh, scene.geometry, o.Accel(), CurrentTarget(), o.embree, o.compare.repeat);
+      mesh, scene.geometry, o.Accel(), TestTarget().name(), o.embree, o.compare.repeat);
   for (const BuildResult& r : builds) PrintBuild(r);
   std::vector<ThreadsResult> threads;
   for (const RaySet& set : MakeRaySets(mesh, scene, o.size)) {
@@ -79,10 +79,10 @@ int MainBuild(const Options& o) {
   fmt::print(
       "{}; CPU seconds of one thread: median of {}; wall clock with 1 and 2 "
       "threads: least\n",
-      CurrentTarget(), o.compare.repeat);
+      TestTarget().name(), o.compare.repeat);
   PrintBuildHeader();
   nlohmann::json out = {
-      {"schema", 1}, {"target", CurrentTarget()}, {"machine", ToJson(ThisMachine())}};
+      {"schema", 1}, {"target", TestTarget().name()}, {"machine", ToJson(ThisMachine())}};
   for (const std::string& name : o.meshes) BenchBuild(o, name, out);
   if (!o.json.empty()) std::ofstream(o.json) << out.dump(2) << '\n';
   return 0;
@@ -90,7 +90,7 @@ int MainBuild(const Options& o) {
 
 void PrintSetting(const Options& o) {
   const std::unique_ptr<Peer> peer = o.MakePeer(CornellBox());
-  fmt::print("ours: {}, {} lanes; peer: {}\n", CurrentTarget(), CurrentLanes(),
+  fmt::print("ours: {}, {} lanes; peer: {}\n", TestTarget().name(), TestTarget().lanes(),
              peer       ? peer->Name()
              : o.embree ? "none, Embree 3 was not found at build time"
                         : "none");

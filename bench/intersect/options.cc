@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/core/error.h"
 
 namespace lanelight::bench {
@@ -34,13 +34,13 @@ std::string FolderOf(const Options& o, const std::string& name) {
 AccelOptions Options::Accel() const {
   AccelOptions accel;
   if (fast) accel.quality = BuildQuality::kFast;
-  accel.leaf_triangles = leaf > 0 ? leaf : LeafTrianglesFor(CurrentLanes());
+  accel.leaf_triangles = leaf > 0 ? leaf : LeafTrianglesFor(TestTarget().lanes());
   if (few >= 0) accel.few_triangles = static_cast<std::uint32_t>(few);
   return accel;
 }
 
 std::unique_ptr<Peer> Options::MakePeer(const Mesh& mesh) const {
-  return embree ? MakeEmbree(mesh, CurrentTarget(), embree_config) : nullptr;
+  return embree ? MakeEmbree(mesh, TestTarget().name(), embree_config) : nullptr;
 }
 
 bool Options::Wants(const RaySet& set) const {

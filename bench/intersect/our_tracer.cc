@@ -1,6 +1,7 @@
 #include "bench/cpu_clock.h"
 #include "bench/intersect/tracer.h"
 #include "kernels/stages.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::bench {
 namespace {
@@ -29,7 +30,8 @@ WaveFixture& OurTracer::Fixture(const RaySet& set) {
 double OurTracer::Trace(const RaySet& set, std::vector<BenchHit>* hits) {
   WaveFixture& f = Fixture(set);
   // As a render does: resolved once, for a scene of opaque world triangles.
-  const Stage stage = set.shadow ? ShadowTrianglesStage() : IntersectTrianglesStage();
+  const Stage stage =
+      (set.shadow ? ShadowTrianglesStage : IntersectTrianglesStage)(TestTarget());
   const StageFn kernel = stage.resolve({});
   if (hits) hits->resize(set.rays.size());
   double seconds = 0;

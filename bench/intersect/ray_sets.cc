@@ -24,13 +24,13 @@ std::vector<Vertex> FindHits(const CompiledScene& scene,
     const std::vector<TestRay> part(rays.begin() + at,
                                     rays.begin() + std::min(rays.size(), at + kWave));
     f.SetRays(part);
-    f.Run(IntersectTrianglesStage(), {});
+    f.Run(IntersectTrianglesStage, {});
     Queue& hits = f.wave.queue(QueueId::kSurface);
     hits.size = 0;
     for (std::uint32_t i = 0; i < part.size(); ++i) {
       if (!std::isinf(f.wave.path.t[i])) hits.items[hits.size++] = i;
     }
-    f.Run(SurfaceTriangleStage(), {Feature::kScatters});
+    f.Run(SurfaceTriangleStage, {Feature::kScatters});
     for (std::uint32_t k = 0; k < hits.size; ++k) {
       const std::uint32_t i = hits.items[k];
       Vec3f n = f.Ng(i);

@@ -5,7 +5,7 @@
 
 #include <bit>
 
-#include "kernels/texture/alpha.h"
+#include "kernels/texture/alpha-inl.h"
 #include "kernels/texture/texture-inl.h"
 #include "src/compiled/scene.h"
 

@@ -61,16 +61,20 @@ HWY_EXPORT(SumOfWords);
 HWY_EXPORT(TwelveChains);
 HWY_EXPORT(OperationsOfChains);
 
-std::uint32_t ReadSum(const std::uint32_t* words, std::size_t count, std::size_t passes) {
+std::uint32_t ReadSum(SimdTarget target, const std::uint32_t* words, std::size_t count,
+                      std::size_t passes) {
   LL_CHECK_EQ(count % 1024, std::size_t{0});
   LL_CHECK_EQ(reinterpret_cast<std::uintptr_t>(words) % 64, std::uintptr_t{0});
-  return HWY_DYNAMIC_DISPATCH(SumOfWords)(words, count, passes);
+  return LANELIGHT_ON(target, SumOfWords)(words, count, passes);
 }
 
-int MultiplyAddsOperations() { return HWY_DYNAMIC_DISPATCH(OperationsOfChains)(); }
+int MultiplyAddsOperations(SimdTarget target) {
+  return LANELIGHT_ON(target, OperationsOfChains)();
+}
 
-float MultiplyAdds(std::uint64_t iterations, float factor, float addend) {
-  return HWY_DYNAMIC_DISPATCH(TwelveChains)(iterations, factor, addend);
+float MultiplyAdds(SimdTarget target, std::uint64_t iterations, float factor,
+                   float addend) {
+  return LANELIGHT_ON(target, TwelveChains)(iterations, factor, addend);
 }
 
 }  // namespace lanelight

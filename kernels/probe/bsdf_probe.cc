@@ -83,9 +83,9 @@ namespace lanelight {
 
 HWY_EXPORT(ProbeOfKind);
 
-BsdfProbe GetBsdfProbe(ShadeKind kind) {
+BsdfProbe GetBsdfProbe(SimdTarget target, ShadeKind kind) {
   LL_CHECK(IsShaded(kind));
-  return HWY_DYNAMIC_DISPATCH(ProbeOfKind)(kind);
+  return LANELIGHT_ON(target, ProbeOfKind)(kind);
 }
 
 }  // namespace lanelight

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "kernels/simd/target.h"
 #include "src/compiled/materials.h"
 
 namespace lanelight {
@@ -24,13 +25,13 @@ struct BsdfBatch {
   float* eta_scale = nullptr;  // Sample only
 };
 
-/// Entries of one kind of material on the current SIMD target.
+/// Entries of one kind of material.
 struct BsdfProbe {
   void (*eval)(const BsdfBatch&) = nullptr;  // null for purely specular materials
   void (*sample)(const BsdfBatch&) = nullptr;
 };
 
 /// Throws CheckFailure for a kind without kernels.
-BsdfProbe GetBsdfProbe(ShadeKind kind);
+BsdfProbe GetBsdfProbe(SimdTarget target, ShadeKind kind);
 
 }  // namespace lanelight

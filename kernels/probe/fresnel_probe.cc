@@ -28,7 +28,9 @@ namespace lanelight {
 
 HWY_EXPORT(RunFresnel);
 
-void ProbeFresnel(const FresnelBatch& batch) { HWY_DYNAMIC_DISPATCH(RunFresnel)(batch); }
+void ProbeFresnel(SimdTarget target, const FresnelBatch& batch) {
+  LANELIGHT_ON(target, RunFresnel)(batch);
+}
 
 }  // namespace lanelight
 #endif  // HWY_ONCE

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "kernels/simd/target.h"
+
 namespace lanelight {
 
 /// Arrays hold `n` rounded up to a multiple of kFresnelPadding.
@@ -16,7 +18,6 @@ struct FresnelBatch {
   float* cos_t = nullptr;  // of a dielectric: refracted, 0 under total reflection
 };
 
-/// On the current SIMD target.
-void ProbeFresnel(const FresnelBatch& batch);
+void ProbeFresnel(SimdTarget target, const FresnelBatch& batch);
 
 }  // namespace lanelight

@@ -50,11 +50,15 @@ HWY_EXPORT(GuideCells);
 HWY_EXPORT(GuideSamples);
 HWY_EXPORT(GuidePdfs);
 
-void ProbeGuideCells(const GuideBatch& batch) { HWY_DYNAMIC_DISPATCH(GuideCells)(batch); }
-void ProbeGuideSamples(const GuideBatch& batch) {
-  HWY_DYNAMIC_DISPATCH(GuideSamples)(batch);
+void ProbeGuideCells(SimdTarget target, const GuideBatch& batch) {
+  LANELIGHT_ON(target, GuideCells)(batch);
 }
-void ProbeGuidePdfs(const GuideBatch& batch) { HWY_DYNAMIC_DISPATCH(GuidePdfs)(batch); }
+void ProbeGuideSamples(SimdTarget target, const GuideBatch& batch) {
+  LANELIGHT_ON(target, GuideSamples)(batch);
+}
+void ProbeGuidePdfs(SimdTarget target, const GuideBatch& batch) {
+  LANELIGHT_ON(target, GuidePdfs)(batch);
+}
 
 }  // namespace lanelight
 #endif  // HWY_ONCE

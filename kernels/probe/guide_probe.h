@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "kernels/simd/target.h"
 #include "src/prepare/guide.h"
 
 namespace lanelight {
@@ -20,9 +21,8 @@ struct GuideBatch {
   float* pdf_sa = nullptr;   // result
 };
 
-// Each on the current SIMD target.
-void ProbeGuideCells(const GuideBatch& batch);
-void ProbeGuideSamples(const GuideBatch& batch);
-void ProbeGuidePdfs(const GuideBatch& batch);
+void ProbeGuideCells(SimdTarget target, const GuideBatch& batch);
+void ProbeGuideSamples(SimdTarget target, const GuideBatch& batch);
+void ProbeGuidePdfs(SimdTarget target, const GuideBatch& batch);
 
 }  // namespace lanelight

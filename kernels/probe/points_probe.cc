@@ -124,29 +124,30 @@ HWY_EXPORT(ProbeScalar);
 HWY_EXPORT(ProbeTurns);
 HWY_EXPORT(ProbePermuted);
 
-void ProbePoints(const PointsQuery& query, float* u0, float* u1) {
-  ProbePoints(query, MakePointsParameters(query.points), u0, u1);
+void ProbePoints(SimdTarget target, const PointsQuery& query, float* u0, float* u1) {
+  ProbePoints(target, query, MakePointsParameters(query.points), u0, u1);
 }
 
-void ProbePoints(const PointsQuery& query, const PointsParameters& parameters, float* u0,
-                 float* u1) {
-  HWY_DYNAMIC_DISPATCH(Probe)(query, parameters, u0, u1);
+void ProbePoints(SimdTarget target, const PointsQuery& query,
+                 const PointsParameters& parameters, float* u0, float* u1) {
+  LANELIGHT_ON(target, Probe)(query, parameters, u0, u1);
 }
 
-void ProbeNumbers(const PointsQuery& query, float* u) {
-  HWY_DYNAMIC_DISPATCH(ProbeScalar)(query, u);
+void ProbeNumbers(SimdTarget target, const PointsQuery& query, float* u) {
+  LANELIGHT_ON(target, ProbeScalar)(query, u);
 }
 
-void ProbeGroups(std::uint32_t group_shift, std::uint32_t first, std::uint32_t count,
-                 std::uint32_t* group, std::uint32_t* index, std::uint32_t* unpaired) {
+void ProbeGroups(SimdTarget target, std::uint32_t group_shift, std::uint32_t first,
+                 std::uint32_t count, std::uint32_t* group, std::uint32_t* index,
+                 std::uint32_t* unpaired) {
   PointsParameters points;
   points.group_shift = group_shift;
-  HWY_DYNAMIC_DISPATCH(ProbeTurns)(points, first, count, group, index, unpaired);
+  LANELIGHT_ON(target, ProbeTurns)(points, first, count, group, index, unpaired);
 }
 
-void ProbePermutation(std::uint32_t count, std::uint32_t key, bool octaves,
-                      std::uint32_t* out) {
-  HWY_DYNAMIC_DISPATCH(ProbePermuted)(count, key, octaves, out);
+void ProbePermutation(SimdTarget target, std::uint32_t count, std::uint32_t key,
+                      bool octaves, std::uint32_t* out) {
+  LANELIGHT_ON(target, ProbePermuted)(count, key, octaves, out);
 }
 
 }  // namespace lanelight

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "kernels/simd/target.h"
 #include "src/prepare/parameters.h"
 
 namespace lanelight {
@@ -17,24 +18,25 @@ struct PointsQuery {
 
 /// Writes `count` points of each pixel: those of the first sample for all pixels, of the
 /// second, and so on. u0 and u1 need room for a full vector more.
-void ProbePoints(const PointsQuery& query, float* u0, float* u1);
+void ProbePoints(SimdTarget target, const PointsQuery& query, float* u0, float* u1);
 /// The same with parameters made before: MakePointsParameters(query.points).
-void ProbePoints(const PointsQuery& query, const PointsParameters& parameters, float* u0,
-                 float* u1);
+void ProbePoints(SimdTarget target, const PointsQuery& query,
+                 const PointsParameters& parameters, float* u0, float* u1);
 
 /// The same for a scalar dimension.
-void ProbeNumbers(const PointsQuery& query, float* u);
+void ProbeNumbers(SimdTarget target, const PointsQuery& query, float* u);
 
 /// Group and index in it of samples [first, first + count), first + count <= 2^31, in
 /// groups of 2^group_shift, and the samples whose unpaired numbers they draw where
 /// samples come in pairs. All need room for a full vector more.
-void ProbeGroups(std::uint32_t group_shift, std::uint32_t first, std::uint32_t count,
-                 std::uint32_t* group, std::uint32_t* index, std::uint32_t* unpaired);
+void ProbeGroups(SimdTarget target, std::uint32_t group_shift, std::uint32_t first,
+                 std::uint32_t count, std::uint32_t* group, std::uint32_t* index,
+                 std::uint32_t* unpaired);
 
 /// Images of [0, count), a power of two, in the permutation of `key`; out needs room for
 /// a full vector more. `octaves`: that which keeps prefixes (PermuteOctaves), for any
 /// count.
-void ProbePermutation(std::uint32_t count, std::uint32_t key, bool octaves,
-                      std::uint32_t* out);
+void ProbePermutation(SimdTarget target, std::uint32_t count, std::uint32_t key,
+                      bool octaves, std::uint32_t* out);
 
 }  // namespace lanelight

@@ -54,8 +54,8 @@ namespace lanelight {
 
 HWY_EXPORT(ApplyWarp);
 
-void ProbeWarp(WarpId id, const WarpBatch& batch) {
-  HWY_DYNAMIC_DISPATCH(ApplyWarp)(id, batch);
+void ProbeWarp(SimdTarget target, WarpId id, const WarpBatch& batch) {
+  LANELIGHT_ON(target, ApplyWarp)(id, batch);
 }
 
 }  // namespace lanelight

@@ -1,6 +1,8 @@
 // Sampling routines outside a render: numbers in, points with densities out.
 #pragma once
 
+#include "kernels/simd/target.h"
+
 namespace lanelight {
 
 enum class WarpId { kDisk, kCosine, kUniformHemisphere, kInSphere };
@@ -15,7 +17,7 @@ struct WarpBatch {
   float *x, *y, *z, *pdf, *back0, *back1;
 };
 
-/// On the current SIMD target. z of a point of the disk is 0.
-void ProbeWarp(WarpId id, const WarpBatch& batch);
+/// z of a point of the disk is 0.
+void ProbeWarp(SimdTarget target, WarpId id, const WarpBatch& batch);
 
 }  // namespace lanelight

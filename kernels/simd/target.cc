@@ -15,6 +15,7 @@ LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 
+#include <fmt/ranges.h>
 #include <strings.h>
 
 #include "src/core/error.h"
@@ -26,12 +27,36 @@ HWY_EXPORT(LanesOfTarget);
 
 namespace {
 
-// Targets that are compiled in and supported by the machine. Found once, before any is
-// forced: what is disabled is not listed, and Highway, asked again, would dispatch to the
-// best one for a moment.
+// Targets that are compiled in and supported by the machine, best first.
 const std::vector<std::int64_t>& UsableTargets() {
   static const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   return targets;
+}
+
+// A table of HWY_EXPORT has one entry if one target is compiled; else an entry that is
+// not used here, one for each target that there may be, from the best one on, and the
+// last for plain C++.
+std::size_t TableIndexOf([[maybe_unused]] std::int64_t target) {
+#if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
+  return 0;
+#else
+  return hwy::Num0BitsBelowLS1Bit_Nonzero64(static_cast<std::uint64_t>(
+      HWY_CHOSEN_TARGET_SHIFT(target) | HWY_CHOSEN_TARGET_MASK_SCALAR));
+#endif
+}
+
+// Where the machine can run none, RequireTarget() has said so before anything runs.
+std::int64_t BestTarget() {
+  return UsableTargets().empty() ? HWY_STATIC_TARGET : UsableTargets().front();
+}
+
+std::int64_t TargetNamed(const std::string& name) {
+  if (name.empty()) return BestTarget();
+  for (const std::int64_t target : UsableTargets()) {
+    if (strcasecmp(hwy::TargetName(target), name.c_str()) == 0) return target;
+  }
+  throw InputError(fmt::format("unknown SIMD target '{}'; this machine can run: {}", name,
+                               fmt::join(AvailableTargets(), ", ")));
 }
 
 std::vector<std::string> CompiledTargets() {
@@ -53,37 +78,21 @@ std::vector<std::string> AvailableTargets() {
 
 void RequireTarget() {
   if (!UsableTargets().empty()) return;
-  std::string names;
-  for (const std::string& name : CompiledTargets()) {
-    names += (names.empty() ? "" : ", ") + name;
-  }
   throw InputError(
       "this machine's processor runs none of the SIMD targets that this "
       "program was built for (" +
-      names + "); built with -DLANELIGHT_TARGETS=EMU128 it runs on any");
+      fmt::format("{}", fmt::join(CompiledTargets(), ", ")) +
+      "); built with -DLANELIGHT_TARGETS=EMU128 it runs on any");
 }
 
-void ForceTarget(const std::string& name) {
-  const auto& usable = UsableTargets();
-  std::int64_t forced = 0;
-  for (std::int64_t target : usable) {
-    if (strcasecmp(hwy::TargetName(target), name.c_str()) == 0) forced = target;
-  }
-  if (forced == 0 && !name.empty()) {
-    std::string legal;
-    for (const std::string& t : AvailableTargets())
-      legal += (legal.empty() ? "" : ", ") + t;
-    throw InputError("unknown SIMD target '" + name +
-                     "'; this machine can run: " + legal);
-  }
-  hwy::DisableTargets(forced == 0 ? 0 : ~forced);
-  // Left to the first dispatch, a kernel resolved before it would choose in every call.
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
+SimdTarget::SimdTarget() : table_index_(TableIndexOf(BestTarget())) {}
 
-std::string CurrentTarget() { return HWY_DYNAMIC_DISPATCH(NameOfTarget)(); }
+SimdTarget::SimdTarget(const std::string& name)
+    : table_index_(TableIndexOf(TargetNamed(name))) {}
 
-int CurrentLanes() { return HWY_DYNAMIC_DISPATCH(LanesOfTarget)(); }
+std::string SimdTarget::name() const { return LANELIGHT_ON(*this, NameOfTarget)(); }
+
+int SimdTarget::lanes() const { return LANELIGHT_ON(*this, LanesOfTarget)(); }
 
 std::string HighwayVersion() {
   return std::to_string(HWY_MAJOR) + "." + std::to_string(HWY_MINOR) + "." +

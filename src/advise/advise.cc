@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/core/check.h"
+#include "src/core/parallel.h"
 #include "src/core/stopwatch.h"
 #include "src/prepare/use_strategy.h"
 #include "src/report/values.h"
@@ -311,6 +312,7 @@ class Adviser {
 }  // namespace
 
 Advice Advise(Job& job, const AdviceOptions& options) {
+  const ThreadLimit threads(job.settings.threads);
   return Adviser(job, options).Run();
 }
 

@@ -82,11 +82,10 @@ int PrintAdvice(const AdviseCommandOptions& options, const Advice& advice) {
 }
 
 int RunAdvise(const AdviseCommandOptions& options) {
-  const MachineGuard machine(options.scene.settings);
   const RenderTargets& targets = options.outputs.targets;
   Job job = OpenScene(options.scene, {{targets.exr, targets.png, targets.json}},
                       options.outputs.quiet);
-  const InterruptGuard interrupt;
+  const InterruptGuard interrupt(kStoppingMessage, job.settings.threads);
   AdviceOptions advise;
   advise.seconds = *options.scene.settings.seconds;
   advise.pilot = options.pilot;

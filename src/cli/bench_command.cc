@@ -37,7 +37,7 @@ void Complete(BenchCommandOptions& options) {
     for (const BenchScene& scene : BenchScenes()) bench.scenes.push_back(scene.name);
   }
   if (options.all_targets) bench.targets = AvailableTargets();
-  if (bench.targets.empty()) bench.targets = {CurrentTarget()};
+  if (bench.targets.empty()) bench.targets = {SimdTarget().name()};
   if (bench.threads.empty()) {
     bench.threads = {1};
     if (MaxThreads() > 1) bench.threads.push_back(MaxThreads());

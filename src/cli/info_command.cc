@@ -30,17 +30,14 @@ std::vector<std::pair<std::string, std::string>> Versions() {
   return versions;
 }
 
-std::string Text() {
-  std::string available;
-  for (const std::string& name : AvailableTargets()) {
-    available += (available.empty() ? "" : ", ") + name;
-  }
+std::string Text(const RenderSettings& settings) {
+  const SimdTarget target(settings.target);
   std::string text =
       fmt::format("{:<14} {}\n", "machine", MachineText(ThisMachine())) +
-      fmt::format("{:<14} {}\n", "target", CurrentTarget()) +
-      fmt::format("{:<14} {}\n", "lanes", CurrentLanes()) +
-      fmt::format("{:<14} {}\n", "available", available) +
-      fmt::format("{:<14} {}\n", "threads", MaxThreads()) +
+      fmt::format("{:<14} {}\n", "target", target.name()) +
+      fmt::format("{:<14} {}\n", "lanes", target.lanes()) +
+      fmt::format("{:<14} {}\n", "available", fmt::join(AvailableTargets(), ", ")) +
+      fmt::format("{:<14} {}\n", "threads", ThreadCount(settings.threads)) +
       fmt::format("{:<14} {:.1f} GiB\n", "memory", double(PhysicalMemory()) / (1 << 30));
   for (const auto& [name, version] : Versions()) {
     text += fmt::format("{:<14} {}\n", name, version);
@@ -48,11 +45,11 @@ std::string Text() {
   return text;
 }
 
-std::string JsonText() {
+std::string JsonText(const RenderSettings& settings) {
   nlohmann::json out = {{"schema", kReportSchema},
-                        {"target", TargetJson()},
+                        {"target", TargetJson(SimdTarget(settings.target))},
                         {"machine", ToJson(ThisMachine())},
-                        {"threads", MaxThreads()},
+                        {"threads", ThreadCount(settings.threads)},
                         {"memory", PhysicalMemory()}};
   for (const auto& [name, version] : Versions()) out["versions"][name] = version;
   return DumpJson(out, 2) + "\n";
@@ -80,8 +77,8 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
         Print(std::string(FormatDocument()));
         return kExitGood;
       }
-      const MachineGuard machine(options->settings);
-      Print(options->json ? JsonText() : Text());
+      const RenderSettings& settings = options->settings;
+      Print(options->json ? JsonText(settings) : Text(settings));
       return kExitGood;
     };
   });

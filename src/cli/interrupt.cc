@@ -33,13 +33,13 @@ void OnSignal(int) {
 
 // `ulimit -t` sets both limits of processor time, and at the hard one the process is
 // killed without a word: the soft one is moved ahead, so that there is time to write.
-void MoveSoftLimitAhead() {
+void MoveSoftLimitAhead(int threads) {
   rlimit limit;
   if (getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
       limit.rlim_cur < limit.rlim_max) {
     return;
   }
-  const auto per_second = static_cast<rlim_t>(MaxThreads());
+  const auto per_second = static_cast<rlim_t>(ThreadCount(threads));
   const rlim_t to_write = std::min(limit.rlim_max / 2, 2 + 2 * per_second);
   limit.rlim_cur = limit.rlim_max - to_write;
   setrlimit(RLIMIT_CPU, &limit);
@@ -47,11 +47,11 @@ void MoveSoftLimitAhead() {
 
 }  // namespace
 
-InterruptGuard::InterruptGuard(const char* text) {
+InterruptGuard::InterruptGuard(const char* text, int threads) {
   message = text;
   message_size = std::strlen(text);
   stop_requested.store(false);
-  MoveSoftLimitAhead();
+  MoveSoftLimitAhead(threads);
   struct sigaction action = {};
   action.sa_handler = OnSignal;
   action.sa_flags = SA_RESTART;

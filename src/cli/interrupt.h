@@ -21,7 +21,7 @@ inline constexpr const char* kKeepingMessage =
 class InterruptGuard {
  public:
   /// `message`, a literal, says what happens now.
-  explicit InterruptGuard(const char* message = kStoppingMessage);
+  explicit InterruptGuard(const char* message = kStoppingMessage, int threads = 0);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;

@@ -10,6 +10,7 @@
 #include "src/cli/summary.h"
 #include "src/core/error.h"
 #include "src/core/json_text.h"
+#include "src/core/parallel.h"
 #include "src/render/machine_json.h"
 #include "src/render/merge.h"
 #include "src/render/render.h"
@@ -54,7 +55,7 @@ void CheckComplete(const MergedRender& merged, bool partial) {
 }
 
 int Merge(const MergeOptions& options) {
-  const MachineGuard machine(options.settings);
+  const ThreadLimit threads(options.settings.threads);
   CheckOutputs(options);
   std::optional<StateLock> lock;
   if (!options.state.empty()) lock.emplace(options.state, PrintWarning);

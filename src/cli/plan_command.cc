@@ -90,7 +90,8 @@ std::string Notes(const Plan& plan) {
 std::string Text(const Job& job, const std::string& scene) {
   const Plan& plan = job.plan;
   return fmt::format("plan of {}\n\n", scene) +
-         fmt::format("target     {} ({} lanes)\n", CurrentTarget(), CurrentLanes()) +
+         fmt::format("target     {} ({} lanes)\n", plan.options.target.name(),
+                     plan.options.target.lanes()) +
          fmt::format("wavefront  {} paths x {} bytes = {:.0f} KiB per thread\n",
                      plan.wavefront, plan.bytes_per_path,
                      double(plan.wavefront) * double(plan.bytes_per_path) / 1024) +
@@ -104,7 +105,7 @@ std::string Text(const Job& job, const std::string& scene) {
 std::string JsonText(const Job& job, const std::string& scene) {
   nlohmann::json out = {{"schema", kReportSchema},
                         {"scene", scene},
-                        {"target", TargetJson()},
+                        {"target", TargetJson(job.plan.options.target)},
                         {"machine", ToJson(ThisMachine())},
                         {"plan", ToJson(job.plan)},
                         {"differs", CountImageChanges(job.description.notes) > 0}};
@@ -113,7 +114,6 @@ std::string JsonText(const Job& job, const std::string& scene) {
 
 int PrintPlan(const PlanCommandOptions& options) {
   const SceneOptions& scene = options.scene;
-  const MachineGuard machine(scene.settings);
   const Job job = PrepareJob(scene.scene, scene.settings);
   Print(options.json ? JsonText(job, scene.scene) : Text(job, scene.scene));
   return kExitGood;

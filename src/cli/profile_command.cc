@@ -60,11 +60,10 @@ bool SaveTrace(const ProfileCommandOptions& options, const RunResult& result) {
 }
 
 int Profile(const ProfileCommandOptions& options) {
-  const MachineGuard machine(options.scene.settings);
   const Job job =
       OpenScene(options.scene, {{options.json, options.trace}}, options.quiet);
-  const Peaks peaks = MeasurePeaks(true);
-  const InterruptGuard interrupt(kProfileInterruptText);
+  const Peaks peaks = MeasurePeaks(job.plan.options.target, true);
+  const InterruptGuard interrupt(kProfileInterruptText, job.settings.threads);
   const RunResult result = Measure(options, job, interrupt.stop());
   const ProfileReport report = MakeProfileReport(result, peaks);
   if (options.json != "-") Print(ProfileText(report, job, result, options.scene.scene));

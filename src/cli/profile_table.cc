@@ -39,18 +39,19 @@ std::string WithSpaces(const std::string& list) {
   return out;
 }
 
-std::string PeaksText(const Peaks& peaks) {
+std::string PeaksText(const Peaks& peaks, SimdTarget target) {
   std::string text = "reads of one thread:";
   for (const MemoryLevel& level : peaks.levels) {
     text += fmt::format(" {} {:.0f} GB/s,", level.name, 1e-9 * level.bytes_per_second);
   }
   return text + fmt::format(" multiply-add {:.0f} Gflop/s ({})", 1e-9 * peaks.flops,
-                            CurrentTarget());
+                            target.name());
 }
 
 std::string HeaderText(const ProfileReport& report, const Job& job,
                        const RunResult& result, const std::string& scene) {
   const double pixels = double(job.window.pixels());
+  const SimdTarget target = job.plan.options.target;
   std::string text =
       fmt::format("{:<{}}{}\n", "scene", kLabel, scene) +
       Row("render",
@@ -58,11 +59,11 @@ std::string HeaderText(const ProfileReport& report, const Job& job,
                       "({})",
                       job.window.width(), job.window.height(),
                       double(result.samples) / pixels, DurationText(result.seconds),
-                      result.stopped_early ? " (stopped early)" : "", MaxThreads(),
-                      CurrentLanes(), CurrentTarget())) +
+                      result.stopped_early ? " (stopped early)" : "",
+                      ThreadCount(job.settings.threads), target.lanes(), target.name())) +
       Row("machine", MachineText(ThisMachine())) +
       Row("strategy", WithSpaces(ToText(job.scene.strategy))) +
-      Row("peaks", PeaksText(report.peaks)) +
+      Row("peaks", PeaksText(report.peaks, target)) +
       Row("columns",
           fmt::format("{:.0f} KiB of a wavefront's paths, which live in {}",
                       double(result.bytes_in_flight) / 1024, report.level.name));

@@ -35,13 +35,12 @@ DefaultDecision DecisionFor(const RenderCommandOptions& options, RankGroup& grou
 int Serve(const RenderCommandOptions& options, const RenderSettings& settings,
           RankGroup& group) {
   const Job job = PrepareJob(options.scene.scene, settings);
-  const InterruptGuard interrupt("");
+  const InterruptGuard interrupt("", settings.threads);
   ServeRender(job, group, &interrupt.stop());
   return kExitGood;
 }
 
 int Render(const RenderCommandOptions& options, RankGroup& group) {
-  const MachineGuard machine(options.scene.settings);
   if (group.leads()) CheckOutputs(options.outputs, {options.scene.scene});
   RenderSettings settings = options.scene.settings;
   settings.decision = DecisionFor(options, group);
@@ -52,7 +51,8 @@ int Render(const RenderCommandOptions& options, RankGroup& group) {
   if (!options.outputs.quiet) PrintNotes(job);
   CheckPart(options.outputs.targets.checkpoint, job);
   const bool keeps = !options.outputs.targets.checkpoint.path.empty();
-  const InterruptGuard interrupt(keeps ? kKeepingMessage : kStoppingMessage);
+  const InterruptGuard interrupt(keeps ? kKeepingMessage : kStoppingMessage,
+                                 settings.threads);
   ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
   RenderHooks hooks = PrintingHooks(progress, interrupt.stop());
   if (group.ranks() > 1) hooks.group = &group;

@@ -4,8 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "kernels/simd/target.h"
-#include "src/core/parallel.h"
 #include "src/render/setting.h"
 
 namespace lanelight {
@@ -21,17 +19,6 @@ CLI::Option* AddSetting(CLI::App& command, const std::string& name,
                         RenderSettings& settings);
 /// All settings of that use, in their order.
 void AddSettings(CLI::App& command, SettingUse use, RenderSettings& settings);
-
-/// The SIMD target and the threads that settings ask for, while it lives.
-class MachineGuard {
- public:
-  explicit MachineGuard(const RenderSettings& settings) : threads_(settings.threads) {
-    ForceTarget(settings.target);
-  }
-
- private:
-  ThreadLimit threads_;
-};
 
 /// The scene itself, and the settings of commands that read one.
 void AddSceneOptions(CLI::App& command, SceneOptions& options);

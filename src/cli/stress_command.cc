@@ -67,7 +67,7 @@ WorkStep StepOf(const stress::SuiteProgress& p) {
 stress::SuiteResult Measure(const std::vector<stress::Case>& cases,
                             const StressCommandOptions& options) {
   WorkProgress progress(ChooseProgressStyle(options.quiet), "stress: ");
-  const InterruptGuard interrupt(kStressInterruptText);
+  const InterruptGuard interrupt(kStressInterruptText, options.settings.threads);
   stress::SuiteHooks hooks;
   hooks.on_progress = [&](const stress::SuiteProgress& p) { progress.Update(StepOf(p)); };
   hooks.stop = &interrupt.stop();
@@ -95,8 +95,8 @@ int RunStressCommand(StressCommandOptions& options) {
                          {options.out + "/stress.json", options.out + "/report.html"});
   }
   CheckOutputPaths(outputs, {});
-  const MachineGuard machine(options.settings);
   options.suite.targets = TargetsOf(options.targets);
+  options.suite.threads = options.settings.threads;
   options.suite.effort.seed = *options.settings.seed;
   const stress::SuiteResult result = Measure(cases, options);
   if (options.json != "-") Print(StressTable(result));

@@ -47,12 +47,12 @@ WorkStep StepOf(const StudyProgress& p) {
 int RunStudyCommand(StudyCommandOptions& options) {
   options.study.strategies = SplitStrategies(options.strategies);
   CheckCombination(options.study);
-  const MachineGuard machine(options.study.settings);
   WorkProgress progress(ChooseProgressStyle(options.quiet), "study ");
   const InterruptGuard interrupt(
       "\nstopping: the report will be of what is finished; --resume goes on (once more "
       "to "
-      "abort)\n");
+      "abort)\n",
+      options.study.settings.threads);
   StudyHooks hooks;
   hooks.on_progress = [&](const StudyProgress& p) { progress.Update(StepOf(p)); };
   hooks.on_problem = [&](const std::string& text) { progress.Say(text); };

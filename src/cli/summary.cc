@@ -141,11 +141,13 @@ std::string SummaryText(const RenderReport& report, const Job& job) {
                           DurationText(job.load_seconds), DurationText(job.build_seconds),
                           Name(job.trees.origin), DurationText(job.trees.seconds),
                           DurationText(r.seconds), DurationText(report.write_seconds)));
-  text += Row("machine", MachineText(ThisMachine())) +
-          Row("kernels",
-              fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes",
-                          CurrentTarget(), CurrentLanes(), MaxThreads(),
-                          job.plan.wavefront, job.plan.bytes_per_path));
+  const SimdTarget target = job.plan.options.target;
+  text +=
+      Row("machine", MachineText(ThisMachine())) +
+      Row("kernels",
+          fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes",
+                      target.name(), target.lanes(), ThreadCount(job.settings.threads),
+                      job.plan.wavefront, job.plan.bytes_per_path));
   return text + "\n" + StageTable(r) + DiffersRow(job.description.notes);
 }
 

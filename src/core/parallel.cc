@@ -53,10 +53,14 @@ struct ThreadLimit::Impl {
 };
 
 ThreadLimit::ThreadLimit(int threads)
-    : impl_(std::make_unique<Impl>(
-          threads > 0 ? static_cast<std::size_t>(threads)
-                      : std::max(1u, std::thread::hardware_concurrency()))) {}
+    : impl_(threads > 0 ? std::make_unique<Impl>(static_cast<std::size_t>(threads))
+                        : nullptr) {}
 ThreadLimit::~ThreadLimit() = default;
+
+int ThreadCount(int asked) {
+  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  return asked > 0 ? asked : static_cast<int>(cores);
+}
 
 int MaxThreads() {
   return static_cast<int>(

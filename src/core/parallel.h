@@ -8,7 +8,8 @@
 
 namespace lanelight {
 
-/// Limits the threads used by the functions below while it lives. 0 = all cores.
+/// Limits the threads used by the functions below while it lives, within the limits that
+/// there are already. 0: to nothing else, which is all cores.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
@@ -21,6 +22,8 @@ class ThreadLimit {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Threads that a limit of `asked` stands for, if there is no other.
+int ThreadCount(int asked);
 /// Threads the functions below will use at most.
 int MaxThreads();
 

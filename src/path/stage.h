@@ -1,7 +1,7 @@
 // A stage is one kernel file plus one line in kernels/stages.h. It says what it needs,
 // reads and writes; the plan (src/plan/plan.h) keeps the stages that the scene
 // needs, checks that every live column read has been written, and resolves the kernel
-// for the chosen SIMD target once.
+// once. Kernels are those of one SIMD target (kernels/stages.h).
 #pragma once
 
 #include "src/path/wave.h"
@@ -23,8 +23,7 @@ struct Stage {
   FeatureSet needs = {};  // all of these, or the stage is absent
   FieldSet reads = {}, writes = {};
   StageScope scope = StageScope::kWave;
-  /// Kernel for these features on the chosen target; the features select among the
-  /// stage's few template variants.
+  /// Kernel for these features, which select among the stage's few template variants.
   StageFn (*resolve)(const FeatureSet& features);
 };
 

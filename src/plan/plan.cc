@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "kernels/simd/target.h"
 #include "kernels/stages.h"
 #include "src/core/check.h"
 #include "src/core/error.h"
@@ -16,9 +15,9 @@ namespace lanelight {
 
 namespace {
 
-std::vector<Stage> RegisteredStages() {
+std::vector<Stage> RegisteredStages(SimdTarget target) {
   return {
-#define X(name) name##Stage(),
+#define X(name) name##Stage(target),
       LANELIGHT_STAGES(X)
 #undef X
   };
@@ -63,11 +62,12 @@ void FindRepeated(Plan& plan) {
 }
 
 // Whether two vertices see each other has nothing to do with lights.
-void FindShadowKernels(const FeatureSet& features, RayKernels& found) {
-  if (!features.Has(Feature::kReuse)) return;
-  FeatureSet shadows = features;
+void FindShadowKernels(Plan& plan) {
+  if (!plan.features.Has(Feature::kReuse)) return;
+  RayKernels& found = plan.ray_kernels;
+  FeatureSet shadows = plan.features;
   shadows.Add({Feature::kLights, Feature::kOpaqueShadows});
-  for (const Stage& stage : RegisteredStages()) {
+  for (const Stage& stage : RegisteredStages(plan.options.target)) {
     if (!stage.needs.Has(Feature::kOpaqueShadows) || !shadows.HasAll(stage.needs)) {
       continue;
     }
@@ -120,7 +120,7 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
   plan.options = options;
   plan.features = PlanFeatures(scene, options);
   plan.notes = CheckStrategy(scene, options);
-  for (const Stage& stage : RegisteredStages()) {
+  for (const Stage& stage : RegisteredStages(options.target)) {
     if (plan.features.HasAll(stage.needs)) {
       auto& stages = stage.scope == StageScope::kWave ? plan.stages : plan.block_stages;
       stages.push_back({stage, stage.resolve(plan.features)});
@@ -137,7 +137,7 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
   CheckReadsAreWritten(plan);
   FindRepeated(plan);
   plan.ray_kernels = FindRayKernels(plan);
-  FindShadowKernels(plan.features, plan.ray_kernels);
+  FindShadowKernels(plan);
   plan.bytes_per_path = plan.live_fields.size() * sizeof(float);
   // New samples start only while the live paths fit (kernels/generate/generate.cc), and
   // slots are taken from the top of a stack, so most of the room for copies is seldom

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/simd/target.h"
 #include "src/compiled/scene.h"
 #include "src/path/sample_planes.h"
 #include "src/path/stage.h"
@@ -19,6 +20,7 @@ inline std::string JoinedChanges(const std::string& first, const std::string& th
 }
 
 struct PlanOptions {
+  SimdTarget target;  // of all kernels
   std::uint32_t max_depth = 5;
   Auxiliary auxiliary = Auxiliary::kNone;
   std::uint32_t wavefront = 0;  // paths; 0 = sized so that the live columns fit in L2

@@ -29,6 +29,7 @@ void ReleaseCopies(SceneDescription& description) {
 }  // namespace
 
 Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
+  const ThreadLimit threads(settings.threads);
   Stopwatch watch;
   ParseOptions parse;
   parse.skip_unsupported = settings.skip_unsupported;
@@ -48,6 +49,7 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
 }
 
 Job PrepareJob(SceneDescription description, const RenderSettings& asked) {
+  const ThreadLimit threads(asked.threads);
   Job job;
   job.settings = asked;
   const RenderSettings& settings = job.settings;
@@ -84,6 +86,7 @@ void SetAmount(Job& job, const RenderSettings& settings) {
 }
 
 void SetStrategy(Job& job, const Strategy& strategy) {
+  const ThreadLimit threads(job.settings.threads);
   UseStrategy(strategy, job.scene);
   job.plan = MakePlan(job.scene, job.plan.options);
 }
@@ -108,6 +111,7 @@ RunOptions RunOptionsOf(const Job& job) {
   options.spp = job.spp;
   options.seconds = job.seconds;
   options.seed = job.seed;
+  options.threads = job.settings.threads;
   if (job.target.Any()) {
     options.samples_needed = [target = job.target](const FilmAccumulator& film,
                                                    std::uint64_t done) {

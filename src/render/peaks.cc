@@ -28,7 +28,8 @@ std::size_t CacheBytes(int name, std::size_t otherwise) {
 // Words 0, 1, 2, ... whose sum is known.
 class ReadBuffer {
  public:
-  explicit ReadBuffer(std::size_t bytes) : words_(RoundedWords(bytes)) {
+  ReadBuffer(SimdTarget target, std::size_t bytes)
+      : target_(target), words_(RoundedWords(bytes)) {
     data_ = static_cast<std::uint32_t*>(
         ::operator new(words_ * sizeof(std::uint32_t), std::align_val_t(kCacheLine)));
     // The pages of a buffer this large should not be what is measured.
@@ -64,18 +65,19 @@ class ReadBuffer {
 
   double Read(std::size_t words, std::size_t passes) const {
     const Stopwatch watch;
-    const std::uint32_t sum = ReadSum(data_, words, passes);
+    const std::uint32_t sum = ReadSum(target_, data_, words, passes);
     const double taken = watch.Seconds();
     const std::uint64_t once = std::uint64_t{words} * (words - 1) / 2;
     LL_CHECK_EQ(sum, static_cast<std::uint32_t>(once * passes));
     return std::max(taken, 1e-9);
   }
 
+  SimdTarget target_;
   std::size_t words_;
   std::uint32_t* data_ = nullptr;
 };
 
-void MeasureMultiplyAdds(bool counters, Peaks& peaks) {
+void MeasureMultiplyAdds(SimdTarget target, bool counters, Peaks& peaks) {
   constexpr std::uint64_t kIterations = 1'000'000;
   constexpr float kFactor = 0.5f, kAddend = 1;  // tends to 2
   CounterEvents events = HardwareEvents();
@@ -84,11 +86,11 @@ void MeasureMultiplyAdds(bool counters, Peaks& peaks) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const bool read = counters && group.Read(&before);
     const Stopwatch watch;
-    const float x = MultiplyAdds(kIterations, kFactor, kAddend);
+    const float x = MultiplyAdds(target, kIterations, kFactor, kAddend);
     const double taken = watch.Seconds();
     LL_CHECK(std::abs(x - 2) < 1e-5f);
-    peaks.flops =
-        std::max(peaks.flops, double(kIterations) * MultiplyAddsOperations() / taken);
+    peaks.flops = std::max(peaks.flops,
+                           double(kIterations) * MultiplyAddsOperations(target) / taken);
     if (!read || !group.Read(&after) || after[0] <= before[0]) continue;
     peaks.fma_ipc = std::max(peaks.fma_ipc,
                              double(after[1] - before[1]) / double(after[0] - before[0]));
@@ -104,10 +106,10 @@ const MemoryLevel& Peaks::LevelOf(double bytes) const {
   return levels.back();
 }
 
-Peaks MeasurePeaks(bool counters) {
+Peaks MeasurePeaks(SimdTarget target, bool counters) {
   const Stopwatch watch;
   Peaks peaks;
-  MeasureMultiplyAdds(counters, peaks);
+  MeasureMultiplyAdds(target, counters, peaks);
   const std::size_t l1 = CacheBytes(_SC_LEVEL1_DCACHE_SIZE, 32 * kKiB);
   const std::size_t l2 = std::max(CacheBytes(_SC_LEVEL2_CACHE_SIZE, kMiB), 2 * l1);
   const std::size_t l3 = CacheBytes(_SC_LEVEL3_CACHE_SIZE, 0);
@@ -115,7 +117,7 @@ Peaks MeasurePeaks(bool counters) {
   // Twice the last cache, within limits: what fits nowhere comes from main memory.
   const std::size_t far = std::min<std::size_t>(
       std::clamp<std::size_t>(2 * std::max(l2, l3), 64 * kMiB, 256 * kMiB), machine / 8);
-  const ReadBuffer buffer(far);
+  const ReadBuffer buffer(target, far);
   const auto add = [&](const char* name, std::size_t bytes, std::size_t probe) {
     peaks.levels.push_back({name, bytes, probe, buffer.Rate(probe, 0.008)});
   };

@@ -1,10 +1,12 @@
 // What this machine can do at most, measured: read bandwidth of each level of memory and
-// the multiply-add peak of the SIMD target in use. One thread.
+// the multiply-add peak of a SIMD target. One thread.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <vector>
+
+#include "kernels/simd/target.h"
 
 namespace lanelight {
 
@@ -29,6 +31,6 @@ struct Peaks {
 /// Measures for about half a second. The answer of every loop is checked (CheckFailure),
 /// so that none can be optimised away. `counters`: read the processor's, if they are
 /// there.
-Peaks MeasurePeaks(bool counters);
+Peaks MeasurePeaks(SimdTarget target, bool counters);
 
 }  // namespace lanelight

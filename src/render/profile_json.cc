@@ -73,9 +73,9 @@ Json ToJson(const ProfileReport& report, const Job& job, const RunResult& result
   return {
       {"schema", kProfileSchema},
       {"kind", "profile"},
-      {"target", TargetJson()},
+      {"target", TargetJson(job.plan.options.target)},
       {"machine", ToJson(ThisMachine())},
-      {"threads", MaxThreads()},
+      {"threads", ThreadCount(job.settings.threads)},
       {"samples", result.samples},
       {"spp", job.spp},
       {"seed", job.seed},

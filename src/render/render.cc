@@ -4,6 +4,7 @@
 
 #include "src/core/error.h"
 #include "src/core/json_text.h"
+#include "src/core/parallel.h"
 #include "src/core/stopwatch.h"
 #include "src/image/for_each_pixel.h"
 #include "src/image/png.h"
@@ -85,6 +86,7 @@ RunResult RunKept(const Job& job, FilmAccumulator& film, const Json& head,
 
 Rendering RenderToFiles(const Job& job, const std::string& scene,
                         const RenderTargets& targets, const RenderHooks& hooks) {
+  const ThreadLimit threads(job.settings.threads);
   FilmAccumulator film = MakeFilm(job);
   Rendering out;
   const Json head = HeadJson(job, scene, targets.image.half);

@@ -112,9 +112,9 @@ Json ToJson(const ErrorEstimate& e) {
           {"effective_pixels", e.effective_pixels}};
 }
 
-Json TargetJson() {
-  return {{"name", CurrentTarget()},
-          {"lanes", CurrentLanes()},
+Json TargetJson(SimdTarget target) {
+  return {{"name", target.name()},
+          {"lanes", target.lanes()},
           {"available", AvailableTargets()}};
 }
 
@@ -128,7 +128,7 @@ Json HeadJson(const Job& job, const std::string& scene, bool half) {
           {"chance_of_light", ChanceOfLight(job.scene)},
           {"plan", ToJson(job.plan)},
           {"settings", ReportedSettings(job, half)},
-          {"target", TargetJson()},
+          {"target", TargetJson(job.plan.options.target)},
           {"machine", ToJson(ThisMachine())},
           {"notes", NotesJson(job)},
           {"differs", CountImageChanges(job.description.notes) > 0},

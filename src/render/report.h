@@ -38,7 +38,7 @@ std::string PointsText(const Job& job);
 /// Name and version of the libraries in use, and of the compiler.
 std::vector<std::pair<std::string, std::string>> LibraryVersions();
 
-/// Name, lanes and alternatives of the SIMD target in use.
-nlohmann::json TargetJson();
+/// Name, lanes and alternatives of a SIMD target.
+nlohmann::json TargetJson(SimdTarget target);
 
 }  // namespace lanelight

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "kernels/simd/target.h"
 #include "src/core/json_text.h"
 #include "src/core/parallel.h"
 #include "src/render/job.h"
@@ -29,8 +28,8 @@ RenderSettings SettingsInForce(const Job& job) {
   s.points = job.scene.strategy.points;
   s.max_depth = static_cast<int>(job.plan.options.max_depth);
   s.build = job.scene.accel.quality;
-  s.threads = MaxThreads();
-  s.target = CurrentTarget();
+  s.threads = ThreadCount(s.threads);
+  s.target = job.plan.options.target.name();
   return s;
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/simd/target.h"
 #include "src/core/error.h"
 #include "src/image/image.h"
 #include "src/scene/rendered_pixels.h"
@@ -139,7 +138,7 @@ CompileOptions CompileOptionsOf(const RenderSettings& settings) {
   CompileOptions options;
   options.scattering = settings.scattering;
   options.build = settings.build.value_or(options.build);
-  options.leaf_triangles = LeafTrianglesFor(CurrentLanes());
+  options.leaf_triangles = LeafTrianglesFor(SimdTarget(settings.target).lanes());
   options.copied_triangles = settings.copied_triangles;
   options.trees = settings.trees;
   return options;
@@ -147,6 +146,7 @@ CompileOptions CompileOptionsOf(const RenderSettings& settings) {
 
 PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene) {
   PlanOptions options;
+  options.target = SimdTarget(settings.target);
   options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
   options.auxiliary = AuxiliaryOf(settings, scene.film);
   options.wavefront = settings.wavefront;

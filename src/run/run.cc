@@ -4,6 +4,7 @@
 
 #include "src/core/check.h"
 #include "src/core/clock.h"
+#include "src/core/parallel.h"
 #include "src/prepare/groups.h"
 #include "src/run/error_looks.h"
 #include "src/wave/profile.h"
@@ -170,6 +171,7 @@ RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& op
               FilmAccumulator& film) {
   LL_CHECK(options.spp > 0 || options.seconds > 0 || options.samples_needed ||
            options.stop != nullptr);
+  const ThreadLimit threads(options.threads);
   return Runner(scene, plan, options, film).Run();
 }
 
@@ -179,6 +181,7 @@ void ServeRun(const CompiledScene& scene, const Plan& plan, const RunOptions& op
   const RunStart start = RunStartFromBytes(options.group->Share(""));
   RunOptions own = options;
   own.tiles = start.tiles;
+  const ThreadLimit threads(options.threads);
   Runner(scene, plan, own, film).Serve(start, options.stop);
 }
 

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "kernels/simd/target.h"
+
 namespace lanelight::stress {
 
 /// What the expected value comes from.
@@ -58,6 +60,7 @@ struct Point {
 struct Effort {
   bool full = false;  // as many samples and rays as give a sharp answer; else a glance
   std::uint64_t seed = 1;
+  SimdTarget target;
   /// Picks by effort: quick or full.
   template <class T>
   T operator()(T quick, T whole) const {

@@ -125,7 +125,7 @@ Json ToJson(const SuiteResult& result) {
                 {{"full", options.effort.full},
                  {"seed", options.effort.seed},
                  {"targets", options.targets},
-                 {"threads", MaxThreads()}}},
+                 {"threads", ThreadCount(options.threads)}}},
                {"false_alarm", options.false_alarm},
                {"level", result.level},
                {"power", kPower},

@@ -6,15 +6,11 @@
 
 #include "kernels/simd/target.h"
 #include "src/core/error.h"
+#include "src/core/parallel.h"
 #include "src/core/stopwatch.h"
 
 namespace lanelight::stress {
 namespace {
-
-// Kernels are resolved for the best target again, whatever happens.
-struct TargetGuard {
-  ~TargetGuard() { ForceTarget(""); }
-};
 
 JudgedPoint Instead(double parameter, std::string refused, std::string crash) {
   JudgedPoint point;
@@ -43,13 +39,12 @@ std::vector<JudgedPoint> Try(const Case& about, double parameter, const Effort& 
   }
 }
 
-void Measure(const std::string& target, double parameter, const Effort& effort,
-             CaseResult& result) {
+void Measure(double parameter, const Effort& effort, CaseResult& result) {
   const Stopwatch watch;
   std::vector<JudgedPoint> points = Try(result.about, parameter, effort);
   const double each = watch.CpuSeconds() / double(points.size());
   for (JudgedPoint& judged : points) {
-    judged.target = target;
+    judged.target = effort.target.name();
     judged.total_seconds = each;
     if (judged.point.seconds == 0) judged.point.seconds = each;
     judged.promised =
@@ -76,9 +71,10 @@ class SuiteRun {
     for (double value : ValuesOf(result.about, options_.effort.full)) {
       for (const std::string& target : options_.targets) {
         if (hooks_.stop && *hooks_.stop) return false;
-        ForceTarget(target);
         Report(target, value);
-        stress::Measure(target, value, options_.effort, result);
+        Effort effort = options_.effort;
+        effort.target = SimdTarget(target);
+        stress::Measure(value, effort, result);
         ++progress_.done;
       }
     }
@@ -101,12 +97,9 @@ class SuiteRun {
 
 // The names as the machine spells them.
 std::vector<std::string> ResolveTargets(const std::vector<std::string>& wanted) {
-  if (wanted.empty()) return {CurrentTarget()};
+  if (wanted.empty()) return {SimdTarget().name()};
   std::vector<std::string> names;
-  for (const std::string& name : wanted) {
-    ForceTarget(name);
-    names.push_back(CurrentTarget());
-  }
+  for (const std::string& name : wanted) names.push_back(SimdTarget(name).name());
   return names;
 }
 
@@ -121,7 +114,7 @@ std::vector<double> ValuesOf(const Case& about, bool full) {
 
 SuiteResult RunSuite(std::span<const Case> cases, const SuiteOptions& options,
                      const SuiteHooks& hooks) {
-  const TargetGuard guard;
+  const ThreadLimit limit(options.threads);
   const Stopwatch watch;
   SuiteResult result;
   result.options = options;

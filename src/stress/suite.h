@@ -14,8 +14,9 @@
 namespace lanelight::stress {
 
 struct SuiteOptions {
-  std::vector<std::string> targets;  // names of SIMD targets; empty: the one in force
-  Effort effort;
+  std::vector<std::string> targets;  // names of SIMD targets; empty: the best
+  int threads = 0;                   // 0: all cores
+  Effort effort;                     // but for its target
   double false_alarm = kFalseAlarm;  // of the whole run
 };
 
@@ -92,8 +93,7 @@ std::vector<double> ValuesOf(const Case& about, bool full);
 
 /// Measures all, one point after the other, so that times mean something; each render
 /// uses all threads. Whatever a case throws is a result: a refusal if it is an
-/// InputError, else a crash. Afterwards the best SIMD target is in force. Throws
-/// InputError for a target that this machine has not.
+/// InputError, else a crash. Throws InputError for a target that this machine has not.
 SuiteResult RunSuite(std::span<const Case> cases, const SuiteOptions& options,
                      const SuiteHooks& hooks = {});
 

@@ -8,11 +8,18 @@
 namespace lanelight::stress {
 namespace {
 
+RenderSettings SettingsOn(SimdTarget target) {
+  RenderSettings settings;
+  settings.target = target.name();
+  return settings;
+}
+
 constexpr std::size_t kPadding = 32;  // kernels may store a vector past the last path
 
 }  // namespace
 
-RayTracer::RayTracer(const std::string& text) : job_(PrepareText({text, {}})) {
+RayTracer::RayTracer(SimdTarget target, const std::string& text)
+    : job_(PrepareText({text, SettingsOn(target)})) {
   wave_.scene = &job_.scene;
   wave_.run = &run_;
 }

@@ -26,12 +26,12 @@ struct WorldHit {
   Vec3d point, normal;          // as shading sees them; zero without a hit
 };
 
-/// Runs the closest-hit, surface and shadow stages that the plan of a scene has, on the
-/// SIMD target in force. The scene needs a light, or it has no shadow stages.
+/// Runs the closest-hit, surface and shadow stages that the plan of a scene has, on a
+/// SIMD target. The scene needs a light, or it has no shadow stages.
 class RayTracer {
  public:
   /// Compiles and plans the scene (pbrt text, no files). Throws InputError.
-  explicit RayTracer(const std::string& text);
+  RayTracer(SimdTarget target, const std::string& text);
 
   /// Closest hits and their surfaces.
   std::vector<WorldHit> Trace(const std::vector<WorldRay>& rays);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/core/json_text.h"
+#include "src/core/parallel.h"
 #include "src/core/stopwatch.h"
 #include "src/image/atomic_file.h"
 #include "src/study/study_images.h"
@@ -12,6 +13,7 @@
 namespace lanelight {
 
 std::vector<SceneStudy> Study(const StudyOptions& options, const StudyHooks& hooks) {
+  const ThreadLimit threads(options.settings.threads);
   const Stopwatch watch;
   std::vector<SceneStudy> studies;
   std::vector<ReportImage> images;

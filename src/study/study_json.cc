@@ -220,7 +220,7 @@ Json SettingsJson(const StudyOptions& options) {
   return {{"confidence", options.confidence},
           {"repetitions", options.Repetitions()},
           {"seed", Optional(s.seed)},
-          {"threads", MaxThreads()},
+          {"threads", ThreadCount(s.threads)},
           {"max_depth", Optional(s.max_depth)},
           {"resolution", Optional(s.resolution)},
           {"crop", Optional(s.crop)},
@@ -241,8 +241,9 @@ nlohmann::json StudyJson(const std::vector<SceneStudy>& scenes,
               {"machine", ToJson(ThisMachine())},
               {"seconds", seconds},
               {"scenes", Json::array()}};
-  out["machine"].update(
-      {{"target", CurrentTarget()}, {"threads", MaxThreads()}, {"versions", versions}});
+  out["machine"].update({{"target", SimdTarget(options.settings.target).name()},
+                         {"threads", ThreadCount(options.settings.threads)},
+                         {"versions", versions}});
   for (const SceneStudy& scene : scenes) {
     out["scenes"].push_back(SceneJson(scene, options));
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "kernels/simd/target.h"
-#include "src/core/parallel.h"
 #include "src/render/memory.h"
 #include "src/strategy/named_strategy.h"
 
@@ -28,10 +27,6 @@ std::string CellRenderer::SceneKey(const SweepCell& cell) const {
   return key;
 }
 
-int CellRenderer::Threads(const SweepCell& cell) {
-  return std::stoi(Get(cell.values, Axis::kThreads).value_or("0"));
-}
-
 bool CellRenderer::HasTarget(const SweepCell& cell) {
   const auto& target = Get(cell.values, Axis::kTarget);
   if (!target) return true;
@@ -47,7 +42,6 @@ void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
   tree_key_ = trees;
   job_.reset();  // before there is another in memory
   failure_.clear();
-  ForceTarget(Get(cell.values, Axis::kTarget).value_or(""));
   settings.seed.reset();  // that of one cell is not that of the next
   try {
     Job job = PrepareJob(sweep_.ScenePath(cell), settings);
@@ -81,7 +75,6 @@ Job& CellRenderer::Prepare(const SweepCell& cell) {
 
 Rendering CellRenderer::Render(const SweepCell& cell, const std::string& folder,
                                const RenderHooks& hooks) {
-  const ThreadLimit threads(Threads(cell));
   const Job& job = Prepare(cell);
   RenderTargets targets;
   targets.image = sweep_.settings.render.image;

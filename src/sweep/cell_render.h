@@ -37,8 +37,6 @@ class CellRenderer {
 
   /// What a compiled scene is of: cells of the same text share it.
   std::string SceneKey(const SweepCell& cell) const;
-  /// Threads of a cell; 0: all cores.
-  static int Threads(const SweepCell& cell);
   /// Whether this machine has the cell's SIMD target.
   static bool HasTarget(const SweepCell& cell);
 

@@ -61,6 +61,7 @@ Pilot RenderPilot(const Job& job, double seconds, bool half) {
   RunOptions options;
   options.windows = windows;
   options.seed = job.seed;
+  options.threads = job.settings.threads;
   // The first render fills caches; the last one measures.
   for (options.spp = kPilotSamples;; options.spp *= 4) {
     FilmAccumulator film(0, 0, width, height, GroupsOf(job.scene.strategy),

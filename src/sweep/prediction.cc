@@ -7,7 +7,6 @@
 #include <set>
 
 #include "src/core/interrupted.h"
-#include "src/core/parallel.h"
 #include "src/sweep/cell_render.h"
 #include "src/sweep/pilot.h"
 #include "src/sweep/sweep_folder.h"
@@ -90,7 +89,6 @@ void Predictor::RenderPilots(std::size_t most, SweepPrediction& out) {
   const std::size_t count = std::min(most, combinations_.size());
   for (std::size_t i = 0; i < count && !stop_; ++i) {
     const Combination& c = combinations_[i * combinations_.size() / count];
-    const ThreadLimit threads(CellRenderer::Threads(*c.cell));
     try {
       const Job& job = renderer_.Prepare(*c.cell);
       pilots_[{c.scene, c.strategy}] =

@@ -27,12 +27,6 @@ double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Jobs of one scene: kernels of each target want trees of their own.
-struct TargetJob {
-  std::string target;
-  Job job;
-};
-
 double MeanOf(const FilmAccumulator& film) {
   double sum = 0;
   for (int y = film.y0(); y < film.y0() + film.height(); ++y) {
@@ -45,10 +39,9 @@ double MeanOf(const FilmAccumulator& film) {
 }
 
 // Renders it once, and returns the mean of the image.
-double Render(const TargetJob& at, ThroughputRow& row, const std::atomic<bool>& stop) {
-  ForceTarget(at.target);
-  const ThreadLimit limit(row.threads);
-  JobRun run = RunJob(at.job, {}, &stop);
+double Render(Job& job, ThroughputRow& row, const std::atomic<bool>& stop) {
+  job.settings.threads = row.threads;
+  JobRun run = RunJob(job, {}, &stop);
   row.counts = std::move(run.result);
   return MeanOf(run.film);
 }
@@ -57,12 +50,13 @@ class SceneBench {
  public:
   SceneBench(const ThroughputOptions& options, const std::string& scene)
       : options_(options), scene_(scene) {
+    RenderSettings settings = options.settings;
     for (const std::string& target : options.targets) {
-      ForceTarget(target);
-      jobs_.push_back({target, PrepareJob(ReadBenchScene(scene), options.settings)});
+      settings.target = target;
+      jobs_.push_back(PrepareJob(ReadBenchScene(scene), settings));
     }
-    for (const TargetJob& at : jobs_) {
-      for (const int threads : options.threads) rows_.push_back(RowOf(at, threads));
+    for (const Job& job : jobs_) {
+      for (const int threads : options.threads) rows_.push_back(RowOf(job, threads));
     }
   }
 
@@ -98,30 +92,28 @@ class SceneBench {
   std::vector<ThroughputRow>& rows() { return rows_; }
 
  private:
-  const TargetJob& JobOf(std::size_t row) const {
-    return jobs_[row / options_.threads.size()];
-  }
-  ThroughputRow RowOf(const TargetJob& at, int threads) const {
+  Job& JobOf(std::size_t row) { return jobs_[row / options_.threads.size()]; }
+  ThroughputRow RowOf(const Job& job, int threads) const {
     ThroughputRow row;
     row.scene = scene_;
-    row.target = at.target;
-    row.strategy = ToText(at.job.scene.strategy);
+    row.target = job.plan.options.target.name();
+    row.strategy = ToText(job.scene.strategy);
     row.threads = threads;
-    row.width = at.job.window.width();
-    row.height = at.job.window.height();
-    row.spp = at.job.spp;
-    row.bytes_per_path = at.job.plan.bytes_per_path;
-    row.wavefront = at.job.plan.wavefront;
+    row.width = job.window.width();
+    row.height = job.window.height();
+    row.spp = job.spp;
+    row.bytes_per_path = job.plan.bytes_per_path;
+    row.wavefront = job.plan.wavefront;
     return row;
   }
   void SetSpp(std::uint64_t spp) {
-    for (TargetJob& at : jobs_) at.job.spp = spp;
+    for (Job& job : jobs_) job.spp = spp;
     for (ThroughputRow& row : rows_) row.spp = spp;
   }
 
   const ThroughputOptions& options_;
   const std::string scene_;
-  std::vector<TargetJob> jobs_;
+  std::vector<Job> jobs_;  // by target: each has trees of its own
   std::vector<ThroughputRow> rows_;
 };
 
@@ -215,7 +207,6 @@ std::vector<ThroughputRow> MeasureThroughput(
       if (!row.seconds.empty()) rows.push_back(std::move(row));
     }
   }
-  ForceTarget("");
   return rows;
 }
 

@@ -1,14 +1,13 @@
 #include "src/wave/profile.h"
 
-#include "kernels/simd/target.h"
-
 namespace lanelight {
 namespace {
 
-void Add(const StageCounters& counters, const StageTotals& totals, StageProfile& row) {
+void Add(const StageCounters& counters, const StageTotals& totals, int lanes,
+         StageProfile& row) {
   row.calls += counters.calls;
   row.items += counters.items;
-  row.lane_slots += counters.lane_slots * static_cast<std::uint64_t>(CurrentLanes());
+  row.lane_slots += counters.lane_slots * static_cast<std::uint64_t>(lanes);
   row.seconds += totals.seconds;
   row.counted_items += totals.counted_items;
   for (std::size_t i = 0; i < row.counted.size(); ++i) {
@@ -47,12 +46,12 @@ std::vector<StageProfile> EmptyParts() {
   return parts;
 }
 
-void AddCounts(Wavefront& wavefront, StageClock* clock, RunResult& result) {
+void AddCounts(Wavefront& wavefront, StageClock* clock, int lanes, RunResult& result) {
   result.wavefront_bytes += wavefront.bytes();
   if (clock == nullptr) return;
   const std::size_t stages = result.stages.size();
   for (std::size_t i = 0; i < clock->rows().size(); ++i) {
-    Add(clock->rows()[i], clock->totals()[i],
+    Add(clock->rows()[i], clock->totals()[i], lanes,
         i < stages ? result.stages[i] : result.parts[i - stages]);
   }
   result.waiting_seconds +=

@@ -20,6 +20,6 @@ std::vector<StageProfile> EmptyParts();
 
 /// Adds the memory of one thread's wavefront and what its clock has counted; the clock
 /// gives its trace away. `clock` may be null.
-void AddCounts(Wavefront& wavefront, StageClock* clock, RunResult& result);
+void AddCounts(Wavefront& wavefront, StageClock* clock, int lanes, RunResult& result);
 
 }  // namespace lanelight

@@ -46,6 +46,7 @@ struct RunOptions {
   /// do.
   std::function<double(const FilmAccumulator& film, std::uint64_t done)> samples_needed;
   std::uint64_t seed = 0;
+  int threads = 0;                                   // at most; 0: all cores
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
   /// Finish the samples in flight; those that take longer are put down.
   const std::atomic<bool>* stop = nullptr;

@@ -110,7 +110,9 @@ void TaskRunner::Merge(const PixelRect& place, TaskSamples& samples, Films& film
 
 void TaskRunner::AddCounts(RunResult& result) {
   for (const auto& space : workspaces_) {
-    if (space) lanelight::AddCounts(space->wavefront, space->Clock(), result);
+    if (!space) continue;
+    lanelight::AddCounts(space->wavefront, space->Clock(), plan_.options.target.lanes(),
+                         result);
   }
 }
 

@@ -72,7 +72,7 @@ std::vector<KernelHit> NearestOfLoops(const Geometry& g,
     const auto end = std::min<std::size_t>(first + kFewTriangles, g.triangles.size());
     part.triangles.assign(g.triangles.begin() + first,
                           g.triangles.begin() + static_cast<std::ptrdiff_t>(end));
-    const auto hits = TraceClosest(MakeScene(part), rays, {IntersectTrianglesStage()});
+    const auto hits = TraceClosest(MakeScene(part), rays, {IntersectTrianglesStage});
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (!(hits[i].t < nearest[i].t)) continue;
       nearest[i] = hits[i];
@@ -188,7 +188,7 @@ TEST_CASE("rays hit cut triangles as they hit whole ones, bit by bit", "[accel]"
   const CompiledScene scene = MakeScene(g);
   REQUIRE(References(Collect(scene.accel)) > g.triangles.size());
   const std::vector<TestRay> rays = RaysAt(g, random, 20000);
-  const auto hits = TraceClosest(scene, rays, {IntersectTrianglesStage()});
+  const auto hits = TraceClosest(scene, rays, {IntersectTrianglesStage});
   const auto truth = NearestOfLoops(g, rays);
   std::size_t differ = 0, found = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {

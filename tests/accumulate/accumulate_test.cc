@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "tests/support/wave_fixture.h"
 
@@ -157,7 +157,7 @@ class Finished {
     if (!v.numbers) p.first_bsdf = nullptr;
     if (!v.gbuffer) p.gb_hit = nullptr;
   }
-  void Run() { fixture_.Run(AccumulateStage(), variant_.features()); }
+  void Run() { fixture_.Run(AccumulateStage, variant_.features()); }
 
   Kind kind(std::uint32_t i) const { return static_cast<Kind>(i % kKinds); }
   Sample planted(std::uint32_t i) const {

@@ -1,7 +1,7 @@
 // Auxiliary output of the first hit, and the light of unoccluded shadow rays.
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "tests/support/wave_fixture.h"
 
@@ -117,7 +117,7 @@ TEST_CASE("aov: albedo of every kind, normal and depth, at the first hit alone",
       WaveFixture f(scene, kHitPaths);
       FillHits(f, static_cast<std::uint32_t>(scene.materials.size()));
       if (!features.Has(Feature::kTexturedColor1)) f.wave.path.color1_r = nullptr;
-      f.Run(AovStage(), features);
+      f.Run(AovStage, features);
       for (std::uint32_t i = 0; i < kHitPaths; ++i) {
         CheckHit(f.wave.path, scene.materials, i, features);
       }
@@ -139,7 +139,7 @@ TEST_CASE("connect: the queued paths gain what their shadow rays carry", "[accum
       p.sh_r[i] = 1, p.sh_g[i] = 0.5f, p.sh_b[i] = i;
       if (i % 4 != 2) shadow.items[shadow.size++] = i;
     }
-    f.Run(ConnectStage(), {});
+    f.Run(ConnectStage, {});
     for (std::uint32_t i = 0; i < kHitPaths; ++i) {
       const float lit = i % 4 != 2;
       CHECK(p.l_r[i] == i + lit);

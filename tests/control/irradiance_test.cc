@@ -3,7 +3,7 @@
 // them at a grazing angle, or have them cut by their horizon.
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/control/quadrature.h"
 #include "tests/control/receivers.h"
 #include "tests/support/wave_fixture.h"

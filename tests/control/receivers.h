@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/support/area_lights_probe.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 
@@ -39,7 +40,7 @@ struct Receivers {
     }
     takes_part.assign(padded, 0);
     batch.takes_part = takes_part.data();
-    ProbeAreaLights(batch);
+    ProbeAreaLights(TestTarget(), batch);
     for (int i = 0; i < 3; ++i) {
       p[i].resize(batch.n);
       n[i].resize(batch.n);

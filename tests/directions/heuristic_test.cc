@@ -24,7 +24,7 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/prepare/parameters.h"
 
 namespace lanelight {
@@ -54,7 +54,7 @@ struct Weights {
     light.resize(kPairs), emission.resize(kPairs);
     Strategy s;
     ApplyStrategy(strategy, {}, s);
-    HWY_DYNAMIC_DISPATCH(Weigh)
+    LANELIGHT_ON(TestTarget(), Weigh)
     ({kPairs, MakeMisParameters(s), light_pdf.data(), bsdf_pdf.data(), light.data(),
       emission.data()});
   }

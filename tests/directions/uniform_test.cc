@@ -18,21 +18,21 @@ constexpr int kMoments = 4;
 const FeatureSet kFeatures = {Feature::kUniformDirections, Feature::kScatters};
 
 // In the order of ShadeKind.
-constexpr Stage (*kFactories[])() = {ShadeDiffuseStage,
-                                     ShadeDiffuseUniformStage,
-                                     ShadeDiffuseInSphereStage,
-                                     ShadeConductorSmoothStage,
-                                     ShadeConductorRoughStage,
-                                     ShadeDielectricSmoothStage,
-                                     ShadeDielectricRoughStage,
-                                     ShadeThinDielectricStage,
-                                     ShadeCoatedDiffuseSmoothStage,
-                                     ShadeCoatedDiffuseRoughStage,
-                                     ShadeCoatedConductorStage,
-                                     ShadeCoatedDiffuseMediumStage,
-                                     ShadeCoatedConductorMediumStage,
-                                     ShadeDiffuseTransmissionStage,
-                                     ShadeHenyeyGreensteinStage};
+constexpr StageOn kFactories[] = {ShadeDiffuseStage,
+                                  ShadeDiffuseUniformStage,
+                                  ShadeDiffuseInSphereStage,
+                                  ShadeConductorSmoothStage,
+                                  ShadeConductorRoughStage,
+                                  ShadeDielectricSmoothStage,
+                                  ShadeDielectricRoughStage,
+                                  ShadeThinDielectricStage,
+                                  ShadeCoatedDiffuseSmoothStage,
+                                  ShadeCoatedDiffuseRoughStage,
+                                  ShadeCoatedConductorStage,
+                                  ShadeCoatedDiffuseMediumStage,
+                                  ShadeCoatedConductorMediumStage,
+                                  ShadeDiffuseTransmissionStage,
+                                  ShadeHenyeyGreensteinStage};
 static_assert(std::size(kFactories) == kNumShadeKinds);
 
 bool Transmits(ShadeKind kind) {
@@ -77,7 +77,7 @@ struct Bounces {
       p.eta_scale[i] = 1;
     }
     fixture.QueueAll(ShadeQueue(material.kind), kPaths);
-    fixture.Run(kFactories[static_cast<int>(material.kind)](), kFeatures);
+    fixture.Run(kFactories[static_cast<int>(material.kind)], kFeatures);
   }
   Vec3d Wi(std::uint32_t i) const {
     const PathColumns& p = fixture.wave.path;

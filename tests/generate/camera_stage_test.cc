@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/compile/camera.h"
 #include "src/compile/filter.h"
@@ -35,10 +35,10 @@ constexpr View kViews[] = {
     {"spherical", CameraKind::kSpherical, 0, false},
     {"longitudes", CameraKind::kSpherical, 0, false, SphericalMapping::kEquirectangular}};
 
-Stage StageOf(CameraKind kind) {
-  if (kind == CameraKind::kOrthographic) return OrthographicCameraStage();
-  if (kind == CameraKind::kSpherical) return SphericalCameraStage();
-  return PerspectiveCameraStage();
+StageOn StageOf(CameraKind kind) {
+  if (kind == CameraKind::kOrthographic) return OrthographicCameraStage;
+  if (kind == CameraKind::kSpherical) return SphericalCameraStage;
+  return PerspectiveCameraStage;
 }
 
 Camera Describe(const View& view) {

@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/prepare/path_values.h"
 #include "tests/support/wave_fixture.h"
@@ -40,7 +40,7 @@ class Starter {
     Queue& active = queue(QueueId::kActive);
     camera.size = 0;
     const std::uint32_t room = Room();
-    fixture_.Run(GenerateStage(), FeaturesOf());
+    fixture_.Run(GenerateStage, FeaturesOf());
     // As many as there is room for, in whole groups of a pixel's samples.
     CHECK(camera.size <= room);
     if (!fixture_.wave.work.Done()) CHECK(camera.size + task_.together > room);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/compile/camera.h"
 #include "src/compile/filter.h"
@@ -53,7 +53,7 @@ struct Shot {
       p.u_lens_0[i] = unit(), p.u_lens_1[i] = unit();
     }
     fixture.QueueAll(QueueId::kCamera, kPaths);
-    fixture.Run(RealisticCameraStage(), {});
+    fixture.Run(RealisticCameraStage, {});
   }
   // Millimetres from the middle of the film.
   Vec3d OnFilm(std::uint32_t i) const {

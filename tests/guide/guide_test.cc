@@ -8,6 +8,7 @@
 #include "tests/guide/random_guide.h"
 #include "tests/shade/probe_batch.h"
 #include "tests/stat/chi2.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 namespace {
@@ -73,7 +74,7 @@ std::size_t SquareOf(Vec3d local) {
 
 void CheckCells(const Guide& guide, Columns& columns) {
   ForEachTarget([&](const std::string& target) {
-    ProbeGuideCells(columns.View(guide));
+    ProbeGuideCells(TestTarget(), columns.View(guide));
     INFO(target);
     for (std::uint32_t i = 0; i < columns.n; ++i) {
       REQUIRE(columns.cell[i] == CellByHand(guide, columns.P(i), columns.N(i)));
@@ -134,7 +135,7 @@ TEST_CASE("guide: what is no number has a cell", "[guide]") {
   }
   CheckCells(guide, columns);
   ForEachTarget([&](const std::string&) {
-    ProbeGuidePdfs(columns.View(guide));  // reads what it has
+    ProbeGuidePdfs(TestTarget(), columns.View(guide));  // reads what it has
     for (std::uint32_t i = 0; i < columns.n; ++i) REQUIRE(!(columns.pdf[i] < 0));
   });
 }
@@ -156,7 +157,7 @@ TEST_CASE("guide: the density of every cell integrates to 1", "[guide]") {
   ForEachTarget([&](const std::string& target) {
     for (std::uint32_t cell = 0; cell < guide.cells(); ++cell) {
       std::fill(columns.cell.begin(), columns.cell.end(), cell);
-      ProbeGuidePdfs(columns.View(guide));
+      ProbeGuidePdfs(TestTarget(), columns.View(guide));
       double sum = 0;
       for (std::uint32_t i = 0; i < columns.n; ++i) sum += columns.pdf[i] * share[i];
       INFO(target << ", cell " << cell);
@@ -176,7 +177,7 @@ TEST_CASE("guide: nothing is below the surface", "[guide]") {
     columns.Set(columns.direction, i, Normalize(d));
   }
   ForEachTarget([&](const std::string&) {
-    ProbeGuidePdfs(columns.View(guide));
+    ProbeGuidePdfs(TestTarget(), columns.View(guide));
     for (std::uint32_t i = 0; i < columns.n; ++i) REQUIRE(columns.pdf[i] == 0);
   });
 }
@@ -193,7 +194,7 @@ Columns Samples(const Guide& guide, std::uint32_t cells, std::uint32_t n) {
     columns.cell[i] = i % cells;
     columns.u0[i] = unit(), columns.u1[i] = unit();
   }
-  ProbeGuideSamples(columns.View(guide));
+  ProbeGuideSamples(TestTarget(), columns.View(guide));
   return columns;
 }
 
@@ -262,7 +263,7 @@ TEST_CASE("guide: a sample's density is that of its direction", "[guide]") {
     REQUIRE(guide.cells() >= kCells);
     Columns columns = Samples(guide, kCells, 1 << 14);
     const std::vector<float> sampled = columns.pdf;
-    ProbeGuidePdfs(columns.View(guide));
+    ProbeGuidePdfs(TestTarget(), columns.View(guide));
     std::uint32_t other = 0;
     for (std::uint32_t i = 0; i < columns.n; ++i) {
       // Near the horizon a float's direction has lost digits of the cosine.
@@ -283,7 +284,7 @@ TEST_CASE("guide: the ends of the numbers stay within the last square", "[guide]
     columns.cell[i] = static_cast<std::uint32_t>(i / 4 % guide.cells());
   }
   ForEachTarget([&](const std::string&) {
-    ProbeGuideSamples(columns.View(guide));
+    ProbeGuideSamples(TestTarget(), columns.View(guide));
     for (std::uint32_t i = 0; i < 16; ++i) {
       const Vec3d d = {columns.direction[0][i], columns.direction[1][i],
                        columns.direction[2][i]};

@@ -19,7 +19,7 @@ namespace lanelight::test {
 namespace {
 
 constexpr std::uint32_t kPaths = 1 << 15, kFew = 1000;
-constexpr Stage (*kFactories[])() = {
+constexpr StageOn kFactories[] = {
 #define X(name, traits, meaning) Shade##name##Stage,
     LANELIGHT_SHADE_KINDS(X)
 #undef X
@@ -76,8 +76,8 @@ struct GuidedPaths {
     if (mis) features.Add(Feature::kMis);
     fixture.QueueAll(QueueId::kSurface, count);
     fixture.QueueAll(ShadeQueue(kind), count);
-    if (guided) fixture.Run(GuideProposalsStage(), features);
-    fixture.Run(kFactories[static_cast<int>(kind)](), features);
+    if (guided) fixture.Run(GuideProposalsStage, features);
+    fixture.Run(kFactories[static_cast<int>(kind)], features);
   }
 
   const PathColumns& path() const { return fixture.wave.path; }

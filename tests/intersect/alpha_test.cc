@@ -2,7 +2,7 @@
 // that nothing evaluates.
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/core/check.h"
 #include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
@@ -39,8 +39,8 @@ std::vector<TestRay> Downwards(Random& random, int n) {
   return rays;
 }
 
-void CheckShares(const Geometry& g, const std::vector<Stage>& closest,
-                 const std::vector<Stage>& shadow) {
+void CheckShares(const Geometry& g, const std::vector<StageOn>& closest,
+                 const std::vector<StageOn>& shadow) {
   Random random(51);
   const auto rays = Downwards(random, 4000);
   for (const float alpha : {0.0f, 0.25f, 1.0f}) {
@@ -62,7 +62,7 @@ void CheckShares(const Geometry& g, const std::vector<Stage>& closest,
       std::vector<TestRay> ending = rays;
       for (TestRay& ray : ending) ray.t_max = 3.05f;
       const auto open = Unoccluded(scene, ending, shadow, kAlpha);
-      if (closest[0].name == std::string("intersect_triangles")) {
+      if (closest[0] == IntersectTrianglesStage) {
         CHECK(static_cast<int>(open.size()) == 4000 - first);
       }
     }
@@ -79,12 +79,12 @@ TEST_CASE("a cut-out keeps its share of the hits", "[intersect]") {
     Geometry triangles, spheres, disks;
     AddLayers(triangles.triangles,
               [](float z) { return MakeTriangle({-2, -2, z}, {2, -2, z}, {0, 3, z}); });
-    CheckShares(triangles, {IntersectTrianglesStage()}, {ShadowTrianglesStage()});
+    CheckShares(triangles, {IntersectTrianglesStage}, {ShadowTrianglesStage});
     AddLayers(disks.disks, [](float z) { return MakeDisk({0, 0, z}, {0, 0, 1}, 2); });
-    CheckShares(disks, {IntersectDisksStage()}, {ShadowDisksStage()});
+    CheckShares(disks, {IntersectDisksStage}, {ShadowDisksStage});
     AddLayers(spheres.spheres,
               [](float z) { return MakeSphere({0, 0, 100 + 5 * z}, 100 + 2.5f * z); });
-    CheckShares(spheres, {IntersectSpheresStage()}, {ShadowSpheresStage()});
+    CheckShares(spheres, {IntersectSpheresStage}, {ShadowSpheresStage});
   }
   ForceTarget("");
 }
@@ -102,7 +102,7 @@ TEST_CASE("a sphere whose near side is cut out is met on its far side", "[inters
       Random random(52);
       int near = 0, far = 0, none = 0;
       for (const KernelHit& hit : TraceClosest(scene, Downwards(random, 2000),
-                                               {IntersectSpheresStage()}, kAlpha)) {
+                                               {IntersectSpheresStage}, kAlpha)) {
         if (std::isinf(hit.t)) {
           ++none;
         } else {

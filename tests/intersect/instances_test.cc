@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/core/transform.h"
 #include "tests/support/brute_force.h"
@@ -87,7 +87,7 @@ TEST_CASE("instances give the hits of the flattened scene", "[intersect]") {
                           flat = MakeScene(pair.flat);
       std::vector<TestRay> rays;
       for (int i = 0; i < 800; ++i) rays.push_back({random.Point(2), random.Direction()});
-      const std::vector<Stage> stages = {IntersectTrianglesStage()};
+      const std::vector<StageOn> stages = {IntersectTrianglesStage};
       const auto a = TraceClosest(instanced, rays, stages, kInstanced);
       const auto b = TraceClosest(flat, rays, stages);
       int differ = 0, hits = 0;
@@ -114,7 +114,7 @@ TEST_CASE("instances give the hits of the flattened scene", "[intersect]") {
         rays[i].t_max = 1.5f;
         if (!(a[i].t < rays[i].t_max)) open.push_back(i);
       }
-      CHECK(Unoccluded(instanced, rays, {ShadowTrianglesStage()}, kInstanced) == open);
+      CHECK(Unoccluded(instanced, rays, {ShadowTrianglesStage}, kInstanced) == open);
     }
   }
   ForceTarget("");
@@ -177,7 +177,7 @@ TEST_CASE("a hit on an instance does not depend on the company of its ray",
     ForceTarget(target);
     for (const FeatureSet& features : {kInstanced, cut_out}) {
       CAPTURE(target, features.Has(Feature::kAlpha));
-      const std::vector<Stage> closest = {IntersectTrianglesStage()};
+      const std::vector<StageOn> closest = {IntersectTrianglesStage};
       const auto together = TraceClosest(scene, rays, closest, features);
       const auto hits =
           std::ranges::count_if(together, [](const auto& h) { return !std::isinf(h.t); });
@@ -188,7 +188,7 @@ TEST_CASE("a hit on an instance does not depend on the company of its ray",
       for (std::uint32_t i = 0; i < rays.size(); ++i) {
         if (std::isinf(together[i].t)) expected.push_back(i);
       }
-      CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage()}, features) == expected);
+      CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage}, features) == expected);
       for (const std::size_t company : {1, 6, 37}) {
         std::vector<KernelHit> apart;
         for (std::size_t at = 0; at < rays.size(); at += company) {
@@ -231,7 +231,7 @@ TEST_CASE("between equal hits the smaller instance is nearer", "[intersect]") {
     ForceTarget(target);
     CAPTURE(target);
     for (const KernelHit& hit :
-         TraceClosest(scene, rays, {IntersectTrianglesStage()}, kInstanced)) {
+         TraceClosest(scene, rays, {IntersectTrianglesStage}, kInstanced)) {
       REQUIRE(hit.prim == 0);
       REQUIRE(hit.inst == 0);
     }
@@ -256,7 +256,7 @@ TEST_CASE("a ray that leaves the range of numbers meets no instance", "[intersec
     ForceTarget(target);
     CAPTURE(target);
     for (const KernelHit& hit :
-         TraceClosest(scene, rays, {IntersectTrianglesStage()}, kInstanced)) {
+         TraceClosest(scene, rays, {IntersectTrianglesStage}, kInstanced)) {
       REQUIRE(std::isinf(hit.t));
     }
   }
@@ -274,13 +274,13 @@ TEST_CASE("surfaces of instances lie on the flattened triangles", "[surface]") {
     for (int i = 0; i < 800; ++i) rays.push_back({random.Point(2), random.Direction()});
     WaveFixture f(scene, 800);
     f.SetRays(rays);
-    f.Run(IntersectTrianglesStage(), kInstanced);
+    f.Run(IntersectTrianglesStage, kInstanced);
     Queue& queue = f.wave.queue(QueueId::kSurface);
     const PathColumns& p = f.wave.path;
     for (std::uint32_t i = 0; i < 800; ++i) {
       if (!std::isinf(p.t[i])) queue.items[queue.size++] = i;
     }
-    f.Run(SurfaceTriangleStage(), kInstanced);
+    f.Run(SurfaceTriangleStage, kInstanced);
     Queue& shadow = f.wave.queue(QueueId::kShadow);
     for (std::uint32_t k = 0; k < queue.size; ++k) {
       const std::uint32_t i = queue.items[k];
@@ -306,7 +306,7 @@ TEST_CASE("surfaces of instances lie on the flattened triangles", "[surface]") {
     }
     const std::uint32_t before = shadow.size;
     REQUIRE(before > 100);
-    f.Run(ShadowTrianglesStage(), kInstanced);
+    f.Run(ShadowTrianglesStage, kInstanced);
     CHECK(shadow.size == before);
   }
   ForceTarget("");
@@ -324,7 +324,7 @@ TEST_CASE("coincident instances tie to the smaller index", "[intersect]") {
       g.instance_group.push_back(1);
     }
     const auto hits = TraceClosest(MakeScene(g), {{{0, 0, 0}, {0, 0, 1}}},
-                                   {IntersectTrianglesStage()}, kInstanced);
+                                   {IntersectTrianglesStage}, kInstanced);
     CHECK(hits[0].t == 1);
     CHECK(hits[0].inst == 0);
   }

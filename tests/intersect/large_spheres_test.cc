@@ -1,7 +1,7 @@
 // Large spheres against extended precision: distances, leaving, alpha, normals.
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "tests/intersect/trace.h"
 #include "tests/support/brute_force.h"
@@ -42,8 +42,8 @@ SphereTruth TruthOf(const LargeSphereRecord& s, const TestRay& ray) {
   return {t0 > 0 ? t0 : t1 > 0 ? t1 : SphereTruth{}.t, root};
 }
 
-const std::vector<Stage> kClosestLarge = {IntersectLargeSpheresStage()};
-const std::vector<Stage> kShadowLarge = {ShadowLargeSpheresStage()};
+const std::vector<StageOn> kClosestLarge = {IntersectLargeSpheresStage};
+const std::vector<StageOn> kShadowLarge = {ShadowLargeSpheresStage};
 
 std::vector<TestRay> RaysAbout(const LargeSphereRecord& s, Random& random, float height) {
   const Vec3f point{s.point[0], s.point[1], s.point[2]};
@@ -118,7 +118,7 @@ TEST_CASE("rays that leave a large sphere do not meet it again", "[surface]") {
         for (std::uint32_t i = 0; i < rays.size(); ++i) {
           if (!std::isinf(p.t[i])) surface.items[surface.size++] = i;
         }
-        f.Run(SurfaceLargeSphereStage(), features);
+        f.Run(SurfaceLargeSphereStage, features);
         Queue& shadow = f.wave.queue(QueueId::kShadow);
         shadow.size = 0;
         for (std::uint32_t k = 0; k < surface.size; ++k) {
@@ -168,9 +168,9 @@ TEST_CASE("large spheres have the surface of an ordinary one", "[surface]") {
     for (const int k : {0, 1}) {
       WaveFixture f(scenes[k], 300);
       f.SetRays(rays);
-      f.Run(k ? IntersectSpheresStage() : IntersectLargeSpheresStage(), features);
+      f.Run(k ? IntersectSpheresStage : IntersectLargeSpheresStage, features);
       f.QueueAll(QueueId::kSurface, 300);
-      f.Run(k ? SurfaceSphereStage() : SurfaceLargeSphereStage(), features);
+      f.Run(k ? SurfaceSphereStage : SurfaceLargeSphereStage, features);
       const PathColumns& p = f.wave.path;
       for (std::uint32_t i = 0; i < 300; ++i) {
         found[k].insert(found[k].end(), {f.P(i), f.Ng(i)});

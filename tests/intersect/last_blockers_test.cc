@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/intersect/trace.h"
 #include "tests/support/brute_force.h"
 
@@ -52,7 +52,7 @@ TEST_CASE("what blocked one shadow ray need not block another", "[intersect]") {
     const CompiledScene scene = MakeScene(Walls(random));
     std::vector<TestRay> rays = RaysToWalls(random, 3000);
     // Some start on the wall that they meet: they are blocked by what is behind it only.
-    const auto first = TraceClosest(scene, rays, {IntersectTrianglesStage()});
+    const auto first = TraceClosest(scene, rays, {IntersectTrianglesStage});
     for (std::size_t i = 0; i < rays.size(); i += 7) {
       if (std::isfinite(first[i].t)) rays[i].from = first[i].prim;
     }
@@ -71,7 +71,7 @@ TEST_CASE("what blocked one shadow ray need not block another", "[intersect]") {
     }
     REQUIRE(ends > 500);
     REQUIRE(ends < 2000);
-    CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage()}) == open);
+    CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage}) == open);
   }
   ForceTarget("");
 }

@@ -2,7 +2,7 @@
 // exactly, by every way of tracing.
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
 
@@ -88,9 +88,9 @@ TEST_CASE("which side of a triangle a ray starts on is decided exactly", "[inter
         const std::vector<NearRay> starts = Starts(g, random, similar);
         std::vector<TestRay> rays;
         for (const NearRay& start : starts) rays.push_back(start.ray);
-        const auto hits = TraceClosest(scene, rays, {IntersectTrianglesStage()});
+        const auto hits = TraceClosest(scene, rays, {IntersectTrianglesStage});
         std::vector<char> open(rays.size(), 0);
-        for (const std::uint32_t i : Unoccluded(scene, rays, {ShadowTrianglesStage()})) {
+        for (const std::uint32_t i : Unoccluded(scene, rays, {ShadowTrianglesStage})) {
           open[i] = 1;
         }
         int wrong = 0, wrong_shadow = 0, ahead = 0;

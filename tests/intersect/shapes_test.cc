@@ -1,7 +1,7 @@
 // Spheres, disks and planes: plain loops, trees and double precision agree.
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
 
@@ -71,10 +71,10 @@ Geometry Mixture(Random& random, int n) {
   return g;
 }
 
-const std::vector<Stage> kClosest = {IntersectSpheresStage(), IntersectDisksStage(),
-                                     IntersectPlanesStage()};
-const std::vector<Stage> kShadow = {ShadowSpheresStage(), ShadowDisksStage(),
-                                    ShadowPlanesStage()};
+const std::vector<StageOn> kClosest = {IntersectSpheresStage, IntersectDisksStage,
+                                       IntersectPlanesStage};
+const std::vector<StageOn> kShadow = {ShadowSpheresStage, ShadowDisksStage,
+                                      ShadowPlanesStage};
 
 }  // namespace
 
@@ -129,7 +129,7 @@ TEST_CASE("distant and huge spheres have accurate roots", "[intersect]") {
                                : Vec3f{random(-5, 5), 0, random(-5, 5)};
       rays.push_back({o, Normalize(goal - o)});
     }
-    const auto hits = TraceClosest(scene, rays, {IntersectSpheresStage()});
+    const auto hits = TraceClosest(scene, rays, {IntersectSpheresStage});
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const auto roots = brute::Roots(scene.geometry.spheres[i % 2 ? 0 : 1],
                                       ToDouble(rays[i].o), ToDouble(rays[i].d));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
 #include "tests/wavefront/task_fixture.h"
@@ -103,13 +103,13 @@ TEST_CASE("a ray leaves out the triangle that it starts on", "[intersect]") {
       CAPTURE(n);
       const CompiledScene scene = MakeScene(brute::Soup(random, n, 1, 0.6f));
       std::vector<TestRay> rays = Rays(random);
-      const auto first = TraceClosest(scene, rays, {IntersectTrianglesStage()});
+      const auto first = TraceClosest(scene, rays, {IntersectTrianglesStage});
       for (std::size_t i = 0; i < rays.size(); ++i) {
         // Every third ray names a triangle that it may not even meet.
         rays[i].from = i % 3 == 0 ? static_cast<std::uint32_t>(i) % n : first[i].prim;
       }
-      const auto second = TraceClosest(scene, rays, {IntersectTrianglesStage()});
-      const auto open = Unoccluded(scene, rays, {ShadowTrianglesStage()});
+      const auto second = TraceClosest(scene, rays, {IntersectTrianglesStage});
+      const auto open = Unoccluded(scene, rays, {ShadowTrianglesStage});
       int compared = 0;
       for (std::uint32_t i = 0; i < rays.size(); ++i) {
         const StartTruth truth = Nearest(scene, rays[i], rays[i].from);
@@ -135,7 +135,7 @@ TEST_CASE("a bound from another shape is no reason to leave out a triangle",
   geometry.triangles.push_back(MakeTriangle({0, 0, 1}, {1, 0, 1}, {0, 1, 1}));
   const CompiledScene scene = MakeScene(geometry);
   const TestRay ray{{0.2f, 0.2f, 0}, {0, 0, 1}, 2, 0};
-  CHECK(TraceClosest(scene, {ray}, {IntersectTrianglesStage()})[0].t == 1);
+  CHECK(TraceClosest(scene, {ray}, {IntersectTrianglesStage})[0].t == 1);
 }
 
 TEST_CASE("paths know the triangle that they start on, wherever they are moved",

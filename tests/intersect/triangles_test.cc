@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
 
@@ -15,7 +15,7 @@ using brute::ToDouble;
 
 std::vector<KernelHit> Trace(const CompiledScene& scene,
                              const std::vector<TestRay>& rays) {
-  return TraceClosest(scene, rays, {IntersectTrianglesStage()});
+  return TraceClosest(scene, rays, {IntersectTrianglesStage});
 }
 
 std::vector<TestRay> RandomRays(Random& random, int n, float size) {
@@ -90,7 +90,7 @@ TEST_CASE("any-hit keeps exactly the rays without a nearer hit", "[intersect]") 
         }
         if (std::isinf(hits[i].t) || i % 3 != 1) expected.push_back(i);
       }
-      CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage()}) == expected);
+      CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage}) == expected);
     }
   }
   ForceTarget("");
@@ -147,7 +147,7 @@ TEST_CASE("a hit does not depend on the company of its ray", "[intersect]") {
     for (const Geometry& geometry : cases) {
       const CompiledScene scene = MakeScene(geometry, {.few_triangles = 0});
       const auto together = Trace(scene, rays);
-      const auto open = Unoccluded(scene, rays, {ShadowTrianglesStage()});
+      const auto open = Unoccluded(scene, rays, {ShadowTrianglesStage});
       CAPTURE(target, geometry.triangles.size());
       CHECK(std::count_if(together.begin(), together.end(),
                           [](const KernelHit& hit) { return !std::isinf(hit.t); }) > 50);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
 
@@ -38,10 +38,10 @@ int Leaks(const Geometry& g, const CompiledScene& scene, Random& random, Vec3f c
       if (rays.size() % 7 == 0) d[static_cast<int>(rays.size() % 3)] = 0;
       if (Length(d) > 0) rays.push_back({o, Normalize(d)});
     }
-    for (const KernelHit& hit : TraceClosest(scene, rays, {IntersectTrianglesStage()})) {
+    for (const KernelHit& hit : TraceClosest(scene, rays, {IntersectTrianglesStage})) {
       leaks += std::isinf(hit.t);
     }
-    leaks += static_cast<int>(Unoccluded(scene, rays, {ShadowTrianglesStage()}).size());
+    leaks += static_cast<int>(Unoccluded(scene, rays, {ShadowTrianglesStage}).size());
   }
   return leaks;
 }
@@ -111,7 +111,7 @@ TEST_CASE("hits do not depend on order, company or wavefront size", "[intersect]
       const CompiledScene scene = MakeScene(g);
       std::vector<TestRay> rays;
       for (int i = 0; i < 640; ++i) rays.push_back({random.Point(1), random.Direction()});
-      const std::vector<Stage> stages = {IntersectTrianglesStage()};
+      const std::vector<StageOn> stages = {IntersectTrianglesStage};
       const auto together = TraceClosest(scene, rays, stages);
       // In chunks of every size up to 64.
       std::vector<KernelHit> chunked;
@@ -165,7 +165,7 @@ TEST_CASE("ties go to the smaller primitive", "[intersect]") {
           rays.push_back({{random(-0.1f, 0.1f), random(-0.3f, 0.1f), 0}, {0, 0, 1}});
         }
         for (const KernelHit& hit :
-             TraceClosest(scene, rays, {IntersectTrianglesStage()})) {
+             TraceClosest(scene, rays, {IntersectTrianglesStage})) {
           CHECK(hit.prim == 1);
         }
       }

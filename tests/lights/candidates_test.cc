@@ -5,7 +5,7 @@
 #include <array>
 #include <numbers>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/plan/check_strategy.h"
 #include "tests/control/control_scenes.h"
@@ -84,13 +84,13 @@ struct Vertices {
       p.ls_distance[i] = static_cast<float>(light + 1);
       p.ls_light[i] = light;
     }
-    fixture.Run(ConsiderStage(), fixture.run.features);
+    fixture.Run(ConsiderStage, fixture.run.features);
   }
   void Run(const Candidates& candidates) {
     fixture.run.candidates = static_cast<std::uint32_t>(candidates.size());
-    fixture.Run(BeginCandidatesStage(), fixture.run.features);
+    fixture.Run(BeginCandidatesStage, fixture.run.features);
     for (std::uint32_t j = 0; j < candidates.size(); ++j) Offer(candidates[j], j);
-    fixture.Run(KeepCandidateStage(), fixture.run.features);
+    fixture.Run(KeepCandidateStage, fixture.run.features);
   }
 };
 

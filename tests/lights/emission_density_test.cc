@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/core/pi.h"
 #include "src/stat/hypothesis.h"
 #include "tests/lights/pictured_samples.h"

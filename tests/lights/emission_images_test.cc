@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/prepare/prepare_scene.h"
 #include "tests/lights/image_strategies.h"
@@ -89,12 +89,12 @@ TEST_CASE("samples on emitting shapes have the image of their point", "[lights]"
       p.ls_light[i] = engine() % static_cast<std::uint32_t>(scene.lights.lights.size());
     }
     fixture.QueueAll(QueueId::kLit, kImagePaths);
-    for (const Stage& stage : {SampleTriangleLightStage(), SampleRectangleLightStage(),
-                               SampleSphereLightStage(), SampleDiskLightStage()}) {
+    for (const StageOn stage : {SampleTriangleLightStage, SampleRectangleLightStage,
+                                SampleSphereLightStage, SampleDiskLightStage}) {
       fixture.Run(stage, scene.features);
     }
     const std::vector<float> before(p.ls_r, p.ls_r + kImagePaths);
-    fixture.Run(EmissionImageSamplesStage(), scene.features);
+    fixture.Run(EmissionImageSamplesStage, scene.features);
     std::uint32_t checked = 0;
     for (std::uint32_t i = 0; i < kImagePaths; ++i) {
       const Vec3d from = Vec3d{p.p_x[i], p.p_y[i], p.p_z[i]} / scene.scale + scene.center;

@@ -111,7 +111,7 @@ Draw::Draw(const Flat& f, std::uint32_t count, const FeatureSet& features, bool 
     p.u_light_1[1] = p.u_light_0[2] = p.u_light_0[3] = p.u_light_1[3] = 1 - 0x1p-24f;
   }
   fixture.QueueAll(QueueId::kLit, count);
-  fixture.Run(f.rectangle ? SampleRectangleLightStage() : SampleTriangleLightStage(),
+  fixture.Run(f.rectangle ? SampleRectangleLightStage : SampleTriangleLightStage,
               features);
 }
 
@@ -140,8 +140,7 @@ void Draw::Hit(std::uint32_t count, const FeatureSet& features) {
   ApplyStrategy("directions=mis:balance", {}, strategy);
   fixture.run.mis = MakeMisParameters(strategy);
   fixture.QueueAll(QueueId::kHit, count);
-  fixture.Run(light.rectangle ? EmissionRectangleStage() : EmissionTriangleStage(),
-              features);
+  fixture.Run(light.rectangle ? EmissionRectangleStage : EmissionTriangleStage, features);
 }
 
 }  // namespace lanelight::test

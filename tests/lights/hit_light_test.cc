@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/prepare/parameters.h"
 #include "src/prepare/use_strategy.h"
@@ -152,10 +152,10 @@ TEST_CASE("hit lights add their emission, by the weight of hits", "[lights]") {
         CAPTURE(target, variant.strategy, variant.tree);
         Hits hits(*lights, variant);
         hits.fixture.QueueAll(QueueId::kHit, kHits);
-        hits.fixture.Run(EmissionTriangleStage(), hits.features());
-        hits.fixture.Run(EmissionRectangleStage(), hits.features());
-        hits.fixture.Run(EmissionSphereStage(), hits.features());
-        hits.fixture.Run(EmissionDiskStage(), hits.features());
+        hits.fixture.Run(EmissionTriangleStage, hits.features());
+        hits.fixture.Run(EmissionRectangleStage, hits.features());
+        hits.fixture.Run(EmissionSphereStage, hits.features());
+        hits.fixture.Run(EmissionDiskStage, hits.features());
         for (std::uint32_t i = 0; i < kHits; ++i) CheckHit(hits, i);
       }
     }
@@ -172,7 +172,7 @@ TEST_CASE("escaped rays see every environment, by the weight of hits", "[lights]
       CAPTURE(target, variant.strategy);
       Hits hits(all, variant);
       hits.fixture.QueueAll(QueueId::kMiss, kHits);
-      hits.fixture.Run(EscapeStage(), hits.features());
+      hits.fixture.Run(EscapeStage, hits.features());
       for (std::uint32_t i = 0; i < kHits; ++i) {
         Vec3d sum;
         bool sure = true;
@@ -214,7 +214,7 @@ TEST_CASE("the table selects lights as often as their probability says", "[light
       PathColumns& p = fixture.wave.path;
       for (std::uint32_t i = 0; i < kSteps; ++i) p.u_select[i] = (i + 0.5f) / kSteps;
       fixture.QueueAll(QueueId::kLit, kSteps);
-      fixture.Run(SelectLightStage(), {});
+      fixture.Run(SelectLightStage, {});
       std::vector<double> counts(n);
       for (std::uint32_t i = 0; i < kSteps; ++i) {
         REQUIRE(p.ls_light[i] < n);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/core/pi.h"
 #include "src/image/octahedral.h"
@@ -84,7 +84,7 @@ void CheckImageSamples(const std::vector<Light>& lights) {
   }
   fixture.QueueAll(QueueId::kLit, kImagePaths);
   FeatureSet features = scene.features;
-  fixture.Run(SampleImageLightStage(), features);
+  fixture.Run(SampleImageLightStage, features);
   std::uint32_t lit = 0;
   for (std::uint32_t i = 0; i < kImagePaths; ++i) {
     const std::size_t chosen = lights.size() > 1 ? p.ls_light[i] : 0;

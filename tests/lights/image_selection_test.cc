@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/stat/hypothesis.h"
@@ -84,7 +84,7 @@ struct Choices {
     }
     fixture.QueueAll(QueueId::kLit, n);
     if (counts.size() > 1) {
-      fixture.Run(tree ? SelectLightTreeStage() : SelectLightStage(), scene.features);
+      fixture.Run(tree ? SelectLightTreeStage : SelectLightStage, scene.features);
     }
     bool same = true;  // probability, whatever number led to a light
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -96,7 +96,7 @@ struct Choices {
       ++counts[light];
     }
     CHECK(same);
-    fixture.Run(SampleImageLightStage(), scene.features);
+    fixture.Run(SampleImageLightStage, scene.features);
   }
   double PValue(const std::vector<double>& claimed) const {
     double sum = 0, n = 0;

@@ -14,21 +14,19 @@ namespace {
 
 // What samples a shape, meets it and adds its emission.
 struct StagesOfShape {
-  Stage sample, intersect, emission;
+  StageOn sample, intersect, emission;
 };
 StagesOfShape StagesOf(LightShape shape) {
   switch (shape) {
     case LightShape::kTriangle:
-      return {SampleTriangleLightStage(), IntersectTrianglesStage(),
-              EmissionTriangleStage()};
+      return {SampleTriangleLightStage, IntersectTrianglesStage, EmissionTriangleStage};
     case LightShape::kRectangle:
-      return {SampleRectangleLightStage(), IntersectTrianglesStage(),
-              EmissionRectangleStage()};
+      return {SampleRectangleLightStage, IntersectTrianglesStage, EmissionRectangleStage};
     case LightShape::kSphere:
-      return {SampleSphereLightStage(), IntersectSpheresStage(), EmissionSphereStage()};
+      return {SampleSphereLightStage, IntersectSpheresStage, EmissionSphereStage};
     default:
       REQUIRE(shape == LightShape::kDisk);
-      return {SampleDiskLightStage(), IntersectDisksStage(), EmissionDiskStage()};
+      return {SampleDiskLightStage, IntersectDisksStage, EmissionDiskStage};
   }
 }
 
@@ -65,7 +63,7 @@ PictureSamples::PictureSamples(const PicturedShape& shape, Vec3d place, double p
   }
   fixture_.QueueAll(QueueId::kLit, kPictureSamples);
   fixture_.Run(emitter.stages.sample, scene_.features);
-  fixture_.Run(EmissionImageSamplesStage(), scene_.features);
+  fixture_.Run(EmissionImageSamplesStage, scene_.features);
 }
 
 double PictureSamples::Pmf() const {

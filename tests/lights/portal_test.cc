@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/core/error.h"
 #include "src/prepare/parameters.h"
@@ -90,7 +90,7 @@ struct PortalSamples {
       p.ls_light[i] = 0;
     }
     fixture.QueueAll(QueueId::kLit, n);
-    fixture.Run(SamplePortalLightStage(), scene.features);
+    fixture.Run(SamplePortalLightStage, scene.features);
   }
 };
 
@@ -116,7 +116,7 @@ std::vector<double> KnownDensities(const CompiledScene& scene, Vec3d from,
       p.bsdf_pdf[i] = k == 0 ? 1.0f : 1e9f;
     }
     fixture.QueueAll(QueueId::kMiss, n);
-    fixture.Run(EscapeStage(), scene.features);
+    fixture.Run(EscapeStage, scene.features);
     weighed[k].assign(p.l_r, p.l_r + n);
   }
   std::vector<double> pdf(n);
@@ -223,7 +223,7 @@ TEST_CASE("a ray through a portal knows the density of its sample", "[lights]") 
       p.bsdf_pdf[i] = p.ls_pdf[i];  // then the weight is one half
     }
     s.fixture.QueueAll(QueueId::kMiss, kImagePaths);
-    s.fixture.Run(EscapeStage(), s.scene.features);
+    s.fixture.Run(EscapeStage, s.scene.features);
     std::uint32_t off = 0;  // on a texel's edge
     for (std::uint32_t i = 0; i < kImagePaths; ++i) {
       const double want = 0.5 * p.ls_r[i] * p.ls_pdf[i];

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/stat/distributions.h"
 #include "src/stat/hypothesis.h"
 #include "tests/lights/projected_truth.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/core/check.h"
 #include "tests/lights/light_truth.h"
@@ -17,24 +17,24 @@ namespace {
 constexpr std::uint32_t kSamples = 2003;
 constexpr float kError = 1e-6f;
 
-Stage StageOf(LightShape shape) {
+StageOn StageOf(LightShape shape) {
   switch (shape) {
     case LightShape::kTriangle:
-      return SampleTriangleLightStage();
+      return SampleTriangleLightStage;
     case LightShape::kRectangle:
-      return SampleRectangleLightStage();
+      return SampleRectangleLightStage;
     case LightShape::kSphere:
-      return SampleSphereLightStage();
+      return SampleSphereLightStage;
     case LightShape::kDisk:
-      return SampleDiskLightStage();
+      return SampleDiskLightStage;
     case LightShape::kPoint:
-      return SamplePointLightStage();
+      return SamplePointLightStage;
     case LightShape::kSpot:
-      return SampleSpotLightStage();
+      return SampleSpotLightStage;
     case LightShape::kDistant:
-      return SampleDistantLightStage();
+      return SampleDistantLightStage;
     case LightShape::kInfiniteConstant:
-      return SampleInfiniteConstantStage();
+      return SampleInfiniteConstantStage;
     case LightShape::kInfiniteImage:
       break;
     case LightShape::kGoniometric:  // image_lights_test.cc
@@ -43,7 +43,7 @@ Stage StageOf(LightShape shape) {
     case LightShape::kCount:
       LL_CHECK(false);
   }
-  return SampleInfiniteImageStage();
+  return SampleInfiniteImageStage;
 }
 
 // Receivers with a selected light each; every light stage runs, as in a plan.

@@ -24,7 +24,7 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/compile/medium_grid.h"
 #include "tests/media/varying_scenes.h"
 #include "tests/reference/media.h"
@@ -49,7 +49,8 @@ TEST_CASE("media: the density of clouds", "[media]") {
     const CloudShape cloud = CompileMediumGrid(medium, {}).cloud;
     for (const std::string& target : AvailableTargets()) {
       ForceTarget(target);
-      HWY_DYNAMIC_DISPATCH(CloudDensityAt)(cloud, xyz.data(), found.data(), kPoints);
+      LANELIGHT_ON(TestTarget(), CloudDensityAt)(cloud, xyz.data(), found.data(),
+                                                 kPoints);
       double worst = 0, mean = 0;
       for (std::size_t i = 0; i < kPoints; ++i) {
         const Vec3d size = medium.box_max - medium.box_min;

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/stat/hypothesis.h"
@@ -89,7 +89,7 @@ struct Walked {
       p.u_medium_1[i] = float(engine() >> 8) * 0x1p-24f;
     }
     fixture.QueueAll(QueueId::kActive, kWalks);
-    fixture.Run(MediumDistanceStage(), features);
+    fixture.Run(MediumDistanceStage, features);
     for (std::uint32_t i = 0; i < kWalks; ++i) {
       distance.push_back(p.t[i] < 0 ? (p.p_z[i] - o.z) / scene.scale : -1);
       beta.push_back({p.beta_r[i], p.beta_g[i], p.beta_b[i]});

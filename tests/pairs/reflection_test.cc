@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/prepare/parameters.h"
 #include "tests/support/wave_fixture.h"
@@ -82,8 +82,8 @@ struct PairedPaths {
         if (!Left(i)) queue.items[queue.size++] = i;
       }
     }
-    fixture.Run(AntitheticCameraStage(), {Feature::kAntitheticPairs});
-    fixture.Run(AntitheticBounceStage(), {Feature::kAntitheticPairs});
+    fixture.Run(AntitheticCameraStage, {Feature::kAntitheticPairs});
+    fixture.Run(AntitheticBounceStage, {Feature::kAntitheticPairs});
   }
   static bool Left(std::uint32_t i) { return i % 10 == 9; }
 };

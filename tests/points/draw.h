@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kernels/probe/points_probe.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 
@@ -18,7 +19,7 @@ struct Drawn {
 inline Drawn Draw(const PointsQuery& q) {
   const std::size_t size = std::size_t{q.count} * q.pixels;
   Drawn p{std::vector<float>(size + 16), std::vector<float>(size + 16)};
-  ProbePoints(q, p.u0.data(), p.u1.data());
+  ProbePoints(TestTarget(), q, p.u0.data(), p.u1.data());
   p.u0.resize(size);
   p.u1.resize(size);
   return p;
@@ -27,7 +28,7 @@ inline Drawn Draw(const PointsQuery& q) {
 inline std::vector<float> DrawNumbers(const PointsQuery& q) {
   const std::size_t size = std::size_t{q.count} * q.pixels;
   std::vector<float> u(size + 16);
-  ProbeNumbers(q, u.data());
+  ProbeNumbers(TestTarget(), q, u.data());
   u.resize(size);
   return u;
 }

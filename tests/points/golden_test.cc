@@ -2,7 +2,7 @@
 // none of them. A change here changes every image, and is made alone.
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "tests/support/wave_fixture.h"
 
@@ -73,8 +73,8 @@ void CheckGolden(const Golden& g) {
   p.depth[0] = g.depth, p.branch[0] = g.branch;
   f.QueueAll(QueueId::kCamera, 1);
   f.QueueAll(QueueId::kVertex, 1);
-  f.Run(IndependentCameraStage(), {});
-  f.Run(IndependentBounceStage(), {});
+  f.Run(IndependentCameraStage, {});
+  f.Run(IndependentBounceStage, {});
   const float* found[] = {p.u_film_0,  p.u_film_1, p.u_lens_0,  p.u_lens_1,
                           p.u_bsdf_0,  p.u_bsdf_1, p.u_lobe,    p.u_light_0,
                           p.u_light_1, p.u_select, p.u_roulette};

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "kernels/probe/points_probe.h"
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/stat/chi2.h"
 #include "src/stat/hypothesis.h"
 
@@ -25,7 +25,7 @@ std::uint32_t KeyOf(std::uint32_t i) {
 
 Permutation Permuted(std::uint32_t count, std::uint32_t key, bool octaves = false) {
   Permutation p(count + 16);
-  ProbePermutation(count, key, octaves, p.data());
+  ProbePermutation(TestTarget(), count, key, octaves, p.data());
   p.resize(count);
   return p;
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/prepare/groups.h"
 #include "src/prepare/lattice.h"
 #include "src/stat/hypothesis.h"

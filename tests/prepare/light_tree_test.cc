@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/prepare/use_strategy.h"
@@ -102,7 +102,7 @@ TEST_CASE("light tree: descending and climbing give the same probabilities",
       p.u_select[i] = (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
     }
     f.QueueAll(QueueId::kLit, n);
-    f.Run(SelectLightTreeStage(), {});
+    f.Run(SelectLightTreeStage, {});
     std::map<std::uint32_t, std::pair<float, int>> seen;
     for (std::uint32_t i = 0; i < n; ++i) {
       auto& [pmf, count] = seen[p.ls_light[i]];
@@ -132,7 +132,7 @@ TEST_CASE("light tree: descending and climbing give the same probabilities",
     }
     REQUIRE(hits > 20);
     f.QueueAll(QueueId::kHit, hits);
-    f.Run(HitLightTreeStage(), {});
+    f.Run(HitLightTreeStage, {});
     for (std::uint32_t i = 0; i < hits; ++i) CHECK(p.light_pmf[i] == Approx(expected[i]));
   }
   ForceTarget("");
@@ -150,7 +150,7 @@ TEST_CASE("light tree: near and facing lights are preferred", "[strategy]") {
     p.u_select[i] = (static_cast<float>(i) + 0.5f) / 2048;
   }
   f.QueueAll(QueueId::kLit, 2048);
-  f.Run(SelectLightTreeStage(), {});
+  f.Run(SelectLightTreeStage, {});
   int nearest = 0;
   for (std::uint32_t i = 0; i < 2048; ++i)
     nearest += p.ls_light[i] == static_cast<std::uint32_t>(sphere.light);

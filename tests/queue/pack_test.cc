@@ -4,7 +4,7 @@
 #include <numeric>
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "tests/support/wave_fixture.h"
 
@@ -32,7 +32,7 @@ void CheckPacks(std::uint32_t capacity, std::uint32_t count, std::mt19937& engin
   Queue& live = wave.queue(QueueId::kScattered);
   live.size = count;
   std::copy(slots.begin(), slots.end(), live.items);
-  fixture.Run(PackStage(), {});
+  fixture.Run(PackStage, {});
   std::sort(slots.begin(), slots.end());
   REQUIRE(live.size == count);
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -74,7 +74,7 @@ TEST_CASE("pack: what is not carried is written anew in every wave", "[queue]") 
     }
     written = written | stage.writes;
   };
-#define X(name) visit(name##Stage());
+#define X(name) visit(name##Stage(TestTarget()));
   LANELIGHT_STAGES(X)
 #undef X
 }

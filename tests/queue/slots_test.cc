@@ -35,7 +35,7 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/core/aligned.h"
 
 namespace lanelight {
@@ -60,7 +60,8 @@ void CheckMoves(const std::vector<std::uint32_t>& slots) {
   AlignedVector<float> a = Column(1000);
   AlignedVector<std::uint32_t> b(column.size(), 7);
   std::vector<float> out(slots.size());
-  HWY_DYNAMIC_DISPATCH(Move)(slots.data(), column.data(), out.data(), a.data(), b.data());
+  LANELIGHT_ON(TestTarget(), Move)(slots.data(), column.data(), out.data(), a.data(),
+                                   b.data());
   for (std::size_t k = 0; k < slots.size(); ++k) REQUIRE(out[k] == column[slots[k]]);
   for (std::uint32_t i = 0; i < column.size(); ++i) {
     const bool mine = std::find(slots.begin(), slots.end(), i) != slots.end();
@@ -74,7 +75,7 @@ void ForTargets(Body body) {
   for (const std::string& name : AvailableTargets()) {
     ForceTarget(name);
     INFO(name);
-    body(HWY_DYNAMIC_DISPATCH(Lanes)());
+    body(LANELIGHT_ON(TestTarget(), Lanes)());
   }
   ForceTarget("");
 }
@@ -118,7 +119,7 @@ TEST_CASE("slots: tables of any size", "[queue]") {
     for (std::size_t count = 1; count <= 40; ++count) {
       std::vector<float> table(count);
       for (std::size_t i = 0; i < count; ++i) table[i] = 3 * float(i) + 1;
-      CHECK(HWY_DYNAMIC_DISPATCH(LooksUp)(table.data(), count));
+      CHECK(LANELIGHT_ON(TestTarget(), LooksUp)(table.data(), count));
     }
   });
 }

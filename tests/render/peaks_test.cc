@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/peaks/peaks.h"
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/core/aligned.h"
 
 namespace lanelight {
@@ -19,20 +19,20 @@ TEST_CASE("the loops that measure peaks compute what they say, on every target",
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     INFO(target);
-    CHECK(ReadSum(words.data(), words.size(), 1) == sum);
-    CHECK(ReadSum(words.data(), words.size(), 7) == 7 * sum);
-    CHECK(ReadSum(words.data(), 1024, 0) == 0);
-    CHECK(MultiplyAdds(0, 0.5f, 1) == Approx(6.5));  // mean of 1 to 12
-    CHECK(MultiplyAdds(1, 0.5f, 1) == Approx(0.5 * 6.5 + 1));
-    CHECK(MultiplyAdds(200, 0.5f, 1) == Approx(2));
-    CHECK(MultiplyAdds(200, -0.25f, 5) == Approx(4));
-    CHECK(MultiplyAddsOperations() == 24 * CurrentLanes());
+    CHECK(ReadSum(TestTarget(), words.data(), words.size(), 1) == sum);
+    CHECK(ReadSum(TestTarget(), words.data(), words.size(), 7) == 7 * sum);
+    CHECK(ReadSum(TestTarget(), words.data(), 1024, 0) == 0);
+    CHECK(MultiplyAdds(TestTarget(), 0, 0.5f, 1) == Approx(6.5));  // mean of 1 to 12
+    CHECK(MultiplyAdds(TestTarget(), 1, 0.5f, 1) == Approx(0.5 * 6.5 + 1));
+    CHECK(MultiplyAdds(TestTarget(), 200, 0.5f, 1) == Approx(2));
+    CHECK(MultiplyAdds(TestTarget(), 200, -0.25f, 5) == Approx(4));
+    CHECK(MultiplyAddsOperations(TestTarget()) == 24 * TestTarget().lanes());
   }
   ForceTarget("");
 }
 
 TEST_CASE("peaks have levels from near to far", "[peaks]") {
-  const Peaks peaks = MeasurePeaks(false);
+  const Peaks peaks = MeasurePeaks({}, false);
   REQUIRE(peaks.levels.size() >= 3);
   CHECK(peaks.levels.front().name == "L1");
   CHECK(peaks.levels.back().name == "memory");

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/render/identity.h"
 #include "src/render/report.h"
 #include "src/render/setting.h"
@@ -113,7 +113,7 @@ TEST_CASE("identities and reports have the settings in force", "[render]") {
   CHECK(identity.at("crop") == Json{1, 2, 5, 6});
   CHECK(identity.at("scattering") == nullptr);
   CHECK(identity.at("gbuffer") == "");
-  CHECK(identity.at("target") == CurrentTarget());
+  CHECK(identity.at("target") == TestTarget().name());
   CHECK(identity.at("max_depth") == job.plan.options.max_depth);
   const Json reported = HeadJson(job, "box", true).at("settings");
   CHECK(Keys(reported) ==

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/prepare/tables.h"
 #include "src/train/trained_tables.h"
@@ -91,7 +91,7 @@ TEST_CASE("shadow rays survive as the definition says", "[roulette]") {
     ForceTarget(target);
     for (float floor : {0.01f, 0.3f}) {
       ShadowRays rays(floor);
-      rays.fixture.Run(ShadowRouletteStage(), {});
+      rays.fixture.Run(ShadowRouletteStage, {});
       const std::uint32_t alive = rays.fixture.wave.queue(QueueId::kShadow).size;
       CHECK(alive > kRays / 4);
       CHECK(alive < kRays * 3 / 4);
@@ -105,7 +105,7 @@ TEST_CASE("shadow rays are all traced where nothing is known of the image",
           "[roulette]") {
   ShadowRays rays(0.1f);
   rays.tables.shadow_worth.inverse.clear();
-  rays.fixture.Run(ShadowRouletteStage(), {});
+  rays.fixture.Run(ShadowRouletteStage, {});
   CHECK(rays.fixture.wave.queue(QueueId::kShadow).size == kRays);
   CHECK(rays.fixture.wave.path.sh_g[5] == rays.before[5].y);
 }

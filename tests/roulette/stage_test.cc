@@ -60,7 +60,7 @@ struct Paths {
   std::vector<Vec3f> before;
 };
 
-void CheckSurvivors(const Stage& stage, const FeatureSet& features, float floor,
+void CheckSurvivors(StageOn stage, const FeatureSet& features, float floor,
                     std::uint32_t depth, bool decides) {
   Paths paths(depth);
   paths.fixture.run.roulette.floor = floor;
@@ -96,8 +96,8 @@ void SetValues(Paths& paths, float value, float split) {
 
 TEST_CASE("survivors' weights are bounded", "[roulette]") {
   for (std::uint32_t depth : {1u, 2u, 5u}) {
-    CheckSurvivors(ThroughputRouletteStage(), {}, 0, depth, depth >= 2);
-    CheckSurvivors(LuminanceRouletteStage(), {}, 0.05f, depth, depth >= 2);
+    CheckSurvivors(ThroughputRouletteStage, {}, 0, depth, depth >= 2);
+    CheckSurvivors(LuminanceRouletteStage, {}, 0.05f, depth, depth >= 2);
   }
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("splitting divides names, budgets and throughput", "[roulette]") {
     Paths paths(1);
     SetValues(paths, 2, 2);
     paths.fixture.QueueAll(QueueId::kSurface, kPaths);
-    paths.fixture.Run(adjoint ? AdjointRouletteStage() : EfficiencyRouletteStage(), {});
+    paths.fixture.Run(adjoint ? AdjointRouletteStage : EfficiencyRouletteStage, {});
     const PathColumns& p = paths.fixture.wave.path;
     const Queue& alive = paths.queue(QueueId::kSurface);
     CHECK(alive.size > kPaths / 4);
@@ -157,7 +157,7 @@ TEST_CASE("the mean number of copies is r", "[roulette]") {
         p.beta_r[i] = p.beta_g[i] = p.beta_b[i] = beta;
       }
       paths.fixture.QueueAll(QueueId::kSurface, kPaths);
-      paths.fixture.Run(AdjointRouletteStage(), {});
+      paths.fixture.Run(AdjointRouletteStage, {});
       copies += paths.queue(QueueId::kSurface).size;
     }
     const double n = double(kPaths) * kRuns;
@@ -173,14 +173,14 @@ TEST_CASE("the camera's own hit is never lost, and unknown cells play throughput
   Paths first(0);
   SetValues(first, 0, 0);
   first.fixture.QueueAll(QueueId::kSurface, kPaths);
-  first.fixture.Run(AdjointRouletteStage(), {});
+  first.fixture.Run(AdjointRouletteStage, {});
   CHECK(first.queue(QueueId::kSurface).size == kPaths);
 
   for (std::uint32_t depth : {1u, 2u}) {
     Paths unknown(depth);
     SetValues(unknown, -1, 0);
     unknown.fixture.QueueAll(QueueId::kSurface, kPaths);
-    unknown.fixture.Run(EfficiencyRouletteStage(), {});
+    unknown.fixture.Run(EfficiencyRouletteStage, {});
     const Queue& alive = unknown.queue(QueueId::kSurface);
     CHECK((alive.size < kPaths) == (depth == 2));
     for (std::uint32_t i = 0; i < alive.size; ++i) {

@@ -5,6 +5,7 @@
 #include "kernels/probe/fresnel_probe.h"
 #include "tests/reference/optics.h"
 #include "tests/shade/probe_batch.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 
@@ -19,8 +20,8 @@ struct Incidences {
     for (int i = 0; i < 16; ++i) c[i] = std::ldexp(1.f, -24 + i);  // grazing
     c[kCount - 1] = 1;
     const std::vector<float> etas(kCount, eta), ks(kCount, k);
-    ProbeFresnel({kCount, c.data(), etas.data(), k < 0 ? nullptr : ks.data(), out.data(),
-                  cos_t.data()});
+    ProbeFresnel(TestTarget(), {kCount, c.data(), etas.data(),
+                                k < 0 ? nullptr : ks.data(), out.data(), cos_t.data()});
   }
 };
 

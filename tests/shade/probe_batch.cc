@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "src/compile/coat_table.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 namespace {
@@ -137,7 +138,9 @@ const std::vector<TestMaterial>& TestMaterials() {
   return materials;
 }
 
-bool IsSpecular(ShadeKind kind) { return GetBsdfProbe(kind).eval == nullptr; }
+bool IsSpecular(ShadeKind kind) {
+  return GetBsdfProbe(TestTarget(), kind).eval == nullptr;
+}
 
 ProbeBatch::ProbeBatch(std::uint32_t count) : n(count) {
   const std::size_t size = (count + kProbePadding - 1) / kProbePadding * kProbePadding;
@@ -180,10 +183,10 @@ BsdfBatch ProbeBatch::View(const TestMaterial& material, std::uint32_t seed) {
   return batch;
 }
 void ProbeBatch::Sample(const TestMaterial& material, std::uint32_t seed) {
-  GetBsdfProbe(material.kind).sample(View(material, seed));
+  GetBsdfProbe(TestTarget(), material.kind).sample(View(material, seed));
 }
 void ProbeBatch::Eval(const TestMaterial& material, std::uint32_t seed) {
-  GetBsdfProbe(material.kind).eval(View(material, seed));
+  GetBsdfProbe(TestTarget(), material.kind).eval(View(material, seed));
 }
 
 std::vector<Vec3d> TestDirections() {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernels/probe/bsdf_probe.h"
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/reference/bsdf.h"
 
 namespace lanelight::test {

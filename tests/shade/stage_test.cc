@@ -17,26 +17,26 @@ const FeatureSet kAll = {Feature::kLights, Feature::kMis, Feature::kScatters,
                          Feature::kVertexNormals};
 
 // In the order of ShadeKind.
-constexpr Stage (*kFactories[])() = {ShadeDiffuseStage,
-                                     ShadeDiffuseUniformStage,
-                                     ShadeDiffuseInSphereStage,
-                                     ShadeConductorSmoothStage,
-                                     ShadeConductorRoughStage,
-                                     ShadeDielectricSmoothStage,
-                                     ShadeDielectricRoughStage,
-                                     ShadeThinDielectricStage,
-                                     ShadeCoatedDiffuseSmoothStage,
-                                     ShadeCoatedDiffuseRoughStage,
-                                     ShadeCoatedConductorStage,
-                                     ShadeCoatedDiffuseMediumStage,
-                                     ShadeCoatedConductorMediumStage,
-                                     ShadeDiffuseTransmissionStage,
-                                     ShadeHenyeyGreensteinStage};
+constexpr StageOn kFactories[] = {ShadeDiffuseStage,
+                                  ShadeDiffuseUniformStage,
+                                  ShadeDiffuseInSphereStage,
+                                  ShadeConductorSmoothStage,
+                                  ShadeConductorRoughStage,
+                                  ShadeDielectricSmoothStage,
+                                  ShadeDielectricRoughStage,
+                                  ShadeThinDielectricStage,
+                                  ShadeCoatedDiffuseSmoothStage,
+                                  ShadeCoatedDiffuseRoughStage,
+                                  ShadeCoatedConductorStage,
+                                  ShadeCoatedDiffuseMediumStage,
+                                  ShadeCoatedConductorMediumStage,
+                                  ShadeDiffuseTransmissionStage,
+                                  ShadeHenyeyGreensteinStage};
 static_assert(std::size(kFactories) == kNumShadeKinds);
 
-Stage StageOf(ShadeKind kind) {
-  const Stage stage = kFactories[static_cast<int>(kind)]();
-  REQUIRE(stage.input == ShadeQueue(kind));
+StageOn StageOf(ShadeKind kind) {
+  const StageOn stage = kFactories[static_cast<int>(kind)];
+  REQUIRE(stage(TestTarget()).input == ShadeQueue(kind));
   return stage;
 }
 

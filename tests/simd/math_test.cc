@@ -37,7 +37,7 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 
@@ -80,7 +80,7 @@ TEST_CASE("SinCos2Pi stays within its bound", "[simd][math]") {
       Columns c;
       c.Fill(-range, range);
       for (int i = 0; i < 64; ++i) c.x[i] = static_cast<float>(i) / 8 - 4;  // the seams
-      HWY_DYNAMIC_DISPATCH(MapSinCos2Pi)
+      LANELIGHT_ON(TestTarget(), MapSinCos2Pi)
       (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
       double error = 0, norm = 0;
       for (int i = 0; i < kCount; ++i) {
@@ -100,7 +100,7 @@ TEST_CASE("SinCosOctant stays within its bound", "[simd][math]") {
   ForTargets([] {
     Columns c;
     c.Fill(-0.5, 0.5);
-    HWY_DYNAMIC_DISPATCH(MapSinCosOctant)
+    LANELIGHT_ON(TestTarget(), MapSinCosOctant)
     (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
     double error = 0;
     for (int i = 0; i < kCount; ++i) {
@@ -124,7 +124,7 @@ TEST_CASE("Atan2 and AtanUnit stay within their bounds", "[simd][math]") {
       c.x[2000 + i] = axes[i % 3];
       c.y[2000 + i] = axes[i / 3];
     }
-    HWY_DYNAMIC_DISPATCH(MapAtan2)
+    LANELIGHT_ON(TestTarget(), MapAtan2)
     (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
     double error = 0, unit_error = 0;
     for (int i = 0; i < kCount; ++i) {
@@ -146,7 +146,7 @@ TEST_CASE("Exp stays within its bound", "[simd][math]") {
       c.x[0] = 0;
       c.x[1] = -87.5f;
       c.x[2] = -1e30f;
-      HWY_DYNAMIC_DISPATCH(MapExp)
+      LANELIGHT_ON(TestTarget(), MapExp)
       (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
       double error = 0;
       for (int i = 3; i < kCount; ++i) {

@@ -44,7 +44,7 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 
@@ -73,12 +73,12 @@ TEST_CASE("records: four words of each lane's record", "[simd]") {
     for (int stride : {4, 6, 9, 12, 20}) {
       std::vector<float> records(50 * std::size_t(stride));
       for (std::size_t i = 0; i < records.size(); ++i) records[i] = float(i);
-      const std::size_t lanes = HWY_DYNAMIC_DISPATCH(VectorLanes)();
+      const std::size_t lanes = LANELIGHT_ON(TestTarget(), VectorLanes)();
       std::vector<int> index(lanes);
       for (int& i : index) i = static_cast<int>(engine() % 50);
       std::vector<float> out(4 * lanes);
       for (int first = 0; first + 4 <= stride; ++first) {
-        HWY_DYNAMIC_DISPATCH(LoadWords)
+        LANELIGHT_ON(TestTarget(), LoadWords)
         (records.data(), stride, index.data(), first, out.data());
         for (std::size_t k = 0; k < out.size(); ++k) {
           const int word = index[k / 4] * stride + first + static_cast<int>(k % 4);
@@ -96,7 +96,7 @@ TEST_CASE("ReverseBits32 moves bit i to bit 31 - i", "[simd]") {
     for (std::uint32_t& w : words) w = static_cast<std::uint32_t>(engine());
     for (std::uint32_t i = 0; i < 32; ++i) words[i] = 1u << i;
     std::vector<std::uint32_t> reversed = words;
-    HWY_DYNAMIC_DISPATCH(Reverse)(reversed.data(), reversed.size());
+    LANELIGHT_ON(TestTarget(), Reverse)(reversed.data(), reversed.size());
     for (std::size_t i = 0; i < words.size(); ++i) {
       std::uint32_t expected = 0;
       for (int b = 0; b < 32; ++b) expected |= (words[i] >> b & 1u) << (31 - b);
@@ -119,7 +119,7 @@ TEST_CASE("Renormalize: 3/8 e^2 and rounding", "[simd]") {
       x[i] = float(a * scale), y[i] = float(b * scale), z[i] = float(c * scale);
       e[i] = double(x[i]) * x[i] + double(y[i]) * y[i] + double(z[i]) * z[i] - 1;
     }
-    HWY_DYNAMIC_DISPATCH(RenormalizeAll)(x.data(), y.data(), z.data(), kCount);
+    LANELIGHT_ON(TestTarget(), RenormalizeAll)(x.data(), y.data(), z.data(), kCount);
     for (std::size_t i = 0; i < kCount; ++i) {
       const double length = std::hypot(double(x[i]), double(y[i]), double(z[i]));
       REQUIRE(std::abs(length - 1) < 0.375 * e[i] * e[i] * 1.01 + 2.5e-7);

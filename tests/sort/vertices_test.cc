@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "tests/support/wave_fixture.h"
 
@@ -47,10 +47,10 @@ TEST_CASE("vertices: points in a medium draw numbers and are routed", "[sort]") 
     f.wave.vertices = QueueId::kVertex;
     f.run.features = {Feature::kDiffuse, Feature::kDiffuseUniform};
     Fill(f.wave);
-    f.Run(VerticesStage(), {});
+    f.Run(VerticesStage, {});
     CHECK(f.wave.queue(QueueId::kVertex).size == kPaths);
-    f.Run(IndependentBounceStage(), {});
-    f.Run(RouteStage(), {});
+    f.Run(IndependentBounceStage, {});
+    f.Run(RouteStage, {});
     for (std::uint32_t i = 0; i < kPaths; ++i) {
       const float u = f.wave.path.u_bsdf_0[i];
       CHECK((u >= 0 && u < 1));
@@ -68,7 +68,7 @@ TEST_CASE("vertices: where only surfaces scatter, their queue is all there is",
   WaveFixture f(scene, kPaths);
   Fill(f.wave);
   CHECK(&f.wave.queue(QueueId::kVertex) == &f.wave.queue(QueueId::kSurface));
-  f.Run(IndependentBounceStage(), {});
+  f.Run(IndependentBounceStage, {});
   for (std::uint32_t i = 0; i < kPaths; ++i) {
     CHECK(f.wave.path.u_bsdf_0[i] != kUndrawn);
   }

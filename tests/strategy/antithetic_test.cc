@@ -100,11 +100,11 @@ TEST_CASE("antithetic: the second sample has the first one's numbers, reflected"
   Queue& free = f.wave.queue(QueueId::kFree);
   free.size = 64;
   for (std::uint32_t i = 0; i < 64; ++i) free.items[i] = 63 - i;
-  f.Run(GenerateStage(), {});
+  f.Run(GenerateStage, {});
   const Queue& camera = f.wave.queue(QueueId::kCamera);
   REQUIRE(camera.size == 15);
-  f.Run(IndependentCameraStage(), {});
-  f.Run(AntitheticCameraStage(), {});
+  f.Run(IndependentCameraStage, {});
+  f.Run(AntitheticCameraStage, {});
   const PathColumns& p = f.wave.path;
   for (std::uint32_t i = 0; i + 1 < 12; i += 2) {
     const std::uint32_t a = camera.items[i], b = camera.items[i + 1];
@@ -115,8 +115,8 @@ TEST_CASE("antithetic: the second sample has the first one's numbers, reflected"
     CHECK(p.u_film_1[b] == 1 - 0x1p-24f - p.u_film_1[a]);
   }
   f.QueueAll(QueueId::kSurface, 15);
-  f.Run(IndependentBounceStage(), {});
-  f.Run(AntitheticBounceStage(), {});
+  f.Run(IndependentBounceStage, {});
+  f.Run(AntitheticBounceStage, {});
   for (std::uint32_t i = 0; i + 1 < 12; i += 2) {
     const std::uint32_t a = camera.items[i], b = camera.items[i + 1];
     CHECK(p.u_bsdf_0[b] == 1 - 0x1p-24f - p.u_bsdf_0[a]);

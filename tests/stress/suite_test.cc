@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/cli/stress_exit.h"
 #include "src/core/error.h"
 #include "tests/stress/planted.h"
@@ -36,7 +36,7 @@ TEST_CASE("stress: a good map is good, and every value is measured", "[stress]")
   CHECK(result.promised == 5);
   CHECK(result.breaks.empty());
   CHECK(result.points[3].point.parameter == 1e-1);
-  CHECK(result.points[3].target == CurrentTarget());
+  CHECK(result.points[3].target == TestTarget().name());
 }
 
 TEST_CASE("stress: planted faults inside the promise fail the case", "[stress]") {
@@ -120,19 +120,19 @@ TEST_CASE("stress: a thrown refusal breaks every curve of the map", "[stress]") 
 
 TEST_CASE("stress: every target is measured, and the best is in force again",
           "[stress]") {
-  const std::string best = CurrentTarget();
+  const std::string best = TestTarget().name();
   SuiteOptions options;
   options.targets = AvailableTargets();
   std::vector<std::string> seen;
   Case planted = PlantedMap("targets", [&](double) {
-    seen.push_back(CurrentTarget());
+    seen.push_back(TestTarget().name());
     return std::vector{Around1(1)};
   });
   planted.axis.quick = {1};
   const SuiteResult result = RunSuite({&planted, 1}, options);
   CHECK(seen == AvailableTargets());
   CHECK(result.cases[0].points.back().target == AvailableTargets().back());
-  CHECK(CurrentTarget() == best);
+  CHECK(TestTarget().name() == best);
   options.targets = {"AVX9000"};
   CHECK_THROWS_AS(RunSuite({&planted, 1}, options), InputError);
 }

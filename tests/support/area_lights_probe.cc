@@ -32,8 +32,8 @@ namespace lanelight {
 
 HWY_EXPORT(AreaLightsProbe);
 
-void ProbeAreaLights(const IrradianceBatch& batch) {
-  HWY_DYNAMIC_DISPATCH(AreaLightsProbe)(batch);
+void ProbeAreaLights(SimdTarget target, const IrradianceBatch& batch) {
+  LANELIGHT_ON(target, AreaLightsProbe)(batch);
 }
 
 }  // namespace lanelight

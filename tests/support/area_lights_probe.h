@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "kernels/simd/target.h"
 #include "src/compiled/scene.h"
 
 namespace lanelight {
@@ -18,7 +19,6 @@ struct IrradianceBatch {
   float* takes_part = nullptr;  // out: 1 where light 0 takes part, else 0
 };
 
-/// On the current SIMD target.
-void ProbeAreaLights(const IrradianceBatch& batch);
+void ProbeAreaLights(SimdTarget target, const IrradianceBatch& batch);
 
 }  // namespace lanelight

@@ -9,9 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "kernels/stages.h"
 #include "src/compiled/scene.h"
 #include "src/path/stage.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 
@@ -79,7 +80,7 @@ inline CompiledScene MakeScene(Geometry geometry, const AccelOptions& options) {
 /// The same as a render on the current target does it.
 inline CompiledScene MakeScene(Geometry geometry) {
   return MakeScene(std::move(geometry),
-                   {.leaf_triangles = LeafTrianglesFor(CurrentLanes())});
+                   {.leaf_triangles = LeafTrianglesFor(TestTarget().lanes())});
 }
 
 struct TestRay {
@@ -134,9 +135,9 @@ class WaveFixture {
     queue.size = count;
     for (std::uint32_t i = 0; i < count; ++i) queue.items[i] = i;
   }
-  /// Resolves the kernel for the forced SIMD target and runs it once.
-  void Run(const Stage& stage, const FeatureSet& features) {
-    stage.resolve(features)(wave);
+  /// Runs a stage's kernel of the target that is forced once.
+  void Run(StageOn stage, const FeatureSet& features) {
+    stage(TestTarget()).resolve(features)(wave);
   }
 
   Vec3f P(std::uint32_t i) const {

@@ -2,7 +2,7 @@
 // origin, on either side; and they do meet a surface just beyond it.
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "tests/support/brute_force.h"
 
@@ -14,7 +14,7 @@ using brute::Random;
 struct Case {
   const char* name;
   Geometry geometry;
-  std::vector<Stage> closest, surface, shadow;
+  std::vector<StageOn> closest, surface, shadow;
 };
 
 // One shape of every kind, tilted, of the given size about the given centre.
@@ -31,30 +31,24 @@ std::vector<Case> Shapes(Random& random, float size, Vec3f center) {
   };
   cases.push_back({"triangle",
                    quad,
-                   {IntersectTrianglesStage()},
-                   {SurfaceTriangleStage()},
-                   {ShadowTrianglesStage()}});
+                   {IntersectTrianglesStage},
+                   {SurfaceTriangleStage},
+                   {ShadowTrianglesStage}});
   Geometry sphere;
   sphere.spheres = {MakeSphere(center, size)};
   cases.push_back({"sphere",
                    sphere,
-                   {IntersectSpheresStage()},
-                   {SurfaceSphereStage()},
-                   {ShadowSpheresStage()}});
+                   {IntersectSpheresStage},
+                   {SurfaceSphereStage},
+                   {ShadowSpheresStage}});
   Geometry disk;
   disk.disks = {MakeDisk(center, n, size)};
-  cases.push_back({"disk",
-                   disk,
-                   {IntersectDisksStage()},
-                   {SurfaceDiskStage()},
-                   {ShadowDisksStage()}});
+  cases.push_back(
+      {"disk", disk, {IntersectDisksStage}, {SurfaceDiskStage}, {ShadowDisksStage}});
   Geometry plane;
   plane.planes = {MakePlane(center, n)};
-  cases.push_back({"plane",
-                   plane,
-                   {IntersectPlanesStage()},
-                   {SurfacePlaneStage()},
-                   {ShadowPlanesStage()}});
+  cases.push_back(
+      {"plane", plane, {IntersectPlanesStage}, {SurfacePlaneStage}, {ShadowPlanesStage}});
   return cases;
 }
 
@@ -73,14 +67,14 @@ int SelfHits(const Case& c, const AccelOptions& options, Random& random, Vec3f c
     rays.push_back({o, Normalize(goal - o)});
   }
   f.SetRays(rays);
-  for (const Stage& stage : c.closest) f.Run(stage, features);
+  for (const StageOn stage : c.closest) f.Run(stage, features);
   Queue& surface = f.wave.queue(QueueId::kSurface);
   surface.size = 0;
   const PathColumns& p = f.wave.path;
   for (std::uint32_t i = 0; i < kRays; ++i) {
     if (!std::isinf(p.t[i])) surface.items[surface.size++] = i;
   }
-  for (const Stage& stage : c.surface) f.Run(stage, features);
+  for (const StageOn stage : c.surface) f.Run(stage, features);
   Queue& shadow = f.wave.queue(QueueId::kShadow);
   shadow.size = 0;
   const bool sphere = !c.geometry.spheres.empty();
@@ -97,7 +91,7 @@ int SelfHits(const Case& c, const AccelOptions& options, Random& random, Vec3f c
   }
   *tried += static_cast<int>(shadow.size);
   const int before = static_cast<int>(shadow.size);
-  for (const Stage& stage : c.shadow) f.Run(stage, features);
+  for (const StageOn stage : c.shadow) f.Run(stage, features);
   return before - static_cast<int>(shadow.size);
 }
 
@@ -146,7 +140,7 @@ TEST_CASE("a gap of a few roundings under a huge triangle stops rays", "[surface
       }
       WaveFixture f(scene, 1000);
       f.SetRays(rays);
-      f.Run(IntersectTrianglesStage(), {});
+      f.Run(IntersectTrianglesStage, {});
       int missed = 0;
       for (std::size_t i = 0; i < rays.size(); ++i)
         missed += std::isinf(f.wave.path.t[i]);

@@ -2,7 +2,7 @@
 // kind of shape; footprints of pixels.
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/core/pi.h"
 #include "src/prepare/prepare_scene.h"
@@ -29,12 +29,12 @@ class Surfaces {
       ray.d = Normalize(ray.d);
     }
     fixture_.SetRays(moved);
-    Run({IntersectTrianglesStage(), IntersectSpheresStage(), IntersectDisksStage(),
-         IntersectPlanesStage()},
+    Run({IntersectTrianglesStage, IntersectSpheresStage, IntersectDisksStage,
+         IntersectPlanesStage},
         features);
     fixture_.QueueAll(QueueId::kSurface, static_cast<std::uint32_t>(rays.size()));
-    Run({SurfaceTriangleStage(), SurfaceSphereStage(), SurfaceDiskStage(),
-         SurfacePlaneStage(), FootprintsStage(), BumpsStage(), NormalMapsStage()},
+    Run({SurfaceTriangleStage, SurfaceSphereStage, SurfaceDiskStage, SurfacePlaneStage,
+         FootprintsStage, BumpsStage, NormalMapsStage},
         features);
   }
   Vec3d Ns(std::uint32_t i) const { return VecCast<double>(fixture_.Ns(i)); }
@@ -46,9 +46,9 @@ class Surfaces {
   const CompiledScene& scene() const { return scene_; }
 
  private:
-  void Run(const std::vector<Stage>& stages, const FeatureSet& features) {
-    for (const Stage& stage : stages) {
-      if (features.HasAll(stage.needs)) fixture_.Run(stage, features);
+  void Run(const std::vector<StageOn>& stages, const FeatureSet& features) {
+    for (const StageOn stage : stages) {
+      if (features.HasAll(stage(TestTarget()).needs)) fixture_.Run(stage, features);
     }
   }
   CompiledScene scene_;

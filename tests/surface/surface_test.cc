@@ -2,7 +2,7 @@
 // offset of rays that leave a surface.
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "tests/support/brute_force.h"
 
@@ -22,20 +22,20 @@ std::vector<std::uint32_t> HitSurface(WaveFixture& fixture,
                                       const FeatureSet& features) {
   fixture.SetRays(rays);
   const Geometry& g = fixture.wave.scene->geometry;
-  if (!g.triangles.empty()) fixture.Run(IntersectTrianglesStage(), features);
-  if (!g.spheres.empty()) fixture.Run(IntersectSpheresStage(), features);
-  if (!g.disks.empty()) fixture.Run(IntersectDisksStage(), features);
-  if (!g.planes.empty()) fixture.Run(IntersectPlanesStage(), features);
+  if (!g.triangles.empty()) fixture.Run(IntersectTrianglesStage, features);
+  if (!g.spheres.empty()) fixture.Run(IntersectSpheresStage, features);
+  if (!g.disks.empty()) fixture.Run(IntersectDisksStage, features);
+  if (!g.planes.empty()) fixture.Run(IntersectPlanesStage, features);
   Queue& queue = fixture.wave.queue(QueueId::kSurface);
   queue.size = 0;
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
     if (!std::isinf(fixture.wave.path.t[i])) queue.items[queue.size++] = i;
   }
   const std::vector<std::uint32_t> hits(queue.items, queue.items + queue.size);
-  if (!g.triangles.empty()) fixture.Run(SurfaceTriangleStage(), features);
-  if (!g.spheres.empty()) fixture.Run(SurfaceSphereStage(), features);
-  if (!g.disks.empty()) fixture.Run(SurfaceDiskStage(), features);
-  if (!g.planes.empty()) fixture.Run(SurfacePlaneStage(), features);
+  if (!g.triangles.empty()) fixture.Run(SurfaceTriangleStage, features);
+  if (!g.spheres.empty()) fixture.Run(SurfaceSphereStage, features);
+  if (!g.disks.empty()) fixture.Run(SurfaceDiskStage, features);
+  if (!g.planes.empty()) fixture.Run(SurfacePlaneStage, features);
   return hits;
 }
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/compile/mip_levels.h"
 #include "src/compile/texture_programs.h"
@@ -73,8 +73,7 @@ struct Lookups {
       p.spread_2[i] = points[i].dvdx, p.spread_3[i] = points[i].dvdy;
     }
     f.QueueAll(QueueId::kSurface, n);
-    f.Run(TextureStage(),
-          {Feature::kTextures, Feature::kUv, Feature::kTextureFootprints});
+    f.Run(TextureStage, {Feature::kTextures, Feature::kUv, Feature::kTextureFootprints});
     return {p.color0_r, p.color0_r + n};
   }
 };

@@ -35,7 +35,7 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/reference/pattern.h"
 
 namespace lanelight {
@@ -49,7 +49,7 @@ constexpr std::size_t kPoints = 1024;
 
 std::vector<float> RunNoise(const std::vector<float>& xyz) {
   std::vector<float> value(xyz.size() / 3);
-  HWY_DYNAMIC_DISPATCH(NoiseAt)(xyz.data(), value.data(), value.size());
+  LANELIGHT_ON(TestTarget(), NoiseAt)(xyz.data(), value.data(), value.size());
   return value;
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("sums of octaves agree with the twin", "[noise]") {
   std::vector<float> got(2 * kPoints);
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
-    HWY_DYNAMIC_DISPATCH(OctavesAt)(xyz.data(), got.data(), kPoints);
+    LANELIGHT_ON(TestTarget(), OctavesAt)(xyz.data(), got.data(), kPoints);
     double fbm = 0, turbulence = 0;
     for (std::size_t i = 0; i < kPoints; ++i) {
       const Vec3d p = PointOf(xyz, i);

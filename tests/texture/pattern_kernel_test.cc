@@ -31,7 +31,7 @@ LANELIGHT_END_KERNELS
 #include <limits>
 #include <random>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/compile/coat_color.h"
 #include "src/compile/texture_programs.h"
 #include "tests/reference/texture.h"
@@ -100,7 +100,7 @@ void ComparePlaces(const std::vector<Texture>& textures, double margin) {
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     for (std::size_t id = 0; id < textures.size(); ++id) {
-      HWY_DYNAMIC_DISPATCH(EvalPlaces)
+      LANELIGHT_ON(TestTarget(), EvalPlaces)
       (table, static_cast<int>(id), points.data(), rgb.data(), kPoints);
       double worst = 0;
       for (std::size_t i = 0; i < kPoints; ++i) {
@@ -212,7 +212,7 @@ TEST_CASE("colours below a coat are corrected as constants are", "[texture][coat
     ForceTarget(target);
     double left = 0, correction = 0, worst = 0;
     for (int i = 0; i < kCorners; ++i) {
-      HWY_DYNAMIC_DISPATCH(EvalPlaces)
+      LANELIGHT_ON(TestTarget(), EvalPlaces)
       (table, 2 * i + 1, points.data(), rgb.data(), 16);
       const Rgb got = {rgb[0], rgb[16], rgb[32]};
       const Rgb color = textures[2 * i].corners[0].constant;
@@ -259,7 +259,7 @@ TEST_CASE("the table of colours below a coat is interpolated linearly",
   for (std::size_t i = 0; i < 2 * kPoints; ++i) points[i] -= std::floor(points[i]);
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
-    HWY_DYNAMIC_DISPATCH(EvalPlaces)(table, 1, points.data(), rgb.data(), kPoints);
+    LANELIGHT_ON(TestTarget(), EvalPlaces)(table, 1, points.data(), rgb.data(), kPoints);
     double worst = 0;
     for (std::size_t i = 0; i < kPoints; ++i) {
       const Rgb was = reference::Textures(textures).Eval(0, PointOf(points, i));

@@ -31,7 +31,7 @@ LANELIGHT_END_KERNELS
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/reference/texture.h"
 #include "tests/texture/texture_files.h"
 #include "src/compile/texture_programs.h"
@@ -58,7 +58,7 @@ struct DrawnPoints {
 std::vector<float> Eval(const TextureTable& table, DrawnPoints points) {
   points.Pad();
   std::vector<float> rgb(3 * points.size());
-  HWY_DYNAMIC_DISPATCH(EvalPoints)
+  LANELIGHT_ON(TestTarget(), EvalPoints)
   (table, points.ids.data(), points.u.data(), points.v.data(), rgb.data(), points.size());
   return rgb;
 }
@@ -307,10 +307,10 @@ TEST_CASE("alpha of one hit", "[texture]") {
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     float alpha = 0;
-    HWY_DYNAMIC_DISPATCH(AlphaPoint)(table, 0, 0.3f, 0.6f, &alpha);
+    LANELIGHT_ON(TestTarget(), AlphaPoint)(table, 0, 0.3f, 0.6f, &alpha);
     CHECK(alpha ==
           Approx(reference::EvalTexture(textures, 0, 0.3f, 0.6f).x).margin(1e-5));
-    HWY_DYNAMIC_DISPATCH(AlphaPoint)(table, kNone, 0.3f, 0.6f, &alpha);
+    LANELIGHT_ON(TestTarget(), AlphaPoint)(table, kNone, 0.3f, 0.6f, &alpha);
     CHECK(alpha == 0.25f);
   }
   ForceTarget("");

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/compiled/scene.h"
 #include "src/core/check.h"
 #include "src/path/stage.h"
@@ -14,7 +14,7 @@
 
 namespace lanelight {
 
-Stage TextureStage();
+Stage TextureStage(SimdTarget target);
 
 namespace {
 
@@ -108,7 +108,7 @@ TEST_CASE("the texture stage writes what each material asks for", "[texture][sta
     Fixture f;
     if (color1) f.AddColor1();
     if (roughness) f.AddRoughness();
-    TextureStage().resolve(features)(f.wave);
+    TextureStage(TestTarget()).resolve(features)(f.wave);
     CHECK(f.wave.lanes.items == kPaths);
     for (int i = 0; i < kPaths; ++i) {
       INFO(target << " path " << i << " material " << f.material[i]);
@@ -129,7 +129,7 @@ TEST_CASE("the texture stage writes what each material asks for", "[texture][sta
 }
 
 TEST_CASE("the texture stage needs surface coordinates", "[texture][stage]") {
-  CHECK_THROWS_AS(TextureStage().resolve({Feature::kTextures}), CheckFailure);
+  CHECK_THROWS_AS(TextureStage(TestTarget()).resolve({Feature::kTextures}), CheckFailure);
 }
 
 }  // namespace lanelight

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/core/error.h"
 #include "src/parse/parse.h"
 #include "src/throughput/bench_scenes.h"
@@ -18,7 +18,7 @@ ThroughputOptions SmallBench() {
   options.settings.resolution = {16, 16};
   options.settings.spp = 2;
   options.threads = {1, 2};
-  options.targets = {CurrentTarget()};
+  options.targets = {TestTarget().name()};
   options.within = 1;
   options.seconds = 0.01;
   return options;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernels/probe/warp_probe.h"
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/stat/chi2.h"
 #include "src/stat/hypothesis.h"
 
@@ -29,8 +29,9 @@ struct DrawnPoints {
     }
     u0[0] = u1[0] = u0[1] = u1[2] = 0;  // corners
     u1[1] = u0[2] = u0[3] = u1[3] = 1 - 0x1p-24f;
-    ProbeWarp(id, {kCount, u0.data(), u1.data(), x.data(), y.data(), z.data(), pdf.data(),
-                   back0.data(), back1.data()});
+    ProbeWarp(TestTarget(), id,
+              {kCount, u0.data(), u1.data(), x.data(), y.data(), z.data(), pdf.data(),
+               back0.data(), back1.data()});
   }
 };
 

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/reference/compare.h"
 #include "tests/reference/scenes.h"
 #include "tests/reference/texture.h"

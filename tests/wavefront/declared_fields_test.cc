@@ -211,7 +211,7 @@ class Checker {
 std::set<std::string> RegisteredStages() {
   std::set<std::string> names;
 #define X(id) \
-  if (id##Stage().scope == StageScope::kWave) names.insert(id##Stage().name);
+  if (id##Stage({}).scope == StageScope::kWave) names.insert(id##Stage({}).name);
   LANELIGHT_STAGES(X)
 #undef X
   return names;

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "tests/wavefront/render_fixture.h"
 
 namespace lanelight {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "kernels/simd/target.h"
+#include "tests/support/test_target.h"
 #include "src/core/parallel.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/parse/parse.h"
@@ -36,13 +36,14 @@ inline Rendered RenderDescription(const SceneDescription& description,
                                   const TestRender& t) {
   const ThreadLimit limit(t.threads);
   CompileOptions compile = t.compile;
-  compile.leaf_triangles = LeafTrianglesFor(CurrentLanes());  // as a render does
+  compile.leaf_triangles = LeafTrianglesFor(TestTarget().lanes());  // as a render does
   CompiledScene scene = PrepareScene(description, compile);
   Strategy strategy = scene.strategy;
   strategy.points = t.sampler;
   ApplyStrategy(t.strategy, {}, strategy);
   UseStrategy(strategy, scene);
   PlanOptions plan_options;
+  plan_options.target = TestTarget();
   plan_options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
   plan_options.auxiliary = t.auxiliary;
   plan_options.wavefront = t.wavefront;

@@ -80,9 +80,9 @@ struct Ends {
   }
 };
 
-Point Material(const MaterialTable& table, std::uint32_t row) {
+Point Material(SimdTarget target, const MaterialTable& table, std::uint32_t row) {
   const auto kind = static_cast<ShadeKind>(table.kind[row]);
-  const BsdfProbe probe = GetBsdfProbe(kind);
+  const BsdfProbe probe = GetBsdfProbe(target, kind);
   std::uint64_t failures = 0, trials = 0;
   for (double z : {1.0, 0.5, 0.01, 1e-4, 1e-7, -1e-7, -0.5, -1.0}) {
     Ends ends({std::sqrt((1 - z) * (1 + z)), 0, z});
@@ -98,7 +98,7 @@ Point Material(const MaterialTable& table, std::uint32_t row) {
   return NoFailures(failures, trials);
 }
 
-std::vector<Point> ByAlpha(double alpha, const Effort&) {
+std::vector<Point> ByAlpha(double alpha, const Effort& effort) {
   const CompiledScene scene = Materials(alpha);
   static constexpr const char* kNames[] = {
 #define X(name, traits, meaning) meaning,
@@ -108,7 +108,7 @@ std::vector<Point> ByAlpha(double alpha, const Effort&) {
   std::vector<Point> points;
   for (std::uint32_t row = 0; row < scene.materials.size(); ++row) {
     points.push_back(Named(fmt::format("{} {}", row, kNames[scene.materials.kind[row]]),
-                           Material(scene.materials, row)));
+                           Material(effort.target, scene.materials, row)));
   }
   return points;
 }

@@ -23,55 +23,57 @@ struct Incidence {
   }
 };
 
-float Kernel(const Incidence& at) {
+float Kernel(SimdTarget target, const Incidence& at) {
   const std::vector<float> c(kFresnelPadding, at.cosine), eta(kFresnelPadding, at.eta),
       k(kFresnelPadding, at.k);
   std::vector<float> out(kFresnelPadding);
-  ProbeFresnel({1, c.data(), eta.data(), at.k < 0 ? nullptr : k.data(), out.data()});
+  ProbeFresnel(target,
+               {1, c.data(), eta.data(), at.k < 0 ? nullptr : k.data(), out.data()});
   return out[0];
 }
 
 // What the term may be off by: of itself, and by what a rounding of the cosine does.
-Point Compare(const std::string& series, const Incidence& at) {
+Point Compare(const std::string& series, SimdTarget target, const Incidence& at) {
   Point point;
   point.series = series;
   point.expected = at.Exact(at.cosine);
-  point.measured = Kernel(at);
+  point.measured = Kernel(target, at);
   const double rounded = std::min(1.0, at.cosine * (1 + 0x1p-22));
   const double slope = std::abs(at.Exact(rounded) - at.Exact(at.cosine * (1 - 0x1p-22)));
   point.tolerance = kRelative * point.expected + slope;
   return point;
 }
 
-std::vector<Point> Dielectric(double contrast, const Effort&) {
+std::vector<Point> Dielectric(double contrast, const Effort& effort) {
   std::vector<Point> points;
   for (double cosine : {1.0, 0.5, 0.01, 1e-4, 1e-7}) {
     for (const bool denser : {true, false}) {
       const double eta = denser ? 1 + contrast : 1 / (1 + contrast);
       points.push_back(Compare(
           fmt::format("into the {}, cosine {:g}", denser ? "denser" : "thinner", cosine),
-          {static_cast<float>(cosine), static_cast<float>(eta), -1}));
+          effort.target, {static_cast<float>(cosine), static_cast<float>(eta), -1}));
     }
   }
   return points;
 }
 
-std::vector<Point> Critical(double distance, const Effort&) {
+std::vector<Point> Critical(double distance, const Effort& effort) {
   std::vector<Point> points;
   for (double eta : {0.999, 0.75, 0.1}) {
     const double critical = std::sqrt((1 - eta) * (1 + eta));
     const double cosine = critical + distance * (1 - critical);
-    points.push_back(Compare(fmt::format("index {}", eta),
+    points.push_back(Compare(fmt::format("index {}", eta), effort.target,
                              {static_cast<float>(cosine), static_cast<float>(eta), -1}));
   }
   return points;
 }
 
-std::vector<Point> ByExtinction(double extinction, const Effort&) {
+std::vector<Point> ByExtinction(double extinction, const Effort& effort) {
   std::vector<Point> points;
   for (double eta : {0.01, 1.0, 100.0}) {
     for (double cosine : {1.0, 0.1, 1e-4, 1e-7}) {
       points.push_back(Compare(fmt::format("index {}, cosine {:g}", eta, cosine),
+                               effort.target,
                                {static_cast<float>(cosine), static_cast<float>(eta),
                                 static_cast<float>(extinction)}));
     }

@@ -68,7 +68,7 @@ void LookDown(const Effort& effort, Draws& draws, RayTrial& trial) {
 // Distances along rays, against extended precision.
 std::vector<Point> GroundByRays(double radius, const Effort& effort) {
   Draws draws(effort.seed);
-  RayTrial trial(Ground(radius), kUp);
+  RayTrial trial(effort, Ground(radius), kUp);
   LookDown(effort, draws, trial);
   const std::vector<WorldHit> hits = trial.tracer.Trace(trial.rays);
   double worst = 0;
@@ -86,7 +86,7 @@ std::vector<Point> GroundByRays(double radius, const Effort& effort) {
 // Rays that leave the ground do not meet it again.
 std::vector<Point> LeaveGround(double radius, const Effort& effort) {
   Draws draws(effort.seed);
-  RayTrial trial(Ground(radius), kUp);
+  RayTrial trial(effort, Ground(radius), kUp);
   LookDown(effort, draws, trial);
   const std::uint64_t missed = trial.CountBad([&](const WorldHit& hit, std::size_t) {
     trial.leaving.push_back(draws.Above(hit.normal, 1e-3));

@@ -42,7 +42,7 @@ std::vector<Point> Count(double count, const Effort& effort) {
   for (int i = 0; i < n; ++i) {
     text += Placed(fmt::format("Translate {} 0 0\n", 3 * i));
   }
-  RayTrial trial(text);
+  RayTrial trial(effort, text);
   for (int i = 0; i < effort(1000, 100000); ++i) {
     const double x = 3 * std::floor(draws(0, n)) + draws(-0.9, 0.9);
     const Vec3d d = -draws.Above({0, 0, 1}, 0.5);

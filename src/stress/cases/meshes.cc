@@ -10,7 +10,7 @@ namespace {
 // Rays from inside a closed mesh of radius 1 to its edges and vertices: how many get out.
 std::vector<Point> Leaks(const MeshText& mesh, Vec3d center, const Effort& effort) {
   Draws draws(effort.seed);
-  RayTrial trial(mesh.Text(), center);
+  RayTrial trial(effort, mesh.Text(), center);
   for (int i = 0; i < effort(20000, 2000000); ++i) {
     const std::size_t k =
         static_cast<std::size_t>(draws(0, double(mesh.indices.size() / 3))) * 3;
@@ -56,7 +56,7 @@ std::vector<Point> AllSizes(double, const Effort& effort) {
     centers.push_back(c);
     sizes.push_back(size);
   }
-  RayTrial trial(mesh.Text(), {0, 0, 0});
+  RayTrial trial(effort, mesh.Text(), {0, 0, 0});
   for (int i = 0; i < effort(2000, 200000); ++i) {
     const std::size_t k = static_cast<std::size_t>(i) % sizes.size();
     trial.rays.push_back({{}, Normalize(centers[k])});
@@ -78,7 +78,7 @@ std::vector<Point> Garbage(double, const Effort& effort) {
   const std::string many = SphereMesh(40, 60, {}, 1).Text();
   const std::string round = Sphere({}, 1) + "Shape \"disk\"\nShape \"plane\"\n";
   for (const std::string& shapes : {few, many, round}) {
-    RayTracer tracer(RayScene(shapes));
+    RayTracer tracer(effort.target, RayScene(shapes));
     std::vector<WorldRay> clean, mixed;
     std::vector<bool> bad;
     for (int i = 0; i < effort(2000, 100000); ++i) {

@@ -25,7 +25,7 @@ const Vec3d kTilted = Normalize(Vec3d{-0.4, 0.5, 0.7});
 std::vector<Point> GrazingRays(double sine, const std::string& shape,
                                const Effort& effort) {
   Draws draws(effort.seed);
-  RayTrial trial(shape, {0, 0, 1});
+  RayTrial trial(effort, shape, {0, 0, 1});
   for (int i = 0; i < effort(2000, 200000); ++i) {
     const double phi = draws(0, 2 * M_PI), cosine = std::sqrt(1 - sine * sine);
     const Vec3d d{cosine * std::cos(phi), cosine * std::sin(phi), -sine};
@@ -51,7 +51,7 @@ std::vector<Point> GrazingPlane(double sine, const Effort& effort) {
 std::vector<Point> DiskFarFromOrigin(double distance, const Effort& effort) {
   Draws draws(effort.seed);
   const Vec3d center = distance * Normalize(Vec3d{-1, 0.4, 2});
-  RayTrial trial(Disk(center, kTilted, 1), center + 5.0 * kTilted);
+  RayTrial trial(effort, Disk(center, kTilted, 1), center + 5.0 * kTilted);
   const Across across(kTilted);
   for (int i = 0; i < effort(2000, 200000); ++i) {
     const Vec3d rim = across.At(draws(0, 2 * M_PI));
@@ -68,7 +68,7 @@ std::vector<Point> LeaveFlat(double sine, const Effort& effort) {
   Draws draws(effort.seed);
   const Across across(kTilted);
   const auto leave = [&](const std::string& shape) {
-    RayTrial trial(shape + Sphere({9, 9, 9}, 0.1), {0, 0, 5});
+    RayTrial trial(effort, shape + Sphere({9, 9, 9}, 0.1), {0, 0, 5});
     for (int i = 0; i < effort(2000, 200000); ++i) {
       const Vec3d target = draws(-0.5, 0.5) * across.u + draws(-0.5, 0.5) * across.v;
       trial.Aim(target, -kTilted, 2);

@@ -42,6 +42,7 @@ SceneText Setup(const std::string& text, const Quality& quality, const Effort& e
   scene.settings.resolution = {quality.size, quality.size};
   scene.settings.spp = effort(quality.quick, quality.full);
   scene.settings.seed = effort.seed;
+  scene.settings.target = effort.target.name();
   scene.settings.max_depth = quality.depth;
   scene.settings.strategy = ParseStrategy(quality.strategy, {});
   return scene;

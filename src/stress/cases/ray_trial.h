@@ -21,8 +21,8 @@ struct RayTrial {
   std::vector<WorldRay> rays;
   std::vector<Vec3d> leaving;  // where rays have hit
 
-  explicit RayTrial(const std::string& shapes, Vec3d eye = {0, 0, 5})
-      : tracer(RayScene(shapes, eye)) {}
+  RayTrial(const Effort& effort, const std::string& shapes, Vec3d eye = {0, 0, 5})
+      : tracer(effort.target, RayScene(shapes, eye)) {}
 
   /// Adds a ray in a direction that ends at `target`.
   void Aim(Vec3d target, Vec3d direction, double distance) {

@@ -20,9 +20,9 @@ constexpr std::uint32_t kCount = 4096, kRoom = 64;
 
 // Points of a sampler: outside of [0, 1) is a failure, and so is a mean that is off by
 // more than six deviations of independent points (false alarms: 2e-9 each).
-Point Check(const std::string& series, const PointsQuery& query) {
+Point Check(const std::string& series, SimdTarget target, const PointsQuery& query) {
   std::vector<float> u0(kCount + kRoom), u1(kCount + kRoom);
-  ProbePoints(query, u0.data(), u1.data());
+  ProbePoints(target, query, u0.data(), u1.data());
   std::uint64_t failures = 0;
   std::array<double, 2> sum{};
   for (std::uint32_t i = 0; i < kCount; ++i) {
@@ -41,9 +41,10 @@ std::vector<Point> BySample(double sample, const Effort& effort) {
   for (int i = 0; i < kNumPoints; ++i) {
     // The last block ends at 2^31: what comes later begins again under another seed.
     const auto first = static_cast<std::uint32_t>(std::min(sample, 0x1p31 - kCount));
-    points.push_back(Check(
-        kPointsNames[i], {static_cast<Points>(i), static_cast<std::uint32_t>(effort.seed),
-                          7, 3, first, kCount}));
+    points.push_back(
+        Check(kPointsNames[i], effort.target,
+              {static_cast<Points>(i), static_cast<std::uint32_t>(effort.seed), 7, 3,
+               first, kCount}));
   }
   return points;
 }
@@ -52,9 +53,9 @@ std::vector<Point> ByPixel(double pixel, const Effort& effort) {
   std::vector<Point> points;
   for (int i = 0; i < kNumPoints; ++i) {
     const auto at = static_cast<std::uint32_t>(std::min(pixel, 0x1p32 - 1));
-    points.push_back(Check(
-        kPointsNames[i], {static_cast<Points>(i), static_cast<std::uint32_t>(effort.seed),
-                          at, 3, 5, kCount}));
+    points.push_back(Check(kPointsNames[i], effort.target,
+                           {static_cast<Points>(i),
+                            static_cast<std::uint32_t>(effort.seed), at, 3, 5, kCount}));
   }
   return points;
 }
@@ -64,7 +65,7 @@ std::vector<Point> ByDepth(double depth, const Effort& effort) {
   const std::uint32_t key = static_cast<std::uint32_t>(depth) << kDepthShift;
   for (int i = 0; i < kNumPoints; ++i) {
     points.push_back(
-        Check(kPointsNames[i],
+        Check(kPointsNames[i], effort.target,
               {static_cast<Points>(i), static_cast<std::uint32_t>(effort.seed), 11,
                key + static_cast<std::uint32_t>(Dimension::kBsdf), 0, kCount}));
   }
@@ -85,7 +86,7 @@ bool Good(WarpId id, double x, double y, double z, double pdf) {
   return place && pdf > 0 && std::isfinite(pdf);
 }
 
-std::vector<Point> Warps(double, const Effort&) {
+std::vector<Point> Warps(double, const Effort& effort) {
   const std::vector<float> ends = Ends();
   const std::size_t n = ends.size() * ends.size();
   std::vector<Point> points;
@@ -96,8 +97,9 @@ std::vector<Point> Warps(double, const Effort&) {
       v[0][i] = ends[i % ends.size()];
       v[1][i] = ends[i / ends.size()];
     }
-    ProbeWarp(id, {static_cast<int>(n), v[0].data(), v[1].data(), v[2].data(),
-                   v[3].data(), v[4].data(), v[5].data(), v[6].data(), v[7].data()});
+    ProbeWarp(effort.target, id,
+              {static_cast<int>(n), v[0].data(), v[1].data(), v[2].data(), v[3].data(),
+               v[4].data(), v[5].data(), v[6].data(), v[7].data()});
     std::uint64_t failures = 0;
     for (std::size_t i = 0; i < n; ++i) {
       failures += !Good(id, v[2][i], v[3][i], v[4][i], v[5][i]);

@@ -33,7 +33,8 @@ std::vector<Point> Patches(double size, const Effort& effort) {
   for (const auto& [s, t] : {std::pair{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}) {
     text += Numbers(center + size * (double(s) * a.u + double(t) * a.v));
   }
-  RayTrial trial(text + "] \"integer indices\" [0 1 2 3]\n", center + 3 * size * n);
+  RayTrial trial(effort, text + "] \"integer indices\" [0 1 2 3]\n",
+                 center + 3 * size * n);
   for (int i = 0; i < effort(2000, 200000); ++i) {
     const Vec3d d = -draws.Above(n, 0.2);
     trial.Aim(center + 0.9 * size * (draws(-1, 1) * a.u + draws(-1, 1) * a.v), d, size);

@@ -13,7 +13,7 @@ std::vector<Point> SilhouetteAt(double distance, double from, double off,
                                 const Effort& effort) {
   Draws draws(effort.seed);
   const Vec3d center = distance * Normalize(Vec3d{1, 2, -0.3});
-  RayTrial trial(Sphere(center, 1), center + from * Normalize(Vec3d{-2, 1, 1}));
+  RayTrial trial(effort, Sphere(center, 1), center + from * Normalize(Vec3d{-2, 1, 1}));
   for (int i = 0; i < effort(2000, 200000); ++i) {
     const Vec3d d = -draws.Direction();
     const Vec3d rim = Across(d).At(draws(0, 2 * M_PI));
@@ -43,7 +43,7 @@ std::vector<Point> TwoGlasses(double apart, const Effort& effort) {
 // A sphere of radius 1 in one of radius 1 + gap: rays from each reach the other.
 std::vector<Point> Shells(double gap, const Effort& effort) {
   Draws draws(effort.seed);
-  RayTrial trial(Sphere({}, 1) + Sphere({}, 1 + gap));
+  RayTrial trial(effort, Sphere({}, 1) + Sphere({}, 1 + gap));
   // Steep enough for the inner sphere, and not as far as through the outer one.
   const double steep = 0.05 + 1.3 * std::sqrt(2 * gap), reach = 1.5 * gap / steep;
   std::vector<WorldRay> outward;
@@ -79,7 +79,7 @@ std::vector<Point> InsideSphere(double distance, const Effort& effort) {
 std::vector<Point> LeaveSphere(double radius, const Effort& effort) {
   Draws draws(effort.seed);
   const Vec3d center{0.3, -0.8, 0.5};
-  RayTrial trial(Sphere(center, radius) + Sphere({-6, 0, 0}, 0.1));
+  RayTrial trial(effort, Sphere(center, radius) + Sphere({-6, 0, 0}, 0.1));
   for (int i = 0; i < effort(2000, 200000); ++i) {
     const Vec3d n = draws.Direction();
     trial.rays.push_back({center + 1.5 * radius * n, -n});

@@ -17,7 +17,7 @@ std::vector<Point> LevelAndTilted(const Measure& measure) {
 std::vector<Point> LeaveGrazing(double sine, const Effort& effort) {
   Draws draws(effort.seed);
   return LevelAndTilted([&](Vec3d n) {
-    RayTrial trial(SquareMesh({}, n).Text(), 5 * n);
+    RayTrial trial(effort, SquareMesh({}, n).Text(), 5 * n);
     for (int i = 0; i < effort(2000, 200000); ++i) {
       const Vec3d d = -draws.Above(n, 0.1);
       trial.Aim(PointOfSquare(draws, {}, n), d, 2);
@@ -34,7 +34,7 @@ std::vector<Point> Gap(double gap, const Effort& effort) {
   return LevelAndTilted([&](Vec3d n) {
     // The upper square is larger, so that none passes beside it.
     const double side = 1.5 + 45 * gap;
-    RayTrial trial(SquareMesh({}, n).Text() + SquareMesh(gap * n, n, side).Text(),
+    RayTrial trial(effort, SquareMesh({}, n).Text() + SquareMesh(gap * n, n, side).Text(),
                    -5.0 * n);
     for (int i = 0; i < effort(2000, 200000); ++i) {
       const Vec3d d = draws.Above(n, 0.3);
@@ -57,7 +57,7 @@ std::vector<Point> Coincident(double count, const Effort& effort) {
   for (int i = 0; i < std::lround(count); ++i) {
     mesh.AddQuad(one.points[0], one.points[1], one.points[2], one.points[3]);
   }
-  RayTrial trial(mesh.Text(), 5 * kLeaning);
+  RayTrial trial(effort, mesh.Text(), 5 * kLeaning);
   for (int i = 0; i < effort(64, 4096); ++i) {
     const Vec3d d = -draws.Above(kLeaning, 0.3);
     trial.Aim(PointOfSquare(draws, {}, kLeaning), d, 2);

@@ -10,7 +10,7 @@ namespace {
 std::vector<Point> FarFromOrigin(double distance, const Effort& effort) {
   Draws draws(effort.seed);
   const Vec3d center = distance * Normalize(Vec3d{1, -2, 0.5});
-  RayTrial trial(SquareMesh(center, kLeaning).Text(), center + 5 * kLeaning);
+  RayTrial trial(effort, SquareMesh(center, kLeaning).Text(), center + 5 * kLeaning);
   std::vector<Vec3d> targets;
   for (int i = 0; i < effort(1000, 100000); ++i) {
     targets.push_back(PointOfSquare(draws, center, kLeaning));
@@ -28,7 +28,7 @@ std::vector<Point> Needle(double aspect, const Effort& effort) {
   const double width = 1 / aspect;
   MeshText mesh;
   mesh.AddTriangle({-0.5, 0, 0}, {0.5, -width / 2, 0}, {0.5, width / 2, 0});
-  RayTrial trial(mesh.Text());
+  RayTrial trial(effort, mesh.Text());
   for (int i = 0; i < effort(1000, 100000); ++i) {
     const double x = draws(0.1, 0.9), y = x * width * draws(-0.4, 0.4);
     const Vec3d d = -draws.Above({0, 0, 1}, 0.3);
@@ -56,7 +56,7 @@ std::vector<Point> VerticesOfAllSizes(double, const Effort& effort) {
     MeshText mesh;
     mesh.AddTriangle(a, b, c);
     mesh.AddTriangle(b, c, a);
-    RayTrial trial(mesh.Text(), a + Length(b - a) * normal);
+    RayTrial trial(effort, mesh.Text(), a + Length(b - a) * normal);
     for (int i = 0; i < 1000; ++i) {
       const double u = draws(0.02, 0.97), v = draws(0.01, 0.98 - u);
       trial.Aim(a + u * (b - a) + v * (c - a), -normal, Length(c - a));
@@ -86,7 +86,7 @@ std::vector<Point> Collinear(double, const Effort& effort) {
     mesh.AddTriangle(a, a, a);
   }
   const std::size_t slivers = mesh.indices.size() / 3;
-  RayTrial trial(mesh.Text() + SquareMesh({0, 0, -64}, {0, 0, 1}, 256).Text());
+  RayTrial trial(effort, mesh.Text() + SquareMesh({0, 0, -64}, {0, 0, 1}, 256).Text());
   for (int i = 0; i < effort(2000, 200000); ++i) {
     const std::size_t k =
         i % 8 == 0 ? 0 : static_cast<std::size_t>(draws(0, double(slivers)));
@@ -104,7 +104,7 @@ std::vector<Point> Collinear(double, const Effort& effort) {
 // Rays at an angle to a square of two triangles, at points of the edge that they share.
 std::vector<Point> SharedEdge(double sine, const Effort& effort) {
   Draws draws(effort.seed);
-  RayTrial trial(Rectangle({-1, -1, 0}, {1, 1, 0}));
+  RayTrial trial(effort, Rectangle({-1, -1, 0}, {1, 1, 0}));
   for (int i = 0; i < effort(2000, 200000); ++i) {
     const double along = draws(-0.8, 0.8), phi = draws(0, 2 * M_PI);
     const double cosine = std::sqrt(1 - sine * sine);
