@@ -14,11 +14,6 @@
 
 namespace lanelight {
 
-/// Changes of a strategy (as in --strategy) one after the other; either may be empty.
-inline std::string JoinedChanges(const std::string& first, const std::string& then) {
-  return first + (first.empty() || then.empty() ? "" : ",") + then;
-}
-
 struct PlanOptions {
   SimdTarget target;  // of all kernels
   std::uint32_t max_depth = 5;
@@ -30,14 +25,11 @@ struct PlanOptions {
   /// Of a training pass: it has the strategy's points all the same, and its reuse, so
   /// that its samples depend on each other as those of a render do.
   bool own_points = false;
-  /// To the scene's strategy, as in --strategy: what a training has found to be better
-  /// (roulette, guiding, decide). Empty: none.
-  std::string changes;
+  /// Instead of the scene's: what a training tries, or has found to be better (roulette,
+  /// guiding, decide).
+  std::optional<Strategy> strategy;
   /// Camera rays and the emission that they see, nothing else; with max_depth 0.
   bool camera_only = false;
-
-  /// Changes the strategy further.
-  void Change(const std::string& text) { changes = JoinedChanges(changes, text); }
 };
 
 struct PlannedStage {

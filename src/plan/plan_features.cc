@@ -131,8 +131,7 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
 }
 
 Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options) {
-  Strategy strategy = scene.strategy;
-  ApplyStrategy(options.changes, {}, strategy);
+  Strategy strategy = options.strategy.value_or(scene.strategy);
   if (options.camera_only) strategy.control = Control::kNone;
   if (options.camera_only || (options.training && !options.own_points)) {
     strategy.reuse = Reuse::kNone;
@@ -149,6 +148,13 @@ bool SeesLightsApart(const CompiledScene& scene) {
          !scene.features.Has(Feature::kMedia) &&  // which dim what is seen
          !scene.film.response.limits() &&         // which are of single samples
          scene.features.HasAny({Feature::kAreaLights, Feature::kInfiniteLights});
+}
+
+PlanOptions WithChanges(const CompiledScene& scene, PlanOptions options,
+                        std::string_view changes) {
+  if (!options.strategy) options.strategy = scene.strategy;
+  ApplyStrategy(changes, {}, *options.strategy);
+  return options;
 }
 
 }  // namespace lanelight

@@ -8,8 +8,13 @@ namespace lanelight {
 
 FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options);
 
-/// The scene's strategy as the options change it.
+/// The strategy of a plan of the scene: what the options leave of theirs, or of its own.
 Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options);
+
+/// The same options with a changed strategy; `changes` as in --strategy, may be empty.
+/// Throws InputError for changes that there are not.
+PlanOptions WithChanges(const CompiledScene& scene, PlanOptions options,
+                        std::string_view changes);
 
 /// Light samples of triangles or rectangles are taken in a plan of these features.
 bool SamplesFlatLights(const FeatureSet& features);

@@ -75,8 +75,7 @@ void RunStrategy::Restore(TrainingOutcome training,
 // The image may be rendered with another roulette then.
 void RunStrategy::UseTraining() {
   trained_ = true;
-  PlanOptions changed = plan_.options;
-  changed.Change(training_.changes);
+  const PlanOptions changed = WithChanges(scene_, plan_.options, training_.changes);
   if (PlannedStrategy(scene_, changed) == scene_.strategy) return;
   plan_ = MakePlan(scene_, changed);
   run_ = Parameters();

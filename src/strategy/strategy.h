@@ -95,6 +95,9 @@ void Apply(const StrategyChanges& changes, Strategy& strategy);
 void ApplyStrategy(std::string_view text, const SourceLocation& where,
                    Strategy& strategy);
 
+/// Changes of a strategy one after the other, as one text; either may be empty.
+std::string JoinedChanges(const std::string& first, const std::string& then);
+
 /// Complete text form, which ApplyStrategy reads back: "directions=mis:power,points=...".
 std::string ToText(const Strategy& strategy);
 

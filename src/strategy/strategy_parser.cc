@@ -222,6 +222,10 @@ StrategyChanges ParseStrategy(std::string_view text, const SourceLocation& where
   return {std::string(text)};
 }
 
+std::string JoinedChanges(const std::string& first, const std::string& then) {
+  return first + (first.empty() || then.empty() ? "" : ",") + then;
+}
+
 void Apply(const StrategyChanges& changes, Strategy& strategy) {
   ApplyStrategy(changes.text, {}, strategy);
 }

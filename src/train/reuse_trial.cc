@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/core/error.h"
+#include "src/plan/plan_features.h"
 #include "src/train/path_records.h"
 #include "src/wave/seen_lights.h"
 #include "src/train/strategy_trial.h"
@@ -113,8 +114,7 @@ std::vector<TriedBlocks> StrategyTrial::TryBlocks(const TriedStrategy& usual,
                                                   double must_gain) {
   std::vector<TriedBlocks> tried;
   for (const char* const changes : {"reuse=block", "reuse=block:32"}) {
-    PlanOptions blocks = usual.options;
-    blocks.Change(changes);
+    const PlanOptions blocks = WithChanges(scene_, usual.options, changes);
     if (!Takes(scene_, blocks)) break;
     const TrainingWork work = MakeTileWork(scene_, samples, kBlockSpp);
     const TriedBlocks found = CompareBlocks(usual, blocks, work, must_gain);

@@ -77,8 +77,8 @@ TriedStrategy ToTry(const CompiledScene& scene, const PlanOptions& options,
   TriedStrategy tried;
   tried.changes = changes;
   tried.price = price;
-  tried.options = options;
-  tried.options.changes = JoinedChanges(changes, "decide=none");
+  tried.options =
+      WithChanges(scene, options, JoinedChanges(changes, "decide=none"));
   tried.tables = MakeStrategyTables(scene);
   return tried;
 }
@@ -147,7 +147,8 @@ PilotLight StrategyTrial::LightOf(const TrainingSamples& samples,
 bool StrategyTrial::Try(TriedStrategy& tried, const TriedStrategy& usual) {
   if (!tried.has_learned) {
     // It may have found that it had better be something else.
-    tried.options.Change(Learn(tried, planned_, tried.tables).changes);
+    const TrainingOutcome learned = Learn(tried, planned_, tried.tables);
+    tried.options = WithChanges(scene_, tried.options, learned.changes);
     tried.has_learned = true;
   }
   if (!Stopped()) Measure(tried, usual);

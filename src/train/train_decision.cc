@@ -145,9 +145,10 @@ class Decider {
   }
 
   void TrainFor(TriedStrategy& chosen) {
-    chosen.options.changes = JoinedChanges(chosen.changes, "decide=none");
+    const std::string changes = JoinedChanges(chosen.changes, "decide=none");
+    chosen.options = WithChanges(scene_, options_, changes);
     const TrainingOutcome out = trial_.Learn(chosen, training_.planned_samples, tables_);
-    outcome_.changes = JoinedChanges(chosen.options.changes, out.changes);
+    outcome_.changes = JoinedChanges(changes, out.changes);
     outcome_.note =
         fmt::format("rendered with {}; {}{}{}",
                     chosen.changes.empty() ? "the strategy as given" : chosen.changes,

@@ -5,6 +5,7 @@
 // Every record is an estimate of the same radiance, whichever round it is from, so the
 // guide learns from all of them, but for the oldest where there are too many; fractions
 // come from the last round alone, which has not seen the guide that it judges.
+#include "src/plan/plan_features.h"
 #include "src/train/train_guide.h"
 
 #include <fmt/format.h>
@@ -37,7 +38,7 @@ class GuideTraining {
     options_.training = FeatureSet{Feature::kRecordsGuide};
     // A path that splits would be on record with its first copy only.
     if (context.plan.features.Has(Feature::kSplitting)) {
-      options_.Change("roulette=throughput");
+      options_ = WithChanges(context.scene, options_, "roulette=throughput");
     }
   }
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <memory>
 
+#include "src/plan/plan_features.h"
 #include "src/train/path_records.h"
 #include "src/train/pilot_comparison.h"
 #include "src/wave/stop_watcher.h"
@@ -82,9 +83,8 @@ class Pilot {
 
   PathSamples Pass(const FeatureSet& records, Roulette roulette,
                    const TrainingWork& work) {
-    PlanOptions options = plan_.options;
+    PlanOptions options = WithChanges(scene_, plan_.options, Change(roulette));
     options.training = records;
-    options.Change(Change(roulette));
     PathSamples samples =
         ReadRecords(RunTrainingPass({scene_, options, &tables_, seed_, &watcher_}, work));
     outcome_.samples += samples.colors.size();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "src/plan/plan_features.h"
 #include "src/train/path_records.h"
 #include "src/wave/stop_watcher.h"
 #include "src/train/training.h"
@@ -26,7 +27,7 @@ TrainingSamples ShadowPass(const TrainingContext& context, const TrainingWork& w
   const StopWatcher watcher(context.options.stop);
   PlanOptions options = context.plan.options;
   if (context.plan.features.Has(Feature::kSplitting)) {
-    options.Change("roulette=throughput");
+    options = WithChanges(context.scene, options, "roulette=throughput");
   }
   return RunTrainingPass(
       {context.scene, options, &context.tables, context.seed, &watcher}, work);

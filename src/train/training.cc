@@ -20,7 +20,7 @@ void TrainingOutcome::Add(const TrainingOutcome& next) {
   const auto join = [](std::string& all, const char* between, const std::string& more) {
     all += (all.empty() || more.empty() ? "" : between) + more;
   };
-  join(changes, ",", next.changes);
+  changes = JoinedChanges(changes, next.changes);
   join(note, "; ", next.note);
   samples += next.samples;
   rays += next.rays;

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "src/plan/plan_features.h"
 #include "src/stat/hypothesis.h"
 #include "src/train/path_records.h"
 #include "src/train/unsplit_variances.h"
@@ -49,8 +50,8 @@ struct SplitMoments {
 
 // With what the splitting roulette has learned, another one plays.
 TrainingSamples Pass(const Prepared& room, const char* roulette, bool records) {
-  PlanOptions options = room.plan.options;
-  options.Change(std::string("roulette=") + roulette);
+  PlanOptions options = WithChanges(room.scene, room.plan.options,
+                                    std::string("roulette=") + roulette);
   options.training = records ? FeatureSet{Feature::kRecordsUnsplit} : FeatureSet{};
   return RunTrainingPass({room.scene, options, &room.tables, room.run.seed},
                          MakeTrainingWork(room.scene, kSamples));

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "src/plan/plan_features.h"
 #include "src/core/error.h"
 #include "src/prepare/guide_records.h"
 #include "src/prepare/guide_square.h"
@@ -32,9 +33,8 @@ class Study {
  public:
   Study(const Job& job, const GuidePictureOptions& options)
       : job_(job), options_(options) {
-    PlanOptions guided = job.plan.options;
-    guided.Change("guiding=radiance,decide=none");
-    plan_ = MakePlan(job.scene, guided);
+    plan_ = MakePlan(job.scene, WithChanges(job.scene, job.plan.options,
+                                            "guiding=radiance,decide=none"));
     if (!plan_.features.Has(Feature::kGuided)) {
       throw InputError("nothing in this scene can be guided: no surface scatters light");
     }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "kernels/stages.h"
+#include "src/plan/plan_features.h"
 #include "src/image/image.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/prepare/tables.h"
@@ -48,7 +49,7 @@ class Checker {
     } else if (c.records) {
       options.training = FeatureSet{Feature::kRecordsPaths, Feature::kRecordsGuide,
                                     Feature::kOtherEvents};
-      options.changes = "roulette=throughput";
+      options = WithChanges(scene_, options, "roulette=throughput");
     }
     plan_ = MakePlan(scene_, options);
     tables_ = MakeStrategyTables(scene_);
