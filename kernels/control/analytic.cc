@@ -39,7 +39,7 @@ void Analytic(Wave& wave) {
     const VI selected =
         path.ls_light != nullptr ? Gather(path.ls_light, slots) : hn::Zero(DI());
     const AreaLight lights = AreaLightsAt<Bsdf::kTransmits>(
-        *wave.scene, vertex.p, Gather(path.p_error, slots), vertex.normal, selected);
+        *wave.scene, {vertex.p, Gather(path.p_error, slots), vertex.normal}, selected);
     const V3 sample = Gather3(path.ls_r, path.ls_g, path.ls_b, slots);
     const V3 h =
         Mul(vertex.Eval(Gather3(path.ls_x, path.ls_y, path.ls_z, slots)).f_cos, sample);

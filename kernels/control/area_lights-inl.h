@@ -15,11 +15,18 @@ struct TwoSides {
   VF above, below;
 };
 
+/// Vertices that light arrives at: points with their rounding errors, and unit normals.
+struct ReceiverLanes {
+  V3 p;
+  VF p_error;
+  V3 n;
+};
+
 /// irradiance(half, p, n) of both halves of the vectors, for n and, with kBelow, for -n.
 template <bool kBelow, class Irradiance>
-LANELIGHT_INLINE TwoSides InHalves(V3 p, V3 n, Irradiance&& irradiance) {
-  const D3 p0 = HalfOf<false>(p), p1 = HalfOf<true>(p);
-  const D3 n0 = HalfOf<false>(n), n1 = HalfOf<true>(n);
+LANELIGHT_INLINE TwoSides InHalves(const ReceiverLanes& at, Irradiance&& irradiance) {
+  const D3 p0 = HalfOf<false>(at.p), p1 = HalfOf<true>(at.p);
+  const D3 n0 = HalfOf<false>(at.n), n1 = HalfOf<true>(at.n);
   TwoSides out = {FromHalves(irradiance(p0, n0), irradiance(p1, n1)), Splat(0)};
   if constexpr (kBelow) {
     const VD flip = SplatD(-1);
@@ -32,11 +39,11 @@ LANELIGHT_INLINE TwoSides InHalves(V3 p, V3 n, Irradiance&& irradiance) {
 /// Vertices clear of the plane of a light, on a side that it emits to: nearer ones are
 /// lost in the rounding of the points of light samples (StoreSurfaceSample). Depends on
 /// the vertex only, as everything that decides whether a light takes part.
-LANELIGHT_INLINE MF ClearOfPlane(V3 p, VF p_error, V3 point, V3 n, float size,
+LANELIGHT_INLINE MF ClearOfPlane(const ReceiverLanes& at, V3 point, V3 n, float size,
                                  const LightRecord& light) {
-  const VF height = Dot(n, p - point);
-  const VF reach = hn::Add(SumAbs(p), hn::Add(SumAbs(point), Splat(size)));
-  const VF clear = hn::MulAdd(Splat(1e-5f), reach, hn::Mul(Splat(8.0f), p_error));
+  const VF height = Dot(n, at.p - point);
+  const VF reach = hn::Add(SumAbs(at.p), hn::Add(SumAbs(point), Splat(size)));
+  const VF clear = hn::MulAdd(Splat(1e-5f), reach, hn::Mul(Splat(8.0f), at.p_error));
   return hn::Gt(light.two_sided != 0 ? hn::Abs(height) : height, clear);
 }
 
@@ -44,8 +51,8 @@ LANELIGHT_INLINE MF ClearOfPlane(V3 p, VF p_error, V3 point, V3 n, float size,
 /// part at.
 template <bool kBelow>
 LANELIGHT_INLINE MF TriangleLightAt(const CompiledScene& scene, uint32_t primitive,
-                                    const LightRecord& light, V3 p, VF p_error, V3 n,
-                                    TwoSides* out) {
+                                    const LightRecord& light,
+                                    const ReceiverLanes& receivers, TwoSides* out) {
   const TriangleRecord& record = scene.geometry.triangles[primitive];
   const auto corner = [&](int i) HWY_ATTR {
     return Splat3(record.p[i][0], record.p[i][1], record.p[i][2]);
@@ -55,9 +62,9 @@ LANELIGHT_INLINE MF TriangleLightAt(const CompiledScene& scene, uint32_t primiti
   const D3 e01 = Minus(c1, c0), e12 = Minus(SplatD3(record.p[2]), c1);
   const float size = hn::GetLane(hn::Add(SumAbs(e1), SumAbs(e2)));
   const V3 facing = Normalize(Cross(e1, e2));
-  const MF clear = ClearOfPlane(p, p_error, corner(0), facing, size, light);
+  const MF clear = ClearOfPlane(receivers, corner(0), facing, size, light);
   if (hn::AllFalse(DF(), clear)) return clear;
-  *out = InHalves<kBelow>(p, n, [&](D3 at, D3 normal) HWY_ATTR {
+  *out = InHalves<kBelow>(receivers, [&](D3 at, D3 normal) HWY_ATTR {
     return TriangleIrradiance({Minus(c0, at), e01, e12}, normal);
   });
   return clear;
@@ -66,12 +73,11 @@ LANELIGHT_INLINE MF TriangleLightAt(const CompiledScene& scene, uint32_t primiti
 /// Two triangles, of which rectangles consist as rays see them. Both take part or none.
 template <bool kBelow>
 LANELIGHT_INLINE MF RectangleLightAt(const CompiledScene& scene, const LightRecord& light,
-                                     V3 p, VF p_error, V3 n, TwoSides* out) {
+                                     const ReceiverLanes& receivers, TwoSides* out) {
   TwoSides first = {Splat(0), Splat(0)}, second = first;
-  const MF a =
-      TriangleLightAt<kBelow>(scene, light.primitive, light, p, p_error, n, &first);
-  const MF b = TriangleLightAt<kBelow>(scene, light.second_primitive, light, p, p_error,
-                                       n, &second);
+  const MF a = TriangleLightAt<kBelow>(scene, light.primitive, light, receivers, &first);
+  const MF b =
+      TriangleLightAt<kBelow>(scene, light.second_primitive, light, receivers, &second);
   *out = {hn::Add(first.above, second.above), hn::Add(first.below, second.below)};
   return hn::And(a, b);
 }
@@ -79,15 +85,16 @@ LANELIGHT_INLINE MF RectangleLightAt(const CompiledScene& scene, const LightReco
 /// From inside (as the sampler of spheres sees it) a sphere takes no part.
 template <bool kBelow>
 LANELIGHT_INLINE MF SphereLightAt(const CompiledScene& scene, const LightRecord& light,
-                                  V3 p, V3 n, TwoSides* out) {
+                                  const ReceiverLanes& receivers, TwoSides* out) {
   const SphereRecord& record =
       scene.geometry.spheres[light.primitive - scene.geometry.ranges.spheres];
   const D3 center = SplatD3(record.center);
   const VD radius = SplatD(record.radius);
-  *out = InHalves<kBelow>(p, n, [&](D3 at, D3 normal) HWY_ATTR {
+  *out = InHalves<kBelow>(receivers, [&](D3 at, D3 normal) HWY_ATTR {
     return SphereIrradiance(Minus(center, at), radius, normal);
   });
-  const V3 to_center = Splat3(record.center[0], record.center[1], record.center[2]) - p;
+  const V3 to_center =
+      Splat3(record.center[0], record.center[1], record.center[2]) - receivers.p;
   const bool emits = record.normal_sign > 0 || light.two_sided != 0;
   return hn::And(hn::Gt(Dot(to_center, to_center), Splat(light.size[0])),
                  hn::Eq(Splat(emits ? 1.0f : 0.0f), Splat(1.0f)));
@@ -96,20 +103,20 @@ LANELIGHT_INLINE MF SphereLightAt(const CompiledScene& scene, const LightRecord&
 /// A disk takes part where its rim does not cross the horizon of the vertex.
 template <bool kBelow>
 LANELIGHT_INLINE MF DiskLightAt(const CompiledScene& scene, const LightRecord& light,
-                                V3 p, VF p_error, V3 n, TwoSides* out) {
+                                const ReceiverLanes& receivers, TwoSides* out) {
   const DiskRecord& record =
       scene.geometry.disks[light.primitive - scene.geometry.ranges.disks];
   const D3 center = SplatD3(record.center), axis = SplatD3(record.normal);
   const VD outer = SplatD(record.radius), inner = SplatD(record.inner_radius);
   const V3 c = Splat3(record.center[0], record.center[1], record.center[2]);
   const V3 a = Splat3(record.normal[0], record.normal[1], record.normal[2]);
-  const VF height = Dot(n, c - p), tilt = Dot(n, a);
+  const VF height = Dot(receivers.n, c - receivers.p), tilt = Dot(receivers.n, a);
   // Height of the rim's lowest and highest point over the centre.
   const VF sway = hn::Mul(Splat(record.radius * 1.00001f),
                           SafeSqrt(hn::NegMulAdd(tilt, tilt, Splat(1.000001f))));
   const MF above = hn::Gt(height, sway);
   const MF whole = hn::Gt(hn::Abs(height), sway);
-  *out = InHalves<kBelow>(p, n, [&](D3 at, D3 normal) HWY_ATTR {
+  *out = InHalves<kBelow>(receivers, [&](D3 at, D3 normal) HWY_ATTR {
     const D3 to_center = Minus(center, at);
     const VD full = DiskIrradiance(to_center, axis, outer, normal);
     if (record.inner_radius == 0) return full;
@@ -117,7 +124,7 @@ LANELIGHT_INLINE MF DiskLightAt(const CompiledScene& scene, const LightRecord& l
   });
   out->above = hn::IfThenElseZero(above, out->above);
   out->below = hn::IfThenZeroElse(above, out->below);
-  return hn::And(whole, ClearOfPlane(p, p_error, c, a, record.radius, light));
+  return hn::And(whole, ClearOfPlane(receivers, c, a, record.radius, light));
 }
 
 /// Sum over the area lights that take part.
@@ -128,8 +135,8 @@ struct AreaLight {
 
 /// `selected`: light of the light sample of each path.
 template <bool kBelow>
-LANELIGHT_INLINE AreaLight AreaLightsAt(const CompiledScene& scene, V3 p, VF p_error,
-                                        V3 n, VI selected) {
+LANELIGHT_INLINE AreaLight AreaLightsAt(const CompiledScene& scene,
+                                        const ReceiverLanes& receivers, VI selected) {
   const V3 zero = Splat3(0, 0, 0);
   AreaLight sum = {zero, zero, hn::Lt(zero.x, zero.x)};
   for (std::size_t i = 0; i < scene.lights.lights.size(); ++i) {
@@ -141,16 +148,16 @@ LANELIGHT_INLINE AreaLight AreaLightsAt(const CompiledScene& scene, V3 p, VF p_e
     switch (static_cast<LightShape>(light.shape)) {
       case LightShape::kTriangle:
         takes_part =
-            TriangleLightAt<kBelow>(scene, light.primitive, light, p, p_error, n, &one);
+            TriangleLightAt<kBelow>(scene, light.primitive, light, receivers, &one);
         break;
       case LightShape::kRectangle:
-        takes_part = RectangleLightAt<kBelow>(scene, light, p, p_error, n, &one);
+        takes_part = RectangleLightAt<kBelow>(scene, light, receivers, &one);
         break;
       case LightShape::kSphere:
-        takes_part = SphereLightAt<kBelow>(scene, light, p, n, &one);
+        takes_part = SphereLightAt<kBelow>(scene, light, receivers, &one);
         break;
       case LightShape::kDisk:
-        takes_part = DiskLightAt<kBelow>(scene, light, p, p_error, n, &one);
+        takes_part = DiskLightAt<kBelow>(scene, light, receivers, &one);
         break;
       default:
         continue;

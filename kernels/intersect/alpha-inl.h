@@ -53,10 +53,16 @@ inline PointOfAlpha PointOf(const TriangleRecord& r, float b1, float b2) {
   return at;
 }
 
-/// Whether a candidate hit of ray (o, d), in scene space, on a triangle at barycentric
-/// weights b1, b2 counts: with probability alpha.
+/// Where on a triangle a ray hits it: barycentric weights of the second and third vertex.
+struct TrianglePlace {
+  uint32_t prim;
+  float b1, b2;
+};
+
+/// Whether a candidate hit of ray (o, d), in scene space, counts: with probability alpha.
 inline bool TrianglePassesAlpha(const CompiledScene& scene, const float o[3],
-                                const float d[3], uint32_t prim, float b1, float b2) {
+                                const float d[3], const TrianglePlace& at) {
+  const auto [prim, b1, b2] = at;
   if (!(scene.geometry.triangles[prim].flags & kAlphaTested)) return true;
   float u = b1 + b2, v = b2;  // without uvs: (0,0), (1,0), (1,1), as in pbrt
   if (!scene.geometry.uvs.empty()) {
@@ -66,7 +72,7 @@ inline bool TrianglePassesAlpha(const CompiledScene& scene, const float o[3],
     v = b0 * uv[1] + b1 * uv[3] + b2 * uv[5];
   }
   const float alpha = AlphaAt(scene, prim, u, v, [&]() HWY_ATTR {
-    return PointOf(scene.geometry.triangles[prim], b1, b2);
+    return PointOf(scene.geometry.triangles[at.prim], at.b1, at.b2);
   });
   return AlphaHash(o, d, prim) < alpha;
 }

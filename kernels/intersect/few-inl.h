@@ -51,7 +51,7 @@ LANELIGHT_INLINE void ForEachFew(const CompiledScene& scene, const Rays& rays,
                      &few.vertices[v[2]].x);
     };
     const TriangleHits<VF, MF> hit =
-        TestTriangle(df, shear, vertices[v[0]], vertices[v[1]], vertices[v[2]], t_max(),
+        TestTriangle(shear, {vertices[v[0]], vertices[v[1]], vertices[v[2]]}, t_max(),
                      NotFrom(rays, triangle.prim), is_ahead);
     if (hn::AllFalse(df, hit.mask)) continue;
     MF mask = hit.mask;

@@ -48,7 +48,7 @@ class LastBlockers {
     };
     const MF tested = hn::And(MaskOf(df, lanes), NotFrom(packet.rays, prim));
     const TriangleHits<VF, MF> hit =
-        TestTriangle(df, packet.shear, corner(0), corner(1), corner(2), best.t, tested,
+        TestTriangle(packet.shear, {corner(0), corner(1), corner(2)}, best.t, tested,
                      [&](MF) HWY_ATTR { return AheadOf(packet.rays, p[0], p[1], p[2]); });
     MF mask = hn::And(hit.mask, hn::Lt(hit.t, best.t));
     if constexpr (kAlpha) mask = CutOut(scene, packet.home, prim, hit, mask);

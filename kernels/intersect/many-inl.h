@@ -89,7 +89,7 @@ LANELIGHT_INLINE MF CutOut(const CompiledScene& scene, const Rays& rays, uint32_
     const int i = std::countr_zero(bits);
     const float o[3] = {ray.o[0][i], ray.o[1][i], ray.o[2][i]};
     const float d[3] = {ray.d[0][i], ray.d[1][i], ray.d[2][i]};
-    if (TrianglePassesAlpha(scene, o, d, prim, b1[i], b2[i])) kept |= 1u << i;
+    if (TrianglePassesAlpha(scene, o, d, {prim, b1[i], b2[i]})) kept |= 1u << i;
   }
   return MaskOf(df, kept);
 }

@@ -101,21 +101,28 @@ LANELIGHT_INLINE uint32_t HitChildren(const Frustum& f, const WideNode& node, fl
   return bits;
 }
 
+/// The rays of a packet in the space of a tree, their bounds there, and the rays in the
+/// space of the scene.
+struct FrustumRays {
+  const Rays& rays;
+  const PacketBounds& bounds;
+  const Rays& home;
+};
+
 /// Visits the leaves of a tree that the packet meets, until no ray wants more, or until
-/// `left`, which counts them down, is negative: then what was found is a bound. `home`
-/// are the rays in the space of the scene.
+/// `left`, which counts them down, is negative: then what was found is a bound.
 template <bool kAny, bool kAlpha>
 LANELIGHT_INLINE void TraceFrustum(const CompiledScene& scene, const Bvh& bvh,
-                                   const Rays& rays, const PacketBounds& bounds,
-                                   const Rays& home, int& left, PacketBest& best) {
+                                   const FrustumRays& of, int& left, PacketBest& best) {
   const DF df;
+  const Rays& rays = of.rays;
   const uint32_t all = (1u << hn::Lanes(df)) - 1;
   const AxisOrder order(rays.d);
   PacketRays packet =
       MakePacket(rays, MakeShear(order, rays, Splat(bvh.reach)), order, all);
-  if constexpr (kAlpha) packet.home = home;
+  if constexpr (kAlpha) packet.home = of.home;
   float bound = LargestLane(best.t);
-  Traverse(scene.accel.nodes.data(), bvh.root, MakeFrustum(bounds, bvh), bound,
+  Traverse(scene.accel.nodes.data(), bvh.root, MakeFrustum(of.bounds, bvh), bound,
            [&](uint32_t ref) HWY_ATTR {
              if (--left < 0) return true;
              TestLeafPacket<kAny, kAlpha>(scene, ref, packet, all, best);
@@ -143,7 +150,7 @@ LANELIGHT_INLINE void ClosestFrustum(const Wave& wave, const Rays& rays,
                                      int& left) {
   const Accel& accel = wave.scene->accel;
   PacketBest best = NoHits(rays.t_max, Gather(wave.path.prim, slots));
-  TraceFrustum<false, kAlpha>(*wave.scene, accel.groups[0], rays, bounds, rays, left,
+  TraceFrustum<false, kAlpha>(*wave.scene, accel.groups[0], {rays, bounds, rays}, left,
                               best);
   StorePacketHits(wave.path, slots, best);
 }
@@ -154,7 +161,7 @@ LANELIGHT_INLINE MF BlockedFrustum(const CompiledScene& scene, const Rays& rays,
                                    const PacketBounds& bounds) {
   PacketBest best = NoHits(rays.t_max, hn::Zero(DI()));
   int left = std::numeric_limits<int>::max();
-  TraceFrustum<true, kAlpha>(scene, scene.accel.groups[0], rays, bounds, rays, left,
+  TraceFrustum<true, kAlpha>(scene, scene.accel.groups[0], {rays, bounds, rays}, left,
                              best);
   return MaskOf(DF(), best.found);
 }

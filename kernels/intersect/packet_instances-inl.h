@@ -41,8 +41,8 @@ HWY_NOINLINE void TraceInstance(const CompiledScene& scene, const Rays& rays,
   }
   PacketBest hit = NoHits(best.hit.t, PrimsToBeat(best.hit.prim, best.inst, instance));
   TraceFrustum<false, kAlpha>(scene,
-                              scene.accel.groups[geometry.instance_group[instance]], own,
-                              bounds, rays, left, hit);
+                              scene.accel.groups[geometry.instance_group[instance]],
+                              {own, bounds, rays}, left, hit);
   best.Take(hit, instance);
 }
 
@@ -56,7 +56,7 @@ LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays
   InstancedBest best = {NoHits(rays.t_max, Gather(wave.path.prim, slots)),
                         hn::Set(DI(), static_cast<int32_t>(kWorldInstance))};
   if (accel.groups[0].root != kEmptyRef) {
-    TraceFrustum<false, kAlpha>(scene, accel.groups[0], rays, bounds, rays, left,
+    TraceFrustum<false, kAlpha>(scene, accel.groups[0], {rays, bounds, rays}, left,
                                 best.hit);
   }
   float bound = LargestLane(best.hit.t);

@@ -150,13 +150,12 @@ LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& lea
       }
       return AheadOf(packet.rays, p[0], p[1], p[2]);
     };
-    const P3<VF> p = corner(i, 0), q = corner(i, 1), r = corner(i, 2);
-    auto edges = kCheapEdges ? JoinEdges(df, weights[i]) : TestEdges(df, p, q, r);
+    const Corners<VF> at = {corner(i, 0), corner(i, 1), corner(i, 2)};
+    auto edges = kCheapEdges ? JoinEdges(df, weights[i]) : TestEdges(df, at);
     edges.mask = hn::And(hn::And(edges.mask, active), NotFrom(packet.rays, leaf.prim[i]));
-    const VF t_det = TestDistance(df, packet.shear, p, q, r, best.t, edges);
+    TestDistance(df, packet.shear, at, best.t, edges);
     if (hn::AllFalse(df, edges.mask)) continue;
-    TriangleHits<VF, MF> hit =
-        FinishHits(df, packet.shear, p, q, r, edges.mask, edges, t_det, is_ahead);
+    TriangleHits<VF, MF> hit = FinishHits(df, packet.shear, at, edges, is_ahead);
     MF mask = hit.mask;
     if constexpr (kAlpha) mask = CutOut(scene, packet.home, leaf.prim[i], hit, mask);
     if constexpr (kAny) {

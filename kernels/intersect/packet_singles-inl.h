@@ -26,17 +26,17 @@ struct PacketPlace {
   uint32_t at, home;
 };
 
-/// Whether one of the triangles of `bits`, which the line of the ray in `lane` passes
-/// through, blocks it.
+/// The first of the triangles of `bits`, which the line of the ray at `place` passes
+/// through, that blocks it; kNoPrimitive if none does.
 template <bool kAlpha, class Leaf>
-HWY_NOINLINE bool IsBlocked(const CompiledScene& scene, const PacketPlace& place,
-                            const Leaf& leaf, const LeafWeights& weights, uint32_t bits,
-                            uint32_t lane, uint32_t& blocker) {
+HWY_NOINLINE uint32_t BlockerOf(const CompiledScene& scene, const PacketPlace& place,
+                                const Leaf& leaf, const LeafWeights& weights,
+                                uint32_t bits) {
   const StreamRays& rays = place.rays;
   const auto copy_from = [&](uint32_t r, float o[3], float d[3]) HWY_ATTR {
     for (int a = 0; a < 3; ++a) o[a] = rays.o[a][r], d[a] = rays.d[a][r];
   };
-  const uint32_t r = place.at + lane;
+  const uint32_t r = place.at;
   for (; bits != 0; bits &= bits - 1) {
     const auto i = static_cast<uint32_t>(std::countr_zero(bits));
     LaneHit hit;
@@ -47,14 +47,13 @@ HWY_NOINLINE bool IsBlocked(const CompiledScene& scene, const PacketPlace& place
     if (!(ahead & before_end)) continue;
     if constexpr (kAlpha) {
       float o[3], d[3];
-      copy_from(place.home + lane, o, d);
+      copy_from(place.home, o, d);
       const float b1 = hit.v / hit.det, b2 = hit.w / hit.det;
-      if (!TrianglePassesAlpha(scene, o, d, leaf.prim[i], b1, b2)) continue;
+      if (!TrianglePassesAlpha(scene, o, d, {leaf.prim[i], b1, b2})) continue;
     }
-    blocker = leaf.prim[i];
-    return true;
+    return leaf.prim[i];
   }
-  return false;
+  return kNoPrimitive;
 }
 
 /// As TestLeafPacket; `lanes` are not blocked yet.
@@ -80,9 +79,11 @@ LANELIGHT_INLINE void TestLeafSingles(const CompiledScene& scene, const Leaf& le
     TestLeaves(ray, same, to, bits);
     for (uint32_t j = 0; j < kTogether; ++j) {
       if (bits[j] == 0) continue;
-      const bool is_blocked = IsBlocked<kAlpha>(scene, place, leaf, weights[j], bits[j],
-                                                lane[j], best.blocker);
-      blocked |= uint32_t{is_blocked} << lane[j];
+      const PacketPlace own = {place.rays, place.at + lane[j], place.home + lane[j]};
+      const uint32_t blocker = BlockerOf<kAlpha>(scene, own, leaf, weights[j], bits[j]);
+      if (blocker == kNoPrimitive) continue;
+      best.blocker = blocker;
+      blocked |= 1u << lane[j];
     }
   }
   best.found |= blocked;

@@ -88,11 +88,20 @@ inline constexpr bool kHasTree<PlaneShape> = false;
 template <>
 inline constexpr bool kHasTree<LargeSphereShape> = false;
 
-/// Whether a candidate at distance t of one ray counts. The far side of a sphere decides
-/// apart from the near one.
+/// Where a ray meets a record: its number, the distance, and whether that is the far
+/// side.
+struct ShapePlace {
+  uint32_t index;
+  float t;
+  bool far;
+};
+
+/// Whether a candidate of one ray counts. The far side of a sphere decides apart from the
+/// near one.
 template <class Shape>
 inline bool ShapePassesAlpha(const CompiledScene& scene, const float o[3],
-                             const float d[3], uint32_t index, float t, bool far) {
+                             const float d[3], const ShapePlace& place) {
+  const auto [index, t, far] = place;
   const auto& record = Shape::Records(scene.geometry)[index];
   if (!(record.flags & kAlphaTested)) return true;
   double p[3];
@@ -126,7 +135,7 @@ LANELIGHT_INLINE void CutOutShape(const CompiledScene& scene, const Rays& rays,
       const int i = std::countr_zero(bits);
       const float o[3] = {ray.o[0][i], ray.o[1][i], ray.o[2][i]};
       const float d[3] = {ray.d[0][i], ray.d[1][i], ray.d[2][i]};
-      if (ShapePassesAlpha<Shape>(scene, o, d, index, t[i], far)) pass |= 1u << i;
+      if (ShapePassesAlpha<Shape>(scene, o, d, {index, t[i], far})) pass |= 1u << i;
     }
     return MaskOf(DF(), pass);
   };
@@ -207,7 +216,7 @@ LANELIGHT_INLINE void TraceShapes(const CompiledScene& scene, const float o[3],
   const RayLanes<V8> ray{Broadcast3(d8, o), Broadcast3(d8, d)};
   const auto consider = [&](float t, uint32_t prim, bool far) HWY_ATTR {
     if (kAny ? t >= best.t : t > best.t || (t == best.t && prim >= best.prim)) return;
-    if (kAlpha && !ShapePassesAlpha<Shape>(scene, o, d, prim - first, t, far)) return;
+    if (kAlpha && !ShapePassesAlpha<Shape>(scene, o, d, {prim - first, t, far})) return;
     best.found = true;
     if (kAny) return;
     best.t = t;

@@ -225,7 +225,7 @@ class SinglePhase {
       if constexpr (kAlpha) {
         float o[3], d[3];
         copy_ray(o, d);
-        if (!TrianglePassesAlpha(scene_, o, d, leaf.prim[i], b1, b2)) continue;
+        if (!TrianglePassesAlpha(scene_, o, d, {leaf.prim[i], b1, b2})) continue;
       }
       rays_.found[r] = 1;
       if constexpr (kAny) {

@@ -100,6 +100,12 @@ LANELIGHT_INLINE V EdgeFunction(D d, V a, V b, V c, V e) {
 #endif
 }
 
+/// The vertices of sheared triangles.
+template <class V>
+struct Corners {
+  P3<V> a, b, c;
+};
+
 /// Lanes that hit in (0, t_max], their distance, and the barycentric weights of vertices
 /// 1 and 2 times det.
 template <class V, class M>
@@ -120,17 +126,17 @@ LANELIGHT_INLINE V Max3(V a, V b, V c) {
 /// Lanes whose vertices lie on both sides of the origin along the ray. The z of vertices
 /// have exact signs; if they agree so does the sign of t.
 template <class D, class V>
-LANELIGHT_INLINE hn::Mask<D> Straddles(D d, const P3<V>& a, const P3<V>& b,
-                                       const P3<V>& c) {
-  const V zero = hn::Zero(d);
-  return hn::And(hn::Le(Min3(a.z, b.z, c.z), zero), hn::Ge(Max3(a.z, b.z, c.z), zero));
+LANELIGHT_INLINE hn::Mask<D> Straddles(D d, const Corners<V>& at) {
+  const V zero = hn::Zero(d), a = at.a.z, b = at.b.z, c = at.c.z;
+  return hn::And(hn::Le(Min3(a, b, c), zero), hn::Ge(Max3(a, b, c), zero));
 }
 
 /// Lanes of `mask` (which straddle) whose t is so close to zero that its sign may be
 /// wrong.
 template <class D, class V, class M>
-LANELIGHT_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
-                                const P3<V>& c, V t_det, M mask) {
+LANELIGHT_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const Corners<V>& at, V t_det,
+                                M mask) {
+  const auto& [a, b, c] = at;
   const V mx = Max3(hn::Abs(a.x), hn::Abs(b.x), hn::Abs(c.x));
   const V my = Max3(hn::Abs(a.y), hn::Abs(b.y), hn::Abs(c.y));
   const V mz = Max3(hn::Abs(a.z), hn::Abs(b.z), hn::Abs(c.z));
@@ -141,11 +147,12 @@ LANELIGHT_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const P3<V>& a, const 
 }
 
 /// The part of the triangle test that is the same for all lanes: edge functions, and a
-/// first bound on the distance. `u` is the weight of vertex 0 times det.
+/// first bound on the distance. `u` is the weight of vertex 0 times det; `t_det` is the
+/// distance times det, once TestDistance has found it.
 template <class V, class M>
 struct TriangleEdges {
   M mask;
-  V u, v, w, det, abs_det;
+  V u, v, w, det, abs_det, t_det;
 };
 
 /// Lanes whose edge functions have one sign.
@@ -161,7 +168,7 @@ LANELIGHT_INLINE TriangleEdges<V, M> JoinEdges(D d, const P3<V>& edges) {
   const V u = edges.x, v = edges.y, w = edges.z;
   const V det = hn::Add(u, hn::Add(v, w)), abs_det = hn::Abs(det);
   const M mask = hn::And(HaveOneSign(d, edges), hn::Gt(abs_det, hn::Zero(d)));
-  return {mask, u, v, w, det, abs_det};
+  return {mask, u, v, w, det, abs_det, hn::Zero(d)};
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -171,9 +178,8 @@ LANELIGHT_INLINE P3<V> EdgesOf(D d, const P3<V>& a, const P3<V>& b, const P3<V>&
 }
 
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-LANELIGHT_INLINE TriangleEdges<V, M> TestEdges(D d, const P3<V>& a, const P3<V>& b,
-                                               const P3<V>& c) {
-  return JoinEdges(d, EdgesOf(d, a, b, c));
+LANELIGHT_INLINE TriangleEdges<V, M> TestEdges(D d, const Corners<V>& at) {
+  return JoinEdges(d, EdgesOf(d, at.a, at.b, at.c));
 }
 
 /// Lanes whose edge functions may have one sign: all that pass TestEdges, and few others.
@@ -189,55 +195,54 @@ LANELIGHT_INLINE M MayPassEdges(D d, const P3<V>& a, const P3<V>& b, const P3<V>
   return hn::Or(hn::Ge(Min3(u, v, w), hn::Neg(slack)), hn::Le(Max3(u, v, w), slack));
 }
 
-/// t det of the plane of the triangle, and in e.mask only the lanes that may hit before
-/// t_max. `t_max` only prunes: candidates with t = t_max remain.
+/// Finds e.t_det, by the plane of the triangle, and keeps in e.mask only the lanes that
+/// may hit before t_max. `t_max` only prunes: candidates with t = t_max remain.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
-LANELIGHT_INLINE V TestDistance(D d, const Shear<V>& ray, const P3<V>& a, const P3<V>& b,
-                                const P3<V>& c, V t_max, TriangleEdges<V, M>& e) {
-  const V t_det = hn::MulAdd(e.u, a.z, hn::MulAdd(e.v, b.z, hn::Mul(e.w, c.z)));
+LANELIGHT_INLINE void TestDistance(D d, const Shear<V>& ray, const Corners<V>& at,
+                                   V t_max, TriangleEdges<V, M>& e) {
+  e.t_det = hn::MulAdd(e.u, at.a.z, hn::MulAdd(e.v, at.b.z, hn::Mul(e.w, at.c.z)));
   // |t_det| with the sign of t. The factor covers the rounding of product and quotient.
-  const V signed_t = hn::Xor(t_det, hn::And(e.det, hn::Set(d, -0.0f)));
+  const V signed_t = hn::Xor(e.t_det, hn::And(e.det, hn::Set(d, -0.0f)));
   const V limit = hn::Mul(hn::Mul(t_max, e.abs_det), hn::Set(d, 1 + 0x1p-21f));
   e.mask = hn::And(
       e.mask, hn::And(hn::Le(signed_t, limit), hn::Ge(signed_t, hn::Neg(ray.t_scale))));
-  return t_det;
 }
 
-/// Distances of the lanes of `mask`, and the decision whether they lie ahead of the
+/// Distances of the lanes of e.mask, and the decision whether they lie ahead of the
 /// origin. `is_ahead(mask)` decides the sign of t of some lanes exactly (PlaneIsAhead);
 /// it is called for rays that start on the triangle.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
-LANELIGHT_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray, const P3<V>& a,
-                                               const P3<V>& b, const P3<V>& c, M mask,
-                                               const TriangleEdges<V, M>& e, V t_det,
+LANELIGHT_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray,
+                                               const Corners<V>& at,
+                                               const TriangleEdges<V, M>& e,
                                                IsAhead&& is_ahead) {
-  TriangleHits<V, M> hit{mask, hn::Div(t_det, e.det), e.v, e.w, e.det};
-  hit.mask = hn::And(mask, hn::Gt(hit.t, hn::Zero(d)));
+  TriangleHits<V, M> hit{e.mask, hn::Div(e.t_det, e.det), e.v, e.w, e.det};
+  hit.mask = hn::And(e.mask, hn::Gt(hit.t, hn::Zero(d)));
   // A hit that is ahead only by the exact test below keeps the least positive distance.
   hit.t = hn::Max(hit.t, hn::Set(d, FLT_MIN));
   // Large triangles often straddle and small ones often have a small t det: few do both.
-  const M near = hn::And(Straddles(d, a, b, c), hn::Le(hn::Abs(t_det), ray.t_scale));
-  if (HWY_LIKELY(hn::AllFalse(d, hn::And(mask, near)))) return hit;
-  const M doubtful = DoubtfulSign(d, ray, a, b, c, t_det, hn::And(mask, near));
+  const M near = hn::And(Straddles(d, at), hn::Le(hn::Abs(e.t_det), ray.t_scale));
+  if (HWY_LIKELY(hn::AllFalse(d, hn::And(e.mask, near)))) return hit;
+  const M doubtful = DoubtfulSign(d, ray, at, e.t_det, hn::And(e.mask, near));
   if (hn::AllFalse(d, doubtful)) return hit;
   hit.mask =
       hn::Or(hn::AndNot(doubtful, hit.mask), hn::And(doubtful, is_ahead(doubtful)));
   return hit;
 }
 
-/// Tests the sheared triangle (a, b, c) against the lanes of `tested`, most of which
-/// miss.
-template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>, class IsAhead>
-LANELIGHT_INLINE TriangleHits<V, M> TestTriangle(D d, const Shear<V>& ray, const P3<V>& a,
-                                                 const P3<V>& b, const P3<V>& c, V t_max,
-                                                 M tested, IsAhead&& is_ahead) {
-  TriangleEdges<V, M> e = TestEdges(d, a, b, c);
+/// Tests a sheared triangle against the lanes of `tested`, most of which miss.
+template <class V, class M, class IsAhead>
+LANELIGHT_INLINE TriangleHits<V, M> TestTriangle(const Shear<V>& ray,
+                                                 const Corners<V>& at, V t_max, M tested,
+                                                 IsAhead&& is_ahead) {
+  const hn::DFromV<V> d;
+  TriangleEdges<V, M> e = TestEdges(d, at);
   e.mask = hn::And(e.mask, tested);
   const V zero = hn::Zero(d);
   if (HWY_LIKELY(hn::AllFalse(d, e.mask))) return {e.mask, zero, zero, zero, zero};
-  const V t_det = TestDistance(d, ray, a, b, c, t_max, e);
+  TestDistance(d, ray, at, t_max, e);
   if (hn::AllFalse(d, e.mask)) return {e.mask, zero, zero, zero, zero};
-  return FinishHits(d, ray, a, b, c, e.mask, e, t_det, is_ahead);
+  return FinishHits(d, ray, at, e, is_ahead);
 }
 
 LANELIGHT_END_KERNELS

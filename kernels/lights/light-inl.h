@@ -73,15 +73,21 @@ LANELIGHT_INLINE void ForEachLit(Wave& wave, LightShape shape, Body&& body) {
   }
 }
 
-/// Stores a light sample. `radiance_over_pdf` is zeroed, and with it the connection,
-/// where `usable` is false.
+/// A light sample. Without use, it carries nothing.
+struct LightSample {
+  V3 direction;
+  VF distance;
+  V3 radiance_over_pdf;
+  VF pdf_sa;
+  MF usable;
+};
+
 LANELIGHT_INLINE void StoreLightSample(const PathColumns& p, const StoreSlots& slots,
-                                       V3 direction, VF distance, V3 radiance_over_pdf,
-                                       VF pdf_sa, MF usable) {
-  Scatter3(direction, p.ls_x, p.ls_y, p.ls_z, slots);
-  Scatter(distance, p.ls_distance, slots);
-  Scatter3(IfThenElseZero(usable, radiance_over_pdf), p.ls_r, p.ls_g, p.ls_b, slots);
-  Scatter(pdf_sa, p.ls_pdf, slots);
+                                       const LightSample& s) {
+  Scatter3(s.direction, p.ls_x, p.ls_y, p.ls_z, slots);
+  Scatter(s.distance, p.ls_distance, slots);
+  Scatter3(IfThenElseZero(s.usable, s.radiance_over_pdf), p.ls_r, p.ls_g, p.ls_b, slots);
+  Scatter(s.pdf_sa, p.ls_pdf, slots);
 }
 
 /// Distance of a hit from where its ray was scattered: interfaces of media may lie in
@@ -134,23 +140,37 @@ struct ShadowRay {
   }
 };
 
+/// What surface lights send out.
+struct SurfaceEmission {
+  V3 radiance;
+  MF two_sided;
+};
+
 /// Light sample by a shadow ray with density pdf_sa (selection included).
 LANELIGHT_INLINE void StoreShadowRay(const PathColumns& p, const StoreSlots& slots,
-                                     const ShadowRay& ray, VF pdf_sa, V3 radiance,
-                                     MF two_sided) {
-  const MF facing = hn::Or(hn::Gt(ray.cos_light, Splat(0)), two_sided);
+                                     const ShadowRay& ray, VF pdf_sa,
+                                     const SurfaceEmission& light) {
+  const MF facing = hn::Or(hn::Gt(ray.cos_light, Splat(0)), light.two_sided);
   const MF usable =
       hn::And(facing, hn::And(hn::Gt(pdf_sa, Splat(0)), hn::Lt(pdf_sa, Splat(1e30f))));
-  StoreLightSample(p, slots, ray.direction, ray.distance,
-                   Mul(radiance, hn::Div(Splat(1.0f), pdf_sa)), pdf_sa, usable);
+  StoreLightSample(p, slots,
+                   {ray.direction, ray.distance,
+                    Mul(light.radiance, hn::Div(Splat(1.0f), pdf_sa)), pdf_sa, usable});
 }
 
-/// The same to point q with normal n, chosen with density pdf_area (selection included).
+/// A point of a surface light with its normal, chosen with that density (selection
+/// included).
+struct SurfacePoint {
+  V3 q, n;
+  VF pdf_area;
+};
+
+/// The same to a point.
 LANELIGHT_INLINE void StoreSurfaceSample(const PathColumns& p, const StoreSlots& slots,
-                                         V3 q, V3 n, VF pdf_area, V3 radiance,
-                                         MF two_sided) {
-  const ShadowRay ray(p, slots, q, n);
-  StoreShadowRay(p, slots, ray, ray.PdfSa(pdf_area), radiance, two_sided);
+                                         const SurfacePoint& point,
+                                         const SurfaceEmission& light) {
+  const ShadowRay ray(p, slots, point.q, point.n);
+  StoreShadowRay(p, slots, ray, ray.PdfSa(point.pdf_area), light);
 }
 
 /// Adds weight * beta * radiance to the path.

@@ -25,9 +25,9 @@ void SampleDiskLight(Wave& wave) {
         const V3 v_axis = Cross(disk.n, disk.u_axis);
         const V3 q = MulAdd(disk.u_axis, hn::Mul(r, cosine),
                             MulAdd(v_axis, hn::Mul(r, sine), disk.center));
-        StoreSurfaceSample(p, slots, q, disk.n,
-                           hn::Div(light.Pmf(p, slots), light.Area()), light.Radiance(),
-                           light.TwoSided());
+        StoreSurfaceSample(p, slots,
+                           {q, disk.n, hn::Div(light.Pmf(p, slots), light.Area())},
+                           {light.Radiance(), light.TwoSided()});
       });
 }
 

@@ -11,14 +11,16 @@ LANELIGHT_BEGIN_KERNELS
 template <bool kMany>
 void SampleDistantLight(Wave& wave) {
   const PathColumns& p = wave.path;
-  ForEachLit<kMany>(
-      wave, LightShape::kDistant, [&](const StoreSlots& slots, VI index) HWY_ATTR {
-        const Lights light(*wave.scene, index);
-        StoreLightSample(p, slots, light.F3(offsetof(LightRecord, direction)),
-                         Splat(std::numeric_limits<float>::infinity()),
-                         Mul(light.Radiance(), hn::Div(Splat(1.0f), light.Pmf(p, slots))),
-                         Splat(0), hn::Gt(light.Pmf(p, slots), Splat(0)));
-      });
+  ForEachLit<kMany>(wave, LightShape::kDistant,
+                    [&](const StoreSlots& slots, VI index) HWY_ATTR {
+                      const Lights light(*wave.scene, index);
+                      const VF pmf = light.Pmf(p, slots);
+                      StoreLightSample(p, slots,
+                                       {light.F3(offsetof(LightRecord, direction)),
+                                        Splat(std::numeric_limits<float>::infinity()),
+                                        Mul(light.Radiance(), hn::Div(Splat(1.0f), pmf)),
+                                        Splat(0), hn::Gt(pmf, Splat(0))});
+                    });
 }
 
 Stage SampleDistantLightStage() {

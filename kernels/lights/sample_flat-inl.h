@@ -48,7 +48,7 @@ HWY_INLINE void SampleFlatLight(const PathColumns& p, const StoreSlots& slots,
     const MF clear = hn::Gt(hn::Mul(Dot(light.normal(), away), ray.cos_light), Splat(0));
     pdf_sa = hn::IfThenElseZero(clear, hn::IfThenElse(by_angle, angle_pdf, pdf_sa));
   }
-  StoreShadowRay(p, slots, ray, pdf_sa, light.radiance, light.TwoSided());
+  StoreShadowRay(p, slots, ray, pdf_sa, {light.radiance, light.TwoSided()});
 }
 
 /// Shape::Sample<kMany, kPoints>, for the features of a plan.

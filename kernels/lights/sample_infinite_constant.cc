@@ -21,10 +21,12 @@ void SampleInfiniteConstant(Wave& wave) {
         const VF ring = hn::Sqrt(hn::Max(hn::NegMulAdd(z, z, Splat(1.0f)), Splat(0)));
         const auto [sine, cosine] = SinCos2Pi(Gather(p.u_light_1, slots));
         const VF pdf = hn::Mul(light.Pmf(p, slots), Splat(inv_four_pi));
-        StoreLightSample(p, slots, {hn::Mul(ring, cosine), hn::Mul(ring, sine), z},
-                         Splat(std::numeric_limits<float>::infinity()),
-                         Mul(light.Radiance(), hn::Div(Splat(1.0f), pdf)), pdf,
-                         hn::Gt(pdf, Splat(0)));
+        StoreLightSample(p, slots,
+                         {{hn::Mul(ring, cosine), hn::Mul(ring, sine), z},
+                          Splat(std::numeric_limits<float>::infinity()),
+                          Mul(light.Radiance(), hn::Div(Splat(1.0f), pdf)),
+                          pdf,
+                          hn::Gt(pdf, Splat(0))});
       });
 }
 

@@ -19,9 +19,9 @@ void SamplePointLight(Wave& wave) {
         const VF d2 = Dot(to_light, to_light);
         const VF distance = hn::Sqrt(d2);
         const VF factor = hn::Div(Splat(1.0f), hn::Mul(d2, light.Pmf(p, slots)));
-        StoreLightSample(p, slots, Mul(to_light, hn::Div(Splat(1.0f), distance)),
-                         distance, Mul(light.Radiance(), factor), Splat(0),
-                         hn::Gt(d2, Splat(0)));
+        StoreLightSample(p, slots,
+                         {Mul(to_light, hn::Div(Splat(1.0f), distance)), distance,
+                          Mul(light.Radiance(), factor), Splat(0), hn::Gt(d2, Splat(0))});
       });
 }
 

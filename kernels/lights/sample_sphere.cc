@@ -90,8 +90,10 @@ HWY_INLINE void SampleEmitters(const PathColumns& p, const StoreSlots& slots,
   const V3 n = {hn::Mul(ring, cosine), hn::Mul(ring, sine), z};
   const V3 normal = Mul(n, sphere.normal_sign);
   if (!hn::AllTrue(DF(), outside)) {
-    StoreSurfaceSample(p, slots, MulAdd(n, sphere.radius, sphere.center), normal,
-                       hn::Div(light.pmf, light.area), light.radiance, two_sided);
+    StoreSurfaceSample(
+        p, slots,
+        {MulAdd(n, sphere.radius, sphere.center), normal, hn::Div(light.pmf, light.area)},
+        {light.radiance, two_sided});
   }
   // Outside: cone sampling, kept where it applies.
   const VF cap = OneMinusCosCone(sphere.radius, d2);

@@ -35,9 +35,9 @@ void SampleSpotLight(Wave& wave) {
         const VF smooth =
             hn::Mul(hn::Mul(s, s), hn::NegMulAdd(Splat(2.0f), s, Splat(3.0f)));
         const VF factor = hn::Div(smooth, hn::Mul(d2, light.Pmf(p, slots)));
-        StoreLightSample(p, slots, direction, distance, Mul(light.Radiance(), factor),
-                         Splat(0),
-                         hn::And(hn::Gt(d2, Splat(0)), hn::Gt(smooth, Splat(0))));
+        StoreLightSample(p, slots,
+                         {direction, distance, Mul(light.Radiance(), factor), Splat(0),
+                          hn::And(hn::Gt(d2, Splat(0)), hn::Gt(smooth, Splat(0)))});
       });
 }
 

@@ -56,42 +56,50 @@ LANELIGHT_INLINE V3 TrackedTransmittance(const GridMedium& medium, V3 o, V3 d, V
   }
 }
 
+/// A length of a shadow ray from o in a medium. `number`: how many such lengths of the
+/// ray came before.
+struct ShadowLeg {
+  VI medium;
+  V3 o;
+  VF length;
+  uint32_t number;
+};
+
 /// Of lanes in media with a grid; 1 for the others.
-HWY_NOINLINE V3 GridTransmittance(const Wave& wave, const Slots& slots, VI index, V3 o,
-                                  V3 d, VF length, uint32_t leg) {
+HWY_NOINLINE V3 GridTransmittance(const Wave& wave, const Slots& slots,
+                                  const ShadowLeg& leg, V3 d) {
   const MediumTable& table = wave.scene->media;
   V3 left = Splat3(1, 1, 1);
   for (std::size_t i = 0; i < table.media.size(); ++i) {
     if (table.media[i].grid < 0) continue;
-    const auto mine = hn::Eq(index, hn::Set(DI(), static_cast<int32_t>(i)));
+    const auto mine = hn::Eq(leg.medium, hn::Set(DI(), static_cast<int32_t>(i)));
     if (hn::AllFalse(DI(), mine)) continue;
     const GridMedium medium = {table.grids[static_cast<std::size_t>(table.media[i].grid)],
                                table.media[i]};
-    WalkRandom random(wave, slots, 0xcc9e2d51u + leg * 0x85ebca6bu);
+    WalkRandom random(wave, slots, 0xcc9e2d51u + leg.number * 0x85ebca6bu);
     const MF lanes = hn::RebindMask(DF(), mine);
-    const VF own = hn::IfThenElseZero(lanes, length);
-    left = Mul(left, TrackedTransmittance(medium, o, d, own, random));
+    const VF own = hn::IfThenElseZero(lanes, leg.length);
+    left = Mul(left, TrackedTransmittance(medium, leg.o, d, own, random));
   }
   return left;
 }
 
-/// Takes away from what the shadow ray carries what `length` from o in a medium takes.
-/// Zero where nothing is left, which Connect adds like any other. `leg`: how many such
-/// lengths of the ray came before.
-LANELIGHT_INLINE void DimShadow(const Wave& wave, const StoreSlots& slots, VI index, V3 o,
-                                VF length, uint32_t leg) {
+/// Takes away from what the shadow ray carries what a length of it takes. Zero where
+/// nothing is left, which Connect adds like any other.
+LANELIGHT_INLINE void DimShadow(const Wave& wave, const StoreSlots& slots,
+                                const ShadowLeg& leg) {
   const PathColumns& p = wave.path;
   const MediumTable& table = wave.scene->media;
-  const Media medium(table, index);
-  MF homogeneous = IsInMedium(index);
+  const Media medium(table, leg.medium);
+  MF homogeneous = IsInMedium(leg.medium);
   V3 left = Splat3(1, 1, 1);
   if (!table.grids.empty()) {
     homogeneous = hn::AndNot(medium.Varies(), homogeneous);
     const V3 d = Gather3(p.ls_x, p.ls_y, p.ls_z, slots);
-    left = GridTransmittance(wave, slots, index, o, d, length, leg);
+    left = GridTransmittance(wave, slots, leg, d);
   }
   const V3 sigma_t = IfThenElseZero(homogeneous, medium.SigmaT());
-  left = Mul(left, Transmittance(sigma_t, length));
+  left = Mul(left, Transmittance(sigma_t, leg.length));
   const V3 sh = Mul(Gather3(p.sh_r, p.sh_g, p.sh_b, slots), left);
   Scatter3(sh, p.sh_r, p.sh_g, p.sh_b, slots);
 }

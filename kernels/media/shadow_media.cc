@@ -13,7 +13,7 @@ void ShadowMediaOf(Wave& wave) {
                [&](const StoreSlots& slots, MF) HWY_ATTR {
                  const VI medium = ShadowStartMedium<kChanges>(wave, slots);
                  const V3 o = Gather3(p.p_x, p.p_y, p.p_z, slots);
-                 DimShadow(wave, slots, medium, o, Gather(p.ls_distance, slots), 0);
+                 DimShadow(wave, slots, {medium, o, Gather(p.ls_distance, slots), 0});
                });
 }
 

@@ -5,6 +5,7 @@
 //   cost         a traversal for each interface in between
 #include "kernels/simd/each_target-inl.h"
 
+#include <span>
 #include <utility>
 
 #include "kernels/media/shadow-inl.h"
@@ -46,10 +47,10 @@ HWY_INLINE void BeginRest(Wave& wave) {
 
 // Runs kernels of other stages on the rays of `queue`.
 HWY_INLINE void RunOn(Wave& wave, const PathColumns& columns, QueueId place,
-                      const Queue& queue, const StageFn* kernels, uint32_t count) {
+                      const Queue& queue, std::span<const StageFn> kernels) {
   const PathColumns path = std::exchange(wave.path, columns);
   wave.queue(place) = queue;
-  for (uint32_t i = 0; i < count; ++i) kernels[i](wave);
+  for (const StageFn kernel : kernels) kernel(wave);
   wave.path = path;
 }
 
@@ -65,7 +66,7 @@ HWY_INLINE void SortLegs(Wave& wave, uint32_t leg) {
     const MF passes =
         hn::AndNot(arrives, Sides(wave.scene->media, Gather(p.sh_prim, slots)).Passes());
     const V3 o = Gather3(p.sh_o_x, p.sh_o_y, p.sh_o_z, slots);
-    DimShadow(wave, slots, Gather(p.sh_medium, slots), o, hn::Min(t, left), leg);
+    DimShadow(wave, slots, {Gather(p.sh_medium, slots), o, hn::Min(t, left), leg});
     Push(wave.queue(QueueId::kShadow), slots, hn::And(valid, arrives));
     Push(rest, slots, hn::And(valid, passes));
   });
@@ -100,9 +101,9 @@ void ShadowThrough(Wave& wave) {
   std::swap(wave.queue(QueueId::kShadow), legs);
   wave.queue(QueueId::kShadow).size = 0;
   for (uint32_t leg = 0; legs.size > 0 && leg < kMostCrossings; ++leg) {
-    RunOn(wave, ray, QueueId::kActive, legs, kernels.closest, kernels.num_closest);
+    RunOn(wave, ray, QueueId::kActive, legs, {kernels.closest, kernels.num_closest});
     SortLegs(wave, leg);
-    RunOn(wave, ray, QueueId::kSurface, legs, kernels.surface, kernels.num_surface);
+    RunOn(wave, ray, QueueId::kSurface, legs, {kernels.surface, kernels.num_surface});
     NextLegs(wave);
   }
   legs.size = 0;

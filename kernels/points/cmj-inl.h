@@ -33,8 +33,9 @@ struct CmjPoints {
     return GroupByTurns(points, sample);
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at,
-                                     VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+                                     VF* u1) {
+    const auto& [pixel, at, key, seed] = of;
     const Octave block = OctaveOf(at.index);
     // Groups are far fewer than 2^24.
     const VU of_block = hn::Add(at.group, hn::ShiftLeft<24>(block.number));

@@ -2,8 +2,7 @@
 //
 // A policy is a struct with
 //   static GroupIndex Group(const PointsParameters&, VU sample)   (group-inl.h)
-//   static void Point(const PointsParameters&, VU pixel, GroupIndex, VU key, VU seed,
-//                     VF* u0, VF* u1)
+//   static void Point(const PointsParameters&, const PointKey&, VF* u0, VF* u1)
 // giving a point in [0,1)^2 for a dimension key (src/path/dimensions.h). The two
 // coordinates of one key are stratified against each other where the policy stratifies;
 // different keys are independent of each other. A scalar dimension takes u0; a policy
@@ -66,7 +65,7 @@ LANELIGHT_INLINE void Draw(const RunParameters& run, const Drawer& drawer,
   if constexpr (kScalar && HasNumber<Policy>) {
     u0 = Policy::Number(run.points, drawer.pixel, at, key, seed);
   } else {
-    Policy::Point(run.points, drawer.pixel, at, key, seed, &u0, &u1);
+    Policy::Point(run.points, {drawer.pixel, at, key, seed}, &u0, &u1);
   }
   Scatter(u0, out0, drawer.slots);
   if constexpr (!kScalar) Scatter(u1, out1, drawer.slots);

@@ -14,6 +14,13 @@ struct GroupIndex {
   VU group, index;
 };
 
+/// Whose point is drawn: of a pixel, a group of its samples, a dimension, a seed.
+struct PointKey {
+  VU pixel;
+  GroupIndex at;
+  VU key, seed;
+};
+
 /// Samples take turns at kReplicates groups (src/path/replicates.h). A group ends with
 /// the sampler's sequence, after 2^group_shift points; then as many new ones begin.
 LANELIGHT_INLINE GroupIndex GroupByTurns(const PointsParameters& points, VU sample) {

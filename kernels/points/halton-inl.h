@@ -63,8 +63,9 @@ struct HaltonPoints {
     return GroupByTurns(points, sample);
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at,
-                                     VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+                                     VF* u1) {
+    const auto& [pixel, at, key, seed] = of;
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU i = PermuteOctaves(at.index, h.x);
     // The hash takes the first digits of low numbers from the low bits of its seed, which

@@ -13,8 +13,9 @@ struct IndependentPoints {
   static LANELIGHT_INLINE GroupIndex Group(const PointsParameters&, VU sample) {
     return {sample, hn::Zero(DU())};
   }
-  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at,
-                                     VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+                                     VF* u1) {
+    const auto& [pixel, at, key, seed] = of;
     const U4 r = Pcg4d({pixel, at.group, key, seed});
     *u0 = ToUnit(r.x);
     *u1 = ToUnit(r.y);

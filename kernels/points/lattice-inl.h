@@ -28,8 +28,9 @@ struct LatticePoints {
     return GroupByTurns(points, sample);
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at,
-                                     VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+                                     VF* u1) {
+    const auto& [pixel, at, key, seed] = of;
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU inverse = LaineKarras(ReverseBits32(at.index), h.x);  // phi in 2^-32
     *u0 = ToUnit(hn::Add(inverse, h.y));

@@ -26,8 +26,9 @@ struct Pmj02Points {
     return GroupByTurns(points, sample);
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters& points, VU pixel,
-                                     GroupIndex at, VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters& points, const PointKey& of,
+                                     VF* u0, VF* u1) {
+    const auto& [pixel, at, key, seed] = of;
     static_assert((kPmj02Sequences & (kPmj02Sequences - 1)) == 0);
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU sequence = hn::And(h.w, SplatU(kPmj02Sequences - 1));

@@ -41,8 +41,9 @@ struct SobolPoints {
   static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
     return GroupByTurns(points, sample);
   }
-  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at,
-                                     VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+                                     VF* u1) {
+    const auto& [pixel, at, key, seed] = of;
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU shuffled = ReverseBits32(LaineKarras(ReverseBits32(at.index), h.x));
     *u0 = ToUnit(ReverseBits32(LaineKarras(shuffled, h.y)));

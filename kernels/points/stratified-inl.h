@@ -41,8 +41,9 @@ struct StratifiedPoints {
     return ReverseBits32(LaineKarras(shuffled, h.y));
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters&, VU pixel, GroupIndex at,
-                                     VU key, VU seed, VF* u0, VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+                                     VF* u1) {
+    const auto& [pixel, at, key, seed] = of;
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU along = Along(at, h);
     // Two times 16 bits are too few for floats; the rest is a hash of them.

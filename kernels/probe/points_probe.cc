@@ -38,7 +38,7 @@ void ProbePolicy(const PointsQuery& q, const PointsParameters& points, float* u0
   ForEachPoint(q, [&](std::size_t i, VU pixel, VU sample) HWY_ATTR {
     const GroupIndex at = Policy::Group(points, sample);
     VF a, b;
-    Policy::Point(points, pixel, at, SplatU(q.key), SplatU(q.seed), &a, &b);
+    Policy::Point(points, {pixel, at, SplatU(q.key), SplatU(q.seed)}, &a, &b);
     hn::StoreU(a, DF(), u0 + i);
     hn::StoreU(b, DF(), u1 + i);
   });
@@ -53,7 +53,7 @@ void ProbePolicyNumbers(const PointsQuery& q, float* u) {
     if constexpr (HasNumber<Policy>) {
       a = Policy::Number(points, pixel, at, SplatU(q.key), SplatU(q.seed));
     } else {
-      Policy::Point(points, pixel, at, SplatU(q.key), SplatU(q.seed), &a, &b);
+      Policy::Point(points, {pixel, at, SplatU(q.key), SplatU(q.seed)}, &a, &b);
     }
     hn::StoreU(a, DF(), u + i);
   });
@@ -90,16 +90,16 @@ void ProbeScalar(const PointsQuery& q, float* u) {
 #undef LANELIGHT_POLICIES
 
 void ProbeTurns(const PointsParameters& points, uint32_t first, uint32_t count,
-                uint32_t* group, uint32_t* index, uint32_t* unpaired) {
+                const GroupColumns& out) {
   const DU du;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
   for (uint32_t i = 0; i < count; i += lanes) {
     const VU offset = hn::Min(hn::Iota(du, i), SplatU(count - 1));
     const VU sample = hn::Add(SplatU(first), offset);
     const GroupIndex at = GroupByTurns(points, sample);
-    hn::StoreU(at.group, du, group + i);
-    hn::StoreU(at.index, du, index + i);
-    hn::StoreU(UnpairedSample(sample), du, unpaired + i);
+    hn::StoreU(at.group, du, out.group + i);
+    hn::StoreU(at.index, du, out.index + i);
+    hn::StoreU(UnpairedSample(sample), du, out.unpaired + i);
   }
 }
 
@@ -138,11 +138,10 @@ void ProbeNumbers(SimdTarget target, const PointsQuery& query, float* u) {
 }
 
 void ProbeGroups(SimdTarget target, std::uint32_t group_shift, std::uint32_t first,
-                 std::uint32_t count, std::uint32_t* group, std::uint32_t* index,
-                 std::uint32_t* unpaired) {
+                 std::uint32_t count, const GroupColumns& out) {
   PointsParameters points;
   points.group_shift = group_shift;
-  LANELIGHT_ON(target, ProbeTurns)(points, first, count, group, index, unpaired);
+  LANELIGHT_ON(target, ProbeTurns)(points, first, count, out);
 }
 
 void ProbePermutation(SimdTarget target, std::uint32_t count, std::uint32_t key,

@@ -26,12 +26,16 @@ void ProbePoints(SimdTarget target, const PointsQuery& query,
 /// The same for a scalar dimension.
 void ProbeNumbers(SimdTarget target, const PointsQuery& query, float* u);
 
+/// Results of ProbeGroups; all need room for a full vector more.
+struct GroupColumns {
+  std::uint32_t *group, *index, *unpaired;
+};
+
 /// Group and index in it of samples [first, first + count), first + count <= 2^31, in
 /// groups of 2^group_shift, and the samples whose unpaired numbers they draw where
-/// samples come in pairs. All need room for a full vector more.
+/// samples come in pairs.
 void ProbeGroups(SimdTarget target, std::uint32_t group_shift, std::uint32_t first,
-                 std::uint32_t count, std::uint32_t* group, std::uint32_t* index,
-                 std::uint32_t* unpaired);
+                 std::uint32_t count, const GroupColumns& out);
 
 /// Images of [0, count), a power of two, in the permutation of `key`; out needs room for
 /// a full vector more. `octaves`: that which keeps prefixes (PermuteOctaves), for any

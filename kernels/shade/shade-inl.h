@@ -114,6 +114,13 @@ struct SurfaceReader {
   }
 };
 
+/// Where paths are shaded: directions to where they come from in the frame of the shading
+/// normal, geometric normals, and throughputs.
+struct ShadedPoint {
+  const Frame& frame;
+  V3 wo, ng, beta;
+};
+
 /// What a strategy needs of a shading stage besides its material are two independent
 /// policies: where paths go (a proposal, kernels/directions/) and what light samples are
 /// weighed against (a lighting).
@@ -126,15 +133,14 @@ struct Shader : SurfaceReader<Bsdf> {
 
   /// Next-event estimation: what the sampled light would add if nothing is in between.
   HWY_INLINE void SampleLight(const Material& material, const Proposal& proposal,
-                              const Frame& frame, V3 wo, V3 beta, const StoreSlots& slots,
-                              MF valid) {
+                              const ShadedPoint& at, const StoreSlots& slots, MF valid) {
     const PathColumns& path = wave.path;
     const V3 light = Gather3(path.ls_r, path.ls_g, path.ls_b, slots);
-    const V3 wi = frame.ToLocal(Gather3(path.ls_x, path.ls_y, path.ls_z, slots));
-    const BsdfValue value = Bsdf::Eval(material, wo, wi);
-    V3 carried = Mul(Mul(beta, value.f_cos), light);
+    const V3 wi = at.frame.ToLocal(Gather3(path.ls_x, path.ls_y, path.ls_z, slots));
+    const BsdfValue value = Bsdf::Eval(material, at.wo, wi);
+    V3 carried = Mul(Mul(at.beta, value.f_cos), light);
     if constexpr (Lighting::kWeighs) {
-      const VF pdf = proposal.template Pdf<Bsdf>(material, wo, wi, value.pdf);
+      const VF pdf = proposal.template Pdf<Bsdf>(material, at.wo, wi, value.pdf);
       carried =
           Mul(carried, Lighting::Weight(wave.run->mis, Gather(path.ls_pdf, slots), pdf));
     }
@@ -144,18 +150,17 @@ struct Shader : SurfaceReader<Bsdf> {
 
   /// Scatters the path: new ray, throughput and density; returns the paths that go on.
   HWY_INLINE MF Bounce(const Material& material, const Proposal& proposal,
-                       const Frame& frame, V3 wo, V3 ng, V3 beta,
-                       const StoreSlots& slots) {
+                       const ShadedPoint& at, const StoreSlots& slots) {
     const PathColumns& path = wave.path;
     BsdfPoints u = {hn::Zero(DF()), Gather(path.u_bsdf_0, slots),
                     Gather(path.u_bsdf_1, slots)};
     if (path.u_lobe != nullptr) u.lobe = Gather(path.u_lobe, slots);
-    const BsdfSample sample = proposal.template Sample<Bsdf>(material, wo, u);
-    const V3 d = Renormalize(frame.FromLocal(sample.wi));
+    const BsdfSample sample = proposal.template Sample<Bsdf>(material, at.wo, u);
+    const V3 d = Renormalize(at.frame.FromLocal(sample.wi));
     const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
-    const V3 o = OffsetOrigin(p, ng, Gather(path.p_error, slots), d);
+    const V3 o = OffsetOrigin(p, at.ng, Gather(path.p_error, slots), d);
     // A tangential wo has no defined side; pbrt absorbs it as well.
-    MF alive = hn::And(CarriesLight(sample.weight), hn::Ne(wo.z, hn::Zero(DF())));
+    MF alive = hn::And(CarriesLight(sample.weight), hn::Ne(at.wo.z, hn::Zero(DF())));
     if constexpr (Lighting::kWeighs) {
       alive =
           hn::And(alive, hn::Lt(sample.pdf, Splat(std::numeric_limits<float>::max())));
@@ -165,11 +170,11 @@ struct Shader : SurfaceReader<Bsdf> {
     }
     if constexpr (Lighting::kWeighs && !Bsdf::kSpecular) {
       if (path.start_n_x != nullptr) {  // hits are weighed against what it makes likely
-        const V3 facing = Mul(frame.n, hn::CopySign(Splat(1.0f), wo.z));
+        const V3 facing = Mul(at.frame.n, hn::CopySign(Splat(1.0f), at.wo.z));
         Scatter3(facing, path.start_n_x, path.start_n_y, path.start_n_z, slots);
       }
     }
-    const V3 carried = IfThenElseZero(alive, Mul(beta, sample.weight));
+    const V3 carried = IfThenElseZero(alive, Mul(at.beta, sample.weight));
     Scatter3(o, path.o_x, path.o_y, path.o_z, slots);
     Scatter3(d, path.d_x, path.d_y, path.d_z, slots);
     Scatter3(carried, path.beta_r, path.beta_g, path.beta_b, slots);
@@ -191,11 +196,11 @@ struct Shader : SurfaceReader<Bsdf> {
     const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
     const Material material = Bsdf::Load(this->Inputs(slots));
     const Proposal proposal(wave, frame, slots);
+    const ShadedPoint at = {frame, wo, ng, beta};
     if constexpr (!Bsdf::kSpecular) {
-      if (path.sh_r != nullptr)
-        SampleLight(material, proposal, frame, wo, beta, slots, valid);
+      if (path.sh_r != nullptr) SampleLight(material, proposal, at, slots, valid);
     }
-    const MF alive = Bounce(material, proposal, frame, wo, ng, beta, slots);
+    const MF alive = Bounce(material, proposal, at, slots);
     Push(wave.queue(QueueId::kScattered), slots, hn::And(valid, alive));
     Push(wave.queue(QueueId::kDone), slots, hn::AndNot(alive, valid));
   }

@@ -25,11 +25,10 @@ struct UvAxes {
   }
 };
 
-// Moves the step along the sight into the plane across n and writes what it is in u, v.
-HWY_INLINE void StoreStep(const UvAxes& axes, V3 n, V3 sight, V3 step, float* du,
-                          float* dv, const StoreSlots& slots) {
-  const V3 in_plane = InPlane(n, sight, step);
-  const VF u = Dot(axes.u, in_plane), v = Dot(axes.v, in_plane);
+// Writes what a step in the plane of the surface is in u, v.
+HWY_INLINE void StoreStep(const UvAxes& axes, V3 step, float* du, float* dv,
+                          const StoreSlots& slots) {
+  const VF u = Dot(axes.u, step), v = Dot(axes.v, step);
   const VF along_u = hn::Mul(hn::NegMulAdd(axes.cosine, v, u), axes.inverse);
   const VF along_v = hn::Mul(hn::NegMulAdd(axes.cosine, u, v), axes.inverse);
   Scatter(Bounded(hn::Div(along_u, axes.length_u)), du, slots);
@@ -39,16 +38,19 @@ HWY_INLINE void StoreStep(const UvAxes& axes, V3 n, V3 sight, V3 step, float* du
 void Footprints(Wave& wave) {
   const PathColumns& path = wave.path;
   const PixelFootprint& footprint = wave.scene->footprint;
-  ForEachBatch(
-      wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
-        const V3 n = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
-        const UvAxes axes(Gather3(path.tg_x, path.tg_y, path.tg_z, slots),
-                          Gather3(path.tv_x, path.tv_y, path.tv_z, slots));
-        const PixelSteps steps =
-            StepsAt(footprint, Gather3(path.p_x, path.p_y, path.p_z, slots));
-        StoreStep(axes, n, steps.sight, steps.x, path.spread_0, path.spread_2, slots);
-        StoreStep(axes, n, steps.sight, steps.y, path.spread_1, path.spread_3, slots);
-      });
+  ForEachBatch(wave, wave.queue(QueueId::kSurface),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const V3 n = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+                 const UvAxes axes(Gather3(path.tg_x, path.tg_y, path.tg_z, slots),
+                                   Gather3(path.tv_x, path.tv_y, path.tv_z, slots));
+                 const PixelSteps steps =
+                     StepsAt(footprint, Gather3(path.p_x, path.p_y, path.p_z, slots));
+                 // Steps move along the sight into the plane across n.
+                 const V3 x = InPlane(n, steps.sight, steps.x),
+                          y = InPlane(n, steps.sight, steps.y);
+                 StoreStep(axes, x, path.spread_0, path.spread_2, slots);
+                 StoreStep(axes, y, path.spread_1, path.spread_3, slots);
+               });
 }
 
 Stage FootprintsStage() {

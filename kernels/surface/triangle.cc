@@ -118,6 +118,11 @@ HWY_INLINE VF SizeOf(V3 e1, V3 e2) {
   return hn::Max(MaxComponent(Abs(e1)), MaxComponent(Abs(e2)));
 }
 
+// Edges from the first vertex, and the unit normal of the face.
+struct FaceLanes {
+  V3 e1, e2, normal;
+};
+
 // Where the point of a hit lies in the scene, and what maps its triangle there.
 struct PlaceLanes {
   V3 p, ng;
@@ -127,20 +132,20 @@ struct PlaceLanes {
 
 template <bool kInstances>
 HWY_INLINE PlaceLanes PlaceTriangles(const Wave& wave, const StoreSlots& slots,
-                                     const TriangleLanes& tri, V3 e1, V3 e2, V3 face) {
+                                     const TriangleLanes& tri, const FaceLanes& face) {
   PlaceLanes at;
   if constexpr (kInstances) {
     at.maps = GatherMaps(wave.scene->geometry.instances, Gather(wave.path.inst, slots));
     const D3 lower = Interpolate<false>(tri), upper = Interpolate<true>(tri);
     at.p = FromHalves(MapPoint<false>(at.maps.scene_from_object, lower),
                       MapPoint<true>(at.maps.scene_from_object, upper));
-    at.ng = Normalize(at.maps.object_from_scene.Transposed(face));
+    at.ng = Normalize(at.maps.object_from_scene.Transposed(face.normal));
     at.error = hn::Add(RoundingError(at.p, at.ng, hn::Zero(DF())),
                        MappingError(at.maps, FromHalves(lower, upper), at.ng));
   } else {
     at.p = FromHalves(Interpolate<false>(tri), Interpolate<true>(tri));
-    at.ng = face;
-    at.error = RoundingError(at.p, face, SizeOf(e1, e2));
+    at.ng = face.normal;
+    at.error = RoundingError(at.p, face.normal, SizeOf(face.e1, face.e2));
   }
   return at;
 }
@@ -172,11 +177,11 @@ HWY_INLINE void StoreUvs(const PathColumns& path, const StoreSlots& slots,
 
 template <bool kInstances>
 HWY_INLINE void StoreTangents(const PathColumns& path, const StoreSlots& slots,
-                              const UvLanes& uv, V3 e1, V3 e2, V3 face,
+                              const UvLanes& uv, const FaceLanes& face,
                               const PlaceLanes& at) {
-  V3 tangent = Tangent(uv, e1, e2, face);
+  V3 tangent = Tangent(uv, face.e1, face.e2, face.normal);
   if (path.tv_x != nullptr) {
-    V3 bitangent = Bitangent(uv, e1, e2, face);
+    V3 bitangent = Bitangent(uv, face.e1, face.e2, face.normal);
     if constexpr (kInstances) bitangent = at.maps.scene_from_object.Vector(bitangent);
     Scatter3(bitangent, path.tv_x, path.tv_y, path.tv_z, slots);
   }
@@ -193,7 +198,7 @@ HWY_INLINE bool WantsDetails(const PathColumns& path) {
 
 template <bool kInstances>
 HWY_INLINE void StoreCoordinates(const Wave& wave, const StoreSlots& slots,
-                                 const TriangleLanes& tri, V3 e1, V3 e2, V3 face,
+                                 const TriangleLanes& tri, const FaceLanes& face,
                                  const PlaceLanes& at) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = wave.scene->geometry;
@@ -201,7 +206,7 @@ HWY_INLINE void StoreCoordinates(const Wave& wave, const StoreSlots& slots,
   if (!wanted || geometry.uvs.empty()) return;
   const UvLanes uv = LoadUvs(geometry, tri.prim);
   if (path.uv_u != nullptr) StoreUvs(path, slots, tri, uv);
-  if (path.tg_x != nullptr) StoreTangents<kInstances>(path, slots, uv, e1, e2, face, at);
+  if (path.tg_x != nullptr) StoreTangents<kInstances>(path, slots, uv, face, at);
 }
 
 template <bool kInstances, bool kDetails>
@@ -209,11 +214,12 @@ HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const TriangleLanes tri = LoadTriangles(wave, slots);
   const V3 e1 = tri.v1 - tri.v0, e2 = tri.v2 - tri.v0;
-  const V3 face = FaceNormal(e1, e2);
-  PlaceLanes at = PlaceTriangles<kInstances>(wave, slots, tri, e1, e2, face);
+  const FaceLanes face = {e1, e2, FaceNormal(e1, e2)};
+  PlaceLanes at = PlaceTriangles<kInstances>(wave, slots, tri, face);
   if constexpr (kDetails) {
-    if (path.ns_x != nullptr) StoreNormals<kInstances>(wave, slots, tri, face, &at);
-    StoreCoordinates<kInstances>(wave, slots, tri, e1, e2, face, at);
+    if (path.ns_x != nullptr)
+      StoreNormals<kInstances>(wave, slots, tri, face.normal, &at);
+    StoreCoordinates<kInstances>(wave, slots, tri, face, at);
   }
   Scatter3(at.p, path.p_x, path.p_y, path.p_z, slots);
   Scatter(at.error, path.p_error, slots);

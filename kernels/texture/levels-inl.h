@@ -83,9 +83,9 @@ struct TexelSteps {
 };
 
 LANELIGHT_INLINE V3 EvalAlongLine(const TextureTable& table, const TextureNode& node,
-                                  const TextureImage& image, const TexelSteps& d, VF s,
-                                  VF t) {
+                                  const TexelSteps& d, VF s, VF t) {
   const DF df;
+  const TextureImage& image = table.images[node.image];
   const VF one = Splat(1.0f), two = Splat(2.0f);
   const VF x = hn::Sqrt(hn::MulAdd(d.s_x, d.s_x, hn::Mul(d.t_x, d.t_x)));
   const VF y = hn::Sqrt(hn::MulAdd(d.s_y, d.s_y, hn::Mul(d.t_y, d.t_y)));
@@ -126,7 +126,7 @@ inline HWY_NOINLINE V3 EvalFiltered(const TextureTable& table, const TextureNode
   const TexelSteps d = {hn::Mul(f.dudx, w), hn::Mul(f.dvdx, h), hn::Mul(f.dudy, w),
                         hn::Mul(f.dvdy, h)};
   if (node.filter == ImageFilter::kEwa) {
-    return FinishTexel(node, EvalAlongLine(table, node, image, d, s, t));
+    return FinishTexel(node, EvalAlongLine(table, node, d, s, t));
   }
   const VF longest = hn::Max(hn::Max(hn::Abs(d.s_x), hn::Abs(d.t_x)),
                              hn::Max(hn::Abs(d.s_y), hn::Abs(d.t_y)));

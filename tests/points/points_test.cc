@@ -212,8 +212,8 @@ TEST_CASE("samples take turns at replicates, to the last one", "[points]") {
       // At the start, where a sequence ends, and at the end.
       for (std::uint32_t first : {0u, std::max(sequence, 40u) - 40,
                                   kEnd / 3 / sequence * sequence - 33, kEnd - kCount}) {
-        ProbeGroups(TestTarget(), shift, first, kCount, group.data(), index.data(),
-                    unpaired.data());
+        ProbeGroups(TestTarget(), shift, first, kCount,
+                    {group.data(), index.data(), unpaired.data()});
         for (std::uint32_t i = 0; i < kCount; ++i) {
           const std::uint32_t sample = first + i, turn = sample / kReplicates;
           const std::uint32_t points = 1u << shift;
@@ -233,7 +233,7 @@ TEST_CASE("unpaired numbers are all different, of the replicate of their pair",
           "[points]") {
   constexpr std::uint32_t kCount = 4096;
   std::vector<std::uint32_t> group(kCount + 16), index(group), unpaired(group);
-  ProbeGroups(TestTarget(), 20, 0, kCount, group.data(), index.data(), unpaired.data());
+  ProbeGroups(TestTarget(), 20, 0, kCount, {group.data(), index.data(), unpaired.data()});
   unpaired.resize(kCount);
   const SampleGroups pairs{2, true}, single{1, true};
   for (std::uint32_t i = 0; i < kCount; ++i) {

@@ -17,8 +17,9 @@ void AreaLightsProbe(const IrradianceBatch& batch) {
   };
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(df));
   for (uint32_t i = 0; i < batch.n; i += lanes) {
-    const AreaLight light = AreaLightsAt<true>(*batch.scene, load(batch.p, i), Splat(0),
-                                               load(batch.normal, i), hn::Zero(DI()));
+    const AreaLight light = AreaLightsAt<true>(
+        *batch.scene, {load(batch.p, i), Splat(0), load(batch.normal, i)},
+        hn::Zero(DI()));
     store(light.above, batch.above, i);
     store(light.below, batch.below, i);
     hn::StoreU(hn::IfThenElseZero(light.selected, Splat(1.0f)), df, batch.takes_part + i);
