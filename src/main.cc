@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -128,29 +129,23 @@ int Parse(CLI::App& root, int argc, char** argv) {
   return kGoOn;
 }
 
-// Runs what was asked for. A message: it has failed, and this is why.
-int Execute(const CLI::App& root, const Command& chosen, int argc, char** argv,
-            std::string& message) {
+// Why a command has failed, by what it has thrown.
+std::string FailureText(const std::exception_ptr& failure) {
   try {
-    RequireTarget();
-    return chosen();
-  } catch (const CLI::ParseError& error) {  // a flag that only the command understands
-    return ReportParse(root, error, argc, argv);
+    std::rethrow_exception(failure);
   } catch (const InputError& error) {
-    message = error.what();
+    return error.what();
   } catch (const RankFailure& error) {
-    message = error.what();
+    return error.what();
   } catch (const CheckFailure& error) {
-    message = std::string("internal error, please report: ") + error.what();
+    return std::string("internal error, please report: ") + error.what();
   } catch (const std::bad_alloc&) {
-    message = "error: " + OutOfMemoryText();
+    return "error: " + OutOfMemoryText();
   } catch (const std::filesystem::filesystem_error& error) {
-    message =
-        fmt::format("error: '{}': {}", error.path1().string(), error.code().message());
+    return fmt::format("error: '{}': {}", error.path1().string(), error.code().message());
   } catch (const std::exception& error) {
-    message = WithPrefix(error);
+    return WithPrefix(error);
   }
-  return kExitBadInput;
 }
 
 // Several ranks render; everything else is for a process alone.
@@ -185,12 +180,16 @@ int Run(CLI::App& root, const Command& chosen, RankGroup& group, int argc, char*
     return group.Leave(FlushOutput() ? exit_code : static_cast<int>(kExitBadInput));
   }
   if (!ForRanks(root, group)) return group.Leave(kExitUsage);
-  std::string message;
-  exit_code = Execute(root, chosen, argc, argv, message);
-  if (!message.empty()) {
+  try {
+    RequireTarget();
+    exit_code = chosen();
+  } catch (const CLI::ParseError& error) {  // a flag that only the command understands
+    exit_code = ReportParse(root, error, argc, argv);
+  } catch (...) {
+    const std::string message = FailureText(std::current_exception());
     PrintError(message);
     FlushOutput();
-    return group.Fail(exit_code, message);
+    return group.Fail(kExitBadInput, message);
   }
   if (!FlushOutput()) exit_code = kExitBadInput;
   return group.Leave(exit_code);

@@ -72,8 +72,9 @@ int Merge(const MergeOptions& options) {
                        {"missing_pixels", merged.missing},
                        {"seeds", merged.seeds},
                        {"machines", ToJson(merged.machines)}};
-  WriteRendering(*merged.film, merged.identity, merged.head, options.outputs.targets,
-                 members, rendering);
+  const RenderFacts facts = {merged.identity, merged.head, merged.head.at("scale"),
+                             merged.identity.value("color_space", std::string("srgb"))};
+  WriteRendering(*merged.film, facts, options.outputs.targets, members, rendering);
   const bool good = PrintProblems(rendering.problems);
   if (options.outputs.targets.json == "-") {
     Print(DumpJson(rendering.json, 2) + "\n");

@@ -17,18 +17,17 @@ namespace {
 
 using Json = nlohmann::json;
 
-void SaveImages(const FilmAccumulator& film, const Json& identity, double scale,
+void SaveImages(const FilmAccumulator& film, const RenderFacts& facts,
                 const RenderTargets& targets, Saver& saver, RenderReport& report) {
   const Stopwatch watch;
   report.exr = targets.exr;
   saver.Save(report.exr, [&](const std::string& path) {
-    WriteExr(path, film.width(), film.height(), FilmPlanes(film, scale),
-             OutputOptions(identity, report.result, film, targets.image.half));
+    WriteExr(path, film.width(), film.height(), FilmPlanes(film, facts.scale),
+             OutputOptions(facts.identity, report.result, film, targets.image.half));
   });
   report.png = targets.png;
   saver.Save(report.png, [&](const std::string& path) {
-    WritePng(path, FilmImage(film, identity.value("color_space", std::string("srgb"))),
-             targets.image.exposure);
+    WritePng(path, FilmImage(film, facts.color_space), targets.image.exposure);
   });
   report.write_seconds = watch.Seconds();
 }
@@ -51,35 +50,21 @@ void AgreeOnJob(const Job& job, RankGroup& group) {
   });
 }
 
-RunResult RunKept(const Job& job, FilmAccumulator& film, const Json& head,
-                  const CheckpointSettings& settings, const RenderHooks& hooks,
-                  Rendering& out) {
+// Where a rank fails: what was done is kept, and the user is to know.
+[[noreturn]] void GiveUp(const RankFailure& failure, const CheckpointSettings& settings,
+                         Checkpoint& checkpoint) {
+  checkpoint.Finish();
+  if (settings.path.empty() || !checkpoint.kept()) throw failure;
+  throw RankFailure(fmt::format("{}\nwhat was done is kept: go on with --resume '{}'",
+                                failure.what(), settings.path));
+}
+
+RunOptions OptionsFor(const Job& job, const RenderHooks& hooks) {
   RunOptions options = RunOptionsOf(job);
   options.on_progress = hooks.on_progress;
   options.stop = hooks.stop;
   options.group = hooks.group;
-  if (!settings.Any()) {
-    if (hooks.group != nullptr) AgreeOnJob(job, *hooks.group);
-    return Run(job.scene, job.plan, options, film);
-  }
-  const auto on_problem = [&](const std::string& problem) {
-    if (hooks.on_problem) hooks.on_problem(problem);
-  };
-  Checkpoint checkpoint(job, settings, head, on_problem);
-  options.tiles = checkpoint.tiles();
-  options.keeper = &checkpoint;
-  if (hooks.group != nullptr) AgreeOnJob(job, *hooks.group);
-  try {
-    RunResult result = Run(job.scene, job.plan, options, film);
-    out.problems = checkpoint.Finish();
-    out.state_kept = checkpoint.kept();
-    return result;
-  } catch (const RankFailure& failure) {
-    checkpoint.Finish();
-    if (settings.path.empty() || !checkpoint.kept()) throw;
-    throw RankFailure(fmt::format("{}\nwhat was done is kept: go on with --resume '{}'",
-                                  failure.what(), settings.path));
-  }
+  return options;
 }
 
 }  // namespace
@@ -87,17 +72,37 @@ RunResult RunKept(const Job& job, FilmAccumulator& film, const Json& head,
 Rendering RenderToFiles(const Job& job, const std::string& scene,
                         const RenderTargets& targets, const RenderHooks& hooks) {
   const ThreadLimit threads(job.settings.threads);
-  FilmAccumulator film = MakeFilm(job);
+  const RenderFacts facts = {IdentityOf(job), HeadJson(job, scene, targets.image.half),
+                             job.scene.scale, job.description.film.color_space};
   Rendering out;
-  const Json head = HeadJson(job, scene, targets.image.half);
   out.report.scene = scene;
   out.report.half = targets.image.half;
   out.report.load_seconds = job.load_seconds;
   out.report.build_seconds = job.build_seconds;
   out.report.trees = job.trees;
-  out.report.result = RunKept(job, film, head, targets.checkpoint, hooks, out);
+  FilmAccumulator film = MakeFilm(job);
+  RunOptions options = OptionsFor(job, hooks);
+  std::optional<Checkpoint> checkpoint;
+  if (targets.checkpoint.Any()) {
+    checkpoint.emplace(job, targets.checkpoint, facts.head, [&](const std::string& text) {
+      if (hooks.on_problem) hooks.on_problem(text);
+    });
+    options.tiles = checkpoint->tiles();
+    options.keeper = &*checkpoint;
+  }
+  if (hooks.group != nullptr) AgreeOnJob(job, *hooks.group);
+  try {
+    out.report.result = Run(job.scene, job.plan, options, film);
+  } catch (const RankFailure& failure) {
+    if (checkpoint) GiveUp(failure, targets.checkpoint, *checkpoint);
+    throw;
+  }
+  if (checkpoint) {
+    out.problems = checkpoint->Finish();
+    out.state_kept = checkpoint->kept();
+  }
   if (hooks.on_rendered) hooks.on_rendered();
-  WriteRendering(film, IdentityOf(job), head, targets, hooks.members, out);
+  WriteRendering(film, facts, targets, hooks.members, out);
   return out;
 }
 
@@ -110,14 +115,14 @@ void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop
   ServeRun(job.scene, job.plan, options, film);
 }
 
-void WriteRendering(const FilmAccumulator& film, const Json& identity, const Json& head,
+void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
                     const RenderTargets& targets, const Json& members, Rendering& out) {
   out.report.error = EstimateError(film);
   out.report.unsampled_pixels = CountUnsampled(film);
   Saver saver;
-  SaveImages(film, identity, head.at("scale"), targets, saver, out.report);
+  SaveImages(film, facts, targets, saver, out.report);
   if (!targets.json.empty()) {
-    out.json = ToJson(out.report, head);
+    out.json = ToJson(out.report, facts.head);
     out.json.update(members);
   }
   if (targets.json != "-") saver.SaveText(targets.json, DumpJson(out.json, 2) + "\n");

@@ -48,10 +48,17 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
 /// The same for a worker (src/run/rank_group.h): nothing is written.
 void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop);
 
-/// The second half of it, for a film whoever has rendered it: `identity` and `head` say
-/// what (src/render/identity.h, HeadJson). out.report.result is what it came to.
-void WriteRendering(const FilmAccumulator& film, const nlohmann::json& identity,
-                    const nlohmann::json& head, const RenderTargets& targets,
-                    const nlohmann::json& members, Rendering& out);
+/// What a film is of.
+struct RenderFacts {
+  nlohmann::json identity, head;  // src/render/identity.h, HeadJson
+  double scale = 1;               // CompiledScene::scale
+  std::string color_space;        // that the film holds (src/image/color_spaces.h)
+};
+
+/// The second half of it, for a film whoever has rendered it. `members`: of the report,
+/// beside its own. out.report.result is what it came to.
+void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
+                    const RenderTargets& targets, const nlohmann::json& members,
+                    Rendering& out);
 
 }  // namespace lanelight

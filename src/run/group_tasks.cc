@@ -86,7 +86,6 @@ GroupTasks::Command GroupTasks::Tell(Command command) {
 }
 
 void GroupTasks::RunRound(const RoundWork& work, TaskWatcher& watcher) {
-  if (alone()) return tasks_.RunRound(work, watcher, films_);
   Tell({Order::kRender, work});
   gathered_ = false;
   const RankStatus all = Render(work, watcher, [&](const RankStatus& sum) {

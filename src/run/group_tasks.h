@@ -27,7 +27,8 @@ class GroupTasks {
   void Deal(bool have_samples);
 
   // Leader:
-  /// All ranks do the work, but for tasks that have not begun when the watcher stops it.
+  /// All of several ranks do the work, but for tasks that have not begun when the watcher
+  /// stops it.
   void RunRound(const RoundWork& work, TaskWatcher& watcher);
   /// Brings what all ranks have rendered into the films and the counts of the tasks. If
   /// some do not answer, after a signal, theirs are those of the last time.

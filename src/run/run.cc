@@ -24,138 +24,118 @@ std::uint64_t PlannedSpp(const RunOptions& options) {
   return open_ended || options.spp == 0 ? kPilotSpp : options.spp;
 }
 
-class Runner {
- public:
+// A run and its parts. Each refers to those above it.
+struct Runner {
   Runner(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
          FilmAccumulator& film)
-      : group_(options.group != nullptr ? *options.group : alone_),
-        strategy_(scene, plan, options, clock_),
-        tasks_(scene, strategy_.plan(), strategy_.run(), options, PlannedSpp(options)),
-        films_(strategy_.run().planes, scene.strategy.coefficient.value_or(1), film),
-        work_(group_, clock_, tasks_, films_),
-        setting_{options, clock_, tasks_, films_, work_},
-        looks_(setting_),
-        watch_(setting_, looks_),
-        parts_(setting_, looks_, watch_) {
+      : group(options.group != nullptr ? *options.group : alone),
+        strategy(scene, plan, options, clock),
+        tasks(scene, strategy.plan(), strategy.run(), options, PlannedSpp(options)),
+        films(strategy.run().planes, scene.strategy.coefficient.value_or(1), film),
+        work(group, clock, tasks, films),
+        setting{options, clock, tasks, films, work},
+        looks(setting),
+        watch(setting, looks),
+        parts(setting, looks, watch) {
     LL_CHECK_EQ(film.groups().replicates, GroupsOf(scene.strategy).replicates);
     LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
-    films_.UseResponse(scene.film.response);
-    LL_CHECK(options.windows.empty() || group_.ranks() == 1);
+    films.UseResponse(scene.film.response);
+    LL_CHECK(options.windows.empty() || group.ranks() == 1);
   }
 
-  /// All of a run.
-  RunResult Run();
-  /// The same for a worker.
+  void Start();
+  void Keep(bool finished);
+  RunResult Result();
+  /// All of a run, for a worker.
   void Serve(const RunStart& start, const std::atomic<bool>* stop);
 
- private:
-  void Start();
   bool Restore();
-  void Keep(bool finished);
   RunCounts Counts() const;
-  RunResult Result();
 
-  RunClock clock_;
-  RankGroup alone_;
-  RankGroup& group_;
-  RunStrategy strategy_;
-  Tasks tasks_;
-  Films films_;
-  GroupTasks work_;
-  const RunSetting setting_;
-  ErrorLooks looks_;
-  RunWatch watch_;
-  RunParts parts_;
-  TickScale ticks_;  // the last to be made: a trace begins when the run does
+  RunClock clock;
+  RankGroup alone;
+  RankGroup& group;
+  RunStrategy strategy;
+  Tasks tasks;
+  Films films;
+  GroupTasks work;
+  const RunSetting setting;
+  ErrorLooks looks;
+  RunWatch watch;
+  RunParts parts;
+  TickScale ticks;  // the last to be made: a trace begins when the run does
 };
 
 // Starts the clock, and trains the strategy or goes on where a run was put down.
 void Runner::Start() {
-  clock_.Start();
-  const bool restored = setting_.options.keeper != nullptr && Restore();
-  if (!restored) strategy_.Train();
-  films_.film().set_dependents(strategy_.Dependents());
-  const bool have_samples = tasks_.counts().samples > 0;
-  if (group_.ranks() > 1) {
-    group_.Share(ToBytes({tasks_.tiles(), have_samples, strategy_.trained(),
-                          strategy_.training().changes, strategy_.Tables()}));
+  clock.Start();
+  const bool restored = setting.options.keeper != nullptr && Restore();
+  if (!restored) strategy.Train();
+  films.film().set_dependents(strategy.Dependents());
+  const bool have_samples = tasks.counts().samples > 0;
+  if (group.ranks() > 1) {
+    group.Share(ToBytes({tasks.tiles(), have_samples, strategy.trained(),
+                         strategy.training().changes, strategy.Tables()}));
   }
-  work_.Deal(have_samples);
-  parts_.Start();
-  watch_.Start();
-  if (restored) looks_.LookAgain();
+  work.Deal(have_samples);
+  parts.Start();
+  watch.Start();
+  if (restored) looks.LookAgain();
 }
 
 bool Runner::Restore() {
-  RunState state = {{}, films_};
-  if (!setting_.options.keeper->Restore(state)) return false;
-  clock_.GoOn(state.counts.seconds);
-  tasks_.GoOn(films_, state.counts);
-  if (!state.trained) return !strategy_.NeedsTraining();
-  strategy_.Restore(std::move(state.training), state.tables);
+  RunState state = {{}, films};
+  if (!setting.options.keeper->Restore(state)) return false;
+  clock.GoOn(state.counts.seconds);
+  tasks.GoOn(films, state.counts);
+  if (!state.trained) return !strategy.NeedsTraining();
+  strategy.Restore(std::move(state.training), state.tables);
   return true;
 }
 
 void Runner::Keep(bool finished) {
-  work_.Gather();
+  work.Gather();
   RunState state = {
-      {Counts(), strategy_.trained(), strategy_.training(), strategy_.Tables()},
-      films_,
+      {Counts(), strategy.trained(), strategy.training(), strategy.Tables()},
+      films,
       finished};
-  setting_.options.keeper->Keep(state);
+  setting.options.keeper->Keep(state);
 }
 
 RunCounts Runner::Counts() const {
-  RunCounts counts = tasks_.counts();
-  counts.seconds = clock_.Elapsed();
+  RunCounts counts = tasks.counts();
+  counts.seconds = clock.Elapsed();
   // What came before, and of other ranks, is in it already.
-  counts.cpu_seconds += clock_.CpuSeconds();
+  counts.cpu_seconds += clock.CpuSeconds();
   return counts;
 }
 
-RunResult Runner::Run() {
-  Start();
-  RunKeeper* const keeper = setting_.options.keeper;
-  while (const auto part = parts_.Next()) {
-    strategy_.BeginWith(part->first);
-    work_.RunRound({part->first, part->end, part->per_task}, watch_);
-    if (keeper != nullptr && keeper->Due() && !watch_.Ended()) Keep(false);
-    // It may have been stopped before its end.
-    if (tasks_.Done() >= part->end) parts_.Finish(*part);
-  }
-  work_.Gather();
-  // The last state is kept too, also where another rank has failed.
-  if (keeper != nullptr) Keep(watch_.Reason() != StopReason::kInterrupted);
-  work_.Dismiss();
-  return Result();
-}
-
 void Runner::Serve(const RunStart& start, const std::atomic<bool>* stop) {
-  clock_.Start();
+  clock.Start();
   if (start.trained) {
     TrainingOutcome training;
     training.changes = start.changes;
-    strategy_.Restore(std::move(training), start.tables);
+    strategy.Restore(std::move(training), start.tables);
   }
-  work_.Deal(start.have_samples);
-  work_.Serve([this](std::uint64_t first) { strategy_.BeginWith(first); }, stop);
+  work.Deal(start.have_samples);
+  work.Serve([this](std::uint64_t first) { strategy.BeginWith(first); }, stop);
 }
 
 RunResult Runner::Result() {
   RunResult result;
-  result.ranks = group_.ranks();
-  result.bytes_between_ranks = group_.bytes();
-  films_.film().FitControl();
+  result.ranks = group.ranks();
+  result.bytes_between_ranks = group.bytes();
+  films.film().FitControl();
   static_cast<RunCounts&>(result) = Counts();
-  result.stop_reason = watch_.Reason();
+  result.stop_reason = watch.Reason();
   result.stopped_early = result.stop_reason == StopReason::kInterrupted;
-  result.looks = looks_.Count();
-  strategy_.Describe(result);
-  result.control = films_.film().Control();
+  result.looks = looks.Count();
+  strategy.Describe(result);
+  result.control = films.film().Control();
   result.parts = EmptyParts();
-  result.trace.start = ticks_.start();
-  result.trace.seconds_per_tick = ticks_.SecondsPerTick();
-  tasks_.AddCounts(result);
+  result.trace.start = ticks.start();
+  result.trace.seconds_per_tick = ticks.SecondsPerTick();
+  tasks.AddCounts(result);
   return result;
 }
 
@@ -172,7 +152,26 @@ RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& op
   LL_CHECK(options.spp > 0 || options.seconds > 0 || options.samples_needed ||
            options.stop != nullptr);
   const ThreadLimit threads(options.threads);
-  return Runner(scene, plan, options, film).Run();
+  Runner run(scene, plan, options, film);
+  run.Start();
+  RunKeeper* const keeper = options.keeper;
+  while (const auto part = run.parts.Next()) {
+    run.strategy.BeginWith(part->first);
+    const RoundWork round = {part->first, part->end, part->per_task};
+    if (run.group.ranks() == 1) {
+      run.tasks.RunRound(round, run.watch, run.films);
+    } else {
+      run.work.RunRound(round, run.watch);
+    }
+    if (keeper != nullptr && keeper->Due() && !run.watch.Ended()) run.Keep(false);
+    // It may have been stopped before its end.
+    if (run.tasks.Done() >= part->end) run.parts.Finish(*part);
+  }
+  run.work.Gather();
+  // The last state is kept too, also where another rank has failed.
+  if (keeper != nullptr) run.Keep(run.watch.Reason() != StopReason::kInterrupted);
+  run.work.Dismiss();
+  return run.Result();
 }
 
 void ServeRun(const CompiledScene& scene, const Plan& plan, const RunOptions& options,

@@ -99,7 +99,14 @@ void Tasks::RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films) 
                           std::max(1u, 8 * threads / std::max(1u, tiles))});
   ParallelFor(threads, [&](std::size_t) {
     try {
-      RenderFrom(queue, watcher, films);
+      while (const auto range = queue.Next(watcher)) {
+        TaskSamples& out = runner_.Samples();
+        if (!runner_.Run(TaskOf(*range), watcher, out)) return queue.Stop();
+        taken_ += out.counts.samples;
+        queue.Ended(*range, out,
+                    [&](TaskSamples& samples) { Merge(range->tile, samples, films); });
+        watcher.TaskDone();
+      }
     } catch (...) {
       queue.Stop();
       throw;
@@ -107,25 +114,10 @@ void Tasks::RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films) 
   });
 }
 
-void Tasks::RenderFrom(TileQueue& queue, TaskWatcher& watcher, Films& films) {
-  while (const auto range = queue.Next(watcher)) {
-    TaskSamples& out = runner_.Samples();
-    if (!RunTask(*range, watcher, out)) return queue.Stop();
-    queue.Ended(*range, out,
-                [&](TaskSamples& samples) { Merge(range->tile, samples, films); });
-    watcher.TaskDone();
-  }
-}
-
-// False, and no samples, if it was put down.
-bool Tasks::RunTask(const TileRange& range, const TaskWatcher& watcher,
-                    TaskSamples& out) {
-  const TileTask task = {range.tile, partition_.tiles[range.tile],
-                         static_cast<std::uint32_t>(range.begin - first_),
-                         static_cast<std::uint32_t>(range.end - range.begin)};
-  if (!runner_.Run(task, watcher, out)) return false;
-  taken_ += out.counts.samples;
-  return true;
+TileTask Tasks::TaskOf(const TileRange& range) const {
+  return {range.tile, partition_.tiles[range.tile],
+          static_cast<std::uint32_t>(range.begin - first_),
+          static_cast<std::uint32_t>(range.end - range.begin)};
 }
 
 void Tasks::Merge(std::size_t tile, TaskSamples& task, Films& films) {

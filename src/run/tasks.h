@@ -82,8 +82,7 @@ class Tasks {
   void AddCounts(RunResult& result);
 
  private:
-  void RenderFrom(TileQueue& queue, TaskWatcher& watcher, Films& films);
-  bool RunTask(const TileRange& range, const TaskWatcher& watcher, TaskSamples& out);
+  TileTask TaskOf(const TileRange& range) const;
   void Merge(std::size_t tile, TaskSamples& task, Films& films);
 
   struct Others {

@@ -17,18 +17,6 @@ void StartWave(Wave& wave) {
   }
 }
 
-// Stages [begin, end) of the plan, where they have anything to do.
-void RunStages(Wave& wave, const Plan& plan, std::size_t begin, std::size_t end,
-               StageClock* clock) {
-  for (std::size_t i = begin; i < end; ++i) {
-    const PlannedStage& planned = plan.stages[i];
-    if (wave.queue(planned.stage.input).size == 0) continue;
-    wave.lanes = {};
-    planned.kernel(wave);
-    if (clock) clock->Finish(i, wave.lanes.items, wave.lanes.vectors);
-  }
-}
-
 }  // namespace
 
 std::uint32_t SamplesTogether(const CompiledScene& scene, const Plan& plan) {
@@ -37,24 +25,31 @@ std::uint32_t SamplesTogether(const CompiledScene& scene, const Plan& plan) {
   return scene.strategy.pairs == Pairs::kAntithetic ? together & ~1u : together;
 }
 
-bool Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
-           const SampleBuffer& buffer, StageClock* clock, const TaskWatcher* watcher) {
+bool Drive(Wavefront& wavefront, const Plan& plan, const DriveTask& task,
+           StageClock* clock, const TaskWatcher* watcher) {
+  const TileWork& work = task.work;
   LL_CHECK_LE(work.together, plan.wavefront);  // they are generated at once, or never
   wavefront.Reset();
   Wave& wave = wavefront.wave();
   wave.work = work;
-  wave.buffer = buffer;
+  wave.buffer = task.buffer;
   if (clock) {
     clock->FinishPart(TaskPart::kSetUp, std::uint64_t{work.num_pixels} * work.samples);
   }
+  const std::size_t stages = plan.stages.size();
   while (!wave.work.Done() || wave.queue(QueueId::kScattered).size > 0) {
     StartWave(wave);
     if (clock) clock->StartWave();
-    RunStages(wave, plan, 0, plan.first_repeated, clock);
-    for (std::uint32_t c = 0; c < wave.run->candidates; ++c) {
-      RunStages(wave, plan, plan.first_repeated, plan.last_repeated, clock);
+    std::uint32_t candidates = wave.run->candidates;  // that are still to be made
+    for (std::size_t i = 0; i < stages; ++i) {
+      const PlannedStage& planned = plan.stages[i];
+      if (wave.queue(planned.stage.input).size > 0) {
+        wave.lanes = {};
+        planned.kernel(wave);
+        if (clock) clock->Finish(i, wave.lanes.items, wave.lanes.vectors);
+      }
+      if (i + 1 == plan.last_repeated && --candidates > 0) i = plan.first_repeated - 1;
     }
-    RunStages(wave, plan, plan.last_repeated, plan.stages.size(), clock);
     if (watcher != nullptr && watcher->PutsDown()) return false;
   }
   return true;

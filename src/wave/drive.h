@@ -13,11 +13,16 @@ namespace lanelight {
 /// samples come in pairs.
 std::uint32_t SamplesTogether(const CompiledScene& scene, const Plan& plan);
 
-/// The loop of one task: runs `work` to the end on `wavefront`, writing finished samples
-/// to `buffer`. `clock` times the stages; null: nothing is timed. Returns false if the
-/// watcher has had it put down; then the buffer is of no use. Null: nobody does.
-bool Drive(Wavefront& wavefront, const Plan& plan, const TileWork& work,
-           const SampleBuffer& buffer, StageClock* clock,
-           const TaskWatcher* watcher = nullptr);
+/// Samples to take, and where finished ones go.
+struct DriveTask {
+  TileWork work;
+  SampleBuffer buffer;
+};
+
+/// The loop of one task: runs it to the end on `wavefront`. `clock` times the stages;
+/// null: nothing is timed. Returns false if the watcher has had it put down; then the
+/// buffer is of no use. Null: nobody does.
+bool Drive(Wavefront& wavefront, const Plan& plan, const DriveTask& task,
+           StageClock* clock, const TaskWatcher* watcher = nullptr);
 
 }  // namespace lanelight

@@ -156,7 +156,7 @@ void SeenLightEdges::Trace(Space& space, const Rays& rays, std::vector<float>& o
   Wave& wave = space.wavefront.wave();
   wave.rays_closest = wave.rays_shadow = 0;
   wave.health = {};
-  Drive(space.wavefront, plan_, work, {out.data(), static_cast<std::uint32_t>(rows)},
+  Drive(space.wavefront, plan_, {work, {out.data(), static_cast<std::uint32_t>(rows)}},
         nullptr);
 }
 

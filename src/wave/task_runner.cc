@@ -67,7 +67,7 @@ bool TaskRunner::Run(const TileTask& task, const TaskWatcher& watcher, TaskSampl
   const TileWork work = SetUp(task, space);
   const SampleBuffer buffer = Buffer(work, out);
   if (space.reuse) space.reuse->Begin(work, space.wavefront.wave());
-  const bool ended = Drive(space.wavefront, plan_, work, buffer, clock, &watcher);
+  const bool ended = Drive(space.wavefront, plan_, {work, buffer}, clock, &watcher);
   out.count = ended ? task.samples : 0;
   if (ended) {
     const std::uint32_t stride = work.num_pixels * work.samples;

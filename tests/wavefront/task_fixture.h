@@ -71,7 +71,7 @@ class TaskFixture {
     work.samples = kSamples;
     work.together = kSamples;
     if (clock) clock->StartTask();
-    Drive(*wavefront_, plan, work, {buffer_.data(), Rows()}, clock);
+    Drive(*wavefront_, plan, {work, {buffer_.data(), Rows()}}, clock);
     if (clock) clock->EndTask();
   }
 
