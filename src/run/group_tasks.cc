@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kBetweenSums = std::chrono::milliseconds(50);
 // After a signal mpirun leaves a second; for those who do not answer until then nobody
 // waits.
-constexpr double kPatienceSeconds = 0.6;
+constexpr double kAnswerSeconds = 0.6;
 
 // Before the pixels of a worker's tiles.
 struct PartHead {
@@ -56,16 +56,16 @@ class WorkerWatch : public TaskWatcher {
   explicit WorkerWatch(const std::atomic<bool>* stop) : signal_(stop) {}
   bool Interrupted() const override { return signal_.Stopped(); }
   bool Stopped() const override { return signal_.Stopped() || stopped_; }
-  bool PutsDown() const override { return signal_.PutsDown() || put_down_; }
+  bool Cancelled() const override { return signal_.Cancelled() || cancelled_; }
   void TaskDone() override {}
   void Hear(const RankStatus& all) {
     stopped_ = all.stopped > 0;
-    put_down_ = all.put_down > 0;
+    cancelled_ = all.cancelled > 0;
   }
 
  private:
   const StopWatcher signal_;
-  std::atomic<bool> stopped_{false}, put_down_{false};
+  std::atomic<bool> stopped_{false}, cancelled_{false};
 };
 
 }  // namespace
@@ -118,7 +118,7 @@ RankStatus GroupTasks::Render(const RoundWork& work, TaskWatcher& watcher,
   const auto gives_up = [&] {
     if (!group_.leads() || !watcher.Interrupted()) return false;
     if (!signal) signal = Clock::now();
-    return SecondsSince(*signal) > kPatienceSeconds;
+    return SecondsSince(*signal) > kAnswerSeconds;
   };
   RankStatus all;
   do {
@@ -140,7 +140,7 @@ RankStatus GroupTasks::Status(const RoundWork& work, const TaskWatcher& watcher,
   status.failed = done && problem_;
   status.interrupted = watcher.Interrupted();
   status.stopped = watcher.Stopped();
-  status.put_down = watcher.PutsDown();
+  status.cancelled = watcher.Cancelled();
   status.busy = !done;
   status.behind = !done || tasks_.Levels().least < work.limit;
   status.samples = tasks_.own_taken();

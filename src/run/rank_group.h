@@ -25,7 +25,7 @@ struct RankStatus {
   std::uint64_t failed = 0;
   std::uint64_t interrupted = 0;  // by a signal
   std::uint64_t stopped = 0;      // begins no more tasks
-  std::uint64_t put_down = 0;     // nor ends those in flight
+  std::uint64_t cancelled = 0;    // nor ends those in flight
   std::uint64_t busy = 0;         // has tasks in flight
   std::uint64_t behind = 0;       // has tiles that lack samples
   std::uint64_t samples = 0;      // that it has taken

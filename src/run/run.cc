@@ -6,7 +6,7 @@
 #include "src/core/clock.h"
 #include "src/core/parallel.h"
 #include "src/prepare/groups.h"
-#include "src/run/error_looks.h"
+#include "src/run/convergence_checks.h"
 #include "src/wave/profile.h"
 #include "src/run/run_parts.h"
 #include "src/run/run_setting.h"
@@ -34,9 +34,9 @@ struct Runner {
         films(strategy.run().planes, scene.strategy.coefficient.value_or(1), film),
         work(group, clock, tasks, films),
         setting{options, clock, tasks, films, work},
-        looks(setting),
-        watch(setting, looks),
-        parts(setting, looks, watch) {
+        checks(setting),
+        watch(setting, checks),
+        parts(setting, checks, watch) {
     LL_CHECK_EQ(film.groups().replicates, GroupsOf(scene.strategy).replicates);
     LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
     films.UseResponse(scene.film.response);
@@ -60,7 +60,7 @@ struct Runner {
   Films films;
   GroupTasks work;
   const RunSetting setting;
-  ErrorLooks looks;
+  ConvergenceChecks checks;
   RunWatch watch;
   RunParts parts;
   TickScale ticks;  // the last to be made: a trace begins when the run does
@@ -80,7 +80,7 @@ void Runner::Start() {
   work.Deal(have_samples);
   parts.Start();
   watch.Start();
-  if (restored) looks.LookAgain();
+  if (restored) checks.CheckAgain();
 }
 
 bool Runner::Restore() {
@@ -129,7 +129,7 @@ RunResult Runner::Result() {
   static_cast<RunCounts&>(result) = Counts();
   result.stop_reason = watch.Reason();
   result.stopped_early = result.stop_reason == StopReason::kInterrupted;
-  result.looks = looks.Count();
+  result.looks = checks.Count();
   strategy.Describe(result);
   result.control = films.film().Control();
   result.parts = EmptyParts();

@@ -16,7 +16,7 @@ void RunParts::Start() {
 
 std::optional<RunPart> RunParts::Next() {
   const std::uint64_t done = setting_.tasks.Done(), limit = setting_.limit();
-  if (done >= limit || watch_.Ended() || looks_.reached() || looks_.hopeless())
+  if (done >= limit || watch_.Ended() || checks_.reached() || checks_.hopeless())
     return std::nullopt;
   // Without a budget nothing else ends a round.
   Round round = {setting_.tasks.per_task(), limit};
@@ -25,7 +25,7 @@ std::optional<RunPart> RunParts::Next() {
   part.begin = done;
   part.first = done / kSamplesPerSeed * kSamplesPerSeed;
   part.end = std::min(
-      {limit, looks_.After(done), done + round.samples, part.first + kSamplesPerSeed});
+      {limit, checks_.After(done), done + round.samples, part.first + kSamplesPerSeed});
   part.per_task = round.per_task;
   part.start = std::chrono::steady_clock::now();
   return part;
@@ -35,7 +35,7 @@ void RunParts::Finish(const RunPart& part) {
   if (pace_) pace_->Took(part.end - part.begin, SecondsSince(part.start));
   const bool halfway = 2 * setting_.clock.Elapsed() > setting_.options.seconds;
   if (pace_ && watch_.reserved() == 0 && halfway) TimeFit();
-  looks_.LookIfDue(part.end);
+  checks_.CheckIfDue(part.end);
 }
 
 // A control variate is fitted once more after the last part.

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "src/run/error_looks.h"
+#include "src/run/convergence_checks.h"
 #include "src/run/run_setting.h"
 #include "src/run/run_watch.h"
 #include "src/run/schedule.h"
@@ -24,8 +24,8 @@ struct RunPart {
 class RunParts {
  public:
   /// Refers to all of these for as long as it lives.
-  RunParts(const RunSetting& setting, ErrorLooks& looks, RunWatch& watch)
-      : setting_(setting), looks_(looks), watch_(watch) {}
+  RunParts(const RunSetting& setting, ConvergenceChecks& checks, RunWatch& watch)
+      : setting_(setting), checks_(checks), watch_(watch) {}
 
   /// Before the first part, after any training.
   void Start();
@@ -38,7 +38,7 @@ class RunParts {
   void TimeFit();
 
   const RunSetting& setting_;
-  ErrorLooks& looks_;
+  ConvergenceChecks& checks_;
   RunWatch& watch_;
   std::optional<Pace> pace_;  // with a time budget
 };

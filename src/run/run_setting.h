@@ -1,4 +1,4 @@
-// What the parts of a run (run_watch.h, error_looks.h, run_parts.h) work on.
+// What the parts of a run (run_watch.h, convergence_checks.h, run_parts.h) work on.
 #pragma once
 
 #include <cstdint>

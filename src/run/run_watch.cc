@@ -5,7 +5,7 @@
 namespace lanelight {
 
 void RunWatch::Start() {
-  patience_.emplace(setting_.options.seconds, setting_.clock.Elapsed());
+  limit_.emplace(setting_.options.seconds, setting_.clock.Elapsed());
 }
 
 bool RunWatch::OutOfTime() const {
@@ -16,28 +16,28 @@ bool RunWatch::OutOfTime() const {
 
 bool RunWatch::Ended() {
   every_pixel_ = setting_.tasks.Done() > 0;
-  return Interrupted() || OutOfTime() || put_down_;
+  return Interrupted() || OutOfTime() || cancelled_;
 }
 
 bool RunWatch::Stopped() const {
   const RunKeeper* const keeper = setting_.options.keeper;
-  return Interrupted() || OutOfTime() || put_down_ ||
+  return Interrupted() || OutOfTime() || cancelled_ ||
          (keeper != nullptr && keeper->Due());
 }
 
-bool RunWatch::PutsDown() const {
+bool RunWatch::Cancelled() const {
   // Without a budget only a stop matters, and clocks need not be read.
   const bool stopped = Interrupted();
   if (!stopped && setting_.options.seconds <= 0) return false;
-  if (patience_->IsOver(stopped, every_pixel_, setting_.clock.Elapsed())) {
-    put_down_ = true;
+  if (limit_->IsOver(stopped, every_pixel_, setting_.clock.Elapsed())) {
+    cancelled_ = true;
   }
-  return put_down_;
+  return cancelled_;
 }
 
 StopReason RunWatch::Reason() const {
-  if (looks_.reached()) return StopReason::kTarget;
-  if (looks_.hopeless()) return StopReason::kHopeless;
+  if (checks_.reached()) return StopReason::kTarget;
+  if (checks_.hopeless()) return StopReason::kHopeless;
   // Only what has left samples out counts: a signal may come after the last one.
   if (setting_.tasks.Done() >= setting_.limit()) return StopReason::kSamples;
   return Interrupted() ? StopReason::kInterrupted : StopReason::kTime;
@@ -49,13 +49,13 @@ double RunWatch::Fraction(double seconds, std::uint64_t samples) const {
   const double by_samples = options.spp > 0 ? per_pixel / double(options.spp) : 0;
   const double by_time = options.seconds > 0 ? seconds / options.seconds : 0;
   // Errors fall like 1 / samples, so samples are in proportion to the time it takes.
-  const double by_need = per_pixel / looks_.needed();
+  const double by_need = per_pixel / checks_.needed();
   return std::min(1.0, std::max({by_samples, by_time, by_need}));
 }
 
 void RunWatch::TaskDone() {
   const RunOptions& options = setting_.options;
-  if (options.seconds > 0) patience_->Ended(setting_.clock.Elapsed());
+  if (options.seconds > 0) limit_->Ended(setting_.clock.Elapsed());
   if (!options.on_progress) return;
   std::unique_lock lock(progress_mutex_, std::try_to_lock);
   if (!lock || SecondsSince(last_report_) < 0.1) return;

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <optional>
 
-#include "src/run/error_looks.h"
-#include "src/wave/patience.h"
+#include "src/run/convergence_checks.h"
+#include "src/wave/time_limit.h"
 #include "src/run/run_setting.h"
 #include "src/wave/task_watcher.h"
 
@@ -16,8 +16,8 @@ namespace lanelight {
 class RunWatch : public TaskWatcher {
  public:
   /// Refers to both for as long as it lives.
-  RunWatch(const RunSetting& setting, const ErrorLooks& looks)
-      : setting_(setting), looks_(looks) {}
+  RunWatch(const RunSetting& setting, const ConvergenceChecks& checks)
+      : setting_(setting), checks_(checks) {}
 
   /// Tasks begin, after any training. Before it only Interrupted may be asked.
   void Start();
@@ -36,7 +36,7 @@ class RunWatch : public TaskWatcher {
            setting_.work.Stopped();
   }
   bool Stopped() const override;
-  bool PutsDown() const override;
+  bool Cancelled() const override;
   void TaskDone() override;
 
  private:
@@ -44,10 +44,10 @@ class RunWatch : public TaskWatcher {
   double Fraction(double seconds, std::uint64_t samples) const;
 
   const RunSetting& setting_;
-  const ErrorLooks& looks_;
-  mutable std::optional<Patience> patience_;
-  mutable std::atomic<bool> put_down_{false};  // tasks were; that ends the run
-  bool every_pixel_ = false;                   // has a sample
+  const ConvergenceChecks& checks_;
+  mutable std::optional<TimeLimit> limit_;
+  mutable std::atomic<bool> cancelled_{false};  // tasks were; that ends the run
+  bool every_pixel_ = false;                    // has a sample
   double reserved_ = 0;
   std::chrono::steady_clock::time_point last_report_;
   std::mutex progress_mutex_;

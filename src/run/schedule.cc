@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kTaskShare = 0.005;  // of the budget
 
-std::uint64_t NextLook(std::uint64_t look, std::uint32_t unit) {
+std::uint64_t NextCheck(std::uint64_t look, std::uint32_t unit) {
   std::uint64_t step = unit;
   while (look / step >= 8) step *= 2;
   return look + step;
@@ -16,18 +16,18 @@ std::uint64_t NextLook(std::uint64_t look, std::uint32_t unit) {
 
 }  // namespace
 
-std::uint64_t FirstLook(std::uint32_t unit) { return std::uint64_t{16} * unit; }
+std::uint64_t FirstCheck(std::uint32_t unit) { return std::uint64_t{16} * unit; }
 
-std::uint64_t LookFrom(std::uint64_t done, std::uint32_t unit) {
-  std::uint64_t look = FirstLook(unit);
-  while (look < done) look = NextLook(look, unit);
+std::uint64_t CheckFrom(std::uint64_t done, std::uint32_t unit) {
+  std::uint64_t look = FirstCheck(unit);
+  while (look < done) look = NextCheck(look, unit);
   return look;
 }
 
-int LooksUpTo(std::uint64_t done, std::uint32_t unit) {
-  int looks = 0;
-  for (auto look = FirstLook(unit); look <= done; look = NextLook(look, unit)) ++looks;
-  return looks;
+int ChecksUpTo(std::uint64_t done, std::uint32_t unit) {
+  int checks = 0;
+  for (auto at = FirstCheck(unit); at <= done; at = NextCheck(at, unit)) ++checks;
+  return checks;
 }
 
 std::uint32_t Pace::Whole(double samples) const {

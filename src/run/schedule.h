@@ -1,5 +1,5 @@
 // How a render whose number of samples is not fixed proceeds: how many samples it takes
-// at a time, and when it looks at its own error. Decisions only: no clock
+// at a time, and when it checks its own error. Decisions only: no clock
 // and no image, so that tests can play through them.
 #pragma once
 
@@ -7,15 +7,15 @@
 
 namespace lanelight {
 
-/// Samples per pixel at which a render with a target looks at its error, `unit` samples
+/// Samples per pixel at which a render with a target checks its error, `unit` samples
 /// belonging together: 4, 5, 6 and 7 times powers of two, from 16 units on. The same
 /// whatever the target, so that a render which goes on towards a finer one ends where it
 /// would have ended at once. Few: each is a chance to stop for a lucky error.
-std::uint64_t FirstLook(std::uint32_t unit);
+std::uint64_t FirstCheck(std::uint32_t unit);
 /// The first one at `done` or after.
-std::uint64_t LookFrom(std::uint64_t done, std::uint32_t unit);
+std::uint64_t CheckFrom(std::uint64_t done, std::uint32_t unit);
 /// How many there are up to `done`, itself included.
-int LooksUpTo(std::uint64_t done, std::uint32_t unit);
+int ChecksUpTo(std::uint64_t done, std::uint32_t unit);
 
 /// A part of a render: all tiles take so many samples per pixel, in tasks of `per_task`.
 struct Round {

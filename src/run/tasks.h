@@ -61,7 +61,7 @@ class Tasks {
   TileLevels Levels() const;
 
   /// Brings this rank's tiles to the limit. Tiles may be left behind where the watcher
-  /// has stopped it; a task that was put down is as if it had not begun.
+  /// has stopped it; a task that was cancelled is as if it had not begun.
   void RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films);
 
   // Of several ranks, each renders a part of the tiles:

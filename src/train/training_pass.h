@@ -25,7 +25,7 @@ struct TrainingPass {
   PlanOptions options;
   const StrategyTables* tables = nullptr;
   std::uint32_t seed = 0;  // of a render: the pass has random numbers apart from it
-  /// The samples are of no use where it has had some put down; null: nobody does.
+  /// The samples are of no use where it has cancelled some; null: nobody does.
   const TaskWatcher* watcher = nullptr;
 };
 

@@ -50,7 +50,7 @@ bool Drive(Wavefront& wavefront, const Plan& plan, const DriveTask& task,
       }
       if (i + 1 == plan.last_repeated && --candidates > 0) i = plan.first_repeated - 1;
     }
-    if (watcher != nullptr && watcher->PutsDown()) return false;
+    if (watcher != nullptr && watcher->Cancelled()) return false;
   }
   return true;
 }

@@ -20,7 +20,7 @@ struct DriveTask {
 };
 
 /// The loop of one task: runs it to the end on `wavefront`. `clock` times the stages;
-/// null: nothing is timed. Returns false if the watcher has had it put down; then the
+/// null: nothing is timed. Returns false if the watcher has cancelled it; then the
 /// buffer is of no use. Null: nobody does.
 bool Drive(Wavefront& wavefront, const Plan& plan, const DriveTask& task,
            StageClock* clock, const TaskWatcher* watcher = nullptr);

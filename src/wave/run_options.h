@@ -38,7 +38,7 @@ inline constexpr std::uint64_t kLeastPilot = 1u << 16;  // samples, of small ima
 struct RunOptions {
   std::uint64_t spp = 0;  // samples per pixel; 0: until something else ends the render
   /// Time budget of all of Run, 0 = none. Every pixel gets a sample, unless paths do not
-  /// end (src/wave/patience.h).
+  /// end (src/wave/time_limit.h).
   double seconds = 0;
   /// If set, the render looks at itself at certain numbers of samples per pixel
   /// (src/run/schedule.h), and ends once this returns `done` or less: how many the
@@ -48,7 +48,7 @@ struct RunOptions {
   std::uint64_t seed = 0;
   int threads = 0;                                   // at most; 0: all cores
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
-  /// Finish the samples in flight; those that take longer are put down.
+  /// Finish the samples in flight; those that take longer are cancelled.
   const std::atomic<bool>* stop = nullptr;
   bool profile = true;       // time every stage call
   ProfileOptions profiling;  // if `profile`

@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "src/core/stopwatch.h"
-#include "src/wave/patience.h"
+#include "src/wave/time_limit.h"
 #include "src/wave/task_watcher.h"
 
 namespace lanelight {
@@ -17,15 +17,15 @@ class StopWatcher : public TaskWatcher {
   bool Stopped() const override { return stop_ != nullptr && *stop_; }
   void TaskDone() override {}
   bool Interrupted() const override { return Stopped(); }
-  bool PutsDown() const override {
+  bool Cancelled() const override {
     if (!Stopped()) return false;
-    return patience_.IsOver(true, false, watch_.Seconds());
+    return limit_.IsOver(true, false, watch_.Seconds());
   }
 
  private:
   const std::atomic<bool>* stop_;
   const Stopwatch watch_;
-  mutable Patience patience_;
+  mutable TimeLimit limit_;
 };
 
 }  // namespace lanelight

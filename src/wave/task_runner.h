@@ -32,7 +32,7 @@ class TaskRunner {
   void Begin(const std::vector<PixelRect>& tiles);
 
   // Safe from different threads:
-  /// False, and no samples, if the watcher has had it put down.
+  /// False, and no samples, if the watcher has cancelled it.
   bool Run(const TileTask& task, const TaskWatcher& watcher, TaskSamples& out);
   /// Adds samples to the films, whose pixels lie at `place`, and counts their time.
   void Merge(const PixelRect& place, TaskSamples& samples, Films& films);

@@ -12,9 +12,8 @@ class TaskWatcher {
   virtual void TaskDone() = 0;
   /// Stopped by a signal: whatever is in flight must end soon.
   virtual bool Interrupted() const { return false; }
-  /// True: tasks in flight are put down (src/wave/patience.h). Asked after each
-  /// wave.
-  virtual bool PutsDown() const { return false; }
+  /// True: tasks in flight are cancelled (src/wave/time_limit.h). Asked after each wave.
+  virtual bool Cancelled() const { return false; }
 };
 
 }  // namespace lanelight

@@ -73,7 +73,7 @@ TEST_CASE("a render stops once its error is below the target", "[open_ended]") {
     CHECK(r.result.looks <= 24);  // up to 512 units
     CHECK(r.result.samples % (37 * 29) == 0);
     const std::uint64_t done = r.film.Samples(3, 3);
-    CHECK(LookFrom(done, r.film.groups().unit) == done);
+    CHECK(CheckFrom(done, r.film.groups().unit) == done);
     CHECK(r.film.Observations(3, 3) >= 4);
   }
 }

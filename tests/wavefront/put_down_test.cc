@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "src/prepare/tables.h"
-#include "src/wave/patience.h"
+#include "src/wave/time_limit.h"
 #include "src/run/tasks.h"
 #include "src/wave/wavefront.h"
 #include "tests/wavefront/render_fixture.h"
@@ -32,7 +32,7 @@ Shape "trianglemesh"
 struct Watcher : TaskWatcher {
   bool Stopped() const override { return false; }
   void TaskDone() override { ++done; }
-  bool PutsDown() const override { return ++asked > after; }
+  bool Cancelled() const override { return ++asked > after; }
   std::atomic<int> done{0};
   mutable std::atomic<int> asked{0};
   int after = 0;
@@ -61,31 +61,31 @@ Rendered Run(const RunOptions& options) {
 
 }  // namespace
 
-TEST_CASE("patience ends half a second after a stop", "[put_down]") {
-  Patience patience;
-  CHECK_FALSE(patience.IsOver(false, false, 1e9));
-  CHECK_FALSE(patience.IsOver(true, false, 7));
-  patience.Ended(7.4);
-  CHECK_FALSE(patience.IsOver(true, false, 7.4));
-  CHECK(patience.IsOver(true, false, 7.6));
+TEST_CASE("a time limit ends half a second after a stop", "[put_down]") {
+  TimeLimit limit;
+  CHECK_FALSE(limit.IsOver(false, false, 1e9));
+  CHECK_FALSE(limit.IsOver(true, false, 7));
+  limit.Ended(7.4);
+  CHECK_FALSE(limit.IsOver(true, false, 7.4));
+  CHECK(limit.IsOver(true, false, 7.6));
 }
 
-TEST_CASE("patience with a budget waits for the first samples while they come",
+TEST_CASE("a time limit with a budget waits for the first samples while they come",
           "[put_down]") {
-  Patience patience(2);
-  CHECK(patience.Wait() == 2);
-  CHECK_FALSE(patience.IsOver(false, true, 1.9));
-  CHECK_FALSE(patience.IsOver(false, true, 2.4));
-  CHECK(patience.IsOver(false, true, 2.6));
-  CHECK_FALSE(patience.IsOver(false, false, 3.9));
-  CHECK(patience.IsOver(false, false, 4.1));
-  patience.Ended(4.0);
-  CHECK_FALSE(patience.IsOver(false, false, 5.9));
-  CHECK(patience.IsOver(false, false, 6.1));
-  CHECK(Patience(0.1).Wait() == 1);
-  CHECK(Patience(1000).Wait() == 10);
+  TimeLimit limit(2);
+  CHECK(limit.Wait() == 2);
+  CHECK_FALSE(limit.IsOver(false, true, 1.9));
+  CHECK_FALSE(limit.IsOver(false, true, 2.4));
+  CHECK(limit.IsOver(false, true, 2.6));
+  CHECK_FALSE(limit.IsOver(false, false, 3.9));
+  CHECK(limit.IsOver(false, false, 4.1));
+  limit.Ended(4.0);
+  CHECK_FALSE(limit.IsOver(false, false, 5.9));
+  CHECK(limit.IsOver(false, false, 6.1));
+  CHECK(TimeLimit(0.1).Wait() == 1);
+  CHECK(TimeLimit(1000).Wait() == 10);
   // One that goes on after its time.
-  CHECK_FALSE(Patience(2, 50).IsOver(false, false, 51));
+  CHECK_FALSE(TimeLimit(2, 50).IsOver(false, false, 51));
 }
 
 TEST_CASE("a stop puts down paths that do not end, and keeps the others", "[put_down]") {

@@ -24,7 +24,7 @@ struct Rest : RunRecord {
 class Pauser : public RunKeeper {
  public:
   Pauser(Rest& rest, int patience, bool stops)
-      : rest_(rest), patience_(patience), stops_(stops) {}
+      : rest_(rest), limit_(patience), stops_(stops) {}
 
   bool Restore(RunState& state) override {
     if (!rest_.taken) return false;
@@ -32,7 +32,7 @@ class Pauser : public RunKeeper {
     static_cast<RunRecord&>(state) = rest_;
     return true;
   }
-  bool Due() const override { return asked_.fetch_add(1) >= patience_; }
+  bool Due() const override { return asked_.fetch_add(1) >= limit_; }
   void Keep(RunState& state) override {
     rest_ = {state, true, CopyColumns(state.films)};
     kept_ += 1;
@@ -45,7 +45,7 @@ class Pauser : public RunKeeper {
 
  private:
   Rest& rest_;
-  int patience_;
+  int limit_;
   bool stops_;
   mutable std::atomic<int> asked_{0};
   int kept_ = 0;

@@ -11,18 +11,18 @@ namespace lanelight {
 TEST_CASE("looks are the same whatever is needed, whole units, and few", "[schedule]") {
   const std::uint64_t expected[] = {16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96, 112, 128};
   for (std::uint32_t unit : {1u, 2u}) {
-    CHECK(FirstLook(unit) == 16 * unit);
-    CHECK(LooksUpTo(16 * unit - 1, unit) == 0);
+    CHECK(FirstCheck(unit) == 16 * unit);
+    CHECK(ChecksUpTo(16 * unit - 1, unit) == 0);
     std::uint64_t done = 0;
     for (std::uint64_t look : expected) {
-      CHECK(LookFrom(done + 1, unit) == look * unit);
+      CHECK(CheckFrom(done + 1, unit) == look * unit);
       done = look * unit;
-      CHECK(LookFrom(done, unit) == done);
+      CHECK(CheckFrom(done, unit) == done);
     }
-    CHECK(LooksUpTo(done, unit) == std::ssize(expected));
-    CHECK(LooksUpTo(done - 1, unit) == std::ssize(expected) - 1);
+    CHECK(ChecksUpTo(done, unit) == std::ssize(expected));
+    CHECK(ChecksUpTo(done - 1, unit) == std::ssize(expected) - 1);
     for (int i = 0; i < 130; ++i) {
-      const std::uint64_t next = LookFrom(done + 1, unit);
+      const std::uint64_t next = CheckFrom(done + 1, unit);
       REQUIRE(next > done);
       REQUIRE(next <= done + done / 4);
       REQUIRE(next % unit == 0);

@@ -1,12 +1,12 @@
-#include "src/wave/patience.h"
+#include "src/wave/time_limit.h"
 
 #include <algorithm>
 
 namespace lanelight {
 
-double Patience::Wait() const { return std::clamp(budget_, 1.0, 10.0); }
+double TimeLimit::Wait() const { return std::clamp(budget_, 1.0, 10.0); }
 
-bool Patience::IsOver(bool stopped, bool every_pixel, double now) {
+bool TimeLimit::IsOver(bool stopped, bool every_pixel, double now) {
   if (stopped) {
     double first = -1;
     // Whoever sees it first sets it; the others get that.

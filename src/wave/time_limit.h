@@ -1,24 +1,25 @@
-// When tasks in flight are put down: a path may take minutes, or never end (a closed room
-// that absorbs nothing, without roulette). Their samples are not taken, as if they had
-// not begun. Decisions only: no clock and no image, so that tests can play through them.
+// When tasks in flight are cancelled: a path may take minutes, or never end (a closed
+// room that absorbs nothing, without roulette). Their samples are not taken, as if they
+// had not begun. Decisions only: no clock and no image, so that tests can play through
+// them.
 #pragma once
 
 #include <atomic>
 
 namespace lanelight {
 
-class Patience {
+class TimeLimit {
  public:
   /// Seconds that tasks in flight have after a stop; less than what mpirun leaves between
   /// SIGTERM and SIGKILL.
   static constexpr double kAfterStop = 0.5;
 
   /// `budget`: seconds of the run; 0: none. It begins, or goes on, at `now`.
-  explicit Patience(double budget = 0, double now = 0) : budget_(budget), last_(now) {}
+  explicit TimeLimit(double budget = 0, double now = 0) : budget_(budget), last_(now) {}
 
   /// A task has ended, `now` seconds into the run. Safe from any thread, as is the next.
   void Ended(double now) { last_ = now; }
-  /// Whether what is in flight is to be put down. After a stop (`stopped`) or the budget
+  /// Whether what is in flight is to be cancelled. After a stop (`stopped`) or the budget
   /// it has kAfterStop. While pixels have no sample yet (not `every_pixel`), time may be
   /// over without a stop; then tasks go on as long as one ends within Wait().
   bool IsOver(bool stopped, bool every_pixel, double now);
