@@ -7,8 +7,10 @@
 namespace lanelight::extremes {
 namespace {
 
+// Renders into o.exr, or the `image` named.
 ProcessResult Render(const TempDirectory& directory, const std::string& world,
-                     const std::string& strategy = "decide=none") {
+                     const std::string& strategy = "decide=none",
+                     const std::string& image = "o.exr") {
   const std::string scene = WriteText(
       directory / "scene.pbrt",
       "MakeNamedMedium \"m\" \"string type\" \"homogeneous\"\n"
@@ -16,10 +18,23 @@ ProcessResult Render(const TempDirectory& directory, const std::string& world,
       "\"float density\" [0 1e20]\n"
       "Camera \"perspective\"\nWorldBegin\n" +
           world);
-  return RunLanelight({"render", scene, "-o", directory / "o.exr", "--spp", "4",
-                       "--resolution", "8x6", "--quiet", "--strategy", strategy});
+  return RunLanelight({"render", scene, "-o", directory / image, "--spp", "4",
+                       "--resolution", "8x6", "--strategy", strategy});
 }
 
+// What adds nothing to an image changes nothing in it: o.exr is that of the scene
+// without.
+void CheckSameAs(const TempDirectory& directory, const std::string& world,
+                 const std::string& strategy) {
+  REQUIRE(Render(directory, world, strategy, "without.exr").exit_code == kExitGood);
+  const ProcessResult r =
+      RunLanelight({"compare", directory / "o.exr", directory / "without.exr",
+                    "--max-relmse", "1e-9"});
+  INFO(r.out << r.err);
+  CHECK(r.exit_code == kExitGood);
+}
+
+const std::string kSphere = "Shape \"sphere\"\n", kDisk = "Shape \"disk\"\n";
 constexpr const char* kFarTriangle =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
     "\"point3 P\" [0 0 0 1 0 0 0 3.5e38 1]\n";
@@ -31,13 +46,20 @@ TEST_CASE("lights of no size beside their distance", "[cli][extremes]") {
   const TempDirectory directory;
   for (const char* strategy :
        {"light-selection=power", "light-selection=tree", "light-points=solid-angle"}) {
-    for (const char* shape : {"Shape \"sphere\"\n", "Shape \"disk\"\n"}) {
-      const std::string world =
+    for (const std::string& shape : {kSphere, kDisk}) {
+      const std::string near =
           std::string("AreaLightSource \"diffuse\"\nAttributeBegin\nTranslate 0 0 3\n") +
-          shape + "AttributeEnd\nTranslate 1.2 3.5e38 -1\n" + shape;
-      const ProcessResult r = Render(directory, world, strategy);
+          shape + "AttributeEnd\n";
+      const ProcessResult r =
+          Render(directory, near + "Translate 1.2 3.5e38 -1\n" + shape, strategy);
       INFO(strategy << ": " << r.err);
       CHECK(r.exit_code == kExitGood);
+      // Beside it a sphere of radius 1 is left out, which is said.
+      if (shape == kSphere) {
+        CHECK_THAT(r.err, Catch::Contains("scene.pbrt:8:7: note: left out this sphere"));
+      } else {
+        CheckSameAs(directory, near, strategy);
+      }
     }
   }
 }
@@ -56,6 +78,8 @@ TEST_CASE("media of no size beside the scene", "[cli][extremes]") {
         const ProcessResult r = Render(directory, kLamp + interface + rest);
         INFO(size << " " << medium << ": " << r.err);
         CHECK(r.exit_code == kExitGood);
+        if (std::string(size) == "1") continue;  // which is seen
+        CheckSameAs(directory, std::string(kLamp) + rest, "decide=none");
       }
     }
   }
