@@ -73,6 +73,13 @@ HWY_INLINE void StoreWeight(const Wave& wave, const Slots& slots, VI output) {
       .Store(weight != nullptr ? Gather(weight, slots) : Splat(1.0f), output);
 }
 
+HWY_INLINE MF InBuffer(const Wave& wave, VI output) {
+  const DI di;
+  const auto below =
+      hn::Lt(output, hn::Set(di, static_cast<int32_t>(wave.buffer.stride)));
+  return hn::RebindMask(DF(), hn::AndNot(hn::Lt(output, hn::Zero(di)), below));
+}
+
 template <bool kSigned, bool kAov>
 void Accumulate(Wave& wave) {
   const PathColumns& p = wave.path;
@@ -82,6 +89,7 @@ void Accumulate(Wave& wave) {
   ForEachBatch(wave, wave.queue(QueueId::kDone),
                [&](const Slots& slots, MF valid) HWY_ATTR {
                  const VI output = Gather(p.output, slots);
+                 LL_DCHECK(AllUnder(valid, InBuffer(wave, output)));
                  V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
                  if (p.weight != nullptr && !is_light) {
                    sample = Mul(sample, Gather(p.weight, slots));

@@ -20,6 +20,7 @@
 
 #include "kernels/intersect/triangle-inl.h"
 #include "src/accel/accel.h"
+#include "src/core/check.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -119,6 +120,7 @@ LANELIGHT_INLINE uint32_t PushChildren(const WideNode& node, uint32_t bits,
     uint64_t* at = top++;
     for (; at != base && at[-1] < key; --at) *at = at[-1];
     *at = key;
+    LL_DCHECK(at == base || at[-1] >= key);
   } while (bits != 0);
   return static_cast<uint32_t>(best);
 }
@@ -141,6 +143,7 @@ LANELIGHT_INLINE void Traverse(const WideNode* HWY_RESTRICT nodes, uint32_t root
       const uint32_t bits = HitChildren(ray, node, t_max, entry);
       if (bits != 0) {
         ref = PushChildren(node, bits, entry, top);
+        LL_DCHECK(top <= stack + kTraversalStack);
         continue;
       }
     }

@@ -86,6 +86,7 @@ class RayStacks {
       hn::StoreU(hn::BitCast(du, entered.InOrder(refs)), du, refs_ + top + 1);
       top += entered.count();
     }
+    LL_DCHECK(top < rays_->StackEnd(r) + rays_->stride - kDeferred - kLeafTriangles);
     return top;
   }
 
@@ -105,6 +106,7 @@ class RayStacks {
       hn::StoreU(hn::Compress(ref, hn::RebindMask(du, keep)), du, refs_ + kept);
       kept += static_cast<uint32_t>(hn::CountTrue(df, keep));
     }
+    LL_DCHECK(kept > rays_->bottom[r]);  // the end below always stays
     rays_->top[r] = kept - 1;
   }
 

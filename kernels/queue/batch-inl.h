@@ -2,7 +2,10 @@
 #ifndef LANELIGHT_QUEUE_BATCH_INL_H_
 #define LANELIGHT_QUEUE_BATCH_INL_H_
 
+#include <algorithm>
+
 #include "kernels/queue/slots-inl.h"
+#include "src/core/check.h"
 #include "src/path/stage.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -23,6 +26,18 @@ HWY_INLINE void CountBatches(Wave& wave, const Queue& queue) {
   wave.lanes.vectors += (queue.size + lanes - 1) / lanes;
 }
 
+/// Whether all lanes under `mask` fulfil the condition: for LL_DCHECK.
+HWY_INLINE bool AllUnder(MF mask, MF condition) {
+  return hn::AllFalse(DF(), hn::AndNot(condition, mask));
+}
+
+/// Whether the queue has no more than all slots, each of them one of the wave's.
+HWY_INLINE bool HoldsSlots(const Wave& wave, const Queue& queue) {
+  return queue.size <= wave.capacity &&
+         std::all_of(queue.items, queue.items + queue.size,
+                     [&](uint32_t slot) { return slot < wave.capacity; });
+}
+
 /// Calls body(const Slots& slots, MF valid) for each vector of the queue. `valid` marks
 /// the lanes before the end (only pushes to other queues and counts need it). Counts
 /// occupancy.
@@ -31,6 +46,7 @@ HWY_INLINE void ForEachBatch(Wave& wave, const Queue& queue, Body&& body) {
   const DF df;
   const DI di;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(df));
+  LL_DCHECK(HoldsSlots(wave, queue));
   PadTail(queue);
   for (uint32_t i = 0; i < queue.size; i += lanes) {
     const VI slots = hn::LoadU(di, reinterpret_cast<const int32_t*>(queue.items) + i);

@@ -16,6 +16,7 @@ HWY_INLINE const Queue& FilterQueue(Wave& wave, const Queue& queue,
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(df));
   Queue& scratch = wave.queue(QueueId::kScratch);
   scratch.size = 0;
+  LL_DCHECK(HoldsSlots(wave, queue));
   PadTail(queue);
   for (uint32_t i = 0; i < queue.size; i += lanes) {
     const Slots slots(hn::LoadU(DI(), reinterpret_cast<const int32_t*>(queue.items) + i));

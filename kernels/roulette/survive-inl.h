@@ -34,6 +34,7 @@ LANELIGHT_INLINE void PlayRoulette(Wave& wave) {
     MF eligible = hn::And(hn::Lt(s, Splat(1.0f)),
                           hn::RebindMask(DF(), hn::Gt(Gather(p.depth, slots), before)));
     if (p.reuse != nullptr) eligible = hn::AndNot(LeavesFirst(p, slots), eligible);
+    LL_DCHECK(AllUnder(hn::And(valid, eligible), hn::Gt(s, hn::Zero(DF()))));
     s = hn::IfThenElse(eligible, s, Splat(1.0f));
     const MF survives = hn::Lt(Gather(p.u_roulette, slots), s);
     const V3 scaled = Mul(beta, hn::Div(Splat(1.0f), s));

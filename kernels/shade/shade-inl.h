@@ -37,6 +37,11 @@ HWY_INLINE MF CarriesLight(V3 c) {
                  hn::Ge(hn::Min(c.x, hn::Min(c.y, c.z)), hn::Zero(DF())));
 }
 
+/// True if the vector has length 1, but for roundings.
+HWY_INLINE MF IsUnit(V3 d) {
+  return hn::Lt(hn::Abs(hn::Sub(Dot(d, d), Splat(1.0f))), Splat(1e-4f));
+}
+
 /// Surfaces as their material sees them. Where normals, tangents and parameters come from
 /// is loop-invariant and read through pointers that are the same for every path.
 template <class Bsdf>
@@ -174,6 +179,9 @@ struct Shader : SurfaceReader<Bsdf> {
         Scatter3(facing, path.start_n_x, path.start_n_y, path.start_n_z, slots);
       }
     }
+    LL_DCHECK(AllUnder(alive, IsUnit(d)));
+    // Walks through coats weigh by a density of their own, which may be 0 here.
+    LL_DCHECK(AllUnder(alive, hn::Ge(sample.pdf, hn::Zero(DF()))));
     const V3 carried = IfThenElseZero(alive, Mul(at.beta, sample.weight));
     Scatter3(o, path.o_x, path.o_y, path.o_z, slots);
     Scatter3(d, path.d_x, path.d_y, path.d_z, slots);

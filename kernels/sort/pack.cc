@@ -50,6 +50,7 @@ void Pack(Wave& wave) {
   Queue& live = wave.queue(QueueId::kScattered);
   Queue& free = wave.queue(QueueId::kFree);
   PadTail(live);
+  LL_DCHECK(HoldsSlots(wave, live));
   const uint32_t end = EndOf(live);
   uint32_t* marks = wave.queue(QueueId::kScratch).items;
   Mark(live, end, marks);

@@ -23,15 +23,17 @@ void Route(Wave& wave) {
   }
   ForEachBatch(wave, vertices, [&](const Slots& slots, MF valid) HWY_ATTR {
     const VI kind = Lookup(m.kind, Gather(wave.path.material, slots));
-    MF lit = hn::FirstN(DF(), 0);
+    MF lit = hn::FirstN(DF(), 0), routed = lit;
     for (int k = 0; k < num_kinds; ++k) {
       const MF mine = hn::And(
           valid, hn::RebindMask(
                      DF(), hn::Eq(kind, hn::Set(di, static_cast<int32_t>(kinds[k])))));
       Push(wave.queue(ShadeQueue(kinds[k])), slots, mine);
+      routed = hn::Or(routed, mine);
       // Light samples are of no use to delta directions.
       if (!HasTrait(kinds[k], kSpecularOnly)) lit = hn::Or(lit, mine);
     }
+    LL_DCHECK(AllUnder(valid, routed));
     // At once, so that the queue keeps the order of the slots.
     if (kLights) Push(wave.queue(QueueId::kLit), slots, lit);
   });

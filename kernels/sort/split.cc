@@ -3,8 +3,18 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
+#include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
+
+// Whether what was found is a distance ahead of the ray and a primitive of the scene.
+HWY_INLINE MF IsHit(const Wave& wave, const Slots& slots) {
+  const VI prim = Gather(wave.path.prim, slots);
+  const VI end = hn::Set(DI(), static_cast<int32_t>(wave.scene->geometry.ranges.end));
+  const auto known = hn::AndNot(hn::Lt(prim, hn::Zero(DI())), hn::Lt(prim, end));
+  return hn::And(hn::Ge(Gather(wave.path.t, slots), hn::Zero(DF())),
+                 hn::RebindMask(DF(), known));
+}
 
 template <bool kEnvironment>
 void Split(Wave& wave) {
@@ -13,6 +23,7 @@ void Split(Wave& wave) {
   ForEachBatch(wave, active, [&](const Slots& slots, MF valid) HWY_ATTR {
     const MF hit =
         hn::Lt(Gather(wave.path.t, slots), Splat(std::numeric_limits<float>::infinity()));
+    LL_DCHECK(AllUnder(hit, IsHit(wave, slots)));
     Push(wave.queue(QueueId::kHit), slots, hn::And(valid, hit));
     const MF miss = hn::AndNot(hit, valid);
     if constexpr (kEnvironment) Push(wave.queue(QueueId::kMiss), slots, miss);
