@@ -1,132 +1,211 @@
-// `lanelight compare A B`: how far image A is from image B.
+// `lanelight compare A B [C...]`: how far images are from the last of them.
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "src/cli/commands.h"
+#include "src/cli/compare_text.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/render_outputs.h"
 #include "src/cli/validators.h"
+#include "src/compare/comparison_page.h"
+#include "src/compare/comparison_sheet.h"
 #include "src/core/error.h"
 #include "src/core/json_text.h"
+#include "src/image/color_channels.h"
+#include "src/image/png.h"
 #include "src/render/machine_json.h"
 #include "src/render/report.h"
-#include "src/estimate/metrics.h"
-#include "src/image/color_channels.h"
+#include "src/render/saving.h"
 
 namespace lanelight {
 namespace {
 
 struct CompareCommandOptions {
-  std::string test, reference;
-  bool exact_reference = false, json = false;
+  std::string first, second;
+  std::vector<std::string> more;
+  ComparisonOptions comparison;
+  std::string html, png;
+  bool json = false;
   std::optional<double> max_relmse;
+
+  // The last one is the reference.
+  std::vector<std::string> Paths() const {
+    std::vector<std::string> all = {first, second};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
 };
-
-// An exact reference has no noise: what it says of its variance is not used.
-void ForgetVariance(Image& image) {
-  constexpr std::string_view kPrefix = "variance.";
-  for (std::string& name : image.names) {
-    if (name.rfind(kPrefix, 0) == 0) name = "unused." + name;
-  }
-}
-
-std::string ChannelText(const CompareResult& r) {
-  std::string text;
-  for (std::size_t c = 0; c < r.channels.size(); ++c) {
-    text += fmt::format("mean {:<9} {:.6g} against {:.6g}, ratio {:.5f}\n", r.channels[c],
-                        r.mean_test[c], r.mean_reference[c], r.mean_ratio[c]);
-  }
-  return text;
-}
-
-std::string ZText(const ZScores& z) {
-  if (!z.available) return "z-scores       none: no image carries variances\n";
-  return fmt::format(
-      "z-scores       mean {:.3f}, deviation {:.3f}, |z|>2: {:.2f} %, |z|>3: {:.2f} % "
-      "(noise alone: 0, 1, 4.55 %, 0.27 %)\n"
-      "               {} values; {} equal without variance, {} different without "
-      "variance, "
-      "{} with an invalid variance\n",
-      z.mean, z.standard_deviation, 100 * z.beyond_2, 100 * z.beyond_3, z.count, z.exact,
-      z.mismatched, z.invalid);
-}
-
-std::string Text(const CompareResult& r) {
-  return fmt::format("size           {}x{}, {} values compared\n", r.width, r.height,
-                     r.samples) +
-         fmt::format("invalid values {} and {}\n", r.invalid_test, r.invalid_reference) +
-         fmt::format("MSE            {:.6g}\nRMSE           {:.6g}\n", r.mse, r.rmse) +
-         fmt::format("relative MSE   {:.6g} (without the worst 0.1 %: {:.6g})\n",
-                     r.relmse, r.relmse_trimmed) +
-         fmt::format("  after filters of 2, 4, 8 pixels: {:.6g}\n",
-                     fmt::join(r.relmse_filtered, ", ")) +
-         fmt::format("MAE            {:.6g}\nMAPE           {:.4g} %\n", r.mae,
-                     100 * r.mape) +
-         fmt::format("PSNR           {:.2f} dB\n", r.psnr) + ChannelText(r) +
-         fmt::format("tile rel. MSE  median {:.3g}, largest {:.3g}\n",
-                     r.tile_relmse_median, r.tile_relmse_max) +
-         ZText(r.z);
-}
 
 // Invalid values in either image cannot pass a limit.
 bool OverLimit(const CompareResult& r, double limit) {
   return !(r.relmse <= limit) || r.invalid_test > 0 || r.invalid_reference > 0;
 }
 
-Image ReadColored(const std::string& path) {
-  Image image = ReadImage(path);
-  if (!ColorChannels(image)) throw InputError(path + ": " + NoColorChannels(image));
+NamedImage ReadColored(const std::string& path) {
+  NamedImage image = {path, ReadImage(path)};
+  if (!ColorChannels(image.image)) {
+    throw InputError(path + ": " + NoColorChannels(image.image));
+  }
   return image;
 }
 
-int Compare(const CompareCommandOptions& options) {
-  const Image test = ReadColored(options.test);
-  Image reference = ReadColored(options.reference);
-  if (options.exact_reference) ForgetVariance(reference);
-  const CompareResult result = CompareImages(test, reference);
-  const bool over = options.max_relmse && OverLimit(result, *options.max_relmse);
-  if (options.json) {
-    nlohmann::json out = ToJson(result);
-    out["schema"] = kReportSchema;
-    out["machine"] = ToJson(ThisMachine());
-    out["over_limit"] = over;
-    Print(DumpJson(out, 2) + "\n");
-  } else {
-    Print(Text(result));
+// An image against the reference, with the path in what is wrong with them.
+ImageComparison CompareFiles(const NamedImage& test, const NamedImage& reference,
+                             const ComparisonOptions& options) {
+  try {
+    return Compare(test, reference, options);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{} and {}: {}", test.name, reference.name, error.message()));
   }
-  if (!over) return kExitGood;
-  PrintError(
-      fmt::format("over the limit: relative MSE {:.6g} (limit {:.6g}), {} invalid values",
-                  result.relmse, *options.max_relmse,
-                  result.invalid_test + result.invalid_reference));
-  return kExitOverLimit;
+}
+
+// Of two images the object is what is said of them; of more it is a list.
+std::string JsonText(const std::vector<ImageComparison>& comparisons,
+                     const std::vector<bool>& over) {
+  nlohmann::json all = nlohmann::json::array();
+  for (std::size_t i = 0; i < comparisons.size(); ++i) {
+    all.push_back(ToJson(comparisons[i]));
+    all.back()["over_limit"] = bool(over[i]);
+  }
+  nlohmann::json out =
+      all.size() == 1 ? all[0] : nlohmann::json{{"comparisons", std::move(all)}};
+  out["schema"] = kReportSchema;
+  out["machine"] = ToJson(ThisMachine());
+  return DumpJson(out, 2) + "\n";
+}
+
+std::string Texts(const std::vector<ImageComparison>& comparisons) {
+  if (comparisons.size() == 1) return ComparisonText(comparisons[0]);
+  std::string text;
+  for (const ImageComparison& c : comparisons) {
+    text += fmt::format("{}{} against {}\n{}", text.empty() ? "" : "\n", c.test,
+                        c.reference, ComparisonText(c));
+  }
+  return text;
+}
+
+// Writes the page and the picture. False, with a message, if one could not be written.
+bool Save(const CompareCommandOptions& options, const std::vector<NamedImage>& tests,
+          const NamedImage& reference, const std::vector<ImageComparison>& comparisons) {
+  Saver saver;
+  if (!options.html.empty()) {
+    saver.SaveText(options.html, ComparisonPage(tests, reference, comparisons));
+  }
+  if (options.png.empty()) return PrintProblems(saver.problems());
+  std::vector<SheetRow> rows;
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    rows.push_back({tests[i], reference, comparisons[i]});
+  }
+  const ComparisonSheet sheet = SheetOf(rows);
+  std::string path = options.png;
+  saver.Save(path, [&](const std::string& to) { WritePng(to, sheet.image); });
+  if (!options.json) Print(fmt::format("{}: {}\n", path, SheetText(sheet)));
+  return PrintProblems(saver.problems());
+}
+
+int ExitCode(const CompareCommandOptions& options,
+             const std::vector<ImageComparison>& comparisons,
+             const std::vector<bool>& over) {
+  int code = kExitGood;
+  for (std::size_t i = 0; i < comparisons.size(); ++i) {
+    if (!over[i]) continue;
+    const CompareResult& r = comparisons[i].metrics;
+    PrintError(fmt::format(
+        "{}over the limit: relative MSE {:.6g} (limit {:.6g}), {} invalid values",
+        comparisons.size() > 1 ? comparisons[i].test + ": " : "", r.relmse,
+        *options.max_relmse, r.invalid_test + r.invalid_reference));
+    code = kExitOverLimit;
+  }
+  return code;
+}
+
+int Compare(CompareCommandOptions options) {
+  const std::vector<std::string> paths = options.Paths();
+  CheckOutputPaths({{options.html, options.png}}, {paths.begin(), paths.end()});
+  options.comparison.flip |= !options.html.empty() || !options.png.empty();
+  const NamedImage reference = ReadColored(paths.back());
+  std::vector<NamedImage> tests;
+  std::vector<ImageComparison> comparisons;
+  std::vector<bool> over;
+  for (std::size_t i = 0; i + 1 < paths.size(); ++i) {
+    tests.push_back(ReadColored(paths[i]));
+    comparisons.push_back(CompareFiles(tests.back(), reference, options.comparison));
+    over.push_back(options.max_relmse &&
+                   OverLimit(comparisons.back().metrics, *options.max_relmse));
+    // Only the page and the picture want all images at once.
+    if (options.html.empty() && options.png.empty()) tests.clear();
+  }
+  Print(options.json ? JsonText(comparisons, over) : Texts(comparisons));
+  if (!Save(options, tests, reference, comparisons)) return kExitBadInput;
+  return ExitCode(options, comparisons, over);
+}
+
+// Before a word after it, most likely an image, is written over.
+auto EndsIn(const std::string& extension) {
+  return [extension](const std::string& path) {
+    return path.ends_with(extension)
+               ? std::string()
+               : fmt::format("'{}' does not end in {}", path, extension);
+  };
+}
+
+void AddCompareOptions(CLI::App& command, CompareCommandOptions& options) {
+  command.add_option("A", options.first, "Image under test (EXR, PFM, HDR, PNG, ...)")
+      ->required()
+      ->type_name("");
+  command.add_option("B", options.second, "Image it should equal")
+      ->required()
+      ->type_name("");
+  command
+      .add_option("C", options.more,
+                  "More images, of which all should equal the last one, the reference; "
+                  "default: B is the reference")
+      ->type_name("");
+  command.add_flag("--reference", options.comparison.exact_reference,
+                   "The last image is exact: noise is that of the others alone");
+  command
+      .add_option("--max-relmse", options.max_relmse,
+                  "Exit with 4 if a relative MSE exceeds this, or a value is invalid")
+      ->transform(ValueFrom(0.0, 1e30))
+      ->type_name("X");
+  command.add_flag("--flip", options.comparison.flip,
+                   "Compute FLIP as well (--html and --png do)");
+  command
+      .add_option("--ppd", options.comparison.pixels_per_degree,
+                  "Pixels in a degree of the eye's field, for FLIP; default: 67.02, a "
+                  "screen 0.7 m wide of 3840 pixels, seen from 0.7 m")
+      ->transform(ValueFrom(1.0, 1000.0))
+      ->type_name("X");
+  command
+      .add_option("--html", options.html,
+                  "Write a page to look at the images and their differences")
+      ->check(EndsIn(".html"))
+      ->type_name("FILE");
+  command
+      .add_option("--png", options.png,
+                  "Write a picture of the images, their differences and FLIP, a row for "
+                  "each image")
+      ->check(EndsIn(".png"))
+      ->type_name("FILE");
+  command.add_flag("--json", options.json, "Print JSON");
 }
 
 }  // namespace
 
 void AddCompareCommand(CLI::App& root, Command& chosen) {
   CLI::App* command =
-      root.add_subcommand("compare", "Measure how far image A is from image B");
+      root.add_subcommand("compare", "Measure how far images are from a reference");
   auto options = std::make_shared<CompareCommandOptions>();
-  command->add_option("A", options->test, "Image under test (EXR, PFM, HDR, PNG, ...)")
-      ->required()
-      ->type_name("");
-  command->add_option("B", options->reference, "Image it should equal")
-      ->required()
-      ->type_name("");
-  command->add_flag("--reference", options->exact_reference,
-                    "B is exact: z-scores use the variance of A alone");
-  command
-      ->add_option("--max-relmse", options->max_relmse,
-                   "Exit with 4 if the relative MSE exceeds this, or a value is invalid")
-      ->transform(ValueFrom(0.0, 1e30))
-      ->type_name("X");
-  command->add_flag("--json", options->json, "Print JSON");
+  AddCompareOptions(*command, *options);
   command->footer(
       "\nRelative MSE is the mean of (a-b)^2 / (b^2 + 0.01) over pixels and channels.\n"
-      "\nExample:\n  lanelight compare box.exr converged.exr --reference --max-relmse "
-      "0.01");
+      "docs/compare.md says what all measures mean.\n"
+      "\nExamples:\n"
+      "  lanelight compare box.exr converged.exr --reference --max-relmse 0.01\n"
+      "  lanelight compare mis.exr guided.exr converged.exr --html compare.html");
   command->callback(
       [options, &chosen] { chosen = [options] { return Compare(*options); }; });
 }

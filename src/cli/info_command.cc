@@ -1,4 +1,5 @@
-// `lanelight info`: what this build uses on this machine.
+// `lanelight info`: what this build uses on this machine, or what an image says of
+// itself.
 #include <CLI/Version.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "src/cli/console.h"
 #include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/image_info.h"
 #include "src/cli/scene_options.h"
 #include "src/core/json_text.h"
 #include "src/core/parallel.h"
@@ -21,6 +23,7 @@ namespace {
 
 struct InfoOptions {
   RenderSettings settings;
+  std::string image;
   bool json = false, format = false;
 };
 
@@ -55,12 +58,26 @@ std::string JsonText(const RenderSettings& settings) {
   return DumpJson(out, 2) + "\n";
 }
 
+int PrintImageInfo(const InfoOptions& options) {
+  nlohmann::json info = ImageInfoJson(options.image);
+  info["schema"] = kReportSchema;
+  Print(options.json ? DumpJson(info, 2) + "\n" : ImageInfoText(info));
+  return kExitGood;
+}
+
 }  // namespace
 
 void AddInfoCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
-      "info", "Print the machine, the SIMD target, threads, and versions of libraries");
+      "info",
+      "Print the machine, the SIMD target, threads, and versions of libraries; "
+      "or what an image says of itself");
   auto options = std::make_shared<InfoOptions>();
+  command
+      ->add_option("IMAGE", options->image,
+                   "Print what this file says of itself: size, channels, error, samples, "
+                   "strategy, scene, settings; default: print what this build is")
+      ->type_name("");
   AddSetting(*command, "target", options->settings)
       ->description(WithDefault("SIMD target to show", "the best there is"));
   AddSetting(*command, "threads", options->settings);
@@ -70,16 +87,18 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
                     "file format, as Markdown");
   command->footer(
       "\nExamples:\n  lanelight info --target AVX2\n"
+      "  lanelight info out.exr\n"
       "  lanelight info --format");
   command->callback([options, &chosen] {
     chosen = [options] {
+      if (!options->image.empty()) return PrintImageInfo(*options);
       if (options->format) {
         Print(std::string(FormatDocument()));
-        return kExitGood;
+        return int(kExitGood);
       }
       const RenderSettings& settings = options->settings;
       Print(options->json ? JsonText(settings) : Text(settings));
-      return kExitGood;
+      return int(kExitGood);
     };
   });
 }

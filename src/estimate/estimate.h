@@ -5,15 +5,13 @@
 #include <functional>
 #include <string>
 
+#include "src/compare/relative_error.h"
 #include "src/core/vec.h"
 #include "src/image/accumulator.h"
 #include "src/image/pixel_rect.h"
 #include "src/stat/interval.h"
 
 namespace lanelight {
-
-/// Added to the squared mean in the relative error, as in src/estimate/metrics.h.
-inline constexpr double kRelativeEpsilon = 0.01;
 
 /// Estimates of what `lanelight compare` would measure against the converged image, with
 /// intervals that contain it with probability kEstimateConfidence.

@@ -1,53 +1,19 @@
 #include <ImfChannelList.h>
-#include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputFile.h>
-#include <ImfIntAttribute.h>
-#include <ImfStringAttribute.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "src/core/error.h"
 #include "src/core/input_file.h"
 #include "src/image/exr.h"
+#include "src/image/exr_input.h"
 
 namespace lanelight {
 namespace {
-
-// A reason, to which ReadWithPath adds the path.
-struct Damaged : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-// An EXR file in memory, so that the system's errors are told from the format's.
-class MemoryInput : public Imf::IStream {
- public:
-  MemoryInput(const std::string& path, const std::string& content)
-      : Imf::IStream(path.c_str()), content_(content) {}
-
-  bool read(char c[], int n) override {
-    if (n < 0 || static_cast<std::size_t>(n) > content_.size() - at_) {
-      throw Damaged("the image file is truncated");
-    }
-    std::memcpy(c, content_.data() + at_, static_cast<std::size_t>(n));
-    at_ += static_cast<std::size_t>(n);
-    return at_ < content_.size();
-  }
-  std::uint64_t tellg() override { return at_; }
-  void seekg(std::uint64_t to) override {
-    if (to > content_.size()) throw Damaged("the image file is truncated");
-    at_ = to;
-  }
-
- private:
-  const std::string& content_;
-  std::size_t at_ = 0;
-};
 
 std::vector<std::string> ChannelsOf(const Imf::Header& header) {
   std::vector<std::string> names;
@@ -66,31 +32,16 @@ void CheckChannels(const Imf::Header& header, const std::vector<std::string>& wa
   for (const std::string& name : wanted) {
     const Imf::Channel* channel = header.channels().findChannel(name);
     if (!channel) {
-      throw Damaged(fmt::format("no channel \"{}\"; the file has {}", name,
-                                fmt::join(ChannelsOf(header), ", ")));
+      throw DamagedExr(fmt::format("no channel \"{}\"; the file has {}", name,
+                                   fmt::join(ChannelsOf(header), ", ")));
     }
     if (channel->xSampling != 1 || channel->ySampling != 1) {
-      throw Damaged(fmt::format(
+      throw DamagedExr(fmt::format(
           "channel \"{}\" is subsampled, which is not supported; the file has "
           "{}",
           name, fmt::join(ChannelsOf(header), ", ")));
     }
   }
-}
-
-std::map<std::string, ImageAttribute> AttributesOf(const Imf::Header& header) {
-  std::map<std::string, ImageAttribute> attributes;
-  for (auto it = header.begin(); it != header.end(); ++it) {
-    const Imf::Attribute& attribute = it.attribute();
-    if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
-      attributes[it.name()] = s->value();
-    } else if (const auto* f = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) {
-      attributes[it.name()] = static_cast<double>(f->value());
-    } else if (const auto* i = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
-      attributes[it.name()] = i->value();
-    }
-  }
-  return attributes;
 }
 
 // The best compression of OpenEXR stores fewer samples than this per byte of file; more
@@ -99,7 +50,7 @@ constexpr std::size_t kMaxSamplesPerByte = 4096;
 
 Image Read(const std::string& path, const std::string& content,
            const std::vector<std::string>* wanted) {
-  MemoryInput stream(path, content);
+  ExrMemoryInput stream(path, content);
   Imf::InputFile file(stream);
   const Imf::Header& header = file.header();
   const Imath::Box2i window = header.dataWindow();
@@ -107,14 +58,14 @@ Image Read(const std::string& path, const std::string& content,
   const long long height = 1LL + window.max.y - window.min.y;
   CheckImageSize(path, width, height);
   const std::vector<std::string> names = wanted ? *wanted : ChannelsOf(header);
-  if (names.empty()) throw Damaged("the file has no channels");
+  if (names.empty()) throw DamagedExr("the file has no channels");
   CheckChannels(header, names);
   const std::size_t samples = names.size() * static_cast<std::size_t>(width * height);
   if (samples / kMaxSamplesPerByte > content.size()) {
-    throw Damaged("the image file is truncated");
+    throw DamagedExr("the image file is truncated");
   }
   Image image = MakeImage(static_cast<int>(width), static_cast<int>(height), names);
-  image.attributes = AttributesOf(header);
+  image.attributes = ExrAttributes(header);
   Imf::FrameBuffer buffer;
   for (std::size_t c = 0; c < names.size(); ++c) {
     buffer.insert(names[c], Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window,
@@ -124,14 +75,6 @@ Image Read(const std::string& path, const std::string& content,
   file.setFrameBuffer(buffer);
   file.readPixels(window.min.y, window.max.y);
   return image;
-}
-
-// What OpenEXR says of an error is meant for programmers.
-std::string Why(const std::exception& error, const std::string& content) {
-  if (dynamic_cast<const Damaged*>(&error) != nullptr) return error.what();
-  return content.starts_with("\x76\x2f\x31\x01")
-             ? "it is damaged, or of a kind that OpenEXR does not read"
-             : "it is not an EXR file";
 }
 
 Image ReadWithPath(const std::string& path, const std::vector<std::string>* wanted) {
@@ -144,7 +87,7 @@ Image ReadWithPath(const std::string& path, const std::vector<std::string>* want
     throw;
   } catch (const std::exception& error) {
     throw InputError(
-        fmt::format("{}: cannot read the EXR file: {}", path, Why(error, content)));
+        fmt::format("{}: cannot read the EXR file: {}", path, WhyNotExr(error, content)));
   }
 }
 

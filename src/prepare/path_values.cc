@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/compare/relative_error.h"
 #include "src/core/check.h"
 
 namespace lanelight {
@@ -15,8 +16,6 @@ constexpr double kBorrowed = 8;
 // Of the mean of all cells, what a cell is worth at least: a short pilot pass may have
 // missed what lights it.
 constexpr double kLeastValue = 0.1;
-// kRelativeEpsilon of src/estimate/estimate.h, which builds on this part of the library.
-constexpr double kErrorEpsilon = 0.01;
 
 CellGrid Coarser(const CellGrid& fine) {
   CellGrid coarse;
@@ -127,7 +126,7 @@ ImageGuess::ImageGuess(std::uint32_t width, std::uint32_t height,
     }
     sum.count += 1;
   }
-  epsilon_ = std::min(kErrorEpsilon, Mean() * Mean() / 4);
+  epsilon_ = std::min(kRelativeEpsilon, Mean() * Mean() / 4);
   Blur(sums);
 }
 

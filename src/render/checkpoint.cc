@@ -179,7 +179,8 @@ std::function<void()> Checkpoint::Watch(RunState& state) const {
   film.FitControl();
   auto planes =
       std::make_shared<std::vector<ExrPlane>>(FilmPlanes(film, job_.scene.scale));
-  const ExrOptions options = OutputOptions(identity_, state.counts, film, /*half=*/false);
+  const ExrOptions options =
+      OutputOptions(identity_, head_, state.counts, film, /*half=*/false);
   return [path = settings_.watch, planes, options, width = film.width(),
           height = film.height()] { WriteExr(path, width, height, *planes, options); };
 }

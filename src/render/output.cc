@@ -119,10 +119,25 @@ void NoteError(const FilmAccumulator& film, ExrOptions& options) {
   }
 }
 
+// What variances of pixels rest on: as many observations as the pixel with the fewest
+// has.
+void NoteObservations(const FilmAccumulator& film, ExrOptions& options) {
+  constexpr std::uint64_t kMost = 1 << 30;
+  std::uint64_t least = kMost;
+  FillPixels(film, [&](std::size_t, int x, int y) {
+    if (film.HasVariance(x, y)) least = std::min(least, film.Observations(x, y));
+  });
+  if (least < kMost) options.attributes[kObservations] = static_cast<int>(least);
+  if (film.groups().dependents > 1) {
+    options.attributes[kDependentPixels] = film.groups().dependents;
+  }
+}
+
 }  // namespace
 
-ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts,
-                         const FilmAccumulator& film, bool half) {
+ExrOptions OutputOptions(const nlohmann::json& identity, const nlohmann::json& head,
+                         const RunCounts& counts, const FilmAccumulator& film,
+                         bool half) {
   const std::array<int, 4> crop = identity.at("crop");
   const std::array<int, 2> resolution = identity.at("resolution");
   const std::string strategy = identity.at("strategy");
@@ -142,7 +157,15 @@ ExrOptions OutputOptions(const nlohmann::json& identity, const RunCounts& counts
   options.attributes["strategy"] = "path, " + strategy;
   options.attributes["version"] = identity.at("version").get<std::string>();
   options.attributes["sceneHash"] = identity.at("scene_hash").get<std::string>();
+  nlohmann::json settings = identity;
+  for (const char* apart : {"seed", "strategy", "version", "scene_hash"}) {
+    settings.erase(apart);
+  }
+  options.attributes["settings"] = DumpJson(settings);
+  const nlohmann::json machine = head.value("machine", nlohmann::json());
+  if (!machine.is_null()) options.attributes["machine"] = machine.value("text", "");
   NoteError(film, options);
+  NoteObservations(film, options);
   NoteVarianceUnit(film, options);
   return options;
 }

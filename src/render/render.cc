@@ -23,7 +23,8 @@ void SaveImages(const FilmAccumulator& film, const RenderFacts& facts,
   report.exr = targets.exr;
   saver.Save(report.exr, [&](const std::string& path) {
     WriteExr(path, film.width(), film.height(), FilmPlanes(film, facts.scale),
-             OutputOptions(facts.identity, report.result, film, targets.image.half));
+             OutputOptions(facts.identity, facts.head, report.result, film,
+                           targets.image.half));
   });
   report.png = targets.png;
   saver.Save(report.png, [&](const std::string& path) {

@@ -18,8 +18,12 @@ PAGES = {
     "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv"},
              "images",
              f"""dom format data view strategies whisker table hero warnings summary ranking
-             ranking_columns {PLOTS} calibration tone picture pan pane comparator controls
-             readout figures insets maps stages levels glossary main"""),
+             ranking_columns {PLOTS} calibration tone picture pan pane difference comparator
+             controls readout figures insets maps stages levels glossary main"""),
+    "ComparePage": ({"NAME": "compare", "TABS": "Images",
+                     "FILES": "what compare --json prints"}, "images",
+                    """dom format data view tone picture pan pane difference comparator controls
+                    readout maps histogram compare_tiles compare_numbers compare_main"""),
     "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv"}, "sweep",
                   f"""dom format data view strategies whisker table {PLOTS} stages
                   sweep_cells sweep_choice sweep_lines sweep_plots sweep_stages sweep_table

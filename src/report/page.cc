@@ -95,6 +95,16 @@ void AppendImage(const ReportImage& image, std::string& page) {
   page += "</script>\n";
 }
 
+std::string WithImages(std::string page, const nlohmann::json& data,
+                       const std::vector<ReportImage>& images, const std::string& tail) {
+  std::size_t values = 0;
+  for (const ReportImage& image : images) values += image.values.size();
+  page.reserve(page.size() + values * 8 / 3 + (1 << 20));
+  page += DataBlock(data);
+  for (const ReportImage& image : images) AppendImage(image, page);
+  return page + tail;
+}
+
 }  // namespace
 
 std::uint16_t ToHalfBits(float value) {
@@ -105,14 +115,12 @@ std::uint16_t ToHalfBits(float value) {
 
 std::string ReportPage(const nlohmann::json& study,
                        const std::vector<ReportImage>& images) {
-  std::size_t values = 0;
-  for (const ReportImage& image : images) values += image.values.size();
-  std::string page = PageHead();
-  page.reserve(page.size() + values * 8 / 3 + (1 << 20));
-  page += DataBlock(study);
-  for (const ReportImage& image : images) AppendImage(image, page);
-  page += PageTail();
-  return page;
+  return WithImages(PageHead(), study, images, PageTail());
+}
+
+std::string ComparisonReportPage(const nlohmann::json& comparisons,
+                                 const std::vector<ReportImage>& images) {
+  return WithImages(ComparePageHead(), comparisons, images, ComparePageTail());
 }
 
 std::string SweepReportPage(const nlohmann::json& sweep) {

@@ -1,5 +1,5 @@
-// The reports of studies, sweeps and stress cases: one HTML file each, with styles,
-// scripts, numbers and images in it.
+// The reports of studies, comparisons, sweeps and stress cases: one HTML file each, with
+// styles, scripts, numbers and images in it.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,11 @@ struct ReportImage {
 /// value, and a third more by base64.
 std::string ReportPage(const nlohmann::json& study,
                        const std::vector<ReportImage>& images);
+
+/// The page of `lanelight compare`, of the numbers that docs/compare.md names, and of
+/// maps by the names that it has for them; otherwise like ReportPage().
+std::string ComparisonReportPage(const nlohmann::json& comparisons,
+                                 const std::vector<ReportImage>& images);
 
 /// The page of a sweep, laid out as docs/sweep.md says; otherwise like ReportPage().
 std::string SweepReportPage(const nlohmann::json& sweep);

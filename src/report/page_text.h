@@ -9,6 +9,9 @@ namespace lanelight {
 std::string PageHead();  // from the doctype to where the data goes
 std::string PageTail();  // the scripts, to the end of the document
 
+std::string ComparePageHead();  // the same of the page of comparisons
+std::string ComparePageTail();
+
 std::string SweepPageHead();  // the same of a sweep's page
 std::string SweepPageTail();
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "src/compare/tile_test.h"
 #include "src/report/page.h"
 #include "src/stat/convergence.h"
 #include "src/stat/efficiency.h"
@@ -62,7 +63,7 @@ struct LevelAnalysis {
 
 /// Test of equal means by tile.
 struct TileTest {
-  int side = 0, columns = 0, rows = 0;
+  TileLayout layout;
   std::vector<double> z;  // signed, normal if the means are equal; NaN: not testable
   /// By Holm's correction over the tiles; after TestBias without those that are `shared`.
   std::vector<std::size_t> failed;
@@ -128,19 +129,12 @@ struct SceneAnalysis {
 /// strategy counts as heavy-tailed: a few pixels then decide the mean.
 inline constexpr double kHeavyTail = 0.3;
 
-/// Probability that a scene's tests of bias, or those of the tiles of one strategy, raise
-/// any false alarm.
-inline constexpr double kBiasLevel = 1e-3;
-
 /// Names that a reader takes in.
 inline constexpr std::size_t kMostNames = 4;
 
 /// Share of the reference's own error above which it would decide whether an interval
 /// holds.
 inline constexpr double kMostReferenceShare = 0.1;
-
-/// Relative differences of means up to this are rounding of pixels to float.
-inline constexpr double kFloatRounding = 1e-6;
 
 /// Analyses a scene, reading its cells from the disk, and collects the images.
 SceneAnalysis AnalyseScene(const SceneRuns& runs, const StudyOptions& options,

@@ -8,6 +8,7 @@
 #include "src/core/parallel.h"
 #include "src/core/stopwatch.h"
 #include "src/image/atomic_file.h"
+#include "src/report/shrink.h"
 #include "src/study/study_images.h"
 
 namespace lanelight {

@@ -18,13 +18,6 @@ void AddStrategyImages(const SceneRuns& runs, std::size_t index, const Cells& ce
 void AddSceneImages(const SceneRuns& runs, SceneAnalysis& analysis,
                     std::vector<ReportImage>& images);
 
-/// Values that a report holds at most: about 90 MB of text. More take a browser too long.
-inline constexpr std::size_t kReportValues = 32'000'000;
-
-/// Averages blocks of pixels in all images so that no more than `most` values are left.
-/// Returns the side of a block; 1 if nothing had to be done.
-int ShrinkImages(std::vector<ReportImage>& images, std::size_t most);
-
 /// "paper-plain", "points-sobol-pairs-antithetic": for file names.
 std::string Slug(const std::string& text);
 

@@ -74,18 +74,10 @@ Json StagesJson(const std::vector<StageProfile>& stages) {
 
 Json TilesJson(const std::optional<TileTest>& tiles) {
   if (!tiles) return nullptr;
-  Json z = Json::array();
-  for (int row = 0; row < tiles->rows; ++row) {
-    z.push_back(Json::array());
-    for (int column = 0; column < tiles->columns; ++column) {
-      const std::size_t i = static_cast<std::size_t>(row) * tiles->columns + column;
-      z.back().push_back(NumberJson(tiles->z[i]));
-    }
-  }
-  return {{"side", tiles->side},     {"columns", tiles->columns},
-          {"rows", tiles->rows},     {"z", z},
-          {"failed", tiles->failed}, {"shared", tiles->shared},
-          {"level", tiles->level}};
+  Json out = TilesJson(tiles->layout, tiles->z);
+  out.update(
+      {{"failed", tiles->failed}, {"shared", tiles->shared}, {"level", tiles->level}});
+  return out;
 }
 
 Json TargetJson(const std::optional<stat::TargetCost>& target) {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "src/estimate/estimate.h"
-#include "src/estimate/metrics.h"
+#include "src/compare/metrics.h"
 #include "src/image/variance_unit.h"
 
 namespace lanelight {

@@ -167,8 +167,8 @@ TEST_CASE("tiles that differ are found, others are not", "[study]") {
     };
     const TileTest test =
         TestTiles(Simulate(r, 6, 0.1, random, brighten).moments, r, 16, 0.01);
-    REQUIRE(test.side == 4);
-    REQUIRE(test.columns == 8);
+    REQUIRE(test.layout.side == 4);
+    REQUIRE(test.layout.columns == 8);
     for (std::size_t tile : test.failed) {
       ++(tile == 2 * 8 + 1 ? found : misplaced);
     }

@@ -6,6 +6,7 @@
 #include "src/core/error.h"
 #include "src/core/input_file.h"
 #include "src/image/colors.h"
+#include "src/report/shrink.h"
 #include "src/study/study_images.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/study/simulated.h"

@@ -16,7 +16,7 @@ function imageChoices(view) {
 }
 
 // The state of a comparator, with everything derived from it.
-function makeComparison(view, choices) {
+function makeComparison(view, choices, kinds) {
   const there = choices.filter((choice) => choice.there);
   const reference = there[0];
   const first =
@@ -27,6 +27,9 @@ function makeComparison(view, choices) {
     choices,
     names: { a: first.name, b: reference.name },
     mode: "side",
+    kinds, // of differences
+    kind: kinds[0],
+    scales: new Map(), // of differences, by kind and images
     split: 0.5,
     flipped: false,
     size: { width: sized.width, height: sized.height },
@@ -44,36 +47,24 @@ function labelOf(comparison, slot) {
 
 // The toned image of slot "a" or "b", or "difference"; null where it cannot be had.
 function comparisonSource(comparison, slot) {
-  const a = findImage(comparison.names.a),
-    b = findImage(comparison.names.b);
   const tone = comparison.view.tone.value;
   const key =
     slot === "difference"
-      ? `${comparison.names.a}\n${comparison.names.b}`
+      ? `${comparison.kind.key}\n${comparison.names.a}\n${comparison.names.b}`
       : comparison.names[slot];
   if (!comparison.sources.has(key)) {
-    let pixels = null;
-    if (slot === "difference") {
-      if (a && b && a.width === b.width && a.height === b.height) {
-        const range = 2 ** -tone.exposure;
-        pixels = rampPixels(
-          a.width,
-          a.height,
-          DIVERGING_TABLE,
-          (i) => 0.5 + (0.5 * relativeDifference(a, b, i)) / range,
-        );
-      }
-    } else {
-      const image = slot === "a" ? a : b;
-      if (image) pixels = tonedPixels(image, tone);
-    }
+    const image = slot === "difference" ? null : findImage(comparison.names[slot]);
+    const pixels =
+      slot === "difference"
+        ? differencePixels(comparison)
+        : image && tonedPixels(image, tone);
     comparison.sources.set(key, pixels && sourceCanvas(pixels));
   }
   return comparison.sources.get(key);
 }
 
-function comparatorSection(view) {
-  const choices = imageChoices(view);
+// choices: [{group, label, name, there}]; kinds: of differences that it can show.
+function comparatorSection(view, choices, kinds) {
   const title = "Compare images";
   if (!choices.some((choice) => choice.there)) {
     return section(
@@ -82,7 +73,7 @@ function comparatorSection(view) {
       missingPicture("This report holds no images of the scene."),
     );
   }
-  const comparison = makeComparison(view, choices);
+  const comparison = makeComparison(view, choices, kinds);
   const stage = el("div", { class: "stage", "data-mode": comparison.mode });
   const readout = el("div", { class: "readout", "aria-live": "off" });
   const repaint = debounced(() => {

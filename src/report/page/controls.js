@@ -36,6 +36,7 @@ function comparatorControls(comparison, rebuild) {
   const retitle = () => {
     comparison.panes.forEach((pane) => pane.retitle());
     comparison.repaint();
+    comparison.changed.set("images");
   };
   const a = imageSelect(comparison, "a", retitle),
     b = imageSelect(comparison, "b", retitle);
@@ -45,8 +46,9 @@ function comparatorControls(comparison, rebuild) {
     retitle();
   };
   comparison.view.compare.listen((names) => {
-    comparison.names = { ...names };
+    comparison.names = { a: names.a, b: names.b };
     [a.value, b.value] = [names.a, names.b];
+    if (names.place) comparison.place = names.place;
     retitle();
   });
   const modes = [
@@ -84,10 +86,28 @@ function comparatorControls(comparison, rebuild) {
         comparison.changed.set("mode");
       }),
       flipButton(comparison),
+      differenceMenu(comparison, retitle),
       zoomButtons(comparison),
     ),
     appendAll(toneControls(comparison.view), [comparatorScale(comparison)]),
   );
+}
+
+// Which kind of difference is shown, where there are several.
+function differenceMenu(comparison, retitle) {
+  if (comparison.kinds.length < 2) return null;
+  const choose = (key) => {
+    comparison.kind = comparison.kinds.find((kind) => kind.key === key);
+    retitle();
+    comparison.changed.set("kind");
+  };
+  const options = comparison.kinds.map((kind) => [kind.key, kind.label]);
+  const box = menu("Of", { "data-control": "difference" }, options, comparison.kind.key, choose);
+  box.hidden = true;
+  comparison.changed.listen(() => {
+    box.hidden = comparison.mode !== "difference";
+  });
+  return box;
 }
 
 function flipButton(comparison) {

@@ -172,3 +172,9 @@ function percentTexts(interval, signed = false) {
 function joined({ value, bounds }) {
   return bounds ? `${value} ${bounds}` : value;
 }
+
+// The first of 1, 2, 5, 10, ... that is not below `least`.
+function niceStep(least) {
+  const power = 10 ** Math.floor(Math.log10(least));
+  return [1, 2, 5, 10].map((f) => f * power).find((step) => step >= least * 0.999);
+}

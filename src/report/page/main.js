@@ -69,7 +69,7 @@ function errorScene(scene) {
 }
 
 function sceneSections(view) {
-  const comparator = comparatorSection(view);
+  const comparator = comparatorSection(view, imageChoices(view), [SIGNED_DIFFERENCE]);
   const compare = (a, b) => {
     view.compare.set({ a, b });
     comparator.scrollIntoView();

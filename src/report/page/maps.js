@@ -15,23 +15,6 @@ function relativeBias(bias, reference, i) {
   return channelMean(bias, i) / Math.sqrt(base * base + 0.01);
 }
 
-// A round number that most of |values| stay below, for a colour scale: one in fifty of
-// the pixels of each image is looked at.
-function scaleTop(images, valueAt) {
-  const values = [];
-  for (const image of images) {
-    const count = image.width * image.height;
-    const step = Math.max(1, Math.floor(count / 4000));
-    for (let i = 0; i < count; i += step) {
-      const x = Math.abs(valueAt(image, i));
-      if (Number.isFinite(x)) values.push(x);
-    }
-  }
-  values.sort((a, b) => a - b);
-  const top = values[Math.floor(values.length * 0.98)] || 0;
-  return top > 0 ? niceStep(top) : 1;
-}
-
 function sameSize(image, reference) {
   return reference && reference.width === image.width && reference.height === image.height
     ? reference

@@ -1,6 +1,8 @@
 "use strict";
 // The comparator's panes: what they paint, and what they take from pointer and keys.
 
+const MISSING_IMAGE = "This image is not in the report.";
+
 // Draws the visible part of source; clip: [from, to] as shares of the pane's width.
 function paintPane(comparison, canvas, source, [from, to] = [0, 1]) {
   const context = canvas.getContext("2d");
@@ -24,7 +26,7 @@ function paintPane(comparison, canvas, source, [from, to] = [0, 1]) {
     context.font = `${14 * devicePixelRatio}px system-ui, sans-serif`;
     context.textAlign = "center";
     context.fillText(
-      "This image is not in the report.",
+      MISSING_IMAGE,
       canvas.width / 2,
       canvas.height / 2,
     );
@@ -77,7 +79,7 @@ function paneTitle(comparison, show) {
     b,
     split: `${a}  |  ${b}`,
     flip: comparison.flipped ? b : a,
-    difference: "(A − B) / √(B² + 0.01)",
+    difference: `${comparison.kind.title}, of A  ${labelOf(comparison, "a")} and B  ${labelOf(comparison, "b")}`,
   }[show];
 }
 

@@ -9,14 +9,7 @@ function comparatorScale(comparison) {
     const { curve, exposure } = comparison.view.tone.value;
     box.replaceChildren();
     if (comparison.mode === "difference") {
-      const range = fmtShortPercent(Number((2 ** -exposure).toPrecision(2)));
-      box.append(
-        rampLegend(DIVERGING_TABLE, [
-          `${MINUS}${range}: A darker`,
-          "0",
-          `A brighter: +${range}`,
-        ]),
-      );
+      box.append(differenceLegend(comparison));
     } else if (curve === "false") {
       const at = (stops) => fmtShort(2 ** (stops - exposure), 2);
       box.append(
@@ -48,22 +41,18 @@ function showPixel(comparison, readout, point) {
   const { width, height } = comparison.size;
   const x = point ? Math.floor(point.x) : -1,
     y = point ? Math.floor(point.y) : -1;
+  const inside = x >= 0 && y >= 0 && x < width && y < height;
+  const a = findImage(comparison.names.a),
+    b = findImage(comparison.names.b);
+  const kind = comparison.kind;
+  const values = inside ? differenceValues(comparison) : null;
+  const format = kind.percent ? (kind.signed ? fmtSignedPercent : fmtPercent) : fmt;
   const cells = [
-    ["Pixel", UNKNOWN],
-    ["A", UNKNOWN],
-    ["B", UNKNOWN],
-    ["(A − B) / B", UNKNOWN],
+    ["Pixel", inside ? `${x}, ${y}` : UNKNOWN],
+    ["A", inside ? pixelText(a, x, y) : UNKNOWN],
+    ["B", inside ? pixelText(b, x, y) : UNKNOWN],
+    [kind.signed ? "(A − B) / B" : kind.label, values ? format(values.at(y * width + x)) : UNKNOWN],
   ];
-  if (x >= 0 && y >= 0 && x < width && y < height) {
-    const a = findImage(comparison.names.a),
-      b = findImage(comparison.names.b);
-    cells[0][1] = `${x}, ${y}`;
-    cells[1][1] = pixelText(a, x, y);
-    cells[2][1] = pixelText(b, x, y);
-    if (a && b && a.width === b.width && a.height === b.height) {
-      cells[3][1] = fmtSignedPercent(relativeDifference(a, b, y * width + x));
-    }
-  }
   readout.replaceChildren(
     ...cells.map(([name, text]) => el("span", {}, el("b", {}, name), ` ${text}`)),
   );

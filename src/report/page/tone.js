@@ -138,9 +138,3 @@ function channelMean(image, i) {
     ? channelAt(image, i, 0)
     : (channelAt(image, i, 0) + channelAt(image, i, 1) + channelAt(image, i, 2)) / 3;
 }
-
-// Signed difference relative to b, softened at black as the relative MSE is.
-function relativeDifference(a, b, i) {
-  const base = channelMean(b, i);
-  return (channelMean(a, i) - base) / Math.sqrt(base * base + 0.01);
-}

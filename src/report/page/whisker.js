@@ -53,11 +53,6 @@ function whiskerTicks(scale, most = 5) {
   );
 }
 
-function niceStep(least) {
-  const power = 10 ** Math.floor(Math.log10(least));
-  return [1, 2, 5, 10].map((f) => f * power).find((step) => step >= least * 0.999);
-}
-
 // The drawing of one interval. marks: values with a vertical line.
 function whisker(
   interval,

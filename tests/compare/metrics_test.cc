@@ -1,6 +1,6 @@
 // Metrics against numbers worked out by hand, and z-scores against noise of known
 // variance.
-#include "src/estimate/metrics.h"
+#include "src/compare/metrics.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

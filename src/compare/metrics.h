@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "src/compare/relative_error.h"
 #include "src/image/image.h"
 
 namespace lanelight {
@@ -15,10 +16,12 @@ namespace lanelight {
 struct CompareOptions {
   /// Added to the squared reference in relMSE (pbrt's imgtool uses 0.01), and to the
   /// reference in MAPE.
-  double epsilon = 0.01;
+  double epsilon = kRelativeEpsilon;
   /// Share of the largest per-sample errors that the trimmed measure leaves out.
   double trim = 0.001;
   int tile = 16;  // pixels per side of the tiles of the tile measures
+  /// The reference has no noise: z-scores are those of the variance of `test` alone.
+  bool exact_reference = false;
 };
 
 /// Sides of the box filters after which errors are told as well, in pixels: whether

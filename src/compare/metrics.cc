@@ -1,4 +1,4 @@
-#include "src/estimate/metrics.h"
+#include "src/compare/metrics.h"
 
 #include <fmt/ranges.h>
 
@@ -10,7 +10,7 @@
 
 #include "src/core/check.h"
 #include "src/core/error.h"
-#include "src/estimate/z_scores.h"
+#include "src/compare/z_scores.h"
 #include "src/image/color_channels.h"
 #include "src/image/variance_unit.h"
 #include "src/report/values.h"
@@ -27,7 +27,8 @@ struct Channel {
   int test, reference, test_variance, reference_variance;
 };
 
-std::vector<Channel> CommonChannels(const Image& test, const Image& reference) {
+std::vector<Channel> CommonChannels(const Image& test, const Image& reference,
+                                    bool exact_reference) {
   const auto has_all = [&](const std::vector<std::string>& names) {
     return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
       return test.FindChannel(name) >= 0 && reference.FindChannel(name) >= 0;
@@ -38,9 +39,10 @@ std::vector<Channel> CommonChannels(const Image& test, const Image& reference) {
        {std::vector<std::string>{"R", "G", "B"}, std::vector<std::string>{"Y"}}) {
     if (!channels.empty() || !has_all(names)) continue;
     for (const std::string& name : names) {
-      channels.push_back({name, test.FindChannel(name), reference.FindChannel(name),
-                          test.FindChannel("variance." + name),
-                          reference.FindChannel("variance." + name)});
+      channels.push_back(
+          {name, test.FindChannel(name), reference.FindChannel(name),
+           test.FindChannel("variance." + name),
+           exact_reference ? -1 : reference.FindChannel("variance." + name)});
     }
   }
   if (channels.empty()) {
@@ -108,7 +110,10 @@ class Comparison {
   CompareResult Run() {
     result_.width = test_.width;
     result_.height = test_.height;
-    for (const Channel& channel : CommonChannels(test_, reference_)) AddChannel(channel);
+    for (const Channel& channel :
+         CommonChannels(test_, reference_, options_.exact_reference)) {
+      AddChannel(channel);
+    }
     return Finish();
   }
 

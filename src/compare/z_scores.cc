@@ -1,4 +1,4 @@
-#include "src/estimate/z_scores.h"
+#include "src/compare/z_scores.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "src/estimate/metrics.h"
+#include "src/compare/metrics.h"
 
 namespace lanelight {
 

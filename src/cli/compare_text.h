@@ -1,0 +1,13 @@
+// What `lanelight compare` prints for people.
+#pragma once
+
+#include <string>
+
+#include "src/compare/comparison.h"
+
+namespace lanelight {
+
+/// Lines of all measures, and the verdict last.
+std::string ComparisonText(const ImageComparison& comparison);
+
+}  // namespace lanelight

@@ -1,0 +1,98 @@
+#include "src/compare/comparison_sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/compare/error_maps.h"
+
+namespace lanelight {
+namespace {
+
+constexpr int kColumns = 4, kGap = 4;  // pictures in a row; pixels between two
+constexpr Vec3d kGapColor = {1, 1, 1}, kInvalid = {0.2, 0.2, 0.2};
+// Linear colours.
+constexpr Vec3d kDarker = {0.02, 0.1, 0.55}, kBrighter = {0.55, 0.03, 0.03},
+                kEqual = {0.9, 0.9, 0.9};
+constexpr Vec3d kFlipColors[] = {
+    {0, 0, 0}, {0.35, 0.01, 0.08}, {0.9, 0.3, 0.02}, {1, 1, 0.8}};
+
+Vec3d Mix(Vec3d a, Vec3d b, double share) { return a * (1 - share) + b * share; }
+
+// x from -1 to 1.
+Vec3d DifferenceColor(double x) {
+  if (!std::isfinite(x)) return kInvalid;
+  return Mix(kEqual, x < 0 ? kDarker : kBrighter, std::min(1.0, std::abs(x)));
+}
+
+// x from 0 to 1.
+Vec3d FlipColor(double x) {
+  constexpr int kSteps = std::size(kFlipColors) - 1;
+  const double at = std::clamp(x, 0.0, 1.0) * kSteps;
+  const int step = std::min(kSteps - 1, static_cast<int>(at));
+  return Mix(kFlipColors[step], kFlipColors[step + 1], at - step);
+}
+
+void Put(Image& image, int x, int y, Vec3d color) {
+  for (int c = 0; c < 3; ++c) image.At(x, y, c) = static_cast<float>(color[c]);
+}
+
+// Calls color(i) for all pixels of a picture whose corner is at (x0, y0).
+template <class Color>
+void Draw(Image& image, int x0, int y0, int width, int height, const Color& color) {
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      Put(image, x0 + x, y0 + y, color(static_cast<std::size_t>(y) * width + x));
+    }
+  }
+}
+
+auto Colors(const LinearImage& image) {
+  return [&image](std::size_t i) {
+    return Vec3d{image.planes[0][i], image.planes[1][i], image.planes[2][i]};
+  };
+}
+
+}  // namespace
+
+ComparisonSheet SheetOf(const std::vector<SheetRow>& rows) {
+  const int w = rows.front().test.image.width, h = rows.front().test.image.height;
+  const int count = static_cast<int>(rows.size());
+  std::vector<Plane> differences;
+  ComparisonSheet out;
+  for (const SheetRow& row : rows) {
+    differences.push_back(
+        ErrorMapsOf(LinearOf(row.test.image), LinearOf(row.reference.image)).difference);
+    out.difference_scale = std::max(out.difference_scale, ScaleOf(differences.back()));
+    out.flip_scale =
+        std::max(out.flip_scale, std::min(1.0, ScaleOf(row.comparison.flip->map())));
+  }
+  const int width = kColumns * (w + kGap) - kGap, height = count * (h + kGap) - kGap;
+  CheckImageSize("the picture of the comparison", width, height);
+  out.image = MakeImage(width, height, {"R", "G", "B"});
+  Draw(out.image, 0, 0, width, height, [](std::size_t) { return kGapColor; });
+  for (int r = 0; r < count; ++r) {
+    const LinearImage test = LinearOf(rows[r].test.image);
+    const LinearImage reference = LinearOf(rows[r].reference.image);
+    const Plane& flip = rows[r].comparison.flip->map();
+    const int y = r * (h + kGap), step = w + kGap;
+    Draw(out.image, 0, y, w, h, Colors(test));
+    Draw(out.image, step, y, w, h, Colors(reference));
+    Draw(out.image, 2 * step, y, w, h, [&](std::size_t i) {
+      return DifferenceColor(differences[r][i] / out.difference_scale);
+    });
+    Draw(out.image, 3 * step, y, w, h,
+         [&](std::size_t i) { return FlipColor(flip[i] / out.flip_scale); });
+  }
+  return out;
+}
+
+std::string SheetText(const ComparisonSheet& sheet) {
+  return fmt::format(
+      "from left to right: the image; the reference; their difference, relative to it: "
+      "blue -{0:.3g} %, white 0, red +{0:.3g} %; FLIP: black 0, white {1:.3g}",
+      100 * sheet.difference_scale, sheet.flip_scale);
+}
+
+}  // namespace lanelight

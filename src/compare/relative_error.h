@@ -1,0 +1,10 @@
+// What an error is relative to.
+#pragma once
+
+namespace lanelight {
+
+/// Added to the squared reference in relative squared errors, so that black pixels have
+/// one, too (as pbrt's imgtool).
+inline constexpr double kRelativeEpsilon = 0.01;
+
+}  // namespace lanelight

@@ -1,0 +1,135 @@
+"use strict";
+// The tiles that differ most, magnified; and those that differ by more than noise.
+
+// The tile with half of itself around it, in the page's pixels.
+function cropAround(tile, image) {
+  const scale = study.report_scale || 1;
+  const side = Math.max(tile.width, tile.height) / scale;
+  const half = side / 2;
+  const extent = (start, size, most) => {
+    const from = Math.max(0, Math.floor(start / scale - half));
+    return [from, Math.min(most, Math.ceil(start / scale + size / scale + half)) - from];
+  };
+  const [x, width] = extent(tile.x, tile.width, image.width);
+  const [y, height] = extent(tile.y, tile.height, image.height);
+  return { x, y, width, height };
+}
+
+function tileFrame(tile) {
+  const scale = study.report_scale || 1;
+  return {
+    x: tile.x / scale,
+    y: tile.y / scale,
+    width: tile.width / scale,
+    height: tile.height / scale,
+  };
+}
+
+function cropPicture(view, label, image, crop, makePixels) {
+  return picture(view, {
+    label,
+    width: image.width,
+    height: image.height,
+    crop,
+    makePixels,
+    redrawOn: view.tone,
+  });
+}
+
+function worstTile(view, comparison, tile, show) {
+  const image = findImage(comparison.image),
+    reference = findImage(study.reference.image),
+    map = findImage(comparison.maps.difference);
+  const crop = cropAround(tile, image);
+  const place = {
+    zoom: Math.min(image.width / crop.width, image.height / crop.height),
+    x: crop.x + crop.width / 2,
+    y: crop.y + crop.height / 2,
+  };
+  const at = `${tile.x}, ${tile.y}`;
+  const top = scaleTop([map], (m, i) => channelAt(m, i, 0));
+  const difference = () =>
+    rampPixels(
+      map.width,
+      map.height,
+      DIVERGING_TABLE,
+      (i) => 0.5 + (0.5 * channelAt(map, i, 0) * 2 ** view.tone.value.exposure) / top,
+    );
+  const toned = (one) => () => tonedPixels(one, view.tone.value);
+  return el(
+    "figure",
+    { class: "worst-tile" },
+    el(
+      "div",
+      { class: "worst-crops" },
+      cropPicture(view, `${comparison.test} at ${at}`, image, crop, toned(image)),
+      cropPicture(view, `Reference at ${at}`, reference, crop, toned(reference)),
+      cropPicture(view, `Difference at ${at}`, map, crop, difference),
+    ),
+    el(
+      "figcaption",
+      {},
+      el("b", {}, fmtPercent(tile.share)),
+      ` of the error, at ${at} (${tile.width} × ${tile.height}). `,
+      el(
+        "button",
+        {
+          type: "button",
+          class: "link",
+          onclick: () => show(comparison.image, study.reference.image, place),
+        },
+        "Show it above",
+      ),
+    ),
+  );
+}
+
+// One comparison's worst tiles, and the map of its test.
+function tilesOf(view, comparison, show) {
+  const { agreement } = comparison;
+  return el(
+    "div",
+    { class: "tiles-of", role: "group", "aria-label": comparison.test },
+    study.comparisons.length > 1 && el("h3", {}, comparison.test),
+    el(
+      "div",
+      { class: "tiles-columns" },
+      el(
+        "div",
+        { class: "worst-tiles" },
+        comparison.worst_tiles.length === 0
+          ? el("p", {}, "No pixel differs.")
+          : comparison.worst_tiles.map((tile) => worstTile(view, comparison, tile, show)),
+      ),
+      agreement.verdict === "cannot tell"
+        ? missingPicture(`Whether noise explains it: ${agreement.text}.`)
+        : el(
+            "div",
+            { class: "tile-test" },
+            tilePicture(
+              view,
+              { name: comparison.test, tiles: agreement.tiles },
+              findImage(study.reference.image),
+            ),
+            rampLegend(DIVERGING_TABLE, [`z ${MINUS}${TILE_TOP}`, "0", `+${TILE_TOP}`]),
+            el("p", { class: "hint" }, `${agreement.text}.`),
+            agreement.doubt && el("p", { class: "hint" }, `${agreement.doubt}.`),
+          ),
+    ),
+  );
+}
+
+function tilesSection(view, show) {
+  return section(
+    "tiles",
+    "Where they differ",
+    el(
+      "p",
+      { class: "lead" },
+      "The tiles that add most to the relative MSE: the image, the reference, and their " +
+        "signed relative difference; and the test whether a tile's mean equals the " +
+        "reference's, with those outlined that differ by more than noise.",
+    ),
+    study.comparisons.map((comparison) => tilesOf(view, comparison, show)),
+  );
+}
