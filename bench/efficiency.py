@@ -33,9 +33,11 @@ import sys
 import tempfile
 
 import efficiency_statistics as statistics
-import exr
 
 FOLDER = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(FOLDER / "python"))
+import lanelight
+
 FALSE_ALARM = 0.001  # of each comparison of means
 
 
@@ -72,7 +74,8 @@ def render(options, scene, candidate, length, seed, folder, threads=1):
     done = subprocess.run(command, stderr=subprocess.PIPE, text=True)
     if done.returncode:
         sys.exit(f"efficiency: {' '.join(command)}\n{done.stderr}")
-    width, height, values = exr.read(image)
+    picture = lanelight.read_exr(image)
+    width, height, values = picture.width, picture.height, picture.rgb()
     if not all(map(math.isfinite, values)):
         sys.exit(f"efficiency: {' '.join(command)}: a pixel is not finite")
     return values, json.load(open(report))["cpu_seconds"], width, height

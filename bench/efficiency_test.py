@@ -1,21 +1,15 @@
-"""Tests of efficiency_statistics.py and exr.py: run by ctest as bench/efficiency.
+"""Tests of efficiency_statistics.py: run by ctest as bench/efficiency.
 
 False alarms: the seeds are fixed; were they not, each check of a share would fail by chance
 less than once in 1000, by the binomial distribution.
 """
 import argparse
 import math
-import os
-import pathlib
 import random
-import struct
-import tempfile
 import unittest
-import zlib
 
 import efficiency
 import efficiency_statistics as statistics
-import exr
 
 TRIALS, ROUNDS, BLOCKS = 200, 6, 30
 
@@ -36,36 +30,6 @@ def share_that_holds(ratio, shared):
                                              errors(rng, 1, shared), samples=80)
         held += low <= ratio <= high
     return held / TRIALS
-
-
-def write_exr(path, width, height, channels):
-    """An image as lanelight's: ZIP, float, channels {name: values} in alphabetical order."""
-    def attribute(name, kind, value):
-        return (name.encode() + b"\0" + kind.encode() + b"\0"
-                + struct.pack("<i", len(value)) + value)
-    names = sorted(channels)
-    chlist = b"".join(n.encode() + b"\0" + struct.pack("<iiii", 2, 0, 1, 1) for n in names)
-    header = (b"\x76\x2f\x31\x01" + struct.pack("<i", 2)
-              + attribute("channels", "chlist", chlist + b"\0")
-              + attribute("compression", "compression", b"\x03")
-              + attribute("dataWindow", "box2i",
-                          struct.pack("<4i", 3, 5, width + 2, height + 4)) + b"\0")
-    blocks = []
-    for first in range(0, height, 16):
-        raw = b"".join(struct.pack(f"<{width}f", *channels[n][y * width:(y + 1) * width])
-                       for y in range(first, min(first + 16, height)) for n in names)
-        split = raw[0::2] + raw[1::2]
-        coded = bytes([split[0]] + [(split[k] - split[k - 1] + 128) & 255
-                                    for k in range(1, len(split))])
-        packed = zlib.compress(coded)
-        packed = packed if len(packed) < len(raw) else raw
-        blocks.append(struct.pack("<ii", first + 5, len(packed)) + packed)
-    at, table = len(header) + 8 * len(blocks), []
-    for block in blocks:
-        table.append(at)
-        at += len(block)
-    pathlib.Path(path).write_bytes(header + struct.pack(f"<{len(table)}Q", *table)
-                                   + b"".join(blocks))
 
 
 class StatisticsTest(unittest.TestCase):
@@ -168,22 +132,6 @@ class StatisticsTest(unittest.TestCase):
             self.assertGreater(rows[1]["worst"], 0.1)
             alarms += rows[1]["means"] < efficiency.FALSE_ALARM
         self.assertLessEqual(alarms, 1)
-
-
-class ExrTest(unittest.TestCase):
-    def test_what_is_written_is_read(self):
-        rng = random.Random(2)
-        width, height = 7, 37  # two blocks of lines and a rest
-        channels = {n: [rng.uniform(0, 4) if n != "G" else 0.5 for _ in range(7 * 37)]
-                    for n in ("B", "G", "R", "samples", "variance.R")}
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "image.exr")
-            write_exr(path, width, height, channels)
-            found_width, found_height, values = exr.read(path)
-        self.assertEqual((found_width, found_height), (width, height))
-        for c, name in enumerate("RGB"):
-            for expected, found in zip(channels[name], values[c::3]):
-                self.assertAlmostEqual(expected, found, places=6)
 
 
 if __name__ == "__main__":
