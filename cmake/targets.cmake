@@ -34,7 +34,7 @@ function(lanelight_native_target result)
   if(target STREQUAL "")
     list(JOIN all_targets ", " names)
     message(FATAL_ERROR "This machine's processor runs none of the SIMD targets ${names}. "
-      "Kernels in plain C++ run on any, thirty times slower: `./run demo --target EMU128`, "
+      "Kernels in plain C++ run on any, thirty times slower: `./run demo --simd EMU128`, "
       "or -DLANELIGHT_TARGETS=EMU128.")
   endif()
   set(${result} ${target} PARENT_SCOPE)

@@ -10,8 +10,10 @@
 #include "src/cli/progress.h"
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
+#include "src/cli/terminal.h"
 #include "src/cli/validators.h"
 #include "src/core/json_text.h"
+#include "src/core/text_layout.h"
 #include "src/render/machine_json.h"
 #include "src/render/report.h"
 #include "src/report/values.h"
@@ -35,28 +37,30 @@ std::string SkippedText(const Advice& advice) {
     skipped += (skipped.empty() ? "" : ", ") + c.changes;
   }
   if (skipped.empty()) return "";
-  return fmt::format("skipped    {}: {}; --pilot {:.2g} would try all\n", skipped,
-                     advice.interrupted ? "the trial was ended before"
-                                        : "the trial's time did not reach them",
-                     advice.seconds_to_try);
+  return SummaryRow(
+      "skipped", fmt::format("{}: {}; --pilot {:.2g} would try all", skipped,
+                             advice.interrupted ? "the trial was ended before"
+                                                : "the trial's time did not reach them",
+                             advice.seconds_to_try));
 }
 
 std::string AdviceText(const Advice& advice) {
-  std::string text = fmt::format("{:<44} {:<22} {:<8} {}\n", "change",
-                                 "efficiency (90 %)", "status", "reason");
+  std::vector<std::vector<std::string>> lines = {
+      {"change", "efficiency (90 %)", "status", "reason"}};
   for (const AdvisedCandidate& c : advice.candidates) {
     if (c.status == CandidateStatus::kSkipped) continue;
     const std::string changes = c.changes.empty()           ? "(the default)"
                                 : c.meaning == kOwnStrategy ? "(the scene's own)"
                                                             : c.changes;
-    text += fmt::format("{:<44} {:<22} {:<8} {}\n", changes,
-                        c.samples > 0 ? EstimateText(c.efficiency) : "", Name(c.status),
-                        c.reason);
+    lines.push_back({changes, c.samples > 0 ? EstimateText(c.efficiency) : "",
+                     Name(c.status), c.reason});
   }
-  return text +
-         fmt::format("\n{}advice     {}\nstrategy   {}\npilot      {}, {:.3g} rays\n",
-                     SkippedText(advice), advice.why, ToText(advice.chosen),
-                     DurationText(advice.pilot_seconds), double(advice.rays));
+  return TextTable(lines, {TerminalColumns(Stream::kOutput), 1, 3}) + "\n" +
+         SkippedText(advice) + SummaryRow("advice", advice.why) +
+         SummaryRow("strategy", ToText(advice.chosen)) +
+         SummaryRow("pilot",
+                    fmt::format("{}, {:.3g} rays", DurationText(advice.pilot_seconds),
+                                double(advice.rays)));
 }
 
 // The command that renders as the advice says.
@@ -108,14 +112,13 @@ void AddAdviseCommand(CLI::App& root, Command& chosen) {
   auto options = std::make_shared<AdviseCommandOptions>();
   AddSetting(*command, "time", options->scene.settings)
       ->required()
-      ->description("Seconds of the wall clock, for trial and render together");
+      ->description("Time by the wall clock, for trial and render together: seconds, 5m");
   command
-      ->add_option(
-          "--pilot", options->pilot,
-          "Seconds of the trial of strategies, of 8 million rays each; default: 3 "
-          "% of --time")
-      ->transform(ValueFrom(1e-3, 1e9))
-      ->type_name("SECONDS");
+      ->add_option("--pilot", options->pilot,
+                   "Time of the trial of strategies, of 8 million rays each; default: 3 "
+                   "% of --time")
+      ->transform(ValueOf(SecondsType{1e-3, 1e9}))
+      ->type_name("TIME");
   AddSetting(*command, "seed", options->scene.settings);
   AddOutputOptions(*command, options->outputs, options->scene.settings);
   AddSceneOptions(*command, options->scene);

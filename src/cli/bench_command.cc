@@ -11,6 +11,7 @@
 #include "src/cli/interrupt.h"
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
+#include "src/cli/terminal.h"
 #include "src/cli/validators.h"
 #include "src/core/json_text.h"
 #include "src/core/parallel.h"
@@ -61,7 +62,8 @@ int Bench(BenchCommandOptions options) {
   const std::vector<ThroughputRow> rows = MeasureRows(options);
   const nlohmann::json json = ToJson(rows);
   if (options.json != "-") {
-    Print(ThroughputText(rows, options.bench.within, TableStyle::kTerminal));
+    Print(ThroughputText(rows, options.bench.within,
+                         {false, TerminalColumns(Stream::kOutput)}));
   }
   bool good = true;
   const auto save = [&](const std::string& path, const std::string& text) {
@@ -69,8 +71,7 @@ int Bench(BenchCommandOptions options) {
   };
   save(options.json, DumpJson(json, 1) + "\n");
   save(options.csv, ThroughputCsv(rows));
-  save(options.markdown,
-       ThroughputText(rows, options.bench.within, TableStyle::kMarkdown));
+  save(options.markdown, ThroughputText(rows, options.bench.within, {true}));
   if (!good) return kExitBadInput;
   if (!before) return kExitGood;
   const RateComparison comparison = CompareRates(*before, ThroughputFromJson(json));
@@ -104,7 +105,7 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
       ->type_name("T,...");
   CLI::Option* targets =
       command
-          .add_option("--target", bench.targets,
+          .add_option("--simd", bench.targets,
                       WithDefault("SIMD targets, one row each", "the best there is"))
           ->delimiter(',')
           ->transform(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))
@@ -119,11 +120,11 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
       ->type_name("X");
   command
       .add_option("--time", bench.seconds,
-                  WithDefault("Seconds by the clock for each row at most, unless six "
+                  WithDefault("Time by the clock for each row at most, unless six "
                               "repeats take longer",
                               bench.seconds))
-      ->transform(ValueFrom(0.01, 1e6))
-      ->type_name("S");
+      ->transform(ValueOf(SecondsType{0.01, 1e6}))
+      ->type_name("TIME");
 }
 
 void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {

@@ -20,9 +20,10 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
                   "Keep the state of the render in this file, to go on from")
       ->type_name("FILE");
   command
-      .add_option("--every", s.seconds, WithDefault("Seconds between states", s.seconds))
-      ->transform(ValueFrom(0.01, 1e6))
-      ->type_name("SECONDS");
+      .add_option("--every", s.seconds,
+                  WithDefault("Time between states", fmt::format("{} s", s.seconds)))
+      ->transform(ValueOf(SecondsType{0.01, 1e6}))
+      ->type_name("TIME");
   flags.resume_flag =
       command
           .add_option("--resume", s.from,
@@ -31,11 +32,15 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
           ->expected(0, 1)
           ->type_name("[FILE]");
   command
-      .add_option("--watch", s.watch, "Write the image so far with every state (.exr)")
+      .add_option("--watch", s.watch,
+                  "Write the image so far with every state (.exr or .png; may be given "
+                  "twice)")
+      ->allow_extra_args(false)
       ->check([](const std::string& path) {
-        return std::filesystem::path(path).extension() == ".exr"
+        const std::filesystem::path extension = std::filesystem::path(path).extension();
+        return extension == ".exr" || extension == ".png"
                    ? std::string()
-                   : "'" + path + "' does not end in .exr";
+                   : "'" + path + "' does not end in .exr or .png";
       })
       ->type_name("FILE");
   command
@@ -84,6 +89,7 @@ void ResolveCheckpoint(const CheckpointFlags& flags, RenderTargets& targets) {
   } else if (targets.exr.empty()) {
     throw CLI::RequiredError("--output");
   }
+  settings.exposure = targets.image.exposure;
   targets.checkpoint = settings;
 }
 

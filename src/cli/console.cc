@@ -4,6 +4,8 @@
 #include <cstring>
 #include <iostream>
 
+#include "src/cli/terminal.h"
+
 namespace lanelight {
 namespace {
 
@@ -32,7 +34,7 @@ void PrintError(const std::string& line) {
   errno = 0;
   std::cout.flush();
   NoteFailure();
-  std::cerr << line << '\n' << std::flush;
+  std::cerr << PaintedMessage(line) << '\n' << std::flush;
 }
 
 void PrintWarning(const std::string& error) {

@@ -78,7 +78,7 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
                    "Print what this file says of itself: size, channels, error, samples, "
                    "strategy, scene, settings; default: print what this build is")
       ->type_name("");
-  AddSetting(*command, "target", options->settings)
+  AddSetting(*command, "simd", options->settings)
       ->description(WithDefault("SIMD target to show", "the best there is"));
   AddSetting(*command, "threads", options->settings);
   command->add_flag("--json", options->json, "Print JSON");
@@ -86,7 +86,7 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
                     "Print what becomes of every directive and parameter of pbrt-v4's "
                     "file format, as Markdown");
   command->footer(
-      "\nExamples:\n  lanelight info --target AVX2\n"
+      "\nExamples:\n  lanelight info --simd AVX2\n"
       "  lanelight info out.exr\n"
       "  lanelight info --format");
   command->callback([options, &chosen] {

@@ -79,7 +79,7 @@ int Merge(const MergeOptions& options) {
   if (options.outputs.targets.json == "-") {
     Print(DumpJson(rendering.json, 2) + "\n");
   } else if (!options.outputs.quiet) {
-    Print(MergeSummaryText(rendering.report, merged));
+    Print(MergeSummaryText(rendering.report, merged, options.outputs.verbose));
   }
   if (rendering.report.result.health.Total() > 0) return kExitInvalidSamples;
   return good ? kExitGood : kExitBadInput;

@@ -8,6 +8,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/summary.h"
+#include "src/cli/terminal.h"
 #include "src/core/json_text.h"
 #include "src/prepare/groups.h"
 #include "src/render/job.h"
@@ -87,6 +88,16 @@ std::string Notes(const Plan& plan) {
   return text.empty() ? text : text + "\n";
 }
 
+// What renders, as far as a plan can tell.
+std::string StrategyWords(const Job& job) {
+  const Strategy& strategy = job.scene.strategy;
+  const std::string text = ToText(strategy);
+  if (strategy.decide != Decide::kPilot) return text;
+  return text +
+         "; decide=pilot: before the image a pilot finds out whether another "
+         "roulette, guiding or reuse pays, and `render` says which";
+}
+
 std::string Text(const Job& job, const std::string& scene) {
   const Plan& plan = job.plan;
   return fmt::format("plan of {}\n\n", scene) +
@@ -95,9 +106,9 @@ std::string Text(const Job& job, const std::string& scene) {
          fmt::format("wavefront  {} paths x {} bytes = {:.0f} KiB per thread\n",
                      plan.wavefront, plan.bytes_per_path,
                      double(plan.wavefront) * double(plan.bytes_per_path) / 1024) +
-         fmt::format("max depth  {}\nstrategy   {}\npoints     {}\n\n",
-                     plan.options.max_depth, ToText(job.scene.strategy),
-                     PointsText(job.scene.strategy, job.spp)) +
+         fmt::format("max depth  {}\n", plan.options.max_depth) +
+         SummaryRow("strategy", StrategyWords(job)) +
+         SummaryRow("points", PointsText(job.scene.strategy, job.spp)) + "\n" +
          Notes(plan) + "the scene and options have:\n" + Features(plan.features) + "\n" +
          Stages(plan) + "\n" + Fields(plan) + DiffersRow(job.description.notes);
 }
@@ -114,7 +125,9 @@ std::string JsonText(const Job& job, const std::string& scene) {
 
 int PrintPlan(const PlanCommandOptions& options) {
   const SceneOptions& scene = options.scene;
-  const Job job = PrepareJob(scene.scene, scene.settings);
+  RenderSettings settings = scene.settings;
+  settings.decision = DefaultDecision::kIfLong;  // as `render` has it
+  const Job job = PrepareJob(scene.scene, settings);
   Print(options.json ? JsonText(job, scene.scene) : Text(job, scene.scene));
   return kExitGood;
 }
@@ -125,6 +138,7 @@ void AddPlanCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "plan", "Print the stages and fields that a scene gets, and what it is spared");
   auto options = std::make_shared<PlanCommandOptions>();
+  AddSettings(*command, kAmountFlag, options->scene.settings);
   AddSceneOptions(*command, options->scene);
   command->add_flag("--json", options->json, "Print JSON");
   command->footer("\nExample:\n  lanelight plan scenes/glass.pbrt --max-depth 1");

@@ -37,7 +37,7 @@ RunResult Measure(const ProfileCommandOptions& options, const Job& job,
   run.spp = job.spp;
   run.seed = job.seed;
   run.stop = &stop;
-  run.on_progress = [&](const Progress& p) { progress.Update(p); };
+  run.on_progress = [&](const Progress& p) { progress.Update({p, {}, {}}); };
   run.profiling.counters = true;
   if (!options.trace.empty()) run.profiling.trace_events = options.trace_events;
   FilmAccumulator film = MakeFilm(job);

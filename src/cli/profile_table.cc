@@ -3,41 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
+#include <vector>
 
 #include "kernels/simd/target.h"
 #include "src/cli/progress.h"
+#include "src/cli/terminal.h"
 #include "src/core/machine_info.h"
 #include "src/core/parallel.h"
+#include "src/core/text_layout.h"
 
 namespace lanelight {
 namespace {
-
-constexpr std::size_t kColumns = 100;
-constexpr std::size_t kLabel = 12;
-
-// "label      words ...", continued below the first word.
-std::string Row(const std::string& label, const std::string& text) {
-  std::string out, line = fmt::format("{:<{}}", label, kLabel);
-  std::istringstream words(text);
-  bool first = true;
-  for (std::string word; words >> word; first = false) {
-    if (!first && line.size() + 1 + word.size() > kColumns) {
-      out += line + "\n";
-      line = std::string(kLabel, ' ') + word;
-    } else {
-      line += (first ? "" : " ") + word;
-    }
-  }
-  return out + line + "\n";
-}
-
-// Lets a list break after its commas.
-std::string WithSpaces(const std::string& list) {
-  std::string out;
-  for (char c : list) out += c == ',' ? std::string(", ") : std::string(1, c);
-  return out;
-}
 
 std::string PeaksText(const Peaks& peaks, SimdTarget target) {
   std::string text = "reads of one thread:";
@@ -53,39 +29,26 @@ std::string HeaderText(const ProfileReport& report, const Job& job,
   const double pixels = double(job.window.pixels());
   const SimdTarget target = job.plan.options.target;
   std::string text =
-      fmt::format("{:<{}}{}\n", "scene", kLabel, scene) +
-      Row("render",
+      SummaryRow("scene", scene) +
+      SummaryRow(
+          "render",
           fmt::format("{}x{} pixels, {:.4g} samples each in {}{}; threads: {}, lanes: {} "
                       "({})",
                       job.window.width(), job.window.height(),
                       double(result.samples) / pixels, DurationText(result.seconds),
-                      result.stopped_early ? " (stopped early)" : "",
-                      ThreadCount(job.settings.threads), target.lanes(), target.name())) +
-      Row("machine", MachineText(ThisMachine())) +
-      Row("strategy", WithSpaces(ToText(job.scene.strategy))) +
-      Row("peaks", PeaksText(report.peaks, target)) +
-      Row("columns",
-          fmt::format("{:.0f} KiB of a wavefront's paths, which live in {}",
-                      double(result.bytes_in_flight) / 1024, report.level.name));
+                       result.stopped_early ? " (stopped early)" : "",
+                       ThreadCount(job.settings.threads), target.lanes(), target.name())) +
+       SummaryRow("machine", MachineText(ThisMachine())) +
+       SummaryRow("strategy", ToText(job.scene.strategy)) +
+       SummaryRow("peaks", PeaksText(report.peaks, target)) +
+       SummaryRow("columns",
+                  fmt::format("{:.0f} KiB of a wavefront's paths, which live in {}",
+                              double(result.bytes_in_flight) / 1024, report.level.name));
   if (result.counter_error != 0) {
-    text += Row("counters", std::string(result.counters ? "in part: " : "none: ") +
-                                WhyNoCounters(result.counter_error));
+    text += SummaryRow("counters", std::string(result.counters ? "in part: " : "none: ") +
+                                       WhyNoCounters(result.counter_error));
   }
   return text;
-}
-
-std::size_t NameWidth(const ProfileReport& report) {
-  std::size_t width = 20;
-  for (const ProfileRow& row : report.rows) {
-    width = std::max(width, row.counts.name.size());
-  }
-  return width;
-}
-
-std::string CostHeader(const ProfileReport& report, std::size_t width) {
-  return fmt::format("{:<{}}{:>7}{:>9}{:>8}{:>8}{:>7}{:>5}{:>6}{:>7}{:>6}  {}\n", "stage",
-                     width, "share", "ns/item", "items", "calls", "lanes", "read",
-                     "write", "GB/s", "of " + report.level.name.substr(0, 3), "bound");
 }
 
 // A number of at most eight characters.
@@ -93,24 +56,34 @@ std::string Ns(double ns) {
   return ns < 9999.5 ? fmt::format("{:.2f}", ns) : fmt::format("{:.3g}", ns);
 }
 
-std::string CostRow(const ProfileRow& row, std::size_t width) {
+std::vector<std::string> CostCells(const ProfileRow& row) {
   const StageProfile& c = row.counts;
-  std::string text = fmt::format("{:<{}}{:>6.1f}%", c.name, width, 100 * row.share);
-  if (c.calls == 0) return text + "\n";
-  text += fmt::format("{:>9}{:>8}{:>8}", Ns(row.NsPerItem()), TotalText(double(c.items)),
-                      TotalText(double(c.calls)));
-  if (row.kind != RowKind::kStage) return text + "\n";
-  return text + fmt::format("{:>6.1f}%{:>5.0f}{:>6.0f}{:>7.1f}{:>5.0f}%  {}\n",
-                            100 * c.Occupancy(), c.bytes_read, c.bytes_written,
-                            1e-9 * row.bandwidth, 100 * row.of_peak, Name(row.bound));
+  std::vector<std::string> cells(11);
+  cells[0] = c.name;
+  cells[1] = fmt::format("{:.1f}%", 100 * row.share);
+  if (c.calls == 0) return cells;
+  cells[2] = Ns(row.NsPerItem());
+  cells[3] = TotalText(double(c.items));
+  cells[4] = TotalText(double(c.calls));
+  if (row.kind != RowKind::kStage) return cells;
+  cells[5] = fmt::format("{:.1f}%", 100 * c.Occupancy());
+  cells[6] = fmt::format("{:.0f}", c.bytes_read);
+  cells[7] = fmt::format("{:.0f}", c.bytes_written);
+  cells[8] = fmt::format("{:.1f}", 1e-9 * row.bandwidth);
+  cells[9] = fmt::format("{:.0f}%", 100 * row.of_peak);
+  cells[10] = Name(row.bound);
+  return cells;
 }
 
 std::string CostTable(const ProfileReport& report) {
-  const std::size_t width = NameWidth(report);
-  std::string text = CostHeader(report, width);
-  for (const ProfileRow& row : report.rows) text += CostRow(row, width);
-  text += fmt::format("{:<{}}{:>6.1f}%  {} of processor time, all threads together\n",
-                      "total", width, 100.0, DurationText(report.seconds));
+  std::vector<std::vector<std::string>> lines = {
+      {"stage", "share", "ns/item", "items", "calls", "lanes", "read", "write", "GB/s",
+       "of " + report.level.name.substr(0, 3), "bound"}};
+  for (const ProfileRow& row : report.rows) lines.push_back(CostCells(row));
+  const std::string text =
+      TextTable(lines, {TerminalColumns(Stream::kOutput), 1, 1}) +
+      fmt::format("total      {} of processor time, all threads together\n",
+                  DurationText(report.seconds));
   if (!(report.intersect_seconds > 0)) return text;
   return text + fmt::format(
                     "\nother stages / intersect: {:.2f}   (with film and the rest: "
@@ -120,38 +93,38 @@ std::string CostTable(const ProfileReport& report) {
 
 // Per item, user mode; of the calls in which the counters were read.
 std::string CounterTable(const ProfileReport& report) {
-  const std::size_t width = NameWidth(report);
-  std::string text =
-      fmt::format("\n{:<{}}{:>12}{:>14}{:>7}{:>12}{:>12}\n", "per item", width, "cycles",
-                  "instructions", "IPC", "L1 misses", "LLC misses");
+  std::vector<std::vector<std::string>> lines = {
+      {"per item", "cycles", "instructions", "IPC", "L1 misses", "LLC misses"}};
   for (const ProfileRow& row : report.rows) {
     if (row.counts.counted_items == 0) continue;
-    text +=
-        fmt::format("{:<{}}{:>12.1f}{:>14.1f}{:>7.2f}{:>12.3f}{:>12.4f}\n",
-                    row.counts.name, width, row.PerItem(Counter::kCycles),
-                    row.PerItem(Counter::kInstructions), row.InstructionsPerCycle(),
-                    row.PerItem(Counter::kL1Misses), row.PerItem(Counter::kLlcMisses));
+    lines.push_back({row.counts.name,
+                     fmt::format("{:.1f}", row.PerItem(Counter::kCycles)),
+                     fmt::format("{:.1f}", row.PerItem(Counter::kInstructions)),
+                     fmt::format("{:.2f}", row.InstructionsPerCycle()),
+                     fmt::format("{:.3f}", row.PerItem(Counter::kL1Misses)),
+                     fmt::format("{:.4f}", row.PerItem(Counter::kLlcMisses))});
   }
-  return text;
+  return "\n" + TextTable(lines, {TerminalColumns(Stream::kOutput), 1, 0});
 }
 
 // What a reader would otherwise take for more than it is.
 std::string Notes(const ProfileReport& report, const RunResult& result) {
-  std::string text =
-      Row("read, write",
-          fmt::format(" bytes per item of path columns; trees, triangles, textures and "
-                      "tables are not in them, nor in GB/s and \"of {}\"",
-                      report.level.name));
-  text += Row("bound", result.counters
-                           ? "the limit that a stage works at (docs/profile.md)"
-                           : "\"memory\" where the columns alone show it; without "
-                             "counters \"-\" means not known (docs/profile.md)");
+  std::string text = SummaryRow(
+      "read,write",
+      fmt::format(" bytes per item of path columns; trees, triangles, textures and "
+                  "tables are not in them, nor in GB/s and \"of {}\"",
+                  report.level.name));
+  text += SummaryRow("bound", result.counters
+                                  ? "the limit that a stage works at (docs/profile.md)"
+                                  : "\"memory\" where the columns alone show it; without "
+                                    "counters \"-\" means not known (docs/profile.md)");
   if (report.waiting_seconds > 0.05 * report.seconds) {
-    text += Row("busy", fmt::format("other programs had the processors for {:.0f} % of "
-                                    "the time; the table counts processor time, but the "
-                                    "caches were theirs too",
-                                    100 * report.waiting_seconds /
-                                        (report.seconds + report.waiting_seconds)));
+    text += SummaryRow("busy",
+                       fmt::format("other programs had the processors for {:.0f} % of "
+                                   "the time; the table counts processor time, but the "
+                                   "caches were theirs too",
+                                   100 * report.waiting_seconds /
+                                       (report.seconds + report.waiting_seconds)));
   }
   return text;
 }

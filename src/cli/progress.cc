@@ -1,23 +1,17 @@
 #include "src/cli/progress.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <vector>
 
-#include "src/cli/console.h"
+#include "src/cli/error_words.h"
+#include "src/cli/terminal.h"
 
 namespace lanelight {
 namespace {
-
-int TerminalColumns() {
-  winsize size = {};
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
-  return 80;
-}
 
 void WriteError(const std::string& text) {
   const char* at = text.data();
@@ -33,15 +27,13 @@ void WriteError(const std::string& text) {
 }  // namespace
 
 void RedrawLine(const std::string& text) {
-  const auto room = static_cast<std::size_t>(std::max(TerminalColumns() - 1, 20));
+  const std::size_t room = TerminalColumns(Stream::kError) - 1;
   WriteError("\r\x1b[K" + text.substr(0, std::min(text.size(), room)));
 }
 
 ProgressStyle ChooseProgressStyle(bool quiet) {
   if (quiet) return ProgressStyle::kNone;
-  const char* terminal = std::getenv("TERM");
-  const bool dumb = terminal != nullptr && std::string(terminal) == "dumb";
-  return isatty(STDERR_FILENO) && !dumb ? ProgressStyle::kBar : ProgressStyle::kLines;
+  return IsTerminal(Stream::kError) ? ProgressStyle::kBar : ProgressStyle::kLines;
 }
 
 std::string CountText(double value) {
@@ -72,14 +64,23 @@ std::string DurationText(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
-std::string ProgressPrinter::Describe(const Progress& p) {
+std::string ProgressPrinter::Describe(const RenderProgress& p, std::size_t room) {
   const double fraction = std::clamp(p.fraction, 0.0, 1.0);
   std::string text = fmt::format("{:3.0f} %", std::floor(100 * fraction));
   if (p.seconds <= 0) return text;
-  text += fmt::format("  {}samples/s", CountText(double(p.samples) / p.seconds));
-  if (fraction >= 1) return text + fmt::format("  {}", DurationText(p.seconds));
-  if (fraction > 0) {
-    text += fmt::format("  {} left", DurationText(p.seconds * (1 - fraction) / fraction));
+  std::vector<std::string> parts;
+  if (fraction >= 1) {
+    parts.push_back(DurationText(p.seconds));
+  } else if (p.target_seconds) {
+    parts.push_back("target in " + DurationText(*p.target_seconds));
+  } else if (fraction > 0) {
+    parts.push_back(DurationText(p.seconds * (1 - fraction) / fraction) + " left");
+  }
+  if (p.error) parts.push_back("error " + BriefPercentText(*p.error));
+  parts.push_back(CountText(double(p.samples) / p.seconds) + "samples/s");
+  for (const std::string& part : parts) {
+    if (text.size() + 2 + part.size() > room) break;
+    text += "  " + part;
   }
   return text;
 }
@@ -89,20 +90,21 @@ std::string ProgressPrinter::Bar(double fraction, int width) {
   return "[" + std::string(full, '#') + std::string(width - full, '.') + "]";
 }
 
-void ProgressPrinter::Draw(const Progress& progress) {
-  const std::string text = Describe(progress);
+void ProgressPrinter::Draw(const RenderProgress& progress) {
   if (style_ == ProgressStyle::kLines) {
-    WriteError("rendering " + text + "\n");
+    WriteError("rendering " + Describe(progress, kDescribeAll) + "\n");
     return;
   }
-  const int room = TerminalColumns() - static_cast<int>(text.size()) - 4;
+  const std::size_t columns = TerminalColumns(Stream::kError) - 1;
+  const std::string text = Describe(progress, columns);
+  const int room = static_cast<int>(columns) - static_cast<int>(text.size()) - 3;
   const std::string bar =
       room >= 8 ? Bar(progress.fraction, std::min(room, 40)) + " " : "";
   WriteError("\r\x1b[K" + bar + text);  // erases the line before drawing it
   drawn_ = true;
 }
 
-void ProgressPrinter::Update(const Progress& progress) {
+void ProgressPrinter::Update(const RenderProgress& progress) {
   if (style_ == ProgressStyle::kNone) return;
   const std::lock_guard lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
@@ -114,6 +116,13 @@ void ProgressPrinter::Update(const Progress& progress) {
   last_tenth_ = std::max(tenth, last_tenth_);
   last_draw_ = now;
   Draw(progress);
+}
+
+void ProgressPrinter::Interrupt(const std::function<void()>& print) {
+  const std::lock_guard lock(mutex_);
+  if (drawn_) WriteError("\r\x1b[K");
+  drawn_ = false;
+  print();
 }
 
 void ProgressPrinter::Finish() {

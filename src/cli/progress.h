@@ -3,10 +3,12 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <functional>
 #include <mutex>
 #include <string>
 
-#include "src/run/run.h"
+#include "src/render/error_so_far.h"
 
 namespace lanelight {
 
@@ -29,21 +31,28 @@ std::string TotalText(double value);
 /// "850 ms", "12.3 s", "4 min 05 s", "2 h 07 min".
 std::string DurationText(double seconds);
 
+/// More columns than a description has.
+inline constexpr std::size_t kDescribeAll = 1000;
+
 class ProgressPrinter {
  public:
   explicit ProgressPrinter(ProgressStyle style) : style_(style) {}
+  bool Shows() const { return style_ != ProgressStyle::kNone; }
   /// Prints if it is time to; may be called from any thread.
-  void Update(const Progress& progress);
+  void Update(const RenderProgress& progress);
+  /// Calls print(), which writes lines, where the bar was.
+  void Interrupt(const std::function<void()>& print);
   /// Ends the line of the bar.
   void Finish();
 
-  /// The text of a line without its bar, e.g. " 42 %  5.1 Msamples/s  3.2 s left".
-  static std::string Describe(const Progress& progress);
+  /// The text of a line without its bar, " 42 %  3.2 s left  error 1.71 % [1.69, 1.73]
+  /// 5.1 Msamples/s": as much of it as fits `room` columns, whatever counts most first.
+  static std::string Describe(const RenderProgress& progress, std::size_t room);
   /// The bar in front of it, `width` cells wide.
   static std::string Bar(double fraction, int width);
 
  private:
-  void Draw(const Progress& progress);
+  void Draw(const RenderProgress& progress);
 
   ProgressStyle style_;
   std::mutex mutex_;

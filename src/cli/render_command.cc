@@ -7,6 +7,8 @@
 #include "src/cli/interrupt.h"
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
+#include "src/cli/validators.h"
+#include "src/render/display.h"
 
 namespace lanelight {
 namespace {
@@ -66,7 +68,7 @@ void CheckAmountOptions(const RenderSettings& settings) {
   if (!settings.spp || !settings.seconds || HasTarget(settings)) return;
   throw CLI::ValidationError(
       "--time",
-      "--time excludes --spp, except as limits of --target-relmse or "
+      "--time excludes --spp, except as limits of --target, --target-relmse or "
       "--target-rmse");
 }
 
@@ -78,6 +80,16 @@ void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen) {
   AddSettings(*command, kAmountFlag, options->scene.settings);
   AddOutputOptions(*command, options->outputs, options->scene.settings);
   AddCheckpointOptions(*command, options->checkpoint);
+  command
+      ->add_option_function<std::string>(
+          "--display-server",
+          [options](const std::string& text) {
+            options->outputs.targets.display = ReadValue(kDisplayEndpoint, text);
+          },
+          "Show the image so far in tev, or another viewer of its protocol, that listens "
+          "there; default: nowhere, and port 14158")
+      ->check(ValueOf(kDisplayEndpoint))
+      ->type_name("HOST[:PORT]");
   AddSceneOptions(*command, options->scene);
   command->footer(
       "\nFlags override what the scene file says. Ctrl-C finishes the samples in flight "
@@ -85,9 +97,9 @@ void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen) {
       "writes the image, and the state with --checkpoint; a second one aborts.\n"
       "\nExamples:\n"
       "  lanelight render scene.pbrt -o out.exr --spp 256 --png\n"
-      "  lanelight render scene.pbrt -o out.exr --time 60 --resolution 640x360 --json "
+      "  lanelight render scene.pbrt -o out.exr --time 1m --resolution 640x360 --json "
       "r.json\n"
-      "  lanelight render scene.pbrt -o out.exr --target-relmse 0.001 --time 600\n"
+      "  lanelight render scene.pbrt -o out.exr --target 1% --time 10m\n"
       "  lanelight render scene.pbrt -o part.exr --crop 100,100,200,150 --aov\n"
       "  lanelight render scene.pbrt -o out.exr --spp 65536 --checkpoint out.state "
       "--resume\n"

@@ -3,8 +3,10 @@
 #include <filesystem>
 
 #include "src/cli/console.h"
+#include "src/cli/error_words.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/summary.h"
+#include "src/cli/note_lines.h"
 #include "src/core/json_text.h"
 #include "src/scene/image_changes.h"
 
@@ -24,6 +26,7 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
                     job.seconds, DurationText(r.seconds)));
   }
   if (!job.target.Any() || Reached(job.target, report.error)) return kExitGood;
+  const std::string error = PercentText(report.error) + ", " + ErrorText(report.error);
   const std::string limit = r.stop_reason == StopReason::kInterrupted ? "interruption"
                             : r.stop_reason == StopReason::kTime      ? "--time"
                                                                       : "--spp";
@@ -33,9 +36,9 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
           ? fmt::format("error: the target cannot be shown to be reached, however many "
                         "samples there are; ended after {:.0f} per pixel, {:.0f} times "
                         "what the estimate asks for: {}",
-                        spp, kHopeless, ErrorText(report.error))
+                        spp, kHopeless, error)
           : fmt::format("error: the target was not reached before the end by {}: {}",
-                        limit, ErrorText(report.error)));
+                        limit, error));
   return kExitTargetMissed;
 }
 
@@ -80,7 +83,10 @@ void AddOutputOptions(CLI::App& command, RenderOutputs& options,
       .add_option("--json", options.targets.json,
                   "Write a report for scripts ('-': print it)")
       ->type_name("FILE");
-  command.add_flag("--quiet", options.quiet, "Print errors only");
+  CLI::Option* verbose = command.add_flag(
+      "-v,--verbose", options.verbose,
+      "Print what it took as well: strategy, machine, times, the cost of each stage");
+  command.add_flag("--quiet", options.quiet, "Print errors only")->excludes(verbose);
 }
 
 void ResolveOutputs(RenderOutputs& options, const RenderSettings& settings) {
@@ -97,7 +103,9 @@ void ResolveOutputs(RenderOutputs& options, const RenderSettings& settings) {
 
 void CheckOutputs(const RenderOutputs& options, const std::set<std::string>& inputs) {
   const RenderTargets& t = options.targets;
-  OutputPaths outputs = {{t.exr, t.png, t.json, t.checkpoint.watch}};
+  OutputPaths outputs = {{t.exr, t.png, t.json}};
+  outputs.files.insert(outputs.files.end(), t.checkpoint.watch.begin(),
+                       t.checkpoint.watch.end());
   // A state may be written over by the one that goes on from it, and by nothing else.
   if (!t.checkpoint.from.empty()) CheckOutputPaths(outputs, {t.checkpoint.from});
   outputs.files.push_back(t.checkpoint.path);
@@ -115,15 +123,7 @@ Job OpenScene(const SceneOptions& options, const OutputPaths& outputs, bool quie
 }
 
 void PrintNotes(const Job& job) {
-  constexpr std::size_t kShown = 8;
-  const auto& notes = job.description.notes;
-  for (std::size_t i = 0; i < notes.size() && i < kShown; ++i) {
-    PrintError(notes[i].where.ToString() + ": note: " + notes[i].message);
-  }
-  if (notes.size() > kShown) {
-    PrintError(
-        fmt::format("and {} more notes (all are in --json)", notes.size() - kShown));
-  }
+  for (const std::string& line : NoteLines(job.description.notes)) PrintError(line);
   for (const std::string& note : job.plan.notes) PrintError("note: " + note);
 }
 
@@ -145,11 +145,13 @@ bool SaveOrPrint(const std::string& path, const std::string& text) {
 int PrintRendering(const Rendering& rendering, const Job& job,
                    const RenderOutputs& options, const std::string& preface) {
   const RenderReport& report = rendering.report;
+  const std::string kept =
+      rendering.state_kept ? options.targets.checkpoint.path : std::string();
   const bool good = PrintProblems(rendering.problems);
   if (options.targets.json == "-") {
     Print(DumpJson(rendering.json, 2) + "\n");
   } else if (!options.quiet) {
-    Print(preface + SummaryText(report, job));
+    Print(preface + SummaryText(report, job, {options.verbose, kept}));
   }
   if (report.result.health.Total() > 0) {
     PrintError(fmt::format("error: {} samples were invalid and count as zero",
@@ -173,9 +175,14 @@ int PrintRendering(const Rendering& rendering, const Job& job,
 
 RenderHooks PrintingHooks(ProgressPrinter& progress, const std::atomic<bool>& stop) {
   RenderHooks hooks;
-  hooks.on_progress = [&](const Progress& p) { progress.Update(p); };
+  if (progress.Shows()) {
+    hooks.on_progress = [&](const RenderProgress& p) { progress.Update(p); };
+    hooks.tells_error = true;
+  }
   hooks.on_rendered = [&] { progress.Finish(); };
-  hooks.on_problem = PrintWarning;  // rendering goes on
+  hooks.on_problem = [&](const std::string& problem) {  // rendering goes on
+    progress.Interrupt([&] { PrintWarning(problem); });
+  };
   hooks.stop = &stop;
   return hooks;
 }

@@ -15,7 +15,7 @@ namespace lanelight {
 
 struct RenderOutputs {
   RenderTargets targets;
-  bool quiet = false;
+  bool quiet = false, verbose = false;
   CLI::Option* png_flag = nullptr;
 };
 

@@ -32,6 +32,12 @@ CLI::Option* AddSetting(CLI::App& command, const std::string& name,
   if (*setting.needs != '\0') {
     option->needs(command.get_option(std::string("--") + setting.needs));
   }
+  // Of the two the one that is declared later names the other.
+  for (const std::string& other : {std::string(setting.writes), WrittenBy(setting)}) {
+    CLI::Option* found =
+        other.empty() ? nullptr : command.get_option_no_throw("--" + other);
+    if (found != nullptr) option->excludes(found);
+  }
   return option->type_name(setting.type);
 }
 
@@ -51,7 +57,7 @@ void AddSceneOptions(CLI::App& command, SceneOptions& options) {
 std::string FlagsText(const RenderSettings& settings) {
   std::string text;
   for (const Setting& setting : SettingList()) {
-    if (!setting.IsSet(settings)) continue;
+    if (*setting.writes != '\0' || !setting.IsSet(settings)) continue;
     text += std::string(" --") + setting.name;
     if (setting.form == ValueForm::kFlag) continue;
     text += " " + ShellWord(*setting.text(settings));

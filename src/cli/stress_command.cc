@@ -127,7 +127,7 @@ void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
   std::vector<std::string> targets = AvailableTargets();
   targets.push_back("all");
   command
-      .add_option("--target", options.targets,
+      .add_option("--simd", options.targets,
                   WithDefault("SIMD targets (see `lanelight info`), or all that this "
                               "machine has",
                               "the best there is"))
@@ -159,7 +159,7 @@ void AddStressCommand(CLI::App& root, Command& chosen) {
       "case failed.\n"
       "\nExamples:\n"
       "  lanelight stress\n"
-      "  lanelight stress 'ggx-*' lights --target all --out stress\n"
+      "  lanelight stress 'ggx-*' lights --simd all --out stress\n"
       "  lanelight stress --full --out stress-full");
   command->callback(
       [options, &chosen] { chosen = [options] { return RunStressCommand(*options); }; });

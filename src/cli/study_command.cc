@@ -78,6 +78,9 @@ int RunStudyCommand(StudyCommandOptions& options) {
   return good ? kExitGood : kExitBadInput;
 }
 
+// As the flag of a render is.
+constexpr PercentErrorType kTargetInPercent{1e-13, 1e17};
+
 void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
   StudyOptions& s = options.study;
   CLI::Option* list =
@@ -96,15 +99,15 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
                       "Samples per pixel, e.g. 1,4,16,64; default: powers of two up to "
                       "what the baseline renders in a second")
           ->delimiter(',')
-          ->transform(ValueFrom(std::uint64_t{1}, kMaxSpp))
+          ->transform(ValueOf(CountType{1, kMaxSpp}))
           ->type_name("N,...");
   command
       .add_option(
           "--budget", s.budget,
           "Render for equal times instead, of the wall clock: each strategy takes "
           "up to so many samples as it can; compared by processor time")
-      ->transform(ValueFrom(1e-3, 1e6))
-      ->type_name("SECONDS")
+      ->transform(ValueOf(SecondsType{1e-3, 1e6}))
+      ->type_name("TIME")
       ->excludes(spp);
   command
       .add_option("--repetitions", s.repetitions,
@@ -122,12 +125,24 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
                   "default: rendered")
       ->allow_extra_args(false)
       ->type_name("FILE");
+  CLI::Option* percent =
+      command
+          .add_option_function<std::string>(
+              "--target",
+              [&s](const std::string& text) {
+                s.target_relmse = ReadValue(kTargetInPercent, text);
+              },
+              "The same as the root of the relative MSE in percent: 1% is 0.0001; "
+              "default: what the baseline reaches")
+          ->check(ValueOf(kTargetInPercent))
+          ->type_name("X%");
   command
       .add_option("--target-relmse", s.target_relmse,
                   "Measure the time to this relative MSE; default: what the baseline "
                   "reaches")
       ->transform(ValueFrom(1e-30, 1e30))
-      ->type_name("X");
+      ->type_name("X")
+      ->excludes(percent);
 }
 
 }  // namespace

@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "src/cli/progress.h"
+#include "src/cli/terminal.h"
+#include "src/core/text_layout.h"
 #include "src/report/values.h"
 
 namespace lanelight {
 namespace {
 
-constexpr std::size_t kSummaryColumns = 90, kLongestName = 30;
+constexpr std::size_t kLongestName = 30;
 
 std::string Known(const Interval& v) {
   return std::isfinite(v.value) ? EstimateText(v) : "-";
@@ -40,32 +42,33 @@ std::string Short(const std::string& name) {
   return name.size() <= kLongestName ? name : name.substr(0, kLongestName - 3) + "...";
 }
 
-constexpr const char* kStrategyRow =
-    "{:>5}  {:<30} {:>5} {:>20} {:>20} {:>14} {:>8} {:>12} {:>10}{}\n";
+using Cells = std::vector<std::string>;
 
-std::string Row(const StrategyRuns& runs, const StrategyAnalysis& s) {
+Cells RowOf(const StrategyRuns& runs, const StrategyAnalysis& s) {
   const LevelAnalysis& level = s.AtLevel();
-  return fmt::format(fmt::runtime(kStrategyRow), RankText(s.rank), Short(runs.named.name),
-                     level.spp, Known(*s.efficiency), Known(*s.efficiency_trimmed),
-                     Percent(level.relmse), DurationText(level.cpu_seconds.value),
-                     s.order ? PlusMinus(*s.order) : "-", TargetText(s.to_target),
-                     s.heavy_tailed ? "  heavy tail" : "");
+  return {RankText(s.rank),
+          Short(runs.named.name),
+          std::to_string(level.spp),
+          Known(*s.efficiency),
+          Known(*s.efficiency_trimmed),
+          Percent(level.relmse),
+          DurationText(level.cpu_seconds.value),
+          s.order ? PlusMinus(*s.order) : "-",
+          TargetText(s.to_target),
+          s.heavy_tailed ? "heavy tail" : ""};
 }
 
-// Breaks lines between words.
-std::string Wrap(const std::string& text) {
-  std::string out, line;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    if (!line.empty() && line.size() + 1 + word.size() > kSummaryColumns) {
-      out += line + "\n";
-      line.clear();
-    }
-    line += (line.empty() ? "" : " ") + word;
-    begin = end + 1;
+std::string RankingTable(const SceneStudy& study) {
+  std::vector<Cells> lines = {{"rank", "strategy", "spp", "efficiency", "trimmed",
+                               "relative MSE", "cpu", "order", "to target", ""}};
+  for (const std::size_t i : study.analysis.ranking) {
+    lines.push_back(RowOf(study.runs.strategies[i], study.analysis.strategies[i]));
   }
-  return out + line + "\n";
+  return TextTable(lines, {TerminalColumns(Stream::kOutput), 2, 1});
+}
+
+std::string Wrap(const std::string& text) {
+  return Wrapped(text, TerminalColumns(Stream::kOutput)) + "\n";
 }
 
 // "points=sobol, scene: the same as default on this scene, not rendered again".
@@ -102,16 +105,12 @@ std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
     text += MachineText(machine) + "\n";
   }
   text += "\n";
-  text += fmt::format(fmt::runtime(kStrategyRow), "rank", "strategy", "spp", "efficiency",
-                      "trimmed", "relative MSE", "cpu", "order", "to target", "");
-  for (std::size_t i : analysis.ranking) {
-    text += Row(runs.strategies[i], analysis.strategies[i]);
-  }
+  text += RankingTable(study);
   text += Twins(runs);
   for (const StrategyRuns& s : runs.strategies) {
     if (s.status == RunStatus::kOk || s.status == RunStatus::kSame) continue;
-    text += fmt::format("{:>5}  {:<30} {}: {}\n", "-", Short(s.named.name),
-                        Name(s.status), s.message);
+    text += Wrap(
+        fmt::format("-  {}  {}: {}", Short(s.named.name), Name(s.status), s.message));
   }
   return text +
          fmt::format(

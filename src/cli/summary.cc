@@ -1,26 +1,21 @@
 #include "src/cli/summary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
+#include "src/cli/error_words.h"
 #include "src/cli/progress.h"
+#include "src/cli/terminal.h"
 #include "src/core/machine_info.h"
 #include "src/core/parallel.h"
+#include "src/core/text_layout.h"
 #include "src/scene/image_changes.h"
+#include "src/strategy/choices_text.h"
 
 namespace lanelight {
 namespace {
-
-std::string Row(const std::string& label, const std::string& text) {
-  return fmt::format("{:<10} {}\n", label, text);
-}
-
-std::string IntervalText(const Interval& v) {
-  if (!v.HasBounds())
-    return fmt::format("at least {:.4g} (estimate {:.4g})", v.low, v.value);
-  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", v.value, v.low, v.high);
-}
 
 std::string HealthText(const Health& h) {
   if (h.Total() == 0) return "all samples valid";
@@ -38,7 +33,7 @@ std::string ControlRow(const RunResult& r, const Strategy& strategy) {
   if (r.control) {
     text += fmt::format(", correlation reached {:.4f}", r.control->correlation);
   }
-  return Row("control", text);
+  return SummaryRow("control", text);
 }
 
 const char* StopText(const RunResult& r) {
@@ -46,109 +41,167 @@ const char* StopText(const RunResult& r) {
   return r.stop_reason == StopReason::kTarget ? " (target reached)" : "";
 }
 
+double SecondsOf(const RunResult& r) { return std::max(r.seconds, 1e-9); }
+
+// What was written, and of how many samples.
+std::string ImageRow(const RenderReport& report, const PixelRect& window) {
+  std::string files = report.exr.empty() ? "none" : report.exr;
+  if (!report.png.empty()) files += ", " + report.png;
+  return SummaryRow("image",
+                    fmt::format("{} ({}x{} pixels, {:.4g} samples each)", files,
+                                window.width(), window.height(),
+                                double(report.result.samples) / double(window.pixels())));
+}
+
+std::string ErrorRow(const ErrorEstimate& error) {
+  return SummaryRow("error", Painted(Ink::kBold, PercentText(error), Stream::kOutput) +
+                                 (error.available ? ", 95 % confidence" : ""));
+}
+
 std::string SpeedRows(const RunResult& r) {
-  const double seconds = r.seconds > 0 ? r.seconds : 1e-9;
+  const double rays = double(r.rays_closest) + double(r.rays_shadow);
+  return SummaryRow("time", DurationText(r.seconds) + StopText(r)) +
+         SummaryRow("speed", fmt::format("{}samples/s, {}rays/s",
+                                         CountText(double(r.samples) / SecondsOf(r)),
+                                         CountText(rays / SecondsOf(r))));
+}
+
+// How an image of a smaller error is come by: squared errors fall as 1 / samples.
+std::string NextRow(const RenderReport& report, const Job& job,
+                    const std::string& checkpoint) {
+  const RunResult& r = report.result;
+  const ErrorEstimate& e = report.error;
+  if (!e.available || !(e.relmse.value > 0) || r.samples == 0) return "";
+  const bool missed = job.target.Any() && !Reached(job.target, e);
+  constexpr double kHalfTheError = 4;
+  double times = kHalfTheError;
+  if (missed) times = SamplesNeeded(job.target, e, r.samples) / double(r.samples);
+  if (!std::isfinite(times) || times <= 0) return "";
+  const double spp = double(r.samples) / double(job.window.pixels());
+  const std::string amount =
+      job.seconds > 0 || missed
+          ? fmt::format("--time {:.0f}", std::ceil(times * SecondsOf(r)))
+          : fmt::format("--spp {:.0f}", std::ceil(times * spp));
+  std::string text = fmt::format("{} takes about {:.2g} times as long: {} ({})",
+                                 missed ? "the target" : "half the error", times, amount,
+                                 DurationText(times * SecondsOf(r)));
+  if (!checkpoint.empty()) {
+    text += fmt::format("; --resume goes on from '{}'", checkpoint);
+  }
+  return SummaryRow("next", text);
+}
+
+// What rendered, as far as it is not what renders without being asked for.
+std::string StrategyRow(const RunResult& r, const Job& job) {
+  const Strategy in_force = StrategyInForce(r, job);
+  Strategy usual;
+  usual.decide = in_force.decide;
+  const std::string changes = ChoicesNotIn(ToText(usual), ToText(in_force));
+  if (changes.empty()) return "";
+  const char* by = r.training.changes.empty() ? "" : " (by a pilot; -v says why)";
+  return SummaryRow("strategy", changes + by);
+}
+
+// What of a pilot's seconds and findings.
+std::string PilotRow(const RunResult& r) {
+  if (r.training.note.empty()) return "";
+  return SummaryRow(
+      "pilot", fmt::format("{} ({:.1f} %): {}", DurationText(r.training.seconds),
+                           100 * r.training.seconds / SecondsOf(r), r.training.note));
+}
+
+std::string RaysRow(const RunResult& r) {
   const double closest = double(r.rays_closest), shadow = double(r.rays_shadow);
-  return Row("samples",
-             fmt::format("{} in {}: {}samples/s{}", TotalText(double(r.samples)),
-                         DurationText(r.seconds), CountText(double(r.samples) / seconds),
-                         StopText(r))) +
-         Row("rays",
-             fmt::format("{} ({} closest hit, {} shadow): {}rays/s",
-                         TotalText(closest + shadow), TotalText(closest),
-                         TotalText(shadow), CountText((closest + shadow) / seconds)));
+  return SummaryRow("rays", fmt::format("{} ({} closest hit, {} shadow) of {} samples",
+                                        TotalText(closest + shadow), TotalText(closest),
+                                        TotalText(shadow), TotalText(double(r.samples))));
+}
+
+std::string DetailRows(const RenderReport& report, const Job& job) {
+  const RunResult& r = report.result;
+  const SimdTarget target = job.plan.options.target;
+  return "\n" + SummaryRow("strategy", ToText(StrategyInForce(r, job))) +
+         SummaryRow("points", PointsText(job)) + PilotRow(r) +
+         SummaryRow("errors", ErrorText(report.error)) +
+         ControlRow(r, job.scene.strategy) + RaysRow(r) +
+         SummaryRow("health", HealthText(r.health)) +
+         SummaryRow(
+             "steps",
+             fmt::format("load {}, build {} (trees {} in {}), render {}, write {}",
+                         DurationText(job.load_seconds), DurationText(job.build_seconds),
+                         Name(job.trees.origin), DurationText(job.trees.seconds),
+                         DurationText(r.seconds), DurationText(report.write_seconds))) +
+         SummaryRow("machine", MachineText(ThisMachine())) +
+         SummaryRow("kernels",
+                    fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} "
+                                "bytes",
+                                target.name(), target.lanes(),
+                                ThreadCount(job.settings.threads), job.plan.wavefront, job.plan.bytes_per_path)) +
+         "\n" + StageTable(r);
 }
 
 }  // namespace
 
-std::string ErrorText(const ErrorEstimate& e) {
-  if (!e.available) return "unknown: needs two samples per pixel, or two pairs";
-  std::string text = fmt::format("RMSE {}, relative MSE {} (95 % confidence)",
-                                 IntervalText(e.rmse), IntervalText(e.relmse));
-  if (!e.why.empty()) text += "; how large it may be cannot be told: " + e.why;
-  return text;
+Strategy StrategyInForce(const RunResult& result, const Job& job) {
+  Strategy strategy = job.scene.strategy;
+  ApplyStrategy(result.training.changes, {}, strategy);
+  return strategy;
 }
 
 std::string StageTable(const RunResult& result) {
   double total = 0;
   for (const StageProfile& s : result.stages) total += s.seconds;
-  std::string text =
-      fmt::format("{:<24}{:>9}{:>10}{:>8}{:>10}{:>8}{:>9}\n", "stage", "calls", "items",
-                  "lanes", "seconds", "share", "ns/item");
+  std::vector<std::vector<std::string>> lines = {
+      {"stage", "calls", "items", "lanes", "seconds", "share", "ns/item"}};
   for (const StageProfile& s : result.stages) {
-    text += fmt::format("{:<24}{:>9}{:>10}{:>6.1f} %{:>10.3f}{:>6.1f} %{:>9.2f}\n",
-                        s.name, TotalText(double(s.calls)), TotalText(double(s.items)),
-                        100 * s.Occupancy(), s.seconds,
-                        total > 0 ? 100 * s.seconds / total : 0,
-                        s.items ? 1e9 * s.seconds / double(s.items) : 0);
+    lines.push_back(
+        {s.name, TotalText(double(s.calls)), TotalText(double(s.items)),
+         fmt::format("{:.1f} %", 100 * s.Occupancy()), fmt::format("{:.3f}", s.seconds),
+         fmt::format("{:.1f} %", total > 0 ? 100 * s.seconds / total : 0),
+         fmt::format("{:.2f}", s.items ? 1e9 * s.seconds / double(s.items) : 0)});
   }
-  return text +
-         fmt::format("{:<24}{:>37.3f}  seconds of all threads together\n", "", total);
+  return TextTable(lines, {TerminalColumns(Stream::kOutput), 1, 0}) +
+         fmt::format("{:.3f} seconds of all threads together\n", total);
 }
 
-std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged) {
+std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged,
+                             bool verbose) {
   const RunResult& r = report.result;
-  const auto pixels = double(merged.window.pixels());
   std::string text;
-  if (!report.exr.empty()) {
-    text += Row("image", fmt::format("{} ({}x{} pixels, {:.4g} samples each)", report.exr,
-                                     merged.window.width(), merged.window.height(),
-                                     double(r.samples) / pixels));
-  }
-  if (!report.png.empty()) text += Row("png", report.png);
+  if (!report.exr.empty()) text += ImageRow(report, merged.window);
+  text += ErrorRow(report.error) + SpeedRows(r);
   if (merged.missing > 0) {
-    text += Row("missing",
-                fmt::format("{} of {} pixels", merged.missing, merged.window.pixels()));
+    text += SummaryRow("missing", fmt::format("{} of {} pixels", merged.missing,
+                                              merged.window.pixels()));
   }
-  if (merged.seeds.size() > 1)
-    text += Row("seeds", fmt::format("{}", merged.seeds.size()));
+  if (merged.seeds.size() > 1) {
+    text += SummaryRow("seeds", fmt::format("{}", merged.seeds.size()));
+  }
+  if (!verbose) return text;
+  text += "\n" + SummaryRow("strategy", merged.identity.at("strategy")) +
+          SummaryRow("errors", ErrorText(report.error)) + RaysRow(r) +
+          SummaryRow("health", HealthText(r.health));
   for (const MachineInfo& machine : merged.machines) {
-    text += Row("machine", MachineText(machine));
+    text += SummaryRow("machine", MachineText(machine));
   }
-  text += Row("strategy", merged.identity.at("strategy"));
-  text += SpeedRows(r);
-  text += Row("error", ErrorText(report.error));
-  return text + Row("health", HealthText(r.health));
+  return text;
 }
 
 std::string DiffersRow(const std::vector<Note>& notes) {
   const std::string text = ImageChangesText(notes);
-  return text.empty() ? text : "\n" + Row("differs", text);
+  if (text.empty()) return text;
+  return "\n" + Painted(Ink::kYellow, "differs", Stream::kOutput) + "    " + text + "\n";
 }
 
-std::string SummaryText(const RenderReport& report, const Job& job) {
+std::string SummaryText(const RenderReport& report, const Job& job,
+                        const SummaryChoice& choice) {
   const RunResult& r = report.result;
-  std::string text =
-      Row("image", fmt::format("{} ({}x{} pixels, {:.4g} samples each)",
-                               report.exr.empty() ? "none" : report.exr,
-                               job.window.width(), job.window.height(),
-                               double(r.samples) / double(job.window.pixels())));
-  if (!report.png.empty()) text += Row("png", report.png);
-  text += Row("strategy", ToText(job.scene.strategy));
-  text += Row("points", PointsText(job));
-  text += SpeedRows(r);
-  if (!r.training.note.empty()) {
-    text +=
-        Row("pilot", fmt::format("{} ({:.1f} %): {}", DurationText(r.training.seconds),
-                                 100 * r.training.seconds / std::max(r.seconds, 1e-9),
-                                 r.training.note));
-  }
-  text += Row("error", ErrorText(report.error));
-  text += ControlRow(r, job.scene.strategy);
-  text += Row("health", HealthText(r.health));
-  text += Row("time",
-              fmt::format("load {}, build {} (trees {} in {}), render {}, write {}",
-                          DurationText(job.load_seconds), DurationText(job.build_seconds),
-                          Name(job.trees.origin), DurationText(job.trees.seconds),
-                          DurationText(r.seconds), DurationText(report.write_seconds)));
-  const SimdTarget target = job.plan.options.target;
-  text +=
-      Row("machine", MachineText(ThisMachine())) +
-      Row("kernels",
-          fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} bytes",
-                      target.name(), target.lanes(), ThreadCount(job.settings.threads),
-                      job.plan.wavefront, job.plan.bytes_per_path));
-  return text + "\n" + StageTable(r) + DiffersRow(job.description.notes);
+  std::string text = ImageRow(report, job.window) + ErrorRow(report.error) +
+                     SpeedRows(r) + StrategyRow(r, job);
+  if (r.health.Total() > 0) text += SummaryRow("health", HealthText(r.health));
+  text += NextRow(report, job, choice.checkpoint);
+  if (choice.verbose) text += DetailRows(report, job);
+  return text + DiffersRow(job.description.notes);
 }
 
 }  // namespace lanelight

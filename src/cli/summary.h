@@ -9,19 +9,28 @@
 
 namespace lanelight {
 
+/// What of a summary is wanted.
+struct SummaryChoice {
+  bool verbose = false;    // times, machine and the cost of each stage too
+  std::string checkpoint;  // the state to go on from; empty: none
+};
+
+/// Image, error, time, speed, and what a smaller error takes.
+std::string SummaryText(const RenderReport& report, const Job& job,
+                        const SummaryChoice& choice);
+
 /// The same of states that were put together.
-std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged);
+std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged,
+                             bool verbose);
 
-/// Output paths, speed, estimated error, health, times, and the cost of each stage.
-std::string SummaryText(const RenderReport& report, const Job& job);
-
-/// That the image is not what the scene file asks for, and why; empty if it is.
+/// That the image is not what the scene file asks for, and why, in one line; empty if it
+/// is.
 std::string DiffersRow(const std::vector<Note>& notes);
 
 /// One row per stage: calls, items, lane occupancy, thread seconds, share, ns per item.
 std::string StageTable(const RunResult& result);
 
-/// "RMSE 0.0123 [0.0120, 0.0126], relative MSE ..." or why there is no estimate.
-std::string ErrorText(const ErrorEstimate& error);
+/// What rendered the image: the job's strategy as a pilot has changed it.
+Strategy StrategyInForce(const RunResult& result, const Job& job);
 
 }  // namespace lanelight

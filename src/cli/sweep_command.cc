@@ -87,7 +87,7 @@ int DryRun(const Sweep& sweep, SweepCommandOptions& options) {
 WorkStep StepOf(const SweepProgress& p) {
   return {(double(p.done) + p.render.fraction) / double(p.total), p.cell->name, 0,
           fmt::format("{} of {}  {}", p.done + 1, p.total, p.cell->name),
-          ProgressPrinter::Describe(p.render)};
+          ProgressPrinter::Describe({p.render, {}, {}}, kDescribeAll)};
 }
 
 int RunSweepCommand(SweepCommandOptions& options) {

@@ -95,6 +95,34 @@ struct BytesType {
   std::string Right(const std::string&) const;
 };
 
+/// A count from low to high, with a prefix of thousands or without: "10k", "1.5M", "2G".
+struct CountType {
+  std::uint64_t low{}, high{};
+
+  std::optional<std::uint64_t> Read(const std::string& text) const;
+  std::string Write(std::uint64_t count) const { return std::to_string(count); }
+  std::string Right(const std::string&) const;
+};
+
+/// Seconds from low to high, alone or with units: "90", "5m", "1h30m", "500ms", "2d".
+struct SecondsType {
+  double low{}, high{};
+
+  std::optional<double> Read(const std::string& text) const;
+  std::string Write(double seconds) const { return fmt::format("{}", seconds); }
+  std::string Right(const std::string&) const;
+};
+
+/// A relative MSE, written as its root in percent: "1%" is 0.0001. Never without the sign
+/// of percent, so that nobody takes one for the other.
+struct PercentErrorType {
+  double low{}, high{};  // percent
+
+  std::optional<double> Read(const std::string& text) const;
+  std::string Write(double relative_mse) const;
+  std::string Right(const std::string&) const;
+};
+
 /// Any text but an empty one.
 struct TextType {
   const char* right;

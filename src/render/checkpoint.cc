@@ -7,6 +7,7 @@
 #include "src/core/json_text.h"
 #include "src/image/exr.h"
 #include "src/image/for_each_pixel.h"
+#include "src/image/png.h"
 #include "src/render/identity.h"
 #include "src/render/output.h"
 #include "src/render/run_content.h"
@@ -19,6 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
+
+bool IsPng(const std::string& path) { return fs::path(path).extension() == ".png"; }
+
+const std::string& ColorSpaceOf(const Job& job) {
+  return job.description.film.color_space;
+}
 
 bool Exists(const std::string& path) {
   std::error_code ignored;  // what cannot be looked at will be missed when it is opened
@@ -177,12 +184,29 @@ std::function<void()> Checkpoint::Watch(RunState& state) const {
   if (settings_.watch.empty()) return {};
   FilmAccumulator& film = state.films.film();
   film.FitControl();
-  auto planes =
-      std::make_shared<std::vector<ExrPlane>>(FilmPlanes(film, job_.scene.scale));
-  const ExrOptions options =
-      OutputOptions(identity_, head_, state.counts, film, /*half=*/false);
-  return [path = settings_.watch, planes, options, width = film.width(),
-          height = film.height()] { WriteExr(path, width, height, *planes, options); };
+  // Made only where they are written.
+  std::shared_ptr<std::vector<ExrPlane>> planes;
+  std::shared_ptr<Image> image;
+  ExrOptions options;
+  for (const std::string& path : settings_.watch) {
+    if (IsPng(path)) {
+      if (!image) image = std::make_shared<Image>(FilmImage(film, ColorSpaceOf(job_)));
+    } else if (!planes) {
+      planes =
+          std::make_shared<std::vector<ExrPlane>>(FilmPlanes(film, job_.scene.scale));
+      options = OutputOptions(identity_, head_, state.counts, film, /*half=*/false);
+    }
+  }
+  return [paths = settings_.watch, exposure = settings_.exposure, planes, image, options,
+          width = film.width(), height = film.height()] {
+    for (const std::string& path : paths) {
+      if (IsPng(path)) {
+        WritePng(path, *image, exposure);
+      } else {
+        WriteExr(path, width, height, *planes, options);
+      }
+    }
+  };
 }
 
 bool Checkpoint::Try(const std::function<void()>& write) {

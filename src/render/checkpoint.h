@@ -32,7 +32,9 @@ struct CheckpointSettings {
   std::string path;     // state to keep; empty: none
   double seconds = 60;  // between two of them
   Resume resume = Resume::kNever;
-  std::string watch;     // EXR of the image so far, written with each state; empty: none
+  /// The image so far, EXR or PNG by the end of the name, written with each state.
+  std::vector<std::string> watch;
+  double exposure = 0;   // of the PNG, stops
   Part part;             // of the render
   bool finished = true;  // the state of a render that is finished is kept too
 

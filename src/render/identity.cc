@@ -6,6 +6,7 @@
 #include "src/core/json_text.h"
 #include "src/core/version.h"
 #include "src/render/setting.h"
+#include "src/strategy/choices_text.h"
 
 namespace lanelight {
 namespace {
@@ -15,9 +16,20 @@ using Json = nlohmann::json;
 // What to do about a difference.
 const char* Remedy(const std::string& name) {
   if (name == "scene_hash") return " (the scene or a file of it has changed)";
-  if (name == "target") return " (--target chooses it)";
+  if (name == "target") return " (--simd chooses it)";
   if (name == "version") return " (another program may compute other bits)";
   return "";
+}
+
+// Of strategies, what differs: all of one are hundreds of letters.
+std::string Shown(const Json& value, const Json& other) {
+  const auto is_strategy = [](const Json& json) {
+    return json.is_string() && json.get<std::string>().find('=') != std::string::npos;
+  };
+  if (!is_strategy(value) || !is_strategy(other)) return DumpJson(value);
+  const std::string choices =
+      ChoicesNotIn(other.get<std::string>(), value.get<std::string>());
+  return choices.empty() ? "nothing of it" : choices;
 }
 
 }  // namespace
@@ -40,8 +52,8 @@ std::string IdentityDifferences(const Json& a, const std::string& who_a, const J
   for (const std::string& name : names) {
     const Json of_a = a.value(name, Json()), of_b = b.value(name, Json());
     if (of_a == of_b) continue;
-    text += fmt::format("\n  {}: {} has {}, {} {}{}", name, who_a, DumpJson(of_a), who_b,
-                        DumpJson(of_b), Remedy(name));
+    text += fmt::format("\n  {}: {} has {}, {} {}{}", name, who_a, Shown(of_a, of_b),
+                        who_b, Shown(of_b, of_a), Remedy(name));
   }
   return text;
 }

@@ -1,5 +1,6 @@
 #include "src/render/render.h"
 
+#include <memory>
 #include <optional>
 
 #include "src/core/error.h"
@@ -8,6 +9,7 @@
 #include "src/core/stopwatch.h"
 #include "src/image/for_each_pixel.h"
 #include "src/image/png.h"
+#include "src/render/display.h"
 #include "src/render/identity.h"
 #include "src/render/output.h"
 #include "src/render/saving.h"
@@ -60,13 +62,38 @@ void AgreeOnJob(const Job& job, RankGroup& group) {
                                 failure.what(), settings.path));
 }
 
-RunOptions OptionsFor(const Job& job, const RenderHooks& hooks) {
-  RunOptions options = RunOptionsOf(job);
-  options.on_progress = hooks.on_progress;
-  options.stop = hooks.stop;
-  options.group = hooks.group;
-  return options;
+Display::OnProblem Problems(const RenderHooks& hooks) {
+  return [&hooks](const std::string& problem) {
+    if (hooks.on_problem) hooks.on_problem(problem);
+  };
 }
+
+// Options of a run that is shown while it goes on: in words, and in a viewer.
+struct ShownRun {
+  ShownRun(const Job& job, const RenderTargets& targets, const RenderHooks& hooks,
+           const FilmAccumulator& film, const std::string& scene)
+      : options(RunOptionsOf(job)), error(job.target) {
+    options.stop = hooks.stop;
+    options.group = hooks.group;
+    if (hooks.on_progress) {
+      if (hooks.tells_error) error.Listen(job.window.pixels(), options);
+      options.on_progress = [&](const Progress& p) { hooks.on_progress(error.At(p)); };
+    }
+    if (!targets.display) return;
+    display.emplace(*targets.display, targets.exr.empty() ? scene : targets.exr, film,
+                    job.description.film.color_space, Problems(hooks));
+    options.on_tile = [&](const FilmAccumulator& so_far, const PixelRect& place) {
+      display->Changed(so_far, place);
+    };
+  }
+  // Its options refer to it.
+  ShownRun(const ShownRun&) = delete;
+  ShownRun& operator=(const ShownRun&) = delete;
+
+  RunOptions options;
+  ErrorSoFar error;
+  std::optional<Display> display;
+};
 
 }  // namespace
 
@@ -82,18 +109,16 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   out.report.build_seconds = job.build_seconds;
   out.report.trees = job.trees;
   FilmAccumulator film = MakeFilm(job);
-  RunOptions options = OptionsFor(job, hooks);
+  ShownRun shown(job, targets, hooks, film, scene);
   std::optional<Checkpoint> checkpoint;
   if (targets.checkpoint.Any()) {
-    checkpoint.emplace(job, targets.checkpoint, facts.head, [&](const std::string& text) {
-      if (hooks.on_problem) hooks.on_problem(text);
-    });
-    options.tiles = checkpoint->tiles();
-    options.keeper = &*checkpoint;
+    checkpoint.emplace(job, targets.checkpoint, facts.head, Problems(hooks));
+    shown.options.tiles = checkpoint->tiles();
+    shown.options.keeper = &*checkpoint;
   }
   if (hooks.group != nullptr) AgreeOnJob(job, *hooks.group);
   try {
-    out.report.result = Run(job.scene, job.plan, options, film);
+    out.report.result = Run(job.scene, job.plan, shown.options, film);
   } catch (const RankFailure& failure) {
     if (checkpoint) GiveUp(failure, targets.checkpoint, *checkpoint);
     throw;
@@ -102,6 +127,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
     out.problems = checkpoint->Finish();
     out.state_kept = checkpoint->kept();
   }
+  if (shown.display) shown.display->Finish(film);
   if (hooks.on_rendered) hooks.on_rendered();
   WriteRendering(film, facts, targets, hooks.members, out);
   return out;

@@ -3,11 +3,14 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "src/core/connection.h"
 #include "src/render/checkpoint.h"
+#include "src/render/error_so_far.h"
 #include "src/render/job.h"
 #include "src/render/report.h"
 
@@ -19,12 +22,15 @@ struct RenderTargets {
   std::string json;  // "-": only into Rendering::json
   ImageSettings image;
   CheckpointSettings checkpoint;
+  std::optional<Endpoint> display;  // a viewer that shows the image so far
 };
 
 struct RenderHooks {
-  std::function<void(const Progress&)> on_progress;
+  std::function<void(const RenderProgress&)> on_progress;
+  bool tells_error = false;  // progress has the error so far, which costs a little
   std::function<void()> on_rendered;  // before anything is written
-  /// Of a state or watched image that could not be written; from any thread.
+  /// Of a state or watched image that could not be written, or a viewer that is not
+  /// there; from any thread.
   std::function<void(const std::string&)> on_problem;
   RankGroup* group = nullptr;               // who renders; null: this process alone
   const std::atomic<bool>* stop = nullptr;  // ends the render early; what is there counts

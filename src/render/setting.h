@@ -43,6 +43,9 @@ struct SettingText {
   std::string otherwise = "";
   const char* key = "";    // in JSON, unless it is the name with other dashes
   const char* needs = "";  // another setting that must be there too
+  /// Another setting, of which this one is a way to write the value: only one of the two
+  /// may be given, and only the other one is told.
+  const char* writes = "";
 };
 
 struct Setting : SettingText {
@@ -66,6 +69,8 @@ inline ValueForm FormOf(const FlagType&) { return ValueForm::kFlag; }
 inline ValueForm FormOf(const SizeType&) { return ValueForm::kSize; }
 inline ValueForm FormOf(const WindowType&) { return ValueForm::kWindow; }
 inline ValueForm FormOf(const BytesType&) { return ValueForm::kInteger; }
+inline ValueForm FormOf(const CountType&) { return ValueForm::kInteger; }
+inline ValueForm FormOf(const SecondsType&) { return ValueForm::kNumber; }
 template <class Type>
 ValueForm FormOf(const Type&) {
   return ValueForm::kText;
@@ -110,6 +115,9 @@ auto ReadAt(const SourceLocation& where, const std::string& name, Read&& read) {
 const std::vector<Setting>& SettingList();
 /// The one of that name, which there must be.
 const Setting& SettingNamed(const std::string& name);
+
+/// The name of the setting that is another way to write this one's value; empty: none.
+std::string WrittenBy(const Setting& setting);
 
 /// What was asked for, and where that is nothing, what the scene and the program have
 /// decided.

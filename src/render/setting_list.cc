@@ -37,16 +37,19 @@ std::vector<Setting> Amounts() {
   constexpr std::uint64_t kMostSeed = std::numeric_limits<std::uint64_t>::max();
   return {
       Declare({"spp", "N", "Samples per pixel", OfScene(Sampler{}.spp)},
-              NumberType<std::uint64_t>{1, kMaxSpp}, &S::spp, kAmountFlag | kReported),
-      Declare(
-          {"time", "SECONDS", "Render for this many seconds of the wall clock instead",
-           "", "time_budget"},
-          NumberType<double>{1e-3, 1e9}, &S::seconds, kAmountFlag | kReported),
-      Declare(
-          {"target-relmse", "X",
-           "Stop once the relative MSE is below X, at 95 % confidence; --spp and --time "
-           "then are the most it may take"},
-          error, &S::target_relmse, kAmountFlag | kReported),
+              CountType{1, kMaxSpp}, &S::spp, kAmountFlag | kReported),
+      Declare({"time", "TIME",
+               "Render for so long by the wall clock instead: seconds, 5m, 2h", "",
+               "time_budget"},
+              SecondsType{1e-3, 1e9}, &S::seconds, kAmountFlag | kReported),
+      Declare({"target", "X%",
+               "Stop once the error is below X percent, at 95 % confidence: the root of "
+               "the relative MSE, so that 1% is --target-relmse 0.0001. --spp and --time "
+               "then are the most it may take",
+               "", "", "", "target-relmse"},
+              PercentErrorType{1e-4, 1e8}, &S::target_relmse, kAmountFlag),
+      Declare({"target-relmse", "X", "Stop once the relative MSE is below X, likewise"},
+              error, &S::target_relmse, kAmountFlag | kReported),
       Declare({"target-rmse", "X", "Stop once the RMSE is below X, likewise"}, error,
               &S::target_rmse, kAmountFlag | kReported),
       Declare({"seed", "S", "Seed of the random numbers", OfScene(Sampler{}.seed)},
@@ -136,9 +139,9 @@ std::vector<Setting> Execution() {
           kEveryFlag | kSweepKey | kEverySame | kReported),
       Declare({"threads", "T", "Threads; 0 = all cores"}, NumberType<int>{0, kMaxThreads},
               &S::threads, kEveryFlag | kReported),
-      Declare(
-          {"target", "NAME", "SIMD target (see `lanelight info`)", "the best there is"},
-          TargetType(AvailableTargets()), &S::target, kEveryFlag | kEverySame),
+      Declare({"simd", "NAME", "SIMD target (see `lanelight info`)", "the best there is",
+               "target"},
+              TargetType(AvailableTargets()), &S::target, kEveryFlag | kEverySame),
       Declare({"skip-unsupported", "",
                "Leave out what cannot be rendered (media) instead of refusing the scene"},
               FlagType{}, &S::skip_unsupported, kEveryFlag | kSweepKey | kIdentity)};
@@ -164,6 +167,13 @@ const Setting& SettingNamed(const std::string& name) {
   });
   LL_CHECK(found != list.end());
   return *found;
+}
+
+std::string WrittenBy(const Setting& setting) {
+  for (const Setting& other : SettingList()) {
+    if (other.writes == std::string_view(setting.name)) return other.name;
+  }
+  return "";
 }
 
 NamesType<Scattering> ScatteringNames() {

@@ -7,6 +7,7 @@
 #include "src/core/parallel.h"
 #include "src/prepare/groups.h"
 #include "src/run/convergence_checks.h"
+#include "src/run/film_show.h"
 #include "src/wave/profile.h"
 #include "src/run/run_parts.h"
 #include "src/run/run_setting.h"
@@ -35,7 +36,8 @@ struct Runner {
         work(group, clock, tasks, films),
         setting{options, clock, tasks, films, work},
         checks(setting),
-        watch(setting, checks),
+        show(setting),
+        watch(setting, checks, show),
         parts(setting, checks, watch) {
     LL_CHECK_EQ(film.groups().replicates, GroupsOf(scene.strategy).replicates);
     LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
@@ -61,6 +63,7 @@ struct Runner {
   GroupTasks work;
   const RunSetting setting;
   ConvergenceChecks checks;
+  FilmShow show;
   RunWatch watch;
   RunParts parts;
   TickScale ticks;  // the last to be made: a trace begins when the run does
@@ -79,6 +82,7 @@ void Runner::Start() {
   }
   work.Deal(have_samples);
   parts.Start();
+  show.Start();
   watch.Start();
   if (restored) checks.CheckAgain();
 }
@@ -164,6 +168,7 @@ RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& op
       run.work.RunRound(round, run.watch);
     }
     if (keeper != nullptr && keeper->Due() && !run.watch.Ended()) run.Keep(false);
+    if (run.show.Due() && !run.watch.Ended()) run.show.Show();
     // It may have been stopped before its end.
     if (run.tasks.Done() >= part->end) run.parts.Finish(*part);
   }

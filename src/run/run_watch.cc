@@ -21,7 +21,7 @@ bool RunWatch::Ended() {
 
 bool RunWatch::Stopped() const {
   const RunKeeper* const keeper = setting_.options.keeper;
-  return Interrupted() || OutOfTime() || cancelled_ ||
+  return Interrupted() || OutOfTime() || cancelled_ || show_.Due() ||
          (keeper != nullptr && keeper->Due());
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "src/run/convergence_checks.h"
+#include "src/run/film_show.h"
 #include "src/wave/time_limit.h"
 #include "src/run/run_setting.h"
 #include "src/wave/task_watcher.h"
@@ -15,9 +16,10 @@ namespace lanelight {
 
 class RunWatch : public TaskWatcher {
  public:
-  /// Refers to both for as long as it lives.
-  RunWatch(const RunSetting& setting, const ConvergenceChecks& checks)
-      : setting_(setting), checks_(checks) {}
+  /// Refers to all of these for as long as it lives.
+  RunWatch(const RunSetting& setting, const ConvergenceChecks& checks,
+           const FilmShow& show)
+      : setting_(setting), checks_(checks), show_(show) {}
 
   /// Tasks begin, after any training. Before it only Interrupted may be asked.
   void Start();
@@ -45,6 +47,7 @@ class RunWatch : public TaskWatcher {
 
   const RunSetting& setting_;
   const ConvergenceChecks& checks_;
+  const FilmShow& show_;
   mutable std::optional<TimeLimit> limit_;
   mutable std::atomic<bool> cancelled_{false};  // tasks were; that ends the run
   bool every_pixel_ = false;                    // has a sample

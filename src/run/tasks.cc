@@ -121,7 +121,9 @@ TileTask Tasks::TaskOf(const TileRange& range) const {
 }
 
 void Tasks::Merge(std::size_t tile, TaskSamples& task, Films& films) {
-  runner_.Merge(PlaceInFilm(options_, partition_.tiles, tile), task, films);
+  const PixelRect place = PlaceInFilm(options_, partition_.tiles, tile);
+  runner_.Merge(place, task, films);
+  if (options_.on_tile) options_.on_tile(films.film(), place);
   const std::lock_guard lock(counts_mutex_);
   counts_.Add(task.counts);
 }

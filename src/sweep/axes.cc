@@ -9,7 +9,7 @@ namespace {
 // What of an axis the list of settings does not say; `before` and `after` stand around
 // its value in the names of cells.
 struct AxisInfo {
-  const char *name, *column, *title, *before = "", *after = "";
+  const char *name, *column, *title, *before = "", *after = "", *key = name;
 };
 
 constexpr AxisInfo kAxes[kNumAxes] = {
@@ -17,7 +17,7 @@ constexpr AxisInfo kAxes[kNumAxes] = {
     {"resolution", "resolution_pixels", "Resolution (pixels)"},
     {"max-depth", "max_depth", "Maximum depth", "depth"},
     {"build", "build", "Build of the trees"},
-    {"target", "simd_target", "SIMD target"},
+    {"simd", "simd_target", "SIMD target", "", "", "target"},
     {"threads", "threads", "Threads", "", "threads"},
     {"strategy", "strategy", "Strategy"},
     {"spp", "spp", "Samples per pixel", "", "spp"},
@@ -37,7 +37,8 @@ const std::vector<std::string> kTargets = {
     "PPC10",    "PPC9",      "PPC8",    "WASM_EMU256", "WASM", "RVV",  "EMU128",
     "SCALAR"};
 
-std::string Canonical(Axis axis, const std::string& text) {
+std::string Canonical(const std::string& name, const std::string& text) {
+  const Axis axis = *SweepAxisOf(name);
   switch (axis) {
     case Axis::kScene:
       return ReadValue(TextType{"the name of a scene"}, text);
@@ -45,20 +46,20 @@ std::string Canonical(Axis axis, const std::string& text) {
       return ReadValue(TargetType(kTargets), text);
     default:
       RenderSettings settings;
-      const Setting& setting = SettingNamed(Name(axis));
-      setting.read(settings, text);
-      return *setting.text(settings);
+      SettingNamed(name).read(settings, text);
+      return *SettingNamed(Name(axis)).text(settings);
   }
 }
 
 }  // namespace
 
 const char* Name(Axis axis) { return Info(axis).name; }
+const char* Key(Axis axis) { return Info(axis).key; }
 const char* Column(Axis axis) { return Info(axis).column; }
 const char* Title(Axis axis) { return Info(axis).title; }
 
-ValueForm FormOf(Axis axis) {
-  return axis == Axis::kScene ? ValueForm::kText : SettingNamed(Name(axis)).form;
+ValueForm AxisFormOf(const std::string& name) {
+  return SweepAxisOf(name) == Axis::kScene ? ValueForm::kText : SettingNamed(name).form;
 }
 
 std::string ValueInNames(Axis axis, const std::string& value) {
@@ -75,16 +76,19 @@ std::optional<Axis> SweepAxisOf(const std::string& name) {
   for (int i = 0; i < kNumAxes; ++i) {
     if (name == kAxes[i].name) return static_cast<Axis>(i);
   }
+  if (name == WrittenBy(SettingNamed(Name(Axis::kTargetRelmse)))) {
+    return Axis::kTargetRelmse;
+  }
   return std::nullopt;
 }
 
-std::string CanonicalValue(Axis axis, const std::string& text,
+std::string CanonicalValue(const std::string& name, const std::string& text,
                            const SourceLocation& where) {
-  if (axis == Axis::kStrategy) {
+  if (SweepAxisOf(name) == Axis::kStrategy) {
     StrategyNamed(text, where, {});  // throws
     return text;
   }
-  return ReadAt(where, Name(axis), [&] { return Canonical(axis, text); });
+  return ReadAt(where, name, [&] { return Canonical(name, text); });
 }
 
 void ApplyValues(const AxisValues& values, RenderSettings& settings) {

@@ -111,7 +111,7 @@ std::string CellName(const AxisValues& values) {
     if (!value) continue;
     readable += (readable.empty() ? "" : "_") +
                 Plain(ValueInNames(axis, axis == Axis::kScene ? Stem(*value) : *value));
-    all += fmt::format("{}={}\n", Name(axis), *value);
+    all += fmt::format("{}={}\n", Key(axis), *value);
   }
   readable.resize(std::min(readable.size(), kLongest));
   return fmt::format("{}-{:010x}", readable, Hash64(all) >> 24);

@@ -84,7 +84,7 @@ std::string Header(const std::vector<std::string>& stages) {
 std::string Row(const Json& cell, const std::vector<std::string>& stages) {
   std::string text = CsvField(cell.at("name")) + "," + CsvField(cell.at("status"));
   for (int i = 0; i < kNumAxes; ++i) {
-    text += "," + CsvField(cell.at("values").value(Name(static_cast<Axis>(i)), Json()));
+    text += "," + CsvField(cell.at("values").value(Key(static_cast<Axis>(i)), Json()));
   }
   for (const Measure& column : kColumns) {
     text += "," + CsvField(cell.at("measured").value(column.name, Json()));
@@ -131,7 +131,7 @@ Json CellJson(const SweepCell& cell, const CellRecord& record) {
                {"stages", Json::object()}};
   for (int i = 0; i < kNumAxes; ++i) {
     const auto axis = static_cast<Axis>(i);
-    if (const auto& value = Get(cell.values, axis)) json["values"][Name(axis)] = *value;
+    if (const auto& value = Get(cell.values, axis)) json["values"][Key(axis)] = *value;
   }
   if (record.state != CellState::kDone) return json;
   for (const Measure& column : kColumns) {

@@ -24,11 +24,12 @@ bool Same(Axis axis, const std::string& a, const std::string& b) {
   return StrategyNamed(a, {}, {}) == StrategyNamed(b, {}, {});
 }
 
-void AddValue(const TomlFile& file, Axis axis, const toml::node& node,
+void AddValue(const TomlFile& file, const std::string& name, const toml::node& node,
               std::vector<GridValue>& values) {
   const SourceLocation where = file.Where(node);
+  const Axis axis = *SweepAxisOf(name);
   const std::string text =
-      CanonicalValue(axis, file.Value(Name(axis), FormOf(axis), node), where);
+      CanonicalValue(name, file.Value(name, AxisFormOf(name), node), where);
   for (const GridValue& other : values) {
     if (!Same(axis, other.text, text)) continue;
     throw InputError(where, fmt::format("{} {} is there twice: it is the same as {}, "
@@ -39,21 +40,21 @@ void AddValue(const TomlFile& file, Axis axis, const toml::node& node,
   values.push_back({text, where});
 }
 
-std::vector<GridValue> ReadValues(const TomlFile& file, Axis axis,
+std::vector<GridValue> ReadValues(const TomlFile& file, const std::string& name,
                                   const toml::node& node) {
   std::vector<GridValue> values;
   const toml::array* array = node.as_array();
   if (array == nullptr) {
-    AddValue(file, axis, node, values);
+    AddValue(file, name, node, values);
     return values;
   }
   if (array->empty()) {
     throw InputError(file.Where(node),
                      fmt::format("{} has no values; leave the line out if the scene is "
                                  "to decide",
-                                 Name(axis)));
+                                 name));
   }
-  for (const toml::node& item : *array) AddValue(file, axis, item, values);
+  for (const toml::node& item : *array) AddValue(file, name, item, values);
   return values;
 }
 
@@ -62,7 +63,12 @@ SubGrid ReadSubGrid(const TomlFile& file, const toml::table& table) {
   for (const auto& [key, node] : table) {
     const std::optional<Axis> axis = SweepAxisOf(std::string(key.str()));
     if (!axis) ThrowUnknown(file.Where(key.source()), "axis", key.str(), AxisNames());
-    grid.axes[*axis] = ReadValues(file, *axis, node);
+    if (grid.axes.count(*axis) > 0) {
+      throw InputError(file.Where(key.source()),
+                       fmt::format("{} and {} are one thing: leave one of them out",
+                                   key.str(), Name(*axis)));
+    }
+    grid.axes[*axis] = ReadValues(file, std::string(key.str()), node);
   }
   return grid;
 }

@@ -28,7 +28,7 @@ Json ValuesJson(const SweepCell& cell) {
   Json json = Json::object();
   for (int i = 0; i < kNumAxes; ++i) {
     const auto axis = static_cast<Axis>(i);
-    if (const auto& value = Get(cell.values, axis)) json[Name(axis)] = *value;
+    if (const auto& value = Get(cell.values, axis)) json[Key(axis)] = *value;
   }
   return json;
 }

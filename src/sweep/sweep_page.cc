@@ -25,7 +25,7 @@ Json AxisJson(const Sweep& sweep, Axis axis) {
     unset |= !value.has_value();
     if (value && seen.insert(*value).second) values.push_back(*value);
   }
-  return {{"name", Name(axis)},
+  return {{"name", Key(axis)},
           {"title", Title(axis)},
           {"numeric",
            FormOf(axis) == ValueForm::kInteger || FormOf(axis) == ValueForm::kNumber},

@@ -77,6 +77,9 @@ std::vector<const toml::table*> TomlFile::Tables(const std::string& key,
 
 std::string TomlFile::Value(const std::string& key, ValueForm form,
                             const toml::node& node) const {
+  // Counts and times have texts too, with their units.
+  const bool number = form == ValueForm::kInteger || form == ValueForm::kNumber;
+  if (number && node.is_string()) return Text(key, node);
   switch (form) {
     case ValueForm::kFlag:
       return Flag(key, node) ? "true" : "false";

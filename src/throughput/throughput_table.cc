@@ -8,6 +8,7 @@
 #include <set>
 
 #include "src/core/machine_info.h"
+#include "src/core/text_layout.h"
 #include "src/core/version.h"
 #include "src/render/machine_json.h"
 #include "src/report/values.h"
@@ -23,31 +24,14 @@ std::string MarkdownLine(const Cells& cells) {
   return line + "\n";
 }
 
-// The first column to the left, numbers to the right.
-std::string Table(const std::vector<Cells>& lines, TableStyle style) {
-  std::string text;
-  if (style == TableStyle::kMarkdown) {
-    text = MarkdownLine(lines[0]) + "|";
-    for (std::size_t c = 0; c < lines[0].size(); ++c) text += c < 2 ? "---|" : "---:|";
-    text += "\n";
-    for (std::size_t i = 1; i < lines.size(); ++i) text += MarkdownLine(lines[i]);
-    return text;
-  }
-  std::vector<std::size_t> widths(lines[0].size());
-  for (const Cells& line : lines) {
-    for (std::size_t c = 0; c < line.size(); ++c) {
-      widths[c] = std::max(widths[c], line[c].size());
-    }
-  }
-  for (const Cells& line : lines) {
-    std::string row;
-    for (std::size_t c = 0; c < line.size(); ++c) {
-      row += c < 2 ? fmt::format("{:<{}}  ", line[c], widths[c])
-                   : fmt::format("{:>{}}  ", line[c], widths[c]);
-    }
-    row.erase(row.find_last_not_of(' ') + 1);
-    text += row + "\n";
-  }
+// Scene and target name a row.
+std::string Table(const std::vector<Cells>& lines, const TableStyle& style) {
+  constexpr std::size_t kNames = 2;
+  if (!style.markdown) return TextTable(lines, {style.width, kNames, 0});
+  std::string text = MarkdownLine(lines[0]) + "|";
+  for (std::size_t c = 0; c < lines[0].size(); ++c) text += c < kNames ? "---|" : "---:|";
+  text += "\n";
+  for (std::size_t i = 1; i < lines.size(); ++i) text += MarkdownLine(lines[i]);
   return text;
 }
 
@@ -92,7 +76,7 @@ Cells RateCells(const std::vector<ThroughputRow>& rows, const ThroughputRow& row
 }
 
 // Where the time of a sample goes is the same on several threads, but for the machine.
-std::string GroupTable(const std::vector<ThroughputRow>& rows, TableStyle style) {
+std::string GroupTable(const std::vector<ThroughputRow>& rows, const TableStyle& style) {
   std::vector<Cells> lines = {{"ns per sample", "target"}};
   for (const StageGroup& g : StageGroups(rows[0])) lines[0].push_back(g.name);
   std::set<std::string> seen;
@@ -124,13 +108,13 @@ std::string Precision(const std::vector<ThroughputRow>& rows, double within) {
 }  // namespace
 
 std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within,
-                           TableStyle style) {
+                           const TableStyle& style) {
   if (rows.empty()) return "Nothing was measured.\n";
   std::vector<Cells> lines = {{"scene", "target", "threads", "Msamples/s", "+-",
                                "scaling", "closest M/s", "shadow M/s", "lanes",
                                "bytes/path", "spp", "repeats"}};
   for (const ThroughputRow& row : rows) lines.push_back(RateCells(rows, row));
-  const char* const end = style == TableStyle::kMarkdown ? "\n\n" : "\n";
+  const char* const end = style.markdown ? "\n\n" : "\n";
   return "machine  " + MachineText(ThisMachine()) + end + "program  " + FullVersion() +
          "\n\n" + Table(lines, style) + "\n" + GroupTable(rows, style) + "\n" +
          Precision(rows, within);

@@ -1,6 +1,7 @@
 // Throughputs as tables: for a terminal, in Markdown, and as comma-separated values.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -8,11 +9,15 @@
 
 namespace lanelight {
 
-enum class TableStyle { kTerminal, kMarkdown };
+/// Markdown, or columns of text that fit `width`.
+struct TableStyle {
+  bool markdown = false;
+  std::size_t width = 80;
+};
 
 /// Two tables, rates and nanoseconds per sample by kind of stage, below the machine.
 std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within,
-                           TableStyle style);
+                           const TableStyle& style);
 /// One line per row, machine included.
 std::string ThroughputCsv(const std::vector<ThroughputRow>& rows);
 /// Ratios by row, and a sentence: which are slower by more than `tolerance`.

@@ -48,6 +48,12 @@ struct RunOptions {
   std::uint64_t seed = 0;
   int threads = 0;                                   // at most; 0: all cores
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
+  /// Is shown the film so far, all of it at rest, as often as costs next to nothing
+  /// (src/run/film_show.h). Alone, not in a group.
+  std::function<void(const FilmAccumulator& film)> on_film;
+  /// Is told of pixels of the film that have new samples, by the thread that has added
+  /// them, and may read them and no others.
+  std::function<void(const FilmAccumulator& film, const PixelRect& place)> on_tile;
   /// Finish the samples in flight; those that take longer are cancelled.
   const std::atomic<bool>* stop = nullptr;
   bool profile = true;       // time every stage call

@@ -19,7 +19,7 @@ cd "$source/scenes"
 for scene in *.pbrt stiff/*.pbrt; do
   for program in "$alone" "$lanelight"; do
     "$program" render "$scene" -o "$folder/$(basename "$(dirname "$program")").exr" \
-      --resolution 93x71 --spp 8 --target "$target" --quiet
+      --resolution 93x71 --spp 8 --simd "$target" --quiet
   done
   # Attributes differ (time, commit); pixels must not.
   "$lanelight" compare "$folder/build.exr" "$folder/$(basename "$(dirname "$lanelight")").exr" \

@@ -35,10 +35,10 @@ expect() {
   on "$1" info
   [[ $(sed -n 's/^target *//p' "$folder/log") == "$2" ]] || fail "$1 does not choose $2"
   # shellcheck disable=SC2046
-  on "$1" $(render) -o "$folder/there.exr" --target "$3"
+  on "$1" $(render) -o "$folder/there.exr" --simd "$3"
   [[ $code -eq 0 ]] || fail "$1: exit code $code with $3"
   # shellcheck disable=SC2046
-  "$lanelight" $(render) -o "$folder/here.exr" --target "$3" 2>/dev/null
+  "$lanelight" $(render) -o "$folder/here.exr" --simd "$3" 2>/dev/null
   "$lanelight" compare "$folder/there.exr" "$folder/here.exr" --max-relmse 0 >"$folder/log" ||
     fail "$1 has other bits than this machine with $3"
 }

@@ -37,7 +37,7 @@ TEST_CASE("advise renders with what it advises and reports why", "[cli]") {
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
   CHECK_THAT(r.out, Contains("roulette=none") && Contains("advice") &&
-                        Contains("relative MSE") && Contains("(the default)"));
+                        Contains("95 % confidence") && Contains("(the default)"));
   const Image image = ReadExr(exr);
   CHECK(image.width == 64);
 

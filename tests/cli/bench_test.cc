@@ -82,9 +82,8 @@ TEST_CASE("bench refuses what it cannot read or do", "[cli]") {
   CHECK_THAT(r.err, Contains("broken.json"));
   CHECK(Bench(directory, {"--against", directory / "none"}).exit_code == kExitBadInput);
   CHECK(Bench(directory, {"--within", "0"}).exit_code == kExitUsage);
-  CHECK(Bench(directory, {"--target", "Z80"}).exit_code == kExitUsage);
-  CHECK(Bench(directory, {"--all-targets", "--target", "EMU128"}).exit_code ==
-        kExitUsage);
+  CHECK(Bench(directory, {"--simd", "Z80"}).exit_code == kExitUsage);
+  CHECK(Bench(directory, {"--all-targets", "--simd", "EMU128"}).exit_code == kExitUsage);
   CHECK(RunLanelight({"bench", "no-such.pbrt"}).exit_code == kExitBadInput);
 }
 

@@ -26,6 +26,8 @@ Rendered RenderWith(const std::string& scene, const std::vector<std::string>& mo
                                         "--resolution", "32x24",
                                         "--spp",        "2"};
   arguments.insert(arguments.end(), more.begin(), more.end());
+  const bool quiet = !more.empty() && more.back() == "--quiet";
+  if (!quiet) arguments.emplace_back("-v");
   const ProcessResult r = RunLanelight(arguments);
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
@@ -33,7 +35,7 @@ Rendered RenderWith(const std::string& scene, const std::vector<std::string>& mo
   const nlohmann::json report = test::ReadJson(directory / "a.json");
   CHECK(report.at("seconds").at("trees") <= report.at("seconds").at("build"));
   const std::string origin = report.at("trees").at("origin");
-  if (more.empty() || more.back() != "--quiet") {
+  if (!quiet) {
     CHECK_THAT(r.out, Contains("(trees " + origin + " in "));
   }
   return {{image.pixels.begin(), image.pixels.end()}, origin, r.err};

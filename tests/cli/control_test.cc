@@ -20,7 +20,7 @@ Reported Render(const TempDirectory& directory, const std::string& strategy) {
   const std::string scene = WriteSphereScene(directory), json = directory / "r.json";
   Reported out;
   out.process = RunLanelight({"render", scene, "-o", directory / "r.exr", "--json", json,
-                              "--png", "--spp", "16", "--strategy", strategy});
+                              "--png", "--spp", "16", "-v", "--strategy", strategy});
   if (out.process.exit_code == kExitGood) {
     std::ifstream in(json);
     out.control = nlohmann::json::parse(in).at("control");

@@ -50,7 +50,7 @@ TEST_CASE("what people read names the machine", "[cli]") {
   const std::string line = text.substr(0, text.rfind("load ") + 5);
   const std::vector<std::string> commands[] = {
       {"info"},
-      {"render", scene, "-o", image, "--spp", "2"},
+      {"render", scene, "-o", image, "--spp", "2", "-v"},
       {"profile", scene, "--spp", "1"}};
   for (const auto& command : commands) {
     CHECK_THAT(RunLanelight(command).out, Contains(line));

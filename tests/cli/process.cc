@@ -61,6 +61,8 @@ void PrepareChild(const ProcessOptions& options, const Pipe& out, const Pipe& er
   if (!options.temp_directory.empty()) {
     setenv("TMPDIR", options.temp_directory.c_str(), 1);
   }
+  unsetenv("COLUMNS");
+  if (!options.columns.empty()) setenv("COLUMNS", options.columns.c_str(), 1);
   if (options.prepare) options.prepare();
 }
 

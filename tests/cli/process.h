@@ -22,6 +22,9 @@ struct ProcessOptions {
   std::function<void(int child)> action;  // ... this is called with the process id
   long file_size_limit = 0;    // bytes; writes beyond it fail, as on a full disk
   std::string temp_directory;  // TMPDIR
+  /// Of the terminal, COLUMNS: so wide that no line is broken within what a test looks
+  /// for. Empty: not set.
+  std::string columns = "1000";
   /// Called in the new process before the program; system calls only.
   std::function<void()> prepare;
   double timeout = 60;  // seconds, then it is killed

@@ -29,7 +29,9 @@ std::vector<std::string> Lines(const std::string& text) {
 ProcessResult Profile(const std::string& scene, std::vector<std::string> flags) {
   std::vector<std::string> arguments = {"profile", scene, "--quiet"};
   arguments.insert(arguments.end(), flags.begin(), flags.end());
-  const ProcessResult r = RunLanelight(arguments);
+  ProcessOptions options;
+  options.columns = "100";
+  const ProcessResult r = RunLanelight(arguments, options);
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
   return r;

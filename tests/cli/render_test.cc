@@ -36,8 +36,8 @@ TEST_CASE("a render writes an image, a PNG and a report", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory);
   const std::string exr = directory / "out.exr", json = directory / "out.json";
-  const ProcessResult r =
-      RunLanelight({"render", scene, "-o", exr, "--png", "--json", json, "--spp", "8"});
+  const ProcessResult r = RunLanelight(
+      {"render", scene, "-o", exr, "--png", "--json", json, "--spp", "8", "-v"});
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
   CHECK_THAT(r.out, Contains(exr) && Contains("out.png") && Contains("samples/s") &&
@@ -91,7 +91,7 @@ TEST_CASE("overrides replace what the scene says", "[cli]") {
                                         "--threads",    "1",
                                         "--sampler",    "sobol",
                                         "--wavefront",  "64",
-                                        "--target",     AvailableTargets().back(),
+                                        "--simd",       AvailableTargets().back(),
                                         "--quiet",      "--scattering",
                                         "uniform",      "--build",
                                         "fast"});

@@ -38,7 +38,7 @@ TEST_CASE("stress: a wrong name gets the nearest one", "[cli][stress]") {
   CHECK(r.exit_code == kExitUsage);
   CHECK_THAT(r.err, Contains("did you mean \"unit-of-length\"?") && Contains("--list"));
   CHECK(r.out.empty());
-  CHECK(RunLanelight({"stress", "--target", "AVX9000"}).exit_code == kExitUsage);
+  CHECK(RunLanelight({"stress", "--simd", "AVX9000"}).exit_code == kExitUsage);
   CHECK(RunLanelight({"stress", "--part", "5/4"}).exit_code == kExitUsage);
   CHECK(RunLanelight({"stress", "--seed", "-1"}).exit_code == kExitUsage);
   CHECK(RunLanelight({"stress", "--seed", "1e3"}).exit_code == kExitUsage);
@@ -48,7 +48,7 @@ TEST_CASE("stress: a case, its row, its files", "[cli][stress]") {
   TempDirectory directory;
   const std::string out = directory / "stress", json = directory / "one.json";
   const ProcessResult r = RunLanelight(
-      {"stress", "unit-of-length", "--target", "all", "--out", out, "--json", json});
+      {"stress", "unit-of-length", "--simd", "all", "--out", out, "--json", json});
   INFO(r.err);
   CHECK(r.exit_code == kExitGood);
   CHECK_THAT(r.out, Contains("first breaks") && Contains("unit-of-length") &&

@@ -79,7 +79,7 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
        "e.g. 500MB, 10GB or 16GiB"},
       {{"plan", "x.pbrt", "--build-cache", "z", "--build-cache-size", "16EiB"},
        "below 16EiB"},
-      {{"render", "x.pbrt", "-o", "x.exr", "--target", "AVX9000"},
+      {{"render", "x.pbrt", "-o", "x.exr", "--simd", "AVX9000"},
        AvailableTargets().back()},
       {{"render", "x.pbrt", "-o", "x.exr", "--strategy", "points=sobl"},
        "did you mean \"sobol\"?"},
@@ -92,7 +92,7 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
        "--strategies: strategy"},
       {{"stress", "no-such-case"}, "CASE: no case or group is called"},
       {{"render", "x.pbrt", "-o", "x.exr", "--every", "soon"},
-       "--every: \"soon\" is not a number from 0.01 to 1000000"},
+       "--every: \"soon\" is not a time of 0.01 to 1000000 seconds"},
       {{"render", "x.pbrt", "--checkpoint", "x", "--part", "3/2"}, "3/2\" is not I/N"},
       {{"render", "x.pbrt", "-o", "x.exr", "--scattering", "cosine"}, "insphere"},
       {{"render", "x.pbrt", "-o", "x.exr", "--depth", "double"}, "half"},
@@ -123,7 +123,7 @@ TEST_CASE("info prints the target, threads and libraries", "[cli]") {
   const std::size_t open = version.find('('), comma = version.find(',');
   const std::string commit = version.substr(open + 1, comma - open - 1);
   CHECK_THAT(r.out, Contains("commit         " + commit + "\n"));
-  const ProcessResult forced = RunLanelight({"info", "--target", worst});
+  const ProcessResult forced = RunLanelight({"info", "--simd", worst});
   CHECK_THAT(forced.out, Contains("target         " + worst));
 }
 

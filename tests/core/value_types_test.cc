@@ -85,6 +85,50 @@ TEST_CASE("sizes in bytes have decimal and binary units", "[core]") {
   }
 }
 
+TEST_CASE("counts have prefixes", "[core]") {
+  const CountType count{1, 20'000'000'000};
+  CHECK(ReadValue(count, "256") == 256);
+  CHECK(ReadValue(count, "10k") == 10'000);
+  CHECK(ReadValue(count, "1.5M") == 1'500'000);
+  CHECK(ReadValue(count, "2G") == 2'000'000'000);
+  CHECK(Rewritten(count, "4K") == "4000");
+  for (const char* text : {"10q", "k", "0", "0k", "-1k", "1.0001k", "1e3", "1e1k", "10 k",
+                           "21G", "1m", "1.5", ""}) {
+    INFO(text);
+    CHECK_THAT(RefusalOf(count, text), Contains("e.g. 256, 10k or 2M"));
+  }
+}
+
+TEST_CASE("times have units, the larger ones first", "[core]") {
+  const SecondsType seconds{1e-3, 1e9};
+  CHECK(ReadValue(seconds, "90") == 90);
+  CHECK(ReadValue(seconds, "0.5") == 0.5);
+  CHECK(ReadValue(seconds, "1e3") == 1000);
+  CHECK(ReadValue(seconds, "5m") == 300);
+  CHECK(ReadValue(seconds, "1h30m") == 5400);
+  CHECK(ReadValue(seconds, "1.5h") == 5400);
+  CHECK(ReadValue(seconds, "500ms") == 0.5);
+  CHECK(ReadValue(seconds, "1d2h3m4s5ms") == 93784.005);
+  CHECK(Rewritten(seconds, "5m") == "300");
+  for (const char* text : {"5 m", "m", "30m1h", "1h1h", "5x", "-5m", "1e3m", "0", "nan",
+                           "inf", "1h30", "0.1ms", ""}) {
+    INFO(text);
+    CHECK_THAT(RefusalOf(seconds, text), Contains("e.g. 90, 5m, 1h30m or 500ms"));
+  }
+}
+
+TEST_CASE("errors in percent are roots of relative errors", "[core]") {
+  const PercentErrorType error{1e-4, 1e8};
+  CHECK(ReadValue(error, "1%") == Approx(1e-4));
+  CHECK(ReadValue(error, "0.5%") == Approx(2.5e-5));
+  CHECK(Rewritten(error, "7%") == "7%");
+  CHECK(Rewritten(error, "0.3%") == "0.3%");
+  for (const char* text : {"1", "%", "0%", "-1%", "nan%", "1 %", "1%%", "AVX2", ""}) {
+    INFO(text);
+    CHECK_THAT(RefusalOf(error, text), Contains("e.g. 1% or 0.5%"));
+  }
+}
+
 TEST_CASE("names are told with the nearest one", "[core]") {
   enum class Fruit { kApple, kPear };
   const NamesType<Fruit> fruits = {{{"apple", Fruit::kApple}, {"pear", Fruit::kPear}}};

@@ -103,9 +103,19 @@ TEST_CASE("sweep: names are of the values alone", "[sweep]") {
   CHECK(a.name != b.name);  // another text for the scene
   const SweepCell d = first(
       "[grid]\nscene = 'a.pbrt'\nstrategy = 'points=cmj,roulette=constant:0.5'\n"
-      "target = 'avx2'\nresolution = '064x48'\ntarget-relmse = 1e-3");
+      "simd = 'avx2'\nresolution = '064x48'\ntarget-relmse = 1e-3");
   CHECK_THAT(d.name, Catch::StartsWith(
                          "a_64x48_AVX2_points=cmj-roulette=constant-0.5_relmse0.001-"));
+}
+
+TEST_CASE("sweep: amounts have units, and are known by their values", "[sweep]") {
+  const auto first = [](const char* text) { return Parse(text).cells.front(); };
+  const SweepCell units =
+      first("[grid]\nscene = 'a.pbrt'\nspp = '1k'\ntime = '5m'\ntarget = '1%'");
+  const SweepCell plain =
+      first("[grid]\nscene = 'a.pbrt'\nspp = 1000\ntime = 300\ntarget-relmse = 1e-4");
+  CHECK(units.values == plain.values);
+  CHECK(units.name == plain.name);
 }
 
 TEST_CASE("sweep: settings", "[sweep]") {
@@ -146,7 +156,7 @@ resolution = "64x48"
 max-depth = 0
 build = "fast"
 threads = 3
-target = "rvv"
+simd = "rvv"
 spp = 2
 time = 3
 target-relmse = 0.5
@@ -189,11 +199,16 @@ TEST_CASE("sweep: mistakes are named with their place and a remedy", "[sweep]") 
        "3:14",
        {"\"4\" is there twice", "line 3"}},
       {"[grid]\nscene = 'a.pbrt'\nspp = 99999999999999", "3:7", {"to 1099511627776"}},
+      {"[grid]\nscene = 'a.pbrt'\nspp = '10q'", "3:7", {"spp \"10q\" is not", "10k"}},
+      {"[grid]\nscene = 'a.pbrt'\ntarget = 0.01",
+       "3:10",
+       {"target is the number 0.01", "a text in quotes"}},
+      {"[grid]\nscene = 'a.pbrt'\ntarget = '1%'\ntarget-relmse = 0.1",
+       "4:1",
+       {"are one thing"}},
       {"[grid]\nscene = 'a.pbrt'\ntime = nan", "3:8", {"time is the number nan"}},
       {"[grid]\nscene = 'a.pbrt'\ntime = inf", "3:8", {"time is the number inf"}},
-      {"[grid]\nscene = 'a.pbrt'\ntime = 0",
-       "3:8",
-       {"time 0 is not a number from 0.001"}},
+      {"[grid]\nscene = 'a.pbrt'\ntime = 0", "3:8", {"time 0 is not a time of 0.001 to"}},
       {"[grid]\nscene = 'a.pbrt'\ntime = 1\nspp = 4",
        "3:8",
        {"time excludes spp", "[[include]]"}},
@@ -206,9 +221,9 @@ TEST_CASE("sweep: mistakes are named with their place and a remedy", "[sweep]") 
       {"[grid]\nscene = 'a.pbrt'\nresolution = '64x48x3'", "3:14", {"640x480"}},
       {"[grid]\nscene = 'a.pbrt'\nresolution = '99999x1'", "3:14", {"1 to 65536"}},
       {"[grid]\nscene = 'a.pbrt'\nbuild = 'fats'", "3:9", {"build", "mean \"fast\""}},
-      {"[grid]\nscene = 'a.pbrt'\ntarget = 'avx9'",
+      {"[grid]\nscene = 'a.pbrt'\nsimd = 'avx9'",
        "3:10",
-       {"target \"avx9\" is not", "\"AVX2\""}},
+       {"simd \"avx9\" is not", "\"AVX2\""}},
       {"[grid]\nscene = 'a.pbrt'\nstrategy = 'points=sobbol'",
        "3:12",
        {"sobbol", "sobol"}},

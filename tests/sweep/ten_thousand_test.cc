@@ -95,7 +95,7 @@ TEST_CASE("sweep: ten thousand cells", "[sweep]") {
     const SweepCell& cell = sweep.cells[i];
     own["name"] = cell.name;
     for (const Axis axis : {Axis::kMaxDepth, Axis::kStrategy, Axis::kSpp, Axis::kSeed}) {
-      own["values"][Name(axis)] = *Get(cell.values, axis);
+      own["values"][Key(axis)] = *Get(cell.values, axis);
     }
     folder.MakeCell(cell);
     std::filesystem::create_hard_link(image, folder.File(cell, "image.exr"));

@@ -1,0 +1,83 @@
+#include "src/cli/terminal.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+
+#include "src/core/text_layout.h"
+#include "src/core/value_types.h"
+
+namespace lanelight {
+namespace {
+
+constexpr std::size_t kUsualColumns = 80, kLeastColumns = 20;
+
+int DescriptorOf(Stream stream) {
+  return stream == Stream::kOutput ? STDOUT_FILENO : STDERR_FILENO;
+}
+
+std::string_view VariableOf(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+const char* CodeOf(Ink ink) {
+  switch (ink) {
+    case Ink::kBold:
+      return "\x1b[1m";
+    case Ink::kDim:
+      return "\x1b[2m";
+    case Ink::kRed:
+      return "\x1b[31m";
+    case Ink::kYellow:
+      return "\x1b[33m";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::size_t TerminalColumns(Stream stream) {
+  std::size_t columns = ParseNumber<std::size_t>(VariableOf("COLUMNS")).value_or(0);
+  winsize size = {};
+  if (columns == 0 && ioctl(DescriptorOf(stream), TIOCGWINSZ, &size) == 0) {
+    columns = size.ws_col;
+  }
+  return std::max(columns > 0 ? columns : kUsualColumns, kLeastColumns);
+}
+
+bool IsTerminal(Stream stream) {
+  return isatty(DescriptorOf(stream)) != 0 && VariableOf("TERM") != "dumb";
+}
+
+std::string Painted(Ink ink, const std::string& text, Stream stream) {
+  if (!IsTerminal(stream) || !VariableOf("NO_COLOR").empty()) return text;
+  return CodeOf(ink) + text + "\x1b[0m";
+}
+
+std::string PaintedMessage(const std::string& line) {
+  struct Kind {
+    const char* word;
+    Ink ink;
+  };
+  for (const Kind& kind : {Kind{"error:", Ink::kRed}, Kind{"warning:", Ink::kYellow},
+                           Kind{"note:", Ink::kDim}}) {
+    const std::size_t at = line.find(kind.word);
+    // Behind a place, "scene.pbrt:3:1: ", and not in the middle of a sentence.
+    if (at == line.npos || (at > 0 && !line.substr(0, at).ends_with(": "))) continue;
+    const std::string word = kind.word;
+    return line.substr(0, at) + Painted(kind.ink, word, Stream::kError) +
+           line.substr(at + word.size());
+  }
+  return line;
+}
+
+std::string SummaryRow(const std::string& label, const std::string& text) {
+  std::string row = LabelledRow(label, text, TerminalColumns(Stream::kOutput));
+  return Painted(Ink::kDim, label, Stream::kOutput) + row.substr(label.size());
+}
+
+}  // namespace lanelight

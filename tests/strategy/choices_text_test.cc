@@ -1,0 +1,21 @@
+// What differs between two strategies.
+#include "src/strategy/choices_text.h"
+
+#include <catch2/catch.hpp>
+
+#include "src/strategy/strategy.h"
+
+namespace lanelight {
+
+TEST_CASE("choices that differ are told, and no others", "[strategy]") {
+  Strategy other;
+  ApplyStrategy("roulette=adjoint,reuse=block:32", {}, other);
+  const std::string usual = ToText({}), changed = ToText(other);
+  CHECK(ChoicesNotIn(usual, changed) == "roulette=adjoint,reuse=block:32:random");
+  CHECK(ChoicesNotIn(changed, usual) == "roulette=throughput,reuse=none");
+  CHECK(ChoicesNotIn(usual, usual).empty());
+  // One choice may begin as another does.
+  CHECK(ChoicesNotIn("a=bc", "a=b") == "a=b");
+}
+
+}  // namespace lanelight
