@@ -33,6 +33,7 @@ constexpr const char* kFooter =
     "  lanelight render scenes/cornell-box.pbrt -o box.exr --png --spp 256\n"
     "  lanelight advise scenes/cornell-box.pbrt --time 60 -o box.exr\n"
     "  lanelight plan scenes/glass.pbrt\n"
+    "  lanelight live scenes/cornell-box.pbrt\n"
     "  lanelight profile scenes/glass.pbrt --trace trace.json\n"
     "  lanelight bench\n"
     "  lanelight strategies\n"
@@ -94,6 +95,7 @@ void AddCommands(CLI::App& root, RankGroup& group, Command& chosen) {
   AddRenderCommand(root, group, chosen);
   AddAdviseCommand(root, chosen);
   AddPlanCommand(root, chosen);
+  AddLiveCommand(root, chosen);
   AddProfileCommand(root, chosen);
   AddBenchCommand(root, chosen);
   AddInfoCommand(root, chosen);

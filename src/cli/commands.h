@@ -16,6 +16,7 @@ using Command = std::function<int()>;
 void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen);
 void AddAdviseCommand(CLI::App& root, Command& chosen);
 void AddPlanCommand(CLI::App& root, Command& chosen);
+void AddLiveCommand(CLI::App& root, Command& chosen);
 void AddProfileCommand(CLI::App& root, Command& chosen);
 void AddBenchCommand(CLI::App& root, Command& chosen);
 void AddInfoCommand(CLI::App& root, Command& chosen);

@@ -7,6 +7,7 @@
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/core/json_text.h"
+#include "src/strategy/strategies_json.h"
 #include "src/strategy/strategy.h"
 
 namespace lanelight {
@@ -44,29 +45,6 @@ std::string PresetsText() {
                             ToText(Strategy{}));
 }
 
-std::string ChoicesJson() {
-  nlohmann::json choices = nlohmann::json::array(), presets = nlohmann::json::array();
-  for (const ChoiceInfo& c : AllChoices()) {
-    choices.push_back({{"axis", c.axis},
-                       {"name", c.name},
-                       {"arguments", c.arguments},
-                       {"meaning", c.meaning},
-                       {"formula", c.formula},
-                       {"source", c.source}});
-  }
-  for (const PresetInfo& p : AllPresets()) {
-    Strategy strategy;
-    ApplyStrategy(p.name, {}, strategy);
-    presets.push_back(
-        {{"name", p.name}, {"meaning", p.meaning}, {"strategy", ToText(strategy)}});
-  }
-  return DumpJson({{"choices", choices},
-                   {"presets", presets},
-                   {"default", ToText(Strategy{})}},
-                  2) +
-         "\n";
-}
-
 }  // namespace
 
 void AddStrategiesCommand(CLI::App& root, Command& chosen) {
@@ -81,7 +59,7 @@ void AddStrategiesCommand(CLI::App& root, Command& chosen) {
       "  lanelight render scene.pbrt -o out.exr --strategy paper-roulette,points=sobol");
   command->callback([json, &chosen] {
     chosen = [json] {
-      Print(*json ? ChoicesJson() : ChoicesText() + PresetsText());
+      Print(*json ? DumpJson(StrategiesJson(), 2) + "\n" : ChoicesText() + PresetsText());
       return kExitGood;
     };
   });

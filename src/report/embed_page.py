@@ -15,23 +15,31 @@ import sys
 # and plots.css, and before print.css; scripts, in this order.
 PLOTS = "logaxis logplot_draw logplot guides curves"
 PAGES = {
-    "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv"},
+    "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it", "CONNECT": ""},
              "images",
              f"""dom format data view strategies whisker table hero warnings summary ranking
              ranking_columns {PLOTS} calibration tone picture pan pane difference comparator
              controls readout figures insets maps stages levels glossary main"""),
     "ComparePage": ({"NAME": "compare", "TABS": "Images",
-                     "FILES": "what compare --json prints"}, "images",
+                     "FILES": "what compare --json prints", "CONNECT": ""}, "images",
                     """dom format data view tone picture pan pane difference comparator controls
                     readout maps histogram compare_tiles compare_numbers compare_main"""),
-    "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv"}, "sweep",
+    "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it",
+                    "CONNECT": ""}, "sweep",
                   f"""dom format data view strategies whisker table {PLOTS} stages
                   sweep_cells sweep_choice sweep_lines sweep_plots sweep_stages sweep_table
                   sweep_summary sweep_main"""),
-    "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json"}, "stress",
+    "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it",
+                    "CONNECT": ""}, "stress",
                    """dom format data strategies whisker table logaxis stress_data
                    stress_scale stress_plot stress_tiles stress_about stress_detail
                    stress_strategies stress_table stress_summary stress_main"""),
+    "LivePage": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
+                  "CONNECT": "; connect-src 'self'"}, "live",
+                 """dom format strategies whisker logaxis tone live_socket live_camera
+                 live_shader live_screen live_place live_viewer live_controls live_readout
+                 live_strategy live_presets live_score live_plot live_stages live_save
+                 live_main"""),
 }
 DATA, STYLES, SCRIPTS = "<!-- data -->", "<!-- styles -->", "<!-- scripts -->"
 PIECE = 12000  # characters of one literal; compilers must take 65535
@@ -61,7 +69,7 @@ def inline(page_dir, tag, files):
 
 
 def assemble(page_dir, words, style, scripts):
-    has_plots = PLOTS in scripts
+    has_plots = PLOTS in scripts  # those of uPlot
     styles = ["base.css", "table.css", "plots.css", f"{style}.css", "print.css"]
     scripts = [f"{name}.js" for name in scripts.split()]
     licence = ""

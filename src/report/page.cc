@@ -131,4 +131,6 @@ std::string StressReportPage(const nlohmann::json& stress) {
   return StressPageHead() + DataBlock(stress) + StressPageTail();
 }
 
+std::string LivePage() { return LivePageHead() + LivePageTail(); }
+
 }  // namespace lanelight

@@ -1,5 +1,5 @@
 // The reports of studies, comparisons, sweeps and stress cases: one HTML file each, with
-// styles, scripts, numbers and images in it.
+// styles, scripts, numbers and images in it; and the page of `lanelight live`.
 #pragma once
 
 #include <cstdint>
@@ -36,6 +36,10 @@ std::string SweepReportPage(const nlohmann::json& sweep);
 /// The page of a run of stress cases, laid out as docs/stress.md says; otherwise like
 /// ReportPage().
 std::string StressReportPage(const nlohmann::json& stress);
+
+/// The page of `lanelight live`, which opens a socket to where it came from, and nowhere
+/// else; it has no data.
+std::string LivePage();
 
 /// IEEE 754 binary16, rounded to nearest even: infinities and finite values beyond
 /// +-65504 saturate there, NaN stays one.

@@ -18,4 +18,7 @@ std::string SweepPageTail();
 std::string StressPageHead();  // and of a run of stress cases
 std::string StressPageTail();
 
+std::string LivePageHead();  // and of `lanelight live`
+std::string LivePageTail();
+
 }  // namespace lanelight

@@ -126,6 +126,7 @@ void Tasks::Merge(std::size_t tile, TaskSamples& task, Films& films) {
   if (options_.on_tile) options_.on_tile(films.film(), place);
   const std::lock_guard lock(counts_mutex_);
   counts_.Add(task.counts);
+  if (options_.on_task) options_.on_task(partition_.tiles[tile], task.counts);
 }
 
 void Tasks::AddCounts(RunResult& result) { runner_.AddCounts(result); }

@@ -54,6 +54,8 @@ struct RunOptions {
   /// Is told of pixels of the film that have new samples, by the thread that has added
   /// them, and may read them and no others.
   std::function<void(const FilmAccumulator& film, const PixelRect& place)> on_tile;
+  /// What the samples of a tile have cost, of each task that is done; one call at a time.
+  std::function<void(const PixelRect& tile, const RunCounts&)> on_task;
   /// Finish the samples in flight; those that take longer are cancelled.
   const std::atomic<bool>* stop = nullptr;
   bool profile = true;       // time every stage call

@@ -69,6 +69,7 @@ constexpr Floor kFloors[] = {
     {"src/sweep",          "grids of renders"},
     {"src/study",          "measuring strategies"},
     {"src/advise",         "choosing one"},
+    {"src/live",           "a page that renders while it is looked at"},
     {"src/stress",         "extremes, measured and judged"},
     {"src/stress/cases",   "what is extreme, and what must be true there"},
     {"src/cli",            "flags and text"},

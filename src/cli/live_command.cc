@@ -1,0 +1,69 @@
+// `lanelight live SCENE`: a page in a browser that renders, compares and explains.
+#include <memory>
+
+#include "src/cli/commands.h"
+#include "src/cli/console.h"
+#include "src/cli/defaults.h"
+#include "src/cli/exit_codes.h"
+#include "src/cli/interrupt.h"
+#include "src/cli/render_outputs.h"
+#include "src/cli/scene_options.h"
+#include "src/cli/validators.h"
+#include "src/live/server.h"
+
+namespace lanelight {
+namespace {
+
+struct LiveCommandOptions {
+  SceneOptions scene;
+  std::uint16_t port = 0;
+};
+
+constexpr const char* kLiveInterruptText =
+    "\nstopping: saying goodbye to the pages (once more to abort)\n";
+
+// The strategy and how much is rendered are added by the page.
+std::string CommandLine(const SceneOptions& options) {
+  RenderSettings settings = options.settings;
+  settings.strategy = {};
+  settings.points.reset();
+  return "lanelight render " + ShellWord(options.scene) + FlagsText(settings);
+}
+
+int Live(const LiveCommandOptions& options) {
+  const MachineGuard machine(options.scene.settings);
+  live::Stage stage(options.scene.scene, options.scene.settings);
+  PrintNotes(stage.job);
+  live::Server server(stage, CommandLine(options.scene), options.port);
+  const InterruptGuard interrupt(kLiveInterruptText);
+  Print(server.address() + "\n");
+  FlushOutput();
+  server.Run(interrupt.stop());
+  Print("goodbye\n");
+  return kExitGood;
+}
+
+}  // namespace
+
+void AddLiveCommand(CLI::App& root, Command& chosen) {
+  CLI::App* command = root.add_subcommand(
+      "live", "Render in a browser: move the camera, compare strategies as they render");
+  auto options = std::make_shared<LiveCommandOptions>();
+  command
+      ->add_option("--port", options->port,
+                   WithDefault("Port on 127.0.0.1; 0: any that is free", options->port))
+      ->check(ValueFrom<std::uint32_t>(0, 65535).description(""))
+      ->type_name("N");
+  AddSceneOptions(*command, options->scene);
+  command->footer(
+      "\nPrints the address of the page and serves it until Ctrl-C. The address has a "
+      "secret\n"
+      "in it; nothing but this machine's browsers can reach it. docs/live.md says more.\n"
+      "\nExamples:\n"
+      "  lanelight live scene.pbrt\n"
+      "  lanelight live scene.pbrt --resolution 640x360 --port 8080");
+  command->callback(
+      [options, &chosen] { chosen = [options] { return Live(*options); }; });
+}
+
+}  // namespace lanelight

@@ -1,0 +1,152 @@
+#include "src/live/contender.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "src/core/check.h"
+#include "src/core/stopwatch.h"
+#include "src/prepare/chance_of_light.h"
+#include "src/prepare/groups.h"
+#include "src/prepare/use_strategy.h"
+#include "src/run/run.h"
+#include "src/wave/partition.h"
+
+namespace lanelight::live {
+namespace {
+
+// Errors are estimated when there are this many times the samples of the last time: few
+// enough that they take little of the time.
+constexpr double kLookRatio = 1.3;
+
+bool HasControl(const Plan& plan) {
+  const SamplePlanes planes(plan.features);
+  return planes.Has(PlaneGroup::kDifference) || planes.Has(PlaneGroup::kNumbers);
+}
+
+Plan PlanOf(Stage& stage, const View& view, const Strategy& strategy) {
+  UseView(view, stage.job.scene);
+  UseStrategy(strategy, stage.job.scene);
+  return MakePlan(stage.job.scene, stage.job.plan.options);
+}
+
+}  // namespace
+
+// Goes on from what the contender has, and keeps what the pass comes to.
+class Contender::Keeper : public RunKeeper {
+ public:
+  Keeper(Contender& contender, FilmAccumulator* before, Attendant& attendant)
+      : contender_(contender), before_(before), attendant_(attendant) {}
+
+  bool Restore(RunState& state) override {
+    if (contender_.record_.counts.samples == 0) return false;
+    if (before_ != nullptr) CopyFilm(state.films);
+    static_cast<RunRecord&>(state) = contender_.record_;
+    return true;
+  }
+  bool Due() const override { return attendant_.Due(); }
+  void Keep(RunState& state) override {
+    contender_.record_ = std::move(static_cast<RunRecord&>(state));
+    const Stopwatch watch;
+    attendant_.Attend();
+    contender_.attended_seconds_ += watch.CpuSeconds();
+  }
+
+ private:
+  void CopyFilm(Films& films) {
+    const auto from = before_->Columns(), to = films.Columns();
+    LL_CHECK_EQ(from.size(), to.size());
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      std::memcpy(to[i].data, from[i].data, from[i].Bytes());
+    }
+  }
+
+  Contender& contender_;
+  FilmAccumulator* before_;  // null: the pass goes on with the film itself
+  Attendant& attendant_;
+};
+
+Contender::Contender(Stage& stage, View view, const Strategy& strategy)
+    : view_(std::move(view)),
+      strategy_(strategy),
+      plan_(PlanOf(stage, view_, strategy)),
+      film_(EmptyFilm(stage)),
+      has_control_(HasControl(plan_)),
+      cost_(view_.film.width, view_.film.height) {}
+
+FilmAccumulator Contender::EmptyFilm(const Stage& stage) const {
+  const PixelRect& window = view_.window;
+  FilmAccumulator film(window.x0, window.y0, window.width(), window.height(),
+                       GroupsOf(strategy_), stage.job.plan.options.auxiliary);
+  film.set_chance_of_light(ChanceOfLight(stage.job.scene));
+  return film;
+}
+
+void Contender::Pass(Stage& stage, std::uint64_t spp, Attendant& attendant,
+                     const std::atomic<bool>& stop) {
+  UseView(view_, stage.job.scene);
+  UseStrategy(strategy_, stage.job.scene);
+  const bool goes_on = record_.counts.samples > 0;
+  std::optional<FilmAccumulator> before;
+  if (has_control_ && goes_on) {
+    before = std::move(film_);
+    film_ = EmptyFilm(stage);
+  }
+  Keeper keeper(*this, before ? &*before : nullptr, attendant);
+  RunOptions options;
+  options.spp = spp;
+  options.seed = stage.job.seed;
+  options.stop = &stop;
+  options.keeper = &keeper;
+  options.on_task = [this](const PixelRect& tile, const RunCounts& counts) {
+    cost_.Add(tile, counts);
+  };
+  // Tasks of a pass of few samples are as large as those of a short render.
+  options.tiles = MakePartition(view_.window, spp - spp_, strategy_).tiles;
+  const double seconds_before = record_.counts.seconds;
+  const std::uint64_t samples_before = record_.counts.samples;
+  const RunResult result = Run(stage.job.scene, plan_, options, film_);
+  record_.training.note = result.training.note;
+  AddStages(result);
+  const double samples = double(record_.counts.samples - samples_before);
+  const double seconds = record_.counts.seconds - seconds_before;
+  if (samples > 0 && seconds > 0)
+    rate_ = samples / double(view_.window.pixels()) / seconds;
+  if (result.stop_reason != StopReason::kSamples) return;
+  spp_ = spp;
+  LookIfDue();
+}
+
+void Contender::Fit() {
+  if (has_control_ && record_.counts.samples > 0) film_.FitControl();
+}
+
+void Contender::LookIfDue() {
+  if (!looks_.empty() && double(spp_) < kLookRatio * double(looks_.back().spp)) return;
+  ErrorEstimate error = EstimateError(film_);
+  if (error.available) looks_.push_back({spp_, cpu_seconds(), std::move(error)});
+}
+
+void Contender::AddStages(const RunResult& result) {
+  for (const auto* list : {&result.stages, &result.parts}) {
+    for (const StageProfile& stage : *list) {
+      const auto same = [&](const StageProfile& s) { return s.name == stage.name; };
+      const auto known = std::find_if(stages_.begin(), stages_.end(), same);
+      if (known == stages_.end()) {
+        stages_.push_back(stage);
+        continue;
+      }
+      known->calls += stage.calls;
+      known->items += stage.items;
+      known->lane_slots += stage.lane_slots;
+      known->seconds += stage.seconds;
+    }
+  }
+}
+
+std::size_t Contender::Bytes() const {
+  return view_.window.pixels() *
+         FilmAccumulator::BytesPerPixel(film_.groups(), Auxiliary::kNone);
+}
+
+}  // namespace lanelight::live

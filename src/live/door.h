@@ -1,0 +1,43 @@
+// Who may come in: the rules of the server, apart from its sockets.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace lanelight::live {
+
+/// What a request says of itself; what it does not have is empty.
+struct Visit {
+  std::string method, target, host, origin;
+  bool upgrade = false;  // it asks for a WebSocket
+};
+
+enum class Answer { kPage, kSocket, kRefused };
+
+struct Decision {
+  Answer answer = Answer::kRefused;
+  unsigned status = 404;  // of HTTP, if it is refused
+  std::string why;        // if it is refused
+};
+
+/// Host must be this loopback address and port: a name that an attacker has pointed at
+/// the loopback (DNS rebinding) is not. A socket's Origin must be this very server: pages
+/// of others may open sockets to anywhere, and browsers tell whose page it is. The page
+/// lies at /TOKEN/ and its socket at /TOKEN/socket; without the token nothing is there.
+class Door {
+ public:
+  Door(std::uint16_t port, std::string token) : port_(port), token_(std::move(token)) {}
+
+  Decision Decide(const Visit& visit) const;
+  /// "http://127.0.0.1:PORT/TOKEN/".
+  std::string Address() const;
+
+ private:
+  bool IsOwnHost(const std::string& host) const;
+
+  std::uint16_t port_;
+  std::string token_;
+};
+
+}  // namespace lanelight::live

@@ -1,0 +1,157 @@
+"use strict";
+// The bars above and below the picture: which one, how bright, what lies over it, the
+// camera's numbers.
+
+const CURVE_OPTIONS = ["srgb", "reinhard", "filmic", "false"].map((name) => [
+  name,
+  TONE_CURVES[name].label,
+]);
+
+// A slider with its value beside it. text(x): of the value.
+function slider(label, { id, min, max, step, value, text, onInput }) {
+  const shown = el("output", { class: "slider-value" }, text(value));
+  const input = el("input", {
+    type: "range", id, min, max, step, value,
+    oninput: () => {
+      shown.textContent = text(Number(input.value));
+      onInput(Number(input.value));
+    },
+  });
+  const set = (x) => {
+    input.value = x;
+    shown.textContent = text(x);
+  };
+  const node = el("label", { class: "slider" }, el("span", {}, label), input, shown);
+  return { node, set };
+}
+
+function viewBar(page) {
+  const { look } = page;
+  const split = slider("Slider", {
+    id: "split", min: 0, max: 1, step: 0.005, value: look.split,
+    text: (x) => `${Math.round(100 * x)} %`,
+    onInput: (x) => {
+      look.split = x;
+      page.viewer.redraw();
+    },
+  });
+  const follow = () => {
+    split.node.hidden = look.view !== "slider";
+    page.viewer.redraw();
+  };
+  split.node.hidden = true;
+  const views = choiceButtons("Which picture", VIEWS, look.view, (view) => {
+    look.view = view;
+    follow();
+  });
+  page.showView = (view) => {
+    look.view = view;
+    for (const button of views.children) {
+      button.setAttribute("aria-pressed", String(button.dataset.value === view));
+    }
+    follow();
+  };
+  const tools = choiceButtons(
+    "What the mouse moves",
+    [["camera", "Move camera"], ["pan", "Move picture"]],
+    page.tool,
+    (tool) => {
+      page.tool = tool;
+      page.viewer.canvas.dataset.tool = tool;
+    },
+  );
+  tools.id = "tools";
+  views.id = "views";
+  const pause = el("button", { type: "button", class: "button", id: "pause" }, "Pause");
+  pause.addEventListener("click", () => {
+    page.paused = !page.paused;
+    pause.textContent = page.paused ? "Go on" : "Pause";
+    page.socket.send({ do: "pause", on: page.paused });
+  });
+  return el("div", { class: "live-bar" }, views, tools, pause, split.node);
+}
+
+function layerMenu(page) {
+  const layers = page.hello.layers.map(({ name, meaning }) => [name, meaning]);
+  layers.splice(3, 0, [SAMPLES, "samples of the pixel"]);
+  const names = {
+    colour: "Picture", error: "Standard error", relative: "Relative error",
+    samples: "Samples", rays: "Cost: rays per sample", depth: "Depth of paths",
+  };
+  const legend = el("div", { id: "legend", hidden: true });
+  page.drawLegend = () => drawLegend(page, legend, layers);
+  const choose = menu(
+    "Show", { id: "layer" }, layers.map(([name]) => [name, names[name]]), COLOUR,
+    (name) => {
+      page.look.layer = name;
+      page.socket.send({ do: "layer", name: name === SAMPLES ? COLOUR : name });
+      page.viewer.redraw(page.drawLegend);
+    },
+  );
+  return [choose, legend];
+}
+
+function drawLegend(page, legend, layers) {
+  const { layer } = page.look;
+  legend.hidden = layer === COLOUR;
+  if (legend.hidden) return;
+  const [low, high] = page.range();
+  const meaning = layers.find(([name]) => name === layer)[1];
+  legend.replaceChildren(
+    el("span", {}, fmt(low, 2)),
+    el("span", { class: "ramp", "aria-hidden": "true" }),
+    el("span", {}, fmt(high, 2)),
+    el("span", { class: "note" }, `${meaning}, logarithmic; hatched: not known`),
+  );
+}
+
+function toneBar(page) {
+  const exposure = slider("Exposure", {
+    id: "exposure", min: -8, max: 8, step: 0.25, value: 0,
+    text: (x) => `${fmtSigned(x, 3)} stops`,
+    onInput: (x) => {
+      page.look.exposure = x;
+      page.viewer.redraw();
+    },
+  });
+  const curve = menu("Tone", { id: "curve" }, CURVE_OPTIONS, page.look.curve, (name) => {
+    page.look.curve = name;
+    page.viewer.redraw();
+  });
+  return el("div", { class: "live-bar" }, exposure.node, curve, layerMenu(page));
+}
+
+// Sliders of the lens; the mouse does the rest.
+function cameraBar(page) {
+  const { eye } = page.hello;
+  const change = (part) => page.onEye({ ...page.eye, ...part });
+  const size = vec.length(vec.sub(eye.target, eye.position));
+  const stops = (x) => Math.log2(x / size);
+  const fov = slider("Field of view", {
+    id: "fov", min: 5, max: 150, step: 0.5, value: eye.fov,
+    text: (x) => `${fmtShort(x)}°`, onInput: (x) => change({ fov: x }),
+  });
+  const lens = slider("Lens radius", {
+    id: "lens", min: 0, max: 0.2, step: 0.001, value: eye.lens / size,
+    text: (x) => fmt(x * size), onInput: (x) => change({ lens: x * size }),
+  });
+  const focus = slider("Focus at", {
+    id: "focus", min: -4, max: 4, step: 0.02, value: stops(eye.focus),
+    text: (x) => fmt(size * 2 ** x), onInput: (x) => change({ focus: size * 2 ** x }),
+  });
+  const home = el(
+    "button", { type: "button", class: "button", id: "home" }, "Camera of the scene",
+  );
+  home.addEventListener("click", () => page.onHome());
+  page.showEye = (now) => {
+    fov.set(now.fov);
+    lens.set(now.lens / size);
+    focus.set(stops(now.focus));
+  };
+  const has = { fov: page.hello.camera === "perspective" };
+  const thin = has.fov || page.hello.camera === "orthographic";
+  return el(
+    "div", { class: "live-bar" },
+    has.fov && fov.node, thin && lens.node, thin && focus.node, home,
+  );
+}

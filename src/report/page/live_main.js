@@ -1,0 +1,132 @@
+"use strict";
+// The page: what it knows, and what comes in by the socket.
+
+const page = {
+  look: { view: "a", split: 0.5, exposure: 0, curve: "srgb", layer: COLOUR,
+          place: { x: 0, y: 0, zoom: 1 } },
+  tool: "camera",
+  paused: false,
+  pace: "time",
+
+  // [low, high] of the layer, the same for both slots.
+  range() {
+    const { slots } = this.screen;
+    if (this.look.layer === SAMPLES) return [1, Math.max(2, ...slots.map((s) => s.most))];
+    const ranges = slots.map((s) => s.range).filter((r) => r && r.high >= r.low);
+    if (ranges.length === 0) return [1, 2];
+    return [
+      halfNumber(Math.min(...ranges.map((r) => r.low))),
+      halfNumber(Math.max(...ranges.map((r) => r.high))),
+    ];
+  },
+
+  onPoint(point) {
+    this.readout.follow(point);
+  },
+  onEye(eye) {
+    this.eye = eye;
+    this.showEye(eye);
+    this.sender.move(eye);
+  },
+  onHome() {
+    this.look.place = { x: 0, y: 0, zoom: 1 };
+    this.viewer.redraw();
+    if (this.tool === "camera") this.onEye(this.hello.eye);
+  },
+  onStrategy(slot, name) {
+    this.screen.forget(slot);
+    this.socket.send({ do: "strategy", slot, name });
+    if (slot === 1 && name === "") this.showView("a");
+    this.viewer.redraw();
+  },
+};
+
+function build(hello) {
+  const canvas = el("canvas", {
+    id: "picture", tabindex: 0, "data-tool": "camera",
+    "aria-label":
+      "The picture. Arrows turn the camera, with shift they move it, plus and minus go " +
+      "nearer and away, 0 goes back",
+  });
+  const readout = el("div", { id: "readout" });
+  page.screen = new Screen(canvas);
+  page.screen.reset(page.size);
+  page.viewer = new Viewer(page, canvas);
+  page.readout = new Readout(page, readout);
+  page.cards = [new StrategyCard(page, 0, "default"), new StrategyCard(page, 1, "")];
+  page.stages = new Stages();
+  page.score = el("div", { id: "score", hidden: true });
+  page.plot = el("div", { id: "error-plot", hidden: true });
+  const viewer = el("section", { id: "viewer", "aria-label": "Picture" },
+    viewBar(page), canvas, readout, toneBar(page), cameraBar(page), saveBar(page));
+  const side = el("div", { class: "live-side" },
+    section("compare", "Compare", page.cards.map((card) => card.node), paceButtons(page),
+      page.score, page.plot),
+    section("figures", "The paper, figure by figure", presetButtons(page, page.cards)),
+    section("stages", "Where the time goes", page.stages.node));
+  document.getElementById("content").replaceChildren(
+    el("div", { class: "live" }, viewer, side));
+  canvas.style.aspectRatio = `${page.size.width} / ${page.size.height}`;
+  linkSections([["viewer", "Picture"], ["compare", "Compare"],
+    ["figures", "Figures"], ["stages", "Stages"]]);
+  const name = hello.scene.split("/").slice(-2).join("/");
+  document.getElementById("scenes").append(el("span", { class: "tab" }, name));
+  document.title = `${name} – Lanelight live`;
+  document.getElementById("bottom").textContent =
+    `${hello.version}, ${hello.threads} threads, ${hello.target}; the scene was read in ` +
+    `${fmtSeconds(hello.load_seconds)} and built in ${fmtSeconds(hello.build_seconds)}.`;
+}
+
+function explain(message) {
+  document.getElementById("content").replaceChildren(el("p", { class: "wait" }, message));
+}
+
+const handlers = {
+  hello(hello) {
+    page.hello = hello;
+    page.eye = hello.eye;
+    page.size = { width: hello.width, height: hello.height };
+    page.look.place = { x: hello.width / 2, y: hello.height / 2, zoom: 1 };
+    page.stem = hello.scene.split("/").pop().replace(/\.pbrt$/, "");
+    page.sender = new EyeSender(page.socket);
+    try {
+      build(hello);
+    } catch (error) {
+      explain(`The picture cannot be shown: ${error.message}. It is drawn with WebGL 2.`);
+      return;
+    }
+    page.socket.send({ do: "strategy", slot: 0, name: "default" });
+  },
+  picture(head, buffer, at) {
+    page.screen.take(head, buffer, at);
+    page.viewer.redraw(() => {
+      page.socket.send({ do: "seen", what: head.slot });
+      page.drawLegend();
+      page.sender.arrived();
+      page.readout.refresh();
+      document.body.dataset.pictures = Number(document.body.dataset.pictures || 0) + 1;
+    });
+  },
+  state(state) {
+    page.state = state;
+    page.socket.send({ do: "seen", what: 2 });
+    state.slots.forEach((slot, i) => page.cards[i].show(slot));
+    drawScore(page.score, state);
+    drawErrorPlot(page.plot, state);
+    page.stages.show(state);
+  },
+  pixel: (answer) => page.readout.take(answer),
+  refused: ({ text }) => page.say(`Refused: ${text}`),
+  "camera-text": (message) => page.takeCameraText(message),
+  file: (head, buffer, at) => page.takeFile(head, buffer, at),
+  goodbye() {},
+  closed(said) {
+    document.body.classList.add("closed");
+    const text = said
+      ? "Goodbye: the program has ended. What is seen here stays until the page is closed."
+      : "The connection has ended. Is the program still running? Reload the page to try again.";
+    document.body.append(el("div", { id: "closed", role: "alert" }, text));
+  },
+};
+
+page.socket = openSocket(handlers);

@@ -1,0 +1,66 @@
+"use strict";
+// Taking things away: files, the command line, the camera.
+
+function saveBlob(blob, name) {
+  const address = URL.createObjectURL(blob);
+  const link = el("a", { href: address, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(address), 10000);
+}
+
+async function copyText(text, shown) {
+  shown.textContent = text;
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    getSelection().selectAllChildren(shown); // to be copied by hand
+    return false;
+  }
+}
+
+function saveBar(page) {
+  const said = el("p", { class: "note", id: "said", role: "status" });
+  const text = el("pre", { id: "copied", hidden: true });
+  const show = async (what, content) => {
+    text.hidden = false;
+    const done = await copyText(content, text);
+    said.textContent = done ? `${what} is copied.` : `${what} is selected, to be copied.`;
+  };
+  page.takeCameraText = ({ text: content }) => show("The camera", content);
+  page.takeFile = (head, buffer, at) => {
+    saveBlob(new Blob([new Uint8Array(buffer, at)]), head.name);
+    said.textContent = `${head.name} is saved.`;
+  };
+  page.say = (message) => {
+    said.textContent = message;
+  };
+  const exr = (slot) => () => page.socket.send({ do: "exr", slot });
+  const png = () => {
+    page.viewer.draw();
+    page.viewer.canvas.toBlob((blob) => saveBlob(blob, `${page.stem}.png`), "image/png");
+    said.textContent = `${page.stem}.png is saved: the picture as it is seen.`;
+  };
+  const command = () => {
+    const slot = page.state && page.state.slots[page.look.view === "b" ? 1 : 0];
+    if (!slot || !slot.command) return page.say("Nothing has been rendered yet.");
+    const moved = page.state.moved
+      ? "# the camera has been moved: put its lines into the scene file first\n" : "";
+    show("The command", moved + slot.command);
+  };
+  const button = (id, label, onclick) =>
+    el("button", { type: "button", class: "button", id, onclick }, label);
+  return el(
+    "div", { class: "save" },
+    el("div", { class: "choices" },
+      button("save-png", "Save PNG as seen", png),
+      button("save-exr-a", "Save EXR of A", exr(0)),
+      button("save-exr-b", "Save EXR of B", exr(1)),
+      button("copy-command", "Copy the command", command),
+      button("copy-camera", "Copy the camera as pbrt",
+        () => page.socket.send({ do: "camera-text" }))),
+    said, text,
+  );
+}

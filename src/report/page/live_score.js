@@ -1,0 +1,33 @@
+"use strict";
+// Which of the two is ahead, in words.
+
+function verdictText(ratio, pace) {
+  const at = pace === "time" ? "at equal processor time" : "at equal samples";
+  const { low, high } = ratio;
+  const better = known(low) && low > 1,
+    worse = known(high) && high < 1;
+  if (better) return `B is ahead of A ${at}`;
+  if (worse) return `A is ahead of B ${at}`;
+  return `No difference is certain yet ${at}`;
+}
+
+function drawScore(node, state) {
+  const { ratio } = state;
+  node.hidden = !ratio;
+  if (!ratio) return;
+  if (ratio.value === undefined || ratio.value === null) {
+    node.replaceChildren(el("p", { class: "note" }, `No ratio yet: ${ratio.why}.`));
+    return;
+  }
+  const bounds = `[${known(ratio.low) ? fmt(ratio.low) : "0"}, ${
+    known(ratio.high) ? fmt(ratio.high) : "∞"}]`;
+  node.replaceChildren(
+    el("div", { class: "number" }, fmt(ratio.value),
+      el("span", { class: "bounds" }, ` ${bounds}`)),
+    el("p", {}, el("b", {}, `${verdictText(ratio, state.pace)}. `),
+      `Efficiency of B over A, 1 / (relative MSE × ${
+        state.pace === "time" ? "processor time" : "samples"}), so far, with its 95 % interval `,
+      "from what both estimate of their own errors."),
+    ratio.why && el("p", { class: "note" }, `An end is open, ${ratio.why}`),
+  );
+}

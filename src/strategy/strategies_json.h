@@ -1,0 +1,12 @@
+// The lists that `lanelight strategies` prints, for programs.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace lanelight {
+
+/// "choices": axis, name, arguments, meaning, formula, source of each; "presets": name,
+/// meaning, complete strategy; "default": the renderer's strategy.
+nlohmann::json StrategiesJson();
+
+}  // namespace lanelight
