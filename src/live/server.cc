@@ -1,151 +1,19 @@
-// The one file that knows Boost.Beast: it is long to compile.
 #include "src/live/server.h"
 
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
 #include <chrono>
-#include <deque>
-#include <optional>
-#include <set>
 #include <utility>
 
 #include "src/core/error.h"
-#include "src/live/door.h"
-#include "src/live/laboratory.h"
+#include "src/live/page_socket.h"
 #include "src/live/token.h"
 #include "src/report/page.h"
 
 namespace lanelight::live {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
-using tcp = asio::ip::tcp;
-using boost::system::error_code;
-
-// A page that does not read is closed when so many messages wait for it: pictures and
-// states wait for its word, so that these are answers to what it keeps asking.
-constexpr std::size_t kMostWaiting = 64;
 constexpr auto kLookForStop = std::chrono::milliseconds(50);
 constexpr auto kGoodbye = std::chrono::milliseconds(500);
 constexpr std::size_t kLongestHead = 8192;
-
-struct Hall;
-
-// What a page has open: messages in and out, in their order.
-class PageSocket : public std::enable_shared_from_this<PageSocket> {
- public:
-  PageSocket(beast::tcp_stream&& stream, Hall& hall)
-      : socket_(std::move(stream)), hall_(hall) {}
-
-  void Accept(const http::request<http::string_body>& request);
-  void Queue(std::string message, bool binary);
-  /// Sends what waits, then closes.
-  void SayGoodbye();
-
- private:
-  struct Message {
-    std::string text;
-    bool binary = false;
-  };
-  void Enter();
-  void Read();
-  void Write();
-  void Close();
-
-  websocket::stream<beast::tcp_stream> socket_;
-  Hall& hall_;
-  beast::flat_buffer read_;
-  std::deque<Message> out_;  // the first is being written
-  int session_ = 0;
-  bool open_ = false, leaving_ = false;
-};
-
-// What all connections share. One thread.
-struct Hall {
-  int connections = 0;  // before what ends them
-  asio::io_context io{1};
-  tcp::acceptor acceptor{io};
-  asio::steady_timer timer{io};
-  std::optional<Door> door;
-  std::optional<Laboratory> laboratory;
-  std::set<std::shared_ptr<PageSocket>> pages;
-  std::string page;  // the document
-};
-
-void PageSocket::Accept(const http::request<http::string_body>& request) {
-  auto timeouts = websocket::stream_base::timeout::suggested(beast::role_type::server);
-  timeouts.keep_alive_pings = true;
-  socket_.set_option(timeouts);
-  socket_.read_message_max(kLongestMessage);
-  socket_.async_accept(request, [self = shared_from_this()](error_code error) {
-    if (!error) self->Enter();
-  });
-}
-
-void PageSocket::Enter() {
-  open_ = true;
-  hall_.pages.insert(shared_from_this());
-  // The laboratory's thread does not touch the socket itself.
-  session_ = hall_.laboratory->Enter(
-      [weak = weak_from_this(), &io = hall_.io](std::string message, bool binary) {
-        asio::post(io, [weak, message = std::move(message), binary]() mutable {
-          if (const auto self = weak.lock()) self->Queue(std::move(message), binary);
-        });
-      });
-  Read();
-}
-
-void PageSocket::Read() {
-  socket_.async_read(read_, [self = shared_from_this()](error_code error, std::size_t) {
-    if (error) return self->Close();
-    self->hall_.laboratory->Receive(self->session_,
-                                    beast::buffers_to_string(self->read_.data()));
-    self->read_.consume(self->read_.size());
-    self->Read();
-  });
-}
-
-void PageSocket::Queue(std::string message, bool binary) {
-  if (!open_ || leaving_) return;
-  if (out_.size() >= kMostWaiting) return Close();
-  out_.push_back({std::move(message), binary});
-  if (out_.size() == 1) Write();
-}
-
-void PageSocket::Write() {
-  socket_.binary(out_.front().binary);
-  socket_.async_write(asio::buffer(out_.front().text),
-                      [self = shared_from_this()](error_code error, std::size_t) {
-                        if (error) return self->Close();
-                        self->out_.pop_front();
-                        if (!self->out_.empty()) return self->Write();
-                        if (!self->leaving_) return;
-                        self->socket_.async_close(websocket::close_code::going_away,
-                                                  [self](error_code) { self->Close(); });
-                      });
-}
-
-void PageSocket::SayGoodbye() {
-  if (out_.size() > 1) out_.erase(out_.begin() + 1, out_.end());
-  Queue("{\"kind\": \"goodbye\"}", false);
-  leaving_ = true;
-}
-
-void PageSocket::Close() {
-  if (!open_) return;
-  open_ = false;
-  hall_.laboratory->Leave(session_);
-  beast::get_lowest_layer(socket_).close();
-  hall_.pages.erase(shared_from_this());
-}
 
 // One request: the page, a socket, or a refusal.
 class Visitor : public std::enable_shared_from_this<Visitor> {

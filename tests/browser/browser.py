@@ -37,8 +37,14 @@ def skip(reason):
     sys.exit(SKIPPED)
 
 
-def start():
-    """A driver, or the end of the process with SKIPPED where there is none."""
+# Drawn by the processor, where the tests have no graphics card.
+WEBGL_FLAGS = [flag for flag in FLAGS if flag != "--disable-gpu"] + [
+    "--enable-unsafe-swiftshader"]
+
+
+def start(flags=FLAGS, logs=("browser", "performance")):
+    """A driver, or the end of the process with SKIPPED where there is none. The log
+    "performance" has each message of each socket in it."""
     try:
         from selenium import webdriver
         from selenium.webdriver.chrome.service import Service
@@ -50,9 +56,9 @@ def start():
         skip("chromium or chromium-driver is not installed")
     options = webdriver.ChromeOptions()
     options.binary_location = chromium
-    for flag in FLAGS:
+    for flag in flags:
         options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    options.set_capability("goog:loggingPrefs", {log: "ALL" for log in logs})
     return webdriver.Chrome(service=Service(driver_path), options=options)
 
 
@@ -61,7 +67,7 @@ class Page:
 
     def __init__(self, driver, path, folder):
         self.driver = driver
-        self.url = pathlib.Path(path).resolve().as_uri()
+        self.url = path if "://" in path else pathlib.Path(path).resolve().as_uri()
         self.folder = pathlib.Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
         self.messages = []

@@ -7,12 +7,14 @@ import browser
 import checks
 
 
-def main():
-    path, folder = sys.argv[1:3]
-    driver = browser.start()
+def main(path=None, driver=None):
+    """Of the page that the first argument names, and the checks that follow the second;
+    `path` and `driver`: of another page, by a driver of its own."""
+    folder = sys.argv[2]
+    driver = driver or browser.start()
     ran = failed = 0
     try:
-        page = browser.Page(driver, path, folder)
+        page = browser.Page(driver, path or sys.argv[1], folder)
         page.prefer("light")
         page.open()
         chosen = sys.argv[3:]

@@ -47,7 +47,7 @@ function orbited(eye, mirrored, across, along) {
   let arm = vec.sub(eye.position, eye.target);
   const height = Math.acos(Math.max(-1, Math.min(1, vec.dot(vec.unit(arm), up))));
   const tilt = Math.max(STEEPEST, Math.min(Math.PI - STEEPEST, height - along)) - height;
-  arm = turned(arm, right, tilt);
+  arm = turned(arm, right, -tilt);
   arm = turned(arm, up, across * sign);
   return { ...eye, position: vec.add(eye.target, arm) };
 }

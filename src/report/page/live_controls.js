@@ -35,6 +35,11 @@ function viewBar(page) {
       page.viewer.redraw();
     },
   });
+  page.onSplit = (x) => {
+    look.split = Math.max(0, Math.min(1, x));
+    split.set(look.split);
+    page.viewer.redraw();
+  };
   const follow = () => {
     split.node.hidden = look.view !== "slider";
     page.viewer.redraw();
@@ -69,6 +74,25 @@ function viewBar(page) {
     page.socket.send({ do: "pause", on: page.paused });
   });
   return el("div", { class: "live-bar" }, views, tools, pause, split.node);
+}
+
+// The canvas with a line between two pictures, and what they are called.
+function pictureBox(page, canvas) {
+  const line = el("div", { class: "split-line", hidden: true });
+  const labels = [0, 1].map((slot) => el("span", { class: "pane-label" }, "AB"[slot]));
+  page.drawPanes = (panes, width) => {
+    line.hidden = page.look.view !== "slider";
+    line.style.left = `${100 * page.look.split}%`;
+    labels.forEach((label, slot) => {
+      const pane = panes.find((p) => p.slot === slot && p.to - p.from > 24);
+      label.hidden = !pane;
+      if (!pane) return;
+      const right = page.look.view === "slider" && slot === 1;
+      label.style.left = right ? "auto" : `${pane.from + 8}px`;
+      label.style.right = right ? `${width - pane.to + 8}px` : "auto";
+    });
+  };
+  return el("div", { class: "picture-box" }, canvas, line, labels);
 }
 
 function layerMenu(page) {

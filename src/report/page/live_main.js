@@ -58,7 +58,7 @@ function build(hello) {
   page.score = el("div", { id: "score", hidden: true });
   page.plot = el("div", { id: "error-plot", hidden: true });
   const viewer = el("section", { id: "viewer", "aria-label": "Picture" },
-    viewBar(page), canvas, readout, toneBar(page), cameraBar(page), saveBar(page));
+    viewBar(page), pictureBox(page, canvas), readout, toneBar(page), cameraBar(page), saveBar(page));
   const side = el("div", { class: "live-side" },
     section("compare", "Compare", page.cards.map((card) => card.node), paceButtons(page),
       page.score, page.plot),
@@ -93,6 +93,7 @@ const handlers = {
       build(hello);
     } catch (error) {
       explain(`The picture cannot be shown: ${error.message}. It is drawn with WebGL 2.`);
+      page.socket.end();
       return;
     }
     page.socket.send({ do: "strategy", slot: 0, name: "default" });

@@ -77,6 +77,6 @@ function drawErrorPlot(node, state) {
       curves.map((curve, i) => plotCurve(scales, curve, STYLES[i]))),
     el("p", { class: "note" },
       "Relative MSE with 95 % intervals; a lower end alone where samples cannot tell the ",
-      "upper one. One step down in a pure Monte Carlo method is 1 / cost."),
+      "upper one. In plain Monte Carlo it falls as 1 / cost."),
   );
 }

@@ -28,5 +28,10 @@ function openSocket(handlers) {
     send(message) {
       if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
     },
+    // Nothing is handled any more.
+    end() {
+      for (const kind of Object.keys(handlers)) handlers[kind] = () => {};
+      socket.close();
+    },
   };
 }

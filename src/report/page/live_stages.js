@@ -22,7 +22,8 @@ function drawStages(node, slot) {
   if (!(total > 0)) return node.replaceChildren();
   const most = stages[0].seconds / total;
   const rest = stages.slice(MOST_BARS).reduce((sum, s) => sum + s.seconds, 0);
-  node.replaceChildren(
+  node.replaceChildren();
+  appendAll(node, [
     el("p", {}, el("b", {}, `${fmt(slot.rays / slot.seconds / 1e6)} Mray/s`),
       ` and ${fmt(slot.samples / slot.seconds / 1e6)} million samples a second of `,
       "processor time, all of the program's threads together"),
@@ -30,7 +31,7 @@ function drawStages(node, slot) {
     rest > 0 &&
       el("p", { class: "note" },
         `${stages.length - MOST_BARS} more stages take ${fmtPercent(rest / total, 2)}`),
-  );
+  ]);
 }
 
 function drawOmitted(node, slot) {

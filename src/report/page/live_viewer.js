@@ -59,6 +59,7 @@ class Viewer {
     const place = { ...look.place, zoom };
     screen.draw({ ...look, place, range: this.page.range() }, parts);
     this.canvas.dataset.zoom = look.place.zoom.toFixed(3);
+    this.page.drawPanes(panes, box.width);
   }
 
   pointOf(event) {
@@ -71,7 +72,14 @@ class Viewer {
     return pointBelow(this.page.look, this.box(), this.page.size, x, y);
   }
 
+  // The line between two pictures is dragged, too.
+  holdsSplit(x) {
+    const { look } = this.page;
+    return look.view === "slider" && Math.abs(x - look.split * this.box().width) < 10;
+  }
+
   down(event) {
+    this.splits = this.holdsSplit(this.pointOf(event).x);
     this.pointers.set(event.pointerId, this.pointOf(event));
     this.canvas.setPointerCapture(event.pointerId);
   }
@@ -81,6 +89,7 @@ class Viewer {
     this.page.onPoint(this.below(event));
     const before = this.pointers.get(event.pointerId);
     if (!before) return;
+    if (this.splits) return this.page.onSplit(now.x / this.box().width);
     const others = [...this.pointers].filter(([id]) => id !== event.pointerId);
     this.pointers.set(event.pointerId, now);
     if (others.length > 0) return this.pinch(before, now, others[0][1]);

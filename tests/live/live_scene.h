@@ -1,0 +1,17 @@
+// A small scene for the tests of the page that renders.
+#pragma once
+
+#include <string>
+
+#include "src/live/view.h"
+
+namespace lanelight::live {
+
+/// The Cornell box in 32 x 24 pixels.
+inline Stage SmallStage(int width = 32, int height = 24) {
+  RenderSettings settings;
+  settings.resolution = {width, height};
+  return Stage(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/cornell-box.pbrt", settings);
+}
+
+}  // namespace lanelight::live
