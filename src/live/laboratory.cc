@@ -147,10 +147,10 @@ void Laboratory::Render(const Running& running) {
   }
 }
 
-void Laboratory::Wait() {
-  auto until = Clock::now() + std::chrono::seconds(1);
+void Laboratory::Wait(Clock::time_point since) {
+  auto until = since + std::chrono::seconds(1);
   for (const auto& [number, session] : sessions_) {
-    if (session->When() > Clock::now()) until = std::min(until, session->When());
+    if (session->When() > since) until = std::min(until, session->When());
   }
   std::unique_lock lock(mutex_);
   woken_.wait_until(lock, until, [this] { return quit_ || !wishes_.empty(); });
@@ -164,10 +164,13 @@ void Laboratory::Loop() {
       stop_ = false;
     }
     TakeWishes(true);
+    const auto now = Clock::now();
     const auto running = Choose();
+    const bool first = running && running->work.contender->spp() == 0;
     if (running) Render(*running);
-    if (!running || Microseconds() >= publish_at_) Publish();
-    if (!running) Wait();
+    // The first whole picture does not wait for its turn.
+    if (!running || first || Microseconds() >= publish_at_) Publish();
+    if (!running) Wait(now);
   }
 }
 

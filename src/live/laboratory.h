@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <map>
 #include <memory>
@@ -52,7 +53,8 @@ class Laboratory : private Attendant {
   void Grant(const Wish& wish);
   std::optional<Running> Choose();
   void Render(const Running& running);
-  void Wait();
+  /// Until something is asked for, or a session is due that was not at `since`.
+  void Wait(std::chrono::steady_clock::time_point since);
   bool Due() const override;
   void Attend() override;
   void Publish();
