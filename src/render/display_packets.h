@@ -1,4 +1,4 @@
-// The packets of tev's protocol (Thomas Müller, github.com/Tom94/tev, include/tev/Ipc.h),
+// The packets of tev's protocol (Thomas Müller, github.com/Tom94/tev),
 // which pbrt-v4's --display-server speaks as well: all numbers little-endian; the length
 // of the packet, itself included, in 32 bits; a byte of its type; the fields; texts end
 // in a zero.

@@ -77,9 +77,11 @@ std::vector<const toml::table*> TomlFile::Tables(const std::string& key,
 
 std::string TomlFile::Value(const std::string& key, ValueForm form,
                             const toml::node& node) const {
-  // Counts and times have texts too, with their units.
+  // Counts and times have texts too, where they have units.
   const bool number = form == ValueForm::kInteger || form == ValueForm::kNumber;
-  if (number && node.is_string()) return Text(key, node);
+  if (number && node.is_string() && !ParseNumber<double>(Text(key, node))) {
+    return Text(key, node);
+  }
   switch (form) {
     case ValueForm::kFlag:
       return Flag(key, node) ? "true" : "false";
