@@ -77,8 +77,7 @@ TriedStrategy ToTry(const CompiledScene& scene, const PlanOptions& options,
   TriedStrategy tried;
   tried.changes = changes;
   tried.price = price;
-  tried.options =
-      WithChanges(scene, options, JoinedChanges(changes, "decide=none"));
+  tried.options = WithChanges(scene, options, JoinedChanges(changes, "decide=none"));
   tried.tables = MakeStrategyTables(scene);
   return tried;
 }

@@ -50,8 +50,8 @@ struct SplitMoments {
 
 // With what the splitting roulette has learned, another one plays.
 TrainingSamples Pass(const Prepared& room, const char* roulette, bool records) {
-  PlanOptions options = WithChanges(room.scene, room.plan.options,
-                                    std::string("roulette=") + roulette);
+  PlanOptions options =
+      WithChanges(room.scene, room.plan.options, std::string("roulette=") + roulette);
   options.training = records ? FeatureSet{Feature::kRecordsUnsplit} : FeatureSet{};
   return RunTrainingPass({room.scene, options, &room.tables, room.run.seed},
                          MakeTrainingWork(room.scene, kSamples));
