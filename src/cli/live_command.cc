@@ -31,7 +31,6 @@ std::string CommandLine(const SceneOptions& options) {
 }
 
 int Live(const LiveCommandOptions& options) {
-  const MachineGuard machine(options.scene.settings);
   live::Stage stage(options.scene.scene, options.scene.settings);
   PrintNotes(stage.job);
   live::Server server(stage, CommandLine(options.scene), options.port);

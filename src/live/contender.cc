@@ -96,6 +96,7 @@ void Contender::Pass(Stage& stage, std::uint64_t spp, Attendant& attendant,
   RunOptions options;
   options.spp = spp;
   options.seed = stage.job.seed;
+  options.threads = stage.job.settings.threads;
   options.stop = &stop;
   options.keeper = &keeper;
   options.on_task = [this](const PixelRect& tile, const RunCounts& counts) {
