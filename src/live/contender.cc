@@ -15,9 +15,15 @@
 namespace lanelight::live {
 namespace {
 
-// Errors are estimated when there are this many times the samples of the last time: few
-// enough that they take little of the time.
+// Errors are estimated when there are this many times the samples of the last time, and
+// from so many on: with fewer there is seldom an interval, and to say how many more it
+// would take costs several times as much as the estimate.
 constexpr double kLookRatio = 1.3;
+constexpr std::uint64_t kFirstLook = 8;
+// Nothing can be done meanwhile: of images with more pixels than these, only when an
+// estimate is this small a part of the time since the last one.
+constexpr std::uint64_t kQuickPixels = 1u << 16;
+constexpr double kLookShare = 0.1;
 
 bool HasControl(const Plan& plan) {
   const SamplePlanes planes(plan.features);
@@ -123,8 +129,17 @@ void Contender::Fit() {
 }
 
 void Contender::LookIfDue() {
-  if (!looks_.empty() && double(spp_) < kLookRatio * double(looks_.back().spp)) return;
+  if (spp_ < kFirstLook) return;
+  if (!looks_.empty()) {
+    const Look& last = looks_.back();
+    if (double(spp_) < kLookRatio * double(last.spp)) return;
+    const double since = cpu_seconds() - last.seconds;
+    if (view_.window.pixels() > kQuickPixels && since * kLookShare < look_seconds_)
+      return;
+  }
+  const Stopwatch watch;
   ErrorEstimate error = EstimateError(film_);
+  look_seconds_ = watch.CpuSeconds();
   if (error.available) looks_.push_back({spp_, cpu_seconds(), std::move(error)});
 }
 

@@ -51,6 +51,7 @@ class Contender {
   const RunRecord& record() const { return record_; }
   /// Of all passes, by stage and part of tasks.
   const std::vector<StageProfile>& stages() const { return stages_; }
+  /// Errors, estimated now and then, the last one some time ago.
   const std::vector<Look>& looks() const { return looks_; }
   /// Samples per pixel that all pixels have.
   std::uint64_t spp() const { return spp_; }
@@ -79,7 +80,7 @@ class Contender {
   std::vector<StageProfile> stages_;
   std::vector<Look> looks_;
   std::uint64_t spp_ = 0;
-  double attended_seconds_ = 0, rate_ = 0;
+  double attended_seconds_ = 0, look_seconds_ = 0, rate_ = 0;
 };
 
 }  // namespace lanelight::live

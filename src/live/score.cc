@@ -48,7 +48,7 @@ Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace) {
 Ratio EfficiencyOf(const Contender& a, const Contender& b, Pace pace) {
   if (a.looks().empty() || b.looks().empty()) {
     Ratio ratio;
-    ratio.why = "pixels need two independent observations before an error is estimated";
+    ratio.why = "errors are estimated from 8 samples per pixel on";
     return ratio;
   }
   return EfficiencyOf(a.looks().back(), b.looks().back(), pace);

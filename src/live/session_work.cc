@@ -43,27 +43,27 @@ std::optional<Work> Session::Next() {
   return NextPass();
 }
 
-// Where the first pass is as quick, it is the preview.
+// Where the first pass is as quick, it is the preview. The whole film is not made before:
+// it takes longer than a preview.
 std::optional<Work> Session::NextPreview() {
   for (int i = 0; i < kSlots; ++i) {
     Slot& slot = slots_[static_cast<std::size_t>(i)];
     if (!slot.strategy || slot.previewed) continue;
-    if (!slot.contender) slot.contender = Make(i);
-    if (slot.contender->spp() > 0) {
+    if (slot.contender && slot.contender->spp() > 0) {
       slot.previewed = true;
       continue;
     }
-    const bool trains = NeedsTraining(slot.contender->plan());
     const int factor = PreviewFactor(slot);
-    if (factor == 1 && !trains) {
-      return Work{slot.contender, slot.contender->film().groups().unit, i, true};
-    }
+    const auto reduced = [&](const Strategy& strategy) {
+      return std::make_shared<Contender>(
+          stage_, MakeView(stage_, eye_, std::max(2, factor)), strategy);
+    };
+    if (factor == 1 && !slot.contender) slot.contender = Make(i);
+    auto preview = factor == 1 ? slot.contender : reduced(*slot.strategy);
     // What has to be learned first would not be there in time.
-    const Strategy strategy = trains ? Strategy{} : *slot.strategy;
-    auto reduced =
-        std::make_shared<Contender>(stage_, MakeView(stage_, eye_, factor), strategy);
-    const std::uint64_t unit = reduced->film().groups().unit;
-    return Work{std::move(reduced), unit, i, true};
+    if (NeedsTraining(preview->plan())) preview = reduced(Strategy{});
+    const std::uint64_t unit = preview->film().groups().unit;
+    return Work{std::move(preview), unit, i, true};
   }
   return std::nullopt;
 }

@@ -169,7 +169,7 @@ def the_picture_zooms_to_pixels(page):
 def figures_of_the_paper_compare(page):
     fresh(page)
     require(len(page.all("[data-preset]")) == 8, "not all figures")
-    page.find('[data-preset="paper-importance default"]').click()
+    page.click('[data-preset="paper-importance default"]')
     until(page, "return page.state.slots[1].looks?.length > 3 &&"
           " page.state.ratio?.value > 0", "no ratio")
     text = page.find("#score").text
@@ -212,7 +212,7 @@ def strategies_are_chosen_by_axes(page):
     text = until(page, "return document.querySelector('#card-1 .refused')?.innerText",
                  "it is not refused")
     require("environment" in text, text)
-    page.find("#off").click()
+    page.click("#off")
     until(page, "return page.state.slots[1].name === ''", "B is not given up")
 
 

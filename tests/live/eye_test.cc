@@ -2,6 +2,7 @@
 #include "src/live/eye.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
@@ -96,7 +97,7 @@ TEST_CASE("eyes as JSON, and those that cannot be", "[live]") {
   refused("up", {0, 0, 0});
   const Vec3d ahead = eye.target - eye.position;
   refused("up", {ahead.x, ahead.y, ahead.z});
-  refused("position", {1e400, 0, 0});
+  refused("position", {std::numeric_limits<double>::infinity(), 0, 0});
   refused("fov", 180);
   refused("fov", 0);
   refused("lens", -1);

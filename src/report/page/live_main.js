@@ -58,17 +58,18 @@ function build(hello) {
   page.score = el("div", { id: "score", hidden: true });
   page.plot = el("div", { id: "error-plot", hidden: true });
   const viewer = el("section", { id: "viewer", "aria-label": "Picture" },
-    viewBar(page), pictureBox(page, canvas), readout, toneBar(page), cameraBar(page), saveBar(page));
+    viewBar(page), pictureBox(page, canvas), readout, toneBar(page), cameraBar(page));
   const side = el("div", { class: "live-side" },
     section("compare", "Compare", page.cards.map((card) => card.node), paceButtons(page),
       page.score, page.plot),
     section("figures", "The paper, figure by figure", presetButtons(page, page.cards)),
+    section("take", "Take it away", saveBar(page)),
     section("stages", "Where the time goes", page.stages.node));
   document.getElementById("content").replaceChildren(
     el("div", { class: "live" }, viewer, side));
   canvas.style.aspectRatio = `${page.size.width} / ${page.size.height}`;
   linkSections([["viewer", "Picture"], ["compare", "Compare"],
-    ["figures", "Figures"], ["stages", "Stages"]]);
+    ["figures", "Figures"], ["take", "Files"], ["stages", "Stages"]]);
   const name = hello.scene.split("/").slice(-2).join("/");
   document.getElementById("scenes").append(el("span", { class: "tab" }, name));
   document.title = `${name} – Lanelight live`;

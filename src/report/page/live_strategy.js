@@ -98,7 +98,7 @@ class StrategyCard {
     const look = state.looks[state.looks.length - 1];
     const error = look
       ? joined(intervalTexts({ value: look.relmse, low: look.low, high: look.high }))
-      : "not yet: pixels need two independent observations";
+      : "not yet: it is estimated from 8 samples per pixel on";
     this.status.replaceChildren(
       el("dl", { class: "facts live-facts" },
         fact("Samples per pixel", fmtCount(state.spp)),
