@@ -104,6 +104,7 @@ void AddCommands(CLI::App& root, RankGroup& group, Command& chosen) {
   AddCompareCommand(root, chosen);
   AddStudyCommand(root, chosen);
   AddSweepCommand(root, chosen);
+  AddPlotCommand(root, chosen);
   AddStressCommand(root, chosen);
   AddCompletionCommand(root, chosen);
   AddHelpCommand(root);

@@ -25,6 +25,7 @@ void AddMergeCommand(CLI::App& root, Command& chosen);
 void AddCompareCommand(CLI::App& root, Command& chosen);
 void AddStudyCommand(CLI::App& root, Command& chosen);
 void AddSweepCommand(CLI::App& root, Command& chosen);
+void AddPlotCommand(CLI::App& root, Command& chosen);
 void AddStressCommand(CLI::App& root, Command& chosen);
 void AddCompletionCommand(CLI::App& root, Command& chosen);
 /// The last one: it knows those that are there before it. It is done when it is parsed.

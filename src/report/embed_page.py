@@ -9,6 +9,7 @@ library only.
 import base64
 import hashlib
 import pathlib
+import re
 import sys
 
 # Of the pages: what stands where page.html has these words; styles after base.css, table.css
@@ -46,6 +47,8 @@ PIECE = 12000  # characters of one literal; compilers must take 65535
 
 HEADER = """// Written by src/report/embed_page.py from src/report/page/; not to be edited.
 #include "src/report/page_text.h"
+
+#include "src/report/plot.h"
 
 namespace lanelight {
 """
@@ -102,6 +105,16 @@ def literal(name, text):
     return "\n".join(lines + ["  return text;", "}", ""])
 
 
+def plot_colors(page_dir):
+    """The colours of strategies in light pages, for plots that the program draws."""
+    light = (page_dir / "base.css").read_text(encoding="utf-8").split("}")[0]
+    colors = re.findall(r"--c\d: (#[0-9a-f]{6});", light)
+    if len(colors) != 8:
+        raise SystemExit(f"embed_page: base.css has {len(colors)} colours --c0 to --c7")
+    return ("\nstd::vector<std::string> PlotColors() {\n"
+            f"  return {{{', '.join(f'{chr(34)}{c}{chr(34)}' for c in colors)}}};\n}}\n")
+
+
 def main():
     page_dir, output = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     body = HEADER
@@ -109,6 +122,7 @@ def main():
         head, tail = assemble(page_dir, *page)
         body += "\n" + literal(f"{name}Head", head)
         body += "\n" + literal(f"{name}Tail", tail)
+    body += plot_colors(page_dir)
     output.write_text(body + "\n}  // namespace lanelight\n", encoding="utf-8")
 
 

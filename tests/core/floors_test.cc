@@ -26,7 +26,7 @@ constexpr Floor kFloors[] = {
     {"src/path",           "what a path is: fields, stages, dimensions, features"},
     {"src/image",          "films, image files, spectra"},
     {"src/state",          "files of a render's state"},
-    {"src/report",         "the page of a study"},
+    {"src/report",         "pages and plots of what was measured"},
     {"src/compare",        "two images, and what sets them apart"},
     {"src/scene",          "what a scene file says"},
     {"src/parse",          "text to description"},
