@@ -71,7 +71,7 @@ void AddPlotCommand(CLI::App& root, Command& chosen) {
       ->type_name("");
   command
       ->add_option("--figure", options->figure,
-                   "Which plot, as --list names them; required without it")
+                   "Write this plot, of those that --list names")
       ->type_name("NAME");
   command
       ->add_option(

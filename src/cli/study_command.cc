@@ -25,6 +25,9 @@ struct StudyCommandOptions {
 };
 
 void CheckCombination(const StudyOptions& study) {
+  if (study.scenes.size() > 1 && study.paper) {
+    throw CLI::ValidationError("--paper", "is a page of one scene only");
+  }
   if (study.scenes.size() > 1 && !study.references.empty()) {
     throw CLI::ValidationError("--reference", "goes with one scene only");
   }
@@ -160,6 +163,8 @@ void AddStudyCommand(CLI::App& root, Command& chosen) {
   AddMeasureOptions(*command, *options);
   command->add_flag("--resume", options->study.resume,
                     "Continue the study in DIR; what is finished is not done again");
+  command->add_flag("--paper", options->study.paper,
+                    "Write DIR/index.html too: the founding paper's figures on one page");
   AddSettings(*command, kStudyFlag, options->study.settings);
   command->add_flag("--quiet", options->quiet, "Print errors only");
   command->footer(

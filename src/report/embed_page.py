@@ -14,13 +14,18 @@ import sys
 
 # Of the pages: what stands where page.html has these words; styles after base.css, table.css
 # and plots.css, and before print.css; scripts, in this order.
-PLOTS = "logaxis logplot_draw logplot guides curves"
+PLOTS = "logaxis logplot_draw logplot guides plot_export curves"
 PAGES = {
     "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it", "CONNECT": ""},
              "images",
              f"""dom format data view strategies whisker table hero warnings summary ranking
              ranking_columns {PLOTS} calibration tone picture pan pane difference comparator
-             controls readout figures insets maps stages levels glossary main"""),
+             controls readout figures figures_level insets maps stages levels glossary main"""),
+    "PaperPage": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv"},
+                  "images",
+                  f"""dom format data view strategies whisker table hero summary
+                  ranking_columns {PLOTS} tone picture difference controls figures
+                  figures_level insets paper_text paper_main"""),
     "ComparePage": ({"NAME": "compare", "TABS": "Images",
                      "FILES": "what compare --json prints", "CONNECT": ""}, "images",
                     """dom format data view tone picture pan pane difference comparator controls

@@ -118,6 +118,11 @@ std::string ReportPage(const nlohmann::json& study,
   return WithImages(PageHead(), study, images, PageTail());
 }
 
+std::string PaperReportPage(const nlohmann::json& study,
+                            const std::vector<ReportImage>& images) {
+  return WithImages(PaperPageHead(), study, images, PaperPageTail());
+}
+
 std::string ComparisonReportPage(const nlohmann::json& comparisons,
                                  const std::vector<ReportImage>& images) {
   return WithImages(ComparePageHead(), comparisons, images, ComparePageTail());

@@ -25,6 +25,11 @@ struct ReportImage {
 std::string ReportPage(const nlohmann::json& study,
                        const std::vector<ReportImage>& images);
 
+/// The founding paper's figures on the first scene of a study, with what its equations
+/// say and what was found; arguments as of ReportPage().
+std::string PaperReportPage(const nlohmann::json& study,
+                            const std::vector<ReportImage>& images);
+
 /// The page of `lanelight compare`, of the numbers that docs/compare.md names, and of
 /// maps by the names that it has for them; otherwise like ReportPage().
 std::string ComparisonReportPage(const nlohmann::json& comparisons,

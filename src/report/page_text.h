@@ -9,6 +9,9 @@ namespace lanelight {
 std::string PageHead();  // from the doctype to where the data goes
 std::string PageTail();  // the scripts, to the end of the document
 
+std::string PaperPageHead();  // the same of the paper's figures on one page
+std::string PaperPageTail();
+
 std::string ComparePageHead();  // the same of the page of comparisons
 std::string ComparePageTail();
 

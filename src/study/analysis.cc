@@ -34,7 +34,8 @@ class SceneAnalyser {
       : runs_(runs),
         options_(options),
         images_(images),
-        store_(runs.folder + "/cells", runs.window) {}
+        store_(runs.folder + "/cells", runs.window),
+        pictured_(PicturedStrategies(runs)) {}
 
   SceneAnalysis Run() {
     for (const StrategyRuns& runs : runs_.strategies) AddStrategy(runs);
@@ -50,6 +51,8 @@ class SceneAnalyser {
  private:
   void AddStrategy(const StrategyRuns& runs) {
     StrategyAnalysis strategy;
+    const std::size_t index = out_.strategies.size();
+    std::vector<std::vector<Rgb>> firsts;
     for (std::uint64_t spp : runs.counts) {
       const Cells cells = store_.Load(runs.Text(), spp);
       if (cells.repetitions.empty()) continue;
@@ -61,6 +64,7 @@ class SceneAnalyser {
       }
       strategy.costs.push_back(CostsOf(cells, spp, &Measurement::relmse));
       strategy.squares.push_back(CostsOf(cells, spp, &Measurement::mse));
+      if (pictured_.contains(index)) firsts.push_back(cells.first);
     }
     if (strategy.HasRuns()) {
       strategy.at = ComparedLevel(strategy.levels);
@@ -78,8 +82,8 @@ class SceneAnalyser {
         strategy.tiles =
             TestTiles(cells.moments, runs_.reference, strategy.AtLevel().spp, kBiasLevel);
       }
-
-      AddStrategyImages(runs_, out_.strategies.size(), cells, strategy, images_);
+      AddStrategyImages(runs_, index, cells, strategy, images_);
+      AddLevelImages(runs_, index, firsts, pictured_.size(), strategy, images_);
     }
     out_.strategies.push_back(std::move(strategy));
   }
@@ -116,6 +120,7 @@ class SceneAnalyser {
   const StudyOptions& options_;
   std::vector<ReportImage>& images_;
   CellStore store_;
+  const std::set<std::size_t> pictured_;  // indices
   SceneAnalysis out_;
 };
 

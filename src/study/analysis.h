@@ -57,6 +57,7 @@ struct LevelAnalysis {
   double reference_share = 0;
   std::uint64_t invalid = 0;
   SelfCheck self;
+  std::string image;  // name, of the first repetition; empty: none
 
   bool ReferenceLimited() const { return reference_share > 0.5; }
 };

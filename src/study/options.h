@@ -26,6 +26,7 @@ struct StudyOptions {
   std::optional<double> target_relmse;  // empty: what the baseline reaches
   std::string out;                      // directory
   bool resume = false;
+  bool paper = false;  // index.html too: the founding paper's figures on one page
 
   /// The number that was asked for; else, for a confidence of 1 - a, 2 + ceil(log2(2 /
   /// a)): two more than where a sign test can be that sure. 8 for 95 %, 10 for 99 %.

@@ -35,6 +35,9 @@ std::vector<SceneStudy> Study(const StudyOptions& options, const StudyHooks& hoo
   WriteFileAtomically(options.out + "/study.json", DumpJson(json, 2) + "\n");
   WriteFileAtomically(options.out + "/study.csv", StudyCsv(studies));
   WriteFileAtomically(options.out + "/report.html", ReportPage(json, images));
+  if (options.paper) {
+    WriteFileAtomically(options.out + "/index.html", PaperReportPage(json, images));
+  }
   return studies;
 }
 

@@ -62,6 +62,41 @@ void AddStrategyImages(const SceneRuns& runs, std::size_t index, const Cells& ce
   }
 }
 
+std::set<std::size_t> PicturedStrategies(const SceneRuns& runs) {
+  std::set<std::size_t> pictured;
+  for (std::size_t i = 0; i < runs.strategies.size(); ++i) {
+    const StrategyRuns& s = runs.strategies[i];
+    if (PaperFigure(s.named.name) > 0) pictured.insert(s.same_as.value_or(i));
+  }
+  if (pictured.empty()) return pictured;
+  const auto rendered = [](const StrategyRuns& s) { return s.status == RunStatus::kOk; };
+  const auto first =
+      std::find_if(runs.strategies.begin(), runs.strategies.end(), rendered);
+  if (first != runs.strategies.end()) {
+    pictured.insert(static_cast<std::size_t>(first - runs.strategies.begin()));
+  }
+  return pictured;
+}
+
+void AddLevelImages(const SceneRuns& runs, std::size_t index,
+                    const std::vector<std::vector<Rgb>>& firsts, std::size_t pictured,
+                    StrategyAnalysis& strategy, std::vector<ReportImage>& images) {
+  ImageWriter writer(runs, images);
+  if (firsts.empty()) return;
+  std::size_t left = kLevelValues / pictured;
+  for (std::size_t i = 0; i < firsts.size(); ++i) {
+    LevelAnalysis& level = strategy.levels[i];
+    const std::size_t values = 3 * firsts[i].size();
+    if (i == strategy.at) {
+      level.image = strategy.one;
+    } else if (values <= left) {
+      left -= values;
+      level.image =
+          writer.Show(fmt::format("{:02}.{}spp", index + 1, level.spp), firsts[i]);
+    }
+  }
+}
+
 void AddSceneImages(const SceneRuns& runs, SceneAnalysis& analysis,
                     std::vector<ReportImage>& images) {
   ImageWriter writer(runs, images);

@@ -1,8 +1,12 @@
 // The images of a study: for its report, and as EXR files beside it.
 #pragma once
 
+#include <cstddef>
+#include <set>
+#include <string>
 #include <vector>
 
+#include "src/report/shrink.h"
 #include "src/study/analysis.h"
 
 namespace lanelight {
@@ -12,6 +16,18 @@ namespace lanelight {
 /// names, which are paths below DIR without ".exr", into `strategy`.
 void AddStrategyImages(const SceneRuns& runs, std::size_t index, const Cells& cells,
                        StrategyAnalysis& strategy, std::vector<ReportImage>& images);
+
+/// Strategies whose images the report has at small sample counts too: those of the
+/// paper's figures, if there are any, and the first one that is rendered.
+std::set<std::size_t> PicturedStrategies(const SceneRuns& runs);
+
+/// After AddStrategyImages(), for one of `pictured` strategies: `firsts`, the first
+/// repetition at each level, go into the report, from the smallest count on, as far as
+/// kLevelValues take all of them.
+void AddLevelImages(const SceneRuns& runs, std::size_t index,
+                    const std::vector<std::vector<Rgb>>& firsts, std::size_t pictured,
+                    StrategyAnalysis& strategy, std::vector<ReportImage>& images);
+inline constexpr std::size_t kLevelValues = kReportValues / 2;  // of a scene
 
 /// The same for the reference and the diffuse models, whose files are there already,
 /// unless the reference was read from elsewhere.

@@ -54,6 +54,7 @@ Json LevelJson(const LevelAnalysis& l) {
           {"reference_share", NumberJson(l.reference_share)},
           {"reference_limited", l.ReferenceLimited()},
           {"invalid", l.invalid},
+          {"image", Text(l.image)},
           {"self", SelfJson(l.self)}};
 }
 

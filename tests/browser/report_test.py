@@ -7,8 +7,9 @@ failed, with 77 where Chromium or Selenium is missing.
 """
 
 import run_checks
-import plot_checks  # noqa: F401, these four register their checks
+import plot_checks  # noqa: F401, these five register their checks
 import hero_checks  # noqa: F401
+import export_checks  # noqa: F401
 import image_checks  # noqa: F401
 import page_checks  # noqa: F401
 

@@ -110,7 +110,8 @@ TEST_CASE("help for no command names those there are", "[cli]") {
   CHECK(unknown.out.empty());
   CHECK(unknown.err ==
         "error: unknown command 'rendr'; commands are render, advise, plan, "
-        "live, profile, bench, info, strategies, merge, compare, study, sweep, stress, "
+        "live, profile, bench, info, strategies, merge, compare, study, sweep, plot, "
+        "stress, "
         "completion, help; did you mean 'render'?\n");
   CHECK(RunLanelight({"help", "render", "merge"}).exit_code == kExitUsage);
 }

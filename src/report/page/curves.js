@@ -42,7 +42,7 @@ function describePoint(measure, line, { level }) {
   ];
 }
 
-function curvePlot(view, host, measure, xAxis, xOf) {
+function curvePlot(view, host, measure, xAxis, xOf, more = {}) {
   const { label, power } = MEASURES[measure];
   return logPlot(view, host, {
     lines: curveLines(view, measure, xOf),
@@ -55,6 +55,7 @@ function curvePlot(view, host, measure, xAxis, xOf) {
       if (measure === "relmse") drawTarget(u, view.scene.target_relmse);
     },
     describe: (line, point) => describePoint(measure, line, point),
+    ...more,
   });
 }
 
@@ -145,7 +146,13 @@ function plotFigure(name, title) {
   const host = el("div", { class: "plot", "data-plot": name });
   return {
     host,
-    figure: el("figure", { class: "plot-figure" }, el("figcaption", {}, title), host),
+    figure: el(
+      "figure",
+      { class: "plot-figure" },
+      el("figcaption", {}, title),
+      host,
+      exportButtons(host, title),
+    ),
   };
 }
 

@@ -66,10 +66,10 @@ function diffuseFigure(view) {
   );
 }
 
-// The strategy's image with a magnified part, beside that of the baseline and reference.
-function strategyFigure(view, number, strategy, inset, compare) {
+// The strategy's image at `level` with a magnified part, beside the same of the baseline,
+// `shown` (its image), and the reference.
+function strategyFigure(view, number, { strategy, level, image }, shown, inset, compare) {
   const [title, meaning] = FIGURE_TITLES[number];
-  const image = findImage(strategy.images && strategy.images.one);
   if (!image) {
     const why = statusWord(strategy)
       ? whyMissing(strategy)
@@ -79,29 +79,25 @@ function strategyFigure(view, number, strategy, inset, compare) {
   const main = tonedPicture(view, image, `${strategy.name}, one repetition`, {
     frame: inset,
   });
-  const insets = inset ? insetColumn(view, strategy, image, inset) : null;
+  const insets = inset ? insetColumn(view, image, shown, inset) : null;
   // Widths that make the square insets together as high as the image.
   const parts = insets ? insets.childElementCount : 1;
   main.style.flexGrow = (parts * image.width) / image.height;
   const body = el("div", { class: "with-insets" }, main, insets);
-  return figureBox(number, title, body, figureCaption(view, strategy, meaning, compare));
+  const caption = figureCaption(view, strategy, level, meaning, compare);
+  return figureBox(number, title, body, caption);
 }
 
-function insetColumn(view, strategy, image, inset) {
-  const { baseline, scene } = view;
+function insetColumn(view, image, shown, inset) {
+  const { scene } = view;
   const sources = [["this", image]];
-  if (baseline && baseline.index !== strategy.index && baseline.images) {
-    sources.push(["baseline", findImage(baseline.images.one)]);
-  }
+  if (shown !== image) sources.push(["baseline", shown]);
   sources.push(["reference", findImage(scene.reference && scene.reference.image)]);
   return el(
     "div",
     { class: "insets" },
     sources
-      .filter(
-        ([, source]) =>
-          source && source.width === image.width && source.height === image.height,
-      )
+      .filter(([, source]) => sizesEqual(source, image))
       .map(([name, source]) =>
         el(
           "div",
@@ -113,15 +109,15 @@ function insetColumn(view, strategy, image, inset) {
   );
 }
 
-function figureCaption(view, strategy, meaning, compare) {
-  const level = strategy.level;
+function figureCaption(view, strategy, level, meaning, compare) {
   const numbers = [
     level && `${fmtCount(level.spp)} spp`,
+    level && valueOf(level.cpu_seconds) !== null && fmtSeconds(valueOf(level.cpu_seconds)),
     level &&
       valueOf(level.relmse) !== null &&
       `relative MSE ${joined(intervalTexts(level.relmse))}`,
     valueOf(strategy.efficiency) !== null &&
-      `efficiency ${joined(intervalTexts(strategy.efficiency))}`,
+      `efficiency at ${fmtCount(strategy.at_spp)} spp ${joined(intervalTexts(strategy.efficiency))}`,
   ]
     .filter(Boolean)
     .join("; ");
@@ -129,7 +125,7 @@ function figureCaption(view, strategy, meaning, compare) {
   return [
     meaning,
     ` ${strategy.name}: ${numbers || "no numbers"}. `,
-    hasImage(reference) &&
+    compare && hasImage(reference) &&
       el(
         "button",
         {
@@ -142,36 +138,57 @@ function figureCaption(view, strategy, meaning, compare) {
   ];
 }
 
-function orderFigure(view) {
-  const rows = view.ranked.filter((s) => valueOf(s.order) !== null);
+// The curves of the paper's strategies, and the slopes beside.
+function convergenceFigure(view, strategies) {
+  const measured = strategies.filter((s) => valueOf(s.order) !== null);
+  const title = "Convergence";
+  if (measured.length === 0) {
+    return figureBox(8, title,
+                     missingPicture("An order needs at least two sample counts."), null);
+  }
+  const shown = makeSignal(new Set(measured.map((s) => s.index)));
+  const own = { ...view, ran: measured, shown, focus: makeSignal(null) };
+  const { host, figure } = plotFigure("convergence", "RMSE against samples");
+  const counts = { label: "samples per pixel", ticks: binaryTicks, format: fmtCount };
+  const byIndex = new Map(measured.map((s) => [s.index, s]));
+  const beside = {
+    label: "slope",
+    marks: [-0.5],
+    of: (line) => byIndex.get(line.index).order,
+  };
+  whenVisible(view, figure, () =>
+    curvePlot(own, host, "rmse", counts, (level) => level.spp, { ghosts: false, beside }),
+  );
+  return figureBox(
+    8,
+    title,
+    el("div", { class: "convergence" }, figure, orderRows(measured)),
+    "Beside the curves the fitted slope of log RMSE over log samples. The line at −½ is " +
+      "where independent samples fall; further left converges faster.",
+  );
+}
+
+function orderRows(strategies) {
   const scale = whiskerScale(
-    rows.map((s) => s.order),
+    strategies.map((s) => s.order),
     false,
     [-0.5],
   );
-  if (rows.length === 0) {
-    return figureBox(
-      8,
-      "Convergence rate",
-      missingPicture("An order needs at least two sample counts."),
-      null,
-    );
-  }
-  const axis = { width: 360, format: fmtShort, most: 6 };
-  const body = el(
+  const size = { width: 200 };
+  return el(
     "div",
     { class: "orders" },
     el("div", {}),
-    el("div", {}, whiskerAxis(scale, axis)),
+    el("div", {}, whiskerAxis(scale, { ...size, format: fmtShort, most: 4 })),
     el("div", {}),
-    rows.map((s) => [
+    strategies.map((s) => [
       el("div", { class: "order-name" }, strategyLabel(s)),
       el(
         "div",
         {},
         whisker(s.order, scale, {
+          ...size,
           style: s.style,
-          width: 360,
           marks: [-0.5],
           label: `Order of ${s.name}`,
         }),
@@ -179,33 +196,59 @@ function orderFigure(view) {
       el("div", { class: "order-value" }, joined(intervalTexts(s.order))),
     ]),
   );
-  return figureBox(
-    8,
-    "Convergence rate",
-    body,
-    "Fitted slope of log RMSE over log samples. " +
-      "The line at −½ is where independent samples fall; further left converges faster.",
-  );
+}
+
+// The strategy that is a figure of the paper; where it does what another does, that one
+// under its name.
+function strategyOfFigure(view, number) {
+  const found = view.strategies.find((s) => s.figure === number);
+  const twin = found && found.status === "same" && view.strategies[found.same_as];
+  return twin ? { ...twin, name: found.name } : found;
+}
+
+// {controls, hosts: Map from the numbers 2 to 7, as far as there are, to elements}. The
+// controls choose of which sample count the figures are.
+function sampledFigures(view, compare) {
+  const figures = Object.keys(FIGURE_TITLES)
+    .map((key) => ({ number: Number(key), strategy: strategyOfFigure(view, Number(key)) }))
+    .filter(({ strategy }) => strategy);
+  const hosts = new Map(figures.map(({ number }) => [number, el("div")]));
+  const candidates = [view.baseline, ...figures.map(({ strategy }) => strategy)];
+  const baseline = candidates.find((s) => s && picturedLevels(s).length > 0);
+  const reference = findImage(view.scene.reference && view.scene.reference.image);
+  const draw = (base, equal) => {
+    const chosen = figures.map(({ number, strategy }) => {
+      const level = base && levelBeside(strategy, base, equal);
+      return { number, strategy, level, image: level && imageOf(strategy, level) };
+    });
+    const shown = base && imageOf(baseline, base);
+    const images = [shown, ...chosen.map(({ image }) => image)].filter(Boolean);
+    const inset = reference && insetWindow(images, reference);
+    for (const figure of chosen) {
+      hosts.get(figure.number).replaceChildren(
+        strategyFigure(view, figure.number, figure, shown, inset, compare),
+      );
+    }
+  };
+  if (!baseline) draw(null);
+  return { hosts, controls: baseline && levelControls(picturedLevels(baseline), draw) };
+}
+
+function paperStrategies(view) {
+  const of = view.ranked.filter((s) => s.figure || s === view.baseline);
+  return of.some((s) => s.figure) ? of : view.ranked.filter((s) => view.shown.value.has(s.index));
 }
 
 function figuresSection(view, compare) {
-  const inset = insetWindow(view);
-  const numbers = Object.keys(FIGURE_TITLES).map(Number);
-  const ofFigure = (number) => {
-    const found = view.strategies.find((s) => s.figure === number);
-    const twin = found && found.status === "same" && view.strategies[found.same_as];
-    return twin ? { ...twin, name: found.name } : found;
-  };
-  const figures = numbers
-    .filter(ofFigure)
-    .map((number) => strategyFigure(view, number, ofFigure(number), inset, compare));
-  const absent = numbers.filter((number) => !ofFigure(number));
+  const { hosts, controls } = sampledFigures(view, compare);
+  const absent = Object.keys(FIGURE_TITLES).filter((key) => !hosts.has(Number(key)));
   return section(
     "figures",
     "The paper's figures on this scene",
     diffuseFigure(view),
-    el("div", { class: "paper-grid" }, figures),
-    orderFigure(view),
+    controls,
+    el("div", { class: "paper-grid" }, [...hosts.values()]),
+    convergenceFigure(view, paperStrategies(view)),
     absent.length > 0 &&
       el(
         "p",

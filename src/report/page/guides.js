@@ -1,7 +1,7 @@
 "use strict";
 // Lines that help to read the curves: slopes and the target.
 
-// Short lines of constant order where curves that fall leave room: at the upper right.
+// Short lines of constant order, named by their slope on these axes, where curves that fall leave room: at the upper right.
 function drawSlopes(u, power) {
   const { x, y } = u.scales;
   const x0 = x.min ** 0.42 * x.max ** 0.58,
@@ -13,10 +13,8 @@ function drawSlopes(u, power) {
   u.ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
   u.ctx.textAlign = "right";
   u.ctx.textBaseline = "bottom";
-  for (const [order, text] of [
-    [0.5, "RMSE slope −½"],
-    [1, "RMSE slope −1"],
-  ]) {
+  for (const order of [0.5, 1]) {
+    const text = `slope ${MINUS}${order * power === 0.5 ? "½" : order * power}`;
     const yAt = (v) => y0 * (v / x0) ** (-order * power);
     const end = Math.min(x.max / 1.03, x0 * (y0 / lowest) ** (1 / (order * power)));
     u.ctx.setLineDash([dash, dash]);

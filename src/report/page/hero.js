@@ -1,6 +1,8 @@
 "use strict";
 // The first thing to see: who wins, by how much, and the picture that shows it.
 
+const MOST_RIVALS = 3; // that the headline names
+
 // The winner, and what it is compared with: the baseline, or, where that wins, the next.
 function contest(view) {
   const [winner, next] = view.ranked;
@@ -25,6 +27,11 @@ function gainOver(view, { winner, other }) {
   return other.efficiency.value > 0 ? inverted(other.efficiency) : null;
 }
 
+// Those that are not certainly behind.
+function rivalsOf(view, winner) {
+  return view.ranked.filter((s) => s !== winner && s.rank && s.rank[0] === 1);
+}
+
 function heroSentence(view, { winner }) {
   const name = el("b", { title: fullName(winner) }, shortName(winner.name));
   const level = winner.level.repetitions;
@@ -32,10 +39,10 @@ function heroSentence(view, { winner }) {
     const times = level === 1 ? "One repetition" : `${level} repetitions`;
     return [name, ` is ahead here. ${times} cannot say how sure that is.`];
   }
-  const rivals = view.ranked.filter((s) => s !== winner && s.rank && s.rank[0] === 1);
+  const rivals = rivalsOf(view, winner);
   if (rivals.length === 0) return [name, " gives the least error for the time."];
   const who =
-    rivals.length > 3 ? `${rivals.length} others are` : `${someNames(rivals)} ${
+    rivals.length > MOST_RIVALS ? `${rivals.length} others are` : `${someNames(rivals)} ${
       rivals.length === 1 ? "is" : "are"
     }`;
   return [name, ` is ahead, but ${who} not certainly behind.`];
@@ -79,7 +86,9 @@ function targetNumber(view, { winner, other }) {
 
 // A plot of its own: what is chosen further down does not change it.
 function heroPlot(view, { winner, other }) {
-  const strong = [winner, other].filter(Boolean);
+  const rivals = rivalsOf(view, winner);
+  const named = rivals.length > MOST_RIVALS ? [] : rivals;
+  const strong = [...new Set([winner, other, ...named])].filter(Boolean);
   const own = {
     ...view,
     shown: makeSignal(new Set(strong.map((s) => s.index))),

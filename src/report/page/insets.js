@@ -1,25 +1,19 @@
 "use strict";
 // The magnified parts in the paper's figures.
 
-// A window of the image in which the baseline (or whoever ran) errs most, not counting
-// the brightest part of single pixels; the same in all figures of the scene.
-function insetWindow(view) {
-  const source = [view.baseline, ...view.ranked].find(
-    (s) => s && s.images && hasImage(s.images.one),
-  );
-  const reference = findImage(view.scene.reference && view.scene.reference.image);
-  if (!source) return null;
-  const image = findImage(source.images.one);
-  const side = Math.max(4, Math.round(Math.min(image.width, image.height) / 5));
-  const same =
-    reference && reference.width === image.width && reference.height === image.height;
-  let best = { error: -1 };
-  for (let y = side >> 1; y + side * 1.5 <= image.height; y += side >> 1) {
-    for (let x = side >> 1; x + side * 1.5 <= image.width; x += side >> 1) {
-      const error = same
-        ? windowError(image, reference, x, y, side)
-        : -Math.hypot(x + side / 2 - image.width / 2, y + side / 2 - image.height / 2);
-      if (error > best.error || best.error === -1) best = { error, x, y };
+// The window in which the errors of the images against the reference differ most, not
+// counting the brightest part of single pixels; the same in all figures of the scene.
+function insetWindow(images, reference) {
+  const sized = images.filter((image) => sizesEqual(image, reference));
+  if (sized.length === 0) return null;
+  const { width, height } = reference;
+  const side = Math.max(4, Math.round(Math.min(width, height) / 5));
+  let best = { spread: -1 };
+  for (let y = side >> 1; y + side * 1.5 <= height; y += side >> 1) {
+    for (let x = side >> 1; x + side * 1.5 <= width; x += side >> 1) {
+      const errors = sized.map((image) => windowError(image, reference, x, y, side));
+      const spread = Math.max(...errors) - (errors.length > 1 ? Math.min(...errors) : 0);
+      if (spread > best.spread) best = { spread, x, y };
     }
   }
   if (best.x === undefined) return null;

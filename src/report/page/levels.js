@@ -75,6 +75,6 @@ function levelsSection(view) {
       { class: "lead" },
       "The same as in study.json; single repetitions are in study.csv.",
     ),
-    view.strategies.map(levelsDetails),
+    leadingRows(view, view.strategies, levelsDetails),
   );
 }

@@ -4,7 +4,8 @@
 //
 // options: {lines, xAxis, yAxis, label, guides(u), describe(line, point), square: one range
 // for both axes, include: values that the y axis must hold, ghosts: lines that are not
-// shown stay, thin and grey}
+// shown stay, thin and grey, beside: {label, of(line), marks}: intervals of the lines that
+// files of the plot have beside it}
 // line: {index, name, style, points: [{x, y, low, high, hollow}]}, x ascending.
 
 function alignedData(lines) {
@@ -131,6 +132,8 @@ function logPlot(view, host, options) {
     host,
   );
   host.plot = u;
+  host.drawn = { view, options, u }; // for exportButtons()
+  host.classList.add("drawn");
   u.root.querySelector("canvas").setAttribute("role", "img");
   u.root.querySelector("canvas").setAttribute("aria-label", options.label);
   bindHover(view, u, options);
@@ -162,6 +165,8 @@ function logPlot(view, host, options) {
   const end = () => {
     if (!alive) return;
     alive = false;
+    delete host.drawn;
+    host.classList.remove("drawn");
     observer.disconnect();
     u.destroy();
   };

@@ -137,7 +137,7 @@ function mapsSection(view) {
     }),
     tileMap(view),
   ];
-  const rows = view.ranked.map((s) =>
+  const rows = leadingRows(view, view.ranked, (s) =>
     el(
       "div",
       { class: "map-row", role: "group", "aria-label": s.name },

@@ -143,7 +143,7 @@ function stagesSection(view) {
       el("p", {}, "No stage times were recorded."),
     );
   }
-  const rows = view.ranked.map((s) =>
+  const rows = leadingRows(view, view.ranked, (s) =>
     stageRow(s, fmtSeconds(stageSeconds(s)), stageBar(s, names)),
   );
   return section(

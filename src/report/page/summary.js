@@ -91,8 +91,14 @@ function referenceNote(reference) {
       ? "subtracted from all errors"
       : "its own error could not be estimated",
   );
-  if (reference.strategy) parts.push(reference.strategy);
-  return parts.join("; ");
+  const text = parts.join("; ");
+  if (!reference.strategy) return text;
+  return el(
+    "details",
+    { class: "reference-strategy" },
+    el("summary", {}, text),
+    el("span", { class: "full-text" }, breakable(reference.strategy)),
+  );
 }
 
 function notesList(scene) {

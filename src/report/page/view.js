@@ -29,12 +29,12 @@ function makeView(scene) {
   const strategies = (scene.strategies || []).map((strategy, index) => ({
     ...strategy,
     index,
-    style: strategyStyle(index),
     level: levelOf(strategy),
   }));
   const ran = strategies.filter((s) => s.status === "ok" || (s.levels || []).length > 0);
   const ranked = rankOrder(scene, ran);
   const baseline = strategies[scene.baseline] || null;
+  giveStyles(strategies, leading(ranked, baseline));
   return {
     scene,
     strategies,
@@ -58,6 +58,28 @@ function leading(ranked, baseline) {
   const indices = new Set(few.map((s) => s.index));
   if (baseline && ranked.includes(baseline)) indices.add(baseline.index);
   return indices;
+}
+
+// Those that lead look unlike each other, however many there are.
+function giveStyles(strategies, first) {
+  const rest = strategies.filter((s) => !first.has(s.index));
+  const ordered = [...strategies.filter((s) => first.has(s.index)), ...rest];
+  ordered.forEach((s, place) => {
+    s.style = strategyStyle(place);
+  });
+}
+
+const MOST_ROWS = 12; // that are shown at once
+
+// row() of every strategy; of many, of those that lead, and of the others on demand.
+function leadingRows(view, strategies, row) {
+  if (strategies.length <= MOST_ROWS) return strategies.map(row);
+  const first = leading(view.ranked, view.baseline);
+  const rest = strategies.filter((s) => !first.has(s.index));
+  const others = el("details", { class: "others" },
+                    el("summary", {}, `The other ${rest.length} strategies`));
+  others.addEventListener("toggle", () => others.append(...rest.map(row)), { once: true });
+  return [strategies.filter((s) => first.has(s.index)).map(row), others];
 }
 
 // The strategies that do on this scene exactly what `strategy` does.
