@@ -66,10 +66,11 @@ ExrPart PartOf(const Imf::Header& header) {
     out.channels.push_back(
         {it.name(), NameIn(kPixelTypes, c.type), c.xSampling, c.ySampling});
   }
-  std::stable_sort(out.channels.begin(), out.channels.end(),
-                   [](const ExrChannel& a, const ExrChannel& b) {
-                     return PlaceOf(a.name) < PlaceOf(b.name);
-                   });
+  std::sort(out.channels.begin(), out.channels.end(),
+            [](const ExrChannel& a, const ExrChannel& b) {
+              return std::make_pair(PlaceOf(a.name), a.name) <
+                     std::make_pair(PlaceOf(b.name), b.name);
+            });
   out.attributes = ExrAttributes(header);
   // The two of the screen, and the shape of pixels, are numbers of every file.
   std::erase_if(out.attributes, [](const auto& entry) {

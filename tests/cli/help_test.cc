@@ -111,8 +111,7 @@ TEST_CASE("help for no command names those there are", "[cli]") {
   CHECK(unknown.err ==
         "error: unknown command 'rendr'; commands are render, advise, plan, "
         "live, profile, bench, info, strategies, merge, compare, study, sweep, plot, "
-        "stress, "
-        "completion, help; did you mean 'render'?\n");
+        "stress, completion, help; did you mean 'render'?\n");
   CHECK(RunLanelight({"help", "render", "merge"}).exit_code == kExitUsage);
 }
 
