@@ -36,14 +36,14 @@ std::string HeaderText(const ProfileReport& report, const Job& job,
                       "({})",
                       job.window.width(), job.window.height(),
                       double(result.samples) / pixels, DurationText(result.seconds),
-                       result.stopped_early ? " (stopped early)" : "",
-                       ThreadCount(job.settings.threads), target.lanes(), target.name())) +
-       SummaryRow("machine", MachineText(ThisMachine())) +
-       SummaryRow("strategy", ToText(job.scene.strategy)) +
-       SummaryRow("peaks", PeaksText(report.peaks, target)) +
-       SummaryRow("columns",
-                  fmt::format("{:.0f} KiB of a wavefront's paths, which live in {}",
-                              double(result.bytes_in_flight) / 1024, report.level.name));
+                      result.stopped_early ? " (stopped early)" : "",
+                      ThreadCount(job.settings.threads), target.lanes(), target.name())) +
+      SummaryRow("machine", MachineText(ThisMachine())) +
+      SummaryRow("strategy", ToText(job.scene.strategy)) +
+      SummaryRow("peaks", PeaksText(report.peaks, target)) +
+      SummaryRow("columns",
+                 fmt::format("{:.0f} KiB of a wavefront's paths, which live in {}",
+                             double(result.bytes_in_flight) / 1024, report.level.name));
   if (result.counter_error != 0) {
     text += SummaryRow("counters", std::string(result.counters ? "in part: " : "none: ") +
                                        WhyNoCounters(result.counter_error));

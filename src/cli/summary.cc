@@ -132,11 +132,12 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
                          Name(job.trees.origin), DurationText(job.trees.seconds),
                          DurationText(r.seconds), DurationText(report.write_seconds))) +
          SummaryRow("machine", MachineText(ThisMachine())) +
-         SummaryRow("kernels",
-                    fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} "
-                                "bytes",
-                                target.name(), target.lanes(),
-                                ThreadCount(job.settings.threads), job.plan.wavefront, job.plan.bytes_per_path)) +
+         SummaryRow(
+             "kernels",
+             fmt::format("{}, {} lanes, {} threads; wavefront {} paths of {} "
+                         "bytes",
+                         target.name(), target.lanes(), ThreadCount(job.settings.threads),
+                         job.plan.wavefront, job.plan.bytes_per_path)) +
          "\n" + StageTable(r);
 }
 

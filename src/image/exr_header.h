@@ -20,9 +20,9 @@ struct ExrPart {
   std::string name, kind;  // "scanlineimage", "tiledimage", "deepscanline", "deeptile"
   std::string compression;
   std::array<int, 4> data_window{}, display_window{};  // x0, y0, x1, y1, all inclusive
-  std::vector<ExrChannel> channels;  // R, G, B and A first
-  std::map<std::string, ImageAttribute> attributes;  // those of strings and numbers
-  std::vector<std::string> other_attributes;         // "chromaticities (chromaticities)"
+  std::vector<ExrChannel> channels;                    // R, G, B and A first
+  std::map<std::string, ImageAttribute> attributes;    // those of strings and numbers
+  std::vector<std::string> other_attributes;  // "chromaticities (chromaticities)"
 
   int width() const { return data_window[2] - data_window[0] + 1; }
   int height() const { return data_window[3] - data_window[1] + 1; }

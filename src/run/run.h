@@ -10,8 +10,8 @@
 namespace lanelight {
 
 /// Renders into `film`, without samples but those that options.keeper goes on from: its
-/// size must match the crop window of the scene, or the strip of options.windows, its groups the strategy
-/// (src/prepare/groups.h).
+/// size must match the crop window of the scene, or the strip of options.windows, its
+/// groups the strategy (src/prepare/groups.h).
 RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 
