@@ -7,6 +7,7 @@
 #include "src/core/error.h"
 #include "src/core/json_text.h"
 #include "src/render/saving.h"
+#include "src/scene/scene_names.h"
 #include "src/study/scene_runner.h"
 
 namespace lanelight {
@@ -14,26 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The file's name without its ending; its folder's name where that says nothing.
-std::string SceneName(const std::string& path) {
-  const fs::path file(path);
-  const std::string stem = file.stem().string();
-  const std::string folder = fs::absolute(file).parent_path().filename().string();
-  const bool generic = stem == "reference" || stem == "scene" || stem == "scene-v4";
-  return generic && !folder.empty() ? folder : stem;
-}
-
 std::vector<SceneRuns> NamedScenes(const StudyOptions& options) {
   std::vector<SceneRuns> scenes;
-  std::set<std::string> names;
-  for (const std::string& path : options.scenes) {
+  const std::vector<std::string> names = SceneNames(options.scenes);
+  for (std::size_t i = 0; i < names.size(); ++i) {
     SceneRuns scene;
-    scene.path = path;
-    const std::string name = SceneName(path);
-    scene.name = name;
-    for (int i = 2; !names.insert(scene.name).second; ++i) {
-      scene.name = fmt::format("{}-{}", name, i);
-    }
+    scene.path = options.scenes[i];
+    scene.name = names[i];
     scene.folder = options.out + "/" + scene.name;
     scenes.push_back(std::move(scene));
   }

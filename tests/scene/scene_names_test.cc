@@ -1,0 +1,14 @@
+// Names of scenes where paths would be too long.
+#include <catch2/catch.hpp>
+
+#include "src/scene/scene_names.h"
+
+namespace lanelight {
+
+TEST_CASE("scene names: files, or folders where files say nothing", "[scene]") {
+  CHECK(SceneNames({"a/box.pbrt", "kitchen/reference.pbrt", "attic/scene-v4.pbrt",
+                    "b/box.pbrt", "b/kitchen.pbrt"}) ==
+        std::vector<std::string>{"box", "kitchen", "attic", "box-2", "kitchen-2"});
+}
+
+}  // namespace lanelight
