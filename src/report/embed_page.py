@@ -31,10 +31,10 @@ PAGES = {
                     """dom format data view tone picture pan pane difference comparator controls
                     readout maps histogram compare_tiles compare_numbers compare_main"""),
     "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it",
-                    "CONNECT": ""}, "sweep",
-                  f"""dom format data view strategies whisker table {PLOTS} stages
-                  sweep_cells sweep_choice sweep_lines sweep_plots sweep_stages sweep_table
-                  sweep_summary sweep_main"""),
+                    "CONNECT": ""}, "images sweep",
+                  f"""dom format data view strategies whisker table {PLOTS} stages tone picture
+                  sweep_cells sweep_choice sweep_lines sweep_plots sweep_images sweep_stages
+                  sweep_table sweep_headline sweep_summary sweep_main"""),
     "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it",
                     "CONNECT": ""}, "stress",
                    """dom format data strategies whisker table logaxis stress_data
@@ -78,7 +78,8 @@ def inline(page_dir, tag, files):
 
 def assemble(page_dir, words, style, scripts):
     has_plots = PLOTS in scripts  # those of uPlot
-    styles = ["base.css", "table.css", "plots.css", f"{style}.css", "print.css"]
+    styles = ["base.css", "table.css", "plots.css", *(f"{name}.css" for name in style.split()),
+              "print.css"]
     scripts = [f"{name}.js" for name in scripts.split()]
     licence = ""
     if has_plots:

@@ -128,8 +128,9 @@ std::string ComparisonReportPage(const nlohmann::json& comparisons,
   return WithImages(ComparePageHead(), comparisons, images, ComparePageTail());
 }
 
-std::string SweepReportPage(const nlohmann::json& sweep) {
-  return SweepPageHead() + DataBlock(sweep) + SweepPageTail();
+std::string SweepReportPage(const nlohmann::json& sweep,
+                            const std::vector<ReportImage>& images) {
+  return WithImages(SweepPageHead(), sweep, images, SweepPageTail());
 }
 
 std::string StressReportPage(const nlohmann::json& stress) {

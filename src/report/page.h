@@ -35,8 +35,10 @@ std::string PaperReportPage(const nlohmann::json& study,
 std::string ComparisonReportPage(const nlohmann::json& comparisons,
                                  const std::vector<ReportImage>& images);
 
-/// The page of a sweep, laid out as docs/sweep.md says; otherwise like ReportPage().
-std::string SweepReportPage(const nlohmann::json& sweep);
+/// The page of a sweep, laid out as docs/sweep.md says, with images by the names of its
+/// cells; otherwise like ReportPage().
+std::string SweepReportPage(const nlohmann::json& sweep,
+                            const std::vector<ReportImage>& images);
 
 /// The page of a run of stress cases, laid out as docs/stress.md says; otherwise like
 /// ReportPage().

@@ -82,6 +82,13 @@ std::optional<Axis> SweepAxisOf(const std::string& name) {
   return std::nullopt;
 }
 
+std::optional<Axis> AxisOfKey(const std::string& key) {
+  for (int i = 0; i < kNumAxes; ++i) {
+    if (key == kAxes[i].key) return static_cast<Axis>(i);
+  }
+  return std::nullopt;
+}
+
 std::string CanonicalValue(const std::string& name, const std::string& text,
                            const SourceLocation& where) {
   if (SweepAxisOf(name) == Axis::kStrategy) {

@@ -34,6 +34,8 @@ inline constexpr int kNumAxes = static_cast<int>(Axis::kCount);
 const char* Name(Axis axis);
 /// In JSON.
 const char* Key(Axis axis);
+/// The axis of that key, if there is one.
+std::optional<Axis> AxisOfKey(const std::string& key);
 /// The header of its column in sweep.csv, with its unit, e.g. "time_seconds".
 const char* Column(Axis axis);
 /// Its heading on the page, e.g. "Samples per pixel".

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/sweep/axes.h"
+#include "src/sweep/strategy_pattern.h"
 
 namespace lanelight {
 
@@ -15,6 +16,7 @@ inline constexpr std::size_t kMostCells = 1000000;
 struct GridValue {
   std::string text;  // see CanonicalValue()
   SourceLocation where;
+  std::vector<StrategyPlace> places = {};  // of a strategy
 };
 
 /// Values of some axes: [grid], or a table of [[include]] or [[exclude]].

@@ -12,6 +12,7 @@
 #include "src/render/machine_json.h"
 #include "src/report/values.h"
 #include "src/sweep/sweep_page.h"
+#include "src/sweep/thumbnails.h"
 
 namespace lanelight {
 namespace {
@@ -174,7 +175,9 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome
   outcome.total = sweep.cells.size();
   outcome.other_cells = folder.OtherCells();
   WriteFileAtomically(folder.File("sweep.csv"), SweepCsv(cells));
-  WriteFileAtomically(folder.File("report.html"), SweepPage(sweep, cells));
+  const std::vector<CellGroup> groups = GroupCells(sweep, cells);
+  WriteFileAtomically(folder.File("report.html"),
+                      SweepPage(sweep, cells, groups, Thumbnails(sweep, folder, groups)));
 }
 
 }  // namespace lanelight

@@ -24,20 +24,39 @@ bool Same(Axis axis, const std::string& a, const std::string& b) {
   return StrategyNamed(a, {}, {}) == StrategyNamed(b, {}, {});
 }
 
-void AddValue(const TomlFile& file, const std::string& name, const toml::node& node,
-              std::vector<GridValue>& values) {
-  const SourceLocation where = file.Where(node);
+// What the file says there before a pattern is taken as the pattern's too; anything else
+// that is said twice is a mistake.
+bool IsJoined(const GridValue& added, GridValue& known) {
+  const auto begin = [](const SourceLocation& w) { return std::pair(w.line, w.column); };
+  if (added.places.empty() || added.places[0].parameters.empty()) return false;
+  if (begin(added.where) == begin(known.where)) return false;
+  known.places.push_back(added.places[0]);
+  return true;
+}
+
+void AddValue(const std::string& name, GridValue value, std::vector<GridValue>& values) {
   const Axis axis = *SweepAxisOf(name);
-  const std::string text =
-      CanonicalValue(name, file.Value(name, AxisFormOf(name), node), where);
-  for (const GridValue& other : values) {
-    if (!Same(axis, other.text, text)) continue;
-    throw InputError(where, fmt::format("{} {} is there twice: it is the same as {}, "
-                                        "line {}",
-                                        Name(axis), Quoted(text), Quoted(other.text),
-                                        other.where.line));
+  value.text = CanonicalValue(name, value.text, value.where);
+  for (GridValue& other : values) {
+    if (!Same(axis, other.text, value.text)) continue;
+    if (IsJoined(value, other)) return;
+    throw InputError(
+        value.where,
+        fmt::format("{} {} is there twice: it is the same as {}, line {}", Name(axis),
+                    Quoted(value.text), Quoted(other.text), other.where.line));
   }
-  values.push_back({text, where});
+  values.push_back(std::move(value));
+}
+
+void AddValues(const TomlFile& file, const std::string& name, const toml::node& node,
+               std::vector<GridValue>& values) {
+  const SourceLocation where = file.Where(node);
+  const std::string text = file.Value(name, AxisFormOf(name), node);
+  if (SweepAxisOf(name) != Axis::kStrategy) return AddValue(name, {text, where}, values);
+  for (const PatternStrategy& strategy : ExpandStrategy(text, where)) {
+    AddValue(name, {strategy.text, where, {strategy.place}}, values);
+  }
+  }
 }
 
 std::vector<GridValue> ReadValues(const TomlFile& file, const std::string& name,
@@ -45,7 +64,7 @@ std::vector<GridValue> ReadValues(const TomlFile& file, const std::string& name,
   std::vector<GridValue> values;
   const toml::array* array = node.as_array();
   if (array == nullptr) {
-    AddValue(file, name, node, values);
+    AddValues(file, name, node, values);
     return values;
   }
   if (array->empty()) {
@@ -54,7 +73,7 @@ std::vector<GridValue> ReadValues(const TomlFile& file, const std::string& name,
                                  "to decide",
                                  name));
   }
-  for (const toml::node& item : *array) AddValue(file, name, item, values);
+  for (const toml::node& item : *array) AddValues(file, name, item, values);
   return values;
 }
 
@@ -107,6 +126,25 @@ std::vector<SubGrid> ReadTables(const TomlFile& file, const std::string& key,
   return grids;
 }
 
+// Of the strategies of all grids, each place once.
+std::map<std::string, std::vector<StrategyPlace>> PlacesOf(
+    const std::vector<SubGrid>& grids) {
+  std::map<std::string, std::vector<StrategyPlace>> places;
+  for (const SubGrid& grid : grids) {
+    const auto strategies = grid.axes.find(Axis::kStrategy);
+    if (strategies == grid.axes.end()) continue;
+    for (const GridValue& strategy : strategies->second) {
+      std::vector<StrategyPlace>& known = places[strategy.text];
+      for (const StrategyPlace& place : strategy.places) {
+        if (std::find(known.begin(), known.end(), place) == known.end()) {
+          known.push_back(place);
+        }
+      }
+    }
+  }
+  return places;
+}
+
 std::size_t CountAll(const std::vector<SubGrid>& grids) {
   return ExpandGrid(grids, {}).size();
 }
@@ -132,7 +170,7 @@ std::vector<Axis> Sweep::UsedAxes() const {
 
 Sweep ParseSweep(const std::string& path, const std::string& text) {
   const TomlFile file(path, text);
-  Sweep sweep = {path, text, {}, {}, 0};
+  Sweep sweep = {path, text, {}, {}, {}, 0};
   std::vector<SubGrid> grids, exclude;
   for (const auto& [toml_key, node] : file.root()) {
     const std::string key(toml_key.str());
@@ -156,6 +194,7 @@ Sweep ParseSweep(const std::string& path, const std::string& text) {
   for (const SubGrid& grid : grids) {
     CheckRenderable(grid, fs::path(path).parent_path());
   }
+  sweep.places = PlacesOf(grids);
   sweep.cells = ExpandGrid(grids, exclude);
   sweep.excluded = CountAll(grids) - sweep.cells.size();
   return sweep;

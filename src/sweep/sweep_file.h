@@ -21,6 +21,8 @@ struct Sweep {
   std::string path, text;  // of the file
   SweepSettings settings;
   std::vector<SweepCell> cells;
+  /// Of each strategy, by its text: at least one where the file names it.
+  std::map<std::string, std::vector<StrategyPlace>> places;
   std::size_t excluded = 0;  // combinations that are left out
 
   /// Where the scene of a cell is: names are relative to the sweep file.

@@ -70,50 +70,58 @@ STRATEGIES = [{"strategy": s} for s in ("default", "points=cmj")]
 THREADS = [{"threads": n} for n in ("1", "2", "4")]
 
 
+def show(page, measure, against="along"):
+    page.click(f'#plots [data-value="{measure}"]')
+    page.click(f'#plots [data-value="{against}"]')
+
+
 @check
 def plots_are_drawn(page):
     page.scroll_through()
-    for name in ("error", "rate"):
+    for name in ("panel-0", "panel-1"):
         ink = page.ink(plot(page, name))
         require(ink["ink"] > 0.01 * ink["pixels"], name, "is blank:", ink)
         require(ink["coloured"] > 800, name, "has no curves:", ink)
+    titles = [item.text for item in page.all("#plots figcaption")]
+    require(titles == ["box", "<i>odd"], "a plot for each scene:", titles)
 
 
 @check
 def errors_are_means_over_the_seeds(page):
-    fixed = {"scene": "box.pbrt", "threads": "4"}
     choose(page, "threads", "4")
     for measure in ("relmse", "rmse"):
-        page.click(f'#plots [data-value="{measure}"]')
-        lines = expected(page, SPP, STRATEGIES, fixed,
-                         lambda cells: mean(cells, "cpu_seconds"),
-                         lambda cells: mean(cells, measure))
-        require([len(line) for line in lines] == [3, 3], "one sample has no error", lines)
-        require_lines(values(page, "error"), lines, measure)
-    page.click('#plots [data-value="relmse"]')
+        show(page, measure, "time")
+        for panel, scene in enumerate(("box", "<i>odd")):
+            fixed = {"scene": scene, "threads": "4"}
+            lines = expected(page, SPP, STRATEGIES, fixed,
+                             lambda cells: mean(cells, "cpu_seconds"),
+                             lambda cells: mean(cells, measure))
+            require([len(line) for line in lines] == [3, 3], "one sample has no error",
+                    lines)
+            require_lines(values(page, f"panel-{panel}"), lines, measure)
 
 
 @check
 def rates_stand_at_their_samples(page):
     for measure in ("rays_per_second", "samples_per_second"):
-        page.click(f'#plots [data-value="{measure}"]')
-        lines = expected(page, SPP, STRATEGIES, {"scene": "box.pbrt", "threads": "4"},
+        show(page, measure)
+        lines = expected(page, SPP, STRATEGIES, {"scene": "box", "threads": "4"},
                          lambda cells: float(cells[0]["values"]["spp"]),
                          lambda cells: mean(cells, measure))
-        require_lines(values(page, "rate"), lines, measure)
+        require_lines(values(page, "panel-0"), lines, measure)
 
 
 @check
 def any_two_axes_can_be_chosen(page):
+    show(page, "samples_per_second")
     choose(page, "along", "threads")
     choose(page, "lines", "spp")
     choose(page, "strategy", "points=cmj")
-    choose(page, "seed", "2")
-    fixed = {"scene": "box.pbrt", "strategy": "points=cmj", "seed": "2"}
+    fixed = {"scene": "box", "strategy": "points=cmj"}
     lines = expected(page, THREADS, SPP, fixed,
                      lambda cells: float(cells[0]["measured"]["used_threads"]),
                      lambda cells: mean(cells, "samples_per_second"))
-    require_lines(values(page, "rate"), lines, "threads")
+    require_lines(values(page, "panel-0"), lines, "threads")
     names = [item.text for item in page.all(".legend-item")]
     require(names == ["1 spp", "4 spp", "16 spp", "64 spp"], "legend:", names)
     # Choosing the other one's axis makes them change places.
@@ -124,31 +132,34 @@ def any_two_axes_can_be_chosen(page):
 
 
 @check
-def axes_without_positions_get_bars(page):
+def axes_without_positions_get_rows(page):
     choose(page, "along", "scene")
-    require(page.find('[data-plot="rate"] canvas') is None, "a canvas for scenes")
-    page.show("#plots")
-    rows = page.js("return [...document.querySelectorAll('.rate-row')].map((r) =>"
-                   "[r.textContent, r.querySelector('.rate-bar').offsetWidth])")
+    show(page, "samples_per_second")
+    require(page.find("#plots canvas") is None, "a canvas for scenes")
+    rows = page.js("return [...document.querySelectorAll('.rate-row')].slice(1).map((r) =>"
+                   "r.querySelector('path:last-of-type') && [r.textContent,"
+                   "r.querySelector('.whisker path').getBoundingClientRect().x])")
     fixed = {"spp": page.find('[data-menu="spp"]').get_attribute("value"),
              "threads": page.find('[data-menu="threads"]').get_attribute("value")}
     rates = [mean(cells_of(page, strategy=s["strategy"], scene=scene, **fixed),
                   "samples_per_second")
-             for s in STRATEGIES for scene in ("box.pbrt", "<b>odd</b>.pbrt")]
+             for s in STRATEGIES for scene in ("box", "<i>odd")]
     require(len(rows) == 4, "rows:", rows)
-    longest = max(width for _, width in rows)
-    for (text, width), rate in zip(rows, rates):
-        require(abs(width / longest - rate / max(rates)) < 0.02, text, width, rate)
+    (_, x0), (_, x1) = rows[0], rows[1]
+    for (text, x), rate in zip(rows, rates):
+        share = (x - x0) / (x1 - x0)
+        require(abs(share - (rate - rates[0]) / (rates[1] - rates[0])) < 0.05, text, x)
     page.open()
 
 
 @check
 def without_known_errors_there_is_no_plot(page):
+    show(page, "relmse", "time")
     choose(page, "along", "scene")
-    require(plot(page, "error"), "no plot where there are errors")
+    require(plot(page, "panel-0"), "no plot where there are errors")
     choose(page, "spp", "1")
-    require(plot(page, "error") is None, "an empty plot")
-    require("No error of these cells is known" in page.text(), "no word of it")
+    require(plot(page, "panel-0") is None, "an empty plot")
+    require("No Relative MSE of these is known" in page.text(), "no word of it")
     page.open()
 
 
@@ -160,12 +171,11 @@ def stage_costs_are_per_sample(page):
                    "r.querySelector('.bar').offsetWidth,"
                    "[...r.querySelectorAll('.bar-part')].map((p) => [p.ariaLabel,"
                    "p.offsetWidth])])")
-    fixed = {"scene": "box.pbrt",
-             "threads": page.find('[data-menu="threads"]').get_attribute("value")}
+    threads = page.find('[data-menu="threads"]').get_attribute("value")
     wanted = []
-    for line in STRATEGIES:
+    for line in [{"scene": scene, **s} for scene in ("box", "<i>odd") for s in STRATEGIES]:
         for point in SPP:
-            cells = cells_of(page, **fixed, **line, **point)
+            cells = cells_of(page, threads=threads, **line, **point)
             sums = [sum(cell["stages"][i] or 0 for cell in cells) / len(cells)
                     for i in range(len(stages))]
             wanted.append((sum(sums) / mean(cells, "samples"), sums))
@@ -181,21 +191,22 @@ def stage_costs_are_per_sample(page):
 
 @check
 def the_legend_hides_lines_everywhere(page):
-    before = page.ink(plot(page, "error"))["hash"]
+    before = page.ink(plot(page, "panel-0"))["hash"]
     page.click(".legend-item")
-    require(page.ink(plot(page, "error"))["hash"] != before, "the plot did not change")
+    require(page.ink(plot(page, "panel-0"))["hash"] != before, "the plot did not change")
     hidden = page.js("return [...document.querySelectorAll('.stage-row')]"
                      ".map((row) => row.hidden)")
-    require(hidden == [True] * 4 + [False] * 4, "stage rows:", hidden)
+    require(hidden == ([True] * 4 + [False] * 4) * 2, "stage rows:", hidden)
     page.click(".legend-item")
-    require(page.ink(plot(page, "error"))["hash"] == before, "not as before")
+    require(page.ink(plot(page, "panel-0"))["hash"] == before, "not as before")
 
 
 @check
 def hovering_a_marker_tells_its_values(page):
+    show(page, "relmse", "time")
     page.show("#plots")
     page.js("""
-      const host = document.querySelector('[data-plot="error"]'), u = host.plot;
+      const host = document.querySelector('[data-plot="panel-0"]'), u = host.plot;
       const at = u.data[1].findIndex((y) => y !== null);
       const box = u.over.getBoundingClientRect();
       const init = {bubbles: true, clientX: box.left + u.valToPos(u.data[0][at], 'x'),
@@ -204,6 +215,6 @@ def hovering_a_marker_tells_its_values(page):
         u.over.dispatchEvent(new MouseEvent(type, init));""")
     page.settle()
     text = page.find("#tip").text
-    for part in ("default", "4 spp", "Relative MSE", "[", "mean of 2 cells"):
+    for part in ("default", "4 spp", "Relative MSE", "[", "2 seeds"):
         require(part in text, "the tip says:", repr(text))
     page.js("document.getElementById('tip').hidden = true")

@@ -6,7 +6,7 @@
 // for both axes, include: values that the y axis must hold, ghosts: lines that are not
 // shown stay, thin and grey, beside: {label, of(line), marks}: intervals of the lines that
 // files of the plot have beside it}
-// line: {index, name, style, points: [{x, y, low, high, hollow}]}, x ascending.
+// line: {index, name, style, bars, points: [{x, y, low, high, hollow}]}, x ascending.
 
 function alignedData(lines) {
   const xs = [...new Set(lines.flatMap((line) => line.points.map((p) => p.x)))];

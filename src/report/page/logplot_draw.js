@@ -16,20 +16,23 @@ function clipToPlot(u) {
   u.ctx.clip();
 }
 
-// The area between the bounds, or whiskers where there is a single point.
+// The area between the bounds, or whiskers where there is a single point or `line.bars`.
 function drawBand(u, line, alpha) {
   const points = line.points.filter((p) => known(p.low) && known(p.high) && p.high > 0);
   if (points.length === 0) return;
   const x = (p) => u.valToPos(p.x, "x", true);
+  const whiskers = line.bars || points.length === 1;
   const floor = u.scales.y.min / 1e3;
   const y = (v) => u.valToPos(Math.max(v, floor), "y", true);
-  u.ctx.globalAlpha = alpha * (points.length === 1 ? 0.8 : 0.16);
+  u.ctx.globalAlpha = alpha * (whiskers ? 0.8 : 0.16);
   u.ctx.beginPath();
-  if (points.length === 1) {
+  if (whiskers) {
     u.ctx.lineWidth = 2 * devicePixelRatio;
     u.ctx.strokeStyle = theme.color(line.style.variable);
-    u.ctx.moveTo(x(points[0]), y(points[0].low));
-    u.ctx.lineTo(x(points[0]), y(points[0].high));
+    for (const p of points) {
+      u.ctx.moveTo(x(p), y(p.low));
+      u.ctx.lineTo(x(p), y(p.high));
+    }
     u.ctx.stroke();
     return;
   }

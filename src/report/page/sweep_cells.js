@@ -1,5 +1,5 @@
 "use strict";
-// The cells of a sweep and the axes of its grid.
+// The groups of a sweep (cells that differ in their seed only) and the axes of its grid.
 
 const UNSET = "not set";
 
@@ -8,25 +8,48 @@ function axisValues(axis) {
   return axis.unset ? [...axis.values, UNSET] : axis.values;
 }
 
-function valueOn(cell, axis) {
-  const value = cell.values[axis.name];
+// Of a cell or a group.
+function valueOn({ values }, axis) {
+  const value = values[axis.name];
   return value === undefined ? UNSET : value;
 }
 
 const doneCells = study.cells.filter((cell) => cell.status === "done");
 const varyingAxes = study.axes.filter((axis) => axisValues(axis).length > 1);
 
-// Where a cell stands on a logarithmic axis; null where that means nothing.
-function positionOn(cell, axis) {
-  const { measured } = cell;
-  let x = Number(valueOn(cell, axis));
+function axisNamed(name) {
+  return study.axes.find((axis) => axis.name === name) || null;
+}
+
+function cellsOf(group) {
+  return group.cells.map((i) => study.cells[i]);
+}
+
+// A mean over the seeds with its interval; of a single cell its value, with the render's
+// own interval where it has stated one.
+function intervalOf(group, name) {
+  if (name === "efficiency") return group.efficiency || { value: null };
+  if (group.measured) return group.measured[name] || { value: null };
+  const { measured } = study.cells[group.cells[0]];
+  return {
+    value: measured[name],
+    low: measured[`${name}_low`],
+    high: measured[`${name}_high`],
+  };
+}
+
+// Where a group stands on a logarithmic axis; null where that means nothing.
+function positionOn(group, axis) {
+  const { measured } = study.cells[group.cells[0]];
+  let x = Number(valueOn(group, axis));
   if (axis.name === "resolution") x = measured.width_pixels * measured.height_pixels;
   if (axis.name === "threads") x = measured.used_threads;
   return known(x) && x > 0 ? x : null;
 }
 
 function hasPositions(axis) {
-  return axis.numeric || axis.name === "resolution";
+  if (axis.name === "resolution" || axis.name === "threads") return true;
+  return axis.numeric && axis.values.every((value) => Number(value) > 0);
 }
 
 // A value as a legend or a menu says it.
@@ -36,20 +59,4 @@ function valueLabel(axis, value) {
   if (axis.name === "threads" && value === "1") return "1 thread";
   const units = { spp: " spp", time: " s", threads: " threads", resolution: " pixels" };
   return `${value}${units[axis.name] || ""}`;
-}
-
-// Means over cells that differ only in what the reader averages over. Bounds are means of
-// bounds: wider than those of the mean.
-function meanOf(cells, name) {
-  const values = cells.map((cell) => cell.measured[name]);
-  if (values.length === 0 || !values.every(known)) return null;
-  return values.reduce((sum, x) => sum + x, 0) / values.length;
-}
-
-function meanInterval(cells, name) {
-  return {
-    value: meanOf(cells, name),
-    low: meanOf(cells, `${name}_low`),
-    high: meanOf(cells, `${name}_high`),
-  };
 }

@@ -5,7 +5,8 @@ let current = null; // the view of the plots
 
 function plotArea(choice, onChange) {
   if (current) current.close();
-  const lines = cellLines(choice);
+  const panels = choicePanels(choice);
+  const lines = allLines(panels);
   const view = makeView({ strategies: lines });
   // The legend's names and styles are those of the lines.
   view.ran = view.ranked = lines;
@@ -14,19 +15,20 @@ function plotArea(choice, onChange) {
   return [
     section(
       "plots",
-      "Error and throughput",
+      "Efficiency, error, throughput",
       varyingAxes.length > 0 && choiceMenus(choice, onChange),
       lines.length > 0
-        ? plotsSection(view, choice, lines)
+        ? plotsSection(view, choice, panels, lines)
         : el("p", {}, "No finished cell has these values."),
     ),
-    costSection(view, choice, lines),
+    imagesSection(view, choice),
+    costSection(view, choice, panels),
   ];
 }
 
 function start() {
   theme.bindButton(document.getElementById("theme"));
-  document.title = `${study.file.split("/").pop()} – Lanelight sweep`;
+  document.title = `${study.file} – Lanelight sweep`;
   document.getElementById("bottom").textContent =
     "Written by lanelight sweep. This page holds all its numbers and needs no network. " +
     "Plots: uPlot, MIT licence.";
@@ -37,6 +39,7 @@ function start() {
   }
   linkSections([
     ["plots", "Plots"],
+    ...(imageBlocks.size > 0 ? [["images", "Pictures"]] : []),
     ["stages", "Stage costs"],
     ["cells", "Cells"],
   ]);

@@ -1,15 +1,5 @@
 "use strict";
-// Error against time, and throughput and error along the chosen axis.
-
-const ERRORS = {
-  relmse: { label: "Relative MSE", power: 2 },
-  rmse: { label: "RMSE", power: 1 },
-};
-const TIMES = { cpu_seconds: "processor time", render_seconds: "wall time" };
-const RATES = {
-  samples_per_second: "Samples per second",
-  rays_per_second: "Rays per second",
-};
+// Efficiency, throughput and error along the chosen axis, and error against time.
 
 const RATE_PREFIXES = [
   [1e9, "G"],
@@ -23,134 +13,202 @@ function rateTick(x) {
   return `${Number((x / factor).toPrecision(3))}${prefix && ` ${prefix}`}`;
 }
 
-function describeCells(choice, line, point, rows) {
+function rateTexts(interval) {
+  const bounds = hasBounds(interval)
+    ? `[${rateTick(interval.low)}, ${rateTick(interval.high)}]`
+    : "";
+  return { value: rateTick(interval.value), bounds };
+}
+
+// power: of the slopes of errors against time.
+const SWEEP_MEASURES = {
+  efficiency: {
+    label: "Efficiency",
+    axis: `efficiency relative to ${study.baseline}`,
+    texts: intervalTexts,
+    tick: errorTick,
+  },
+  relmse: { label: "Relative MSE", power: 2, texts: intervalTexts, tick: errorTick },
+  rmse: { label: "RMSE", power: 1, texts: intervalTexts, tick: errorTick },
+  samples_per_second: { label: "Samples per second", texts: rateTexts, tick: rateTick },
+  rays_per_second: { label: "Rays per second", texts: rateTexts, tick: rateTick },
+};
+
+// Those of which some group knows more than the baseline's 1.
+function knownMeasures() {
+  return Object.keys(SWEEP_MEASURES).filter((key) =>
+    study.groups.some((group) => {
+      const baseline = key === "efficiency" && group.strategy === study.baseline;
+      return !baseline && known(intervalOf(group, key).value);
+    }),
+  );
+}
+
+function describeGroup(choice, measure, line, point) {
+  const { label, texts } = SWEEP_MEASURES[measure];
+  const seeds = point.group.cells.length;
+  const seconds = intervalOf(point.group, "cpu_seconds").value;
   return [
     el("b", {}, choice.lines ? line.name : point.name),
     choice.lines && choice.along && el("div", {}, point.name),
-    rows.map(([name, text]) => el("div", {}, `${name} ${text}`)),
-    point.cells.length > 1 && el("div", {}, `mean of ${point.cells.length} cells`),
+    el("div", {}, `${label} ${joined(texts(intervalOf(point.group, measure)))}`),
+    el("div", {}, `processor time ${fmtSeconds(seconds)}`),
+    el("div", {}, seeds > 1 ? `${seeds} seeds` : "one seed"),
   ];
-}
-
-function errorPlot(view, host, choice, lines, error, time) {
-  const { label, power } = ERRORS[error];
-  const seconds = (cells) => meanOf(cells, time);
-  const drawn = lines.map((line) =>
-    plotted(line, seconds, (cells) => meanInterval(cells, error)),
-  );
-  if (drawn.every((line) => line.points.length === 0)) {
-    host.replaceChildren(el("p", { class: "hint" }, "No error of these cells is known."));
-    return () => host.replaceChildren();
-  }
-  return logPlot(view, host, {
-    lines: drawn,
-    label: `${label} against ${TIMES[time]}`,
-    xAxis: { label: TIMES[time], ticks: decadeTicks, format: secondsTick },
-    yAxis: { label, ticks: decadeTicks, format: errorTick },
-    guides: (u) => drawSlopes(u, power),
-    describe: (line, point) =>
-      describeCells(choice, line, point, [
-        [label, joined(intervalTexts(point.interval))],
-        [TIMES[time], fmtSeconds(point.x)],
-      ]),
-  });
 }
 
 function alongAxis(axis) {
   const counts = axis.name === "spp" || axis.name === "threads";
+  const formats = { time: secondsTick, "target-relmse": errorTick, "target-rmse": errorTick };
+  const format = axis.parameter ? errorTick : rateTick;
   return {
     label: axis.title,
     ticks: counts ? binaryTicks : decadeTicks,
-    format:
-      axis.name === "time"
-        ? secondsTick
-        : axis.name.startsWith("target-")
-          ? errorTick
-          : rateTick,
+    format: formats[axis.name] || format,
   };
 }
 
-function ratePlot(view, host, choice, lines, rate) {
-  const position = (cells) => positionOn(cells[0], choice.along);
-  const interval = (cells) => ({ value: meanOf(cells, rate) });
+const TIME_AXIS = { label: "processor time", ticks: decadeTicks, format: secondsTick };
+
+// byTime: against processor time instead of the axis. include: of all panels.
+function measurePlot(view, host, choice, lines, { measure, byTime, include }) {
+  const { label, axis, power, tick } = SWEEP_MEASURES[measure];
+  const xs = byTime
+    ? (point) => [intervalOf(point.group, "cpu_seconds").value]
+    : alongPositions(choice);
+  const drawn = lines.map((line) => plotted(line, measure, xs));
+  if (drawn.every((line) => line.points.length === 0)) {
+    host.replaceChildren(el("p", { class: "hint" }, `No ${label} of these is known.`));
+    return () => host.replaceChildren();
+  }
+  const xAxis = byTime ? TIME_AXIS : alongAxis(choice.along);
   return logPlot(view, host, {
-    lines: lines.map((line) => plotted(line, position, interval)),
-    label: `${RATES[rate]} along ${choice.along.title}`,
-    xAxis: alongAxis(choice.along),
-    yAxis: { label: RATES[rate], ticks: decadeTicks, format: rateTick },
-    describe: (line, point) =>
-      describeCells(choice, line, point, [[RATES[rate], rateTick(point.y)]]),
+    lines: drawn,
+    label: `${label} against ${xAxis.label}`,
+    xAxis,
+    yAxis: { label: axis || label, ticks: decadeTicks, format: tick },
+    include,
+    guides: (u) => byTime && power && drawSlopes(u, power),
+    describe: (line, point) => describeGroup(choice, measure, line, point),
   });
 }
 
-// Where the axis has no positions: a bar for each value and line.
-function rateBars(view, host, choice, lines, rate) {
+// Where the axis has no positions: a row with an interval for each value and line.
+function measureRows(view, host, choice, lines, { measure, include }) {
+  const { texts, tick } = SWEEP_MEASURES[measure];
   const rows = lines.flatMap((line) =>
-    line.points.map((point) => ({ line, point, y: meanOf(point.cells, rate) })),
+    line.points.map((point) => ({ line, point, y: intervalOf(point.group, measure) })),
   );
-  const most = Math.max(...rows.map(({ y }) => y));
+  const log = measure === "efficiency";
+  const scale = whiskerScale([...rows.map(({ y }) => y), ...include], log, log ? [1] : [0]);
+  const row = ({ line, point, y }) =>
+    withTip(
+      el(
+        "div",
+        { class: "rate-row" },
+        el("span", { class: "rate-name" }, swatch(line.style), point.name),
+        whisker(y, scale, { style: line.style, width: 180, marks: log ? [1] : [] }),
+        el("span", { class: "rate-value" }, twoLines(texts(y))),
+      ),
+      () => describeGroup(choice, measure, line, point),
+    );
+  const axis = el(
+    "div",
+    { class: "rate-row" },
+    el("span"),
+    scale && whiskerAxis(scale, { width: 180, format: tick, most: 4 }),
+  );
   const draw = () =>
     host.replaceChildren(
-      ...rows
-        .filter(({ line }) => view.shown.value.has(line.index))
-        .map(({ line, point, y }) =>
-          el(
-            "div",
-            { class: "rate-row" },
-            el("span", { class: "rate-name" }, swatch(line.style), point.name),
-            el("span", {
-              class: "rate-bar",
-              style: {
-                width: `${(y / most) * 100}%`,
-                "background-color": `var(${line.style.variable})`,
-              },
-            }),
-            el("span", { class: "rate-value" }, rateTick(y)),
-          ),
-        ),
+      axis,
+      ...rows.filter(({ line }) => view.shown.value.has(line.index)).map(row),
     );
   view.shown.listen(draw);
   draw();
   return () => host.replaceChildren();
 }
 
-// A figure with buttons for what it shows; draw(host, chosen) returns what ends it.
-function choosableFigure(view, name, title, options, draw) {
-  const { host, figure } = plotFigure(name, title);
-  let end = () => {};
-  const show = (chosen) => {
-    end();
-    end = draw(host, chosen);
+// One figure for each panel; all show what is chosen. Returns the figures and show().
+function panelFigures(view, choice, panels) {
+  const figures = panels.map((panel, i) => {
+    const { host, figure } = plotFigure(`panel-${i}`, panel.name || "");
+    return { host, figure, lines: panel.lines, seen: false, end: () => {} };
+  });
+  let chosen = null;
+  const draw = (it) => {
+    it.end();
+    const drawn = chosen.byTime || (choice.along && hasPositions(choice.along));
+    it.end = (drawn ? measurePlot : measureRows)(view, it.host, choice, it.lines, chosen);
   };
-  const entries = Object.entries(options).map(([key, text]) => [key, text.label || text]);
-  figure
-    .querySelector("figcaption")
-    .append(choiceButtons(title, entries, entries[0][0], show));
-  whenVisible(view, figure, () => show(entries[0][0]));
-  return figure;
+  for (const it of figures) {
+    whenVisible(view, it.figure, () => {
+      it.seen = true;
+      draw(it);
+    });
+  }
+  const show = (measure, byTime) => {
+    const groups = panels.flatMap((p) => p.lines.flatMap((l) => l.points.map((x) => x.group)));
+    const shared = measure === "efficiency" ? groups.map((g) => intervalOf(g, measure)) : [];
+    chosen = { measure, byTime, include: shared };
+    if (byTime || (choice.along && hasPositions(choice.along))) {
+      chosen.include = shared
+        .flatMap(({ value, low, high }) => [value, high, low && Math.max(low, value / 8)])
+        .filter(known);
+    }
+    figures.filter((it) => it.seen).forEach(draw);
+  };
+  return { figures: figures.map((it) => it.figure), show };
 }
 
-function plotsSection(view, choice, lines) {
-  const error = choosableFigure(
-    view,
-    "error",
-    "Error against time",
-    ERRORS,
-    (host, key) => errorPlot(view, host, choice, lines, key, "cpu_seconds"),
+function intervalNote() {
+  const over =
+    "Bars are 95 % intervals: of means over the seeds where there are several, else what " +
+    "the render itself states of its error. ";
+  const one =
+    study.seeds < 2
+      ? "There is one seed: rates and efficiencies have no interval, and need seeds for one. "
+      : study.seeds < 3
+        ? "Efficiencies have intervals from three seeds on. "
+        : "";
+  return (
+    over +
+    one +
+    "Efficiency is 1 / (error × processor time), by the errors that renders state of " +
+    "themselves, which see no bias. Point at a marker for its values, drag to zoom, " +
+    "double-click to see all again."
   );
-  const drawRate = choice.along && hasPositions(choice.along) ? ratePlot : rateBars;
-  const rate = choosableFigure(view, "rate", "Throughput", RATES, (host, key) =>
-    drawRate(view, host, choice, lines, key),
-  );
+}
+
+// What is shown survives a choice of other axes.
+const shownMeasure = { measure: null, byTime: false };
+
+function plotsSection(view, choice, panels, lines) {
+  const keys = knownMeasures();
+  if (!keys.includes(shownMeasure.measure)) shownMeasure.measure = keys[0];
+  const { figures, show } = panelFigures(view, choice, panels);
+  const update = (changes) => {
+    Object.assign(shownMeasure, changes);
+    show(shownMeasure.measure, shownMeasure.byTime);
+  };
+  const measures = keys.map((key) => [key, SWEEP_MEASURES[key].label]);
+  const against = [
+    ["along", choice.along ? `along ${choice.along.title}` : "by line"],
+    ["time", "against time"],
+  ];
+  update({});
   return [
-    lines.length > 1 && strategyLegend(view, "Lines shown"),
-    el("div", { class: "plots" }, error, rate),
     el(
-      "p",
-      { class: "hint" },
-      "Errors are the renders' own estimates, with 95 % intervals. Cells whose error is " +
-        "not known (one sample per pixel, say) are left out of the left plot. Point at a " +
-        "marker for its values, drag to zoom, double-click to see all again.",
+      "div",
+      { class: "toolbar" },
+      choiceButtons("Measure", measures, shownMeasure.measure, (measure) =>
+        update({ measure }),
+      ),
+      choiceButtons("Against", against, shownMeasure.byTime ? "time" : "along", (x) =>
+        update({ byTime: x === "time" }),
+      ),
     ),
+    lines.length > 1 && strategyLegend(view, "Lines shown"),
+    el("div", { class: panels.length > 2 ? "plots many" : "plots" }, figures),
+    el("p", { class: "hint" }, intervalNote()),
   ];
 }

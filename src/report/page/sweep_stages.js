@@ -4,29 +4,33 @@
 const MOST_BARS = 60;
 
 // {name, stages: [{name, seconds, share}], perSample} of the cells of a point.
-function pointStages(line, point) {
-  const samples = meanOf(point.cells, "samples");
+function pointStages(panel, line, point) {
+  const samples = intervalOf(point.group, "samples").value;
+  const cells = cellsOf(point.group);
   const stages = study.stages
     .map((name, i) => {
-      const seconds = point.cells.map((cell) => (cell.stages || [])[i]).filter(known);
+      const seconds = cells.map((cell) => (cell.stages || [])[i]).filter(known);
       const sum = seconds.reduce((total, x) => total + x, 0);
-      return { name, seconds: sum / point.cells.length };
+      return { name, seconds: sum / cells.length };
     })
     .filter((stage) => stage.seconds > 0);
   const total = stages.reduce((sum, stage) => sum + stage.seconds, 0);
   for (const stage of stages) stage.share = stage.seconds / total;
   return {
     line,
-    name: `${line.name}, ${point.name}`,
+    panel,
+    name: [panel.name, line.name, point.name].filter(Boolean).join(", "),
     point,
     stages,
     perSample: total / samples,
   };
 }
 
-function costSection(view, choice, lines) {
-  const all = lines.flatMap((line) =>
-    line.points.map((point) => pointStages(line, point)),
+function costSection(view, choice, panels) {
+  const all = panels.flatMap((panel) =>
+    panel.lines.flatMap((line) =>
+      line.points.map((point) => pointStages(panel, line, point)),
+    ),
   );
   const bars = all.filter((bar) => bar.stages.length > 0).slice(0, MOST_BARS);
   if (bars.length === 0) {
@@ -38,8 +42,9 @@ function costSection(view, choice, lines) {
     const length = bar.perSample / most;
     const whole = stageBar(bar, names, length);
     whole.style.width = `${length * 100}%`;
-    const where = choice.along ? `${bar.point.name}: ` : "";
-    const text = `${where}${fmtSeconds(bar.perSample)} per sample`;
+    const where = [bar.panel.name, choice.along && bar.point.name].filter(Boolean);
+    const cost = `${fmtSeconds(bar.perSample)} per sample`;
+    const text = [where.join(", "), cost].filter(Boolean).join(": ");
     return stageRow(bar.line, text, whole, { "data-line": bar.line.index });
   });
   const show = (shown) =>

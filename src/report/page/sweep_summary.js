@@ -14,7 +14,7 @@ function distinct(name) {
 }
 
 function axisFact(axis) {
-  const values = axisValues(axis);
+  const values = axis.parameter ? axis.values : axisValues(axis);
   const shown = values.slice(0, 6).map((value) => valueLabel(axis, value));
   const more = values.length > 6 ? ` and ${values.length - 6} more` : "";
   return fact(axis.title, axis.values.length, shown.join(", ") + more);
@@ -59,7 +59,8 @@ function sweepSummary() {
   return el(
     "section",
     { id: "summary", "aria-labelledby": "summary-title" },
-    el("h1", { id: "summary-title" }, study.file.split("/").pop()),
+    el("h1", { id: "summary-title" }, study.file),
+    el("p", { class: "lead headline" }, headlineText()),
     texts.length > 0 &&
       el(
         "div",
@@ -79,6 +80,7 @@ function sweepSummary() {
         study.excluded > 0 ? `${fmtCount(study.excluded)} combinations excluded` : null,
       ),
       fact("Samples", fmtCount(sumOf("samples"))),
+      study.seeds > 1 && fact("Seeds", fmtCount(study.seeds), "repetitions, not lines"),
       fact("Processor time", fmtSeconds(sumOf("cpu_seconds"))),
       varyingAxes.map(axisFact),
       fact("Machine", machinesText(study.machines), null, { class: "wide" }),

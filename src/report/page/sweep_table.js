@@ -28,7 +28,11 @@ function measuredColumn(key, title, unit, format) {
 }
 
 function errorColumn(key, title) {
-  const interval = (cell) => meanInterval([cell], key);
+  const interval = ({ measured }) => ({
+    value: measured[key],
+    low: measured[`${key}_low`],
+    high: measured[`${key}_high`],
+  });
   return {
     ...measuredColumn(key, title, null, fmt),
     cell: (cell) => twoLines(intervalTexts(interval(cell))),
@@ -45,9 +49,15 @@ function statusCell(cell) {
 }
 
 function cellColumns() {
-  const shown = varyingAxes.length > 0 ? varyingAxes : study.axes;
+  const varying = varyingAxes.length > 0 ? varyingAxes : study.axes;
+  const own = study.axes.filter((axis) => !axis.parameter);
+  const strategies = varying.some((axis) => axis.parameter || axis.name === "strategy");
+  const shown = own.filter(
+    (axis) => varying.includes(axis) || (strategies && axis.name === "strategy"),
+  );
+  const seed = { name: "seed", title: "Seed", numeric: true };
   return [
-    ...shown.map(axisColumn),
+    ...[...shown, ...(study.seeds > 1 ? [seed] : [])].map(axisColumn),
     {
       key: "status",
       title: "Status",

@@ -1,0 +1,108 @@
+"""Checks of the page of a sweep over a number of strategies, with ten seeds."""
+
+from checks import check, plot, require
+from sweep_checks import close, data, show, values
+
+
+def group(page, **wanted):
+    """The group with exactly these values; underscores stand for what names cannot have."""
+    names = {"roulette": "roulette=throughput"}
+    wanted = {names.get(key, key): value for key, value in wanted.items()}
+    return next(g for g in data(page)["groups"] if g["values"] == wanted)
+
+
+@check
+def the_number_is_the_axis(page):
+    page.scroll_through()
+    scenes = [item.text for item in page.all("#plots figcaption")]
+    require(scenes == ["kitchen", "attic", "cellar"], "folders name scenes:", scenes)
+    require(page.find('[data-menu="seed"]') is None, "a seed can be chosen")
+    for panel, scene in enumerate(scenes):
+        xs, level, curve = values(page, f"panel-{panel}")
+        require(xs == [0.05, 0.2, 0.8], "positions:", xs)
+        require(level == [1, None, 1], "the baseline is not level:", level)
+        for x, y in zip(("0.05", "0.2", "0.8"), curve):
+            own = group(page, scene=scene, strategy="roulette=throughput:*", roulette=x,
+                        spp="16")
+            require(close(y, own["efficiency"]["value"]), x, y, own)
+
+
+@check
+def bars_are_the_intervals(page):
+    page.show("#plots")
+    own = group(page, scene="kitchen", strategy="roulette=throughput:*", roulette="0.2",
+                spp="16")
+    # A column of pixels through the marker: as long as the interval.
+    length = page.js("""
+      const host = document.querySelector('[data-plot="panel-0"]'), u = host.plot;
+      const canvas = host.querySelector('canvas'), at = Math.round(u.valToPos(0.2, 'x', true));
+      const d = canvas.getContext('2d').getImageData(at, 0, 1, canvas.height).data;
+      const y = (v) => u.valToPos(v, 'y', true);
+      let inked = 0;
+      for (let i = Math.ceil(y(arguments[1])); i < y(arguments[0]); ++i)
+        if (d[4 * i + 3] > 90 && Math.max(d[4 * i], d[4 * i + 1], d[4 * i + 2]) -
+            Math.min(d[4 * i], d[4 * i + 1], d[4 * i + 2]) > 60) ++inked;
+      return inked / (y(arguments[0]) - y(arguments[1]));""",
+                     own["efficiency"]["low"], own["efficiency"]["high"])
+    require(length > 0.85, "the bar covers", length, "of the interval")
+
+
+@check
+def choices_of_an_axis_are_rows(page):
+    page.js("const s = document.querySelector('[data-menu=along]'); s.value = 'points';"
+            "s.dispatchEvent(new Event('change'))")
+    page.settle()
+    show(page, "efficiency")
+    page.show("#plots")
+    text = page.find('[data-plot="panel-0"]').text
+    for name in ("sobol", "independent", "lattice"):
+        require(name in text, name, "is not in", text)
+    require("[" in text, "no intervals:", text)
+    page.open()
+
+
+@check
+def the_slider_changes_the_pictures(page):
+    page.show("#images")
+    def pictures():
+        return page.js("return [...document.querySelectorAll('.thumbnail')].map((t) =>"
+                       "[t.textContent, t.querySelector('canvas') &&"
+                       "t.querySelector('canvas').toDataURL()])")
+    page.scroll_through()
+    last = pictures()
+    require(len(last) == 12, "pictures:", [name for name, _ in last])
+    require(last[1][0] == "kitchen, roulette=throughput:0.05", last[1][0])
+    require(page.find("#images output").text == "16 spp", "the slider says nothing")
+    page.js("const s = document.querySelector('[data-control=amount]'); s.value = 0;"
+            "s.dispatchEvent(new Event('input'))")
+    page.scroll_through()
+    first = pictures()
+    require([name for name, _ in first] == [name for name, _ in last], "other names")
+    require(first[0][1] != last[0][1], "the same pictures")
+
+
+@check
+def one_sentence_says_what_was_found(page):
+    leaders, text = data(page)["leaders"], page.find(".headline").text
+    require(len(leaders) == 3 and "3 scenes" in text, text)
+    better = sum(l["best"] != l["baseline"] and (l["efficiency"]["low"] or 0) > 1
+                 for l in leaders)
+    require(f"On {better or 'none'} it is certainly better than default" in text, text)
+    require(leaders[0]["best"] in text, text)
+
+
+@check
+def a_phone_scrolls_down_only(page):
+    page.resize(390, 740, mobile=True)
+    page.open()
+    page.scroll_through()
+    width = page.js("return document.documentElement.scrollWidth")
+    require(width <= 390, "width", width)
+    page.resize(1280, 900)
+    page.open()
+
+
+@check
+def nothing_is_missing_or_said_in_vain(page):
+    require(plot(page, "panel-0"), "no plot")
+    require(not page.console(), "\n".join(page.console()))
