@@ -16,6 +16,7 @@
 #include "src/core/json_text.h"
 #include "src/core/parallel.h"
 #include "src/render/saving.h"
+#include "src/report/page.h"
 #include "src/throughput/bench_scenes.h"
 #include "src/throughput/throughput_table.h"
 
@@ -24,7 +25,7 @@ namespace {
 
 struct BenchCommandOptions {
   ThroughputOptions bench;
-  std::string json, csv, markdown, against;
+  std::string json, csv, markdown, html, against;
   double tolerance = 0.05;
   bool all_targets = false, quiet = false;
 };
@@ -55,7 +56,8 @@ std::vector<ThroughputRow> MeasureRows(const BenchCommandOptions& options) {
 
 int Bench(BenchCommandOptions options) {
   Complete(options);
-  const OutputPaths outputs = {{options.json, options.csv, options.markdown}};
+  const OutputPaths outputs = {
+      {options.json, options.csv, options.markdown, options.html}};
   CheckOutputPaths(outputs, {options.against});
   std::optional<KnownThroughput> before;
   if (!options.against.empty()) before = ReadThroughput(options.against);
@@ -72,6 +74,7 @@ int Bench(BenchCommandOptions options) {
   save(options.json, DumpJson(json, 1) + "\n");
   save(options.csv, ThroughputCsv(rows));
   save(options.markdown, ThroughputText(rows, options.bench.within, {true}));
+  if (!options.html.empty()) save(options.html, BenchReportPage(json));
   if (!good) return kExitBadInput;
   if (!before) return kExitGood;
   const RateComparison comparison = CompareRates(*before, ThroughputFromJson(json));
@@ -133,6 +136,9 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
   command.add_option("--csv", options.csv, "Write one line a row")->type_name("FILE");
   command.add_option("--markdown", options.markdown, "Write the tables in Markdown")
       ->type_name("FILE");
+  command.add_option("--html", options.html, "Write a page with plots of all rows")
+      ->check(EndsIn(".html"))
+      ->type_name("FILE");
   command
       .add_option("--against", options.against,
                   "Exit with 9 if a row is slower, beyond doubt, than in this JSON of "
@@ -158,7 +164,7 @@ void AddBenchCommand(CLI::App& root, Command& chosen) {
       "\nRenders of all rows take turns, so that a machine that slows down slows all of\n"
       "them. docs/bench.md says what the columns mean, and which scenes these are.\n"
       "\nExamples:\n"
-      "  lanelight bench --json today.json --markdown today.md\n"
+      "  lanelight bench --json today.json --html today.html\n"
       "  lanelight bench --against yesterday.json --tolerance 0.03\n"
       "  lanelight bench scene.pbrt --threads 1,2,4,8 --all-targets");
   command->callback(

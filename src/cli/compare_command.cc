@@ -143,15 +143,6 @@ int Compare(CompareCommandOptions options) {
   return ExitCode(options, comparisons, over);
 }
 
-// Before a word after it, most likely an image, is written over.
-auto EndsIn(const std::string& extension) {
-  return [extension](const std::string& path) {
-    return path.ends_with(extension)
-               ? std::string()
-               : fmt::format("'{}' does not end in {}", path, extension);
-  };
-}
-
 void AddCompareOptions(CLI::App& command, CompareCommandOptions& options) {
   command.add_option("A", options.first, "Image under test (EXR, PFM, HDR, PNG, ...)")
       ->required()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <string>
 
 #include "src/core/value_types.h"
@@ -29,6 +30,16 @@ CLI::Validator ValueOf(const Type& type) {
 template <class T>
 CLI::Validator ValueFrom(T low, T high) {
   return ValueOf(NumberType<T>{low, high});
+}
+
+/// The name of a file of this kind: before another word, most likely an input, is written
+/// over.
+inline auto EndsIn(const std::string& extension) {
+  return [extension](const std::string& path) {
+    return path.ends_with(extension)
+               ? std::string()
+               : fmt::format("'{}' does not end in {}", path, extension);
+  };
 }
 
 }  // namespace lanelight

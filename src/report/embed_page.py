@@ -33,8 +33,12 @@ PAGES = {
     "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it",
                     "CONNECT": ""}, "images sweep",
                   f"""dom format data view strategies whisker table {PLOTS} stages tone picture
-                  sweep_cells sweep_choice sweep_lines sweep_plots sweep_images sweep_stages
+                  rates sweep_cells sweep_choice sweep_lines sweep_plots sweep_images sweep_stages
                   sweep_table sweep_headline sweep_summary sweep_main"""),
+    "BenchPage": ({"NAME": "bench", "TABS": "Scenes", "FILES": "what bench --json prints",
+                   "CONNECT": ""},
+                  "sweep", f"""dom format data view strategies whisker table {PLOTS} stages rates
+                  bench_rows bench_main"""),
     "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it",
                     "CONNECT": ""}, "stress",
                    """dom format data strategies whisker table logaxis stress_data

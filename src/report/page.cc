@@ -133,6 +133,10 @@ std::string SweepReportPage(const nlohmann::json& sweep,
   return WithImages(SweepPageHead(), sweep, images, SweepPageTail());
 }
 
+std::string BenchReportPage(const nlohmann::json& bench) {
+  return BenchPageHead() + DataBlock(bench) + BenchPageTail();
+}
+
 std::string StressReportPage(const nlohmann::json& stress) {
   return StressPageHead() + DataBlock(stress) + StressPageTail();
 }

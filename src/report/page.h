@@ -40,6 +40,10 @@ std::string ComparisonReportPage(const nlohmann::json& comparisons,
 std::string SweepReportPage(const nlohmann::json& sweep,
                             const std::vector<ReportImage>& images);
 
+/// The page of `lanelight bench`, of the JSON that docs/bench.md names; otherwise like
+/// ReportPage().
+std::string BenchReportPage(const nlohmann::json& bench);
+
 /// The page of a run of stress cases, laid out as docs/stress.md says; otherwise like
 /// ReportPage().
 std::string StressReportPage(const nlohmann::json& stress);

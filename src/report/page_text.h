@@ -18,6 +18,9 @@ std::string ComparePageTail();
 std::string SweepPageHead();  // the same of a sweep's page
 std::string SweepPageTail();
 
+std::string BenchPageHead();  // of `lanelight bench`
+std::string BenchPageTail();
+
 std::string StressPageHead();  // and of a run of stress cases
 std::string StressPageTail();
 

@@ -56,7 +56,6 @@ void AddValues(const TomlFile& file, const std::string& name, const toml::node& 
   for (const PatternStrategy& strategy : ExpandStrategy(text, where)) {
     AddValue(name, {strategy.text, where, {strategy.place}}, values);
   }
-  }
 }
 
 std::vector<GridValue> ReadValues(const TomlFile& file, const std::string& name,

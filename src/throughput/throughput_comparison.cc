@@ -5,10 +5,7 @@
 #include <map>
 
 namespace lanelight {
-namespace {
-
-// Half widths of logarithms of independent rates add as their squares.
-Interval Ratio(const Interval& now, const Interval& before) {
+Interval RateRatioOf(const Interval& now, const Interval& before) {
   const double ratio = now.value / before.value;
   const double below =
       std::hypot(std::log(now.value / now.low), std::log(before.high / before.value));
@@ -16,8 +13,6 @@ Interval Ratio(const Interval& now, const Interval& before) {
       std::hypot(std::log(now.high / now.value), std::log(before.value / before.low));
   return {ratio, ratio * std::exp(-below), ratio * std::exp(above)};
 }
-
-}  // namespace
 
 RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput& now) {
   std::map<std::string, Interval> old;
@@ -29,7 +24,7 @@ RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput
       comparison.only_in_one.push_back(row.Key());
       continue;
     }
-    comparison.rows.push_back({row.Key(), Ratio(row.rate, found->second)});
+    comparison.rows.push_back({row.Key(), RateRatioOf(row.rate, found->second)});
     old.erase(found);
   }
   for (const auto& [key, unused] : old) comparison.only_in_one.push_back(key);

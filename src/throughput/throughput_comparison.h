@@ -25,6 +25,9 @@ struct RateComparison {
   double Mean() const;
 };
 
+/// Ratio of two independent rates: half widths of their logarithms add as their squares.
+Interval RateRatioOf(const Interval& now, const Interval& before);
+
 RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput& now);
 
 }  // namespace lanelight

@@ -8,13 +8,27 @@
 #include "src/core/version.h"
 #include "src/render/machine_json.h"
 #include "src/report/values.h"
+#include "src/throughput/throughput_comparison.h"
 
 namespace lanelight {
 namespace {
 
 using Json = nlohmann::json;
 
-Json ToJson(const ThroughputRow& row) {
+// The rate over that of as many times one thread; null without a row of one.
+Json ParallelEfficiency(const std::vector<ThroughputRow>& rows,
+                        const ThroughputRow& row) {
+  if (row.threads == 1) return IntervalJson(WithoutBounds(1));  // nothing is estimated
+  for (const ThroughputRow& one : rows) {
+    if (one.scene != row.scene || one.target != row.target || one.threads != 1) continue;
+    const Interval ratio = RateRatioOf(row.Rate(), one.Rate());
+    const double n = row.threads;
+    return IntervalJson(Interval{ratio.value / n, ratio.low / n, ratio.high / n});
+  }
+  return nullptr;
+}
+
+Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
   Json groups = Json::array(), stages = Json::array();
   for (const StageGroup& g : StageGroups(row)) {
     groups.push_back(
@@ -37,6 +51,7 @@ Json ToJson(const ThroughputRow& row) {
           {"rays",
            {{"closest", row.counts.rays_closest}, {"shadow", row.counts.rays_shadow}}},
           {"samples_per_second", IntervalJson(row.Rate())},
+          {"parallel_efficiency", ParallelEfficiency(rows, row)},
           {"rays_per_second", double(row.rays()) / row.Seconds().value},
           {"bytes_per_path", row.bytes_per_path},
           {"wavefront", row.wavefront},
@@ -52,7 +67,7 @@ Json ToJson(const std::vector<ThroughputRow>& rows) {
               {"program", FullVersion()},
               {"confidence", kBenchConfidence},
               {"rows", Json::array()}};
-  for (const ThroughputRow& row : rows) out["rows"].push_back(ToJson(row));
+  for (const ThroughputRow& row : rows) out["rows"].push_back(ToJson(row, rows));
   return out;
 }
 

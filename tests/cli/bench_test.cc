@@ -38,9 +38,9 @@ std::string Scaled(const std::string& path, double factor, const std::string& to
 
 TEST_CASE("bench prints rates, and writes what can be posted", "[cli]") {
   const TempDirectory directory;
-  const ProcessResult r =
-      Bench(directory, {"--json", directory / "b.json", "--csv", directory / "b.csv",
-                        "--markdown", directory / "b.md"});
+  const ProcessResult r = Bench(
+      directory, {"--json", directory / "b.json", "--csv", directory / "b.csv",
+                  "--markdown", directory / "b.md", "--html", directory / "b.html"});
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
   CHECK_THAT(r.out, Contains("Msamples/s") && Contains("machine") && Contains("lanes"));
@@ -57,6 +57,8 @@ TEST_CASE("bench prints rates, and writes what can be posted", "[cli]") {
   for (std::string line; std::getline(csv, line);) ++lines;
   CHECK(lines == 2);
   std::string text((std::istreambuf_iterator<char>(markdown)), {});
+  CHECK(std::filesystem::file_size(directory / "b.html") > 50'000);
+  CHECK(Bench(directory, {"--html", directory / "b.json"}).exit_code == kExitUsage);
   CHECK_THAT(text, Contains("| scene | target |") && Contains("|---|---|---:|"));
 }
 

@@ -1,12 +1,17 @@
 // What `lanelight bench` measures: which rows, how often, and where the time goes.
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "tests/support/test_target.h"
 #include "src/core/error.h"
 #include "src/parse/parse.h"
 #include "src/throughput/bench_scenes.h"
+#include "src/report/page.h"
 #include "src/throughput/throughput.h"
+#include "src/throughput/throughput_comparison.h"
 #include "tests/wavefront/render_fixture.h"
 
 namespace lanelight::test {
@@ -80,6 +85,31 @@ TEST_CASE("kinds of stages have all the time of stages", "[throughput]") {
     CHECK(g.Lanes() <= 1);
   }
   CHECK(groups == Approx(all));
+}
+
+TEST_CASE("efficiency is the rate over that of as many times one thread",
+          "[throughput]") {
+  const std::vector<ThroughputRow> rows = Measure(SmallBench());
+  const nlohmann::json json = ToJson(rows);
+  const nlohmann::json& one = json["rows"][0]["parallel_efficiency"];
+  CHECK(one["value"] == 1);
+  CHECK(one["low"].is_null());
+  const nlohmann::json& two = json["rows"][1]["parallel_efficiency"];
+  const Interval ratio = RateRatioOf(rows[1].Rate(), rows[0].Rate());
+  CHECK(two["value"].get<double>() == Approx(ratio.value / 2));
+  CHECK(two["high"].get<double>() == Approx(ratio.high / 2));
+  // Without a row of one thread nobody knows.
+  CHECK(ToJson({rows[1]})["rows"][0]["parallel_efficiency"].is_null());
+}
+
+TEST_CASE("The page of a bench can be written", "[throughput][report]") {
+  const std::string page = BenchReportPage(ToJson(Measure(SmallBench())));
+  CHECK(page.substr(0, 15) == "<!doctype html>");
+  const char* path = std::getenv("LANELIGHT_SYNTHETIC_BENCH");
+  if (path == nullptr) return;
+  std::ofstream file(path, std::ios::binary);
+  file << page;
+  REQUIRE(file.flush().good());
 }
 
 TEST_CASE("a scene that is not there is an error", "[throughput]") {

@@ -1,25 +1,6 @@
 "use strict";
 // Efficiency, throughput and error along the chosen axis, and error against time.
 
-const RATE_PREFIXES = [
-  [1e9, "G"],
-  [1e6, "M"],
-  [1e3, "k"],
-];
-
-function rateTick(x) {
-  if (!known(x)) return UNKNOWN;
-  const [factor, prefix] = RATE_PREFIXES.find(([size]) => x >= size * 0.9999) || [1, ""];
-  return `${Number((x / factor).toPrecision(3))}${prefix && ` ${prefix}`}`;
-}
-
-function rateTexts(interval) {
-  const bounds = hasBounds(interval)
-    ? `[${rateTick(interval.low)}, ${rateTick(interval.high)}]`
-    : "";
-  return { value: rateTick(interval.value), bounds };
-}
-
 // power: of the slopes of errors against time.
 const SWEEP_MEASURES = {
   efficiency: {

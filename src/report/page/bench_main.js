@@ -1,0 +1,104 @@
+"use strict";
+// The page of a benchmark: how fast one machine renders.
+
+const targetNames = [...new Set(study.rows.map((row) => row.target))];
+const threadCounts = [...new Set(study.rows.map((row) => row.threads))];
+
+// Of independent rates: half widths of their logarithms add as squares.
+function geometricMean(rates) {
+  const n = rates.length;
+  const mean = (f) => rates.reduce((sum, rate) => sum + f(rate), 0) / n;
+  const value = Math.exp(mean((rate) => Math.log(rate.value)));
+  const width = (f) => Math.sqrt(mean((rate) => Math.log(f(rate)) ** 2) / n);
+  return {
+    value,
+    low: value / Math.exp(width(({ value: x, low }) => x / (low ?? NaN))),
+    high: value * Math.exp(width(({ value: x, high }) => (high ?? NaN) / x)),
+  };
+}
+
+// Of the first target, on the fewest and the most threads.
+function benchHeadline() {
+  const [target] = targetNames;
+  const rateOn = (threads) => {
+    const rows = study.rows.filter((r) => r.target === target && r.threads === threads);
+    const mean = geometricMean(rows.map((row) => row.samples_per_second));
+    return `${joined(rateTexts(mean))} samples per second on ${threadsText(threads)}`;
+  };
+  const least = Math.min(...threadCounts),
+    most = Math.max(...threadCounts);
+  const scenes = new Set(study.rows.map((row) => row.scene)).size;
+  const of = scenes > 1 ? ` (geometric mean of ${scenes} scenes)` : "";
+  const more = most > least ? `, ${rateOn(most)}` : "";
+  return `${rateOn(least)}${more}${of}, ${target}.`;
+}
+
+function benchTable() {
+  const texts = (row) => rateTexts(row.samples_per_second);
+  const efficiency = ({ parallel_efficiency: interval }) =>
+    twoLines(intervalTexts(interval || { value: null }));
+  return plainTable(
+    "All rows",
+    ["Scene", "Target", "Threads", "Samples / s", "Efficiency", "Rays / s", "Bytes / path",
+      "Samples per pixel", "Repeats"],
+    study.rows.map((row) => [
+      row.scene,
+      row.target,
+      fmtCount(row.threads),
+      twoLines(texts(row)),
+      efficiency(row),
+      rateTick(row.rays_per_second),
+      fmtCount(row.bytes_per_path),
+      fmtCount(row.spp),
+      fmtCount(row.seconds.length),
+    ]),
+  );
+}
+
+function benchSections(lines) {
+  const view = makeView({ strategies: lines });
+  view.ran = view.ranked = lines;
+  view.shown.set(new Set(lines.map((line) => line.index)));
+  const parallel =
+    threadCounts.length > 1 && study.rows.some((row) => row.parallel_efficiency)
+      ? [strategyLegend(view, "Lines shown"), efficiencyFigure(view, lines)]
+      : el("p", {}, "Needs rows of one thread and of more: --threads 1,2,4,8");
+  return [
+    section("rates", "Samples per second", rateRows(lines),
+      el("p", { class: "hint" }, "Medians of the repeats with their " +
+        `${fmtShortPercent(study.confidence)} intervals, by order statistics.`)),
+    section("threads", "Efficiency against threads", parallel),
+    section("groups", "Where the time of a sample goes",
+      el("p", { class: "lead" }, "All threads together, of the last repeat: one " +
+        "measurement, without an interval."),
+      groupBars(lines)),
+    section("rows", "All rows", benchTable()),
+  ];
+}
+
+function startBench() {
+  theme.bindButton(document.getElementById("theme"));
+  document.title = "Lanelight bench";
+  document.getElementById("bottom").textContent =
+    "Written by lanelight bench. This page holds all its numbers and needs no network. " +
+    "Plots: uPlot, MIT licence.";
+  const content = document.getElementById("content");
+  const lines = benchLines();
+  const head = el(
+    "section",
+    { id: "summary", "aria-labelledby": "summary-title" },
+    el("h1", { id: "summary-title" }, "How fast this machine renders"),
+    el("p", { class: "lead headline" },
+      lines.length > 0 ? benchHeadline() : "Nothing was measured."),
+    el("dl", { class: "facts" },
+      fact("Machine", study.machine.text, null, { class: "wide" }),
+      fact("Program", study.program, null, { class: "wide" })),
+  );
+  content.replaceChildren(head, ...(lines.length > 0 ? benchSections(lines) : []));
+  if (lines.length === 0) return;
+  linkSections([["rates", "Rates"], ["threads", "Threads"], ["groups", "Stages"],
+    ["rows", "Rows"]]);
+  addEventListener("scroll", tip.hide, { passive: true });
+}
+
+startBench();

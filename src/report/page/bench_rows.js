@@ -1,0 +1,121 @@
+"use strict";
+// Rates with their intervals, and efficiency against threads.
+
+function rowName(row) {
+  return targetNames.length > 1 ? `${row.scene}, ${row.target}` : row.scene;
+}
+
+// [{index, name, style, status, rows}]: a line for each scene and target, by threads.
+function benchLines() {
+  const lines = new Map();
+  for (const row of study.rows) {
+    const name = rowName(row);
+    if (!lines.has(name)) lines.set(name, []);
+    lines.get(name).push(row);
+  }
+  return [...lines].map(([name, rows], index) => ({
+    index,
+    name,
+    status: "ok",
+    style: strategyStyle(index),
+    rows: [...rows].sort((a, b) => a.threads - b.threads),
+  }));
+}
+
+function threadsText(n) {
+  return n === 1 ? "1 thread" : `${n} threads`;
+}
+
+function rateRows(lines) {
+  const rates = study.rows.map((row) => row.samples_per_second);
+  const scale = whiskerScale(rates, true);
+  const row = (line, { threads, samples_per_second: rate }) =>
+    el(
+      "div",
+      { class: "rate-row" },
+      el(
+        "span",
+        { class: "rate-name" },
+        swatch(line.style),
+        `${line.name}, ${threadsText(threads)}`,
+      ),
+      whisker(rate, scale, { style: line.style, width: 180 }),
+      el("span", { class: "rate-value" }, twoLines(rateTexts(rate))),
+    );
+  return el(
+    "div",
+    { class: "plot-figure" },
+    el(
+      "div",
+      { class: "rate-row" },
+      el("span", {}, "Samples per second"),
+      whiskerAxis(scale, { width: 180, format: rateTick, most: 4 }),
+    ),
+    lines.flatMap((line) => line.rows.map((r) => row(line, r))),
+  );
+}
+
+function efficiencyPoints(line) {
+  const points = line.rows.map((row) => {
+    const interval = row.parallel_efficiency || { value: null };
+    const { value: y, low, high } = interval;
+    return { x: row.threads, y, low, high, interval };
+  });
+  return { ...line, bars: true, points: points.filter(({ y }) => known(y)) };
+}
+
+function efficiencyFigure(view, lines) {
+  const { host, figure } = plotFigure("efficiency", "");
+  whenVisible(view, figure, () =>
+    logPlot(view, host, {
+      lines: lines.map(efficiencyPoints),
+      label: "Efficiency against threads",
+      xAxis: { label: "threads", ticks: binaryTicks, format: fmtCount },
+      yAxis: {
+        label: "rate / (threads × rate of one)",
+        ticks: decadeTicks,
+        format: errorTick,
+      },
+      include: [0.5, 1],
+      describe: (line, point) => [
+        el("b", {}, line.name),
+        el("div", {}, threadsText(point.x)),
+        el("div", {}, `efficiency ${joined(intervalTexts(point.interval))}`),
+      ],
+    }),
+  );
+  return figure;
+}
+
+const REST = "all else";
+
+// One bar for each line, of its fewest threads: where the time of a sample goes is the same
+// on several, but for the machine.
+function groupBars(lines) {
+  const bars = lines.map((line) => {
+    const stages = line.rows[0].groups.filter((group) => group.ns_per_sample > 0);
+    const total = stages.reduce((sum, group) => sum + group.ns_per_sample, 0);
+    return {
+      line,
+      name: line.name,
+      total,
+      stages: stages.map(({ name, ns_per_sample: ns, lanes }) => ({
+        name: name === "other" ? REST : name,
+        share: ns / total,
+        seconds: ns * 1e-9,
+        occupancy: lanes,
+      })),
+    };
+  });
+  const found = stageNames({ ranked: bars });
+  const names = [...found.filter((name) => name !== REST), REST];
+  const most = Math.max(...bars.map((bar) => bar.total));
+  return [
+    stageLegend(names),
+    bars.map((bar) => {
+      const whole = stageBar(bar, names, bar.total / most);
+      whole.style.width = `${(bar.total / most) * 100}%`;
+      return stageRow(bar.line, `${fmt(bar.total)} ns per sample`, whole);
+    }),
+  ];
+}

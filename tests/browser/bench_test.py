@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""Looks at the page of a small benchmark in Chromium: bench_test.py PAGE FOLDER
+
+As report_test.py.
+"""
+
+import math
+
+import run_checks
+from checks import check, plot, require
+
+
+def data(page):
+    return page.js("return JSON.parse(document.getElementById('study').textContent)")
+
+
+@check
+def every_row_has_its_rate(page):
+    rates = [row["samples_per_second"] for row in data(page)["rows"]]
+    rows = page.js("return [...document.querySelectorAll('#rates .rate-row')].slice(1).map("
+                   "(r) => r.querySelector('.whisker path').getBoundingClientRect().x)")
+    require(len(rows) == len(rates) == 2, rows)
+    require((rows[0] < rows[1]) == (rates[0]["value"] < rates[1]["value"]) or
+            abs(rows[0] - rows[1]) < 1, rows, rates)
+    text = page.find("#rates").text
+    require(text.count("[") == 2, "an interval for each:", text)
+
+
+@check
+def efficiency_is_drawn(page):
+    page.scroll_through()
+    rows = data(page)["rows"]
+    drawn = page.js("return document.querySelector('[data-plot=efficiency]')"
+                    ".plot.data.map((c) => [...c])")
+    require(drawn[0] == [1, 2], "threads:", drawn)
+    for y, row in zip(drawn[1], rows):
+        require(math.isclose(y, row["parallel_efficiency"]["value"]), y, row)
+    require(page.ink(plot(page, "efficiency"))["coloured"] > 100, "a blank plot")
+
+
+@check
+def bars_are_the_groups(page):
+    groups = data(page)["rows"][0]["groups"]
+    total = sum(group["ns_per_sample"] for group in groups)
+    parts = page.js("return [...document.querySelectorAll('#groups .bar-part')].map((p) =>"
+                    "[p.ariaLabel, p.offsetWidth / p.parentNode.offsetWidth])")
+    for label, share in parts:
+        name = next(g["name"] for g in groups
+                    if label.startswith("all else" if g["name"] == "other" else
+                                        f"{g['name']} ") and
+                    not (g["name"] == "lights" and label.startswith("lights seen")))
+        own = next(g["ns_per_sample"] for g in groups if g["name"] == name)
+        require(abs(share - own / total) < 0.02, label, share, own / total)
+    require(len(parts) == sum(g["ns_per_sample"] > 0 for g in groups), "parts:", parts)
+
+
+@check
+def nothing_unknown_is_spelled_out(page):
+    for word in ("NaN", "undefined", "null", "Infinity", "[object"):
+        require(word not in page.text(), word)
+    page.resize(360, 740, mobile=True)
+    page.open()
+    page.scroll_through()
+    require(page.js("return document.documentElement.scrollWidth") <= 360, "too wide")
+    require(not page.console(), "\n".join(page.console()))
+
+
+run_checks.main()
