@@ -41,7 +41,9 @@ function allName({ along }) {
 
 function linePoint({ along }, group) {
   const value = along ? valueOn(group, along) : null;
-  return { value, name: along ? valueLabel(along, value) : "all", group };
+  const alone = along && along.parameter && value === UNSET; // depends on no part of it
+  const name = alone ? group.strategy : along ? valueLabel(along, value) : "all";
+  return { value, name, group };
 }
 
 // The lines of all panels, each once, for the legend.
