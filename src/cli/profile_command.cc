@@ -33,9 +33,7 @@ constexpr const char* kProfileInterruptText =
 RunResult Measure(const ProfileCommandOptions& options, const Job& job,
                   const std::atomic<bool>& stop) {
   ProgressPrinter progress(ChooseProgressStyle(options.quiet));
-  RunOptions run;
-  run.spp = job.spp;
-  run.seed = job.seed;
+  RunOptions run = RunOptionsOf(job);
   run.stop = &stop;
   run.on_progress = [&](const Progress& p) { progress.Update({p, {}, {}}); };
   run.profiling.counters = true;

@@ -16,31 +16,28 @@ import sys
 # and plots.css, and before print.css; scripts, in this order.
 PLOTS = "logaxis logplot_draw logplot guides plot_export curves"
 PAGES = {
-    "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it", "CONNECT": ""},
+    "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it"},
              "images",
              f"""dom format data view strategies whisker table hero warnings summary ranking
              ranking_columns {PLOTS} calibration tone picture pan pane difference comparator
              controls readout figures figures_level insets maps stages levels glossary main"""),
-    "PaperPage": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv"},
+    "PaperPage": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv beside it"},
                   "images",
                   f"""dom format data view strategies whisker table hero summary
                   ranking_columns {PLOTS} tone picture difference controls figures
                   figures_level insets paper_text paper_main"""),
     "ComparePage": ({"NAME": "compare", "TABS": "Images",
-                     "FILES": "what compare --json prints", "CONNECT": ""}, "images",
+                     "FILES": "what compare --json prints"}, "images",
                     """dom format data view tone picture pan pane difference comparator controls
                     readout maps histogram compare_tiles compare_numbers compare_main"""),
-    "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it",
-                    "CONNECT": ""}, "images sweep",
+    "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it"}, "images sweep",
                   f"""dom format data view strategies whisker table {PLOTS} stages tone picture
                   rates sweep_cells sweep_choice sweep_lines sweep_plots sweep_images sweep_stages
                   sweep_table sweep_headline sweep_summary sweep_main"""),
-    "BenchPage": ({"NAME": "bench", "TABS": "Scenes", "FILES": "what bench --json prints",
-                   "CONNECT": ""},
+    "BenchPage": ({"NAME": "bench", "TABS": "Scenes", "FILES": "what bench --json prints"},
                   "sweep", f"""dom format data view strategies whisker table {PLOTS} stages rates
                   bench_rows bench_main"""),
-    "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it",
-                    "CONNECT": ""}, "stress",
+    "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it"}, "stress",
                    """dom format data strategies whisker table logaxis stress_data
                    stress_scale stress_plot stress_tiles stress_about stress_detail
                    stress_strategies stress_table stress_summary stress_main"""),
@@ -95,7 +92,7 @@ def assemble(page_dir, words, style, scripts):
     script_text, script_hashes = inline(page_dir, "script", scripts)
     theme_text, theme_hash = inline(page_dir, "script", ["theme.js"])
     html = (page_dir / "page.html").read_text(encoding="utf-8")
-    for marker, text in {**words, STYLES: licence + style_text, SCRIPTS: script_text,
+    for marker, text in {"CONNECT": "", **words, STYLES: licence + style_text, SCRIPTS: script_text,
                          "<!-- theme -->": theme_text, "STYLE_HASHES": style_hashes,
                          "SCRIPT_HASHES": f"{theme_hash} {script_hashes}"}.items():
         if marker not in html:

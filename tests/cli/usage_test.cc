@@ -37,7 +37,7 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
       {{}, "Usage"},
       {{"rendr", "x.pbrt"}, "did you mean 'render'?"},
       {{"frobnicate"},
-       "commands are render, advise, plan, profile, bench, info, strategies"},
+       "commands are render, advise, plan, live, profile, bench, info, strategies"},
       {{"render"}, "required"},
       {{"render", "x.pbrt"}, "--output is required"},
       {{"render", "x.pbrt", "-o", "x.png"}, "does not end in .exr"},
