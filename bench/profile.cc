@@ -27,9 +27,7 @@ constexpr const char* kNames[] = {"off", "on", "on, trace"};
 
 double CpuSeconds(const Job& job, Mode mode) {
   FilmAccumulator film = MakeFilm(job);
-  RunOptions options;
-  options.spp = job.spp;
-  options.seed = job.seed;
+  RunOptions options = RunOptionsOf(job);
   options.profile = mode != kOff;
   options.profiling.counters = mode != kOff;
   if (mode == kTrace) options.profiling.trace_events = 1 << 17;
