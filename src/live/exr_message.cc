@@ -2,11 +2,9 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "src/core/error.h"
+#include "src/core/input_file.h"
 #include "src/core/version.h"
 #include "src/live/picture.h"
 #include "src/live/state_json.h"
@@ -30,13 +28,6 @@ class TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   std::string path() const { return path_.string(); }
-  std::string Contents() const {
-    std::ifstream file(path_, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) throw InputError("'" + path() + "' cannot be read again");
-    return text.str();
-  }
 
  private:
   fs::path path_;
@@ -63,7 +54,7 @@ std::string ExrMessage(const Stage& stage, const Contender& contender) {
            FilmPlanes(film, stage.job.scene.scale), options);
   const std::string name = fs::path(stage.path).stem().string() + "-" +
                            std::to_string(contender.spp()) + "spp.exr";
-  return BinaryHead({{"kind", "file"}, {"name", name}}) + file.Contents();
+  return BinaryHead({{"kind", "file"}, {"name", name}}) + ReadWholeFile(file.path());
 }
 
 }  // namespace lanelight::live
