@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "src/compare/error_maps.h"
+#include "src/image/pixel_rect.h"
 
 namespace lanelight {
 namespace {
@@ -38,13 +39,12 @@ void Put(Image& image, int x, int y, Vec3d color) {
   for (int c = 0; c < 3; ++c) image.At(x, y, c) = static_cast<float>(color[c]);
 }
 
-// Calls color(i) for all pixels of a picture whose corner is at (x0, y0).
+// Calls color(i) for all pixels of a picture that lies there.
 template <class Color>
-void Draw(Image& image, int x0, int y0, int width, int height, const Color& color) {
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      Put(image, x0 + x, y0 + y, color(static_cast<std::size_t>(y) * width + x));
-    }
+void Draw(Image& image, const PixelRect& place, const Color& color) {
+  std::size_t i = 0;
+  for (int y = place.y0; y < place.y1; ++y) {
+    for (int x = place.x0; x < place.x1; ++x) Put(image, x, y, color(i++));
   }
 }
 
@@ -71,18 +71,21 @@ ComparisonSheet SheetOf(const std::vector<SheetRow>& rows) {
   const int width = kColumns * (w + kGap) - kGap, height = count * (h + kGap) - kGap;
   CheckImageSize("the picture of the comparison", width, height);
   out.image = MakeImage(width, height, {"R", "G", "B"});
-  Draw(out.image, 0, 0, width, height, [](std::size_t) { return kGapColor; });
+  Draw(out.image, {0, 0, width, height}, [](std::size_t) { return kGapColor; });
   for (int r = 0; r < count; ++r) {
     const LinearImage test = LinearOf(rows[r].test.image);
     const LinearImage reference = LinearOf(rows[r].reference.image);
     const Plane& flip = rows[r].comparison.flip->map();
-    const int y = r * (h + kGap), step = w + kGap;
-    Draw(out.image, 0, y, w, h, Colors(test));
-    Draw(out.image, step, y, w, h, Colors(reference));
-    Draw(out.image, 2 * step, y, w, h, [&](std::size_t i) {
+    const auto place = [&](int column) -> PixelRect {
+      const int x = column * (w + kGap), y = r * (h + kGap);
+      return {x, y, x + w, y + h};
+    };
+    Draw(out.image, place(0), Colors(test));
+    Draw(out.image, place(1), Colors(reference));
+    Draw(out.image, place(2), [&](std::size_t i) {
       return DifferenceColor(differences[r][i] / out.difference_scale);
     });
-    Draw(out.image, 3 * step, y, w, h,
+    Draw(out.image, place(3),
          [&](std::size_t i) { return FlipColor(flip[i] / out.flip_scale); });
   }
   return out;

@@ -95,12 +95,14 @@ class SvgWriter {
                         y, color, style, XmlEscaped(text));
   }
 
-  void Line(double x0, double y0, double x1, double y1, const std::string& color,
-            const std::string& style = "") {
+  struct Segment {
+    double x0, y0, x1, y1;
+  };
+  void Line(const Segment& s, const std::string& color, const std::string& style = "") {
     out_ += fmt::format(
         "<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" "
         "stroke=\"{}\" {}/>\n",
-        x0, y0, x1, y1, color, style);
+        s.x0, s.y0, s.x1, s.y1, color, style);
   }
 
   void Marker(const PlotSeries& s, double x, double y, const std::string& data) {
@@ -123,7 +125,7 @@ class SvgWriter {
   }
 
   void Name(const PlotSeries& s, double x, double y, std::size_t most) {
-    Line(x, y, x + 30, y, Color(s), "stroke-width=\"1.8\" " + Dash(s));
+    Line({x, y, x + 30, y}, Color(s), "stroke-width=\"1.8\" " + Dash(s));
     Marker(s, x + 15, y, "");
     Text(x + 38, y + 4, kInk, "class=\"name\"", Shortened(s.name, most));
   }
@@ -131,12 +133,12 @@ class SvgWriter {
   void XAxis(const PlotAxis& axis, const PlotScale& scale, const Box& box) {
     for (const double tick : TicksOf(scale, axis, static_cast<int>(box.width() / 52))) {
       const double x = box.left + scale.At(tick);
-      Line(x, kTop, x, box.bottom + 4, kGrid);
+      Line({x, kTop, x, box.bottom + 4}, kGrid);
       Text(x, box.bottom + 18, kMuted,
            fmt::format("text-anchor=\"middle\" class=\"tick-x\" data-value=\"{}\"", tick),
            TickText(tick, axis));
     }
-    Line(box.left, box.bottom, box.right, box.bottom, kMuted);
+    Line({box.left, box.bottom, box.right, box.bottom}, kMuted);
     Text((box.left + box.right) / 2, box.bottom + 38, kInk, "text-anchor=\"middle\"",
          axis.label);
   }
@@ -144,12 +146,12 @@ class SvgWriter {
   void YAxis(const PlotAxis& axis, const PlotScale& scale, const Box& box) {
     for (const double tick : TicksOf(scale, axis, static_cast<int>(box.height() / 34))) {
       const double y = box.bottom - scale.At(tick);
-      Line(box.left - 4, y, box.right, y, kGrid);
+      Line({box.left - 4, y, box.right, y}, kGrid);
       Text(box.left - 8, y + 4, kMuted,
            fmt::format("text-anchor=\"end\" class=\"tick-y\" data-value=\"{}\"", tick),
            TickText(tick, axis));
     }
-    Line(box.left, kTop, box.left, box.bottom, kMuted);
+    Line({box.left, kTop, box.left, box.bottom}, kMuted);
     Text(0, 0, kInk,
          fmt::format("text-anchor=\"middle\" transform=\"translate(18 {:.2f}) "
                      "rotate(-90)\"",
@@ -176,7 +178,7 @@ class SvgWriter {
     if (panel.slope) Guide(*panel.slope, x, y, box);
     if (panel.mark) {
       const double at = box.bottom - y.At(*panel.mark);
-      Line(box.left, at, box.right, at, kMuted, "stroke-dasharray=\"1 3\"");
+      Line({box.left, at, box.right, at}, kMuted, "stroke-dasharray=\"1 3\"");
     }
     for (const PlotSeries& s : panel.series) Curve(s, x, y, box);
   }
@@ -197,8 +199,8 @@ class SvgWriter {
       if (p.y.HasBounds()) {
         const double low = box.bottom - y.At(p.y.low);
         const double high = box.bottom - y.At(p.y.high);
-        Line(px, low, px, high, Color(s), "class=\"bar\"");
-        for (const double end : {low, high}) Line(px - 3, end, px + 3, end, Color(s));
+        Line({px, low, px, high}, Color(s), "class=\"bar\"");
+        for (const double end : {low, high}) Line({px - 3, end, px + 3, end}, Color(s));
       }
       Point(s, p, px, box.bottom - y.At(p.y.value));
     }
@@ -213,7 +215,7 @@ class SvgWriter {
     const double x0 = box.left + x.At(from), y0 = box.bottom - y.At(top);
     const double x1 = box.left + x.At(to);
     const double y1 = box.bottom - y.At(top * std::pow(to / from, slope));
-    Line(x0, y0, x1, y1, "#8d939a", "stroke-dasharray=\"4 4\"");
+    Line({x0, y0, x1, y1}, "#8d939a", "stroke-dasharray=\"4 4\"");
     Text((x0 + x1) / 2 + 6, (y0 + y1) / 2 - 6, kMuted, "font-size=\"11\"",
          fmt::format("slope −{}", -slope == 0.5 ? "½" : fmt::format("{:g}", -slope)));
   }
@@ -230,7 +232,7 @@ class SvgWriter {
     XAxis(panel.y, scale, box);
     if (panel.mark) {
       const double at = box.left + scale.At(*panel.mark);
-      Line(at, kTop, at, box.bottom, kMuted, "stroke-dasharray=\"3 3\"");
+      Line({at, kTop, at, box.bottom}, kMuted, "stroke-dasharray=\"3 3\"");
     }
     const double pitch =
         std::min(32.0, box.height() / static_cast<double>(panel.series.size()));
@@ -239,7 +241,7 @@ class SvgWriter {
       Name(s, names, y, most);
       for (const PlotPoint& p : s.points) {
         if (p.y.HasBounds()) {
-          Line(box.left + scale.At(p.y.low), y, box.left + scale.At(p.y.high), y,
+          Line({box.left + scale.At(p.y.low), y, box.left + scale.At(p.y.high), y},
                Color(s), "class=\"bar\" stroke-width=\"1.8\"");
         }
         Point(s, p, box.left + scale.At(p.y.value), y);

@@ -83,7 +83,7 @@ class SceneAnalyser {
             TestTiles(cells.moments, runs_.reference, strategy.AtLevel().spp, kBiasLevel);
       }
       AddStrategyImages(runs_, index, cells, strategy, images_);
-      AddLevelImages(runs_, index, firsts, pictured_.size(), strategy, images_);
+      AddLevelImages(runs_, {index, pictured_.size(), firsts}, strategy, images_);
     }
     out_.strategies.push_back(std::move(strategy));
   }

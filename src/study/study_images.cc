@@ -78,21 +78,20 @@ std::set<std::size_t> PicturedStrategies(const SceneRuns& runs) {
   return pictured;
 }
 
-void AddLevelImages(const SceneRuns& runs, std::size_t index,
-                    const std::vector<std::vector<Rgb>>& firsts, std::size_t pictured,
+void AddLevelImages(const SceneRuns& runs, const LevelFirsts& firsts,
                     StrategyAnalysis& strategy, std::vector<ReportImage>& images) {
   ImageWriter writer(runs, images);
-  if (firsts.empty()) return;
-  std::size_t left = kLevelValues / pictured;
-  for (std::size_t i = 0; i < firsts.size(); ++i) {
+  if (firsts.images.empty()) return;
+  std::size_t left = kLevelValues / firsts.pictured;
+  for (std::size_t i = 0; i < firsts.images.size(); ++i) {
     LevelAnalysis& level = strategy.levels[i];
-    const std::size_t values = 3 * firsts[i].size();
+    const std::size_t values = 3 * firsts.images[i].size();
     if (i == strategy.at) {
       level.image = strategy.one;
     } else if (values <= left) {
       left -= values;
-      level.image =
-          writer.Show(fmt::format("{:02}.{}spp", index + 1, level.spp), firsts[i]);
+      level.image = writer.Show(
+          fmt::format("{:02}.{}spp", firsts.strategy + 1, level.spp), firsts.images[i]);
     }
   }
 }

@@ -21,11 +21,15 @@ void AddStrategyImages(const SceneRuns& runs, std::size_t index, const Cells& ce
 /// paper's figures, if there are any, and the first one that is rendered.
 std::set<std::size_t> PicturedStrategies(const SceneRuns& runs);
 
-/// After AddStrategyImages(), for one of `pictured` strategies: `firsts`, the first
-/// repetition at each level, go into the report, from the smallest count on, as far as
-/// kLevelValues take all of them.
-void AddLevelImages(const SceneRuns& runs, std::size_t index,
-                    const std::vector<std::vector<Rgb>>& firsts, std::size_t pictured,
+/// The first repetitions of a strategy at each level; it is one of `pictured` strategies.
+struct LevelFirsts {
+  std::size_t strategy, pictured;
+  const std::vector<std::vector<Rgb>>& images;
+};
+
+/// After AddStrategyImages(): they go into the report, from the smallest count on, as far
+/// as kLevelValues take all of them.
+void AddLevelImages(const SceneRuns& runs, const LevelFirsts& firsts,
                     StrategyAnalysis& strategy, std::vector<ReportImage>& images);
 inline constexpr std::size_t kLevelValues = kReportValues / 2;  // of a scene
 
