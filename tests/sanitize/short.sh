@@ -80,7 +80,7 @@ render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=proj
 render many-lights.pbrt --resolution 81x61 --spp 8 --strategy light-candidates=resampled:3
 expect 0 bench cornell-box --resolution 33x31 --spp 2 --threads 1,4 --time 0.1 --json "$out/bench.json"
 expect 0 bench cornell-box --resolution 33x31 --spp 2 --threads 1,4 --time 0.1 \
-  --against "$out/bench.json" --tolerance 1
+  --against "$out/bench.json" --tolerance 1 --html "$out/bench.html"
 
 render glass.pbrt --resolution 64x48 --spp 4 --gbuffer camera --png --crop 3,5,50,40 --depth half \
   --json "$out/report.json" --build fast
@@ -91,15 +91,19 @@ render cornell-box.pbrt --resolution 40x30 --target-relmse 0.5 --spp 4096
 cp "$out/image.exr" "$out/other.exr"
 render cornell-box.pbrt --resolution 40x30 --spp 4 --seed 2
 expect 0 compare "$out/image.exr" "$out/other.exr"
+expect 0 compare "$out/image.exr" "$out/image.exr" "$out/other.exr" --html "$out/c.html" \
+  --png "$out/c.png"
+expect 0 info "$out/image.exr"
 expect 0 plan glass.pbrt
 expect 0 profile cornell-box.pbrt --resolution 40x30 --spp 4 --trace "$out/trace.json" \
   --threads 4 --quiet
 expect 0 advise cornell-box.pbrt --resolution 40x30 --time 2 -o "$out/image.exr" --quiet
 expect 0 study cornell-box.pbrt --out "$out/study" --resolution 24x18 --spp 4,8 \
   --strategies 'default;points=pmj02' --repetitions 3 --quiet
+expect 0 plot "$out/study/study.json" --figure 8 -o "$out/plot.svg"
 # States are written beside the render; parts, and what they are merged into.
 render cornell-box.pbrt --resolution 40x30 --spp 256 --checkpoint "$out/whole.state" \
-  --every 0.05 --watch "$out/watch.exr" --strategy control=analytic
+  --every 0.05 --watch "$out/watch.exr" --watch "$out/watch.png" --strategy control=analytic
 render cornell-box.pbrt --resolution 40x30 --spp 300 --resume "$out/whole.state" \
   --strategy control=analytic
 for part in 1 2; do
@@ -111,7 +115,7 @@ expect 1 merge "$out/part-1.state" -o "$out/image.exr" --quiet
 cat >"$out/sweep.toml" <<END
 [grid]
 scene = "$PWD/cornell-box.pbrt"
-strategy = ["default", "points=cmj"]
+strategy = ["default", "points=cmj", "roulette=throughput:{0.1, 0.5}"]
 spp = [4, 16]
 resolution = "24x18"
 END
@@ -120,6 +124,12 @@ expect 1 plan ../tests/broken/error-in-include.pbrt
 expect 2 render --nonsense
 expect 0 info
 expect 0 completion zsh
+
+# A page that comes, looks, and goes, and Ctrl-C.
+code=0
+timeout 300 ../tests/sanitize/live_client.py "$lanelight" cornell-box.pbrt \
+  --resolution 64x48 --threads 4 >"$out/log" 2>&1 || code=$?
+check 0 "$code" live cornell-box.pbrt, with a page
 
 # Ctrl-C in the middle of a render: the image is written all the same.
 code=0
