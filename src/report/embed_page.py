@@ -77,11 +77,22 @@ def inline(page_dir, tag, files):
     return "\n".join(elements), " ".join(hashes)
 
 
+def refuse_twins(page_dir, scripts):
+    """A name that two scripts of a page declare stops the second one."""
+    declared = {}
+    for file in scripts:
+        text = (page_dir / file).read_text(encoding="utf-8")
+        for name in re.findall(r"(?m)^(?:const|let|class|(?:async )?function\*?) +(\w+)", text):
+            if declared.setdefault(name, file) != file:
+                raise SystemExit(f"embed_page: {name} is declared in {declared[name]} and {file}")
+
+
 def assemble(page_dir, words, style, scripts):
     has_plots = PLOTS in scripts  # those of uPlot
     styles = ["base.css", "table.css", "plots.css", *(f"{name}.css" for name in style.split()),
               "print.css"]
     scripts = [f"{name}.js" for name in scripts.split()]
+    refuse_twins(page_dir, scripts)
     licence = ""
     if has_plots:
         styles.insert(0, "vendor/uPlot.min.css")

@@ -1,7 +1,7 @@
 "use strict";
 // All cells in a table.
 
-const MOST_ROWS = 500;
+const MOST_CELLS = 500;
 
 function axisColumn(axis) {
   const number = (cell) => {
@@ -76,21 +76,21 @@ function cellColumns() {
 }
 
 function tableSection() {
-  const cut = study.cells.length > MOST_ROWS;
+  const cut = study.cells.length > MOST_CELLS;
   return section(
     "cells",
     "All cells",
     el(
       "p",
       { class: "lead" },
-      `The same and more is in sweep.csv.${cut ? ` ${MOST_ROWS} of ${fmtCount(study.cells.length)} rows are shown, the first ones in the order chosen.` : ""}`,
+      `The same and more is in sweep.csv.${cut ? ` ${MOST_CELLS} of ${fmtCount(study.cells.length)} rows are shown, the first ones in the order chosen.` : ""}`,
     ),
     sortableTable({
       columns: cellColumns(),
       rows: study.cells,
       caption: "All cells of the sweep",
       rowClass: (cell) => (cell.status === "done" ? null : "not-run"),
-      most: MOST_ROWS,
+      most: MOST_CELLS,
     }),
   );
 }
