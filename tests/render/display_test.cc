@@ -7,12 +7,14 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cstring>
 #include <thread>
 
 #include "src/core/value_types.h"
 #include "src/image/exr.h"
 #include "src/render/render.h"
+#include "tests/image/temporary_folder.h"
 
 namespace lanelight {
 namespace {
@@ -194,17 +196,13 @@ FilmAccumulator OneSample(int width, int height, float value) {
   return film;
 }
 
-std::string ExrPath() {
-  return "/tmp/lanelight-display-" + std::to_string(getpid()) + ".exr";
-}
-
 }  // namespace
 
 TEST_CASE("a viewer shows the image that is written", "[render]") {
   Viewer viewer;
-  const std::string exr = ExrPath();
+  const TemporaryFolder folder;
+  const std::string exr = folder.File("shown.exr");
   const ShownRender render = RenderShown(viewer.endpoint(), exr);
-  unlink(exr.c_str());
   CHECK(render.problems.empty());
   const Shown shown = Decode(viewer.Bytes());
   CHECK(shown.name == exr);
@@ -228,6 +226,8 @@ TEST_CASE("only tiles that have changed are sent", "[render]") {
   {
     Display display(viewer.endpoint(), "film", film, "srgb", [](const std::string&) {});
     display.Changed(film, {16, 0, 32, 16});
+    // So that it has been sent, and is not only waiting to be.
+    std::this_thread::sleep_for(std::chrono::seconds(1));
     display.Changed(film, {16, 0, 32, 16});  // which it knows
     display.Finish(film);                    // all others
   }
@@ -242,9 +242,9 @@ TEST_CASE("where nobody listens, that is said once and the image is made", "[ren
   {
     nobody = Viewer(0, false).endpoint();  // whose port is free again
   }
-  const std::string exr = ExrPath();
+  const TemporaryFolder folder;
+  const std::string exr = folder.File("shown.exr");
   const ShownRender render = RenderShown(nobody, exr);
-  unlink(exr.c_str());
   CHECK(render.image.width == 48);
   REQUIRE(render.problems.size() == 1);
   CHECK_THAT(render.problems[0], Contains("no display server at 127.0.0.1:") &&
