@@ -5,7 +5,7 @@
 # system calls (seccomp), which the next two do; the others want to see what a render has
 # done in 0.2 s, and a pilot in 2.5 s.
 set(unable cli/lost_renders_test sweep/directory_test cli/build_cache_turn_test
-  wavefront/put_down_test cli/advise_test)
+  run/put_down_test cli/advise_test)
 # Scripts that start the program themselves, or preload a library into it.
 list(APPEND unable cases_run_once cli/completion docs/links failures/kill failures/disk
   failures/foreign)
@@ -33,15 +33,15 @@ set(long
   stress/geometry_cases_test stress/suite_test stress/transport_cases_test
   study/calibration_test study/render_reference_test study/shared_bias_test
   study/study_test sweep/again_test sweep/parts_test sweep/ten_thousand_test
-  texture/pattern_kernel_test wavefront/agreement_test
-  wavefront/alpha_places_test wavefront/closed_form_test
-  wavefront/convergence_test wavefront/decision_test wavefront/declared_fields_test
-  wavefront/determinism_test wavefront/force_diffuse_test wavefront/mirrored_lights_test
-  wavefront/open_ended_test wavefront/relief_agreement_test
-  wavefront/resume_mistakes_test wavefront/resume_test wavefront/round_shapes_test
-  wavefront/seen_lights_test wavefront/textured_test
+  texture/pattern_kernel_test agreement/agreement_test
+  agreement/alpha_places_test agreement/closed_form_test
+  run/convergence_test train/decision_test plan/declared_fields_test
+  wave/determinism_test agreement/force_diffuse_test agreement/mirrored_lights_test
+  run/open_ended_test agreement/relief_agreement_test
+  run/resume_mistakes_test run/resume_test agreement/round_shapes_test
+  wave/seen_lights_test agreement/textured_test
   # Where scenes from elsewhere are found: more than 600 s, and 511 s.
-  scenes/reference_images_test wavefront/decision_scenes_test)
+  scenes/reference_images_test train/decision_scenes_test)
 
 foreach(kind unable unrelated long)
   foreach(test ${${kind}})

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 

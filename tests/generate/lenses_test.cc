@@ -12,7 +12,7 @@
 #include "src/core/pi.h"
 #include "tests/reference/lenses.h"
 #include "tests/support/wave_fixture.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 namespace {

@@ -6,7 +6,7 @@
 #include "src/prepare/tables.h"
 #include "src/train/training_pass.h"
 #include "src/wave/wavefront.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tests/reference/scenes.h"
-#include "tests/wavefront/render_fixture.h"
+#include "tests/run/render_fixture.h"
 
 namespace lanelight::test {
 namespace {

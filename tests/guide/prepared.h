@@ -11,7 +11,7 @@
 #include "src/train/training_pass.h"
 #include "src/wave/wavefront.h"
 #include "tests/reference/scenes.h"
-#include "tests/wavefront/render_fixture.h"
+#include "tests/run/render_fixture.h"
 
 namespace lanelight {
 

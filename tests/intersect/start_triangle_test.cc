@@ -6,7 +6,7 @@
 #include "tests/support/test_target.h"
 #include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
-#include "tests/wavefront/task_fixture.h"
+#include "tests/wave/task_fixture.h"
 
 namespace lanelight {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 

@@ -6,7 +6,7 @@
 
 #include "kernels/simd/target.h"
 #include "tests/media/scenes.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 

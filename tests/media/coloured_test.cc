@@ -4,7 +4,7 @@
 #include <string>
 
 #include "tests/media/scenes.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 namespace {

@@ -7,7 +7,7 @@
 #include "src/prepare/use_strategy.h"
 #include "src/plan/plan.h"
 #include "tests/media/scenes.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 namespace {

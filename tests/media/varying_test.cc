@@ -6,7 +6,7 @@
 
 #include "src/image/blackbody.h"
 #include "tests/media/varying_scenes.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "tests/compile/testing.h"
-#include "tests/wavefront/render_fixture.h"
+#include "tests/run/render_fixture.h"
 
 namespace lanelight {
 namespace {

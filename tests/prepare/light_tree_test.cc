@@ -12,7 +12,7 @@
 #include "src/prepare/prepare_scene.h"
 #include "src/prepare/use_strategy.h"
 #include "tests/reference/scenes.h"
-#include "tests/wavefront/render_fixture.h"
+#include "tests/run/render_fixture.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {

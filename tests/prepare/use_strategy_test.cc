@@ -9,7 +9,7 @@
 #include "src/plan/plan_features.h"
 #include "src/plan/plan_key.h"
 #include "tests/image/temporary_folder.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "src/core/transform.h"
-#include "tests/wavefront/render_fixture.h"
+#include "tests/run/render_fixture.h"
 
 namespace lanelight {
 namespace {

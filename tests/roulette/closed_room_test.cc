@@ -14,7 +14,7 @@
 
 #include "tests/reference/closed_forms.h"
 #include "src/stat/hypothesis.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 namespace {

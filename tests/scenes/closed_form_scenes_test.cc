@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/reference/closed_forms.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 namespace {

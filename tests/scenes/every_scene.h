@@ -9,7 +9,7 @@
 #include "src/parse/parse.h"
 #include "src/prepare/groups.h"
 #include "src/prepare/prepare_scene.h"
-#include "tests/wavefront/render_fixture.h"
+#include "tests/run/render_fixture.h"
 
 namespace lanelight::test {
 

@@ -13,7 +13,7 @@
 #include "src/image/exr.h"
 #include "src/image/image.h"
 #include "tests/support/shared_scenes.h"
-#include "tests/wavefront/render_fixture.h"
+#include "tests/run/render_fixture.h"
 
 namespace lanelight {
 namespace {

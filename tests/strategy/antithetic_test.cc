@@ -5,7 +5,7 @@
 #include "src/prepare/parameters.h"
 #include "src/prepare/prepare_scene.h"
 #include "src/stat/distributions.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "src/prepare/path_values.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 

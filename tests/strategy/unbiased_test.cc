@@ -17,7 +17,7 @@
 #include "tests/strategy/covering.h"
 #include "tests/strategy/hard_scenes.h"
 #include "tests/strategy/tiles.h"
-#include "tests/wavefront/agreement.h"
+#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 namespace {

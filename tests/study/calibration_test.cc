@@ -7,7 +7,7 @@
 #include "src/estimate/estimate.h"
 #include "src/parse/parse.h"
 #include "src/stat/distributions.h"
-#include "tests/wavefront/render_fixture.h"
+#include "tests/run/render_fixture.h"
 
 namespace lanelight {
 namespace {

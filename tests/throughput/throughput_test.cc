@@ -12,7 +12,7 @@
 #include "src/report/page.h"
 #include "src/throughput/throughput.h"
 #include "src/throughput/throughput_comparison.h"
-#include "tests/wavefront/render_fixture.h"
+#include "tests/run/render_fixture.h"
 
 namespace lanelight::test {
 namespace {
