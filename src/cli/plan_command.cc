@@ -49,6 +49,13 @@ std::string Stages(const Plan& plan) {
   for (const PlannedStage& s : plan.block_stages) {
     text += fmt::format("  {:<22} {}\n", s.stage.name, s.stage.meaning);
   }
+  if (!plan.seen_stages.empty()) {
+    text += fmt::format("\nof them, for camera rays at edges of lights ({}):\n ",
+                        plan.seen_stages.size());
+    for (const PlannedStage& s : plan.seen_stages)
+      text += fmt::format(" {}", s.stage.name);
+    text += "\n";
+  }
   text += fmt::format("\nstages left out ({}):\n", plan.omitted.size());
   for (const OmittedStage& s : plan.omitted) {
     text += fmt::format("  {:<22} {}\n", s.stage.name, s.reason);

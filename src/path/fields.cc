@@ -37,6 +37,11 @@ FeatureSet FieldFeatures(Field field) {
   return kFeatures[static_cast<std::size_t>(field)];
 }
 
+bool IsLive(Field field, const FeatureSet& features) {
+  const FeatureSet needed_by = FieldFeatures(field);
+  return needed_by.empty() || features.HasAny(needed_by);
+}
+
 Lifetime FieldLifetime(Field field, const FeatureSet& f) {
   using enum Lifetime;
   switch (field) {

@@ -244,6 +244,8 @@ const char* FieldMeaning(Field field);
 const char* FieldType(Field field);
 /// Features of which any one makes the column live; empty = always.
 FeatureSet FieldFeatures(Field field);
+/// Whether renders with these features need it.
+bool IsLive(Field field, const FeatureSet& features);
 /// In a plan with the features `f`.
 Lifetime FieldLifetime(Field field, const FeatureSet& f);
 /// What the camera stage writes; none where another stage does.

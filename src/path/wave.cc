@@ -24,4 +24,12 @@ ColumnLists::ColumnLists(const PathColumns& path, const FeatureSet& features) {
 #undef X
 }
 
+void Wave::Reset() {
+  for (Queue& queue : queues) queue.size = 0;
+  Queue& free = queue(QueueId::kFree);
+  // The generate stage takes slots from the end: slot 0 first.
+  for (std::uint32_t i = 0; i < capacity; ++i) free.items[i] = capacity - 1 - i;
+  free.size = capacity;
+}
+
 }  // namespace lanelight

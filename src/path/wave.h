@@ -137,6 +137,9 @@ struct Wave {
   Queue& queue(QueueId id) {
     return queues[static_cast<int>(id == QueueId::kVertex ? vertices : id)];
   }
+
+  /// Empties every queue and frees every slot.
+  void Reset();
 };
 
 }  // namespace lanelight

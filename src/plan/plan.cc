@@ -32,10 +32,13 @@ std::string ReasonToOmit(const Stage& stage, const FeatureSet& features) {
   return "";
 }
 
-void CheckReadsAreWritten(const Plan& plan) {
+void CheckReadsAreWritten(const std::vector<PlannedStage>& stages,
+                          const FeatureSet& features) {
   FieldSet written;
-  for (const PlannedStage& planned : plan.stages) {
-    for (Field field : plan.live_fields) {
+  for (const PlannedStage& planned : stages) {
+    for (std::size_t i = 0; i < kNumFields; ++i) {
+      const Field field = static_cast<Field>(i);
+      if (!IsLive(field, features)) continue;
       if (!planned.stage.reads.Has(field) || written.Has(field)) continue;
       // A stage may update what it also writes only if somebody initialised it.
       FailCheck(__FILE__, __LINE__, "every column read has been written",
@@ -120,6 +123,8 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
   plan.options = options;
   plan.features = PlanFeatures(scene, options);
   plan.notes = CheckStrategy(scene, options);
+  const bool seen = SeesLightsApart(scene);
+  if (seen) plan.seen_features = SeenLightFeatures(scene, options);
   for (const Stage& stage : RegisteredStages(options.target)) {
     if (plan.features.HasAll(stage.needs)) {
       auto& stages = stage.scope == StageScope::kWave ? plan.stages : plan.block_stages;
@@ -127,14 +132,18 @@ Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
     } else {
       plan.omitted.push_back({stage, ReasonToOmit(stage, plan.features)});
     }
+    if (seen && stage.scope == StageScope::kWave &&
+        plan.seen_features.HasAll(stage.needs)) {
+      plan.seen_stages.push_back({stage, stage.resolve(plan.seen_features)});
+    }
   }
   for (std::size_t i = 0; i < kNumFields; ++i) {
     const Field field = static_cast<Field>(i);
-    const FeatureSet needed_by = FieldFeatures(field);
-    const bool live = needed_by.empty() || plan.features.HasAny(needed_by);
+    const bool live = IsLive(field, plan.features);
     (live ? plan.live_fields : plan.absent_fields).push_back(field);
   }
-  CheckReadsAreWritten(plan);
+  CheckReadsAreWritten(plan.stages, plan.features);
+  CheckReadsAreWritten(plan.seen_stages, plan.seen_features);
   FindRepeated(plan);
   plan.ray_kernels = FindRayKernels(plan);
   FindShadowKernels(plan);

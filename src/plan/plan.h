@@ -28,8 +28,6 @@ struct PlanOptions {
   /// Instead of the scene's: what a training tries, or has found to be better (roulette,
   /// guiding, decide).
   std::optional<Strategy> strategy;
-  /// Camera rays and the emission that they see, nothing else; with max_depth 0.
-  bool camera_only = false;
 };
 
 struct PlannedStage {
@@ -46,6 +44,10 @@ struct Plan {
   std::vector<PlannedStage> stages;  // in execution order
   /// Of blocks of paths that have ended (reuse=block), likewise.
   std::vector<PlannedStage> block_stages;
+  /// Of camera rays that are followed to the light they see (seen-lights=apart): those of
+  /// `stages` that these need, for `seen_features` alone, on the same columns.
+  std::vector<PlannedStage> seen_stages;
+  FeatureSet seen_features;
   /// Of them, [first, last) make and consider one candidate of a light sample: run once
   /// for each (RunParameters::candidates). None where light samples are not resampled.
   std::size_t first_repeated = 0, last_repeated = 0;
@@ -58,6 +60,10 @@ struct Plan {
   std::uint32_t slots = 0;         // room in it: more where paths split
   std::vector<std::string> notes;  // choices of the strategy that do nothing here
   PlanOptions options;
+
+  /// Rows of a profile before those of seen_stages, and all of them.
+  std::size_t FirstSeenRow() const { return stages.size() + block_stages.size(); }
+  std::size_t rows() const { return FirstSeenRow() + seen_stages.size(); }
 };
 
 /// The plan of the scene's strategy. Throws InputError for a strategy that cannot work on

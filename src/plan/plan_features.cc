@@ -132,15 +132,23 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
 
 Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options) {
   Strategy strategy = options.strategy.value_or(scene.strategy);
-  if (options.camera_only) strategy.control = Control::kNone;
-  if (options.camera_only || (options.training && !options.own_points)) {
+  if (!options.training) return strategy;
+  if (!options.own_points) {
+    strategy.points = Points::kIndependent;
     strategy.reuse = Reuse::kNone;
   }
-  if (!options.training) return strategy;
-  if (!options.own_points) strategy.points = Points::kIndependent;
   strategy.pairs = Pairs::kNone;
   strategy.control = Control::kNone;
   return strategy;
+}
+
+FeatureSet SeenLightFeatures(const CompiledScene& scene, const PlanOptions& options) {
+  const Strategy strategy = PlannedStrategy(scene, options);
+  FeatureSet f = scene.features;
+  RemoveScattering(f);
+  f.Add(TurnsOn(strategy.points));
+  f.Add(TurnsOn(strategy.pairs));
+  return f;
 }
 
 bool SeesLightsApart(const CompiledScene& scene) {

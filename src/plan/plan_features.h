@@ -25,4 +25,8 @@ bool SamplesOfLightDiffer(const FeatureSet& features);
 /// Whether the scene's strategy integrates lights apart, and it has any that can be seen.
 bool SeesLightsApart(const CompiledScene& scene);
 
+/// Of camera rays that are followed to the light they see and no further: a part of
+/// PlanFeatures(), with the same sample points.
+FeatureSet SeenLightFeatures(const CompiledScene& scene, const PlanOptions& options);
+
 }  // namespace lanelight

@@ -78,12 +78,13 @@ std::string PointsText(const Job& job) {
 Json ToJson(const Plan& plan) {
   Json stages = Json::array(), omitted = Json::array(), live = Json::array(),
        absent = Json::array(), features = Json::array();
-  for (const PlannedStage& s : plan.stages) {
-    stages.push_back({{"name", s.stage.name}, {"meaning", s.stage.meaning}});
+  for (const auto* planned : {&plan.stages, &plan.block_stages}) {
+    for (const PlannedStage& s : *planned) {
+      stages.push_back({{"name", s.stage.name}, {"meaning", s.stage.meaning}});
+    }
   }
-  for (const PlannedStage& s : plan.block_stages) {
-    stages.push_back({{"name", s.stage.name}, {"meaning", s.stage.meaning}});
-  }
+  Json seen = Json::array();
+  for (const PlannedStage& s : plan.seen_stages) seen.push_back(s.stage.name);
   for (const OmittedStage& s : plan.omitted) {
     omitted.push_back({{"name", s.stage.name}, {"reason", s.reason}});
   }
@@ -94,6 +95,7 @@ Json ToJson(const Plan& plan) {
     if (plan.features.Has(feature)) features.push_back(FeatureName(feature));
   }
   return {{"stages", stages},
+          {"seen_light_stages", seen},
           {"omitted_stages", omitted},
           {"fields", live},
           {"absent_fields", absent},

@@ -130,7 +130,7 @@ constexpr GroupOfStages kGroups[] = {
     {"light_", "lights"},        {"emission_", "lights"},
     {"escape", "lights"},        {"connect", "lights"},
     {"accumulate", "film"},      {"film", "film"},
-    {"task set-up", "generate"}, {"seen lights", "lights seen"}};
+    {"task set-up", "generate"}, {"seen", "lights seen"}};
 constexpr const char* kGroupNames[] = {"generate",    "closest", "shadow",
                                        "surface",     "shade",   "lights",
                                        "lights seen", "film",    "other"};

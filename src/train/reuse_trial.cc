@@ -8,7 +8,7 @@
 #include "src/core/error.h"
 #include "src/plan/plan_features.h"
 #include "src/train/path_records.h"
-#include "src/wave/seen_lights.h"
+#include "src/wave/task_runner.h"
 #include "src/train/strategy_trial.h"
 
 namespace lanelight {
@@ -28,14 +28,18 @@ using Squares = std::vector<std::vector<std::size_t>>;
 std::vector<bool> Counted(const CompiledScene& scene, const TriedStrategy& usual,
                           const TrainingWork& work) {
   std::vector<bool> counted(work.pixels.size(), true);
-  RunParameters run = MakeRunParameters(scene, MakePlan(scene, usual.options));
+  const Plan plan = MakePlan(scene, usual.options);
+  RunParameters run = MakeRunParameters(scene, plan);
   run.tables = &usual.tables;
-  const auto edges = SeenLightEdges::Make(scene, usual.options, run);
-  if (!edges) return counted;
-  edges->Find(work.tiles);
+  const RunOptions once;
+  TaskRunner runner(scene, plan, run, once);
+  runner.Begin(work.tiles);
+  if (runner.seen_lights() == nullptr) return counted;
   std::size_t first = 0;
   for (std::size_t tile = 0; tile < work.tiles.size(); ++tile) {
-    for (const std::uint32_t place : edges->Of(tile)) counted[first + place] = false;
+    for (const std::uint32_t place : runner.seen_lights()->Of(tile)) {
+      counted[first + place] = false;
+    }
     first += work.tiles[tile].pixels();
   }
   return counted;

@@ -99,7 +99,8 @@ class Pass {
       reuse.emplace(plan_, strategy_);
       reuse->Begin(work, wavefront->wave());
     }
-    if (!Drive(*wavefront, plan_, {work, {values.data(), rows}}, nullptr, watcher_))
+    if (!Drive(wavefront->wave(), plan_, {work, {values.data(), rows}}, nullptr,
+               watcher_))
       return;
     if (reuse) reuse->Connect(work_.tiles[task], wavefront->wave(), nullptr);
     if (copies_ > 1) FoldCopies(values.data(), rows, run_.planes);

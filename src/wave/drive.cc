@@ -25,28 +25,28 @@ std::uint32_t SamplesTogether(const CompiledScene& scene, const Plan& plan) {
   return scene.strategy.pairs == Pairs::kAntithetic ? together & ~1u : together;
 }
 
-bool Drive(Wavefront& wavefront, const Plan& plan, const DriveTask& task,
-           StageClock* clock, const TaskWatcher* watcher) {
+bool Drive(Wave& wave, const Plan& plan, const DriveTask& task, StageClock* clock,
+           const TaskWatcher* watcher) {
   const TileWork& work = task.work;
   LL_CHECK_LE(work.together, plan.wavefront);  // they are generated at once, or never
-  wavefront.Reset();
-  Wave& wave = wavefront.wave();
+  wave.Reset();
   wave.work = work;
   wave.buffer = task.buffer;
   if (clock) {
     clock->FinishPart(TaskPart::kSetUp, std::uint64_t{work.num_pixels} * work.samples);
   }
-  const std::size_t stages = plan.stages.size();
+  const auto& stages = task.seen_lights ? plan.seen_stages : plan.stages;
+  const std::size_t first_row = task.seen_lights ? plan.FirstSeenRow() : 0;
   while (!wave.work.Done() || wave.queue(QueueId::kScattered).size > 0) {
     StartWave(wave);
     if (clock) clock->StartWave();
     std::uint32_t candidates = wave.run->candidates;  // that are still to be made
-    for (std::size_t i = 0; i < stages; ++i) {
-      const PlannedStage& planned = plan.stages[i];
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      const PlannedStage& planned = stages[i];
       if (wave.queue(planned.stage.input).size > 0) {
         wave.lanes = {};
         planned.kernel(wave);
-        if (clock) clock->Finish(i, wave.lanes.items, wave.lanes.vectors);
+        if (clock) clock->Finish(first_row + i, wave.lanes.items, wave.lanes.vectors);
       }
       if (i + 1 == plan.last_repeated && --candidates > 0) i = plan.first_repeated - 1;
     }

@@ -4,7 +4,7 @@
 #include "src/plan/plan.h"
 #include "src/wave/stage_clock.h"
 #include "src/wave/task_watcher.h"
-#include "src/wave/wavefront.h"
+#include "src/path/wave.h"
 
 namespace lanelight {
 
@@ -17,12 +17,14 @@ std::uint32_t SamplesTogether(const CompiledScene& scene, const Plan& plan);
 struct DriveTask {
   TileWork work;
   SampleBuffer buffer;
+  bool seen_lights = false;  // by Plan::seen_stages alone
 };
 
-/// The loop of one task: runs it to the end on `wavefront`. `clock` times the stages;
-/// null: nothing is timed. Returns false if the watcher has cancelled it; then the
-/// buffer is of no use. Null: nobody does.
-bool Drive(Wavefront& wavefront, const Plan& plan, const DriveTask& task,
-           StageClock* clock, const TaskWatcher* watcher = nullptr);
+/// The loop of one task: runs it to the end on `wave`, whose columns are those of the
+/// plan, or of its seen_features. `clock` times the stages; null: nothing is timed.
+/// Returns false if the watcher has cancelled it; then the buffer is of no use. Null:
+/// nobody does.
+bool Drive(Wave& wave, const Plan& plan, const DriveTask& task, StageClock* clock,
+           const TaskWatcher* watcher = nullptr);
 
 }  // namespace lanelight

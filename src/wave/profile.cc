@@ -25,18 +25,20 @@ const char* Name(TaskPart part) {
 
 std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
   std::vector<StageProfile> profiles;
-  std::vector<PlannedStage> stages = plan.stages;
-  stages.insert(stages.end(), plan.block_stages.begin(), plan.block_stages.end());
-  for (const PlannedStage& planned : stages) {
-    StageProfile profile;
-    profile.name = planned.stage.name;
-    for (Field f : plan.live_fields) {
-      profile.bytes_read += 4.0 * planned.stage.reads.Has(f);
-      profile.bytes_written += 4.0 * planned.stage.writes.Has(f);
+  const auto add = [&](const std::vector<PlannedStage>& stages, const char* before) {
+    for (const PlannedStage& planned : stages) {
+      StageProfile& profile = profiles.emplace_back();
+      profile.name = std::string(before) + planned.stage.name;
+      for (Field f : plan.live_fields) {
+        profile.bytes_read += 4.0 * planned.stage.reads.Has(f);
+        profile.bytes_written += 4.0 * planned.stage.writes.Has(f);
+      }
+      profile.bytes_per_item = profile.bytes_read + profile.bytes_written;
     }
-    profile.bytes_per_item = profile.bytes_read + profile.bytes_written;
-    profiles.push_back(profile);
-  }
+  };
+  add(plan.stages, "");
+  add(plan.block_stages, "");
+  add(plan.seen_stages, "seen: ");
   return profiles;
 }
 

@@ -5,13 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "src/core/check.h"
-#include "src/core/parallel.h"
 #include "src/prepare/groups.h"
 #include "src/strategy/choices.h"
 #include "src/wave/seen_light_places.h"
 #include "src/wave/drive.h"
-#include "src/plan/plan_features.h"
 #include "src/wave/tiles.h"
 
 namespace lanelight {
@@ -36,13 +33,6 @@ constexpr std::uint32_t kFindSeed = 0x2545f491u;
 // Apart from the image's.
 std::uint32_t RaySeed(std::uint32_t seed, std::uint64_t turn) {
   return (seed ^ 0x6a09e667u) + static_cast<std::uint32_t>(turn) * 0x9e3779b9u;
-}
-
-PlanOptions CameraOnly(PlanOptions options) {
-  options.max_depth = 0;
-  options.camera_only = true;
-  options.auxiliary = Auxiliary::kNone;
-  return options;
 }
 
 struct Range {
@@ -116,34 +106,7 @@ class SeenRanges {
 
 }  // namespace
 
-std::unique_ptr<SeenLightEdges> SeenLightEdges::Make(const CompiledScene& scene,
-                                                     const PlanOptions& options,
-                                                     const RunParameters& run) {
-  if (!SeesLightsApart(scene)) return nullptr;
-  return std::unique_ptr<SeenLightEdges>(new SeenLightEdges(scene, options, run));
-}
-
-SeenLightEdges::SeenLightEdges(const CompiledScene& scene, const PlanOptions& options,
-                               const RunParameters& run)
-    : scene_(scene),
-      image_run_(run),
-      plan_(MakePlan(scene, CameraOnly(options))),
-      samples_{GroupsOf(scene.strategy), kSeenLightRays},
-      small_lights_(PlacesOfSmallLights(scene)),
-      reach_(Reach(scene.filter)),
-      spaces_(static_cast<std::size_t>(ThreadSlots())) {}
-
-SeenLightEdges::Space& SeenLightEdges::ThreadSpace() {
-  auto& space = spaces_[static_cast<std::size_t>(ThreadIndex())];
-  if (!space) {
-    RunParameters run = MakeRunParameters(scene_, plan_);
-    run.tables = image_run_.tables;
-    space = std::make_unique<Space>(scene_, plan_, run);
-  }
-  return *space;
-}
-
-void SeenLightEdges::Trace(Space& space, const Rays& rays, std::vector<float>& out) {
+void SeenLightRays::Trace(const Work& rays, StageClock* clock, std::vector<float>& out) {
   TileWork work;
   work.pixels = rays.pixels;
   work.num_pixels = static_cast<std::uint32_t>(rays.num_pixels);
@@ -152,91 +115,89 @@ void SeenLightEdges::Trace(Space& space, const Rays& rays, std::vector<float>& o
   work.together = SamplesTogether(scene_, plan_);
   const std::size_t rows = rays.num_pixels * rays.count;
   out.resize(std::max(out.size(), rows * kColorPlanes));
-  space.run.seed = rays.seed;
-  Wave& wave = space.wavefront.wave();
-  wave.rays_closest = wave.rays_shadow = 0;
-  wave.health = {};
-  Drive(space.wavefront, plan_, {work, {out.data(), static_cast<std::uint32_t>(rows)}},
-        nullptr);
+  run_ = image_run_;
+  run_.seed = rays.seed;
+  run_.max_depth = 0;
+  run_.candidates = 1;
+  run_.features = plan_.seen_features;
+  run_.planes = SamplePlanes(plan_.seen_features);
+  Drive(wave_, plan_,
+        {work, {out.data(), static_cast<std::uint32_t>(rows)}, /*seen_lights=*/true},
+        clock);
 }
 
-std::vector<std::uint32_t> SeenLightEdges::EdgesOf(const PixelRect& tile) {
+SeenLightEdges::SeenLightEdges(const CompiledScene& scene, std::size_t tiles)
+    : scene_(scene),
+      samples_{GroupsOf(scene.strategy), kSeenLightRays},
+      small_lights_(PlacesOfSmallLights(scene)),
+      reach_(Reach(scene.filter)),
+      edges_(tiles) {}
+
+void SeenLightEdges::Find(std::size_t tile, const PixelRect& rect, SeenLightRays& rays,
+                          StageClock* clock) {
   const auto width = static_cast<std::uint32_t>(scene_.film.width);
-  const PixelRect all = WithBorder(tile, reach_, scene_.film.width, scene_.film.height);
+  const PixelRect all = WithBorder(rect, reach_, scene_.film.width, scene_.film.height);
   SeenRanges ranges(all, width);
-  Space& space = ThreadSpace();
-  TilePixels(all, scene_.film.width, &space.pixels);
-  const std::size_t rows = space.pixels.size() * kFindRays;
-  Trace(space, {space.pixels.data(), space.pixels.size(), kFindSeed, 0, kFindRays},
-        space.others);
-  for (std::size_t p = 0; p < space.pixels.size(); ++p) {
-    ranges.Add(space.pixels[p], space.others.data() + p * kFindRays, rows, kFindRays);
+  std::vector<std::uint32_t>& pixels = rays.pixels;
+  TilePixels(all, scene_.film.width, &pixels);
+  const std::size_t rows = pixels.size() * kFindRays;
+  rays.Trace({pixels.data(), pixels.size(), kFindSeed, 0, kFindRays}, clock, rays.others);
+  for (std::size_t p = 0; p < pixels.size(); ++p) {
+    ranges.Add(pixels[p], rays.others.data() + p * kFindRays, rows, kFindRays);
   }
-  for (const std::uint32_t pixel : space.pixels) {
+  for (const std::uint32_t pixel : pixels) {
     if (!std::binary_search(small_lights_.begin(), small_lights_.end(), pixel)) continue;
-    Trace(space, {&pixel, 1, kFindSeed, 0, kSmallLightRays}, space.own);
-    ranges.Add(pixel, space.own.data(), kSmallLightRays, kSmallLightRays);
+    rays.Trace({&pixel, 1, kFindSeed, 0, kSmallLightRays}, clock, rays.own);
+    ranges.Add(pixel, rays.own.data(), kSmallLightRays, kSmallLightRays);
   }
-  TilePixels(tile, scene_.film.width, &space.pixels);
-  std::vector<std::uint32_t> edges;
-  for (std::size_t p = 0; p < space.pixels.size(); ++p) {
-    if (!ranges.IsEdge(space.pixels[p], reach_)) continue;
-    edges.push_back(static_cast<std::uint32_t>(p));
+  TilePixels(rect, scene_.film.width, &pixels);
+  for (std::size_t p = 0; p < pixels.size(); ++p) {
+    if (!ranges.IsEdge(pixels[p], reach_)) continue;
+    edges_[tile].push_back(static_cast<std::uint32_t>(p));
   }
-  return edges;
 }
 
-void SeenLightEdges::Find(const std::vector<PixelRect>& tiles) {
-  edges_.resize(tiles.size());
-  ParallelFor(tiles.size(),
-              [&](std::size_t tile) { edges_[tile] = EdgesOf(tiles[tile]); });
-}
-
-std::uint64_t SeenLightEdges::pixels() const {
-  std::uint64_t sum = 0;
-  for (const auto& edges : edges_) sum += edges.size();
-  return sum;
-}
-
-bool SeenLightEdges::Correct(std::size_t tile, const SeenLightTask& task,
-                             RunCounts& counts) {
-  const std::vector<std::uint32_t>& edges = edges_[tile];
+bool SeenLightEdges::Correct(const SeenLightTask& task, SeenLightRays& rays,
+                             StageClock* clock, RunCounts& counts) const {
+  const std::vector<std::uint32_t>& edges = edges_[task.tile];
   if (edges.empty()) return false;
-  Space& space = ThreadSpace();
   const std::uint64_t each =
       samples_.End(task.begin + task.count) - samples_.Begin(task.begin);
   const std::size_t most = std::max<std::size_t>(1, kMostRays / each);
   for (std::size_t first = 0; first < edges.size(); first += most) {
-    CorrectPixels(space, edges.data() + first, std::min(most, edges.size() - first),
-                  task);
+    CorrectPixels({edges.data() + first, std::min(most, edges.size() - first)}, task,
+                  rays, clock);
   }
   // As many for any cut; those that others of a turn need are traced again.
   counts.rays_closest += edges.size() * task.count * (1 + kSeenLightRays);
   return true;
 }
 
-void SeenLightEdges::CorrectPixels(Space& space, const std::uint32_t* places,
-                                   std::size_t count, const SeenLightTask& task) {
-  space.pixels.clear();
-  for (std::size_t p = 0; p < count; ++p) space.pixels.push_back(task.pixels[places[p]]);
-  Trace(space, {space.pixels.data(), count, image_run_.seed, task.begin, task.count},
-        space.own);
+void SeenLightEdges::CorrectPixels(const Places& places, const SeenLightTask& task,
+                                   SeenLightRays& rays, StageClock* clock) const {
+  const std::uint32_t seed = rays.image_run().seed;
+  std::vector<std::uint32_t>& pixels = rays.pixels;
+  pixels.clear();
+  for (std::size_t p = 0; p < places.count; ++p) {
+    pixels.push_back(task.pixels[places.at[p]]);
+  }
+  rays.Trace({pixels.data(), places.count, seed, task.begin, task.count}, clock,
+             rays.own);
   const std::uint64_t end = task.begin + task.count;
   for (std::uint64_t begin = task.begin, next = 0; begin < end; begin = next) {
     const std::uint64_t turn = begin / kSamplesPerRaySeed;
     next = std::min(end, (turn + 1) * kSamplesPerRaySeed);
     const std::uint64_t base = turn * kSamplesPerRaySeed;
     const std::uint64_t first = samples_.Begin(begin - base);
-    const auto rays = static_cast<std::uint32_t>(samples_.End(next - base) - first);
-    Trace(space,
-          {space.pixels.data(), count, RaySeed(image_run_.seed, turn), first, rays},
-          space.others);
+    const auto count = static_cast<std::uint32_t>(samples_.End(next - base) - first);
+    rays.Trace({pixels.data(), places.count, RaySeed(seed, turn), first, count}, clock,
+               rays.others);
     for (std::size_t c = 0; c < kColorPlanes; ++c) {
-      for (std::size_t p = 0; p < count; ++p) {
-        const float* const own = space.own.data() + (c * count + p) * task.count;
-        const float* const others = space.others.data() + (c * count + p) * rays;
+      for (std::size_t p = 0; p < places.count; ++p) {
+        const float* const own = rays.own.data() + (c * places.count + p) * task.count;
+        const float* const others = rays.others.data() + (c * places.count + p) * count;
         float* const values =
-            task.values + c * task.stride + std::size_t{places[p]} * task.count;
+            task.values + c * task.stride + std::size_t{places.at[p]} * task.count;
         for (std::uint64_t i = begin; i < next; ++i) {
           double sum = 0;
           samples_.ForEach(i - base,

@@ -8,15 +8,15 @@
 // seed of their own, so nothing is biased). What a path
 // brings there is corrected when its task is done: less the emission that its own camera
 // ray sees (traced again: the same numbers), plus the mean of what kSeenLightRays others
-// see.
+// see. These rays go through Plan::seen_stages, in the wavefront of the task's thread.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "src/wave/run_state.h"
 #include "src/wave/seen_light_samples.h"
+#include "src/wave/stage_clock.h"
 #include "src/wave/wavefront.h"
 
 namespace lanelight {
@@ -24,6 +24,7 @@ namespace lanelight {
 /// The samples of a task: values[plane * stride + pixel * count + i] is plane `plane` of
 /// sample begin + i of pixels[pixel].
 struct SeenLightTask {
+  std::size_t tile = 0;
   const std::vector<std::uint32_t>& pixels;  // y * image width + x
   std::uint64_t begin = 0;                   // of the run's seed
   std::uint32_t count = 0;
@@ -31,37 +32,11 @@ struct SeenLightTask {
   std::size_t stride = 0;
 };
 
-class SeenLightEdges {
+/// What a thread has to follow camera rays to the light that they see.
+class SeenLightRays {
  public:
-  /// Null where no light can be seen, or the strategy does not ask for it. Refers to all
-  /// of these; the seed of `run` may change between tasks.
-  static std::unique_ptr<SeenLightEdges> Make(const CompiledScene& scene,
-                                              const PlanOptions& options,
-                                              const RunParameters& run);
-
-  /// Finds the edges in tiles of the image, in parallel. Before any Correct().
-  void Find(const std::vector<PixelRect>& tiles);
-  /// Corrects the samples of a task of a tile, if it has edges, and counts the rays. Safe
-  /// from several threads. Whether anything was done.
-  bool Correct(std::size_t tile, const SeenLightTask& task, RunCounts& counts);
-
-  /// Pixels of a tile with edges, as places in its TilePixels.
-  const std::vector<std::uint32_t>& Of(std::size_t tile) const { return edges_[tile]; }
-  /// Pixels of all tiles with edges.
-  std::uint64_t pixels() const;
-
- private:
-  /// What a thread has of its own.
-  struct Space {
-    Space(const CompiledScene& scene, const Plan& plan, const RunParameters& run)
-        : run(run), wavefront(scene, plan, this->run) {}
-    RunParameters run;
-    Wavefront wavefront;
-    std::vector<std::uint32_t> pixels;
-    std::vector<float> own, others;
-  };
-  /// Camera rays of samples of some pixels.
-  struct Rays {
+  /// Samples of some pixels.
+  struct Work {
     const std::uint32_t* pixels = nullptr;
     std::size_t num_pixels = 0;
     std::uint32_t seed = 0;
@@ -69,22 +44,64 @@ class SeenLightEdges {
     std::uint32_t count = 0;
   };
 
-  SeenLightEdges(const CompiledScene& scene, const PlanOptions& options,
-                 const RunParameters& run);
-  Space& ThreadSpace();
-  void Trace(Space& space, const Rays& rays, std::vector<float>& out);
-  std::vector<std::uint32_t> EdgesOf(const PixelRect& tile);
-  void CorrectPixels(Space& space, const std::uint32_t* places, std::size_t count,
-                     const SeenLightTask& task);
+  /// Of a plan with seen_stages. Refers to all of these.
+  SeenLightRays(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
+                const Wavefront& wavefront)
+      : scene_(scene),
+        plan_(plan),
+        image_run_(run),
+        wave_(wavefront.Narrowed(plan.seen_features)) {
+    wave_.run = &run_;
+  }
+
+  /// Overwrites `out`: plane by plane, of each the samples of one pixel after the other.
+  void Trace(const Work& work, StageClock* clock, std::vector<float>& out);
+
+  const RunParameters& image_run() const { return image_run_; }
+
+  // Room for who calls.
+  std::vector<std::uint32_t> pixels;
+  std::vector<float> own, others;
+
+ private:
+  const CompiledScene& scene_;
+  const Plan& plan_;
+  const RunParameters& image_run_;
+  RunParameters run_;
+  Wave wave_;
+};
+
+class SeenLightEdges {
+ public:
+  /// Of this many tiles. Refers to the scene.
+  SeenLightEdges(const CompiledScene& scene, std::size_t tiles);
+
+  /// Finds the edges in a tile of the image. Safe from several threads, each with its
+  /// rays, for different tiles. Before Correct() of this tile.
+  void Find(std::size_t tile, const PixelRect& rect, SeenLightRays& rays,
+            StageClock* clock);
+  /// Corrects the samples of a task of a tile, if it has edges, and counts the rays. Safe
+  /// from several threads. Whether anything was done.
+  bool Correct(const SeenLightTask& task, SeenLightRays& rays, StageClock* clock,
+               RunCounts& counts) const;
+
+  /// Pixels of a tile with edges, as places in its TilePixels.
+  const std::vector<std::uint32_t>& Of(std::size_t tile) const { return edges_[tile]; }
+
+ private:
+  /// Some of the places of a tile's edges.
+  struct Places {
+    const std::uint32_t* at = nullptr;
+    std::size_t count = 0;
+  };
+  void CorrectPixels(const Places& places, const SeenLightTask& task, SeenLightRays& rays,
+                     StageClock* clock) const;
 
   const CompiledScene& scene_;
-  const RunParameters& image_run_;
-  const Plan plan_;
   const SeenLightSamples samples_;
   const std::vector<std::uint32_t> small_lights_;  // pixels, ascending
   const int reach_;                                // pixels
   std::vector<std::vector<std::uint32_t>> edges_;  // by tile: places in its TilePixels
-  std::vector<std::unique_ptr<Space>> spaces_;
 };
 
 }  // namespace lanelight

@@ -21,8 +21,15 @@ TaskRunner::TaskRunner(const CompiledScene& scene, const Plan& plan,
       workspaces_(static_cast<std::size_t>(ThreadSlots())) {}
 
 void TaskRunner::Begin(const std::vector<PixelRect>& tiles) {
-  seen_lights_ = SeenLightEdges::Make(scene_, plan_.options, run_);
-  if (seen_lights_) seen_lights_->Find(tiles);
+  if (plan_.seen_stages.empty()) return;
+  seen_lights_ = std::make_unique<SeenLightEdges>(scene_, tiles.size());
+  ParallelFor(tiles.size(), [&](std::size_t tile) {
+    Workspace& space = ThreadWorkspace();
+    StageClock* const clock = space.Clock();
+    if (clock) clock->StartTask();
+    seen_lights_->Find(tile, tiles[tile], *space.seen_lights, clock);
+    if (clock) clock->EndTask();
+  });
 }
 
 Workspace& TaskRunner::ThreadWorkspace() {
@@ -67,7 +74,8 @@ bool TaskRunner::Run(const TileTask& task, const TaskWatcher& watcher, TaskSampl
   const TileWork work = SetUp(task, space);
   const SampleBuffer buffer = Buffer(work, out);
   if (space.reuse) space.reuse->Begin(work, space.wavefront.wave());
-  const bool ended = Drive(space.wavefront, plan_, {work, buffer}, clock, &watcher);
+  const bool ended =
+      Drive(space.wavefront.wave(), plan_, {work, buffer}, clock, &watcher);
   out.count = ended ? task.samples : 0;
   if (ended) {
     const std::uint32_t stride = work.num_pixels * work.samples;
@@ -86,10 +94,12 @@ bool TaskRunner::Run(const TileTask& task, const TaskWatcher& watcher, TaskSampl
 
 void TaskRunner::SeeLights(const TileTask& task, TaskSamples& out,
                            Workspace& space) const {
-  const SeenLightTask seen = {space.pixels, task.first_sample, task.samples,
+  const SeenLightTask seen = {task.tile,         space.pixels,
+                              task.first_sample, task.samples,
                               out.values.data(), space.pixels.size() * task.samples};
-  const bool corrected = seen_lights_->Correct(task.tile, seen, out.counts);
   StageClock* const clock = space.Clock();
+  const bool corrected =
+      seen_lights_->Correct(seen, *space.seen_lights, clock, out.counts);
   if (clock && corrected) clock->FinishPart(TaskPart::kSeen, seen.stride);
 }
 

@@ -30,6 +30,8 @@ class TaskRunner {
 
   /// Tasks are of these tiles from here on.
   void Begin(const std::vector<PixelRect>& tiles);
+  /// Where the camera sees edges of lights; null: they are not integrated apart.
+  const SeenLightEdges* seen_lights() const { return seen_lights_.get(); }
 
   // Safe from different threads:
   /// False, and no samples, if the watcher has cancelled it.

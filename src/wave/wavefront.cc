@@ -86,16 +86,17 @@ Wavefront::Wavefront(const CompiledScene& scene, const Plan& plan,
   wave_.scene = &scene;
   wave_.run = &run;
   wave_.capacity = plan.slots;
-  Reset();
+  wave_.Reset();
 }
 
-void Wavefront::Reset() {
-  for (Queue& queue : wave_.queues) queue.size = 0;
-  Queue& free = wave_.queue(QueueId::kFree);
-  // The generate stage takes slots from the end: slot 0 first.
-  for (std::uint32_t i = 0; i < wave_.capacity; ++i)
-    free.items[i] = wave_.capacity - 1 - i;
-  free.size = wave_.capacity;
+Wave Wavefront::Narrowed(const FeatureSet& features) const {
+  Wave wave = wave_;
+#define X(type, name, ...) \
+  if (!IsLive(Field::name, features)) wave.path.name = nullptr;
+  LANELIGHT_PATH_FIELDS(X)
+#undef X
+  wave.lists = ColumnLists(wave.path, features);
+  return wave;
 }
 
 }  // namespace lanelight

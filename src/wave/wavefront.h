@@ -23,8 +23,8 @@ class Wavefront {
   Wave& wave() { return wave_; }
   /// Bytes of columns and queues.
   std::size_t bytes() const { return memory_.size() * sizeof(std::uint32_t); }
-  /// Empties every queue and frees every slot.
-  void Reset();
+  /// The same memory, with columns for these features alone: a part of the plan's.
+  Wave Narrowed(const FeatureSet& features) const;
 
  private:
   // The room for copies of paths that split is mostly never touched.

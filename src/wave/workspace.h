@@ -9,6 +9,7 @@
 #include "src/wave/block_reuse.h"
 #include "src/plan/plan_features.h"
 #include "src/wave/run_state.h"
+#include "src/wave/seen_lights.h"
 #include "src/wave/stage_clock.h"
 #include "src/wave/wavefront.h"
 
@@ -27,17 +28,19 @@ struct Workspace {
             const RunOptions& options)
       : wavefront(scene, plan, run) {
     if (options.profile) {
-      clock.emplace(plan.stages.size() + plan.block_stages.size(), options.profiling);
+      clock.emplace(plan.rows(), options.profiling);
     }
     if (plan.features.Has(Feature::kReuse)) {
       reuse.emplace(plan, PlannedStrategy(scene, plan.options));
     }
+    if (!plan.seen_stages.empty()) seen_lights.emplace(scene, plan, run, wavefront);
   }
   /// Null if nothing is timed.
   StageClock* Clock() { return clock ? &*clock : nullptr; }
 
   Wavefront wavefront;
   std::optional<BlockReuse> reuse;
+  std::optional<SeenLightRays> seen_lights;
   std::optional<StageClock> clock;
   std::vector<std::uint32_t> pixels;
   TaskSamples samples;

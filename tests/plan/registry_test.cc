@@ -54,7 +54,7 @@ std::set<std::string> StagesInFiles() {
   return names;
 }
 
-std::set<std::string> RegisteredStages() {
+std::set<std::string> StagesInRegistry() {
   return {
 #define X(name) #name,
       LANELIGHT_STAGES(X)
@@ -97,7 +97,7 @@ TEST_CASE("every shape of light has the stages that its traits ask for", "[regis
 }
 
 TEST_CASE("every stage in kernels/ is registered", "[registry]") {
-  CHECK(StagesInFiles() == RegisteredStages());
+  CHECK(StagesInFiles() == StagesInRegistry());
 }
 
 TEST_CASE("every stage has a name of its own, a meaning and a kernel", "[registry]") {

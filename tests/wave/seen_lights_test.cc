@@ -114,14 +114,47 @@ TEST_CASE("scenes without a light's edge in view have the paths' own bits",
   CHECK(apart.result.rays_closest == paths.result.rays_closest);
 }
 
-TEST_CASE("only scenes with lights that can be seen look for their edges",
+TEST_CASE("only scenes with lights that can be seen have stages for their edges",
           "[seen-lights]") {
   SceneBuilder b(kSize, kSize);
   b.AddQuad({-3, -3, 0}, {6, 0, 0}, {0, 6, 0}, b.AddDiffuse(Grey(0.5)));
   b.AddPoint({0, 0, 2}, Grey(1));
-  CHECK_FALSE(SeesLightsApart(PrepareScene(b.Build(), {})));
+  CHECK(MakePlan(PrepareScene(b.Build(), {}), {}).seen_stages.empty());
   b.AddEnvironment(Grey(1));
-  CHECK(SeesLightsApart(PrepareScene(b.Build(), {})));
+  const CompiledScene scene = PrepareScene(b.Build(), {});
+  const Plan plan = MakePlan(scene, {});
+  CHECK_FALSE(plan.seen_stages.empty());
+  // What shades and samples lights is not among them; all of them are stages of the
+  // paths.
+  for (const PlannedStage& seen : plan.seen_stages) {
+    INFO(seen.stage.name);
+    CHECK(std::any_of(plan.stages.begin(), plan.stages.end(),
+                      [&](const PlannedStage& planned) {
+                        return std::string(planned.stage.name) == seen.stage.name;
+                      }));
+    CHECK(seen.stage.input != ShadeQueue(ShadeKind::kDiffuse));
+    CHECK(seen.stage.input != QueueId::kShadow);
+  }
+}
+
+TEST_CASE("a profile says what the edges of lights cost, stage by stage",
+          "[seen-lights]") {
+  TestRender t;
+  t.spp = 8;
+  for (const bool apart : {true, false}) {
+    t.strategy = apart ? "seen-lights=apart" : "seen-lights=paths";
+    const Rendered rendered = RenderDescription(Lamp(0.3), t);
+    std::uint64_t generated = 0, rows = 0;
+    for (const StageProfile& row : rendered.result.stages) {
+      if (row.name.rfind("seen: ", 0) != 0) continue;
+      ++rows;
+      CHECK(row.seconds >= 0);
+      if (row.name == "seen: generate") generated = row.items;
+    }
+    CHECK((rows > 0) == apart);
+    // The rays that look for edges, and 17 for each sample of those found.
+    CHECK((generated > kSize * kSize * 8) == apart);
+  }
 }
 
 TEST_CASE("a lamp smaller than a pixel is found where the camera projects it",

@@ -10,6 +10,7 @@
 #include "src/prepare/tables.h"
 #include "src/wave/drive.h"
 #include "src/wave/tiles.h"
+#include "src/wave/wavefront.h"
 #include "src/train/training.h"
 #include "tests/run/render_fixture.h"
 
@@ -71,7 +72,7 @@ class TaskFixture {
     work.samples = kSamples;
     work.together = kSamples;
     if (clock) clock->StartTask();
-    Drive(*wavefront_, plan, {work, {buffer_.data(), Rows()}}, clock);
+    Drive(wavefront_->wave(), plan, {work, {buffer_.data(), Rows()}}, clock);
     if (clock) clock->EndTask();
   }
 
