@@ -84,7 +84,12 @@ HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   } else {
     reach();
   }
-  const V3 sigma_s = medium.SigmaS(), one = Splat3(1, 1, 1);
+  V3 sigma_s = medium.SigmaS();
+  const V3 one = Splat3(1, 1, 1);
+  if (p.inside_r != nullptr) {
+    const V3 albedo = Gather3(p.inside_r, p.inside_g, p.inside_b, slots);
+    sigma_s = IfThenElse(medium.IsTextured(), Mul(sigma_t, albedo), sigma_s);
+  }
   // Absorbers let all rays reach the surface.
   const V3 passes = IfThenElse(samples, left, one);
   path.Happen(IfThenElse(event, Mul(left, sigma_s), left),

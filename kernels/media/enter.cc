@@ -3,8 +3,40 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/media/medium-inl.h"
+#include "kernels/queue/depth-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
+
+// The albedo of a medium, by what it reflects where it is deep: linear in a table.
+HWY_INLINE VF AlbedoOf(const MediumTable& media, VI table, VF reflectance) {
+  const DI di;
+  const VF at = hn::Mul(reflectance, Splat(kAlbedoTableSize - 1.0f));
+  const VI cell =
+      hn::Clamp(hn::ConvertTo(di, at), hn::Zero(di), hn::Set(di, kAlbedoTableSize - 2));
+  const VI first = hn::Add(table, cell);
+  const VF low = Gather(media.albedos.data(), first);
+  const VF high = Gather(media.albedos.data(), hn::Add(first, hn::Set(di, 1)));
+  const VF share = hn::Sub(at, hn::ConvertTo(DF(), cell));
+  return hn::MulAdd(share, hn::Sub(high, low), low);
+}
+
+// Paths that go into the inside of a material keep what it is like where they do so.
+HWY_INLINE void EnterInside(const Wave& wave, const StoreSlots& slots, VI before,
+                            VI after) {
+  const PathColumns& p = wave.path;
+  const DI di;
+  const Media medium(wave.scene->media, after);
+  const MF changes = hn::And(hn::RebindMask(DF(), hn::Ne(before, after)),
+                             hn::And(IsInMedium(after), medium.IsTextured()));
+  const VI table = hn::Max(medium.I(offsetof(MediumRecord, albedos)), hn::Zero(di));
+  const auto of = [&](VF reflectance) HWY_ATTR {
+    return AlbedoOf(wave.scene->media, table, reflectance);
+  };
+  const V3 color = Gather3(p.color0_r, p.color0_g, p.color0_b, slots);
+  const V3 here = {of(color.x), of(color.y), of(color.z)};
+  const V3 had = Gather3(p.inside_r, p.inside_g, p.inside_b, slots);
+  Scatter3(IfThenElse(changes, here, had), p.inside_r, p.inside_g, p.inside_b, slots);
+}
 
 template <bool kInterfaces>
 void Enter(Wave& wave) {
@@ -15,7 +47,15 @@ void Enter(Wave& wave) {
                  const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
                  const V3 ng = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
                  const Sides sides(media, Gather(p.prim, slots));
-                 Scatter(sides.Toward(d, ng, Gather(p.medium, slots)), p.medium, slots);
+                 const VI before = Gather(p.medium, slots);
+                 const VI after = sides.Toward(d, ng, before);
+                 if (p.walked != nullptr) {
+                   const auto free = hn::RebindMask(DI(), WalksInside(wave, slots));
+                   const VI one = hn::IfThenElseZero(free, hn::Set(DI(), 1));
+                   Scatter(hn::Add(Gather(p.walked, slots), one), p.walked, slots);
+                 }
+                 if (p.inside_r != nullptr) EnterInside(wave, slots, before, after);
+                 Scatter(after, p.medium, slots);
                  if constexpr (kInterfaces) {
                    Scatter(hn::Zero(DF()), p.passed, slots);
                    Scatter(hn::Zero(DI()), p.crossings, slots);
@@ -24,13 +64,15 @@ void Enter(Wave& wave) {
 }
 
 Stage EnterMediaStage() {
-  const FieldSet ray = {Field::medium, Field::passed, Field::crossings};
+  const FieldSet ray = {Field::medium,   Field::passed,   Field::crossings, Field::walked,
+                        Field::inside_r, Field::inside_g, Field::inside_b};
   return {.name = "enter_media",
           .meaning = "which medium scattered rays go into",
           .input = QueueId::kScattered,
           .needs = {Feature::kMediumChanges, Feature::kScatters},
           .reads = FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::prim} |
-                   fields::kNormal | ray,
+                   fields::kNormal | ray |
+                   FieldSet{Field::color0_r, Field::color0_g, Field::color0_b},
           .writes = ray,
           .resolve = ByFeature<Feature::kInterfaces, Enter<true>, Enter<false>>};
 }

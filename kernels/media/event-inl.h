@@ -4,6 +4,7 @@
 #define LANELIGHT_MEDIA_EVENT_INL_H_
 
 #include "kernels/media/medium-inl.h"
+#include "kernels/queue/depth-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -51,7 +52,6 @@ LANELIGHT_INLINE void StoreEvent(const PathColumns& p, const StoreSlots& slots, 
 /// where they may not scatter any more.
 LANELIGHT_INLINE void LeaveWithEvents(Wave& wave) {
   const PathColumns& p = wave.path;
-  const VI max_depth = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
   Queue& active = wave.queue(QueueId::kActive);
   const uint32_t before = active.size;
   Queue rest = {active.items, 0};  // compacts in place: writes never pass reads
@@ -62,7 +62,7 @@ LANELIGHT_INLINE void LeaveWithEvents(Wave& wave) {
         hn::LoadU(DI(), reinterpret_cast<const int32_t*>(active.items) + i));
     const MF valid = hn::FirstN(DF(), before - i);
     const MF event = hn::And(valid, hn::Lt(Gather(p.t, slots), hn::Zero(DF())));
-    const MF below = hn::RebindMask(DF(), hn::Lt(Gather(p.depth, slots), max_depth));
+    const MF below = MayScatter(wave, slots);
     Push(rest, slots, hn::AndNot(event, valid));
     Push(wave.queue(QueueId::kVertex), slots, hn::And(event, below));
     Push(wave.queue(QueueId::kDone), slots, hn::AndNot(below, event));
@@ -74,9 +74,11 @@ LANELIGHT_INLINE void LeaveWithEvents(Wave& wave) {
 /// A stage that finds out what happens to rays on their way through media of a kind.
 inline Stage MediumEventStage(const char* name, const char* meaning, Feature kind,
                               StageFn (*resolve)(const FeatureSet&)) {
-  const FieldSet ray = {Field::medium, Field::u_medium_0, Field::u_medium_1,
-                        Field::passed, Field::crossings,  Field::odds_r,
-                        Field::odds_g, Field::odds_b,     Field::depth};
+  const FieldSet ray = {Field::medium,  Field::u_medium_0, Field::u_medium_1,
+                        Field::passed,  Field::crossings,  Field::odds_r,
+                        Field::odds_g,  Field::odds_b,     Field::depth,
+                        Field::walked,  Field::inside_r,   Field::inside_g,
+                        Field::inside_b};
   const FieldSet odds = {Field::u_medium_0, Field::u_medium_1, Field::odds_r,
                          Field::odds_g, Field::odds_b};
   return {.name = name,

@@ -5,12 +5,12 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/media/medium-inl.h"
+#include "kernels/queue/depth-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 void Interfaces(Wave& wave) {
   const PathColumns& p = wave.path;
-  const VI max_depth = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
   const VI most = hn::Set(DI(), static_cast<int32_t>(kMostCrossings));
   Queue& surfaces = wave.queue(QueueId::kSurface);
   Queue rest = {surfaces.items, 0};  // compacts in place: writes never pass reads
@@ -18,7 +18,7 @@ void Interfaces(Wave& wave) {
     const MF passes =
         hn::And(valid, Sides(wave.scene->media, Gather(p.prim, slots)).Passes());
     const MF stays = hn::AndNot(passes, valid);
-    const MF below = hn::RebindMask(DF(), hn::Lt(Gather(p.depth, slots), max_depth));
+    const MF below = MayScatter(wave, slots);
     const MF few = hn::RebindMask(DF(), hn::Lt(Gather(p.crossings, slots), most));
     const MF goes_on = hn::Or(hn::And(passes, few), hn::And(stays, below));
     Push(rest, slots, hn::And(stays, below));
@@ -54,7 +54,8 @@ Stage InterfacesStage() {
           .meaning = "takes out the paths that go through interfaces of media",
           .input = QueueId::kSurface,
           .needs = {Feature::kInterfaces, Feature::kScatters},
-          .reads = {Field::prim, Field::depth, Field::crossings},
+          .reads = {Field::prim, Field::depth, Field::crossings, Field::medium,
+                    Field::walked},
           .resolve = Always<Interfaces>};
 }
 

@@ -32,6 +32,11 @@ struct Media : RecordWords<MediumRecord> {
     return hn::RebindMask(DF(),
                           hn::Gt(I(offsetof(MediumRecord, grid)), hn::Set(DI(), -1)));
   }
+  /// Its albedo is the path's own.
+  LANELIGHT_INLINE MF IsTextured() const {
+    return hn::RebindMask(DF(),
+                          hn::Gt(I(offsetof(MediumRecord, albedos)), hn::Set(DI(), -1)));
+  }
   LANELIGHT_INLINE MF Scatters() const { return IsSet(offsetof(MediumRecord, scatters)); }
 };
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "kernels/queue/batch-inl.h"
+#include "kernels/queue/depth-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -17,14 +17,12 @@ void LimitDepth(Wave& wave) {
     wave.queue(QueueId::kHit).size = 0;
     return;
   }
-  const VI max_depth = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
-  ForEachBatch(
-      wave, wave.queue(QueueId::kHit), [&](const Slots& slots, MF valid) HWY_ATTR {
-        const MF below =
-            hn::RebindMask(DF(), hn::Lt(Gather(wave.path.depth, slots), max_depth));
-        Push(wave.queue(QueueId::kSurface), slots, hn::And(valid, below));
-        Push(wave.queue(QueueId::kDone), slots, hn::AndNot(below, valid));
-      });
+  ForEachBatch(wave, wave.queue(QueueId::kHit),
+               [&](const Slots& slots, MF valid) HWY_ATTR {
+                 const MF below = MayScatter(wave, slots);
+                 Push(wave.queue(QueueId::kSurface), slots, hn::And(valid, below));
+                 Push(wave.queue(QueueId::kDone), slots, hn::AndNot(below, valid));
+               });
 }
 
 Stage LimitStage() {
@@ -32,7 +30,7 @@ Stage LimitStage() {
       .name = "limit",
       .meaning = "ends paths at the maximum depth",
       .input = QueueId::kHit,
-      .reads = {Field::depth},
+      .reads = {Field::depth, Field::medium, Field::walked},
       .resolve = ByFeature<Feature::kInterfaces, LimitDepth<true>, LimitDepth<false>>};
 }
 

@@ -109,6 +109,23 @@ void NoteNothingToHit(const SceneDescription& description, CompiledScene& scene)
            (lit ? "the image shows the environment alone" : "the image is black")});
 }
 
+// Light samples do not go through smooth glass, and no ray finds lights without a size.
+void NoteUnlitInsides(const SceneDescription& description,
+                      const std::vector<std::int32_t>& rows, CompiledScene& scene) {
+  if (!scene.features.HasAny(LightsWith(kDeltaLight))) return;
+  const auto smooth = static_cast<std::uint32_t>(ShadeKind::kDielectricSmooth);
+  for (std::size_t i = 0; i < description.materials.size(); ++i) {
+    const Material& m = description.materials[i];
+    if (m.inside == kNone || rows[i] < 0) continue;
+    if (scene.materials.kind[static_cast<std::size_t>(rows[i])] != smooth) continue;
+    scene.notes.push_back(
+        {m.where,
+         "light of point, spot and distant lights does not get into a smooth "
+         "\"subsurface\" material; with a \"roughness\" of 0.1 it does",
+         true});
+  }
+}
+
 void FindTrees(const CompileOptions& options, CompiledScene& scene) {
   const AccelOptions accel = {.quality = options.build,
                               .leaf_triangles = options.leaf_triangles};
@@ -189,6 +206,7 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.geometry = std::move(compiled.geometry);
   scene.features = SceneFeatures(scene);
   NoteNothingToHit(description, scene);
+  NoteUnlitInsides(description, materials.index, scene);
   FindTrees(options, scene);
   scene.strategy = description.strategy;
   return scene;

@@ -95,7 +95,9 @@ void AddMedia(const MediumTable& table, FeatureSet& features) {
   if (!table.media.empty()) features.Add(Feature::kMedia);
   if (!table.primitives.empty()) features.Add(Feature::kMediumChanges);
   if (!table.grids.empty()) features.Add(Feature::kMediumGrids);
+  if (!table.albedos.empty()) features.Add(Feature::kSubsurfaceTextures);
   for (const MediumRecord& medium : table.media) {
+    if (medium.inside != 0) features.Add(Feature::kSubsurface);
     const float* e = medium.emission;
     if (e[0] > 0 || e[1] > 0 || e[2] > 0) features.Add(Feature::kMediumEmission);
   }

@@ -7,7 +7,9 @@
 #include "src/compile/medium_grid.h"
 #include "src/compile/range.h"
 #include "src/compile/relief.h"
+#include "src/compile/slab_albedo.h"
 #include "src/compile/store.h"
+#include "src/compile/textures.h"
 #include "src/core/check.h"
 
 namespace lanelight {
@@ -20,6 +22,7 @@ class MediumBuilder {
       : d_(d), frame_(frame), materials_(materials), index_(d.media.size(), kVacuum) {}
 
   std::int32_t Use(Index medium);
+  void SetAlbedo(const Medium& m, MediumRecord& record);
   MediumTable Finish() { return std::move(table_); }
 
  private:
@@ -51,6 +54,24 @@ void SetCoefficients(const Medium& m, double scale, MediumRecord& record) {
   }
 }
 
+// By reflectance: the albedo instead of the scattering coefficient.
+void MediumBuilder::SetAlbedo(const Medium& m, MediumRecord& record) {
+  const SlabAlbedos albedos(m.g, m.eta);
+  const ColorValue reflectance = TextureConstants(d_.textures).Fold(m.reflectance);
+  if (reflectance.texture == kNone) {
+    for (int c = 0; c < 3; ++c) {
+      const double albedo = albedos.Of(reflectance.constant[c]);
+      record.sigma_s[c] = static_cast<float>(record.sigma_t[c] * albedo);
+    }
+    return;
+  }
+  record.albedos = static_cast<std::int32_t>(table_.albedos.size());
+  for (int i = 0; i < kAlbedoTableSize; ++i) {
+    const double r = i / (kAlbedoTableSize - 1.0);
+    table_.albedos.push_back(static_cast<float>(albedos.Of(r)));
+  }
+}
+
 // The same of the densities of a grid, which are factors on the extinction.
 void LimitDensity(const MediumGrid& grid, MediumRecord& record) {
   double largest = 0;
@@ -72,6 +93,9 @@ std::int32_t MediumBuilder::Use(Index medium) {
   const Medium& m = d_.media[static_cast<std::size_t>(medium)];
   MediumRecord record = {};
   SetCoefficients(m, frame_.scale, record);
+  record.inside = m.in_material ? 1 : 0;
+  record.albedos = -1;
+  if (m.by_reflectance) SetAlbedo(m, record);
   record.scatters = m.sigma_s != Rgb{};
   record.material = static_cast<std::uint32_t>(PhaseFunction(m, materials_));
   record.grid = -1;

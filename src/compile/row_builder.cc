@@ -53,6 +53,14 @@ bool RowBuilder::Scatters(const Material& coat) const {
   return IsTextured(albedo) || albedo.constant != Rgb{};
 }
 
+// What the texture of the inside is where a path goes in; white where it has none.
+ColorValue RowBuilder::Inside(const Material& m) const {
+  const Medium& inside = d_.media[static_cast<std::size_t>(m.inside)];
+  const ColorValue reflectance = Color(inside.reflectance);
+  if (inside.by_reflectance && IsTextured(reflectance)) return reflectance;
+  return {{1, 1, 1}, kNone};
+}
+
 void RowBuilder::Diffuse(const Material& m, MaterialRow& row) {
   switch (options_.scattering.value_or(m.scattering)) {
     case Scattering::kLambertian:
@@ -153,6 +161,7 @@ MaterialRow RowBuilder::RowOf(const Material& m) {
     case MaterialKind::kDielectric:
       CheckEta(m);
       Interface(m, row);
+      if (m.inside != kNone) row.color0 = Inside(m);
       // Equal indices on both sides: nothing to see, whatever the roughness (as pbrt).
       row.kind = IsSmooth(row) || row.eta == 1 ? ShadeKind::kDielectricSmooth
                                                : ShadeKind::kDielectricRough;

@@ -29,6 +29,7 @@ class RowBuilder {
 
  private:
   void Diffuse(const Material& m, MaterialRow& row);
+  ColorValue Inside(const Material& m) const;
   void Metal(const Material& m, double eta_above, MaterialRow& row);
   void Interface(const Material& m, MaterialRow& row);
   void CoatOf(const Material& m, MaterialRow& row);

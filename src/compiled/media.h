@@ -21,7 +21,10 @@ struct MediumRecord {
   std::uint32_t scatters;  // 0: it absorbs only, and no path needs an event in it
   float emission[3];       // radiance that it emits per length; with a grid, over sigma_a
   std::int32_t grid;       // -1: the same everywhere
-  float pad[4];
+  std::uint32_t inside;    // 1: of a material; events in it and on its bounds from within
+                           // do not count
+  std::int32_t albedos;    // offset in MediumTable::albedos; -1: not textured
+  float pad[2];
 };
 static_assert(sizeof(MediumRecord) == 64);
 
@@ -97,12 +100,16 @@ struct LightAnchor {
 };
 static_assert(sizeof(LightAnchor) == 16);
 
+/// Entries of a table of albedos over the reflectance that they cause, evenly in it.
+inline constexpr int kAlbedoTableSize = 129;
+
 struct MediumTable {
   AlignedVector<MediumRecord> media;
   std::vector<MediumGrid> grids;
   AlignedVector<MediumSides> sides;        // of each shape that has any
   AlignedVector<std::int32_t> primitives;  // of each: index of its sides; -1 = the medium
                                            // goes on behind it; only with kMediumChanges
+  AlignedVector<float> albedos;            // kAlbedoTableSize each, of textured insides
   std::int32_t camera = kVacuum;           // that camera rays start in
   // The middles of all lights, drawn by power; only for distances=equiangular. One whose
   // position is not finite stands for lights that are nowhere.

@@ -23,9 +23,6 @@ constexpr Refusal kRefusals[] = {
      "hair and curves are not in this renderer; a mesh can stand for them"},
     {"Material", "hair", "hair and curves are not in this renderer"},
     {"Material", "measured", "measured BRDFs are not in this renderer"},
-    {"Material", "subsurface",
-     "light that leaves a surface elsewhere than it entered is not in this renderer; "
-     "\"dielectric\" around a medium is the same in full"},
     {"Texture", "ptex",
      "textures per face (Ptex files) are not in this renderer; an image with surface "
      "coordinates can stand for one"}};

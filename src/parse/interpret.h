@@ -58,6 +58,10 @@ struct NamedFile {
 };
 NamedFile FileOf(const ParseState& state, ParamSet& params, std::string_view name);
 
+// interpret_subsurface.cc -----------------------------------------------------------
+/// Appends the medium in a material "subsurface" of index `eta`; returns its index.
+Index InterpretInside(ParseState& state, ParamSet& params, double eta);
+
 // One per concept -------------------------------------------------------------------
 void InterpretCamera(ParseState& state, const std::string& type, ParamSet& params);
 void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params);

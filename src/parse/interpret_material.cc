@@ -140,8 +140,22 @@ void ReadMix(ParseState& state, ParamSet& params, Material* material) {
   for (int i = 0; i < 2; ++i) {
     material->mix[i] =
         Lookup(state.materials, names.strings[i], names.where, "named material");
+    if (state.scene.materials[material->mix[i]].inside != kNone) {
+      params.Fail(names,
+                  "mixing a \"subsurface\" material is not supported: what is in a "
+                  "shape is the same behind all of its surface");
+    }
   }
   material->mix_amount = TexturedFloat(state, params, "amount", 0.5, {0, 1});
+}
+
+void ReadSubsurface(ParseState& state, ParamSet& params, Material* material) {
+  material->interface_eta = DielectricEta(state, params, "eta", 1.33);
+  ReadOwnRoughness(state, params, "", material);
+  material->inside = InterpretInside(state, params, material->interface_eta);
+  state.AddNoteOnce(params.where(),
+                    "material \"subsurface\": paths walk at random in a medium behind "
+                    "its surface, which must be closed; pbrt-v4 has a tabulated profile");
 }
 
 void ReadInterface(ParseState&, ParamSet&, Material*) {}
@@ -159,9 +173,10 @@ const std::map<std::string, MaterialType> kMaterials = {
     {"coatedconductor", {MaterialKind::kCoatedConductor, ReadCoatedConductor}},
     {"diffusetransmission",
      {MaterialKind::kDiffuseTransmission, ReadDiffuseTransmission}},
+    {"subsurface", {MaterialKind::kDielectric, ReadSubsurface}},
     {"mix", {MaterialKind::kMix, ReadMix}},
     {"interface", {MaterialKind::kInterface, ReadInterface}}};
-const std::vector<std::string> kForeignMaterials = {"hair", "measured", "subsurface"};
+const std::vector<std::string> kForeignMaterials = {"hair", "measured"};
 
 // Materials that do not scatter themselves have no normal to change.
 void ReadRelief(ParseState& state, ParamSet& params, Material* material) {

@@ -5,36 +5,17 @@
 #include "src/core/suggest.h"
 #include "src/parse/interpret.h"
 #include "src/parse/medium_kinds.h"
+#include "src/parse/scattering_presets.h"
 
 namespace lanelight {
 namespace {
-
-struct Measured {
-  Rgb sigma_s, sigma_a;  // per millimetre; sigma_s is the reduced one
-};
-
-// Jensen, Marschner, Levoy and Hanrahan 2001, "A Practical Model for Subsurface Light
-// Transport", figure 5.
-const std::map<std::string, Measured> kPresets = {
-    {"Apple", {{2.29, 2.39, 1.97}, {0.0030, 0.0034, 0.046}}},
-    {"Chicken1", {{0.15, 0.21, 0.38}, {0.015, 0.077, 0.19}}},
-    {"Chicken2", {{0.19, 0.25, 0.32}, {0.018, 0.088, 0.20}}},
-    {"Cream", {{7.38, 5.47, 3.15}, {0.0002, 0.0028, 0.0163}}},
-    {"Ketchup", {{0.18, 0.07, 0.03}, {0.061, 0.97, 1.45}}},
-    {"Marble", {{2.19, 2.62, 3.00}, {0.0021, 0.0041, 0.0071}}},
-    {"Potato", {{0.68, 0.70, 0.55}, {0.0024, 0.0090, 0.12}}},
-    {"Skimmilk", {{0.70, 1.22, 1.90}, {0.0014, 0.0025, 0.0142}}},
-    {"Skin1", {{0.74, 0.88, 1.01}, {0.032, 0.17, 0.48}}},
-    {"Skin2", {{1.09, 1.59, 1.79}, {0.013, 0.070, 0.145}}},
-    {"Spectralon", {{11.6, 20.4, 14.9}, {0.00, 0.00, 0.00}}},
-    {"Wholemilk", {{2.55, 3.21, 3.77}, {0.0011, 0.0024, 0.014}}}};
 
 // By a preset, or each by itself; what is not given is that of whole milk, as in pbrt.
 void ReadCoefficients(ParseState& state, ParamSet& params, Medium* medium) {
   const Param* preset = params.Find("preset", {ParamType::kString});
   const std::string name = params.String("preset", "Wholemilk");
   const SourceLocation& where = preset == nullptr ? params.where() : preset->where;
-  const Measured& milk = Lookup(kPresets, name, where, "preset of a medium:");
+  const Coefficients& milk = CoefficientsOf(name, where, "preset of a medium:");
   for (const char* sigma : {"sigma_a", "sigma_s"}) {
     if (preset == nullptr || params.Find(sigma, {}) == nullptr) continue;
     params.Fail(*preset, fmt::format("\"preset\" and \"{}\" exclude each other", sigma));

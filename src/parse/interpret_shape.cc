@@ -97,6 +97,19 @@ Index CurrentMaterial(ParseState& state, const SourceLocation& where) {
   return state.default_material;
 }
 
+// What a material has in it is inside of its shapes, whatever MediumInterface says.
+MediumInterface MediaOf(ParseState& state, const Shape& shape) {
+  MediumInterface media = state.graphics.media;
+  const Index inside = state.scene.materials[shape.material].inside;
+  if (inside == kNone) return media;
+  if (media.IsTransition() && media.inside != kNone) {
+    state.AddNote(shape.where, fmt::format("the material's own medium replaces {} inside",
+                                           Quoted(state.scene.media[media.inside].name)));
+  }
+  media.inside = inside;
+  return media;
+}
+
 // pbrt lets these two cases pass without a light; so do we, and say so.
 Index CurrentAreaLight(ParseState& state, const Shape& shape,
                        const SourceLocation& where) {
@@ -136,7 +149,7 @@ void InterpretShape(ParseState& state, const std::string& type, ParamSet& params
   shape.world_from_object = state.graphics.ctm;
   shape.reverse_orientation = state.graphics.reverse_orientation;
   shape.material = CurrentMaterial(state, params.where());
-  shape.media = state.graphics.media;
+  shape.media = MediaOf(state, shape);
   read(state, params, &shape);
   shape.alpha = TexturedFloat(state, params, "alpha", 1, {0, 1});
   params.CheckAllUsed();

@@ -41,6 +41,8 @@ namespace lanelight {
   X(kMediumEmission, "media that emit light")                                 \
   X(kMediumChanges, "surfaces that have media beside them")                   \
   X(kInterfaces, "surfaces that only bound a medium")                         \
+  X(kSubsurface, "insides of materials, in which events are not counted")     \
+  X(kSubsurfaceTextures, "insides of materials whose albedo is textured")     \
   X(kOpaqueShadows, "shadow rays that any surface stops")                     \
   X(kLights, "light that is sampled")                                         \
   X(kManyLights, "more than one light")                                       \

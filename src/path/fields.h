@@ -113,6 +113,8 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   /* media (src/compiled/media.h) */                                                      \
   X(u32, medium, ({kMedia}), kPath, (), "medium that the ray is in; 0xffffffff = none")  \
   LANELIGHT_2(X, f32, u_medium, ({kMedia}), kPath, (), "distance in the medium along the ray, choice of colour channel") \
+  X(u32, walked, ({kSubsurface}), kPath, (0u), "events inside of materials, which the maximum depth leaves out") \
+  LANELIGHT_RGB(X, f32, inside, ({kSubsurfaceTextures}), kPath, (0.0f), "albedo of the inside that the path is in, by the texture where it went in") \
   X(f32, passed, ({kInterfaces}), kPath, (0.0f), "distance from where the ray was scattered to its origin, through interfaces") \
   X(u32, crossings, ({kInterfaces}), kPath, (0u), "interfaces that the path went through") \
   LANELIGHT_RGB(X, f32, odds, ({kMedia}), kPath, (1.0f), "density of the path, had all of it been sampled for this channel, over the mean of the channels") \

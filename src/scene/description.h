@@ -143,6 +143,7 @@ struct Material {
   /// flat.
   FloatValue displacement;
   std::string normal_map;  // resolved path; empty: none
+  Index inside = kNone;    // dielectric: the medium in it (pbrt's "subsurface"), or none
 };
 
 /// Object-space triangles. Normals and uvs are per vertex, or empty.
@@ -306,6 +307,12 @@ struct Medium {
   Rgb emission;  // radiance of the blackbody limit: sigma_a * emission per length
   double g = 0;  // Henyey-Greenstein
   Transform world_from_medium;
+  /// The inside of a material of index `eta`; all that happens in it is one event. If
+  /// `by_reflectance`, sigma_s is its extinction and sigma_a 0, and its albedo such that
+  /// `reflectance` of what goes in along the normal comes out where the material is deep.
+  bool in_material = false, by_reflectance = false;
+  double eta = 1;
+  ColorValue reflectance;
   // Of media that vary: a box in their own space, samples at the centres of its voxels, x
   // fastest. kUniformGrid: densities, factors on the coefficients. kRgbGrid: sigma_a and
   // sigma_s, six numbers each.

@@ -104,6 +104,8 @@ const std::map<std::string, Values> kValues = {
     {"MakeNamedMedium rgbgrid sigma_s", {kColors}},
     {"MakeNamedMedium rgbgrid Le", {kColors}},
     {"MakeNamedMedium nanovdb filename", {"\"format-cloud.nvdb\""}},
+    {"string name", {"\"Skin1\""}},
+    {"Material subsurface spectrum eta", {"\"glass-BK7\""}},
     {"string gridname", {"\"density\""}},
     {"string temperaturename", {"\"temperature\""}}};
 

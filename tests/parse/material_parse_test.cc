@@ -222,5 +222,75 @@ TEST_CASE("image textures", "[parse]") {
   CHECK(scene.notes.empty());
 }
 
+TEST_CASE("subsurface materials", "[parse]") {
+  const auto inside = [](const std::string& text) {
+    const SceneDescription scene =
+        ParseWorld("Material \"subsurface\" " + text + " Shape \"sphere\"");
+    REQUIRE(scene.materials[0].kind == MaterialKind::kDielectric);
+    REQUIRE(scene.shapes[0].media.inside == scene.materials[0].inside);
+    REQUIRE(scene.shapes[0].media.outside == kNone);
+    const Medium& medium = scene.media.at(std::size_t(scene.materials[0].inside));
+    REQUIRE(medium.in_material);
+    REQUIRE(medium.eta == scene.materials[0].interface_eta);
+    return medium;
+  };
+  CHECK(inside("").sigma_s == Rgb{2.55, 3.21, 3.77});
+  CHECK(inside("").eta == 1.33);
+  const Medium skin = inside("\"string name\" \"Skin1\" \"float scale\" 10");
+  CHECK(skin.sigma_s.x == Approx(7.4));
+  CHECK(skin.sigma_a.z == Approx(4.8));
+  CHECK(inside("\"string name\" \"Head & Shoulders Shampoo\"").sigma_a.y == 0.15688);
+  const Medium own = inside(
+      "\"rgb sigma_a\" [ 1 2 3 ] \"rgb sigma_s\" [ 4 5 6 ] "
+      "\"float g\" 0.5 \"float eta\" 1.5 \"float scale\" 2");
+  CHECK(own.sigma_a == Rgb{2, 4, 6});
+  CHECK(own.sigma_s == Rgb{8, 10, 12});
+  CHECK(own.g == 0.5);
+  CHECK(own.eta == 1.5);
+  const Medium seen = inside(
+      "\"rgb reflectance\" [ 0.1 0.2 0.3 ] "
+      "\"rgb mfp\" [ 1 2 4 ] \"float scale\" 0.5");
+  CHECK(seen.by_reflectance);
+  CHECK(seen.reflectance.constant == Rgb{0.1, 0.2, 0.3});
+  CHECK(seen.sigma_s == Rgb{2, 1, 0.5});
+  CHECK(seen.sigma_a == Rgb{});
+}
+
+TEST_CASE("subsurface materials that cannot be", "[parse]") {
+  const auto error = [](const std::string& text) {
+    return WorldError("Material \"subsurface\" " + text);
+  };
+  using Catch::Contains;
+  CHECK_THAT(error("\"string name\" \"Skin\""), Contains("unknown named medium"));
+  CHECK_THAT(error("\"string name\" \"Skin\""), Contains("\"Skin2\""));
+  CHECK_THAT(error("\"string name\" \"Skin1\" \"rgb sigma_a\" [ 1 1 1 ]"),
+             Contains("\"name\" and \"sigma_a\" exclude each other"));
+  CHECK_THAT(error("\"rgb reflectance\" [ 1 1 1 ] \"rgb sigma_s\" [ 1 1 1 ]"),
+             Contains("exclude each other"));
+  CHECK_THAT(error("\"rgb reflectance\" [ 1 1 1 ] \"rgb mfp\" [ 1 0 1 ]"),
+             Contains("it must be positive"));
+  CHECK_THAT(WorldError("MakeNamedMaterial \"s\" \"string type\" \"subsurface\" "
+                        "Material \"mix\" \"string materials\" [ \"s\" \"s\" ]"),
+             Contains("mixing a \"subsurface\" material is not supported"));
+}
+
+TEST_CASE("what is in a subsurface material replaces what is inside", "[parse]") {
+  const SceneDescription scene = ParseWorld(R"(
+    MakeNamedMedium "fog" "string type" "homogeneous"
+    MakeNamedMedium "ink" "string type" "homogeneous"
+    MediumInterface "ink" "fog"
+    Material "subsurface"
+    Shape "sphere"
+    MediumInterface "fog" "fog"
+    Shape "sphere")");
+  CHECK(scene.shapes[0].media.inside == 2);
+  CHECK(scene.shapes[0].media.outside == 0);
+  CHECK(scene.shapes[1].media.inside == 2);
+  CHECK(scene.shapes[1].media.outside == 0);
+  REQUIRE(scene.notes.size() == 2);
+  CHECK_THAT(scene.notes[1].message,
+             Catch::Contains("the material's own medium replaces \"ink\" inside"));
+}
+
 }  // namespace
 }  // namespace lanelight

@@ -94,7 +94,8 @@ Rgb Tracer::Trace(Ray ray) const {
       // Every collision, of either kind, sees what the medium emits.
       sum += beta * collision.at.emission * (absorbed / (absorbed + scattered));
       beta *= scattered / (absorbed + scattered);
-      if (depth++ == max_depth || scattered == 0) return sum;
+      // Inside of a material no event counts.
+      if ((!m.in_material && depth++ == max_depth) || scattered == 0) return sum;
       const Vec3d p = ray.o + ray.d * collision.t;
       const auto phase = [&](Vec3d toward) {
         return Rgb{1, 1, 1} * PhaseFunction(m.g, Dot(ray.d, toward));
@@ -117,7 +118,8 @@ Rgb Tracer::Trace(Ray ray) const {
       ray = {at.p, ray.d, hit.primitive};
       continue;
     }
-    if (depth++ == max_depth) return sum;
+    const bool inside = medium != kNone && scene.media[medium].in_material;
+    if (!inside && depth++ == max_depth) return sum;
     LocalMaterial material = EvaluateMaterial(scene, index, at, options.texture, random);
     const SurfacePoint shaded = WithRelief(scene, *material.source, at, -ray.d,
                                            options.texture, options.normal_map);

@@ -55,6 +55,9 @@ TEST_CASE("own scenes: all parse and compile", "[scenes]") {
     for (const Note& note : scene.notes) {
       // Wanted by pbrt, so that its images can be compared with ours.
       if (note.message.find("savefp16") != std::string::npos) continue;
+      // Says what is done instead of what pbrt does.
+      if (note.message.find("pbrt-v4 has a tabulated profile") != std::string::npos)
+        continue;
       INFO(note.where.ToString() << ": " << note.message);
       CHECK(false);
     }
@@ -115,6 +118,9 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
   CHECK(features("hazy-coats.pbrt")
             .HasAll({Feature::kCoatedDiffuseMedium, Feature::kCoatedConductorMedium,
                      Feature::kTexturedCoatMedium}));
+  CHECK(features("subsurface.pbrt")
+            .HasAll({Feature::kSubsurface, Feature::kSubsurfaceTextures,
+                     Feature::kDielectricSmooth, Feature::kDielectricRough}));
   CHECK(features("image-lights.pbrt")
             .HasAll({Feature::kImageLights, Feature::kEmissionImages}));
   CHECK(features("portal.pbrt").Has(Feature::kPortals));

@@ -1,0 +1,42 @@
+// How many events a path has had, and whether it may have another.
+#ifndef LANELIGHT_QUEUE_DEPTH_INL_H_
+#define LANELIGHT_QUEUE_DEPTH_INL_H_
+
+#include <cstddef>
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/simd/records-inl.h"
+#include "src/compiled/scene.h"
+
+LANELIGHT_BEGIN_KERNELS
+
+/// Events inside of materials that do not count, at most. Where nothing is absorbed and
+/// there is no way out, something must end a path.
+inline constexpr int32_t kMostWalked = 1 << 16;
+
+/// Paths whose next event is inside of a material, or on its bounds from within, and does
+/// not count; only with kSubsurface.
+LANELIGHT_INLINE MF WalksInside(const Wave& wave, const Slots& slots) {
+  const DI di;
+  const VI medium = Gather(wave.path.medium, slots), vacuum = hn::Set(di, kVacuum);
+  const RecordWords records(wave.scene->media.media.data(),
+                            hn::Max(medium, hn::Zero(di)));
+  const auto in_medium = hn::RebindMask(DF(), hn::Gt(medium, vacuum));
+  const VI walked = Gather(wave.path.walked, slots);
+  const auto few = hn::RebindMask(DF(), hn::Lt(walked, hn::Set(di, kMostWalked)));
+  return hn::And(hn::And(in_medium, few), records.IsSet(offsetof(MediumRecord, inside)));
+}
+
+/// Paths that may scatter once more.
+LANELIGHT_INLINE MF MayScatter(const Wave& wave, const Slots& slots) {
+  const VI most = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
+  const VI depth = Gather(wave.path.depth, slots);
+  if (wave.path.walked == nullptr) return hn::RebindMask(DF(), hn::Lt(depth, most));
+  const VI counted = hn::Sub(depth, Gather(wave.path.walked, slots));
+  const MF below = hn::RebindMask(DF(), hn::Lt(counted, most));
+  return hn::Or(below, WalksInside(wave, slots));
+}
+
+LANELIGHT_END_KERNELS
+
+#endif

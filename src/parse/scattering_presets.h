@@ -1,0 +1,20 @@
+// Published coefficients of media, by the names that pbrt-v4 has for them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "src/core/error.h"
+#include "src/core/vec.h"
+
+namespace lanelight {
+
+struct Coefficients {
+  Rgb sigma_s, sigma_a;  // per millimetre; sigma_s is the reduced one
+};
+
+/// InputError at `where` with all names if `name` is none: unknown <kind> "<name>".
+const Coefficients& CoefficientsOf(const std::string& name, const SourceLocation& where,
+                                   std::string_view kind);
+
+}  // namespace lanelight
