@@ -27,7 +27,8 @@ file(GLOB FUZZ_LIBRARY_SOURCES CONFIGURE_DEPENDS
   ${CMAKE_SOURCE_DIR}/src/image/*.cc ${CMAKE_SOURCE_DIR}/src/strategy/*.cc
   ${CMAKE_SOURCE_DIR}/src/path/*.cc ${CMAKE_SOURCE_DIR}/src/compile/medium_*.cc
   ${CMAKE_SOURCE_DIR}/src/compile/frame.cc
-  ${CMAKE_CURRENT_SOURCE_DIR}/image/sparse_grid_file.cc)
+  ${CMAKE_CURRENT_SOURCE_DIR}/image/sparse_grid_file.cc
+  ${CMAKE_CURRENT_SOURCE_DIR}/reference/measured.cc)
 # It needs what the build writes of the version.
 list(REMOVE_ITEM FUZZ_LIBRARY_SOURCES ${CMAKE_SOURCE_DIR}/src/core/version.cc)
 set(FUZZ_FLAGS -O1 -gline-tables-only -fno-omit-frame-pointer -fno-sanitize-recover=all)

@@ -11,5 +11,6 @@
 #include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/bsdf/diffuse_transmission-inl.h"
 #include "kernels/bsdf/henyey_greenstein-inl.h"
+#include "kernels/bsdf/measured-inl.h"
 
 #endif

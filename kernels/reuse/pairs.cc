@@ -35,6 +35,7 @@
 #include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/bsdf/diffuse_transmission-inl.h"
 #include "kernels/bsdf/henyey_greenstein-inl.h"
+#include "kernels/bsdf/measured-inl.h"
 #include "kernels/lights/light-inl.h"
 #include "kernels/reuse/members-inl.h"
 #include "kernels/shade/shade-inl.h"

@@ -33,12 +33,20 @@ void AddCoat(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   }
 }
 
+bool Turns(const MeasuredTable& table, std::size_t material) {
+  const auto record = static_cast<std::size_t>(table.of_material[material]);
+  return table.records[record].turns != 0;
+}
+
 void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   const auto kind = static_cast<ShadeKind>(m.kind[i]);
   features.Add(ShadeFeature(kind));
   if (HasTrait(kind, kRefracting)) features.Add(Feature::kRefraction);
   if (HasTrait(kind, kMicrofacets)) AddRoughness(m, i, features);
   if (m.coat[i] >= 0) AddCoat(m, i, features);
+  if (kind == ShadeKind::kMeasured && Turns(m.measured, i)) {
+    features.Add(Feature::kTangents);
+  }
   if (m.color0_texture[i] >= 0 || m.color1_texture[i] >= 0) {
     features.Add(Feature::kTextures);
     features.Add(Feature::kUv);

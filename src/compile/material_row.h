@@ -32,6 +32,7 @@ struct MaterialRow {
   bool remap = false;
   std::int32_t mix[2] = {-1, -1};
   Relief relief;
+  std::shared_ptr<const MeasuredReflectance> measured;
   std::string name;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "src/compile/measured.h"
 #include "src/compile/row_builder.h"
 #include "src/core/check.h"
 
@@ -119,6 +120,7 @@ CompiledMaterials Builder::Finish() {
   out.index = index_;
   if (d_.integrator.force_diffuse) Force(out.table);
   for (const MaterialRow& row : rows_) AddMaterialRow(row, out);
+  AddMeasured(rows_, out.table.measured);
   AddCoatTables(build_.coats(), out.table);
   for (std::size_t i = 0; i < out.table.size(); ++i) CorrectBase(out.table, i);
   for (const Texture& t : build_.derived()) {

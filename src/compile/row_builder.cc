@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/compile/materials.h"
+#include "src/compile/measured.h"
 #include "src/core/check.h"
 
 namespace lanelight {
@@ -194,6 +195,11 @@ MaterialRow RowBuilder::RowOf(const Material& m) {
       row.color0 = Reflectance(m.reflectance);
       row.color1 = Reflectance(m.transmittance);
       row.kind = ShadeKind::kDiffuseTransmission;
+      break;
+    case MaterialKind::kMeasured:
+      row.measured = m.measured;
+      row.color0 = {HeadOnAlbedo(*m.measured), kNone};
+      row.kind = ShadeKind::kMeasured;
       break;
     case MaterialKind::kInterface:
       row.kind = ShadeKind::kInterface;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "src/compiled/measured.h"
 #include "src/core/aligned.h"
 #include "src/path/shade_kinds.h"
 
@@ -57,6 +58,7 @@ struct MaterialTable {
   AlignedVector<std::int32_t> displacement_texture, normal_map_texture;
   AlignedVector<float> coat_transmittance;  // kCoatTableSize per table
   AlignedVector<float> coat_internals;      // per table; used where coats vary
+  MeasuredTable measured;
   // With kForcedDiffuse: the material that surfaces then have, and the kinds that they
   // had, a bit each.
   std::uint32_t forced = 0, forced_kinds = 0;

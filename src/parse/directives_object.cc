@@ -22,7 +22,6 @@ constexpr Refusal kRefusals[] = {
     {"Shape", "curve",
      "hair and curves are not in this renderer; a mesh can stand for them"},
     {"Material", "hair", "hair and curves are not in this renderer"},
-    {"Material", "measured", "measured BRDFs are not in this renderer"},
     {"Texture", "ptex",
      "textures per face (Ptex files) are not in this renderer; an image with surface "
      "coordinates can stand for one"}};

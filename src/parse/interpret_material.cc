@@ -2,6 +2,7 @@
 #include <map>
 
 #include "src/parse/interpret.h"
+#include "src/core/error_text.h"
 #include "src/core/suggest.h"
 
 namespace lanelight {
@@ -158,6 +159,21 @@ void ReadSubsurface(ParseState& state, ParamSet& params, Material* material) {
                     "its surface, which must be closed; pbrt-v4 has a tabulated profile");
 }
 
+void ReadMeasured(ParseState& state, ParamSet& params, Material* material) {
+  params.Need("filename", ParamType::kString);
+  const NamedFile file = FileOf(state, params, "filename");
+  if (!state.options.allow_files) {
+    params.Fail(*file.param, "files may not be read here");
+  }
+  auto& read = state.measured[file.path];
+  try {
+    if (read == nullptr) read = ReadMeasuredReflectance(file.path);
+  } catch (const InputError& error) {
+    params.Fail(*file.param, WithoutPrefix(error));
+  }
+  material->measured = read;
+}
+
 void ReadInterface(ParseState&, ParamSet&, Material*) {}
 
 struct MaterialType {
@@ -174,9 +190,10 @@ const std::map<std::string, MaterialType> kMaterials = {
     {"diffusetransmission",
      {MaterialKind::kDiffuseTransmission, ReadDiffuseTransmission}},
     {"subsurface", {MaterialKind::kDielectric, ReadSubsurface}},
+    {"measured", {MaterialKind::kMeasured, ReadMeasured}},
     {"mix", {MaterialKind::kMix, ReadMix}},
     {"interface", {MaterialKind::kInterface, ReadInterface}}};
-const std::vector<std::string> kForeignMaterials = {"hair", "measured"};
+const std::vector<std::string> kForeignMaterials = {"hair"};
 
 // Materials that do not scatter themselves have no normal to change.
 void ReadRelief(ParseState& state, ParamSet& params, Material* material) {

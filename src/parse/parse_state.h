@@ -69,6 +69,7 @@ struct ParseState {
 
   std::map<std::string, Transform> coordinate_systems;
   std::map<std::string, Index> materials, media, objects, float_textures, color_textures;
+  std::map<std::string, std::shared_ptr<const MeasuredReflectance>> measured;  // by path
   Index default_material = kNone;  // pbrt's grey diffuse, once a shape needs it
   std::vector<MeshRequest> meshes;
   double exposure_seconds = 1;     // from the camera's shutter

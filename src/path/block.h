@@ -51,8 +51,9 @@ inline constexpr std::uint32_t kReceivingKinds =
 /// Those of second vertices that serve others: what is sent to all directions on a side
 /// is the same, or depends on the direction. (Glass sends little but where it refracts.)
 inline constexpr std::uint32_t kEvenSidedKinds = KindBits(kEvenSides);
-inline constexpr std::uint32_t kGlossyKinds = KindBits(
-    kPlainShading, kSpecularOnly | kWalks | kInMedium | kEvenSides | kRefracting);
+inline constexpr std::uint32_t kGlossyKinds =
+    KindBits(kPlainShading,
+             kSpecularOnly | kWalks | kInMedium | kEvenSides | kRefracting | kTabulated);
 /// Of a metal that serves others, at least: a narrow lobe has nothing for most of them.
 inline constexpr float kLeastGlossyAlpha = 0.1f;
 

@@ -18,6 +18,7 @@ enum ShadeTraits : std::uint32_t {
   kClear = 1 << 5,         // seen head-on: white
   kInMedium = 1 << 6,      // a phase function: of points in a medium, not of surfaces
   kWalks = 1 << 7,         // its value is that of a random walk
+  kTabulated = 1 << 9,     // how narrow its lobes are is not known
   kEvenSides = 1 << 8,     // sends the same light to all directions on a side
 };
 
@@ -38,6 +39,7 @@ enum ShadeTraits : std::uint32_t {
   X(CoatedDiffuseMedium, kMicrofacets | kChoosesLobe | kWalks, "coated diffuse with a scattering medium between") \
   X(CoatedConductorMedium, kMicrofacets | kChoosesLobe | kMetallic | kWalks, "coated conductor with a scattering medium between") \
   X(DiffuseTransmission, kChoosesLobe | kEvenSides, "diffuse transmission")          \
+  X(Measured, kTabulated, "measured reflectance")                                   \
   X(HenyeyGreenstein, kInMedium, "Henyey-Greenstein phase function")
 // clang-format on
 

@@ -15,6 +15,7 @@
 #include "src/core/transform.h"
 #include "src/core/vec.h"
 #include "src/image/film_response.h"
+#include "src/image/measured_reflectance.h"
 #include "src/image/sparse_grid.h"
 
 namespace lanelight {
@@ -112,6 +113,7 @@ enum class MaterialKind {
   kCoatedDiffuse,
   kCoatedConductor,
   kDiffuseTransmission,
+  kMeasured,
   kMix,
   kInterface
 };
@@ -144,6 +146,7 @@ struct Material {
   FloatValue displacement;
   std::string normal_map;  // resolved path; empty: none
   Index inside = kNone;    // dielectric: the medium in it (pbrt's "subsurface"), or none
+  std::shared_ptr<const MeasuredReflectance> measured;  // kMeasured
 };
 
 /// Object-space triangles. Normals and uvs are per vertex, or empty.

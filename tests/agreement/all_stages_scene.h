@@ -225,4 +225,37 @@ LightSource "point" "point3 from" [ 2 4 -2 ] "rgb I" [ 9 9 9 ]
 Shape "sphere"
 )";
 
+/// The insides of materials, with and without a texture.
+inline constexpr const char* kInsideScene = R"(
+LookAt 0 1 -6  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+Integrator "path" "integer maxdepth" 2
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.5 0.5 0.5 ]
+Texture "checks" "spectrum" "checkerboard" "float uscale" 5 "rgb tex1" [ 0.8 0.2 0.1 ]
+Material "subsurface" "texture reflectance" "checks" "float roughness" 0.2
+  "rgb mfp" [ 0.2 0.3 0.4 ]
+Shape "sphere"
+Material "subsurface" "string name" "Skin1" "float scale" 3
+AttributeBegin
+  Translate 1.6 0 -1
+  Shape "sphere" "float radius" 0.5
+AttributeEnd
+Material "diffuse"
+Shape "trianglemesh" "point3 P" [ -3 -1 -3  3 -1 -3  3 -1 3  -3 -1 3 ]
+  "integer indices" [ 0 1 2 0 2 3 ]
+)";
+
+/// Measured reflectance, of the file measured.bsdf.
+inline constexpr const char* kMeasuredScene = R"(
+LookAt 0 1 -6  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.5 0.5 0.5 ]
+Material "measured" "string filename" "measured.bsdf"
+Shape "sphere"
+)";
+
 }  // namespace lanelight

@@ -32,6 +32,7 @@ constexpr StageOn kFactories[] = {ShadeDiffuseStage,
                                   ShadeCoatedDiffuseMediumStage,
                                   ShadeCoatedConductorMediumStage,
                                   ShadeDiffuseTransmissionStage,
+                                  ShadeMeasuredStage,
                                   ShadeHenyeyGreensteinStage};
 static_assert(std::size(kFactories) == kNumShadeKinds);
 

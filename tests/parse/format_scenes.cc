@@ -9,6 +9,7 @@
 #include "src/parse/parse.h"
 #include "tests/image/sparse_grid_file.h"
 #include "tests/parse/format_values.h"
+#include "tests/reference/measured.h"
 
 namespace lanelight {
 namespace {
@@ -117,6 +118,8 @@ void WriteFormatFiles(const std::string& folder) {
          "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n";
   // A double Gauss of two elements would do as well: curvature, thickness, eta, aperture.
   std::ofstream(folder + "/format-lens.dat") << "50 5 1.5 20\n-50 0 1 20\n";
+  std::ofstream(folder + "/format-measured.bsdf", std::ios::binary)
+      << reference::MeasuredFile(reference::ChalkModel(0.5));
   test::SparseFileGrid cloud;
   cloud.value = [](int, int, int) { return 1.0f; };
   test::WriteSparseFile(folder + "/format-cloud.nvdb", {cloud});

@@ -292,5 +292,15 @@ TEST_CASE("what is in a subsurface material replaces what is inside", "[parse]")
              Catch::Contains("the material's own medium replaces \"ink\" inside"));
 }
 
+TEST_CASE("measured materials that cannot be", "[parse]") {
+  using Catch::Contains;
+  const std::string material = "Material \"measured\" ";
+  const std::string named = material + "\"string filename\" \"no.bsdf\"";
+  CHECK_THAT(WorldError(material), Contains("has no \"string filename\""));
+  CHECK_THAT(WorldError(named), Contains("files may not be read here"));
+  CHECK_THROWS_WITH(ParseSceneText("WorldBegin " + named, "test.pbrt", "."),
+                    Contains("test.pbrt:1:") && Contains("no.bsdf"));
+}
+
 }  // namespace
 }  // namespace lanelight

@@ -19,6 +19,7 @@
 #include "tests/agreement/all_stages_scene.h"
 #include "tests/run/render_fixture.h"
 #include "tests/plan/wave_state.h"
+#include "tests/reference/measured.h"
 
 namespace lanelight {
 namespace {
@@ -229,6 +230,7 @@ void WriteSky(const std::string& path) {
 TEST_CASE("stages touch the columns that they declare", "[plan]") {
   const TemporaryFolder folder;
   WriteSky(folder.File("sky.pfm"));
+  folder.Write("measured.bsdf", reference::MeasuredFile(reference::BrassModel()));
   folder.Write("lenses.dat", "60 5 1.5 30  -60 3 1 30  0 50 0 20");
   constexpr DeclaredCase kCases[] = {
       {kAllStagesScene, "points=independent"},
@@ -251,6 +253,9 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kMediaScene, "points=sobol"},
       {kMediaScene, "light-candidates=resampled,pairs=antithetic"},
       {kFogScene, "points=sobol"},
+      {kInsideScene, "points=sobol"},
+      {kInsideScene, "roulette=adjoint"},
+      {kMeasuredScene, "points=sobol"},
       {kForcedScene, "points=sobol"},
       {kForcedScene, "roulette=adjoint"},
       {kSphericalScene, "points=sobol"},

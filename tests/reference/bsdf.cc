@@ -2,6 +2,7 @@
 
 #include "src/core/check.h"
 #include "src/core/pi.h"
+#include "tests/reference/measured.h"
 
 namespace lanelight::reference {
 namespace {
@@ -37,6 +38,14 @@ std::optional<BsdfSample> SampleTwoSidedDiffuse(const LocalMaterial& m, Vec3d wo
       reflect ? m.reflectance * ((r + t) / r) : m.transmittance * ((r + t) / t);
   const Vec3d wi = SampleDiffuse(m.scattering, random);
   return BsdfSample{(wo.z > 0) == reflect ? wi : FlipZ(wi), weight, false};
+}
+
+// By the cosine, whatever the numbers say.
+std::optional<BsdfSample> SampleMeasured(const MeasuredReflectance& m, Vec3d wo,
+                                         Random& random) {
+  const Vec3d up = SampleDiffuse(Scattering::kLambertian, random);
+  const Vec3d wi = wo.z > 0 ? up : FlipZ(up);
+  return BsdfSample{wi, EvaluateMeasuredCos(m, wo, wi) * (kPi / up.z), false};
 }
 
 }  // namespace
@@ -169,6 +178,8 @@ Rgb EvaluateCos(const LocalMaterial& m, Vec3d wo, Vec3d wi, Random& random) {
     case MaterialKind::kCoatedDiffuse:
     case MaterialKind::kCoatedConductor:
       return EvaluateCoatCos(m, wo, wi, random);
+    case MaterialKind::kMeasured:
+      return EvaluateMeasuredCos(*m.measured, wo, wi);
     case MaterialKind::kMix:
     case MaterialKind::kInterface:
       break;
@@ -191,6 +202,8 @@ std::optional<BsdfSample> SampleBsdf(const LocalMaterial& m, Vec3d wo, Random& r
     case MaterialKind::kCoatedDiffuse:
     case MaterialKind::kCoatedConductor:
       return SampleCoat(m, wo, random);
+    case MaterialKind::kMeasured:
+      return SampleMeasured(*m.measured, wo, random);
     case MaterialKind::kMix:
     case MaterialKind::kInterface:
       break;

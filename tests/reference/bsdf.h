@@ -32,6 +32,7 @@ struct LocalMaterial {
   Rgb albedo;            // of the medium in a coat; 0: it absorbs
   double g = 0;          // and its asymmetry
   int coat_max_depth = 10;
+  std::shared_ptr<const MeasuredReflectance> measured;
 };
 
 struct BsdfSample {

@@ -72,6 +72,7 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
   out.albedo = coat ? Clamp(look.Color(m->coat_albedo), 0, 1) : Rgb{};
   out.g = look.Float(m->coat_g);
   out.coat_max_depth = m->coat_max_depth;
+  out.measured = m->measured;
   if (m->kind == MaterialKind::kConductor || m->kind == MaterialKind::kCoatedConductor) {
     const bool given = m->has_reflectance;
     out.eta = given ? Rgb{1, 1, 1} : look.Color(m->eta);

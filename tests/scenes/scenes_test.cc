@@ -121,6 +121,7 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
   CHECK(features("subsurface.pbrt")
             .HasAll({Feature::kSubsurface, Feature::kSubsurfaceTextures,
                      Feature::kDielectricSmooth, Feature::kDielectricRough}));
+  CHECK(features("measured.pbrt").HasAll({Feature::kMeasured, Feature::kTangents}));
   CHECK(features("image-lights.pbrt")
             .HasAll({Feature::kImageLights, Feature::kEmissionImages}));
   CHECK(features("portal.pbrt").Has(Feature::kPortals));

@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "src/compile/coat_table.h"
+#include "src/compile/measured.h"
+#include "tests/reference/measured.h"
 #include "tests/support/test_target.h"
 
 namespace lanelight::test {
@@ -56,6 +59,21 @@ LocalMaterial Hazy(LocalMaterial m, double thickness, double g) {
   return m;
 }
 
+LocalMaterial Measured(reference::MeasuredModel model) {
+  model.thetas = 5, model.size = 12, model.normals_size = 24;
+  LocalMaterial m;
+  m.kind = MaterialKind::kMeasured;
+  std::istringstream file(reference::MeasuredFile(model));
+  m.measured = ReadMeasuredReflectance(file, "test.bsdf");
+  return m;
+}
+// On a part of the circle.
+LocalMaterial Brushed(int parts) {
+  reference::MeasuredModel model = reference::MetalModel(0.5, 0.2);
+  model.phis = 9, model.parts = parts;
+  return Measured(model);
+}
+
 }  // namespace
 
 TestMaterial MakeTestMaterial(const std::string& name, ShadeKind kind,
@@ -90,6 +108,11 @@ TestMaterial MakeTestMaterial(const std::string& name, ShadeKind kind,
   t.coat_albedo_texture.push_back(-1);
   t.coat_g_texture.push_back(-1);
   t.coat_depth.push_back(static_cast<std::uint32_t>(m.coat_max_depth));
+  if (m.measured != nullptr) {
+    MaterialRow row;
+    row.measured = m.measured;
+    AddMeasured({row}, t.measured);
+  }
   return out;
 }
 
@@ -133,6 +156,11 @@ const std::vector<TestMaterial>& TestMaterials() {
     add("hazy lacquer 0.2, 0.3", K::kCoatedConductorMedium,
         Hazy(Lacquer(1.5, 0.2, 0.3), 0.3, 0.6));
     add("hazy lacquer 0, 0", K::kCoatedConductorMedium, Hazy(Lacquer(1.5, 0, 0), 0.5, 0));
+    add("measured metal 0.3", K::kMeasured, Measured(reference::MetalModel(0.3, 0.3)));
+    add("measured chalk", K::kMeasured, Measured(reference::ChalkModel(0.8)));
+    add("measured brushed metal", K::kMeasured, Brushed(1));
+    add("measured brushed metal, a half", K::kMeasured, Brushed(2));
+    add("measured brushed metal, a quarter", K::kMeasured, Brushed(4));
     return list;
   }();
   return materials;

@@ -138,6 +138,11 @@ TEST_CASE("a wrong material is told from the reference", "[shade][stat]") {
     other.table.color0_g[0] *= 1.1f;  // albedo, or index of a metal
     other.table.color0_b[0] *= 0.5f;
     other.table.eta[0] *= 1.1f;
+    for (const MeasuredRecord& record : m.table.measured.records) {
+      float* reflectance = other.table.measured.values.data() + record.reflectance.at;
+      std::for_each(reflectance, other.table.measured.values.end().base(),
+                    [](float& v) { v *= 1.1f; });
+    }
     double lowest = 1;
     for (Vec3d wo : TestDirections()) {
       lowest = std::min(lowest, LowestP(Sampled(other, wo, true), Reference(m, wo)));

@@ -1,0 +1,119 @@
+// Measured reflectance: tables made of known models give these back.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "src/compile/measured.h"
+#include "tests/reference/measured.h"
+#include "tests/shade/probe_batch.h"
+
+namespace lanelight::test {
+namespace {
+
+TestMaterial MaterialOf(const reference::MeasuredModel& model) {
+  reference::LocalMaterial m;
+  m.kind = MaterialKind::kMeasured;
+  std::istringstream file(reference::MeasuredFile(model));
+  m.measured = ReadMeasuredReflectance(file, "test.bsdf");
+  return MakeTestMaterial("measured", ShadeKind::kMeasured, m);
+}
+
+Vec3d Upwards(double z, double phi = 0.7) {
+  const double r = std::sqrt(1 - z * z);
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+// Means over the hemisphere of Eval and of its distance from the model, at 550 nm.
+double DistanceFrom(const TestMaterial& m, const reference::MeasuredModel& model,
+                    Vec3d wo) {
+  ProbeBatch batch(8192);
+  batch.SetWo(wo);
+  reference::Random random(5);
+  for (std::uint32_t i = 0; i < batch.n; ++i) {
+    const Vec3d w = RandomDirection(random);
+    batch.SetWi(i, {w.x, w.y, std::abs(w.z)});
+  }
+  batch.Eval(m);
+  double off = 0, sum = 0;
+  for (std::uint32_t i = 0; i < batch.n; ++i) {
+    const double want = model.f_cos(550, wo, Normalize(batch.Wi(i)));
+    off += std::abs(batch.value[1][i] - want), sum += want;
+  }
+  return off / sum;
+}
+
+Rgb Albedo(const TestMaterial& m, Vec3d wo) {
+  ProbeBatch batch(1 << 16);
+  batch.SetWo(wo);
+  batch.RandomPoints(9);
+  batch.Sample(m);
+  Rgb sum;
+  for (std::uint32_t i = 0; i < batch.n; ++i) sum += batch.Value(i);
+  return sum / double(batch.n);
+}
+
+}  // namespace
+
+TEST_CASE("measured chalk and metal are what they are made of", "[shade][measured]") {
+  const auto chalk = reference::ChalkModel(0.5);
+  const auto metal = reference::MetalModel(0.35, 0.35, 0.6, 0.6);
+  auto brushed = reference::MetalModel(0.5, 0.25, 0.6, 0.6);
+  brushed.phis = 9, brushed.parts = 4;
+  const TestMaterial chalk_table = MaterialOf(chalk), metal_table = MaterialOf(metal);
+  const TestMaterial brushed_table = MaterialOf(brushed);
+  for (const double z : {1.0, 0.9, 0.6, 0.35}) {
+    INFO("z " << z);
+    CHECK(DistanceFrom(chalk_table, chalk, Upwards(z)) < 0.05);
+    CHECK(DistanceFrom(metal_table, metal, Upwards(z)) < 0.06);
+    for (const double phi : {0.3, 2.0, -1.0}) {
+      CHECK(DistanceFrom(brushed_table, brushed, Upwards(z, phi)) < 0.12);
+    }
+    CHECK(Albedo(chalk_table, Upwards(z)).y == Approx(0.5).epsilon(0.03));
+  }
+  // Another roughness is further away than that.
+  CHECK(DistanceFrom(metal_table, reference::MetalModel(0.42, 0.42, 0.6, 0.6),
+                     Upwards(0.6)) > 0.1);
+}
+
+TEST_CASE("measured: the albedo head-on is in the table", "[shade][measured]") {
+  for (const TestMaterial& m : TestMaterials()) {
+    if (m.kind != ShadeKind::kMeasured) continue;
+    const Rgb table = HeadOnAlbedo(*m.local.measured);
+    const Rgb found = Albedo(m, {0, 0, 1});
+    INFO(m.name);
+    for (int c = 0; c < 3; ++c) CHECK(found[c] == Approx(table[c]).epsilon(0.02));
+  }
+}
+
+TEST_CASE("measured: no slice of one direction stands for another", "[shade][measured]") {
+  const auto model = reference::MetalModel(0.35, 0.35, 0.6, 0.6);
+  TestMaterial wrong = MaterialOf(model);
+  const MeasuredRecord& record = wrong.table.measured.records[0];
+  float* v = wrong.table.measured.values.data();
+  const auto size = record.vndf.grid.width * record.vndf.grid.height;
+  for (int i = size; i < size * record.thetas; ++i) {
+    v[record.vndf.grid.at + i] = v[record.vndf.grid.at + i % size];
+    v[record.vndf.along + i] = v[record.vndf.along + i % size];
+  }
+  CHECK(DistanceFrom(wrong, model, Upwards(0.35)) > 0.1);
+}
+
+TEST_CASE("measured: materials of one file share its tables", "[compile][measured]") {
+  const TestMaterial m = MaterialOf(reference::ChalkModel(0.5));
+  MaterialRow row, other;
+  row.measured = m.local.measured;
+  MeasuredTable table;
+  AddMeasured({other, row, other, row}, table);
+  CHECK(table.records.size() == 1);
+  CHECK(table.of_material[1] == 0);
+  CHECK(table.of_material[3] == 0);
+  CHECK(table.of_material[2] == -1);
+  CHECK_FALSE(table.any_turns);
+  MeasuredTable empty;
+  AddMeasured({other}, empty);
+  CHECK(empty.of_material.empty());
+  CHECK(empty.values.empty());
+}
+
+}  // namespace lanelight::test
