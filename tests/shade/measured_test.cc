@@ -76,6 +76,26 @@ TEST_CASE("measured chalk and metal are what they are made of", "[shade][measure
                      Upwards(0.6)) > 0.1);
 }
 
+TEST_CASE("measured: the files of scenes are those of their models",
+          "[shade][measured]") {
+  const auto same = [](const std::string& name, const reference::MeasuredModel& model) {
+    const std::string path = std::string(LANELIGHT_SOURCE_DIR) + "/scenes/" + name;
+    const auto stored = ReadMeasuredReflectance(path);
+    const auto made = MaterialOf(model).local.measured;
+    REQUIRE(stored->theta == made->theta);
+    REQUIRE(stored->phi == made->phi);
+    REQUIRE(stored->reflectance.values.size() == made->reflectance.values.size());
+    double off = 0, sum = 0;
+    for (std::size_t i = 0; i < made->reflectance.values.size(); ++i) {
+      off += std::abs(stored->reflectance.values[i] - made->reflectance.values[i]);
+      sum += made->reflectance.values[i];
+    }
+    CHECK(off < 1e-5 * sum);
+  };
+  same("measured.bsdf", reference::VarnishModel());
+  same("measured-brass.bsdf", reference::BrassModel());
+}
+
 TEST_CASE("measured: the albedo head-on is in the table", "[shade][measured]") {
   for (const TestMaterial& m : TestMaterials()) {
     if (m.kind != ShadeKind::kMeasured) continue;
