@@ -59,6 +59,11 @@ def points(root):
             float(path.get("data-y")), x, y
 
 
+def bars(root):
+    return [{name: float(line.get(name)) for name in ("x1", "y1", "x2", "y2")}
+            for line in root.iter(f"{NS}line") if line.get("class") == "bar"]
+
+
 def draw(figure, *arguments):
     out = FOLDER / f"{figure}.svg"
     run(FOLDER / "study.json", "--figure", figure, "-o", out, *arguments)
@@ -73,16 +78,19 @@ def check_curves(scene, figure, error, time):
     for s in scene["strategies"]:
         for level in s["levels"]:
             x = level["cpu_seconds"]["value"] if time else level["spp"]
-            wanted[s["name"], x] = level[error]["value"]
+            wanted[s["name"], x] = level[error]
     drawn = list(points(root))
     require(len({name for name, *_ in drawn}) == 6, "curves of", {d[0] for d in drawn})
     for name, x, y, px, py in drawn:
-        require(wanted[name, x] == y, figure, name, x, y)
+        require(wanted[name, x]["value"] == y, figure, name, x, y)
         # Texts are four pixels lower than their ticks.
         require(abs(px - x_at(x)) < 0.1 and abs(py - (y_at(y) - 4)) < 0.1, figure, name, x,
                 y, px, py)
-    bars = [line for line in root.iter(f"{NS}line") if line.get("class") == "bar"]
-    require(len(bars) == len(drawn), len(bars), "error bars of", len(drawn))
+    require(len(bars(root)) == len(drawn), len(bars(root)), "error bars of", len(drawn))
+    for bar, (name, x, *_) in zip(bars(root), drawn):
+        for end, place in ("low", bar["y1"]), ("high", bar["y2"]):
+            at = y_at(wanted[name, x][end]) - 4
+            require(abs(place - at) < 0.1, figure, name, x, end, place, at)
     text = " ".join(t.text for t in root.iter(f"{NS}text"))
     require(scene["name"] in text and "intervals" in text, "no title or source:", text)
 
@@ -96,6 +104,11 @@ def check_rows(scene):
     for s, (_, _, value, px, _) in zip(order, drawn):
         require(value == s["efficiency"]["value"], s["name"], value)
         require(abs(px - x_at(value)) < 0.1, s["name"], px, x_at(value))
+    with_bars = [s["efficiency"] for s in order if s["efficiency"]["low"] is not None]
+    require(len(bars(root)) == len(with_bars), len(bars(root)), len(with_bars))
+    for bar, efficiency in zip(bars(root), with_bars):
+        for end, place in ("low", bar["x1"]), ("high", bar["x2"]):
+            require(abs(place - x_at(efficiency[end])) < 0.1, end, place, efficiency)
 
 
 def check_figure_8(scene):
