@@ -32,6 +32,7 @@ namespace lanelight {
   X(IntersectDisks)                            \
   X(IntersectPlanes)                           \
   X(IntersectLargeSpheres)                     \
+  X(IntersectCurves)                           \
   X(MediumDistance)                            \
   X(MediumTracking)                            \
   X(Split)                                     \
@@ -47,6 +48,7 @@ namespace lanelight {
   X(SurfaceDisk)                               \
   X(SurfacePlane)                              \
   X(SurfaceLargeSphere)                        \
+  X(SurfaceCurve)                              \
   X(Interfaces)                                \
   X(Footprints)                                \
   X(Mix)                                       \
@@ -109,6 +111,7 @@ namespace lanelight {
   X(ShadowDisks)                               \
   X(ShadowPlanes)                              \
   X(ShadowLargeSpheres)                        \
+  X(ShadowCurves)                              \
   X(ShadowMedia)                               \
   X(ShadowThrough)                             \
   X(Connect)                                   \

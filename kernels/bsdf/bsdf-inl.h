@@ -62,6 +62,7 @@ struct PlainBsdf {
                                                // then returns density 0
   static constexpr bool kEvenSides = false;  // f for wi is the same for all wo on a side
   static constexpr bool kTransmits = false;  // not all directions are on wo's side
+  static constexpr bool kFibre = false;      // MaterialSource has uv_v
 };
 
 /// Where material parameters come from: the table, or columns filled by the texture
@@ -73,6 +74,7 @@ struct MaterialSource {
   const float *alpha2_x, *alpha2_y, *coat_thickness;
   const float *coat_albedo_r, *coat_albedo_g, *coat_albedo_b, *coat_g;
   bool color_by_path, alpha_by_path, color1_by_path, coat_by_path, medium_by_path;
+  const float* uv_v;  // only for kFibre; null otherwise
 };
 
 LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
@@ -96,7 +98,8 @@ LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
           false,
           false,
           false,
-          false};
+          false,
+          nullptr};
 }
 
 /// Parameters of one batch of paths.

@@ -2,6 +2,8 @@
 #ifndef LANELIGHT_INTERSECT_DOUBLE_INL_H_
 #define LANELIGHT_INTERSECT_DOUBLE_INL_H_
 
+#include "kernels/simd/lanes-inl.h"
+
 LANELIGHT_BEGIN_KERNELS
 
 /// fn(tag of doubles, v...) of the promoted lanes, rounded to float once.

@@ -30,7 +30,8 @@ HWY_INLINE MaterialInputs ProbeInputs(const MaterialSource& source,
 template <class Bsdf>
 void ProbeSample(const BsdfBatch& batch) {
   const DF df;
-  const MaterialSource source = TableSource(*batch.materials);
+  MaterialSource source = TableSource(*batch.materials);
+  source.uv_v = batch.uv_v;
   for (std::uint32_t i = 0; i < batch.n; i += hn::Lanes(df)) {
     const typename Bsdf::Params material = Bsdf::Load(ProbeInputs(source, batch, i));
     const V3 u = Load3(batch.u, i);
@@ -45,7 +46,8 @@ void ProbeSample(const BsdfBatch& batch) {
 template <class Bsdf>
 void ProbeEval(const BsdfBatch& batch) {
   const DF df;
-  const MaterialSource source = TableSource(*batch.materials);
+  MaterialSource source = TableSource(*batch.materials);
+  source.uv_v = batch.uv_v;
   for (std::uint32_t i = 0; i < batch.n; i += hn::Lanes(df)) {
     const typename Bsdf::Params material = Bsdf::Load(ProbeInputs(source, batch, i));
     const BsdfValue v = Bsdf::Eval(material, Load3(batch.wo, i), Load3(batch.wi, i));

@@ -27,15 +27,7 @@
 // Lanes are first vertices of one kind of material.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/bsdf/coated_conductor-inl.h"
-#include "kernels/bsdf/coated_diffuse-inl.h"
-#include "kernels/bsdf/coated_medium-inl.h"
-#include "kernels/bsdf/conductor-inl.h"
-#include "kernels/bsdf/dielectric-inl.h"
-#include "kernels/bsdf/diffuse-inl.h"
-#include "kernels/bsdf/diffuse_transmission-inl.h"
-#include "kernels/bsdf/henyey_greenstein-inl.h"
-#include "kernels/bsdf/measured-inl.h"
+#include "kernels/bsdf/kinds-inl.h"
 #include "kernels/lights/light-inl.h"
 #include "kernels/reuse/members-inl.h"
 #include "kernels/shade/shade-inl.h"

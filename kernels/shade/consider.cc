@@ -82,16 +82,16 @@ Stage ConsiderStage() {
   using namespace fields;
   const FieldSet numbers = {Field::u_select, Field::u_light_0, Field::u_light_1,
                             Field::u_candidate, Field::worth_sum};
-  return {
-      .name = "light_consider",
-      .meaning = "keeps the candidate, or the one before",
-      .input = QueueId::kLit,
-      .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
-      .reads =
-          numbers | kThroughput | kNormal | kTangent | kParameters | kLightSample |
-          FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material, Field::ls_light},
-      .writes = numbers | kKeptSample,
-      .resolve = Always<Consider>};
+  return {.name = "light_consider",
+          .meaning = "keeps the candidate, or the one before",
+          .input = QueueId::kLit,
+          .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
+          .reads = numbers | kThroughput | kNormal | kTangent | kParameters |
+                   kLightSample |
+                   FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::uv_v,
+                            Field::material, Field::ls_light},
+          .writes = numbers | kKeptSample,
+          .resolve = Always<Consider>};
 }
 
 LANELIGHT_END_KERNELS

@@ -64,6 +64,7 @@ struct SurfaceReader {
       source.alpha_y = path.alpha_y;
     }
     UseTexturedLayers();
+    if constexpr (Bsdf::kFibre) source.uv_v = path.uv_v;
   }
 
   HWY_INLINE void UseTexturedLayers() {
@@ -232,6 +233,7 @@ StageFn ResolveShade(const FeatureSet& features) {
   static_assert(HasTrait(kKind, kRefracting) == Bsdf::kRefracts);
   static_assert(HasTrait(kKind, kWalks) == Bsdf::kStochastic);
   static_assert(HasTrait(kKind, kEvenSides) == Bsdf::kEvenSides);
+  static_assert(HasTrait(kKind, kFibre) == Bsdf::kFibre);
   if constexpr (!Bsdf::kSpecular) {
     if (features.Has(Feature::kGuided)) {
       return features.Has(Feature::kMis)
@@ -260,13 +262,14 @@ Stage ShadeStage(const char* name, const char* meaning) {
   const FieldSet identity = {Field::pixel, Field::sample, Field::branch, Field::depth,
                              Field::material};
   const FieldSet direction = {Field::d_x, Field::d_y, Field::d_z};
+  const FieldSet across = Bsdf::kFibre ? FieldSet{Field::uv_v} : FieldSet{};
   const FieldSet history = {Field::bsdf_pdf, Field::eta_scale, Field::depth, Field::t};
   return {.name = name,
           .meaning = meaning,
           .input = ShadeQueue(kKind),
           .needs = {ShadeFeature(kKind), Feature::kScatters},
           .reads = identity | direction | kThroughput | kPoint | kNormal | kTangent |
-                   kParameters | points | kGuideProposal | kLightSample |
+                   kParameters | points | kGuideProposal | kLightSample | across |
                    FieldSet{Field::eta_scale},
           .writes = kRay | kThroughput | kShadow | kStartNormal | history,
           .resolve = ResolveShade<Bsdf, kKind>};

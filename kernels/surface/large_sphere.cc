@@ -63,7 +63,7 @@ Stage SurfaceLargeSphereStage() {
       "surface_large_sphere", "point, normals and material of hits on large spheres",
       Feature::kLargeSpheres,
       Always<SurfaceOfShape<LargeSphereBatch, &PrimitiveRanges::large_spheres,
-                            &PrimitiveRanges::end>>);
+                            &PrimitiveRanges::curves>>);
 }
 
 LANELIGHT_END_KERNELS

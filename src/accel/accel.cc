@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "src/accel/builder.h"
+#include "src/accel/curve_pieces.h"
 #include "src/accel/grow.h"
 #include "src/accel/instances.h"
 #include "src/accel/round_blocks.h"
@@ -122,7 +123,16 @@ Accel BuildAccel(const Geometry& geometry, const AccelOptions& options) {
                               options.quality,
                               RoundBlocks(disk_blocks, geometry.disks, first), nodes);
   }
+  AlignedVector<CurveBlock> curve_blocks;
+  const std::vector<CurvePiece> pieces =
+      PiecesOf(geometry.curves, geometry.ranges.curves);
+  if (!pieces.empty()) {
+    const auto count = static_cast<std::uint32_t>(pieces.size());
+    accel.curves = BuildShapes(ItemsOf(pieces, 0, count, 0), LeafLimit(), options.quality,
+                               RoundBlocks(curve_blocks, pieces, 0), nodes);
+  }
   accel.nodes = std::move(nodes);
+  accel.curve_blocks = std::move(curve_blocks);
   accel.sphere_blocks = std::move(sphere_blocks);
   accel.disk_blocks = std::move(disk_blocks);
   return accel;

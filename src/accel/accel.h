@@ -9,6 +9,7 @@
 //   instances   one BVH per object and one over the instances
 //   spheres, disks   BVH likewise; at most kFewRound: no tree, a vector of rays against
 //               each record in turn; planes always so, since they are infinite
+//   curves      BVH of their pieces (src/accel/curve_pieces.h)
 // A vector of rays on world triangles is traced
 //   through a frustum, if the rays are nearly the same (kPacketSpread): camera rays 1.1
 //     to 1.2 times as fast as in a stream; with rays less alike a stream wins (mirror
@@ -127,6 +128,17 @@ struct alignas(64) DiskBlock {
   std::uint32_t prim[kBvhWidth];
 };
 
+/// Leaf of up to 8 pieces of curves, each a cubic Bezier curve of its own. Piece k of the
+/// 2^d equal ones of curve `prim` has part = d << 24 | k. Unused lanes have points that
+/// are NaN (never hit).
+struct alignas(64) CurveBlock {
+  float p[4][3][kBvhWidth];  // [point][axis][lane]
+  float radius[2][kBvhWidth];
+  std::uint32_t part[kBvhWidth];
+  std::uint32_t prim[kBvhWidth];
+};
+static_assert(sizeof(CurveBlock) == 512);
+
 /// One tree. The boxes of shapes are grown by what rounding asks for in proportion to
 /// their own coordinates; the traversal adds what a ray asks for
 /// (kernels/intersect/bvh-inl.h). `reach` is the largest |coordinate| of the bounds.
@@ -166,6 +178,8 @@ struct Accel {
   Bvh spheres, disks;  // empty if few: then the kernels loop over the records
   SharedArray<SphereBlock> sphere_blocks;
   SharedArray<DiskBlock> disk_blocks;
+  Bvh curves;  // of pieces of curves, however few there are
+  SharedArray<CurveBlock> curve_blocks;
 
   /// Bytes of everything above.
   std::size_t Bytes() const;

@@ -83,6 +83,10 @@ void AddShapes(const Geometry& g, KeyText& text) {
     to[0] = r.radius;
     to[1] = r.inner_radius;
   });
+  text.AddFloats(g.curves, 14, [](const CurveRecord& r, float* to) {
+    for (const auto& point : r.p) to = Copy(point, to);
+    Copy(r.width, to);
+  });
   text.AddFloats(g.instances, 24, [](const InstanceRecord& r, float* to) {
     Copy(r.scene_from_object, Copy(r.object_from_scene, to));
   });

@@ -15,7 +15,7 @@ template <typename A, typename Visit>
 void VisitParts(A& accel, const Visit& visit) {
   static_assert(std::is_same_v<std::remove_const_t<A>, Accel>);
   auto& [quality, nodes, few, leaf_triangles, triangle_blocks, groups, top, spheres,
-         disks, sphere_blocks, disk_blocks] = accel;
+         disks, sphere_blocks, disk_blocks, curves, curve_blocks] = accel;
   auto& [few_vertices, few_triangles, few_reach] = few;
   visit(quality);
   visit(nodes);
@@ -30,6 +30,8 @@ void VisitParts(A& accel, const Visit& visit) {
   visit(disks);
   visit(sphere_blocks);
   visit(disk_blocks);
+  visit(curves);
+  visit(curve_blocks);
 }
 
 /// A member as its elements in memory: those of an array, or the one value.

@@ -64,7 +64,7 @@ bool KeepTree(const TreeFolder& folder, const TreeKey& key, FoundTree& tree) {
 // Seconds: long for whoever builds, short for whoever waits for one that was stopped.
 double Patience(const Geometry& g) {
   return 10 + 20e-6 * double(g.triangles.size() + g.spheres.size() + g.disks.size() +
-                             g.instances.size());
+                             g.curves.size() + g.instances.size());
 }
 
 void FindInFolder(const Geometry& geometry, const AccelOptions& options,

@@ -42,6 +42,7 @@ void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   const auto kind = static_cast<ShadeKind>(m.kind[i]);
   features.Add(ShadeFeature(kind));
   if (HasTrait(kind, kRefracting)) features.Add(Feature::kRefraction);
+  if (HasTrait(kind, kFibre)) features.Add({Feature::kTangents, Feature::kUv});
   if (HasTrait(kind, kMicrofacets)) AddRoughness(m, i, features);
   if (m.coat[i] >= 0) AddCoat(m, i, features);
   if (kind == ShadeKind::kMeasured && Turns(m.measured, i)) {
@@ -155,6 +156,7 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
   if (!g.disks.empty()) features.Add(Feature::kDisks);
   if (!g.planes.empty()) features.Add(Feature::kPlanes);
   if (!g.large_spheres.empty()) features.Add(Feature::kLargeSpheres);
+  if (!g.curves.empty()) features.Add(Feature::kCurves);
   if (!g.instances.empty()) features.Add(Feature::kInstances);
   if (!g.normals.empty()) features.Add(Feature::kVertexNormals);
   if (scene.integrator.force_diffuse) ForceDiffuse(scene.materials, features);

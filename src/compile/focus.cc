@@ -78,9 +78,11 @@ std::vector<Seen> AllSeen(Vec3d eye, const Placement& p) {
   for (const auto* spheres : {&p.spheres, &p.large_spheres}) {
     for (const PlacedShape& s : *spheres) add(SeenSphere(s, ShapeBox(s), eye));
   }
-  for (const PlacedShape& disk : p.disks) {
-    const Box box = ShapeBox(disk);
-    add({Farthest(box, eye), box});
+  for (const auto* shapes : {&p.disks, &p.curves}) {
+    for (const PlacedShape& shape : *shapes) {
+      const Box box = ShapeBox(shape);
+      add({Farthest(box, eye), box});
+    }
   }
   ParallelFor(p.meshes.size(), [&](std::size_t i) {
     meshes[i] = SeenMesh(p.meshes[i], ShapeBox(p.meshes[i]), eye);

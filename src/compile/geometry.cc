@@ -8,6 +8,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/core/parallel.h"
+#include "src/compile/curves.h"
 #include "src/compile/mesh.h"
 #include "src/compile/quadrics.h"
 #include "src/compile/store.h"
@@ -176,6 +177,13 @@ void MakeInstances(const Placement& placement, Geometry& g) {
   }
 }
 
+void CompileCurves(const Placement& placement,
+                   const std::vector<std::int32_t>& material_index, Geometry& g) {
+  for (const PlacedShape& p : placement.curves) {
+    AddCurves(p, placement.frame, MaterialOf(p, material_index), g);
+  }
+}
+
 void MakeQuadrics(const Placement& placement,
                   const std::vector<std::int32_t>& material_index, bool keep_uv,
                   Geometry& g) {
@@ -193,12 +201,14 @@ void MakeQuadrics(const Placement& placement,
     g.large_spheres.push_back(
         CompileLargeSphere(p, frame, placement.eye, MaterialOf(p, material_index)));
   }
+  CompileCurves(placement, material_index, g);
   const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
   g.ranges.spheres = count(g.triangles);
   g.ranges.disks = g.ranges.spheres + count(g.spheres);
   g.ranges.planes = g.ranges.disks + count(g.disks);
   g.ranges.large_spheres = g.ranges.planes + count(g.planes);
-  g.ranges.end = g.ranges.large_spheres + count(g.large_spheres);
+  g.ranges.curves = g.ranges.large_spheres + count(g.large_spheres);
+  g.ranges.end = g.ranges.curves + count(g.curves);
 }
 
 // One ulp wider than the double-precision bounds, so that rounded positions lie inside.

@@ -56,8 +56,11 @@ void ForEachCompiled(const Placement& placement, const CompiledGeometry& compile
   std::uint32_t next = compiled.geometry.ranges.spheres;  // the rest follow each other
   ForEachPlaced(placement, [&](const PlacedShape& placed) {
     if (mesh == meshes.end()) {
-      visit(placed, next, next + 1);
-      ++next;
+      const auto& curves = placed.shape->curves;
+      const std::size_t count = curves == nullptr ? 1 : curves->size();
+      const std::uint32_t begin = next;
+      next += static_cast<std::uint32_t>(count);
+      visit(placed, begin, next);
     } else {
       visit(placed, (*mesh)->begin, (*mesh)->end);
       ++mesh;

@@ -13,7 +13,9 @@ namespace lanelight {
 namespace {
 
 float RoughAlpha(const MaterialRow& row, double alpha) {
-  if (row.kind == ShadeKind::kMix) return static_cast<float>(alpha);
+  if (row.kind == ShadeKind::kMix || row.kind == ShadeKind::kHair) {
+    return static_cast<float>(alpha);  // not of a microfacet surface
+  }
   return static_cast<float>(std::max(alpha, kMinAlpha));
 }
 

@@ -7,6 +7,7 @@
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
+#include "src/compile/curves.h"
 #include "src/compile/focus.h"
 #include "src/compile/seen_tolerance.h"
 #include "src/compile/tessellate.h"
@@ -104,6 +105,9 @@ void AddToWorld(const SceneDescription& d, PlacedShape placed, Placement& placem
       break;
     case ShapeKind::kPlane:
       placement.planes.push_back(placed);
+      break;
+    case ShapeKind::kCurves:
+      placement.curves.push_back(placed);
       break;
   }
 }
@@ -303,6 +307,7 @@ Box ShapeBox(const PlacedShape& placed) {
   Box box;
   if (placed.mesh != nullptr) return MeshBox(placed).value_or(box);
   if (shape.kind == ShapeKind::kPlane) return box;
+  if (shape.kind == ShapeKind::kCurves) return CurveBox(shape, placed.transform);
   const double r = shape.radius;
   const double z = shape.kind == ShapeKind::kSphere ? r : 0;
   const double h = shape.kind == ShapeKind::kSphere ? 0 : shape.height;
@@ -327,6 +332,7 @@ Placement PlaceShapes(const SceneDescription& d, std::uint64_t copied_triangles)
   placement.bounds.Add(UnionOfBoxes(placement.meshes));
   placement.bounds.Add(UnionOfBoxes(placement.spheres));
   placement.bounds.Add(UnionOfBoxes(placement.disks));
+  placement.bounds.Add(UnionOfBoxes(placement.curves));
   if (placement.bounds.empty()) placement.bounds = FallbackBox(d, placement);
   CheckSize(d, placement.bounds);
   placement.eye = d.camera.world_from_camera.Point({0, 0, 0});

@@ -43,7 +43,7 @@ struct PlacedInstance {
 // src/compile/geometry.h: there only the product of the transforms matters.)
 struct Placement {
   // In the world. Large spheres: see src/compile/focus.h.
-  std::vector<PlacedShape> meshes, spheres, disks, planes, large_spheres;
+  std::vector<PlacedShape> meshes, spheres, disks, planes, large_spheres, curves;
   std::vector<PlacedObject> objects;
   std::vector<PlacedInstance> instances;
   Vec3d eye;    // the camera's position in the world
@@ -53,11 +53,11 @@ struct Placement {
 };
 
 /// Meshes, spheres and disks that emit are sampled as lights, which needs world
-/// coordinates; spheres, disks and planes have no instanced form: both kinds are copied
-/// into the world once per instance. Shapes without a record of their own become meshes
-/// (src/compile/tessellate.h). Objects of few triangles, or placed once, are copied into
-/// the world too, those first that make the least of it larger, as long as that makes at
-/// most `copied_triangles` more in all; with 0 none is.
+/// coordinates; spheres, disks, planes and curves have no instanced form: both kinds are
+/// copied into the world once per instance. Shapes without a record of their own become
+/// meshes (src/compile/tessellate.h). Objects of few triangles, or placed once, are
+/// copied into the world too, those first that make the least of it larger, as long as
+/// that makes at most `copied_triangles` more in all; with 0 none is.
 Placement PlaceShapes(const SceneDescription& description,
                       std::uint64_t copied_triangles = 0);
 
@@ -69,7 +69,7 @@ void ForEachPlaced(const Placement& placement, const Visit& visit) {
     for (const PlacedShape& mesh : object.meshes) visit(mesh);
   }
   for (const auto* shapes : {&placement.spheres, &placement.disks, &placement.planes,
-                             &placement.large_spheres}) {
+                             &placement.large_spheres, &placement.curves}) {
     for (const PlacedShape& shape : *shapes) visit(shape);
   }
 }

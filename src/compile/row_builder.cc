@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "src/compile/materials.h"
 #include "src/compile/measured.h"
@@ -14,6 +15,8 @@ namespace {
 constexpr double kSmoothAlpha = 1e-3;
 // Reflectance of a metal that is given as a colour: k of 1 would be infinite.
 constexpr double kMaxMetalReflectance = 0.9999;
+// As pbrt-v4.
+constexpr double kLeastHairRoughness = 0.01;
 
 bool IsTextured(const ColorValue& v) { return v.texture != kNone; }
 bool IsTextured(const FloatValue& v) { return v.texture != kNone; }
@@ -147,6 +150,25 @@ void RowBuilder::CoatOf(const Material& m, MaterialRow& row) {
   row.coat_depth = static_cast<std::uint32_t>(m.coat_max_depth);
 }
 
+// Absorption becomes the reflectance that gives it (HairBsdf::AbsorptionOf), which is
+// what textures, guides of denoisers and overrides of materials know.
+void RowBuilder::Hair(const Material& m, MaterialRow& row) {
+  CheckEta(m);
+  row.kind = ShadeKind::kHair;
+  row.eta = m.interface_eta;
+  row.alpha_x.constant = std::max(m.beta_m, kLeastHairRoughness);
+  row.alpha_y.constant = std::max(m.beta_n, kLeastHairRoughness);
+  row.alpha2_x.constant = m.tilt / 180 * std::numbers::pi;
+  row.color0 = Reflectance(m.reflectance);
+  if (m.has_reflectance) return;
+  const double n = row.alpha_y.constant;
+  const double k =
+      5.969 + n * (-0.215 + n * (2.532 + n * (-10.73 + n * (5.574 + n * 0.245))));
+  for (int c = 0; c < 3; ++c) {
+    row.color0.constant[c] = std::exp(-k * std::sqrt(std::max(m.sigma_a[c], 0.0)));
+  }
+}
+
 MaterialRow RowBuilder::RowOf(const Material& m) {
   MaterialRow row;
   switch (m.kind) {
@@ -200,6 +222,9 @@ MaterialRow RowBuilder::RowOf(const Material& m) {
       row.measured = m.measured;
       row.color0 = {HeadOnAlbedo(*m.measured), kNone};
       row.kind = ShadeKind::kMeasured;
+      break;
+    case MaterialKind::kHair:
+      Hair(m, row);
       break;
     case MaterialKind::kInterface:
       row.kind = ShadeKind::kInterface;

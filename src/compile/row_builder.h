@@ -32,6 +32,7 @@ class RowBuilder {
   ColorValue Inside(const Material& m) const;
   void Metal(const Material& m, double eta_above, MaterialRow& row);
   void Interface(const Material& m, MaterialRow& row);
+  void Hair(const Material& m, MaterialRow& row);
   void CoatOf(const Material& m, MaterialRow& row);
   ColorValue Color(const ColorValue& v) const { return constants_.Fold(v); }
   FloatValue Alpha(const FloatValue& v, bool remap) const;

@@ -141,6 +141,7 @@ bool IsTessellated(const Shape& shape, const Transform& transform) {
       return true;
     case ShapeKind::kMesh:
     case ShapeKind::kPlane:
+    case ShapeKind::kCurves:
       break;
   }
   return false;

@@ -31,6 +31,9 @@ inline constexpr float kMostCoatAsymmetry = 0.9999f;
 ///   diffusetransmission: color0 = reflectance, color1 = transmittance
 ///   conductor*, coatedconductor: color0 = eta, color1 = k (of the metal relative to
 ///     what is above it)
+///   hair: color0 = reflectance of much of it, from which absorption follows; alpha_x,
+///     alpha_y = roughness along a fibre and around it, alpha2_x = tilt of scales,
+///     radians
 ///   kMix: alpha_x = amount of the second; mix0, mix1 = materials
 struct MaterialTable {
   AlignedVector<std::uint32_t> kind;  // ShadeKind

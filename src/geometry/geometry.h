@@ -14,10 +14,12 @@
 
 namespace lanelight {
 
-// A primitive id counts triangles first, then spheres, disks, planes, large spheres.
+// A primitive id counts triangles first, then spheres, disks, planes, large spheres,
+// curves.
 struct PrimitiveRanges {
   // The first id of each, and the end.
-  std::uint32_t spheres = 0, disks = 0, planes = 0, large_spheres = 0, end = 0;
+  std::uint32_t spheres = 0, disks = 0, planes = 0, large_spheres = 0, curves = 0,
+                end = 0;
 };
 
 /// Triangle record: 12 words. Wound so that cross(p1-p0, p2-p0) is the surface normal
@@ -98,6 +100,23 @@ struct LargeSphereRecord {
 };
 static_assert(sizeof(LargeSphereRecord) == 80);
 
+/// Cubic Bezier curve: 16 words. Emits nothing.
+struct CurveRecord {
+  float p[4][3];
+  float width[2];  // at both ends, not negative
+  std::uint32_t material;
+  std::uint32_t type;  // CurveType
+};
+static_assert(sizeof(CurveRecord) == 64);
+
+/// Of a ribbon: its unit normals at both ends, and the angle between them with 1 / its
+/// sine; an angle of 0 says that they are alike. Zeros for other curves.
+struct RibbonRecord {
+  float normal[2][3];
+  float angle, inverse_sine;
+};
+static_assert(sizeof(RibbonRecord) == 32);
+
 /// Instance record: 24 words, row-major 3x4 affine maps.
 struct InstanceRecord {
   float object_from_scene[12];
@@ -115,6 +134,8 @@ struct Geometry {
   AlignedVector<DiskRecord> disks;
   AlignedVector<PlaneRecord> planes;
   AlignedVector<LargeSphereRecord> large_spheres;
+  AlignedVector<CurveRecord> curves;
+  AlignedVector<RibbonRecord> ribbons;  // one for each curve; empty without ribbons
   AlignedVector<InstanceRecord> instances;
   /// Triangle ranges that form one acceleration structure each: [0] is the world (may be
   /// empty), the others are object definitions.

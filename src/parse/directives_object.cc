@@ -19,9 +19,6 @@ struct Refusal {
 constexpr Refusal kRefusals[] = {
     {"Film", "spectral",
      "light is transported as linear sRGB, so there are no spectra to write"},
-    {"Shape", "curve",
-     "hair and curves are not in this renderer; a mesh can stand for them"},
-    {"Material", "hair", "hair and curves are not in this renderer"},
     {"Texture", "ptex",
      "textures per face (Ptex files) are not in this renderer; an image with surface "
      "coordinates can stand for one"}};

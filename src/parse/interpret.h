@@ -84,6 +84,10 @@ Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& p
 /// Appends the shape to the scene or the open object definition.
 void InterpretShape(ParseState& state, const std::string& type, ParamSet& params);
 
+// interpret_curve.cc ----------------------------------------------------------------
+/// The parts of a shape "curve"; none if they cannot be seen, which is noted.
+std::vector<Curve> InterpretCurve(ParseState& state, ParamSet& params);
+
 // interpret_mesh.cc -----------------------------------------------------------------
 std::shared_ptr<const TriangleMesh> InterpretTriangleMesh(ParamSet& params);
 std::shared_ptr<const TriangleMesh> InterpretBilinearMesh(ParamSet& params);

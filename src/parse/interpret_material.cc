@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <map>
 
 #include "src/parse/interpret.h"
@@ -133,6 +132,48 @@ void ReadDiffuseTransmission(ParseState& state, ParamSet& params, Material* mate
   material->transmittance = Scaled(state, params, t, scale);
 }
 
+// Absorption of one unit of each pigment (d'Eon et al. 2011, as published for linear
+// RGB).
+constexpr Rgb kEumelanin = {0.419, 0.697, 1.37}, kPheomelanin = {0.187, 0.4, 1.05};
+
+// Of four ways to give a colour the first counts, as in pbrt; brown if there is none.
+void ReadHairColor(ParseState& state, ParamSet& params, Material* material) {
+  const char* const pigments[] = {"eumelanin", "pheomelanin"};
+  const auto ignore = [&](std::initializer_list<const char*> names, const char* counts) {
+    for (const char* name : names) {
+      if (params.Find(name, {}) == nullptr) continue;
+      params.Ignore(name, fmt::format("\"{}\" counts", counts));
+    }
+  };
+  const char* const color =
+      params.Find("reflectance", {}) != nullptr ? "reflectance" : "color";
+  if (params.Find("sigma_a", {}) != nullptr) {
+    material->sigma_a =
+        PlainColor(state, params, "sigma_a", {0, 0, 0}, SpectrumUse::kUnbounded);
+    return ignore({"reflectance", "color", pigments[0], pigments[1]}, "sigma_a");
+  }
+  material->has_reflectance = params.Find(color, {}) != nullptr;
+  if (material->has_reflectance) {
+    material->reflectance =
+        TexturedColor(state, params, color, {0, 0, 0}, SpectrumUse::kAlbedo);
+    if (std::string_view(color) != "color") ignore({"color"}, color);
+    return ignore({pigments[0], pigments[1]}, color);
+  }
+  const bool given =
+      params.Find(pigments[0], {}) != nullptr || params.Find(pigments[1], {}) != nullptr;
+  const double eumelanin = params.Float(pigments[0], given ? 0 : 1.3, kNotNegative);
+  const double pheomelanin = params.Float(pigments[1], 0, kNotNegative);
+  material->sigma_a = kEumelanin * eumelanin + kPheomelanin * pheomelanin;
+}
+
+void ReadHair(ParseState& state, ParamSet& params, Material* material) {
+  ReadHairColor(state, params, material);
+  material->interface_eta = params.Float("eta", 1.55, {1, 10});
+  material->beta_m = params.Float("beta_m", 0.3, {0, 1});
+  material->beta_n = params.Float("beta_n", 0.3, {0, 1});
+  material->tilt = params.Float("alpha", 2, {-90, 90});
+}
+
 void ReadMix(ParseState& state, ParamSet& params, Material* material) {
   const Param& names = params.Need("materials", ParamType::kString);
   if (names.strings.size() != 2) {
@@ -191,17 +232,21 @@ const std::map<std::string, MaterialType> kMaterials = {
      {MaterialKind::kDiffuseTransmission, ReadDiffuseTransmission}},
     {"subsurface", {MaterialKind::kDielectric, ReadSubsurface}},
     {"measured", {MaterialKind::kMeasured, ReadMeasured}},
+    {"hair", {MaterialKind::kHair, ReadHair}},
     {"mix", {MaterialKind::kMix, ReadMix}},
     {"interface", {MaterialKind::kInterface, ReadInterface}}};
-const std::vector<std::string> kForeignMaterials = {"hair"};
 
 // Materials that do not scatter themselves have no normal to change.
 void ReadRelief(ParseState& state, ParamSet& params, Material* material) {
-  if (material->kind == MaterialKind::kMix ||
-      material->kind == MaterialKind::kInterface) {
-    const char* why = material->kind == MaterialKind::kMix
-                          ? "a mix has the relief of the materials that it mixes"
-                          : "an interface has no surface of its own";
+  const char* why = nullptr;
+  if (material->kind == MaterialKind::kMix) {
+    why = "a mix has the relief of the materials that it mixes";
+  } else if (material->kind == MaterialKind::kInterface) {
+    why = "an interface has no surface of its own";
+  } else if (material->kind == MaterialKind::kHair) {
+    why = "hair is thinner than any relief";
+  }
+  if (why != nullptr) {
     params.Ignore("displacement", why);
     params.Ignore("normalmap", why);
     return;
@@ -222,28 +267,18 @@ Index InterpretMaterial(ParseState& state, const std::string& name,
   Material material;
   material.name = name;
   material.where = params.where();
-  const bool foreign = std::find(kForeignMaterials.begin(), kForeignMaterials.end(),
-                                 type) != kForeignMaterials.end();
-  if (foreign && state.options.skip_unsupported) {
+  const bool none = type.empty() || type == "none";
+  if (none) {
     state.AddNote(params.where(),
-                  fmt::format("skipped: material {} is not supported; a grey "
-                              "diffuse one replaces it",
-                              Quoted(type)),
-                  true);
-  } else {
-    const bool none = type.empty() || type == "none";
-    if (none) {
-      state.AddNote(params.where(),
-                    "material \"\" and \"none\" are taken as \"interface\"");
-    }
-    const auto& [kind, read] =
-        Lookup(kMaterials, none ? "interface" : type, params.where(), "material");
-    material.kind = kind;
-    read(state, params, &material);
-    ReadRelief(state, params, &material);
-    params.Find("type", {ParamType::kString});  // of MakeNamedMaterial, or superfluous
-    params.CheckAllUsed();
+                  "material \"\" and \"none\" are taken as \"interface\"");
   }
+  const auto& [kind, read] =
+      Lookup(kMaterials, none ? "interface" : type, params.where(), "material");
+  material.kind = kind;
+  read(state, params, &material);
+  ReadRelief(state, params, &material);
+  params.Find("type", {ParamType::kString});  // of MakeNamedMaterial, or superfluous
+  params.CheckAllUsed();
   state.scene.materials.push_back(std::move(material));
   return static_cast<Index>(state.scene.materials.size()) - 1;
 }

@@ -23,7 +23,7 @@ void ReadHeights(ParamSet& params, double absent, double most, Shape* shape) {
 // Nothing can be seen of a sphere, disk or cylinder of radius 0.
 bool IsVisible(const Shape& shape) {
   return shape.kind == ShapeKind::kMesh || shape.kind == ShapeKind::kPlane ||
-         shape.radius > 0;
+         shape.kind == ShapeKind::kCurves || shape.radius > 0;
 }
 
 void ReadSphere(ParseState&, ParamSet& params, Shape* shape) {
@@ -74,6 +74,10 @@ void ReadMesh(ParseState&, ParamSet& params, Shape* shape) {
   shape->mesh = kInterpret(params);
 }
 
+void ReadCurve(ParseState& state, ParamSet& params, Shape* shape) {
+  shape->curves = std::make_shared<std::vector<Curve>>(InterpretCurve(state, params));
+}
+
 struct ShapeType {
   ShapeKind kind;
   void (*read)(ParseState&, ParamSet&, Shape*);
@@ -86,7 +90,8 @@ constexpr std::pair<const char*, ShapeType> kShapes[] = {
     {"plymesh", {ShapeKind::kMesh, ReadPly}},
     {"bilinearmesh", {ShapeKind::kMesh, ReadMesh<InterpretBilinearMesh>}},
     {"loopsubdiv", {ShapeKind::kMesh, ReadMesh<InterpretLoopSubdivision>}},
-    {"plane", {ShapeKind::kPlane, ReadPlane}}};
+    {"plane", {ShapeKind::kPlane, ReadPlane}},
+    {"curve", {ShapeKind::kCurves, ReadCurve}}};
 
 Index CurrentMaterial(ParseState& state, const SourceLocation& where) {
   if (state.graphics.material != kNone) return state.graphics.material;
@@ -125,6 +130,10 @@ Index CurrentAreaLight(ParseState& state, const Shape& shape,
                   "\"interface\"");
     return kNone;
   }
+  if (shape.kind == ShapeKind::kCurves) {
+    state.AddNoteOnce(where, "the area light has no effect on curves: they emit nothing");
+    return kNone;
+  }
   if (shape.kind == ShapeKind::kPlane && state.scene.area_lights[light].power > 0) {
     throw InputError(where,
                      "an area light with \"power\" on a plane, whose area is infinite");
@@ -132,16 +141,36 @@ Index CurrentAreaLight(ParseState& state, const Shape& shape,
   return light;
 }
 
+// Whether curves may join those of the shape before: hair has a directive for each
+// strand.
+bool ContinuesCurves(const Shape& shape, const Shape& before) {
+  return before.kind == ShapeKind::kCurves && shape.material == before.material &&
+         shape.reverse_orientation == before.reverse_orientation &&
+         shape.world_from_object == before.world_from_object;
+}
+
+void AddCurves(ParseState& state, Shape shape) {
+  if (shape.alpha.texture != kNone || shape.alpha.constant != 1) {
+    return state.Unsupported(shape.where,
+                             "\"alpha\" is not supported for shape \"curve\"");
+  }
+  if (shape.curves->empty()) return;
+  if (shape.media.IsTransition()) {
+    state.AddNoteOnce(
+        shape.where, "the medium interface has no effect on curves: they have no inside");
+    shape.media = {};
+  }
+  std::vector<Shape>& shapes = state.OpenShapes();
+  if (shapes.empty() || !ContinuesCurves(shape, shapes.back())) {
+    return shapes.push_back(std::move(shape));
+  }
+  std::vector<Curve>& curves = *shapes.back().curves;
+  curves.insert(curves.end(), shape.curves->begin(), shape.curves->end());
+}
+
 }  // namespace
 
 void InterpretShape(ParseState& state, const std::string& type, ParamSet& params) {
-  if (type == "curve") {
-    return state.Unsupported(
-        params.where(),
-        fmt::format("shape \"curve\" is not supported, as hair and curves are not; "
-                    "supported: {}",
-                    QuotedList(Names(kShapes))));
-  }
   const auto& [kind, read] = Lookup(kShapes, type, params.where(), "shape");
   Shape shape;
   shape.kind = kind;
@@ -158,6 +187,7 @@ void InterpretShape(ParseState& state, const std::string& type, ParamSet& params
                          fmt::format("left out {}: its radius is 0", params.object()));
   }
   shape.area_light = CurrentAreaLight(state, shape, params.where());
+  if (shape.kind == ShapeKind::kCurves) return AddCurves(state, std::move(shape));
   state.OpenShapes().push_back(std::move(shape));
 }
 

@@ -49,18 +49,20 @@ static_assert(kNumShadeKinds <= 32);
 inline constexpr std::uint32_t kReceivingKinds =
     KindBits(kPlainShading, kSpecularOnly | kWalks | kInMedium);
 /// Those of second vertices that serve others: what is sent to all directions on a side
-/// is the same, or depends on the direction. (Glass sends little but where it refracts.)
+/// is the same, or depends on the direction. (Glass sends little but where it refracts;
+/// hair is met elsewhere across its width by each path.)
 inline constexpr std::uint32_t kEvenSidedKinds = KindBits(kEvenSides);
 inline constexpr std::uint32_t kGlossyKinds =
-    KindBits(kPlainShading,
-             kSpecularOnly | kWalks | kInMedium | kEvenSides | kRefracting | kTabulated);
+    KindBits(kPlainShading, kSpecularOnly | kWalks | kInMedium | kEvenSides |
+                                kRefracting | kTabulated | kFibre);
 /// Of a metal that serves others, at least: a narrow lobe has nothing for most of them.
 inline constexpr float kLeastGlossyAlpha = 0.1f;
 
-/// What is kept of a first vertex, of what there is.
-inline FieldSet FirstVertexFields() {
+/// What is kept of a first vertex, of what there is; `fibres`: some may be hair.
+inline FieldSet FirstVertexFields(bool fibres) {
   using namespace fields;
-  return kThroughput | kPoint | kNormal | kTangent | kParameters |
+  return (fibres ? FieldSet{Field::uv_v} : FieldSet{}) | kThroughput | kPoint | kNormal |
+         kTangent | kParameters |
          FieldSet{Field::pixel, Field::sample,   Field::depth,
                   Field::d_x,   Field::d_y,      Field::d_z,
                   Field::prim,  Field::material, Field::guide_cell};

@@ -18,6 +18,7 @@ namespace lanelight {
   X(kDisks, "disks")                                                          \
   X(kPlanes, "infinite planes")                                               \
   X(kLargeSpheres, "spheres much larger than the camera's distance to them")  \
+  X(kCurves, "curves")                                                        \
   X(kInstances, "object instances")                                           \
   X(kVertexNormals, "interpolated vertex normals")                            \
   X(kUv, "surface coordinates (a texture is looked up)")                      \

@@ -75,7 +75,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   /* hit */                                                                               \
   X(f32, t, ({}), kRay, (std::numeric_limits<float>::infinity()), "hit distance, +inf = miss") \
   X(u32, prim, ({}), f.Has(Feature::kTriangles) ? kPath : kSurface, (kNoPrimitive), "primitive id of the hit (src/geometry/geometry.h); of the last one, where the ray starts, until there is a new one") \
-  X(f32, b1, ({kTriangles}), kHit, (), "barycentric weight of vertex 1")                \
+  X(f32, b1, ({kTriangles, kCurves}), kHit, (), "barycentric weight of vertex 1; of a curve: its parameter, 0 to 1") \
   X(f32, b2, ({kTriangles}), kHit, (), "barycentric weight of vertex 2")                \
   X(u32, inst, ({kInstances}), kHit, (), "instance of the hit, 0xffffffff = world")     \
   /* surface at the hit */                                                                \

@@ -18,8 +18,9 @@ enum ShadeTraits : std::uint32_t {
   kClear = 1 << 5,         // seen head-on: white
   kInMedium = 1 << 6,      // a phase function: of points in a medium, not of surfaces
   kWalks = 1 << 7,         // its value is that of a random walk
-  kTabulated = 1 << 9,     // how narrow its lobes are is not known
   kEvenSides = 1 << 8,     // sends the same light to all directions on a side
+  kTabulated = 1 << 9,     // how narrow its lobes are is not known
+  kFibre = 1 << 10,        // of a fibre along dp/du, met where v says
 };
 
 // X(name, traits, meaning)
@@ -40,6 +41,7 @@ enum ShadeTraits : std::uint32_t {
   X(CoatedConductorMedium, kMicrofacets | kChoosesLobe | kMetallic | kWalks, "coated conductor with a scattering medium between") \
   X(DiffuseTransmission, kChoosesLobe | kEvenSides, "diffuse transmission")          \
   X(Measured, kTabulated, "measured reflectance")                                   \
+  X(Hair, kChoosesLobe | kFibre, "hair")                                             \
   X(HenyeyGreenstein, kInMedium, "Henyey-Greenstein phase function")
 // clang-format on
 

@@ -12,7 +12,7 @@ namespace {
 // but the environment.
 bool HasSurfaces(const FeatureSet& f) {
   return f.HasAny({Feature::kTriangles, Feature::kSpheres, Feature::kLargeSpheres,
-                   Feature::kDisks, Feature::kPlanes});
+                   Feature::kDisks, Feature::kPlanes, Feature::kCurves});
 }
 
 // Only emission seen directly is left: nothing is shaded and no light is sampled.

@@ -114,6 +114,7 @@ enum class MaterialKind {
   kCoatedConductor,
   kDiffuseTransmission,
   kMeasured,
+  kHair,
   kMix,
   kInterface
 };
@@ -125,13 +126,17 @@ struct Material {
   SourceLocation where;
   Scattering scattering = Scattering::kLambertian;
   ColorValue reflectance{{0.5, 0.5, 0.5},
-                         kNone};  // diffuse, coateddiffuse, diffusetransmission
+                         kNone};  // diffuse, coateddiffuse, diffusetransmission, hair
   ColorValue transmittance{{0.25, 0.25, 0.25}, kNone};  // diffusetransmission
   ColorValue eta, k;                                    // conductor (also below a coat)
   bool has_reflectance = false;  // conductor given by `reflectance`: normal-incidence
-                                 // reflectance; eta = 1, k = 2 sqrt(r / (1 - r))
-  double interface_eta = 1.5;    // dielectric, thindielectric, coats
-  FloatValue uroughness, vroughness;                      // of the (outer) interface
+                                 // reflectance; eta = 1, k = 2 sqrt(r / (1 - r)).
+                                 // hair: `reflectance` of much of it, else `sigma_a`
+  Rgb sigma_a;                   // hair: absorption, per radius of a fibre
+  double beta_m = 0.3, beta_n = 0.3;  // hair: roughness along a fibre and around it
+  double tilt = 2;                    // hair: of its scales, degrees
+  double interface_eta = 1.5;         // dielectric, thindielectric, coats, hair
+  FloatValue uroughness, vroughness;  // of the (outer) interface
   FloatValue conductor_uroughness, conductor_vroughness;  // coatedconductor
   bool remap_roughness = true;
   double thickness = 0.01;          // coats
@@ -160,7 +165,20 @@ struct TriangleMesh {
   std::vector<bool> continues;
 };
 
-enum class ShapeKind { kMesh, kSphere, kDisk, kPlane, kCylinder };
+/// How wide a curve looks. kFlat: it faces each ray. kCylinder: likewise, with normals of
+/// a tube. kRibbon: across a normal of its own.
+enum class CurveType : std::uint8_t { kFlat, kCylinder, kRibbon };
+
+/// A cubic Bezier curve in object space, with a width that changes evenly. u goes along
+/// it from 0 to 1, v across it.
+struct Curve {
+  Vec3d p[4];
+  double width[2] = {1, 1};
+  CurveType type = CurveType::kFlat;
+  Vec3d normal[2];  // kRibbon: unit, at both ends
+};
+
+enum class ShapeKind { kMesh, kSphere, kDisk, kPlane, kCylinder, kCurves };
 
 /// On each side of a surface; kNone: empty space. Alike on both: the surface changes
 /// nothing, whatever medium it lies in (as pbrt).
@@ -178,10 +196,11 @@ struct Shape {
   Index material = kNone;  // always set by the parser
   Index area_light = kNone;
   FloatValue alpha{1, kNone};
-  std::shared_ptr<const TriangleMesh> mesh;  // kMesh (bilinear patches become meshes)
-  double radius = 1;                         // kSphere, kDisk
-  double inner_radius = 0;                   // kDisk
-  double height = 0;                         // kDisk: object-space z; normal +z
+  std::shared_ptr<const TriangleMesh> mesh;    // kMesh (bilinear patches become meshes)
+  std::shared_ptr<std::vector<Curve>> curves;  // kCurves: at least one
+  double radius = 1;                           // kSphere, kDisk
+  double inner_radius = 0;                     // kDisk
+  double height = 0;                           // kDisk: object-space z; normal +z
   // What is left of a kSphere, and of a kCylinder, whose values are finite; z_min <=
   // z_max.
   double z_min = -std::numeric_limits<double>::infinity();

@@ -33,11 +33,13 @@ constexpr StageOn kFactories[] = {ShadeDiffuseStage,
                                   ShadeCoatedConductorMediumStage,
                                   ShadeDiffuseTransmissionStage,
                                   ShadeMeasuredStage,
+                                  ShadeHairStage,
                                   ShadeHenyeyGreensteinStage};
 static_assert(std::size(kFactories) == kNumShadeKinds);
 
 bool Transmits(ShadeKind kind) {
-  return kind == ShadeKind::kDielectricRough || kind == ShadeKind::kDiffuseTransmission;
+  return kind == ShadeKind::kDielectricRough || kind == ShadeKind::kDiffuseTransmission ||
+         kind == ShadeKind::kHair;
 }
 bool HasSpecularLobe(ShadeKind kind) {
   using enum ShadeKind;
@@ -75,7 +77,7 @@ struct Bounces {
       p.p_x[i] = p.p_y[i] = p.p_z[i] = p.p_error[i] = 0;
       p.beta_r[i] = p.beta_g[i] = p.beta_b[i] = 1;
       p.u_lobe[i] = unit(), p.u_bsdf_0[i] = unit(), p.u_bsdf_1[i] = unit();
-      p.eta_scale[i] = 1;
+      p.eta_scale[i] = 1, p.uv_v[i] = material.uv_v[0];
     }
     fixture.QueueAll(ShadeQueue(material.kind), kPaths);
     fixture.Run(kFactories[static_cast<int>(material.kind)], kFeatures);

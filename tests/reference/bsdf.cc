@@ -175,6 +175,8 @@ Rgb EvaluateCos(const LocalMaterial& m, Vec3d wo, Vec3d wi, Random& random) {
       return kWhite * EvaluateDielectricCos(m.interface, m.index, wo, wi);
     case MaterialKind::kThinDielectric:
       return {};
+    case MaterialKind::kHair:
+      return EvaluateHairCos(m, wo, wi);
     case MaterialKind::kCoatedDiffuse:
     case MaterialKind::kCoatedConductor:
       return EvaluateCoatCos(m, wo, wi, random);
@@ -199,6 +201,10 @@ std::optional<BsdfSample> SampleBsdf(const LocalMaterial& m, Vec3d wo, Random& r
       return SampleDielectric(m.interface, m.index, wo, random);
     case MaterialKind::kThinDielectric:
       return SampleThin(m.index, wo, random);
+    case MaterialKind::kHair: {
+      const Vec3d wi = Normalize(SampleBall(random));
+      return BsdfSample{wi, EvaluateHairCos(m, wo, wi) * (4 * kPi), false};
+    }
     case MaterialKind::kCoatedDiffuse:
     case MaterialKind::kCoatedConductor:
       return SampleCoat(m, wo, random);

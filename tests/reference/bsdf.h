@@ -33,6 +33,9 @@ struct LocalMaterial {
   double g = 0;          // and its asymmetry
   int coat_max_depth = 10;
   std::shared_ptr<const MeasuredReflectance> measured;
+  // Hair: absorption, roughness along and around, tilt of scales (radians), where across.
+  Rgb sigma_a;
+  double beta_m = 0.3, beta_n = 0.3, tilt = 0, h = 0;
 };
 
 struct BsdfSample {
@@ -59,6 +62,7 @@ std::optional<BsdfSample> SampleConductor(const Ggx& ggx, Rgb eta, Rgb k, Vec3d 
 double DiffuseDensity(Scattering scattering, double cosine);
 /// Direction in the upper hemisphere with that density.
 Vec3d SampleDiffuse(Scattering scattering, Random& random);
+Rgb EvaluateHairCos(const LocalMaterial& material, Vec3d wo, Vec3d wi);
 Rgb EvaluateCoatCos(const LocalMaterial& material, Vec3d wo, Vec3d wi, Random& random);
 std::optional<BsdfSample> SampleCoat(const LocalMaterial& material, Vec3d wo,
                                      Random& random);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/core/check.h"
+#include "tests/reference/curves.h"
 
 namespace lanelight::reference {
 
@@ -27,6 +28,7 @@ void Geometry::AddShape(const Shape& shape, const Transform& world_from_group) {
   if (shape.kind == ShapeKind::kMesh) {
     return AddTriangles(shape, world_from_object, world_from_group.SwapsHandedness());
   }
+  if (shape.kind == ShapeKind::kCurves) return AddCurves(shape, world_from_object);
   LL_CHECK(!(emits && shape.kind == ShapeKind::kPlane));
   Primitive out;
   out.kind = shape.kind;
@@ -82,6 +84,19 @@ void Geometry::AddTriangles(const Shape& shape, const Transform& world_from_obje
       out.n = normals;
       out.mesh_side = mirrored ? -1 : 1;
     }
+    primitives_.push_back(out);
+  }
+}
+
+void Geometry::AddCurves(const Shape& shape, const Transform& world_from_object) {
+  Primitive out;
+  out.kind = shape.kind;
+  out.material = shape.material;
+  const bool turned =
+      shape.reverse_orientation != shape.world_from_object.SwapsHandedness();
+  for (const Curve& curve : *shape.curves) {
+    out.face = num_faces_++;
+    out.curve = CurveInWorld(curve, world_from_object, turned ? -1 : 1);
     primitives_.push_back(out);
   }
 }

@@ -26,7 +26,7 @@ struct TexturePoint {
 /// Value of texture `index` at a point.
 using TextureLookup = std::function<Rgb(Index index, const TexturePoint& at)>;
 
-/// One triangle, sphere, disk, cylinder or plane, in the world.
+/// One triangle, sphere, disk, cylinder, plane or curve, in the world.
 struct Primitive {
   ShapeKind kind = ShapeKind::kMesh;
   Index material = kNone;
@@ -45,6 +45,7 @@ struct Primitive {
   Transform world_from_object, object_from_world;
   double radius = 1, inner_radius = 0, height = 0;
   double z_min = -1, z_max = 1, phi_max = 0;  // of what is there; radians
+  Curve curve;                                // kCurves: in the world
 };
 
 struct Ray {
@@ -55,7 +56,7 @@ struct Ray {
 struct Hit {
   double t = kInfinity;
   int primitive = kNone;
-  double b1 = 0, b2 = 0;  // kMesh: barycentric weights of vertices 1 and 2
+  double b1 = 0, b2 = 0;  // kMesh: barycentric weights of vertices 1 and 2; kCurves: u
 };
 
 /// Everything about the surface at a hit.
@@ -86,6 +87,7 @@ class Geometry {
   void AddShape(const Shape& shape, const Transform& world_from_group);
   void AddTriangles(const Shape& shape, const Transform& world_from_object,
                     bool mirrored);
+  void AddCurves(const Shape& shape, const Transform& world_from_object);
   void TestPrimitive(const Ray& ray, int index, double t_max, Random& random,
                      Hit& nearest) const;
 

@@ -3,6 +3,7 @@
 // starts on is known: planar ones are left out, a sphere loses its root at zero.
 #include <numbers>
 
+#include "tests/reference/curves.h"
 #include "tests/reference/frame.h"
 #include "tests/reference/geometry.h"
 
@@ -176,6 +177,9 @@ int IntersectPrimitive(const Primitive& primitive, const Ray& ray, bool origin_o
   if (primitive.kind == ShapeKind::kMesh) {
     return origin_on_it ? 0 : IntersectTriangle(primitive, ray, hits[0]);
   }
+  if (primitive.kind == ShapeKind::kCurves) {
+    return IntersectCurve(primitive.curve, ray, hits[0]);
+  }
   const Vec3d o = primitive.object_from_world.Point(ray.o);
   const Vec3d d = primitive.object_from_world.Vector(ray.d);
   if (primitive.kind == ShapeKind::kPlane) {
@@ -195,6 +199,9 @@ int IntersectPrimitive(const Primitive& primitive, const Ray& ray, bool origin_o
 SurfacePoint Geometry::Describe(const Ray& ray, const Hit& hit) const {
   const Primitive& primitive = primitives_[hit.primitive];
   if (primitive.kind == ShapeKind::kMesh) return DescribeTriangle(primitive, hit);
+  if (primitive.kind == ShapeKind::kCurves) {
+    return DescribeCurve(primitive.curve, ray, hit);
+  }
   return DescribeQuadric(primitive,
                          primitive.object_from_world.Point(ray.o + hit.t * ray.d));
 }

@@ -1,6 +1,7 @@
 #include "tests/reference/material.h"
 
 #include "src/core/check.h"
+#include "src/core/pi.h"
 
 namespace lanelight::reference {
 namespace {
@@ -44,6 +45,23 @@ Rgb AbsorptionFromReflectance(Rgb r) {
   return {k(r.x), k(r.y), k(r.z)};
 }
 
+// What makes much hair reflect that colour (Chiang et al. 2016, equation 9).
+Rgb HairAbsorption(Rgb r, double n) {
+  const double k = 5.969 - 0.215 * n + 2.532 * n * n - 10.73 * std::pow(n, 3) +
+                   5.574 * std::pow(n, 4) + 0.245 * std::pow(n, 5);
+  const auto sigma = [&](double c) { return std::pow(std::log(c) / k, 2); };
+  return {sigma(r.x), sigma(r.y), sigma(r.z)};
+}
+
+void SetHair(const Material& m, const SurfacePoint& at, LocalMaterial& out) {
+  out.beta_m = std::max(m.beta_m, 0.01);
+  out.beta_n = std::max(m.beta_n, 0.01);
+  out.tilt = m.tilt / 180 * kPi;
+  out.h = 2 * at.v - 1;
+  out.sigma_a =
+      m.has_reflectance ? HairAbsorption(out.reflectance, out.beta_n) : m.sigma_a;
+}
+
 }  // namespace
 
 LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
@@ -73,6 +91,7 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
   out.g = look.Float(m->coat_g);
   out.coat_max_depth = m->coat_max_depth;
   out.measured = m->measured;
+  if (m->kind == MaterialKind::kHair) SetHair(*m, at, out);
   if (m->kind == MaterialKind::kConductor || m->kind == MaterialKind::kCoatedConductor) {
     const bool given = m->has_reflectance;
     out.eta = given ? Rgb{1, 1, 1} : look.Color(m->eta);

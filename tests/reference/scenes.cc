@@ -170,6 +170,10 @@ std::vector<Material> MaterialZoo() {
   leaf.reflectance.constant = {0.4, 0.3, 0.2};
   leaf.transmittance.constant = {0.2, 0.3, 0.5};
   zoo.push_back(leaf);
+  Material hair = Make(MaterialKind::kHair, "hair");
+  hair.interface_eta = 1.55;
+  hair.sigma_a = {0.1, 0.3, 0.8};
+  zoo.push_back(hair);
   return zoo;
 }
 

@@ -109,6 +109,7 @@ TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
             .HasAll({Feature::kTriangles, Feature::kVertexNormals, Feature::kUv,
                      Feature::kTriangleLights, Feature::kDielectricSmooth}));
   CHECK_FALSE(features("shapes.pbrt").HasAny({Feature::kSpheres, Feature::kDisks}));
+  CHECK(features("hair.pbrt").HasAll({Feature::kCurves, Feature::kHair}));
   CHECK(features("patterns.pbrt")
             .HasAll({Feature::kTexturePlaces, Feature::kTexturedRoughness,
                      Feature::kCoatedDiffuseSmooth}));
@@ -243,6 +244,18 @@ TEST_CASE("own scenes: turned parts are what scenes/parts/turn writes", "[scenes
     ++written;
   }
   CHECK(written == 4);
+  fs::remove_all(folder);
+}
+
+TEST_CASE("own scenes: hair is what scenes/parts/comb writes", "[scenes]") {
+  if (!HasPython()) return;
+  const fs::path parts = fs::path(LANELIGHT_SOURCE_DIR) / "scenes" / "parts";
+  const fs::path folder = fs::temp_directory_path() / "lanelight_comb_test";
+  fs::remove_all(folder);
+  REQUIRE(
+      std::system(("python3 " + (parts / "comb").string() + " --out " + folder.string())
+                      .c_str()) == 0);
+  CHECK(ReadText(folder / "tuft.pbrt") == ReadText(parts / "tuft.pbrt"));
   fs::remove_all(folder);
 }
 

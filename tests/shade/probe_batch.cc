@@ -52,6 +52,25 @@ LocalMaterial Lacquer(double index, double coat, double metal) {
   return m;
 }
 
+LocalMaterial Hair(double beta_m, double beta_n, double tilt, double h, Rgb sigma_a) {
+  LocalMaterial m;
+  m.kind = MaterialKind::kHair;
+  m.index = 1.55;
+  m.beta_m = beta_m;
+  m.beta_n = beta_n;
+  m.tilt = tilt / 180 * std::numbers::pi;
+  m.h = h;
+  m.sigma_a = sigma_a;
+  // The table has the colour that the absorption stands for, and roughness as alpha.
+  const double n = beta_n;
+  const double k = 5.969 - 0.215 * n + 2.532 * n * n - 10.73 * std::pow(n, 3) +
+                   5.574 * std::pow(n, 4) + 0.245 * std::pow(n, 5);
+  for (int c = 0; c < 3; ++c) m.reflectance[c] = std::exp(-k * std::sqrt(sigma_a[c]));
+  m.interface = {beta_m, beta_n};
+  m.metal = {m.tilt, 0};
+  return m;
+}
+
 LocalMaterial Hazy(LocalMaterial m, double thickness, double g) {
   m.thickness = thickness;
   m.albedo = {0.9, 0.6, 0.3};
@@ -78,7 +97,8 @@ LocalMaterial Brushed(int parts) {
 
 TestMaterial MakeTestMaterial(const std::string& name, ShadeKind kind,
                               const LocalMaterial& m) {
-  TestMaterial out{name, kind, m, {}};
+  TestMaterial out{name, kind, m, {}, {}};
+  out.uv_v.push_back(static_cast<float>((m.h + 1) / 2));
   MaterialTable& t = out.table;
   const bool metal =
       m.kind == MaterialKind::kConductor || m.kind == MaterialKind::kCoatedConductor;
@@ -155,6 +175,9 @@ const std::vector<TestMaterial>& TestMaterials() {
         Hazy(Plastic(1.5, 0.3, paint), 1, -0.5));
     add("hazy lacquer 0.2, 0.3", K::kCoatedConductorMedium,
         Hazy(Lacquer(1.5, 0.2, 0.3), 0.3, 0.6));
+    add("hair", K::kHair, Hair(0.3, 0.3, 2, 0.3, {0.2, 0.5, 1.4}));
+    add("hair, rough, at its edge", K::kHair, Hair(0.9, 0.7, 5, -0.95, {0.1, 0.3, 2}));
+    add("hair, smoother", K::kHair, Hair(0.2, 0.25, 3, -0.6, {0, 0.05, 0.2}));
     add("hazy lacquer 0, 0", K::kCoatedConductorMedium, Hazy(Lacquer(1.5, 0, 0), 0.5, 0));
     add("measured metal 0.3", K::kMeasured, Measured(reference::MetalModel(0.3, 0.3)));
     add("measured chalk", K::kMeasured, Measured(reference::ChalkModel(0.8)));
@@ -200,6 +223,7 @@ BsdfBatch ProbeBatch::View(const TestMaterial& material, std::uint32_t seed) {
   batch.materials = &material.table;
   batch.n = n;
   batch.seed = seed;
+  batch.uv_v = material.uv_v.data();
   for (int c = 0; c < 3; ++c) {
     batch.wo[c] = wo[c].data();
     batch.u[c] = u[c].data();

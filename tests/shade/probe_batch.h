@@ -16,7 +16,8 @@ struct TestMaterial {
   std::string name;
   ShadeKind kind;
   reference::LocalMaterial local;
-  MaterialTable table;  // one row
+  MaterialTable table;        // one row
+  AlignedVector<float> uv_v;  // of fibres: across
 };
 
 /// `local` as a row of a table.

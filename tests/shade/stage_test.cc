@@ -32,6 +32,7 @@ constexpr StageOn kFactories[] = {ShadeDiffuseStage,
                                   ShadeCoatedConductorMediumStage,
                                   ShadeDiffuseTransmissionStage,
                                   ShadeMeasuredStage,
+                                  ShadeHairStage,
                                   ShadeHenyeyGreensteinStage};
 static_assert(std::size(kFactories) == kNumShadeKinds);
 
@@ -70,7 +71,7 @@ struct ShadeFixture {
       p.p_error[i] = 1e-3f;
       p.ls_pdf[i] = i % 3 == 0 ? 0 : 2 * unit();
       p.u_lobe[i] = unit(), p.u_bsdf_0[i] = unit(), p.u_bsdf_1[i] = unit();
-      p.eta_scale[i] = 1, p.bsdf_pdf[i] = -1, p.t[i] = 5;
+      p.eta_scale[i] = 1, p.uv_v[i] = material.uv_v[0], p.bsdf_pdf[i] = -1, p.t[i] = 5;
     }
   }
 

@@ -64,7 +64,8 @@ inline CompiledScene MakeScene(Geometry geometry, const AccelOptions& options) {
   ranges.disks = ranges.spheres + count(geometry.spheres);
   ranges.planes = ranges.disks + count(geometry.disks);
   ranges.large_spheres = ranges.planes + count(geometry.planes);
-  ranges.end = ranges.large_spheres + count(geometry.large_spheres);
+  ranges.curves = ranges.large_spheres + count(geometry.large_spheres);
+  ranges.end = ranges.curves + count(geometry.curves);
   if (geometry.groups.empty()) geometry.groups.push_back({0, ranges.spheres});
   std::uint32_t id = 0;
   for (auto& r : geometry.triangles) r.material = id++;

@@ -24,7 +24,7 @@ CompiledScene Materials(double alpha) {
            "\"thindielectric\"", "\"coateddiffuse\"" + rough,
            "\"coatedconductor\" \"float interface.roughness\" 0.1 \"float "
            "conductor.roughness\" 0.1",
-           "\"diffusetransmission\""}) {
+           "\"diffusetransmission\"", "\"hair\" \"float beta_m\" 0.05"}) {
     text += Sphere({0, 0, 0}, 1, material);
   }
   return PrepareText({text, {}}).scene;

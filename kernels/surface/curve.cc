@@ -1,0 +1,157 @@
+// The surface at hits on curves.
+//
+// Flat curves face the ray, those of type cylinder have normals turned across the width,
+// from one side to the other, like those of a tube; points stay on the ray, at the depth
+// of the middle line (as pbrt-v4). v goes across, so that dp/du x dp/dv is the normal.
+// Differs from pbrt-v4: there normals of flat curves point away from the ray, and those
+// of cylinders are the ones of a tube's far side.
+#include "kernels/simd/each_target-inl.h"
+
+#include "kernels/queue/batch-inl.h"
+#include "kernels/simd/math-inl.h"
+#include "kernels/simd/records-inl.h"
+#include "kernels/surface/store-inl.h"
+#include "src/compiled/scene.h"
+
+LANELIGHT_BEGIN_KERNELS
+
+struct CurveLanes {
+  V3 p[4];
+  VF width[2], u;
+  MF cylinder, ribbon;
+  VI material;
+};
+
+HWY_INLINE CurveLanes LoadCurves(const Geometry& geometry, VI index, VF u) {
+  const Records records(geometry.curves.data(), 16, index);
+  VF w[16];
+  for (int i = 0; i < 16; i += 4) records.Load4(i, w + i);
+  const VI type = hn::BitCast(DI(), w[15]);
+  const auto is = [&](CurveType t) HWY_ATTR {
+    return hn::RebindMask(DF(), hn::Eq(type, hn::Set(DI(), static_cast<int32_t>(t))));
+  };
+  return {
+      {{w[0], w[1], w[2]}, {w[3], w[4], w[5]}, {w[6], w[7], w[8]}, {w[9], w[10], w[11]}},
+      {w[12], w[13]},
+      u,
+      is(CurveType::kCylinder),
+      is(CurveType::kRibbon),
+      hn::BitCast(DI(), w[14])};
+}
+
+// The point of a curve, and the tangent there, by the corner-cutting of de Casteljau.
+struct OnCurve {
+  D3 p, tangent;
+};
+template <bool kUpper>
+HWY_INLINE OnCurve PointOnCurve(const CurveLanes& curve) {
+  const VD u = HalfOf<kUpper>(curve.u);
+  const auto mix = [&](D3 a, D3 b) HWY_ATTR { return MulAdd(Minus(b, a), u, a); };
+  D3 p[4];
+  for (int k = 0; k < 4; ++k) p[k] = HalfOf<kUpper>(curve.p[k]);
+  for (int n = 3; n > 1; --n) {
+    for (int k = 0; k < n; ++k) p[k] = mix(p[k], p[k + 1]);
+  }
+  const D3 chord = Minus(p[1], p[0]);
+  const VD three = hn::Set(DD(), 3.0);
+  return {mix(p[0], p[1]),
+          {hn::Mul(chord.x, three), hn::Mul(chord.y, three), hn::Mul(chord.z, three)}};
+}
+
+// From the middle line to the point of the ray.
+struct CurvePlaces {
+  V3 p, aside, tangent;
+};
+HWY_INLINE CurvePlaces PlaceCurves(const PathColumns& path, const StoreSlots& slots,
+                                   const CurveLanes& curve) {
+  const D3 lower = RayPoint<false>(path, slots), upper = RayPoint<true>(path, slots);
+  const OnCurve low = PointOnCurve<false>(curve), high = PointOnCurve<true>(curve);
+  const V3 tangent = FromHalves(low.tangent, high.tangent);
+  // An end where points coincide.
+  const MF still = hn::Not(hn::Gt(Dot(tangent, tangent), hn::Zero(DF())));
+  return {FromHalves(lower, upper), FromHalves(Minus(lower, low.p), Minus(upper, high.p)),
+          IfThenElse(still, curve.p[3] - curve.p[0], tangent)};
+}
+
+// The normals of ribbons, across the tangent; `facing` of other curves.
+HWY_INLINE V3 RibbonNormals(const Geometry& geometry, VI index, const CurveLanes& curve,
+                            V3 facing) {
+  if (geometry.ribbons.empty()) return facing;
+  const Records records(geometry.ribbons.data(), 8, index);
+  VF w[8];
+  records.Load4(0, w);
+  records.Load4(4, w + 4);
+  const VF angle = w[6], one = Splat(1.0f);
+  const VF rest = hn::Sub(one, curve.u);
+  const MF turns = hn::Gt(angle, hn::Zero(DF()));
+  const auto weight = [&](VF share) HWY_ATTR {
+    const VF part = hn::Mul(hn::Mul(share, angle), Splat(0.5f * kInvPi));
+    return hn::IfThenElse(turns, hn::Mul(SinCos2Pi(part).sin, w[7]), share);
+  };
+  const V3 n = MulAdd(V3{w[0], w[1], w[2]}, weight(rest),
+                      Mul(V3{w[3], w[4], w[5]}, weight(curve.u)));
+  return IfThenElse(curve.ribbon, n, facing);
+}
+
+// Unit, across `along`, which is unit: `n` made so.
+HWY_INLINE V3 AcrossCurve(V3 n, V3 along) {
+  const V3 flat = MulAdd(along, hn::Neg(Dot(n, along)), n);
+  const MF usable = hn::Gt(Dot(flat, flat), Splat(1e-12f));
+  return IfThenElse(usable, Normalize(flat), FrameFromNormal(along).s);
+}
+
+HWY_INLINE void StoreCurveCoordinates(const PathColumns& path, const StoreSlots& slots,
+                                      VF u, VF v) {
+  if (path.uv_u == nullptr) return;
+  Scatter(u, path.uv_u, slots);
+  Scatter(v, path.uv_v, slots);
+}
+
+HWY_INLINE void CurveBatch(const Wave& wave, const StoreSlots& slots) {
+  const PathColumns& path = wave.path;
+  const Geometry& geometry = wave.scene->geometry;
+  const VI first = hn::Set(DI(), static_cast<int32_t>(geometry.ranges.curves));
+  const VI index = hn::Sub(Gather(path.prim, slots), first);
+  const CurveLanes curve = LoadCurves(geometry, index, Gather(path.b1, slots));
+  const CurvePlaces at = PlaceCurves(path, slots, curve);
+  const V3 d = Gather3(path.d_x, path.d_y, path.d_z, slots);
+  const V3 along = Normalize(at.tangent);
+  const V3 own = RibbonNormals(geometry, index, curve, -d);
+  const V3 face = AcrossCurve(own, along);
+  const V3 side = Cross(face, along);
+  // As wide as it looks.
+  const VF turned = hn::IfThenElse(curve.ribbon, hn::Abs(Dot(own, d)), Splat(1.0f));
+  const VF wider = hn::Sub(curve.width[1], curve.width[0]);
+  const VF width = hn::Mul(turned, hn::MulAdd(wider, curve.u, curve.width[0]));
+  // What of the way aside is across the curve and the ray, as a share of that.
+  const V3 seen = Cross(AcrossCurve(-d, along), along);
+  const VF offset = Dot(at.aside, seen);
+  const VF apart = hn::CopySign(offset, hn::Mul(offset, Dot(seen, side)));
+  const VF half = Splat(0.5f);
+  const VF aside =
+      hn::Clamp(hn::Div(apart, hn::Max(width, Splat(1e-37f))), hn::Neg(half), half);
+  // Half a turn from side to side.
+  const VF turn = hn::IfThenElseZero(curve.cylinder, hn::Mul(Splat(0.5f), aside));
+  const SinCosPair a = SinCos2Pi(turn);
+  const V3 n = MulAdd(face, a.cos, Mul(side, a.sin));
+  SurfaceLanes surface{.p = at.p, .n = n, .error = Splat(0), .material = curve.material};
+  surface.error = RoundingError(at.p, n, width);
+  StoreSurface(path, slots, surface);
+  StoreCurveCoordinates(path, slots, curve.u, hn::Add(aside, Splat(0.5f)));
+  if (path.tg_x == nullptr) return;
+  Scatter3(at.tangent, path.tg_x, path.tg_y, path.tg_z, slots);
+  if (path.tv_x == nullptr) return;
+  StoreBitangent(path, slots, Mul(MulAdd(side, a.cos, Mul(face, hn::Neg(a.sin))), width),
+                 n);
+}
+
+Stage SurfaceCurveStage() {
+  Stage stage = ShapeStage(
+      "surface_curve", "point, normals and material of hits on curves", Feature::kCurves,
+      Always<
+          SurfaceOfShape<CurveBatch, &PrimitiveRanges::curves, &PrimitiveRanges::end>>);
+  stage.reads = stage.reads | FieldSet{Field::b1};
+  return stage;
+}
+
+LANELIGHT_END_KERNELS

@@ -1,0 +1,23 @@
+// Curves to records.
+#pragma once
+
+#include <cstdint>
+
+#include "src/compile/placement.h"
+#include "src/geometry/geometry.h"
+
+namespace lanelight {
+
+/// The box of the points of all curves of a shape, widened by half their width.
+Box CurveBox(const Shape& shape, const Transform& transform);
+
+/// Appends the curves of a shape. Throws InputError where the transform stretches
+/// directions differently, so that widths would depend on where they are seen from, and
+/// beyond kMostCurves.
+void AddCurves(const PlacedShape& placed, const Frame& frame, std::uint32_t material,
+               Geometry& geometry);
+
+/// In one scene, copies made of instances counted: what 32-bit offsets reach.
+inline constexpr std::size_t kMostCurves = std::size_t{1} << 26;
+
+}  // namespace lanelight
