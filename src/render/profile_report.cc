@@ -8,8 +8,9 @@ namespace lanelight {
 namespace {
 
 // kernels/intersect/ names its stages so; tests/render/profile_report_test.cc compares.
-bool IsIntersect(const std::string& name) {
-  return name.rfind("intersect_", 0) == 0 || name.rfind("shadow_", 0) == 0;
+bool IsIntersect(std::string_view name) {
+  if (name.starts_with(kSeenStage)) name.remove_prefix(kSeenStage.size());
+  return name.starts_with("intersect_") || name.starts_with("shadow_");
 }
 
 ProfileRow MakeRow(RowKind kind, const StageProfile& counts) {

@@ -25,7 +25,7 @@ const char* Name(TaskPart part) {
 
 std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
   std::vector<StageProfile> profiles;
-  const auto add = [&](const std::vector<PlannedStage>& stages, const char* before) {
+  const auto add = [&](const std::vector<PlannedStage>& stages, std::string_view before) {
     for (const PlannedStage& planned : stages) {
       StageProfile& profile = profiles.emplace_back();
       profile.name = std::string(before) + planned.stage.name;
@@ -38,7 +38,7 @@ std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
   };
   add(plan.stages, "");
   add(plan.block_stages, "");
-  add(plan.seen_stages, "seen: ");
+  add(plan.seen_stages, kSeenStage);
   return profiles;
 }
 

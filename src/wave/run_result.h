@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/core/hardware_counters.h"
@@ -13,6 +14,9 @@
 #include "src/wave/run_state.h"
 
 namespace lanelight {
+
+/// Before the names of stages that follow rays at edges of lights (Plan::seen_stages).
+inline constexpr std::string_view kSeenStage = "seen: ";
 
 struct StageProfile {
   std::string name;

@@ -247,6 +247,33 @@ Shape "trianglemesh" "point3 P" [ -3 -1 -3  3 -1 -3  3 -1 3  -3 -1 3 ]
   "integer indices" [ 0 1 2 0 2 3 ]
 )";
 
+/// Curves, one of them an instance, of hair and of other materials.
+inline constexpr const char* kCurvesScene = R"(
+LookAt 0 1 -6  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.5 0.5 0.5 ]
+AttributeBegin
+  Translate 0 3 -2
+  AreaLightSource "diffuse" "rgb L" [ 6 6 6 ]
+  Shape "sphere" "float radius" 0.5
+AttributeEnd
+Material "hair" "rgb sigma_a" [ 0.1 0.3 0.8 ]
+Shape "curve" "point3 P" [ -1 -1 0  -0.5 1 0  0.5 -1 0  1 1 0 ] "float width" 0.5
+Material "diffuse"
+Shape "curve" "string type" "ribbon" "normal N" [ 0 0 -1  0 1 -1 ] "float width" 0.6
+  "point3 P" [ -1 1 1  -0.5 -1 1  0.5 1 1  1 -1 1 ]
+ObjectBegin "strand"
+  Shape "curve" "string type" "cylinder" "point3 P" [ 0 -2 0  0 -1 0  0 1 0  0 2 0 ]
+    "float width" 0.3
+ObjectEnd
+Rotate 30 0 0 1
+ObjectInstance "strand"
+Shape "trianglemesh" "point3 P" [ -3 -1 -3  3 -1 -3  3 -1 3  -3 -1 3 ]
+  "integer indices" [ 0 1 2 0 2 3 ]
+)";
+
 /// Measured reflectance, of the file measured.bsdf.
 inline constexpr const char* kMeasuredScene = R"(
 LookAt 0 1 -6  0 0 0  0 1 0

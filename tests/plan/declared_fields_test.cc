@@ -256,6 +256,8 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kInsideScene, "points=sobol"},
       {kInsideScene, "roulette=adjoint"},
       {kMeasuredScene, "points=sobol"},
+      {kCurvesScene, "points=sobol"},
+      {kCurvesScene, "points=sobol,reuse=block"},
       {kForcedScene, "points=sobol"},
       {kForcedScene, "roulette=adjoint"},
       {kSphericalScene, "points=sobol"},

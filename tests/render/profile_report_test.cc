@@ -36,7 +36,8 @@ StageProfile Stage(const std::string& name, double seconds, std::uint64_t items)
 
 RunResult SomeResult() {
   RunResult r;
-  r.stages = {Stage("camera", 0.1, 1000000), Stage("intersect_triangles", 0.4, 4000000),
+  r.stages = {Stage("camera", 0.1, 1000000),
+              Stage("seen: intersect_triangles", 0.4, 4000000),
               Stage("shadow_spheres", 0.2, 2000000), Stage("connect", 0.2, 2000000)};
   r.parts = EmptyParts();
   r.parts[static_cast<std::size_t>(TaskPart::kFilm)].seconds = 0.05;
@@ -127,7 +128,8 @@ TEST_CASE("the stages that count as intersect are those of kernels/intersect",
     CHECK(tracing == place);
     checked += tracing;
   }
-  CHECK(checked == 3);  // files; both stages of all shapes but triangles are in one
+  // Files; both stages of curves are in one, and those of all other shapes but triangles.
+  CHECK(checked == 4);
 }
 
 }  // namespace lanelight

@@ -146,7 +146,7 @@ TEST_CASE("a profile says what the edges of lights cost, stage by stage",
     const Rendered rendered = RenderDescription(Lamp(0.3), t);
     std::uint64_t generated = 0, rows = 0;
     for (const StageProfile& row : rendered.result.stages) {
-      if (row.name.rfind("seen: ", 0) != 0) continue;
+      if (!row.name.starts_with(kSeenStage)) continue;
       ++rows;
       CHECK(row.seconds >= 0);
       if (row.name == "seen: generate") generated = row.items;
