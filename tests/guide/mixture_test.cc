@@ -62,7 +62,8 @@ struct GuidedPaths {
       Set(i, {1, 1, 1}, p.ls_r, p.ls_g, p.ls_b), p.ls_pdf[i] = 0.5f;
       p.u_lobe[i] = unit(), p.u_bsdf_0[i] = unit(), p.u_bsdf_1[i] = unit();
       p.u_guide[i] = unit();
-      p.eta_scale[i] = 1, p.bsdf_pdf[i] = -1, p.t[i] = 5;
+      p.eta_scale[i] = 1, p.uv_v[i] = material.uv_v[0];
+      p.bsdf_pdf[i] = -1, p.t[i] = 5;
     }
   }
   static void Set(std::uint32_t i, Vec3d v, float* x, float* y, float* z) {
