@@ -77,7 +77,7 @@ TEST_CASE("a profile's rows add up to the processor time", "[profile]") {
     if (i > 0) CHECK(report.rows[i].share <= report.rows[i - 1].share);
   }
   CHECK(shares == Approx(1));
-  CHECK(report.rows[0].counts.name == "intersect_triangles");
+  CHECK(report.rows[0].counts.name == "seen: intersect_triangles");
   CHECK(report.rows[0].NsPerItem() == Approx(100));
   CHECK(report.rows[0].counts.Occupancy() == Approx(0.5));
   CHECK(report.intersect_seconds == Approx(0.6));
