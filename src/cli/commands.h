@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "src/run/rank_group.h"
+#include "src/core/rank_group.h"
 
 namespace lanelight {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "src/run/rank_group.h"
+#include "src/core/rank_group.h"
 
 namespace lanelight {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "src/run/rank_group.h"
+#include "src/core/rank_group.h"
 
 namespace lanelight {
 

@@ -51,7 +51,7 @@ struct Rendering {
 Rendering RenderToFiles(const Job& job, const std::string& scene,
                         const RenderTargets& targets, const RenderHooks& hooks);
 
-/// The same for a worker (src/run/rank_group.h): nothing is written.
+/// The same for a worker (src/core/rank_group.h): nothing is written.
 void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop);
 
 /// What a film is of.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "src/wave/films.h"
-#include "src/run/rank_group.h"
+#include "src/core/rank_group.h"
 #include "src/wave/run_clock.h"
 #include "src/wave/task_watcher.h"
 #include "src/run/tasks.h"

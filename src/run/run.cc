@@ -73,14 +73,20 @@ struct Runner {
 void Runner::Start() {
   clock.Start();
   const bool restored = setting.options.keeper != nullptr && Restore();
-  if (!restored) strategy.Train();
-  films.film().set_dependents(strategy.Dependents());
-  const bool have_samples = tasks.counts().samples > 0;
+  RunStart start;
+  start.have_samples = tasks.counts().samples > 0;
+  start.planned_training = restored ? 0 : strategy.PlannedTraining();
   if (group.ranks() > 1) {
-    group.Share(ToBytes({tasks.tiles(), have_samples, strategy.trained(),
-                         strategy.training().changes, strategy.Tables()}));
+    start.tiles = tasks.tiles();
+    group.Share(ToBytes(start));
   }
-  work.Deal(have_samples);
+  if (start.planned_training > 0) strategy.Train(start.planned_training, group);
+  films.film().set_dependents(strategy.Dependents());
+  if (group.ranks() > 1) {
+    group.Share(ToBytes(
+        RunTraining{strategy.trained(), strategy.training().changes, strategy.Tables()}));
+  }
+  work.Deal(start.have_samples);
   parts.Start();
   show.Start();
   watch.Start();
@@ -92,7 +98,7 @@ bool Runner::Restore() {
   if (!setting.options.keeper->Restore(state)) return false;
   clock.GoOn(state.counts.seconds);
   tasks.GoOn(films, state.counts);
-  if (!state.trained) return !strategy.NeedsTraining();
+  if (!state.trained) return !NeedsTraining(strategy.plan());
   strategy.Restore(std::move(state.training), state.tables);
   return true;
 }
@@ -116,10 +122,14 @@ RunCounts Runner::Counts() const {
 
 void Runner::Serve(const RunStart& start, const std::atomic<bool>* stop) {
   clock.Start();
-  if (start.trained) {
+  if (start.planned_training > 0) strategy.Train(start.planned_training, group);
+  // What the leader has learned, to the last bit, also where another processor's
+  // elementary functions are rounded otherwise.
+  const RunTraining learned = RunTrainingFromBytes(group.Share(""));
+  if (learned.trained) {
     TrainingOutcome training;
-    training.changes = start.changes;
-    strategy.Restore(std::move(training), start.tables);
+    training.changes = learned.changes;
+    strategy.Restore(std::move(training), learned.tables);
   }
   work.Deal(start.have_samples);
   work.Serve([this](std::uint64_t first) { strategy.BeginWith(first); }, stop);

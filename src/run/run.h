@@ -3,7 +3,7 @@
 #pragma once
 
 #include "src/plan/plan.h"
-#include "src/run/rank_group.h"
+#include "src/core/rank_group.h"
 #include "src/wave/run_options.h"
 #include "src/wave/run_result.h"
 

@@ -10,6 +10,7 @@
 #include "src/wave/profile.h"
 #include "src/run/sample_rate.h"
 #include "src/wave/stop_watcher.h"
+#include "src/train/rank_passes.h"
 #include "src/train/trained_tables.h"
 
 namespace lanelight {
@@ -38,7 +39,8 @@ void RunStrategy::BeginWith(std::uint64_t first) {
   run_.seed = SeedOf(options_.seed, first);
 }
 
-std::uint64_t RunStrategy::PlannedSamples() const {
+std::uint64_t RunStrategy::PlannedTraining() const {
+  if (!NeedsTraining(plan_)) return 0;
   if (options_.planned_samples > 0) return options_.planned_samples;
   const std::uint64_t pixels = RenderedPixels(scene_.film).pixels();
   const bool decides = plan_.features.Has(Feature::kDecides);
@@ -50,18 +52,20 @@ std::uint64_t RunStrategy::PlannedSamples() const {
   return decides ? DecidedBy(pixels) : std::max(pixels * kPilotSpp, kLeastPilot);
 }
 
-void RunStrategy::Train() {
-  if (!NeedsTraining()) return;
+void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {
+  RankPasses ranks(group, options_.stop);
   TrainingOptions options;
-  options.planned_samples = PlannedSamples();
+  options.planned_samples = planned;
   options.keep_roulette = options_.keep_roulette;
   if (options_.spp == 0 && !options_.samples_needed) options.seconds = options_.seconds;
-  options.stop = options_.stop;
+  const bool together = group.ranks() > 1;
+  options.stop = together ? ranks.stop() : options_.stop;
+  options.ranks = together ? &ranks : nullptr;
   training_ = lanelight::Train({scene_, plan_, run_.seed, options, tables_});
   training_.seconds = clock_.Seconds();
   training_.cpu_seconds = clock_.CpuSeconds();
   // What was cut short is trained anew when the run goes on.
-  if (!StopWatcher(options_.stop).Stopped()) UseTraining();
+  if (!StopWatcher(options.stop).Stopped()) UseTraining();
 }
 
 void RunStrategy::Restore(TrainingOutcome training,

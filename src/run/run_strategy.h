@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/core/rank_group.h"
 #include "src/run/run.h"
 #include "src/wave/run_clock.h"
 #include "src/wave/run_state.h"
@@ -30,9 +31,11 @@ class RunStrategy {
   /// Tasks from here on begin with this sample, or later ones.
   void BeginWith(std::uint64_t first);
 
-  bool NeedsTraining() const { return lanelight::NeedsTraining(plan_); }
-  /// Trains, if the strategy asks for it. What a signal cuts short does not count.
-  void Train();
+  /// Samples that a training is planned for; 0 if the strategy asks for none.
+  std::uint64_t PlannedTraining() const;
+  /// Trains for so many, all ranks of the group together. What a signal cuts short does
+  /// not count.
+  void Train(std::uint64_t planned, RankGroup& group);
   /// Takes what has been learned before. Throws InputError for tables that kernels must
   /// not be given, and for changes to the strategy that there are not.
   void Restore(TrainingOutcome training, const std::vector<TrainedTable>& tables);
@@ -48,7 +51,6 @@ class RunStrategy {
   void Describe(RunResult& result) const;
 
  private:
-  std::uint64_t PlannedSamples() const;
   void UseTraining();
   RunParameters Parameters() const;
 

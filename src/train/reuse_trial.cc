@@ -122,7 +122,7 @@ std::vector<TriedBlocks> StrategyTrial::TryBlocks(const TriedStrategy& usual,
     if (!Takes(scene_, blocks)) break;
     const TrainingWork work = MakeTileWork(scene_, samples, kBlockSpp);
     const TriedBlocks found = CompareBlocks(usual, blocks, work, must_gain);
-    if (watcher_.Cancelled()) break;
+    if (watcher_.Stopped()) break;
     tried.push_back(found);
     tried.back().changes = changes;
     if (found.pays || !found.pays_per_pixel) break;

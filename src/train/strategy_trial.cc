@@ -121,7 +121,7 @@ bool StrategyTrial::RecordsUnsplit(const TriedStrategy& tried,
 TrainingSamples StrategyTrial::Render(const PlanOptions& options,
                                       const StrategyTables& tables,
                                       const TrainingWork& work) {
-  TrainingPass pass = {scene_, options, &tables, seed_, &watcher_};
+  TrainingPass pass = {scene_, options, &tables, seed_, &watcher_, training_.ranks};
   pass.options.own_points = true;
   TrainingSamples samples = RunTrainingPass(pass, work);
   spent_.samples += samples.colors.size();

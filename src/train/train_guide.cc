@@ -16,6 +16,7 @@
 #include "src/prepare/guide_build.h"
 #include "src/prepare/guide_cell.h"
 #include "src/wave/stop_watcher.h"
+#include "src/train/rank_passes.h"
 #include "src/train/training.h"
 #include "src/train/training_pass.h"
 
@@ -76,6 +77,12 @@ class GuideTraining {
   std::uint64_t NextRound() const {
     const std::uint64_t next = 2 * last_round_;
     if (!Timed()) return outcome_.samples + next <= Planned() ? next : 0;
+    RankPasses* const ranks = context_.options.ranks;
+    return ranks != nullptr ? ranks->LeadersOf(InTime(next)) : InTime(next);
+  }
+
+  // Samples of a round of so many for which there is time.
+  std::uint64_t InTime(std::uint64_t next) const {
     // It will take twice as long; the last one takes what is left.
     const double left = Seconds() - watch_.Seconds();
     const double needs = 2 * (watch_.Seconds() - round_start_);
@@ -102,10 +109,10 @@ class GuideTraining {
     ++passes_;
     const TrainingWork work =
         MakeTrainingWork(context_.scene, samples, TrainingWork::kLeastSpp, passes_);
-    const TrainingSamples found =
-        RunTrainingPass({context_.scene, options_, &context_.tables,
-                         GuidePassSeed(context_.seed, passes_), &watcher_},
-                        work);
+    const TrainingSamples found = RunTrainingPass(
+        {context_.scene, options_, &context_.tables,
+         GuidePassSeed(context_.seed, passes_), &watcher_, context_.options.ranks},
+        work);
     outcome_.samples += found.colors.size();
     outcome_.rays += found.rays();
     if (!watcher_.Stopped()) ReadGuideRecords(found.recorded, guide_, records_);

@@ -85,8 +85,8 @@ class Pilot {
                    const TrainingWork& work) {
     PlanOptions options = WithChanges(scene_, plan_.options, Change(roulette));
     options.training = records;
-    PathSamples samples =
-        ReadRecords(RunTrainingPass({scene_, options, &tables_, seed_, &watcher_}, work));
+    PathSamples samples = ReadRecords(RunTrainingPass(
+        {scene_, options, &tables_, seed_, &watcher_, options_.ranks}, work));
     outcome_.samples += samples.colors.size();
     outcome_.rays += samples.rays();
     return samples;

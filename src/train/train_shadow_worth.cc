@@ -29,8 +29,9 @@ TrainingSamples ShadowPass(const TrainingContext& context, const TrainingWork& w
   if (context.plan.features.Has(Feature::kSplitting)) {
     options = WithChanges(context.scene, options, "roulette=throughput");
   }
-  return RunTrainingPass(
-      {context.scene, options, &context.tables, context.seed, &watcher}, work);
+  return RunTrainingPass({context.scene, options, &context.tables, context.seed, &watcher,
+                          context.options.ranks},
+                         work);
 }
 
 // The square of the mean standard deviation. By the mean variance a few pixels that see

@@ -16,11 +16,14 @@
 
 namespace lanelight {
 
+class RankPasses;  // src/train/rank_passes.h
+
 struct TrainingOptions {
   std::uint64_t planned_samples = 0;  // of the image
   double seconds = 0;                 // that the run may take; 0: samples decide
   bool keep_roulette = false;         // even where another would be more efficient
   const std::atomic<bool>* stop = nullptr;
+  RankPasses* ranks = nullptr;  // that train together (src/train/rank_passes.h)
 };
 
 /// Planned samples beyond which the pilot of decide=pilot does not grow, and that it is

@@ -13,6 +13,7 @@
 #include "src/wave/block_reuse.h"
 #include "src/wave/copies.h"
 #include "src/plan/plan_features.h"
+#include "src/train/rank_passes.h"
 #include "src/wave/drive.h"
 #include "src/wave/tiles.h"
 #include "src/wave/wavefront.h"
@@ -37,7 +38,8 @@ class Pass {
         own_points_(GroupsOf(strategy_).replicates),
         run_(Parameters(pass)),
         work_(work),
-        watcher_(pass.watcher),
+        ranks_(pass.ranks),
+        watcher_(ranks_ != nullptr ? &ranks_->watcher() : pass.watcher),
         copies_(plan_.features.Has(Feature::kSplitting) ? kMostCopies : 1) {
     wavefronts_.resize(static_cast<std::size_t>(ThreadSlots()));
     samples_.colors.resize(work.samples());
@@ -50,6 +52,7 @@ class Pass {
   TrainingSamples Run() {
     const std::vector<std::size_t> begins = Begins();
     ParallelFor(begins.size() - 1, [&](std::size_t task) {
+      if (ranks_ != nullptr && !ranks_->Renders(task)) return;
       RunTask(task, begins[task], begins[task + 1] - begins[task]);
     });
     for (const auto& wavefront : wavefronts_) {
@@ -57,6 +60,7 @@ class Pass {
       samples_.rays_closest += wavefront->wave().rays_closest;
       samples_.rays_shadow += wavefront->wave().rays_shadow;
     }
+    if (ranks_ != nullptr) ranks_->Exchange(SampleBegins(begins), samples_);
     return std::move(samples_);
   }
 
@@ -72,6 +76,12 @@ class Pass {
     while (begins.back() < work_.pixels.size()) {
       begins.push_back(std::min(begins.back() + pixels, work_.pixels.size()));
     }
+    return begins;
+  }
+
+  // The same in samples.
+  std::vector<std::size_t> SampleBegins(std::vector<std::size_t> begins) const {
+    for (std::size_t& begin : begins) begin *= work_.spp;
     return begins;
   }
 
@@ -120,6 +130,7 @@ class Pass {
   const bool own_points_;
   const RunParameters run_;
   const TrainingWork& work_;
+  RankPasses* const ranks_;
   const TaskWatcher* const watcher_;
   const std::uint32_t copies_;
   std::vector<std::unique_ptr<Wavefront>> wavefronts_;

@@ -12,6 +12,7 @@
 
 namespace lanelight {
 
+class RankPasses;   // src/train/rank_passes.h
 class TaskWatcher;  // src/wave/task_watcher.h
 
 /// Price of a ray that only asks for a hit, over that of one that finds the closest and
@@ -27,6 +28,8 @@ struct TrainingPass {
   std::uint32_t seed = 0;  // of a render: the pass has random numbers apart from it
   /// The samples are of no use where it has cancelled some; null: nobody does.
   const TaskWatcher* watcher = nullptr;
+  /// With whom the tasks are shared, whose watcher counts then; null: with nobody.
+  RankPasses* ranks = nullptr;
 };
 
 /// Pixels of a pass, and samples of each: at least four, so that it shows the

@@ -18,7 +18,7 @@ import uuid
 
 SIZE = ["--resolution", "72x56"]
 STRATEGIES = ["points=sobol", "points=independent", "pairs=antithetic", "control=analytic",
-              "control=regression", "roulette=adjoint"]
+              "control=regression", "roulette=adjoint", "decide=pilot", "guiding=radiance"]
 INTERRUPTED = 6
 
 

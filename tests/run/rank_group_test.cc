@@ -33,7 +33,8 @@ TEST_CASE("ranks render the bits of a process alone", "[ranks]") {
   for (const char* strategy :
        {"points=sobol", "points=independent,pairs=antithetic",
         "points=sobol,control=regression", "points=halton,roulette=adjoint",
-        "points=sobol,decide=pilot", "points=sobol,reuse=block:16"}) {
+        "points=sobol,decide=pilot", "points=sobol,reuse=block:16", "guiding=radiance",
+        "shadow-roulette=contribution"}) {
     Request request;
     request.strategy = strategy;
     request.spp = 45;
@@ -101,22 +102,31 @@ TEST_CASE("the film is gathered once where nothing asks for it before", "[ranks]
 TEST_CASE("what workers are told arrives bit by bit", "[ranks]") {
   RunStart start;
   start.tiles = {{0, 0, 16, 16}, {16, 0, 20, 7}};
-  start.have_samples = start.trained = true;
-  start.changes = "roulette=efficiency";
-  const double tiny = std::numeric_limits<double>::denorm_min();
-  start.tables = {{"one", "meaning", {0.1, -0.0, tiny, INFINITY}}, {"none", "", {}}};
+  start.have_samples = true;
+  start.planned_training = std::uint64_t{1} << 63;
   const RunStart there = RunStartFromBytes(ToBytes(start));
   REQUIRE(there.tiles.size() == 2);
   CHECK(there.tiles[1].x1 == 20);
   CHECK(there.tiles[1].y1 == 7);
-  CHECK((there.have_samples && there.trained));
-  CHECK(there.changes == start.changes);
+  CHECK(there.have_samples);
+  CHECK(there.planned_training == start.planned_training);
+}
+
+TEST_CASE("what ranks have learned arrives bit by bit", "[ranks]") {
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  const RunTraining training = {
+      true,
+      "roulette=efficiency",
+      {{"one", "meaning", {0.1, -0.0, tiny, INFINITY}}, {"none", "", {}}}};
+  const RunTraining there = RunTrainingFromBytes(ToBytes(training));
+  CHECK(there.trained);
+  CHECK(there.changes == training.changes);
   REQUIRE(there.tables.size() == 2);
   CHECK(there.tables[0].name == "one");
-  REQUIRE(there.tables[0].values == start.tables[0].values);
+  REQUIRE(there.tables[0].values == training.tables[0].values);
   CHECK(std::signbit(there.tables[0].values[1]));
   CHECK(there.tables[1].values.empty());
-  CHECK(RunStartFromBytes(ToBytes({})).changes.empty());
+  CHECK(RunTrainingFromBytes(ToBytes(RunTraining{})).changes.empty());
 }
 
 }  // namespace

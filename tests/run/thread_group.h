@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "src/run/rank_group.h"
+#include "src/core/rank_group.h"
 
 namespace lanelight {
 

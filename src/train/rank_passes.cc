@@ -1,0 +1,86 @@
+#include "src/train/rank_passes.h"
+
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "src/core/check.h"
+
+namespace lanelight {
+namespace {
+
+// Calls copy(values, count) for the colours and for the records of each task that
+// `rank` of so many renders.
+template <class Samples, class Copy>
+void ForEachTask(const std::vector<std::size_t>& begins, int rank, int ranks,
+                 Samples& samples, const Copy& copy) {
+  const auto planes = static_cast<std::size_t>(samples.planes);
+  for (auto task = static_cast<std::size_t>(rank); task + 1 < begins.size();
+       task += static_cast<std::size_t>(ranks)) {
+    const std::size_t first = begins[task], count = begins[task + 1] - first;
+    copy(samples.colors.data() + first, count);
+    copy(samples.recorded.data() + first * planes, count * planes);
+  }
+}
+
+}  // namespace
+
+// Before the samples of a rank, and of all ranks.
+struct RankPasses::Head {
+  std::uint64_t rays_closest = 0, rays_shadow = 0, stopped = 0;
+
+  void Add(const Head& other) {
+    rays_closest += other.rays_closest;
+    rays_shadow += other.rays_shadow;
+    stopped += other.stopped;
+  }
+};
+
+std::string RankPasses::OwnPart(const std::vector<std::size_t>& begins,
+                                const TrainingSamples& samples) const {
+  const Head head = {samples.rays_closest, samples.rays_shadow, signal_.Stopped()};
+  std::string bytes(reinterpret_cast<const char*>(&head), sizeof(head));
+  ForEachTask(begins, group_.rank(), group_.ranks(), samples,
+              [&bytes](const auto* values, std::size_t count) {
+                bytes.append(reinterpret_cast<const char*>(values),
+                             count * sizeof(*values));
+              });
+  return bytes;
+}
+
+void RankPasses::Exchange(const std::vector<std::size_t>& begins,
+                          TrainingSamples& samples) {
+  const int ranks = group_.ranks();
+  std::vector<std::string> parts(static_cast<std::size_t>(ranks));
+  parts[0] = OwnPart(begins, samples);
+  group_.Gather(parts[0], [&](int rank, std::string_view bytes) {
+    parts[static_cast<std::size_t>(rank)] = bytes;
+  });
+  std::string all;
+  for (const std::string& part : parts) all += part;
+  all = group_.Share(std::move(all));
+  std::string_view rest = all;
+  const auto take = [&rest](auto* to, std::size_t count) {
+    const std::size_t size = count * sizeof(*to);
+    LL_CHECK_GE(rest.size(), size);
+    std::memcpy(to, rest.data(), size);
+    rest.remove_prefix(size);
+  };
+  Head sum;
+  for (int rank = 0; rank < ranks; ++rank) {
+    Head head;
+    take(&head, 1);
+    sum.Add(head);
+    ForEachTask(begins, rank, ranks, samples, take);
+  }
+  LL_CHECK(rest.empty());
+  samples.rays_closest = sum.rays_closest, samples.rays_shadow = sum.rays_shadow;
+  if (sum.stopped > 0) stop_ = true;
+}
+
+std::uint64_t RankPasses::LeadersOf(std::uint64_t number) {
+  group_.Broadcast({reinterpret_cast<char*>(&number), sizeof(number)});
+  return number;
+}
+
+}  // namespace lanelight
