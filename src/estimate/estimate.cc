@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -20,7 +21,7 @@ constexpr int kReach = 1;           // neighbours: 3 x 3 pixels
 constexpr int kSpread = 2;          // where their scatter is taken from: 5 x 5
 constexpr double kRounding = 1e-5;  // of a mean, at most (docs/numbers.md)
 constexpr double kTwoSided = 1.96;  // kEstimateConfidence of a normal is within
-constexpr int kMostMoreSamples = 4096;
+constexpr int kMostDoublings = 12;  // of the samples, looked at for an interval
 
 // 1 / x^2 of a noisy x is too large by three times its variance over the square, to
 // second order: `noise`, that variance, takes it away.
@@ -121,10 +122,12 @@ struct Sums {
 class PixelGrid {
  public:
   PixelGrid(const PixelRect& window, double dependents,
-            const std::function<PixelEstimate(int, int)>& pixel)
+            const std::function<PixelEstimate(int, int)>& pixel,
+            const std::atomic<bool>* stop)
       : width_(window.width()),
         height_(window.height()),
         dependents_(dependents),
+        stop_(stop),
         pixels_(Count()),
         neighbours_(Count()) {
     ForRows([&](int y) {
@@ -154,6 +157,9 @@ class PixelGrid {
     return total;
   }
 
+  /// Nothing that it says counts any more.
+  bool Stopped() const { return stop_ != nullptr && *stop_; }
+
   /// No sample has met light.
   bool IsBlack() const {
     return std::all_of(pixels_.begin(), pixels_.end(),
@@ -170,8 +176,9 @@ class PixelGrid {
   }
   template <class Body>
   void ForRows(const Body& body) const {
-    ParallelFor(static_cast<std::size_t>(height_),
-                [&](std::size_t y) { body(static_cast<int>(y)); });
+    ParallelFor(static_cast<std::size_t>(height_), [&](std::size_t y) {
+      if (!Stopped()) body(static_cast<int>(y));
+    });
   }
   // Calls body(index) for the known pixels around (x, y), itself included.
   template <class Body>
@@ -243,6 +250,7 @@ class PixelGrid {
 
   int width_, height_;
   double dependents_;
+  const std::atomic<bool>* stop_;
   std::vector<PixelEstimate> pixels_;
   std::vector<Rgb> neighbours_;
 };
@@ -304,12 +312,18 @@ double Met(const FilmAccumulator& film) {
   return samples * film.chance_of_light();
 }
 
-// By what factor more samples would give an interval; 0 if none does.
+// By what factor more samples would give an interval, as a power of two; 0 if none does.
+// More than those give one as well, so that halves of the range can be left out.
 int MoreSamples(const PixelGrid& grid) {
-  for (int times = 2; times <= kMostMoreSamples; times *= 2) {
-    if (FromSums(grid.Total(1.0 / times)).has_interval) return times;
+  const auto suffice = [&grid](int doublings) {
+    return FromSums(grid.Total(std::ldexp(1.0, -doublings))).has_interval;
+  };
+  int too_few = 0, enough = kMostDoublings + 1;
+  while (enough - too_few > 1) {
+    const int middle = (too_few + enough) / 2;
+    (suffice(middle) ? enough : too_few) = middle;
   }
-  return 0;
+  return enough > kMostDoublings ? 0 : 1 << enough;
 }
 
 }  // namespace
@@ -328,9 +342,10 @@ Interval ErrorInterval(double estimate, double k1, double k2) {
 
 ErrorEstimate EstimateError(const PixelRect& window,
                             const std::function<PixelEstimate(int, int)>& pixel,
-                            double dependents) {
-  const PixelGrid grid(window, dependents, pixel);
+                            double dependents, const std::atomic<bool>* stop) {
+  const PixelGrid grid(window, dependents, pixel, stop);
   const Sums sums = grid.Total();
+  if (grid.Stopped()) return {};
   ErrorEstimate out = FromSums(sums);
   // Samples that are all black are equal, and say nothing of a lamp that they missed.
   if (out.available && grid.IsBlack()) {
@@ -343,19 +358,20 @@ ErrorEstimate EstimateError(const PixelRect& window,
   const int x = window.x0 + static_cast<int>(sums.most_up_at) % window.width();
   const int y = window.y0 + static_cast<int>(sums.most_up_at) / window.width();
   const int more = MoreSamples(grid);
+  if (grid.Stopped()) return {};
   out.why = fmt::format(
       "rare bright samples, most of all at pixel ({}, {}), may make it {:.2g} times as "
       "large; {}, or a strategy that finds them (`lanelight advise`)",
       x, y, most,
       more > 0 ? fmt::format("an interval takes about {} times the samples", more)
                : fmt::format("an interval takes more than {} times the samples",
-                             kMostMoreSamples));
+                             1 << kMostDoublings));
   if (rmse * rmse > kMostTimes) out.rmse = AtLeast(out.rmse);
   if (times(out.relmse) > kMostTimes) out.relmse = AtLeast(out.relmse);
   return out;
 }
 
-ErrorEstimate EstimateError(const FilmAccumulator& film) {
+ErrorEstimate EstimateError(const FilmAccumulator& film, const std::atomic<bool>* stop) {
   const PixelRect window = {film.x0(), film.y0(), film.x0() + film.width(),
                             film.y0() + film.height()};
   const auto pixel = [&film](int x, int y) {
@@ -367,7 +383,7 @@ ErrorEstimate EstimateError(const FilmAccumulator& film) {
     p.freedom = static_cast<double>(film.Observations(x, y) - 1);
     return p;
   };
-  ErrorEstimate out = EstimateError(window, pixel, film.groups().dependents);
+  ErrorEstimate out = EstimateError(window, pixel, film.groups().dependents, stop);
   const double met = Met(film);
   if (!out.has_interval || film.chance_of_light() >= 1 || met >= kLeastMet) return out;
   return Unseen(

@@ -1,6 +1,7 @@
 // How far a render is from the converged image, estimated from its own samples.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -82,7 +83,11 @@ struct PixelEstimate {
 /// is none. Nor is there where directions find lamps by chance alone, and all samples
 /// together are expected to have met what shines less than kLeastMet times: what none has
 /// met is in no estimate.
-ErrorEstimate EstimateError(const FilmAccumulator& film);
+///
+/// `stop`: once it is set, nothing more is computed, and what is returned says nothing
+/// (`available` is false); null: never.
+ErrorEstimate EstimateError(const FilmAccumulator& film,
+                            const std::atomic<bool>* stop = nullptr);
 inline constexpr double kMostTimes = 32, kLeastMet = 50;
 inline constexpr double kSkew = 0.3, kSkewDoubt = 0.5, kMostSkewed = 0.01;
 
@@ -90,7 +95,8 @@ inline constexpr double kSkew = 0.3, kSkewDoubt = 0.5, kMostSkewed = 0.01;
 /// threads at once. `dependents`: SampleGroups; pixels then count for so much less.
 ErrorEstimate EstimateError(const PixelRect& window,
                             const std::function<PixelEstimate(int, int)>& pixel,
-                            double dependents = 1);
+                            double dependents = 1,
+                            const std::atomic<bool>* stop = nullptr);
 
 /// Interval of the true error: the estimate times quantiles of the F distribution with
 /// k1 and k2 degrees of freedom.

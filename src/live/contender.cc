@@ -121,14 +121,14 @@ void Contender::Pass(Stage& stage, std::uint64_t spp, Attendant& attendant,
     rate_ = samples / double(view_.window.pixels()) / seconds;
   if (result.stop_reason != StopReason::kSamples) return;
   spp_ = spp;
-  LookIfDue();
+  LookIfDue(stop);
 }
 
 void Contender::Fit() {
   if (has_control_ && record_.counts.samples > 0) film_.FitControl();
 }
 
-void Contender::LookIfDue() {
+void Contender::LookIfDue(const std::atomic<bool>& stop) {
   if (spp_ < kFirstLook) return;
   if (!looks_.empty()) {
     const Look& last = looks_.back();
@@ -138,7 +138,7 @@ void Contender::LookIfDue() {
       return;
   }
   const Stopwatch watch;
-  ErrorEstimate error = EstimateError(film_);
+  ErrorEstimate error = EstimateError(film_, &stop);
   look_seconds_ = watch.CpuSeconds();
   if (error.available) looks_.push_back({spp_, cpu_seconds(), std::move(error)});
 }

@@ -68,7 +68,7 @@ class Contender {
 
   FilmAccumulator EmptyFilm(const Stage& stage) const;
   void AddStages(const RunResult& result);
-  void LookIfDue();
+  void LookIfDue(const std::atomic<bool>& stop);
 
   View view_;
   Strategy strategy_;

@@ -3,6 +3,7 @@
 // the distribution of the samples; and estimates with a mistake in them do not.
 #include "src/estimate/estimate.h"
 
+#include <atomic>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -318,6 +319,25 @@ ErrorEstimate OfAllPixels(double value) {
     p.mean = {value, value, value};
     return p;
   });
+}
+
+TEST_CASE("an estimate that is stopped says nothing, and ends", "[study]") {
+  std::atomic<bool> stop{false};
+  std::atomic<int> asked{0};
+  const auto pixel = [&](int, int y) {
+    ++asked;
+    if (y == 2) stop = true;
+    PixelEstimate p;
+    p.known = true;
+    p.mean = p.variance = {1, 1, 1};
+    return p;
+  };
+  const ErrorEstimate halfway = EstimateError({0, 0, 8, 800}, pixel, 1, &stop);
+  CHECK_FALSE(halfway.available);
+  CHECK(asked < 8 * 800);
+  asked = 0;
+  CHECK_FALSE(EstimateError({0, 0, 8, 800}, pixel, 1, &stop).available);
+  CHECK(asked == 0);
 }
 
 TEST_CASE("images without noise have no error but that of rounding", "[study]") {
