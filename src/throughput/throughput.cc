@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -10,22 +9,17 @@
 #include "kernels/simd/target.h"
 #include "src/core/check.h"
 #include "src/core/parallel.h"
+#include "src/core/stopwatch.h"
 #include "src/render/job.h"
 #include "src/throughput/bench_scenes.h"
 
 namespace lanelight {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Samples of a pixel in the first render, which tells how many fill kRunSeconds.
 constexpr std::uint64_t kFirstSpp = 4;
 // Rounding, and paths that went another way for it, between targets.
 constexpr double kSameImage = 5e-3;
-
-double Since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 double MeanOf(const FilmAccumulator& film) {
   double sum = 0;
@@ -193,11 +187,11 @@ std::vector<ThroughputRow> MeasureThroughput(
     progress.scene = scene;
     SceneBench bench(options, scene);
     bench.Begin(stop);
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const double most = options.seconds * double(bench.rows().size());
     for (progress.repeats = 0; !stop; ++progress.repeats) {
       const bool enough = progress.repeats >= kLeastRepeats;
-      if (enough && (bench.Worst() <= options.within || Since(start) >= most)) break;
+      if (enough && (bench.Worst() <= options.within || watch.Seconds() >= most)) break;
       bench.Repeat(stop);
       progress.worst = bench.Worst();
       on_progress(progress);
