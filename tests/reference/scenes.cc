@@ -1,5 +1,9 @@
 #include "tests/reference/scenes.h"
 
+#include <sstream>
+
+#include "tests/reference/measured.h"
+
 namespace lanelight::test {
 namespace {
 
@@ -23,6 +27,15 @@ Material Make(MaterialKind kind, const char* name) {
   m.kind = kind;
   m.name = name;
   return m;
+}
+
+// Rough metal as a file of measured reflectance would have it.
+std::shared_ptr<const MeasuredReflectance> MetalTables() {
+  static const auto tables = [] {
+    std::istringstream file(reference::MeasuredFile(reference::MetalModel(0.35, 0.35)));
+    return ReadMeasuredReflectance(file, "metal.bsdf");
+  }();
+  return tables;
 }
 
 }  // namespace
@@ -174,6 +187,9 @@ std::vector<Material> MaterialZoo() {
   hair.interface_eta = 1.55;
   hair.sigma_a = {0.1, 0.3, 0.8};
   zoo.push_back(hair);
+  Material measured = Make(MaterialKind::kMeasured, "measured metal");
+  measured.measured = MetalTables();
+  zoo.push_back(measured);
   return zoo;
 }
 
