@@ -47,7 +47,7 @@ inline constexpr DecisionCandidate kDecisionCandidates[] = {
     {"roulette=none", "pays where paths are short or end late on bright lights", 1.02,
      0.19},
     {"light-selection=tree", "pays with many lights, each near a part of the scene", 1.1,
-     0.24},
+     0.4},
 };
 inline constexpr std::size_t kDecidedUnasked = 2;  // the first ones
 
