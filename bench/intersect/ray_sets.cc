@@ -9,10 +9,11 @@ namespace lanelight::bench {
 namespace {
 
 /// Where a ray hit: just outside the surface, the normal on the ray's side, the direction
-/// of the ray, and the triangle.
+/// of the ray, the triangle, and which of the rays it was.
 struct Vertex {
   Vec3f p, n, d;
   std::uint32_t prim;
+  std::size_t ray;
 };
 
 std::vector<Vertex> FindHits(const CompiledScene& scene,
@@ -35,8 +36,8 @@ std::vector<Vertex> FindHits(const CompiledScene& scene,
       const std::uint32_t i = hits.items[k];
       Vec3f n = f.Ng(i);
       if (Dot(n, part[i].d) > 0) n = -n;
-      out.push_back(
-          {f.P(i) + n * f.wave.path.p_error[i], n, part[i].d, f.wave.path.prim[i]});
+      out.push_back({f.P(i) + n * f.wave.path.p_error[i], n, part[i].d,
+                     f.wave.path.prim[i], at + i});
     }
   }
   return out;
@@ -63,7 +64,10 @@ class RayMaker {
 
   TestRay ToLight(const Vertex& from) {
     const float u = Uniform(), v = Uniform();
-    const Vec3f goal = mesh_.light_corner + u * mesh_.light_u + v * mesh_.light_v;
+    return To(mesh_.light_corner + u * mesh_.light_u + v * mesh_.light_v, from);
+  }
+
+  static TestRay To(Vec3f goal, const Vertex& from) {
     const float distance = Length(goal - from.p);
     // A ray into the surface meets it first.
     const bool leaves = Dot(goal - from.p, from.n) > 0;
@@ -114,6 +118,24 @@ std::vector<TestRay> FromEach(const std::vector<Vertex>& vertices, Make&& make) 
   return rays;
 }
 
+// As paths that serve their block have them: from the vertices of each 16 rays to one
+// that a ray from one of them has found.
+std::vector<TestRay> ToCommonPoints(const std::vector<Vertex>& first,
+                                    const std::vector<Vertex>& second) {
+  constexpr std::size_t kBlock = 16;
+  std::vector<TestRay> rays;
+  std::size_t next = 0;  // whose block has no goal yet
+  for (const Vertex& goal : second) {
+    if (goal.ray < next) continue;
+    const std::size_t block = goal.ray / kBlock * kBlock;
+    next = std::min(block + kBlock, first.size());
+    for (std::size_t i = block; i < next; ++i) {
+      rays.push_back(RayMaker::To(goal.p, first[i]));
+    }
+  }
+  return rays;
+}
+
 }  // namespace
 
 std::vector<RaySet> MakeRaySets(const Mesh& mesh, const CompiledScene& scene, int size) {
@@ -124,13 +146,16 @@ std::vector<RaySet> MakeRaySets(const Mesh& mesh, const CompiledScene& scene, in
   const std::vector<Vertex> first = FindHits(scene, camera);
   std::vector<TestRay> shadow = FromEach(first, to_light);
   std::vector<TestRay> bounce = FromEach(first, diffuse);
-  std::vector<TestRay> second = FromEach(FindHits(scene, bounce), diffuse);
+  const std::vector<Vertex> second_hits = FindHits(scene, bounce);
+  std::vector<TestRay> second = FromEach(second_hits, diffuse);
+  std::vector<TestRay> common = ToCommonPoints(first, second_hits);
   std::vector<TestRay> mirror = FromEach(first, RayMaker::Mirror);
   return {{"primary", false, std::move(camera), {}},
           {"shadow", true, std::move(shadow), {}},
           {"bounce1", false, std::move(bounce), {}},
           {"bounce2", false, std::move(second), {}},
-          {"mirror", false, std::move(mirror), {}}};
+          {"mirror", false, std::move(mirror), {}},
+          {"common", true, std::move(common), {}}};
 }
 
 RaySet EveryWave(const RaySet& set, std::size_t wave, std::size_t step,

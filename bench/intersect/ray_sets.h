@@ -25,14 +25,14 @@ struct BenchHit {
 
 /// Names of the sets that MakeRaySets makes.
 inline const std::vector<std::string> kRaySets = {"primary", "shadow", "bounce1",
-                                                  "bounce2", "mirror"};
+                                                  "bounce2", "mirror", "common"};
 
 /// Rays of size x size pixels, found with our own kernels; all in the order of the camera
 /// rays: tiles of 16 x 16 pixels, in them blocks of 4 x 4 pixels, one jittered sample per
 /// pixel. From the hits of the camera rays go shadow rays to the light, diffuse bounces
 /// (cosine-distributed), and perfect reflections; "bounce2" are diffuse bounces from the
-/// hits of the first. `size` is a multiple of 16. The same on every machine and target
-/// but for rounding.
+/// hits of the first, "common" shadow rays from 16 hits of camera rays to one of these.
+/// `size` is a multiple of 16. The same on every machine and target but for rounding.
 std::vector<RaySet> MakeRaySets(const Mesh& mesh, const CompiledScene& scene, int size);
 
 /// Calls body(begin, end) for the rays of each wave.
