@@ -8,6 +8,8 @@
 #include "src/core/version.h"
 #include "src/render/machine_json.h"
 #include "src/report/values.h"
+#include "src/strategy/choices_text.h"
+#include "src/strategy/strategy.h"
 #include "src/throughput/throughput_comparison.h"
 
 namespace lanelight {
@@ -72,8 +74,10 @@ Json ToJson(const std::vector<ThroughputRow>& rows) {
 }
 
 std::string KnownRow::Key() const {
-  return fmt::format("{}, {}, {} thread{}, {}x{}, {}", scene, target, threads,
-                     threads == 1 ? "" : "s", width, height, strategy);
+  const std::string changes = ChoicesNotIn(ToText(Strategy{}), strategy);
+  return fmt::format("{}, {}, {} thread{}, {}x{}{}{}", scene, target, threads,
+                     threads == 1 ? "" : "s", width, height, changes.empty() ? "" : ", ",
+                     changes);
 }
 
 KnownThroughput ThroughputFromJson(const Json& json) {

@@ -21,7 +21,8 @@ struct KnownRow {
   int threads = 0, width = 0, height = 0;
   Interval rate;  // samples per second
 
-  std::string Key() const;  // of rows that can be compared
+  /// The same for rows that can be compared; of the strategy, what is not as by default.
+  std::string Key() const;
 };
 struct KnownThroughput {
   std::string machine, program;

@@ -160,7 +160,9 @@ std::string ComparisonText(const RateComparison& comparison,
              fmt::format("{:.3g} times", comparison.Mean()), comparison.rows.size(),
              slower.empty()
                  ? fmt::format("nothing is slower by more than {:.3g} %", 100 * tolerance)
-                 : "slower: " + slower);
+                 : "slower: " + slower) +
+         "Intervals tell how well each run knows its medians, not what else the machines "
+         "did meanwhile.\n";
 }
 
 }  // namespace lanelight

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "src/strategy/strategy.h"
 #include "src/throughput/throughput_comparison.h"
 
 namespace lanelight::test {
@@ -47,6 +48,17 @@ TEST_CASE("rows of one measurement alone are named, and not compared", "[through
   REQUIRE(c.only_in_one.size() == 1);
   CHECK(c.only_in_one[0] == "scene, AVX2, 2 threads, 64x64, default");
   CHECK(c.Mean() == Approx(3));
+}
+
+TEST_CASE("rows are told apart by what of a strategy is not as by default",
+          "[throughput]") {
+  KnownRow row = Known({{1, 1, 1}}).rows[0];
+  Strategy strategy;
+  row.strategy = ToText(strategy);
+  CHECK(row.Key() == "scene, AVX2, 1 thread, 64x64");
+  strategy.roulette = Roulette::kNone;
+  row.strategy = ToText(strategy);
+  CHECK(row.Key() == "scene, AVX2, 1 thread, 64x64, roulette=none");
 }
 
 }  // namespace lanelight::test
