@@ -27,6 +27,7 @@ namespace lanelight {
   X(OrthographicCamera)                        \
   X(SphericalCamera)                           \
   X(RealisticCamera)                           \
+  X(Motion)                                    \
   X(IntersectTriangles)                        \
   X(IntersectSpheres)                          \
   X(IntersectDisks)                            \

@@ -22,22 +22,49 @@ HWY_INLINE VF Slope(const GbufferSpace& space, float scale, V3 ng, V3 sight, V3 
   return Bounded(hn::Div(change, Splat(scale)));
 }
 
+// What the stage says of: point, geometric and shading normal, and the next pixels.
+struct FirstHit {
+  V3 p, ng, ns;
+  PixelSteps steps;
+};
+
+HWY_INLINE FirstHit LoadHit(const Wave& wave, const Slots& slots) {
+  const PathColumns& path = wave.path;
+  const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
+  const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+  const V3 ns =
+      path.ns_x == nullptr ? ng : Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
+  return {p, ng, ns, StepsOfPaths(wave, slots, p)};
+}
+
+// As a camera that moves sees it at the times of paths, and as the one that has not moved
+// would see the same, in whose space it is then said.
+HWY_NOINLINE FirstHit SeenAtStart(const Wave& wave, const Slots& slots, FirstHit hit) {
+  const CompiledScene& scene = *wave.scene;
+  const MovedSpace moved =
+      SpaceAt(OneMotion{scene.camera.motion}, Gather(wave.path.time, slots));
+  const Map34 forward = moved.Forward();
+  const V3 p = moved.Back().Point(hit.p);
+  return {p, forward.Transposed(hit.ng), forward.Transposed(hit.ns),
+          StepsAt(scene.footprint, p)};
+}
+
 void Gbuffer(Wave& wave) {
   const PathColumns& path = wave.path;
   const GbufferSpace& space = wave.scene->gbuffer;
   const PixelFootprint& footprint = wave.scene->footprint;
+  const bool with_camera =
+      wave.scene->camera.moves && wave.scene->film.gbuffer == lanelight::Gbuffer::kCamera;
   const Queue& first =
       FilterQueue(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots) HWY_ATTR {
         return hn::RebindMask(DF(), hn::Eq(Gather(path.depth, slots), hn::Zero(DI())));
       });
   ForEachBatch(wave, first, [&](const StoreSlots& slots, MF) HWY_ATTR {
-    const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
-    const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
-    const V3 ns =
-        path.ns_x == nullptr ? ng : Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
+    FirstHit hit = LoadHit(wave, slots);
+    if (with_camera) hit = SeenAtStart(wave, slots, hit);
+    const auto& [p, ng, ns, steps] = hit;
     const V3 place =
         Rows(space.x, space.y, space.z, p - SplatVec(space.from)) + SplatVec(space.to);
-    const PixelSteps steps = StepsAt(footprint, p);
     Scatter(Splat(1.0f), path.gb_hit, slots);
     Scatter3(place, path.gb_p_x, path.gb_p_y, path.gb_p_z, slots);
     Scatter3(NormalIn(space, ng), path.gb_ng_x, path.gb_ng_y, path.gb_ng_z, slots);
@@ -50,14 +77,14 @@ void Gbuffer(Wave& wave) {
 }
 
 Stage GbufferStage() {
-  return {
-      .name = "gbuffer",
-      .meaning = "point, normals, coordinates and slopes of the first hit",
-      .input = QueueId::kSurface,
-      .needs = {Feature::kGbuffer, Feature::kScatters},
-      .reads = fields::kPoint | fields::kNormal | fields::kUv | FieldSet{Field::depth},
-      .writes = fields::kGbuffer,
-      .resolve = Always<Gbuffer>};
+  return {.name = "gbuffer",
+          .meaning = "point, normals, coordinates and slopes of the first hit",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kGbuffer, Feature::kScatters},
+          .reads = fields::kPoint | fields::kNormal | fields::kUv |
+                   FieldSet{Field::depth, Field::time},
+          .writes = fields::kGbuffer,
+          .resolve = Always<Gbuffer>};
 }
 
 LANELIGHT_END_KERNELS

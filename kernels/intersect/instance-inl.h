@@ -4,6 +4,8 @@
 #define LANELIGHT_INTERSECT_INSTANCE_INL_H_
 
 #include "kernels/intersect/rays-inl.h"
+#include "kernels/simd/motion-inl.h"
+#include "kernels/simd/records-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -21,6 +23,37 @@ LANELIGHT_INLINE Rays MapRays(const InstanceRecord& instance, V3 o, V3 d, VF t) 
   VF m[12];
   for (int k = 0; k < 12; ++k) m[k] = Splat(instance.object_from_scene[k]);
   return {MapLanes(m, o, true), MapLanes(m, d, false), t, FromNone()};
+}
+
+/// The rows of a map as MapLanes has them.
+LANELIGHT_INLINE void PutRows(const Map34& map, VF m[12]) {
+  const VF moves[3] = {map.move.x, map.move.y, map.move.z};
+  for (int r = 0; r < 3; ++r) {
+    m[4 * r] = map.row[r].x, m[4 * r + 1] = map.row[r].y, m[4 * r + 2] = map.row[r].z;
+    m[4 * r + 3] = moves[r];
+  }
+}
+
+/// The same in the space of an instance that moves, at the times of the rays. Instances
+/// that do seldom make up a scene, and are far slower to enter: not inlined.
+HWY_NOINLINE inline Rays MapMovingRays(const MotionRecord& motion, const Rays& rays,
+                                       VF time) {
+  VF m[12];
+  PutRows(SpaceAt(OneMotion{motion}, time).Back(), m);
+  return {MapLanes(m, rays.o, true), MapLanes(m, rays.d, false), rays.t_max, FromNone()};
+}
+
+/// Replaces the maps to the objects of those lanes whose instances move.
+HWY_NOINLINE inline void PutMovingMaps(const AlignedVector<MotionRecord>& motions,
+                                       VI instance, VF time, VF m[12]) {
+  const DI di;
+  const auto count = hn::Set(di, static_cast<int32_t>(motions.size()));
+  const auto moves = hn::Lt(instance, count);
+  const RecordWords words(motions.data(), hn::IfThenElseZero(moves, instance));
+  VF own[12];
+  PutRows(SpaceAt(words, time).Back(), own);
+  const MF mask = hn::RebindMask(DF(), moves);
+  for (int k = 0; k < 12; ++k) m[k] = hn::IfThenElse(mask, own[k], m[k]);
 }
 
 /// The primitives that those of an instance must be smaller than at equal distances,

@@ -27,13 +27,31 @@ struct InstancedBest {
   }
 };
 
+/// A packet, and what its paths are.
+struct PacketOfPaths {
+  const Wave& wave;
+  const Slots& slots;
+  const Rays& rays;
+
+  /// In the space of an instance, where distances below `t` matter.
+  LANELIGHT_INLINE Rays In(uint32_t instance, VF t) const {
+    const Geometry& geometry = wave.scene->geometry;
+    if (HWY_UNLIKELY(instance < geometry.motions.size())) {
+      return MapMovingRays(geometry.motions[instance], {rays.o, rays.d, t, FromNone()},
+                           Gather(wave.path.time, slots));
+    }
+    return MapRays(geometry.instances[instance], rays.o, rays.d, t);
+  }
+};
+
 /// Traces a packet through an instance as TraceFrustum does. There, too, its rays must
 /// agree in the signs of their directions: if they do not, `left` becomes negative.
 template <bool kAlpha>
-HWY_NOINLINE void TraceInstance(const CompiledScene& scene, const Rays& rays,
-                                uint32_t instance, int& left, InstancedBest& best) {
+HWY_NOINLINE void TraceInstance(const PacketOfPaths& paths, uint32_t instance, int& left,
+                                InstancedBest& best) {
+  const CompiledScene& scene = *paths.wave.scene;
   const Geometry& geometry = scene.geometry;
-  const Rays own = MapRays(geometry.instances[instance], rays.o, rays.d, best.hit.t);
+  const Rays own = paths.In(instance, best.hit.t);
   PacketBounds bounds;
   if (!bounds.Compute(own)) {
     left = -1;
@@ -42,7 +60,7 @@ HWY_NOINLINE void TraceInstance(const CompiledScene& scene, const Rays& rays,
   PacketBest hit = NoHits(best.hit.t, PrimsToBeat(best.hit.prim, best.inst, instance));
   TraceFrustum<false, kAlpha>(scene,
                               scene.accel.groups[geometry.instance_group[instance]],
-                              {own, bounds, rays}, left, hit);
+                              {own, bounds, paths.rays}, left, hit);
   best.Take(hit, instance);
 }
 
@@ -63,7 +81,7 @@ LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays
   if (left >= 0) {
     Traverse(accel.nodes.data(), accel.top.root, MakeFrustum(bounds, accel.top), bound,
              [&](uint32_t instance) HWY_ATTR {
-               TraceInstance<kAlpha>(scene, rays, instance, left, best);
+               TraceInstance<kAlpha>({wave, slots, rays}, instance, left, best);
                bound = LargestLane(best.hit.t);
                return left < 0;
              });

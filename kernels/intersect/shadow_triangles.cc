@@ -17,7 +17,7 @@ void ShadowRays(Wave& wave) {
   const Queue all = wave.queue(QueueId::kShadow);
   Queue& kept = wave.queue(QueueId::kShadow);
   kept.size = 0;
-  auto& stream = RayStream<true, kAlpha, kInstances>::OfThread(scene);
+  auto& stream = RayStream<true, kAlpha, kInstances>::OfThread(wave);
   const auto flush = [&]() HWY_ATTR { stream.KeepOpen(kept); };
   const bool few = !kInstances && !scene.accel.few.triangles.empty();
   ForEachBatch(wave, all, [&](const Slots& slots, MF valid) HWY_ATTR {
@@ -41,7 +41,7 @@ Stage ShadowTrianglesStage() {
           .meaning = "drop shadow rays blocked by triangles",
           .input = QueueId::kShadow,
           .needs = {Feature::kTriangles, Feature::kLights, Feature::kOpaqueShadows},
-          .reads = kShadowRay | FieldSet{Field::prim},
+          .reads = kShadowRay | FieldSet{Field::prim, Field::time},
           .resolve = [](const FeatureSet& features) -> StageFn {
             const bool alpha = features.Has(Feature::kAlpha);
             if (features.Has(Feature::kInstances)) {

@@ -18,9 +18,9 @@ template <bool kAny, bool kAlpha, bool kInstances>
 class RayStream {
  public:
   /// The stream of this thread, empty: one at a time.
-  static RayStream& OfThread(const CompiledScene& scene) {
+  static RayStream& OfThread(const Wave& wave) {
     static_assert(std::is_trivially_destructible_v<RayStream>);
-    return *new (ThreadStream(sizeof(RayStream))) RayStream(scene);
+    return *new (ThreadStream(sizeof(RayStream))) RayStream(*wave.scene, wave.path.time);
   }
 
   /// Takes the valid rays of a vector, and hands the stream to done() if it is full.
@@ -57,10 +57,10 @@ class RayStream {
   }
 
  private:
-  explicit RayStream(const CompiledScene& scene)
+  RayStream(const CompiledScene& scene, const float* times)
       : bvh_(scene.accel.groups[0]),
         rays_(std::max(bvh_.depth, kInstances ? scene.accel.top.depth : 0)),
-        spaces_(scene, rays_),
+        spaces_(scene, rays_, times),
         packets_(scene, rays_, spaces_),
         singles_(scene, rays_, spaces_) {}
 

@@ -225,8 +225,7 @@ class PacketPhase {
   LANELIGHT_INLINE Rays MoveRays(uint32_t instance, uint32_t home, uint32_t to) {
     const DI di;
     const Rays from = rays_.Load(home);
-    const Rays rays =
-        MapRays(scene_.geometry.instances[instance], from.o, from.d, from.t_max);
+    const Rays rays = spaces_.Mapped(from, instance, home);
     const VI prim = hn::LoadU(di, rays_.prim + home);
     const VI inst = hn::LoadU(di, reinterpret_cast<const int32_t*>(rays_.inst) + home);
     hn::StoreU(PrimsToBeat(prim, inst, instance), di, rays_.prim + to);

@@ -29,7 +29,11 @@ inline constexpr uint32_t kTopSpace = kWorldInstance - 1;
 /// that space; o and d stay those of the scene's, and t is the same in all of them.
 class RaySpaces {
  public:
-  RaySpaces(const CompiledScene& scene, StreamRays& rays) : scene_(scene), rays_(rays) {}
+  /// `times` has those of paths by their slots, if instances move.
+  RaySpaces(const CompiledScene& scene, StreamRays& rays, const float* times)
+      : scene_(scene),
+        rays_(rays),
+        times_(scene.geometry.motions.empty() ? nullptr : times) {}
 
   /// Moves all rays, which are in the space of the scene, to the tree over instances.
   LANELIGHT_INLINE void BeginTop() { std::fill_n(rays_.space, rays_.size, kTopSpace); }
@@ -61,18 +65,36 @@ class RaySpaces {
     rays_.octant[r] = std::bit_cast<uint32_t>(home_.o[r].octant);
   }
 
+  /// Rays at place `at` of the scene's space in that of an instance.
+  LANELIGHT_INLINE Rays Mapped(const Rays& rays, uint32_t instance, uint32_t at) const {
+    const Geometry& geometry = scene_.geometry;
+    if (HWY_UNLIKELY(times_ != nullptr && instance < geometry.motions.size())) {
+      return MapMovingRays(geometry.motions[instance], rays, TimesAt(at));
+    }
+    return MapRays(geometry.instances[instance], rays.o, rays.d, rays.t_max);
+  }
+
   /// The ray, which lies in the space of the scene, in the one where it is.
   LANELIGHT_INLINE void Map(uint32_t r, float o[3], float d[3]) const {
     if (rays_.space[r] >= kTopSpace) return;
     const Rays own =
-        MapRays(scene_.geometry.instances[rays_.space[r]], Splat3(o[0], o[1], o[2]),
-                Splat3(d[0], d[1], d[2]), Splat(0));
+        Mapped({Splat3(o[0], o[1], o[2]), Splat3(d[0], d[1], d[2]), Splat(0), FromNone()},
+               rays_.space[r], r);
     const VF from[6] = {own.o.x, own.o.y, own.o.z, own.d.x, own.d.y, own.d.z};
     for (int a = 0; a < 3; ++a)
       o[a] = hn::GetLane(from[a]), d[a] = hn::GetLane(from[3 + a]);
   }
 
  private:
+  // Times of the rays from place `at` on; behind the last one its own again.
+  HWY_NOINLINE VF TimesAt(uint32_t at) const {
+    HWY_ALIGN float times[StreamRays::kLanes];
+    for (uint32_t j = 0; j < StreamRays::kLanes; ++j) {
+      times[j] = times_[rays_.slot[std::min(at + j, rays_.size - 1)]];
+    }
+    return hn::Load(DF(), times);
+  }
+
   // Four numbers of each ray of a vector, ray by ray.
   struct Fours {
     HWY_ALIGN float lane[StreamRays::kLanes][4];
@@ -107,6 +129,7 @@ class RaySpaces {
     for (int k = 0; k < 3; ++k) {
       map[k].Load(m[4 * k], m[4 * k + 1], m[4 * k + 2], m[4 * k + 3]);
     }
+    if (HWY_UNLIKELY(times_ != nullptr)) MoveMaps(list, count, m);
     o.Load(from_o.x, from_o.y, from_o.z, unused);
     d.Load(from_d.x, from_d.y, from_d.z, unused);
     growth.Load(slack, margin, reach, unused);
@@ -129,8 +152,22 @@ class RaySpaces {
     }
   }
 
+  // The maps of those rays that enter instances that move.
+  HWY_NOINLINE void MoveMaps(const int32_t* list, uint32_t count, VF m[12]) const {
+    HWY_ALIGN float times[StreamRays::kLanes];
+    HWY_ALIGN int32_t instances[StreamRays::kLanes];
+    for (uint32_t j = 0; j < StreamRays::kLanes; ++j) {
+      const int32_t r = list[std::min(j, count - 1)];
+      times[j] = times_[rays_.slot[r]];
+      instances[j] = static_cast<int32_t>(rays_.space[r]);
+    }
+    PutMovingMaps(scene_.geometry.motions, hn::Load(DI(), instances),
+                  hn::Load(DF(), times), m);
+  }
+
   const CompiledScene& scene_;
   StreamRays& rays_;
+  const float* const times_;
   // The rays in the tree over instances, by their places.
   struct Home {
     HWY_ALIGN AxisSlab slab[3][StreamRays::kRoom];
@@ -145,7 +182,7 @@ class RaySpaces {
 
 /// Scenes without instances have one space.
 struct NoSpaces {
-  NoSpaces(const CompiledScene&, const StreamRays&) {}
+  NoSpaces(const CompiledScene&, const StreamRays&, const float*) {}
 };
 template <bool kInstances>
 using Spaces = std::conditional_t<kInstances, RaySpaces, NoSpaces>;

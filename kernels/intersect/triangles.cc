@@ -22,7 +22,7 @@ void IntersectRays(Wave& wave) {
   float reach = accel.groups[0].reach;
   if constexpr (kInstances) reach = std::max(reach, accel.top.reach);
   FrustumTrial frustum(accel);
-  auto& stream = RayStream<false, kAlpha, kInstances>::OfThread(*wave.scene);
+  auto& stream = RayStream<false, kAlpha, kInstances>::OfThread(wave);
   const auto flush = [&]() HWY_ATTR { stream.Closest(wave.path); };
   ForEachBatch(wave, wave.queue(QueueId::kActive),
                [&](const Slots& slots, MF valid) HWY_ATTR {
@@ -53,7 +53,7 @@ Stage IntersectTrianglesStage() {
           .meaning = "closest hit on triangles",
           .input = QueueId::kActive,
           .needs = {Feature::kTriangles},
-          .reads = kClosestRay | FieldSet{Field::prim},
+          .reads = kClosestRay | FieldSet{Field::prim, Field::time},
           .writes = fields::kHit,
           .resolve = [](const FeatureSet& features) -> StageFn {
             const bool alpha = features.Has(Feature::kAlpha);

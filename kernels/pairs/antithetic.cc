@@ -65,6 +65,7 @@ void AntitheticCamera(Wave& wave) {
   ReflectPoint(wave, queue, Dimension::kFilm, p.u_film_0, p.u_film_1);
   // Both coordinates of the concentric map reflected: the opposite point of the lens.
   ReflectPoint(wave, queue, Dimension::kLens, p.u_lens_0, p.u_lens_1);
+  ReflectPoint(wave, queue, Dimension::kTime, p.time, nullptr);
   ReflectPoint(wave, queue, Dimension::kCameraMedium, p.u_medium_0, p.u_medium_1);
   CountBatches(wave, queue);
 }
@@ -89,10 +90,11 @@ void AntitheticBounce(Wave& wave) {
 }
 
 Stage AntitheticCameraStage() {
-  const FieldSet points = {Field::u_film_0, Field::u_film_1,   Field::u_lens_0,
-                           Field::u_lens_1, Field::u_medium_0, Field::u_medium_1};
+  const FieldSet points = {Field::u_film_0,  Field::u_film_1, Field::u_lens_0,
+                           Field::u_lens_1,  Field::time,     Field::u_medium_0,
+                           Field::u_medium_1};
   return {.name = "antithetic_camera",
-          .meaning = "reflects film and lens points of odd samples",
+          .meaning = "reflects film, lens and time points of odd samples",
           .input = QueueId::kCamera,
           .needs = {Feature::kAntitheticPairs},
           .reads = points | FieldSet{Field::sample, Field::depth},

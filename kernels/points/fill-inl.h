@@ -75,20 +75,23 @@ template <class Policy, bool kPlain>
 LANELIGHT_INLINE void FillCameraBatches(Wave& wave) {
   const PathColumns p = wave.path;
   const RunParameters run = *wave.run;
-  ForEachBatch(wave, wave.queue(QueueId::kCamera),
-               [&](const StoreSlots& slots, MF) HWY_ATTR {
-                 const Drawer drawer = MakeDrawer<kPlain>(p, slots);
-                 Draw<Policy, kPlain, false>(run, drawer, Dimension::kFilm, p.u_film_0,
-                                             p.u_film_1);
-                 if (p.u_lens_0 != nullptr) {
-                   Draw<Policy, kPlain, false>(run, drawer, Dimension::kLens, p.u_lens_0,
-                                               p.u_lens_1);
-                 }
-                 if (p.u_medium_0 != nullptr) {
-                   Draw<Policy, kPlain, false>(run, drawer, Dimension::kCameraMedium,
-                                               p.u_medium_0, p.u_medium_1);
-                 }
-               });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kCamera), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const Drawer drawer = MakeDrawer<kPlain>(p, slots);
+        Draw<Policy, kPlain, false>(run, drawer, Dimension::kFilm, p.u_film_0,
+                                    p.u_film_1);
+        if (p.u_lens_0 != nullptr) {
+          Draw<Policy, kPlain, false>(run, drawer, Dimension::kLens, p.u_lens_0,
+                                      p.u_lens_1);
+        }
+        if (p.time != nullptr) {
+          Draw<Policy, kPlain, true>(run, drawer, Dimension::kTime, p.time, nullptr);
+        }
+        if (p.u_medium_0 != nullptr) {
+          Draw<Policy, kPlain, false>(run, drawer, Dimension::kCameraMedium, p.u_medium_0,
+                                      p.u_medium_1);
+        }
+      });
 }
 
 template <class Policy, bool kPlain>

@@ -18,12 +18,12 @@ constexpr FieldSet kPointsCounter = {Field::pixel, Field::sample, Field::depth,
 template <class Policy>
 Stage PointsCameraStage(const char* name, Feature policy) {
   return {.name = name,
-          .meaning = "sample points of the film and lens",
+          .meaning = "sample points of film, lens and time",
           .input = QueueId::kCamera,
           .needs = {policy},
           .reads = kPointsCounter,
           .writes = {Field::u_film_0, Field::u_film_1, Field::u_lens_0, Field::u_lens_1,
-                     Field::u_medium_0, Field::u_medium_1},
+                     Field::time, Field::u_medium_0, Field::u_medium_1},
           .resolve = Always<FillCamera<Policy>>};
 }
 

@@ -62,6 +62,7 @@ HWY_INLINE V3 IfThenElseZero(MF m, V3 a) {
   return {hn::IfThenElseZero(m, a.x), hn::IfThenElseZero(m, a.y),
           hn::IfThenElseZero(m, a.z)};
 }
+LANELIGHT_INLINE V3 Abs(V3 v) { return {hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)}; }
 HWY_INLINE VF MaxComponent(V3 a) { return hn::Max(a.x, hn::Max(a.y, a.z)); }
 
 template <class Index>

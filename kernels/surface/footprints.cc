@@ -37,20 +37,19 @@ HWY_INLINE void StoreStep(const UvAxes& axes, V3 step, float* du, float* dv,
 
 void Footprints(Wave& wave) {
   const PathColumns& path = wave.path;
-  const PixelFootprint& footprint = wave.scene->footprint;
-  ForEachBatch(wave, wave.queue(QueueId::kSurface),
-               [&](const StoreSlots& slots, MF) HWY_ATTR {
-                 const V3 n = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
-                 const UvAxes axes(Gather3(path.tg_x, path.tg_y, path.tg_z, slots),
-                                   Gather3(path.tv_x, path.tv_y, path.tv_z, slots));
-                 const PixelSteps steps =
-                     StepsAt(footprint, Gather3(path.p_x, path.p_y, path.p_z, slots));
-                 // Steps move along the sight into the plane across n.
-                 const V3 x = InPlane(n, steps.sight, steps.x),
-                          y = InPlane(n, steps.sight, steps.y);
-                 StoreStep(axes, x, path.spread_0, path.spread_2, slots);
-                 StoreStep(axes, y, path.spread_1, path.spread_3, slots);
-               });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const V3 n = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+        const UvAxes axes(Gather3(path.tg_x, path.tg_y, path.tg_z, slots),
+                          Gather3(path.tv_x, path.tv_y, path.tv_z, slots));
+        const PixelSteps steps =
+            StepsOfPaths(wave, slots, Gather3(path.p_x, path.p_y, path.p_z, slots));
+        // Steps move along the sight into the plane across n.
+        const V3 x = InPlane(n, steps.sight, steps.x),
+                 y = InPlane(n, steps.sight, steps.y);
+        StoreStep(axes, x, path.spread_0, path.spread_2, slots);
+        StoreStep(axes, y, path.spread_1, path.spread_3, slots);
+      });
 }
 
 Stage FootprintsStage() {
@@ -58,7 +57,8 @@ Stage FootprintsStage() {
           .meaning = "footprint of a pixel in surface coordinates",
           .input = QueueId::kSurface,
           .needs = {Feature::kTextureFootprints, Feature::kScatters},
-          .reads = fields::kPoint | fields::kNormal | fields::kTangents,
+          .reads = fields::kPoint | fields::kNormal | fields::kTangents |
+                   FieldSet{Field::time},
           .writes = fields::kSpread,
           .resolve = Always<Footprints>};
 }

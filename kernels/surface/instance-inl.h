@@ -3,31 +3,27 @@
 #ifndef LANELIGHT_SURFACE_INSTANCE_INL_H_
 #define LANELIGHT_SURFACE_INSTANCE_INL_H_
 
+#include "kernels/simd/motion-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/point-inl.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-struct Map34 {
-  V3 row[3];  // linear part
-  V3 move;    // translation
-
-  LANELIGHT_INLINE V3 Vector(V3 v) const {
-    return {Dot(row[0], v), Dot(row[1], v), Dot(row[2], v)};
-  }
-  /// Transposed linear part: maps normals when the map is the inverse.
-  LANELIGHT_INLINE V3 Transposed(V3 n) const {
-    return MulAdd(row[0], n.x, MulAdd(row[1], n.y, Mul(row[2], n.z)));
-  }
-  /// |linear part| v + |translation|, the bound of a mapped point with |coordinates| v.
-  LANELIGHT_INLINE V3 Bound(V3 v) const {
-    return Map34{{Abs(row[0]), Abs(row[1]), Abs(row[2])}, move}.Vector(v) + Abs(move);
-  }
-};
-
 struct InstanceMaps {
   Map34 object_from_scene, scene_from_object;
+
+  /// Takes the linear parts and moves of others for the lanes of the mask.
+  LANELIGHT_INLINE void Replace(MF mask, const InstanceMaps& others) {
+    const auto replace = [&](Map34& map, const Map34& other) HWY_ATTR {
+      for (int r = 0; r < 3; ++r) {
+        map.row[r] = IfThenElse(mask, other.row[r], map.row[r]);
+      }
+      map.move = IfThenElse(mask, other.move, map.move);
+    };
+    replace(object_from_scene, others.object_from_scene);
+    replace(scene_from_object, others.scene_from_object);
+  }
 };
 
 /// `inst` is -1 for the world.
@@ -52,12 +48,39 @@ LANELIGHT_INLINE InstanceMaps GatherMaps(const AlignedVector<InstanceRecord>& re
           map(offsetof(InstanceRecord, scene_from_object))};
 }
 
+/// Lanes whose instances move, and their maps and what those were made of at the times of
+/// their paths.
+struct MovingLanes {
+  MF moves;
+  InstanceMaps maps;
+  V3 at, pivot;
+};
+
+LANELIGHT_INLINE MovingLanes GatherMotions(const AlignedVector<MotionRecord>& motions,
+                                           VI inst, VF time) {
+  const DI di;
+  const auto count = hn::Set(di, static_cast<int32_t>(motions.size()));
+  const auto moves = hn::AndNot(hn::Lt(inst, hn::Zero(di)), hn::Lt(inst, count));
+  const RecordWords words(motions.data(), hn::IfThenElseZero(moves, inst));
+  const MovedSpace space = SpaceAt(words, time);
+  return {hn::RebindMask(DF(), moves),
+          {space.Back(), space.Forward()},
+          space.at,
+          space.pivot};
+}
+
 template <bool kUpper>
 LANELIGHT_INLINE D3 MapPoint(const Map34& m, D3 p) {
   const D3 move = HalfOf<kUpper>(m.move);
   return {hn::Add(Dot(HalfOf<kUpper>(m.row[0]), p), move.x),
           hn::Add(Dot(HalfOf<kUpper>(m.row[1]), p), move.y),
           hn::Add(Dot(HalfOf<kUpper>(m.row[2]), p), move.z)};
+}
+
+/// n . |linear part| v
+LANELIGHT_INLINE VF LengthAlong(const Map34& map, V3 n, V3 v) {
+  const Map34 linear{{Abs(map.row[0]), Abs(map.row[1]), Abs(map.row[2])}, map.move};
+  return Dot(Abs(n), linear.Vector(v));
 }
 
 /// Along n (scene space), how far a ray origin may move when it is mapped to the object:
@@ -67,9 +90,22 @@ LANELIGHT_INLINE D3 MapPoint(const Map34& m, D3 p) {
 LANELIGHT_INLINE VF MappingError(const InstanceMaps& maps, V3 p_object, V3 n) {
   const V3 reach = maps.scene_from_object.Bound(Abs(p_object));
   const V3 in_object = maps.object_from_scene.Bound(reach);
-  const Map34& s = maps.scene_from_object;
-  const Map34 abs_s{{Abs(s.row[0]), Abs(s.row[1]), Abs(s.row[2])}, s.move};
-  return hn::Mul(Splat(12 * 0x1p-24f), Dot(Abs(n), abs_s.Vector(in_object)));
+  return hn::Mul(Splat(12 * 0x1p-24f), LengthAlong(maps.scene_from_object, n, in_object));
+}
+
+/// The same where instances move. Their maps are made in float: turning and inverting
+/// add 20u to the bound of each, which is that of the parts they are made of, since these
+/// cancel in sums.
+LANELIGHT_INLINE VF MovingError(const MovingLanes& moving, V3 p_object, V3 n) {
+  const auto& [object_from_scene, scene_from_object] = moving.maps;
+  const Map34 forward = {
+      {scene_from_object.row[0], scene_from_object.row[1], scene_from_object.row[2]},
+      moving.at};
+  const Map34 back = {
+      {object_from_scene.row[0], object_from_scene.row[1], object_from_scene.row[2]},
+      moving.pivot};
+  const V3 reach = forward.Bound(Abs(p_object) + Abs(moving.pivot));
+  return hn::Mul(Splat(64 * 0x1p-24f), LengthAlong(forward, n, back.Bound(reach)));
 }
 
 LANELIGHT_END_KERNELS

@@ -3,8 +3,9 @@
 #ifndef LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
 #define LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
 
-#include "kernels/simd/vec3-inl.h"
-#include "src/compiled/footprint.h"
+#include "kernels/queue/batch-inl.h"
+#include "kernels/simd/motion-inl.h"
+#include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -38,6 +39,22 @@ HWY_INLINE PixelSteps StepsAt(const PixelFootprint& f, V3 p) {
   };
   return {sight, step(f.step_x, f.axis_x, f.angle_x),
           step(f.step_y, f.axis_y, f.angle_y)};
+}
+
+// The same at the times of paths, where the camera moves.
+HWY_NOINLINE inline PixelSteps MovedSteps(const CompiledScene& scene, V3 p, VF time) {
+  const MovedSpace space = SpaceAt(OneMotion{scene.camera.motion}, time);
+  const PixelSteps steps = StepsAt(scene.footprint, space.Back().Point(p));
+  const Map34 map = space.Forward();
+  return {map.Vector(steps.sight), map.Vector(steps.x), map.Vector(steps.y)};
+}
+
+HWY_INLINE PixelSteps StepsOfPaths(const Wave& wave, const Slots& slots, V3 p) {
+  const CompiledScene& scene = *wave.scene;
+  if (HWY_UNLIKELY(scene.camera.moves)) {
+    return MovedSteps(scene, p, Gather(wave.path.time, slots));
+  }
+  return StepsAt(scene.footprint, p);
 }
 
 // A step moved along the sight into the plane across n.

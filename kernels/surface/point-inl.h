@@ -63,8 +63,6 @@ LANELIGHT_INLINE D3 MulAdd(D3 a, VD s, D3 b) {
   return {hn::MulAdd(a.x, s, b.x), hn::MulAdd(a.y, s, b.y), hn::MulAdd(a.z, s, b.z)};
 }
 
-LANELIGHT_INLINE V3 Abs(V3 v) { return {hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)}; }
-
 /// See above. `size` bounds |p - reference points of the shape|.
 LANELIGHT_INLINE VF RoundingError(V3 p, V3 n, VF size) {
   return hn::MulAdd(Splat(0x1p-22f), Dot(Abs(p), Abs(n)), hn::Mul(Splat(0x1p-48f), size));

@@ -130,6 +130,24 @@ struct PlaceLanes {
   InstanceMaps maps;
 };
 
+// What GatherMaps has found where the shutter opens, at the times of the paths instead.
+HWY_NOINLINE void MovePlaces(const Wave& wave, const StoreSlots& slots,
+                             const TriangleLanes& tri, V3 face, PlaceLanes& at) {
+  const MovingLanes moving =
+      GatherMotions(wave.scene->geometry.motions, Gather(wave.path.inst, slots),
+                    Gather(wave.path.time, slots));
+  const D3 lower = Interpolate<false>(tri), upper = Interpolate<true>(tri);
+  const V3 p = FromHalves(MapPoint<false>(moving.maps.scene_from_object, lower),
+                          MapPoint<true>(moving.maps.scene_from_object, upper));
+  const V3 ng = Normalize(moving.maps.object_from_scene.Transposed(face));
+  const VF error = hn::Add(RoundingError(p, ng, hn::Zero(DF())),
+                           MovingError(moving, FromHalves(lower, upper), ng));
+  at.p = IfThenElse(moving.moves, p, at.p);
+  at.ng = IfThenElse(moving.moves, ng, at.ng);
+  at.error = hn::IfThenElse(moving.moves, error, at.error);
+  at.maps.Replace(moving.moves, moving.maps);
+}
+
 template <bool kInstances>
 HWY_INLINE PlaceLanes PlaceTriangles(const Wave& wave, const StoreSlots& slots,
                                      const TriangleLanes& tri, const FaceLanes& face) {
@@ -142,6 +160,9 @@ HWY_INLINE PlaceLanes PlaceTriangles(const Wave& wave, const StoreSlots& slots,
     at.ng = Normalize(at.maps.object_from_scene.Transposed(face.normal));
     at.error = hn::Add(RoundingError(at.p, at.ng, hn::Zero(DF())),
                        MappingError(at.maps, FromHalves(lower, upper), at.ng));
+    if (HWY_UNLIKELY(!wave.scene->geometry.motions.empty())) {
+      MovePlaces(wave, slots, tri, face.normal, at);
+    }
   } else {
     at.p = FromHalves(Interpolate<false>(tri), Interpolate<true>(tri));
     at.ng = face.normal;
@@ -248,7 +269,7 @@ Stage SurfaceTriangleStage() {
       .meaning = "point, normals and material of hits on triangles",
       .input = QueueId::kSurface,
       .needs = {Feature::kTriangles, Feature::kScatters},
-      .reads = {Field::prim, Field::b1, Field::b2, Field::inst},
+      .reads = {Field::prim, Field::b1, Field::b2, Field::inst, Field::time},
       .writes = kSurfaceFields,
       .resolve =
           ByFeature<Feature::kInstances, SurfaceTriangle<true>, SurfaceTriangle<false>>};

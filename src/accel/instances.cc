@@ -1,6 +1,7 @@
 #include "src/accel/instances.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -72,7 +73,9 @@ Hull TreeBoxes(const Bvh& bvh, const AccelBox& box, std::size_t limit,
 // box of what is in it, and rays enter every instance whose box they meet.
 Hull HullOf(const Geometry& geometry, std::uint32_t group, const Bvh& bvh,
             const AccelBox& box, const AlignedVector<WideNode>& nodes) {
-  const std::size_t share = kHullMaps / geometry.instances.size();
+  const std::size_t maps =
+      geometry.instances.size() + kMotionParts * geometry.motions.size();
+  const std::size_t share = kHullMaps / maps;
   const std::size_t limit = std::clamp(share, std::size_t{1}, kHullBoxes);
   const Geometry::TriangleGroup range = geometry.groups[group];
   if (3 * std::size_t{range.end - range.begin} <= limit) return Corners(geometry, range);
@@ -80,15 +83,16 @@ Hull HullOf(const Geometry& geometry, std::uint32_t group, const Bvh& bvh,
 }
 
 // Box of the transformed boxes, rounded outwards.
-AccelBox Transformed(const float* m, const Hull& hull) {
+template <typename Number>
+AccelBox Transformed(const Number* m, const Hull& hull) {
   AccelBox result;
   for (int r = 0; r < 3; ++r) {
     double least = INFINITY, largest = -INFINITY;
     for (const AccelBox& box : hull) {
       double lo = m[4 * r + 3], hi = lo;
       for (int c = 0; c < 3; ++c) {
-        const double a = double{m[4 * r + c]} * box.lo[c];
-        const double b = double{m[4 * r + c]} * box.hi[c];
+        const double a = double{m[4 * r + c]} * double{box.lo[c]};
+        const double b = double{m[4 * r + c]} * double{box.hi[c]};
         lo += std::min(a, b);
         hi += std::max(a, b);
       }
@@ -99,6 +103,27 @@ AccelBox Transformed(const float* m, const Hull& hull) {
     result.hi[r] = std::nextafter(static_cast<float>(largest), INFINITY);
   }
   return result;
+}
+
+// 3x4 map of a motion, row by row.
+std::array<double, 12> MapAt(const Motion& motion, double s) {
+  const Transform t = motion.At(s);
+  std::array<double, 12> m;
+  for (int i = 0; i < 12; ++i) m[static_cast<std::size_t>(i)] = t(i / 4, i % 4);
+  return m;
+}
+
+// Box of the boxes on all their way.
+AccelBox Swept(const Motion& motion, const Hull& hull) {
+  AccelBox box;
+  float reach = 0;
+  for (const AccelBox& own : hull) reach = std::max(reach, Reach(own));
+  for (int i = 0; i <= motion.Parts(); ++i) {
+    const double s = static_cast<double>(i) / motion.Parts();
+    box.Extend(Transformed(MapAt(motion, s).data(), hull));
+  }
+  const auto by = static_cast<float>(motion.Deviation(double{reach}));
+  return {box.lo - Vec3f{by, by, by}, box.hi + Vec3f{by, by, by}};
 }
 
 std::vector<AccelBox> InstanceBoxes(const Geometry& geometry,
@@ -113,11 +138,44 @@ std::vector<AccelBox> InstanceBoxes(const Geometry& geometry,
   std::vector<AccelBox> boxes(geometry.instances.size());
   ParallelForRange(boxes.size(), kInstanceGrain, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
-      boxes[i] = Transformed(geometry.instances[i].scene_from_object,
-                             hulls[geometry.instance_group[i]]);
+      const Hull& hull = hulls[geometry.instance_group[i]];
+      boxes[i] = i < geometry.motions.size()
+                     ? Swept(MotionOf(geometry.motions[i]), hull)
+                     : Transformed(geometry.instances[i].scene_from_object, hull);
     }
   });
   return boxes;
+}
+
+// How much lengths grow at most on the ways to the scene and back, and what is added to
+// coordinates on the way to the object.
+struct Growth {
+  float to_scene, to_object, translation;
+};
+
+Growth GrowthOf(const InstanceRecord& record) {
+  const float* m = record.object_from_scene;
+  return {RowNorm(record.scene_from_object), RowNorm(m),
+          std::max({std::abs(m[3]), std::abs(m[7]), std::abs(m[11])})};
+}
+
+// Stretching is never more than at one of the ends. Maps that kernels make for a time are
+// rounded more often than ones made before: twice the norms.
+Growth GrowthOf(const Motion& motion) {
+  const auto norm = [](const Transform& t) {
+    double sum = 0;
+    for (int i = 0; i < 9; ++i) sum += t(i / 3, i % 3) * t(i / 3, i % 3);
+    return std::sqrt(3 * sum);
+  };
+  double to_scene = 0, to_object = 0;
+  for (const double s : {0.0, 1.0}) {
+    const Transform t = motion.At(s);
+    to_scene = std::max(to_scene, norm(t));
+    to_object = std::max(to_object, norm(t.Inverse()));
+  }
+  const double move = Length(motion.from) + Length(motion.way);
+  return {static_cast<float>(2 * to_scene), static_cast<float>(to_object),
+          static_cast<float>(to_object * move + Length(motion.pivot))};
 }
 
 }  // namespace
@@ -138,12 +196,12 @@ Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
     if (groups[group].root == kEmptyRef) continue;
     if (!IsFinite(boxes[i])) continue;
     items.push_back({boxes[i], i});
-    const InstanceRecord& record = geometry.instances[i];
-    const float* m = record.object_from_scene;
-    const float translation = std::max({std::abs(m[3]), std::abs(m[7]), std::abs(m[11])});
-    const float to_scene = RowNorm(record.scene_from_object);
-    linear = std::max(linear, to_scene * RowNorm(m));
-    constant = std::max(constant, to_scene * (groups[group].reach + translation));
+    const Growth growth = i < geometry.motions.size()
+                              ? GrowthOf(MotionOf(geometry.motions[i]))
+                              : GrowthOf(geometry.instances[i]);
+    linear = std::max(linear, growth.to_scene * growth.to_object);
+    constant =
+        std::max(constant, growth.to_scene * (groups[group].reach + growth.translation));
     deepest = std::max(deepest, groups[group].depth);
   }
   Bvh top = BuildTree(std::move(items),

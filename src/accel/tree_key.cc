@@ -90,6 +90,7 @@ void AddShapes(const Geometry& g, KeyText& text) {
   text.AddFloats(g.instances, 24, [](const InstanceRecord& r, float* to) {
     Copy(r.scene_from_object, Copy(r.object_from_scene, to));
   });
+  text.AddBytes(g.motions.data(), g.motions.size() * sizeof(g.motions[0]));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/compile/lens_system.h"
+#include "src/compile/motion.h"
 #include "src/compile/range.h"
 
 namespace lanelight {
@@ -56,6 +57,13 @@ void CheckExtent(const Camera& camera, double extent) {
                                extent, kFarthestInScene));
 }
 
+void SetMotion(const Camera& camera, const Frame& frame, CompiledCamera& out) {
+  if (camera.end == nullptr) return;
+  RequireInScene(frame.After(*camera.end).Point({0, 0, 0}), camera.where, "camera");
+  out.moves = true;
+  out.motion = RecordOf(OfCamera({camera.world_from_camera, *camera.end}, frame));
+}
+
 }  // namespace
 
 CompiledCamera CompileCamera(const Camera& camera, const Film& film, const Frame& frame) {
@@ -78,11 +86,14 @@ CompiledCamera CompileCamera(const Camera& camera, const Film& film, const Frame
 
   CompiledCamera out;
   out.kind = camera.kind;
+  out.time_first = static_cast<float>(camera.time_first);
+  out.time_rate = static_cast<float>(camera.time_rate);
   out.right = ToFloat(right / unit);
   out.up = ToFloat(up / unit);
   out.forward = ToFloat(forward / unit);
   RequireInScene(t.Point({0, 0, 0}), camera.where, "camera");
   out.origin = ToFloat(t.Point({0, 0, 0}));
+  SetMotion(camera, frame, out);
   CheckExtent(camera, camera.lens_radius * unit);
   out.lens_radius = static_cast<float>(camera.lens_radius * unit);
   // So far away, all rays of a pixel are parallel.

@@ -158,6 +158,11 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
   if (!g.large_spheres.empty()) features.Add(Feature::kLargeSpheres);
   if (!g.curves.empty()) features.Add(Feature::kCurves);
   if (!g.instances.empty()) features.Add(Feature::kInstances);
+  if (!g.motions.empty()) features.Add(Feature::kMovingInstances);
+  if (scene.camera.moves) features.Add(Feature::kMovingCamera);
+  if (features.HasAny({Feature::kMovingInstances, Feature::kMovingCamera})) {
+    features.Add(Feature::kMotion);
+  }
   if (!g.normals.empty()) features.Add(Feature::kVertexNormals);
   if (scene.integrator.force_diffuse) ForceDiffuse(scene.materials, features);
   AddMedia(scene.media, features);

@@ -89,9 +89,7 @@ std::vector<Seen> AllSeen(Vec3d eye, const Placement& p) {
   });
   for (const Seen& mesh : meshes) add(mesh);
   for (const PlacedInstance& instance : p.instances) {
-    const Box box =
-        p.objects[instance.object].bounds.Transformed(instance.world_from_object);
-    add({Farthest(box, eye), box});
+    add({Farthest(instance.bounds, eye), instance.bounds});
   }
   std::sort(all.begin(), all.end(),
             [](const Seen& a, const Seen& b) { return a.reach < b.reach; });

@@ -10,6 +10,7 @@
 #include "src/core/parallel.h"
 #include "src/compile/curves.h"
 #include "src/compile/mesh.h"
+#include "src/compile/motion.h"
 #include "src/compile/quadrics.h"
 #include "src/compile/store.h"
 
@@ -169,6 +170,10 @@ void MakeInstances(const Placement& placement, Geometry& g) {
     const Frame& object = placement.objects[instance.object].frame;
     const Transform scene_from_object =
         placement.frame.After(instance.world_from_object * object.Inverse());
+    if (instance.end) {
+      const Motion motion(instance.world_from_object, *instance.end);
+      g.motions.push_back(RecordOf(InFrames(motion, placement.frame, object)));
+    }
     InstanceRecord record;
     Store(scene_from_object, record.scene_from_object);
     Store(scene_from_object.Inverse(), record.object_from_scene);

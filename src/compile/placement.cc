@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/core/check.h"
+#include "src/core/motion.h"
 #include "src/core/parallel.h"
 #include "src/compile/curves.h"
 #include "src/compile/focus.h"
@@ -69,6 +70,14 @@ void SetMesh(double tolerance, PlacedShape* placed) {
   placed->mesh = std::make_shared<const TriangleMesh>(Tessellate(shape, tolerance));
 }
 
+// A mesh of a mesh or a round shape, in place of any other way to have it.
+void SetMeshInObject(PlacedShape* placed) {
+  SetMesh(kOfObjects, placed);
+  if (placed->mesh != nullptr) return;
+  placed->mesh =
+      std::make_shared<const TriangleMesh>(Tessellate(*placed->shape, kOfObjects));
+}
+
 // The shape as it will be compiled, or nothing if it cannot be seen.
 std::optional<PlacedShape> Place(const SceneDescription& d,
                                  const TextureConstants& constants, const Shape& shape,
@@ -112,10 +121,13 @@ void AddToWorld(const SceneDescription& d, PlacedShape placed, Placement& placem
   }
 }
 
-bool StaysInObject(const SceneDescription& d, const Shape& shape) {
+// `moves`: the object does.
+bool StaysInObject(const SceneDescription& d, const Shape& shape, bool moves) {
   const bool is_mesh =
       shape.kind == ShapeKind::kMesh || IsTessellated(shape, shape.world_from_object);
-  return is_mesh && EmittingLight(d, shape) == kNone;
+  const bool is_round =
+      shape.kind == ShapeKind::kSphere || shape.kind == ShapeKind::kDisk;
+  return (is_mesh || (moves && is_round)) && EmittingLight(d, shape) == kNone;
 }
 
 // World coordinates and sizes of scenes that can be brought to unit size (frame.cc): the
@@ -195,35 +207,10 @@ const ObjectDefinition& ObjectOf(const SceneDescription& d, const Instance& inst
   return d.objects[static_cast<std::size_t>(instance.object)];
 }
 
-// Places the shapes of an instance that cannot stay in its object, or all (`whole`).
-void CopyIntoWorld(const SceneDescription& d, const TextureConstants& constants,
-                   const Instance& instance, bool whole, Placement& placement) {
-  for (const Shape& shape : ObjectOf(d, instance).shapes) {
-    if (!whole && StaysInObject(d, shape)) continue;
-    if (const auto p = Place(d, constants, shape, &instance.world_from_object)) {
-      AddToWorld(d, *p, placement);
-    }
-  }
-}
-
-PlacedObject PlaceObject(const SceneDescription& d, const TextureConstants& constants,
-                         const ObjectDefinition& object) {
-  PlacedObject placed;
-  for (const Shape& shape : object.shapes) {
-    if (!StaysInObject(d, shape)) continue;
-    if (auto p = Place(d, constants, shape, nullptr)) {
-      SetMesh(kOfObjects, &*p);
-      placed.meshes.push_back(*p);
-    }
-  }
-  placed.bounds = UnionOfBoxes(placed.meshes);
-  placed.frame = FrameOf(placed.bounds);
-  return placed;
-}
-
 // An object definition: how often it is placed, and what of it can be instanced.
 struct ObjectUse {
   std::uint64_t count = 0;
+  bool moves = false;
   PlacedObject placed;
   bool copied = false;
   std::size_t index = 0;  // in Placement::objects, unless it is copied or empty
@@ -236,6 +223,33 @@ struct ObjectUse {
   }
 };
 
+// Places the shapes of an instance that cannot stay in its object, or all if it is
+// copied.
+void CopyIntoWorld(const SceneDescription& d, const TextureConstants& constants,
+                   const Instance& instance, const ObjectUse& use, Placement& placement) {
+  for (const Shape& shape : ObjectOf(d, instance).shapes) {
+    if (!use.copied && StaysInObject(d, shape, use.moves)) continue;
+    if (const auto p = Place(d, constants, shape, &instance.world_from_object)) {
+      AddToWorld(d, *p, placement);
+    }
+  }
+}
+
+PlacedObject PlaceObject(const SceneDescription& d, const TextureConstants& constants,
+                         const ObjectDefinition& object, bool moves) {
+  PlacedObject placed;
+  for (const Shape& shape : object.shapes) {
+    if (!StaysInObject(d, shape, moves)) continue;
+    if (auto p = Place(d, constants, shape, nullptr)) {
+      SetMeshInObject(&*p);
+      placed.meshes.push_back(*p);
+    }
+  }
+  placed.bounds = UnionOfBoxes(placed.meshes);
+  placed.frame = FrameOf(placed.bounds);
+  return placed;
+}
+
 std::vector<ObjectUse> PlaceObjects(const SceneDescription& d,
                                     const TextureConstants& constants) {
   std::vector<ObjectUse> uses(d.objects.size());
@@ -244,8 +258,14 @@ std::vector<ObjectUse> PlaceObjects(const SceneDescription& d,
     LL_CHECK_LT(static_cast<std::size_t>(instance.object), d.objects.size());
     CheckTransform(instance.world_from_object, instance.where, "instance");
     ObjectUse& use = uses[static_cast<std::size_t>(instance.object)];
-    if (use.count++ > 0) continue;
-    use.placed = PlaceObject(d, constants, ObjectOf(d, instance));
+    ++use.count;
+    if (instance.end == nullptr) continue;
+    CheckTransform(*instance.end, instance.where, "instance");
+    use.moves = true;
+  }
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    ObjectUse& use = uses[i];
+    if (use.count > 0) use.placed = PlaceObject(d, constants, d.objects[i], use.moves);
   }
   return uses;
 }
@@ -256,7 +276,8 @@ void ChooseCopied(std::uint64_t most, std::vector<ObjectUse>& uses) {
   if (most == 0) return;
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   for (std::size_t i = 0; i < uses.size(); ++i) {
-    if (uses[i].count > 0) order.emplace_back(uses[i].MoreTriangles(), i);
+    if (uses[i].count == 0 || uses[i].moves) continue;
+    order.emplace_back(uses[i].MoreTriangles(), i);
   }
   std::sort(order.begin(), order.end());
   for (const auto& [more, i] : order) {
@@ -264,6 +285,22 @@ void ChooseCopied(std::uint64_t most, std::vector<ObjectUse>& uses) {
     most -= more;
     uses[i].copied = true;
   }
+}
+
+// The box in the world of an object that is placed, on all its way.
+Box BoxOf(const Instance& instance, const Box& object) {
+  if (instance.end == nullptr) return object.Transformed(instance.world_from_object);
+  const Motion motion(instance.world_from_object, *instance.end);
+  Box box;
+  for (int i = 0; i <= motion.Parts(); ++i) {
+    const double s = static_cast<double>(i) / motion.Parts();
+    box.Add(object.Transformed(motion.At(s)));
+  }
+  const Vec3d far = Max(Max(object.max, -object.max), Max(object.min, -object.min));
+  const double by = motion.Deviation(std::max({far.x, far.y, far.z}));
+  box.min = box.min - Vec3d{by, by, by};
+  box.max = box.max + Vec3d{by, by, by};
+  return box;
 }
 
 void PlaceInstances(const SceneDescription& d, const TextureConstants& constants,
@@ -275,19 +312,24 @@ void PlaceInstances(const SceneDescription& d, const TextureConstants& constants
     use.index = placement.objects.size();
     placement.objects.push_back(use.placed);
   }
+  std::vector<PlacedInstance> still;
   for (const Instance& instance : d.instances) {
     const ObjectUse& use = uses[static_cast<std::size_t>(instance.object)];
-    CopyIntoWorld(d, constants, instance, use.copied, placement);
+    CopyIntoWorld(d, constants, instance, use, placement);
     if (use.placed.bounds.empty()) continue;
-    const Box box = use.placed.bounds.Transformed(instance.world_from_object);
+    const Box box = BoxOf(instance, use.placed.bounds);
     if (box.empty() || IsTooFar(box.min) || IsTooFar(box.max)) {
       RefuseFar(instance.where, "this instance");
     }
     if (use.copied) continue;  // the bounds of its copies are tighter
-    placement.instances.push_back(
-        {use.index, instance.world_from_object, instance.where});
+    (instance.end ? placement.instances : still)
+        .push_back(
+            {use.index, instance.world_from_object, instance.where, instance.end, box});
     placement.bounds.Add(box);
   }
+  auto& placed = placement.instances;
+  if (placed.empty()) return placed.swap(still);
+  placed.insert(placed.end(), still.begin(), still.end());
 }
 
 void CheckSize(const SceneDescription& d, const Box& bounds) {

@@ -34,6 +34,8 @@ struct PlacedInstance {
   std::size_t object = 0;  // index into Placement::objects
   Transform world_from_object;
   SourceLocation where;
+  EndTransform end;  // as in Instance
+  Box bounds;        // in the world, of all the way that it moves
 };
 
 // Orientation. For quadrics pbrt-v4 turns the parametric normal round if
@@ -45,11 +47,11 @@ struct Placement {
   // In the world. Large spheres: see src/compile/focus.h.
   std::vector<PlacedShape> meshes, spheres, disks, planes, large_spheres, curves;
   std::vector<PlacedObject> objects;
-  std::vector<PlacedInstance> instances;
-  Vec3d eye;    // the camera's position in the world
-  Frame frame;  // of the scene
-  Box bounds;   // of the finite geometry in the world; if there is none, of the camera,
-                // the lights with a position, and the camera's foot on each plane
+  std::vector<PlacedInstance> instances;  // those that move first
+  Vec3d eye;                              // the camera's position in the world
+  Frame frame;                            // of the scene
+  Box bounds;  // of the finite geometry in the world; if there is none, of the camera,
+               // the lights with a position, and the camera's foot on each plane
 };
 
 /// Meshes, spheres and disks that emit are sampled as lights, which needs world
@@ -57,7 +59,9 @@ struct Placement {
 /// copied into the world once per instance. Shapes without a record of their own become
 /// meshes (src/compile/tessellate.h). Objects of few triangles, or placed once, are
 /// copied into the world too, those first that make the least of it larger, as long as
-/// that makes at most `copied_triangles` more in all; with 0 none is.
+/// that makes at most `copied_triangles` more in all; with 0 none is. Of objects that
+/// move nothing is copied: what they are made of becomes meshes, but for curves and
+/// planes, which stay where they are at the start.
 Placement PlaceShapes(const SceneDescription& description,
                       std::uint64_t copied_triangles = 0);
 

@@ -48,15 +48,18 @@ void LeaveOut(const char* what, double scale, std::vector<PlacedShape>& shapes,
 // Rays are mapped into the object of an instance.
 bool CanBeEntered(const PlacedInstance& instance, const Placement& placement) {
   const Frame& object = placement.objects[instance.object].frame;
-  const Transform object_from_scene =
-      placement.frame.After(instance.world_from_object * object.Inverse()).Inverse();
-  for (int column = 0; column < 4; ++column) {
-    if (!IsInRange({object_from_scene(0, column), object_from_scene(1, column),
-                    object_from_scene(2, column)})) {
-      return false;
+  const auto can = [&](const Transform& world_from_object) {
+    const Transform object_from_scene =
+        placement.frame.After(world_from_object * object.Inverse()).Inverse();
+    for (int column = 0; column < 4; ++column) {
+      if (!IsInRange({object_from_scene(0, column), object_from_scene(1, column),
+                      object_from_scene(2, column)})) {
+        return false;
+      }
     }
-  }
-  return true;
+    return true;
+  };
+  return can(instance.world_from_object) && (!instance.end || can(*instance.end));
 }
 
 }  // namespace

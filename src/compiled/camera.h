@@ -5,6 +5,7 @@
 
 #include "src/core/aligned.h"
 #include "src/core/vec.h"
+#include "src/geometry/motion.h"
 #include "src/scene/description.h"
 
 namespace lanelight {
@@ -44,8 +45,15 @@ struct CompiledCamera {
   Vec3f base, dx, dy;
   float lens_radius = 0, focal_distance = 1;  // scene units
   LensSystem lenses;                          // realistic
-  // Camera to scene: rotation columns (unit or scaled axes) and origin.
+  // Camera to scene: rotation columns (unit or scaled axes) and origin. Of one that moves
+  // where the shutter opens; `motion` takes the scene as it is seen from there to the
+  // scene as it is seen later.
   Vec3f right, up, forward, origin;
+  bool moves = false;
+  MotionRecord motion = {};
+  // Time of a path, from 0 to 1, for a number u from 0 to 1: first + u * rate, no less
+  // than 0 and no more than 1.
+  float time_first = 0, time_rate = 1;
 };
 
 /// Separable filter, sampled by inverting a piecewise-linear CDF per axis. Weight of a

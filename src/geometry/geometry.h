@@ -11,6 +11,7 @@
 
 #include "src/core/aligned.h"
 #include "src/core/vec.h"
+#include "src/geometry/motion.h"
 
 namespace lanelight {
 
@@ -137,6 +138,9 @@ struct Geometry {
   AlignedVector<CurveRecord> curves;
   AlignedVector<RibbonRecord> ribbons;  // one for each curve; empty without ribbons
   AlignedVector<InstanceRecord> instances;
+  /// Of the first instances, which move; what `instances` has of them is where the
+  /// shutter opens. Empty where none moves.
+  AlignedVector<MotionRecord> motions;
   /// Triangle ranges that form one acceleration structure each: [0] is the world (may be
   /// empty), the others are object definitions.
   struct TriangleGroup {

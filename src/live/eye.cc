@@ -48,6 +48,14 @@ void CheckEye(const Eye& eye) {
   }
 }
 
+std::string TransformText(const Transform& t) {
+  std::string text = "Transform [";
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) text += fmt::format(" {}", t(row, column));
+  }
+  return text + " ]\n";
+}
+
 nlohmann::json ArrayOf(Vec3d v) { return {v.x, v.y, v.z}; }
 Vec3d VectorOf(const nlohmann::json& json) {
   const auto v = json.get<std::array<double, 3>>();
@@ -73,8 +81,9 @@ Camera MovedCamera(const Camera& camera, const Eye& from, const Eye& to) {
   CheckEye(to);
   if (from == to) return camera;
   Camera moved = camera;
-  moved.world_from_camera =
-      WorldFromEye(to) * WorldFromEye(from).Inverse() * camera.world_from_camera;
+  const Transform move = WorldFromEye(to) * WorldFromEye(from).Inverse();
+  moved.world_from_camera = move * camera.world_from_camera;
+  if (camera.end) moved.end = std::make_shared<const Transform>(move * *camera.end);
   const double unit = UnitOf(camera);
   if (camera.kind == CameraKind::kPerspective) moved.fov = to.fov;
   if (to.lens != from.lens) moved.lens_radius = to.lens / unit;
@@ -104,12 +113,11 @@ Eye EyeFromJson(const nlohmann::json& json) {
 }
 
 std::string PbrtText(const Camera& camera) {
-  const Transform t = camera.world_from_camera.Inverse();
-  std::string text = "Transform [";
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) text += fmt::format(" {}", t(row, column));
+  std::string text = TransformText(camera.world_from_camera.Inverse());
+  if (camera.end) {
+    text += "ActiveTransform EndTime\n" + TransformText(camera.end->Inverse()) +
+            "ActiveTransform All\n";
   }
-  text += " ]\n";
   if (camera.kind == CameraKind::kRealistic || camera.kind == CameraKind::kSpherical) {
     return text + "# and the Camera directive as it is in the file\n";
   }

@@ -1,5 +1,6 @@
 #include "src/parse/directives.h"
 #include "src/parse/interpret.h"
+#include "src/parse/motion.h"
 #include "src/core/suggest.h"
 
 namespace lanelight {
@@ -49,9 +50,10 @@ GraphicsState Pop(ParseState& state, const Statement& statement, ScopeKind kind)
 
 void RunWorldBegin(ParseState& state, Statement&) {
   state.in_world = true;
-  state.graphics.ctm = Transform();
-  state.graphics.transforms_active = true;
-  state.coordinate_systems["world"] = Transform();
+  GraphicsState& graphics = state.graphics;
+  graphics.ctm = graphics.ctm_end = Transform();
+  graphics.start_active = graphics.end_active = true;
+  state.coordinate_systems["world"] = {};
 }
 
 void RunAttributeBegin(ParseState& state, Statement& statement) {
@@ -67,7 +69,10 @@ void RunTransformBegin(ParseState& state, Statement& statement) {
 }
 
 void RunTransformEnd(ParseState& state, Statement& statement) {
-  state.graphics.ctm = Pop(state, statement, ScopeKind::kTransform).ctm;
+  const GraphicsState saved = Pop(state, statement, ScopeKind::kTransform);
+  GraphicsState& graphics = state.graphics;
+  graphics.ctm = saved.ctm, graphics.ctm_end = saved.ctm_end;
+  graphics.start_active = saved.start_active, graphics.end_active = saved.end_active;
 }
 
 void RunObjectBegin(ParseState& state, Statement& statement) {
@@ -101,8 +106,7 @@ void RunObjectInstance(ParseState& state, Statement& statement) {
                      "instances do not nest");
   }
   const Index object = Lookup(state.objects, name, where, "object");
-  // A shape of the object lands at (transform here) * (transform at its Shape directive).
-  state.scene.instances.push_back({object, state.graphics.ctm, statement.where()});
+  PlaceObject(state, object, statement.where());
 }
 
 void RunInclude(ParseState& state, Statement& statement) {

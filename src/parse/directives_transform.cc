@@ -37,8 +37,8 @@ bool IsFinite(const Transform& t) {
   return true;
 }
 
-// Sets the current transform unless it would be useless.
-void Set(ParseState& state, const Statement& statement, const Transform& ctm) {
+// A transform that this statement makes, unless it is useless.
+const Transform& Checked(const Statement& statement, const Transform& ctm) {
   if (!IsFinite(ctm)) {
     throw InputError(
         statement.where(),
@@ -51,11 +51,19 @@ void Set(ParseState& state, const Statement& statement, const Transform& ctm) {
                     "and cannot be inverted",
                     statement.token.text));
   }
-  if (state.graphics.transforms_active) state.graphics.ctm = ctm;
+  return ctm;
+}
+
+// Sets those of the two current transforms that are active.
+void Set(ParseState& state, const Statement& statement, const Transform& start,
+         const Transform& end) {
+  GraphicsState& graphics = state.graphics;
+  if (graphics.start_active) graphics.ctm = Checked(statement, start);
+  if (graphics.end_active) graphics.ctm_end = Checked(statement, end);
 }
 
 void Concat(ParseState& state, const Statement& statement, const Transform& t) {
-  Set(state, statement, state.graphics.ctm * t);
+  Set(state, statement, state.graphics.ctm * t, state.graphics.ctm_end * t);
 }
 
 Transform ReadMatrix(Statement& statement) {
@@ -76,7 +84,7 @@ Transform ReadMatrix(Statement& statement) {
 }  // namespace
 
 void RunIdentity(ParseState& state, Statement& statement) {
-  Set(state, statement, Transform());
+  Set(state, statement, Transform(), Transform());
 }
 
 void RunTranslate(ParseState& state, Statement& statement) {
@@ -117,7 +125,8 @@ void RunLookAt(ParseState& state, Statement& statement) {
 }
 
 void RunTransform(ParseState& state, Statement& statement) {
-  Set(state, statement, ReadMatrix(statement));
+  const Transform t = ReadMatrix(statement);
+  Set(state, statement, t, t);
 }
 
 void RunConcatTransform(ParseState& state, Statement& statement) {
@@ -125,13 +134,15 @@ void RunConcatTransform(ParseState& state, Statement& statement) {
 }
 
 void RunCoordinateSystem(ParseState& state, Statement& statement) {
-  state.coordinate_systems[statement.Name().text] = state.graphics.ctm;
+  state.coordinate_systems[statement.Name().text] = {state.graphics.ctm,
+                                                     state.graphics.ctm_end};
 }
 
 void RunCoordSysTransform(ParseState& state, Statement& statement) {
   const auto [name, where] = statement.Name();
-  Set(state, statement,
-      Lookup(state.coordinate_systems, name, where, "coordinate system"));
+  const auto& [start, end] =
+      Lookup(state.coordinate_systems, name, where, "coordinate system");
+  Set(state, statement, start, end);
 }
 
 void RunActiveTransform(ParseState& state, Statement& statement) {
@@ -140,15 +151,20 @@ void RunActiveTransform(ParseState& state, Statement& statement) {
     ThrowUnknown(statement.lexer.Where(which), "operand of ActiveTransform:", which.text,
                  {"StartTime", "EndTime", "All"});
   }
-  if (which.text != "All") {
-    state.Unsupported(statement.where(), "ActiveTransform: motion blur is not supported");
-  }
-  state.graphics.transforms_active = which.text != "EndTime";
+  state.graphics.start_active = which.text != "EndTime";
+  state.graphics.end_active = which.text != "StartTime";
 }
 
 void RunTransformTimes(ParseState& state, Statement& statement) {
-  statement.Numbers(2);
-  state.AddNote(statement.where(), "TransformTimes has no effect: nothing moves");
+  const std::vector<double> n = statement.Numbers(2);
+  if (!(n[0] < n[1]) || !std::isfinite(n[1] - n[0])) {
+    throw InputError(
+        statement.where(),
+        fmt::format("TransformTimes {} {}: the end must come after the start", n[0],
+                    n[1]));
+  }
+  state.start_time = n[0];
+  state.end_time = n[1];
 }
 
 }  // namespace lanelight

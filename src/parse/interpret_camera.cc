@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "src/parse/interpret.h"
+#include "src/parse/motion.h"
 #include "src/core/suggest.h"
 
 namespace lanelight {
@@ -40,7 +41,8 @@ void ReadShutter(ParseState& state, ParamSet& params) {
         params.where(),
         fmt::format("the shutter closes at {} but opens at {}", close, open));
   }
-  state.exposure_seconds = close - open;
+  state.shutter_open = open;
+  state.shutter_close = close;
 }
 
 // Numbers of a lens file: four per row, `#` begins a comment.
@@ -149,7 +151,9 @@ void InterpretCamera(ParseState& state, const std::string& type, ParamSet& param
   camera.film_diagonal = state.scene.camera.film_diagonal;  // of the Film before
   camera.world_from_camera = state.graphics.ctm.Inverse();
   camera.medium = state.graphics.media.outside;
-  state.coordinate_systems["camera"] = camera.world_from_camera;
+  const Transform end = state.graphics.ctm_end.Inverse();
+  camera.end = EndOf(camera.world_from_camera, end, params.where());
+  state.coordinate_systems["camera"] = {camera.world_from_camera, end};
   const auto& [kind, read] = Lookup(kCameraTypes, type, params.where(), "camera");
   camera.kind = kind;
   read(state, params, camera);

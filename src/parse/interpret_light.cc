@@ -5,6 +5,7 @@
 
 #include "src/core/pi.h"
 #include "src/parse/interpret.h"
+#include "src/parse/motion.h"
 #include "src/core/suggest.h"
 
 namespace lanelight {
@@ -182,6 +183,7 @@ void InterpretLight(ParseState& state, const std::string& type, ParamSet& params
   light.kind = kind;
   light.where = params.where();
   light.world_from_light = state.graphics.ctm;
+  NoteStill(state, light.where, "light");
   read(state, params, &light);
   params.CheckAllUsed();
   CheckEmission(params, light.emission);

@@ -4,6 +4,7 @@
 
 #include "src/core/suggest.h"
 #include "src/parse/interpret.h"
+#include "src/parse/motion.h"
 #include "src/parse/medium_kinds.h"
 #include "src/parse/scattering_presets.h"
 
@@ -54,6 +55,7 @@ void InterpretMedium(ParseState& state, const std::string& name, ParamSet& param
   medium.name = name;
   medium.where = params.where();
   medium.world_from_medium = state.graphics.ctm;
+  NoteStill(state, medium.where, "medium");
   const SourceLocation& where = params.Need("type", ParamType::kString).where;
   const std::string type = params.String("type", "");
   const auto& [kind, read] = Lookup(kMediumTypes, type, where, "type of medium");

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "src/parse/interpret.h"
+#include "src/parse/motion.h"
 #include "src/core/suggest.h"
 
 namespace lanelight {
@@ -55,6 +56,7 @@ void ReadPly(ParseState& state, ParamSet& params, Shape*) {
   const NamedFile file = FileOf(state, params, "filename");
   MeshRequest request{file.path, file.param->where, state.open_object,
                       state.OpenShapes().size()};
+  request.world_from_object = state.graphics.ctm;
   if (params.Find("displacement", {ParamType::kTexture}) != nullptr) {
     const FloatValue height = TexturedFloat(state, params, "displacement", 0, {0, 0});
     request.displacement = height.texture;
@@ -168,14 +170,13 @@ void AddCurves(ParseState& state, Shape shape) {
   curves.insert(curves.end(), shape.curves->begin(), shape.curves->end());
 }
 
-}  // namespace
-
-void InterpretShape(ParseState& state, const std::string& type, ParamSet& params) {
+void AddShape(ParseState& state, const std::string& type, ParamSet& params,
+              const Transform& world_from_object) {
   const auto& [kind, read] = Lookup(kShapes, type, params.where(), "shape");
   Shape shape;
   shape.kind = kind;
   shape.where = params.where();
-  shape.world_from_object = state.graphics.ctm;
+  shape.world_from_object = world_from_object;
   shape.reverse_orientation = state.graphics.reverse_orientation;
   shape.material = CurrentMaterial(state, params.where());
   shape.media = MediaOf(state, shape);
@@ -189,6 +190,31 @@ void InterpretShape(ParseState& state, const std::string& type, ParamSet& params
   shape.area_light = CurrentAreaLight(state, shape, params.where());
   if (shape.kind == ShapeKind::kCurves) return AddCurves(state, std::move(shape));
   state.OpenShapes().push_back(std::move(shape));
+}
+
+// Why a shape that the file moves does not; empty if it does.
+std::string WhyStill(const ParseState& state, ShapeKind kind, Index material) {
+  if (const char* why = WhyCannotMove(kind)) return why;
+  const bool emits = state.graphics.area_light != kNone && state.open_object == kNone &&
+                     state.scene.materials[material].kind != MaterialKind::kInterface;
+  return emits ? "an area light cannot move: light is sampled where it is at the start"
+               : "";
+}
+
+}  // namespace
+
+// A shape that moves is an object of its own, which is placed once, as in pbrt-v4.
+void InterpretShape(ParseState& state, const std::string& type, ParamSet& params) {
+  const Transform& ctm = state.graphics.ctm;
+  if (!state.graphics.Moves()) return AddShape(state, type, params, ctm);
+  const ShapeKind kind = Lookup(kShapes, type, params.where(), "shape").kind;
+  const std::string why = WhyStill(state, kind, CurrentMaterial(state, params.where()));
+  if (!why.empty()) {
+    state.Unsupported(params.where(), why);
+    return AddShape(state, type, params, ctm);
+  }
+  AddMovingShape(state, params.where(),
+                 [&] { AddShape(state, type, params, Transform()); });
 }
 
 }  // namespace lanelight

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "src/parse/interpret.h"
+#include "src/parse/motion.h"
 #include "src/core/suggest.h"
 
 namespace lanelight {
@@ -218,6 +219,7 @@ void InterpretTexture(ParseState& state, const std::string& name, bool is_float,
   texture.where = params.where();
   texture.is_float = is_float;
   texture.texture_from_world = state.graphics.ctm.Inverse();
+  NoteStill(state, texture.where, "texture");
   found.read(state, params, &texture);
   params.CheckAllUsed();
   const Index index = static_cast<Index>(state.scene.textures.size());

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "src/parse/motion.h"
 #include "src/parse/parse_state.h"
 
 namespace lanelight {
@@ -32,12 +33,14 @@ SceneDescription Finish(ParseState& state, const SourceLocation& end) {
   if (!state.in_world) {
     throw InputError(end, "the file ends without WorldBegin, so it describes no scene");
   }
-  state.scene.film.imaging_ratio = state.exposure_seconds * state.iso / 100;
+  state.scene.film.imaging_ratio =
+      (state.shutter_close - state.shutter_open) * state.iso / 100;
   if (state.pixel_centers) UsePixelCenters(state.scene);
   state.scene.integrator.force_diffuse = state.force_diffuse;
   const Integrator& integrator = state.scene.integrator;
   ApplyStrategy(integrator.strategy, integrator.strategy_where, state.scene.strategy);
   LoadMeshes(state);
+  FitMotionsToShutter(state);
   return std::move(state.scene);
 }
 

@@ -55,7 +55,7 @@ void DisplaceMesh(ParseState& state, const MeshRequest& request, Shape* shape) {
   const HeightTexture height(textures, request.displacement);
   try {
     shape->mesh = std::make_shared<const TriangleMesh>(
-        Displace(*shape->mesh, shape->world_from_object, request.edge_length, height));
+        Displace(*shape->mesh, request.world_from_object, request.edge_length, height));
   } catch (const InputError& error) {
     throw InputError(request.where, WithoutPrefix(error));
   }

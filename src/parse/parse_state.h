@@ -24,14 +24,16 @@ inline constexpr int kAttributeTargets = 5;
 
 /// The state that AttributeBegin saves and AttributeEnd restores.
 struct GraphicsState {
-  Transform ctm;
+  Transform ctm, ctm_end;  // at the two times of TransformTimes
+  bool start_active = true, end_active = true;
   bool reverse_orientation = false;
-  bool transforms_active = true;  // false after `ActiveTransform EndTime`
-  Index material = kNone;         // kNone: the default diffuse
+  Index material = kNone;  // kNone: the default diffuse
   Index area_light = kNone;
   MediumInterface media;
   std::string color_space = "srgb";
   std::array<std::shared_ptr<const ParamList>, kAttributeTargets> attributes;
+
+  bool Moves() const { return ctm != ctm_end; }
 };
 
 enum class ScopeKind { kAttribute, kTransform, kObject, kImport };
@@ -48,8 +50,9 @@ struct MeshRequest {
   SourceLocation where;
   Index object = kNone;
   std::size_t shape = 0;
-  Index displacement = kNone;  // a float texture
-  double edge_length = 1;      // of displaced triangles at most, in the world
+  Index displacement = kNone;        // a float texture
+  double edge_length = 1;            // of displaced triangles at most, in the world
+  Transform world_from_object = {};  // to measure them
 };
 
 struct OpenFile {
@@ -67,17 +70,21 @@ struct ParseState {
   std::vector<OpenFile> open_files;
   int files_read = 0;
 
-  std::map<std::string, Transform> coordinate_systems;
+  std::map<std::string, std::pair<Transform, Transform>> coordinate_systems;  // ctm, end
   std::map<std::string, Index> materials, media, objects, float_textures, color_textures;
   std::map<std::string, std::shared_ptr<const MeasuredReflectance>> measured;  // by path
   Index default_material = kNone;  // pbrt's grey diffuse, once a shape needs it
   std::vector<MeshRequest> meshes;
-  double exposure_seconds = 1;     // from the camera's shutter
-  double iso = 100;                // of the film
-  double edge_scale = 1;           // Option "displacementedgescale"
-  bool unfiltered_images = false;  // Option "disabletexturefiltering"
-  bool force_diffuse = false;      // Option "forcediffuse"
-  bool pixel_centers = false;      // Option "disablepixeljitter"
+  // Shapes that move in object definitions, by object: objects of their own, in its
+  // coordinates.
+  std::map<Index, std::vector<Instance>> moving_shapes;
+  double start_time = 0, end_time = 1;         // TransformTimes
+  double shutter_open = 0, shutter_close = 1;  // of the camera
+  double iso = 100;                            // of the film
+  double edge_scale = 1;                       // Option "displacementedgescale"
+  bool unfiltered_images = false;              // Option "disabletexturefiltering"
+  bool force_diffuse = false;                  // Option "forcediffuse"
+  bool pixel_centers = false;                  // Option "disablepixeljitter"
   std::set<std::string> noted;
 
   void AddNote(const SourceLocation& where, const std::string& message,

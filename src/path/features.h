@@ -20,6 +20,9 @@ namespace lanelight {
   X(kLargeSpheres, "spheres much larger than the camera's distance to them")  \
   X(kCurves, "curves")                                                        \
   X(kInstances, "object instances")                                           \
+  X(kMotion, "something that moves while the shutter is open")                \
+  X(kMovingInstances, "object instances that move")                           \
+  X(kMovingCamera, "a camera that moves")                                     \
   X(kVertexNormals, "interpolated vertex normals")                            \
   X(kUv, "surface coordinates (a texture is looked up)")                      \
   X(kTangents, "tangent frames (an anisotropic material)")                    \

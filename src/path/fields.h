@@ -72,6 +72,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_2(X, f32, u_film, ({}), kCamera, (), "position in the pixel")               \
   LANELIGHT_2(X, f32, u_lens, ({kLens}), kCamera, (), "position on the lens")           \
   X(f32, weight, ({kSignedFilter, kRealisticCamera}), kPath, (), "weight of the sample: of filter and lens system") \
+  X(f32, time, ({kMotion}), kPath, (), "time of all that the path meets, from 0 where the shutter opens to 1 where it closes") \
   /* hit */                                                                               \
   X(f32, t, ({}), kRay, (std::numeric_limits<float>::infinity()), "hit distance, +inf = miss") \
   X(u32, prim, ({}), f.Has(Feature::kTriangles) ? kPath : kSurface, (kNoPrimitive), "primitive id of the hit (src/geometry/geometry.h); of the last one, where the ray starts, until there is a new one") \

@@ -147,8 +147,9 @@ void NotePaths(const Checked& c) {
   }
   if (s.reuse != Reuse::kNone && !c.plan.Has(Feature::kReuse)) {
     c.Note(std::string("reuse=") + Name(s.reuse),
-           c.scene.Has(Feature::kMedia)
-               ? ": there are media"
+           c.scene.Has(Feature::kMedia) ? ": there are media"
+           : c.scene.Has(Feature::kMovingInstances)
+               ? ": shapes move, and paths of a block are of different times"
                : ": no path scatters a second time from a diffuse surface");
   }
   if (s.decide == Decide::kPilot && c.plan.Has(Feature::kReuse)) {

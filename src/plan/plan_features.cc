@@ -44,7 +44,9 @@ bool HasAnyOf(const FeatureSet& f, std::uint32_t shade_kinds) {
 
 // There is something to serve, and something to serve it with.
 void AddReuse(const Strategy& strategy, const PlanOptions& options, FeatureSet& f) {
-  if (options.max_depth < 2 || f.Has(Feature::kMedia)) return;
+  // Vertices of other paths would be of other times.
+  if (f.HasAny({Feature::kMedia, Feature::kMovingInstances})) return;
+  if (options.max_depth < 2) return;
   if (!HasAnyOf(f, kEvenSidedKinds | kGlossyKinds)) return;
   f.Add(TurnsOn(strategy.reuse));
   if (f.Has(Feature::kReuse) && HasAnyOf(f, kGlossyKinds)) f.Add(Feature::kReuseGlossy);
@@ -153,8 +155,9 @@ FeatureSet SeenLightFeatures(const CompiledScene& scene, const PlanOptions& opti
 
 bool SeesLightsApart(const CompiledScene& scene) {
   return scene.strategy.seen_lights == SeenLights::kApart &&
-         !scene.features.Has(Feature::kMedia) &&  // which dim what is seen
-         !scene.film.response.limits() &&         // which are of single samples
+         !scene.features.Has(Feature::kMedia) &&         // which dim what is seen
+         !scene.features.Has(Feature::kMovingCamera) &&  // which blurs all edges
+         !scene.film.response.limits() &&                // which are of single samples
          scene.features.HasAny({Feature::kAreaLights, Feature::kInfiniteLights});
 }
 

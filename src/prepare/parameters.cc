@@ -21,7 +21,8 @@ PointsParameters MakePointsParameters(Points points) {
 
 PairParameters MakePairParameters(const Strategy& strategy) {
   if (strategy.pairs == Pairs::kNone) return {};
-  constexpr std::uint64_t kPixel = Bit(Dimension::kFilm) | Bit(Dimension::kLens);
+  constexpr std::uint64_t kPixel =
+      Bit(Dimension::kFilm) | Bit(Dimension::kLens) | Bit(Dimension::kTime);
   constexpr std::uint64_t kLight = Bit(Dimension::kSelect) | Bit(Dimension::kLight);
   constexpr std::uint64_t kBsdf = Bit(Dimension::kBsdf) | Bit(Dimension::kLobe);
   constexpr std::uint64_t kMedium =

@@ -210,15 +210,21 @@ struct Shape {
   // kPlane: infinite, through the object-space origin, normal +z, uv = (x, y).
 };
 
-/// Shapes of one ObjectBegin/End, in the coordinates at ObjectBegin.
-struct ObjectDefinition {
-  std::string name;
-  std::vector<Shape> shapes;
-};
+/// Where something is when the shutter closes, if it moves from where it is when the
+/// shutter opens (src/core/motion.h).
+using EndTransform = std::shared_ptr<const Transform>;
+
 struct Instance {
   Index object = kNone;
   Transform world_from_object;
   SourceLocation where;
+  EndTransform end = nullptr;
+};
+/// Shapes of one ObjectBegin/End, in the coordinates at ObjectBegin; or a shape that
+/// moves, in its own.
+struct ObjectDefinition {
+  std::string name;
+  std::vector<Shape> shapes;
 };
 
 /// Emission of a shape: radiance `radiance * scale`, one-sided along the surface normal
@@ -271,6 +277,10 @@ struct Camera {
   std::string aperture;          // kRealistic: built-in shape or resolved path
   double film_diagonal = 35;     // kRealistic, mm
   Index medium = kNone;          // that it stands in
+  EndTransform end = nullptr;
+  // For how much of the time of motions the shutter is open: first + u * rate, u from 0
+  // to 1. What is below 0 is as at 0, above 1 as at 1.
+  double time_first = 0, time_rate = 1;
 };
 
 enum class FilterKind { kBox, kTriangle, kGaussian, kMitchell, kLanczos };

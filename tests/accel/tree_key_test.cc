@@ -51,6 +51,7 @@ TEST_CASE("the key of a tree follows everything that a tree depends on",
       [](Geometry& g) { g.disks[0].normal[1] = 1; },
       [](Geometry& g) { g.instances[1].object_from_scene[11] = 1; },
       [](Geometry& g) { g.instances[0].scene_from_object[0] = 1; },
+      [](Geometry& g) { g.motions.resize(1); },
       [](Geometry& g) { g.instance_group[1] = 0; },
       [](Geometry& g) { ++g.ranges.spheres; },
       [](Geometry& g) { ++g.ranges.disks; }};

@@ -164,6 +164,34 @@ AttributeBegin
 AttributeEnd
 )";
 /// The cameras that the others lack; the lenses are in lenses.dat.
+/// A camera, a shape with bumps and an instance that move.
+inline constexpr const char* kMovingScene = R"(
+LookAt 0 2 -6  0 0.8 0  0 1 0
+ActiveTransform EndTime
+Translate 0.3 0.1 0
+ActiveTransform All
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 32 "integer yresolution" 32
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ]
+LightSource "point" "point3 from" [ 2 4 -2 ] "rgb I" [ 9 9 9 ]
+Texture "steps" "float" "checkerboard" "float tex1" 0.01
+Material "diffuse" "texture displacement" "steps"
+Shape "trianglemesh" "point3 P" [ -5 0 -5  5 0 -5  5 0 5  -5 0 5 ]
+  "point2 uv" [ 0 0 4 0 4 4 0 4 ] "integer indices" [ 0 2 1 0 3 2 ]
+ObjectBegin "ball"
+  Shape "sphere" "float radius" 0.5
+ObjectEnd
+Translate -0.5 0.8 0
+ObjectInstance "ball"
+ActiveTransform EndTime
+Translate 0.3 0.1 0.2
+Rotate 40 0 1 0
+ActiveTransform All
+ObjectInstance "ball"
+Shape "cylinder" "float radius" 0.3
+)";
+
 inline constexpr const char* kSphericalScene = R"(
 Camera "spherical"
 Film "rgb" "integer xresolution" 32 "integer yresolution" 32

@@ -65,6 +65,7 @@ Film "rgb" "integer xresolution" 4 "integer yresolution" 4
 Sampler "independent" "integer pixelsamples" 2
 WorldBegin
 LightSource "point" "point3 from" [ 0 3 0 ]
+AreaLightSource "diffuse"
 ActiveTransform EndTime
 Translate 0 0 1
 ActiveTransform All
@@ -74,7 +75,7 @@ Shape "sphere"
 
 constexpr const char* kDiffers =
     "the image is not what the scene file asks for: skipped: "
-    "ActiveTransform";
+    "an area light cannot move";
 
 TEST_CASE("an image that is not what the file asks for has an exit code", "[cli]") {
   TempDirectory directory;

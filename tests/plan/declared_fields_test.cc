@@ -260,6 +260,8 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kCurvesScene, "points=sobol,reuse=block"},
       {kForcedScene, "points=sobol"},
       {kForcedScene, "roulette=adjoint"},
+      {kMovingScene, "points=sobol"},
+      {kMovingScene, "points=halton,pairs=antithetic"},
       {kSphericalScene, "points=sobol"},
       {kLensesScene, "points=sobol"}};
   std::set<std::string> stages;

@@ -11,7 +11,7 @@ namespace {
 
 struct Golden {
   std::uint32_t depth, branch;
-  float film[2], lens[2], bsdf[2], lobe, light[2], select, roulette;
+  float film[2], lens[2], bsdf[2], lobe, light[2], select, roulette, time;
 };
 
 // Of pixel 12345, sample 678, seed 9; multiples of 2^-24.
@@ -25,7 +25,8 @@ constexpr Golden kGolden[] = {
      6793788,
      {13307703, 16640117},
      10594590,
-     15814949},
+     15814949,
+     14957396},
     {1,
      0,
      {14198913, 2813180},
@@ -34,7 +35,8 @@ constexpr Golden kGolden[] = {
      7889349,
      {14900568, 6400564},
      4851418,
-     13149130},
+     13149130,
+     4561972},
     {5,
      0,
      {6624500, 709905},
@@ -43,7 +45,8 @@ constexpr Golden kGolden[] = {
      4812647,
      {5022210, 908252},
      12085126,
-     3648586},
+     3648586,
+     6918565},
     {1,
      3,
      {16566969, 12267020},
@@ -52,7 +55,8 @@ constexpr Golden kGolden[] = {
      8936409,
      {2467076, 14269220},
      15652006,
-     3787818},
+     3787818,
+     13798588},
     {1048575,
      7,
      {8457260, 15778913},
@@ -61,7 +65,8 @@ constexpr Golden kGolden[] = {
      8141322,
      {11843031, 6029700},
      7430235,
-     16256241},
+     16256241,
+     15639547},
 };
 
 void CheckGolden(const Golden& g) {
@@ -75,13 +80,13 @@ void CheckGolden(const Golden& g) {
   f.QueueAll(QueueId::kVertex, 1);
   f.Run(IndependentCameraStage, {});
   f.Run(IndependentBounceStage, {});
-  const float* found[] = {p.u_film_0,  p.u_film_1, p.u_lens_0,  p.u_lens_1,
-                          p.u_bsdf_0,  p.u_bsdf_1, p.u_lobe,    p.u_light_0,
-                          p.u_light_1, p.u_select, p.u_roulette};
-  const float expected[] = {g.film[0],  g.film[1], g.lens[0], g.lens[1],
-                            g.bsdf[0],  g.bsdf[1], g.lobe,    g.light[0],
-                            g.light[1], g.select,  g.roulette};
-  for (int i = 0; i < 11; ++i) {
+  const float* found[] = {p.u_film_0,  p.u_film_1, p.u_lens_0,   p.u_lens_1,
+                          p.u_bsdf_0,  p.u_bsdf_1, p.u_lobe,     p.u_light_0,
+                          p.u_light_1, p.u_select, p.u_roulette, p.time};
+  const float expected[] = {g.film[0],  g.film[1], g.lens[0],  g.lens[1],
+                            g.bsdf[0],  g.bsdf[1], g.lobe,     g.light[0],
+                            g.light[1], g.select,  g.roulette, g.time};
+  for (int i = 0; i < 12; ++i) {
     INFO("number " << i << " is " << static_cast<int>(found[i][0] / kUnit) << " units");
     CHECK(found[i][0] == expected[i] * kUnit);
   }
@@ -103,7 +108,7 @@ TEST_CASE("golden: the numbers of every dimension", "[points]") {
 TEST_CASE("golden: ranges of dimensions do not overlap", "[points]") {
   const Dimension all[] = {Dimension::kFilm,     Dimension::kLens,  Dimension::kBsdf,
                            Dimension::kLobe,     Dimension::kLight, Dimension::kSelect,
-                           Dimension::kRoulette, Dimension::kMix};
+                           Dimension::kRoulette, Dimension::kMix,   Dimension::kTime};
   std::uint64_t taken = 0;
   for (Dimension d : all) {
     const auto first = static_cast<std::uint32_t>(d);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
@@ -10,6 +11,7 @@
 #include "tests/reference/material.h"
 #include "tests/reference/media.h"
 #include "tests/reference/relief.h"
+#include "tests/reference/snapshot.h"
 
 namespace lanelight {
 namespace reference {
@@ -166,6 +168,38 @@ Rgb OnFilm(const Film& film, Rgb radiance) {
           m[2].x * v.x + m[2].y * v.y + m[2].z * v.z};
 }
 
+// The scene at one time.
+struct Still {
+  SceneDescription scene;
+  reference::Geometry geometry;
+  reference::Lights lights;
+  reference::CameraRays camera;
+
+  Still(SceneDescription at, const TwinOptions& options)
+      : scene(std::move(at)),
+        geometry(scene, options.texture),
+        lights(scene, geometry, options.environment),
+        camera(scene.camera, scene.film) {}
+};
+
+// Of a scene that moves so many, at times in equal parts of what the shutter is open for.
+constexpr int kStills = 512;
+
+std::vector<std::unique_ptr<const Still>> StillsOf(const SceneDescription& scene,
+                                                   const TwinOptions& options) {
+  bool moves = scene.camera.end != nullptr;
+  for (const Instance& instance : scene.instances) moves |= instance.end != nullptr;
+  std::vector<std::unique_ptr<const Still>> stills;
+  reference::Random random(options.seed, ~std::uint64_t{0});
+  for (int i = 0; i < (moves ? kStills : 1); ++i) {
+    const double u = moves ? (i + random.Uniform()) / kStills : 0;
+    const double time = scene.camera.time_first + u * scene.camera.time_rate;
+    stills.push_back(std::make_unique<const Still>(
+        reference::Snapshot(scene, std::clamp(time, 0.0, 1.0)), options));
+  }
+  return stills;
+}
+
 }  // namespace
 
 ReferenceImage RenderReference(const SceneDescription& scene,
@@ -174,9 +208,7 @@ ReferenceImage RenderReference(const SceneDescription& scene,
   const Film& film = scene.film;
   int crop[4] = {0, film.width, 0, film.height};
   if (film.crop[1] > film.crop[0]) std::copy(film.crop, film.crop + 4, crop);
-  const reference::Geometry geometry(scene, options.texture);
-  const reference::Lights lights(scene, geometry, options.environment);
-  const reference::CameraRays camera(scene.camera, film);
+  const auto stills = StillsOf(scene, options);
   ReferenceImage image;
   image.width = crop[1] - crop[0];
   image.height = crop[3] - crop[2];
@@ -194,11 +226,15 @@ ReferenceImage RenderReference(const SceneDescription& scene,
           x + 0.5 + reference::SampleFilter(scene.filter, scene.filter.x_radius, random);
       const double fy =
           y + 0.5 + reference::SampleFilter(scene.filter, scene.filter.y_radius, random);
-      const reference::CameraSample from = camera.Sample(fx, fy, random);
+      const std::size_t when =
+          stills.size() == 1 ? 0 : static_cast<std::size_t>(random.Uniform() * kStills);
+      const Still& still = *stills[when];
+      const reference::CameraSample from = still.camera.Sample(fx, fy, random);
       Rgb value;
       if (from.weight > 0) {
-        value = OnFilm(film, from.weight * ReferenceRadiance(scene, geometry, lights,
-                                                             from.ray, options, random));
+        value = OnFilm(film, from.weight * ReferenceRadiance(still.scene, still.geometry,
+                                                             still.lights, from.ray,
+                                                             options, random));
       }
       const Rgb delta = value - mean;
       mean += delta / s;

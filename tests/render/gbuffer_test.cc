@@ -13,11 +13,13 @@ constexpr int kWidth = 24, kHeight = 18;
 enum Plane { kHit, kP, kN = 4, kNs = 7, kU = 10, kV, kDzDx, kDzDy };
 
 // A tilted rectangle whose u and v are a third of x and a half of y, and whose shading
-// normals are (0, 0.6, -0.8), in the left half of the picture of a camera of half units.
-std::string Scene(const char* space, double far) {
+// normals are (0, 0.6, -0.8), in the left half of the picture of a camera of half units,
+// which goes to the right by `move` meanwhile.
+std::string Scene(const char* space, double far, double move = 0) {
   return fmt::format(R"(
     Scale 2 2 2
     LookAt {0} 1 -4  {0} 0.5 0  0 1 0
+    ActiveTransform EndTime Translate {5} 0 0 ActiveTransform All
     Camera "perspective" "float fov" 40
     PixelFilter "box"
     Film "gbuffer" "string coordinatesystem" "{1}" "integer xresolution" {2}
@@ -29,7 +31,7 @@ std::string Scene(const char* space, double far) {
       "point3 P" [ -9 -9 0.5  0 -9 0.5  0 9 9.5  -9 9 9.5 ]
       "point2 uv" [ -3 -4.5  0 -4.5  0 4.5  -3 4.5 ]
       "normal N" [ 0 0.6 -0.8  0 0.6 -0.8  0 0.6 -0.8  0 0.6 -0.8 ])",
-                     far + 0.3, space, kWidth, kHeight, far);
+                     far + 0.3, space, kWidth, kHeight, far, -move);
 }
 
 struct Buffer {
@@ -40,12 +42,13 @@ struct Buffer {
   }
 };
 
-Buffer RenderBuffer(const char* space, double far = 0, std::uint64_t spp = 64) {
+Buffer RenderBuffer(const char* space, double far = 0, std::uint64_t spp = 64,
+                    double move = 0) {
   TestRender t;
   t.spp = spp;
   t.sampler = Points::kSobol;
   t.auxiliary = Auxiliary::kGbuffer;
-  return {RenderText(Scene(space, far), t).film};
+  return {RenderText(Scene(space, far, move), t).film};
 }
 
 void CheckVector(Vec3d v, Vec3d wanted, double margin) {
@@ -102,6 +105,29 @@ TEST_CASE("gbuffer: the camera's space is the world's, moved", "[render]") {
                   Normalize(to_camera.Vector(world.Vector(x, y, normal))), 1e-5);
     }
     CHECK(camera.At(x, y, kU) == world.At(x, y, kU));
+  });
+}
+
+TEST_CASE("gbuffer: a camera that moves along a plane sees the same of it",
+          "[render][motion]") {
+  const double move = 0.4;
+  const Buffer still = RenderBuffer("camera", 0, 1024),
+               camera = RenderBuffer("camera", 0, 1024, move),
+               world = RenderBuffer("world", 0, 1024, move);
+  ForEachInside(camera, [&](int x, int y) {
+    if (still.At(x, y, kHit) < 1) return;
+    CheckVector(camera.Vector(x, y, kP), still.Vector(x, y, kP), 2e-3);
+    for (const int normal : {kN, kNs}) {
+      CheckVector(camera.Vector(x, y, normal), still.Vector(x, y, normal), 1e-5);
+    }
+    for (const int slope : {kDzDx, kDzDy}) {
+      CHECK(camera.At(x, y, slope) == Approx(still.At(x, y, slope)).margin(2e-3));
+    }
+    const Vec3d p = world.Vector(x, y, kP);
+    CHECK(p.z - 5 - p.y / 2 == Approx(0).margin(1e-5));
+    CHECK(world.At(x, y, kU) == Approx(p.x / 3).margin(1e-5));
+    CHECK(world.At(x, y, kU) - still.At(x, y, kU) == Approx(move / 2 / 3).margin(2e-3));
+    CheckVector(world.Vector(x, y, kN), Vec3d{0, 1, -2} / std::sqrt(5.0), 1e-5);
   });
 }
 

@@ -88,6 +88,7 @@ struct TestRay {
   Vec3f o, d;
   float t_max = std::numeric_limits<float>::infinity();
   std::uint32_t from = kNoPrimitive;  // the triangle that the ray starts on
+  float time = 0;
 };
 
 /// A wavefront whose slots are all in kActive, kSurface or kShadow at will.
@@ -118,6 +119,7 @@ class WaveFixture {
     p.t[slot] = ray.t_max;
     p.prim[slot] = ray.from;
     p.inst[slot] = kWorldInstance;
+    p.time[slot] = ray.time;
   }
   /// Shadow rays that start exactly at o (no offset), queued in kShadow.
   void SetShadowRays(const std::vector<TestRay>& rays) {
@@ -128,6 +130,7 @@ class WaveFixture {
       p.ls_x[i] = rays[i].d.x, p.ls_y[i] = rays[i].d.y, p.ls_z[i] = rays[i].d.z;
       p.ls_distance[i] = rays[i].t_max;
       p.prim[i] = rays[i].from;
+      p.time[i] = rays[i].time;
     }
     QueueAll(QueueId::kShadow, static_cast<std::uint32_t>(rays.size()));
   }
