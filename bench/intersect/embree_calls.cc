@@ -74,7 +74,7 @@ void EmbreeWave::Pack(const TestRay* rays, std::size_t count) {
     float* lane = packet(i / width_) + i % width_;
     const auto word = [&](int k) -> float& { return lane[k * int(width_)]; };
     word(0) = r.o.x, word(1) = r.o.y, word(2) = r.o.z, word(kNear) = 0;
-    word(4) = r.d.x, word(5) = r.d.y, word(6) = r.d.z, word(kTime) = 0;
+    word(4) = r.d.x, word(5) = r.d.y, word(6) = r.d.z, word(kTime) = r.time;
     word(kFar) = r.t_max, word(kMask) = std::bit_cast<float>(~0u);
     word(kId) = 0, word(kFlags) = 0;
     if (!shadow_) word(kGeom) = std::bit_cast<float>(RTC_INVALID_GEOMETRY_ID);
