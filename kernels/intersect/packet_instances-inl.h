@@ -27,16 +27,17 @@ struct InstancedBest {
   }
 };
 
-/// A packet, and what its paths are.
+/// A packet of paths.
 struct PacketOfPaths {
   const Wave& wave;
-  const Slots& slots;
   const Rays& rays;
+  const Slots& slots;
 
-  /// In the space of an instance, where distances below `t` matter.
+  /// In the space of an instance, where distances below `t` matter. kMoving: some move.
+  template <bool kMoving>
   LANELIGHT_INLINE Rays In(uint32_t instance, VF t) const {
     const Geometry& geometry = wave.scene->geometry;
-    if (HWY_UNLIKELY(instance < geometry.motions.size())) {
+    if (kMoving && instance < geometry.motions.size()) {
       return MapMovingRays(geometry.motions[instance], {rays.o, rays.d, t, FromNone()},
                            Gather(wave.path.time, slots));
     }
@@ -46,12 +47,12 @@ struct PacketOfPaths {
 
 /// Traces a packet through an instance as TraceFrustum does. There, too, its rays must
 /// agree in the signs of their directions: if they do not, `left` becomes negative.
-template <bool kAlpha>
+template <bool kAlpha, bool kMoving>
 HWY_NOINLINE void TraceInstance(const PacketOfPaths& paths, uint32_t instance, int& left,
                                 InstancedBest& best) {
   const CompiledScene& scene = *paths.wave.scene;
   const Geometry& geometry = scene.geometry;
-  const Rays own = paths.In(instance, best.hit.t);
+  const Rays own = paths.In<kMoving>(instance, best.hit.t);
   PacketBounds bounds;
   if (!bounds.Compute(own)) {
     left = -1;
@@ -79,9 +80,12 @@ LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays
   }
   float bound = LargestLane(best.hit.t);
   if (left >= 0) {
+    const PacketOfPaths paths = {wave, rays, slots};
+    const bool moving = !scene.geometry.motions.empty();
     Traverse(accel.nodes.data(), accel.top.root, MakeFrustum(bounds, accel.top), bound,
              [&](uint32_t instance) HWY_ATTR {
-               TraceInstance<kAlpha>({wave, slots, rays}, instance, left, best);
+               moving ? TraceInstance<kAlpha, true>(paths, instance, left, best)
+                      : TraceInstance<kAlpha, false>(paths, instance, left, best);
                bound = LargestLane(best.hit.t);
                return left < 0;
              });

@@ -159,7 +159,8 @@ class PacketPhase {
         (++frame)->template SetChildren<kAny, kSameSigns>(
             slabs, best.t, scene_.accel.nodes[ref], octant, lanes);
       } else if constexpr (kTop) {
-        EnterInstance(ref & ~kLeafBit, lanes);
+        spaces_.HasMotion() ? EnterInstance<true>(ref & ~kLeafBit, lanes)
+                            : EnterInstance<false>(ref & ~kLeafBit, lanes);
         best.t = hn::LoadU(df, rays_.t + at_);
         if constexpr (kAny) best.found |= Found(at_);
       } else {
@@ -198,10 +199,11 @@ class PacketPhase {
 
   // Traces the rays of `lanes` through an instance. They are moved to its space in the
   // columns behind the last ray, and their hits are taken back.
+  template <bool kMoving>
   HWY_NOINLINE void EnterInstance(uint32_t instance, uint32_t lanes) {
     const Bvh& group = scene_.accel.groups[scene_.geometry.instance_group[instance]];
     const uint32_t home = at_, to = rays_.size;
-    const Rays rays = MoveRays(instance, home, to);
+    const Rays rays = MoveRays<kMoving>(instance, home, to);
     PacketRays packet = PacketIn(group, rays, lanes);
     if constexpr (kAlpha) packet.home = rays_.Load(home), home_ = home;
     has_columns_ = false;
@@ -222,10 +224,10 @@ class PacketPhase {
   }
 
   // The rays at `home` in the space of an instance, where their hits lie at `to`.
+  template <bool kMoving>
   LANELIGHT_INLINE Rays MoveRays(uint32_t instance, uint32_t home, uint32_t to) {
     const DI di;
-    const Rays from = rays_.Load(home);
-    const Rays rays = spaces_.Mapped(from, instance, home);
+    const Rays rays = spaces_.template Mapped<kMoving>(instance, home);
     const VI prim = hn::LoadU(di, rays_.prim + home);
     const VI inst = hn::LoadU(di, reinterpret_cast<const int32_t*>(rays_.inst) + home);
     hn::StoreU(PrimsToBeat(prim, inst, instance), di, rays_.prim + to);

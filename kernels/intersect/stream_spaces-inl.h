@@ -54,7 +54,9 @@ class RaySpaces {
   /// Moves rays to the spaces of the instances that they are at. What is next stays.
   LANELIGHT_INLINE void Enter(const int32_t* list, uint32_t count) {
     for (uint32_t i = 0; i < count; i += StreamRays::kLanes) {
-      EnterVector(list + i, std::min(count - i, StreamRays::kLanes));
+      const uint32_t some = std::min(count - i, StreamRays::kLanes);
+      HasMotion() ? EnterVector<true>(list + i, some)
+                  : EnterVector<false>(list + i, some);
     }
   }
 
@@ -65,27 +67,42 @@ class RaySpaces {
     rays_.octant[r] = std::bit_cast<uint32_t>(home_.o[r].octant);
   }
 
-  /// Rays at place `at` of the scene's space in that of an instance.
-  LANELIGHT_INLINE Rays Mapped(const Rays& rays, uint32_t instance, uint32_t at) const {
-    const Geometry& geometry = scene_.geometry;
-    if (HWY_UNLIKELY(times_ != nullptr && instance < geometry.motions.size())) {
-      return MapMovingRays(geometry.motions[instance], rays, TimesAt(at));
-    }
-    return MapRays(geometry.instances[instance], rays.o, rays.d, rays.t_max);
+  /// Some instances move.
+  LANELIGHT_INLINE bool HasMotion() const { return HWY_UNLIKELY(times_ != nullptr); }
+
+  /// The rays from place `at` on, which lie in the space of the scene, in that of an
+  /// instance. kMoving: as HasMotion.
+  template <bool kMoving>
+  LANELIGHT_INLINE Rays Mapped(uint32_t instance, uint32_t at) const {
+    if constexpr (kMoving) return MappedByTime(instance, at);
+    const Rays from = rays_.Load(at);
+    return MapRays(scene_.geometry.instances[instance], from.o, from.d, from.t_max);
   }
 
   /// The ray, which lies in the space of the scene, in the one where it is.
   LANELIGHT_INLINE void Map(uint32_t r, float o[3], float d[3]) const {
-    if (rays_.space[r] >= kTopSpace) return;
+    const uint32_t space = rays_.space[r];
+    if (space >= kTopSpace) return;
     const Rays own =
-        Mapped({Splat3(o[0], o[1], o[2]), Splat3(d[0], d[1], d[2]), Splat(0), FromNone()},
-               rays_.space[r], r);
+        HasMotion() ? MappedByTime(space, r)
+                    : MapRays(scene_.geometry.instances[space], Splat3(o[0], o[1], o[2]),
+                              Splat3(d[0], d[1], d[2]), Splat(0));
     const VF from[6] = {own.o.x, own.o.y, own.o.z, own.d.x, own.d.y, own.d.z};
     for (int a = 0; a < 3; ++a)
       o[a] = hn::GetLane(from[a]), d[a] = hn::GetLane(from[3 + a]);
   }
 
  private:
+  // Where instances move.
+  HWY_NOINLINE Rays MappedByTime(uint32_t instance, uint32_t at) const {
+    const Geometry& geometry = scene_.geometry;
+    const Rays from = rays_.Load(at);
+    if (instance < geometry.motions.size()) {
+      return MapMovingRays(geometry.motions[instance], from, TimesAt(at));
+    }
+    return MapRays(geometry.instances[instance], from.o, from.d, from.t_max);
+  }
+
   // Times of the rays from place `at` on; behind the last one its own again.
   HWY_NOINLINE VF TimesAt(uint32_t at) const {
     HWY_ALIGN float times[StreamRays::kLanes];
@@ -107,6 +124,8 @@ class RaySpaces {
     }
   };
 
+  // kMoving: some instances move.
+  template <bool kMoving>
   HWY_NOINLINE void EnterVector(const int32_t* list, uint32_t count) {
     const DF df;
     const Geometry& geometry = scene_.geometry;
@@ -129,7 +148,7 @@ class RaySpaces {
     for (int k = 0; k < 3; ++k) {
       map[k].Load(m[4 * k], m[4 * k + 1], m[4 * k + 2], m[4 * k + 3]);
     }
-    if (HWY_UNLIKELY(times_ != nullptr)) MoveMaps(list, count, m);
+    if constexpr (kMoving) MoveMaps(list, count, m);
     o.Load(from_o.x, from_o.y, from_o.z, unused);
     d.Load(from_d.x, from_d.y, from_d.z, unused);
     growth.Load(slack, margin, reach, unused);

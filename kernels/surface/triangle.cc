@@ -148,7 +148,8 @@ HWY_NOINLINE void MovePlaces(const Wave& wave, const StoreSlots& slots,
   at.maps.Replace(moving.moves, moving.maps);
 }
 
-template <bool kInstances>
+// kMoving: some instances move.
+template <bool kInstances, bool kMoving>
 HWY_INLINE PlaceLanes PlaceTriangles(const Wave& wave, const StoreSlots& slots,
                                      const TriangleLanes& tri, const FaceLanes& face) {
   PlaceLanes at;
@@ -160,9 +161,7 @@ HWY_INLINE PlaceLanes PlaceTriangles(const Wave& wave, const StoreSlots& slots,
     at.ng = Normalize(at.maps.object_from_scene.Transposed(face.normal));
     at.error = hn::Add(RoundingError(at.p, at.ng, hn::Zero(DF())),
                        MappingError(at.maps, FromHalves(lower, upper), at.ng));
-    if (HWY_UNLIKELY(!wave.scene->geometry.motions.empty())) {
-      MovePlaces(wave, slots, tri, face.normal, at);
-    }
+    if constexpr (kMoving) MovePlaces(wave, slots, tri, face.normal, at);
   } else {
     at.p = FromHalves(Interpolate<false>(tri), Interpolate<true>(tri));
     at.ng = face.normal;
@@ -230,13 +229,13 @@ HWY_INLINE void StoreCoordinates(const Wave& wave, const StoreSlots& slots,
   if (path.tg_x != nullptr) StoreTangents<kInstances>(path, slots, uv, face, at);
 }
 
-template <bool kInstances, bool kDetails>
+template <bool kInstances, bool kMoving, bool kDetails>
 HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const TriangleLanes tri = LoadTriangles(wave, slots);
   const V3 e1 = tri.v1 - tri.v0, e2 = tri.v2 - tri.v0;
   const FaceLanes face = {e1, e2, FaceNormal(e1, e2)};
-  PlaceLanes at = PlaceTriangles<kInstances>(wave, slots, tri, face);
+  PlaceLanes at = PlaceTriangles<kInstances, kMoving>(wave, slots, tri, face);
   if constexpr (kDetails) {
     if (path.ns_x != nullptr)
       StoreNormals<kInstances>(wave, slots, tri, face.normal, &at);
@@ -248,31 +247,35 @@ HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
   Scatter(tri.material, path.material, slots);
 }
 
-template <bool kInstances>
+template <bool kInstances, bool kMoving>
 void SurfaceTriangle(Wave& wave) {
   const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface), 0,
                                        wave.scene->geometry.ranges.spheres);
   if (WantsDetails(wave.path)) {
     ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
-      SurfaceBatch<kInstances, true>(wave, slots);
+      SurfaceBatch<kInstances, kMoving, true>(wave, slots);
     });
   } else {
     ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
-      SurfaceBatch<kInstances, false>(wave, slots);
+      SurfaceBatch<kInstances, kMoving, false>(wave, slots);
     });
   }
 }
 
+StageFn ResolveTriangles(const FeatureSet& features) {
+  if (features.Has(Feature::kMovingInstances)) return SurfaceTriangle<true, true>;
+  return features.Has(Feature::kInstances) ? SurfaceTriangle<true, false>
+                                           : SurfaceTriangle<false, false>;
+}
+
 Stage SurfaceTriangleStage() {
-  return {
-      .name = "surface_triangle",
-      .meaning = "point, normals and material of hits on triangles",
-      .input = QueueId::kSurface,
-      .needs = {Feature::kTriangles, Feature::kScatters},
-      .reads = {Field::prim, Field::b1, Field::b2, Field::inst, Field::time},
-      .writes = kSurfaceFields,
-      .resolve =
-          ByFeature<Feature::kInstances, SurfaceTriangle<true>, SurfaceTriangle<false>>};
+  return {.name = "surface_triangle",
+          .meaning = "point, normals and material of hits on triangles",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kTriangles, Feature::kScatters},
+          .reads = {Field::prim, Field::b1, Field::b2, Field::inst, Field::time},
+          .writes = kSurfaceFields,
+          .resolve = ResolveTriangles};
 }
 
 LANELIGHT_END_KERNELS

@@ -54,16 +54,20 @@ const Transform& Checked(const Statement& statement, const Transform& ctm) {
   return ctm;
 }
 
-// Sets those of the two current transforms that are active.
+// Sets those of the two current transforms that are active. Most often they are the same.
 void Set(ParseState& state, const Statement& statement, const Transform& start,
          const Transform& end) {
   GraphicsState& graphics = state.graphics;
   if (graphics.start_active) graphics.ctm = Checked(statement, start);
-  if (graphics.end_active) graphics.ctm_end = Checked(statement, end);
+  if (!graphics.end_active) return;
+  const bool same = graphics.start_active && start == end;
+  graphics.ctm_end = same ? start : Checked(statement, end);
 }
 
 void Concat(ParseState& state, const Statement& statement, const Transform& t) {
-  Set(state, statement, state.graphics.ctm * t, state.graphics.ctm_end * t);
+  const GraphicsState& graphics = state.graphics;
+  const Transform start = graphics.ctm * t;
+  Set(state, statement, start, graphics.Moves() ? graphics.ctm_end * t : start);
 }
 
 Transform ReadMatrix(Statement& statement) {
