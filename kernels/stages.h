@@ -56,6 +56,9 @@ namespace lanelight {
   X(Bumps)                                     \
   X(NormalMaps)                                \
   X(Texture)                                   \
+  X(Spectra)                                   \
+  X(TextureSpectra)                            \
+  X(Disperse)                                  \
   X(ForceDiffuse)                              \
   X(Aov)                                       \
   X(Gbuffer)                                   \
@@ -99,6 +102,7 @@ namespace lanelight {
   X(SamplePortalLight)                         \
   X(EmissionImageSamples)                      \
   X(EmissionCutSamples)                        \
+  X(LightSpectra)                              \
   X(Consider)                                  \
   X(KeepCandidate)                             \
   X(AnalyticDiffuse)                           \

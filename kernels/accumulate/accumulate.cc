@@ -1,11 +1,14 @@
 // Finished paths: checks the sample, writes it to the task's buffer, frees the slot.
-// A sample that is not finite, or negative though the filter is positive, is counted by
-// kind and written as zero: nothing bad reaches the film, and nothing is hidden.
+// A sample that is not finite, or negative though neither the filter nor the film's view
+// of wavelengths is, is counted by kind and written as zero: nothing bad reaches the
+// film, and nothing is hidden.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/accumulate/check-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
+#include "kernels/texture/wavelengths-inl.h"
+#include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -91,6 +94,9 @@ void Accumulate(Wave& wave) {
                  const VI output = Gather(p.output, slots);
                  LL_DCHECK(AllUnder(valid, InBuffer(wave, output)));
                  V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
+                 if (kSigned && p.wavelength != nullptr) {
+                   sample = FilmColor(wave.scene->spectra, sample, {p, slots});
+                 }
                  if (p.weight != nullptr && !is_light) {
                    sample = Mul(sample, Gather(p.weight, slots));
                  }
@@ -119,7 +125,7 @@ void Accumulate(Wave& wave) {
 }
 
 StageFn ResolveAccumulate(const FeatureSet& features) {
-  if (features.HasAny({Feature::kSignedFilter, Feature::kControl})) {
+  if (features.HasAny({Feature::kSignedFilter, Feature::kControl, Feature::kSpectral})) {
     return features.Has(Feature::kAov) ? Accumulate<true, true> : Accumulate<true, false>;
   }
   return features.Has(Feature::kAov) ? Accumulate<false, true> : Accumulate<false, false>;
@@ -131,7 +137,7 @@ Stage AccumulateStage() {
           .input = QueueId::kDone,
           .reads = fields::kRadiance | fields::kAov | fields::kGbuffer |
                    fields::kControl | fields::kFirstNumbers |
-                   FieldSet{Field::output, Field::weight},
+                   FieldSet{Field::output, Field::weight, Field::wavelength},
           .resolve = ResolveAccumulate};
 }
 

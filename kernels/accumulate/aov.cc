@@ -4,6 +4,7 @@
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/vec3-inl.h"
+#include "kernels/texture/wavelengths-inl.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -32,7 +33,7 @@ HWY_INLINE V3 AlbedoOf(VI kind, V3 color0, V3 k) {
                     IfThenElse(HasTrait(kind, kMetallic), metal, color0));
 }
 
-template <bool kTextures, bool kNormals>
+template <bool kByPath, bool kNormals>
 void Aov(Wave& wave) {
   const PathColumns& p = wave.path;
   const MaterialTable& m = wave.scene->materials;
@@ -42,15 +43,18 @@ void Aov(Wave& wave) {
       });
   ForEachBatch(wave, first, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI material = Gather(p.material, slots);
-    const V3 color0 = kTextures ? Gather3(p.color0_r, p.color0_g, p.color0_b, slots)
-                                : Gather3(m.color0_r.data(), m.color0_g.data(),
-                                          m.color0_b.data(), material);
+    const V3 color0 = kByPath ? Gather3(p.color0_r, p.color0_g, p.color0_b, slots)
+                              : Gather3(m.color0_r.data(), m.color0_g.data(),
+                                        m.color0_b.data(), material);
     const V3 color1 =
         p.color1_r != nullptr
             ? Gather3(p.color1_r, p.color1_g, p.color1_b, slots)
             : Gather3(m.color1_r.data(), m.color1_g.data(), m.color1_b.data(), material);
-    Scatter3(AlbedoOf(Gather(m.kind.data(), material), color0, color1), p.aov_albedo_r,
-             p.aov_albedo_g, p.aov_albedo_b, slots);
+    V3 albedo = AlbedoOf(Gather(m.kind.data(), material), color0, color1);
+    if (p.wavelength != nullptr) {
+      albedo = FilmColor(wave.scene->spectra, albedo, {p, slots});
+    }
+    Scatter3(albedo, p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, slots);
     const V3 n = kNormals ? Gather3(p.ns_x, p.ns_y, p.ns_z, slots)
                           : Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
     Scatter3(n, p.aov_n_x, p.aov_n_y, p.aov_n_z, slots);
@@ -63,7 +67,7 @@ void Aov(Wave& wave) {
 StageFn ResolveAov(const FeatureSet& features) {
   const bool normals =
       features.HasAny({Feature::kVertexNormals, Feature::kBumps, Feature::kNormalMaps});
-  if (features.Has(Feature::kTextures)) {
+  if (features.HasAny({Feature::kTextures, Feature::kPlainSpectra})) {
     return normals ? Aov<true, true> : Aov<true, false>;
   }
   return normals ? Aov<false, true> : Aov<false, false>;
@@ -75,7 +79,8 @@ Stage AovStage() {
           .input = QueueId::kSurface,
           .needs = {Feature::kAov, Feature::kScatters},
           .reads = fields::kNormal | fields::kParameters |
-                   FieldSet{Field::depth, Field::t, Field::material, Field::passed},
+                   FieldSet{Field::depth, Field::t, Field::material, Field::passed,
+                            Field::wavelength},
           .writes = fields::kAov,
           .resolve = ResolveAov};
 }

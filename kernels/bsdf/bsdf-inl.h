@@ -75,6 +75,7 @@ struct MaterialSource {
   const float *coat_albedo_r, *coat_albedo_g, *coat_albedo_b, *coat_g;
   bool color_by_path, alpha_by_path, color1_by_path, coat_by_path, medium_by_path;
   const float* uv_v;  // only for kFibre; null otherwise
+  const float* eta;   // of glass, by path; null: of the table
 };
 
 LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
@@ -99,6 +100,7 @@ LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
           false,
           false,
           false,
+          nullptr,
           nullptr};
 }
 
@@ -150,6 +152,10 @@ struct MaterialInputs {
   }
   LANELIGHT_INLINE VF CoatG() const {
     return Varying(source.medium_by_path, source.coat_g, source.table->coat_g);
+  }
+  /// Of glass without a coat.
+  LANELIGHT_INLINE VF Eta() const {
+    return Varying(source.eta != nullptr, source.eta, source.table->eta);
   }
   LANELIGHT_INLINE VF Float(const AlignedVector<float>& column) const {
     return Lookup(column, material);

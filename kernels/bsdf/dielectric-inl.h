@@ -21,9 +21,7 @@ struct DielectricSmoothBsdf : PlainBsdf {
   struct Params {
     VF eta;
   };
-  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    return {in.Float(in.source.table->eta)};
-  }
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) { return {in.Eta()}; }
   LANELIGHT_INLINE static VF FirstLobe(const Params& m, V3 wo) {
     return DielectricInterface(hn::Abs(wo.z), RelativeIndex(m.eta, wo)).reflectance;
   }
@@ -48,9 +46,7 @@ struct ThinDielectricBsdf : PlainBsdf {
   struct Params {
     VF eta;
   };
-  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    return {in.Float(in.source.table->eta)};
-  }
+  LANELIGHT_INLINE static Params Load(const MaterialInputs& in) { return {in.Eta()}; }
 
   LANELIGHT_INLINE static VF FirstLobe(const Params& m, V3 wo) {
     const VF r = DielectricInterface(hn::Abs(wo.z), m.eta).reflectance;
@@ -82,7 +78,7 @@ struct DielectricRoughBsdf : PlainBsdf {
     Ggx ggx;
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    return {in.Float(in.source.table->eta), Ggx::FromAlpha(in.AlphaX(), in.AlphaY())};
+    return {in.Eta(), Ggx::FromAlpha(in.AlphaX(), in.AlphaY())};
   }
   LANELIGHT_INLINE static MF NearlyMatched(const Params& m) {
     return hn::Lt(hn::Abs(hn::Sub(m.eta, Splat(1.0f))), Splat(kNearlyMatched));

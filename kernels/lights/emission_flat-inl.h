@@ -60,7 +60,8 @@ void EmissionOfFlat(Wave& wave) {
   const Queue& mine = HitsOf(wave, kShape);
   ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI prim = Gather(p.prim, slots);
-    const Lights light(scene, LightOfTriangle(scene, prim));
+    const VI index = LightOfTriangle(scene, prim);
+    const Lights light(scene, index);
     const LightTriangle triangle(scene, prim);
     const VF cosine = hn::Neg(Dot(triangle.n, Gather3(p.d_x, p.d_y, p.d_z, slots)));
     const MF facing = hn::Or(hn::Gt(cosine, Splat(0)), light.TwoSided());
@@ -88,6 +89,7 @@ void EmissionOfFlat(Wave& wave) {
           TriangleUv(scene.geometry, prim, Gather(p.b1, slots), Gather(p.b2, slots));
       radiance = Mul(radiance, ImageAt(scene, light, at));
     }
+    radiance = AsCarried(wave, slots, index, radiance);
     AddRadiance(p, slots, IfThenElseZero(facing, Mul(radiance, weight)));
   });
 }

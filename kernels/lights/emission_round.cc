@@ -86,7 +86,8 @@ void EmissionOfRound(Wave& wave) {
       });
   ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI prim = Gather(p.prim, slots);
-    const Lights light(scene, light_of(hn::Sub(prim, begin)));
+    const VI index = light_of(hn::Sub(prim, begin));
+    const Lights light(scene, index);
     const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
     const Shape hits(scene, p, slots, prim, d);
     const VF cosine = hn::Neg(Dot(hits.n, d));
@@ -104,6 +105,7 @@ void EmissionOfRound(Wave& wave) {
       const V3 hit = MulAdd(d, Gather(p.t, slots), Gather3(p.o_x, p.o_y, p.o_z, slots));
       radiance = Mul(radiance, ImageAt(scene, light, hits.Uv(scene, prim, hit)));
     }
+    radiance = AsCarried(wave, slots, index, radiance);
     AddRadiance(p, slots, IfThenElseZero(facing, Mul(radiance, weight)));
   });
 }

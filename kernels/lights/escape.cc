@@ -35,6 +35,8 @@ void Escape(Wave& wave) {
               pdf = s.pdf_sa;
             }
           }
+          const VI lit = hn::Set(DI(), static_cast<int32_t>(index));
+          radiance = AsCarried(wave, slots, lit, radiance);
           if constexpr (kMis) {
             radiance =
                 Mul(radiance, EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
@@ -59,7 +61,7 @@ Stage EscapeStage() {
           .input = QueueId::kMiss,
           .needs = {Feature::kInfiniteLights},
           .reads = fields::kRay | fields::kThroughput | fields::kRadiance |
-                   FieldSet{Field::bsdf_pdf},
+                   FieldSet{Field::bsdf_pdf, Field::wavelength},
           .writes = fields::kRadiance,
           .resolve = ResolveEscape};
 }

@@ -8,6 +8,7 @@
 #include "kernels/directions/heuristic-inl.h"
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/records-inl.h"
+#include "kernels/texture/wavelengths-inl.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -179,6 +180,26 @@ LANELIGHT_INLINE void AddRadiance(const PathColumns& p, const StoreSlots& slots,
   const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
   const V3 sum = Gather3(p.l_r, p.l_g, p.l_b, slots) + Mul(beta, radiance);
   Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);
+}
+
+/// Light of a colour, of light `index`, at the wavelengths of its paths.
+inline HWY_NOINLINE V3 AtWavelengths(const Wave& wave, const Slots& slots, VI index,
+                                     V3 color) {
+  const DI di;
+  const SpectrumTable& table = wave.scene->spectra;
+  const Wavelengths at(wave.path, slots);
+  const VI row = Gather(wave.scene->lights.spectrum.data(), index);
+  const auto own = hn::Gt(row, hn::Set(di, -1));
+  // The weights of Luminance() (src/core/vec.h), in which the rows are stated.
+  const VF luminance = Dot(color, Splat3(0.212671f, 0.715160f, 0.072169f));
+  const V3 by_row = Mul(AtRows(table, hn::IfThenElseZero(own, row), at), luminance);
+  if (hn::AllTrue(di, own)) return by_row;
+  return IfThenElse(hn::RebindMask(DF(), own), by_row, UpsampledColors(table, color, at));
+}
+/// The same in any scene: paths that carry red, green and blue see the colour.
+LANELIGHT_INLINE V3 AsCarried(const Wave& wave, const Slots& slots, VI index, V3 color) {
+  if (HWY_LIKELY(wave.path.wavelength == nullptr)) return color;
+  return AtWavelengths(wave, slots, index, color);
 }
 
 LANELIGHT_END_KERNELS

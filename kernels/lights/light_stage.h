@@ -47,7 +47,8 @@ inline Stage EmissionStage(const char* name, const char* meaning, Feature shape,
           .input = QueueId::kHit,
           .needs = {shape},
           .reads = fields::kRay | fields::kHit | fields::kThroughput | fields::kRadiance |
-                   fields::kStartNormal | FieldSet{Field::bsdf_pdf, Field::passed},
+                   fields::kStartNormal |
+                   FieldSet{Field::bsdf_pdf, Field::passed, Field::wavelength},
           .writes = fields::kRadiance,
           .resolve = resolve};
 }

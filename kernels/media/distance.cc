@@ -38,9 +38,11 @@ HWY_INLINE V3 EmittedOver(V3 emission, V3 sigma_t, VF length) {
           one(emission.z, sigma_t.z)};
 }
 
-HWY_INLINE void AddEmission(const PathColumns& p, const StoreSlots& slots, V3 beta,
+HWY_INLINE void AddEmission(const Wave& wave, const StoreSlots& slots, V3 beta,
                             const Media& medium, VF length) {
-  const V3 emitted = EmittedOver(medium.Emission(), medium.SigmaT(), length);
+  const PathColumns& p = wave.path;
+  const V3 emitted =
+      EmittedOver(medium.Emission(wave, slots), medium.SigmaT(wave, slots), length);
   const V3 l = Gather3(p.l_r, p.l_g, p.l_b, slots);
   Scatter3(l + Mul(beta, emitted), p.l_r, p.l_g, p.l_b, slots);
 }
@@ -57,7 +59,7 @@ HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   const DF df;
   const PathColumns& p = wave.path;
   const Media medium(wave.scene->media, Gather(p.medium, slots));
-  const V3 sigma_t = medium.SigmaT();
+  const V3 sigma_t = medium.SigmaT(wave, slots);
   const VF t = Gather(p.t, slots), u = Gather(p.u_medium_1, slots);
   const VF u_distance = Gather(p.u_medium_0, slots);
   const VF keep = hn::Sub(Splat(1.0f), u_distance);
@@ -70,7 +72,7 @@ HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   const MF can = hn::And(samples, hn::Gt(drawn, hn::Zero(df)));
   VF d = hn::IfThenElse(can, hn::Div(hn::Neg(hn::Log(df, keep)), drawn), far);
   const MF event = hn::Lt(d, t);
-  if constexpr (Needs::kEmission) AddEmission(p, slots, path.beta, medium, t);
+  if constexpr (Needs::kEmission) AddEmission(wave, slots, path.beta, medium, t);
   V3 left, found;  // transmittance, and the densities of an event at its end
   const auto reach = [&]() HWY_ATTR {
     left = Transmittance(sigma_t, hn::Min(d, t));
@@ -84,7 +86,7 @@ HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   } else {
     reach();
   }
-  V3 sigma_s = medium.SigmaS();
+  V3 sigma_s = medium.SigmaS(wave, slots);
   const V3 one = Splat3(1, 1, 1);
   if (p.inside_r != nullptr) {
     const V3 albedo = Gather3(p.inside_r, p.inside_g, p.inside_b, slots);

@@ -86,6 +86,7 @@ inline Stage MediumEventStage(const char* name, const char* meaning, Feature kin
           .input = QueueId::kActive,
           .needs = {Feature::kMedia, kind},
           .reads = fields::kRay | fields::kThroughput | fields::kRadiance | ray |
+                   FieldSet{Field::wavelength} |
                    FieldSet{Field::t, Field::prim, Field::pixel, Field::sample,
                             Field::depth, Field::branch},
           .writes = fields::kThroughput | fields::kRadiance | odds | fields::kPoint |

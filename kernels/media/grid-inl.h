@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kernels/media/cloud-inl.h"
+#include "kernels/media/medium-inl.h"
 #include "kernels/media/voxels-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -19,12 +20,23 @@ struct Coefficients {
 struct GridMedium {
   const MediumGrid& grid;
   const MediumRecord& medium;
+  V3 sigma_t, sigma_s;  // of a density of 1, as the paths carry them
+
+  /// Medium `i` of the table, which has a grid, for a batch of paths.
+  LANELIGHT_INLINE GridMedium(const Wave& wave, std::size_t i, const Slots& slots)
+      : grid(wave.scene->media
+                 .grids[static_cast<std::size_t>(wave.scene->media.media[i].grid)]),
+        medium(wave.scene->media.media[i]) {
+    const Media lanes(wave.scene->media, hn::Set(DI(), static_cast<int32_t>(i)));
+    sigma_t = lanes.SigmaT(wave, slots);
+    sigma_s = lanes.SigmaS(wave, slots);
+  }
 
   LANELIGHT_INLINE bool IsColored() const { return grid.source == MediumSource::kColors; }
   /// Majorants of the channels are the cell's value times these.
   LANELIGHT_INLINE V3 MajorantScale() const {
     if (IsColored()) return Splat3(1, 1, 1);
-    return Splat3(medium.sigma_t[0], medium.sigma_t[1], medium.sigma_t[2]);
+    return sigma_t;
   }
   LANELIGHT_INLINE V3 Map(V3 v, bool point) const {
     const float* m = grid.box_from_scene;
@@ -43,10 +55,8 @@ struct GridMedium {
       return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
     }
     const VF density = Density(p, mask);
-    const float *t = medium.sigma_t, *s = medium.sigma_s;
-    const V3 sigma_t = Mul(Splat3(t[0], t[1], t[2]), density);
-    const V3 sigma_s = Mul(Splat3(s[0], s[1], s[2]), density);
-    return {sigma_t - sigma_s, sigma_s};
+    const V3 t = Mul(sigma_t, density), s = Mul(sigma_s, density);
+    return {t - s, s};
   }
 
  private:

@@ -16,6 +16,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/records-inl.h"
+#include "kernels/texture/wavelengths-inl.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -24,9 +25,16 @@ LANELIGHT_BEGIN_KERNELS
 struct Media : RecordWords<MediumRecord> {
   LANELIGHT_INLINE Media(const MediumTable& table, VI medium)
       : RecordWords(table.media.data(), hn::Max(medium, hn::Zero(DI()))) {}
-  LANELIGHT_INLINE V3 SigmaT() const { return F3(offsetof(MediumRecord, sigma_t)); }
-  LANELIGHT_INLINE V3 SigmaS() const { return F3(offsetof(MediumRecord, sigma_s)); }
-  LANELIGHT_INLINE V3 Emission() const { return F3(offsetof(MediumRecord, emission)); }
+  // What paths carry of coefficients: colours, or their values at three wavelengths.
+  LANELIGHT_INLINE V3 SigmaT(const Wave& wave, const Slots& slots) const {
+    return Carried(wave, slots, offsetof(MediumRecord, sigma_t), 0);
+  }
+  LANELIGHT_INLINE V3 SigmaS(const Wave& wave, const Slots& slots) const {
+    return Carried(wave, slots, offsetof(MediumRecord, sigma_s), 1);
+  }
+  LANELIGHT_INLINE V3 Emission(const Wave& wave, const Slots& slots) const {
+    return Carried(wave, slots, offsetof(MediumRecord, emission), 2);
+  }
   /// Has a grid.
   LANELIGHT_INLINE MF Varies() const {
     return hn::RebindMask(DF(),
@@ -38,6 +46,15 @@ struct Media : RecordWords<MediumRecord> {
                           hn::Gt(I(offsetof(MediumRecord, albedos)), hn::Set(DI(), -1)));
   }
   LANELIGHT_INLINE MF Scatters() const { return IsSet(offsetof(MediumRecord, scatters)); }
+
+ private:
+  LANELIGHT_INLINE V3 Carried(const Wave& wave, const Slots& slots, std::size_t color,
+                              int32_t row) const {
+    if (HWY_LIKELY(wave.path.wavelength == nullptr)) return F3(color);
+    const VI first = I(offsetof(MediumRecord, spectra));
+    return AtRows(wave.scene->spectra, hn::Add(first, hn::Set(DI(), row)),
+                  Wavelengths(wave.path, slots));
+  }
 };
 
 LANELIGHT_INLINE MF IsInMedium(VI medium) {

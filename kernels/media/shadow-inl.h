@@ -74,8 +74,7 @@ HWY_NOINLINE V3 GridTransmittance(const Wave& wave, const Slots& slots,
     if (table.media[i].grid < 0) continue;
     const auto mine = hn::Eq(leg.medium, hn::Set(DI(), static_cast<int32_t>(i)));
     if (hn::AllFalse(DI(), mine)) continue;
-    const GridMedium medium = {table.grids[static_cast<std::size_t>(table.media[i].grid)],
-                               table.media[i]};
+    const GridMedium medium(wave, i, slots);
     WalkRandom random(wave, slots, 0xcc9e2d51u + leg.number * 0x85ebca6bu);
     const MF lanes = hn::RebindMask(DF(), mine);
     const VF own = hn::IfThenElseZero(lanes, leg.length);
@@ -98,7 +97,7 @@ LANELIGHT_INLINE void DimShadow(const Wave& wave, const StoreSlots& slots,
     const V3 d = Gather3(p.ls_x, p.ls_y, p.ls_z, slots);
     left = GridTransmittance(wave, slots, leg, d);
   }
-  const V3 sigma_t = IfThenElseZero(homogeneous, medium.SigmaT());
+  const V3 sigma_t = IfThenElseZero(homogeneous, medium.SigmaT(wave, slots));
   left = Mul(left, Transmittance(sigma_t, leg.length));
   const V3 sh = Mul(Gather3(p.sh_r, p.sh_g, p.sh_b, slots), left);
   Scatter3(sh, p.sh_r, p.sh_g, p.sh_b, slots);

@@ -32,7 +32,7 @@ Stage ShadowMediaStage() {
           .reads = light | fields::kShadow | fields::kNormal | fields::kPoint |
                    FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
                             Field::crossings} |
-                   FieldSet{Field::medium, Field::prim},
+                   FieldSet{Field::medium, Field::prim, Field::wavelength},
           .writes = fields::kShadow,
           .resolve = ResolveShadowMedia};
 }

@@ -120,7 +120,7 @@ Stage ShadowThroughStage() {
                    FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
                             Field::crossings} |
                    fields::kShadow | fields::kPoint | fields::kNormal |
-                   FieldSet{Field::medium, Field::prim},
+                   FieldSet{Field::medium, Field::prim, Field::wavelength},
           .writes = fields::kShadow | fields::kShadowRest |
                     FieldSet{Field::b1, Field::b2, Field::inst},
           .resolve = Always<ShadowThrough>};

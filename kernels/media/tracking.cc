@@ -127,8 +127,6 @@ void MediumTracking(Wave& wave) {
   const MediumTable& table = wave.scene->media;
   for (std::size_t i = 0; i < table.media.size(); ++i) {
     if (table.media[i].grid < 0) continue;
-    const GridMedium medium = {table.grids[static_cast<std::size_t>(table.media[i].grid)],
-                               table.media[i]};
     const VI own = hn::Set(DI(), static_cast<int32_t>(i));
     const Queue& mine =
         FilterQueue(wave, wave.queue(QueueId::kActive), [&](const Slots& slots) HWY_ATTR {
@@ -136,7 +134,7 @@ void MediumTracking(Wave& wave) {
           return hn::RebindMask(DF(), hn::Eq(index, own));
         });
     ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
-      TrackBatch<kEmission>(wave, medium, slots);
+      TrackBatch<kEmission>(wave, GridMedium(wave, i, slots), slots);
     });
   }
   LeaveWithEvents(wave);

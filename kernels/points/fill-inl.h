@@ -91,6 +91,10 @@ LANELIGHT_INLINE void FillCameraBatches(Wave& wave) {
           Draw<Policy, kPlain, false>(run, drawer, Dimension::kCameraMedium, p.u_medium_0,
                                       p.u_medium_1);
         }
+        if (p.wavelength != nullptr) {
+          Draw<Policy, kPlain, true>(run, drawer, Dimension::kWavelength, p.wavelength,
+                                     nullptr);
+        }
       });
 }
 

@@ -17,14 +17,15 @@ constexpr FieldSet kPointsCounter = {Field::pixel, Field::sample, Field::depth,
 
 template <class Policy>
 Stage PointsCameraStage(const char* name, Feature policy) {
-  return {.name = name,
-          .meaning = "sample points of film, lens and time",
-          .input = QueueId::kCamera,
-          .needs = {policy},
-          .reads = kPointsCounter,
-          .writes = {Field::u_film_0, Field::u_film_1, Field::u_lens_0, Field::u_lens_1,
-                     Field::time, Field::u_medium_0, Field::u_medium_1},
-          .resolve = Always<FillCamera<Policy>>};
+  return {
+      .name = name,
+      .meaning = "sample points of film, lens, time and wavelengths",
+      .input = QueueId::kCamera,
+      .needs = {policy},
+      .reads = kPointsCounter,
+      .writes = {Field::u_film_0, Field::u_film_1, Field::u_lens_0, Field::u_lens_1,
+                 Field::time, Field::u_medium_0, Field::u_medium_1, Field::wavelength},
+      .resolve = Always<FillCamera<Policy>>};
 }
 
 template <class Policy>

@@ -63,6 +63,7 @@ struct SurfaceReader {
       source.alpha_x = path.alpha_x;
       source.alpha_y = path.alpha_y;
     }
+    source.eta = path.eta;
     UseTexturedLayers();
     if constexpr (Bsdf::kFibre) source.uv_v = path.uv_v;
   }

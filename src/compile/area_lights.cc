@@ -114,7 +114,7 @@ std::int32_t AreaLightCompiler::Push(const LightRecord& record,
   const Rgb l = {record.radiance[0], record.radiance[1], record.radiance[2]};
   const double power =
       kPi * record.area * Luminance(l * MeanOf(placed)) * (record.two_sided ? 2 : 1);
-  return lights_.Push(record, power, AreaLightOf(d_, placed).where);
+  return lights_.Push(record, power, AreaLightOf(d_, placed));
 }
 
 // Through which rays see what is behind; a shape that no ray meets at all has none.

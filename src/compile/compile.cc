@@ -1,6 +1,7 @@
 #include "src/compile/compile.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "src/accel/accel.h"
@@ -18,8 +19,10 @@
 #include "src/compile/placement.h"
 #include "src/compile/quadrics.h"
 #include "src/compile/range.h"
+#include "src/compile/spectrum_rows.h"
 #include "src/compile/textures.h"
 #include "src/compile/texture_programs.h"
+#include "src/compile/transport.h"
 
 namespace lanelight {
 namespace {
@@ -164,8 +167,16 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.gbuffer =
       CompileGbufferSpace(description.film, description.camera, placement.frame);
 
+  std::optional<SpectrumRows> rows;
+  if (description.integrator.transport == Transport::kSpectral) {
+    CheckTransport(description, UsedMaterials(placement));
+    rows.emplace();
+  } else {
+    NoteDispersion(description, UsedMaterials(placement), scene.notes);
+  }
+  SpectrumRows* const spectra = rows ? &*rows : nullptr;
   CompiledMaterials materials =
-      CompileMaterials(description, UsedMaterials(placement), options);
+      CompileMaterials(description, UsedMaterials(placement), options, spectra);
   scene.media = CompileMedia(description, placement, materials);
   scene.features = MaterialFeatures(materials.table, placement);
   const GeometryOptions geometry_options = {
@@ -194,7 +205,8 @@ CompiledScene CompileScene(const SceneDescription& description,
     scene.features.Add(Feature::kTexturePlaces);
     RequireUvAlpha(description, placement, scene.textures);
   }
-  scene.lights = CompileLights(description, placement, compiled, scene.notes);
+  scene.lights = CompileLights(description, placement, compiled, scene.notes, spectra);
+  if (spectra != nullptr) scene.spectra = spectra->Take();
   MakeAlpha(placement, compiled, scene);
   PlaceMedia(placement, compiled, scene.media);
   NoteLargeEmitters(placement, scene.notes);

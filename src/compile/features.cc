@@ -100,6 +100,26 @@ Feature FeatureOf(CameraKind camera) {
   return Feature::kCount;
 }
 
+// Of paths that carry wavelengths.
+void AddSpectra(const CompiledScene& scene, FeatureSet& features) {
+  const MaterialTable& m = scene.materials;
+  features.Add(Feature::kSpectral);
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    const auto kind = static_cast<ShadeKind>(m.kind[i]);
+    if (HasTrait(kind, kMetallic) || kind == ShadeKind::kDiffuseTransmission) {
+      features.Add(Feature::kSpectralColor1);
+    }
+    if (m.eta_spectrum[i] >= 0) features.Add(Feature::kDispersion);
+    const bool grey = m.coat_albedo_r[i] == m.coat_albedo_g[i] &&
+                      m.coat_albedo_g[i] == m.coat_albedo_b[i];
+    // The texture stage hands on what else there is of the medium in a coat.
+    if (m.coat[i] >= 0 && !grey) {
+      features.Add({Feature::kTextures, Feature::kTexturedCoatMedium, Feature::kUv});
+    }
+  }
+  if (!features.Has(Feature::kTextures)) features.Add(Feature::kPlainSpectra);
+}
+
 void AddMedia(const MediumTable& table, FeatureSet& features) {
   if (!table.media.empty()) features.Add(Feature::kMedia);
   if (!table.primitives.empty()) features.Add(Feature::kMediumChanges);
@@ -166,6 +186,7 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
   if (!g.normals.empty()) features.Add(Feature::kVertexNormals);
   if (scene.integrator.force_diffuse) ForceDiffuse(scene.materials, features);
   AddMedia(scene.media, features);
+  if (scene.integrator.transport == Transport::kSpectral) AddSpectra(scene, features);
   // Cut-outs and weights of mixes are looked up unfiltered.
   if (features.Has(Feature::kTextures) && FiltersTextures(scene.textures)) {
     features.Add(Feature::kTextureFootprints);

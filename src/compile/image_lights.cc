@@ -36,7 +36,7 @@ void AddWithPower(const Light& light, const Frame& frame, const ImageFlux& flux,
   intensity *= frame.scale * frame.scale;
   Store(intensity, record.radiance);
   Store(PositionOf(light, frame), record.position);
-  lights.Push(record, Luminance(intensity * mean) * size, light.where);
+  lights.Push(record, Luminance(intensity * mean) * size, light);
 }
 
 }  // namespace

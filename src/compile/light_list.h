@@ -19,14 +19,17 @@ namespace lanelight {
 
 struct LightList {
   LightTable table;
-  std::vector<double> power;  // of each light
+  std::vector<double> power;         // of each light
+  std::vector<OwnSpectrum> spectra;  // of each, where it is not by an image
 
-  /// Returns the index of the light. Throws InputError if its power is no number.
-  std::int32_t Push(const LightRecord& record, double its_power,
-                    const SourceLocation& where) {
-    if (!std::isfinite(its_power)) ThrowTooBright(where);
+  /// Returns the index of the light. Throws InputError if its power is no number. `of`:
+  /// the Light or AreaLight that it is.
+  template <class Described>
+  std::int32_t Push(const LightRecord& record, double its_power, const Described& of) {
+    if (!std::isfinite(its_power)) ThrowTooBright(of.where);
     table.lights.push_back(record);
     power.push_back(its_power);
+    spectra.push_back(of.spectrum);
     return static_cast<std::int32_t>(table.lights.size()) - 1;
   }
 };

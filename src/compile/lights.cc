@@ -72,7 +72,7 @@ void LightCompiler::Point(const Light& light) {
   const Rgb intensity = SceneIntensity(light, frame_);
   Store(intensity, record.radiance);
   Store(PositionOf(light, frame_), record.position);
-  lights_.Push(record, 4 * kPi * Luminance(intensity), light.where);
+  lights_.Push(record, 4 * kPi * Luminance(intensity), light);
 }
 
 void LightCompiler::Spot(const Light& light) {
@@ -100,8 +100,7 @@ void LightCompiler::Spot(const Light& light) {
   record.versine_total = static_cast<float>(total);
   record.versine_falloff = static_cast<float>(falloff);
   // The smooth step between the two angles is 1/2 in the mean.
-  lights_.Push(record, 2 * kPi * Luminance(intensity) * ((falloff + total) / 2),
-               light.where);
+  lights_.Push(record, 2 * kPi * Luminance(intensity) * ((falloff + total) / 2), light);
 }
 
 void LightCompiler::Distant(const Light& light) {
@@ -113,7 +112,7 @@ void LightCompiler::Distant(const Light& light) {
   LightRecord record = EmptyRecord(LightShape::kDistant);
   Store(light.emission, record.radiance);
   Store(toward, record.direction);
-  lights_.Push(record, SceneDisk() * Luminance(light.emission), light.where);
+  lights_.Push(record, SceneDisk() * Luminance(light.emission), light);
 }
 
 void LightCompiler::Infinite(const Light& light) {
@@ -134,7 +133,7 @@ void LightCompiler::Infinite(const Light& light) {
   }
   Store(image ? Rgb{1, 1, 1} : mean, record.radiance);
   const std::int32_t index =
-      lights_.Push(record, SceneDisk() * kPi * Luminance(mean), light.where);
+      lights_.Push(record, SceneDisk() * kPi * Luminance(mean), light);
   lights_.table.infinite.push_back(static_cast<std::uint32_t>(index));
 }
 
@@ -177,10 +176,33 @@ void ApplyFloor(std::vector<double>& weights) {
   for (double& w : weights) w = sum > 0 ? std::max(w, 1.02 * least * sum) : 1;
 }
 
+// Whether each direction or point has a colour of its own. Goniometric images are grey.
+bool HasColors(const LightRecord& light) {
+  const auto shape = static_cast<LightShape>(light.shape);
+  return light.environment >= 0 || shape == LightShape::kPortal ||
+         (light.image != 0 && shape != LightShape::kGoniometric);
+}
+
+void AddSpectra(LightList& lights, SpectrumRows& spectra) {
+  for (std::size_t i = 0; i < lights.table.lights.size(); ++i) {
+    const LightRecord& light = lights.table.lights[i];
+    if (HasColors(light)) {
+      spectra.NeedSigmoids();
+      lights.table.spectrum.push_back(-1);
+      continue;
+    }
+    const Rgb color = {light.radiance[0], light.radiance[1], light.radiance[2]};
+    lights.table.spectrum.push_back(IsBlack(color)
+                                        ? spectra.Of({color}, ColorBound::kUnbounded)
+                                        : spectra.OfLight(color, lights.spectra[i]));
+  }
+}
+
 }  // namespace
 
 LightTable CompileLights(const SceneDescription& description, const Placement& placement,
-                         CompiledGeometry& geometry, std::vector<Note>& notes) {
+                         CompiledGeometry& geometry, std::vector<Note>& notes,
+                         SpectrumRows* spectra) {
   LightList lights;
   LightImageTable images(lights.table, notes);
   CompileAreaLights(description, placement, geometry, images, lights);
@@ -188,6 +210,7 @@ LightTable CompileLights(const SceneDescription& description, const Placement& p
   for (const Light& light : description.lights) compiler.Add(light);
   if (!lights.table.lights.empty()) ApplyFloor(lights.power);
   lights.table.power = std::move(lights.power);
+  if (spectra != nullptr) AddSpectra(lights, *spectra);
   return std::move(lights.table);
 }
 

@@ -5,6 +5,7 @@
 #include "src/compile/compile.h"
 #include "src/compile/geometry.h"
 #include "src/compile/placement.h"
+#include "src/compile/spectrum_rows.h"
 #include "src/compiled/scene.h"
 #include "src/scene/description.h"
 
@@ -13,8 +14,10 @@ namespace lanelight {
 /// Sets the `light` of emitting records in `geometry` too. Lights without power get no
 /// record. Probabilities are left to UseStrategy (src/prepare/use_strategy.h). Throws
 /// InputError at the directive for images and transforms that cannot be used; what is not
-/// used of an image goes to `notes`.
+/// used of an image goes to `notes`. `spectra`: of paths that carry wavelengths; else
+/// null.
 LightTable CompileLights(const SceneDescription& description, const Placement& placement,
-                         CompiledGeometry& geometry, std::vector<Note>& notes);
+                         CompiledGeometry& geometry, std::vector<Note>& notes,
+                         SpectrumRows* spectra = nullptr);
 
 }  // namespace lanelight

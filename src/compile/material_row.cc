@@ -19,6 +19,27 @@ float RoughAlpha(const MaterialRow& row, double alpha) {
   return static_cast<float>(std::max(alpha, kMinAlpha));
 }
 
+// The spectra of its colours and of its index.
+void AddMaterialSpectra(const MaterialRow& row, SpectrumRows& spectra,
+                        MaterialTable& table) {
+  const bool metal = HasTrait(row.kind, kMetallic);
+  const ColorBound bound = metal ? ColorBound::kUnbounded : ColorBound::kReflectance;
+  const auto by_path = [&] {
+    spectra.NeedSigmoids();
+    if (!metal) return PathColor::kReflectance;
+    return row.by_reflectance ? PathColor::kMetalExtinction : PathColor::kUnbounded;
+  };
+  const auto add = [&](const ColorValue& color, ColorBound of, auto& column) {
+    column.push_back(color.texture == kNone ? spectra.Of(color, of)
+                                            : static_cast<std::int32_t>(by_path()));
+  };
+  add(row.color0, bound, table.color0_spectrum);
+  add(row.color1, bound, table.color1_spectrum);
+  add(row.coat_albedo, ColorBound::kReflectance, table.coat_albedo_spectrum);
+  table.eta_spectrum.push_back(
+      row.dispersion == nullptr ? -1 : spectra.OfIndex(*row.dispersion));
+}
+
 }  // namespace
 
 void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out) {
@@ -70,23 +91,19 @@ void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out) {
         row.relief.normal_map}) {
     if (texture != kNone) out.textures.push_back(texture);
   }
+  if (out.spectra != nullptr) AddMaterialSpectra(row, *out.spectra, t);
 }
 
-namespace {
-
-// The base below a coat acts on light as a spectrum; see coat_color.h.
-void SetBaseColor(MaterialTable& table, std::size_t i) {
-  const auto kind = static_cast<ShadeKind>(table.kind[i]);
-  const bool diffuse_base =
-      kind == ShadeKind::kCoatedDiffuseSmooth || kind == ShadeKind::kCoatedDiffuseRough;
-  if (!diffuse_base || table.color0_texture[i] >= 0) return;
-  const Rgb base = EffectiveCoatBase(
-      {table.color0_r[i], table.color0_g[i], table.color0_b[i]}, table.coat_internal[i],
-      static_cast<int>((table.coat_depth[i] + 1) / 2));
+void SetBaseColor(MaterialTable& table, std::size_t i, int bounces) {
+  const Rgb base =
+      EffectiveCoatBase({table.color0_r[i], table.color0_g[i], table.color0_b[i]},
+                        table.coat_internal[i], bounces);
   table.color0_r[i] = static_cast<float>(base.x);
   table.color0_g[i] = static_cast<float>(base.y);
   table.color0_b[i] = static_cast<float>(base.z);
 }
+
+namespace {
 
 // Where a coat varies, the colour of its base is corrected for this node of the roughness
 // (alpha 1/3) and a clear medium: the correction is small, and changes little with both.
@@ -156,7 +173,6 @@ void AddCoatTables(const std::map<Coat, std::int32_t>& coats, MaterialTable& tab
     table.coat_depths[i] = table.thickness_texture[i] >= 0 ? kCoatDepths : 1;
     const std::size_t typical = at + (alphas ? kTypicalAlpha : 0);
     table.coat_internal[i] = tables[typical].internal_reflectance;
-    SetBaseColor(table, i);
   }
 }
 

@@ -22,8 +22,10 @@ inline constexpr double kMinAlpha = 1e-4;
 struct MaterialRow {
   ShadeKind kind = ShadeKind::kDiffuse;
   ColorValue color0, color1;
+  bool by_reflectance = false;  // a metal: color1 comes of its reflectance
   FloatValue alpha_x, alpha_y, alpha2_x, alpha2_y;
   double eta = 1;
+  OwnSpectrum dispersion;  // the same by wavelength, or null
   std::int32_t coat = -1;  // index of the coat, not yet an offset
   FloatValue coat_thickness;
   FloatValue coat_g;
@@ -45,10 +47,13 @@ struct Coat {
   friend auto operator<=>(const Coat&, const Coat&) = default;
 };
 
-/// Appends the row to every column, and its textures to the list of those in use.
+/// Appends the row to every column, its spectra where there are some, and its textures to
+/// the list of those in use.
 void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out);
 
 /// Computes the tables of every coat, in parallel, and completes the rows that have one.
 void AddCoatTables(const std::map<Coat, std::int32_t>& coats, MaterialTable& table);
+/// The constant colour of a base below a coat, as it acts on light (coat_color.h).
+void SetBaseColor(MaterialTable& table, std::size_t i, int bounces);
 
 }  // namespace lanelight

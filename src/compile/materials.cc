@@ -14,8 +14,9 @@ namespace {
 // Materials in the order in which they need each other: mixes after their sides.
 class Builder {
  public:
-  Builder(const SceneDescription& d, const CompileOptions& options)
+  Builder(const SceneDescription& d, const CompileOptions& options, SpectrumRows* spectra)
       : d_(d),
+        spectra_(spectra),
         build_(d, options),
         reliefs_(d.textures, build_.derived()),
         index_(d.materials.size(), -1) {}
@@ -29,9 +30,10 @@ class Builder {
   std::int32_t Compile(const Material& m, const std::vector<Index>& sides);
   std::int32_t Push(MaterialRow row);
   void Force(MaterialTable& table);
-  void CorrectBase(MaterialTable& table, std::size_t i);
+  void CorrectBases(MaterialTable& table);
 
   const SceneDescription& d_;
+  SpectrumRows* const spectra_;
   RowBuilder build_;
   Reliefs reliefs_;
   std::vector<std::int32_t> index_;
@@ -118,11 +120,12 @@ void Builder::Force(MaterialTable& table) {
 CompiledMaterials Builder::Finish() {
   CompiledMaterials out;
   out.index = index_;
+  out.spectra = spectra_;
   if (d_.integrator.force_diffuse) Force(out.table);
   for (const MaterialRow& row : rows_) AddMaterialRow(row, out);
   AddMeasured(rows_, out.table.measured);
   AddCoatTables(build_.coats(), out.table);
-  for (std::size_t i = 0; i < out.table.size(); ++i) CorrectBase(out.table, i);
+  if (spectra_ == nullptr) CorrectBases(out.table);
   for (const Texture& t : build_.derived()) {
     out.textures.push_back(static_cast<Index>(d_.textures.size() + out.derived.size()));
     out.derived.push_back(t);
@@ -131,16 +134,23 @@ CompiledMaterials Builder::Finish() {
   return out;
 }
 
-// Textured colours below a coat, as SetBaseColor (material_row.cc) does with constants.
-void Builder::CorrectBase(MaterialTable& table, std::size_t i) {
-  const auto kind = static_cast<ShadeKind>(table.kind[i]);
-  const bool diffuse_base =
-      kind == ShadeKind::kCoatedDiffuseSmooth || kind == ShadeKind::kCoatedDiffuseRough;
-  if (!diffuse_base || table.color0_texture[i] < 0) return;
-  const ColorValue color = {{}, table.color0_texture[i]};
-  table.color0_texture[i] =
-      build_.Derived(TextureKind::kCoatedBase, color, table.coat_internal[i]).texture;
-  build_.derived().back().octaves = static_cast<int>((table.coat_depth[i] + 1) / 2);
+// The base below a coat acts on light as a spectrum; see coat_color.h.
+void Builder::CorrectBases(MaterialTable& table) {
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto kind = static_cast<ShadeKind>(table.kind[i]);
+    const bool diffuse_base =
+        kind == ShadeKind::kCoatedDiffuseSmooth || kind == ShadeKind::kCoatedDiffuseRough;
+    if (!diffuse_base) continue;
+    const int bounces = static_cast<int>((table.coat_depth[i] + 1) / 2);
+    if (table.color0_texture[i] < 0) {
+      SetBaseColor(table, i, bounces);
+      continue;
+    }
+    const ColorValue color = {{}, table.color0_texture[i]};
+    table.color0_texture[i] =
+        build_.Derived(TextureKind::kCoatedBase, color, table.coat_internal[i]).texture;
+    build_.derived().back().octaves = bounces;
+  }
 }
 
 }  // namespace
@@ -151,8 +161,8 @@ double AlphaOfRoughness(double roughness, bool remap) {
 
 CompiledMaterials CompileMaterials(const SceneDescription& description,
                                    const std::vector<Index>& used,
-                                   const CompileOptions& options) {
-  Builder builder(description, options);
+                                   const CompileOptions& options, SpectrumRows* spectra) {
+  Builder builder(description, options, spectra);
   for (Index material : used) builder.Add(material);
   return builder.Finish();
 }

@@ -1,6 +1,7 @@
 #include "src/compile/media.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "src/compile/material_row.h"
@@ -23,6 +24,7 @@ class MediumBuilder {
 
   std::int32_t Use(Index medium);
   void SetAlbedo(const Medium& m, MediumRecord& record);
+  void AddSpectra(const Medium& m, MediumRecord& record);
   MediumTable Finish() { return std::move(table_); }
 
  private:
@@ -72,6 +74,35 @@ void MediumBuilder::SetAlbedo(const Medium& m, MediumRecord& record) {
   }
 }
 
+// What SetCoefficients and SetAlbedo say of three colours, for each bin of wavelengths.
+void MediumBuilder::AddSpectra(const Medium& m, MediumRecord& record) {
+  std::vector<float> t = BinValues(UpsampledColor(m.sigma_a));
+  std::vector<float> s = BinValues(UpsampledColor(m.sigma_s));
+  std::vector<float> e = BinValues(UpsampledColor(m.emission));
+  // What the record was scaled by, where the file's numbers are not beyond float32.
+  const Rgb extinction = m.sigma_a + m.sigma_s;
+  int most = 0;
+  for (int c = 1; c < 3; ++c) {
+    if (extinction[c] > extinction[most]) most = c;
+  }
+  const double unit =
+      extinction[most] > 0 ? double(record.sigma_t[most]) / extinction[most] : 0;
+  std::optional<SlabAlbedos> albedos;
+  std::vector<float> reflectance;
+  if (m.by_reflectance) {
+    albedos.emplace(m.g, m.eta);
+    reflectance = BinValues(UpsampledReflectance(m.reflectance.constant));
+  }
+  for (std::size_t b = 0; b < t.size(); ++b) {
+    const double absorbed = double(t[b]) * unit, scattered = double(s[b]) * unit;
+    const double albedo = albedos ? albedos->Of(double(reflectance[b])) : 1;
+    t[b] = static_cast<float>(absorbed + scattered);
+    s[b] = static_cast<float>(scattered * albedo);
+    if (record.grid < 0) e[b] = static_cast<float>(double(e[b]) * absorbed);
+  }
+  record.spectra = materials_.spectra->Append({t, s, e});
+}
+
 // The same of the densities of a grid, which are factors on the extinction.
 void LimitDensity(const MediumGrid& grid, MediumRecord& record) {
   double largest = 0;
@@ -105,6 +136,7 @@ std::int32_t MediumBuilder::Use(Index medium) {
     table_.grids.push_back(CompileMediumGrid(m, frame_));
     LimitDensity(table_.grids.back(), record);
   }
+  if (materials_.spectra != nullptr) AddSpectra(m, record);
   table_.media.push_back(record);
   return at = static_cast<std::int32_t>(table_.media.size()) - 1;
 }

@@ -140,7 +140,7 @@ void AddPortalLight(const Light& light, const Frame& frame, std::vector<Note>& n
   record.image = static_cast<std::uint32_t>(lights.table.portals.size());
   lights.table.portals.push_back(std::move(portal));
   lights.table.infinite.push_back(
-      static_cast<std::uint32_t>(lights.Push(record, power, light.where)));
+      static_cast<std::uint32_t>(lights.Push(record, power, light)));
 }
 
 }  // namespace lanelight

@@ -7,6 +7,7 @@
 #include "src/compile/materials.h"
 #include "src/compile/measured.h"
 #include "src/core/check.h"
+#include "src/image/upsampling.h"
 
 namespace lanelight {
 namespace {
@@ -35,6 +36,20 @@ void CheckEta(const Material& m) {
   if (m.interface_eta > 0 && std::isfinite(m.interface_eta)) return;
   RefuseMaterial(
       m, fmt::format("index of refraction {}; it must be positive", m.interface_eta));
+}
+
+// A spectrum, changed value by value.
+template <class Change>
+OwnSpectrum Changed(const OwnSpectrum& spectrum, const Change& change) {
+  if (spectrum == nullptr) return nullptr;
+  return std::make_shared<const Spectrum>(
+      [spectrum, change](double nm) { return change((*spectrum)(nm)); });
+}
+
+// Of a metal of index 1 whose reflectance head-on is r.
+double Extinction(double r) {
+  const double below = std::clamp(r, 0.0, kMaxMetalReflectance);
+  return 2 * std::sqrt(below / (1 - below));
 }
 
 }  // namespace
@@ -82,6 +97,7 @@ void RowBuilder::Diffuse(const Material& m, MaterialRow& row) {
 
 // Index and extinction relative to `eta_above`.
 void RowBuilder::Metal(const Material& m, double eta_above, MaterialRow& row) {
+  row.by_reflectance = m.has_reflectance;
   if (m.has_reflectance) {
     const ColorValue reflectance = Color(m.reflectance);
     row.color0 = {Rgb{1, 1, 1} / eta_above, kNone};
@@ -90,8 +106,15 @@ void RowBuilder::Metal(const Material& m, double eta_above, MaterialRow& row) {
       return;
     }
     const Rgb r = Clamped(reflectance.constant, kMaxMetalReflectance);
-    const auto k = [](double x) { return 2 * std::sqrt(x / (1 - x)); };
-    row.color1 = {Rgb{k(r.x), k(r.y), k(r.z)} / eta_above, kNone};
+    row.color1 = {Rgb{Extinction(r.x), Extinction(r.y), Extinction(r.z)} / eta_above,
+                  kNone};
+    if (d_.integrator.transport == Transport::kRgb) return;
+    const OwnSpectrum own =
+        reflectance.spectrum != nullptr
+            ? reflectance.spectrum
+            : std::make_shared<const Spectrum>(UpsampledReflectance(r));
+    row.color1.spectrum =
+        Changed(own, [=](double v) { return Extinction(v) / eta_above; });
   } else {
     row.color0 = Scaled(Color(m.eta), 1 / eta_above);
     row.color1 = Scaled(Color(m.k), 1 / eta_above);
@@ -110,7 +133,10 @@ ColorValue RowBuilder::Derived(TextureKind kind, const ColorValue& from, double 
 }
 
 ColorValue RowBuilder::Scaled(const ColorValue& value, double scale) {
-  if (!IsTextured(value)) return {value.constant * scale, kNone};
+  if (!IsTextured(value)) {
+    return {value.constant * scale, kNone,
+            Changed(value.spectrum, [=](double v) { return v * scale; })};
+  }
   return scale == 1 ? value : Derived(TextureKind::kScale, value, scale);
 }
 
@@ -184,6 +210,7 @@ MaterialRow RowBuilder::RowOf(const Material& m) {
     case MaterialKind::kDielectric:
       CheckEta(m);
       Interface(m, row);
+      row.dispersion = m.dispersion;
       if (m.inside != kNone) row.color0 = Inside(m);
       // Equal indices on both sides: nothing to see, whatever the roughness (as pbrt).
       row.kind = IsSmooth(row) || row.eta == 1 ? ShadeKind::kDielectricSmooth
@@ -192,6 +219,7 @@ MaterialRow RowBuilder::RowOf(const Material& m) {
     case MaterialKind::kThinDielectric:
       CheckEta(m);
       row.eta = m.interface_eta;
+      row.dispersion = m.dispersion;
       row.kind = ShadeKind::kThinDielectric;
       break;
     case MaterialKind::kCoatedDiffuse:

@@ -57,6 +57,7 @@ std::optional<double> TextureConstants::ValueOf(const FloatValue& v) const {
 }
 
 ColorValue TextureConstants::Fold(const ColorValue& value) const {
+  if (value.texture == kNone) return value;  // with its spectrum
   const std::optional<Rgb> c = ValueOf(value);
   return c ? ColorValue{*c, kNone} : value;
 }

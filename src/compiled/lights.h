@@ -114,6 +114,9 @@ struct LightTree {
 
 struct LightTable {
   AlignedVector<LightRecord> lights;
+  /// With kSpectral, of each light: row of SpectrumTable, per unit of luminance; -1: by
+  /// the colour of its image.
+  AlignedVector<std::int32_t> spectrum;
   std::vector<double> power;           // of each light, raised to a least share
   AlignedVector<float> alias_q;        // Walker-Vose table over lights: with u*n = i + f,
   AlignedVector<std::uint32_t> alias;  // pick i if f < alias_q[i], else alias[i]

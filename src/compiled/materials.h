@@ -59,6 +59,11 @@ struct MaterialTable {
   AlignedVector<std::int32_t> mix0, mix1;
   // Heights, and normal maps: a texture or -1; empty where no material has one.
   AlignedVector<std::int32_t> displacement_texture, normal_map_texture;
+  // With kSpectral: rows of SpectrumTable; negative: the colour is by path, and this is
+  // what it stands for (PathColor). Of `eta`: a row of SpectrumTable::indices, -1: it is
+  // the same for all wavelengths.
+  AlignedVector<std::int32_t> color0_spectrum, color1_spectrum, coat_albedo_spectrum;
+  AlignedVector<std::int32_t> eta_spectrum;
   AlignedVector<float> coat_transmittance;  // kCoatTableSize per table
   AlignedVector<float> coat_internals;      // per table; used where coats vary
   MeasuredTable measured;

@@ -24,7 +24,9 @@ struct MediumRecord {
   std::uint32_t inside;    // 1: of a material; events in it and on its bounds from within
                            // do not count
   std::int32_t albedos;    // offset in MediumTable::albedos; -1: not textured
-  float pad[2];
+  std::int32_t spectra;  // with kSpectral: rows of SpectrumTable of sigma_t, sigma_s and
+                         // emission, one after the other
+  float pad;
 };
 static_assert(sizeof(MediumRecord) == 64);
 

@@ -13,6 +13,7 @@
 #include "src/compiled/lights.h"
 #include "src/compiled/materials.h"
 #include "src/compiled/media.h"
+#include "src/compiled/spectra.h"
 #include "src/compiled/texture_table.h"
 #include "src/core/aligned.h"
 #include "src/core/vec.h"
@@ -30,6 +31,7 @@ struct CompiledScene {
   Accel accel;
   MaterialTable materials;
   TextureTable textures;
+  SpectrumTable spectra;  // with kSpectral
   /// Per primitive, only with kAlpha: texture of the alpha cut-out or -1, and constant.
   AlignedVector<std::int32_t> alpha_texture;
   AlignedVector<float> alpha_constant;

@@ -33,16 +33,6 @@ Rgb Convert(const Spectrum& spectrum, SpectrumUse use) {
   return use == SpectrumUse::kAlbedo ? Min(color, Rgb{1, 1, 1}) : color;
 }
 
-// Planck's law, up to a factor that keeps it in range at any temperature.
-Spectrum BlackbodySpectrum(double kelvin) {
-  constexpr double kSecondConstant = 1.438776877e7;  // h c / k, in nm K
-  return [kelvin](double nm) {
-    const double x = kSecondConstant / (nm * kelvin);
-    const double least = kSecondConstant / (kLastNm * kelvin);
-    return std::pow(nm / 560, -5) * std::exp(least - x) / -std::expm1(-x);
-  };
-}
-
 void CheckSamples(const std::vector<double>& nm, const std::vector<double>& values) {
   if (nm.empty() || nm.size() != values.size()) {
     throw InputError(fmt::format(
@@ -109,7 +99,50 @@ const std::vector<NamedLight>& NamedLights() {
   return lights;
 }
 
+// Sellmeier's formula, wavelengths in micrometres.
+double GlassIndexAt(const GlassIndex& glass, double nm) {
+  const double square = nm * nm * 1e-6;
+  double sum = 1;
+  for (int i = 0; i < 3; ++i) sum += glass.b[i] * square / (square - glass.c[i]);
+  return std::sqrt(sum);
+}
+
 }  // namespace
+
+// Planck's law, up to a factor that keeps it in range at any temperature.
+Spectrum BlackbodySpectrum(double kelvin) {
+  constexpr double kSecondConstant = 1.438776877e7;  // h c / k, in nm K
+  return [kelvin](double nm) {
+    const double x = kSecondConstant / (nm * kelvin);
+    const double least = kSecondConstant / (kLastNm * kelvin);
+    return std::pow(nm / 560, -5) * std::exp(least - x) / -std::expm1(-x);
+  };
+}
+
+Spectrum SpectrumFromSamples(const std::vector<double>& wavelengths_nm,
+                             const std::vector<double>& values, bool extend) {
+  CheckSamples(wavelengths_nm, values);
+  return Interpolated(wavelengths_nm, values, extend);
+}
+
+std::optional<Spectrum> SpectrumOfName(const std::string& name) {
+  for (const NamedLight& light : NamedLights()) {
+    if (name == light.name) return light.spectrum;
+  }
+  for (const GlassIndex& glass : kGlasses) {
+    if (name == glass.name) {
+      return [&glass](double nm) { return GlassIndexAt(glass, nm); };
+    }
+  }
+  for (const MetalTable& table : kMetals) {
+    const auto is = [&](const char* which) {
+      return name == fmt::format("metal-{}-{}", table.name, which);
+    };
+    if (is("eta")) return MetalSpectrum(table.eta);
+    if (is("k")) return MetalSpectrum(table.k);
+  }
+  return std::nullopt;
+}
 
 Rgb RgbFromBlackbody(double kelvin) {
   LL_CHECK_GT(kelvin, 0);
@@ -119,8 +152,7 @@ Rgb RgbFromBlackbody(double kelvin) {
 
 Rgb RgbFromSamples(const std::vector<double>& wavelengths_nm,
                    const std::vector<double>& values, SpectrumUse use) {
-  CheckSamples(wavelengths_nm, values);
-  return Convert(Interpolated(wavelengths_nm, values, false), use);
+  return Convert(SpectrumFromSamples(wavelengths_nm, values, false), use);
 }
 
 bool NamedMetal(const std::string& metal, ComplexIor* ior) {
@@ -136,9 +168,8 @@ ComplexIor ComplexIorFromSamples(const std::vector<double>& eta_nm,
                                  const std::vector<double>& eta,
                                  const std::vector<double>& k_nm,
                                  const std::vector<double>& k) {
-  CheckSamples(eta_nm, eta);
-  CheckSamples(k_nm, k);
-  return MatchReflectance(Interpolated(eta_nm, eta, true), Interpolated(k_nm, k, true));
+  return MatchReflectance(SpectrumFromSamples(eta_nm, eta, true),
+                          SpectrumFromSamples(k_nm, k, true));
 }
 
 bool NamedGlassEta(const std::string& name, double* eta) {

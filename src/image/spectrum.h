@@ -7,10 +7,12 @@
 // response to D65, so that D65 is exactly (1, 1, 1) and a grey reflectance stays grey.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "src/core/vec.h"
+#include "src/image/spectrum_integral.h"
 
 namespace lanelight {
 
@@ -37,6 +39,15 @@ Rgb RgbFromSamples(const std::vector<double>& wavelengths_nm,
 /// A spectrum of pbrt by its name, e.g. "metal-Cu-eta", "glass-BK7", "stdillum-D65".
 /// Returns false and leaves `rgb` alone if the name is not one of NamedSpectra().
 bool NamedSpectrum(const std::string& name, SpectrumUse use, Rgb* rgb);
+
+/// The spectrum itself: of light in any unit, of glass by its dispersion formula.
+std::optional<Spectrum> SpectrumOfName(const std::string& name);
+/// Of a black body, in any unit; `kelvin` as below.
+Spectrum BlackbodySpectrum(double kelvin);
+/// Through samples, with the rules of RgbFromSamples; `extend`: outside them it keeps its
+/// end values, else it is zero.
+Spectrum SpectrumFromSamples(const std::vector<double>& wavelengths_nm,
+                             const std::vector<double>& values, bool extend);
 
 /// All names that NamedSpectrum knows, sorted.
 std::vector<std::string> NamedSpectra();

@@ -44,6 +44,50 @@ struct Sensor {
   }
 };
 
+// The observer's table, by cubic interpolation (Lagrange) of four samples.
+Vec3d TabulatedObserver(double nm) {
+  const double x = (nm - kObserverStart) / kObserverStep;
+  const int first =
+      std::clamp(static_cast<int>(std::floor(x)) - 1, 0, kObserverSamples - 4);
+  Vec3d sum;
+  for (int i = first; i < first + 4; ++i) {
+    double weight = 1;
+    for (int k = first; k < first + 4; ++k) {
+      if (k != i) weight *= (x - k) / (i - k);
+    }
+    sum += Vec3d{kObserver[i][0], kObserver[i][1], kObserver[i][2]} * weight;
+  }
+  return sum;
+}
+
+// D65 through the observer, scaled so that its integral is (1, 1, 1).
+class WhiteTable {
+ public:
+  WhiteTable() {
+    Rgb sum;
+    for (int nm = kObserverStart; nm <= kEnd; ++nm) {
+      const bool at_end = nm == kObserverStart || nm == kEnd;
+      sum += Raw(nm) * (at_end ? 0.5 : 1.0);
+    }
+    white_ = sum;
+  }
+  Rgb At(double nm) const {
+    if (!(nm >= kObserverStart && nm <= kEnd)) return {};
+    const Rgb raw = Raw(nm);
+    return {raw.x / white_.x, raw.y / white_.y, raw.z / white_.z};
+  }
+
+ private:
+  static constexpr int kEnd = kObserverStart + kObserverStep * (kObserverSamples - 1);
+  Rgb Raw(double nm) const {
+    return srgb_from_xyz_ * TabulatedObserver(nm) * daylight_(nm);
+  }
+
+  const ColorMatrix srgb_from_xyz_ = Inverse(XyzFromSrgb());
+  const Spectrum daylight_ = DaylightD65();
+  Rgb white_;
+};
+
 const Sensor& GetSensor() {
   static const Sensor sensor;
   return sensor;
@@ -83,6 +127,11 @@ Spectrum Daylight(double x, double y) {
 }
 
 Spectrum DaylightD65() { return Daylight(0.31271, 0.32912); }
+
+Rgb WhiteShare(double nm) {
+  static const WhiteTable table;
+  return table.At(nm);
+}
 
 Rgb ColorUnderD65(const Spectrum& reflectance) {
   const Sensor& sensor = GetSensor();

@@ -27,6 +27,10 @@ Spectrum EvenlySpaced(std::vector<double> samples, double first_nm, double step_
 /// Linear interpolation between (nm[i], values[i]), nm increasing.
 Spectrum Interpolated(std::vector<double> nm, std::vector<double> values, bool extend);
 
+/// What each channel of linear sRGB has of D65 per nm, by tables of the CIE: 1 in all.
+/// Nothing outside 380 to 780 nm.
+Rgb WhiteShare(double nm);
+
 /// Colour of a reflectance under D65; 1 becomes exactly (1, 1, 1). Not clamped.
 Rgb ColorUnderD65(const Spectrum& reflectance);
 

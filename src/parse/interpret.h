@@ -17,6 +17,10 @@ namespace lanelight {
 /// are clamped to non-negative, with a note.
 Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
             SpectrumUse use);
+/// The spectrum that the parameter is of, which ColorOf has found to be right; null for
+/// an rgb. `extend`: as in SpectrumFromSamples.
+OwnSpectrum SpectrumOf(const ParseState& state, const ParamSet& params,
+                       const Param& param, bool extend = false);
 /// A colour without texture: of a light, say.
 Rgb PlainColor(ParseState& state, ParamSet& params, std::string_view name, Rgb absent,
                SpectrumUse use);
@@ -36,9 +40,10 @@ struct SpectrumSamples {
 SpectrumSamples SamplesOf(const ParseState& state, const ParamSet& params,
                           const Param& param);
 /// Index of refraction of a dielectric as one number: float, named glass, or a sampled
-/// spectrum at 587.6 nm (dispersion is not modelled, which is noted).
+/// spectrum at 587.6 nm. `dispersion` becomes that spectrum; null: the material has one
+/// index for all wavelengths, which is noted.
 double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
-                     double absent);
+                     double absent, OwnSpectrum* dispersion = nullptr);
 /// Index of refraction of a conductor, `<prefix>eta` and `<prefix>k`; copper by default.
 void ConductorIor(ParseState& state, ParamSet& params, const std::string& prefix,
                   ColorValue* eta, ColorValue* k);

@@ -82,6 +82,21 @@ Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
   return color;
 }
 
+OwnSpectrum SpectrumOf(const ParseState& state, const ParamSet& params,
+                       const Param& param, bool extend) {
+  if (param.type == ParamType::kRgb) return nullptr;
+  if (param.type == ParamType::kBlackbody) {
+    return std::make_shared<const Spectrum>(BlackbodySpectrum(param.numbers[0]));
+  }
+  if (!param.strings.empty()) {
+    const auto named = SpectrumOfName(param.strings[0]);
+    if (named) return std::make_shared<const Spectrum>(*named);
+  }
+  const SpectrumSamples samples = SamplesOf(state, params, param);
+  return std::make_shared<const Spectrum>(
+      SpectrumFromSamples(samples.wavelengths, samples.values, extend));
+}
+
 Rgb PlainColor(ParseState& state, ParamSet& params, std::string_view name, Rgb absent,
                SpectrumUse use) {
   const Param* param =
@@ -94,8 +109,11 @@ ColorValue TexturedColor(ParseState& state, ParamSet& params, std::string_view n
   const Param* param = params.Find(name, {ParamType::kRgb, ParamType::kSpectrum,
                                           ParamType::kTexture, ParamType::kBlackbody});
   if (param == nullptr) return {absent, kNone};
-  if (param->type != ParamType::kTexture)
-    return {ColorOf(state, params, *param, use), kNone};
+  if (param->type != ParamType::kTexture) {
+    const bool extend = use == SpectrumUse::kUnbounded;
+    return {ColorOf(state, params, *param, use), kNone,
+            SpectrumOf(state, params, *param, extend)};
+  }
   return {absent, FindTexture(params, *param, state.color_textures, state.float_textures,
                               "spectrum")};
 }

@@ -15,9 +15,12 @@ constexpr Rgb kWhite = {1, 1, 1};
 
 // What a light without a colour has: the illuminant of the color space.
 Rgb LightColor(ParseState& state, ParamSet& params, const char* name,
-               SpectrumUse use = SpectrumUse::kIlluminant) {
+               OwnSpectrum* spectrum, SpectrumUse use = SpectrumUse::kIlluminant) {
   const Rgb absent = ToSrgb(state.graphics.color_space, kWhite, use);
-  return PlainColor(state, params, name, absent, use);
+  const Rgb color = PlainColor(state, params, name, absent, use);
+  const Param* given = params.Find(name, {});
+  if (given != nullptr) *spectrum = SpectrumOf(state, params, *given);
+  return color;
 }
 
 // 1 - cos, without cancellation for small angles.
@@ -47,7 +50,7 @@ void ReadPoint(ParseState& state, ParamSet& params, Light* light) {
   light->from = params.Point3("from", {0, 0, 0});
   const double scale = params.Float("scale", 1, kNotNegative);
   const double power = Target(params, "power");
-  const Rgb intensity = LightColor(state, params, "I");
+  const Rgb intensity = LightColor(state, params, "I", &light->spectrum);
   light->emission = intensity * (power > 0 ? scale * power / (4 * kPi) : scale);
 }
 
@@ -69,15 +72,15 @@ void ReadSpot(ParseState& state, ParamSet& params, Light* light) {
     const double inner = Versine(light->cone_angle - light->cone_delta);
     scale *= power / (kPi * (inner + outer));
   }
-  light->emission = LightColor(state, params, "I") * scale;
+  light->emission = LightColor(state, params, "I", &light->spectrum) * scale;
 }
 
 void ReadDistant(ParseState& state, ParamSet& params, Light* light) {
   ReadDirection(params, light);
   const double scale = params.Float("scale", 1, kNotNegative);
   const double illuminance = Target(params, "illuminance");
-  light->emission =
-      LightColor(state, params, "L") * (illuminance > 0 ? scale * illuminance : scale);
+  light->emission = LightColor(state, params, "L", &light->spectrum) *
+                    (illuminance > 0 ? scale * illuminance : scale);
 }
 
 // Corners in the world, whatever the light's transform is.
@@ -97,10 +100,11 @@ void ReadPortal(ParamSet& params, Light* light) {
 // Without an image. What falls on a facing surface: pi times the radiance. With a portal
 // pbrt-v4 makes an image of one pixel: from a spectrum as it stands, which nothing
 // normalises, and as if all of the sky shone from the zenith.
-Rgb ConstantSky(ParseState& state, ParamSet& params, bool portal) {
+Rgb ConstantSky(ParseState& state, ParamSet& params, Light* light) {
+  const bool portal = !light->portal.empty();
   const double illuminance = Target(params, "illuminance");
   const SpectrumUse use = portal ? SpectrumUse::kRadiance : SpectrumUse::kIlluminant;
-  const Rgb radiance = LightColor(state, params, "L", use);
+  const Rgb radiance = LightColor(state, params, "L", &light->spectrum, use);
   if (!(illuminance > 0) || radiance == Rgb{}) return radiance;
   return radiance * (illuminance / (portal ? 2 * kPi * Luminance(radiance) : kPi));
 }
@@ -122,7 +126,7 @@ void ReadInfinite(ParseState& state, ParamSet& params, Light* light) {
   ReadPortal(params, light);
   const double scale = params.Float("scale", 1, kNotNegative);
   if (!ReadEmissionImage(state, params, light)) {
-    light->emission = ConstantSky(state, params, !light->portal.empty()) * scale;
+    light->emission = ConstantSky(state, params, light) * scale;
     return;
   }
   light->image_scale = scale;
@@ -144,8 +148,8 @@ std::string ImageFile(ParseState& state, ParamSet& params, Light* light) {
 
 // What its power comes to depends on the image.
 void ReadGoniometric(ParseState& state, ParamSet& params, Light* light) {
-  light->emission =
-      LightColor(state, params, "I") * params.Float("scale", 1, kNotNegative);
+  light->emission = LightColor(state, params, "I", &light->spectrum) *
+                    params.Float("scale", 1, kNotNegative);
   light->power = Target(params, "power");
   light->image_path = ImageFile(state, params, light);
 }
@@ -194,7 +198,7 @@ Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& p
   if (type != "diffuse") ThrowUnknown(params.where(), "area light", type, {"diffuse"});
   AreaLight light;
   light.where = params.where();
-  light.radiance = LightColor(state, params, "L");
+  light.radiance = LightColor(state, params, "L", &light.spectrum);
   light.scale = params.Float("scale", 1, kNotNegative);
   light.power = Target(params, "power");
   if (light.power <= 0) light.power = -1;

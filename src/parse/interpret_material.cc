@@ -67,7 +67,8 @@ void ReadConductor(ParseState& state, ParamSet& params, Material* material) {
 }
 
 void ReadThinDielectric(ParseState& state, ParamSet& params, Material* material) {
-  material->interface_eta = DielectricEta(state, params, "eta", 1.5);
+  material->interface_eta =
+      DielectricEta(state, params, "eta", 1.5, &material->dispersion);
 }
 
 void ReadDielectric(ParseState& state, ParamSet& params, Material* material) {

@@ -107,7 +107,7 @@ SpectrumSamples SamplesOf(const ParseState& state, const ParamSet& params,
 }
 
 double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
-                     double absent) {
+                     double absent, OwnSpectrum* dispersion) {
   constexpr double kLow = 0.01, kHigh = 100;
   const Param* param = params.Find(name, {ParamType::kFloat, ParamType::kSpectrum});
   if (param == nullptr) return absent;
@@ -124,9 +124,13 @@ double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
     params.Fail(*param, fmt::format("the index of refraction {} is outside {} to {}", eta,
                                     kLow, kHigh));
   }
+  if (dispersion != nullptr) {
+    *dispersion = SpectrumOf(state, params, *param, /*extend=*/true);
+    return eta;
+  }
   state.AddNoteOnce(param->where,
-                    fmt::format("dispersion is not modelled: eta is taken at "
-                                "{} nm",
+                    fmt::format("dispersion of this material is not modelled: eta is "
+                                "taken at {} nm",
                                 kSodium));
   return eta;
 }
@@ -141,8 +145,8 @@ void ConductorIor(ParseState& state, ParamSet& params, const std::string& prefix
     const SpectrumSamples m = SamplesOf(state, params, *k_param);
     const ComplexIor ior =
         ComplexIorFromSamples(n.wavelengths, n.values, m.wavelengths, m.values);
-    *eta = {ior.eta, kNone};
-    *k = {ior.k, kNone};
+    *eta = {ior.eta, kNone, SpectrumOf(state, params, *eta_param, true)};
+    *k = {ior.k, kNone, SpectrumOf(state, params, *k_param, true)};
     return;
   }
   const std::string eta_metal = MetalName(eta_param, "-eta");
@@ -150,10 +154,16 @@ void ConductorIor(ParseState& state, ParamSet& params, const std::string& prefix
   const auto value = [&](const std::string& name) {
     return TexturedColor(state, params, name, {}, SpectrumUse::kUnbounded);
   };
+  const auto of_metal = [](Rgb color, const std::string& name) {
+    return ColorValue{color, kNone,
+                      std::make_shared<const Spectrum>(*SpectrumOfName(name))};
+  };
   *eta = eta_metal.empty() ? value(prefix + "eta")
-                           : ColorValue{Metal(params, eta_param, eta_metal).eta, kNone};
+                           : of_metal(Metal(params, eta_param, eta_metal).eta,
+                                      fmt::format("metal-{}-eta", eta_metal));
   *k = k_metal.empty() ? value(prefix + "k")
-                       : ColorValue{Metal(params, k_param, k_metal).k, kNone};
+                       : of_metal(Metal(params, k_param, k_metal).k,
+                                  fmt::format("metal-{}-k", k_metal));
 }
 
 }  // namespace lanelight

@@ -17,6 +17,7 @@ enum class Dimension : std::uint32_t {
   kLens = 1,          // 2: position on the lens
   kCameraMedium = 2,  // 2: as kMedium, of the camera ray
   kTime = 3,          // 1: when the shutter is open
+  kWavelength = 4,    // 1: wavelengths of the path
   // 8 to 15: where a path goes
   kBsdf = 8,     // 2: direction
   kLobe = 9,     // 1: choice of lobe

@@ -35,6 +35,10 @@ namespace lanelight {
   X(kTextureFootprints, "textures filtered over the footprint of a pixel")    \
   X(kBumps, "displacement textures, shaded as bumps")                         \
   X(kNormalMaps, "normal maps")                                               \
+  X(kSpectral, "paths that carry wavelengths (transport=spectral)")           \
+  X(kPlainSpectra, "colours by wavelength, none of them textured")            \
+  X(kSpectralColor1, "a second colour parameter by wavelength")               \
+  X(kDispersion, "glass whose index depends on the wavelength")               \
   X(kForcedDiffuse, "surfaces that scatter evenly, whatever their material")  \
   X(kAlpha, "alpha cut-outs")                                                 \
   X(kMix, "mix materials")                                                    \

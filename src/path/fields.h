@@ -64,6 +64,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   /* transport */                                                                         \
   LANELIGHT_RGB(X, f32, beta, ({}), kPath, (1.0f), "throughput")                          \
   LANELIGHT_RGB(X, f32, l, ({}), kGathered, (0.0f), "radiance gathered so far")           \
+  X(f32, wavelength, ({kSpectral}), kPath, (), "number that chose the wavelengths of the path; below 0, or -0: glass has left one (src/compiled/spectra.h)") \
   X(f32, bsdf_pdf, ({kMis, kRecordsGuide, kReuse}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
   LANELIGHT_XYZ(X, f32, start_n, ({kProjectedHits}), kRay, (0.0f), "shading normal where the ray starts, on the side that the path came from") \
   X(f32, eta_scale, ({kRefraction, kGuided, kReuse}), kPath, (1.0f), "product of eta^2 of refractions, and of densities over the material's: undone by roulette") \
@@ -90,15 +91,16 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(f32, uv_u, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(f32, uv_v, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(u32, material, ({kScatters, kAov}), kSurface, (), "material index")                 \
-  /* textured material parameters */                                                      \
-  LANELIGHT_RGB(X, f32, color0, ({kTextures}), kSurface, (), "first colour parameter")  \
-  LANELIGHT_RGB(X, f32, color1, ({kTexturedColor1}), kSurface, (), "second colour parameter") \
+  /* material parameters that are textured, or depend on the wavelength */                                                      \
+  LANELIGHT_RGB(X, f32, color0, ({kTextures, kPlainSpectra}), kSurface, (), "first colour parameter")  \
+  LANELIGHT_RGB(X, f32, color1, ({kTexturedColor1, kSpectralColor1}), kSurface, (), "second colour parameter") \
   X(f32, alpha_x, ({kTexturedRoughness}), kSurface, (), "GGX alpha along the tangent")  \
   X(f32, alpha_y, ({kTexturedRoughness}), kSurface, (), "GGX alpha across it")          \
   X(f32, coat_thickness, ({kTexturedCoat}), kSurface, (), "thickness of a coat") \
   LANELIGHT_2(X, f32, alpha2, ({kTexturedCoat}), kSurface, (), "GGX alpha of the metal under a coat") \
   LANELIGHT_RGB(X, f32, coat_albedo, ({kTexturedCoatMedium}), kSurface, (), "albedo of the medium in a coat") \
   X(f32, coat_g, ({kTexturedCoatMedium}), kSurface, (), "its asymmetry")                 \
+  X(f32, eta, ({kDispersion}), kSurface, (), "relative index of glass at the wavelength of the path") \
   /* sample points of the bounce */                                                       \
   X(f32, u_lobe, (KindsWith(kChoosesLobe)), kBounce, (), "choice of lobe")              \
   LANELIGHT_2(X, f32, u_bsdf, ({kScatters}), kBounce, (), "direction")                  \
@@ -284,12 +286,14 @@ inline constexpr FieldSet kTangents = {Field::tg_x, Field::tg_y, Field::tg_z,
 inline constexpr FieldSet kUv = {Field::uv_u, Field::uv_v};
 inline constexpr FieldSet kSpread = {Field::spread_0, Field::spread_1, Field::spread_2,
                                      Field::spread_3};
-inline constexpr FieldSet kParameters = {
-    Field::color0_r,      Field::color0_g,       Field::color0_b,
-    Field::color1_r,      Field::color1_g,       Field::color1_b,
-    Field::alpha_x,       Field::alpha_y,        Field::alpha2_0,
-    Field::alpha2_1,      Field::coat_thickness, Field::coat_albedo_r,
-    Field::coat_albedo_g, Field::coat_albedo_b,  Field::coat_g};
+inline constexpr FieldSet kParameters = {Field::color0_r,       Field::color0_g,
+                                         Field::color0_b,       Field::color1_r,
+                                         Field::color1_g,       Field::color1_b,
+                                         Field::alpha_x,        Field::alpha_y,
+                                         Field::alpha2_0,       Field::alpha2_1,
+                                         Field::coat_thickness, Field::coat_albedo_r,
+                                         Field::coat_albedo_g,  Field::coat_albedo_b,
+                                         Field::coat_g,         Field::eta};
 inline constexpr FieldSet kBouncePoints = {
     Field::u_lobe,    Field::u_bsdf_0,    Field::u_bsdf_1,   Field::u_select,
     Field::u_light_0, Field::u_light_1,   Field::u_roulette, Field::u_guide,

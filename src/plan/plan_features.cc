@@ -21,7 +21,8 @@ void RemoveScattering(FeatureSet& f) {
   f.Remove({Feature::kTextures, Feature::kUv, Feature::kTangents, Feature::kVertexNormals,
             Feature::kTexturedRoughness, Feature::kTexturedColor1, Feature::kTexturedCoat,
             Feature::kTexturePlaces, Feature::kMix, Feature::kBumps, Feature::kNormalMaps,
-            Feature::kTextureFootprints});
+            Feature::kTextureFootprints, Feature::kPlainSpectra, Feature::kSpectralColor1,
+            Feature::kDispersion});
 }
 
 // A surface follows directions that are not its own choice.

@@ -27,6 +27,7 @@ RenderSettings SettingsInForce(const Job& job) {
   s.gbuffer = film.gbuffer;
   s.points = job.scene.strategy.points;
   s.max_depth = static_cast<int>(job.plan.options.max_depth);
+  s.transport = job.scene.integrator.transport;
   s.build = job.scene.accel.quality;
   s.threads = ThreadCount(s.threads);
   s.target = job.plan.options.target.name();

@@ -94,6 +94,7 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
                     *settings.seconds));
   }
   if (settings.max_depth) scene.integrator.max_depth = *settings.max_depth;
+  if (settings.transport) scene.integrator.transport = *settings.transport;
   const int depth = scene.integrator.max_depth;
   if (depth < 0 || depth > kMaxDepth) {
     throw InputError(

@@ -46,6 +46,7 @@ struct RenderSettings {
   StrategyChanges strategy;  // to the scene's
   DefaultDecision decision = DefaultDecision::kNever;
   std::optional<Scattering> scattering;
+  std::optional<Transport> transport;
   std::optional<BuildQuality> build;                  // of the trees over shapes
   TreeSource trees;                                   // where these may be found
   std::uint64_t copied_triangles = kCopiedTriangles;  // as in CompileOptions

@@ -17,6 +17,7 @@
 #include "src/image/film_response.h"
 #include "src/image/measured_reflectance.h"
 #include "src/image/sparse_grid.h"
+#include "src/image/spectrum_integral.h"
 
 namespace lanelight {
 
@@ -24,11 +25,15 @@ namespace lanelight {
 using Index = std::int32_t;
 inline constexpr Index kNone = -1;
 
+/// The spectrum that a colour was given as, if it was none: of light, times any factor.
+using OwnSpectrum = std::shared_ptr<const Spectrum>;
+
 /// A parameter that is either constant or textured. With a texture, the constant is
 /// unused.
 struct ColorValue {
   Rgb constant;
   Index texture = kNone;
+  OwnSpectrum spectrum = nullptr;
 };
 struct FloatValue {
   double constant = 0;
@@ -136,7 +141,8 @@ struct Material {
   double beta_m = 0.3, beta_n = 0.3;  // hair: roughness along a fibre and around it
   double tilt = 2;                    // hair: of its scales, degrees
   double interface_eta = 1.5;         // dielectric, thindielectric, coats, hair
-  FloatValue uroughness, vroughness;  // of the (outer) interface
+  OwnSpectrum dispersion;  // dielectric, thindielectric: the same by wavelength, or null
+  FloatValue uroughness, vroughness;                      // of the (outer) interface
   FloatValue conductor_uroughness, conductor_vroughness;  // coatedconductor
   bool remap_roughness = true;
   double thickness = 0.01;          // coats
@@ -234,6 +240,7 @@ struct ObjectDefinition {
 struct AreaLight {
   SourceLocation where;
   Rgb radiance{1, 1, 1};
+  OwnSpectrum spectrum;  // that `radiance` is the colour of
   double scale = 1;
   double power = -1;
   bool two_sided = false;
@@ -248,8 +255,9 @@ struct Light {
   LightKind kind = LightKind::kPoint;
   SourceLocation where;
   Transform world_from_light;
-  Rgb emission;  // kPoint, kSpot: W/sr. kDistant: irradiance on a facing surface.
-                 // kInfinite without image: radiance.
+  Rgb emission;          // kPoint, kSpot: W/sr. kDistant: irradiance on a facing surface.
+                         // kInfinite without image: radiance.
+  OwnSpectrum spectrum;  // that `emission` is the colour of
   Vec3d from,
       to{0, 0, 1};  // light space. kPoint: from. kSpot: from, to. kDistant: from-to
   double cone_angle = 30, cone_delta = 5;  // kSpot, degrees
@@ -310,6 +318,10 @@ struct Sampler {
   std::uint64_t seed = 0;
 };
 
+/// What paths carry in their three columns of colour: red, green and blue, or three
+/// wavelengths (src/compiled/spectra.h).
+enum class Transport : std::uint8_t { kRgb, kSpectral };
+
 struct Integrator {
   int max_depth = 5;     // scattering events at most, as in pbrt
   std::string strategy;  // changes to the strategy (src/strategy/strategy.h)
@@ -317,6 +329,7 @@ struct Integrator {
   /// Surfaces scatter evenly, with the reflectance that their material has for light from
   /// where they are seen (pbrt-v4's option "forcediffuse").
   bool force_diffuse = false;
+  Transport transport = Transport::kRgb;
 };
 
 /// Something that was read and deliberately not used. `changes_image`: what is rendered

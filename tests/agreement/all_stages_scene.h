@@ -313,4 +313,50 @@ Material "measured" "string filename" "measured.bsdf"
 Shape "sphere"
 )";
 
+/// Paths that carry wavelengths: textures, metals, glass that disperses.
+inline constexpr const char* kSpectralScene = R"(
+LookAt 0 2 -6  0 0.8 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 32 "integer yresolution" 32
+Integrator "path" "integer maxdepth" 6 "string transport" "spectral"
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ]
+LightSource "point" "point3 from" [ 2 4 -2 ] "blackbody I" 3000
+Texture "t" "spectrum" "checkerboard" "rgb tex1" [ 0.8 0.2 0.1 ] "rgb tex2" [ 0.1 0.2 0.8 ]
+Material "diffuse" "texture reflectance" "t"
+Shape "plane"
+Material "conductor" "texture reflectance" "t" "float roughness" 0.3
+AttributeBegin
+  Translate -1 0.8 0
+  Shape "sphere" "float radius" 0.7
+AttributeEnd
+Material "dielectric" "spectrum eta" "glass-F11"
+AttributeBegin
+  Translate 0.7 0.8 0
+  Shape "sphere" "float radius" 0.7
+AttributeEnd
+)";
+
+/// The same without textures.
+inline constexpr const char* kPlainSpectralScene = R"(
+LookAt 0 2 -6  0 0.8 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 32 "integer yresolution" 32
+Integrator "path" "integer maxdepth" 6 "string transport" "spectral"
+WorldBegin
+LightSource "distant" "rgb L" [ 2 2 1 ]
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
+  Translate -2 3 0
+  Shape "sphere" "float radius" 0.3
+AttributeEnd
+Material "coateddiffuse" "rgb reflectance" [ 0.7 0.3 0.1 ] "rgb albedo" [ 0.5 0.5 0.5 ]
+Shape "sphere" "float radius" 1
+Material "conductor"
+AttributeBegin
+  Translate 1.2 0.8 0
+  Shape "sphere" "float radius" 0.7
+AttributeEnd
+)";
+
 }  // namespace lanelight

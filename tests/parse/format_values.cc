@@ -57,6 +57,7 @@ const std::map<std::string, Values> kValues = {
     {"bool jitter", {"false"}},
     {"string lightsampler", {"\"uniform\"", "\"power\""}},
     {"string strategy", {"\"points=cmj\""}},
+    {"string transport", {"\"spectral\""}},
     {"string function", {"\"step\""}},
     {"string splitmethod", {"\"middle\""}},
     {"string rendercoordsys", {"\"world\""}},

@@ -65,7 +65,10 @@ TEST_CASE("dielectrics", "[parse]") {
   const SceneDescription scene =
       ParseWorld("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"");
   CHECK(scene.materials[0].interface_eta == bk7);
-  CHECK(HasNote(scene, "dispersion is not modelled"));
+  REQUIRE(scene.materials[0].dispersion != nullptr);
+  CHECK((*scene.materials[0].dispersion)(587.6) == Approx(bk7).margin(1e-5));
+  CHECK(HasNote(ParseWorld("Material \"coateddiffuse\" \"spectrum eta\" \"glass-BK7\""),
+                "not modelled"));
   const Material line =
       ParseMaterial("\"dielectric\" \"spectrum eta\" [ 487.6 1.6 687.6 1.4 ]");
   CHECK(line.interface_eta == Approx(1.5));

@@ -27,6 +27,7 @@ std::map<std::string, std::string> OtherTexts() {
           {"gbuffer", "world"},
           {"strategy", "roulette=none,guiding=none"},
           {"sampler", "cmj"},
+          {"transport", "spectral"},
           {"max-depth", "0"},
           {"scattering", "insphere"},
           {"depth", "half"},
@@ -107,11 +108,11 @@ TEST_CASE("identities and reports have the settings in force", "[render]") {
   const Job job = BoxWith(settings);
   const Json identity = IdentityOf(job);
   // States have it: what is gone, new or called otherwise ends their renders.
-  CHECK(Keys(identity) == std::set<std::string>{"scene_hash", "resolution", "crop",
-                                                "max_depth", "seed", "strategy",
-                                                "scattering", "copied_triangles", "aov",
-                                                "gbuffer", "color_space",
-                                                "skip_unsupported", "target", "version"});
+  CHECK(Keys(identity) ==
+        std::set<std::string>{"scene_hash", "resolution", "crop", "max_depth", "seed",
+                              "strategy", "scattering", "copied_triangles", "aov",
+                              "gbuffer", "color_space", "skip_unsupported", "target",
+                              "transport", "version"});
   CHECK(identity.at("resolution") == Json{8, 6});
   CHECK(identity.at("crop") == Json{1, 2, 5, 6});
   CHECK(identity.at("scattering") == nullptr);
@@ -123,7 +124,8 @@ TEST_CASE("identities and reports have the settings in force", "[render]") {
         std::set<std::string>{"resolution", "crop", "spp", "time_budget", "target_relmse",
                               "target_rmse", "max_depth", "seed", "sampler", "strategy",
                               "points", "aov", "gbuffer", "depth", "build",
-                              "copied_triangles", "threads"});
+                              "copied_triangles", "threads", "transport"});
+  CHECK(reported.at("transport") == "rgb");
   CHECK(reported.at("target_rmse") == 0.5);
   CHECK(reported.at("target_relmse") == nullptr);
   CHECK(reported.at("spp") == nullptr);

@@ -102,7 +102,9 @@ class WaveFixture {
 #define X(type, name, ...) wave.path.name = reinterpret_cast<type*>(NewColumn(capacity));
     LANELIGHT_PATH_FIELDS(X)
 #undef X
-    wave.path.passed = nullptr;  // no interfaces of media behind a ray
+    wave.path.passed = nullptr;      // no interfaces of media behind a ray
+    wave.path.wavelength = nullptr;  // paths carry red, green and blue
+    wave.path.eta = nullptr;
     for (Queue& queue : wave.queues) queue.items = NewColumn(capacity);
     wave.lists = ColumnLists(wave.path, FeatureSet::All());
   }

@@ -1,0 +1,114 @@
+// Colours at the three wavelengths of a path, and back (src/compiled/spectra.h).
+#ifndef LANELIGHT_TEXTURE_WAVELENGTHS_INL_H_
+#define LANELIGHT_TEXTURE_WAVELENGTHS_INL_H_
+
+#include "kernels/queue/slots-inl.h"
+#include "kernels/simd/math-inl.h"
+#include "kernels/texture/cube-inl.h"
+#include "src/compiled/spectra.h"
+#include "src/image/upsampling.h"
+#include "src/image/wavelengths.h"
+#include "src/path/fields.h"
+
+LANELIGHT_BEGIN_KERNELS
+
+/// What the number of a path chooses, u in [0, 1): 3 u is one of its three wavelengths, 0
+/// the short one, and a place in the triples.
+struct Wavelengths {
+  VF place;   // [0, kTriples): bin and place within it
+  VI triple;  // = the bin of the short wavelength
+  VI hero;    // 0, 1, 2: the wavelength that glass leaves
+  MF alone;   // glass has left it
+
+  LANELIGHT_INLINE Wavelengths(const PathColumns& p, const Slots& slots) {
+    const DI di;
+    const DF df;
+    const VF number = Gather(p.wavelength, slots);
+    alone =
+        hn::MaskFromVec(hn::BitCast(df, hn::BroadcastSignBit(hn::BitCast(di, number))));
+    const VF thirds = hn::Mul(hn::Abs(number), Splat(3.0f));
+    hero = hn::Min(hn::ConvertTo(di, thirds), hn::Set(di, 2));
+    const VF part = hn::Sub(thirds, hn::ConvertTo(df, hero));
+    place = hn::Mul(part, Splat(float{kTriples}));
+    triple = hn::Min(hn::ConvertTo(di, place), hn::Set(di, kTriples - 1));
+  }
+};
+
+/// Entries of an array by bin, of the long, the middle and the short wavelength; `at`: in
+/// the array, of the short one's.
+LANELIGHT_INLINE V3 ByBin(const float* array, VI at) {
+  return {Gather(array + 2 * kTriples, at), Gather(array + kTriples, at),
+          Gather(array, at)};
+}
+
+/// Of spectra that are rows of the table.
+LANELIGHT_INLINE V3 AtRows(const SpectrumTable& table, VI row, const Wavelengths& w) {
+  const VI begin = hn::Mul(row, hn::Set(DI(), kWavelengthBins));
+  return ByBin(table.rows.data(), hn::Add(begin, w.triple));
+}
+
+/// Index of refraction at the hero's wavelength.
+LANELIGHT_INLINE VF IndexAt(const SpectrumTable& table, VI row, const Wavelengths& w) {
+  const DI di;
+  const VI begin = hn::Mul(row, hn::Set(di, kWavelengthEdges));
+  const VI bin = hn::Add(w.triple, hn::Mul(w.hero, hn::Set(di, kTriples)));
+  const VI at = hn::Add(begin, bin);
+  const VF low = Gather(table.indices.data(), at);
+  const VF high = Gather(table.indices.data() + 1, at);
+  const VF part = hn::Sub(w.place, hn::ConvertTo(DF(), w.triple));
+  return hn::MulAdd(part, hn::Sub(high, low), low);
+}
+
+/// What the film sees of values at the three wavelengths: linear sRGB.
+LANELIGHT_INLINE V3 FilmColor(const SpectrumTable& table, V3 value,
+                              const Wavelengths& w) {
+  return {Dot(value, ByBin(table.film[0].data(), w.triple)),
+          Dot(value, ByBin(table.film[1].data(), w.triple)),
+          Dot(value, ByBin(table.film[2].data(), w.triple))};
+}
+
+/// Reflectances, their channels in [0, 1], by MakeUpsamplingTable().
+inline HWY_NOINLINE V3 UpsampledReflectances(const SpectrumTable& table, V3 rgb,
+                                             const Wavelengths& w) {
+  const VF one = Splat(1.0f), half = Splat(0.5f), two = Splat(2.0f);
+  const VF least = Splat(float{kLeastUpsampled}), most = hn::Sub(one, least);
+  const VF middle = Splat(0.5f * (kUpsamplingNodes - 1));
+  const VF scale = hn::Mul(middle, Splat(table.per_half_tangent));
+  const auto coordinate = [&](VF v) HWY_ATTR {
+    const VF c = hn::Clamp(v, least, most);
+    const VF root = hn::Sqrt(hn::Mul(c, hn::Sub(one, c)));
+    const VF h = hn::Div(hn::MulSub(two, c, one), hn::MulAdd(two, root, one));
+    return hn::Clamp(hn::MulAdd(h, scale, middle), Splat(0), hn::Mul(two, middle));
+  };
+  const V3 at = {coordinate(rgb.x), coordinate(rgb.y), coordinate(rgb.z)};
+  const V3 h = AddOfCube<kUpsamplingNodes>(table.sigmoids.data(), at, Splat3(0, 0, 0));
+  const auto tangent = [&](VF t) HWY_ATTR {
+    return hn::Div(hn::Mul(two, t), hn::NegMulAdd(t, t, one));
+  };
+  const V3 p = {tangent(h.x), tangent(h.y), tangent(h.z)};
+  const auto row = [&](int i) HWY_ATTR {
+    const float* r = table.polynomial.data() + 3 * i;
+    return Dot(p, Splat3(r[0], r[1], r[2]));
+  };
+  const VF c0 = row(0), c1 = row(1), c2 = row(2);
+  const auto sigmoid = [&](VF t) HWY_ATTR {
+    const VF v = hn::MulAdd(hn::MulAdd(c0, t, c1), t, c2);
+    return hn::MulAdd(half, hn::Mul(v, Rsqrt(hn::MulAdd(v, v, one))), half);
+  };
+  const V3 t = ByBin(table.place.data(), w.triple);
+  return {sigmoid(t.x), sigmoid(t.y), sigmoid(t.z)};
+}
+
+/// Colours without bound, no channel below 0: as UpsampledColor().
+LANELIGHT_INLINE V3 UpsampledColors(const SpectrumTable& table, V3 rgb,
+                                    const Wavelengths& w) {
+  const VF largest = hn::Max(rgb.x, hn::Max(rgb.y, rgb.z));
+  const VF scale = hn::Add(largest, largest);
+  const VF safe = hn::Max(scale, Splat(1e-30f));
+  const V3 shape = Mul(rgb, hn::Div(Splat(1.0f), safe));
+  return Mul(UpsampledReflectances(table, shape, w), scale);
+}
+
+LANELIGHT_END_KERNELS
+
+#endif

@@ -1,0 +1,67 @@
+#include "src/compile/transport.h"
+
+#include <string>
+
+namespace lanelight {
+namespace {
+
+[[noreturn]] void Refuse(const SourceLocation& where, const std::string& what) {
+  throw InputError(where, what +
+                              " is not supported with --transport spectral yet; "
+                              "--transport rgb renders it");
+}
+
+bool IsGrey(Rgb c) { return c.x == c.y && c.y == c.z; }
+
+void CheckMedium(const Medium& medium) {
+  const std::string name = medium.name.empty() ? "" : " \"" + medium.name + "\"";
+  if (medium.kind == MediumKind::kRgbGrid) {
+    Refuse(medium.where, "the medium" + name + " of type \"rgbgrid\"");
+  }
+  if (medium.by_reflectance && medium.reflectance.texture != kNone) {
+    Refuse(medium.where, "the inside of a material, whose reflectance has a texture,");
+  }
+  const bool heated = !medium.temperature.empty() || medium.sparse_temperature != nullptr;
+  const bool varies = medium.kind != MediumKind::kHomogeneous;
+  if (heated || (varies && !IsGrey(medium.emission))) {
+    Refuse(medium.where, "the medium" + name + ", which emits coloured light,");
+  }
+}
+
+// The materials that shapes have, and those that they mix; mixes may be nested deeply.
+template <class Visit>
+void ForEachUsed(const SceneDescription& d, std::vector<Index> open, const Visit& visit) {
+  std::vector<bool> seen(d.materials.size());
+  while (!open.empty()) {
+    const auto at = static_cast<std::size_t>(open.back());
+    open.pop_back();
+    if (seen[at]) continue;
+    seen[at] = true;
+    const Material& m = d.materials[at];
+    visit(m);
+    if (m.kind == MaterialKind::kMix) open.insert(open.end(), m.mix, m.mix + 2);
+  }
+}
+
+}  // namespace
+
+void CheckTransport(const SceneDescription& description, const std::vector<Index>& used) {
+  for (const Medium& medium : description.media) CheckMedium(medium);
+  ForEachUsed(description, used, [](const Material& m) {
+    if (m.kind == MaterialKind::kMeasured) Refuse(m.where, "the material \"measured\"");
+  });
+}
+
+void NoteDispersion(const SceneDescription& description, const std::vector<Index>& used,
+                    std::vector<Note>& notes) {
+  const Material* found = nullptr;
+  ForEachUsed(description, used, [&](const Material& m) {
+    if (m.dispersion != nullptr) found = &m;
+  });
+  if (found == nullptr) return;
+  notes.push_back({found->where,
+                   "dispersion is not modelled: eta is taken at 587.6 nm; --transport "
+                   "spectral models it"});
+}
+
+}  // namespace lanelight

@@ -1,0 +1,21 @@
+// What paths that carry wavelengths cannot carry yet, and what others cannot at all.
+#pragma once
+
+#include <vector>
+
+#include "src/scene/description.h"
+
+namespace lanelight {
+
+/// Throws InputError, with the place, for what the description uses and only red, green
+/// and blue are known of: grids of colours, media that glow by their temperature,
+/// textured insides of materials, and materials that are measured. `used`: the materials
+/// of shapes.
+void CheckTransport(const SceneDescription& description, const std::vector<Index>& used);
+
+/// Of paths that carry red, green and blue: the first used glass whose index is taken at
+/// one wavelength.
+void NoteDispersion(const SceneDescription& description, const std::vector<Index>& used,
+                    std::vector<Note>& notes);
+
+}  // namespace lanelight

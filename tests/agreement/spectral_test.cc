@@ -1,0 +1,368 @@
+// Paths that carry wavelengths: closed forms, and the scalar tracer, which renders each
+// triple of wavelengths by itself (AtTriple below).
+#include <catch2/catch.hpp>
+
+#include "src/compile/spectrum_rows.h"
+#include "src/image/spectrum.h"
+#include "tests/agreement/agreement.h"
+
+namespace lanelight::test {
+namespace {
+
+SceneDescription Spectral(SceneDescription scene) {
+  scene.integrator.transport = Transport::kSpectral;
+  return scene;
+}
+
+OwnSpectrum Own(const Spectrum& spectrum) {
+  return std::make_shared<const Spectrum>(spectrum);
+}
+
+// Of a colour that is the spectrum under D65, or that of the light.
+ColorValue Reflecting(const Spectrum& spectrum) {
+  return {ColorUnderD65(spectrum), kNone, Own(spectrum)};
+}
+
+double LargestDifference(const stat::ImageEstimate& a, const stat::ImageEstimate& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.mean.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      largest = std::max(largest, std::abs(a.mean[i][c] - b.mean[i][c]));
+    }
+  }
+  return largest;
+}
+
+void CheckColor(const SceneDescription& scene, std::uint64_t spp, Rgb exact,
+                double tolerance, const std::string& strategy = "") {
+  const auto image = RenderWavefront(Spectral(scene), spp, strategy);
+  const auto result = stat::CompareMeans(
+      image, stat::KnownImage(image.width, image.height, [&](int, int) { return exact; }),
+      {4, 1e-6, tolerance, tolerance * 0.02});
+  INFO(result.ToString());
+  CHECK(result.same);
+  CHECK(result.detectable_bias < 0.02);
+}
+
+// What the description is for the long, the middle and the short wavelength of a triple,
+// in the channels red, green and blue.
+struct AtTriple {
+  int triple;
+
+  Rgb Of(const Spectrum& spectrum) const {
+    const auto& centre = CarriedWavelengths().centre;
+    return {spectrum(centre[2 * kTriples + triple]), spectrum(centre[kTriples + triple]),
+            spectrum(centre[triple])};
+  }
+  void Reflect(ColorValue& color) const {
+    color.constant =
+        Of(color.spectrum ? *color.spectrum : UpsampledReflectance(color.constant));
+  }
+  void Index(ColorValue& color) const {
+    if (color.spectrum) color.constant = Of(*color.spectrum);
+  }
+  Rgb Light(Rgb color, const OwnSpectrum& own) const {
+    if (!own) return Of(UpsampledColor(color));
+    const Spectrum d65 = DaylightD65();
+    const auto in_d65 = [&](double nm) { return (*own)(nm) / d65(nm); };
+    return Of(in_d65) * (Luminance(color) / Luminance(ColorOfBins(BinMeans(in_d65))));
+  }
+  SceneDescription operator()(SceneDescription scene) const {
+    for (Material& m : scene.materials) {
+      Reflect(m.reflectance);
+      Reflect(m.transmittance);
+      Index(m.eta);
+      Index(m.k);
+    }
+    for (lanelight::Light& light : scene.lights) {
+      light.emission = Light(light.emission, light.spectrum);
+    }
+    for (Medium& medium : scene.media) {
+      medium.sigma_a = Of(UpsampledColor(medium.sigma_a));
+      medium.sigma_s = Of(UpsampledColor(medium.sigma_s));
+      medium.emission = Of(UpsampledColor(medium.emission));
+    }
+    for (AreaLight& light : scene.area_lights) {
+      light.radiance = Light(light.radiance, light.spectrum);
+    }
+    return scene;
+  }
+};
+
+// Mean over triples that lie evenly.
+stat::ImageEstimate SpectralReference(const SceneDescription& scene, int samples) {
+  constexpr int kEvery = 4, kCount = kTriples / kEvery;
+  stat::ImageEstimate out;
+  for (int i = kEvery / 2; i < kTriples; i += kEvery) {
+    TwinOptions options = Options(ReferenceEstimator::kLightSampling, samples);
+    options.seed = static_cast<std::uint64_t>(i) + 1;
+    const auto one = Estimate(RenderReference(AtTriple{i}(scene), options));
+    if (out.mean.empty()) out = {one.width, one.height, 0, {}, {}};
+    out.mean.resize(one.mean.size());
+    out.variance.resize(one.mean.size());
+    out.observations += one.observations;
+    const auto& film = CarriedWavelengths().film;
+    const Rgb f[3] = {film[2 * kTriples + i], film[kTriples + i], film[i]};
+    for (std::size_t p = 0; p < one.mean.size(); ++p) {
+      for (int k = 0; k < 3; ++k) {
+        out.mean[p] += f[k] * (one.mean[p][k] / kCount);
+        // The channels of a sample go up and down together: their errors may add up.
+        out.variance[p] += f[k] * f[k] * (3 * one.variance[p][k] / kCount / kCount);
+      }
+    }
+  }
+  return out;
+}
+
+// Colours of every kind, by spectra and not.
+SceneDescription ColorfulRoom() {
+  SceneBuilder b(8, 8);
+  b.Depth(3).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 40);
+  b.AddPlane({0, 0, 0}, {0, 0, 1}, b.AddDiffuse({0.63, 0.065, 0.05}));
+  Material copper;
+  copper.kind = MaterialKind::kConductor;
+  for (const char* name : {"metal-Cu-eta", "metal-Cu-k"}) {
+    const Spectrum s = *SpectrumOfName(name);
+    (name[9] == 'e' ? copper.eta : copper.k) = {ColorUnderD65(s), kNone, Own(s)};
+  }
+  copper.uroughness.constant = copper.vroughness.constant = 0.3;
+  copper.remap_roughness = false;
+  b.AddSphere({0.6, 0, 0.4}, 0.4, b.AddMaterial(copper));
+  Material tinted;
+  tinted.kind = MaterialKind::kConductor;
+  tinted.has_reflectance = true;
+  tinted.reflectance.constant = {0.2, 0.4, 0.8};
+  tinted.uroughness.constant = tinted.vroughness.constant = 0.4;
+  tinted.remap_roughness = false;
+  b.AddSphere({-0.5, -0.4, 0.3}, 0.3, b.AddMaterial(tinted));
+  Material leaf;
+  leaf.kind = MaterialKind::kDiffuseTransmission;
+  leaf.reflectance.constant = {0.1, 0.4, 0.1};
+  leaf.transmittance.constant = {0.2, 0.4, 0.05};
+  b.AddDisk({-0.6, 0.3, 0.9}, {0, -1, 1}, 0.4, b.AddMaterial(leaf));
+  const Index lamp = b.AddEmission({6, 4, 2});
+  b.AddQuad({-0.5, 1, 2}, {1, 0, 0}, {0, -0.6, 0.3}, b.AddDiffuse(Grey(0.5)), lamp);
+  b.AddSpot({0, 0, 3}, {0, 0, 0}, {1, 2, 6}, 30, 10);
+  b.AddDistant({1, 0, 2}, {0.6, 0.5, 0.2});
+  b.scene().lights.back().spectrum = Own(BlackbodySpectrum(2856));
+  b.scene().lights.back().emission = RgbFromBlackbody(2856) * 0.5;
+  b.AddEnvironment({0.2, 0.25, 0.4});
+  return b.Build();
+}
+
+// The same in fog that absorbs, scatters and glows by colour.
+SceneDescription ColorfulFog() {
+  SceneDescription scene = ColorfulRoom();
+  Medium fog;
+  fog.sigma_a = {0.02, 0.05, 0.1};
+  fog.sigma_s = {0.1, 0.08, 0.04};
+  fog.emission = {0.5, 0.3, 0.2};
+  fog.g = 0.3;
+  scene.media.push_back(fog);
+  scene.camera.medium = 0;
+  return scene;
+}
+
+// A patch that fills the image, under light from straight above.
+SceneDescription Patch(const ColorValue& reflectance, const ColorValue& light) {
+  SceneBuilder b(8, 8);
+  b.Depth(1).Orthographic({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 1);
+  Material m;
+  m.reflectance = reflectance;
+  b.AddPlane({0, 0, 0}, {0, 0, 1}, b.AddMaterial(m));
+  b.AddDistant({0, 0, 1}, light.constant * 3.14159265358979);
+  b.scene().lights.back().spectrum = light.spectrum;
+  return b.Build();
+}
+
+// What a film sees of light in units of D65.
+Rgb Seen(const Spectrum& light) {
+  Rgb sum;
+  for (double nm = 380.125; nm < 780; nm += 0.25) sum += WhiteShare(nm) * light(nm) / 4;
+  return sum;
+}
+
+// Colour of light that a surface has changed, for light of luminance 1.
+Rgb ColorUnder(const Spectrum& light, const Spectrum& reflectance) {
+  const Spectrum d65 = DaylightD65();
+  const Rgb lit = Seen([&](double nm) { return light(nm) * reflectance(nm) / d65(nm); });
+  return lit / Luminance(Seen([&](double nm) { return light(nm) / d65(nm); }));
+}
+
+}  // namespace
+
+TEST_CASE("spectral: what is grey is as in RGB", "[spectral]") {
+  const SceneDescription room = SmallRoom(16, 4);
+  SceneDescription grey = room;
+  for (Material& m : grey.materials) {
+    for (ColorValue* c : {&m.reflectance, &m.eta, &m.k, &m.transmittance}) {
+      c->constant = Grey(c->constant.y);
+    }
+  }
+  for (AreaLight& light : grey.area_lights) light.radiance = Grey(light.radiance.y);
+  const auto rgb = RenderWavefront(grey, 16);
+  const auto spectral = RenderWavefront(Spectral(grey), 16);
+  CHECK(LargestDifference(rgb, spectral) < 1e-5);
+  // That a difference would be seen.
+  CHECK(LargestDifference(RenderWavefront(room, 16),
+                          RenderWavefront(Spectral(room), 16)) > 1e-3);
+}
+
+TEST_CASE("spectral: a patch under white light has its colour", "[spectral]") {
+  const Rgb colors[] = {
+      {0.63, 0.065, 0.05}, {0.14, 0.45, 0.091}, {0.05, 0.1, 0.7}, {1, 1, 1}, {0, 0, 0}};
+  for (Rgb color : colors) {
+    INFO(color.x << " " << color.y << " " << color.z);
+    const auto image =
+        RenderWavefront(Spectral(Patch({color}, {Grey(1)})), 2048, "points=sobol");
+    Rgb mean;
+    for (const Rgb& c : image.mean) mean += c / double(image.mean.size());
+    for (int c = 0; c < 3; ++c) CHECK(mean[c] == Approx(color[c]).margin(2e-3));
+  }
+}
+
+TEST_CASE("spectral: metamers match under one lamp only", "[spectral]") {
+  // Grey, and grey plus waves that D65 does not show.
+  const Spectrum waves[3] = {[](double nm) { return std::sin(nm / 15); },
+                             [](double nm) { return std::sin(nm / 40); },
+                             [](double nm) { return std::cos(nm / 40); }};
+  const Spectrum bump = [](double nm) { return std::cos(nm / 22); };
+  ColorMatrix m;
+  for (int c = 0; c < 3; ++c) {
+    for (int k = 0; k < 3; ++k) m.row[c][k] = Seen(waves[k])[c];
+  }
+  const Vec3d share = Inverse(m) * Seen(bump);
+  const Spectrum hidden = [&](double nm) {
+    return bump(nm) - share.x * waves[0](nm) - share.y * waves[1](nm) -
+           share.z * waves[2](nm);
+  };
+  double most = 0;
+  for (int nm = 380; nm <= 780; ++nm) most = std::max(most, std::abs(hidden(nm)));
+  const Spectrum plain = [](double) { return 0.5; };
+  const Spectrum other = [&](double nm) { return 0.5 + 0.45 * hidden(nm) / most; };
+  CHECK(Length(Seen(plain) - Seen(other)) < 1e-9);
+  const Spectrum lamp = *SpectrumOfName("stdillum-A");
+  Rgb color;
+  REQUIRE(NamedSpectrum("stdillum-A", SpectrumUse::kIlluminant, &color));
+  const ColorValue daylight = {Grey(1)}, bulb = {color, kNone, Own(lamp)};
+  CHECK(Length(ColorUnder(lamp, plain) - ColorUnder(lamp, other)) > 0.02);
+  for (const Spectrum& surface : {plain, other}) {
+    CheckColor(Patch(Reflecting(surface), daylight), 8192, Grey(0.5), 2e-3);
+    CheckColor(Patch(Reflecting(surface), bulb), 8192, ColorUnder(lamp, surface), 3e-3);
+  }
+}
+
+TEST_CASE("spectral: textured colours", "[spectral]") {
+  const std::string text = R"(
+    LookAt 0 0 5  0 0 0  0 1 0
+    Camera "orthographic" "float screenwindow" [ -1 1 -1 1 ]
+    Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+    PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
+    Integrator "path" "integer maxdepth" 1
+    WorldBegin
+    LightSource "distant" "point3 from" [ 0 0 1 ] "point3 to" [ 0 0 0 ]
+      "rgb L" [ 3.14159265 3.14159265 3.14159265 ]
+    Texture "t" "spectrum" "checkerboard" "float uscale" 1e-9 "float vscale" 1e-9
+      "rgb tex1" [ 0.6 0.3 0.1 ] "rgb tex2" [ 0.6 0.3 0.1 ]
+    Material "diffuse" "texture reflectance" "t"
+    Shape "disk" "float radius" 9)";
+  CheckColor(ParseSceneText(text, "test.pbrt", "."), 4096, {0.6, 0.3, 0.1}, 4e-3);
+}
+
+TEST_CASE("spectral: agrees with the scalar tracer, triple by triple", "[spectral]") {
+  const SceneDescription room = ColorfulRoom();
+  const auto result = stat::CompareMeans(RenderWavefront(Spectral(room), 4096),
+                                         SpectralReference(room, 64), {4, 1e-6, 2e-3});
+  INFO(result.ToString());
+  CHECK(result.same);
+  CHECK(result.detectable_bias < 0.03);
+  // Power: RGB is not that near.
+  const auto rgb = stat::CompareMeans(RenderWavefront(room, 4096),
+                                      SpectralReference(room, 64), {4, 1e-6, 2e-3});
+  CHECK_FALSE(rgb.same);
+}
+
+TEST_CASE("spectral: media agree with the scalar tracer", "[spectral]") {
+  const SceneDescription fog = ColorfulFog();
+  const auto result = stat::CompareMeans(RenderWavefront(Spectral(fog), 4096),
+                                         SpectralReference(fog, 400), {4, 1e-6, 2e-3});
+  INFO(result.ToString());
+  CHECK(result.same);
+  CHECK(result.detectable_bias < 0.04);
+}
+
+TEST_CASE("spectral: glass that disperses loses no light", "[spectral]") {
+  for (double roughness : {0.0, 0.3}) {
+    Material glass;
+    glass.kind = MaterialKind::kDielectric;
+    glass.interface_eta = 1.78472;
+    glass.dispersion = Own(*SpectrumOfName("glass-F11"));
+    glass.uroughness.constant = glass.vroughness.constant = roughness;
+    glass.remap_roughness = false;
+    const auto rgb = RenderWavefront(Furnace(glass, 20), 2048);
+    Rgb kept;
+    for (const Rgb& c : rgb.mean) kept += c / double(rgb.mean.size());
+    const auto image = RenderWavefront(Spectral(Furnace(glass, 20)), 16384);
+    Rgb mean;
+    for (const Rgb& c : image.mean) mean += c / double(image.mean.size());
+    INFO("roughness " << roughness << ": " << mean.x << " " << mean.y << " " << mean.z
+                      << ", RGB " << kept.x);
+    // One wavelength of three: a standard error of 0.002 here.
+    for (int c = 0; c < 3; ++c) CHECK(mean[c] == Approx(kept[c]).margin(0.01));
+  }
+}
+
+TEST_CASE("spectral: a thin sheet disperses as well", "[spectral]") {
+  Material sheet;
+  sheet.kind = MaterialKind::kThinDielectric;
+  sheet.dispersion = Own(*SpectrumOfName("glass-F11"));
+  const auto image = RenderWavefront(Spectral(Furnace(sheet, 20)), 8192);
+  Rgb mean;
+  for (const Rgb& c : image.mean) mean += c / double(image.mean.size());
+  for (int c = 0; c < 3; ++c) CHECK(mean[c] == Approx(1).margin(0.015));
+}
+
+TEST_CASE("spectral: every strategy that takes wavelengths is unbiased", "[spectral]") {
+  const SceneDescription room = Spectral(ColorfulRoom());
+  const auto reference = RenderWavefront(room, 8192);
+  const char* const strategies[] = {
+      "directions=bsdf",      "directions=uniform",          "roulette=adjoint",
+      "roulette=efficiency",  "roulette=luminance",          "roulette=constant",
+      "light-selection=tree", "light-candidates=resampled",  "guiding=radiance",
+      "points=sobol",         "pairs=antithetic:all",        "control=regression,c=1",
+      "seen-lights=paths",    "shadow-roulette=contribution"};
+  for (const char* strategy : strategies) {
+    const auto result = stat::CompareMeans(RenderWavefront(room, 2048, strategy),
+                                           reference, {4, 1e-7, 1e-4, 1e-6});
+    INFO(strategy << ": " << result.ToString());
+    CHECK(result.same);
+    CHECK(result.detectable_bias < 0.1);
+  }
+}
+
+TEST_CASE("spectral: the same on every SIMD target", "[spectral]") {
+  const SceneDescription room = Spectral(ColorfulRoom());
+  const auto reference = RenderWavefront(room, 256);
+  for (const std::string& target : AvailableTargets()) {
+    ForceTarget(target);
+    const auto result =
+        stat::CompareMeans(RenderWavefront(room, 256), reference, {4, 1e-6, 1e-3, 1e-6});
+    INFO(target << ": " << result.ToString());
+    CHECK(result.same);
+  }
+  ForceTarget("");
+}
+
+TEST_CASE("spectral: albedo of first hits is the colour that is seen", "[spectral]") {
+  TestRender options;
+  options.spp = 1024;
+  options.auxiliary = Auxiliary::kAov;
+  options.sampler = Points::kSobol;
+  const Rgb color = {0.2, 0.4, 0.8};
+  const Rendered render = RenderDescription(Spectral(Patch({color}, {Grey(1)})), options);
+  for (int c = 0; c < 3; ++c) {
+    CHECK(render.film.Aov(3, 3, c) == Approx(color[c]).margin(0.01));
+  }
+}
+
+}  // namespace lanelight::test
