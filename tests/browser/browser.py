@@ -93,9 +93,10 @@ class Page:
     def find(self, selector):
         return self.js("return document.querySelector(arguments[0])", selector)
 
-    def text(self):
-        """What can be seen, without what is folded away."""
-        return self.js("return document.body.innerText")
+    def text(self, selector="body"):
+        """What can be seen, without what is folded away; read in one step, so that the
+        element may be drawn anew at any time."""
+        return self.js("return document.querySelector(arguments[0]).innerText", selector)
 
     def all(self, selector):
         return self.js("return [...document.querySelectorAll(arguments[0])]", selector)

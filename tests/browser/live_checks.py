@@ -72,7 +72,7 @@ def the_picture_refines(page):
 @check
 def errors_are_told_with_intervals(page):
     until(page, "return page.state.slots[0].looks.length > 2", "no errors")
-    text = page.find('#card-0 [data-fact="relmse"]').text
+    text = page.text('#card-0 [data-fact="relmse"]')
     require("[" in text and "]" in text, text)
     require(page.all("#error-plot .plot-whisker"), "no whiskers")
 
@@ -100,7 +100,7 @@ def numbers_of_a_pixel(page):
     text = until(page, "return document.querySelector('#readout .readout-row')?.innerText",
                  "no numbers")
     require("±" in text and "samples" in text, text)
-    where = page.find("#readout .where").text
+    where = page.text("#readout .where")
     x, y = (int(word) for word in where.removeprefix("pixel ").split(", "))
     require(abs(x - 80) <= 1 and abs(y - 60) <= 1, where)
 
@@ -172,7 +172,7 @@ def figures_of_the_paper_compare(page):
     page.click('[data-preset="paper-importance default"]')
     until(page, "return page.state.slots[1].looks?.length > 3 &&"
           " page.state.ratio?.value > 0", "no ratio")
-    text = page.find("#score").text
+    text = page.text("#score")
     require("[" in text and "Efficiency of B over A" in text, text)
     require(len(page.all("#error-plot path[fill=none]")) == 2, "not two curves")
     seconds = page.js("return page.state.slots.map((s) => s.seconds)")
@@ -219,6 +219,6 @@ def strategies_are_chosen_by_axes(page):
 @check
 def stages_have_their_times(page):
     until(page, "return page.state.slots[0].stages?.length > 3", "no stages")
-    text = page.find("#stages").text
+    text = page.text("#stages")
     require("Mray/s" in text and "of lanes" in text and "[object" not in text, text)
     require(len(page.all(".omitted div")) > 5, "nothing is left out")
