@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 
 #include "bench/recorded_rays.h"
@@ -52,9 +51,7 @@ void RunCurveBench(const std::string& path, int rounds) {
                  static_cast<double>(geometry.curves.size()));
   RTCDevice device = rtcNewDevice("threads=1");
   RTCScene peer = EmbreeCurves(device, geometry);
-  for (const RayTap* tap : {&closest_rays, &shadow_rays}) {
-    if (!tap->set.rays.empty()) Measure(job.scene, peer, *tap, rounds);
-  }
+  MeasureAll(job.scene, peer, rounds);
   rtcReleaseScene(peer);
   rtcReleaseDevice(device);
 }
@@ -63,16 +60,6 @@ void RunCurveBench(const std::string& path, int rounds) {
 }  // namespace lanelight::bench
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 4) {
-    fmt::print(stderr, "usage: bench_curves SCENE [rays] [rounds]\n");
-    return 2;
-  }
-  try {
-    if (argc > 2) lanelight::bench::most_rays = std::strtoull(argv[2], nullptr, 10);
-    lanelight::bench::RunCurveBench(argv[1], argc > 3 ? std::atoi(argv[3]) : 5);
-  } catch (const lanelight::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-  return 0;
+  return lanelight::bench::RunRecorded(argc, argv, "bench_curves",
+                                       lanelight::bench::RunCurveBench);
 }

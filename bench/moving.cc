@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -122,9 +121,7 @@ void RunMovingBench(const std::string& path, int rounds) {
              geometry.motions.size());
   RTCDevice device = rtcNewDevice("threads=1");
   RTCScene peer = EmbreeInstances(device, geometry);
-  for (const RayTap* tap : {&closest_rays, &shadow_rays}) {
-    if (!tap->set.rays.empty()) Measure(job.scene, peer, *tap, rounds);
-  }
+  MeasureAll(job.scene, peer, rounds);
   rtcReleaseScene(peer);
   rtcReleaseDevice(device);
 }
@@ -133,16 +130,6 @@ void RunMovingBench(const std::string& path, int rounds) {
 }  // namespace lanelight::bench
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 4) {
-    fmt::print(stderr, "usage: bench_moving SCENE [rays] [rounds]\n");
-    return 2;
-  }
-  try {
-    if (argc > 2) lanelight::bench::most_rays = std::strtoull(argv[2], nullptr, 10);
-    lanelight::bench::RunMovingBench(argv[1], argc > 3 ? std::atoi(argv[3]) : 5);
-  } catch (const lanelight::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-  return 0;
+  return lanelight::bench::RunRecorded(argc, argv, "bench_moving",
+                                       lanelight::bench::RunMovingBench);
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "bench/cpu_clock.h"
@@ -12,6 +13,7 @@
 #include "bench/intersect/ray_sets.h"
 #include "bench/series.h"
 #include "kernels/stages.h"
+#include "src/core/error.h"
 #include "src/core/parallel.h"
 #include "src/render/job.h"
 
@@ -143,6 +145,30 @@ inline void Measure(const CompiledScene& scene, RTCScene peer, const RayTap& tap
       "{:8} {:5.2f} M rays  ours {}  Embree, one {}  16 {} Mray/s  same {:.2f} %\n",
       set.name, rays, shown(of_ours), shown(of_one), shown(of_sixteen),
       100 * Agreement(ours, theirs));
+}
+
+/// Of both kinds, as far as there were any.
+inline void MeasureAll(const CompiledScene& scene, RTCScene peer, int rounds) {
+  for (const RayTap* tap : {&closest_rays, &shadow_rays}) {
+    if (!tap->set.rays.empty()) Measure(scene, peer, *tap, rounds);
+  }
+}
+
+/// main() of a program that takes a scene, and at most how many rays and rounds.
+inline int RunRecorded(int argc, char** argv, const char* name,
+                       void (*run)(const std::string& scene, int rounds)) {
+  if (argc < 2 || argc > 4) {
+    fmt::print(stderr, "usage: {} SCENE [rays] [rounds]\n", name);
+    return 2;
+  }
+  try {
+    if (argc > 2) most_rays = std::strtoull(argv[2], nullptr, 10);
+    run(argv[1], argc > 3 ? std::atoi(argv[3]) : 5);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+  return 0;
 }
 
 }  // namespace lanelight::bench
