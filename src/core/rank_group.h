@@ -20,7 +20,7 @@ class RankFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a rank says of itself, 0 or 1 but for the samples, and what all of them come to.
+/// What a rank says of itself, 0 or 1 but for samples, and what all of them come to.
 struct RankStatus {
   std::uint64_t failed = 0;
   std::uint64_t interrupted = 0;  // by a signal
@@ -29,6 +29,7 @@ struct RankStatus {
   std::uint64_t busy = 0;         // has tasks in flight
   std::uint64_t behind = 0;       // has tiles that lack samples
   std::uint64_t samples = 0;      // that it has taken
+  std::uint64_t left = 0;         // samples of this round that it has not
 };
 
 /// Collective functions are called by all ranks, in the same order, and wait for all of
@@ -58,6 +59,12 @@ class RankGroup {
   virtual std::optional<RankStatus> Sum(const RankStatus& own,
                                         const std::function<bool()>&) {
     return own;
+  }
+  /// Called by two ranks, each of the other: sends bytes and returns theirs, or nothing
+  /// where gives_up said so, as in Sum.
+  virtual std::optional<std::string> Swap(int, std::string bytes,
+                                          const std::function<bool()>&) {
+    return bytes;
   }
   /// Collective: returns the leader's bytes on every rank.
   std::string Share(std::string bytes) {

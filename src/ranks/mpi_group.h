@@ -25,6 +25,8 @@ class MpiGroup : public RankGroup {
   std::vector<int> AllGather(int number) override;
   void Broadcast(std::span<char> bytes) override;
   void Gather(std::string_view bytes, const Take& take) override;
+  std::optional<std::string> Swap(int partner, std::string bytes,
+                                  const std::function<bool()>& gives_up) override;
   std::optional<RankStatus> Sum(const RankStatus& own,
                                 const std::function<bool()>& gives_up) override;
   int Leave(int exit_code) override;
@@ -34,11 +36,16 @@ class MpiGroup : public RankGroup {
   void HearFailures();
   [[noreturn]] void ThrowFailure();
   void Collect(std::string_view bytes, const Take& take);
+  bool SwapBytes(int partner, std::span<char> out, std::span<char> in,
+                 const std::function<bool()>& gives_up);
 
   int rank_ = 0;
   std::vector<std::string> hosts_;  // by rank
   std::uint64_t bytes_ = 0;
-  RankStatus sum_;        // that MPI may still be working on
+  // What MPI may still be working on when this rank has given up:
+  RankStatus sum_;
+  std::uint64_t out_size_ = 0, in_size_ = 0;
+  std::string out_, in_;
   bool gave_up_ = false;  // on a rank that has not answered
   bool failed_ = false;   // a rank has, and the leader knows
 };

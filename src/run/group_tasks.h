@@ -1,6 +1,7 @@
 // The tasks of a run, shared out to the ranks of a group: each renders its part of the
-// tiles, the same from the first round to the last. The samples of a pixel are so added
-// in the same order as by a process alone, and the image has the same bits.
+// tiles, and gives some away, with all that there is of their pixels, where it would end
+// later than others. The samples of a pixel are so added in the same order as by a
+// process alone, and the image has the same bits.
 #pragma once
 
 #include <atomic>
@@ -49,21 +50,25 @@ class GroupTasks {
     Order order = Order::kLeave;
     RoundWork work;
   };
+  using GivesUp = std::function<bool()>;
+  class OwnRound;
   using Hear = std::function<void(const RankStatus& all)>;
 
   bool alone() const { return group_.ranks() == 1; }
   Command Tell(Command command);
   RankStatus Render(const RoundWork& work, TaskWatcher& watcher, const Hear& hear);
   RankStatus Status(const RoundWork& work, const TaskWatcher& watcher, bool done) const;
-  void SendPart();
-  void TakePart(int rank, std::string_view bytes);
+  /// False: gave up.
+  bool Balance(std::uint64_t turn, OwnRound& own, const GivesUp& gives_up);
+  void SendPieces();
+  void TakePiece(std::string_view bytes);
+  int MostPieces(int own);
 
   RankGroup& group_;
   const RunClock& clock_;
   Tasks& tasks_;
   Films& films_;
-  std::vector<std::vector<PixelRect>> parts_;  // by rank
-  bool gathered_ = true;                       // nothing has been rendered since
+  bool gathered_ = true;  // nothing has been rendered since
   std::atomic<bool> stopped_{false};
   bool failed_ = false;         // a rank has
   bool gave_up_ = false;        // on a rank that has not answered

@@ -10,7 +10,7 @@ void RunParts::Start() {
   const double budget = setting_.options.seconds;
   if (budget <= 0) return;
   const Tasks& tasks = setting_.tasks;
-  pace_.emplace(budget, Pace::Tasks{tasks.tiles().size(), MaxThreads(), tasks.per_task(),
+  pace_.emplace(budget, Pace::Tasks{tasks.Held().size(), MaxThreads(), tasks.per_task(),
                                     setting_.unit()});
 }
 

@@ -30,28 +30,76 @@ void Tasks::GoOn(const Films& films, const RunCounts& counts) {
   }
 }
 
-std::vector<std::vector<PixelRect>> Tasks::Deal(const std::vector<int>& threads, int rank,
-                                                const Films& films) {
+void Tasks::Deal(const std::vector<int>& threads, int rank, const Films& films) {
   const int least_side = scene_.strategy.MayReuse() ? kReuseTile : 1;
-  auto parts = DealTiles(partition_.tiles, threads, least_side);
-  const auto own = static_cast<std::size_t>(rank);
-  const auto samples = [&](const PixelRect& tile) {
-    return films.film().Samples(tile.x0, tile.y0);
-  };
+  const auto parts = DealTiles(partition_.tiles, threads, least_side);
   RunOptions all;
+  done_.clear();
   for (std::size_t r = 0; r < parts.size(); ++r) {
-    all.tiles.insert(all.tiles.end(), parts[r].begin(), parts[r].end());
-    if (r == own) continue;
     for (const PixelRect& tile : parts[r]) {
-      others_.levels.Add({samples(tile), samples(tile)});
+      const std::uint64_t done = films.film().Samples(tile.x0, tile.y0);
+      const bool own = r == static_cast<std::size_t>(rank);
+      if (!own) others_.levels.Add({done, done});
+      all.tiles.push_back(tile);
+      done_.push_back(own ? done : kNotHeld);
     }
   }
   // Tasks are the same on all ranks.
   partition_ = PartitionOf(scene_, all, planned_spp_);
-  partition_.tiles = parts[own];
-  done_.clear();
-  for (const PixelRect& tile : parts[own]) done_.push_back(samples(tile));
-  return parts;
+  partition_.tiles = all.tiles;
+  several_ = true;
+}
+
+std::vector<HeldTile> Tasks::Held() const {
+  std::vector<HeldTile> held;
+  for (std::size_t tile = 0; tile < done_.size(); ++tile) {
+    if (done_[tile] != kNotHeld) held.push_back({tile, done_[tile]});
+  }
+  return held;
+}
+
+// Others can reach a queue for as long as this lives.
+class Tasks::OpenQueue {
+ public:
+  OpenQueue(Tasks& tasks, TileQueue& queue) : tasks_(tasks) { Set(&queue); }
+  ~OpenQueue() { Set(nullptr); }
+  OpenQueue(const OpenQueue&) = delete;
+  OpenQueue& operator=(const OpenQueue&) = delete;
+
+ private:
+  void Set(TileQueue* queue) {
+    const std::lock_guard lock(tasks_.queue_mutex_);
+    tasks_.queue_ = queue;
+  }
+
+  Tasks& tasks_;
+};
+
+std::vector<HeldTile> Tasks::Give(std::uint64_t samples) {
+  const std::lock_guard lock(queue_mutex_);
+  if (queue_ == nullptr) return {};
+  return queue_->Give(samples, partition_.tiles);
+}
+
+void Tasks::Take(const std::vector<HeldTile>& tiles) {
+  const std::lock_guard lock(queue_mutex_);
+  for (const HeldTile& tile : tiles) {
+    if (queue_ != nullptr) {
+      queue_->Take(tile);
+    } else {
+      done_[tile.tile] = tile.done;
+    }
+  }
+}
+
+std::uint64_t Tasks::Missing(const std::vector<HeldTile>& tiles,
+                             std::uint64_t limit) const {
+  std::uint64_t samples = 0;
+  for (const HeldTile& tile : tiles) {
+    samples +=
+        (limit - std::min(limit, tile.done)) * partition_.tiles[tile.tile].pixels();
+  }
+  return samples;
 }
 
 RunCounts Tasks::counts() const {
@@ -62,7 +110,7 @@ RunCounts Tasks::counts() const {
 
 TileLevels Tasks::Levels() const {
   TileLevels levels;
-  for (const std::uint64_t done : done_) levels.Add({done, done});
+  for (const HeldTile& tile : Held()) levels.Add({tile.done, tile.done});
   return levels;
 }
 
@@ -76,9 +124,9 @@ bool Tasks::IsAt(std::uint64_t limit) const {
   return levels.least == limit && levels.most == limit;
 }
 
-void Tasks::AddOthers(const RunCounts& counts, const TileLevels& levels) {
+void Tasks::AddOthers(const RunCounts& counts, const std::vector<HeldTile>& tiles) {
   others_.counts.Add(counts);
-  others_.levels.Add(levels);
+  for (const HeldTile& tile : tiles) others_.levels.Add({tile.done, tile.done});
 }
 
 void Tasks::OthersAreAt(std::uint64_t limit) {
@@ -90,13 +138,14 @@ bool Tasks::OthersHaveTaken(std::uint64_t samples) {
 }
 
 void Tasks::RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films) {
-  if (!begun_) runner_.Begin(partition_.tiles);
+  if (!begun_) runner_.Begin(partition_.tiles.size());
   begun_ = true;
   first_ = work.first;
   const auto threads = static_cast<std::uint32_t>(MaxThreads());
-  const auto tiles = static_cast<std::uint32_t>(done_.size());
+  const auto tiles = static_cast<std::uint32_t>(Held().size());
   TileQueue queue(done_, {work.limit, work.per_task,
-                          std::max(1u, 8 * threads / std::max(1u, tiles))});
+                          std::max(1u, 8 * threads / std::max(1u, tiles)), several_});
+  const OpenQueue open(*this, queue);
   ParallelFor(threads, [&](std::size_t) {
     try {
       while (const auto range = queue.Next(watcher)) {

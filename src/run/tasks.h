@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/wave/films.h"
+#include "src/run/held_tiles.h"
 #include "src/run/run.h"
 #include "src/wave/task_runner.h"
 #include "src/wave/task_watcher.h"
@@ -41,8 +42,10 @@ class Tasks {
 
   /// Of all ranks, if the run has several.
   std::uint64_t pixels() const { return pixel_count_; }
-  /// Of this rank, of the full image.
+  /// Of all ranks, of the full image.
   const std::vector<PixelRect>& tiles() const { return partition_.tiles; }
+  /// Those that this rank has.
+  std::vector<HeldTile> Held() const;
   /// Samples per pixel that keep a thread busy.
   std::uint32_t per_task() const { return partition_.samples; }
   /// Samples of all pixels together, of tasks that may not be merged yet; of all ranks,
@@ -60,18 +63,25 @@ class Tasks {
   /// Of this rank.
   TileLevels Levels() const;
 
-  /// Brings this rank's tiles to the limit. Tiles may be left behind where the watcher
-  /// has stopped it; a task that was cancelled is as if it had not begun.
+  /// Brings this rank's tiles to the limit, also those that come meanwhile. Tiles may be
+  /// left behind where the watcher has stopped it; a task that was cancelled is as if it
+  /// had not begun.
   void RunRound(const RoundWork& work, TaskWatcher& watcher, Films& films);
 
   // Of several ranks, each renders a part of the tiles:
   /// Deals the tiles out to ranks of so many threads; this one, `rank`, keeps its part.
-  /// Returns the parts of all. The films have what they begin with.
-  std::vector<std::vector<PixelRect>> Deal(const std::vector<int>& threads, int rank,
-                                           const Films& films);
-  /// The others have counted this and their tiles are there: of one rank after the other,
+  /// The films have what they begin with.
+  void Deal(const std::vector<int>& threads, int rank, const Films& films);
+  /// Of tiles that no thread is at, gives those away that lack so many samples at most;
+  /// safe while RunRound is at work.
+  std::vector<HeldTile> Give(std::uint64_t samples);
+  /// Has these too, whose pixels are in the films, likewise.
+  void Take(const std::vector<HeldTile>& tiles);
+  /// Samples that tiles lack to come to the limit.
+  std::uint64_t Missing(const std::vector<HeldTile>& tiles, std::uint64_t limit) const;
+  /// The others have counted this and have these tiles: of one rank after the other,
   /// after ForgetOthers.
-  void AddOthers(const RunCounts& counts, const TileLevels& levels);
+  void AddOthers(const RunCounts& counts, const std::vector<HeldTile>& tiles);
   void ForgetOthers() { others_ = {}; }
   /// All others have brought their tiles to the limit.
   void OthersAreAt(std::uint64_t limit);
@@ -82,6 +92,8 @@ class Tasks {
   void AddCounts(RunResult& result);
 
  private:
+  class OpenQueue;
+
   TileTask TaskOf(const TileRange& range) const;
   void Merge(std::size_t tile, TaskSamples& task, Films& films);
 
@@ -96,9 +108,12 @@ class Tasks {
   TilePartition partition_;
   std::uint64_t pixel_count_ = 0;
   std::uint64_t first_ = 0;          // of the current round
-  std::vector<std::uint64_t> done_;  // samples per pixel of each tile
+  std::vector<std::uint64_t> done_;  // samples per pixel of each tile; or kNotHeld
+  TileQueue* queue_ = nullptr;       // of the round that is at work
+  std::mutex queue_mutex_;           // of these two, but within the queue
   TaskRunner runner_;
-  bool begun_ = false;  // the runner knows the tiles
+  bool begun_ = false;    // the runner knows the tiles
+  bool several_ = false;  // ranks
   std::atomic<std::uint64_t> taken_{0}, taken_elsewhere_{0};
   RunCounts counts_;  // of this rank
   Others others_;     // by what has been gathered, or is known

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "src/core/parallel.h"
 #include "src/core/error.h"
 #include "src/plan/plan_features.h"
 #include "src/train/path_records.h"
@@ -33,8 +34,10 @@ std::vector<bool> Counted(const CompiledScene& scene, const TriedStrategy& usual
   run.tables = &usual.tables;
   const RunOptions once;
   TaskRunner runner(scene, plan, run, once);
-  runner.Begin(work.tiles);
+  runner.Begin(work.tiles.size());
   if (runner.seen_lights() == nullptr) return counted;
+  ParallelFor(work.tiles.size(),
+              [&](std::size_t tile) { runner.FindSeenLights(tile, work.tiles[tile]); });
   std::size_t first = 0;
   for (std::size_t tile = 0; tile < work.tiles.size(); ++tile) {
     for (const std::uint32_t place : runner.seen_lights()->Of(tile)) {

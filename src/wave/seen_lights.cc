@@ -131,10 +131,16 @@ SeenLightEdges::SeenLightEdges(const CompiledScene& scene, std::size_t tiles)
       samples_{GroupsOf(scene.strategy), kSeenLightRays},
       small_lights_(PlacesOfSmallLights(scene)),
       reach_(Reach(scene.filter)),
-      edges_(tiles) {}
+      edges_(tiles),
+      found_(tiles) {}
 
 void SeenLightEdges::Find(std::size_t tile, const PixelRect& rect, SeenLightRays& rays,
                           StageClock* clock) {
+  std::call_once(found_[tile], [&] { FindIn(rect, rays, clock, edges_[tile]); });
+}
+
+void SeenLightEdges::FindIn(const PixelRect& rect, SeenLightRays& rays, StageClock* clock,
+                            std::vector<std::uint32_t>& edges) const {
   const auto width = static_cast<std::uint32_t>(scene_.film.width);
   const PixelRect all = WithBorder(rect, reach_, scene_.film.width, scene_.film.height);
   SeenRanges ranges(all, width);
@@ -153,7 +159,7 @@ void SeenLightEdges::Find(std::size_t tile, const PixelRect& rect, SeenLightRays
   TilePixels(rect, scene_.film.width, &pixels);
   for (std::size_t p = 0; p < pixels.size(); ++p) {
     if (!ranges.IsEdge(pixels[p], reach_)) continue;
-    edges_[tile].push_back(static_cast<std::uint32_t>(p));
+    edges.push_back(static_cast<std::uint32_t>(p));
   }
 }
 

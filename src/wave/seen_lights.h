@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include "src/wave/run_state.h"
@@ -76,8 +77,8 @@ class SeenLightEdges {
   /// Of this many tiles. Refers to the scene.
   SeenLightEdges(const CompiledScene& scene, std::size_t tiles);
 
-  /// Finds the edges in a tile of the image. Safe from several threads, each with its
-  /// rays, for different tiles. Before Correct() of this tile.
+  /// Finds the edges in a tile of the image, once: whoever comes later waits. Safe from
+  /// several threads, each with its rays. Before Correct() of this tile.
   void Find(std::size_t tile, const PixelRect& rect, SeenLightRays& rays,
             StageClock* clock);
   /// Corrects the samples of a task of a tile, if it has edges, and counts the rays. Safe
@@ -94,6 +95,8 @@ class SeenLightEdges {
     const std::uint32_t* at = nullptr;
     std::size_t count = 0;
   };
+  void FindIn(const PixelRect& rect, SeenLightRays& rays, StageClock* clock,
+              std::vector<std::uint32_t>& edges) const;
   void CorrectPixels(const Places& places, const SeenLightTask& task, SeenLightRays& rays,
                      StageClock* clock) const;
 
@@ -102,6 +105,7 @@ class SeenLightEdges {
   const std::vector<std::uint32_t> small_lights_;  // pixels, ascending
   const int reach_;                                // pixels
   std::vector<std::vector<std::uint32_t>> edges_;  // by tile: places in its TilePixels
+  std::vector<std::once_flag> found_;              // by tile
 };
 
 }  // namespace lanelight

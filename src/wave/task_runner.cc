@@ -20,16 +20,14 @@ TaskRunner::TaskRunner(const CompiledScene& scene, const Plan& plan,
       options_(options),
       workspaces_(static_cast<std::size_t>(ThreadSlots())) {}
 
-void TaskRunner::Begin(const std::vector<PixelRect>& tiles) {
+void TaskRunner::Begin(std::size_t tiles) {
   if (plan_.seen_stages.empty()) return;
-  seen_lights_ = std::make_unique<SeenLightEdges>(scene_, tiles.size());
-  ParallelFor(tiles.size(), [&](std::size_t tile) {
-    Workspace& space = ThreadWorkspace();
-    StageClock* const clock = space.Clock();
-    if (clock) clock->StartTask();
-    seen_lights_->Find(tile, tiles[tile], *space.seen_lights, clock);
-    if (clock) clock->EndTask();
-  });
+  seen_lights_ = std::make_unique<SeenLightEdges>(scene_, tiles);
+}
+
+void TaskRunner::FindSeenLights(std::size_t tile, const PixelRect& rect) {
+  Workspace& space = ThreadWorkspace();
+  seen_lights_->Find(tile, rect, *space.seen_lights, space.Clock());
 }
 
 Workspace& TaskRunner::ThreadWorkspace() {
@@ -98,6 +96,7 @@ void TaskRunner::SeeLights(const TileTask& task, TaskSamples& out,
                               task.first_sample, task.samples,
                               out.values.data(), space.pixels.size() * task.samples};
   StageClock* const clock = space.Clock();
+  seen_lights_->Find(task.tile, task.rect, *space.seen_lights, clock);
   const bool corrected =
       seen_lights_->Correct(seen, *space.seen_lights, clock, out.counts);
   if (clock && corrected) clock->FinishPart(TaskPart::kSeen, seen.stride);

@@ -28,12 +28,14 @@ class TaskRunner {
   TaskRunner(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
              const RunOptions& options);
 
-  /// Tasks are of these tiles from here on.
-  void Begin(const std::vector<PixelRect>& tiles);
+  /// Tasks are of so many tiles from here on.
+  void Begin(std::size_t tiles);
   /// Where the camera sees edges of lights; null: they are not integrated apart.
   const SeenLightEdges* seen_lights() const { return seen_lights_.get(); }
 
   // Safe from different threads:
+  /// Looks for edges of lights in a tile, if nobody has, and they are integrated apart.
+  void FindSeenLights(std::size_t tile, const PixelRect& rect);
   /// False, and no samples, if the watcher has cancelled it.
   bool Run(const TileTask& task, const TaskWatcher& watcher, TaskSamples& out);
   /// Adds samples to the films, whose pixels lie at `place`, and counts their time.

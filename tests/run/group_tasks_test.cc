@@ -66,8 +66,8 @@ TEST_CASE("tiles of all ranks count when a run goes on", "[ranks]") {
   for (int rank = 0; rank < 3; ++rank) {
     Tasks tasks(fixture.scene, fixture.plan, fixture.run, fixture.options, 32);
     tasks.GoOn(fixture.films, {});
-    const auto parts = tasks.Deal({1, 1, 1}, rank, fixture.films);
-    CHECK(tasks.tiles().size() == parts[static_cast<std::size_t>(rank)].size());
+    tasks.Deal({1, 1, 1}, rank, fixture.films);
+    CHECK(tasks.Held().size() == (tasks.tiles().size() + 2 - std::size_t(rank)) / 3);
     CHECK(tasks.pixels() == kPixels);
     CHECK(tasks.Done() == 0);
     // One of them has the corner, and the others know.
@@ -91,7 +91,7 @@ TEST_CASE("the leader knows what other ranks have not done", "[ranks]") {
         throw std::runtime_error("first");
       return;
     }
-    CountingWatch hasty(static_cast<int>(own.tasks.tiles().size()));
+    CountingWatch hasty(static_cast<int>(own.tasks.Held().size()));
     work.RunRound({0, 4, 4}, hasty);
     CHECK(own.tasks.Levels().least == 4);
     CHECK(own.tasks.Done() == 0);
@@ -108,6 +108,33 @@ TEST_CASE("the leader knows what other ranks have not done", "[ranks]") {
     CHECK(own.film.Samples(kSide - 1, kSide - 1) == 16);
     work.Dismiss();
   });
+}
+
+TEST_CASE("a fast rank takes tiles from a slow one, and the bits stay", "[ranks]") {
+  const ThreadLimit limit(1);
+  constexpr std::uint64_t kSpp = 32;
+  RankFixture alone;
+  CountingWatch watch(1 << 30);
+  alone.tasks.RunRound({0, kSpp, 4}, watch, alone.films);
+  workers_are_slow = true;
+  OnRanks(3, [&alone](RankGroup& group) {
+    RankFixture own;
+    if (!group.leads()) own.plan.stages[0].kernel = SlowStage;
+    GroupTasks work(group, own.clock, own.tasks, own.films);
+    work.Deal(false);
+    if (!group.leads()) return work.Serve([](std::uint64_t) {}, nullptr);
+    const std::uint64_t dealt = own.tasks.Missing(own.tasks.Held(), kSpp);
+    CHECK(dealt < kSpp * kPixels / 2);
+    CountingWatch patient(1 << 30);
+    work.RunRound({0, kSpp, 4}, patient);
+    CHECK(own.tasks.own_taken() > 3 * dealt / 2);
+    work.Gather();
+    CHECK(own.tasks.counts().samples == kSpp * kPixels);
+    CHECK(own.tasks.IsAt(kSpp));
+    CHECK(Identical(own.film, alone.film));
+    work.Dismiss();
+  });
+  workers_are_slow = false;
 }
 
 }  // namespace lanelight

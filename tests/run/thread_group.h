@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstring>
 #include <exception>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -35,9 +36,23 @@ class Meeting {
     return all_;
   }
 
+  /// Returns what the partner has brought for `rank`.
+  std::string Swap(int rank, int partner, std::string bytes) {
+    std::unique_lock lock(mutex_);
+    const auto own = std::pair(rank, partner), theirs = std::pair(partner, rank);
+    changed_.wait(lock, [&] { return !letters_.contains(own); });
+    letters_[own] = std::move(bytes);
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return letters_.contains(theirs); });
+    const auto letter = letters_.extract(theirs);
+    changed_.notify_all();
+    return letter.mapped();
+  }
+
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
+  std::map<std::pair<int, int>, std::string> letters_;  // from, to
   std::vector<std::string> brought_, all_;
   int arrived_ = 0, round_ = 0;
 };
@@ -79,6 +94,10 @@ class ThreadRank : public RankGroup {
     RankStatus status;
     std::memcpy(&status, sum, sizeof(sum));
     return status;
+  }
+  std::optional<std::string> Swap(int partner, std::string bytes,
+                                  const std::function<bool()>&) override {
+    return meeting_.Swap(rank_, partner, std::move(bytes));
   }
   std::uint64_t bytes() const override { return gathered_; }
   int Leave(int exit_code) override { return exit_code; }

@@ -1,0 +1,66 @@
+// Ranks even out what is left to them by comparing themselves with one other at a time.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include "src/run/rank_balance.h"
+
+namespace lanelight {
+
+TEST_CASE("partners name each other, and meet all neighbours", "[ranks]") {
+  for (int ranks : {1, 2, 3, 5, 8, 13, 1000}) {
+    for (int rank = 0; rank < ranks; ++rank) {
+      int met = 0;
+      for (std::uint64_t turn = 0; turn < 10; ++turn) {
+        const int partner = BalancePartner(rank, ranks, turn);
+        met += partner >= 0;
+        if (partner < 0) continue;
+        CHECK(partner < ranks);
+        CHECK(partner != rank);
+        CHECK(BalancePartner(partner, ranks, turn) == rank);
+      }
+      CHECK((met > 0) == (ranks > 1));
+    }
+  }
+}
+
+TEST_CASE("what is given lets both end at the same time", "[ranks]") {
+  const RankLoad slow = {3000000, 1e6}, fast = {3000000, 2e6};
+  const auto samples = SamplesToGive(slow, fast);
+  CHECK(double(slow.left - samples) / slow.speed ==
+        Approx(double(fast.left + samples) / fast.speed));
+  CHECK(SamplesToGive(fast, slow) == 0);
+  CHECK(SamplesToGive(slow, slow) == 0);
+  // Nobody knows how fast it is, or how long the other will take.
+  CHECK(SamplesToGive({3000000, 0}, fast) == 0);
+  CHECK(SamplesToGive(slow, {0, 0}) == slow.left / 2);
+  // A message for a millisecond.
+  CHECK(SamplesToGive({2000, 1e6}, {0, 1e6}) == 0);
+}
+
+TEST_CASE("a few turns even out any number of ranks", "[ranks]") {
+  for (int ranks : {2, 3, 6, 16, 37}) {
+    std::vector<RankLoad> loads;
+    for (int r = 0; r < ranks; ++r) loads.push_back({100000000, 1e6 * (1 + r % 7)});
+    for (std::uint64_t turn = 0; turn < 40; ++turn) {
+      for (int r = 0; r < ranks; ++r) {
+        const int partner = BalancePartner(r, ranks, turn);
+        if (partner < 0) continue;
+        RankLoad& from = loads[static_cast<std::size_t>(r)];
+        RankLoad& to = loads[static_cast<std::size_t>(partner)];
+        const auto samples = SamplesToGive(from, to);
+        from.left -= samples;
+        to.left += samples;
+      }
+    }
+    double least = 1e30, most = 0;
+    for (const RankLoad& load : loads) {
+      least = std::min(least, double(load.left) / load.speed);
+      most = std::max(most, double(load.left) / load.speed);
+    }
+    INFO(ranks << " ranks");
+    CHECK(most < 1.02 * least);
+  }
+}
+
+}  // namespace lanelight
