@@ -1,4 +1,5 @@
 // `lanelight plot FILE --figure NAME -o OUT`: a plot for a paper, without a browser.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -42,8 +43,13 @@ int RunPlot(const PlotCommandOptions& options) {
   const nlohmann::json json =
       FromJsonOf(options.file, [&] { return ParseJson(ReadWholeFile(options.file)); });
   if (options.list) {
-    for (const PlotChoice& choice : PlotsOf(json, options.file)) {
-      Print(fmt::format("{:<12} {}\n", choice.name, choice.shows));
+    const std::vector<PlotChoice> choices = PlotsOf(json, options.file);
+    std::size_t widest = 0;
+    for (const PlotChoice& choice : choices) {
+      widest = std::max(widest, choice.name.size());
+    }
+    for (const PlotChoice& choice : choices) {
+      Print(fmt::format("{:<{}}  {}\n", choice.name, widest, choice.shows));
     }
     return kExitGood;
   }
@@ -60,13 +66,13 @@ int RunPlot(const PlotCommandOptions& options) {
 }  // namespace
 
 void AddPlotCommand(CLI::App& root, Command& chosen) {
-  CLI::App* command =
-      root.add_subcommand("plot", "Draw the numbers of a study or a bench, for a paper");
+  CLI::App* command = root.add_subcommand(
+      "plot", "Draw the numbers of a study, a sweep or a bench, for a paper");
   auto options = std::make_shared<PlotCommandOptions>();
   command
       ->add_option("FILE", options->file,
-                   "study.json of `lanelight study`, or what `lanelight bench --json` "
-                   "has written")
+                   "study.json of `lanelight study`, sweep.json of `lanelight sweep`, or "
+                   "what `lanelight bench --json` has written")
       ->required()
       ->type_name("");
   command
@@ -80,7 +86,7 @@ void AddPlotCommand(CLI::App& root, Command& chosen) {
       ->type_name("FILE");
   command
       ->add_option("--scene", options->scene,
-                   "Of a study of several, by name; default: the only one")
+                   "Of several, by name; default: the only one")
       ->type_name("NAME");
   command->add_flag("--all", options->all,
                     "Draw all strategies, not the paper's or the leading eight");

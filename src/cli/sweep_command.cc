@@ -73,7 +73,8 @@ void PrintSummary(const SweepOutcome& o, const SweepOptions& options) {
   const std::size_t missing = o.total - o.done - o.failures.size();
   if (missing > 0) text += fmt::format("; {} are missing", missing);
   if (o.elsewhere > 0) text += fmt::format(", {} with other processes", o.elsewhere);
-  Print(fmt::format("{0}\n{1}/sweep.csv, {1}/report.html\n", text, options.out));
+  Print(fmt::format("{0}\n{1}/sweep.csv, {1}/sweep.json, {1}/report.html\n", text,
+                    options.out));
 }
 
 int DryRun(const Sweep& sweep, SweepCommandOptions& options) {
@@ -159,9 +160,9 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
       ->excludes(dry);
   command->add_flag("--quiet", options->quiet, "Print errors only");
   command->footer(
-      "\nWrites DIR/cells/NAME/image.exr and report.json of every cell, DIR/sweep.csv "
-      "and\n"
-      "DIR/report.html. Start the same command as often as you like, on any machines "
+      "\nWrites DIR/cells/NAME/image.exr and report.json of every cell, DIR/sweep.csv,\n"
+      "DIR/sweep.json and DIR/report.html. Start the same command as often as you like, "
+      "on any machines "
       "that\n"
       "share DIR: each cell is rendered by one process, and those of a process that "
       "died\n"

@@ -42,6 +42,19 @@ std::vector<double> PowerTicks(const PlotScale& scale, double base, int step,
   return ticks;
 }
 
+// On a logarithmic scale even ticks crowd at its end: only those that leave room for the
+// text of the one before.
+std::vector<double> Apart(const PlotScale& scale, const std::vector<double>& ticks,
+                          int most) {
+  std::vector<double> kept;
+  for (const double tick : ticks) {
+    const bool room =
+        kept.empty() || scale.At(tick) - scale.At(kept.back()) >= scale.length / most;
+    if (!scale.log || room) kept.push_back(tick);
+  }
+  return kept;
+}
+
 std::string Superscript(int exponent) {
   constexpr std::array<const char*, 10> kDigits = {"⁰", "¹", "²", "³", "⁴",
                                                    "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -80,7 +93,7 @@ PlotScale ScaleFor(const std::vector<double>& values, const PlotAxis& axis,
 
 std::vector<double> TicksOf(const PlotScale& scale, const PlotAxis& axis, int most) {
   if (!scale.log || (axis.unit != Unit::kSamples && scale.to < 5 * scale.from)) {
-    return EvenTicks(scale, most);
+    return Apart(scale, EvenTicks(scale, most), most);
   }
   std::vector<double> ticks;
   const auto fits = [&] { return ticks.size() <= static_cast<std::size_t>(most); };

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "src/core/error.h"
 #include "src/core/json_text.h"
 #include "src/core/suggest.h"
+#include "src/report/plot_json.h"
+#include "src/report/plot_sweep.h"
 
 namespace lanelight {
 namespace {
@@ -17,60 +18,43 @@ using Json = nlohmann::json;
 using Unit = PlotAxis::Unit;
 
 constexpr std::size_t kMostLeading = 8;  // as MOST_CURVES of the page
-constexpr int kKnownSchema = 1;          // of both kinds of files
+constexpr int kKnownSchema = 1;          // of a study and a bench
+constexpr int kSweepSchema = 2;
 
 const PlotAxis kSpp = {"samples per pixel", Unit::kSamples};
 const PlotAxis kSeconds = {"processor time of one render", Unit::kSeconds};
 
-double NumberOf(const Json& json) {
-  return json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
-}
-
-// Of {"value", "low", "high"} or null.
-Interval IntervalOf(const Json& json) {
-  if (json.is_null()) return WithoutBounds(NumberOf(json));
-  return {NumberOf(json.at("value")), NumberOf(json.at("low")),
-          NumberOf(json.at("high"))};
-}
-
 bool IsStudy(const Json& json) { return json.value("kind", "") == "lanelight-study"; }
+bool IsSweep(const Json& json) { return json.value("kind", "") == "lanelight-sweep"; }
 
 // A file of this schema and no later one.
 void CheckKind(const Json& json, const std::string& path) {
   const bool known =
-      json.is_object() &&
-      (IsStudy(json) || (json.contains("rows") && json.contains("program")));
+      json.is_object() && (IsStudy(json) || IsSweep(json) ||
+                           (json.contains("rows") && json.contains("program")));
   if (!known) {
     throw InputError(fmt::format(
-        "'{}' is not what can be drawn: study.json of `lanelight study`, or what "
-        "`lanelight bench --json` writes",
+        "'{}' is not what can be drawn: study.json of `lanelight study`, sweep.json of "
+        "`lanelight sweep`, or what `lanelight bench --json` writes",
         path));
   }
-  if (json.at("schema") != kKnownSchema) {
+  const int schema = IsSweep(json) ? kSweepSchema : kKnownSchema;
+  if (json.at("schema") != schema) {
     throw InputError(fmt::format("'{}' has schema {}; this program draws schema {}", path,
-                                 DumpJson(json.at("schema")), kKnownSchema));
+                                 DumpJson(json.at("schema")), schema));
   }
 }
 
 const Json& SceneOf(const Json& study, const std::string& path, const std::string& name) {
   std::vector<std::string> names;
   for (const Json& scene : study.at("scenes")) {
-    if (!scene.at("error").is_null()) continue;
-    names.push_back(scene.at("name"));
-    if (names.back() == name) return scene;
+    if (scene.at("error").is_null()) names.push_back(scene.at("name"));
   }
-  if (names.empty()) throw InputError(fmt::format("'{}' has no scene to draw", path));
-  if (!name.empty()) {
-    ThrowUnknown({std::make_shared<const std::string>(path)}, "scene", name, names);
-  }
-  if (names.size() > 1) {
-    throw InputError(fmt::format("'{}' has several scenes; choose one by --scene: {}",
-                                 path, QuotedList(names)));
-  }
-  for (const Json& scene : study.at("scenes")) {
-    if (scene.at("name") == names.front()) return scene;
-  }
-  throw InputError(fmt::format("'{}' has no scene to draw", path));
+  const std::string chosen = ChosenScene(names, path, name);
+  const Json& scenes = study.at("scenes");
+  return *std::find_if(scenes.begin(), scenes.end(), [&](const Json& scene) {
+    return scene.at("error").is_null() && scene.at("name") == chosen;
+  });
 }
 
 // Indices of the strategies to draw, best first. `paper`: those of its figures and the
@@ -232,6 +216,7 @@ void RefusePictures(const std::string& figure, const std::string& path) {
 std::vector<PlotChoice> PlotsOf(const Json& json, const std::string& path) {
   return FromJsonOf(path, [&] {
     CheckKind(json, path);
+    if (IsSweep(json)) return SweepPlots(json);
     if (!IsStudy(json)) return std::vector<PlotChoice>{kRateChoice};
     std::vector<PlotChoice> choices;
     for (const StudyFigure& figure : StudyFigures()) choices.push_back(figure.choice);
@@ -249,8 +234,9 @@ Plot MakePlot(const Json& json, const std::string& path, const std::string& figu
     ThrowUnknown({std::make_shared<const std::string>(path)}, "figure", figure, names);
   }
   return FromJsonOf(path, [&] {
-    if (!IsStudy(json)) return BenchPlot(json);
     const std::size_t at = static_cast<std::size_t>(found - names.begin());
+    if (IsSweep(json)) return SweepPlot(json, path, at, scene);
+    if (!IsStudy(json)) return BenchPlot(json);
     return StudyPlot(json, path, StudyFigures()[at], scene, all);
   });
 }

@@ -10,6 +10,7 @@
 #include "src/core/version.h"
 #include "src/image/atomic_file.h"
 #include "src/render/machine_json.h"
+#include "src/report/page.h"
 #include "src/report/values.h"
 #include "src/sweep/sweep_page.h"
 #include "src/sweep/thumbnails.h"
@@ -176,8 +177,10 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome
   outcome.other_cells = folder.OtherCells();
   WriteFileAtomically(folder.File("sweep.csv"), SweepCsv(cells));
   const std::vector<CellGroup> groups = GroupCells(sweep, cells);
+  const Json json = SweepJson(sweep, cells, groups);
+  WriteFileAtomically(folder.File("sweep.json"), DumpJson(json, 1) + "\n");
   WriteFileAtomically(folder.File("report.html"),
-                      SweepPage(sweep, cells, groups, Thumbnails(sweep, folder, groups)));
+                      SweepReportPage(json, Thumbnails(sweep, folder, groups)));
 }
 
 }  // namespace lanelight

@@ -79,7 +79,7 @@ void SweepFolder::Make() const {
 }
 
 OutputPaths SweepFolder::Outputs() const {
-  return {{File("sweep.csv"), File("report.html")}, {File("cells")}};
+  return {{File("sweep.csv"), File("sweep.json"), File("report.html")}, {File("cells")}};
 }
 
 void SweepFolder::CheckWritable() const { lanelight::CheckWritable(path_ + kProbe); }

@@ -10,7 +10,6 @@
 #include <set>
 
 #include "src/render/machine_json.h"
-#include "src/report/page.h"
 #include "src/scene/scene_names.h"
 #include "src/sweep/results.h"
 #include "src/sweep/sweep_folder.h"
@@ -142,12 +141,6 @@ Json SweepJson(const Sweep& sweep, const std::vector<Json>& cells,
           {"groups", GroupsJson(groups, cells, baseline)},
           {"leaders", LeadersJson(groups, cells, baseline)},
           {"cells", page_cells}};
-}
-
-std::string SweepPage(const Sweep& sweep, const std::vector<Json>& cells,
-                      const std::vector<CellGroup>& groups,
-                      const std::vector<ReportImage>& thumbnails) {
-  return SweepReportPage(SweepJson(sweep, cells, groups), thumbnails);
 }
 
 }  // namespace lanelight

@@ -137,6 +137,58 @@ def check_bench():
     require(names == ['a<b & "c", AVX2, 1 thread', 'a<b & "c", AVX2, 2 threads'], names)
 
 
+def check_sweep():
+    axis = {"parameter": False, "numeric": True, "unset": False}
+    axes = [{**axis, "name": "scene", "numeric": False, "values": ["room"]},
+            {**axis, "name": "strategy", "numeric": False, "values": ["default", "q"]},
+            {**axis, "name": "roulette", "parameter": True, "unset": True,
+             "values": ["0.1", "0.5"]},
+            {**axis, "name": "spp", "values": ["16", "4"]}]
+    groups, cells = [], []
+    for strategy, part in ("default", None), ("q", "0.1"), ("q", "0.5"):
+        for spp in 16, 4:
+            values = {"scene": "room", "strategy": strategy, "spp": str(spp)}
+            if part:
+                values["roulette"] = part
+            error = float(part or 1) / spp
+            cells.append({"measured": {
+                "relmse": error, "relmse_low": error / 2, "relmse_high": None,
+                "cpu_seconds": spp / 10, "samples_per_second": 1e6}})
+            groups.append({"values": values, "cells": [len(cells) - 1],
+                           "strategy": strategy + (f":{part}" if part else ""),
+                           "efficiency": {"value": 1 / float(part), "low": 1, "high": 99}
+                           if part else None})
+    sweep = {"schema": 2, "kind": "lanelight-sweep", "file": "s.toml", "axes": axes,
+             "seeds": 1, "baseline": "default", "machines": [], "groups": groups,
+             "cells": cells}
+    file, out = FOLDER / "sweep.json", FOLDER / "sweep.svg"
+    file.write_text(json.dumps(sweep))
+    listed = [line.split()[0] for line in run(file, "--list").splitlines()]
+    require(listed == ["samples", "time", "efficiency", "rate", "roulette"], listed)
+    wanted = {
+        "samples": [("default", 4, .25), ("default", 16, .0625),
+                    ("q:0.1", 4, .025), ("q:0.1", 16, .00625),
+                    ("q:0.5", 4, .125), ("q:0.5", 16, .03125)],
+        "time": [("default", .4, .25), ("default", 1.6, .0625),
+                 ("q:0.1", .4, .025), ("q:0.1", 1.6, .00625),
+                 ("q:0.5", .4, .125), ("q:0.5", 1.6, .03125)],
+        "roulette": [("q, spp 16", .1, 10), ("q, spp 16", .5, 2),
+                     ("q, spp 4", .1, 10), ("q, spp 4", .5, 2)]}
+    for figure, expected in wanted.items():
+        run(file, "--figure", figure, "-o", out)
+        root = xml.parse(out).getroot()
+        require([d[:3] for d in points(root)] == expected, figure, list(points(root)))
+        # Bars go as far as both ends are known.
+        require(bool(bars(root)) == (figure == "roulette"), figure, bars(root))
+    for figure, rows in ("efficiency", 4), ("rate", 6):
+        run(file, "--figure", figure, "-o", out)
+        require(len(list(points(xml.parse(out).getroot()))) == rows, figure)
+    said = run(file, "--figure", "nothing", "-o", out, good=False)
+    require('unknown figure "nothing"' in said, said)
+    file.write_text(json.dumps({**sweep, "axes": [1]}))
+    require("damaged" in run(file, "--list", good=False), "a damaged sweep is drawn")
+
+
 def check_errors(scene):
     file, out = FOLDER / "study.json", FOLDER / "none.svg"
     one = ("--scene", scene["name"])
@@ -181,6 +233,7 @@ def main():
     check_rows(scene)
     check_figure_8(scene)
     check_bench()
+    check_sweep()
     check_errors(scene)
     check_png(scene)
     shutil.rmtree(FOLDER)

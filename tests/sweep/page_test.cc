@@ -10,6 +10,7 @@
 #include "src/report/values.h"
 #include "src/stat/efficiency.h"
 #include "src/sweep/results.h"
+#include "src/report/page.h"
 #include "src/sweep/sweep_page.h"
 #include "tests/image/temporary_folder.h"
 
@@ -130,7 +131,7 @@ std::string SyntheticPage(const Sweep& sweep) {
   }
   std::vector<ReportImage> images;
   for (const auto& [name, image] : pictures) images.push_back(image);
-  return SweepPage(sweep, cells, groups, images);
+  return SweepReportPage(SweepJson(sweep, cells, groups), images);
 }
 
 const Json& GroupOf(const Json& json, const Json& values) {
