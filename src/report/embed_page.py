@@ -14,7 +14,7 @@ import sys
 
 # Of the pages: what stands where page.html has these words; styles after base.css, table.css
 # and plots.css, and before print.css; scripts, in this order.
-PLOTS = "logaxis logplot_draw logplot guides plot_export curves"
+PLOTS = "logaxis logplot_draw logplot guides plot_save plot_export curves"
 PAGES = {
     "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it"},
              "images",
@@ -39,7 +39,7 @@ PAGES = {
                   bench_rows bench_main"""),
     "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it"}, "stress",
                    """dom format data strategies whisker table logaxis stress_data
-                   stress_scale stress_plot stress_tiles stress_about stress_detail
+                   stress_scale stress_plot plot_save stress_export stress_tiles stress_about stress_detail
                    stress_strategies stress_table stress_summary stress_main"""),
     "LivePage": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
                   "CONNECT": "; connect-src 'self'"}, "live",

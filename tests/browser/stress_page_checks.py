@@ -1,9 +1,13 @@
 """Checks of the page of stress cases as a whole."""
 
+import csv
+import io
 import json
 import re
+import xml.etree.ElementTree as xml
 
 from checks import check, pictures, require, theme
+from saved import saved
 from stress_checks import choose, data
 
 
@@ -134,3 +138,27 @@ def nothing_is_fetched(page):
 @check
 def console_is_silent(page):
     require(not page.console(), "\n".join(page.console()))
+
+
+@check
+def plots_are_saved_as_they_are_shown(page):
+    name = data(page)["cases"][0]["name"]
+    choose(page, name)
+    page.show("#map")
+    shown = len(page.all('[data-plot="error"] .marker'))
+    light = saved(page, "error", "svg")
+    root = xml.fromstring(light["text"])
+    ns = "{http://www.w3.org/2000/svg}"
+    markers = [p for p in root.iter(f"{ns}path") if p.get("class") == "marker"]
+    texts = [t.text or "" for t in root.iter(f"{ns}text")]
+    saved_rows = list(csv.DictReader(io.StringIO(saved(page, "error", "csv")["text"])))
+    require(len(markers) == shown == len(saved_rows) > 2, len(markers), shown, len(saved_rows))
+    require({r["series"] for r in saved_rows} <= set(texts), "no legend:", texts)
+    require(any(name in t for t in texts), "no title:", texts)
+    require("var(" not in light["text"], "colours of the page")
+    require("rgb(" in light["text"], "no colours at all")
+    page.click("#theme")
+    require(saved(page, "error", "svg")["text"] == light["text"], "dark colours in a file")
+    page.click("#theme")
+    page.js("localStorage.clear()")
+    require(saved(page, "error", "png")["first"] == ord("P"), "no PNG")

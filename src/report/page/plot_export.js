@@ -67,10 +67,6 @@ function paperPlot(u, parent) {
   };
 }
 
-function paperText(x, y, text, attributes = {}) {
-  return svg("text", { x, y, fill: theme.color("--text"), ...attributes }, text);
-}
-
 function paperAxes(u, { xAxis, yAxis }) {
   const { left, right, top, bottom } = DRAWING;
   const at = (v, axis) => paper.valToPos(v, axis) / devicePixelRatio;
@@ -151,104 +147,37 @@ function paperLegend(lines, beside) {
   ];
 }
 
-// Where the numbers are from.
-function sourceLine() {
-  const { machine = {}, program } = study;
-  const { lanelight, commit } = machine.versions || {};
-  return [document.title, lanelight && `lanelight ${lanelight}, commit ${commit}`, program,
-          machine.text].filter(Boolean).join("; ");
-}
-
-// Styles of the page do not go along: their colours are put into the elements.
-function withOwnColors(root) {
-  for (const node of root.querySelectorAll("*")) {
-    for (const name of ["stroke", "fill"]) {
-      const variable = /var\((--[^)]+)\)/.exec(node.style.getPropertyValue(name));
-      if (variable) node.setAttribute(name, theme.color(variable[1]));
-    }
-    node.removeAttribute("style");
-    if (node.tagName === "line" && !node.getAttribute("stroke")) {
-      node.setAttribute("stroke", theme.color("--faint"));
-    }
-  }
-  return root;
-}
-
 function plotSvgText({ view, options, u }, title) {
-  const dark = document.documentElement.dataset.theme;
-  document.documentElement.dataset.theme = "light"; // for theme.color, until the next line
-  try {
-    const { width, height } = DRAWING;
+  return inLight(() => {
     const lines = shownLines(view, options.lines);
     const guides = svg("g");
     if (options.guides) options.guides(paperPlot(u, guides));
-    const root = svg(
-      "svg",
-      { width, height, "font-size": 12,
-        viewBox: `0 0 ${width} ${height}`, "font-family": "system-ui, 'DejaVu Sans', sans-serif" },
-      svg("title", {}, title),
-      svg("rect", { width, height, fill: "#ffffff" }),
-      paperText(20, 30, title, { "font-size": 17, "font-weight": 600 }),
+    return paperSvg(DRAWING, title, [
       paperAxes(u, options),
       guides,
       paperCurves(u, lines),
       paperLegend(lines, options.beside),
-      paperText(20, height - 14, sourceLine(), { fill: theme.color("--muted"), "font-size": 10.5 }),
-    );
-    return new XMLSerializer().serializeToString(withOwnColors(root));
-  } finally {
-    document.documentElement.dataset.theme = dark;
-  }
+    ]);
+  });
 }
 
-// The columns of `lanelight plot`.
 function plotCsvText({ view, options }) {
-  const field = (x) => (/[",\n]/.test(x) ? `"${x.replaceAll('"', '""')}"` : x);
-  const row = (...cells) => cells.map((x) => (known(x) ? x : field(x || ""))).join(",");
   const lines = shownLines(view, options.lines);
   const { beside } = options;
-  return [
-    "series,quantity,value,low,high,at,at_quantity",
+  return csvText([
     ...lines.flatMap(({ name, points }) => points.map(({ x, y, low, high }) =>
-      row(name, options.yAxis.label, y, low, high, x, options.xAxis.label))),
+      [name, options.yAxis.label, y, low, high, x, options.xAxis.label])),
     ...(beside ? lines : []).map((line) => {
       const { value, low, high } = beside.of(line) || {};
-      return row(line.name, beside.label, value, low, high);
+      return [line.name, beside.label, value, low, high, "", ""];
     }),
-  ].join("\n") + "\n";
-}
-
-function save(name, blob) {
-  const link = el("a", { href: URL.createObjectURL(blob), download: name });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-}
-
-function savePng(name, text) {
-  const image = new Image();
-  image.onload = () => {
-    const canvas = el("canvas", { width: 2 * DRAWING.width, height: 2 * DRAWING.height });
-    canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
-    canvas.toBlob((blob) => save(name, blob));
-  };
-  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}`;
+  ]);
 }
 
 // Buttons for the plot that logPlot() has drawn into host; hidden while it has drawn none.
 function exportButtons(host, title) {
-  const name = () => `${document.title} ${host.dataset.plot}`.replace(/[^a-z0-9]+/gi, "-");
-  const of = () => `${title}: ${document.title.split(" – ")[0]}`;
-  const actions = {
-    SVG: () => save(`${name()}.svg`,
-                    new Blob([plotSvgText(host.drawn, of())], { type: "image/svg+xml" })),
-    PNG: () => savePng(`${name()}.png`, plotSvgText(host.drawn, of())),
-    CSV: () => save(`${name()}.csv`, new Blob([plotCsvText(host.drawn)], { type: "text/csv" })),
-  };
-  return el(
-    "span",
-    { class: "export", role: "group", "aria-label": `Save: ${title}` },
-    Object.entries(actions).map(([text, act]) =>
-      el("button", { type: "button", class: "link", "data-export": text.toLowerCase(),
-                     onclick: act }, text)),
-  );
+  return saveButtons(host, title, {
+    svg: (title) => plotSvgText(host.drawn, title),
+    csv: () => plotCsvText(host.drawn),
+  });
 }

@@ -102,6 +102,7 @@ function detailPlot(aCase, target, lines, plot) {
       aCase,
       target,
       lines,
+      quantity: title,
       label: `${title} against ${aCase.axis.name}`,
       yLog: plot.log,
       yTick: choice ? plot.choices[choice][1] : plot.tick,
@@ -122,7 +123,8 @@ function detailPlot(aCase, target, lines, plot) {
       },
     );
   const caption = el("figcaption", {}, title, buttons);
-  return el("figure", { class: "plot-figure" }, caption, host);
+  const saving = mapSaveButtons(host, `${title}, ${aCase.name}`);
+  return el("figure", { class: "plot-figure" }, caption, host, saving);
 }
 
 function detailSection(aCase, target, onChoose) {

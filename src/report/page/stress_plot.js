@@ -148,6 +148,7 @@ function mapPlot(host, options) {
   const values = all.flatMap((p) => [p.value, p.high, p.limit]).filter(known);
   const yScale = makeScale([...values, ...(options.include || [])], options.yLog, 0.06);
   const yAt = (v) => frame.y(Math.max(0, yScale.at(v)));
+  host.drawn = { lines, drawn, aCase, label: options.quantity }; // for mapSaveButtons()
   host.replaceChildren(
     svg(
       "svg",
