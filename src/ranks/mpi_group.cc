@@ -37,8 +37,7 @@ bool Await(MPI_Request request, microseconds longest = kLongestNap,
 // MPI counts in int.
 constexpr std::size_t kPiece = std::size_t{1} << 30;
 
-// Calls post(address, count), which returns a request, for one piece
-// after the other.
+// Calls post(address, count), which returns a request, for one piece after the other.
 template <class Post>
 void InPieces(char* bytes, std::size_t size, const Post& post) {
   for (std::size_t at = 0; at < size; at += kPiece) {
