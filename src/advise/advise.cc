@@ -163,10 +163,13 @@ class Adviser {
     UseStrategy(prepared, job_.scene);
   }
 
-  // By the last round.
+  // By the last round. Where few pixels carry the error, what they would tell is not
+  // known.
   Interval EfficiencyOf(const Tried& t) const {
-    return WithDoubt(GainOf(t.entry.measure, t.entry.usual), t.entry.Gain().log,
-                     all_[t.index].price_spread);
+    PilotGain gain = t.entry.Told();
+    const double by_all = GainOf(t.entry.measure, t.entry.usual).log;
+    gain.standard_error = std::hypot(gain.standard_error, gain.log - by_all);
+    return WithDoubt(gain, t.entry.Gain().log, all_[t.index].price_spread);
   }
 
   // By few samples: what nobody would expect to be the best after more of them.

@@ -73,6 +73,15 @@ PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual) {
   return gain;
 }
 
+PilotGain GainWithoutWorst(const PilotMeasure& other, const PilotMeasure& usual) {
+  PilotMeasure kept = {other.cost, {}}, kept_usual = {usual.cost, {}};
+  for (const PixelScores& pixel : Pixels(other, usual)) {
+    kept.variances.push_back(pixel.other / other.cost);
+    kept_usual.variances.push_back(pixel.usual / usual.cost);
+  }
+  return GainOf(kept, kept_usual);
+}
+
 double EffectivePixels(const std::vector<double>& variances) {
   double sum = 0, squares = 0;
   for (double v : variances) sum += v, squares += v * v;

@@ -37,6 +37,8 @@ struct PilotGain {
 /// of the usual error was seen (variances may be negative), and the largest if none of
 /// the other's.
 PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual);
+/// The same without the worst thousandth of the pixels, by either.
+PilotGain GainWithoutWorst(const PilotMeasure& other, const PilotMeasure& usual);
 
 /// Pixels of equal variance that would scatter as much: 1 if a single one carries all,
 /// and 0 of no variance. Its inverse is the square of the relative error of the

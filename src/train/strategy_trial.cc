@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "src/train/path_records.h"
 #include "src/plan/plan_features.h"
@@ -41,10 +42,36 @@ PilotMeasure Both(const PilotMeasure& own, PilotMeasure unsplit) {
   return unsplit;
 }
 
+// Of the default strategy with these changes.
+bool LivesLonger(const std::string& changes) {
+  const Strategy usual;
+  Strategy changed = usual;
+  ApplyStrategy(changes, {std::make_shared<const std::string>("trial"), 0, 0}, changed);
+  const bool longer =
+      changed.roulette == Roulette::kNone ||
+      (changed.roulette == usual.roulette && changed.Floor() >= usual.Floor() &&
+       changed.scale >= usual.scale && changed.First() >= usual.First());
+  changed.roulette = usual.roulette;
+  changed.floor = usual.floor;
+  changed.first = usual.first;
+  changed.scale = usual.scale;
+  return longer && !changes.empty() && changed == usual;
+}
+
+// Without any error at all it is exact.
+bool IsFew(const std::vector<double>& variances) {
+  const double pixels = EffectivePixels(variances);
+  return pixels > 0 && pixels < kLeastPixels;
+}
+
 }  // namespace
 
+PilotGain TriedStrategy::Told() const {
+  return IsToldByTheRest() ? GainWithoutWorst(measure, usual) : GainOf(measure, usual);
+}
+
 PilotGain TriedStrategy::Gain() const {
-  PilotGain gain = GainOf(measure, usual);
+  PilotGain gain = Told();
   if (!paired) gain.log = std::min(gain.log, std::log(usual.Score() / measure.Score()));
   gain.log = std::min(gain.log, gain.least);
   return gain;
@@ -55,16 +82,19 @@ bool TriedStrategy::MissesLight() const {
   return light.sum + kMissing * error < usual_light.sum;
 }
 
-// Without any error at all it is exact.
-bool TriedStrategy::IsCarriedByFew() const {
-  return measure.Variance() > 0 && EffectivePixels(measure.variances) < kLeastPixels;
+bool TriedStrategy::IsCarriedByFew() const { return IsFew(measure.variances); }
+
+bool TriedStrategy::IsToldByTheRest() const {
+  return lives_longer && (IsCarriedByFew() || IsFew(usual.variances));
 }
 
 double TriedStrategy::Beyond(double must_gain, double standard_errors) const {
-  const PilotGain all = GainOf(measure, usual);
+  const PilotGain told = Told();
   const double must = std::log(must_gain);
-  if (all.least - standard_errors * all.standard_error <= must || MissesLight()) return 0;
-  if (IsCarriedByFew()) return 0;
+  if (told.least - standard_errors * told.standard_error <= must || MissesLight()) {
+    return 0;
+  }
+  if (IsCarriedByFew() && !IsToldByTheRest()) return 0;
   // What has not seen the usual strategy's bright samples may owe its gain to one.
   if (!paired && !IsClearlyBetter(measure, usual, 1 / must_gain, standard_errors)) {
     return 0;
@@ -109,13 +139,16 @@ TrainingOutcome StrategyTrial::Learn(const TriedStrategy& tried, std::uint64_t p
   return out;
 }
 
+bool StrategyTrial::HasUsualRoulette(const PlanOptions& options) const {
+  const Strategy given = PlannedStrategy(scene_, options);
+  return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
+         given.scale == 1 && given.First() == kThroughputFirst;
+}
+
 // It splits what otherwise plays the roulette that the records tell of.
 bool StrategyTrial::RecordsUnsplit(const TriedStrategy& tried,
                                    const TriedStrategy& usual) const {
-  const Strategy given = PlannedStrategy(scene_, usual.options);
-  return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
-         given.scale == 1 && given.First() == kThroughputFirst &&
-         tried.changes == "roulette=adjoint";
+  return tried.changes == "roulette=adjoint" && HasUsualRoulette(usual.options);
 }
 
 TrainingSamples StrategyTrial::Render(const PlanOptions& options,
@@ -167,6 +200,7 @@ void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& usual) {
   tried.light = LightOf(samples, tried.measure);
   tried.usual = usual.measure;
   tried.usual_light = usual.light;
+  tried.lives_longer = LivesLonger(tried.changes) && HasUsualRoulette(usual.options);
   tried.paired = records && !IsSure(usual.measure.variances);
   if (!tried.paired) return;
   PilotMeasure unsplit = usual.measure;

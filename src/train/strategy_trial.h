@@ -27,6 +27,10 @@ struct TriedStrategy {
   PlanOptions options;
   StrategyTables tables;
   bool has_learned = false;
+  /// Its paths live longer than those of the usual strategy, and nothing else differs: a
+  /// path that survives with a higher probability is divided by a larger number, so no
+  /// sample varies more.
+  bool lives_longer = false;
   PilotMeasure measure;  // of its own pass
   bool paired = false;   // its paths have told of `usual` as well
   PilotMeasure usual;    // of the usual strategy: what `measure` is compared with
@@ -39,9 +43,15 @@ struct TriedStrategy {
   /// too, and of how much they add a pass has seen nothing. A pair is no help: a bright
   /// sample that copies tell of twice is in both measures, and makes them look alike.
   bool IsCarriedByFew() const;
+  /// The same, or of the usual strategy, where it varies no more (`lives_longer`): what
+  /// few pixels say against it is chance, and all others tell.
+  bool IsToldByTheRest() const;
 
-  /// How many times as efficient as the usual one it is: by all pixels, without any one,
-  /// and if it is not paired without the worst thousandth, whichever is least.
+  /// How many times as efficient as the usual one it is, by all pixels; by all but the
+  /// worst thousandth if it is told by the rest.
+  PilotGain Told() const;
+  /// The same without any one pixel, and if it is not paired without the worst
+  /// thousandth, whichever is least.
   PilotGain Gain() const;
   /// The logarithm of its gain over `must_gain`, if that is clear by so many standard
   /// errors, and it neither misses light nor is carried by few; else 0.
@@ -96,6 +106,7 @@ class StrategyTrial {
   const TrainingOutcome& spent() const { return spent_; }
 
  private:
+  bool HasUsualRoulette(const PlanOptions& options) const;
   bool RecordsUnsplit(const TriedStrategy& tried, const TriedStrategy& usual) const;
   TrainingSamples Render(const PlanOptions& options, const StrategyTables& tables,
                          const TrainingWork& work);

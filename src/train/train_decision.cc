@@ -11,7 +11,9 @@
 // copies of paths in the pass of adjoint, which has met other bright samples, and more of
 // them (kernels/roulette/unsplit.cc); the mean of both counts. A candidate without
 // such a pair may owe its gain to a bright sample that only the other pass has met: it
-// must be better without the worst thousandth of the pixels as well.
+// must be better without the worst thousandth of the pixels as well. If its paths live
+// longer and that is all, no sample of it varies more; where few pixels carry the error
+// all others decide.
 //
 // Paths that serve their block are tried beside what has been chosen, on whole tiles.
 //
@@ -135,9 +137,8 @@ class Decider {
     std::string others;
     for (const TriedStrategy& entry : entries_) {
       if (entry.changes.empty()) continue;
-      const PilotGain gain = GainOf(entry.measure, entry.usual);
       others += fmt::format("{}{} {:.2f}", others.empty() ? "" : ", ", entry.changes,
-                            std::exp(gain.log));
+                            std::exp(entry.Told().log));
     }
     note_ = fmt::format(
         "efficiency relative to the strategy as given, by {} samples of a few pixels: {}",

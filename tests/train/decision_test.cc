@@ -4,6 +4,8 @@
 #include <numeric>
 #include <random>
 
+#include "src/plan/plan_features.h"
+#include "src/prepare/prepare_scene.h"
 #include "src/train/path_records.h"
 #include "src/train/pilot_comparison.h"
 #include "src/train/strategy_trial.h"
@@ -264,11 +266,57 @@ TEST_CASE("what few bright samples carry is not chosen", "[decision]") {
   CHECK(entry.Beyond(1.05, 2) == 0);
   bright(20);
   CHECK_FALSE(entry.IsCarriedByFew());
+  CHECK_FALSE(entry.IsToldByTheRest());
   CHECK(entry.Beyond(1.05, 2) > 1);
   // No error at all is not carried by anything.
   entry.measure = {1, std::vector<double>(2000)};
   CHECK_FALSE(entry.IsCarriedByFew());
   CHECK(entry.Beyond(1.05, 2) > 10);
+}
+
+// Where few pixels carry the error, a roulette that is milder than the default is judged
+// by all others. Planted: by the few as well; any other change as if it were one.
+TEST_CASE("what cannot vary more is told by the rest of the pixels", "[decision]") {
+  TriedStrategy entry;
+  entry.measure = MeasureOf(1.2, 0.5, 2);
+  entry.usual = MeasureOf(1, 1, 2);
+  // A bright sample that the usual strategy has not met, though it may.
+  entry.measure.variances[700] = 1e5;
+  CHECK(entry.IsCarriedByFew());
+  CHECK(entry.Beyond(1.05, 0.5) == 0);
+  CHECK(entry.Gain().log < -2);
+  entry.lives_longer = true;
+  CHECK(entry.IsToldByTheRest());
+  CHECK(entry.Beyond(1.05, 0.5) ==
+        Approx(std::log(1 / (1.2 * 0.5) / 1.05)).epsilon(0.02));
+  // Not better, by all others either.
+  entry.measure.cost = 2.2;
+  CHECK(entry.Beyond(1.05, 0.5) == 0);
+}
+
+TEST_CASE("paths live longer by a milder roulette alone", "[decision]") {
+  const CompiledScene scene = PrepareScene(SplitRoom());
+  const TrainingOptions training;
+  const auto lives_longer = [&](const std::string& given, const std::string& changes) {
+    PlanOptions options = WithChanges(scene, {}, given);
+    StrategyTrial trial(scene, training, 1, 1 << 16);
+    TriedStrategy usual = ToTry(scene, options, "", 1);
+    TriedStrategy tried = ToTry(scene, options, changes, 1);
+    trial.Begin(1024);
+    REQUIRE(trial.Try(usual, usual));
+    REQUIRE(trial.Try(tried, usual));
+    CHECK_FALSE(usual.lives_longer);
+    return tried.lives_longer;
+  };
+  CHECK(lives_longer("", "roulette=throughput:0:2:4"));
+  CHECK(lives_longer("", "roulette=throughput:0.2"));
+  CHECK(lives_longer("", "roulette=none"));
+  CHECK_FALSE(lives_longer("", "roulette=throughput:0:1"));
+  CHECK_FALSE(lives_longer("", "roulette=throughput:0:2:0.5"));
+  CHECK_FALSE(lives_longer("", "roulette=constant"));
+  CHECK_FALSE(lives_longer("", "roulette=adjoint"));
+  CHECK_FALSE(lives_longer("", "roulette=none,directions=bsdf"));
+  CHECK_FALSE(lives_longer("roulette=none", "roulette=throughput:0:2:4"));
 }
 
 TEST_CASE("variances of samples that depend on each other are of their observations",
