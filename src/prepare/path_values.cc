@@ -23,16 +23,20 @@ CellGrid Coarser(const CellGrid& fine) {
   return coarse;
 }
 
-std::uint32_t CoarseCell(const CellGrid& fine, const CellGrid& coarse,
-                         std::uint32_t cell) {
-  const std::uint32_t face = cell % 6;
-  std::int32_t rest = static_cast<std::int32_t>(cell / 6), at[3];
-  for (int a = 0; a < 3; ++a) {
-    at[a] = rest % fine.size[a] / kCoarse;
-    rest /= fine.size[a];
+// Calls body(cell, coarse cell) for all cells, in their order.
+template <class Body>
+void ForCells(const CellGrid& fine, const CellGrid& coarse, const Body& body) {
+  std::uint32_t cell = 0;
+  for (std::int32_t z = 0; z < fine.size[2]; ++z) {
+    for (std::int32_t y = 0; y < fine.size[1]; ++y) {
+      const std::int32_t row =
+          coarse.size[0] * (y / kCoarse + coarse.size[1] * (z / kCoarse));
+      for (std::int32_t x = 0; x < fine.size[0]; ++x) {
+        const auto around = static_cast<std::uint32_t>(row + x / kCoarse) * 6;
+        for (std::uint32_t face = 0; face < 6; ++face) body(cell++, around + face);
+      }
+    }
   }
-  const std::int32_t index = at[0] + coarse.size[0] * (at[1] + coarse.size[1] * at[2]);
-  return static_cast<std::uint32_t>(index) * 6 + face;
 }
 
 struct CellMeans {
@@ -72,32 +76,43 @@ CellGrid MakeCellGrid(Vec3f low, Vec3f high, std::uint64_t vertices) {
   return grid;
 }
 
-void SetCellValues(const std::vector<CellSums>& sums, bool efficiency,
-                   PathValues& values) {
+CellRecords::Sums CellRecords::Sorted() const {
+  Sums sorted = sums_;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  return sorted;
+}
+
+void SetCellValues(const CellRecords& records, bool efficiency, PathValues& values) {
   const CellGrid& fine = values.grid;
-  LL_CHECK_EQ(sums.size(), fine.cells());
+  LL_CHECK_EQ(records.cells(), fine.cells());
   const CellGrid coarse = Coarser(fine);
+  const CellRecords::Sums sums = records.Sorted();
   std::vector<CellSums> coarse_sums(coarse.cells());
   CellSums all;
-  for (std::uint32_t i = 0; i < sums.size(); ++i) {
-    coarse_sums[CoarseCell(fine, coarse, i)].Add(sums[i]);
-    all.Add(sums[i]);
-  }
+  auto next = sums.begin();
+  ForCells(fine, coarse, [&](std::uint32_t cell, std::uint32_t around) {
+    if (next == sums.end() || next->first != cell) return;
+    coarse_sums[around].Add(next->second);
+    all.Add(next->second);
+    ++next;
+  });
   const auto survival = [efficiency](const CellMeans& m) {
     return efficiency ? std::sqrt(m.square / std::max(m.cost, 1.0)) : m.value;
   };
   const double least = kLeastValue * survival(Blend(all, {}));
-  values.survive.assign(sums.size(), -1.0f);
-  if (efficiency) values.split.assign(sums.size(), 0.0f);
-  for (std::uint32_t i = 0; i < sums.size(); ++i) {
-    const CellMeans around = Blend(coarse_sums[CoarseCell(fine, coarse, i)], {});
-    const CellMeans m = Blend(sums[i], around);
-    if (!m.known) continue;
-    values.survive[i] = static_cast<float>(std::max(survival(m), least));
-    if (!efficiency) continue;
+  values.survive.assign(fine.cells(), -1.0f);
+  if (efficiency) values.split.assign(fine.cells(), 0.0f);
+  next = sums.begin();
+  ForCells(fine, coarse, [&](std::uint32_t cell, std::uint32_t around) {
+    CellMeans m = Blend(coarse_sums[around], {});
+    if (next != sums.end() && next->first == cell) m = Blend((next++)->second, m);
+    if (!m.known) return;
+    values.survive[cell] = static_cast<float>(std::max(survival(m), least));
+    if (!efficiency) return;
     const double variance = std::max(0.0, m.square - m.value * m.value);
-    values.split[i] = static_cast<float>(std::sqrt(variance / std::max(m.cost, 1.0)));
-  }
+    values.split[cell] = static_cast<float>(std::sqrt(variance / std::max(m.cost, 1.0)));
+  });
 }
 
 ImageGuess::ImageGuess(std::uint32_t width, std::uint32_t height,

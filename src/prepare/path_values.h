@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "src/core/aligned.h"
@@ -48,6 +49,30 @@ struct CellSums {
   }
 };
 
+/// Sums of those cells of a grid that have records: most lie in the air, and have none.
+class CellRecords {
+ public:
+  using Sums = std::vector<std::pair<std::uint32_t, CellSums>>;  // and their cells
+
+  explicit CellRecords(std::uint32_t cells) : places_(cells) {}
+
+  void Add(std::uint32_t cell, double estimate, double cost_to_come) {
+    std::uint32_t& place = places_[cell];
+    if (place == 0) {
+      sums_.push_back({cell, {}});
+      place = static_cast<std::uint32_t>(sums_.size());
+    }
+    sums_[place - 1].second.Add(estimate, cost_to_come);
+  }
+  std::size_t cells() const { return places_.size(); }
+  /// In the order of the cells.
+  Sums Sorted() const;
+
+ private:
+  std::vector<std::uint32_t> places_;  // in sums_, from 1; 0: none
+  Sums sums_;
+};
+
 /// Read by the kernels. A cell of which nothing is known has a negative `survive`.
 struct PathValues {
   CellGrid grid;
@@ -62,11 +87,10 @@ struct PathValues {
   float scale = 1;  // efficiency: sqrt(cost / relative variance) of a camera path
 };
 
-/// Sets values.survive (and .split, if `efficiency`) from the sums of values.grid. Cells
+/// Sets values.survive (and .split, if `efficiency`) from records of values.grid. Cells
 /// with few records borrow from the coarser cell around them; what is worth less than a
 /// tenth of the mean counts as that much: a short pilot pass may have missed its light.
-void SetCellValues(const std::vector<CellSums>& sums, bool efficiency,
-                   PathValues& values);
+void SetCellValues(const CellRecords& records, bool efficiency, PathValues& values);
 
 /// Colours of the pixels of an image from a few samples: means over tiles of 8x8 pixels,
 /// blurred over their neighbours. A sample counts at most kClamp times the mean of the

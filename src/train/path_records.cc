@@ -44,6 +44,7 @@ PathSamples ReadRecords(TrainingSamples samples) {
   PathSamples out{std::move(samples), {}};
   if (out.planes == 0) return out;
   LL_CHECK_EQ(out.planes, NumPlanes(PlaneGroup::kRecord));
+  out.records.reserve(out.colors.size());
   for (std::size_t i = 0; i < out.colors.size(); ++i) {
     out.records.push_back(
         ReadRecord(out.recorded.data() + i * static_cast<std::size_t>(out.planes)));

@@ -36,9 +36,13 @@ struct RankPasses::Head {
   }
 };
 
+RankPasses::Head RankPasses::OwnHead(const TrainingSamples& samples) const {
+  return {samples.rays_closest, samples.rays_shadow, signal_.Stopped()};
+}
+
 std::string RankPasses::OwnPart(const std::vector<std::size_t>& begins,
                                 const TrainingSamples& samples) const {
-  const Head head = {samples.rays_closest, samples.rays_shadow, signal_.Stopped()};
+  const Head head = OwnHead(samples);
   std::string bytes(reinterpret_cast<const char*>(&head), sizeof(head));
   ForEachTask(begins, group_.rank(), group_.ranks(), samples,
               [&bytes](const auto* values, std::size_t count) {
@@ -50,30 +54,27 @@ std::string RankPasses::OwnPart(const std::vector<std::size_t>& begins,
 
 void RankPasses::Exchange(const std::vector<std::size_t>& begins,
                           TrainingSamples& samples) {
-  const int ranks = group_.ranks();
-  std::vector<std::string> parts(static_cast<std::size_t>(ranks));
-  parts[0] = OwnPart(begins, samples);
-  group_.Gather(parts[0], [&](int rank, std::string_view bytes) {
-    parts[static_cast<std::size_t>(rank)] = bytes;
-  });
-  std::string all;
-  for (const std::string& part : parts) all += part;
-  all = group_.Share(std::move(all));
-  std::string_view rest = all;
-  const auto take = [&rest](auto* to, std::size_t count) {
-    const std::size_t size = count * sizeof(*to);
-    LL_CHECK_GE(rest.size(), size);
-    std::memcpy(to, rest.data(), size);
-    rest.remove_prefix(size);
+  Head sum = OwnHead(samples);
+  group_.Gather(group_.leads() ? "" : OwnPart(begins, samples),
+                [&](int rank, std::string_view bytes) {
+                  const auto take = [&bytes](auto* to, std::size_t count) {
+                    const std::size_t size = count * sizeof(*to);
+                    LL_CHECK_GE(bytes.size(), size);
+                    std::memcpy(to, bytes.data(), size);
+                    bytes.remove_prefix(size);
+                  };
+                  Head head;
+                  take(&head, 1);
+                  sum.Add(head);
+                  ForEachTask(begins, rank, group_.ranks(), samples, take);
+                  LL_CHECK(bytes.empty());
+                });
+  const auto broadcast = [this](auto* values, std::size_t count) {
+    group_.Broadcast({reinterpret_cast<char*>(values), count * sizeof(*values)});
   };
-  Head sum;
-  for (int rank = 0; rank < ranks; ++rank) {
-    Head head;
-    take(&head, 1);
-    sum.Add(head);
-    ForEachTask(begins, rank, ranks, samples, take);
-  }
-  LL_CHECK(rest.empty());
+  broadcast(&sum, 1);
+  broadcast(samples.colors.data(), samples.colors.size());
+  broadcast(samples.recorded.data(), samples.recorded.size());
   samples.rays_closest = sum.rays_closest, samples.rays_shadow = sum.rays_shadow;
   if (sum.stopped > 0) stop_ = true;
 }

@@ -107,16 +107,16 @@ class Pilot {
     const PathSamples samples = Pass(kRecord, Roulette::kThroughput, work_);
     image_ = std::make_unique<ImageGuess>(GuessImage(scene_, samples, work_));
     values_.inverse_pixel = image_->Inverse(!efficiency_);
-    std::vector<CellSums> sums(values_.grid.cells());
-    if (!image_->black()) Deposit(samples, sums);
-    SetCellValues(sums, efficiency_, values_);
+    CellRecords records(values_.grid.cells());
+    if (!image_->black()) Deposit(samples, records);
+    SetCellValues(records, efficiency_, values_);
     outcome_.note = fmt::format("{} pilot samples", outcome_.samples);
     return samples;
   }
 
   // An event (a shadow ray and a scattered one, as far as the scene has them) costs what
   // remains after a ray from the camera per sample.
-  void Deposit(const PathSamples& samples, std::vector<CellSums>& sums) const {
+  void Deposit(const PathSamples& samples, CellRecords& records) const {
     const float exposure = ExposureOf(scene_);
     double events = 0;
     for (const PathRecord& r : samples.records) events += r.depth;
@@ -132,7 +132,7 @@ class Pilot {
         if (v.cell == kNoCell || !(v.at > 0)) continue;
         const double gathered = std::clamp<double>((r.end - v.got) * exposure, 0, most);
         const double cost = std::max(1.0, double(r.depth) - k) * cost_of_event;
-        sums[v.cell].Add(gathered / v.at, cost);
+        records.Add(v.cell, gathered / v.at, cost);
       }
     }
   }

@@ -117,18 +117,18 @@ TEST_CASE("cells cover the box and borrow from their surroundings", "[roulette]"
 
   PathValues values;
   values.grid.size[0] = 8;
-  std::vector<CellSums> sums(values.grid.cells());
+  CellRecords records(values.grid.cells());
   for (int i = 0; i < 1000; ++i) {
-    sums[0].Add(3, 4);                   // well known
-    sums[6].Add(i % 2 == 0 ? 1 : 3, 4);  // mean 2, variance 1
+    records.Add(6, i % 2 == 0 ? 1 : 3, 4);  // mean 2, variance 1
+    records.Add(0, 3, 4);                   // well known
   }
-  SetCellValues(sums, false, values);
+  SetCellValues(records, false, values);
   CHECK(values.survive[0] == Approx(3).epsilon(0.01));
   CHECK(values.survive[6] == Approx(2).epsilon(0.01));
   CHECK(values.survive[12] == Approx(2.5));  // nothing of its own
   CHECK(values.survive[4 * 6] < 0);          // in another coarse cell: unknown
   CHECK(values.survive[1] < 0);              // another face
-  SetCellValues(sums, true, values);
+  SetCellValues(records, true, values);
   CHECK(values.split[0] < 0.1f);
   CHECK(values.split[6] == Approx(0.5).epsilon(0.01));
   CHECK(values.survive[6] == Approx(std::sqrt(5.0 / 4)).epsilon(0.01));
