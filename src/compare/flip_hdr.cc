@@ -14,6 +14,8 @@ constexpr double kTop[] = {0.6 * 0.6 * 2.51, 0.6 * 0.03};
 constexpr double kBottom[] = {0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
 // What the curve maps to this is bright, and not yet burnt out.
 constexpr double kBright = 0.85;
+// Weights of luminance, with the digits that the authors give them.
+constexpr double kWeights[] = {0.2126, 0.7152, 0.0722};
 // Where the curve is as good as level, and squares are not yet infinite.
 constexpr double kLevel = 1e15;
 
@@ -45,8 +47,8 @@ FlipExposures ExposuresOf(const LinearImage& reference) {
   constexpr double kLeast = 1e-30;  // of a luminance: its logarithm is wanted
   std::vector<double> luminances;
   for (std::size_t i = 0; i < reference.pixels(); ++i) {
-    const double y = Luminance(
-        {reference.planes[0][i], reference.planes[1][i], reference.planes[2][i]});
+    double y = 0;
+    for (int c = 0; c < 3; ++c) y += kWeights[c] * reference.planes[c][i];
     if (std::isfinite(y)) luminances.push_back(std::max(y, kLeast));
   }
   if (luminances.empty()) return {0, 1, 2};
