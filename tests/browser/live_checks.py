@@ -53,6 +53,17 @@ def ink(page):
     return page.js("page.viewer.draw();" + browser.PLOT_INK, picture(page))
 
 
+SHADES = """
+  const c = arguments[0], copy = document.createElement('canvas');
+  copy.width = c.width, copy.height = c.height;
+  const context = copy.getContext('2d', {willReadFrequently: true});
+  context.drawImage(c, 0, 0);
+  const d = context.getImageData(0, 0, c.width, c.height).data, seen = new Set();
+  for (let i = 0; i < d.length; i += 4) seen.add(d[i]);
+  return seen.size;
+"""
+
+
 def fresh(page):
     """As it is when it has just been opened."""
     page.open()
@@ -191,8 +202,7 @@ def overlays_have_legends(page):
     seen = set()
     for layer in ("error", "relative", "samples", "rays", "depth"):
         choose(page, "#layer", layer)
-        until(page, "const r = page.range(); return r[1] > r[0] && r[1] !== 2 ||"
-              " page.look.layer === 'samples'", "no range of", layer)
+        until(page, "const r = page.range(); return r && r[1] > r[0]", "no range of", layer)
         page.settle()
         require(not page.js("return document.querySelector('#legend').hidden"),
                 "no legend of", layer)
@@ -222,3 +232,34 @@ def stages_have_their_times(page):
     text = page.text("#stages")
     require("Mray/s" in text and "of lanes" in text and "[object" not in text, text)
     require(len(page.all(".omitted div")) > 5, "nothing is left out")
+
+
+@check
+def overlays_wait_for_what_they_show(page):
+    """Where nothing is known of a layer yet, one sees where the camera is: in grey."""
+    fresh(page)
+    page.js("page.socket.send({do: 'pause', on: true})")
+    until(page, "return page.state.paused", "it goes on")
+    # As after a move: a whole picture of one sample for many pixels.
+    picture_in_grey = """
+        const {screen} = page, slot = screen.slots[0], side = 16;
+        const squares = [[0, 0, side, side]], count = side * side;
+        const bytes = new ArrayBuffer(10 * count), pixels = new Uint16Array(bytes);
+        for (let i = 0; i < count; ++i) {
+          pixels.set([0x3c00, 0x2e66 + 8 * i, 0, 0x3c00], 4 * i);  // from orange to yellow
+          pixels[4 * count + i] = 0x7e00;  // not known
+        }
+        screen.take({kind: 'picture', slot: 0, view: slot.view + 1, factor: 10, spp: 1,
+                     layer: arguments[0], width: side, height: side, squares}, bytes, 0);
+        page.drawLegend()"""
+    for layer in ("error", "relative", "samples", "rays", "depth"):
+        choose(page, "#layer", layer)
+        time.sleep(0.3)
+        page.js(picture_in_grey, "colour" if layer == "samples" else layer)
+        seen = ink(page)
+        require(seen["coloured"] == 0, layer, "has colours of nothing known:", seen)
+        shades = page.js("page.viewer.draw();" + SHADES, picture(page))
+        require(shades > 20, layer, "hides the picture:", shades, "shades")
+        if layer != "samples":
+            require("not known yet" in page.text("#legend"), page.text("#legend"))
+            require("1.0" not in page.text("#legend"), page.text("#legend"))

@@ -119,13 +119,16 @@ function drawLegend(page, legend, layers) {
   const { layer } = page.look;
   legend.hidden = layer === COLOUR;
   if (legend.hidden) return;
-  const [low, high] = page.range();
   const meaning = layers.find(([name]) => name === layer)[1];
+  const note = (text) => el("span", { class: "note" }, `${meaning}${text}`);
+  const range = page.range();
+  if (!range) return legend.replaceChildren(note(": not known yet"));
+  const [low, high] = range;
   legend.replaceChildren(
     el("span", {}, fmt(low, 2)),
     el("span", { class: "ramp", "aria-hidden": "true" }),
     el("span", {}, fmt(high, 2)),
-    el("span", { class: "note" }, `${meaning}, logarithmic; hatched: not known`),
+    note(", logarithmic; grey: not known yet"),
   );
 }
 

@@ -8,12 +8,12 @@ const page = {
   paused: false,
   pace: "time",
 
-  // [low, high] of the layer, the same for both slots.
+  // [low, high] of the layer, the same for both slots; null while it is not known.
   range() {
     const { slots } = this.screen;
     if (this.look.layer === SAMPLES) return [1, Math.max(2, ...slots.map((s) => s.most))];
     const ranges = slots.map((s) => s.range).filter((r) => r && r.high >= r.low);
-    if (ranges.length === 0) return [1, 2];
+    if (ranges.length === 0) return null;
     return [
       halfNumber(Math.min(...ranges.map((r) => r.low))),
       halfNumber(Math.max(...ranges.map((r) => r.high))),

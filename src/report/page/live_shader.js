@@ -8,7 +8,8 @@ void main() {
 }`;
 
 // "full": colour, and samples in its alpha, 0 where there are none yet; then "coarse" is
-// seen, a whole picture of fewer pixels. "over" is a layer.
+// seen, a whole picture of fewer pixels. "over" is a layer; where it is not known yet, as
+// while the camera moves, one sees the picture in grey.
 const FRAGMENT_SHADER = `#version 300 es
 precision highp float;
 uniform sampler2D full, coarse, over, ramp;
@@ -25,9 +26,14 @@ vec3 encode(vec3 x) {
 vec3 onRamp(float t) {
   return texture(ramp, vec2((clamp(t, 0.0, 1.0) * 255.0 + 0.5) / 256.0, 0.5)).rgb;
 }
-vec3 invalid(vec2 at) {
-  return mod(floor(at.x / 4.0) + floor(at.y / 4.0), 2.0) < 1.0 ? vec3(0.42) : vec3(0.5);
+vec3 toned(vec3 light) {
+  vec3 x = max(light * gain, 0.0);
+  if (curve == 1) x = x / (1.0 + x);
+  if (curve == 2) { vec3 p = pow(x, vec3(1.3)); x = p / (p + 0.514); }
+  return x;
 }
+float brightness(vec3 x) { return dot(x, vec3(0.2126, 0.7152, 0.0722)); }
+
 void main() {
   vec2 here = vec2(gl_FragCoord.x, gl_FragCoord.y) - corner;
   vec2 at = middle + vec2(here.x - 0.5 * pane.x, 0.5 * pane.y - here.y) / zoom;
@@ -38,27 +44,24 @@ void main() {
   ivec2 texel = ivec2(at);
   vec4 light = texelFetch(full, texel, 0);
   bool sampled = light.a > 0.0;
+  float x = layer == 1 ? light.a : texelFetch(over, texel, 0).r;
+  if (!sampled) light = texture(coarse, at / size);
   if (layer > 0) {
-    float x = layer == 1 ? light.a : texelFetch(over, texel, 0).r;
-    bool known = sampled && x == x && x > 0.0;
-    float t = (log2(x) - low) / max(high - low, 0.001);
-    seen = vec4(known ? onRamp(t) : invalid(gl_FragCoord.xy), 1.0);
+    bool known = sampled && x == x;
+    float t = x > 0.0 ? (log2(x) - low) / max(high - low, 0.001) : 0.0;
+    seen = vec4(known ? onRamp(t) : encode(vec3(brightness(toned(light.rgb)))), 1.0);
     return;
   }
-  if (!sampled) light = texture(coarse, at / size);
   if (!(light.r == light.r && light.g == light.g && light.b == light.b)) {
     seen = vec4(1.0, 0.0, 0.78, 1.0);
     return;
   }
-  vec3 x = max(light.rgb * gain, 0.0);
-  if (curve == 1) x = x / (1.0 + x);
-  if (curve == 2) { vec3 p = pow(x, vec3(1.3)); x = p / (p + 0.514); }
+  vec3 shown = toned(light.rgb);
   if (curve == 3) {
-    float y = dot(x, vec3(0.2126, 0.7152, 0.0722));
-    seen = vec4(onRamp((log2(max(y, 1e-9)) + 6.0) / 12.0), 1.0);
+    seen = vec4(onRamp((log2(max(brightness(shown), 1e-9)) + 6.0) / 12.0), 1.0);
     return;
   }
-  seen = vec4(encode(x), 1.0);
+  seen = vec4(encode(shown), 1.0);
 }`;
 
 function compileShader(gl, type, text) {

@@ -57,7 +57,7 @@ class Viewer {
       clip: [p.from * ratio, 0, (p.to - p.from) * ratio, height],
     }));
     const place = { ...look.place, zoom };
-    screen.draw({ ...look, place, range: this.page.range() }, parts);
+    screen.draw({ ...look, place, range: this.page.range() || [1, 2] }, parts);
     this.canvas.dataset.zoom = look.place.zoom.toFixed(3);
     this.page.drawPanes(panes, box.width);
   }
