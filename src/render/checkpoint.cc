@@ -194,7 +194,8 @@ std::function<void()> Checkpoint::Watch(RunState& state) const {
     } else if (!planes) {
       planes =
           std::make_shared<std::vector<ExrPlane>>(FilmPlanes(film, job_.scene.scale));
-      options = OutputOptions(identity_, head_, state.counts, film, /*half=*/false);
+      options = OutputOptions(identity_, head_, {state.counts, state.training.changes},
+                              film, /*half=*/false);
     }
   }
   return [paths = settings_.watch, exposure = settings_.exposure, planes, image, options,

@@ -12,6 +12,7 @@
 #include "src/image/for_each_pixel.h"
 #include "src/image/spectrum.h"
 #include "src/image/variance_unit.h"
+#include "src/strategy/strategy.h"
 
 namespace lanelight {
 namespace {
@@ -133,14 +134,20 @@ void NoteObservations(const FilmAccumulator& film, ExrOptions& options) {
   }
 }
 
+// Of an identity, as a pilot has changed it: what rendered the image.
+std::string ChangedStrategy(const std::string& own, const std::string& changes) {
+  Strategy strategy;
+  ApplyStrategy(own, {}, strategy);
+  ApplyStrategy(changes, {}, strategy);
+  return ToText(strategy);
+}
+
 }  // namespace
 
 ExrOptions OutputOptions(const nlohmann::json& identity, const nlohmann::json& head,
-                         const RunCounts& counts, const FilmAccumulator& film,
-                         bool half) {
+                         const OutputRun& run, const FilmAccumulator& film, bool half) {
   const std::array<int, 4> crop = identity.at("crop");
   const std::array<int, 2> resolution = identity.at("resolution");
-  const std::string strategy = identity.at("strategy");
   ExrOptions options;
   options.half = half;
   options.color_space = identity.value("color_space", std::string("srgb"));
@@ -152,9 +159,10 @@ ExrOptions OutputOptions(const nlohmann::json& identity, const nlohmann::json& h
   const double pixels = double(crop[2] - crop[0]) * double(crop[3] - crop[1]);
   const nlohmann::json& seed = identity.at("seed");
   options.attributes["seed"] = DumpJson(seed);
-  options.attributes["spp"] = double(counts.samples) / pixels;
-  options.attributes["renderTime"] = counts.seconds;
-  options.attributes["strategy"] = "path, " + strategy;
+  options.attributes["spp"] = double(run.counts.samples) / pixels;
+  options.attributes["renderTime"] = run.counts.seconds;
+  options.attributes["strategy"] =
+      "path, " + ChangedStrategy(identity.at("strategy"), run.changes);
   options.attributes["version"] = identity.at("version").get<std::string>();
   options.attributes["sceneHash"] = identity.at("scene_hash").get<std::string>();
   nlohmann::json settings = identity;

@@ -24,10 +24,17 @@ void NoteVarianceUnit(const FilmAccumulator& film, ExrOptions& options);
 /// CompiledScene::scale).
 std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale);
 
+/// What has been done: how much, and what a pilot has changed of the strategy
+/// (TrainingOutcome::changes).
+struct OutputRun {
+  const RunCounts& counts;
+  const std::string& changes;
+};
+
 /// Data window, and the attributes of docs/output.md of a render of this identity
 /// (src/render/identity.h); `head` is of HeadJson.
 ExrOptions OutputOptions(const nlohmann::json& identity, const nlohmann::json& head,
-                         const RunCounts& counts, const FilmAccumulator& film, bool half);
+                         const OutputRun& run, const FilmAccumulator& film, bool half);
 
 /// R, G, B of the film, which holds a color space (src/image/color_spaces.h), in linear
 /// sRGB: for the PNG. The space's white is white there.

@@ -25,7 +25,8 @@ void SaveImages(const FilmAccumulator& film, const RenderFacts& facts,
   report.exr = targets.exr;
   saver.Save(report.exr, [&](const std::string& path) {
     WriteExr(path, film.width(), film.height(), FilmPlanes(film, facts.scale),
-             OutputOptions(facts.identity, facts.head, report.result, film,
+             OutputOptions(facts.identity, facts.head,
+                           {report.result, report.result.training.changes}, film,
                            targets.image.half));
   });
   report.png = targets.png;

@@ -288,6 +288,9 @@ TEST_CASE("a long render decides by a pilot, says so, and goes on with it", "[cl
   CHECK(decides(report));
   CHECK(report["pilot"]["changes"] == "decide=none");
   CHECK_THAT(report["pilot"]["note"].get<std::string>(), Contains("roulette=adjoint"));
+  // The image says what rendered it, not what was to be found out.
+  CHECK_THAT(RunLanelight({"info", exr}).out,
+             Contains("decide=none") && !Contains("decide=pilot"));
   CHECK_FALSE(
       decides(render({"-o", exr, "--spp", "2048", "--strategy", "points=sobol"})));
   // What is gone on with keeps what it began with, to more samples too.
