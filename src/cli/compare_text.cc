@@ -3,52 +3,59 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "src/cli/terminal.h"
+
 namespace lanelight {
 namespace {
 
 std::string ChannelText(const CompareResult& r) {
   std::string text;
   for (std::size_t c = 0; c < r.channels.size(); ++c) {
-    text += fmt::format("mean {:<9} {:.6g} against {:.6g}, ratio {:.5f}\n", r.channels[c],
-                        r.mean_test[c], r.mean_reference[c], r.mean_ratio[c]);
+    text += FactRow("mean " + r.channels[c],
+                    fmt::format("{:.6g} against {:.6g}, ratio {:.5f}", r.mean_test[c],
+                                r.mean_reference[c], r.mean_ratio[c]));
   }
   return text;
 }
 
 std::string ZText(const ZScores& z) {
-  if (!z.available) return "z-scores       none: no image carries variances\n";
-  return fmt::format(
-      "z-scores       mean {:.3f}, deviation {:.3f}, |z|>2: {:.2f} %, |z|>3: {:.2f} % "
-      "(noise alone: 0, 1, 4.55 %, 0.27 %)\n"
-      "               {} values; {} equal without variance, {} different without "
-      "variance, "
-      "{} with an invalid variance\n",
-      z.mean, z.standard_deviation, 100 * z.beyond_2, 100 * z.beyond_3, z.count, z.exact,
-      z.mismatched, z.invalid);
+  if (!z.available) return FactRow("z-scores", "none: no image carries variances");
+  return FactRow("z-scores",
+                 fmt::format("mean {:.3f}, deviation {:.3f}, |z|>2: {:.2f} %, |z|>3: "
+                             "{:.2f} % (noise alone: 0, 1, 4.55 %, 0.27 %)",
+                             z.mean, z.standard_deviation, 100 * z.beyond_2,
+                             100 * z.beyond_3)) +
+         FactRow("", fmt::format("{} values; {} equal without variance, {} different "
+                                 "without variance, {} with an invalid variance",
+                                 z.count, z.exact, z.mismatched, z.invalid));
 }
 
+std::string NumberText(double value) { return fmt::format("{:.6g}", value); }
+
 std::string MeasuresText(const CompareResult& r) {
-  return fmt::format("size           {}x{}, {} values compared\n", r.width, r.height,
-                     r.samples) +
-         fmt::format("invalid values {} and {}\n", r.invalid_test, r.invalid_reference) +
-         fmt::format("MSE            {:.6g}\nRMSE           {:.6g}\n", r.mse, r.rmse) +
-         fmt::format("relative MSE   {:.6g} (without the worst 0.1 %: {:.6g})\n",
-                     r.relmse, r.relmse_trimmed) +
-         fmt::format("  after filters of 2, 4, 8 pixels: {:.6g}\n",
-                     fmt::join(r.relmse_filtered, ", ")) +
-         fmt::format("MAE            {:.6g}\nMAPE           {:.4g} %\n", r.mae,
-                     100 * r.mape) +
-         fmt::format("PSNR           {:.2f} dB\n", r.psnr) + ChannelText(r) +
-         fmt::format("tile rel. MSE  median {:.3g}, largest {:.3g}\n",
-                     r.tile_relmse_median, r.tile_relmse_max) +
+  return FactRow("size",
+                 fmt::format("{}x{}, {} values compared", r.width, r.height, r.samples)) +
+         FactRow("invalid values",
+                 fmt::format("{} and {}", r.invalid_test, r.invalid_reference)) +
+         FactRow("MSE", NumberText(r.mse)) + FactRow("RMSE", NumberText(r.rmse)) +
+         FactRow("relative MSE", fmt::format("{:.6g} (without the worst 0.1 %: {:.6g})",
+                                             r.relmse, r.relmse_trimmed)) +
+         FactRow("", fmt::format("after filters of 2, 4, 8 pixels: {:.6g}",
+                                 fmt::join(r.relmse_filtered, ", "))) +
+         FactRow("MAE", NumberText(r.mae)) +
+         FactRow("MAPE", fmt::format("{:.4g} %", 100 * r.mape)) +
+         FactRow("PSNR", fmt::format("{:.2f} dB", r.psnr)) + ChannelText(r) +
+         FactRow("tile rel. MSE", fmt::format("median {:.3g}, largest {:.3g}",
+                                              r.tile_relmse_median, r.tile_relmse_max)) +
          ZText(r.z);
 }
 
 std::string FlipText(const char* name, const FlipSummary& s, const std::string& note) {
-  return fmt::format(
-      "{:<14} mean {:.4g}, weighted median {:.4g} (quartiles {:.4g}, {:.4g}), largest "
-      "{:.4g}{}\n",
-      name, s.mean, s.median, s.first_quartile, s.third_quartile, s.max, note);
+  return FactRow(
+      name,
+      fmt::format("mean {:.4g}, weighted median {:.4g} (quartiles {:.4g}, {:.4g}), "
+                  "largest {:.4g}{}",
+                  s.mean, s.median, s.first_quartile, s.third_quartile, s.max, note));
 }
 
 std::string FlipText(const FlipMaps& flip) {
@@ -66,11 +73,9 @@ std::string FlipText(const FlipMaps& flip) {
 std::string ComparisonText(const ImageComparison& c) {
   std::string text = MeasuresText(c.metrics);
   if (c.flip) text += FlipText(*c.flip);
-  text += fmt::format("agreement      {}\n", AgreementText(c.agreement));
-  if (!c.agreement.doubt.empty()) {
-    text += fmt::format("               {}\n", c.agreement.doubt);
-  }
-  return text + fmt::format("verdict        {}\n", c.verdict);
+  text += FactRow("agreement", AgreementText(c.agreement));
+  if (!c.agreement.doubt.empty()) text += FactRow("", c.agreement.doubt);
+  return text + FactRow("verdict", c.verdict);
 }
 
 }  // namespace lanelight

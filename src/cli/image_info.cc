@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "src/cli/terminal.h"
 #include "src/core/json_text.h"
 #include "src/image/exr_header.h"
 #include "src/image/image.h"
@@ -80,7 +81,7 @@ Json PlainPart(const Image& image) {
 }
 
 std::string InfoRow(const std::string& name, const std::string& text) {
-  return text.empty() ? "" : fmt::format("{:<14} {}\n", name, text);
+  return text.empty() ? "" : FactRow(name, text);
 }
 
 // Names of channels, by type.

@@ -82,7 +82,7 @@ int RunStudyCommand(StudyCommandOptions& options) {
 }
 
 // As the flag of a render is.
-constexpr PercentErrorType kTargetInPercent{1e-13, 1e17};
+constexpr PercentErrorType kTargetInPercent{1e-4, 1e8};
 
 void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
   StudyOptions& s = options.study;

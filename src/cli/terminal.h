@@ -28,4 +28,7 @@ std::string PaintedMessage(const std::string& line);
 /// A row of a summary for standard output: its label painted, its text wrapped.
 std::string SummaryRow(const std::string& label, const std::string& text);
 
+/// A row of facts about a file: one line where it is piped on, wrapped for people.
+std::string FactRow(const std::string& label, const std::string& text);
+
 }  // namespace lanelight

@@ -71,10 +71,10 @@ std::string Wrapped(std::string_view text, std::size_t width, std::size_t indent
 }
 
 std::string LabelledRow(const std::string& label, const std::string& text,
-                        std::size_t width) {
+                        std::size_t width, std::size_t label_columns) {
   std::string row =
-      label + std::string(kRowLabel - std::min(kRowLabel, label.size()), ' ');
-  return row + " " + Wrapped(text, width, kRowLabel + 1) + "\n";
+      label + std::string(label_columns - std::min(label_columns, label.size()), ' ');
+  return row + " " + Wrapped(text, width, label_columns + 1) + "\n";
 }
 
 std::string TextTable(const std::vector<Cells>& lines, const TableLayout& layout) {

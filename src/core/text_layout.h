@@ -15,10 +15,11 @@ std::size_t TextWidth(std::string_view text);
 /// lines after the first begin with `indent` spaces. Ends without a line break.
 std::string Wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
 
-/// "label      text": what does not fit goes on below the text. Ends the line.
+/// "label      text": what does not fit goes on below the text, whose column is behind
+/// `label_columns` and a space. Ends the line.
 inline constexpr std::size_t kRowLabel = 10;
 std::string LabelledRow(const std::string& label, const std::string& text,
-                        std::size_t width);
+                        std::size_t width, std::size_t label_columns = kRowLabel);
 
 /// How a table is laid out.
 struct TableLayout {

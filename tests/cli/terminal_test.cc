@@ -98,6 +98,33 @@ TEST_CASE("what is told fits the terminal, without colours in a pipe", "[cli]") 
   CHECK(WidestLine(wide.out) > 80);
 }
 
+TEST_CASE("facts of images fit a terminal, and are lines of their own in a pipe",
+          "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory);
+  const std::string a = directory / "a.exr", b = directory / "b.exr";
+  for (const std::string& exr : {a, b}) {
+    REQUIRE(RunLanelight({"render", scene, "-o", exr}).exit_code == kExitGood);
+  }
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"info", a}, {"compare", a, b, "--flip"}}) {
+    ProcessOptions narrow = InColumns("70");
+    const std::string folder = directory.path();
+    narrow.prepare = [folder] {
+      if (chdir(folder.c_str()) != 0) _exit(126);
+    };
+    std::vector<std::string> here = command;
+    for (std::string& word : here) {
+      if (word == a || word == b) word = word.substr(folder.size() + 1);
+    }
+    const ProcessResult fitted = RunLanelight(here, narrow);
+    INFO(fitted.out);
+    REQUIRE(fitted.exit_code == kExitGood);
+    CHECK(WidestLine(fitted.out) <= 70);
+    CHECK(WidestLine(RunLanelight(command, InColumns("")).out) > 100);
+  }
+}
+
 TEST_CASE("amounts have units", "[cli]") {
   const nlohmann::json s = SettingsOf({"--spp", "1k", "--time", "5m", "--target", "20%"});
   CHECK(s.at("spp") == 1000);
