@@ -100,7 +100,8 @@ class Fields {
   std::string_view bytes_;
 };
 
-// What a viewer would show.
+// What a viewer would show. As tev does, it knows an image from when it is created, and
+// nobody but its user closes it.
 struct Shown {
   std::string name;
   int width = 0, height = 0, updates = 0;
@@ -121,7 +122,15 @@ void ReadUpdate(Fields& packet, Shown& shown) {
   std::int64_t offsets[3], strides[3];
   for (std::int64_t& offset : offsets) offset = packet.Number<std::int64_t>();
   for (std::int64_t& stride : strides) stride = packet.Number<std::int64_t>();
-  std::vector<float> values(3 * std::size_t(width) * std::size_t(height));
+  REQUIRE((width > 0 && height > 0));
+  // tev takes as many values as the furthest one needs, and ignores what is behind.
+  std::int64_t furthest = 0;
+  for (int c = 0; c < 3; ++c) {
+    REQUIRE((offsets[c] >= 0 && strides[c] > 0));
+    furthest =
+        std::max(furthest, offsets[c] + (std::int64_t{width} * height - 1) * strides[c]);
+  }
+  std::vector<float> values(static_cast<std::size_t>(furthest) + 1);
   for (float& value : values) value = packet.Number<float>();
   for (int p = 0; p < width * height; ++p) {
     for (int c = 0; c < 3; ++c) {
@@ -142,6 +151,7 @@ Shown Decode(std::string_view bytes) {
     bytes.remove_prefix(size);
     const int type = packet.Number<std::uint8_t>();
     if (type == 4) {
+      REQUIRE(shown.name.empty());  // once
       CHECK(packet.Number<std::uint8_t>() == 1);
       shown.name = packet.Text();
       shown.width = packet.Number<std::int32_t>();
@@ -151,6 +161,7 @@ Shown Decode(std::string_view bytes) {
       shown.rgb.assign(3 * std::size_t(shown.width) * std::size_t(shown.height), 0);
     } else {
       REQUIRE(type == 6);
+      REQUIRE_FALSE(shown.name.empty());
       ReadUpdate(packet, shown);
     }
     CHECK(packet.AtEnd());
@@ -235,6 +246,19 @@ TEST_CASE("only tiles that have changed are sent", "[render]") {
   CHECK(shown.updates == 6);
   CHECK(shown.pixels == 40 * 20);
   CHECK(shown.rgb == std::vector<float>(3 * 40 * 20, 0.5f));
+}
+
+TEST_CASE("localhost is a viewer that listens on IPv4 alone, as tev does", "[render]") {
+  Viewer viewer;
+  const FilmAccumulator film = OneSample(8, 8, 2);
+  std::string problem;
+  {
+    Display display({"localhost", viewer.endpoint().port}, "film", film, "srgb",
+                    [&](const std::string& told) { problem = told; });
+    display.Finish(film);
+  }
+  CHECK(problem.empty());
+  CHECK(Decode(viewer.Bytes()).rgb == std::vector<float>(3 * 8 * 8, 2.0f));
 }
 
 TEST_CASE("where nobody listens, that is said once and the image is made", "[render]") {
