@@ -6,6 +6,7 @@
 #include "src/core/check.h"
 #include "src/core/hash.h"
 #include "src/core/suggest.h"
+#include "src/scene/scene_names.h"
 
 namespace lanelight {
 namespace {
@@ -80,13 +81,6 @@ std::string Plain(const std::string& text) {
   return out;
 }
 
-std::string Stem(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  const std::string file = slash == std::string::npos ? path : path.substr(slash + 1);
-  const std::size_t dot = file.rfind('.');
-  return dot == std::string::npos || dot == 0 ? file : file.substr(0, dot);
-}
-
 std::vector<AxisValues> AllCombinations(const std::vector<SubGrid>& grids) {
   std::vector<AxisValues> all;
   std::set<AxisValues> seen;
@@ -109,8 +103,9 @@ std::string CellName(const AxisValues& values) {
     const auto axis = static_cast<Axis>(i);
     const auto& value = Get(values, axis);
     if (!value) continue;
-    readable += (readable.empty() ? "" : "_") +
-                Plain(ValueInNames(axis, axis == Axis::kScene ? Stem(*value) : *value));
+    readable +=
+        (readable.empty() ? "" : "_") +
+        Plain(ValueInNames(axis, axis == Axis::kScene ? SceneName(*value) : *value));
     all += fmt::format("{}={}\n", Key(axis), *value);
   }
   readable.resize(std::min(readable.size(), kLongest));

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "src/core/suggest.h"
 #include "src/core/input_file.h"
+#include "src/core/suggest.h"
 #include "src/strategy/named_strategy.h"
 #include "src/sweep/sweep_settings.h"
 #include "src/sweep/toml_values.h"
@@ -181,6 +181,9 @@ Sweep ParseSweep(const std::string& path, const std::string& text) {
       exclude = ReadTables(file, key, node);
     } else if (key == "settings") {
       sweep.settings = ReadSweepSettings(file, file.Table(key, node));
+    } else if (SweepAxisOf(key)) {
+      throw InputError(file.Where(toml_key.source()),
+                       fmt::format("{} is an axis: it belongs below [grid]", key));
     } else {
       ThrowUnknown(file.Where(toml_key.source()), "table", key,
                    {"grid", "include", "exclude", "settings"});

@@ -108,6 +108,19 @@ TEST_CASE("sweep: names are of the values alone", "[sweep]") {
                          "a_64x48_AVX2_points=cmj-roulette=constant-0.5_relmse0.001-"));
 }
 
+TEST_CASE("sweep: cells of scenes that are all called alike have their folder's name",
+          "[sweep]") {
+  const auto named = [](const char* scene) {
+    AxisValues values;
+    values[static_cast<std::size_t>(Axis::kScene)] = scene;
+    return CellName(values);
+  };
+  CHECK_THAT(named("rooms/bath/reference.pbrt"), Catch::StartsWith("bath-"));
+  CHECK_THAT(named("../reference.pbrt"), Catch::StartsWith("reference-"));
+  CHECK_THAT(named("reference.pbrt"), Catch::StartsWith("reference-"));
+  CHECK_THAT(named("rooms/box.v2.pbrt"), Catch::StartsWith("box.v2-"));
+}
+
 TEST_CASE("sweep: amounts have units, and are known by their values", "[sweep]") {
   const auto first = [](const char* text) { return Parse(text).cells.front(); };
   const SweepCell units =
@@ -185,6 +198,7 @@ TEST_CASE("sweep: mistakes are named with their place and a remedy", "[sweep]") 
       {"", "1:1", {"no [grid]"}},
       {"grid = 3", "1:8", {"grid is the integer 3", "[grid] on a line"}},
       {"[gird]\nscene = 'a.pbrt'", "1:2", {"unknown table \"gird\"", "mean \"grid\""}},
+      {"spp = 4\n[grid]", "1:1", {"spp is an axis", "below [grid]"}},
       {"[grid]\nspp = 4", "1:1", {"no scene", "scene = \"box.pbrt\""}},
       {"[grid]\nscene = 'c.pbrt'", "2:9", {"no scene file", "c.pbrt", "relative"}},
       {"[grid]\nscene = ''", "2:9", {"is not the name of a scene"}},
