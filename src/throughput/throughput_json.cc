@@ -98,8 +98,14 @@ KnownThroughput ThroughputFromJson(const Json& json) {
 }
 
 KnownThroughput ReadThroughput(const std::string& path) {
-  return FromJsonOf(path,
-                    [&] { return ThroughputFromJson(ParseJson(ReadWholeFile(path))); });
+  return FromJsonOf(path, [&] {
+    const Json json = ParseJson(ReadWholeFile(path));
+    if (!json.contains("rows") || !json.contains("program")) {
+      throw InputError(
+          fmt::format("'{}' is not what `lanelight bench --json` writes", path));
+    }
+    return ThroughputFromJson(json);
+  });
 }
 
 }  // namespace lanelight

@@ -82,6 +82,9 @@ TEST_CASE("bench refuses what it cannot read or do", "[cli]") {
   const ProcessResult r = Bench(directory, {"--against", broken});
   CHECK(r.exit_code == kExitBadInput);
   CHECK_THAT(r.err, Contains("broken.json"));
+  const std::string other = WriteText(directory / "other.json", "{}");
+  CHECK_THAT(Bench(directory, {"--against", other}).err,
+             Contains("is not what `lanelight bench --json` writes"));
   CHECK(Bench(directory, {"--against", directory / "none"}).exit_code == kExitBadInput);
   CHECK(Bench(directory, {"--within", "0"}).exit_code == kExitUsage);
   CHECK(Bench(directory, {"--simd", "Z80"}).exit_code == kExitUsage);
