@@ -77,7 +77,15 @@ int ReportParse(const CLI::App& root, const CLI::ParseError& error, int argc,
                 const char* const* argv) {
   const bool asked = error.get_exit_code() == 0;  // --help, --version
   std::ostringstream out, err;
-  root.exit(error, out, err);
+  const auto commands = root.get_subcommands();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !commands.empty()) {
+    // CLI11 would write the last word first.
+    std::vector<std::string> words = commands.front()->remaining();
+    std::reverse(words.begin(), words.end());
+    root.exit(CLI::ExtrasError(words), out, err);
+  } else {
+    root.exit(error, out, err);
+  }
   Print(out.str());
   if (asked) return kExitGood;
   if (std::string text = err.str(); !text.empty()) {
@@ -89,6 +97,7 @@ int ReportParse(const CLI::App& root, const CLI::ParseError& error, int argc,
 }
 
 void AddCommands(CLI::App& root, RankGroup& group, Command& chosen) {
+  root.formatter(FittedHelp());  // which commands take over
   root.footer(kFooter);
   root.set_version_flag("--version", FullVersion());
   root.require_subcommand(1);

@@ -30,6 +30,8 @@ void AddStressCommand(CLI::App& root, Command& chosen);
 void AddCompletionCommand(CLI::App& root, Command& chosen);
 /// The last one: it knows those that are there before it. It is done when it is parsed.
 void AddHelpCommand(CLI::App& root);
+/// Texts of help that fit the terminal.
+std::shared_ptr<CLI::FormatterBase> FittedHelp();
 
 /// Whether it is the name of a command; if not, an error is printed that names them all.
 bool CheckCommand(const CLI::App& root, const std::string& word);

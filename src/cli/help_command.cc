@@ -1,12 +1,16 @@
 // `lanelight help COMMAND`: the text of `lanelight COMMAND --help`.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <sstream>
 
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/terminal.h"
 #include "src/core/suggest.h"
+#include "src/core/text_layout.h"
 
 namespace lanelight {
 namespace {
@@ -30,7 +34,32 @@ void PrintHelp(const CLI::App& root, const std::string& name) {
   Print(formatter->make_help(&root, root.get_name(), CLI::AppFormatMode::Normal));
 }
 
+class FittedFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return Fitted(CLI::Formatter::make_option_desc(option));
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::ostringstream row;
+    CLI::detail::format_help(row, command->get_name(), Fitted(command->get_description()),
+                             get_column_width());
+    return row.str();
+  }
+
+ private:
+  // Beside the names of flags; what there is no room for is broken by the terminal.
+  std::string Fitted(const std::string& text) const {
+    constexpr std::size_t kLeast = 20;
+    const std::size_t columns = ReadersColumns(), names = get_column_width();
+    return Wrapped(text, std::max(columns, names + kLeast) - names);
+  }
+};
+
 }  // namespace
+
+std::shared_ptr<CLI::FormatterBase> FittedHelp() {
+  return std::make_shared<FittedFormatter>();
+}
 
 bool CheckCommand(const CLI::App& root, const std::string& word) {
   const std::vector<std::string> names = CommandNames(root);

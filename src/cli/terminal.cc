@@ -80,11 +80,14 @@ std::string SummaryRow(const std::string& label, const std::string& text) {
   return Painted(Ink::kDim, label, Stream::kOutput) + row.substr(label.size());
 }
 
+std::size_t ReadersColumns() {
+  const bool piped = isatty(STDOUT_FILENO) == 0 && VariableOf("COLUMNS").empty();
+  return piped ? std::string::npos : TerminalColumns(Stream::kOutput);
+}
+
 std::string FactRow(const std::string& label, const std::string& text) {
   constexpr std::size_t kFactLabel = 14;
-  const bool piped = isatty(STDOUT_FILENO) == 0 && VariableOf("COLUMNS").empty();
-  return LabelledRow(label, text, piped ? text.npos : TerminalColumns(Stream::kOutput),
-                     kFactLabel);
+  return LabelledRow(label, text, ReadersColumns(), kFactLabel);
 }
 
 }  // namespace lanelight

@@ -28,7 +28,11 @@ std::string PaintedMessage(const std::string& line);
 /// A row of a summary for standard output: its label painted, its text wrapped.
 std::string SummaryRow(const std::string& label, const std::string& text);
 
-/// A row of facts about a file: one line where it is piped on, wrapped for people.
+/// For what programs read, too: no limit where standard output is piped on and COLUMNS
+/// says nothing, else as TerminalColumns.
+std::size_t ReadersColumns();
+
+/// A row of facts about a file, as long as ReadersColumns.
 std::string FactRow(const std::string& label, const std::string& text);
 
 }  // namespace lanelight

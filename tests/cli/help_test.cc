@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "src/cli/exit_codes.h"
+#include "src/core/text_layout.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {
@@ -102,6 +103,27 @@ TEST_CASE("help prints what --help does", "[cli]") {
   ProcessOptions full;
   full.stdout_path = "/dev/full";
   CHECK(RunLanelight({"help", "render"}, full).exit_code == kExitBadInput);
+}
+
+TEST_CASE("help fits the terminal", "[cli]") {
+  ProcessOptions narrow;
+  narrow.columns = "80";
+  for (const std::string& command : Commands()) {
+    std::istringstream help(RunLanelight({"help", command}, narrow).out);
+    for (std::string line; std::getline(help, line);) {
+      // Words above and below the flags have lines of their own.
+      if (line.rfind("  -", 0) != 0 && line.rfind(std::string(kTextColumn, ' '), 0) != 0)
+        continue;
+      INFO(command << ": " << line);
+      CHECK(TextWidth(line) <= 80);
+    }
+  }
+}
+
+TEST_CASE("words that are not understood are told in their order", "[cli]") {
+  const ProcessResult r = RunLanelight({"render", "a.pbrt", "--sp", "3"});
+  CHECK(r.exit_code == kExitUsage);
+  CHECK_THAT(r.err, Contains("not expected: --sp 3\n") && Contains("mean --spp?"));
 }
 
 TEST_CASE("help for no command names those there are", "[cli]") {
