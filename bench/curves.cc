@@ -44,14 +44,14 @@ RTCScene EmbreeCurves(RTCDevice device, const Geometry& geometry) {
 
 void RunCurveBench(const std::string& path, int rounds) {
   const Job job = RecordJob(path, "curves");
-  const Geometry& geometry = job.scene.geometry;
+  const Geometry& geometry = job.scene.compiled->geometry;
   if (geometry.curves.empty()) throw InputError(path + ": no curves");
   fmt::print("{} curves, {:.1f} bytes of trees for each\n", geometry.curves.size(),
-             static_cast<double>(job.scene.accel.Bytes()) /
+             static_cast<double>(job.scene.compiled->accel.Bytes()) /
                  static_cast<double>(geometry.curves.size()));
   RTCDevice device = rtcNewDevice("threads=1");
   RTCScene peer = EmbreeCurves(device, geometry);
-  MeasureAll(job.scene, peer, rounds);
+  MeasureAll(*job.scene.compiled, peer, rounds);
   rtcReleaseScene(peer);
   rtcReleaseDevice(device);
 }

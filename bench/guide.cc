@@ -23,7 +23,7 @@ struct Flags {
 
 void DrawGuide(const Flags& flags) {
   const Job job = PrepareJob(flags.scene, {});
-  CheckOutputPaths({{flags.output}}, job.files);
+  CheckOutputPaths({{flags.output}}, job.loaded->files);
   const GuidePicture p = PictureOfGuide(job, flags.picture);
   WritePng(flags.output, ColoredGuide(p));
   std::printf(

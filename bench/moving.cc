@@ -115,13 +115,13 @@ RTCScene EmbreeInstances(RTCDevice device, const Geometry& geometry) {
 
 void RunMovingBench(const std::string& path, int rounds) {
   const Job job = RecordJob(path, "triangles");
-  const Geometry& geometry = job.scene.geometry;
+  const Geometry& geometry = job.scene.compiled->geometry;
   if (geometry.instances.empty()) throw InputError(path + ": no instances");
   fmt::print("{} instances, {} of them move\n", geometry.instances.size(),
              geometry.motions.size());
   RTCDevice device = rtcNewDevice("threads=1");
   RTCScene peer = EmbreeInstances(device, geometry);
-  MeasureAll(job.scene, peer, rounds);
+  MeasureAll(*job.scene.compiled, peer, rounds);
   rtcReleaseScene(peer);
   rtcReleaseDevice(device);
 }

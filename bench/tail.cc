@@ -151,14 +151,15 @@ nlohmann::json Measure(const std::string& scene, const Flags& flags) {
   const Job job = JobOf(scene, flags);
   std::printf("%s, %dx%d, %llu samples per pixel; load %.2f s, build %.2f s\n",
               scene.c_str(), flags.resolution[0], flags.resolution[1],
-              static_cast<unsigned long long>(flags.spp), job.load_seconds,
-              job.build_seconds);
-  nlohmann::json out = {{"scene", scene},
-                        {"machine", ToJson(ThisMachine())},
-                        {"resolution", flags.resolution},
-                        {"spp", flags.spp},
-                        {"tile", flags.tile},
-                        {"start_seconds", job.load_seconds + job.build_seconds}};
+              static_cast<unsigned long long>(flags.spp), job.loaded->load_seconds,
+              job.loaded->build_seconds);
+  nlohmann::json out = {
+      {"scene", scene},
+      {"machine", ToJson(ThisMachine())},
+      {"resolution", flags.resolution},
+      {"spp", flags.spp},
+      {"tile", flags.tile},
+      {"start_seconds", job.loaded->load_seconds + job.loaded->build_seconds}};
   for (int threads : {1, 2}) MeasureThreads(job, flags, threads, out);
   const RunResult whole = RunJob(job).result;
   const std::vector<double> costs = TileCosts(job, TilesOf(job.window, flags.tile));

@@ -40,7 +40,7 @@ void Calibration::Scene(const std::string& path, const std::string& resolution,
   settings.spp = 1;
   settings.skip_unsupported = true;
   try {
-    Job job = PrepareJob(path, settings);
+    const Job job = PrepareJob(path, settings);
     const Reference reference =
         MakeReference(job, options_.reference_spp, deadline.Left() / 4);
     fmt::print("\n{}, reference {} spp, its own relmse {:.2g}\n", name, reference.spp,
@@ -51,8 +51,8 @@ void Calibration::Scene(const std::string& path, const std::string& resolution,
   }
 }
 
-void Calibration::Rows(Job& job, const std::string& scene, const Reference& reference,
-                       const Deadline& deadline) {
+void Calibration::Rows(const Job& job, const std::string& scene,
+                       const Reference& reference, const Deadline& deadline) {
   const bool stops = !options_.targets.empty();
   const std::size_t cases = stops ? options_.targets.size() : options_.spp.size();
   if (!stops) {
@@ -76,12 +76,13 @@ void Calibration::Rows(Job& job, const std::string& scene, const Reference& refe
   }
 }
 
-void Calibration::Row(Job& job, const std::string& strategy, std::uint64_t spp,
+void Calibration::Row(const Job& scene, const std::string& strategy, std::uint64_t spp,
                       const Reference& reference, const Deadline& deadline,
                       ErrorCoverage& out) {
   const std::string name = fmt::format("{}, {} spp", strategy, spp);
+  Job job;
   try {
-    UseStrategy(job, strategy, spp);
+    job = JobWith(scene, strategy, spp);
   } catch (const InputError& error) {
     fmt::print("{:<48} {}\n", name, error.what());
     return;

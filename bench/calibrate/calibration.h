@@ -23,15 +23,15 @@ class Calibration {
   void Scene(const std::string& path, const std::string& resolution,
              const Deadline& deadline);
   /// Rows of one scene; `scene` is its name with its resolution.
-  void Rows(Job& job, const std::string& scene, const Reference& reference,
+  void Rows(const Job& job, const std::string& scene, const Reference& reference,
             const Deadline& deadline);
-  void Row(Job& job, const std::string& strategy, std::uint64_t spp,
+  void Row(const Job& scene, const std::string& strategy, std::uint64_t spp,
            const Reference& reference, const Deadline& deadline, ErrorCoverage& out);
   /// Unless the reference is too coarse for the row.
   void AddTotals(const std::string& scene, const std::string& strategy, std::uint64_t spp,
                  const ErrorCoverage& row, const Reference& reference);
   /// Renders that stop by themselves.
-  void Stops(Job& job, const std::string& strategy, double target,
+  void Stops(const Job& scene, const std::string& strategy, double target,
              const Reference& reference, const Deadline& deadline);
   void PrintTotals() const;
 

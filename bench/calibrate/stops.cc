@@ -12,10 +12,11 @@ constexpr double kLeastSeconds = 0.1;  // of a render
 
 }  // namespace
 
-void Calibration::Stops(Job& job, const std::string& strategy, double target,
+void Calibration::Stops(const Job& scene, const std::string& strategy, double target,
                         const Reference& reference, const Deadline& deadline) {
+  Job job;
   try {
-    UseStrategy(job, strategy, 0);
+    job = JobWith(scene, strategy, 0);
   } catch (const InputError& error) {
     fmt::print("{:<48} {}\n", strategy, error.what());
     return;

@@ -40,12 +40,11 @@ Strategy ParseStrategy(const std::string& text) {
   return strategy;
 }
 
-void UseStrategy(Job& job, const std::string& text, std::uint64_t spp) {
-  const Strategy strategy = ParseStrategy(text);
+Job JobWith(Job job, const std::string& strategy, std::uint64_t spp) {
   job.spp = spp;
   job.target = {};
   job.seconds = 0;
-  SetStrategy(job, strategy);
+  return WithStrategy(std::move(job), ParseStrategy(strategy));
 }
 
 Measurement TrueErrors(const FilmAccumulator& film, const Reference& reference) {
@@ -54,8 +53,8 @@ Measurement TrueErrors(const FilmAccumulator& film, const Reference& reference) 
   return m;
 }
 
-Reference MakeReference(Job& job, std::uint64_t spp, double seconds) {
-  UseStrategy(job, "points=sobol", kTrialSpp);
+Reference MakeReference(const Job& scene, std::uint64_t spp, double seconds) {
+  Job job = JobWith(scene, "points=sobol", kTrialSpp);
   job.seed = kReferenceSeed;
   if (spp == 0) {  // a short render says how long samples take
     const double fit = seconds / RunJob(job).result.seconds * double(kTrialSpp);

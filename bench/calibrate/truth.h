@@ -14,14 +14,13 @@ namespace lanelight::bench {
 /// InputError.
 Strategy ParseStrategy(const std::string& text);
 
-/// The same for a job, which then renders `spp` samples without a target or a time.
+/// The job with that strategy, which renders `spp` samples without a target or a time.
 /// Throws InputError if the scene does not take the strategy.
-void UseStrategy(Job& job, const std::string& text, std::uint64_t spp);
+Job JobWith(Job job, const std::string& strategy, std::uint64_t spp);
 
 /// Renders a reference by Sobol' points with a seed of its own, with `spp` samples per
-/// pixel, or, for 0, as many as fit into the seconds, at least kLeastReferenceSpp. Leaves
-/// the job with that strategy.
-Reference MakeReference(Job& job, std::uint64_t spp, double seconds);
+/// pixel, or, for 0, as many as fit into the seconds, at least kLeastReferenceSpp.
+Reference MakeReference(const Job& scene, std::uint64_t spp, double seconds);
 
 /// Less the reference's own error.
 Measurement TrueErrors(const FilmAccumulator& film, const Reference& reference);

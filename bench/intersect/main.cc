@@ -30,7 +30,7 @@ class RayBench {
   void BenchScene(const std::string& path) {
     const auto pixels = static_cast<std::size_t>(o_.size) * std::size_t(o_.size);
     const SceneRays rays = RecordRays(path, pixels);
-    Bench(rays.mesh, rays.scene, rays.sets);
+    Bench(rays.mesh, *rays.scene, rays.sets);
   }
 
  private:

@@ -79,10 +79,11 @@ SceneRays RecordRays(const std::string& path, std::size_t most) {
   RenderSettings settings;
   settings.spp = kRecordedSpp;
   Job job = PrepareJob(path, settings);
-  if (!job.scene.geometry.instances.empty()) {
+  const CompiledScene& scene = *job.scene.compiled;
+  if (!scene.geometry.instances.empty()) {
     throw InputError(path + ": scenes with instances are not supported by --scene");
   }
-  if (job.scene.geometry.triangles.empty()) throw InputError(path + ": no triangles");
+  if (scene.geometry.triangles.empty()) throw InputError(path + ": no triangles");
   closest_tap = shadow_tap = {};
   InsertTaps(job.plan);
   const ThreadLimit one(1);
@@ -101,8 +102,8 @@ SceneRays RecordRays(const std::string& path, std::size_t most) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const std::string stem = std::filesystem::path(path).stem().string();
   const bool named = stem == "reference" && folder.has_filename();
-  out.mesh = FromScene(named ? folder.filename().string() : stem, job.scene);
-  out.scene = std::move(job.scene);
+  out.mesh = FromScene(named ? folder.filename().string() : stem, scene);
+  out.scene = job.scene.compiled;
   return out;
 }
 

@@ -1,6 +1,7 @@
 // The rays of a real render, taken from the queues of its wavefronts.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@
 namespace lanelight::bench {
 
 struct SceneRays {
-  CompiledScene scene;
+  std::shared_ptr<const CompiledScene> scene;
   Mesh mesh;                 // its world triangles
   std::vector<RaySet> sets;  // "closest" and "shadow", wave by wave
 };

@@ -40,21 +40,21 @@ HWY_INLINE FirstHit LoadHit(const Wave& wave, const Slots& slots) {
 // As a camera that moves sees it at the times of paths, and as the one that has not moved
 // would see the same, in whose space it is then said.
 HWY_NOINLINE FirstHit SeenAtStart(const Wave& wave, const Slots& slots, FirstHit hit) {
-  const CompiledScene& scene = *wave.scene;
+  const CompiledView& view = *wave.view;
   const MovedSpace moved =
-      SpaceAt(OneMotion{scene.camera.motion}, Gather(wave.path.time, slots));
+      SpaceAt(OneMotion{view.camera.motion}, Gather(wave.path.time, slots));
   const Map34 forward = moved.Forward();
   const V3 p = moved.Back().Point(hit.p);
   return {p, forward.Transposed(hit.ng), forward.Transposed(hit.ns),
-          StepsAt(scene.footprint, p)};
+          StepsAt(view.footprint, p)};
 }
 
 void Gbuffer(Wave& wave) {
   const PathColumns& path = wave.path;
-  const GbufferSpace& space = wave.scene->gbuffer;
-  const PixelFootprint& footprint = wave.scene->footprint;
+  const GbufferSpace& space = wave.view->gbuffer;
+  const PixelFootprint& footprint = wave.view->footprint;
   const bool with_camera =
-      wave.scene->camera.moves && wave.scene->film.gbuffer == lanelight::Gbuffer::kCamera;
+      wave.view->camera.moves && wave.view->film.gbuffer == lanelight::Gbuffer::kCamera;
   const Queue& first =
       FilterQueue(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots) HWY_ATTR {
         return hn::RebindMask(DF(), hn::Eq(Gather(path.depth, slots), hn::Zero(DI())));

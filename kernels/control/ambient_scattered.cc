@@ -26,17 +26,17 @@ HWY_INLINE const Queue& FromDiffuse(Wave& wave) {
 }
 
 template <bool kMis>
-HWY_INLINE VF ScatteredWeight(const Wave& wave, const LightRecord& light, V3 d,
+HWY_INLINE VF ScatteredWeight(const Wave& wave, uint32_t index, V3 d,
                               const Slots& slots) {
   if constexpr (!kMis) return Splat(1.0f);
-  const LightTable& table = wave.scene->lights;
+  const LightRecord& light = wave.scene->lights.lights[index];
   VF pdf = Splat(0.0795774715459476679f);  // 1 / (4 pi)
   if (light.environment >= 0) {
-    const auto index = static_cast<std::size_t>(light.environment);
-    pdf = LookUpEnvironment(table.environments[index], d).pdf_sa;
+    const auto map = static_cast<std::size_t>(light.environment);
+    pdf = LookUpEnvironment(wave, map, d).pdf_sa;
   }
   return EmissionWeight(wave.run->mis, Gather(wave.path.bsdf_pdf, slots),
-                        hn::Mul(pdf, Splat(light.pmf)));
+                        hn::Mul(pdf, Splat(wave.chances->pmf[index])));
 }
 
 template <bool kMis>
@@ -47,9 +47,8 @@ void AmbientScattered(Wave& wave) {
     const V3 d = Gather3(path.d_x, path.d_y, path.d_z, slots);
     V3 sum = Splat3(0, 0, 0);
     for (const AmbientLight& ambient : wave.run->tables->ambient) {
-      const LightRecord& light = wave.scene->lights.lights[ambient.light];
       sum = MulAdd(EvalQuadratics(ambient.radiance, d),
-                   ScatteredWeight<kMis>(wave, light, d, slots), sum);
+                   ScatteredWeight<kMis>(wave, ambient.light, d, slots), sum);
     }
     const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
     ApplyControl(wave, slots, Mul(beta, sum));

@@ -42,7 +42,7 @@ HWY_INLINE void StoreFirstValues(const Wave& wave, const StoreSlots& slots) {
 
 template <class Projection, bool kBox, bool kLens>
 void Camera(Wave& wave) {
-  const CompiledCamera& camera = wave.scene->camera;
+  const CompiledCamera& camera = wave.view->camera;
   const PathColumns& p = wave.path;
   const auto splat = [](Vec3f v) HWY_ATTR { return Splat3(v.x, v.y, v.z); };
   const V3 base = splat(camera.base), dx = splat(camera.dx), dy = splat(camera.dy);

@@ -15,7 +15,7 @@ LANELIGHT_BEGIN_KERNELS
 
 template <bool kCamera>
 void Move(Wave& wave) {
-  const CompiledCamera& camera = wave.scene->camera;
+  const CompiledCamera& camera = wave.view->camera;
   const PathColumns& p = wave.path;
   const VF first = Splat(camera.time_first), rate = Splat(camera.time_rate);
   ForEachBatch(wave, wave.queue(QueueId::kCamera),

@@ -67,7 +67,7 @@ void EmissionOfFlat(Wave& wave) {
     const MF facing = hn::Or(hn::Gt(cosine, Splat(0)), light.TwoSided());
     VF weight = Splat(1.0f);
     if constexpr (kMis) {
-      const VF t = HitDistance(p, slots), pmf = light.Pmf(p, slots);
+      const VF t = HitDistance(p, slots), pmf = Pmf(wave, slots, index);
       VF pdf =
           hn::Div(hn::Mul(hn::Mul(pmf, t), t), hn::Mul(light.Area(), hn::Abs(cosine)));
       if constexpr (kPoints != LightPoints::kArea) {

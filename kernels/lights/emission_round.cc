@@ -94,7 +94,7 @@ void EmissionOfRound(Wave& wave) {
     const MF facing = hn::Or(hn::Gt(cosine, Splat(0)), light.TwoSided());
     VF weight = Splat(1.0f);
     if constexpr (kMis) {
-      const VF t = hits.Distance(p, slots), pmf = light.Pmf(p, slots);
+      const VF t = hits.Distance(p, slots), pmf = Pmf(wave, slots, index);
       const VF by_area =
           hn::Div(hn::Mul(hn::Mul(pmf, t), t), hn::Mul(light.Area(), hn::Abs(cosine)));
       weight = EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),

@@ -8,18 +8,21 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-LANELIGHT_INLINE void TexelValues(const Environment& e, VI row, VI column,
-                                  MapSample* out) {
+LANELIGHT_INLINE void TexelValues(const Environment& e, const EnvironmentTable& table,
+                                  VI row, VI column, MapSample* out) {
   const DI di;
   const float inv_four_pi = 0.0795774715459476679f;
   const VI texel = hn::Add(hn::Mul(row, hn::Set(di, e.size)), column);
   out->radiance = Gather3(e.rgb.data(), texel);
   const float texels = static_cast<float>(e.size) * static_cast<float>(e.size);
-  out->pdf_sa = hn::Mul(Gather(e.probability.data(), texel), Splat(texels * inv_four_pi));
+  out->pdf_sa =
+      hn::Mul(Gather(table.probability.data(), texel), Splat(texels * inv_four_pi));
 }
 
-/// Radiance and density of scene direction d.
-LANELIGHT_INLINE MapSample LookUpEnvironment(const Environment& e, V3 d) {
+/// Of environment `index`, radiance and density of scene direction d.
+LANELIGHT_INLINE MapSample LookUpEnvironment(const Wave& wave, std::size_t index, V3 d) {
+  const Environment& e = wave.scene->lights.environments[index];
+  const EnvironmentTable& table = *wave.chances->environments[index];
   const DI di;
   const float* m = e.light_from_scene;
   const V3 local = {Dot(Splat3(m[0], m[1], m[2]), d), Dot(Splat3(m[3], m[4], m[5]), d),
@@ -33,7 +36,7 @@ LANELIGHT_INLINE MapSample LookUpEnvironment(const Environment& e, V3 d) {
   };
   MapSample out;
   out.direction = d;
-  TexelValues(e, texel(t), texel(s), &out);
+  TexelValues(e, table, texel(t), texel(s), &out);
   return out;
 }
 
@@ -68,17 +71,21 @@ LANELIGHT_INLINE VI InvertCdf(const Distribution& d, int32_t bits, VF u, VF* ins
   return low;
 }
 
-/// Direction with density proportional to the luminance of its texel.
-LANELIGHT_INLINE MapSample SampleEnvironment(const Environment& e, VF u0, VF u1) {
+/// Direction of environment `index` with density proportional to the luminance of its
+/// texel.
+LANELIGHT_INLINE MapSample SampleEnvironment(const Wave& wave, std::size_t index, VF u0,
+                                             VF u1) {
+  const Environment& e = wave.scene->lights.environments[index];
+  const EnvironmentTable& table = *wave.chances->environments[index];
   const DI di;
   VF inside_row, inside_column;
   const VI zero = hn::Zero(di);
-  const Distribution rows = {e.row_cdf.data(), e.row_guide.data(), zero, zero};
-  const VI row = InvertCdf(rows, e.guide_bits, u1, &inside_row);
-  const Distribution columns = {e.column_cdf.data(), e.column_guide.data(),
+  const Distribution rows = {table.row_cdf.data(), table.row_guide.data(), zero, zero};
+  const VI row = InvertCdf(rows, table.guide_bits, u1, &inside_row);
+  const Distribution columns = {table.column_cdf.data(), table.column_guide.data(),
                                 hn::Mul(row, hn::Set(di, e.size + 1)),
-                                hn::Mul(row, hn::Set(di, (1 << e.guide_bits) + 1))};
-  const VI column = InvertCdf(columns, e.guide_bits, u0, &inside_column);
+                                hn::Mul(row, hn::Set(di, (1 << table.guide_bits) + 1))};
+  const VI column = InvertCdf(columns, table.guide_bits, u0, &inside_column);
   const VF inv_size = Splat(1.0f / static_cast<float>(e.size));
   const VF s = hn::Mul(hn::Add(hn::ConvertTo(DF(), column), inside_column), inv_size);
   const VF t = hn::Mul(hn::Add(hn::ConvertTo(DF(), row), inside_row), inv_size);
@@ -87,7 +94,7 @@ LANELIGHT_INLINE MapSample SampleEnvironment(const Environment& e, VF u0, VF u1)
   MapSample out;
   out.direction = {Dot(Splat3(m[0], m[3], m[6]), w), Dot(Splat3(m[1], m[4], m[7]), w),
                    Dot(Splat3(m[2], m[5], m[8]), w)};
-  TexelValues(e, row, column, &out);
+  TexelValues(e, table, row, column, &out);
   return out;
 }
 

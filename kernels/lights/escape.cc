@@ -22,8 +22,8 @@ void Escape(Wave& wave) {
           V3 radiance = Splat3(light.radiance[0], light.radiance[1], light.radiance[2]);
           VF pdf = Splat(inv_four_pi);
           if (light.environment >= 0) {
-            const MapSample s = LookUpEnvironment(
-                table.environments[static_cast<uint32_t>(light.environment)], d);
+            const MapSample s =
+                LookUpEnvironment(wave, static_cast<uint32_t>(light.environment), d);
             radiance = s.radiance;
             pdf = s.pdf_sa;
           }
@@ -38,9 +38,9 @@ void Escape(Wave& wave) {
           const VI lit = hn::Set(DI(), static_cast<int32_t>(index));
           radiance = AsCarried(wave, slots, lit, radiance);
           if constexpr (kMis) {
-            radiance =
-                Mul(radiance, EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
-                                             hn::Mul(pdf, Splat(light.pmf))));
+            radiance = Mul(radiance,
+                           EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
+                                          hn::Mul(pdf, Splat(wave.chances->pmf[index]))));
           }
           sum = sum + radiance;
         }

@@ -31,7 +31,7 @@ HWY_INLINE VF ClimbingProbability(const LightTree& tree, VI node, V3 p) {
 
 void HitLightTree(Wave& wave) {
   const PathColumns& p = wave.path;
-  const LightTree& tree = wave.scene->lights.tree;
+  const LightTree& tree = wave.chances->tree;
   const int32_t* nodes = tree.primitive_leaf.data();
   const Queue& mine =
       FilterQueue(wave, wave.queue(QueueId::kHit), [&](const Slots& slots) HWY_ATTR {

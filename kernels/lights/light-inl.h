@@ -18,12 +18,6 @@ struct Lights : RecordWords<LightRecord> {
   LANELIGHT_INLINE Lights(const CompiledScene& scene, VI light)
       : RecordWords(scene.lights.lights.data(), light) {}
   LANELIGHT_INLINE V3 Radiance() const { return F3(offsetof(LightRecord, radiance)); }
-  /// Probability of selecting this light: of its record, or where it depends on the place
-  /// (a tree), of the path.
-  LANELIGHT_INLINE VF Pmf(const PathColumns& p, const Slots& slots) const {
-    if (p.light_pmf != nullptr) return Gather(p.light_pmf, slots);
-    return F(offsetof(LightRecord, pmf));
-  }
   LANELIGHT_INLINE VF Area() const { return F(offsetof(LightRecord, area)); }
   LANELIGHT_INLINE VI Primitive() const { return I(offsetof(LightRecord, primitive)); }
   /// Spheres: squared distance beyond which they are sampled by their cone of directions,
@@ -31,6 +25,13 @@ struct Lights : RecordWords<LightRecord> {
   LANELIGHT_INLINE VF ConeFrom() const { return F(offsetof(LightRecord, size)); }
   LANELIGHT_INLINE MF TwoSided() const { return IsSet(offsetof(LightRecord, two_sided)); }
 };
+
+/// Probabilities of selecting lights: of these, or where they depend on the place (a
+/// tree), of the paths.
+LANELIGHT_INLINE VF Pmf(const Wave& wave, const Slots& slots, VI light) {
+  if (wave.path.light_pmf != nullptr) return Gather(wave.path.light_pmf, slots);
+  return Gather(wave.chances->pmf.data(), light);
+}
 
 /// Primitive ids that may emit, so that most hits need no look at their record.
 struct PrimitiveSpan {

@@ -33,19 +33,19 @@ HWY_INLINE void KeepMapSample(const PathColumns& p, const StoreSlots& slots, MF 
   keep(pdf, p.ls_pdf);
 }
 
-/// Samples the lights of `shape`, one map after the other; `number_at`: the word of the
-/// light's record that is its map's number. draw(map, slots) -> MapSample.
-template <bool kMany, class Maps, class Draw>
-HWY_INLINE void SampleMaps(Wave& wave, LightShape shape, const Maps& maps,
+/// Samples the lights of `shape`, one of `maps` maps after the other; `number_at`: the
+/// word of the light's record that is its map's number. draw(number, slots) -> MapSample.
+template <bool kMany, class Draw>
+HWY_INLINE void SampleMaps(Wave& wave, LightShape shape, std::size_t maps,
                            std::size_t number_at, Draw&& draw) {
-  for (std::size_t e = 0; e < maps.size(); ++e) {
+  for (std::size_t e = 0; e < maps; ++e) {
     ForEachLit<kMany>(wave, shape, [&](const StoreSlots& slots, VI index) HWY_ATTR {
       const Lights light(*wave.scene, index);
       const VI number = hn::Set(DI(), static_cast<int32_t>(e));
       const MF mine = hn::RebindMask(DF(), hn::Eq(light.I(number_at), number));
       if (hn::AllFalse(DF(), mine)) return;
-      const VF pmf = light.Pmf(wave.path, slots);
-      KeepMapSample(wave.path, slots, mine, draw(maps[e], slots), pmf);
+      const VF pmf = Pmf(wave, slots, index);
+      KeepMapSample(wave.path, slots, mine, draw(e, slots), pmf);
     });
   }
 }

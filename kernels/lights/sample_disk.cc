@@ -26,7 +26,7 @@ void SampleDiskLight(Wave& wave) {
         const V3 q = MulAdd(disk.u_axis, hn::Mul(r, cosine),
                             MulAdd(v_axis, hn::Mul(r, sine), disk.center));
         StoreSurfaceSample(p, slots,
-                           {q, disk.n, hn::Div(light.Pmf(p, slots), light.Area())},
+                           {q, disk.n, hn::Div(Pmf(wave, slots, index), light.Area())},
                            {light.Radiance(), light.TwoSided()});
       });
 }

@@ -14,7 +14,7 @@ void SampleDistantLight(Wave& wave) {
   ForEachLit<kMany>(wave, LightShape::kDistant,
                     [&](const StoreSlots& slots, VI index) HWY_ATTR {
                       const Lights light(*wave.scene, index);
-                      const VF pmf = light.Pmf(p, slots);
+                      const VF pmf = Pmf(wave, slots, index);
                       StoreLightSample(p, slots,
                                        {light.F3(offsetof(LightRecord, direction)),
                                         Splat(std::numeric_limits<float>::infinity()),

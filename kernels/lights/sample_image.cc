@@ -54,7 +54,7 @@ HWY_INLINE void SampleKind(Wave& wave) {
     const VF distance = hn::Sqrt(d2);
     const V3 direction = Mul(to_light, hn::Div(Splat(1.0f), distance));
     const V3 intensity = Mul(light.Radiance(), Kind::Intensity(image, -direction));
-    const VF factor = hn::Div(Splat(1.0f), hn::Mul(d2, light.Pmf(p, slots)));
+    const VF factor = hn::Div(Splat(1.0f), hn::Mul(d2, Pmf(wave, slots, index)));
     StoreLightSample(
         p, slots,
         {direction, distance, Mul(intensity, factor), Splat(0), hn::Gt(d2, Splat(0))});

@@ -20,7 +20,7 @@ void SampleInfiniteConstant(Wave& wave) {
         const VF z = hn::NegMulAdd(Splat(2.0f), Gather(p.u_light_0, slots), Splat(1.0f));
         const VF ring = hn::Sqrt(hn::Max(hn::NegMulAdd(z, z, Splat(1.0f)), Splat(0)));
         const auto [sine, cosine] = SinCos2Pi(Gather(p.u_light_1, slots));
-        const VF pdf = hn::Mul(light.Pmf(p, slots), Splat(inv_four_pi));
+        const VF pdf = hn::Mul(Pmf(wave, slots, index), Splat(inv_four_pi));
         StoreLightSample(p, slots,
                          {{hn::Mul(ring, cosine), hn::Mul(ring, sine), z},
                           Splat(std::numeric_limits<float>::infinity()),

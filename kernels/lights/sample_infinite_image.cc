@@ -12,10 +12,10 @@ LANELIGHT_BEGIN_KERNELS
 template <bool kMany>
 void SampleInfiniteImage(Wave& wave) {
   const PathColumns& p = wave.path;
-  SampleMaps<kMany>(wave, LightShape::kInfiniteImage, wave.scene->lights.environments,
+  SampleMaps<kMany>(wave, LightShape::kInfiniteImage, wave.chances->environments.size(),
                     offsetof(LightRecord, environment),
-                    [&](const Environment& map, const StoreSlots& slots) HWY_ATTR {
-                      return SampleEnvironment(map, Gather(p.u_light_0, slots),
+                    [&](std::size_t map, const StoreSlots& slots) HWY_ATTR {
+                      return SampleEnvironment(wave, map, Gather(p.u_light_0, slots),
                                                Gather(p.u_light_1, slots));
                     });
 }

@@ -18,7 +18,7 @@ void SamplePointLight(Wave& wave) {
                             Gather3(p.p_x, p.p_y, p.p_z, slots);
         const VF d2 = Dot(to_light, to_light);
         const VF distance = hn::Sqrt(d2);
-        const VF factor = hn::Div(Splat(1.0f), hn::Mul(d2, light.Pmf(p, slots)));
+        const VF factor = hn::Div(Splat(1.0f), hn::Mul(d2, Pmf(wave, slots, index)));
         StoreLightSample(p, slots,
                          {Mul(to_light, hn::Div(Splat(1.0f), distance)), distance,
                           Mul(light.Radiance(), factor), Splat(0), hn::Gt(d2, Splat(0))});

@@ -11,10 +11,11 @@ LANELIGHT_BEGIN_KERNELS
 template <bool kMany>
 void SamplePortalLight(Wave& wave) {
   const PathColumns& p = wave.path;
+  const std::vector<Portal>& portals = wave.scene->lights.portals;
   SampleMaps<kMany>(
-      wave, LightShape::kPortal, wave.scene->lights.portals, offsetof(LightRecord, image),
-      [&](const Portal& map, const StoreSlots& slots) HWY_ATTR {
-        return SamplePortal(map, Gather3(p.p_x, p.p_y, p.p_z, slots),
+      wave, LightShape::kPortal, portals.size(), offsetof(LightRecord, image),
+      [&](std::size_t map, const StoreSlots& slots) HWY_ATTR {
+        return SamplePortal(portals[map], Gather3(p.p_x, p.p_y, p.p_z, slots),
                             Gather(p.u_light_0, slots), Gather(p.u_light_1, slots));
       });
 }

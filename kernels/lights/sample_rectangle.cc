@@ -43,7 +43,7 @@ struct RectangleSampling {
                       [&](const StoreSlots& slots, VI index) HWY_ATTR {
                         const Lights light(*wave.scene, index);
                         SampleFlatLight<kPoints>(
-                            p, slots, RectangleEmitters(light, light.Pmf(p, slots)));
+                            p, slots, RectangleEmitters(light, Pmf(wave, slots, index)));
                       });
   }
 };

@@ -43,15 +43,17 @@ struct SphereEmitters {
         two_sided(light.I(offsetof(LightRecord, two_sided))) {}
 
   /// One for each of the scene's lights, which fit into a vector.
-  HWY_INLINE static SphereEmitters All(const CompiledScene& scene) {
+  HWY_INLINE static SphereEmitters All(const Wave& wave) {
     const DI di;
+    const CompiledScene& scene = *wave.scene;
     const auto last = static_cast<int32_t>(scene.lights.lights.size()) - 1;
+    const VI index = hn::Min(hn::Iota(di, 0), hn::Set(di, last));
     const VI first = hn::Set(di, static_cast<int32_t>(scene.geometry.ranges.spheres));
-    const Lights light(scene, hn::Min(hn::Iota(di, 0), hn::Set(di, last)));
+    const Lights light(scene, index);
     const auto shape = hn::Eq(light.I(offsetof(LightRecord, shape)),
                               hn::Set(di, static_cast<int32_t>(LightShape::kSphere)));
     return {scene, light, hn::IfThenElse(shape, light.Primitive(), first),
-            light.F(offsetof(LightRecord, pmf))};
+            Gather(wave.chances->pmf.data(), index)};
   }
 
   HWY_INLINE SphereEmitters Choose(VI light) const {
@@ -133,7 +135,7 @@ void SampleSphereLight(Wave& wave) {
   const CompiledScene& scene = *wave.scene;
   if (scene.lights.lights.size() <= hn::Lanes(DF()) && p.light_pmf == nullptr) {
     // Records are read once per call; batches choose among them in registers.
-    const SphereEmitters all = SphereEmitters::All(scene);
+    const SphereEmitters all = SphereEmitters::All(wave);
     ForEachLit<kMany>(wave, LightShape::kSphere,
                       [&](const StoreSlots& slots, VI index)
                           HWY_ATTR { SampleEmitters(p, slots, all.Choose(index)); });
@@ -142,7 +144,8 @@ void SampleSphereLight(Wave& wave) {
   ForEachLit<kMany>(
       wave, LightShape::kSphere, [&](const StoreSlots& slots, VI index) HWY_ATTR {
         const Lights light(scene, index);
-        SampleEmitters(p, slots, {scene, light, light.Primitive(), light.Pmf(p, slots)});
+        SampleEmitters(p, slots,
+                       {scene, light, light.Primitive(), Pmf(wave, slots, index)});
       });
 }
 

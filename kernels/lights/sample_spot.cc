@@ -34,7 +34,7 @@ void SampleSpotLight(Wave& wave) {
         const VF s = hn::Min(hn::Max(x, Splat(0)), Splat(1.0f));
         const VF smooth =
             hn::Mul(hn::Mul(s, s), hn::NegMulAdd(Splat(2.0f), s, Splat(3.0f)));
-        const VF factor = hn::Div(smooth, hn::Mul(d2, light.Pmf(p, slots)));
+        const VF factor = hn::Div(smooth, hn::Mul(d2, Pmf(wave, slots, index)));
         StoreLightSample(p, slots,
                          {direction, distance, Mul(light.Radiance(), factor), Splat(0),
                           hn::And(hn::Gt(d2, Splat(0)), hn::Gt(smooth, Splat(0)))});

@@ -44,14 +44,16 @@ struct TriangleEmitters {
   }
 
   /// One for each of the scene's lights, which fit into a vector.
-  HWY_INLINE static TriangleEmitters All(const CompiledScene& scene) {
+  HWY_INLINE static TriangleEmitters All(const Wave& wave) {
     const DI di;
+    const CompiledScene& scene = *wave.scene;
     const auto last = static_cast<int32_t>(scene.lights.lights.size()) - 1;
-    const Lights light(scene, hn::Min(hn::Iota(di, 0), hn::Set(di, last)));
+    const VI index = hn::Min(hn::Iota(di, 0), hn::Set(di, last));
+    const Lights light(scene, index);
     const auto shape = hn::Eq(light.I(offsetof(LightRecord, shape)),
                               hn::Set(di, static_cast<int32_t>(LightShape::kTriangle)));
     return {scene, light, hn::IfThenElseZero(shape, light.Primitive()),
-            light.F(offsetof(LightRecord, pmf))};
+            Gather(wave.chances->pmf.data(), index)};
   }
 
   HWY_INLINE TriangleEmitters Choose(VI light) const {
@@ -83,7 +85,7 @@ struct TriangleSampling {
     const CompiledScene& scene = *wave.scene;
     if (scene.lights.lights.size() <= hn::Lanes(DF()) && p.light_pmf == nullptr) {
       // Records are read once per call; batches choose among them in registers.
-      const TriangleEmitters all = TriangleEmitters::All(scene);
+      const TriangleEmitters all = TriangleEmitters::All(wave);
       ForEachLit<kMany>(wave, LightShape::kTriangle,
                         [&](const StoreSlots& slots, VI index) HWY_ATTR {
                           SampleFlatLight<kPoints>(p, slots, all.Choose(index));
@@ -95,7 +97,7 @@ struct TriangleSampling {
           const Lights light(scene, index);
           SampleFlatLight<kPoints>(
               p, slots,
-              TriangleEmitters(scene, light, light.Primitive(), light.Pmf(p, slots)));
+              TriangleEmitters(scene, light, light.Primitive(), Pmf(wave, slots, index)));
         });
   }
 };

@@ -1,5 +1,5 @@
 // light-selection=power, uniform: by the table of the scene (Walker's alias method).
-//   estimator   f(light) / pmf(light), pmf of the light record
+//   estimator   f(light) / pmf(light), pmf of LightChances
 //   unbiased    every light has pmf > 0
 //   variance    zero only if every light's contribution is in proportion to its pmf: no
 //               notion of distance, so poor for many small lights
@@ -28,11 +28,11 @@ HWY_INLINE VF TurnFraction(VF fraction, VI bin, uint32_t step) {
 
 void SelectLight(Wave& wave) {
   const DI di;
-  const LightTable& table = wave.scene->lights;
-  const VF count = Splat(static_cast<float>(table.lights.size()));
-  const VI last = hn::Set(di, static_cast<int32_t>(table.lights.size()) - 1);
+  const LightChances& table = *wave.chances;
+  const VF count = Splat(static_cast<float>(table.alias.size()));
+  const VI last = hn::Set(di, static_cast<int32_t>(table.alias.size()) - 1);
   // The golden ratio of 2^32; few lights keep the order of their strata.
-  const uint32_t step = table.lights.size() > 64 ? 0x9e3779b9u : 0;
+  const uint32_t step = table.alias.size() > 64 ? 0x9e3779b9u : 0;
   ForEachBatch(wave, wave.queue(QueueId::kLit), [&](const Slots& slots, MF) HWY_ATTR {
     const VF scaled = hn::Mul(Gather(wave.path.u_select, slots), count);
     const VI bin = hn::Min(hn::ConvertTo(di, scaled), last);

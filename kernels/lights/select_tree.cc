@@ -43,7 +43,7 @@ HWY_INLINE VI Descend(const LightTree& tree, V3 p, VF u, VF* pmf) {
 void SelectLightTree(Wave& wave) {
   const PathColumns& p = wave.path;
   const DI di;
-  const LightTree& tree = wave.scene->lights.tree;
+  const LightTree& tree = wave.chances->tree;
   const int num_far = static_cast<int>(tree.far.size());
   const float share_far = tree.pmf_far * static_cast<float>(num_far);
   ForEachBatch(wave, wave.queue(QueueId::kLit), [&](const Slots& slots, MF) HWY_ATTR {

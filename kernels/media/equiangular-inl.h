@@ -11,7 +11,7 @@ LANELIGHT_BEGIN_KERNELS
 
 /// The middle of a light, drawn by power with two numbers in [0, 1); infinite for lights
 /// that have no place.
-LANELIGHT_INLINE V3 DrawAnchor(const MediumTable& table, VF u0, VF u1) {
+LANELIGHT_INLINE V3 DrawAnchor(const LightChances& table, VF u0, VF u1) {
   const DI di;
   const LightAnchor* anchors = table.anchors.data();
   const std::size_t size = table.anchors.size();
@@ -99,7 +99,7 @@ struct EquiangularHalf {
     const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
     VF u0, u1;
     random.Next(&u0, &u1);
-    const V3 anchor = DrawAnchor(wave.scene->media, u0, u1);
+    const V3 anchor = DrawAnchor(*wave.chances, u0, u1);
     const V3 to = anchor - o;
     const VF reach = hn::Min(t, hn::Div(Splat(1.0f), drawn));
     const VF least = hn::Mul(Splat(1e-4f), hn::Add(hn::Sqrt(Dot(to, to)), reach));

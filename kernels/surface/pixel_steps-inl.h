@@ -42,19 +42,19 @@ HWY_INLINE PixelSteps StepsAt(const PixelFootprint& f, V3 p) {
 }
 
 // The same at the times of paths, where the camera moves.
-HWY_NOINLINE inline PixelSteps MovedSteps(const CompiledScene& scene, V3 p, VF time) {
-  const MovedSpace space = SpaceAt(OneMotion{scene.camera.motion}, time);
-  const PixelSteps steps = StepsAt(scene.footprint, space.Back().Point(p));
+HWY_NOINLINE inline PixelSteps MovedSteps(const CompiledView& view, V3 p, VF time) {
+  const MovedSpace space = SpaceAt(OneMotion{view.camera.motion}, time);
+  const PixelSteps steps = StepsAt(view.footprint, space.Back().Point(p));
   const Map34 map = space.Forward();
   return {map.Vector(steps.sight), map.Vector(steps.x), map.Vector(steps.y)};
 }
 
 HWY_INLINE PixelSteps StepsOfPaths(const Wave& wave, const Slots& slots, V3 p) {
-  const CompiledScene& scene = *wave.scene;
-  if (HWY_UNLIKELY(scene.camera.moves)) {
-    return MovedSteps(scene, p, Gather(wave.path.time, slots));
+  const CompiledView& view = *wave.view;
+  if (HWY_UNLIKELY(view.camera.moves)) {
+    return MovedSteps(view, p, Gather(wave.path.time, slots));
   }
-  return StepsAt(scene.footprint, p);
+  return StepsAt(view.footprint, p);
 }
 
 // A step moved along the sight into the plane across n.

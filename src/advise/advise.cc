@@ -6,11 +6,11 @@
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "src/core/check.h"
 #include "src/core/parallel.h"
 #include "src/core/stopwatch.h"
-#include "src/prepare/use_strategy.h"
 #include "src/report/values.h"
 #include "src/run/run_strategy.h"
 #include "src/train/strategy_trial.h"
@@ -63,7 +63,7 @@ std::uint32_t SppFor(std::uint64_t samples) {
 
 class Adviser {
  public:
-  Adviser(Job& job, const AdviceOptions& options)
+  Adviser(const Job& job, const AdviceOptions& options)
       : job_(job),
         options_(options),
         pilot_(options.pilot > 0 ? options.pilot : kPilotShare * options.seconds),
@@ -139,10 +139,9 @@ class Adviser {
   bool TryAll(std::vector<Tried>& tried, std::uint64_t samples) {
     trial_.Begin(samples, SppFor(samples), turn_++);
     for (Tried& t : tried) {
-      Use(t);
       const AdvisedCandidate& c = all_[t.index];
       if (!t.entry.has_learned) {
-        t.entry = ToTry(job_.scene, job_.plan.options, c.changes, c.price);
+        t.entry = ToTry(PreparedFor(c), job_.plan.options, c.changes, c.price);
       }
       if (!trial_.Try(t.entry, tried.front().entry)) return false;
     }
@@ -151,8 +150,8 @@ class Adviser {
 
   // Roulette and guiding are changes of the plan, which is what a pair is known by
   // (StrategyTrial); all else is prepared with the scene.
-  void Use(const Tried& tried) {
-    Strategy prepared = all_[tried.index].strategy;
+  PreparedScene PreparedFor(const AdvisedCandidate& candidate) const {
+    Strategy prepared = candidate.strategy;
     const Strategy usual;
     prepared.roulette = usual.roulette;
     prepared.termination = usual.termination;
@@ -160,7 +159,7 @@ class Adviser {
     prepared.first = usual.first;
     prepared.scale = usual.scale;
     prepared.guiding = usual.guiding;
-    UseStrategy(prepared, job_.scene);
+    return WithStrategy(job_.scene, prepared);
   }
 
   // By the last round. Where few pixels carry the error, what they would tell is not
@@ -234,7 +233,6 @@ class Adviser {
     // Half as many again since they cost more.
     const auto samples = static_cast<std::uint64_t>(kTiles * pilot_ * kRaysPerSecond /
                                                     (2.5 * base.entry.measure.cost));
-    Use(base);
     for (const TriedBlocks& blocks : trial_.TryBlocks(base.entry, samples, must)) {
       AddBlocks(base, blocks, samples);
       if (blocks.pays) chosen_ = all_.size() - 1;
@@ -275,10 +273,7 @@ class Adviser {
     const AdvisedCandidate& best = all_[chosen_];
     advice_.chosen = best.strategy;
     advice_.why = Why(best);
-    job_.spp = 0;
-    SetStrategy(job_, best.strategy);
-    const double taken = advice_.pilot_seconds = watch_.Seconds();
-    job_.seconds = std::max(options_.seconds - taken, 0.01 * options_.seconds);
+    advice_.pilot_seconds = watch_.Seconds();
   }
 
   std::string Why(const AdvisedCandidate& best) const {
@@ -300,7 +295,7 @@ class Adviser {
                        best.changes, EstimateText(best.efficiency), best.meaning);
   }
 
-  Job& job_;
+  const Job& job_;
   const AdviceOptions& options_;
   const Stopwatch watch_;
   const double pilot_;  // seconds of kRaysPerSecond
@@ -314,9 +309,15 @@ class Adviser {
 
 }  // namespace
 
-Advice Advise(Job& job, const AdviceOptions& options) {
+Advice Advise(const Job& job, const AdviceOptions& options) {
   const ThreadLimit threads(job.settings.threads);
   return Adviser(job, options).Run();
+}
+
+Job WithAdvice(Job job, const Advice& advice, const AdviceOptions& options) {
+  job.spp = 0;
+  job.seconds = std::max(options.seconds - advice.pilot_seconds, 0.01 * options.seconds);
+  return WithStrategy(std::move(job), advice.chosen);
 }
 
 nlohmann::json ToJson(const Advice& advice) {

@@ -40,9 +40,12 @@ struct Advice {
 /// the same pixels (StrategyTrial): first all; then the default, the best two and what
 /// both make together; last the best and the default on yet other pixels, which decide.
 /// What is advised is a function of scene, settings and seed, unless the trial has to be
-/// ended since it takes three times what it should. `job` then has the chosen strategy, a
-/// plan for it, and the rest of the time as its budget (at least a hundredth of it).
-Advice Advise(Job& job, const AdviceOptions& options);
+/// ended since it takes three times what it should.
+Advice Advise(const Job& job, const AdviceOptions& options);
+
+/// The job with the chosen strategy, and with the rest of the time as its budget (at
+/// least a hundredth of it).
+Job WithAdvice(Job job, const Advice& advice, const AdviceOptions& options);
 
 /// "candidates", "chosen", "why", "pilot_seconds", "pilot_rays", "interrupted".
 nlohmann::json ToJson(const Advice& advice);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <memory>
 
-#include "src/prepare/use_strategy.h"
 #include "src/train/decision_candidates.h"
 #include "src/plan/plan_key.h"
 
@@ -24,16 +23,16 @@ constexpr double kUnknownSpread = 0.15;
 
 // Why the scene does not take the strategy; empty if it does. `key` is then its plan's.
 std::string Refusal(const Strategy& strategy, const PlanOptions& options,
-                    CompiledScene& scene, std::string& key) {
+                    const PreparedScene& scene, std::string& key) {
   if (strategy.light_selection == LightSelection::kTree &&
-      scene.lights.lights.size() < kFewLights) {
-    const std::size_t lights = scene.lights.lights.size();
+      scene.compiled->lights.lights.size() < kFewLights) {
+    const std::size_t lights = scene.compiled->lights.lights.size();
     return fmt::format("with {} light{} there is little to select", lights,
                        lights == 1 ? "" : "s");
   }
   try {
-    UseStrategy(strategy, scene);
-    key = PlanKey(scene, MakePlan(scene, options));
+    const PreparedScene prepared = WithStrategy(scene, strategy);
+    key = PlanKey(prepared, MakePlan(prepared, options));
   } catch (const InputError& error) {
     const std::string text = error.what(), prefix = "strategy: ";
     const std::size_t at = text.find(prefix);
@@ -76,7 +75,7 @@ std::optional<AdvisedCandidate> Together(const AdvisedCandidate& a,
   return WithMore(both, b.changes);
 }
 
-std::vector<AdvisedCandidate> CandidatesFor(CompiledScene& scene,
+std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
                                             const PlanOptions& options) {
   const Strategy own = scene.strategy, usual;
   std::vector<AdvisedCandidate> out = {{usual, "", "the renderer's default"}};
@@ -109,7 +108,6 @@ std::vector<AdvisedCandidate> CandidatesFor(CompiledScene& scene,
   // A comparison needs its first.
   if (out.front().status == CandidateStatus::kRefused)
     std::swap(out[0], out[kPlaceOfOwn]);
-  UseStrategy(own, scene);
   return out;
 }
 

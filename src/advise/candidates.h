@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/compiled/scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/stat/interval.h"
 #include "src/plan/plan.h"
 
@@ -40,9 +40,9 @@ struct AdvisedCandidate {
 
 /// The renderer's default first, then kDecisionCandidates, and the scene's own strategy
 /// within them if that is another, in the order in which a short trial tries them.
-/// `options`: of the plans that are tried. `scene` ends with its own strategy. (If the
-/// scene refused the default, its own would be first.)
-std::vector<AdvisedCandidate> CandidatesFor(CompiledScene& scene,
+/// `options`: of the plans that are tried. (If the scene refused the default, its own
+/// would be first.)
+std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
                                             const PlanOptions& options);
 
 /// What two changes of different axes make together; none if they are of one axis, or one

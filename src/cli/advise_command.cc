@@ -87,8 +87,8 @@ int PrintAdvice(const AdviseCommandOptions& options, const Advice& advice) {
 
 int RunAdvise(const AdviseCommandOptions& options) {
   const RenderTargets& targets = options.outputs.targets;
-  Job job = OpenScene(options.scene, {{targets.exr, targets.png, targets.json}},
-                      options.outputs.quiet);
+  const Job job = OpenScene(options.scene, {{targets.exr, targets.png, targets.json}},
+                            options.outputs.quiet);
   const InterruptGuard interrupt(kStoppingMessage, job.settings.threads);
   AdviceOptions advise;
   advise.seconds = *options.scene.settings.seconds;
@@ -99,9 +99,10 @@ int RunAdvise(const AdviseCommandOptions& options) {
   ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
   RenderHooks hooks = PrintingHooks(progress, interrupt.stop());
   hooks.members = {{"advice", ToJson(advice)}};
+  const Job advised = WithAdvice(job, advice, advise);
   const Rendering rendering =
-      RenderToFiles(job, options.scene.scene, options.outputs.targets, hooks);
-  return PrintRendering(rendering, job, options.outputs, AdviceText(advice) + "\n");
+      RenderToFiles(advised, options.scene.scene, options.outputs.targets, hooks);
+  return PrintRendering(rendering, advised, options.outputs, AdviceText(advice) + "\n");
 }
 
 }  // namespace

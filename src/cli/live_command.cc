@@ -31,7 +31,7 @@ std::string CommandLine(const SceneOptions& options) {
 }
 
 int Live(const LiveCommandOptions& options) {
-  live::Stage stage(options.scene.scene, options.scene.settings);
+  const live::Stage stage(options.scene.scene, options.scene.settings);
   PrintNotes(stage.job);
   live::Server server(stage, CommandLine(options.scene), options.port);
   const InterruptGuard interrupt(kLiveInterruptText);

@@ -117,16 +117,17 @@ std::string Text(const Job& job, const std::string& scene) {
          SummaryRow("strategy", StrategyWords(job)) +
          SummaryRow("points", PointsText(job.scene.strategy, job.spp)) + "\n" +
          Notes(plan) + "the scene and options have:\n" + Features(plan.features) + "\n" +
-         Stages(plan) + "\n" + Fields(plan) + DiffersRow(job.description.notes);
+         Stages(plan) + "\n" + Fields(plan) + DiffersRow(job.loaded->description.notes);
 }
 
 std::string JsonText(const Job& job, const std::string& scene) {
-  nlohmann::json out = {{"schema", kReportSchema},
-                        {"scene", scene},
-                        {"target", TargetJson(job.plan.options.target)},
-                        {"machine", ToJson(ThisMachine())},
-                        {"plan", ToJson(job.plan)},
-                        {"differs", CountImageChanges(job.description.notes) > 0}};
+  nlohmann::json out = {
+      {"schema", kReportSchema},
+      {"scene", scene},
+      {"target", TargetJson(job.plan.options.target)},
+      {"machine", ToJson(ThisMachine())},
+      {"plan", ToJson(job.plan)},
+      {"differs", CountImageChanges(job.loaded->description.notes) > 0}};
   return DumpJson(out, 2) + "\n";
 }
 

@@ -49,7 +49,7 @@ int Render(const RenderCommandOptions& options, RankGroup& group) {
   if (options.outputs.quiet) settings.trees.folder.on_wait = nullptr;
   if (!group.leads()) return Serve(options, settings, group);
   const Job job = PrepareJob(options.scene.scene, settings);
-  CheckOutputs(options.outputs, job.files);
+  CheckOutputs(options.outputs, job.loaded->files);
   if (!options.outputs.quiet) PrintNotes(job);
   CheckPart(options.outputs.targets.checkpoint, job);
   const bool keeps = !options.outputs.targets.checkpoint.path.empty();

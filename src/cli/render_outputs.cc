@@ -54,7 +54,7 @@ void PrintUnsampled(const RenderReport& report, const Job& job,
 
 // The summary says it in its last line.
 int CheckImageChanges(const Job& job, const RenderOutputs& options) {
-  const std::string text = ImageChangesText(job.description.notes);
+  const std::string text = ImageChangesText(job.loaded->description.notes);
   if (text.empty()) return kExitGood;
   if (options.quiet || options.targets.json == "-") PrintError("warning: " + text);
   return kExitImageDiffers;
@@ -117,13 +117,14 @@ Job OpenScene(const SceneOptions& options, const OutputPaths& outputs, bool quie
   RenderSettings settings = options.settings;
   if (quiet) settings.trees.folder.on_wait = nullptr;
   Job job = PrepareJob(options.scene, settings);
-  CheckOutputPaths(outputs, job.files);
+  CheckOutputPaths(outputs, job.loaded->files);
   if (!quiet) PrintNotes(job);
   return job;
 }
 
 void PrintNotes(const Job& job) {
-  for (const std::string& line : NoteLines(job.description.notes)) PrintError(line);
+  for (const std::string& line : NoteLines(job.loaded->description.notes))
+    PrintError(line);
   for (const std::string& note : job.plan.notes) PrintError("note: " + note);
 }
 

@@ -128,9 +128,11 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
          SummaryRow(
              "steps",
              fmt::format("load {}, build {} (trees {} in {}), render {}, write {}",
-                         DurationText(job.load_seconds), DurationText(job.build_seconds),
-                         Name(job.trees.origin), DurationText(job.trees.seconds),
-                         DurationText(r.seconds), DurationText(report.write_seconds))) +
+                         DurationText(job.loaded->load_seconds),
+                         DurationText(job.loaded->build_seconds),
+                         Name(job.loaded->trees.origin),
+                         DurationText(job.loaded->trees.seconds), DurationText(r.seconds),
+                         DurationText(report.write_seconds))) +
          SummaryRow("machine", MachineText(ThisMachine())) +
          SummaryRow(
              "kernels",
@@ -202,7 +204,7 @@ std::string SummaryText(const RenderReport& report, const Job& job,
   if (r.health.Total() > 0) text += SummaryRow("health", HealthText(r.health));
   text += NextRow(report, job, choice.checkpoint);
   if (choice.verbose) text += DetailRows(report, job);
-  return text + DiffersRow(job.description.notes);
+  return text + DiffersRow(job.loaded->description.notes);
 }
 
 }  // namespace lanelight

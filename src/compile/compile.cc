@@ -153,7 +153,8 @@ std::shared_ptr<const KnownTree> TreesOf(const CompiledScene& scene) {
 CompiledScene CompileScene(const SceneDescription& description,
                            const CompileOptions& options) {
   CompiledScene scene;
-  scene.film = description.film;
+  CompiledView& view = scene.view;
+  view.film = description.film;
   scene.integrator = description.integrator;
   scene.filter = CompileFilter(description.filter);
 
@@ -161,10 +162,10 @@ CompiledScene CompileScene(const SceneDescription& description,
   LeaveOutSmall(placement, scene.notes);
   scene.center = placement.frame.center;
   scene.scale = placement.frame.scale;
-  scene.camera = CompileCamera(description.camera, description.film, placement.frame);
-  scene.footprint = CompileFootprint(scene.camera, description.camera, description.film,
-                                     description.sampler.spp);
-  scene.gbuffer =
+  view.camera = CompileCamera(description.camera, description.film, placement.frame);
+  view.footprint = CompileFootprint(view.camera, description.camera, description.film,
+                                    description.sampler.spp);
+  view.gbuffer =
       CompileGbufferSpace(description.film, description.camera, placement.frame);
 
   std::optional<SpectrumRows> rows;
@@ -220,7 +221,6 @@ CompiledScene CompileScene(const SceneDescription& description,
   NoteNothingToHit(description, scene);
   NoteUnlitInsides(description, materials.index, scene);
   FindTrees(options, scene);
-  scene.strategy = description.strategy;
   return scene;
 }
 

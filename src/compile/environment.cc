@@ -93,7 +93,7 @@ Environment CompileEnvironment(const Light& light, const Image& image,
     scale *= light.illuminance / map;
   }
   for (float& v : environment.rgb) v = static_cast<float>(v * scale);
-  SetEnvironmentTable(false, environment);
+  environment.table = MakeEnvironmentTable(false, environment);
   return environment;
 }
 

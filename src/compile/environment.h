@@ -13,7 +13,7 @@ namespace lanelight {
 /// values count as zero, and go to `notes` unless that is null.
 Environment CompileEnvironment(const Light& light, std::vector<Note>* notes);
 
-/// The same for an image in memory. `probability` is empty if the image is black.
+/// The same for an image in memory. Its table is empty if the image is black.
 Environment CompileEnvironment(const Light& light, const Image& image,
                                std::vector<Note>* notes = nullptr);
 

@@ -45,7 +45,8 @@ int GuideBits(std::size_t size) {
   return bits;
 }
 
-// See Environment::guide_bits. Parts are powers of two, so that u finds its part exactly.
+// See EnvironmentTable::guide_bits. Parts are powers of two, so that u finds its part
+// exactly.
 void StoreGuide(const float* cdf, std::size_t size, int bits, std::int32_t* guide) {
   const std::size_t parts = std::size_t{1} << bits;
   std::size_t step = 0;
@@ -81,43 +82,44 @@ std::vector<double> AboveMean(const std::vector<double>& luminance) {
 }
 
 // The probabilities are those of the rounded sums, which is what the kernel samples.
-void StoreProbabilities(Environment& environment) {
-  const auto size = static_cast<std::size_t>(environment.size);
+void StoreProbabilities(std::size_t size, EnvironmentTable& table) {
   for (std::size_t y = 0; y < size; ++y) {
-    const float* columns = environment.column_cdf.data() + y * (size + 1);
-    const double row =
-        double(environment.row_cdf[y + 1]) - double(environment.row_cdf[y]);
+    const float* columns = table.column_cdf.data() + y * (size + 1);
+    const double row = double(table.row_cdf[y + 1]) - double(table.row_cdf[y]);
     for (std::size_t x = 0; x < size; ++x) {
       const double column = double(columns[x + 1]) - double(columns[x]);
-      environment.probability[y * size + x] = static_cast<float>(row * column);
+      table.probability[y * size + x] = static_cast<float>(row * column);
     }
   }
 }
 
 }  // namespace
 
-void SetEnvironmentTable(bool compensated, Environment& environment) {
+std::shared_ptr<const EnvironmentTable> MakeEnvironmentTable(
+    bool compensated, const Environment& environment) {
+  auto table = std::make_shared<EnvironmentTable>();
   const auto size = static_cast<std::size_t>(environment.size);
   std::vector<double> weights = Luminances(environment), rows(size);
-  if (!(Sum(weights) > 0)) return;
+  if (!(Sum(weights) > 0)) return table;
   if (compensated) weights = AboveMean(weights);
   for (std::size_t i = 0; i < weights.size(); ++i) rows[i / size] += weights[i];
-  environment.row_cdf.resize(size + 1);
-  environment.column_cdf.resize((size + 1) * size);
-  environment.probability.resize(size * size);
-  StoreCdf(rows.data(), size, environment.row_cdf.data());
+  table->row_cdf.resize(size + 1);
+  table->column_cdf.resize((size + 1) * size);
+  table->probability.resize(size * size);
+  StoreCdf(rows.data(), size, table->row_cdf.data());
   const int bits = GuideBits(size);
   const std::size_t guide = (std::size_t{1} << bits) + 1;
-  environment.guide_bits = bits;
-  environment.row_guide.resize(guide);
-  environment.column_guide.resize(guide * size);
-  StoreGuide(environment.row_cdf.data(), size, bits, environment.row_guide.data());
+  table->guide_bits = bits;
+  table->row_guide.resize(guide);
+  table->column_guide.resize(guide * size);
+  StoreGuide(table->row_cdf.data(), size, bits, table->row_guide.data());
   for (std::size_t y = 0; y < size; ++y) {
-    float* columns = environment.column_cdf.data() + y * (size + 1);
+    float* columns = table->column_cdf.data() + y * (size + 1);
     StoreCdf(weights.data() + y * size, size, columns);
-    StoreGuide(columns, size, bits, environment.column_guide.data() + y * guide);
+    StoreGuide(columns, size, bits, table->column_guide.data() + y * guide);
   }
-  StoreProbabilities(environment);
+  StoreProbabilities(size, *table);
+  return table;
 }
 
 }  // namespace lanelight

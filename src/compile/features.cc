@@ -179,7 +179,7 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
   if (!g.curves.empty()) features.Add(Feature::kCurves);
   if (!g.instances.empty()) features.Add(Feature::kInstances);
   if (!g.motions.empty()) features.Add(Feature::kMovingInstances);
-  if (scene.camera.moves) features.Add(Feature::kMovingCamera);
+  if (scene.view.camera.moves) features.Add(Feature::kMovingCamera);
   if (features.HasAny({Feature::kMovingInstances, Feature::kMovingCamera})) {
     features.Add(Feature::kMotion);
   }
@@ -197,10 +197,11 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
     features.Add(Feature::kMis);
   }
   // Points on the lens.
-  if (scene.camera.lens_radius > 0 || scene.camera.kind == CameraKind::kRealistic) {
+  if (scene.view.camera.lens_radius > 0 ||
+      scene.view.camera.kind == CameraKind::kRealistic) {
     features.Add(Feature::kLens);
   }
-  features.Add(FeatureOf(scene.camera.kind));
+  features.Add(FeatureOf(scene.view.camera.kind));
   if (!scene.filter.is_box) features.Add(Feature::kFiltered);
   if (HasNegative(scene.filter.x_sign) || HasNegative(scene.filter.y_sign)) {
     features.Add(Feature::kSignedFilter);

@@ -124,7 +124,7 @@ void LightCompiler::Infinite(const Light& light) {
   if (image) {
     Environment environment = CompileEnvironment(light, &notes_);
     mean = MeanRadiance(environment);
-    if (environment.probability.empty()) return;  // black
+    if (environment.table->probability.empty()) return;  // black
     record.environment = static_cast<std::int32_t>(lights_.table.environments.size());
     lights_.table.environments.push_back(std::move(environment));
   } else if (light.illuminance > 0) {

@@ -12,7 +12,7 @@
 namespace lanelight {
 
 /// Sets the `light` of emitting records in `geometry` too. Lights without power get no
-/// record. Probabilities are left to UseStrategy (src/prepare/use_strategy.h). Throws
+/// record. Probabilities are left to MakeLightChances. Throws
 /// InputError at the directive for images and transforms that cannot be used; what is not
 /// used of an image goes to `notes`. `spectra`: of paths that carry wavelengths; else
 /// null.

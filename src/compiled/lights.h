@@ -1,7 +1,8 @@
-// Lights as the kernels read them, and the tables they are chosen by.
+// Lights as the kernels read them, and apart from them what a strategy decides of them.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "src/core/aligned.h"
@@ -9,11 +10,10 @@
 
 namespace lanelight {
 
-/// Light record: 24 words. Emitters in instances are copied into the world at compile.
+/// Light record: 23 words. Emitters in instances are copied into the world at compile.
 struct LightRecord {
   std::uint32_t shape;       // LightShape
   std::uint32_t two_sided;   // 0 or 1
-  float pmf;                 // probability of being selected
   float area;                // scene units; 0 for lights without area
   float radiance[3];         // radiance; point/spot: intensity in scene units (W/sr times
                              // scale^2); distant: irradiance on a facing surface. With
@@ -36,7 +36,7 @@ struct LightRecord {
   std::uint32_t image;  // index into LightTable::images, 0 if it has none; portals: into
                         // LightTable::portals
 };
-static_assert(sizeof(LightRecord) == 96);
+static_assert(sizeof(LightRecord) == 92);
 
 /// LightRecord::size[0] of a sphere whose far side nobody sees from outside.
 inline float ConeFrom(float radius) { return radius * radius * 1.0001f; }
@@ -56,13 +56,10 @@ struct LightImage {
 };
 static_assert(sizeof(LightImage) == 64);
 
-/// Environment image: size x size equal-area octahedral map (Clarberg 2008; pbrt-v4).
-/// Texel probabilities are proportional to luminance; pdf_sa = p * size^2 / (4 pi).
-/// Looked up without interpolation, as pbrt does. Sampled by inverting the cumulative
-/// distributions of row and column, which keeps the stratification of the sample points.
-struct Environment {
-  std::int32_t size = 0;
-  AlignedVector<float> rgb;          // 3 per texel, row by row, scaled
+/// Texel probabilities of an environment image; pdf_sa = p * size^2 / (4 pi). Sampled by
+/// inverting the cumulative distributions of row and column, which keeps the
+/// stratification of the sample points. Empty for a black image.
+struct EnvironmentTable {
   AlignedVector<float> row_cdf;      // size + 1
   AlignedVector<float> column_cdf;   // size + 1 per row
   AlignedVector<float> probability;  // per texel, sums to 1
@@ -71,7 +68,16 @@ struct Environment {
   std::int32_t guide_bits = 0;
   AlignedVector<std::int32_t> row_guide;     // 2^guide_bits + 1
   AlignedVector<std::int32_t> column_guide;  // 2^guide_bits + 1 per row
-  float light_from_scene[9];                 // rotation, row-major
+};
+
+/// Environment image: size x size equal-area octahedral map (Clarberg 2008; pbrt-v4).
+/// Looked up without interpolation, as pbrt does.
+struct Environment {
+  std::int32_t size = 0;
+  AlignedVector<float> rgb;   // 3 per texel, row by row, scaled
+  float light_from_scene[9];  // rotation, row-major
+  /// By which texels are sampled, unless a strategy compensates them.
+  std::shared_ptr<const EnvironmentTable> table;
 };
 
 /// Environment that is seen through a rectangular portal only (Bitterli, Novak and Jarosz
@@ -87,6 +93,20 @@ struct Portal {
   AlignedVector<double> sums;
   float x_axis[3], y_axis[3], z_axis[3];  // unit, scene
   float low[3], high[3];                  // opposite corners, scene
+};
+
+struct LightTable {
+  AlignedVector<LightRecord> lights;
+  /// With kSpectral, of each light: row of SpectrumTable, per unit of luminance; -1: by
+  /// the colour of its image.
+  AlignedVector<std::int32_t> spectrum;
+  std::vector<double> power;  // of each light, raised to a least share
+  std::vector<Environment> environments;
+  std::vector<Portal> portals;
+  AlignedVector<LightImage> images;  // the first is white: of lights without one
+  AlignedVector<float> texels;       // 3 each, of all images
+  bool has_goniometric = false, has_projection = false;
+  std::vector<std::uint32_t> infinite;  // indices of lights that escaped rays see
 };
 
 /// Node of a tree of lights, 16 words. The two children of an inner node are neighbours.
@@ -112,21 +132,26 @@ struct LightTree {
   float pmf_far = 0;                           // of each of those
 };
 
-struct LightTable {
-  AlignedVector<LightRecord> lights;
-  /// With kSpectral, of each light: row of SpectrumTable, per unit of luminance; -1: by
-  /// the colour of its image.
-  AlignedVector<std::int32_t> spectrum;
-  std::vector<double> power;           // of each light, raised to a least share
+/// Where light comes from, 4 words: distances=equiangular looks for points around it.
+struct LightAnchor {
+  float position[3];
+  float keep;  // of Walker's alias table
+};
+static_assert(sizeof(LightAnchor) == 16);
+
+/// What a strategy decides of the lights of a scene (src/prepare/prepared_scene.h).
+struct LightChances {
+  /// Of each light: probability of being selected; with a tree of those without a place.
+  AlignedVector<float> pmf;
   AlignedVector<float> alias_q;        // Walker-Vose table over lights: with u*n = i + f,
   AlignedVector<std::uint32_t> alias;  // pick i if f < alias_q[i], else alias[i]
-  std::vector<Environment> environments;
-  std::vector<Portal> portals;
-  AlignedVector<LightImage> images;  // the first is white: of lights without one
-  AlignedVector<float> texels;       // 3 each, of all images
-  bool has_goniometric = false, has_projection = false;
-  std::vector<std::uint32_t> infinite;  // indices of lights that escaped rays see
-  LightTree tree;                       // light-selection=tree only
+  LightTree tree;                      // light-selection=tree only
+  /// Of each of LightTable::environments.
+  std::vector<std::shared_ptr<const EnvironmentTable>> environments;
+  // The middles of all lights, drawn by power; only for distances=equiangular. One whose
+  // position is not finite stands for lights that are nowhere.
+  AlignedVector<LightAnchor> anchors;
+  AlignedVector<std::uint32_t> anchor_alias;
 };
 
 }  // namespace lanelight

@@ -95,13 +95,6 @@ struct MediumGrid {
   float box_from_scene[12] = {};  // row-major 3x4; the box is [0, 1]^3
 };
 
-/// Where light comes from, 4 words: distances=equiangular looks for points around it.
-struct LightAnchor {
-  float position[3];
-  float keep;  // of Walker's alias table
-};
-static_assert(sizeof(LightAnchor) == 16);
-
 /// Entries of a table of albedos over the reflectance that they cause, evenly in it.
 inline constexpr int kAlbedoTableSize = 129;
 
@@ -113,10 +106,6 @@ struct MediumTable {
                                            // goes on behind it; only with kMediumChanges
   AlignedVector<float> albedos;            // kAlbedoTableSize each, of textured insides
   std::int32_t camera = kVacuum;           // that camera rays start in
-  // The middles of all lights, drawn by power; only for distances=equiangular. One whose
-  // position is not finite stands for lights that are nowhere.
-  AlignedVector<LightAnchor> anchors;
-  AlignedVector<std::uint32_t> anchor_alias;
 };
 
 }  // namespace lanelight

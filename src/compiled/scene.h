@@ -1,6 +1,7 @@
 // The scene as the kernels read it: flat float32 arrays, recentred and scaled by a power
 // of two (p_scene = (p_world - center) * scale), built once by CompileScene
-// (src/compile/compile.h).
+// (src/compile/compile.h) and shared by all that render it, with whatever strategy
+// (src/prepare/prepared_scene.h).
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,14 @@
 
 namespace lanelight {
 
+/// What hangs on the camera and on the size of the film.
+struct CompiledView {
+  Film film;
+  CompiledCamera camera;
+  PixelFootprint footprint;
+  GbufferSpace gbuffer;
+};
+
 struct CompiledScene {
   Vec3d center;         // world position of the scene origin
   double scale = 1;     // power of two, scene units per world unit
@@ -37,13 +46,9 @@ struct CompiledScene {
   AlignedVector<float> alpha_constant;
   MediumTable media;
   LightTable lights;
-  CompiledCamera camera;
   CompiledFilter filter;
-  PixelFootprint footprint;
-  GbufferSpace gbuffer;
-  Film film;
+  CompiledView view;  // of the description
   Integrator integrator;
-  Strategy strategy;        // what UseStrategy has prepared the light tables for
   std::vector<Note> notes;  // what compiling left out, such as degenerate triangles
 };
 

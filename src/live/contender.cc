@@ -6,9 +6,6 @@
 
 #include "src/core/check.h"
 #include "src/core/stopwatch.h"
-#include "src/prepare/chance_of_light.h"
-#include "src/prepare/groups.h"
-#include "src/prepare/use_strategy.h"
 #include "src/run/run.h"
 #include "src/wave/partition.h"
 
@@ -30,10 +27,11 @@ bool HasControl(const Plan& plan) {
   return planes.Has(PlaneGroup::kDifference) || planes.Has(PlaneGroup::kNumbers);
 }
 
-Plan PlanOf(Stage& stage, const View& view, const Strategy& strategy) {
-  UseView(view, stage.job.scene);
-  UseStrategy(strategy, stage.job.scene);
-  return MakePlan(stage.job.scene, stage.job.plan.options);
+Job JobOf(const Stage& stage, const View& view, const Strategy& strategy) {
+  Job job = stage.job;
+  job.scene.view = view;
+  job.window = view.window;
+  return WithStrategy(std::move(job), strategy);
 }
 
 }  // namespace
@@ -72,47 +70,36 @@ class Contender::Keeper : public RunKeeper {
   Attendant& attendant_;
 };
 
-Contender::Contender(Stage& stage, View view, const Strategy& strategy)
+Contender::Contender(const Stage& stage, View view, const Strategy& strategy)
     : view_(std::move(view)),
-      strategy_(strategy),
-      plan_(PlanOf(stage, view_, strategy)),
-      film_(EmptyFilm(stage)),
-      has_control_(HasControl(plan_)),
+      job_(JobOf(stage, view_, strategy)),
+      film_(MakeFilm(job_)),
+      has_control_(HasControl(job_.plan)),
       cost_(view_.film.width, view_.film.height) {}
 
-FilmAccumulator Contender::EmptyFilm(const Stage& stage) const {
-  const PixelRect& window = view_.window;
-  FilmAccumulator film(window.x0, window.y0, window.width(), window.height(),
-                       GroupsOf(strategy_), stage.job.plan.options.auxiliary);
-  film.set_chance_of_light(ChanceOfLight(stage.job.scene));
-  return film;
-}
-
-void Contender::Pass(Stage& stage, std::uint64_t spp, Attendant& attendant,
+void Contender::Pass(std::uint64_t spp, Attendant& attendant,
                      const std::atomic<bool>& stop) {
-  UseView(view_, stage.job.scene);
-  UseStrategy(strategy_, stage.job.scene);
   const bool goes_on = record_.counts.samples > 0;
   std::optional<FilmAccumulator> before;
   if (has_control_ && goes_on) {
     before = std::move(film_);
-    film_ = EmptyFilm(stage);
+    film_ = MakeFilm(job_);
   }
   Keeper keeper(*this, before ? &*before : nullptr, attendant);
   RunOptions options;
   options.spp = spp;
-  options.seed = stage.job.seed;
-  options.threads = stage.job.settings.threads;
+  options.seed = job_.seed;
+  options.threads = job_.settings.threads;
   options.stop = &stop;
   options.keeper = &keeper;
   options.on_task = [this](const PixelRect& tile, const RunCounts& counts) {
     cost_.Add(tile, counts);
   };
   // Tasks of a pass of few samples are as large as those of a short render.
-  options.tiles = MakePartition(view_.window, spp - spp_, strategy_).tiles;
+  options.tiles = MakePartition(view_.window, spp - spp_, strategy()).tiles;
   const double seconds_before = record_.counts.seconds;
   const std::uint64_t samples_before = record_.counts.samples;
-  const RunResult result = Run(stage.job.scene, plan_, options, film_);
+  const RunResult result = Run(job_.scene, job_.plan, options, film_);
   record_.training.note = result.training.note;
   AddStages(result);
   const double samples = double(record_.counts.samples - samples_before);

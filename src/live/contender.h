@@ -34,18 +34,17 @@ struct Look {
 class Contender {
  public:
   /// Throws InputError if the scene does not take the strategy.
-  Contender(Stage& stage, View view, const Strategy& strategy);
+  Contender(const Stage& stage, View view, const Strategy& strategy);
 
   /// Renders until all pixels have `spp` samples, or `stop` is set; then some pixels may
   /// have more than others. A later pass goes on from there.
-  void Pass(Stage& stage, std::uint64_t spp, Attendant& attendant,
-            const std::atomic<bool>& stop);
+  void Pass(std::uint64_t spp, Attendant& attendant, const std::atomic<bool>& stop);
   /// The correction by a control variate, where there is one, knows all samples so far.
   void Fit();
 
   const View& view() const { return view_; }
-  const Strategy& strategy() const { return strategy_; }
-  const Plan& plan() const { return plan_; }
+  const Strategy& strategy() const { return job_.scene.strategy; }
+  const Plan& plan() const { return job_.plan; }
   const FilmAccumulator& film() const { return film_; }
   const CostMap& cost() const { return cost_; }
   const RunRecord& record() const { return record_; }
@@ -66,13 +65,11 @@ class Contender {
  private:
   class Keeper;
 
-  FilmAccumulator EmptyFilm(const Stage& stage) const;
   void AddStages(const RunResult& result);
   void LookIfDue(const std::atomic<bool>& stop);
 
   View view_;
-  Strategy strategy_;
-  Plan plan_;
+  const Job job_;
   FilmAccumulator film_;
   bool has_control_;  // planes of samples that films have from their beginning
   CostMap cost_;

@@ -22,7 +22,7 @@ constexpr double kPictureShare = 0.1;
 
 }  // namespace
 
-Laboratory::Laboratory(Stage& stage, std::string command)
+Laboratory::Laboratory(const Stage& stage, std::string command)
     : stage_(stage), command_(std::move(command)), thread_([this] { Loop(); }) {}
 
 Laboratory::~Laboratory() {
@@ -140,7 +140,7 @@ std::optional<Laboratory::Running> Laboratory::Choose() {
 void Laboratory::Render(const Running& running) {
   const Work& work = running.work;
   try {
-    work.contender->Pass(stage_, work.spp, *this, work.preview ? stop_all_ : stop_);
+    work.contender->Pass(work.spp, *this, work.preview ? stop_all_ : stop_);
     running.session->Done(work, work.contender->spp() < work.spp);
   } catch (const InputError& error) {
     running.session->Refuse(work.slot, error.message());

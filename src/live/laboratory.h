@@ -18,7 +18,7 @@ namespace lanelight::live {
 class Laboratory : private Attendant {
  public:
   /// `command`: as of Session.
-  Laboratory(Stage& stage, std::string command);
+  Laboratory(const Stage& stage, std::string command);
   /// Stops what is being rendered.
   ~Laboratory() override;
   Laboratory(const Laboratory&) = delete;
@@ -60,7 +60,7 @@ class Laboratory : private Attendant {
   void Publish();
   void Tell(int session, const std::string& what);
 
-  Stage& stage_;
+  const Stage& stage_;
   const std::string command_;
 
   std::mutex mutex_;  // of the next five

@@ -126,7 +126,7 @@ void WatchForStop(Hall& hall, const std::atomic<bool>& stop) {
 
 struct Server::Impl : Hall {};
 
-Server::Server(Stage& stage, std::string command, std::uint16_t port)
+Server::Server(const Stage& stage, std::string command, std::uint16_t port)
     : impl_(std::make_unique<Impl>()) {
   Listen(impl_->acceptor, port);
   impl_->door.emplace(impl_->acceptor.local_endpoint().port(), MakeToken());

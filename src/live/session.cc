@@ -18,7 +18,7 @@ constexpr std::size_t kMostBytesAside = std::size_t{256} << 20;
 
 }  // namespace
 
-Session::Session(Stage& stage, std::string command, Send send)
+Session::Session(const Stage& stage, std::string command, Send send)
     : stage_(stage),
       command_(std::move(command)),
       send_(std::move(send)),
@@ -73,7 +73,7 @@ void Session::Choose(const ChooseStrategy& choice) {
   began_ = Clock::now();
   if (choice.name.empty()) return;
   try {
-    const Strategy own = stage_.job.description.strategy;
+    const Strategy own = stage_.job.loaded->description.strategy;
     slot.strategy = StrategyNamed(choice.name, {}, own);
     slot.contender = Make(choice.slot);
   } catch (const InputError& error) {

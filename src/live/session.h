@@ -30,7 +30,7 @@ class Session {
  public:
   /// `command`: the words of a command line that renders the scene, without how much and
   /// with what strategy.
-  Session(Stage& stage, std::string command, Send send);
+  Session(const Stage& stage, std::string command, Send send);
 
   /// Does what the page asks for. A strategy that is refused is told as such.
   void Do(const Command& command);
@@ -75,7 +75,7 @@ class Session {
   void SendExr(int slot);
   void SendText(const char* kind, const std::string& text);
 
-  Stage& stage_;
+  const Stage& stage_;
   std::string command_;
   Send send_;
   Eye eye_;

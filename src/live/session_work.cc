@@ -32,7 +32,8 @@ std::uint64_t NextSpp(const Contender& contender, double seconds) {
 int Session::PreviewFactor(const Slot& slot) const {
   const double samples =
       slot.preview_rate > 0 ? slot.preview_rate * kPreviewSeconds : kFirstPreviewSamples;
-  const double pixels = double(RenderedPixels(stage_.job.description.film).pixels());
+  const double pixels =
+      double(RenderedPixels(stage_.job.loaded->description.film).pixels());
   return std::clamp(static_cast<int>(std::ceil(std::sqrt(pixels / samples))), 1,
                     kMostReduced);
 }

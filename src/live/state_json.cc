@@ -105,7 +105,7 @@ const char* KindName(CameraKind kind) {
 }  // namespace
 
 std::string HelloText(const Stage& stage) {
-  const SceneDescription& scene = stage.job.description;
+  const SceneDescription& scene = stage.job.loaded->description;
   const PixelRect window = RenderedPixels(scene.film);
   json notes = json::array();
   for (const Note& note : scene.notes) {
@@ -127,8 +127,8 @@ std::string HelloText(const Stage& stage) {
                    {"threads", ThreadCount(stage.job.settings.threads)},
                    {"target", stage.job.plan.options.target.name()},
                    {"version", FullVersion()},
-                   {"load_seconds", stage.job.load_seconds},
-                   {"build_seconds", stage.job.build_seconds},
+                   {"load_seconds", stage.job.loaded->load_seconds},
+                   {"build_seconds", stage.job.loaded->build_seconds},
                    {"notes", notes}});
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 // How far in front of the camera the middle of the scene is: what a mouse turns about.
 double DistanceToMiddle(const Job& job) {
-  const CompiledScene& scene = job.scene;
-  const Transform& t = job.description.camera.world_from_camera;
+  const CompiledScene& scene = *job.scene.compiled;
+  const Transform& t = job.loaded->description.camera.world_from_camera;
   const Vec3d low = VecCast<double>(scene.geometry.bounds_min);
   const Vec3d high = VecCast<double>(scene.geometry.bounds_max);
   const double size = Length(high - low) / scene.scale;
@@ -43,12 +43,13 @@ Film ReducedFilm(const Film& film, int factor) {
 
 Stage::Stage(const std::string& scene, const RenderSettings& settings)
     : path(scene), job(PrepareJob(scene, settings)) {
-  eye = EyeOf(job.description.camera, DistanceToMiddle(job));
+  eye = EyeOf(job.loaded->description.camera, DistanceToMiddle(job));
 }
 
 View MakeView(const Stage& stage, const Eye& eye, int factor) {
-  const SceneDescription& scene = stage.job.description;
-  const Frame frame = {stage.job.scene.center, stage.job.scene.scale};
+  const SceneDescription& scene = stage.job.loaded->description;
+  const CompiledScene& compiled = *stage.job.scene.compiled;
+  const Frame frame = {compiled.center, compiled.scale};
   View view;
   view.eye = eye;
   view.factor = factor;
@@ -64,13 +65,6 @@ View MakeView(const Stage& stage, const Eye& eye, int factor) {
   view.footprint = CompileFootprint(view.camera, camera, view.film, scene.sampler.spp);
   view.gbuffer = CompileGbufferSpace(view.film, camera, frame);
   return view;
-}
-
-void UseView(const View& view, CompiledScene& scene) {
-  scene.film = view.film;
-  scene.camera = view.camera;
-  scene.footprint = view.footprint;
-  scene.gbuffer = view.gbuffer;
 }
 
 }  // namespace lanelight::live

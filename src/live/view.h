@@ -7,7 +7,7 @@
 
 namespace lanelight::live {
 
-/// A scene that pages look at, compiled once. One thread at a time uses it.
+/// A scene that pages look at, compiled once.
 struct Stage {
   std::string path;  // of the scene file
   Job job;
@@ -17,21 +17,14 @@ struct Stage {
   Stage(const std::string& scene, const RenderSettings& settings);
 };
 
-struct View {
+struct View : CompiledView {
   Eye eye;
   int factor = 1;  // one pixel of it stands for so many of the image in each direction
   Camera described;
-  Film film;
   PixelRect window;
-  CompiledCamera camera;
-  PixelFootprint footprint;
-  GbufferSpace gbuffer;
 };
 
 /// Throws InputError for an eye that cannot be.
 View MakeView(const Stage& stage, const Eye& eye, int factor);
-
-/// The scene is seen like this from now on.
-void UseView(const View& view, CompiledScene& scene);
 
 }  // namespace lanelight::live

@@ -11,7 +11,9 @@
 namespace lanelight {
 
 struct CompiledScene;  // src/compiled/scene.h
-struct Block;          // src/path/block.h
+struct CompiledView;
+struct LightChances;  // src/compiled/lights.h
+struct Block;         // src/path/block.h
 
 // Queues hold path slots. Stages append and read; the driver (src/wave/drive.cc)
 // clears all but kFree, and kActive, which it takes from kScattered, before a wave.
@@ -116,10 +118,17 @@ struct RayKernels {
   std::uint32_t num_closest = 0, num_surface = 0, num_shadow = 0;
 };
 
-struct Wave {
+/// What kernels read of a scene: all that every render of it shares, how it is seen, and
+/// what the strategy decides of its lights.
+struct SceneParts {
+  const CompiledScene* scene = nullptr;
+  const CompiledView* view = nullptr;
+  const LightChances* chances = nullptr;
+};
+
+struct Wave : SceneParts {
   PathColumns path;
   ColumnLists lists;  // of `path`
-  const CompiledScene* scene = nullptr;
   const RunParameters* run = nullptr;
   RayKernels kernels;      // with kInterfaces or kReuse
   Block* block = nullptr;  // with kReuse

@@ -15,12 +15,13 @@ using Notes = std::vector<std::string>;
 }
 
 // Light samples alone must find every direction of at least one environment.
-void CheckAmbient(const Strategy& s, const CompiledScene& scene) {
+void CheckAmbient(const Strategy& s, const PreparedScene& scene) {
   if (s.directions != Directions::kLight) return;
-  for (std::uint32_t index : scene.lights.infinite) {
-    const std::int32_t e = scene.lights.lights[index].environment;
+  const LightTable& table = scene.compiled->lights;
+  for (std::uint32_t index : table.infinite) {
+    const std::int32_t e = table.lights[index].environment;
     if (e < 0) return;
-    if (SamplesEveryDirection(scene.lights.environments[static_cast<std::size_t>(e)]))
+    if (SamplesEveryDirection(*scene.chances->environments[static_cast<std::size_t>(e)]))
       return;
   }
   Refuse(
@@ -29,8 +30,8 @@ void CheckAmbient(const Strategy& s, const CompiledScene& scene) {
 }
 
 // What these know of light and surfaces is red, green and blue.
-void CheckSpectral(const Strategy& s, const CompiledScene& scene) {
-  if (!scene.features.Has(Feature::kSpectral)) return;
+void CheckSpectral(const Strategy& s, const PreparedScene& scene) {
+  if (!scene.compiled->features.Has(Feature::kSpectral)) return;
   const auto refuse = [](const std::string& choice, const char* why) {
     Refuse(choice + " does not work with --transport spectral: " + why +
            "; --transport rgb renders with it");
@@ -44,10 +45,10 @@ void CheckSpectral(const Strategy& s, const CompiledScene& scene) {
   }
 }
 
-void CheckControl(const Strategy& s, const CompiledScene& scene,
+void CheckControl(const Strategy& s, const PreparedScene& scene,
                   const PlanOptions& options) {
   if (s.control == Control::kNone) return;
-  const FeatureSet& f = scene.features;
+  const FeatureSet& f = scene.compiled->features;
   const std::string name = std::string("control=") + Name(s.control);
   if (s.control == Control::kRegression) return;
   if (options.max_depth == 0) Refuse(name + " needs a maximum depth of at least 1");
@@ -182,14 +183,14 @@ void NotePaths(const Checked& c) {
 
 }  // namespace
 
-Notes CheckStrategy(const CompiledScene& scene, const PlanOptions& options) {
+Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy s = PlannedStrategy(scene, options);
   CheckSpectral(s, scene);
   CheckControl(s, scene, options);
   CheckReuse(s);
   Notes notes;
   const FeatureSet plan = PlanFeatures(scene, options);
-  const Checked checked = {s, scene.features, plan, options, notes};
+  const Checked checked = {s, scene.compiled->features, plan, options, notes};
   NoteLights(checked);
   NoteEnvironment(checked);
   NoteMedia(checked);

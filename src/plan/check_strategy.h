@@ -10,7 +10,7 @@ namespace lanelight {
 
 /// Throws InputError for a strategy that cannot work on this scene, saying what would.
 /// Returns explanations of choices that have no effect on it.
-std::vector<std::string> CheckStrategy(const CompiledScene& scene,
+std::vector<std::string> CheckStrategy(const PreparedScene& scene,
                                        const PlanOptions& options);
 
 }  // namespace lanelight

@@ -112,7 +112,7 @@ std::uint32_t WavefrontForCache(std::size_t bytes_per_path) {
 
 }  // namespace
 
-Plan MakePlan(const CompiledScene& scene, const PlanOptions& options) {
+Plan MakePlan(const PreparedScene& scene, const PlanOptions& options) {
   if (options.auxiliary != Auxiliary::kNone && options.max_depth == 0) {
     throw InputError(
         "auxiliary output (--aov, --gbuffer) tells of surfaces where paths scatter: it "

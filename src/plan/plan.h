@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kernels/simd/target.h"
-#include "src/compiled/scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/path/sample_planes.h"
 #include "src/path/stage.h"
 
@@ -69,6 +69,6 @@ struct Plan {
 /// The plan of the scene's strategy. Throws InputError for a strategy that cannot work on
 /// this scene, CheckFailure if a stage would read a live column that no earlier stage
 /// writes.
-Plan MakePlan(const CompiledScene& scene, const PlanOptions& options);
+Plan MakePlan(const PreparedScene& scene, const PlanOptions& options);
 
 }  // namespace lanelight

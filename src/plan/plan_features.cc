@@ -3,7 +3,6 @@
 #include "src/path/block.h"
 #include "src/path/choice_features.h"
 #include "src/path/light_shapes.h"
-#include "src/prepare/light_anchors.h"
 
 namespace lanelight {
 namespace {
@@ -62,7 +61,7 @@ void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
     // the lights that no ray can hit.
     f.Remove(Feature::kMis);
     if (f.Has(Feature::kUnseenLights)) {
-      f.Add(Feature::kSampledHittableLights);  // use_strategy.cc: no other is selected
+      f.Add(Feature::kSampledHittableLights);  // prepared_scene.cc: no other is selected
     } else if (!HasDeltaLights(f)) {
       f.Remove({Feature::kLights, Feature::kManyLights});
     }
@@ -104,15 +103,15 @@ bool SamplesOfLightDiffer(const FeatureSet& f) {
   return f.Has(Feature::kManyLights) || (f.Has(Feature::kLights) && !HasDeltaLights(f));
 }
 
-FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) {
+FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy strategy = PlannedStrategy(scene, options);
-  FeatureSet f = scene.features;
+  FeatureSet f = scene.compiled->features;
   // Media dim what the camera sees, and need a surface's columns to find where they end.
   const bool media = f.Has(Feature::kMedia);
   if (media || (options.max_depth > 0 && HasSurfaces(f))) {
     f.Add(Feature::kScatters);
     AddLightSampling(strategy, f);
-    if (media) AddMedia(strategy, scene, f);
+    if (media) AddMedia(strategy, *scene.compiled, f);
     if (f.Has(Feature::kLights) && !f.Has(Feature::kInterfaces)) {
       f.Add(Feature::kOpaqueShadows);
     }
@@ -133,7 +132,7 @@ FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options) 
   return f;
 }
 
-Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options) {
+Strategy PlannedStrategy(const PreparedScene& scene, const PlanOptions& options) {
   Strategy strategy = options.strategy.value_or(scene.strategy);
   if (!options.training) return strategy;
   if (!options.own_points) {
@@ -145,24 +144,25 @@ Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options)
   return strategy;
 }
 
-FeatureSet SeenLightFeatures(const CompiledScene& scene, const PlanOptions& options) {
+FeatureSet SeenLightFeatures(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy strategy = PlannedStrategy(scene, options);
-  FeatureSet f = scene.features;
+  FeatureSet f = scene.compiled->features;
   RemoveScattering(f);
   f.Add(TurnsOn(strategy.points));
   f.Add(TurnsOn(strategy.pairs));
   return f;
 }
 
-bool SeesLightsApart(const CompiledScene& scene) {
+bool SeesLightsApart(const PreparedScene& scene) {
+  const FeatureSet& f = scene.compiled->features;
   return scene.strategy.seen_lights == SeenLights::kApart &&
-         !scene.features.Has(Feature::kMedia) &&         // which dim what is seen
-         !scene.features.Has(Feature::kMovingCamera) &&  // which blurs all edges
-         !scene.film.response.limits() &&                // which are of single samples
-         scene.features.HasAny({Feature::kAreaLights, Feature::kInfiniteLights});
+         !f.Has(Feature::kMedia) &&             // which dim what is seen
+         !f.Has(Feature::kMovingCamera) &&      // which blurs all edges
+         !scene.view.film.response.limits() &&  // which are of single samples
+         f.HasAny({Feature::kAreaLights, Feature::kInfiniteLights});
 }
 
-PlanOptions WithChanges(const CompiledScene& scene, PlanOptions options,
+PlanOptions WithChanges(const PreparedScene& scene, PlanOptions options,
                         std::string_view changes) {
   if (!options.strategy) options.strategy = scene.strategy;
   ApplyStrategy(changes, {}, *options.strategy);

@@ -6,14 +6,14 @@
 
 namespace lanelight {
 
-FeatureSet PlanFeatures(const CompiledScene& scene, const PlanOptions& options);
+FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options);
 
 /// The strategy of a plan of the scene: what the options leave of theirs, or of its own.
-Strategy PlannedStrategy(const CompiledScene& scene, const PlanOptions& options);
+Strategy PlannedStrategy(const PreparedScene& scene, const PlanOptions& options);
 
 /// The same options with a changed strategy; `changes` as in --strategy, may be empty.
 /// Throws InputError for changes that there are not.
-PlanOptions WithChanges(const CompiledScene& scene, PlanOptions options,
+PlanOptions WithChanges(const PreparedScene& scene, PlanOptions options,
                         std::string_view changes);
 
 /// Light samples of triangles or rectangles are taken in a plan of these features.
@@ -23,10 +23,10 @@ bool SamplesFlatLights(const FeatureSet& features);
 bool SamplesOfLightDiffer(const FeatureSet& features);
 
 /// Whether the scene's strategy integrates lights apart, and it has any that can be seen.
-bool SeesLightsApart(const CompiledScene& scene);
+bool SeesLightsApart(const PreparedScene& scene);
 
 /// Of camera rays that are followed to the light they see and no further: a part of
 /// PlanFeatures(), with the same sample points.
-FeatureSet SeenLightFeatures(const CompiledScene& scene, const PlanOptions& options);
+FeatureSet SeenLightFeatures(const PreparedScene& scene, const PlanOptions& options);
 
 }  // namespace lanelight

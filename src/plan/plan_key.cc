@@ -5,21 +5,18 @@
 #include "src/core/hash.h"
 #include "src/prepare/groups.h"
 #include "src/prepare/parameters.h"
-#include "src/prepare/use_strategy.h"
 #include "src/plan/plan_features.h"
 
 namespace lanelight {
 namespace {
 
-std::uint64_t HashLights(const LightTable& table) {
-  std::vector<float> pmf;
-  for (const LightRecord& light : table.lights) pmf.push_back(light.pmf);
+std::uint64_t HashLights(const LightChances& chances) {
   StreamHash hash;
-  hash.AddArray(pmf);
-  hash.AddArray(table.alias_q);
-  hash.AddArray(table.alias);
-  hash.AddArray(table.tree.nodes);
-  hash.AddArray(table.tree.far);
+  hash.AddArray(chances.pmf);
+  hash.AddArray(chances.alias_q);
+  hash.AddArray(chances.alias);
+  hash.AddArray(chances.tree.nodes);
+  hash.AddArray(chances.tree.far);
   return hash.Digest();
 }
 
@@ -61,7 +58,7 @@ std::string ParametersText(const Strategy& s, const FeatureSet& features) {
 
 }  // namespace
 
-std::string PlanKey(const CompiledScene& scene, const Plan& plan) {
+std::string PlanKey(const PreparedScene& scene, const Plan& plan) {
   std::string key = FeaturesText(plan.features);
   for (const PlannedStage& planned : plan.stages) {
     key += fmt::format(" {} {}", planned.stage.name,
@@ -74,7 +71,7 @@ std::string PlanKey(const CompiledScene& scene, const Plan& plan) {
     key += " environment compensated";
   }
   if (SeesLightsApart(scene)) key += " seen lights apart";
-  return key + fmt::format(" lights {:016x}", HashLights(scene.lights));
+  return key + fmt::format(" lights {:016x}", HashLights(*scene.chances));
 }
 
 }  // namespace lanelight

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/compiled/scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/plan/plan.h"
 
 namespace lanelight {
@@ -15,6 +15,6 @@ namespace lanelight {
 /// samples, bit by bit, for the same work; with a probability of 2^-60 tables of lights
 /// that differ have equal keys. Strategies that do the same in different ways (a table of
 /// equal probabilities, and one found otherwise) may have different keys.
-std::string PlanKey(const CompiledScene& scene, const Plan& plan);
+std::string PlanKey(const PreparedScene& scene, const Plan& plan);
 
 }  // namespace lanelight

@@ -88,17 +88,18 @@ double Quadratic::operator()(Vec3d d) const {
          c[8] * (d.x * d.x - d.y * d.y);
 }
 
-bool SamplesEveryDirection(const Environment& environment) {
-  return !environment.probability.empty() &&
-         std::all_of(environment.probability.begin(), environment.probability.end(),
+bool SamplesEveryDirection(const EnvironmentTable& table) {
+  return !table.probability.empty() &&
+         std::all_of(table.probability.begin(), table.probability.end(),
                      [](float p) { return p > 0; });
 }
 
-std::vector<AmbientLight> MakeAmbientLights(const CompiledScene& scene) {
+std::vector<AmbientLight> MakeAmbientLights(const PreparedScene& scene) {
   std::vector<AmbientLight> out;
   const bool only_light_samples = scene.strategy.directions == Directions::kLight;
-  for (std::uint32_t index : scene.lights.infinite) {
-    const LightRecord& record = scene.lights.lights[index];
+  const LightTable& table = scene.compiled->lights;
+  for (std::uint32_t index : table.infinite) {
+    const LightRecord& record = table.lights[index];
     AmbientLight& ambient = out.emplace_back();
     ambient.light = index;
     std::array<Harmonics, 3> radiance = {};
@@ -107,9 +108,10 @@ std::vector<AmbientLight> MakeAmbientLights(const CompiledScene& scene) {
     } else if (record.environment < 0) {
       for (std::size_t c = 0; c < 3; ++c) radiance[c][0] = record.radiance[c];
     } else {
-      const Environment& e =
-          scene.lights.environments[static_cast<std::size_t>(record.environment)];
-      if (!only_light_samples || SamplesEveryDirection(e)) radiance = Project(e);
+      const auto e = static_cast<std::size_t>(record.environment);
+      if (!only_light_samples || SamplesEveryDirection(*scene.chances->environments[e])) {
+        radiance = Project(table.environments[e]);
+      }
     }
     Store(radiance, ambient);
   }

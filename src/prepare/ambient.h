@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/compiled/scene.h"
+#include "src/prepare/prepared_scene.h"
 
 namespace lanelight {
 
@@ -24,11 +24,11 @@ struct AmbientLight {
 
 /// Light samples find every direction. An image has directions of probability 0 where it
 /// is black or next to black.
-bool SamplesEveryDirection(const Environment& environment);
+bool SamplesEveryDirection(const EnvironmentTable& table);
 
-/// For each of scene.lights.infinite, in that order: constant environments as they are,
+/// For each of LightTable::infinite, in that order: constant environments as they are,
 /// images projected to spherical harmonics of degree 2, in double. With directions=light
 /// an image that light samples do not find all of is replaced by 0.
-std::vector<AmbientLight> MakeAmbientLights(const CompiledScene& scene);
+std::vector<AmbientLight> MakeAmbientLights(const PreparedScene& scene);
 
 }  // namespace lanelight

@@ -41,13 +41,14 @@ double Share(const CompiledScene& scene, const LightRecord& light) {
 
 }  // namespace
 
-double ChanceOfLight(const CompiledScene& scene) {
+double ChanceOfLight(const PreparedScene& scene) {
   const Directions directions = scene.strategy.directions;
   if (directions != Directions::kBsdf && directions != Directions::kUniform) return 1;
+  const CompiledScene& compiled = *scene.compiled;
   double power = 0, squares = 0;
-  for (std::size_t i = 0; i < scene.lights.lights.size(); ++i) {
-    const double share = Share(scene, scene.lights.lights[i]);
-    const double p = share > 0 ? scene.lights.power[i] : 0;
+  for (std::size_t i = 0; i < compiled.lights.lights.size(); ++i) {
+    const double share = Share(compiled, compiled.lights.lights[i]);
+    const double p = share > 0 ? compiled.lights.power[i] : 0;
     power += p;
     if (p > 0) squares += p * p / share;
   }

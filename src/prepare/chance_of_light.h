@@ -1,7 +1,7 @@
 // How likely paths are to meet what shines where nothing leads them there.
 #pragma once
 
-#include "src/compiled/scene.h"
+#include "src/prepare/prepared_scene.h"
 
 namespace lanelight {
 
@@ -10,6 +10,6 @@ namespace lanelight {
 /// being a light's share of the power and s the share of all directions that it fills as
 /// seen from the middle of the scene, which makes N of them as good as N times this many
 /// hits of one lamp. 1 for other strategies, and where nothing can be met.
-double ChanceOfLight(const CompiledScene& scene);
+double ChanceOfLight(const PreparedScene& scene);
 
 }  // namespace lanelight

@@ -4,7 +4,7 @@
 
 namespace lanelight {
 
-StrategyTables MakeStrategyTables(const CompiledScene& scene) {
+StrategyTables MakeStrategyTables(const PreparedScene& scene) {
   const Strategy& strategy = scene.strategy;
   StrategyTables tables;
   if (strategy.control == Control::kAmbient) tables.ambient = MakeAmbientLights(scene);

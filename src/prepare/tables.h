@@ -2,7 +2,7 @@
 #pragma once
 
 #include "src/core/aligned.h"
-#include "src/compiled/scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/prepare/ambient.h"
 #include "src/prepare/guide.h"
 #include "src/prepare/path_values.h"
@@ -18,6 +18,6 @@ struct StrategyTables {
 };
 
 /// What the strategy of the scene needs, and nothing else.
-StrategyTables MakeStrategyTables(const CompiledScene& scene);
+StrategyTables MakeStrategyTables(const PreparedScene& scene);
 
 }  // namespace lanelight

@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 bool IsPng(const std::string& path) { return fs::path(path).extension() == ".png"; }
 
 const std::string& ColorSpaceOf(const Job& job) {
-  return job.description.film.color_space;
+  return job.loaded->description.film.color_space;
 }
 
 bool Exists(const std::string& path) {
@@ -192,8 +192,8 @@ std::function<void()> Checkpoint::Watch(RunState& state) const {
     if (IsPng(path)) {
       if (!image) image = std::make_shared<Image>(FilmImage(film, ColorSpaceOf(job_)));
     } else if (!planes) {
-      planes =
-          std::make_shared<std::vector<ExrPlane>>(FilmPlanes(film, job_.scene.scale));
+      planes = std::make_shared<std::vector<ExrPlane>>(
+          FilmPlanes(film, job_.scene.compiled->scale));
       options = OutputOptions(identity_, head_, {state.counts, state.training.changes},
                               film, /*half=*/false);
     }

@@ -36,9 +36,9 @@ std::string Shown(const Json& value, const Json& other) {
 
 Json IdentityOf(const Job& job) {
   Json identity = SettingsJson(SettingsInForce(job), kIdentity);
-  identity.update({{"scene_hash", fmt::format("{:016x}", job.scene_hash)},
+  identity.update({{"scene_hash", fmt::format("{:016x}", job.loaded->scene_hash)},
                    {"strategy", ToText(job.scene.strategy)},
-                   {"color_space", job.description.film.color_space},
+                   {"color_space", job.loaded->description.film.color_space},
                    {"version", FullVersion()}});
   return identity;
 }

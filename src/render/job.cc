@@ -7,8 +7,6 @@
 #include "src/parse/parse.h"
 #include "src/prepare/chance_of_light.h"
 #include "src/prepare/groups.h"
-#include "src/prepare/prepare_scene.h"
-#include "src/prepare/use_strategy.h"
 #include "src/render/memory.h"
 #include "src/scene/rendered_pixels.h"
 
@@ -26,76 +24,77 @@ void ReleaseCopies(SceneDescription& description) {
   }
 }
 
+Job Prepare(LoadedScene loaded, const RenderSettings& asked) {
+  Job job;
+  job.settings = asked;
+  const RenderSettings& settings = job.settings;
+  SceneDescription& description = loaded.description;
+  Stopwatch watch;
+  ApplySettings(settings, description);
+  job.window = RenderedPixels(description.film);
+  CheckFilmFits(job.window, AuxiliaryOf(settings, description.film), description.strategy,
+                PhysicalMemory());
+  loaded.load_seconds += watch.Lap();
+
+  CompileOptions compile = CompileOptionsOf(settings);
+  compile.tree_report = &loaded.trees;
+  job.scene = PrepareScene(description, compile);
+  job.settings.trees.known.reset();  // which may be all that keeps it
+  // Reports look for notes in one place.
+  const std::vector<Note>& notes = job.scene.compiled->notes;
+  description.notes.insert(description.notes.end(), notes.begin(), notes.end());
+  ReleaseCopies(description);
+  job.plan = MakePlan(job.scene, PlanOptionsOf(settings, description));
+  loaded.build_seconds = watch.Lap();
+  job.loaded = std::make_shared<const LoadedScene>(std::move(loaded));
+  return WithAmount(std::move(job), settings);
+}
+
 }  // namespace
 
 Job PrepareJob(const std::string& scene_path, const RenderSettings& settings) {
   const ThreadLimit threads(settings.threads);
   Stopwatch watch;
+  LoadedScene loaded;
   ParseOptions parse;
   parse.skip_unsupported = settings.skip_unsupported;
-  SceneDescription description;
-  std::uint64_t scene_hash = 0;
-  std::set<std::string> files;
-  parse.files = &files;
-  ParallelInvoke([&] { description = ParseScene(scene_path, parse); },
-                 [&] { scene_hash = HashSceneFiles(scene_path); });
-  const double seconds = watch.Lap();
-  Job job = PrepareJob(std::move(description), settings);
-  job.scene_hash = scene_hash;
-  files.insert(scene_path);
-  job.files = std::move(files);
-  job.load_seconds += seconds;
-  return job;
+  parse.files = &loaded.files;
+  ParallelInvoke([&] { loaded.description = ParseScene(scene_path, parse); },
+                 [&] { loaded.scene_hash = HashSceneFiles(scene_path); });
+  loaded.files.insert(scene_path);
+  loaded.load_seconds = watch.Lap();
+  return Prepare(std::move(loaded), settings);
 }
 
-Job PrepareJob(SceneDescription description, const RenderSettings& asked) {
-  const ThreadLimit threads(asked.threads);
-  Job job;
-  job.settings = asked;
-  const RenderSettings& settings = job.settings;
-  job.description = std::move(description);
-  Stopwatch watch;
-  ApplySettings(settings, job.description);
-  job.window = RenderedPixels(job.description.film);
-  CheckFilmFits(job.window, AuxiliaryOf(settings, job.description.film),
-                job.description.strategy, PhysicalMemory());
-  job.load_seconds = watch.Lap();
-
-  CompileOptions compile = CompileOptionsOf(settings);
-  compile.tree_report = &job.trees;
-  job.scene = PrepareScene(job.description, compile);
-  job.settings.trees.known.reset();  // which may be all that keeps it
-  // Reports look for notes in one place.
-  std::vector<Note>& notes = job.description.notes;
-  notes.insert(notes.end(), job.scene.notes.begin(), job.scene.notes.end());
-  ReleaseCopies(job.description);
-  job.plan = MakePlan(job.scene, PlanOptionsOf(settings, job.description));
-  job.build_seconds = watch.Lap();
-  SetAmount(job, settings);
-  return job;
+Job PrepareJob(SceneDescription description, const RenderSettings& settings) {
+  const ThreadLimit threads(settings.threads);
+  LoadedScene loaded;
+  loaded.description = std::move(description);
+  return Prepare(std::move(loaded), settings);
 }
 
-void SetAmount(Job& job, const RenderSettings& settings) {
-  const Sampler& own = job.description.sampler;
+Job WithAmount(Job job, const RenderSettings& settings) {
+  const Sampler& own = job.loaded->description.sampler;
   job.seconds = settings.seconds.value_or(0);
   job.target = {settings.target_relmse.value_or(0), settings.target_rmse.value_or(0)};
   const bool scene_decides = !settings.seconds && !job.target.Any();
   job.spp =
       settings.spp.value_or(scene_decides ? static_cast<std::uint64_t>(own.spp) : 0);
   job.seed = settings.seed.value_or(own.seed);
+  return job;
 }
 
-void SetStrategy(Job& job, const Strategy& strategy) {
+Job WithStrategy(Job job, const Strategy& strategy) {
   const ThreadLimit threads(job.settings.threads);
-  UseStrategy(strategy, job.scene);
+  job.scene = WithStrategy(std::move(job.scene), strategy);
   job.plan = MakePlan(job.scene, job.plan.options);
+  return job;
 }
 
-void SetRender(Job& job, const Strategy& strategy, std::uint64_t spp,
-               std::uint64_t seed) {
+Job WithRender(Job job, const Strategy& strategy, std::uint64_t spp, std::uint64_t seed) {
   job.spp = spp;
   job.seed = seed;
-  SetStrategy(job, strategy);
+  return WithStrategy(std::move(job), strategy);
 }
 
 FilmAccumulator MakeFilm(const Job& job) {

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <string>
 
 #include "src/render/settings.h"
-#include "src/compiled/scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/scene/description.h"
 #include "src/estimate/target.h"
 #include "src/plan/plan.h"
@@ -14,22 +15,28 @@
 
 namespace lanelight {
 
-/// A scene ready to render.
-struct Job {
-  RenderSettings settings;       // that it was prepared with
+/// What all jobs of a scene share besides what is compiled of it.
+struct LoadedScene {
   SceneDescription description;  // overrides applied; meshes released after compiling
   std::set<std::string> files;   // that the scene reads, its own among them
-  CompiledScene scene;
+  std::uint64_t scene_hash = 0;  // see HashSceneFiles()
+  double load_seconds = 0;       // reading and parsing
+  double build_seconds = 0;      // compiling: acceleration structure, lights, textures
+  TreeReport trees;              // over shapes: part of that
+};
+
+/// A scene ready to render. Nothing takes one to change it; another strategy or amount
+/// makes another job, and both can run at the same time. Copies share all that is large.
+struct Job {
+  RenderSettings settings;  // that it was prepared with
+  std::shared_ptr<const LoadedScene> loaded;
+  PreparedScene scene;
   Plan plan;
   PixelRect window;
   std::uint64_t spp = 0;  // 0: until the time is over or the target is reached
   double seconds = 0;     // time budget; 0 = none
   ErrorTarget target;
   std::uint64_t seed = 0;
-  std::uint64_t scene_hash = 0;  // see HashSceneFiles()
-  double load_seconds = 0;       // reading and parsing
-  double build_seconds = 0;      // compiling: acceleration structure, lights, textures
-  TreeReport trees;              // over shapes: part of that
 
   /// How many samples there will be is not known beforehand.
   bool OpenEnded() const { return spp == 0 || seconds > 0 || target.Any(); }
@@ -42,15 +49,16 @@ Job PrepareJob(const std::string& scene_path, const RenderSettings& settings);
 /// The same for a scene that is parsed already; its hash is 0.
 Job PrepareJob(SceneDescription description, const RenderSettings& settings);
 
-/// Switches the job to another strategy without compiling the scene again. Throws
-/// InputError if the scene does not take it; then the job is to be given another.
-void SetStrategy(Job& job, const Strategy& strategy);
+/// The job with another strategy. The scene is not compiled again, nor copied: what is
+/// made anew is the plan, and LightChances. Throws InputError if the scene does not take
+/// the strategy.
+Job WithStrategy(Job job, const Strategy& strategy);
 
-/// Makes it a render of so many samples per pixel, likewise.
-void SetRender(Job& job, const Strategy& strategy, std::uint64_t spp, std::uint64_t seed);
+/// The same as a render of so many samples per pixel.
+Job WithRender(Job job, const Strategy& strategy, std::uint64_t spp, std::uint64_t seed);
 
-/// How much of it is rendered, and with what seed: as the settings say, else the scene.
-void SetAmount(Job& job, const RenderSettings& settings);
+/// The job as much as the settings say, and with their seed, or else the scene's.
+Job WithAmount(Job job, const RenderSettings& settings);
 
 /// An empty film of the job's size.
 FilmAccumulator MakeFilm(const Job& job);

@@ -80,7 +80,7 @@ Json ToJson(const ProfileReport& report, const Job& job, const RunResult& result
       {"spp", job.spp},
       {"seed", job.seed},
       {"strategy", ToText(job.scene.strategy)},
-      {"scene_hash", fmt::format("{:016x}", job.scene_hash)},
+      {"scene_hash", fmt::format("{:016x}", job.loaded->scene_hash)},
       {"stopped_early", result.stopped_early},
       {"seconds",
        {{"render", result.seconds},

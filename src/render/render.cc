@@ -82,7 +82,7 @@ struct ShownRun {
     }
     if (!targets.display) return;
     display.emplace(*targets.display, targets.exr.empty() ? scene : targets.exr, film,
-                    job.description.film.color_space, Problems(hooks));
+                    job.loaded->description.film.color_space, Problems(hooks));
     options.on_tile = [&](const FilmAccumulator& so_far, const PixelRect& place) {
       display->Changed(so_far, place);
     };
@@ -102,13 +102,14 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
                         const RenderTargets& targets, const RenderHooks& hooks) {
   const ThreadLimit threads(job.settings.threads);
   const RenderFacts facts = {IdentityOf(job), HeadJson(job, scene, targets.image.half),
-                             job.scene.scale, job.description.film.color_space};
+                             job.scene.compiled->scale,
+                             job.loaded->description.film.color_space};
   Rendering out;
   out.report.scene = scene;
   out.report.half = targets.image.half;
-  out.report.load_seconds = job.load_seconds;
-  out.report.build_seconds = job.build_seconds;
-  out.report.trees = job.trees;
+  out.report.load_seconds = job.loaded->load_seconds;
+  out.report.build_seconds = job.loaded->build_seconds;
+  out.report.trees = job.loaded->trees;
   FilmAccumulator film = MakeFilm(job);
   ShownRun shown(job, targets, hooks, film, scene);
   std::optional<Checkpoint> checkpoint;

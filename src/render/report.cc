@@ -52,7 +52,7 @@ Json ReportedSettings(const Job& job, bool half) {
 
 Json NotesJson(const Job& job) {
   Json out = Json::array();
-  for (const Note& note : job.description.notes) {
+  for (const Note& note : job.loaded->description.notes) {
     out.push_back({{"where", note.where.ToString()},
                    {"message", note.message},
                    {"changes_image", note.changes_image}});
@@ -125,15 +125,15 @@ Json HeadJson(const Job& job, const std::string& scene, bool half) {
   for (const auto& [name, version] : LibraryVersions()) versions[name] = version;
   return {{"schema", kReportSchema},
           {"scene", scene},
-          {"scene_hash", fmt::format("{:016x}", job.scene_hash)},
-          {"scale", job.scene.scale},
+          {"scene_hash", fmt::format("{:016x}", job.loaded->scene_hash)},
+          {"scale", job.scene.compiled->scale},
           {"chance_of_light", ChanceOfLight(job.scene)},
           {"plan", ToJson(job.plan)},
           {"settings", ReportedSettings(job, half)},
           {"target", TargetJson(job.plan.options.target)},
           {"machine", ToJson(ThisMachine())},
           {"notes", NotesJson(job)},
-          {"differs", CountImageChanges(job.description.notes) > 0},
+          {"differs", CountImageChanges(job.loaded->description.notes) > 0},
           {"versions", versions}};
 }
 

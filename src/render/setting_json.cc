@@ -10,7 +10,7 @@
 namespace lanelight {
 
 RenderSettings SettingsInForce(const Job& job) {
-  const Film& film = job.description.film;
+  const Film& film = job.loaded->description.film;
   const PixelRect& w = job.window;
   const auto unless_none = [](auto value) {
     return value > 0 ? std::optional(value) : std::nullopt;
@@ -27,8 +27,8 @@ RenderSettings SettingsInForce(const Job& job) {
   s.gbuffer = film.gbuffer;
   s.points = job.scene.strategy.points;
   s.max_depth = static_cast<int>(job.plan.options.max_depth);
-  s.transport = job.scene.integrator.transport;
-  s.build = job.scene.accel.quality;
+  s.transport = job.scene.compiled->integrator.transport;
+  s.build = job.scene.compiled->accel.quality;
   s.threads = ThreadCount(s.threads);
   s.target = job.plan.options.target.name();
   return s;

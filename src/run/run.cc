@@ -27,7 +27,7 @@ std::uint64_t PlannedSpp(const RunOptions& options) {
 
 // A run and its parts. Each refers to those above it.
 struct Runner {
-  Runner(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
+  Runner(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
          FilmAccumulator& film)
       : group(options.group != nullptr ? *options.group : alone),
         strategy(scene, plan, options, clock),
@@ -41,7 +41,7 @@ struct Runner {
         parts(setting, checks, watch) {
     LL_CHECK_EQ(film.groups().replicates, GroupsOf(scene.strategy).replicates);
     LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
-    films.UseResponse(scene.film.response);
+    films.UseResponse(scene.view.film.response);
     LL_CHECK(options.windows.empty() || group.ranks() == 1);
   }
 
@@ -161,7 +161,7 @@ const char* Name(StopReason reason) {
   return kNames[static_cast<int>(reason)];
 }
 
-RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
+RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film) {
   LL_CHECK(options.spp > 0 || options.seconds > 0 || options.samples_needed ||
            options.stop != nullptr);
@@ -189,7 +189,7 @@ RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& op
   return run.Result();
 }
 
-void ServeRun(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
+void ServeRun(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film) {
   LL_CHECK(options.group != nullptr);
   const RunStart start = RunStartFromBytes(options.group->Share(""));

@@ -12,13 +12,13 @@ namespace lanelight {
 /// Renders into `film`, without samples but those that options.keeper goes on from: its
 /// size must match the crop window of the scene, or the strip of options.windows, its
 /// groups the strategy (src/prepare/groups.h).
-RunResult Run(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
+RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 
 /// The same for a worker of options.group: as the leader wants it, until it lets it go.
 /// `film` has the worker's part of the image alone; of `options`, what says how much to
 /// render and the keeper are the leader's business.
-void ServeRun(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
+void ServeRun(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 
 }  // namespace lanelight

@@ -19,7 +19,7 @@ std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
   return static_cast<std::uint32_t>(seed ^ (seed >> 32) ^ (turn >> 32));
 }
 
-RunStrategy::RunStrategy(const CompiledScene& scene, const Plan& plan,
+RunStrategy::RunStrategy(const PreparedScene& scene, const Plan& plan,
                          const RunOptions& options, const RunClock& clock)
     : scene_(scene),
       plan_(plan),
@@ -42,7 +42,7 @@ void RunStrategy::BeginWith(std::uint64_t first) {
 std::uint64_t RunStrategy::PlannedTraining() const {
   if (!NeedsTraining(plan_)) return 0;
   if (options_.planned_samples > 0) return options_.planned_samples;
-  const std::uint64_t pixels = RenderedPixels(scene_.film).pixels();
+  const std::uint64_t pixels = RenderedPixels(scene_.view.film).pixels();
   const bool decides = plan_.features.Has(Feature::kDecides);
   if (decides && options_.seconds > 0) {
     const StopWatcher watcher(options_.stop);

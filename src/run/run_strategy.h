@@ -20,7 +20,7 @@ std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample);
 class RunStrategy {
  public:
   /// Refers to all but the plan for as long as it lives.
-  RunStrategy(const CompiledScene& scene, const Plan& plan, const RunOptions& options,
+  RunStrategy(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
               const RunClock& clock);
   // Others refer to plan and parameters.
   RunStrategy(const RunStrategy&) = delete;
@@ -54,7 +54,7 @@ class RunStrategy {
   void UseTraining();
   RunParameters Parameters() const;
 
-  const CompiledScene& scene_;
+  const PreparedScene& scene_;
   Plan plan_;
   const RunOptions& options_;
   const RunClock& clock_;

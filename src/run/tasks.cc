@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-Tasks::Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
+Tasks::Tasks(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
              const RunOptions& options, std::uint64_t planned_spp)
     : scene_(scene),
       options_(options),

@@ -37,7 +37,7 @@ class Tasks {
  public:
   /// Refers to all of these for as long as it lives; plan and parameters may change until
   /// the first round, the parameters' seed between rounds.
-  Tasks(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
+  Tasks(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
         const RunOptions& options, std::uint64_t planned_spp);
 
   /// Of all ranks, if the run has several.
@@ -102,7 +102,7 @@ class Tasks {
     TileLevels levels;
   };
 
-  const CompiledScene& scene_;
+  const PreparedScene& scene_;
   const RunOptions& options_;
   const std::uint64_t planned_spp_;
   TilePartition partition_;

@@ -20,7 +20,7 @@ constexpr std::size_t kPadding = 32;  // kernels may store a vector past the las
 
 RayTracer::RayTracer(SimdTarget target, const std::string& text)
     : job_(PrepareText({text, SettingsOn(target)})) {
-  wave_.scene = &job_.scene;
+  static_cast<SceneParts&>(wave_) = job_.scene.Parts();
   wave_.run = &run_;
 }
 
@@ -48,7 +48,7 @@ void RayTracer::RunStages(const char* prefix) {
 }
 
 void RayTracer::PutRay(std::uint32_t slot, const WorldRay& ray) {
-  const CompiledScene& s = job_.scene;
+  const CompiledScene& s = scene();
   const Vec3f o = VecCast<float>((ray.origin - s.center) * s.scale);
   const Vec3f d = VecCast<float>(ray.direction);
   PathColumns& p = wave_.path;
@@ -60,7 +60,7 @@ void RayTracer::PutRay(std::uint32_t slot, const WorldRay& ray) {
 }
 
 WorldRay RayTracer::Rounded(const WorldRay& ray) const {
-  const CompiledScene& s = job_.scene;
+  const CompiledScene& s = scene();
   const Vec3f o = VecCast<float>((ray.origin - s.center) * s.scale);
   return {VecCast<double>(o) / s.scale + s.center,
           VecCast<double>(VecCast<float>(ray.direction))};
@@ -70,7 +70,7 @@ WorldHit RayTracer::HitOf(std::uint32_t slot) const {
   const PathColumns& p = wave_.path;
   WorldHit hit;
   if (p.t[slot] == std::numeric_limits<float>::infinity()) return hit;
-  const CompiledScene& s = job_.scene;
+  const CompiledScene& s = scene();
   hit.found = true;
   hit.t = p.t[slot] / s.scale;
   hit.primitive = p.prim[slot];
@@ -111,7 +111,7 @@ std::vector<bool> RayTracer::Blocked(const std::vector<Vec3d>& directions,
     if (p.t[i] == std::numeric_limits<float>::infinity()) continue;
     const Vec3f d = VecCast<float>(directions[i]);
     p.ls_x[i] = d.x, p.ls_y[i] = d.y, p.ls_z[i] = d.z;
-    p.ls_distance[i] = static_cast<float>(length * job_.scene.scale);
+    p.ls_distance[i] = static_cast<float>(length * scene().scale);
     shadow.items[shadow.size++] = i;
     blocked[i] = true;
   }

@@ -44,7 +44,7 @@ class RayTracer {
 
   /// The ray that the kernels get: rounded to float in the frame of the scene.
   WorldRay Rounded(const WorldRay& ray) const;
-  const CompiledScene& scene() const { return job_.scene; }
+  const CompiledScene& scene() const { return *job_.scene.compiled; }
 
  private:
   void Allocate(std::size_t rays);

@@ -30,7 +30,7 @@ bool HasDiffuse(const FeatureSet& features) {
 }  // namespace
 
 void SceneRunner::RunDiffuseModels() {
-  if (!HasDiffuse(job_.scene.features)) return;
+  if (!HasDiffuse(job_.scene.compiled->features)) return;
   for (const Model& model : kModels) {
     DiffuseModel diffuse = {ScatteringNames().Write(model.scattering), model.meaning, {}};
     const std::string path = scene_.folder + "/diffuse-" + diffuse.name + ".exr";
@@ -43,7 +43,7 @@ void SceneRunner::RunDiffuseModels() {
     RenderSettings settings = options_.settings;
     settings.scattering = model.scattering;
     settings.spp = MostSamples();
-    settings.trees.known = TreesOf(job_.scene);
+    settings.trees.known = TreesOf(*job_.scene.compiled);
     const Job job = PrepareJob(scene_.path, settings);
     const FilmAccumulator film = RunJob(job, {}, hooks_.stop).film;
     if (Stopped()) return;

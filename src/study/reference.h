@@ -59,10 +59,10 @@ struct ReferenceOptions {
 /// with a seed of its own. Leaves the job with that strategy. If it was stopped, the
 /// result is unusable. The same pixels whether it was stopped in between or not. Throws
 /// InputError if the state is damaged, or of another render.
-Reference RenderReference(Job& job, const ReferenceOptions& options);
+Reference RenderReference(const Job& job, const ReferenceOptions& options);
 
 /// The same without a state.
-inline Reference RenderReference(Job& job, std::uint64_t spp, std::uint64_t seed,
+inline Reference RenderReference(const Job& job, std::uint64_t spp, std::uint64_t seed,
                                  const std::function<void(const Progress&)>& on_progress,
                                  const std::atomic<bool>* stop) {
   return RenderReference(job, {spp, seed, "", on_progress, {}, stop});

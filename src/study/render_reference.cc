@@ -51,10 +51,10 @@ void Finish(Checkpoint& checkpoint, const ReferenceOptions& options) {
 
 }  // namespace
 
-Reference RenderReference(Job& job, const ReferenceOptions& options) {
+Reference RenderReference(const Job& scene, const ReferenceOptions& options) {
   Strategy strategy;
   strategy.points = Points::kIndependent;
-  SetRender(job, strategy, options.spp, options.seed);
+  const Job job = WithRender(scene, strategy, options.spp, options.seed);
   FilmAccumulator film = MakeFilm(job);
   RunOptions run = RunOptionsOf(job);
   run.on_progress = options.on_progress;

@@ -63,18 +63,18 @@ void SceneRunner::Prepare() {
   RenderSettings settings = options_.settings;
   settings.spp = 1;
   job_ = PrepareJob(scene_.path, settings);
-  CheckOutputPaths({OutputFiles(options_), {scene_.folder}}, job_.files);
-  scene_.hash = fmt::format("{:016x}", job_.scene_hash);
-  scene_.full_width = job_.description.film.width;
-  scene_.full_height = job_.description.film.height;
+  CheckOutputPaths({OutputFiles(options_), {scene_.folder}}, job_.loaded->files);
+  scene_.hash = fmt::format("{:016x}", job_.loaded->scene_hash);
+  scene_.full_width = job_.loaded->description.film.width;
+  scene_.full_height = job_.loaded->description.film.height;
   scene_.window = job_.window;
-  scene_.load_seconds = job_.load_seconds;
-  scene_.build_seconds = job_.build_seconds;
-  scene_.trees = job_.trees;
-  for (const Note& note : job_.description.notes) {
+  scene_.load_seconds = job_.loaded->load_seconds;
+  scene_.build_seconds = job_.loaded->build_seconds;
+  scene_.trees = job_.loaded->trees;
+  for (const Note& note : job_.loaded->description.notes) {
     scene_.notes.push_back(note.where.ToString() + ": " + note.message);
   }
-  scene_.differs = ImageChangesText(job_.description.notes);
+  scene_.differs = ImageChangesText(job_.loaded->description.notes);
   // Before anything is written: a wrong file leaves nothing behind.
   if (!options_.references.empty()) {
     scene_.reference = ReadReference(options_.references, job_.window, scene_.full_width,
@@ -85,7 +85,8 @@ void SceneRunner::Prepare() {
 }
 
 std::uint64_t SceneRunner::Seed(int repetition) const {
-  return job_.description.sampler.seed + 1 + static_cast<std::uint64_t>(repetition);
+  return job_.loaded->description.sampler.seed + 1 +
+         static_cast<std::uint64_t>(repetition);
 }
 
 std::uint64_t SceneRunner::MostSamples() const {
@@ -186,11 +187,11 @@ bool SceneRunner::RenderRepetition(StrategyRuns& runs, std::uint64_t spp, int re
 
 Measurement SceneRunner::Render(const StrategyRuns& runs, std::uint64_t spp,
                                 int repetition, Cells& cells) {
-  SetRender(job_, runs.named.strategy, spp, Seed(repetition));
-  const JobRun run = RunJob(job_, {}, hooks_.stop);
+  const Job job = WithRender(job_, runs.named.strategy, spp, Seed(repetition));
+  const JobRun run = RunJob(job, {}, hooks_.stop);
   Measurement m;
   m.machine = ThisMachine();
-  m.seed = job_.seed;
+  m.seed = job.seed;
   if (Stopped()) return m;
   Describe(run.result, EstimateError(run.film), m);
   const std::vector<Rgb> image = FilmColors(run.film);

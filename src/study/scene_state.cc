@@ -22,10 +22,11 @@ constexpr std::uint64_t kReferenceSeed = 0x9e3779b97f4a7c15u;
 // Everything that finished renders depend on, beyond their strategy.
 nlohmann::json Identity(const StudyOptions& options, const Job& job) {
   RenderSettings settings = SettingsInForce(job);
-  settings.seed = job.description.sampler.seed;  // repetitions have seeds of their own
+  settings.seed =
+      job.loaded->description.sampler.seed;  // repetitions have seeds of their own
   nlohmann::json identity = SettingsJson(settings, kStudyIdentity);
   identity.update({{"format", kFormat},
-                   {"scene_hash", fmt::format("{:016x}", job.scene_hash)},
+                   {"scene_hash", fmt::format("{:016x}", job.loaded->scene_hash)},
                    {"references", options.references}});
   return identity;
 }
@@ -135,7 +136,7 @@ void SceneRunner::FindReference() {
   ReferenceOptions options;
   options.spp = state_.value("reference_spp", ReferenceSamples());
   if (state_.contains("reference")) options.spp = state_["reference"].at("spp");
-  options.seed = job_.description.sampler.seed ^ kReferenceSeed;
+  options.seed = job_.loaded->description.sampler.seed ^ kReferenceSeed;
   options.state = scene_.folder + "/cells/reference.state";
   options.on_problem = hooks_.on_problem;
   options.stop = hooks_.stop;

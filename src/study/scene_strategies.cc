@@ -18,16 +18,17 @@ std::string Reason(const InputError& error) {
 }  // namespace
 
 void SceneRunner::CheckStrategies() {
-  for (NamedStrategy& named : StudyStrategies(options_, job_.description.strategy)) {
+  for (NamedStrategy& named :
+       StudyStrategies(options_, job_.loaded->description.strategy)) {
     StrategyRuns runs;
     runs.named = std::move(named);
     plan_keys_.emplace_back();
     try {
-      SetStrategy(job_, runs.named.strategy);
-      for (const std::string& note : job_.plan.notes) {
+      const Job job = WithStrategy(job_, runs.named.strategy);
+      for (const std::string& note : job.plan.notes) {
         runs.message += (runs.message.empty() ? "" : "; ") + note;
       }
-      FindTwin(runs, plan_keys_.back() = PlanKey(job_.scene, job_.plan));
+      FindTwin(runs, plan_keys_.back() = PlanKey(job.scene, job.plan));
     } catch (const InputError& error) {
       runs.status = RunStatus::kRefused;
       runs.message = Reason(error);

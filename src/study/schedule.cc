@@ -28,7 +28,7 @@ double StandardDeviation(const std::vector<double>& values) {
 
 class Pilots {
  public:
-  Pilots(Job& job, const std::vector<Strategy>& strategies, double seconds,
+  Pilots(const Job& job, const std::vector<Strategy>& strategies, double seconds,
          const std::atomic<bool>* stop)
       : job_(job), strategies_(strategies), seconds_(seconds), stop_(stop) {}
 
@@ -59,8 +59,8 @@ class Pilots {
   bool Stopped() const { return stop_ != nullptr && *stop_; }
 
   Seconds Render(const Strategy& strategy, std::uint64_t spp) {
-    SetRender(job_, strategy, spp, job_.seed);
-    const RunResult result = RunJob(job_, {}, stop_).result;
+    const Job job = WithRender(job_, strategy, spp, job_.seed);
+    const RunResult result = RunJob(job, {}, stop_).result;
     return {std::max(result.seconds, kLeastSeconds),
             std::max(result.cpu_seconds, kLeastSeconds)};
   }
@@ -99,7 +99,7 @@ class Pilots {
     return {std::clamp(samples, 1.0, double(kMostSpp)), spread};
   }
 
-  Job& job_;
+  const Job& job_;
   const std::vector<Strategy>& strategies_;
   double seconds_;
   const std::atomic<bool>* stop_;
@@ -117,7 +117,8 @@ double SamplesOfBudget(double budget, const PilotTime& pilot, const PilotTime& f
   return (budget - (pilot.seconds - of_sample * pilot.samples)) / of_sample;
 }
 
-std::vector<Calibration> Calibrate(Job& job, const std::vector<Strategy>& strategies,
+std::vector<Calibration> Calibrate(const Job& job,
+                                   const std::vector<Strategy>& strategies,
                                    double seconds, const std::atomic<bool>* stop) {
   return Pilots(job, strategies, seconds, stop).Run();
 }
@@ -130,7 +131,7 @@ std::vector<std::uint64_t> CountsUpTo(std::uint64_t largest) {
   return Sorted(counts);
 }
 
-void ChooseCounts(const StudyOptions& options, Job& job,
+void ChooseCounts(const StudyOptions& options, const Job& job,
                   std::vector<StrategyRuns>& strategies, const std::atomic<bool>* stop) {
   std::vector<StrategyRuns*> runs;
   std::vector<Strategy> calibrated;

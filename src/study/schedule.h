@@ -33,7 +33,8 @@ double SamplesOfBudget(double budget, const PilotTime& pilot, const PilotTime& f
 /// alike; medians count, and a line through both sizes. Strategies are
 /// compared by processor time, which does not count other programs; how much wall clock
 /// that is, is common to all. Empty if `stop` was set.
-std::vector<Calibration> Calibrate(Job& job, const std::vector<Strategy>& strategies,
+std::vector<Calibration> Calibrate(const Job& job,
+                                   const std::vector<Strategy>& strategies,
                                    double seconds, const std::atomic<bool>* stop);
 inline constexpr int kPilotRounds = 5;
 inline constexpr double kShortestPilot = 0.02, kLongestPilot = 1;
@@ -45,7 +46,7 @@ std::vector<std::uint64_t> CountsUpTo(std::uint64_t largest);
 /// asked for; with a budget, up to what each renders in that time; else powers of two up
 /// to what the first one renders in kDefaultStudySeconds. Ascending, without duplicates.
 /// If `stop` was set, there are none.
-void ChooseCounts(const StudyOptions& options, Job& job,
+void ChooseCounts(const StudyOptions& options, const Job& job,
                   std::vector<StrategyRuns>& strategies, const std::atomic<bool>* stop);
 
 }  // namespace lanelight

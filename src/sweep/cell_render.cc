@@ -38,15 +38,14 @@ bool CellRenderer::HasTarget(const SweepCell& cell) {
 void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
   settings.trees.folder = build_cache_;
   const std::string trees = TreeKeyOf(cell.values);
-  if (job_ && trees == tree_key_) settings.trees.known = TreesOf(job_->scene);
+  if (job_ && trees == tree_key_) settings.trees.known = TreesOf(*job_->scene.compiled);
   tree_key_ = trees;
   job_.reset();  // before there is another in memory
   failure_.clear();
   settings.seed.reset();  // that of one cell is not that of the next
   try {
     Job job = PrepareJob(sweep_.ScenePath(cell), settings);
-    CheckOutputPaths(outputs_, job.files);
-    own_ = job.description.strategy;
+    CheckOutputPaths(outputs_, job.loaded->files);
     job_ = std::move(job);
   } catch (const WouldOverwrite&) {
     throw;
@@ -55,7 +54,7 @@ void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
   }
 }
 
-Job& CellRenderer::Prepare(const SweepCell& cell) {
+Job CellRenderer::Prepare(const SweepCell& cell) {
   RenderSettings settings = sweep_.settings.render;
   ApplyValues(cell.values, settings);
   if (const std::string key = SceneKey(cell); key != key_) {
@@ -64,18 +63,17 @@ Job& CellRenderer::Prepare(const SweepCell& cell) {
   }
   // All cells of a broken scene fail, and only the first one takes the time.
   if (!job_) throw std::runtime_error(failure_);
-  const Strategy strategy = StrategyNamed(
-      Get(cell.values, Axis::kStrategy).value_or(kSceneStrategyName), {}, own_);
-  CheckFilmFits(job_->window, AuxiliaryOf(settings, job_->description.film), strategy,
-                PhysicalMemory());
-  SetAmount(*job_, settings);
-  SetStrategy(*job_, strategy);
-  return *job_;
+  const Strategy strategy =
+      StrategyNamed(Get(cell.values, Axis::kStrategy).value_or(kSceneStrategyName), {},
+                    job_->scene.strategy);
+  CheckFilmFits(job_->window, AuxiliaryOf(settings, job_->loaded->description.film),
+                strategy, PhysicalMemory());
+  return WithStrategy(WithAmount(*job_, settings), strategy);
 }
 
 Rendering CellRenderer::Render(const SweepCell& cell, const std::string& folder,
                                const RenderHooks& hooks) {
-  const Job& job = Prepare(cell);
+  const Job job = Prepare(cell);
   RenderTargets targets;
   targets.image = sweep_.settings.render.image;
   targets.exr = folder + "/image.exr";

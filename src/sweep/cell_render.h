@@ -26,9 +26,9 @@ class CellRenderer {
         build_cache_(std::move(build_cache)),
         outputs_(std::move(outputs)) {}
 
-  /// The scene as the cell wants it, its strategy and amount set. Refers to this object,
-  /// until the next call. Throws InputError, and Interrupted as FindTree does.
-  Job& Prepare(const SweepCell& cell);
+  /// The scene as the cell wants it, with its strategy and amount. Throws InputError, and
+  /// Interrupted as FindTree does.
+  Job Prepare(const SweepCell& cell);
 
   /// Renders into image.exr (and image.png) of `folder`, an existing directory. The
   /// report is in the result only. Throws InputError.
@@ -46,10 +46,9 @@ class CellRenderer {
   const Sweep& sweep_;
   TreeFolder build_cache_;
   OutputPaths outputs_;
-  std::optional<Job> job_;
+  std::optional<Job> job_;     // of the last cell, with the scene's own strategy
   std::string key_, failure_;  // of job_; why there is none
   std::string tree_key_;       // of its trees, as far as cells tell
-  Strategy own_;               // the scene's
 };
 
 }  // namespace lanelight

@@ -40,7 +40,8 @@ double FileBytes(const FilmAccumulator& film, const Job& job, bool half) {
   const std::string path = FallbackPath("pilot.exr");
   ExrOptions options;
   options.half = half;
-  WriteExr(path, film.width(), film.height(), FilmPlanes(film, job.scene.scale), options);
+  WriteExr(path, film.width(), film.height(), FilmPlanes(film, job.scene.compiled->scale),
+           options);
   const double bytes = double(fs::file_size(path));
   std::error_code ignored;
   fs::remove(path, ignored);
@@ -55,9 +56,9 @@ Pilot RenderPilot(const Job& job, double seconds, bool half) {
   const int height = windows.front().height();
   Pilot pilot;
   pilot.pixels = double(job.window.pixels());
-  pilot.spp = static_cast<std::uint64_t>(job.description.sampler.spp);
-  pilot.load_seconds = job.load_seconds;
-  pilot.build_seconds = job.build_seconds;
+  pilot.spp = static_cast<std::uint64_t>(job.loaded->description.sampler.spp);
+  pilot.load_seconds = job.loaded->load_seconds;
+  pilot.build_seconds = job.loaded->build_seconds;
   RunOptions options;
   options.windows = windows;
   options.seed = job.seed;

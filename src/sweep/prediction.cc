@@ -90,7 +90,7 @@ void Predictor::RenderPilots(std::size_t most, SweepPrediction& out) {
   for (std::size_t i = 0; i < count && !stop_; ++i) {
     const Combination& c = combinations_[i * combinations_.size() / count];
     try {
-      const Job& job = renderer_.Prepare(*c.cell);
+      const Job job = renderer_.Prepare(*c.cell);
       pilots_[{c.scene, c.strategy}] =
           RenderPilot(job, kPilotSeconds, sweep_.settings.render.image.half);
       ++out.pilots;

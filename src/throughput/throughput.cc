@@ -33,7 +33,8 @@ double MeanOf(const FilmAccumulator& film) {
 }
 
 // Renders it once, and returns the mean of the image.
-double Render(Job& job, ThroughputRow& row, const std::atomic<bool>& stop) {
+double Render(Job job, ThroughputRow& row, const std::atomic<bool>& stop) {
+  job.spp = row.spp;
   job.settings.threads = row.threads;
   JobRun run = RunJob(job, {}, &stop);
   row.counts = std::move(run.result);
@@ -86,7 +87,7 @@ class SceneBench {
   std::vector<ThroughputRow>& rows() { return rows_; }
 
  private:
-  Job& JobOf(std::size_t row) { return jobs_[row / options_.threads.size()]; }
+  const Job& JobOf(std::size_t row) const { return jobs_[row / options_.threads.size()]; }
   ThroughputRow RowOf(const Job& job, int threads) const {
     ThroughputRow row;
     row.scene = scene_;
@@ -101,7 +102,6 @@ class SceneBench {
     return row;
   }
   void SetSpp(std::uint64_t spp) {
-    for (Job& job : jobs_) job.spp = spp;
     for (ThroughputRow& row : rows_) row.spp = spp;
   }
 

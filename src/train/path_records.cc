@@ -53,10 +53,11 @@ PathSamples ReadRecords(TrainingSamples samples) {
   return out;
 }
 
-ImageGuess GuessImage(const CompiledScene& scene, const TrainingSamples& samples,
+ImageGuess GuessImage(const PreparedScene& scene, const TrainingSamples& samples,
                       const TrainingWork& work) {
-  return {static_cast<std::uint32_t>(scene.film.width),
-          static_cast<std::uint32_t>(scene.film.height), work.pixels, samples.colors};
+  return {static_cast<std::uint32_t>(scene.view.film.width),
+          static_cast<std::uint32_t>(scene.view.film.height), work.pixels,
+          samples.colors};
 }
 
 double VarianceOfMean(const TrainingSamples& samples, const TrainingWork& work,

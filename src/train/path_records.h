@@ -37,7 +37,7 @@ struct PathSamples : TrainingSamples {
 PathSamples ReadRecords(TrainingSamples samples);
 
 /// What the image is like, by the samples of `work`.
-ImageGuess GuessImage(const CompiledScene& scene, const TrainingSamples& samples,
+ImageGuess GuessImage(const PreparedScene& scene, const TrainingSamples& samples,
                       const TrainingWork& work);
 
 /// Variance of the mean of some pixels of `work` (their places in it), of a sample in

@@ -26,14 +26,13 @@ using Squares = std::vector<std::vector<std::size_t>>;
 
 // Places of pixels in the work that count: light that the camera sees at the edge of a
 // lamp is integrated apart in the image, but not in a trial.
-std::vector<bool> Counted(const CompiledScene& scene, const TriedStrategy& usual,
-                          const TrainingWork& work) {
+std::vector<bool> Counted(const TriedStrategy& usual, const TrainingWork& work) {
   std::vector<bool> counted(work.pixels.size(), true);
-  const Plan plan = MakePlan(scene, usual.options);
-  RunParameters run = MakeRunParameters(scene, plan);
+  const Plan plan = MakePlan(usual.scene, usual.options);
+  RunParameters run = MakeRunParameters(usual.scene, plan);
   run.tables = &usual.tables;
   const RunOptions once;
-  TaskRunner runner(scene, plan, run, once);
+  TaskRunner runner(usual.scene, plan, run, once);
   runner.Begin(work.tiles.size());
   if (runner.seen_lights() == nullptr) return counted;
   ParallelFor(work.tiles.size(),
@@ -49,9 +48,9 @@ std::vector<bool> Counted(const CompiledScene& scene, const TriedStrategy& usual
 }
 
 // Of pixels that count, in squares of this side.
-Squares SquaresOf(const CompiledScene& scene, const TrainingWork& work,
+Squares SquaresOf(const PreparedScene& scene, const TrainingWork& work,
                   const std::vector<bool>& counted, int side) {
-  const auto width = static_cast<std::uint32_t>(scene.film.width);
+  const auto width = static_cast<std::uint32_t>(scene.view.film.width);
   const auto each = static_cast<std::uint32_t>(side);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> squares;
   for (std::size_t i = 0; i < work.pixels.size(); ++i) {
@@ -74,7 +73,7 @@ std::vector<double> Summed(const std::vector<double>& variances, const Squares& 
   return out;
 }
 
-bool Takes(const CompiledScene& scene, const PlanOptions& options) {
+bool Takes(const PreparedScene& scene, const PlanOptions& options) {
   try {
     return MakePlan(scene, options).features.Has(Feature::kReuse);
   } catch (const InputError&) {
@@ -87,10 +86,10 @@ bool Takes(const CompiledScene& scene, const PlanOptions& options) {
 TriedBlocks StrategyTrial::CompareBlocks(const TriedStrategy& usual,
                                          const PlanOptions& blocks,
                                          const TrainingWork& work, double must_gain) {
-  const TrainingSamples plain = Render(usual.options, usual.tables, work);
-  const TrainingSamples shared = Render(blocks, usual.tables, work);
+  const TrainingSamples plain = Render(usual, usual.options, work);
+  const TrainingSamples shared = Render(usual, blocks, work);
   const ImageGuess image = GuessImage(scene_, plain, work);
-  const std::vector<bool> counted = Counted(scene_, usual, work);
+  const std::vector<bool> counted = Counted(usual, work);
   const Squares tiles = SquaresOf(scene_, work, counted, kReuseTile);
   const Squares squares = SquaresOf(scene_, work, counted, kSquare);
   const auto by_tiles = [&](const TrainingSamples& samples, double price) {
@@ -121,8 +120,8 @@ std::vector<TriedBlocks> StrategyTrial::TryBlocks(const TriedStrategy& usual,
                                                   double must_gain) {
   std::vector<TriedBlocks> tried;
   for (const char* const changes : {"reuse=block", "reuse=block:32"}) {
-    const PlanOptions blocks = WithChanges(scene_, usual.options, changes);
-    if (!Takes(scene_, blocks)) break;
+    const PlanOptions blocks = WithChanges(usual.scene, usual.options, changes);
+    if (!Takes(usual.scene, blocks)) break;
     const TrainingWork work = MakeTileWork(scene_, samples, kBlockSpp);
     const TriedBlocks found = CompareBlocks(usual, blocks, work, must_gain);
     if (watcher_.Stopped()) break;

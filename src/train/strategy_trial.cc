@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <tuple>
 
 #include "src/train/path_records.h"
 #include "src/plan/plan_features.h"
@@ -42,20 +42,30 @@ PilotMeasure Both(const PilotMeasure& own, PilotMeasure unsplit) {
   return unsplit;
 }
 
-// Of the default strategy with these changes.
-bool LivesLonger(const std::string& changes) {
-  const Strategy usual;
-  Strategy changed = usual;
-  ApplyStrategy(changes, {std::make_shared<const std::string>("trial"), 0, 0}, changed);
+// Nothing but the roulette differs, and paths survive it with a higher probability.
+bool LivesLonger(Strategy changed, const Strategy& usual) {
   const bool longer =
       changed.roulette == Roulette::kNone ||
       (changed.roulette == usual.roulette && changed.Floor() >= usual.Floor() &&
        changed.scale >= usual.scale && changed.First() >= usual.First());
+  if (usual.roulette != Roulette::kThroughput || !longer) return false;
+  const auto roulette = [](const Strategy& s) {
+    return std::tuple(s.roulette, s.floor, s.first, s.scale);
+  };
+  if (roulette(changed) == roulette(usual)) return false;
   changed.roulette = usual.roulette;
   changed.floor = usual.floor;
   changed.first = usual.first;
   changed.scale = usual.scale;
-  return longer && !changes.empty() && changed == usual;
+  return changed == usual;
+}
+
+// It splits what otherwise plays the roulette that the records tell of.
+bool RecordsUnsplit(const TriedStrategy& tried, const TriedStrategy& usual) {
+  const Strategy given = PlannedStrategy(usual.scene, usual.options);
+  return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
+         given.scale == 1 && given.First() == kThroughputFirst &&
+         tried.changes == "roulette=adjoint";
 }
 
 // Without any error at all it is exact.
@@ -102,17 +112,18 @@ double TriedStrategy::Beyond(double must_gain, double standard_errors) const {
   return Gain().log - must;
 }
 
-TriedStrategy ToTry(const CompiledScene& scene, const PlanOptions& options,
+TriedStrategy ToTry(const PreparedScene& scene, const PlanOptions& options,
                     const std::string& changes, double price) {
   TriedStrategy tried;
   tried.changes = changes;
   tried.price = price;
+  tried.scene = scene;
   tried.options = WithChanges(scene, options, JoinedChanges(changes, "decide=none"));
   tried.tables = MakeStrategyTables(scene);
   return tried;
 }
 
-StrategyTrial::StrategyTrial(const CompiledScene& scene, const TrainingOptions& training,
+StrategyTrial::StrategyTrial(const PreparedScene& scene, const TrainingOptions& training,
                              std::uint32_t seed, std::uint64_t planned)
     : scene_(scene),
       training_(training),
@@ -128,33 +139,22 @@ void StrategyTrial::Begin(std::uint64_t samples, std::uint32_t spp, std::uint64_
 
 TrainingOutcome StrategyTrial::Learn(const TriedStrategy& tried, std::uint64_t planned,
                                      StrategyTables& tables) {
-  const Plan plan = MakePlan(scene_, tried.options);
+  const Plan plan = MakePlan(tried.scene, tried.options);
   if (!NeedsTraining(plan)) return {};
   TrainingOptions options = training_;
   options.planned_samples = planned;
   options.keep_roulette |= !tried.changes.empty();
-  const TrainingOutcome out = Train({scene_, plan, seed_, options, tables});
+  const TrainingOutcome out = Train({tried.scene, plan, seed_, options, tables});
   spent_.samples += out.samples;
   spent_.rays += out.rays;
   return out;
 }
 
-bool StrategyTrial::HasUsualRoulette(const PlanOptions& options) const {
-  const Strategy given = PlannedStrategy(scene_, options);
-  return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
-         given.scale == 1 && given.First() == kThroughputFirst;
-}
-
-// It splits what otherwise plays the roulette that the records tell of.
-bool StrategyTrial::RecordsUnsplit(const TriedStrategy& tried,
-                                   const TriedStrategy& usual) const {
-  return tried.changes == "roulette=adjoint" && HasUsualRoulette(usual.options);
-}
-
-TrainingSamples StrategyTrial::Render(const PlanOptions& options,
-                                      const StrategyTables& tables,
+TrainingSamples StrategyTrial::Render(const TriedStrategy& tried,
+                                      const PlanOptions& options,
                                       const TrainingWork& work) {
-  TrainingPass pass = {scene_, options, &tables, seed_, &watcher_, training_.ranks};
+  TrainingPass pass = {tried.scene, options,   &tried.tables,
+                       seed_,       &watcher_, training_.ranks};
   pass.options.own_points = true;
   TrainingSamples samples = RunTrainingPass(pass, work);
   spent_.samples += samples.colors.size();
@@ -180,7 +180,7 @@ bool StrategyTrial::Try(TriedStrategy& tried, const TriedStrategy& usual) {
   if (!tried.has_learned) {
     // It may have found that it had better be something else.
     const TrainingOutcome learned = Learn(tried, planned_, tried.tables);
-    tried.options = WithChanges(scene_, tried.options, learned.changes);
+    tried.options = WithChanges(tried.scene, tried.options, learned.changes);
     tried.has_learned = true;
   }
   if (!Stopped()) Measure(tried, usual);
@@ -191,7 +191,7 @@ void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& usual) {
   PlanOptions options = tried.options;
   const bool records = RecordsUnsplit(tried, usual);
   if (records) options.training = FeatureSet{Feature::kRecordsUnsplit};
-  const TrainingSamples samples = Render(options, tried.tables, work_);
+  const TrainingSamples samples = Render(tried, options, work_);
   if (Stopped()) return;
   // Weights are those of the image that the usual strategy shows.
   if (!image_) image_ = GuessImage(scene_, samples, work_);
@@ -200,7 +200,8 @@ void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& usual) {
   tried.light = LightOf(samples, tried.measure);
   tried.usual = usual.measure;
   tried.usual_light = usual.light;
-  tried.lives_longer = LivesLonger(tried.changes) && HasUsualRoulette(usual.options);
+  tried.lives_longer = LivesLonger(PlannedStrategy(tried.scene, tried.options),
+                                   PlannedStrategy(usual.scene, usual.options));
   tried.paired = records && !IsSure(usual.measure.variances);
   if (!tried.paired) return;
   PilotMeasure unsplit = usual.measure;

@@ -24,6 +24,7 @@ struct PilotLight {
 struct TriedStrategy {
   std::string changes;  // of the usual strategy, which has none
   double price = 1;     // DecisionCandidate::price
+  PreparedScene scene;  // for all of the strategy that is not a change of the plan
   PlanOptions options;
   StrategyTables tables;
   bool has_learned = false;
@@ -58,8 +59,9 @@ struct TriedStrategy {
   double Beyond(double must_gain, double standard_errors) const;
 };
 
-/// A change of the strategy that plans of `options` have, nothing known of it yet.
-TriedStrategy ToTry(const CompiledScene& scene, const PlanOptions& options,
+/// A change of the strategy that plans of `options` have, nothing known of it yet. What
+/// is tried together has the same scene and view.
+TriedStrategy ToTry(const PreparedScene& scene, const PlanOptions& options,
                     const std::string& changes, double price);
 
 /// Paths that serve their block (reuse=block) beside a strategy, and what whole tiles say
@@ -76,7 +78,7 @@ struct TriedBlocks {
 class StrategyTrial {
  public:
   /// Strategies learn as for a render of `planned` samples. Refers to scene and training.
-  StrategyTrial(const CompiledScene& scene, const TrainingOptions& training,
+  StrategyTrial(const PreparedScene& scene, const TrainingOptions& training,
                 std::uint32_t seed, std::uint64_t planned);
 
   /// From here on about so many samples are rendered of each strategy, so many in each
@@ -106,16 +108,14 @@ class StrategyTrial {
   const TrainingOutcome& spent() const { return spent_; }
 
  private:
-  bool HasUsualRoulette(const PlanOptions& options) const;
-  bool RecordsUnsplit(const TriedStrategy& tried, const TriedStrategy& usual) const;
-  TrainingSamples Render(const PlanOptions& options, const StrategyTables& tables,
+  TrainingSamples Render(const TriedStrategy& tried, const PlanOptions& options,
                          const TrainingWork& work);
   void Measure(TriedStrategy& tried, const TriedStrategy& usual);
   PilotLight LightOf(const TrainingSamples& samples, const PilotMeasure& measure) const;
   TriedBlocks CompareBlocks(const TriedStrategy& usual, const PlanOptions& blocks,
                             const TrainingWork& work, double must_gain);
 
-  const CompiledScene& scene_;
+  const PreparedScene& scene_;
   const TrainingOptions& training_;
   const std::uint32_t seed_;
   const std::uint64_t planned_;

@@ -156,7 +156,7 @@ class Decider {
                     note_, out.note.empty() ? "" : "; ", out.note);
   }
 
-  const CompiledScene& scene_;
+  const PreparedScene& scene_;
   const PlanOptions& options_;
   const TrainingOptions& training_;
   const std::uint64_t planned_;

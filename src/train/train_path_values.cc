@@ -100,7 +100,7 @@ class Pilot {
   }
 
   PathSamples RecordPass() {
-    const Geometry& geometry = scene_.geometry;
+    const Geometry& geometry = scene_.compiled->geometry;
     values_.grid = MakeCellGrid(geometry.bounds_min, geometry.bounds_max,
                                 std::uint64_t{work_.samples()} * 2);
     WeighChannels(FewOf(work_));
@@ -191,7 +191,7 @@ class Pilot {
         Name(chosen));
   }
 
-  const CompiledScene& scene_;
+  const PreparedScene& scene_;
   const Plan& plan_;
   const StrategyTables& tables_;
   const std::uint32_t seed_;

@@ -35,7 +35,7 @@ std::uint64_t DecidedBy(std::uint64_t pixels);
 
 /// What a training knows: `plan` and `seed` are those of the image.
 struct TrainingContext {
-  const CompiledScene& scene;
+  const PreparedScene& scene;
   const Plan& plan;
   std::uint32_t seed = 0;
   const TrainingOptions& options;

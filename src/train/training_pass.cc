@@ -124,7 +124,7 @@ class Pass {
     }
   }
 
-  const CompiledScene& scene_;
+  const PreparedScene& scene_;
   const Plan plan_;
   const Strategy strategy_;
   const bool own_points_;
@@ -139,11 +139,11 @@ class Pass {
 
 }  // namespace
 
-TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples,
+TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
                               std::uint32_t spp, std::uint64_t turn) {
   std::vector<std::uint32_t> all;
   // Blocks of neighbours first, so that an even choice of them is even in both axes.
-  TilePixels(RenderedPixels(scene.film), scene.film.width, &all);
+  TilePixels(RenderedPixels(scene.view.film), scene.view.film.width, &all);
   const std::uint64_t count = std::max<std::uint64_t>(samples / spp, 1);
   if (count >= all.size()) {
     const std::uint64_t more = std::max<std::uint64_t>(samples / all.size(), spp);
@@ -165,9 +165,9 @@ TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples,
   return work;
 }
 
-TrainingWork MakeTileWork(const CompiledScene& scene, std::uint64_t samples,
+TrainingWork MakeTileWork(const PreparedScene& scene, std::uint64_t samples,
                           std::uint32_t spp) {
-  const std::vector<PixelRect> all = TilesOf(RenderedPixels(scene.film), kReuseTile);
+  const std::vector<PixelRect> all = TilesOf(RenderedPixels(scene.view.film), kReuseTile);
   const std::uint64_t wanted = samples / spp / (kReuseTile * kReuseTile);
   const std::size_t count = std::clamp<std::size_t>(wanted, 1, all.size());
   TrainingWork work;
@@ -178,7 +178,7 @@ TrainingWork MakeTileWork(const CompiledScene& scene, std::uint64_t samples,
     jitter = jitter * 6364136223846793005u + 1442695040888963407u;
     work.tiles.push_back(all[begin + (jitter >> 33) % (end - begin)]);
     std::vector<std::uint32_t> pixels;
-    TilePixels(work.tiles.back(), scene.film.width, &pixels);
+    TilePixels(work.tiles.back(), scene.view.film.width, &pixels);
     work.pixels.insert(work.pixels.end(), pixels.begin(), pixels.end());
   }
   return work;

@@ -21,7 +21,7 @@ inline constexpr double kShadowRayCost = 0.5;
 
 /// What a pass renders with.
 struct TrainingPass {
-  const CompiledScene& scene;
+  const PreparedScene& scene;
   /// `training` says what is recorded: by default nothing. No auxiliary planes are kept.
   PlanOptions options;
   const StrategyTables* tables = nullptr;
@@ -63,12 +63,12 @@ struct TrainingSamples {
 
 /// About `samples` samples (at least four): spread evenly over the rendered window, `spp`
 /// of a pixel or more. Each `turn` has pixels of its own, unless all of them are taken.
-TrainingWork MakeTrainingWork(const CompiledScene& scene, std::uint64_t samples,
+TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
                               std::uint32_t spp = TrainingWork::kLeastSpp,
                               std::uint64_t turn = 0);
 
 /// The same of whole tiles, as reuse=block needs them.
-TrainingWork MakeTileWork(const CompiledScene& scene, std::uint64_t samples,
+TrainingWork MakeTileWork(const PreparedScene& scene, std::uint64_t samples,
                           std::uint32_t spp);
 
 /// About a sixteenth of it.

@@ -141,8 +141,10 @@ void BlockReuse::Begin(const TileWork& work, Wave& paths) {
   MakeRoom(samples, paths.path);
   std::fill_n(block_.second.state, samples,
               static_cast<std::uint32_t>(ReuseState::kNoVertex));
-  first_.scene = glossy_.scene = wave_.scene = paths.scene;
-  first_.run = glossy_.run = wave_.run = paths.run;
+  for (Wave* wave : {&first_, &glossy_, &wave_}) {
+    static_cast<SceneParts&>(*wave) = paths;
+    wave->run = paths.run;
+  }
   paths.block = &block_;
 }
 

@@ -19,7 +19,7 @@ void StartWave(Wave& wave) {
 
 }  // namespace
 
-std::uint32_t SamplesTogether(const CompiledScene& scene, const Plan& plan) {
+std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan) {
   constexpr std::uint32_t kMost = 16;
   const std::uint32_t together = std::min(kMost, plan.wavefront);
   return scene.strategy.pairs == Pairs::kAntithetic ? together & ~1u : together;

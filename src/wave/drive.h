@@ -11,7 +11,7 @@ namespace lanelight {
 /// Samples of a pixel in adjacent slots of a plan's wavefront: their rays share more of
 /// the scene than those of neighbouring pixels. Never more than it has slots; even where
 /// samples come in pairs.
-std::uint32_t SamplesTogether(const CompiledScene& scene, const Plan& plan);
+std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan);
 
 /// Samples to take, and where finished ones go.
 struct DriveTask {

@@ -33,11 +33,11 @@ TilePartition PartitionOfTiles(const std::vector<PixelRect>& tiles,
   return partition;
 }
 
-TilePartition AnyPartition(const CompiledScene& scene, const RunOptions& options,
+TilePartition AnyPartition(const PreparedScene& scene, const RunOptions& options,
                            std::uint64_t planned_spp) {
   if (!options.windows.empty()) return PartitionOfWindows(options.windows, planned_spp);
   if (!options.tiles.empty()) return PartitionOfTiles(options.tiles, planned_spp);
-  return MakePartition(RenderedPixels(scene.film), planned_spp, scene.strategy);
+  return MakePartition(RenderedPixels(scene.view.film), planned_spp, scene.strategy);
 }
 
 bool IsEven(const FilmAccumulator& film, const PixelRect& tile) {
@@ -52,7 +52,7 @@ bool IsEven(const FilmAccumulator& film, const PixelRect& tile) {
 
 }  // namespace
 
-TilePartition PartitionOf(const CompiledScene& scene, const RunOptions& options,
+TilePartition PartitionOf(const PreparedScene& scene, const RunOptions& options,
                           std::uint64_t planned_spp) {
   TilePartition partition = AnyPartition(scene, options, planned_spp);
   // A pair must not straddle two tasks.

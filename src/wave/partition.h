@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/compiled/scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/image/accumulator.h"
 #include "src/image/pixel_rect.h"
 #include "src/wave/run_options.h"
@@ -15,7 +15,7 @@ namespace lanelight {
 
 /// All windows, or tiles, that the options name, or else the image in tiles. Tasks have a
 /// whole number of antithetic pairs.
-TilePartition PartitionOf(const CompiledScene& scene, const RunOptions& options,
+TilePartition PartitionOf(const PreparedScene& scene, const RunOptions& options,
                           std::uint64_t planned_spp);
 
 /// Where the pixels of a tile lie in the film: windows side by side, all else where it is

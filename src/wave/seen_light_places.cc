@@ -97,17 +97,17 @@ class Projector {
 
 }  // namespace
 
-std::vector<std::uint32_t> PlacesOfSmallLights(const CompiledScene& scene) {
-  const Projector projector(scene.camera);
-  const int width = scene.film.width, height = scene.film.height;
+std::vector<std::uint32_t> PlacesOfSmallLights(const PreparedScene& scene) {
+  const Projector projector(scene.view.camera);
+  const int width = scene.view.film.width, height = scene.view.film.height;
   std::vector<std::uint32_t> places;
-  for (const LightRecord& light : scene.lights.lights) {
-    const std::optional<Ball> ball = BallOf(scene.geometry, light);
+  for (const LightRecord& light : scene.compiled->lights.lights) {
+    const std::optional<Ball> ball = BallOf(scene.compiled->geometry, light);
     if (!ball) continue;
     const std::optional<Picture> at = projector.Project(*ball);
     if (!at || !(at->radius < kSmallLight) || !std::isfinite(at->x + at->y)) continue;
-    const double reach_x = at->radius + double(scene.filter.x_radius) - 0.5;
-    const double reach_y = at->radius + double(scene.filter.y_radius) - 0.5;
+    const double reach_x = at->radius + double(scene.compiled->filter.x_radius) - 0.5;
+    const double reach_y = at->radius + double(scene.compiled->filter.y_radius) - 0.5;
     const auto clamp = [](double v, int most) {
       return static_cast<int>(std::clamp(std::floor(v), -1.0, double(most)));
     };

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/compiled/scene.h"
+#include "src/prepare/prepared_scene.h"
 
 namespace lanelight {
 
@@ -13,7 +13,7 @@ namespace lanelight {
 /// whose picture is smaller than kSmallLight pixels across its radius, out of focus or
 /// not; whether it is hidden is not asked. Shapes at or behind the camera have no
 /// picture.
-std::vector<std::uint32_t> PlacesOfSmallLights(const CompiledScene& scene);
+std::vector<std::uint32_t> PlacesOfSmallLights(const PreparedScene& scene);
 inline constexpr double kSmallLight = 2;
 
 }  // namespace lanelight

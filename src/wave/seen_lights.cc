@@ -126,11 +126,11 @@ void SeenLightRays::Trace(const Work& rays, StageClock* clock, std::vector<float
         clock);
 }
 
-SeenLightEdges::SeenLightEdges(const CompiledScene& scene, std::size_t tiles)
+SeenLightEdges::SeenLightEdges(const PreparedScene& scene, std::size_t tiles)
     : scene_(scene),
       samples_{GroupsOf(scene.strategy), kSeenLightRays},
       small_lights_(PlacesOfSmallLights(scene)),
-      reach_(Reach(scene.filter)),
+      reach_(Reach(scene.compiled->filter)),
       edges_(tiles),
       found_(tiles) {}
 
@@ -141,11 +141,12 @@ void SeenLightEdges::Find(std::size_t tile, const PixelRect& rect, SeenLightRays
 
 void SeenLightEdges::FindIn(const PixelRect& rect, SeenLightRays& rays, StageClock* clock,
                             std::vector<std::uint32_t>& edges) const {
-  const auto width = static_cast<std::uint32_t>(scene_.film.width);
-  const PixelRect all = WithBorder(rect, reach_, scene_.film.width, scene_.film.height);
+  const auto width = static_cast<std::uint32_t>(scene_.view.film.width);
+  const PixelRect all =
+      WithBorder(rect, reach_, scene_.view.film.width, scene_.view.film.height);
   SeenRanges ranges(all, width);
   std::vector<std::uint32_t>& pixels = rays.pixels;
-  TilePixels(all, scene_.film.width, &pixels);
+  TilePixels(all, scene_.view.film.width, &pixels);
   const std::size_t rows = pixels.size() * kFindRays;
   rays.Trace({pixels.data(), pixels.size(), kFindSeed, 0, kFindRays}, clock, rays.others);
   for (std::size_t p = 0; p < pixels.size(); ++p) {
@@ -156,7 +157,7 @@ void SeenLightEdges::FindIn(const PixelRect& rect, SeenLightRays& rays, StageClo
     rays.Trace({&pixel, 1, kFindSeed, 0, kSmallLightRays}, clock, rays.own);
     ranges.Add(pixel, rays.own.data(), kSmallLightRays, kSmallLightRays);
   }
-  TilePixels(rect, scene_.film.width, &pixels);
+  TilePixels(rect, scene_.view.film.width, &pixels);
   for (std::size_t p = 0; p < pixels.size(); ++p) {
     if (!ranges.IsEdge(pixels[p], reach_)) continue;
     edges.push_back(static_cast<std::uint32_t>(p));

@@ -46,7 +46,7 @@ class SeenLightRays {
   };
 
   /// Of a plan with seen_stages. Refers to all of these.
-  SeenLightRays(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
+  SeenLightRays(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
                 const Wavefront& wavefront)
       : scene_(scene),
         plan_(plan),
@@ -65,7 +65,7 @@ class SeenLightRays {
   std::vector<float> own, others;
 
  private:
-  const CompiledScene& scene_;
+  const PreparedScene& scene_;
   const Plan& plan_;
   const RunParameters& image_run_;
   RunParameters run_;
@@ -75,7 +75,7 @@ class SeenLightRays {
 class SeenLightEdges {
  public:
   /// Of this many tiles. Refers to the scene.
-  SeenLightEdges(const CompiledScene& scene, std::size_t tiles);
+  SeenLightEdges(const PreparedScene& scene, std::size_t tiles);
 
   /// Finds the edges in a tile of the image, once: whoever comes later waits. Safe from
   /// several threads, each with its rays. Before Correct() of this tile.
@@ -100,7 +100,7 @@ class SeenLightEdges {
   void CorrectPixels(const Places& places, const SeenLightTask& task, SeenLightRays& rays,
                      StageClock* clock) const;
 
-  const CompiledScene& scene_;
+  const PreparedScene& scene_;
   const SeenLightSamples samples_;
   const std::vector<std::uint32_t> small_lights_;  // pixels, ascending
   const int reach_;                                // pixels

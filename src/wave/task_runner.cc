@@ -12,7 +12,7 @@
 
 namespace lanelight {
 
-TaskRunner::TaskRunner(const CompiledScene& scene, const Plan& plan,
+TaskRunner::TaskRunner(const PreparedScene& scene, const Plan& plan,
                        const RunParameters& run, const RunOptions& options)
     : scene_(scene),
       plan_(plan),
@@ -40,7 +40,7 @@ Workspace& TaskRunner::ThreadWorkspace() {
 }
 
 TileWork TaskRunner::SetUp(const TileTask& task, Workspace& space) const {
-  TilePixels(task.rect, scene_.film.width, &space.pixels);
+  TilePixels(task.rect, scene_.view.film.width, &space.pixels);
   TileWork work;
   work.pixels = space.pixels.data();
   work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
@@ -48,7 +48,6 @@ TileWork TaskRunner::SetUp(const TileTask& task, Workspace& space) const {
   work.samples = task.samples;
   work.together = SamplesTogether(scene_, plan_);
   Wave& wave = space.wavefront.wave();
-  wave.scene = &scene_;
   wave.rays_closest = wave.rays_shadow = 0;
   wave.health = {};
   return work;
@@ -105,7 +104,7 @@ void TaskRunner::SeeLights(const TileTask& task, TaskSamples& out,
 void TaskRunner::Merge(const PixelRect& place, TaskSamples& samples, Films& films) {
   // Row length behind the indices of the film's pixels.
   const int width = options_.windows.empty()
-                        ? scene_.film.width
+                        ? scene_.view.film.width
                         : place.width() * static_cast<int>(options_.windows.size());
   Workspace& space = ThreadWorkspace();
   StageClock* const clock = space.Clock();

@@ -25,7 +25,7 @@ class TaskRunner {
  public:
   /// Refers to all of these for as long as it lives; plan and parameters may change until
   /// the first task.
-  TaskRunner(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
+  TaskRunner(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
              const RunOptions& options);
 
   /// Tasks are of so many tiles from here on.
@@ -52,7 +52,7 @@ class TaskRunner {
   SampleBuffer Buffer(const TileWork& work, TaskSamples& out) const;
   void SeeLights(const TileTask& task, TaskSamples& out, Workspace& space) const;
 
-  const CompiledScene& scene_;
+  const PreparedScene& scene_;
   const Plan& plan_;
   const RunParameters& run_;
   const RunOptions& options_;

@@ -40,14 +40,14 @@ void Place(T*& column, Field field, const Plan& plan, std::uint32_t*& next,
 
 }  // namespace
 
-float ExposureOf(const CompiledScene& scene) {
-  return static_cast<float>(scene.film.imaging_ratio);
+float ExposureOf(const PreparedScene& scene) {
+  return static_cast<float>(scene.view.film.imaging_ratio);
 }
 
-RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan) {
+RunParameters MakeRunParameters(const PreparedScene& scene, const Plan& plan) {
   RunParameters run;
-  run.width = static_cast<std::uint32_t>(scene.film.width);
-  run.height = static_cast<std::uint32_t>(scene.film.height);
+  run.width = static_cast<std::uint32_t>(scene.view.film.width);
+  run.height = static_cast<std::uint32_t>(scene.view.film.height);
   const Strategy strategy = PlannedStrategy(scene, plan.options);
   run.points = MakePointsParameters(strategy.points);
   run.pairs = MakePairParameters(strategy);
@@ -62,7 +62,7 @@ RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan) {
   return run;
 }
 
-Wavefront::Wavefront(const CompiledScene& scene, const Plan& plan,
+Wavefront::Wavefront(const PreparedScene& scene, const Plan& plan,
                      const RunParameters& run) {
   LL_CHECK_GT(plan.slots, 0u);
   const std::size_t stride = ColumnStride(plan.slots);
@@ -83,7 +83,7 @@ Wavefront::Wavefront(const CompiledScene& scene, const Plan& plan,
   wave_.lists = ColumnLists(wave_.path, plan.features);
   if (plan.features.Has(Feature::kOtherEvents)) wave_.vertices = QueueId::kVertex;
   wave_.kernels = plan.ray_kernels;
-  wave_.scene = &scene;
+  static_cast<SceneParts&>(wave_) = scene.Parts();
   wave_.run = &run;
   wave_.capacity = plan.slots;
   wave_.Reset();

@@ -12,13 +12,13 @@
 namespace lanelight {
 
 /// The constants of a render that scene and plan decide; without seed and tables.
-RunParameters MakeRunParameters(const CompiledScene& scene, const Plan& plan);
+RunParameters MakeRunParameters(const PreparedScene& scene, const Plan& plan);
 /// RunParameters::exposure.
-float ExposureOf(const CompiledScene& scene);
+float ExposureOf(const PreparedScene& scene);
 
 class Wavefront {
  public:
-  Wavefront(const CompiledScene& scene, const Plan& plan, const RunParameters& run);
+  Wavefront(const PreparedScene& scene, const Plan& plan, const RunParameters& run);
 
   Wave& wave() { return wave_; }
   /// Bytes of columns and queues.

@@ -24,7 +24,7 @@ struct TaskSamples {
 
 /// What a thread keeps between tasks.
 struct Workspace {
-  Workspace(const CompiledScene& scene, const Plan& plan, const RunParameters& run,
+  Workspace(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
             const RunOptions& options)
       : wavefront(scene, plan, run) {
     if (options.profile) {

@@ -124,12 +124,12 @@ TEST_CASE("a curve that ends elsewhere would be seen", "[agreement][curves]") {
 }
 
 TEST_CASE("scenes without curves have nothing of them", "[agreement][curves]") {
-  const CompiledScene room = PrepareScene(SmallRoom(8, 3));
+  const CompiledScene room = CompileScene(SmallRoom(8, 3));
   CHECK(room.accel.curve_blocks.size() == 0);
   CHECK(room.accel.curves.root == kEmptyRef);
   CHECK(room.geometry.curves.capacity() + room.geometry.ribbons.capacity() == 0);
   CHECK_FALSE(room.features.HasAny({Feature::kCurves, Feature::kHair}));
-  const CompiledScene hair = PrepareScene(Hairs());
+  const CompiledScene hair = CompileScene(Hairs());
   CHECK(hair.accel.curve_blocks.size() >= 2);
   CHECK(hair.geometry.ribbons.empty());
   CHECK(hair.features.HasAll(

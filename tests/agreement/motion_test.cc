@@ -349,20 +349,20 @@ TEST_CASE("motion is there where something moves, and only there",
     });
   };
   const SceneDescription room = SmallRoom(8, 3);
-  const CompiledScene still = PrepareScene(room);
+  const CompiledScene still = CompileScene(room);
   CHECK_FALSE(still.features.HasAny(any));
   CHECK(still.geometry.motions.capacity() == 0);
   const Plan without = RenderDescription(room, options).plan;
   CHECK_FALSE(has_column(without));
   CHECK_FALSE(has_stage(without));
-  const CompiledScene moving = PrepareScene(Everything(false));
+  const CompiledScene moving = CompileScene(Everything(false));
   CHECK(moving.features.HasAll({Feature::kMotion, Feature::kMovingInstances}));
   CHECK_FALSE(moving.features.Has(Feature::kMovingCamera));
   CHECK(moving.geometry.motions.size() == 3);
   const Plan with = RenderDescription(Everything(false), options).plan;
   CHECK(has_column(with));
   CHECK(has_stage(with));
-  CHECK(PrepareScene(Everything(true)).features.HasAll(any));
+  CHECK(CompileScene(Everything(true)).features.HasAll(any));
 }
 
 }  // namespace lanelight::test

@@ -161,9 +161,9 @@ TEST_CASE("scenes without relief have nothing of it", "[relief][plan]") {
   SceneBuilder b(8, 8);
   b.AddSphere({0, 0, 5}, 1, b.AddDiffuse(Grey(0.5)));
   b.AddPoint({0, 0, 0}, Grey(1));
-  const CompiledScene scene = PrepareScene(b.Build());
-  CHECK(scene.materials.displacement_texture.empty());
-  CHECK(scene.materials.normal_map_texture.empty());
+  const PreparedScene scene = PrepareScene(b.Build());
+  CHECK(scene.compiled->materials.displacement_texture.empty());
+  CHECK(scene.compiled->materials.normal_map_texture.empty());
   const Plan plan = MakePlan(scene, {});
   for (const PlannedStage& s : plan.stages) {
     const std::set<std::string> relief = {"footprints", "bumps", "normal_maps"};

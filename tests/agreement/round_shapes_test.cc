@@ -126,7 +126,7 @@ TEST_CASE("wavefront agrees on parts of round shapes", "[agreement]") {
 
 TEST_CASE("wavefront agrees on instances of round shapes", "[agreement]") {
   const SceneDescription scene = Instanced();
-  CHECK(PrepareScene(scene).geometry.instances.size() == 2);
+  CHECK(CompileScene(scene).geometry.instances.size() == 2);
   CheckAgreement(scene, 4096, 0.03);
 }
 

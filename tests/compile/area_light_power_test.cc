@@ -35,7 +35,7 @@ Emitted Emit(const std::string& light, const std::string& shape, double mean = 1
       "{} "
       "{}\n{}",
       kPower, light, shape);
-  const CompiledScene scene = PrepareScene(ParseSceneText(text, "test.pbrt", folder));
+  const CompiledScene scene = CompileScene(ParseSceneText(text, "test.pbrt", folder));
   Emitted out;
   for (const LightRecord& r : scene.lights.lights) {
     const double radiance = Luminance({r.radiance[0], r.radiance[1], r.radiance[2]});

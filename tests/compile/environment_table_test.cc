@@ -26,18 +26,10 @@ double LuminanceOf(const Environment& e, std::size_t i) {
   return Luminance({e.rgb[3 * i], e.rgb[3 * i + 1], e.rgb[3 * i + 2]});
 }
 
-bool SameTables(const Environment& a, const Environment& b) {
+bool SameTables(const EnvironmentTable& a, const EnvironmentTable& b) {
   return a.row_cdf == b.row_cdf && a.column_cdf == b.column_cdf &&
          a.probability == b.probability && a.guide_bits == b.guide_bits &&
          a.row_guide == b.row_guide && a.column_guide == b.column_guide;
-}
-
-// Dim with a gradient, a bright spot and a black row.
-Environment SkyWithSun() {
-  return TableOf(16, [](int i, int c) {
-    if (i / 16 == 3) return 0.0f;
-    return 0.2f + 0.01f * static_cast<float>(i % 16 + c) + (i == 100 ? 500.0f : 0.0f);
-  });
 }
 
 }  // namespace
@@ -45,10 +37,10 @@ Environment SkyWithSun() {
 TEST_CASE("environment table: compensated texels have what lies above the mean",
           "[scene][compile]") {
   for (float sun : {0.5f, 5.0f, 500.0f}) {
-    Environment e = TableOf(16, [&](int i, int c) {
+    const Environment e = TableOf(16, [&](int i, int c) {
       return 1 + 0.02f * static_cast<float>(i % 7 - 3) + (i == 77 ? sun + float(c) : 0);
     });
-    SetEnvironmentTable(true, e);
+    const auto table = MakeEnvironmentTable(true, e);
     double mean = 0, above = 0, total = 0;
     for (std::size_t i = 0; i < 256; ++i) mean += LuminanceOf(e, i) / 256;
     for (std::size_t i = 0; i < 256; ++i)
@@ -58,10 +50,10 @@ TEST_CASE("environment table: compensated texels have what lies above the mean",
       const double p = std::max(0.0, LuminanceOf(e, i) - mean) / above;
       INFO(sun << ", texel " << i);
       // Each of two cumulative distributions is rounded to 2^-24.
-      CHECK(double(e.probability[i]) == Approx(p).epsilon(1e-4).margin(2e-7));
-      if (p == 0) CHECK(e.probability[i] == 0);
+      CHECK(double(table->probability[i]) == Approx(p).epsilon(1e-4).margin(2e-7));
+      if (p == 0) CHECK(table->probability[i] == 0);
       zeros += p == 0;
-      total += double(e.probability[i]);
+      total += double(table->probability[i]);
     }
     CHECK(zeros > 64);
     // The density over solid angle is P texels / (4 pi), texels fill 4 pi / texels each.
@@ -72,38 +64,23 @@ TEST_CASE("environment table: compensated texels have what lies above the mean",
 TEST_CASE("environment table: an image without contrast keeps its plain table",
           "[scene][compile]") {
   for (float noise : {0.0f, 1e-7f}) {
-    Environment plain =
+    const Environment e =
         TableOf(8, [&](int i, int) { return 0.3f * (1 + (i % 3 == 0 ? noise : 0.0f)); });
-    Environment compensated = plain;
-    SetEnvironmentTable(false, plain);
-    SetEnvironmentTable(true, compensated);
-    CHECK(SameTables(plain, compensated));
-    CHECK(plain.probability[5] == Approx(1.0 / 64));
+    const auto plain = MakeEnvironmentTable(false, e);
+    CHECK(SameTables(*plain, *MakeEnvironmentTable(true, e)));
+    CHECK(plain->probability[5] == Approx(1.0 / 64));
   }
   // A thousandth of contrast is contrast.
-  Environment weak = TableOf(8, [](int i, int) { return i < 32 ? 1.001f : 1.0f; });
-  SetEnvironmentTable(true, weak);
-  CHECK(weak.probability[0] == Approx(1.0 / 32).epsilon(1e-3));
-  CHECK(weak.probability[63] == 0);
-}
-
-TEST_CASE("environment table: tables can be changed and changed back",
-          "[scene][compile]") {
-  Environment e = SkyWithSun();
-  SetEnvironmentTable(false, e);
-  const Environment plain = e;
-  SetEnvironmentTable(true, e);
-  CHECK_FALSE(SameTables(e, plain));
-  CHECK(e.probability[100] == 1);
-  SetEnvironmentTable(false, e);
-  CHECK(SameTables(e, plain));
+  const Environment weak = TableOf(8, [](int i, int) { return i < 32 ? 1.001f : 1.0f; });
+  const auto table = MakeEnvironmentTable(true, weak);
+  CHECK(table->probability[0] == Approx(1.0 / 32).epsilon(1e-3));
+  CHECK(table->probability[63] == 0);
 }
 
 TEST_CASE("environment table: a black image has none", "[scene][compile]") {
   for (bool compensated : {false, true}) {
-    Environment e = TableOf(4, [](int, int) { return 0.0f; });
-    SetEnvironmentTable(compensated, e);
-    CHECK(e.probability.empty());
+    const Environment e = TableOf(4, [](int, int) { return 0.0f; });
+    CHECK(MakeEnvironmentTable(compensated, e)->probability.empty());
   }
 }
 

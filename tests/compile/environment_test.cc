@@ -39,13 +39,13 @@ TEST_CASE("compile: environment probabilities follow luminance", "[scene][compil
   CHECK(e.rgb[3 * 6] == 10);
   CHECK(e.rgb[3 * 15 + 2] == 0);
   const double sum = 16 + 4 * 0.212671 - 0.715160 - 0.072169;
-  REQUIRE(e.probability.size() == 16);
-  CHECK(e.probability[0] == Approx(1 / sum));
-  CHECK(e.probability[6] == Approx((1 + 4 * 0.212671) / sum));
-  CHECK(e.probability[12] == Approx((1 - 0.715160) / sum));
-  CHECK(e.probability[15] == Approx((1 - 0.072169) / sum));
+  REQUIRE(e.table->probability.size() == 16);
+  CHECK(e.table->probability[0] == Approx(1 / sum));
+  CHECK(e.table->probability[6] == Approx((1 + 4 * 0.212671) / sum));
+  CHECK(e.table->probability[12] == Approx((1 - 0.715160) / sum));
+  CHECK(e.table->probability[15] == Approx((1 - 0.072169) / sum));
   double total = 0;
-  for (float p : e.probability) total += p;
+  for (float p : e.table->probability) total += p;
   CHECK(total == Approx(1));
   CHECK(MeanRadiance(e).x == Approx(2 * (16 + 4) / 16.0));
 }
@@ -57,13 +57,14 @@ TEST_CASE("compile: guides enclose every step of a distribution", "[scene][compi
     for (int i = 0; i < size; i += 3) image.At(i, size / 2, 0) = float(1 + i % 7);
     image.At(size - 1, size - 1, 1) = 1e6f;
     const Environment e = CompileEnvironment(Infinite(), image);
-    const int parts = 1 << e.guide_bits;
-    REQUIRE(e.row_guide.size() == std::size_t(parts) + 1);
-    REQUIRE(e.column_guide.size() == (std::size_t(parts) + 1) * size);
+    const int parts = 1 << e.table->guide_bits;
+    REQUIRE(e.table->row_guide.size() == std::size_t(parts) + 1);
+    REQUIRE(e.table->column_guide.size() == (std::size_t(parts) + 1) * size);
     for (int row = -1; row < size; ++row) {
-      const float* cdf = row < 0 ? e.row_cdf.data() : &e.column_cdf[row * (size + 1)];
+      const float* cdf =
+          row < 0 ? e.table->row_cdf.data() : &e.table->column_cdf[row * (size + 1)];
       const std::int32_t* guide =
-          row < 0 ? e.row_guide.data() : &e.column_guide[row * (parts + 1)];
+          row < 0 ? e.table->row_guide.data() : &e.table->column_guide[row * (parts + 1)];
       for (int i = 0; i < 4096; ++i) {
         const float u = float(i) / 4096;
         int step = 0;
@@ -82,9 +83,9 @@ TEST_CASE("compile: grey and black environments", "[scene][compile]") {
   const Environment e = CompileEnvironment(Infinite(), grey);
   CHECK(e.rgb[3] == 3);
   CHECK(e.rgb[5] == 3);
-  CHECK(e.probability[1] == 1);
-  CHECK(e.probability[0] == 0);
-  CHECK(CompileEnvironment(Infinite(), Grey(2, 0)).probability.empty());
+  CHECK(e.table->probability[1] == 1);
+  CHECK(e.table->probability[0] == 0);
+  CHECK(CompileEnvironment(Infinite(), Grey(2, 0)).table->probability.empty());
 }
 
 TEST_CASE("compile: environment rotation", "[scene][compile]") {

@@ -5,7 +5,7 @@
 
 #include "src/core/error.h"
 #include "src/parse/parse.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/compile/compile.h"
 
 namespace lanelight {
 namespace {
@@ -14,7 +14,7 @@ using Catch::Contains;
 
 CompiledScene Compile(const std::string& body) {
   const std::string text = "WorldBegin\nLightSource \"infinite\"\n" + body;
-  return PrepareScene(ParseSceneText(text, "far.pbrt", "."), {});
+  return CompileScene(ParseSceneText(text, "far.pbrt", "."), {});
 }
 
 std::string Triangle(const std::string& size) {

@@ -52,7 +52,7 @@ std::vector<float> Coordinates(const CompiledScene& scene) {
     out.insert(out.end(), l.position, l.position + 3);
     out.push_back(l.area);
   }
-  for (int i = 0; i < 3; ++i) out.push_back(scene.camera.origin[i]);
+  for (int i = 0; i < 3; ++i) out.push_back(scene.view.camera.origin[i]);
   return out;
 }
 

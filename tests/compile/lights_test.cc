@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "src/core/pi.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/compile/compile.h"
+#include "src/prepare/prepared_scene.h"
 #include "tests/compile/testing.h"
 
 namespace lanelight {
@@ -26,17 +27,15 @@ Light LightOf(LightKind kind, Rgb emission) {
   return light;
 }
 
-double SumPmf(const LightTable& table) {
-  double sum = 0;
-  for (const LightRecord& light : table.lights) sum += light.pmf;
-  return sum;
+AlignedVector<float> PmfOf(const CompiledScene& scene) {
+  return MakeLightChances(scene, {}).pmf;
 }
 
 // Probability of light i by enumerating the alias table.
-double TablePmf(const LightTable& table, std::size_t i) {
+double TablePmf(const LightChances& table, std::size_t i) {
   double p = 0;
-  const double n = static_cast<double>(table.lights.size());
-  for (std::size_t j = 0; j < table.lights.size(); ++j) {
+  const double n = static_cast<double>(table.alias.size());
+  for (std::size_t j = 0; j < table.alias.size(); ++j) {
     if (j == i) p += table.alias_q[j] / n;
     if (table.alias[j] == i) p += (1.0 - table.alias_q[j]) / n;
   }
@@ -60,14 +59,14 @@ TEST_CASE("compile: an emitting mesh becomes one light per triangle",
   SceneDescription d = LitRhomboid(light);
   d.shapes.insert(d.shapes.begin(), MeshShape(Square(), 0));  // does not emit
   d.shapes[0].world_from_object = Transform::Translate({0, 0, 0.5});
-  const CompiledScene scene = PrepareScene(d);
+  const CompiledScene scene = CompileScene(d);
   REQUIRE(scene.lights.lights.size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
     const LightRecord& r = scene.lights.lights[i];
     CHECK(r.shape == static_cast<std::uint32_t>(LightShape::kTriangle));
     CHECK(ToVec(r.radiance) == Vec3d{10, 20, 30});
     CHECK(r.area == Approx(2 * scene.scale * scene.scale));
-    CHECK(r.pmf == 0.5f);
+    CHECK(PmfOf(scene)[i] == 0.5f);
     CHECK(r.primitive == 2 + i);
     CHECK(r.two_sided == 0);
     CHECK(r.environment == -1);
@@ -88,7 +87,7 @@ TEST_CASE("compile: power of area lights", "[scene][compile]") {
       light.two_sided = two_sided;
       SceneDescription d = LitSquare(light);
       d.shapes[0].world_from_object = Transform::Scale({size, size, size});
-      const CompiledScene scene = PrepareScene(d);
+      const CompiledScene scene = CompileScene(d);
       // Of each triangle.
       const double area = 2 * size * size, sides = two_sided ? 2 : 1;
       CHECK(scene.lights.lights[0].radiance[1] ==
@@ -107,7 +106,7 @@ TEST_CASE("compile: emitting spheres and disks", "[scene][compile]") {
   d.shapes[0].area_light = AddAreaLight(d, light);
   light.two_sided = true;
   d.shapes[1].area_light = AddAreaLight(d, light);
-  const CompiledScene scene = PrepareScene(d);
+  const CompiledScene scene = CompileScene(d);
   const double s2 = scene.scale * scene.scale;
   REQUIRE(scene.lights.lights.size() == 2);
   const LightRecord& sphere = scene.lights.lights[0];
@@ -122,8 +121,8 @@ TEST_CASE("compile: emitting spheres and disks", "[scene][compile]") {
   CHECK(scene.geometry.spheres[1].light == -1);
   CHECK(scene.geometry.disks[0].light == 1);
   // Powers 4 : 0.75 * 2.
-  CHECK(sphere.pmf == Approx(4 / 5.5));
-  CHECK(disk.pmf == Approx(1.5 / 5.5));
+  CHECK(PmfOf(scene)[0] == Approx(4 / 5.5));
+  CHECK(PmfOf(scene)[1] == Approx(1.5 / 5.5));
 }
 
 TEST_CASE("compile: very small emitters keep their power", "[scene][compile]") {
@@ -136,7 +135,7 @@ TEST_CASE("compile: very small emitters keep their power", "[scene][compile]") {
                                   Transform::Rotate(33, {1, 2, 3}) *
                                   Transform::Scale({size, size, size});
   d.shapes.push_back(MeshShape(Square(), 0));
-  const CompiledScene scene = PrepareScene(d);
+  const CompiledScene scene = CompileScene(d);
   double power = 0, areas = 0;
   for (const LightRecord& r : scene.lights.lights) {
     power += double(r.radiance[0]) * r.area;
@@ -163,7 +162,7 @@ TEST_CASE("compile: point, spot and distant lights", "[scene][compile]") {
   distant.to = {0, 0, 4};
   distant.world_from_light = Transform::Rotate(90, {0, 1, 0});
   d.lights = {point, spot, distant};
-  const CompiledScene scene = PrepareScene(d);
+  const CompiledScene scene = CompileScene(d);
   CHECK(scene.scale == 0.125);
   REQUIRE(scene.lights.lights.size() == 3);
   const auto& lights = scene.lights.lights;
@@ -179,7 +178,7 @@ TEST_CASE("compile: point, spot and distant lights", "[scene][compile]") {
   // Powers: 4 pi; 2 pi 2 (1 - (cos 45 + cos 60) / 2); pi R^2 3 with R^2 = 2.
   const double power[3] = {4 * kPi, 4 * kPi * (1 - (std::sqrt(0.5) + 0.5) / 2), 6 * kPi};
   for (int i = 0; i < 3; ++i) {
-    CHECK(lights[static_cast<std::size_t>(i)].pmf ==
+    CHECK(PmfOf(scene)[static_cast<std::size_t>(i)] ==
           Approx(power[i] / (power[0] + power[1] + power[2])));
   }
   CHECK(scene.features.HasAll(
@@ -192,10 +191,10 @@ TEST_CASE("compile: point, spot and distant lights", "[scene][compile]") {
 TEST_CASE("compile: constant environment", "[scene][compile]") {
   SceneDescription d = SquareScene();
   d.lights = {LightOf(LightKind::kInfinite, {0.5, 0.5, 0.5})};
-  const CompiledScene scene = PrepareScene(d);
+  const CompiledScene scene = CompileScene(d);
   REQUIRE(scene.lights.lights.size() == 1);
   CHECK(scene.lights.lights[0].radiance[2] == 0.5f);
-  CHECK(scene.lights.lights[0].pmf == 1);
+  CHECK(PmfOf(scene)[0] == 1);
   CHECK(scene.lights.infinite == std::vector<std::uint32_t>{0});
   CHECK(scene.lights.environments.empty());
   CHECK(scene.features.HasAll(
@@ -209,7 +208,7 @@ TEST_CASE("compile: lights without radiance are left out", "[scene][compile]") {
   SceneDescription d = LitSquare(dark);
   d.lights = {LightOf(LightKind::kPoint, {0, 0, 0}), LightOf(LightKind::kInfinite, {}),
               LightOf(LightKind::kPoint, {0, 1e-20, 0})};
-  const CompiledScene scene = PrepareScene(d);
+  const CompiledScene scene = CompileScene(d);
   REQUIRE(scene.lights.lights.size() == 1);
   CHECK(scene.geometry.triangles[0].light == -1);
   CHECK(scene.geometry.triangles.size() == 2);
@@ -221,19 +220,20 @@ TEST_CASE("compile: selection follows power, with a floor", "[scene][compile]") 
   for (double power : {1.0, 3.0, 1e-12, 4.0}) {
     d.lights.push_back(LightOf(LightKind::kPoint, {power, power, power}));
   }
-  const LightTable table = PrepareScene(d).lights;
-  CHECK(SumPmf(table) == Approx(1));
-  CHECK(table.lights[0].pmf == Approx(0.125).epsilon(1e-4));
-  CHECK(table.lights[1].pmf == Approx(0.375).epsilon(1e-4));
-  CHECK(table.lights[2].pmf >= 1e-6f);
-  CHECK(table.lights[2].pmf < 1.1e-6f);
+  const CompiledScene scene = CompileScene(d);
+  const LightChances table = MakeLightChances(scene, {});
+  const auto& pmf = table.pmf;
+  CHECK(double(pmf[0]) + double(pmf[1]) + double(pmf[2]) + double(pmf[3]) == Approx(1));
+  CHECK(pmf[0] == Approx(0.125).epsilon(1e-4));
+  CHECK(pmf[1] == Approx(0.375).epsilon(1e-4));
+  CHECK(pmf[2] >= 1e-6f);
+  CHECK(pmf[2] < 1.1e-6f);
   for (std::size_t i = 0; i < 4; ++i) {
-    CHECK(TablePmf(table, i) == Approx(table.lights[i].pmf).epsilon(1e-7));
+    CHECK(TablePmf(table, i) == Approx(pmf[i]).epsilon(1e-7));
   }
-  d.strategy.light_selection = LightSelection::kUniform;
-  for (const LightRecord& light : PrepareScene(d).lights.lights) {
-    CHECK(light.pmf == 0.25f);
-  }
+  Strategy uniform;
+  uniform.light_selection = LightSelection::kUniform;
+  CHECK(MakeLightChances(scene, uniform).pmf == AlignedVector<float>(4, 0.25f));
 }
 
 TEST_CASE("compile: emitters in instances are sampled in the world", "[scene][compile]") {
@@ -248,7 +248,7 @@ TEST_CASE("compile: emitters in instances are sampled in the world", "[scene][co
         Transform::Translate({0, 0, z}) * Transform::Scale({z, z, z});
     d.instances.push_back(instance);
   }
-  const CompiledScene scene = PrepareScene(d);
+  const CompiledScene scene = CompileScene(d);
   REQUIRE(scene.lights.lights.size() == 3);
   CHECK(scene.geometry.instances.size() == 3);
   REQUIRE(scene.geometry.groups.size() == 2);

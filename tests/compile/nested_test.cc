@@ -5,7 +5,7 @@
 #include "src/compile/textures.h"
 #include "src/core/error.h"
 #include "src/parse/parse.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/compile/compile.h"
 
 namespace lanelight {
 namespace {
@@ -14,7 +14,7 @@ using Catch::Contains;
 
 CompiledScene Compile(const std::string& body) {
   const std::string text = "WorldBegin\n" + body + "Shape \"sphere\"\n";
-  return PrepareScene(ParseSceneText(text, "nested.pbrt", "."), {});
+  return CompileScene(ParseSceneText(text, "nested.pbrt", "."), {});
 }
 
 // 100 000 scales on top of each other, of a texture "t0".

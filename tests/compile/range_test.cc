@@ -6,7 +6,7 @@
 #include "src/compile/range.h"
 #include "src/core/error.h"
 #include "src/parse/parse.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/compile/compile.h"
 
 namespace lanelight::far_range {
 namespace {
@@ -15,7 +15,7 @@ using Catch::Contains;
 
 // Under `before`, a sphere of radius 1 and `body`, which begins in line 5.
 CompiledScene Compile(const std::string& body, const std::string& before = "") {
-  return PrepareScene(ParseSceneText(before + "\nWorldBegin\nShape \"sphere\"\n\n" + body,
+  return CompileScene(ParseSceneText(before + "\nWorldBegin\nShape \"sphere\"\n\n" + body,
                                      "far.pbrt", "."),
                       {});
 }
@@ -79,7 +79,7 @@ TEST_CASE("a camera and a plane beyond float32 are refused", "[compile]") {
         0);
   CHECK(std::isfinite(
       Compile("", camera + " \"float lensradius\" 1 \"float focaldistance\" 1e30")
-          .camera.focal_distance));
+          .view.camera.focal_distance));
 }
 
 TEST_CASE("shapes too small beside the scene are left out with a note", "[compile]") {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "src/core/transform.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/compile/compile.h"
 #include "tests/compile/testing.h"
 #include "tests/support/wave_fixture.h"
 
@@ -129,13 +129,12 @@ TEST_CASE("compile: a square that emits is one light", "[scene][compile]") {
   d.shapes[0].area_light = AddAreaLight(d, light);
   d.shapes.insert(d.shapes.begin(), MeshShape(Square(), 0));  // does not emit
   d.shapes[0].world_from_object = Transform::Translate({0, 0, 0.5});
-  const CompiledScene scene = PrepareScene(d);
+  const CompiledScene scene = CompileScene(d);
   REQUIRE(scene.lights.lights.size() == 1);
   const LightRecord& r = scene.lights.lights[0];
   CHECK(r.shape == static_cast<std::uint32_t>(LightShape::kRectangle));
   CHECK(ToVec(r.radiance) == Vec3d{10, 20, 30});
   CHECK(r.area == Approx(4 * scene.scale * scene.scale));
-  CHECK(r.pmf == 1);
   CHECK(r.primitive == 2);
   CHECK(r.second_primitive == 3);
   CHECK(r.size[0] == Approx(2 * scene.scale));

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "src/parse/parse.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/compile/compile.h"
+#include "src/prepare/prepared_scene.h"
 #include "tests/compile/testing.h"
 #include "tests/support/shared_scenes.h"
 
@@ -32,11 +33,12 @@ void CheckTriangles(const CompiledScene& scene) {
 
 void CheckLights(const CompiledScene& scene) {
   REQUIRE_FALSE(scene.lights.lights.empty());
+  const AlignedVector<float> pmf = MakeLightChances(scene, {}).pmf;
   double sum = 0;
   for (std::size_t i = 0; i < scene.lights.lights.size(); ++i) {
     const LightRecord& light = scene.lights.lights[i];
-    sum += light.pmf;
-    CHECK(light.pmf > 0);
+    sum += pmf[i];
+    CHECK(pmf[i] > 0);
     CHECK(std::isfinite(light.radiance[0] + light.radiance[1] + light.radiance[2]));
     const auto shape = static_cast<LightShape>(light.shape);
     if (shape != LightShape::kTriangle && shape != LightShape::kRectangle) continue;
@@ -54,7 +56,7 @@ TEST_CASE("compile: the shared scenes", "[scene][compile]") {
        {"cornell-box", "veach-mis", "veach-bidir", "material-testball"}) {
     const std::string path = SharedScenes() / name / "reference.pbrt";
     INFO(path);
-    const CompiledScene scene = PrepareScene(ParseScene(path));
+    const CompiledScene scene = CompileScene(ParseScene(path));
     CHECK_FALSE(scene.geometry.triangles.empty());
     CheckTriangles(scene);
     CheckLights(scene);

@@ -189,7 +189,7 @@ TEST_CASE("tessellation: a mirror turns the normal, as in pbrt", "[compile]") {
       d.shapes[0] = Cylinder(1, -1, 1, 360);
       d.shapes[0].reverse_orientation = reverse;
       d.shapes[0].world_from_object = Transform::Scale({mirrors ? -1.0 : 1.0, 1, 1});
-      const CompiledScene scene = PrepareScene(d);
+      const CompiledScene scene = CompileScene(d);
       REQUIRE_FALSE(scene.geometry.triangles.empty());
       const TriangleRecord& t = scene.geometry.triangles[0];
       const bool outward =
@@ -217,7 +217,7 @@ TEST_CASE("tessellation: only what has no exact form", "[compile]") {
   d.objects.push_back({"ball", d.shapes});
   d.shapes.clear();
   d.instances = {{0, plain, {}}, {0, bent, {}}};
-  const CompiledScene scene = PrepareScene(d);
+  const CompiledScene scene = CompileScene(d);
   CHECK(scene.geometry.spheres.size() == 1);
   CHECK(scene.geometry.triangles.size() > 1000);
 }
@@ -258,7 +258,7 @@ TEST_CASE("tessellation: nothing is left of some shapes", "[compile]") {
                       PartOfSphere(1, 0.5, 0.5, 360), PartOfDisk(1, 0, 0, 0)}) {
     SceneDescription d = SquareScene();
     d.shapes.push_back(shape);
-    const CompiledScene scene = PrepareScene(d);
+    const CompiledScene scene = CompileScene(d);
     CHECK(scene.geometry.triangles.size() == 2);
     REQUIRE(scene.notes.size() == 1);
     CHECK(scene.notes[0].message.find("degenerate triangles") != std::string::npos);

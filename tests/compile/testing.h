@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/prepare/prepare_scene.h"
+#include "src/compile/compile.h"
 
 namespace lanelight {
 
@@ -91,7 +91,7 @@ inline SceneDescription SquareScene() {
 /// what() of the InputError, or "".
 inline std::string CompileError(const SceneDescription& d) {
   try {
-    PrepareScene(d);
+    CompileScene(d);
   } catch (const InputError& e) {
     return e.what();
   }

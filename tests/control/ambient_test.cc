@@ -6,7 +6,7 @@
 #include "src/image/exr.h"
 #include "src/image/octahedral.h"
 #include "src/prepare/ambient.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "tests/control/control_scenes.h"
 #include "tests/control/quadrature.h"
 #include "tests/image/temporary_folder.h"
@@ -61,10 +61,10 @@ TEST_CASE("ambient: irradiance is the cosine convolution of the radiance", "[con
   scene = WithImage(scene, folder.File("sky.exr"), false);
   Light& light = scene.lights.back();
   light.world_from_light = Transform::Rotate(40, {1, 2, 3});
-  CompiledScene compiled = PrepareScene(scene, {});
-  const std::vector<AmbientLight> lights = MakeAmbientLights(compiled);
+  const PreparedScene prepared = PrepareScene(scene, {});
+  const std::vector<AmbientLight> lights = MakeAmbientLights(prepared);
   REQUIRE(lights.size() == 1);
-  const Environment& e = compiled.lights.environments[0];
+  const Environment& e = prepared.compiled->lights.environments[0];
   for (Vec3d n : {Vec3d{0, 0, 1}, Normalize(Vec3d{1, -2, 0.5}), Vec3d{-0.6, 0, -0.8}}) {
     for (int c = 0; c < 3; ++c) {
       CHECK(lights[0].irradiance[c](n) ==

@@ -73,7 +73,7 @@ struct Shot {
   Shot(const View& view, const Filter& filter)
       : camera(Describe(view)), fixture(scene, kPaths) {
     film.width = kWidth, film.height = kHeight;
-    scene.camera = CompileCamera(camera, film, frame);
+    scene.view.camera = CompileCamera(camera, film, frame);
     scene.filter = CompileFilter(filter);
     fixture.run.width = kWidth, fixture.run.height = kHeight;
     std::mt19937 engine(23);

@@ -39,7 +39,7 @@ struct Shot {
 
   explicit Shot(const Camera& c) : camera(c), fixture(scene, kPaths) {
     film.width = kWidth, film.height = kHeight;
-    scene.camera = CompileCamera(camera, film, Frame{{0, 0, 0}, 4});
+    scene.view.camera = CompileCamera(camera, film, Frame{{0, 0, 0}, 4});
     Filter box;
     box.x_radius = box.y_radius = 0.5;
     scene.filter = CompileFilter(box);
@@ -62,7 +62,7 @@ struct Shot {
     return {pixel * (kWidth / 2.0 - (i % kWidth + double(p.u_film_0[i]))),
             pixel * (i / kWidth + double(p.u_film_1[i]) - kHeight / 2.0), 0};
   }
-  const LensSystem& lenses() const { return scene.camera.lenses; }
+  const LensSystem& lenses() const { return scene.view.camera.lenses; }
   LensSystem::Pupil PupilAt(Vec3d film_point) const {
     const double r = std::hypot(film_point.x, film_point.y);
     const auto ring = static_cast<std::size_t>(r * lenses().rings_per_mm);

@@ -21,17 +21,18 @@ struct GuidedRender {
 inline stat::ImageEstimate RenderGuided(const SceneDescription& description,
                                         const GuidedRender& options) {
   const ThreadLimit limit(2);
-  CompiledScene scene = PrepareScene(description);
+  PreparedScene scene = PrepareScene(description);
   Strategy strategy = scene.strategy;
   ApplyStrategy("points=independent,seen-lights=paths," + options.strategy +
                     (options.guide != nullptr ? ",guiding=radiance" : ""),
                 {}, strategy);
-  UseStrategy(strategy, scene);
+  scene = WithStrategy(scene, strategy);
   StrategyTables tables = MakeStrategyTables(scene);
   if (options.guide != nullptr) tables.guide = *options.guide;
   PlanOptions plan_options;
-  plan_options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
-  const int width = scene.film.width, height = scene.film.height;
+  plan_options.max_depth =
+      static_cast<std::uint32_t>(scene.compiled->integrator.max_depth);
+  const int width = scene.view.film.width, height = scene.view.film.height;
   const double n = options.spp;
   TrainingWork work;
   work.spp = options.spp;

@@ -23,9 +23,9 @@ struct Prepared {
     Strategy s = scene.strategy;
     s.points = Points::kIndependent;
     ApplyStrategy(strategy, {}, s);
-    UseStrategy(s, scene);
+    scene = WithStrategy(scene, s);
     PlanOptions options;
-    options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
+    options.max_depth = static_cast<std::uint32_t>(scene.compiled->integrator.max_depth);
     options.wavefront = wavefront;
     plan = MakePlan(scene, options);
     tables = MakeStrategyTables(scene);
@@ -50,7 +50,7 @@ struct Prepared {
     return records;
   }
 
-  CompiledScene scene;
+  PreparedScene scene;
   Plan plan;
   StrategyTables tables;
   RunParameters run;

@@ -253,7 +253,7 @@ TEST_CASE("resampling that can do nothing says so", "[light]") {
   const auto notes = [](const SceneDescription& description) {
     SceneDescription copy = description;
     ApplyStrategy("light-candidates=resampled", {}, copy.strategy);
-    const CompiledScene scene = PrepareScene(copy);
+    const PreparedScene scene = PrepareScene(copy);
     const Plan plan = MakePlan(scene, {});
     CHECK(plan.notes.empty() == (plan.first_repeated < plan.last_repeated));
     return plan.notes;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "src/core/pi.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "tests/lights/cut_lamps.h"
 #include "tests/lights/image_strategies.h"
 

@@ -6,7 +6,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "tests/lights/image_strategies.h"
 #include "tests/lights/pictures.h"
 #include "tests/support/wave_fixture.h"
@@ -72,12 +72,12 @@ TEST_CASE("samples on emitting shapes have the image of their point", "[lights]"
   picture.wrap = WrapMode::kClamp;
   const std::vector<Texture> images = {picture};
   const reference::Textures textures(images);
-  const CompiledScene scene = PrepareScene(description);
+  const PreparedScene scene = PrepareScene(description);
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     CAPTURE(target);
-    WaveFixture fixture(scene, kImagePaths);
-    fixture.run.features = scene.features;
+    WaveFixture fixture(scene.Parts(), kImagePaths);
+    fixture.run.features = scene.compiled->features;
     PathColumns& p = fixture.wave.path;
     p.light_pmf = nullptr;
     std::mt19937 engine(7);
@@ -86,18 +86,20 @@ TEST_CASE("samples on emitting shapes have the image of their point", "[lights]"
       p.p_x[i] = place(engine), p.p_y[i] = place(engine), p.p_z[i] = place(engine);
       p.p_error[i] = 1e-6f;
       p.u_light_0[i] = unit(engine), p.u_light_1[i] = unit(engine);
-      p.ls_light[i] = engine() % static_cast<std::uint32_t>(scene.lights.lights.size());
+      p.ls_light[i] =
+          engine() % static_cast<std::uint32_t>(scene.compiled->lights.lights.size());
     }
     fixture.QueueAll(QueueId::kLit, kImagePaths);
     for (const StageOn stage : {SampleTriangleLightStage, SampleRectangleLightStage,
                                 SampleSphereLightStage, SampleDiskLightStage}) {
-      fixture.Run(stage, scene.features);
+      fixture.Run(stage, scene.compiled->features);
     }
     const std::vector<float> before(p.ls_r, p.ls_r + kImagePaths);
-    fixture.Run(EmissionImageSamplesStage, scene.features);
+    fixture.Run(EmissionImageSamplesStage, scene.compiled->features);
     std::uint32_t checked = 0;
     for (std::uint32_t i = 0; i < kImagePaths; ++i) {
-      const Vec3d from = Vec3d{p.p_x[i], p.p_y[i], p.p_z[i]} / scene.scale + scene.center;
+      const Vec3d from = Vec3d{p.p_x[i], p.p_y[i], p.p_z[i]} / scene.compiled->scale +
+                         scene.compiled->center;
       const reference::Ray ray = {from, Normalize(Vec3d{p.ls_x[i], p.ls_y[i], p.ls_z[i]}),
                                   kNone};
       if (!(before[i] > 0)) continue;
@@ -109,7 +111,8 @@ TEST_CASE("samples on emitting shapes have the image of their point", "[lights]"
         reference::Hit hits[2];
         const int count = reference::IntersectPrimitive(shape, ray, false, hits);
         for (int h = 0; h < count && shape.area_light != kNone; ++h) {
-          const double off = std::abs(hits[h].t - p.ls_distance[i] / scene.scale);
+          const double off =
+              std::abs(hits[h].t - p.ls_distance[i] / scene.compiled->scale);
           if (off > nearest) continue;
           nearest = off;
           hits[h].primitive = k;

@@ -21,7 +21,6 @@ CompiledScene SceneOf(const Flat& f, bool two_sided) {
   scene.lights.lights = {FlatLight(
       f.rectangle ? LightShape::kRectangle : LightShape::kTriangle, f.corner, f.x, f.y)};
   LightRecord& light = scene.lights.lights[0];
-  light.pmf = kPmf;
   light.two_sided = two_sided;
   light.radiance[0] = 2, light.radiance[1] = 3, light.radiance[2] = 5;
   for (TriangleRecord& t : scene.geometry.triangles) t.light = 0;
@@ -93,6 +92,8 @@ Flat Rounded(Flat f) {
 Draw::Draw(const Flat& f, std::uint32_t count, const FeatureSet& features, bool two_sided,
            Vec3d normal)
     : light(f), scene(SceneOf(f, two_sided)), fixture(scene, count) {
+  chances.pmf = {kPmf};
+  fixture.wave.chances = &chances;
   PathColumns& p = fixture.wave.path;
   p.light_pmf = nullptr;
   const Vec3f n = VecCast<float>(normal);

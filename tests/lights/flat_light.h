@@ -39,6 +39,7 @@ Flat Rounded(Flat f);
 struct Draw {
   const Flat& light;
   CompiledScene scene;
+  LightChances chances;
   WaveFixture fixture;
 
   /// normal: of the receiver; paths come from that side, and see either side of the

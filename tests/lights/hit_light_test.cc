@@ -7,7 +7,7 @@
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/prepare/parameters.h"
-#include "src/prepare/use_strategy.h"
+#include "src/prepare/prepared_scene.h"
 #include "tests/lights/light_truth.h"
 #include "tests/support/wave_fixture.h"
 
@@ -57,7 +57,7 @@ struct Hits {
   std::vector<Vec3f> before;
 
   Hits(const LightScene& l, const Variant& v)
-      : lights(l), variant(v), fixture(l.scene, kHits) {
+      : lights(l), variant(v), fixture(l.Parts(), kHits) {
     PathColumns& p = fixture.wave.path;
     if (!v.tree) p.light_pmf = nullptr;
     Strategy strategy;
@@ -134,7 +134,7 @@ void CheckHit(const Hits& hits, std::uint32_t i) {
   INFO(light.name << ", cosine " << seen.cosine);
   if (std::abs(seen.distance - p.t[i]) > 1e-5 * p.t[i]) return;
   if (seen.cosine < 0.03) return;  // rounding decides which side is seen
-  const double pmf = hits.variant.tree ? p.light_pmf[i] : light.record.pmf;
+  const double pmf = hits.variant.tree ? p.light_pmf[i] : light.pmf;
   const double weight = seen.facing ? hits.Weight(i, pmf * seen.pdf) : 0;
   hits.CheckGained(i, seen.radiance * weight, 1e-5 + 2e-5 / seen.cosine);
 }
@@ -184,7 +184,7 @@ TEST_CASE("escaped rays see every environment, by the weight of hits", "[lights]
           }
           const SeenLight seen = Look(all.scene, light.record, {}, hits.Direction(i));
           sure &= seen.met;
-          sum += seen.radiance * hits.Weight(i, light.record.pmf * seen.pdf);
+          sum += seen.radiance * hits.Weight(i, light.pmf * seen.pdf);
         }
         INFO("path " << i);
         if (sure) hits.CheckGained(i, sum, 1e-5);
@@ -209,8 +209,8 @@ TEST_CASE("the table selects lights as often as their probability says", "[light
       }
       Strategy strategy;
       ApplyStrategy(std::string("light-selection=") + selection, {}, strategy);
-      UseStrategy(strategy, scene);
-      WaveFixture fixture(scene, kSteps);
+      lights.chances = MakeLightChances(scene, strategy);
+      WaveFixture fixture(lights.Parts(), kSteps);
       PathColumns& p = fixture.wave.path;
       for (std::uint32_t i = 0; i < kSteps; ++i) p.u_select[i] = (i + 0.5f) / kSteps;
       fixture.QueueAll(QueueId::kLit, kSteps);
@@ -226,7 +226,7 @@ TEST_CASE("the table selects lights as often as their probability says", "[light
         INFO("light " << i);
         const bool power = std::string(selection) == "power";
         const double want = power ? scene.lights.power[i] / total : 1 / double(n);
-        CHECK(scene.lights.lights[i].pmf == Approx(want));
+        CHECK(lights.chances.pmf[i] == Approx(want));
         // Every entry of the table that a light has part in may be off by a step.
         CHECK(std::abs(counts[i] - want) < double(n) / kSteps);
       }

@@ -9,7 +9,7 @@
 #include "kernels/stages.h"
 #include "src/core/pi.h"
 #include "src/image/octahedral.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "tests/lights/image_strategies.h"
 #include "tests/lights/pictures.h"
 #include "tests/support/wave_fixture.h"
@@ -72,8 +72,8 @@ bool NearEdge(const Light& light, Vec3d d) {
 }
 
 void CheckImageSamples(const std::vector<Light>& lights) {
-  const CompiledScene scene = PrepareScene(Lit(lights));
-  WaveFixture fixture(scene, kImagePaths);
+  const PreparedScene scene = PrepareScene(Lit(lights));
+  WaveFixture fixture(scene.Parts(), kImagePaths);
   PathColumns& p = fixture.wave.path;
   p.light_pmf = nullptr;
   std::mt19937 engine(5);
@@ -83,22 +83,23 @@ void CheckImageSamples(const std::vector<Light>& lights) {
     p.ls_light[i] = engine() % static_cast<std::uint32_t>(lights.size());
   }
   fixture.QueueAll(QueueId::kLit, kImagePaths);
-  FeatureSet features = scene.features;
+  FeatureSet features = scene.compiled->features;
   fixture.Run(SampleImageLightStage, features);
   std::uint32_t lit = 0;
   for (std::uint32_t i = 0; i < kImagePaths; ++i) {
     const std::size_t chosen = lights.size() > 1 ? p.ls_light[i] : 0;
     const Light& light = lights[chosen];
-    const Vec3d at = Vec3d{p.p_x[i], p.p_y[i], p.p_z[i]} / scene.scale + scene.center;
+    const Vec3d at = Vec3d{p.p_x[i], p.p_y[i], p.p_z[i]} / scene.compiled->scale +
+                     scene.compiled->center;
     const Vec3d to = light.world_from_light.Point({0, 0, 0}) - at;
     const Vec3d away = Normalize(light.world_from_light.Inverse().Vector(-to));
     INFO("path " << i << ", light " << chosen);
     CHECK(Length(Vec3d{p.ls_x[i], p.ls_y[i], p.ls_z[i]} - Normalize(to)) < 1e-5);
-    CHECK(p.ls_distance[i] == Approx(Length(to) * scene.scale).epsilon(1e-5));
+    CHECK(p.ls_distance[i] == Approx(Length(to) * scene.compiled->scale).epsilon(1e-5));
     CHECK(p.ls_pdf[i] == 0);
     if (NearEdge(light, away)) continue;
     const Rgb want =
-        Intensity(light, away) / (Dot(to, to) * double(scene.lights.lights[chosen].pmf));
+        Intensity(light, away) / (Dot(to, to) * double(scene.chances->pmf[chosen]));
     const float* columns[3] = {p.ls_r, p.ls_g, p.ls_b};
     for (int c = 0; c < 3; ++c) {
       CHECK(columns[c][i] == Approx(want[c]).epsilon(2e-5));
@@ -130,7 +131,7 @@ TEST_CASE("image lights have the power that is asked for", "[lights]") {
     Light light = ImageLight(kind);
     light.emission = {1, 1, 1};
     light.power = 50;
-    const CompiledScene scene = PrepareScene(Lit({light}));
+    const CompiledScene scene = CompileScene(Lit({light}));
     REQUIRE(scene.lights.lights.size() == 1);
     light.emission =
         Rgb{1, 1, 1} * (scene.lights.lights[0].radiance[0] / (scene.scale * scene.scale));
@@ -155,9 +156,9 @@ TEST_CASE("power of image lights multiplies their colour and scale", "[lights]")
     Light light = ImageLight(kind);
     light.power = 50;
     light.emission = {1, 1, 1};
-    const CompiledScene one = PrepareScene(Lit({light}));
+    const CompiledScene one = CompileScene(Lit({light}));
     light.emission = {2, 3, 4};
-    const CompiledScene coloured = PrepareScene(Lit({light}));
+    const CompiledScene coloured = CompileScene(Lit({light}));
     for (int c = 0; c < 3; ++c) {
       CHECK(coloured.lights.lights[0].radiance[c] ==
             Approx((2 + c) * one.lights.lights[0].radiance[c]));
@@ -171,11 +172,11 @@ TEST_CASE("image lights render as the reference does", "[lights]") {
 }
 
 TEST_CASE("scenes without images of lights have nothing of them", "[lights]") {
-  const CompiledScene scene = PrepareScene(PolygonLight(8));
-  CHECK(scene.lights.images.empty());
-  CHECK(scene.lights.texels.empty());
-  CHECK(scene.lights.portals.empty());
-  CHECK(scene.geometry.uvs.empty());
+  const PreparedScene scene = PrepareScene(PolygonLight(8));
+  CHECK(scene.compiled->lights.images.empty());
+  CHECK(scene.compiled->lights.texels.empty());
+  CHECK(scene.compiled->lights.portals.empty());
+  CHECK(scene.compiled->geometry.uvs.empty());
   for (const PlannedStage& planned : MakePlan(scene, {}).stages) {
     const std::string name = planned.stage.name;
     CHECK(name != "light_image");

@@ -8,7 +8,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/stat/hypothesis.h"
 #include "tests/lights/image_strategies.h"
 #include "tests/lights/pictures.h"
@@ -63,19 +63,19 @@ SceneDescription LitBy(const std::vector<Light>& lights, bool others,
 
 // Choices for one receiver, and what is sampled of image lights.
 struct Choices {
-  CompiledScene scene;
+  PreparedScene scene;
   WaveFixture fixture;
   std::vector<double> counts, reported;  // of each light; probabilities
 
   Choices(const SceneDescription& description, Vec3d receiver, std::uint32_t n)
       : scene(PrepareScene(description)),
-        fixture(scene, n),
-        counts(scene.lights.lights.size()),
-        reported(scene.lights.lights.size()) {
+        fixture(scene.Parts(), n),
+        counts(scene.compiled->lights.lights.size()),
+        reported(scene.compiled->lights.lights.size()) {
     PathColumns& p = fixture.wave.path;
-    const bool tree = !scene.lights.tree.nodes.empty();
+    const bool tree = !scene.chances->tree.nodes.empty();
     if (!tree) p.light_pmf = nullptr;
-    const Vec3d at = (receiver - scene.center) * scene.scale;
+    const Vec3d at = (receiver - scene.compiled->center) * scene.compiled->scale;
     std::mt19937 engine(23);
     for (std::uint32_t i = 0; i < n; ++i) {
       p.p_x[i] = float(at.x), p.p_y[i] = float(at.y), p.p_z[i] = float(at.z);
@@ -84,19 +84,20 @@ struct Choices {
     }
     fixture.QueueAll(QueueId::kLit, n);
     if (counts.size() > 1) {
-      fixture.Run(tree ? SelectLightTreeStage : SelectLightStage, scene.features);
+      fixture.Run(tree ? SelectLightTreeStage : SelectLightStage,
+                  scene.compiled->features);
     }
     bool same = true;  // probability, whatever number led to a light
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t light = p.ls_light[i];
       if (light >= counts.size()) FAIL("no such light");
-      const double pmf = tree ? p.light_pmf[i] : scene.lights.lights[light].pmf;
+      const double pmf = tree ? p.light_pmf[i] : scene.chances->pmf[light];
       same &= counts[light] == 0 || reported[light] == pmf;
       reported[light] = pmf;
       ++counts[light];
     }
     CHECK(same);
-    fixture.Run(SampleImageLightStage, scene.features);
+    fixture.Run(SampleImageLightStage, scene.compiled->features);
   }
   double PValue(const std::vector<double>& claimed) const {
     double sum = 0, n = 0;

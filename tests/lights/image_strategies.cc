@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "src/core/error.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/stat/hypothesis.h"
 
 namespace lanelight::test {

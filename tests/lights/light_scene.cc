@@ -67,6 +67,9 @@ LightScene::LightScene() {
   AddLight("sky", LightShape::kInfiniteImage, 0xffffffffu, 0);
   AddLight("another sky", LightShape::kInfiniteImage, 0xffffffffu, 0);
   scene.lights.environments = {Sky(4, 0), Sky(13, 70)};
+  for (const Environment& e : scene.lights.environments) {
+    chances.environments.push_back(e.table);
+  }
   lights[13].record.environment = 0, lights[14].record.environment = 1;
   AddRectangle();
   StoreRecords();
@@ -97,7 +100,6 @@ void LightScene::AddRectangle() {
   LightRecord& light = lights.back().record;
   LightRecord flat =
       FlatLight(LightShape::kRectangle, {-2, 1, 0.5}, {0, -1.5, 1}, {1, 0, 0});
-  flat.pmf = light.pmf;
   std::copy_n(light.radiance, 3, flat.radiance);
   flat.primitive = 4, flat.second_primitive = 5;
   light = flat;
@@ -109,7 +111,6 @@ void LightScene::AddLight(const char* name, LightShape shape, std::uint32_t prim
   LightRecord record{};
   record.shape = static_cast<std::uint32_t>(shape);
   record.two_sided = std::string(name).rfind("two-sided", 0) == 0;
-  record.pmf = 0.02f + 0.005f * static_cast<float>(i);
   record.primitive = primitive;
   record.environment = -1;
   Store({1 + 0.5 * i, 2 + 0.25 * i, 3 - 0.125 * i}, record.radiance);
@@ -131,7 +132,7 @@ void LightScene::AddLight(const char* name, LightShape shape, std::uint32_t prim
     record.size[0] = ConeFrom(sphere.radius);
   }
   record.area = static_cast<float>(area);
-  lights.push_back({name, record});
+  lights.push_back({name, record, 0.02f + 0.005f * static_cast<float>(i)});
 }
 
 // Records into the table, and what shapes and escaped rays know of them.
@@ -142,10 +143,12 @@ void LightScene::StoreRecords() {
   for (auto& d : g.disks) d.light = -1;
   scene.lights.lights.clear();
   scene.lights.infinite.clear();
+  chances.pmf.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const LightRecord& r = lights[i].record;
     const auto index = static_cast<std::int32_t>(i);
     scene.lights.lights.push_back(r);
+    chances.pmf.push_back(lights[i].pmf);
     switch (static_cast<LightShape>(r.shape)) {
       case LightShape::kTriangle:
         g.triangles[r.primitive].light = index;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/compiled/scene.h"
+#include "src/path/wave.h"
 
 namespace lanelight::test {
 
@@ -13,15 +14,18 @@ namespace lanelight::test {
 struct NamedLight {
   const char* name;
   LightRecord record;
+  float pmf;
 };
 
 /// Triangles, spheres and disks that emit, among dark ones, and lights without a shape:
 /// sixteen lights, as many as the widest vector has lanes.
 struct LightScene {
   CompiledScene scene;
+  LightChances chances;
   std::vector<NamedLight> lights;
 
   LightScene();
+  SceneParts Parts() const { return {&scene, &scene.view, &chances}; }
   /// Only light `i`; what emitted otherwise is dark.
   void Keep(std::size_t i);
   /// `count` point lights more, that nobody selects.
@@ -35,7 +39,7 @@ struct LightScene {
 };
 
 /// Record of a triangle or rectangle from `corner` along two sides, as the scene compiler
-/// would write it: its triangles are primitives 0 and 1; no radiance, no pmf.
+/// would write it: its triangles are primitives 0 and 1; no radiance.
 LightRecord FlatLight(LightShape shape, Vec3d corner, Vec3d x, Vec3d y);
 
 /// What lies along the unit direction `w` from `from`, if the light is met there.

@@ -7,7 +7,7 @@
 
 #include "kernels/stages.h"
 #include "src/prepare/parameters.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 
 namespace lanelight::test {
 namespace {
@@ -35,23 +35,34 @@ struct Emitter {
   std::uint32_t index = 0;
   StagesOfShape stages;
 
-  explicit Emitter(const CompiledScene& scene) {
-    const auto& lights = scene.lights.lights;
+  explicit Emitter(const PreparedScene& scene) {
+    const auto& lights = scene.compiled->lights.lights;
     while (lights[index].primitive == 0xffffffffu) ++index;
     stages = StagesOf(static_cast<LightShape>(lights[index].shape));
   }
 };
 
+PreparedScene SampledScene(const PicturedShape& shape) {
+  PreparedScene scene = PrepareScene(shape.scene);
+  if (!shape.solid_angle) return scene;
+  auto by_angle = std::make_shared<CompiledScene>(*scene.compiled);
+  by_angle->features.Add(Feature::kSolidAngleLights);
+  scene.compiled = by_angle;
+  return scene;
+}
+
 }  // namespace
 
 PictureSamples::PictureSamples(const PicturedShape& shape, Vec3d place, double power)
-    : scene_(PrepareScene(shape.scene)), from_(place), fixture_(scene_, kPictureSamples) {
+    : scene_(SampledScene(shape)),
+      from_(place),
+      fixture_(scene_.Parts(), kPictureSamples) {
   const Emitter emitter(scene_);
-  if (shape.solid_angle) scene_.features.Add(Feature::kSolidAngleLights);
-  fixture_.run.features = scene_.features;
+  const FeatureSet& features = scene_.compiled->features;
+  fixture_.run.features = features;
   PathColumns& p = fixture_.wave.path;
   p.light_pmf = nullptr;
-  const Vec3d at = (from_ - scene_.center) * scene_.scale;
+  const Vec3d at = (from_ - scene_.compiled->center) * scene_.compiled->scale;
   std::mt19937 engine(19);
   for (std::uint32_t i = 0; i < kPictureSamples; ++i) {
     p.p_x[i] = float(at.x), p.p_y[i] = float(at.y), p.p_z[i] = float(at.z);
@@ -62,13 +73,11 @@ PictureSamples::PictureSamples(const PicturedShape& shape, Vec3d place, double p
     p.ls_light[i] = emitter.index;
   }
   fixture_.QueueAll(QueueId::kLit, kPictureSamples);
-  fixture_.Run(emitter.stages.sample, scene_.features);
-  fixture_.Run(EmissionImageSamplesStage, scene_.features);
+  fixture_.Run(emitter.stages.sample, features);
+  fixture_.Run(EmissionImageSamplesStage, features);
 }
 
-double PictureSamples::Pmf() const {
-  return scene_.lights.lights[Emitter(scene_).index].pmf;
-}
+double PictureSamples::Pmf() const { return scene_.chances->pmf[Emitter(scene_).index]; }
 
 std::vector<Vec3d> PictureSamples::Directions() const {
   const PathColumns& p = fixture_.wave.path;
@@ -84,19 +93,20 @@ Rgb PictureSamples::Radiance(std::uint32_t i) const {
   return Rgb{p.ls_r[i], p.ls_g[i], p.ls_b[i]} * Pdf(i);
 }
 
-std::vector<Rgb> SeenAlong(const CompiledScene& scene, Vec3d from,
+std::vector<Rgb> SeenAlong(const PreparedScene& scene, Vec3d from,
                            const std::vector<Vec3d>& directions, float bsdf_pdf) {
   const auto n = static_cast<std::uint32_t>(directions.size());
-  WaveFixture fixture(scene, n);
-  FeatureSet features = scene.features;
+  WaveFixture fixture(scene.Parts(), n);
+  FeatureSet features = scene.compiled->features;
   features.Add(Feature::kMis);
   fixture.run.mis = MakeMisParameters(Strategy{});
   PathColumns& p = fixture.wave.path;
   p.light_pmf = nullptr;
   std::vector<TestRay> rays;
   for (std::uint32_t i = 0; i < n; ++i) {
-    rays.push_back({VecCast<float>((from - scene.center) * scene.scale),
-                    VecCast<float>(directions[i])});
+    rays.push_back(
+        {VecCast<float>((from - scene.compiled->center) * scene.compiled->scale),
+         VecCast<float>(directions[i])});
     rays.back().from = kNoPrimitive;
     p.beta_r[i] = p.beta_g[i] = p.beta_b[i] = 1;
     p.l_r[i] = p.l_g[i] = p.l_b[i] = 0;
@@ -116,7 +126,7 @@ std::vector<Rgb> SeenAlong(const CompiledScene& scene, Vec3d from,
   return seen;
 }
 
-std::vector<double> DensitiesAlong(const CompiledScene& scene, Vec3d from,
+std::vector<double> DensitiesAlong(const PreparedScene& scene, Vec3d from,
                                    const std::vector<Vec3d>& directions) {
   // A material's density of 1 makes that of the heuristic of powers 1 / (1 + pdf^2).
   const std::vector<Rgb> weighed = SeenAlong(scene, from, directions, 1);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/compiled/scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "tests/lights/pictured_shapes.h"
 #include "tests/support/wave_fixture.h"
 
@@ -18,7 +18,7 @@ class PictureSamples {
  public:
   PictureSamples(const PicturedShape& shape, Vec3d place, double power = 1);
 
-  const CompiledScene& scene() const { return scene_; }
+  const PreparedScene& scene() const { return scene_; }
   Vec3d from() const { return from_; }
   /// Probability of choosing the shape's light.
   double Pmf() const;
@@ -29,14 +29,14 @@ class PictureSamples {
   Rgb Radiance(std::uint32_t i) const;
 
  private:
-  CompiledScene scene_;
+  PreparedScene scene_;
   Vec3d from_;
   WaveFixture fixture_;
 };
 
 /// What rays from a place of the world along the directions add to their paths, weighted
 /// against light samples; `bsdf_pdf`: density of the material that chose them.
-std::vector<Rgb> SeenAlong(const CompiledScene& scene, Vec3d from,
+std::vector<Rgb> SeenAlong(const PreparedScene& scene, Vec3d from,
                            const std::vector<Vec3d>& directions, float bsdf_pdf);
 
 /// A density of materials by which rays have all weight.
@@ -44,7 +44,7 @@ inline constexpr float kSurePdf = 1e15f;
 
 /// Densities of light samples along the directions that rays know, by their weight; 0
 /// beside the light.
-std::vector<double> DensitiesAlong(const CompiledScene& scene, Vec3d from,
+std::vector<double> DensitiesAlong(const PreparedScene& scene, Vec3d from,
                                    const std::vector<Vec3d>& directions);
 
 }  // namespace lanelight::test

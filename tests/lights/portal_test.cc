@@ -11,7 +11,7 @@
 #include "kernels/stages.h"
 #include "src/core/error.h"
 #include "src/prepare/parameters.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/stat/hypothesis.h"
 #include "tests/lights/image_strategies.h"
 #include "tests/lights/pictures.h"
@@ -65,7 +65,7 @@ double SolidAngleOfTriangle(Vec3d a, Vec3d b, Vec3d c) {
 constexpr std::uint32_t kRandomPaths = 1 << 14;
 
 struct PortalSamples {
-  CompiledScene scene;
+  PreparedScene scene;
   std::uint32_t n;
   WaveFixture fixture;
 
@@ -73,10 +73,10 @@ struct PortalSamples {
   PortalSamples(const SceneDescription& description, Vec3d from, bool random = false)
       : scene(PrepareScene(description)),
         n(random ? kRandomPaths : kImagePaths),
-        fixture(scene, n) {
+        fixture(scene.Parts(), n) {
     PathColumns& p = fixture.wave.path;
     p.light_pmf = nullptr;
-    const Vec3d at = (from - scene.center) * scene.scale;
+    const Vec3d at = (from - scene.compiled->center) * scene.compiled->scale;
     std::mt19937 engine(11);
     std::uniform_real_distribution<float> unit(0, 1);
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -90,20 +90,20 @@ struct PortalSamples {
       p.ls_light[i] = 0;
     }
     fixture.QueueAll(QueueId::kLit, n);
-    fixture.Run(SamplePortalLightStage, scene.features);
+    fixture.Run(SamplePortalLightStage, scene.compiled->features);
   }
 };
 
 // The density of samples that a ray along d from `from` knows, by the weight it takes: a
 // material's density of 1 makes that of the heuristic of powers 1 / (1 + pdf^2), one that
 // outweighs all 1.
-std::vector<double> KnownDensities(const CompiledScene& scene, Vec3d from,
+std::vector<double> KnownDensities(const PreparedScene& scene, Vec3d from,
                                    const std::vector<Vec3d>& directions) {
   const auto n = static_cast<std::uint32_t>(directions.size());
-  const Vec3d at = (from - scene.center) * scene.scale;
+  const Vec3d at = (from - scene.compiled->center) * scene.compiled->scale;
   std::vector<float> weighed[2];
   for (int k = 0; k < 2; ++k) {
-    WaveFixture fixture(scene, n);
+    WaveFixture fixture(scene.Parts(), n);
     fixture.run.mis = MakeMisParameters(Strategy{});
     PathColumns& p = fixture.wave.path;
     p.light_pmf = nullptr;
@@ -116,7 +116,7 @@ std::vector<double> KnownDensities(const CompiledScene& scene, Vec3d from,
       p.bsdf_pdf[i] = k == 0 ? 1.0f : 1e9f;
     }
     fixture.QueueAll(QueueId::kMiss, n);
-    fixture.Run(EscapeStage, scene.features);
+    fixture.Run(EscapeStage, scene.compiled->features);
     weighed[k].assign(p.l_r, p.l_r + n);
   }
   std::vector<double> pdf(n);
@@ -134,7 +134,7 @@ Vec3d InWindow(double y, double z) {
 }
 
 // Integrals of the density over the cells of the window, by midpoints.
-std::vector<double> CellProbabilities(const CompiledScene& scene, Vec3d from) {
+std::vector<double> CellProbabilities(const PreparedScene& scene, Vec3d from) {
   constexpr int kSide = kCells * kInCell;
   std::vector<Vec3d> directions;
   std::vector<double> solid_angle;
@@ -223,7 +223,7 @@ TEST_CASE("a ray through a portal knows the density of its sample", "[lights]") 
       p.bsdf_pdf[i] = p.ls_pdf[i];  // then the weight is one half
     }
     s.fixture.QueueAll(QueueId::kMiss, kImagePaths);
-    s.fixture.Run(EscapeStage, s.scene.features);
+    s.fixture.Run(EscapeStage, s.scene.compiled->features);
     std::uint32_t off = 0;  // on a texel's edge
     for (std::uint32_t i = 0; i < kImagePaths; ++i) {
       const double want = 0.5 * p.ls_r[i] * p.ls_pdf[i];

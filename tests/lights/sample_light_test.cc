@@ -54,7 +54,7 @@ struct Samples {
 
   // tree: the probability of the selection comes with the path.
   Samples(const LightScene& l, std::uint32_t count, bool tree)
-      : lights(l), fixture(l.scene, count) {
+      : lights(l), fixture(l.Parts(), count) {
     PathColumns& p = fixture.wave.path;
     if (!tree) p.light_pmf = nullptr;
     std::mt19937 engine(31);
@@ -92,7 +92,7 @@ struct Samples {
   }
   double Pmf(std::uint32_t i) const {
     const float* by_path = fixture.wave.path.light_pmf;
-    return by_path != nullptr ? by_path[i] : LightOf(i).record.pmf;
+    return by_path != nullptr ? by_path[i] : LightOf(i).pmf;
   }
   Vec3d Direction(std::uint32_t i) const {
     const PathColumns& p = fixture.wave.path;

@@ -47,16 +47,14 @@ void CheckSameFilms(const FilmAccumulator& a, const FilmAccumulator& b) {
   CHECK(different == 0);
 }
 
-JobRun WholeRender(Stage& stage, const Strategy& strategy, std::uint64_t spp) {
-  UseView(MakeView(stage, stage.eye, 1), stage.job.scene);
-  SetRender(stage.job, strategy, spp, stage.job.seed);
-  return RunJob(stage.job);
+JobRun WholeRender(const Stage& stage, const Strategy& strategy, std::uint64_t spp) {
+  return RunJob(WithRender(stage.job, strategy, spp, stage.job.seed));
 }
 
 }  // namespace
 
 TEST_CASE("passes have the bits of a render at once", "[live]") {
-  Stage stage = SmallStage();
+  const Stage stage = SmallStage();
   const std::atomic<bool> never{false};
   for (const char* changes :
        {"points=sobol", "pairs=antithetic,points=independent", "control=regression",
@@ -70,9 +68,9 @@ TEST_CASE("passes have the bits of a render at once", "[live]") {
     NoAttendant attendant;
     CuriousAttendant curious;
     for (const int spp : {2, 4, 10, 16}) {
-      contender.Pass(stage, std::uint64_t(spp),
+      contender.Pass(std::uint64_t(spp),
                      spp == 10 ? static_cast<Attendant&>(curious) : attendant, never);
-      other.Pass(stage, std::uint64_t(spp), attendant, never);
+      other.Pass(std::uint64_t(spp), attendant, never);
       CHECK(contender.spp() == std::uint64_t(spp));
     }
     CHECK(curious.looks > 0);
@@ -83,21 +81,21 @@ TEST_CASE("passes have the bits of a render at once", "[live]") {
 }
 
 TEST_CASE("a pass that was stopped goes on as if it had not been", "[live]") {
-  Stage stage = SmallStage();
+  const Stage stage = SmallStage();
   const Strategy strategy;
   Contender contender(stage, MakeView(stage, stage.eye, 1), strategy);
   NoAttendant attendant;
   const std::atomic<bool> never{false}, at_once{true};
-  contender.Pass(stage, 3, attendant, never);
-  contender.Pass(stage, 8, attendant, at_once);
+  contender.Pass(3, attendant, never);
+  contender.Pass(8, attendant, at_once);
   CHECK(contender.spp() == 3);
-  contender.Pass(stage, 8, attendant, never);
+  contender.Pass(8, attendant, never);
   CHECK(contender.spp() == 8);
   CheckSameFilms(contender.film(), WholeRender(stage, strategy, 8).film);
 }
 
 TEST_CASE("a moved camera sees what its scene file would show", "[live]") {
-  Stage stage = SmallStage();
+  const Stage stage = SmallStage();
   Eye eye = stage.eye;
   eye.position = eye.position + Vec3d{0.2, 0.1, 0.3};
   eye.fov = 45;
@@ -105,26 +103,26 @@ TEST_CASE("a moved camera sees what its scene file would show", "[live]") {
   Contender contender(stage, view, Strategy{});
   NoAttendant attendant;
   const std::atomic<bool> never{false};
-  contender.Pass(stage, 4, attendant, never);
+  contender.Pass(4, attendant, never);
   SceneDescription scene =
       ParseScene(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/cornell-box.pbrt");
   scene.camera = view.described;
   RenderSettings settings;
   settings.resolution = {32, 24};
   settings.spp = 4;
-  Job job = PrepareJob(std::move(scene), settings);
-  SetRender(job, Strategy{}, 4, stage.job.seed);
+  const Job job =
+      WithRender(PrepareJob(std::move(scene), settings), Strategy{}, 4, stage.job.seed);
   CheckSameFilms(contender.film(), RunJob(job).film);
 }
 
 TEST_CASE("a contender counts stages, rays by places, and its errors", "[live]") {
-  Stage stage = SmallStage();
+  const Stage stage = SmallStage();
   Contender contender(stage, MakeView(stage, stage.eye, 1), Strategy{});
   NoAttendant attendant;
   const std::atomic<bool> never{false};
-  contender.Pass(stage, 8, attendant, never);
-  contender.Pass(stage, 9, attendant, never);
-  contender.Pass(stage, 16, attendant, never);
+  contender.Pass(8, attendant, never);
+  contender.Pass(9, attendant, never);
+  contender.Pass(16, attendant, never);
   // 9 is too near to 8 to be worth the time.
   REQUIRE(contender.looks().size() == 2);
   CHECK(contender.looks()[1].spp == 16);
@@ -144,7 +142,7 @@ TEST_CASE("a contender counts stages, rays by places, and its errors", "[live]")
 }
 
 TEST_CASE("a strategy that the scene does not take is refused", "[live]") {
-  Stage stage = SmallStage();
+  const Stage stage = SmallStage();
   CHECK_THROWS_AS(
       Contender(stage, MakeView(stage, stage.eye, 1), ChangedStrategy("control=ambient")),
       InputError);

@@ -81,7 +81,7 @@ TEST_CASE("a picture has the film's numbers, once, and then what has changed", "
   Contender contender(stage, MakeView(stage, stage.eye, 1), Strategy{});
   NobodyElse nobody;
   const std::atomic<bool> never{false};
-  contender.Pass(stage, 8, nobody, never);
+  contender.Pass(8, nobody, never);
   SentPicture sent;
   sent.layer = Layer::kError;
   const ReadPicture picture = Read(EncodePicture(contender, {{"slot", 1}}, sent));
@@ -101,7 +101,7 @@ TEST_CASE("a picture has the film's numbers, once, and then what has changed", "
   CHECK(float(picture.values[at + 16 * 6 * 4]) ==
         Approx(std::sqrt((variance[0] + variance[1] + variance[2]) / 3)).epsilon(1e-3));
   CHECK(EncodePicture(contender, {{"slot", 1}}, sent).empty());
-  contender.Pass(stage, 9, nobody, never);
+  contender.Pass(9, nobody, never);
   CHECK(Read(EncodePicture(contender, {}, sent)).head.at("squares").size() == 4);
 }
 
@@ -110,9 +110,9 @@ TEST_CASE("the numbers of a pixel are exact, and unknown where they are", "[live
   Contender contender(stage, MakeView(stage, stage.eye, 1), Strategy{});
   NobodyElse nobody;
   const std::atomic<bool> never{false};
-  contender.Pass(stage, 1, nobody, never);
+  contender.Pass(1, nobody, never);
   CHECK(PixelJson(contender, 3, 4).at("error").is_null());
-  contender.Pass(stage, 8, nobody, never);
+  contender.Pass(8, nobody, never);
   const nlohmann::json pixel = PixelJson(contender, 3, 4);
   CHECK(pixel.at("value")[1] == contender.film().Mean(3, 4)[1]);
   CHECK(pixel.at("error")[2] == std::sqrt(contender.film().Variance(3, 4)[2]));

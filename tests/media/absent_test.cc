@@ -9,9 +9,7 @@
 namespace lanelight::test {
 namespace {
 
-Plan PlanOf(const SceneDescription& scene) {
-  return MakePlan(CompileScene(scene, {}), {});
-}
+Plan PlanOf(const SceneDescription& scene) { return MakePlan(PrepareScene(scene), {}); }
 
 bool Runs(const Plan& plan, const std::string& stage) {
   return std::any_of(plan.stages.begin(), plan.stages.end(),

@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "src/core/pi.h"
-#include "src/prepare/prepare_scene.h"
-#include "src/prepare/use_strategy.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/plan/plan.h"
 #include "tests/media/scenes.h"
 #include "tests/agreement/agreement.h"
@@ -115,13 +114,13 @@ TEST_CASE("media: equiangular distances only where they have a use", "[media][pl
   sky.lights.back().kind = LightKind::kInfinite;
   CHECK_FALSE(PlanOf(sky, kEquiangular).features.Has(kFeature));
 
-  CHECK(PrepareScene(Fog()).media.anchors.empty());
+  CHECK(PrepareScene(Fog()).chances->anchors.empty());
   SceneDescription around = Fog();
   ApplyStrategy(kEquiangular, {}, around.strategy);
-  CompiledScene scene = PrepareScene(around);
-  CHECK(scene.media.anchors.size() == scene.lights.lights.size());
-  UseStrategy(Strategy{}, scene);
-  CHECK(scene.media.anchors.empty());
+  PreparedScene scene = PrepareScene(around);
+  CHECK(scene.chances->anchors.size() == scene.compiled->lights.lights.size());
+  scene = WithStrategy(scene, Strategy{});
+  CHECK(scene.chances->anchors.empty());
 }
 
 }  // namespace lanelight::test

@@ -9,7 +9,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/stat/hypothesis.h"
 #include "tests/media/scenes.h"
 #include "tests/stat/chi2.h"
@@ -69,19 +69,20 @@ struct Walked {
   std::vector<Rgb> beta;
 
   explicit Walked(const Walks& walks) {
-    const CompiledScene scene = PrepareScene(walks.Scene());
-    REQUIRE(scene.media.anchors.size() == walks.lights.size());
-    WaveFixture fixture(scene, kWalks);
-    FeatureSet features = scene.features;
+    const PreparedScene scene = PrepareScene(walks.Scene());
+    REQUIRE(scene.chances->anchors.size() == walks.lights.size());
+    WaveFixture fixture(scene.Parts(), kWalks);
+    FeatureSet features = scene.compiled->features;
     features.Add(Feature::kEquiangularDistances);
     fixture.run.features = features;
     fixture.run.max_depth = 3;
     PathColumns& p = fixture.wave.path;
     p.branch = p.crossings = nullptr;
-    const auto o = VecCast<float>(Vec3d{} - scene.center) * float(scene.scale);
+    const auto o =
+        VecCast<float>(Vec3d{} - scene.compiled->center) * float(scene.compiled->scale);
     std::mt19937 engine(29);
     for (std::uint32_t i = 0; i < kWalks; ++i) {
-      fixture.SetRay(i, {o, {0, 0, 1}, float(walks.length * scene.scale)});
+      fixture.SetRay(i, {o, {0, 0, 1}, float(walks.length * scene.compiled->scale)});
       p.pixel[i] = 0, p.sample[i] = i, p.depth[i] = 0, p.medium[i] = 0;
       p.beta_r[i] = p.beta_g[i] = p.beta_b[i] = 1;
       p.odds_r[i] = p.odds_g[i] = p.odds_b[i] = 1;
@@ -91,7 +92,7 @@ struct Walked {
     fixture.QueueAll(QueueId::kActive, kWalks);
     fixture.Run(MediumDistanceStage, features);
     for (std::uint32_t i = 0; i < kWalks; ++i) {
-      distance.push_back(p.t[i] < 0 ? (p.p_z[i] - o.z) / scene.scale : -1);
+      distance.push_back(p.t[i] < 0 ? (p.p_z[i] - o.z) / scene.compiled->scale : -1);
       beta.push_back({p.beta_r[i], p.beta_g[i], p.beta_b[i]});
     }
   }

@@ -199,7 +199,7 @@ TEST_CASE("subsurface: lights that do not get in are noted", "[media][subsurface
 
 TEST_CASE("subsurface: columns are there for those scenes alone", "[media][plan]") {
   const auto has = [](const SceneDescription& scene, Field field) {
-    const Plan plan = MakePlan(CompileScene(scene, {}), {});
+    const Plan plan = MakePlan(PrepareScene(scene), {});
     return std::find(plan.live_fields.begin(), plan.live_fields.end(), field) !=
            plan.live_fields.end();
   };

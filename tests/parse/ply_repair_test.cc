@@ -35,7 +35,7 @@ TEST_CASE("normals that are not finite give way to those of the faces", "[parse]
     CHECK(ply.mesh.indices.size() == 9);
     SceneDescription d = SquareScene();
     d.shapes[0] = MeshShape(ply.mesh, 0);
-    const CompiledScene scene = PrepareScene(d);
+    const CompiledScene scene = CompileScene(d);
     REQUIRE(scene.geometry.triangles.size() == 2);
     REQUIRE(scene.geometry.normals.size() == 18);
     const Vec3d leaning = Normalize(Vec3d{1, 0, 1});

@@ -10,7 +10,7 @@
 #include "kernels/stages.h"
 #include "src/plan/plan_features.h"
 #include "src/image/image.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/prepare/tables.h"
 #include "src/wave/block_reuse.h"
 #include "src/wave/tiles.h"
@@ -40,7 +40,7 @@ class Checker {
       : scene_(PrepareScene(ParseSceneText(c.scene, "test.pbrt", folder), {})) {
     Strategy s = scene_.strategy;
     ApplyStrategy(c.strategy, {}, s);
-    UseStrategy(s, scene_);
+    scene_ = WithStrategy(scene_, s);
     PlanOptions options;
     options.max_depth = 5;
     options.wavefront = 300;
@@ -67,7 +67,7 @@ class Checker {
 #define X(type, name, ...) columns_.push_back(reinterpret_cast<std::uint32_t*>(p.name));
     LANELIGHT_PATH_FIELDS(X)
 #undef X
-    TilePixels({kFirst, kFirst, kFirst + kSide, kFirst + kSide}, scene_.film.width,
+    TilePixels({kFirst, kFirst, kFirst + kSide, kFirst + kSide}, scene_.view.film.width,
                &pixels_);
     samples_.resize(std::size_t{Rows()} * static_cast<std::size_t>(run_.planes.count()));
   }
@@ -98,7 +98,7 @@ class Checker {
   // What pilot passes and the roulettes that split go by: any values do.
   void MakePathValues() {
     PathValues& v = tables_.path_values;
-    const Geometry& g = scene_.geometry;
+    const Geometry& g = scene_.compiled->geometry;
     v.grid = MakeCellGrid(g.bounds_min, g.bounds_max, 10000);
     v.survive.assign(v.grid.cells(), 1.5f);
     v.split.assign(v.grid.cells(), 1.5f);
@@ -197,7 +197,7 @@ class Checker {
 
   const std::string kQueues = " reads what it does not declare for queues";
   const std::string kOutput = " reads what it does not declare for samples";
-  CompiledScene scene_;
+  PreparedScene scene_;
   Plan plan_;
   StrategyTables tables_;
   RunParameters run_;

@@ -89,28 +89,29 @@ TEST_CASE("any kind of surface by itself scatters", "[plan]") {
         // Much larger than its distance.
         "Translate 0 -1e7 0 Shape \"sphere\" \"float radius\" 9999999"}) {
     INFO(shape);
-    const CompiledScene scene = PrepareScene(
+    const PreparedScene scene = PrepareScene(
         ParseSceneText(std::string(kEmpty) + kSky + shape, "one.pbrt", "."), {});
     CHECK(MakePlan(scene, {}).features.Has(Feature::kScatters));
-    CHECK(scene.notes.empty());
+    CHECK(scene.compiled->notes.empty());
   }
 }
 
 TEST_CASE("a scene without surfaces gets a note", "[plan]") {
   const auto note = [](const std::string& text) {
-    const CompiledScene scene = PrepareScene(ParseSceneText(text, "empty.pbrt", "."), {});
-    REQUIRE_FALSE(scene.notes.empty());
-    return scene.notes.back().where.ToString() + ": " + scene.notes.back().message;
+    const PreparedScene scene = PrepareScene(ParseSceneText(text, "empty.pbrt", "."), {});
+    REQUIRE_FALSE(scene.compiled->notes.empty());
+    return scene.compiled->notes.back().where.ToString() + ": " +
+           scene.compiled->notes.back().message;
   };
   CHECK_THAT(note(kEmpty), Contains("empty.pbrt: the scene has no shape") &&
                                Contains("the image is black"));
   CHECK_THAT(note(std::string(kEmpty) + kSky), Contains("the environment alone"));
   const std::string solid = std::string(kEmpty) + "Shape \"sphere\"";
-  CHECK(PrepareScene(ParseSceneText(solid, "a.pbrt", "."), {}).notes.empty());
+  CHECK(CompileScene(ParseSceneText(solid, "a.pbrt", "."), {}).notes.empty());
 }
 
 TEST_CASE("auxiliary output without scattering is refused", "[plan]") {
-  const CompiledScene scene = PrepareScene(
+  const PreparedScene scene = PrepareScene(
       ParseSceneText(std::string(kEmpty) + "Shape \"sphere\"", "a.pbrt", "."), {});
   PlanOptions options;
   options.max_depth = 0;

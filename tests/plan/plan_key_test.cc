@@ -29,10 +29,9 @@ struct Keyed {
   std::vector<Rgb> pixels;
 };
 
-Keyed Render(Job& job, const std::string& strategy) {
-  SetStrategy(job, Named(strategy));
+Keyed Render(const Job& scene, const std::string& strategy) {
+  const Job job = WithRender(scene, Named(strategy), 5, scene.seed);
   Keyed out = {PlanKey(job.scene, job.plan), {}};
-  job.spp = 5;
   FilmAccumulator film = RunJob(job).film;
   for (int y = 0; y < film.height(); ++y) {
     for (int x = 0; x < film.width(); ++x) out.pixels.push_back(film.Mean(x, y));
@@ -51,7 +50,7 @@ Job Prepare(const TemporaryFolder& folder, const std::string& more,
 
 TEST_CASE("choices without effect leave plan and pixels as they are", "[plan]") {
   const TemporaryFolder folder;
-  Job job = Prepare(folder, "", 1);
+  const Job job = Prepare(folder, "", 1);
   const Keyed usual = Render(job, "default");
   for (const char* same :
        {"light-selection=uniform", "light-selection=tree", "roulette=none",
@@ -65,10 +64,11 @@ TEST_CASE("choices without effect leave plan and pixels as they are", "[plan]") 
 
 TEST_CASE("choices with an effect have another key", "[plan]") {
   const TemporaryFolder folder;
-  Job job = Prepare(folder,
-                    "LightSource \"point\" \"rgb I\" [1 1 1] \"point3 from\" [4 0 -4]\n"
-                    "LightSource \"infinite\" \"rgb L\" [1 1 1]\n",
-                    4);
+  const Job job =
+      Prepare(folder,
+              "LightSource \"point\" \"rgb I\" [1 1 1] \"point3 from\" [4 0 -4]\n"
+              "LightSource \"infinite\" \"rgb L\" [1 1 1]\n",
+              4);
   const std::string usual = Render(job, "default").key;
   CHECK(Render(job, "default").key == usual);
   std::vector<std::string> keys = {usual};

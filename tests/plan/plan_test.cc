@@ -6,7 +6,7 @@
 #include <set>
 
 #include "src/core/check.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/wave/wavefront.h"
 #include "tests/run/render_fixture.h"
 
@@ -28,7 +28,7 @@ Plan PlanOf(const std::string& world, std::uint32_t max_depth = 5,
       ParseSceneText(kHead + "WorldBegin\n" + world, "test.pbrt", ".");
   if (!strategy.empty()) ApplyStrategy(strategy, {}, description.strategy);
   description.strategy.points = Points::kIndependent;
-  const CompiledScene scene = PrepareScene(description);
+  const PreparedScene scene = PrepareScene(description);
   PlanOptions options;
   options.max_depth = max_depth;
   return MakePlan(scene, options);
@@ -74,7 +74,7 @@ TEST_CASE("plan: a triangle under a point light gets the minimum", "[plan]") {
 }
 
 TEST_CASE("plan: an absent column has no memory", "[plan]") {
-  const CompiledScene scene = PrepareScene(
+  const PreparedScene scene = PrepareScene(
       ParseSceneText(kHead + "WorldBegin\n" + kPointLight + kTriangle, "test.pbrt", "."));
   const Plan plan = MakePlan(scene, {});
   const RunParameters run;

@@ -1,7 +1,7 @@
 // What wavelengths cost: nothing where paths carry none, and what they cannot carry.
 #include <catch2/catch.hpp>
 
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/wave/wavefront.h"
 #include "tests/run/render_fixture.h"
 
@@ -51,12 +51,13 @@ TEST_CASE("spectral plan: nothing of it where paths carry RGB", "[plan][spectral
   SceneDescription scene =
       SpectralScene("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\n");
   scene.integrator.transport = Transport::kRgb;
-  const CompiledScene compiled = PrepareScene(scene);
+  const PreparedScene prepared = PrepareScene(scene);
+  const CompiledScene& compiled = *prepared.compiled;
   CHECK(compiled.spectra.rows.empty());
   CHECK(compiled.spectra.film[0].empty());
   CHECK(compiled.lights.spectrum.empty());
   CHECK(compiled.materials.color0_spectrum.empty());
-  const Plan plan = MakePlan(compiled, PlanOptions{});
+  const Plan plan = MakePlan(prepared, PlanOptions{});
   for (const char* name : {"spectra", "texture_spectra", "disperse", "light_spectra"}) {
     CHECK_FALSE(HasStage(plan, name));
   }
@@ -119,7 +120,7 @@ TEST_CASE("spectral plan: glass that disperses is noted in RGB", "[plan][spectra
       SpectralScene("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\n");
   const auto notes = [](const SceneDescription& s) {
     std::string all;
-    for (const Note& note : PrepareScene(s).notes) all += note.message + "\n";
+    for (const Note& note : CompileScene(s).notes) all += note.message + "\n";
     return all;
   };
   CHECK(notes(scene).find("587.6 nm") == std::string::npos);

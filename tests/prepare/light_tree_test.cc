@@ -9,8 +9,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/prepare_scene.h"
-#include "src/prepare/use_strategy.h"
+#include "src/prepare/prepared_scene.h"
 #include "tests/reference/scenes.h"
 #include "tests/run/render_fixture.h"
 #include "tests/support/wave_fixture.h"
@@ -18,7 +17,7 @@
 namespace lanelight::test {
 namespace {
 
-CompiledScene ManyLights(int count) {
+PreparedScene ManyLights(int count) {
   SceneBuilder b(4, 4);
   const Index dark = b.AddDiffuse(Grey(0));
   std::mt19937 random(5);
@@ -57,8 +56,8 @@ double ConeReach(const LightNode& node, const LightNode& above) {
 }  // namespace
 
 TEST_CASE("light tree: nodes bound their children", "[strategy]") {
-  const CompiledScene scene = ManyLights(60);
-  const LightTree& tree = scene.lights.tree;
+  const PreparedScene scene = ManyLights(60);
+  const LightTree& tree = scene.chances->tree;
   REQUIRE_FALSE(tree.nodes.empty());
   std::map<std::int32_t, int> leaves;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -82,18 +81,18 @@ TEST_CASE("light tree: nodes bound their children", "[strategy]") {
     }
     CHECK(node.power == Approx(power).epsilon(1e-5));
   }
-  CHECK(leaves.size() + tree.far.size() == scene.lights.lights.size());
+  CHECK(leaves.size() + tree.far.size() == scene.compiled->lights.lights.size());
   CHECK(tree.far.size() == 2);
   for (const auto& [light, count] : leaves) CHECK(count == 1);
 }
 
 TEST_CASE("light tree: descending and climbing give the same probabilities",
           "[strategy]") {
-  const CompiledScene scene = ManyLights(40);
+  const PreparedScene scene = ManyLights(40);
   const std::uint32_t n = 1 << 15;
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
-    WaveFixture f(scene, n);
+    WaveFixture f(scene.Parts(), n);
     PathColumns& p = f.wave.path;
     const Vec3f from = {0.3f, -1.2f, 0.4f};
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -125,7 +124,7 @@ TEST_CASE("light tree: descending and climbing give the same probabilities",
     std::uint32_t hits = 0;
     std::vector<float> expected;
     for (const auto& [light, entry] : seen) {
-      const LightRecord& record = scene.lights.lights[light];
+      const LightRecord& record = scene.compiled->lights.lights[light];
       if (record.primitive == 0xffffffffu) continue;
       p.prim[hits++] = record.primitive;
       expected.push_back(entry.first);
@@ -139,10 +138,10 @@ TEST_CASE("light tree: descending and climbing give the same probabilities",
 }
 
 TEST_CASE("light tree: near and facing lights are preferred", "[strategy]") {
-  const CompiledScene scene = ManyLights(40);
-  WaveFixture f(scene, 2048);
+  const PreparedScene scene = ManyLights(40);
+  WaveFixture f(scene.Parts(), 2048);
   PathColumns& p = f.wave.path;
-  const SphereRecord& sphere = scene.geometry.spheres[3];
+  const SphereRecord& sphere = scene.compiled->geometry.spheres[3];
   for (std::uint32_t i = 0; i < 2048; ++i) {
     p.p_x[i] = sphere.center[0] + 1.5f * sphere.radius;
     p.p_y[i] = sphere.center[1];
@@ -167,18 +166,19 @@ TEST_CASE("light tree: both halves of a rectangle are its light", "[strategy]") 
   }
   SceneDescription description = b.Build();
   description.strategy.light_selection = LightSelection::kTree;
-  const CompiledScene scene = PrepareScene(description);
-  REQUIRE(scene.lights.lights.size() == 9);
-  const LightTree& tree = scene.lights.tree;
-  for (const LightRecord& light : scene.lights.lights) {
+  const PreparedScene scene = PrepareScene(description);
+  REQUIRE(scene.compiled->lights.lights.size() == 9);
+  const LightTree& tree = scene.chances->tree;
+  for (const LightRecord& light : scene.compiled->lights.lights) {
     REQUIRE(light.shape == static_cast<std::uint32_t>(LightShape::kRectangle));
     const std::int32_t leaf = tree.primitive_leaf[light.primitive];
     CHECK(leaf >= 0);
     CHECK(tree.primitive_leaf[light.second_primitive] == leaf);
     const LightNode& node = tree.nodes[static_cast<std::size_t>(leaf)];
-    CHECK(&light == &scene.lights.lights[static_cast<std::size_t>(~node.child)]);
+    CHECK(&light ==
+          &scene.compiled->lights.lights[static_cast<std::size_t>(~node.child)]);
     for (const std::uint32_t prim : {light.primitive, light.second_primitive}) {
-      for (const auto& p : scene.geometry.triangles[prim].p) {
+      for (const auto& p : scene.compiled->geometry.triangles[prim].p) {
         for (int k = 0; k < 3; ++k) {
           CHECK(p[k] >= node.low[k]);
           CHECK(p[k] <= node.high[k]);

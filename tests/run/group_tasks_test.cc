@@ -27,7 +27,7 @@ void SlowStage(Wave& wave) {
 
 // All that the tasks of one rank need.
 struct RankFixture {
-  CompiledScene scene =
+  PreparedScene scene =
       PrepareScene(ParseSceneText(LampScene(kSide, kSide, 4), "test.pbrt", "."), {});
   Plan plan = MakePlan(scene, {});
   StrategyTables tables = MakeStrategyTables(scene);

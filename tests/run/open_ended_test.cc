@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "src/estimate/target.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/run/schedule.h"
 #include "tests/run/lamp_scene.h"
 #include "tests/run/render_fixture.h"
@@ -24,13 +24,14 @@ struct OpenEnded {
 
 Rendered Render(const OpenEnded& o) {
   const ThreadLimit limit(o.threads);
-  CompiledScene scene =
+  PreparedScene scene =
       PrepareScene(ParseSceneText(LampScene(37, 29, 3), "test.pbrt", "."), {});
   Strategy strategy = scene.strategy;
   ApplyStrategy(o.strategy, {}, strategy);
-  UseStrategy(strategy, scene);
+  scene = WithStrategy(scene, strategy);
   PlanOptions plan_options;
-  plan_options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
+  plan_options.max_depth =
+      static_cast<std::uint32_t>(scene.compiled->integrator.max_depth);
   plan_options.wavefront = o.wavefront;
   const Plan plan = MakePlan(scene, plan_options);
   Rendered out{FilmAccumulator(0, 0, 37, 29, GroupsOf(scene.strategy), Auxiliary::kNone),
@@ -145,11 +146,11 @@ TEST_CASE("a render of a million samples has variances whenever it is stopped",
     for (const char* pairs : {"", ",pairs=antithetic"}) {
       CAPTURE(points, pairs);
       const ThreadLimit limit(2);
-      CompiledScene scene =
+      PreparedScene scene =
           PrepareScene(ParseSceneText(LampScene(37, 29, 3), "test.pbrt", "."), {});
       Strategy strategy = scene.strategy;
       ApplyStrategy("points=" + points + pairs, {}, strategy);
-      UseStrategy(strategy, scene);
+      scene = WithStrategy(scene, strategy);
       PlanOptions plan_options;
       plan_options.max_depth = 3;
       const Plan plan = MakePlan(scene, plan_options);

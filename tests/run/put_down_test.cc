@@ -48,7 +48,7 @@ std::uint64_t PixelsWith(const FilmAccumulator& film, std::uint64_t samples) {
 
 Rendered Run(const RunOptions& options) {
   const ThreadLimit limit(2);
-  const CompiledScene scene = PrepareScene(ParseSceneText(kScene, "test.pbrt", "."), {});
+  const PreparedScene scene = PrepareScene(ParseSceneText(kScene, "test.pbrt", "."), {});
   PlanOptions plan_options;
   plan_options.max_depth = 1000000;
   const Plan plan = MakePlan(scene, plan_options);
@@ -126,7 +126,7 @@ TEST_CASE("a time budget ends where paths do not", "[put_down]") {
 
 TEST_CASE("a task that is put down is as if it had not begun", "[put_down]") {
   const ThreadLimit limit(1);
-  CompiledScene scene = PrepareScene(ParseSceneText(R"(
+  PreparedScene scene = PrepareScene(ParseSceneText(R"(
 Camera "perspective"
 Film "rgb" "integer xresolution" 40 "integer yresolution" 24
 Integrator "path" "integer maxdepth" 20

@@ -17,7 +17,7 @@ namespace {
 
 // Of samples that record something too.
 struct PassFixture {
-  CompiledScene scene =
+  PreparedScene scene =
       PrepareScene(ParseSceneText(LampScene(40, 40, 4), "test.pbrt", "."), {});
   StrategyTables tables = MakeStrategyTables(scene);
   TrainingWork work = MakeTrainingWork(scene, 40'000);

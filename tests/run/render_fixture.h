@@ -5,10 +5,9 @@
 
 #include "tests/support/test_target.h"
 #include "src/core/parallel.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/parse/parse.h"
 #include "src/prepare/groups.h"
-#include "src/prepare/use_strategy.h"
 #include "src/run/run.h"
 
 namespace lanelight {
@@ -37,18 +36,19 @@ inline Rendered RenderDescription(const SceneDescription& description,
   const ThreadLimit limit(t.threads);
   CompileOptions compile = t.compile;
   compile.leaf_triangles = LeafTrianglesFor(TestTarget().lanes());  // as a render does
-  CompiledScene scene = PrepareScene(description, compile);
+  PreparedScene scene = PrepareScene(description, compile);
   Strategy strategy = scene.strategy;
   strategy.points = t.sampler;
   ApplyStrategy(t.strategy, {}, strategy);
-  UseStrategy(strategy, scene);
+  scene = WithStrategy(scene, strategy);
   PlanOptions plan_options;
   plan_options.target = TestTarget();
-  plan_options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
+  plan_options.max_depth =
+      static_cast<std::uint32_t>(scene.compiled->integrator.max_depth);
   plan_options.auxiliary = t.auxiliary;
   plan_options.wavefront = t.wavefront;
   const Plan plan = MakePlan(scene, plan_options);
-  Rendered out{FilmAccumulator(0, 0, scene.film.width, scene.film.height,
+  Rendered out{FilmAccumulator(0, 0, scene.view.film.width, scene.view.film.height,
                                GroupsOf(scene.strategy), t.auxiliary),
                {},
                plan};

@@ -8,11 +8,11 @@
 namespace lanelight::resume {
 Rendered Render(const Request& request) {
   const ThreadLimit limit(request.threads);
-  CompiledScene scene =
+  PreparedScene scene =
       PrepareScene(ParseSceneText(LampScene(kWidth, kHeight, 4), "test.pbrt", "."), {});
   Strategy strategy = scene.strategy;
   ApplyStrategy(request.strategy, {}, strategy);
-  UseStrategy(strategy, scene);
+  scene = WithStrategy(scene, strategy);
   PlanOptions plan_options;
   plan_options.max_depth = 4;
   plan_options.wavefront = request.wavefront;

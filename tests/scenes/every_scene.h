@@ -8,7 +8,7 @@
 
 #include "src/parse/parse.h"
 #include "src/prepare/groups.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight::test {
@@ -19,14 +19,15 @@ inline void CheckPresets(const std::filesystem::path& path) {
   SceneDescription description = ParseScene(path.string());
   description.film.width = description.film.height = 32;
   std::fill_n(description.film.crop, 4, 0);
-  CompiledScene scene = PrepareScene(description);
+  PreparedScene scene = PrepareScene(description);
   PlanOptions plan_options;
-  plan_options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
+  plan_options.max_depth =
+      static_cast<std::uint32_t>(scene.compiled->integrator.max_depth);
   for (const PresetInfo& preset : AllPresets()) {
     INFO(path << ", " << preset.name);
     Strategy strategy = scene.strategy;
     ApplyStrategy(preset.name, {}, strategy);
-    UseStrategy(strategy, scene);
+    scene = WithStrategy(scene, strategy);
     FilmAccumulator film(0, 0, 32, 32, GroupsOf(strategy), Auxiliary::kNone);
     RunOptions options;
     options.spp = 4;

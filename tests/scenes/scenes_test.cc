@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/parse/parse.h"
 
 namespace lanelight {
@@ -72,7 +72,7 @@ TEST_CASE("own scenes: all parse and compile", "[scenes]") {
 TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
   const fs::path root = fs::path(LANELIGHT_SOURCE_DIR) / "scenes";
   const auto features = [&](const char* name) {
-    return PrepareScene(ParseScene((root / name).string())).features;
+    return PrepareScene(ParseScene((root / name).string())).compiled->features;
   };
   const FeatureSet paper = features("paper.pbrt");
   CHECK(paper.HasAll({Feature::kPlanes, Feature::kSpheres, Feature::kPointLights,
@@ -193,7 +193,7 @@ TEST_CASE("own scenes: the generated kitchen is many meshes, the same each time"
   }
   // 400 meshes; the bulb, the strip and the door are the other shapes.
   CHECK(scene.shapes.size() == 403);
-  const FeatureSet features = PrepareScene(scene).features;
+  const FeatureSet features = CompileScene(scene).features;
   CHECK(features.HasAll({Feature::kVertexNormals, Feature::kPortals,
                          Feature::kDistantLights, Feature::kRectangleLights,
                          Feature::kSphereLights, Feature::kConductorRough,
@@ -210,7 +210,7 @@ TEST_CASE("own scenes: the generated herd is one mesh, 250 times", "[scenes]") {
   REQUIRE(Generate("herd --size 4000", folder) == 0);
   const SceneDescription scene = ParseScene((folder / "herd" / "herd.pbrt").string());
   CHECK(scene.instances.size() == 250);
-  CHECK(PrepareScene(scene).features.Has(Feature::kInstances));
+  CHECK(CompileScene(scene).features.Has(Feature::kInstances));
   CHECK(Generate("herd --size 2", folder) != 0);
   fs::remove_all(folder);
 }

@@ -3,7 +3,7 @@
 
 #include "kernels/stages.h"
 #include "src/prepare/parameters.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/stat/distributions.h"
 #include "tests/agreement/agreement.h"
 #include "tests/support/wave_fixture.h"
@@ -84,8 +84,8 @@ TEST_CASE("antithetic: quadratic integrands lose or gain as theory says", "[stra
 
 TEST_CASE("antithetic: the second sample has the first one's numbers, reflected",
           "[strategy]") {
-  const CompiledScene scene = PrepareScene(LinearScene(0.5));
-  WaveFixture f(scene, 64);
+  const PreparedScene scene = PrepareScene(LinearScene(0.5));
+  WaveFixture f(scene.Parts(), 64);
   f.wave.path.branch = nullptr;
   Strategy strategy;
   ApplyStrategy("points=independent,pairs=antithetic:all", {}, strategy);

@@ -12,7 +12,7 @@
 #include <map>
 
 #include "tests/reference/closed_forms.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/stat/hypothesis.h"
 #include "tests/strategy/covering.h"
 #include "tests/strategy/hard_scenes.h"
@@ -250,10 +250,10 @@ TEST_CASE("a bias of 1 % is found", "[strategy]") {
 
 TEST_CASE("a probability of selecting a light that is 1 % wrong is found", "[strategy]") {
   const SceneDescription scene = PolygonLight(8);
-  CompiledScene compiled = PrepareScene(scene);
+  PreparedScene compiled = PrepareScene(scene);
   Strategy strategy;
   ApplyStrategy("directions=light,points=independent", {}, strategy);
-  UseStrategy(strategy, compiled);
+  compiled = WithStrategy(compiled, strategy);
   PlanOptions plan_options;
   plan_options.max_depth = 1;
   const auto render = [&](std::uint64_t seed) {
@@ -269,7 +269,9 @@ TEST_CASE("a probability of selecting a light that is 1 % wrong is found", "[str
     return Estimate(out);
   };
   const stat::ImageEstimate good = render(1), again = render(2);
-  for (LightRecord& light : compiled.lights.lights) light.pmf *= 0.99f;
+  LightChances planted = *compiled.chances;
+  for (float& pmf : planted.pmf) pmf *= 0.99f;
+  compiled.chances = std::make_shared<const LightChances>(std::move(planted));
   const stat::ImageEstimate wrong = render(2);
   const stat::ImageTestOptions options = {8, 1e-6, kFloatTolerance, 1e-7};
   CHECK(stat::CompareMeans(good, again, options).same);

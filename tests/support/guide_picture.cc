@@ -55,7 +55,7 @@ class Study {
     TrainingPass pass = {job_.scene, plan_.options, &tables_, Seed()};
     pass.options.training = FeatureSet{Feature::kRecordsGuide};
     TrainingWork work;
-    const int width = job_.description.film.width;
+    const int width = job_.loaded->description.film.width;
     work.pixels = {static_cast<std::uint32_t>(options_.y * width + options_.x)};
     work.spp = static_cast<std::uint32_t>(options_.rays);
     const TrainingSamples found = RunTrainingPass(pass, work);
@@ -129,7 +129,7 @@ void Draw(const Squares& squares, int left, int side, Image& image) {
 }  // namespace
 
 GuidePicture PictureOfGuide(const Job& job, const GuidePictureOptions& options) {
-  const Film& film = job.description.film;
+  const Film& film = job.loaded->description.film;
   if (options.x < 0 || options.y < 0 || options.x >= film.width ||
       options.y >= film.height) {
     throw InputError(fmt::format("pixel {},{} is not in the image of {}x{} pixels",

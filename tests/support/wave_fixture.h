@@ -94,8 +94,8 @@ struct TestRay {
 /// A wavefront whose slots are all in kActive, kSurface or kShadow at will.
 class WaveFixture {
  public:
-  WaveFixture(const CompiledScene& scene, std::uint32_t capacity) {
-    wave.scene = &scene;
+  WaveFixture(const SceneParts& scene, std::uint32_t capacity) {
+    static_cast<SceneParts&>(wave) = scene;
     wave.run = &run;
     wave.capacity = capacity;
     storage_.reserve(kNumFields + kNumQueues);
@@ -108,6 +108,10 @@ class WaveFixture {
     for (Queue& queue : wave.queues) queue.items = NewColumn(capacity);
     wave.lists = ColumnLists(wave.path, FeatureSet::All());
   }
+
+  /// Of a scene whose lights are not sampled.
+  WaveFixture(const CompiledScene& scene, std::uint32_t capacity)
+      : WaveFixture(SceneParts{&scene, &scene.view, nullptr}, capacity) {}
 
   /// Writes rays to slots 0.. in the order given and queues them in kActive.
   void SetRays(const std::vector<TestRay>& rays) {

@@ -5,7 +5,7 @@
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/core/pi.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "tests/reference/relief.h"
 #include "tests/reference/scenes.h"
 #include "tests/support/wave_fixture.h"
@@ -19,13 +19,13 @@ class Surfaces {
  public:
   Surfaces(const SceneDescription& description, const std::vector<TestRay>& rays)
       : scene_(PrepareScene(description)),
-        fixture_(scene_, static_cast<std::uint32_t>(rays.size())) {
-    FeatureSet features = scene_.features;
+        fixture_(scene_.Parts(), static_cast<std::uint32_t>(rays.size())) {
+    FeatureSet features = scene_.compiled->features;
     features.Add(Feature::kScatters);
     std::vector<TestRay> moved = rays;
     for (TestRay& ray : moved) {
       const Vec3d o = VecCast<double>(ray.o);
-      ray.o = VecCast<float>((o - scene_.center) * scene_.scale);
+      ray.o = VecCast<float>((o - scene_.compiled->center) * scene_.compiled->scale);
       ray.d = Normalize(ray.d);
     }
     fixture_.SetRays(moved);
@@ -40,10 +40,11 @@ class Surfaces {
   Vec3d Ns(std::uint32_t i) const { return VecCast<double>(fixture_.Ns(i)); }
   Vec3d Ng(std::uint32_t i) const { return VecCast<double>(fixture_.Ng(i)); }
   Vec3d World(std::uint32_t i) const {
-    return VecCast<double>(fixture_.P(i)) * (1 / scene_.scale) + scene_.center;
+    return VecCast<double>(fixture_.P(i)) * (1 / scene_.compiled->scale) +
+           scene_.compiled->center;
   }
   const PathColumns& path() const { return fixture_.wave.path; }
-  const CompiledScene& scene() const { return scene_; }
+  const CompiledScene& scene() const { return *scene_.compiled; }
 
  private:
   void Run(const std::vector<StageOn>& stages, const FeatureSet& features) {
@@ -51,7 +52,7 @@ class Surfaces {
       if (features.HasAll(stage(TestTarget()).needs)) fixture_.Run(stage, features);
     }
   }
-  CompiledScene scene_;
+  PreparedScene scene_;
   WaveFixture fixture_;
 };
 

@@ -18,10 +18,9 @@ struct Choices {
 Choices ChoicesFor(const std::string& scene) {
   RenderSettings settings;
   settings.spp = 1;
-  Job job = PrepareJob(scene, settings);
   Strategy strategy;
   ApplyStrategy("decide=pilot", {}, strategy);
-  SetStrategy(job, strategy);
+  const Job job = WithStrategy(PrepareJob(scene, settings), strategy);
   Choices chosen;
   for (int seed = 0; seed < kSeeds; ++seed) {
     FilmAccumulator film = MakeFilm(job);

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "src/plan/plan_features.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/train/path_records.h"
 #include "src/train/pilot_comparison.h"
 #include "src/train/strategy_trial.h"
@@ -295,7 +295,7 @@ TEST_CASE("what cannot vary more is told by the rest of the pixels", "[decision]
 }
 
 TEST_CASE("paths live longer by a milder roulette alone", "[decision]") {
-  const CompiledScene scene = PrepareScene(SplitRoom());
+  const PreparedScene scene = PrepareScene(SplitRoom());
   const TrainingOptions training;
   const auto lives_longer = [&](const std::string& given, const std::string& changes) {
     PlanOptions options = WithChanges(scene, {}, given);

@@ -32,8 +32,10 @@ thread_local constinit InterposedCalls counts{};
 bool CanInterpose() { return true; }
 
 namespace {
-void NoteAllocation() {
-  if (counting) ++counts.allocations;
+void NoteAllocation(std::size_t bytes) {
+  if (!counting) return;
+  ++counts.allocations;
+  counts.bytes += bytes;
 }
 void NoteLock() {
   if (counting) ++counts.locks;
@@ -63,23 +65,23 @@ void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
 
 void* malloc(std::size_t n) {
-  lanelight::NoteAllocation();
+  lanelight::NoteAllocation(n);
   return __libc_malloc(n);
 }
 void* calloc(std::size_t n, std::size_t size) {
-  lanelight::NoteAllocation();
+  lanelight::NoteAllocation(n * size);
   return __libc_calloc(n, size);
 }
 void* realloc(void* p, std::size_t n) {
-  lanelight::NoteAllocation();
+  lanelight::NoteAllocation(n);
   return __libc_realloc(p, n);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t n) {
-  lanelight::NoteAllocation();
+  lanelight::NoteAllocation(n);
   return __libc_memalign(alignment, n);
 }
 int posix_memalign(void** out, std::size_t alignment, std::size_t n) {
-  lanelight::NoteAllocation();
+  lanelight::NoteAllocation(n);
   *out = __libc_memalign(alignment, n);
   return *out == nullptr ? ENOMEM : 0;
 }

@@ -8,6 +8,7 @@ namespace lanelight {
 /// Calls since counting began on this thread.
 struct InterposedCalls {
   std::uint64_t allocations = 0, locks = 0;
+  std::uint64_t bytes = 0;  // asked for by the allocations
 };
 
 /// Whether the functions are interposed in this binary; not so under sanitizers, which

@@ -121,7 +121,7 @@ TEST_CASE("only scenes with lights that can be seen have stages for their edges"
   b.AddPoint({0, 0, 2}, Grey(1));
   CHECK(MakePlan(PrepareScene(b.Build(), {}), {}).seen_stages.empty());
   b.AddEnvironment(Grey(1));
-  const CompiledScene scene = PrepareScene(b.Build(), {});
+  const PreparedScene scene = PrepareScene(b.Build(), {});
   const Plan plan = MakePlan(scene, {});
   CHECK_FALSE(plan.seen_stages.empty());
   // What shades and samples lights is not among them; all of them are stages of the
@@ -164,7 +164,7 @@ TEST_CASE("a lamp smaller than a pixel is found where the camera projects it",
   const Index dark = b.AddDiffuse(Grey(0)), lamp = b.AddEmission(Grey(1e4));
   b.AddSphere({0.5, 0.3, 1.4}, 0.004, dark, lamp);
   b.AddSphere({1.2, -9, 2}, 0.004, dark, lamp);  // behind the camera
-  const CompiledScene scene = PrepareScene(b.Build(), {});
+  const PreparedScene scene = PrepareScene(b.Build(), {});
   const auto places = PlacesOfSmallLights(scene);
   REQUIRE(!places.empty());
   CHECK(places.size() <= 4);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "src/prepare/path_values.h"
-#include "src/prepare/prepare_scene.h"
+#include "src/prepare/prepared_scene.h"
 #include "src/prepare/tables.h"
 #include "src/wave/drive.h"
 #include "src/wave/tiles.h"
@@ -48,7 +48,7 @@ class TaskFixture {
       : scene_(PrepareScene(ParseSceneText(text, "test.pbrt", "."), {})) {
     Strategy s = scene_.strategy;
     ApplyStrategy(strategy, {}, s);
-    UseStrategy(s, scene_);
+    scene_ = WithStrategy(scene_, s);
     PlanOptions options;
     options.max_depth = 6;
     options.auxiliary = auxiliary;
@@ -92,7 +92,7 @@ class TaskFixture {
     Train({scene_, plan, run_.seed, options, tables_});
   }
 
-  CompiledScene scene_;
+  PreparedScene scene_;
   StrategyTables tables_;
   RunParameters run_;
   std::uint32_t copies_ = 1;

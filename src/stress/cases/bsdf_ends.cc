@@ -14,7 +14,7 @@ namespace lanelight::stress {
 namespace {
 
 // One shape of each material, so that all are compiled.
-CompiledScene Materials(double alpha) {
+std::shared_ptr<const CompiledScene> Materials(double alpha) {
   const std::string rough = Alphas(alpha, alpha);
   std::string text = ViewOfPlane() + Sky(1);
   for (const std::string& material : std::vector<std::string>{
@@ -27,7 +27,7 @@ CompiledScene Materials(double alpha) {
            "\"diffusetransmission\"", "\"hair\" \"float beta_m\" 0.05"}) {
     text += Sphere({0, 0, 0}, 1, material);
   }
-  return PrepareText({text, {}}).scene;
+  return PrepareText({text, {}}).scene.compiled;
 }
 
 bool Sane(float v) { return v >= 0 && std::isfinite(v); }
@@ -99,16 +99,17 @@ Point Material(SimdTarget target, const MaterialTable& table, std::uint32_t row)
 }
 
 std::vector<Point> ByAlpha(double alpha, const Effort& effort) {
-  const CompiledScene scene = Materials(alpha);
+  const auto scene = Materials(alpha);
+  const MaterialTable& materials = scene->materials;
   static constexpr const char* kNames[] = {
 #define X(name, traits, meaning) meaning,
       LANELIGHT_SHADE_KINDS(X)
 #undef X
   };
   std::vector<Point> points;
-  for (std::uint32_t row = 0; row < scene.materials.size(); ++row) {
-    points.push_back(Named(fmt::format("{} {}", row, kNames[scene.materials.kind[row]]),
-                           Material(effort.target, scene.materials, row)));
+  for (std::uint32_t row = 0; row < materials.size(); ++row) {
+    points.push_back(Named(fmt::format("{} {}", row, kNames[materials.kind[row]]),
+                           Material(effort.target, materials, row)));
   }
   return points;
 }

@@ -1,6 +1,6 @@
 // environment=compensated: when it has an effect, that it can be undone, and that it
 // lowers the variance where it should.
-#include "src/prepare/use_strategy.h"
+#include "src/prepare/prepared_scene.h"
 
 #include <catch2/catch.hpp>
 
@@ -46,8 +46,8 @@ Strategy Parsed(const std::string& text) {
   return strategy;
 }
 
-const Environment& SkyOf(const CompiledScene& scene) {
-  return scene.lights.environments.at(0);
+const EnvironmentTable& SkyOf(const PreparedScene& scene) {
+  return *scene.chances->environments.at(0);
 }
 
 // Sum over the pixels of the variance of their mean.
@@ -68,21 +68,21 @@ Rendered RenderWith(const SceneDescription& scene, const std::string& strategy) 
 
 TEST_CASE("compensated environments are for directions=mis", "[strategy]") {
   const TemporaryFolder folder;
-  CompiledScene scene = PrepareScene(UnderSky(WriteSky(folder)));
+  PreparedScene scene = PrepareScene(UnderSky(WriteSky(folder)));
   const AlignedVector<float> plain = SkyOf(scene).probability;
   for (const char* directions : {"uniform", "bsdf", "light"}) {
     const std::string text = std::string("directions=") + directions;
-    UseStrategy(Parsed(text + ",environment=compensated"), scene);
+    scene = WithStrategy(scene, Parsed(text + ",environment=compensated"));
     INFO(text);
     CHECK(SkyOf(scene).probability == plain);
     const auto notes = CheckStrategy(scene, {});
     REQUIRE(notes.size() == 1);
     CHECK(notes[0].find("environment=compensated has no effect") == 0);
   }
-  UseStrategy(Parsed("environment=compensated"), scene);
+  scene = WithStrategy(scene, Parsed("environment=compensated"));
   CHECK(CheckStrategy(scene, {}).empty());
   CHECK(SkyOf(scene).probability[6 * 16 + 9] == 1);
-  UseStrategy(Parsed("directions=light"), scene);
+  scene = WithStrategy(scene, Parsed("directions=light"));
   CHECK(SkyOf(scene).probability == plain);
 }
 
@@ -90,20 +90,20 @@ TEST_CASE("a scene that compensates its environment itself can be made plain",
           "[strategy]") {
   const TemporaryFolder folder;
   SceneDescription description = UnderSky(WriteSky(folder));
-  const CompiledScene plain = PrepareScene(description);
+  const PreparedScene plain = PrepareScene(description);
   description.strategy.environment = EnvironmentPoints::kCompensated;
-  CompiledScene scene = PrepareScene(description);
+  PreparedScene scene = PrepareScene(description);
   CHECK(SkyOf(scene).probability[0] == 0);
-  UseStrategy({}, scene);
+  scene = WithStrategy(scene, {});
   CHECK(SkyOf(scene).probability == SkyOf(plain).probability);
   CHECK(SkyOf(scene).column_cdf == SkyOf(plain).column_cdf);
 }
 
 TEST_CASE("a compensated environment has a plan key of its own", "[strategy]") {
   const TemporaryFolder folder;
-  CompiledScene scene = PrepareScene(UnderSky(WriteSky(folder)));
+  PreparedScene scene = PrepareScene(UnderSky(WriteSky(folder)));
   const auto key = [&](const std::string& strategy) {
-    UseStrategy(Parsed(strategy), scene);
+    scene = WithStrategy(scene, Parsed(strategy));
     return PlanKey(scene, MakePlan(scene, {}));
   };
   CHECK(key("environment=compensated") != key(""));
