@@ -51,7 +51,7 @@ STAGES = [
     ("accumulate", "Done", "Free"),
     ("pack", "Scattered", ""),
 ]
-# What the driver (src/wave/drive.cc) does between stages.
+# What the driver (src/wave/task_runner.cc) does between stages.
 DRIVER = [("Scattered", "Active", "the next wave"),
           ("Surface", "Vertex", "the same, unless media scatter as well")]
 
@@ -96,8 +96,8 @@ CALLS = [
     ("src/render/render.cc", "RenderToFiles", "Run", "src/run/run.cc"),
     ("src/run/run.cc", "Run", "RunRound", "src/run/tasks.cc"),
     ("src/run/tasks.cc", "RunRound", "TaskRunner::Run", "src/wave/task_runner.cc"),
-    ("src/wave/task_runner.cc", "TaskRunner::Run", "Drive", "src/wave/drive.cc"),
-    ("src/wave/drive.cc", "Drive", "kernel", "kernels/"),
+    ("src/wave/task_runner.cc", "TaskRunner::Run", "Drive", "src/wave/task_runner.cc"),
+    ("src/wave/task_runner.cc", "Drive", "kernel", "kernels/"),
     ("src/run/tasks.cc", "RunRound", "TaskRunner::Merge", "src/wave/task_runner.cc"),
     ("src/wave/task_runner.cc", "TaskRunner::Merge", "films.Add", "src/wave/films.cc"),
     ("src/render/render.cc", "RenderToFiles", "WriteRendering", "src/render/render.cc"),

@@ -15,7 +15,7 @@ struct CompiledView;
 struct LightChances;  // src/compiled/lights.h
 struct Block;         // src/path/block.h
 
-// Queues hold path slots. Stages append and read; the driver (src/wave/drive.cc)
+// Queues hold path slots. Stages append and read; the driver (src/wave/task_runner.cc)
 // clears all but kFree, and kActive, which it takes from kScattered, before a wave.
 // X(name, meaning)
 #define LANELIGHT_QUEUES(X)                                   \

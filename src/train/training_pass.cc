@@ -14,7 +14,7 @@
 #include "src/wave/copies.h"
 #include "src/plan/plan_features.h"
 #include "src/train/rank_passes.h"
-#include "src/wave/drive.h"
+#include "src/wave/task_runner.h"
 #include "src/wave/tiles.h"
 #include "src/wave/wavefront.h"
 

@@ -8,7 +8,7 @@
 #include "src/prepare/groups.h"
 #include "src/strategy/choices.h"
 #include "src/wave/seen_light_places.h"
-#include "src/wave/drive.h"
+#include "src/wave/task_runner.h"
 #include "src/wave/tiles.h"
 
 namespace lanelight {

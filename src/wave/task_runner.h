@@ -1,4 +1,5 @@
-// One task: samples of the pixels of a tile, in the wavefront of the thread that runs it.
+// One task: samples of the pixels of a tile, in the wavefront of the thread that runs it:
+// waves of stages until all of them are done.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,25 @@
 #include "src/wave/workspace.h"
 
 namespace lanelight {
+
+/// Samples of a pixel in adjacent slots of a plan's wavefront: their rays share more of
+/// the scene than those of neighbouring pixels. Never more than it has slots; even where
+/// samples come in pairs.
+std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan);
+
+/// Samples to take, and where finished ones go.
+struct DriveTask {
+  TileWork work;
+  SampleBuffer buffer;
+  bool seen_lights = false;  // by Plan::seen_stages alone
+};
+
+/// The loop of one task: runs it to the end on `wave`, whose columns are those of the
+/// plan, or of its seen_features. `clock` times the stages; null: nothing is timed.
+/// Returns false if the watcher has cancelled it; then the buffer is of no use. Null:
+/// nobody does.
+bool Drive(Wave& wave, const Plan& plan, const DriveTask& task, StageClock* clock,
+           const TaskWatcher* watcher = nullptr);
 
 struct TileTask {
   std::size_t tile = 0;                         // in what Begin has been given

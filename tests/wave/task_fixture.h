@@ -8,7 +8,7 @@
 #include "src/prepare/path_values.h"
 #include "src/prepare/prepared_scene.h"
 #include "src/prepare/tables.h"
-#include "src/wave/drive.h"
+#include "src/wave/task_runner.h"
 #include "src/wave/tiles.h"
 #include "src/wave/wavefront.h"
 #include "src/train/training.h"
