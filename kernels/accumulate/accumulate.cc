@@ -94,7 +94,7 @@ void Accumulate(Wave& wave) {
                  const VI output = Gather(p.output, slots);
                  LL_DCHECK(AllUnder(valid, InBuffer(wave, output)));
                  V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
-                 if (kSigned && p.wavelength != nullptr) {
+                 if (kSigned && p.wavelength != nullptr && !is_light) {
                    sample = FilmColor(wave.scene->spectra, sample, {p, slots});
                  }
                  if (p.weight != nullptr && !is_light) {

@@ -4,6 +4,7 @@
 
 #include "kernels/generate/filter-inl.h"
 #include "kernels/queue/batch-inl.h"
+#include "kernels/simd/pixel-inl.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -29,23 +30,9 @@ HWY_INLINE void FilmPosition(const Wave& wave, const StoreSlots& slots, VF* x, V
       Scatter(hn::Mul(hn::Mul(sign_x, sign_y), Splat(filter.weight)), p.weight, slots);
     }
   }
-  // Row and column of the pixel index: float division is off by at most one row for
-  // images of less than 2^31 pixels, which the correction undoes.
-  const DI di;
-  const VI width = hn::Set(di, static_cast<int32_t>(wave.run->width));
-  VI row = hn::ConvertTo(di, hn::Mul(hn::ConvertTo(DF(), pixel),
-                                     Splat(1.0f / static_cast<float>(wave.run->width))));
-  VI column = hn::Sub(pixel, hn::Mul(row, width));
-  for (int step = 0; step < 2; ++step) {
-    const auto low = hn::Lt(column, hn::Zero(di));
-    row = hn::IfThenElse(low, hn::Sub(row, hn::Set(di, 1)), row);
-    column = hn::IfThenElse(low, hn::Add(column, width), column);
-    const auto high = hn::Gt(column, hn::Sub(width, hn::Set(di, 1)));
-    row = hn::IfThenElse(high, hn::Add(row, hn::Set(di, 1)), row);
-    column = hn::IfThenElse(high, hn::Sub(column, width), column);
-  }
-  *x = hn::Add(hn::Add(hn::ConvertTo(DF(), column), Splat(0.5f)), dx);
-  *y = hn::Add(hn::Add(hn::ConvertTo(DF(), row), Splat(0.5f)), dy);
+  const PixelPlace place(pixel, wave.run->width);
+  *x = hn::Add(hn::Add(hn::ConvertTo(DF(), place.column), Splat(0.5f)), dx);
+  *y = hn::Add(hn::Add(hn::ConvertTo(DF(), place.row), Splat(0.5f)), dy);
 }
 
 /// A camera, present where the plan has `projection`.

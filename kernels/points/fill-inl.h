@@ -12,6 +12,7 @@
 #define LANELIGHT_POINTS_FILL_INL_H_
 
 #include "kernels/points/group-inl.h"
+#include "kernels/points/wavelength-inl.h"
 #include "kernels/queue/key-inl.h"
 #include "kernels/queue/batch-inl.h"
 
@@ -72,6 +73,21 @@ LANELIGHT_INLINE void Draw(const RunParameters& run, const Drawer& drawer,
 }
 
 template <class Policy, bool kPlain>
+LANELIGHT_INLINE void FillWavelength(const RunParameters& run, const Drawer& drawer,
+                                     const PathColumns& p) {
+  if (run.points.by_tile) {
+    const VF number = TileWavelength(run, drawer.pixel, drawer.sample);
+    Scatter(number, p.wavelength, drawer.slots);
+  } else if (run.points.group_shift > 0 && !run.features.Has(Feature::kDispersion)) {
+    const VF number = PixelWavelength(run, drawer.pixel, drawer.sample);
+    Scatter(number, p.wavelength, drawer.slots);
+  } else {
+    Draw<Policy, kPlain, true>(run, drawer, Dimension::kWavelength, p.wavelength,
+                               nullptr);
+  }
+}
+
+template <class Policy, bool kPlain>
 LANELIGHT_INLINE void FillCameraBatches(Wave& wave) {
   const PathColumns p = wave.path;
   const RunParameters run = *wave.run;
@@ -91,10 +107,7 @@ LANELIGHT_INLINE void FillCameraBatches(Wave& wave) {
           Draw<Policy, kPlain, false>(run, drawer, Dimension::kCameraMedium, p.u_medium_0,
                                       p.u_medium_1);
         }
-        if (p.wavelength != nullptr) {
-          Draw<Policy, kPlain, true>(run, drawer, Dimension::kWavelength, p.wavelength,
-                                     nullptr);
-        }
+        if (p.wavelength != nullptr) FillWavelength<Policy, kPlain>(run, drawer, p);
       });
 }
 

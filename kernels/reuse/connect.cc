@@ -3,7 +3,10 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/accumulate/check-inl.h"
+#include "kernels/points/wavelength-inl.h"
 #include "kernels/reuse/block-inl.h"
+#include "kernels/texture/wavelengths-inl.h"
+#include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -74,10 +77,19 @@ HWY_INLINE void TakeBack(const Wave& wave) {
   }
 }
 
+// The wavelengths of the block's paths: those of the tile.
+HWY_INLINE Wavelengths BlockWavelengths(const Wave& wave) {
+  const TileWork& work = wave.work;
+  const VU sample = SplatU(work.first_sample + wave.block->sample);
+  return Wavelengths(TileWavelength(*wave.run, SplatU(work.pixels[0]), sample));
+}
+
 // Makes samples of light, once all of it is there.
 template <bool kSigned>
 HWY_INLINE void FinishSamples(Wave& wave) {
   const DI di;
+  const bool spectral = kSigned && wave.run->points.by_tile;
+  const Wavelengths wavelengths = BlockWavelengths(wave);
   const Block& block = *wave.block;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
   const std::size_t stride = wave.buffer.stride;
@@ -95,7 +107,8 @@ HWY_INLINE void FinishSamples(Wave& wave) {
         hn::IfThenElse(hn::RebindMask(di, valid), loaded,
                        hn::Set(di, static_cast<int32_t>(block.records[i])));
     const VI at = hn::Mul(hn::Sub(records, first), samples);
-    const V3 light = Gather3(red, red + stride, red + 2 * stride, at);
+    V3 light = Gather3(red, red + stride, red + 2 * stride, at);
+    if (spectral) light = FilmColor(wave.scene->spectra, light, wavelengths);
     const V3 color = Mul(light, hn::Mul(Gather(weights, at), exposure));
     const V3 value = Check<kSigned>(wave.health, color, valid).value;
     Scatter3(value, red, red + stride, red + 2 * stride, at);
@@ -134,8 +147,12 @@ Stage ReuseConnectStage() {
           .input = QueueId::kScratch,
           .needs = {Feature::kReuse, Feature::kScatters},
           .scope = StageScope::kBlock,
-          .resolve =
-              ByFeature<Feature::kSignedFilter, ConnectBlock<true>, ConnectBlock<false>>};
+          .resolve = [](const FeatureSet& features) -> StageFn {
+            // The film's view of wavelengths may be below 0.
+            return features.HasAny({Feature::kSignedFilter, Feature::kSpectral})
+                       ? ConnectBlock<true>
+                       : ConnectBlock<false>;
+          }};
 }
 
 LANELIGHT_END_KERNELS

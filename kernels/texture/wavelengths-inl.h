@@ -20,10 +20,11 @@ struct Wavelengths {
   VI hero;    // 0, 1, 2: the wavelength that glass leaves
   MF alone;   // glass has left it
 
-  LANELIGHT_INLINE Wavelengths(const PathColumns& p, const Slots& slots) {
+  LANELIGHT_INLINE Wavelengths(const PathColumns& p, const Slots& slots)
+      : Wavelengths(Gather(p.wavelength, slots)) {}
+  LANELIGHT_INLINE explicit Wavelengths(VF number) {
     const DI di;
     const DF df;
-    const VF number = Gather(p.wavelength, slots);
     alone =
         hn::MaskFromVec(hn::BitCast(df, hn::BroadcastSignBit(hn::BitCast(di, number))));
     const VF thirds = hn::Mul(hn::Abs(number), Splat(3.0f));
@@ -59,12 +60,19 @@ LANELIGHT_INLINE VF IndexAt(const SpectrumTable& table, VI row, const Wavelength
   return hn::MulAdd(part, hn::Sub(high, low), low);
 }
 
-/// What the film sees of values at the three wavelengths: linear sRGB.
+/// What the film sees of values at the three wavelengths: linear sRGB. What three ones
+/// add to a channel is 1, so that only what two differ by from the third need be looked
+/// up.
 LANELIGHT_INLINE V3 FilmColor(const SpectrumTable& table, V3 value,
                               const Wavelengths& w) {
-  return {Dot(value, ByBin(table.film[0].data(), w.triple)),
-          Dot(value, ByBin(table.film[1].data(), w.triple)),
-          Dot(value, ByBin(table.film[2].data(), w.triple))};
+  const VF longer = hn::Sub(value.x, value.z), middle = hn::Sub(value.y, value.z);
+  const auto channel = [&](const float* film) HWY_ATTR {
+    const VF of_longer = Gather(film + 2 * kTriples, w.triple);
+    const VF of_middle = Gather(film + kTriples, w.triple);
+    return hn::MulAdd(longer, of_longer, hn::MulAdd(middle, of_middle, value.z));
+  };
+  return {channel(table.film[0].data()), channel(table.film[1].data()),
+          channel(table.film[2].data())};
 }
 
 /// Reflectances, their channels in [0, 1], by MakeUpsamplingTable().

@@ -14,6 +14,7 @@ namespace lanelight {
 struct PointsParameters {
   std::uint32_t group_shift = 0;
   const std::uint32_t* pmj02 = nullptr;  // table of pmj02.h (pmj02)
+  bool by_tile = false;                  // pixels of a tile share their wavelengths
 };
 
 /// Antithetic pairs: bit d set = dimension d (src/path/dimensions.h) is shared by

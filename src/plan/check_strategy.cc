@@ -40,9 +40,6 @@ void CheckSpectral(const Strategy& s, const PreparedScene& scene) {
     refuse(std::string("control=") + Name(s.control),
            "its expected value is in red, green and blue");
   }
-  if (s.reuse != Reuse::kNone) {
-    refuse("reuse=block", "paths that serve each other have other wavelengths");
-  }
 }
 
 void CheckControl(const Strategy& s, const PreparedScene& scene,
@@ -79,8 +76,14 @@ void CheckControl(const Strategy& s, const PreparedScene& scene,
 }
 
 // A sample of a block is not what one path has brought.
-void CheckReuse(const Strategy& s) {
+void CheckReuse(const Strategy& s, const FeatureSet& plan) {
   if (s.reuse == Reuse::kNone) return;
+  if (plan.HasAll({Feature::kReuse, Feature::kDispersion})) {
+    Refuse(
+        "reuse=block does not work with --transport spectral where glass disperses, "
+        "which leaves some paths one wavelength of three: --transport rgb renders with "
+        "it");
+  }
   if (s.Splits()) {
     Refuse(std::string("reuse=block needs paths that do not split, as with roulette=") +
            Name(s.roulette) + ": use roulette=throughput");
@@ -187,9 +190,9 @@ Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy s = PlannedStrategy(scene, options);
   CheckSpectral(s, scene);
   CheckControl(s, scene, options);
-  CheckReuse(s);
-  Notes notes;
   const FeatureSet plan = PlanFeatures(scene, options);
+  CheckReuse(s, plan);
+  Notes notes;
   const Checked checked = {s, scene.compiled->features, plan, options, notes};
   NoteLights(checked);
   NoteEnvironment(checked);

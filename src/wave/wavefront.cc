@@ -50,6 +50,7 @@ RunParameters MakeRunParameters(const PreparedScene& scene, const Plan& plan) {
   run.height = static_cast<std::uint32_t>(scene.view.film.height);
   const Strategy strategy = PlannedStrategy(scene, plan.options);
   run.points = MakePointsParameters(strategy.points);
+  run.points.by_tile = plan.features.HasAll({Feature::kReuse, Feature::kSpectral});
   run.pairs = MakePairParameters(strategy);
   run.mis = MakeMisParameters(strategy);
   run.roulette = MakeRouletteParameters(strategy);

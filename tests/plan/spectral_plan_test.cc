@@ -102,17 +102,21 @@ TEST_CASE("spectral plan: what cannot carry wavelengths is refused", "[plan][spe
       "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_a\" ";
   const std::string inside = "MediumInterface \"m\" \"\"\nMaterial \"interface\"\n";
   CHECK(compiles(medium + "[ 1 2 3 ] \"rgb sigma_s\" [ 1 1 1 ]\n" + inside).empty());
-  CHECK(compiles("Texture \"t\" \"spectrum\" \"checkerboard\"\nMaterial \"subsurface\" "
-                 "\"texture reflectance\" \"t\" \"rgb mfp\" [ 1 1 1 ]\n")
-            .find("reflectance has a texture") != std::string::npos);
+  CHECK(compiles("MakeNamedMedium \"m\" \"string type\" \"rgbgrid\" \"integer nx\" 1 "
+                 "\"integer ny\" 1 \"integer nz\" 1 \"rgb sigma_a\" [ 1 2 3 ]\n" +
+                 inside)
+            .find("\"rgbgrid\"") != std::string::npos);
 
   const SceneDescription diffuse = SpectralScene("Material \"diffuse\"\n");
-  for (const char* strategy : {"control=analytic", "reuse=block"}) {
-    INFO(strategy);
-    CHECK(Refusal([&] {
-            SpectralPlan(diffuse, strategy);
-          }).find("--transport spectral") != std::string::npos);
-  }
+  CHECK(Refusal([&] {
+          SpectralPlan(diffuse, "control=analytic");
+        }).find("--transport spectral") != std::string::npos);
+  const SceneDescription prism = SpectralScene(
+      "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\nShape "
+      "\"sphere\"\nMaterial \"diffuse\"\n");
+  CHECK(Refusal([&] { SpectralPlan(prism, "reuse=block"); }).find("glass disperses") !=
+        std::string::npos);
+  CHECK(SpectralPlan(diffuse, "reuse=block").features.Has(Feature::kReuse));
 }
 
 TEST_CASE("spectral plan: glass that disperses is noted in RGB", "[plan][spectral]") {
