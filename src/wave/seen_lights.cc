@@ -121,9 +121,12 @@ void SeenLightRays::Trace(const Work& rays, StageClock* clock, std::vector<float
   run_.candidates = 1;
   run_.features = plan_.seen_features;
   run_.planes = SamplePlanes(plan_.seen_features);
+  float* const wavelength = wave_.path.wavelength;
+  if (rays.in_rgb) wave_.path.wavelength = nullptr;
   Drive(wave_, plan_,
         {work, {out.data(), static_cast<std::uint32_t>(rows)}, /*seen_lights=*/true},
         clock);
+  wave_.path.wavelength = wavelength;
 }
 
 SeenLightEdges::SeenLightEdges(const PreparedScene& scene, std::size_t tiles)
@@ -148,13 +151,14 @@ void SeenLightEdges::FindIn(const PixelRect& rect, SeenLightRays& rays, StageClo
   std::vector<std::uint32_t>& pixels = rays.pixels;
   TilePixels(all, scene_.view.film.width, &pixels);
   const std::size_t rows = pixels.size() * kFindRays;
-  rays.Trace({pixels.data(), pixels.size(), kFindSeed, 0, kFindRays}, clock, rays.others);
+  rays.Trace({pixels.data(), pixels.size(), kFindSeed, 0, kFindRays, true}, clock,
+             rays.others);
   for (std::size_t p = 0; p < pixels.size(); ++p) {
     ranges.Add(pixels[p], rays.others.data() + p * kFindRays, rows, kFindRays);
   }
   for (const std::uint32_t pixel : pixels) {
     if (!std::binary_search(small_lights_.begin(), small_lights_.end(), pixel)) continue;
-    rays.Trace({&pixel, 1, kFindSeed, 0, kSmallLightRays}, clock, rays.own);
+    rays.Trace({&pixel, 1, kFindSeed, 0, kSmallLightRays, true}, clock, rays.own);
     ranges.Add(pixel, rays.own.data(), kSmallLightRays, kSmallLightRays);
   }
   TilePixels(rect, scene_.view.film.width, &pixels);

@@ -43,6 +43,8 @@ class SeenLightRays {
     std::uint32_t seed = 0;
     std::uint64_t first = 0;
     std::uint32_t count = 0;
+    /// Whatever paths carry: one that has other wavelengths sees no other light.
+    bool in_rgb = false;
   };
 
   /// Of a plan with seen_stages. Refers to all of these.

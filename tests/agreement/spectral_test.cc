@@ -353,6 +353,20 @@ TEST_CASE("spectral: the same on every SIMD target", "[spectral]") {
   ForceTarget("");
 }
 
+// A sky whose colour differs by triple has no edges that the camera sees.
+TEST_CASE("spectral: edges of lights are where they are in RGB", "[spectral]") {
+  SceneBuilder b(16, 16);
+  b.Depth(1).Perspective({0, -4, 0}, {0, 0, 0}, {0, 0, 1}, 40);
+  b.AddSphere({0, 0, 0}, 0.5, b.AddDiffuse(Grey(0)));
+  b.AddEnvironment({6, 1, 0.5});
+  const SceneDescription scene = b.Build();
+  TestRender options;
+  const auto rays = [&](const SceneDescription& s) {
+    return RenderDescription(s, options).result.rays_closest;
+  };
+  CHECK(rays(Spectral(scene)) == rays(scene));
+}
+
 TEST_CASE("spectral: albedo of first hits is the colour that is seen", "[spectral]") {
   TestRender options;
   options.spp = 1024;
