@@ -18,9 +18,6 @@ void CheckMedium(const Medium& medium) {
   if (medium.kind == MediumKind::kRgbGrid) {
     Refuse(medium.where, "the medium" + name + " of type \"rgbgrid\"");
   }
-  if (medium.by_reflectance && medium.reflectance.texture != kNone) {
-    Refuse(medium.where, "the inside of a material, whose reflectance has a texture,");
-  }
   const bool heated = !medium.temperature.empty() || medium.sparse_temperature != nullptr;
   const bool varies = medium.kind != MediumKind::kHomogeneous;
   if (heated || (varies && !IsGrey(medium.emission))) {

@@ -8,9 +8,8 @@
 namespace lanelight {
 
 /// Throws InputError, with the place, for what the description uses and only red, green
-/// and blue are known of: grids of colours, media that glow by their temperature,
-/// textured insides of materials, and materials that are measured. `used`: the materials
-/// of shapes.
+/// and blue are known of: grids of colours, media that glow by their temperature, and
+/// materials that are measured. `used`: the materials of shapes.
 void CheckTransport(const SceneDescription& description, const std::vector<Index>& used);
 
 /// Of paths that carry red, green and blue: the first used glass whose index is taken at

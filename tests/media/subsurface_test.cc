@@ -166,17 +166,21 @@ TEST_CASE("subsurface: a textured reflectance", "[media][subsurface]") {
     return b.Build();
   };
   const Rgb dark = {0.2, 0.4, 0.6}, light = {0.9, 0.7, 0.5};
-  const auto textured = RenderWavefront(scene(dark, light, true), 16384);
   const double f = reference::FresnelDielectric(1, 1.33);
-  for (int y = 0; y < 2; ++y) {
-    for (int x = 0; x < 2; ++x) {
-      const auto at = static_cast<std::size_t>(2 * y + x);
-      const Rgb want = x == y ? dark : light;
-      for (int c = 0; c < 3; ++c) {
-        const double error = std::sqrt(textured.variance[at][c]);
-        INFO("pixel " << x << ", " << y << ", channel " << c);
-        CHECK(std::abs(textured.mean[at][c] - (f + (1 - f) * want[c])) <
-              5 * error + 3e-3);
+  for (const Transport transport : {Transport::kRgb, Transport::kSpectral}) {
+    SceneDescription boards = scene(dark, light, true);
+    boards.integrator.transport = transport;
+    const auto textured = RenderWavefront(boards, 16384);
+    for (int y = 0; y < 2; ++y) {
+      for (int x = 0; x < 2; ++x) {
+        const auto at = static_cast<std::size_t>(2 * y + x);
+        const Rgb want = x == y ? dark : light;
+        for (int c = 0; c < 3; ++c) {
+          const double error = std::sqrt(textured.variance[at][c]);
+          INFO("pixel " << x << ", " << y << ", channel " << c);
+          CHECK(std::abs(textured.mean[at][c] - (f + (1 - f) * want[c])) <
+                5 * error + 3e-3);
+        }
       }
     }
   }
