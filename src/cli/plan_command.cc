@@ -115,6 +115,7 @@ std::string Text(const Job& job, const std::string& scene) {
                      double(plan.wavefront) * double(plan.bytes_per_path) / 1024) +
          fmt::format("max depth  {}\n", plan.options.max_depth) +
          SummaryRow("strategy", StrategyWords(job)) +
+         SummaryRow("transport", TransportText(job)) +
          SummaryRow("points", PointsText(job.scene.strategy, job.spp)) + "\n" +
          Notes(plan) + "the scene and options have:\n" + Features(plan.features) + "\n" +
          Stages(plan) + "\n" + Fields(plan) + DiffersRow(job.loaded->description.notes);

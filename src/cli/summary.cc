@@ -196,11 +196,22 @@ std::string DiffersRow(const std::vector<Note>& notes) {
   return "\n" + Painted(Ink::kYellow, "differs", Stream::kOutput) + "    " + text + "\n";
 }
 
+std::string TransportText(const Job& job) {
+  const bool spectral = job.scene.compiled->integrator.transport == Transport::kSpectral;
+  const std::string name = spectral ? "spectral" : "rgb";
+  return job.loaded->transport_why.empty()
+             ? name
+             : fmt::format("{} ({})", name, job.loaded->transport_why);
+}
+
 std::string SummaryText(const RenderReport& report, const Job& job,
                         const SummaryChoice& choice) {
   const RunResult& r = report.result;
   std::string text = ImageRow(report, job.window) + ErrorRow(report.error) +
                      SpeedRows(r) + StrategyRow(r, job);
+  if (const std::string transport = TransportText(job); transport != "rgb") {
+    text += SummaryRow("transport", transport);
+  }
   if (r.health.Total() > 0) text += SummaryRow("health", HealthText(r.health));
   text += NextRow(report, job, choice.checkpoint);
   if (choice.verbose) text += DetailRows(report, job);

@@ -27,6 +27,9 @@ std::string MergeSummaryText(const RenderReport& report, const MergedRender& mer
 /// is.
 std::string DiffersRow(const std::vector<Note>& notes);
 
+/// What paths carry, and why, if the scene was to decide.
+std::string TransportText(const Job& job);
+
 /// One row per stage: calls, items, lane occupancy, thread seconds, share, ns per item.
 std::string StageTable(const RunResult& result);
 

@@ -108,7 +108,7 @@ void RowBuilder::Metal(const Material& m, double eta_above, MaterialRow& row) {
     const Rgb r = Clamped(reflectance.constant, kMaxMetalReflectance);
     row.color1 = {Rgb{Extinction(r.x), Extinction(r.y), Extinction(r.z)} / eta_above,
                   kNone};
-    if (d_.integrator.transport == Transport::kRgb) return;
+    if (d_.integrator.transport != Transport::kSpectral) return;
     const OwnSpectrum own =
         reflectance.spectrum != nullptr
             ? reflectance.spectrum

@@ -1,6 +1,7 @@
 #include "src/compile/transport.h"
 
-#include <string>
+#include <algorithm>
+#include <iterator>
 
 namespace lanelight {
 namespace {
@@ -40,7 +41,38 @@ void ForEachUsed(const SceneDescription& d, std::vector<Index> open, const Visit
   }
 }
 
+std::string NameOf(const Material& m) {
+  const std::string kind = m.dispersion != nullptr          ? "glass"
+                           : m.eta.spectrum || m.k.spectrum ? "metal"
+                                                            : "material";
+  return "the " + kind + (m.name.empty() ? "" : " \"" + m.name + "\"");
+}
+
+bool HasSpectrum(const Material& m) {
+  const ColorValue* const colors[] = {&m.reflectance, &m.transmittance, &m.eta, &m.k,
+                                      &m.coat_albedo};
+  return m.dispersion != nullptr ||
+         std::any_of(std::begin(colors), std::end(colors),
+                     [](const ColorValue* c) { return c->spectrum != nullptr; });
+}
+
 }  // namespace
+
+std::optional<SpectrumUser> FindSpectrum(const SceneDescription& description,
+                                         const std::vector<Index>& used) {
+  std::optional<SpectrumUser> found;
+  ForEachUsed(description, used, [&](const Material& m) {
+    const bool disperses = m.dispersion != nullptr;
+    if (found ? found->disperses || !disperses : !HasSpectrum(m)) return;
+    found = {m.where, NameOf(m), disperses};
+  });
+  const auto add = [&](const auto& light, const char* what) {
+    if (!found && light.spectrum != nullptr) found = {light.where, what};
+  };
+  for (const Light& light : description.lights) add(light, "a light");
+  for (const AreaLight& light : description.area_lights) add(light, "an area light");
+  return found;
+}
 
 void CheckTransport(const SceneDescription& description, const std::vector<Index>& used) {
   for (const Medium& medium : description.media) CheckMedium(medium);

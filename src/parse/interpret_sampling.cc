@@ -90,8 +90,10 @@ void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& p
     InterpretLightSampler(state, params);
     state.scene.integrator.strategy = params.String("strategy", "");
     state.scene.integrator.strategy_where = params.where();
-    state.scene.integrator.transport = params.Choice<Transport>(
-        "transport", {{"rgb", Transport::kRgb}, {"spectral", Transport::kSpectral}});
+    if (params.Find("transport", {ParamType::kString}) != nullptr) {
+      state.scene.integrator.transport = params.Choice<Transport>(
+          "transport", {{"rgb", Transport::kRgb}, {"spectral", Transport::kSpectral}});
+    }
   }
   for (const char* name : ignored) {
     // Paths that are made rougher lose their caustics; others only find them otherwise.

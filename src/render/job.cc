@@ -8,6 +8,7 @@
 #include "src/prepare/chance_of_light.h"
 #include "src/prepare/groups.h"
 #include "src/render/memory.h"
+#include "src/render/transport.h"
 #include "src/scene/rendered_pixels.h"
 
 namespace lanelight {
@@ -24,6 +25,20 @@ void ReleaseCopies(SceneDescription& description) {
   }
 }
 
+void SetTransport(LoadedScene& loaded, const RenderSettings& settings) {
+  SceneDescription& description = loaded.description;
+  std::optional<Transport>& transport = description.integrator.transport;
+  if (transport) return;
+  std::vector<Strategy> strategies = settings.compared;
+  strategies.push_back(description.strategy);
+  const TransportChoice choice = ChooseTransport(description, strategies);
+  transport = choice.transport;
+  loaded.transport_why = choice.why;
+  if (!choice.refused) return;
+  description.notes.push_back(
+      {choice.refused_at, "rendered in red, green and blue, since " + choice.why});
+}
+
 Job Prepare(LoadedScene loaded, const RenderSettings& asked) {
   Job job;
   job.settings = asked;
@@ -31,6 +46,7 @@ Job Prepare(LoadedScene loaded, const RenderSettings& asked) {
   SceneDescription& description = loaded.description;
   Stopwatch watch;
   ApplySettings(settings, description);
+  SetTransport(loaded, settings);
   job.window = RenderedPixels(description.film);
   CheckFilmFits(job.window, AuxiliaryOf(settings, description.film), description.strategy,
                 PhysicalMemory());

@@ -19,6 +19,7 @@ namespace lanelight {
 struct LoadedScene {
   SceneDescription description;  // overrides applied; meshes released after compiling
   std::set<std::string> files;   // that the scene reads, its own among them
+  std::string transport_why;     // why paths carry what they do, if the scene decides
   std::uint64_t scene_hash = 0;  // see HashSceneFiles()
   double load_seconds = 0;       // reading and parsing
   double build_seconds = 0;      // compiling: acceleration structure, lights, textures

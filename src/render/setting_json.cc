@@ -27,7 +27,9 @@ RenderSettings SettingsInForce(const Job& job) {
   s.gbuffer = film.gbuffer;
   s.points = job.scene.strategy.points;
   s.max_depth = static_cast<int>(job.plan.options.max_depth);
-  s.transport = job.scene.compiled->integrator.transport;
+  s.transport = job.scene.compiled->integrator.transport == Transport::kSpectral
+                    ? AskedTransport::kSpectral
+                    : AskedTransport::kRgb;
   s.build = job.scene.compiled->accel.quality;
   s.threads = ThreadCount(s.threads);
   s.target = job.plan.options.target.name();

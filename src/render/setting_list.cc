@@ -82,11 +82,15 @@ std::vector<Setting> Contents() {
               ChangesType{}, &S::strategy, kSceneFlag),
       Declare({"sampler", "", "Sample points", "those of the strategy"},
               NamesOf<Points>(kNumPoints), &S::points, kSceneFlag | kReported),
-      Declare({"transport", "", "What paths carry: red, green and blue, or wavelengths",
-               OfScene("rgb")},
-              NamesType<Transport>{
-                  {{"rgb", Transport::kRgb}, {"spectral", Transport::kSpectral}}},
-              &S::transport, kEveryFlag | kSweepKey | kEverySame | kReported),
+      Declare(
+          {"transport", "",
+           "What paths carry: red, green and blue, or wavelengths; scene: wavelengths "
+           "where a material or a light of it has a spectrum",
+           OfScene("rgb")},
+          NamesType<AskedTransport>{{{"rgb", AskedTransport::kRgb},
+                                     {"spectral", AskedTransport::kSpectral},
+                                     {"scene", AskedTransport::kByScene}}},
+          &S::transport, kEveryFlag | kSweepKey | kEverySame | kReported),
       Declare({"max-depth", "D", "Most scattering events of a path",
                OfScene(Integrator{}.max_depth)},
               NumberType<int>{0, kMaxDepth}, &S::max_depth,

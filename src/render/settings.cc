@@ -78,6 +78,19 @@ void ApplyFilm(const RenderSettings& settings, Film& film) {
   CheckCrop(film);
 }
 
+// Nothing is left where the scene is to decide.
+void ApplyTransport(const std::optional<AskedTransport>& asked,
+                    std::optional<Transport>& transport) {
+  if (!asked) {
+    if (!transport) transport = Transport::kRgb;
+  } else if (*asked == AskedTransport::kByScene) {
+    transport.reset();
+  } else {
+    transport =
+        *asked == AskedTransport::kSpectral ? Transport::kSpectral : Transport::kRgb;
+  }
+}
+
 }  // namespace
 
 void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
@@ -94,7 +107,7 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
                     *settings.seconds));
   }
   if (settings.max_depth) scene.integrator.max_depth = *settings.max_depth;
-  if (settings.transport) scene.integrator.transport = *settings.transport;
+  ApplyTransport(settings.transport, scene.integrator.transport);
   const int depth = scene.integrator.max_depth;
   if (depth < 0 || depth > kMaxDepth) {
     throw InputError(

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "src/compile/compile.h"
 #include "src/scene/description.h"
@@ -20,6 +21,9 @@ enum class DefaultDecision {
   kIfLong,  // if the pilot takes a small share of it: see DecidesByDefault
   kAlways,
 };
+
+/// What paths are to carry; kByScene: see ChooseTransport (src/render/transport.h).
+enum class AskedTransport { kRgb, kSpectral, kByScene };
 
 /// Of instances, copied into the world if nothing else is asked for: about 25 MB.
 inline constexpr std::uint64_t kCopiedTriangles = 1u << 17;
@@ -46,7 +50,10 @@ struct RenderSettings {
   StrategyChanges strategy;  // to the scene's
   DefaultDecision decision = DefaultDecision::kNever;
   std::optional<Scattering> scattering;
-  std::optional<Transport> transport;
+  std::optional<AskedTransport> transport;
+  /// That are to be rendered in turn (WithStrategy), beside the scene's: kByScene chooses
+  /// what none of them refuses.
+  std::vector<Strategy> compared;
   std::optional<BuildQuality> build;                  // of the trees over shapes
   TreeSource trees;                                   // where these may be found
   std::uint64_t copied_triangles = kCopiedTriangles;  // as in CompileOptions
@@ -67,7 +74,8 @@ inline constexpr std::uint32_t kMaxWavefront = 1u << 20;
 inline constexpr int kMaxDepth = 1 << 20;
 inline constexpr int kMaxThreads = 1024;
 
-/// Puts the overrides into the description. A crop window of the scene is scaled along
+/// Puts the overrides into the description; with kByScene it says nothing of transport
+/// afterwards. A crop window of the scene is scaled along
 /// with a new resolution. Throws InputError for sizes, windows, depths and sample counts
 /// that are out of range, wherever they come from.
 void ApplySettings(const RenderSettings& settings, SceneDescription& scene);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -329,7 +330,8 @@ struct Integrator {
   /// Surfaces scatter evenly, with the reflectance that their material has for light from
   /// where they are seen (pbrt-v4's option "forcediffuse").
   bool force_diffuse = false;
-  Transport transport = Transport::kRgb;
+  /// Nothing: the file does not say it. CompileScene then takes RGB.
+  std::optional<Transport> transport;
 };
 
 /// Something that was read and deliberately not used. `changes_image`: what is rendered

@@ -43,6 +43,7 @@ void SceneRunner::RunDiffuseModels() {
     RenderSettings settings = options_.settings;
     settings.scattering = model.scattering;
     settings.spp = MostSamples();
+    settings.transport = SettingsInForce(job_).transport;
     settings.trees.known = TreesOf(*job_.scene.compiled);
     const Job job = PrepareJob(scene_.path, settings);
     const FilmAccumulator film = RunJob(job, {}, hooks_.stop).film;

@@ -62,6 +62,9 @@ void SceneRunner::Prepare() {
   Report("reading and building");
   RenderSettings settings = options_.settings;
   settings.spp = 1;
+  for (const NamedStrategy& named : StudyStrategies(options_, {})) {
+    settings.compared.push_back(named.strategy);
+  }
   job_ = PrepareJob(scene_.path, settings);
   CheckOutputPaths({OutputFiles(options_), {scene_.folder}}, job_.loaded->files);
   scene_.hash = fmt::format("{:016x}", job_.loaded->scene_hash);

@@ -43,6 +43,9 @@ void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
   job_.reset();  // before there is another in memory
   failure_.clear();
   settings.seed.reset();  // that of one cell is not that of the next
+  for (const auto& [name, places] : sweep_.places) {
+    settings.compared.push_back(StrategyNamed(name, {}, {}));
+  }
   try {
     Job job = PrepareJob(sweep_.ScenePath(cell), settings);
     CheckOutputPaths(outputs_, job.loaded->files);

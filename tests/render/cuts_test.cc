@@ -90,6 +90,12 @@ TEST_CASE("cuts: the same bits for every kind of film and training", "[cuts]") {
   }
 }
 
+TEST_CASE("cuts: wavelengths that tiles share", "[cuts]") {
+  KeptRender r = RenderOf("cornell-box", "reuse=block:16");
+  r.settings.transport = AskedTransport::kSpectral;
+  CheckCuts(r, {3, 7});
+}
+
 TEST_CASE("cuts: fits within blocks of pixels", "[cuts]") {
   KeptRender r = RenderOf("cornell-box", "control=regression", 100, 70);
   r.settings.crop = {5, 3, 90, 70};  // blocks that the window cuts

@@ -1,0 +1,122 @@
+// --transport scene: what paths carry hangs on what has a spectrum, and on what refuses
+// to carry wavelengths.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <optional>
+
+#include "src/parse/parse.h"
+#include "src/render/job.h"
+#include "src/render/transport.h"
+
+namespace lanelight {
+namespace {
+
+const std::string kLamp = "LightSource \"point\" \"rgb I\" [ 1 2 3 ]\n";
+const std::string kWarmLamp = "LightSource \"point\" \"blackbody I\" 3000\n";
+const std::string kCopper = "Material \"conductor\"\nShape \"sphere\"\n";
+const std::string kGlass =
+    "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\nShape \"sphere\"\n";
+const std::string kRed =
+    "Material \"diffuse\" \"rgb reflectance\" [ 0.8 0.1 0.1 ]\nShape \"disk\"\n";
+
+SceneDescription SceneOf(const std::string& world) {
+  return ParseSceneText(
+      "Camera \"perspective\"\nFilm \"rgb\" \"integer xresolution\" 8 "
+      "\"integer yresolution\" 8\nWorldBegin\n" +
+          world,
+      "test.pbrt", ".");
+}
+
+TransportChoice ChoiceFor(const std::string& world, const std::string& strategy = "") {
+  Strategy asked;
+  ApplyStrategy(strategy, {}, asked);
+  return ChooseTransport(SceneOf(world), {&asked, 1});
+}
+
+Job JobOf(const std::string& world, std::optional<AskedTransport> asked) {
+  RenderSettings settings;
+  settings.transport = asked;
+  return PrepareJob(SceneOf(world), settings);
+}
+
+bool Notes(const Job& job, const std::string& text) {
+  return std::any_of(
+      job.loaded->description.notes.begin(), job.loaded->description.notes.end(),
+      [&](const Note& note) { return note.message.find(text) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("transport: wavelengths where something has a spectrum", "[render][spectral]") {
+  CHECK(ChoiceFor(kLamp + kRed).transport == Transport::kRgb);
+  for (const std::string& with :
+       {kLamp + kCopper, kLamp + kGlass, kWarmLamp + kRed,
+        kLamp + "Material \"diffuse\" \"spectrum reflectance\" [ 400 0.1 700 0.9 ]\n"
+                "Shape \"sphere\"\n",
+        kLamp + "AreaLightSource \"diffuse\" \"spectrum L\" \"stdillum-A\"\n" + kRed}) {
+    INFO(with);
+    const TransportChoice choice = ChoiceFor(with);
+    CHECK(choice.transport == Transport::kSpectral);
+    CHECK_FALSE(choice.refused);
+    CHECK_THAT(choice.why, Catch::Contains(" has a spectrum") ||
+                               Catch::Contains("the glass disperses"));
+  }
+  // What no shape has does not count.
+  const std::string unused =
+      "MakeNamedMaterial \"m\" \"string type\" \"conductor\"\n" + kLamp + kRed;
+  CHECK(ChoiceFor(unused).transport == Transport::kRgb);
+}
+
+TEST_CASE("transport: RGB, and why, where wavelengths are refused",
+          "[render][spectral]") {
+  const auto refused = [](const std::string& world, const std::string& strategy) {
+    const TransportChoice choice = ChoiceFor(world, strategy);
+    CHECK(choice.transport == Transport::kRgb);
+    CHECK(choice.refused);
+    return choice.why;
+  };
+  CHECK_THAT(refused(kLamp + kCopper + kRed, "control=analytic"),
+             Catch::Contains("control=analytic is asked for"));
+  CHECK_THAT(refused(kLamp + kGlass + kRed, "reuse=block"),
+             Catch::Contains("glass disperses"));
+  CHECK(ChoiceFor(kLamp + kCopper + kRed, "reuse=block").transport ==
+        Transport::kSpectral);
+  const std::string grid =
+      "MakeNamedMedium \"m\" \"string type\" \"rgbgrid\" \"integer nx\" 1 "
+      "\"integer ny\" 1 \"integer nz\" 1 \"rgb sigma_a\" [ 1 2 3 ]\n";
+  CHECK_THAT(refused(grid + kLamp + kCopper, ""), Catch::Contains("rgbgrid"));
+  CHECK_THAT(
+      refused("LightSource \"point\" \"spectrum I\" [ 790 1 820 1 ]\n" + kCopper, ""),
+      Catch::Contains("a light emits nothing"));
+}
+
+TEST_CASE("transport: a job carries what is asked for", "[render][spectral]") {
+  const std::string scene = kLamp + kCopper;
+  const Job plain = JobOf(scene, std::nullopt);
+  CHECK(plain.scene.compiled->integrator.transport == Transport::kRgb);
+  CHECK(plain.loaded->transport_why.empty());
+  CHECK_FALSE(plain.plan.features.Has(Feature::kSpectral));
+  const Job chosen = JobOf(scene, AskedTransport::kByScene);
+  CHECK(chosen.plan.features.Has(Feature::kSpectral));
+  CHECK(chosen.loaded->transport_why.find("the metal has a spectrum") !=
+        std::string::npos);
+  CHECK(JobOf(scene, AskedTransport::kSpectral).plan.features.Has(Feature::kSpectral));
+  const Job grid = JobOf(
+      "MakeNamedMedium \"m\" \"string type\" \"rgbgrid\" \"integer nx\" 1 "
+      "\"integer ny\" 1 \"integer nz\" 1 \"rgb sigma_a\" [ 1 2 3 ]\n" +
+          scene,
+      AskedTransport::kByScene);
+  CHECK_FALSE(grid.plan.features.Has(Feature::kSpectral));
+  CHECK(Notes(grid, "rendered in red, green and blue, since"));
+}
+
+TEST_CASE("transport: what is compared is rendered alike", "[render][spectral]") {
+  RenderSettings settings;
+  settings.transport = AskedTransport::kByScene;
+  Strategy& analytic = settings.compared.emplace_back();
+  ApplyStrategy("control=analytic", {}, analytic);
+  const Job job = PrepareJob(SceneOf(kLamp + kCopper), settings);
+  CHECK_FALSE(job.plan.features.Has(Feature::kSpectral));
+}
+
+}  // namespace lanelight
