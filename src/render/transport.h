@@ -12,7 +12,7 @@ struct TransportChoice {
   Transport transport = Transport::kRgb;
   std::string why;  // "the metal \"spoon\" has a spectrum"
   /// Set where wavelengths would be carried, were they not refused.
-  SourceLocation refused_at;
+  SourceLocation refused_at = {};
   bool refused = false;
 };
 
