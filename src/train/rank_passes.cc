@@ -19,7 +19,7 @@ void ForEachTask(const std::vector<std::size_t>& begins, int rank, int ranks,
        task += static_cast<std::size_t>(ranks)) {
     const std::size_t first = begins[task], count = begins[task + 1] - first;
     copy(samples.colors.data() + first, count);
-    copy(samples.recorded.data() + first * planes, count * planes);
+    if (planes > 0) copy(samples.recorded.data() + first * planes, count * planes);
   }
 }
 
@@ -74,7 +74,7 @@ void RankPasses::Exchange(const std::vector<std::size_t>& begins,
   };
   broadcast(&sum, 1);
   broadcast(samples.colors.data(), samples.colors.size());
-  broadcast(samples.recorded.data(), samples.recorded.size());
+  if (samples.planes > 0) broadcast(samples.recorded.data(), samples.recorded.size());
   samples.rays_closest = sum.rays_closest, samples.rays_shadow = sum.rays_shadow;
   if (sum.stopped > 0) stop_ = true;
 }
