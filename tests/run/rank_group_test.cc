@@ -1,5 +1,6 @@
 // Ranks render the bits of a single process, whatever they are told on the way. Here they
 // are threads; with MPI, and what happens when one fails: tests/ranks/ranks_test.py.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -86,18 +87,24 @@ TEST_CASE("runs of any number of ranks go on from each other", "[ranks]") {
   }
 }
 
-// What ranks send to the leader does not grow with their number. How many tiles it gives
-// and is given hangs on time; each brings its part of the film, a fifteenth here, once
-// more.
+// What ranks send to the leader does not grow with their number. A tile that it gives or
+// is given on the way brings its part of the film once more, and whether any does hangs
+// on time: one render of a few has none.
 TEST_CASE("the film is gathered once where nothing asks for it before", "[ranks]") {
   Request request;
   request.strategy = "points=sobol";
   request.spp = 64;
   for (int ranks : {2, 4, 7}) {
-    Rendered rendered = RenderOnRanks(ranks, request);
-    std::size_t whole = 0;
-    for (const auto& column : rendered.film.Columns()) whole += column.Bytes();
-    CHECK(rendered.result.bytes_between_ranks < 2 * double(whole));
+    double least = 1e9;
+    for (int i = 0; i < 8 && least >= 1.05; ++i) {
+      Rendered rendered = RenderOnRanks(ranks, request);
+      std::size_t whole = 0;
+      for (const auto& column : rendered.film.Columns()) whole += column.Bytes();
+      least =
+          std::min(least, double(rendered.result.bytes_between_ranks) / double(whole));
+    }
+    INFO(ranks << " ranks");
+    CHECK(least < 1.05);
   }
 }
 
