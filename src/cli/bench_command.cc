@@ -63,9 +63,9 @@ int Bench(BenchCommandOptions options) {
   if (!options.against.empty()) before = ReadThroughput(options.against);
   const std::vector<ThroughputRow> rows = MeasureRows(options);
   const nlohmann::json json = ToJson(rows);
+  const std::size_t columns = TerminalColumns(Stream::kOutput);
   if (options.json != "-") {
-    Print(ThroughputText(rows, options.bench.within,
-                         {false, TerminalColumns(Stream::kOutput)}));
+    Print(ThroughputText(rows, options.bench.within, {false, columns}));
   }
   bool good = true;
   const auto save = [&](const std::string& path, const std::string& text) {
@@ -79,7 +79,7 @@ int Bench(BenchCommandOptions options) {
   if (!before) return kExitGood;
   const RateComparison comparison = CompareRates(*before, ThroughputFromJson(json));
   if (options.json != "-") {
-    Print("\n" + ComparisonText(comparison, *before, options.tolerance));
+    Print("\n" + ComparisonText(comparison, *before, options.tolerance, columns));
   }
   for (const RateRatio& row : comparison.rows) {
     if (row.Regresses(options.tolerance)) return kExitSlower;

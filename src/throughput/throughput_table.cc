@@ -18,6 +18,8 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
+constexpr std::size_t kLabel = 8;
+
 std::string MarkdownLine(const Cells& cells) {
   std::string line = "|";
   for (const std::string& cell : cells) line += " " + cell + " |";
@@ -94,13 +96,12 @@ std::string Precision(const std::vector<ThroughputRow>& rows, double within) {
   double worst = 0;
   for (const ThroughputRow& row : rows) worst = std::max(worst, row.Spread());
   if (worst <= within) {
-    return fmt::format("All medians are known within {:.3g} % (95 % intervals).\n",
+    return fmt::format("All medians are known within {:.3g} % (95 % intervals).",
                        100 * within);
   }
   return fmt::format(
       "Not all medians are known within {:.3g} %, the worst within {}: the machine is "
-      "not "
-      "quiet, or --time too short.\n",
+      "not quiet, or --time too short.",
       100 * within,
       std::isfinite(worst) ? fmt::format("{:.2g} %", 100 * worst) : "nothing certain");
 }
@@ -114,10 +115,12 @@ std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within
                                "scaling", "closest M/s", "shadow M/s", "lanes",
                                "bytes/path", "spp", "repeats"}};
   for (const ThroughputRow& row : rows) lines.push_back(RateCells(rows, row));
-  const char* const end = style.markdown ? "\n\n" : "\n";
-  return "machine  " + MachineText(ThisMachine()) + end + "program  " + FullVersion() +
-         "\n\n" + Table(lines, style) + "\n" + GroupTable(rows, style) + "\n" +
-         Precision(rows, within);
+  const std::string gap = style.markdown ? "\n" : "";
+  const std::size_t width = style.markdown ? std::string::npos : style.width;
+  return LabelledRow("machine", MachineText(ThisMachine()), width, kLabel) + gap +
+         LabelledRow("program", FullVersion(), width, kLabel) + "\n" +
+         Table(lines, style) + "\n" + GroupTable(rows, style) + "\n" +
+         Wrapped(Precision(rows, within), width) + "\n";
 }
 
 std::string ThroughputCsv(const std::vector<ThroughputRow>& rows) {
@@ -140,29 +143,39 @@ std::string ThroughputCsv(const std::vector<ThroughputRow>& rows) {
 }
 
 std::string ComparisonText(const RateComparison& comparison,
-                           const KnownThroughput& before, double tolerance) {
-  std::string text =
-      "against  " + before.machine + "\n         " + before.program + "\n\n";
+                           const KnownThroughput& before, double tolerance,
+                           std::size_t width) {
+  std::string text = LabelledRow("against", before.machine, width, kLabel) +
+                     LabelledRow("", before.program, width, kLabel) + "\n";
   std::string slower;
+  const auto line = [width](const std::string& words) {
+    return Wrapped(words, width, kLabel) + "\n";
+  };
   for (const RateRatio& row : comparison.rows) {
     const bool regresses = row.Regresses(tolerance);
-    text += fmt::format("{:.3f} [{:.3f}, {:.3f}]  {}{}\n", row.ratio.value, row.ratio.low,
-                        row.ratio.high, row.row, regresses ? "  SLOWER" : "");
+    const Interval& ratio = row.ratio;
+    text += fmt::format("{:.3f} [{:.3f}, {:.3f}]  ", ratio.value, ratio.low, ratio.high) +
+            line(row.row + (regresses ? "  SLOWER" : ""));
     if (regresses) slower += (slower.empty() ? "" : "; ") + row.row;
   }
   for (const std::string& row : comparison.only_in_one) {
-    text += "only in one of them: " + row + "\n";
+    text += line("only in one of them: " + row);
   }
   if (comparison.rows.empty()) return text + "\nNothing can be compared.\n";
-  return text +
-         fmt::format(
-             "\n{} as fast (geometric mean of {}); {}.\n",
-             fmt::format("{:.3g} times", comparison.Mean()), comparison.rows.size(),
-             slower.empty()
-                 ? fmt::format("nothing is slower by more than {:.3g} %", 100 * tolerance)
-                 : "slower: " + slower) +
-         "Intervals tell how well each run knows its medians, not what else the machines "
-         "did meanwhile.\n";
+  const std::string verdict =
+      slower.empty()
+          ? fmt::format("nothing is slower by more than {:.3g} %", 100 * tolerance)
+          : "slower: " + slower;
+  return text + "\n" +
+         Wrapped(fmt::format("{:.3g} times as fast (geometric mean of {}); {}.",
+                             comparison.Mean(), comparison.rows.size(), verdict),
+                 width) +
+         "\n" +
+         Wrapped(
+             "Intervals tell how well each run knows its medians, not what else the "
+             "machines did meanwhile.",
+             width) +
+         "\n";
 }
 
 }  // namespace lanelight

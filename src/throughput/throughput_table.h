@@ -9,7 +9,7 @@
 
 namespace lanelight {
 
-/// Markdown, or columns of text that fit `width`.
+/// Markdown, its lines whole, or columns of text that fit `width`.
 struct TableStyle {
   bool markdown = false;
   std::size_t width = 80;
@@ -20,8 +20,10 @@ std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within
                            const TableStyle& style);
 /// One line per row, machine included.
 std::string ThroughputCsv(const std::vector<ThroughputRow>& rows);
-/// Ratios by row, and a sentence: which are slower by more than `tolerance`.
+/// Ratios by row, and a sentence: which are slower by more than `tolerance`. Fits `width`
+/// columns.
 std::string ComparisonText(const RateComparison& comparison,
-                           const KnownThroughput& before, double tolerance);
+                           const KnownThroughput& before, double tolerance,
+                           std::size_t width);
 
 }  // namespace lanelight

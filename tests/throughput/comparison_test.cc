@@ -1,9 +1,12 @@
 // Rates of two measurements: ratios, their intervals, and what counts as slower.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <sstream>
 
+#include "src/core/text_layout.h"
 #include "src/strategy/strategy.h"
 #include "src/throughput/throughput_comparison.h"
+#include "src/throughput/throughput_table.h"
 
 namespace lanelight::test {
 namespace {
@@ -14,6 +17,12 @@ KnownThroughput Known(std::vector<Interval> rates) {
     known.rows.push_back({"scene", "AVX2", "default", int(i) + 1, 64, 64, rates[i]});
   }
   return known;
+}
+
+void CheckFits(const std::string& text, std::size_t width) {
+  INFO(text);
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) CHECK(TextWidth(line) <= width);
 }
 
 }  // namespace
@@ -59,6 +68,22 @@ TEST_CASE("rows are told apart by what of a strategy is not as by default",
   strategy.roulette = Roulette::kNone;
   row.strategy = ToText(strategy);
   CHECK(row.Key() == "scene, AVX2, 1 thread, 64x64, roulette=none");
+}
+
+TEST_CASE("texts of a bench fit, whether or not medians are known", "[throughput]") {
+  ThroughputRow row;
+  row.scene = "scene";
+  row.target = "AVX2";
+  row.threads = 1;
+  for (const std::vector<double>& seconds :
+       {std::vector<double>(6, 1.0), std::vector<double>{1, 2, 3, 4, 5, 60}}) {
+    row.seconds = seconds;
+    CheckFits(ThroughputText({row}, 1e-4, {false, 72}), 72);
+  }
+  KnownThroughput before = Known({{100, 99, 101}, {50, 49, 51}});
+  before.machine = "a machine whose name is long, 128 cores, 1024 GiB, load 5.17, shared";
+  const KnownThroughput now = Known({{90, 89, 91}});
+  CheckFits(ComparisonText(CompareRates(before, now), before, 0.05, 72), 72);
 }
 
 }  // namespace lanelight::test
