@@ -103,6 +103,9 @@ void Accumulate(Wave& wave) {
                  V3 difference = Splat3(0, 0, 0);
                  if (kSigned && p.k_r != nullptr) {
                    difference = Mul(Gather3(p.k_r, p.k_g, p.k_b, slots), exposure);
+                   if (p.wavelength != nullptr) {
+                     difference = FilmColor(wave.scene->spectra, difference, {p, slots});
+                   }
                    if (p.weight != nullptr)
                      difference = Mul(difference, Gather(p.weight, slots));
                    sample = Poison(sample, difference);

@@ -2,12 +2,12 @@
 #ifndef LANELIGHT_CONTROL_AMBIENT_INL_H_
 #define LANELIGHT_CONTROL_AMBIENT_INL_H_
 
-#include "kernels/simd/vec3-inl.h"
+#include "kernels/lights/light-inl.h"
 #include "src/prepare/ambient.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Three quadratics, one per channel, at unit direction d.
+// Three quadratics, one per channel, at unit direction d.
 LANELIGHT_INLINE V3 EvalQuadratics(const Quadratic* q, V3 d) {
   const VF monomials[] = {d.x,
                           d.y,
@@ -25,6 +25,18 @@ LANELIGHT_INLINE V3 EvalQuadratics(const Quadratic* q, V3 d) {
     out[channel] = sum;
   }
   return {out[0], out[1], out[2]};
+}
+
+/// Radiance that control=ambient takes an environment for towards `at`, or the irradiance
+/// from it with normal `at`: q, the one or the other three of `light`. A path's three
+/// wavelengths see the spectrum of a constant environment; of an image they see its red,
+/// green and blue, which is not what they meet, but keeps the two in their proportion,
+/// and that is all that h and E[h] need.
+LANELIGHT_INLINE V3 AmbientAt(const Wave& wave, const Slots& slots,
+                              const AmbientLight& light, const Quadratic* q, V3 at) {
+  const V3 color = EvalQuadratics(q, at);
+  if (wave.scene->lights.lights[light.light].environment >= 0) return color;
+  return AsCarried(wave, slots, hn::Set(DI(), static_cast<int32_t>(light.light)), color);
 }
 
 LANELIGHT_END_KERNELS

@@ -43,7 +43,8 @@ HWY_INLINE V3 SampledAmbient(const Wave& wave, const DiffuseVertex<Bsdf>& vertex
   for (const AmbientLight& light : wave.run->tables->ambient) {
     const MF mine = hn::RebindMask(
         DF(), hn::Eq(selected, hn::Set(DI(), static_cast<int32_t>(light.light))));
-    radiance = IfThenElse(mine, EvalQuadratics(light.radiance, direction), radiance);
+    radiance = IfThenElse(mine, AmbientAt(wave, slots, light, light.radiance, direction),
+                          radiance);
     is_ambient = hn::Or(is_ambient, mine);
   }
   const BsdfValue value = vertex.Eval(direction);
@@ -71,9 +72,10 @@ void Ambient(Wave& wave) {
     const DiffuseVertex<Bsdf> vertex(reader, slots);
     V3 above = Splat3(0, 0, 0), below = above;
     for (const AmbientLight& light : wave.run->tables->ambient) {
-      above = above + EvalQuadratics(light.irradiance, vertex.normal);
+      const Quadratic* const arriving = light.irradiance;
+      above = above + AmbientAt(wave, slots, light, arriving, vertex.normal);
       if constexpr (Bsdf::kTransmits) {
-        below = below + EvalQuadratics(light.irradiance, -vertex.normal);
+        below = below + AmbientAt(wave, slots, light, arriving, -vertex.normal);
       }
     }
     V3 difference = -vertex.Scattered(above, below);

@@ -47,7 +47,7 @@ void AmbientScattered(Wave& wave) {
     const V3 d = Gather3(path.d_x, path.d_y, path.d_z, slots);
     V3 sum = Splat3(0, 0, 0);
     for (const AmbientLight& ambient : wave.run->tables->ambient) {
-      sum = MulAdd(EvalQuadratics(ambient.radiance, d),
+      sum = MulAdd(AmbientAt(wave, slots, ambient, ambient.radiance, d),
                    ScatteredWeight<kMis>(wave, ambient.light, d, slots), sum);
     }
     const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
@@ -62,7 +62,7 @@ Stage AmbientScatteredStage() {
           .input = QueueId::kScattered,
           .needs = {Feature::kAmbientControl, Feature::kScatters},
           .reads = kRay | kThroughput | kRadiance | kControl |
-                   FieldSet{Field::material, Field::bsdf_pdf},
+                   FieldSet{Field::material, Field::bsdf_pdf, Field::wavelength},
           .writes = kRadiance | kControl,
           .resolve =
               ByFeature<Feature::kMis, AmbientScattered<true>, AmbientScattered<false>>};

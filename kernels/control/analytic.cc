@@ -26,6 +26,7 @@
 #include "kernels/control/area_lights-inl.h"
 #include "kernels/bsdf/diffuse-inl.h"
 #include "kernels/bsdf/diffuse_transmission-inl.h"
+#include "kernels/lights/light-inl.h"
 #include "kernels/queue/batch-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -39,7 +40,9 @@ void Analytic(Wave& wave) {
     const VI selected =
         path.ls_light != nullptr ? Gather(path.ls_light, slots) : hn::Zero(DI());
     const AreaLight lights = AreaLightsAt<Bsdf::kTransmits>(
-        *wave.scene, {vertex.p, Gather(path.p_error, slots), vertex.normal}, selected);
+        *wave.scene, {vertex.p, Gather(path.p_error, slots), vertex.normal}, selected,
+        [&](VI light, V3 radiance)
+            HWY_ATTR { return AsCarried(wave, slots, light, radiance); });
     const V3 sample = Gather3(path.ls_r, path.ls_g, path.ls_b, slots);
     const V3 h =
         Mul(vertex.Eval(Gather3(path.ls_x, path.ls_y, path.ls_z, slots)).f_cos, sample);

@@ -71,7 +71,7 @@ inline Stage SurfaceControlStage(const char* name, const char* meaning, Feature 
           .reads = direction | kThroughput | kRadiance | kPoint | kNormal | kParameters |
                    kLightSample | kControl |
                    FieldSet{Field::material, Field::ls_light, Field::guide_cell,
-                            Field::kept_worth},
+                            Field::kept_worth, Field::wavelength},
           .writes = kRadiance | kControl,
           .resolve = resolve};
 }

@@ -133,10 +133,12 @@ struct AreaLight {
   MF selected;      // the light that was sampled takes part
 };
 
-/// `selected`: light of the light sample of each path.
-template <bool kBelow>
+/// `selected`: light of the light sample of each path. as_carried(light, radiance): what
+/// paths see of a light of this colour.
+template <bool kBelow, class AsCarried>
 LANELIGHT_INLINE AreaLight AreaLightsAt(const CompiledScene& scene,
-                                        const ReceiverLanes& receivers, VI selected) {
+                                        const ReceiverLanes& receivers, VI selected,
+                                        const AsCarried& as_carried) {
   const V3 zero = Splat3(0, 0, 0);
   AreaLight sum = {zero, zero, hn::Lt(zero.x, zero.x)};
   for (std::size_t i = 0; i < scene.lights.lights.size(); ++i) {
@@ -165,7 +167,8 @@ LANELIGHT_INLINE AreaLight AreaLightsAt(const CompiledScene& scene,
     const VI me = hn::Set(DI(), static_cast<int32_t>(i));
     sum.selected = hn::Or(
         sum.selected, hn::And(takes_part, hn::RebindMask(DF(), hn::Eq(selected, me))));
-    const V3 radiance = Splat3(light.radiance[0], light.radiance[1], light.radiance[2]);
+    const V3 radiance =
+        as_carried(me, Splat3(light.radiance[0], light.radiance[1], light.radiance[2]));
     sum.above = MulAdd(radiance, hn::IfThenElseZero(takes_part, one.above), sum.above);
     if constexpr (kBelow) {
       sum.below = MulAdd(radiance, hn::IfThenElseZero(takes_part, one.below), sum.below);

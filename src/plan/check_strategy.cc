@@ -29,19 +29,6 @@ void CheckAmbient(const Strategy& s, const PreparedScene& scene) {
       "find all of; this one has black or very dark directions: use directions=mis");
 }
 
-// What these know of light and surfaces is red, green and blue.
-void CheckSpectral(const Strategy& s, const PreparedScene& scene) {
-  if (!scene.compiled->features.Has(Feature::kSpectral)) return;
-  const auto refuse = [](const std::string& choice, const char* why) {
-    Refuse(choice + " does not work with --transport spectral: " + why +
-           "; --transport rgb renders with it");
-  };
-  if (s.control == Control::kAnalytic || s.control == Control::kAmbient) {
-    refuse(std::string("control=") + Name(s.control),
-           "its expected value is in red, green and blue");
-  }
-}
-
 void CheckControl(const Strategy& s, const PreparedScene& scene,
                   const PlanOptions& options) {
   if (s.control == Control::kNone) return;
@@ -188,7 +175,6 @@ void NotePaths(const Checked& c) {
 
 Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy s = PlannedStrategy(scene, options);
-  CheckSpectral(s, scene);
   CheckControl(s, scene, options);
   const FeatureSet plan = PlanFeatures(scene, options);
   CheckReuse(s, plan);

@@ -34,9 +34,6 @@ bool EmitsCarried(const OwnSpectrum& spectrum) {
 // Why these strategies do not go with wavelengths; empty if they do.
 std::string Refusal(std::span<const Strategy> strategies, bool disperses) {
   for (const Strategy& s : strategies) {
-    if (s.control == Control::kAnalytic || s.control == Control::kAmbient) {
-      return std::string("control=") + Name(s.control) + " is asked for";
-    }
     if (s.reuse != Reuse::kNone && disperses) {
       return "reuse=block is asked for, and glass disperses";
     }

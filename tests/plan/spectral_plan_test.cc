@@ -108,9 +108,6 @@ TEST_CASE("spectral plan: what cannot carry wavelengths is refused", "[plan][spe
             .find("\"rgbgrid\"") != std::string::npos);
 
   const SceneDescription diffuse = SpectralScene("Material \"diffuse\"\n");
-  CHECK(Refusal([&] {
-          SpectralPlan(diffuse, "control=analytic");
-        }).find("--transport spectral") != std::string::npos);
   const SceneDescription prism = SpectralScene(
       "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\nShape "
       "\"sphere\"\nMaterial \"diffuse\"\n");

@@ -18,8 +18,8 @@ void AreaLightsProbe(const IrradianceBatch& batch) {
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(df));
   for (uint32_t i = 0; i < batch.n; i += lanes) {
     const AreaLight light = AreaLightsAt<true>(
-        *batch.scene, {load(batch.p, i), Splat(0), load(batch.normal, i)},
-        hn::Zero(DI()));
+        *batch.scene, {load(batch.p, i), Splat(0), load(batch.normal, i)}, hn::Zero(DI()),
+        [](VI, V3 radiance) HWY_ATTR { return radiance; });
     store(light.above, batch.above, i);
     store(light.below, batch.below, i);
     hn::StoreU(hn::IfThenElseZero(light.selected, Splat(1.0f)), df, batch.takes_part + i);
