@@ -209,9 +209,8 @@ std::string SummaryText(const RenderReport& report, const Job& job,
   const RunResult& r = report.result;
   std::string text = ImageRow(report, job.window) + ErrorRow(report.error) +
                      SpeedRows(r) + StrategyRow(r, job);
-  if (const std::string transport = TransportText(job); transport != "rgb") {
-    text += SummaryRow("transport", transport);
-  }
+  const std::string transport = TransportText(job);
+  if (transport.starts_with("spectral")) text += SummaryRow("transport", transport);
   if (r.health.Total() > 0) text += SummaryRow("health", HealthText(r.health));
   text += NextRow(report, job, choice.checkpoint);
   if (choice.verbose) text += DetailRows(report, job);

@@ -86,7 +86,7 @@ std::vector<Setting> Contents() {
           {"transport", "",
            "What paths carry: red, green and blue, or wavelengths; scene: wavelengths "
            "where a material or a light of it has a spectrum",
-           OfScene("rgb")},
+           OfScene("scene")},
           NamesType<AskedTransport>{{{"rgb", AskedTransport::kRgb},
                                      {"spectral", AskedTransport::kSpectral},
                                      {"scene", AskedTransport::kByScene}}},

@@ -81,14 +81,10 @@ void ApplyFilm(const RenderSettings& settings, Film& film) {
 // Nothing is left where the scene is to decide.
 void ApplyTransport(const std::optional<AskedTransport>& asked,
                     std::optional<Transport>& transport) {
-  if (!asked) {
-    if (!transport) transport = Transport::kRgb;
-  } else if (*asked == AskedTransport::kByScene) {
-    transport.reset();
-  } else {
-    transport =
-        *asked == AskedTransport::kSpectral ? Transport::kSpectral : Transport::kRgb;
-  }
+  if (!asked) return;
+  transport.reset();
+  if (*asked == AskedTransport::kRgb) transport = Transport::kRgb;
+  if (*asked == AskedTransport::kSpectral) transport = Transport::kSpectral;
 }
 
 }  // namespace

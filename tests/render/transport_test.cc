@@ -1,5 +1,5 @@
-// --transport scene: what paths carry hangs on what has a spectrum, and on what refuses
-// to carry wavelengths.
+// Unless --transport says otherwise what paths carry hangs on what has a spectrum, and on
+// what refuses to carry wavelengths.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <optional>
@@ -90,14 +90,23 @@ TEST_CASE("transport: RGB, and why, where wavelengths are refused",
 
 TEST_CASE("transport: a job carries what is asked for", "[render][spectral]") {
   const std::string scene = kLamp + kCopper;
-  const Job plain = JobOf(scene, std::nullopt);
-  CHECK(plain.scene.compiled->integrator.transport == Transport::kRgb);
-  CHECK(plain.loaded->transport_why.empty());
-  CHECK_FALSE(plain.plan.features.Has(Feature::kSpectral));
-  const Job chosen = JobOf(scene, AskedTransport::kByScene);
-  CHECK(chosen.plan.features.Has(Feature::kSpectral));
-  CHECK(chosen.loaded->transport_why.find("the metal has a spectrum") !=
-        std::string::npos);
+  const Job rgb = JobOf(scene, AskedTransport::kRgb);
+  CHECK(rgb.scene.compiled->integrator.transport == Transport::kRgb);
+  CHECK(rgb.loaded->transport_why.empty());
+  CHECK_FALSE(rgb.plan.features.Has(Feature::kSpectral));
+  // By the scene if nothing is said.
+  for (const auto asked :
+       {std::optional<AskedTransport>(), std::optional(AskedTransport::kByScene)}) {
+    const Job chosen = JobOf(scene, asked);
+    CHECK(chosen.plan.features.Has(Feature::kSpectral));
+    CHECK(chosen.loaded->transport_why.find("the metal has a spectrum") !=
+          std::string::npos);
+    CHECK_FALSE(JobOf(kLamp + kRed, asked).plan.features.Has(Feature::kSpectral));
+  }
+  // A scene that says so itself is asked no more.
+  SceneDescription says = SceneOf(scene);
+  says.integrator.transport = Transport::kRgb;
+  CHECK_FALSE(PrepareJob(says, {}).plan.features.Has(Feature::kSpectral));
   CHECK(JobOf(scene, AskedTransport::kSpectral).plan.features.Has(Feature::kSpectral));
   const Job grid = JobOf(
       "MakeNamedMedium \"m\" \"string type\" \"rgbgrid\" \"integer nx\" 1 "

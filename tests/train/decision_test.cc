@@ -97,6 +97,29 @@ TEST_CASE("the pilot has paths serve their block where light comes by bounces",
   CHECK(none.film.groups().dependents == 1);
 }
 
+TEST_CASE("the pilot knows what paths that carry wavelengths can serve",
+          "[decision][spectral]") {
+  SceneDescription room = Room(0.9, 100);
+  room.integrator.transport = Transport::kSpectral;
+  CHECK(Decide(room, "decide=pilot").result.training.changes ==
+        "roulette=throughput:0:2:4,reuse=block,decide=none");
+  // Paths that glass has left one wavelength serve no others: that is not tried.
+  Material glass;
+  glass.kind = MaterialKind::kDielectric;
+  glass.dispersion =
+      std::make_shared<const Spectrum>([](double nm) { return 1.5 + 5000 / (nm * nm); });
+  room.materials.push_back(glass);
+  Shape bead;
+  bead.kind = ShapeKind::kSphere;
+  bead.radius = 0.05;
+  bead.material = static_cast<Index>(room.materials.size() - 1);
+  room.shapes.push_back(bead);
+  const Rendered r = Decide(room, "decide=pilot");
+  INFO(r.result.training.note);
+  CHECK(r.result.training.changes == "roulette=throughput:0:2:4,decide=none");
+  CHECK(r.result.training.note.find("reuse") == std::string::npos);
+}
+
 TEST_CASE("the pilot shortens paths that cost more than they bring", "[decision]") {
   // Nothing ends a path but the depth: that has the least variance by far the most rays.
   const Rendered r = Decide(SplitRoom(40), "roulette=throughput:1,decide=pilot");
