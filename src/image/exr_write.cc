@@ -8,6 +8,7 @@
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <half.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/core/parallel.h"
 #include "src/image/atomic_file.h"
 #include "src/image/color_spaces.h"
 #include "src/image/exr.h"
@@ -92,6 +94,16 @@ Imf::Header MakeHeader(int width, int height, const std::vector<ExrPlane>& plane
   return header;
 }
 
+// Threads that compress, of OpenEXR's own pool: it has none unless it is told. None for
+// images that take no longer than starting them.
+int Compressors(std::size_t values) {
+  constexpr std::size_t kFew = std::size_t{1} << 20;
+  const int threads = MaxThreads();
+  if (values < kFew || threads == 1) return 0;
+  Imf::setGlobalThreadCount(threads);
+  return threads;
+}
+
 void CheckPlanes(int width, int height, const std::vector<ExrPlane>& planes) {
   LL_CHECK(width > 0 && height > 0 && !planes.empty());
   std::set<std::string> names;
@@ -122,7 +134,8 @@ void WriteExr(const std::string& path, int width, int height,
   }
   MemoryOutput stream(path);
   try {
-    Imf::OutputFile file(stream, header);
+    const std::size_t pixels = static_cast<std::size_t>(width) * height;
+    Imf::OutputFile file(stream, header, Compressors(pixels * planes.size()));
     file.setFrameBuffer(buffer);
     file.writePixels(height);
   } catch (const Iex::BaseExc&) {

@@ -194,8 +194,10 @@ std::function<void()> Checkpoint::Watch(RunState& state) const {
     } else if (!planes) {
       planes = std::make_shared<std::vector<ExrPlane>>(
           FilmPlanes(film, job_.scene.compiled->scale));
-      options = OutputOptions(identity_, head_, {state.counts, state.training.changes},
-                              film, /*half=*/false);
+      const ErrorEstimate error = EstimateError(film);
+      options = OutputOptions(identity_, head_,
+                              {state.counts, state.training.changes, error}, film,
+                              /*half=*/false);
     }
   }
   return [paths = settings_.watch, exposure = settings_.exposure, planes, image, options,

@@ -8,7 +8,6 @@
 
 #include "src/core/error.h"
 #include "src/core/json_text.h"
-#include "src/estimate/estimate.h"
 #include "src/image/for_each_pixel.h"
 #include "src/image/spectrum.h"
 #include "src/image/variance_unit.h"
@@ -108,8 +107,7 @@ void NoteVarianceUnit(const FilmAccumulator& film, ExrOptions& options) {
 namespace {
 
 // What the image knows of its own error. Without an upper end: why.
-void NoteError(const FilmAccumulator& film, ExrOptions& options) {
-  const ErrorEstimate error = EstimateError(film);
+void NoteError(const ErrorEstimate& error, ExrOptions& options) {
   if (!error.available) return;
   options.attributes["relmse"] = error.relmse.value;
   options.attributes["relmseLow"] = error.relmse.low;
@@ -172,7 +170,7 @@ ExrOptions OutputOptions(const nlohmann::json& identity, const nlohmann::json& h
   options.attributes["settings"] = DumpJson(settings);
   const nlohmann::json machine = head.value("machine", nlohmann::json());
   if (!machine.is_null()) options.attributes["machine"] = machine.value("text", "");
-  NoteError(film, options);
+  NoteError(run.error, options);
   NoteObservations(film, options);
   NoteVarianceUnit(film, options);
   return options;

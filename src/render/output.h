@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "src/estimate/estimate.h"
 #include "src/image/accumulator.h"
 #include "src/image/exr.h"
 #include "src/image/image.h"
@@ -24,11 +25,12 @@ void NoteVarianceUnit(const FilmAccumulator& film, ExrOptions& options);
 /// CompiledScene::scale).
 std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale);
 
-/// What has been done: how much, and what a pilot has changed of the strategy
-/// (TrainingOutcome::changes).
+/// What has been done: how much, what a pilot has changed of the strategy
+/// (TrainingOutcome::changes), and the error that is left.
 struct OutputRun {
   const RunCounts& counts;
   const std::string& changes;
+  const ErrorEstimate& error;
 };
 
 /// Data window, and the attributes of docs/output.md of a render of this identity

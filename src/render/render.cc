@@ -26,8 +26,8 @@ void SaveImages(const FilmAccumulator& film, const RenderFacts& facts,
   saver.Save(report.exr, [&](const std::string& path) {
     WriteExr(path, film.width(), film.height(), FilmPlanes(film, facts.scale),
              OutputOptions(facts.identity, facts.head,
-                           {report.result, report.result.training.changes}, film,
-                           targets.image.half));
+                           {report.result, report.result.training.changes, report.error},
+                           film, targets.image.half));
   });
   report.png = targets.png;
   saver.Save(report.png, [&](const std::string& path) {

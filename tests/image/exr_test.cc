@@ -8,6 +8,7 @@
 
 #include "src/core/error.h"
 #include "src/core/input_file.h"
+#include "src/core/parallel.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {
@@ -63,6 +64,17 @@ TEST_CASE("an EXR file gives back what was written", "[image][exr]") {
     INFO(plane.name);
     CHECK(equal);
   }
+}
+
+TEST_CASE("an EXR file is the same however many threads compress it", "[image][exr]") {
+  const TemporaryFolder folder;
+  const auto write = [&](int threads) {
+    const ThreadLimit limit(threads);
+    const std::string path = folder.File(std::to_string(threads) + ".exr");
+    WriteExr(path, 701, 509, SomePlanes(701, 509));
+    return ReadWholeFile(path);
+  };
+  CHECK(write(1) == write(2));
 }
 
 TEST_CASE("named channels come in the order asked for", "[image][exr]") {
