@@ -70,6 +70,17 @@ HWY_INLINE void StoreGbuffer(const Wave& wave, const Slots& slots, VI output) {
           slots, output);
 }
 
+// What a film that keeps spectra takes of a sample: radiance, which no exposure changes.
+HWY_INLINE void StoreRadiance(const Wave& wave, const Slots& slots, MF bad, VI output) {
+  const PathColumns& p = wave.path;
+  V3 radiance = Gather3(p.l_r, p.l_g, p.l_b, slots);
+  if (p.weight != nullptr) radiance = Mul(radiance, Gather(p.weight, slots));
+  PlaneWriter(wave, PlaneGroup::kRadiance)
+      .Store(IfThenElse(bad, Splat3(0, 0, 0), radiance), output);
+  PlaneWriter(wave, PlaneGroup::kTriple)
+      .Store(hn::ConvertTo(DF(), Wavelengths(p, slots).triple), output);
+}
+
 HWY_INLINE void StoreWeight(const Wave& wave, const Slots& slots, VI output) {
   const float* weight = wave.path.weight;
   PlaneWriter(wave, PlaneGroup::kWeight)
@@ -88,6 +99,7 @@ void Accumulate(Wave& wave) {
   const PathColumns& p = wave.path;
   // With reuse=block a sample is light until its block has been connected.
   const bool is_light = wave.run->planes.Has(PlaneGroup::kWeight);
+  const bool keeps_spectra = wave.run->planes.Has(PlaneGroup::kRadiance);
   const VF exposure = Splat(is_light ? 1.0f : wave.run->exposure);
   ForEachBatch(wave, wave.queue(QueueId::kDone),
                [&](const Slots& slots, MF valid) HWY_ATTR {
@@ -121,6 +133,7 @@ void Accumulate(Wave& wave) {
                  }
                  if constexpr (kSigned) {
                    StoreControl(wave, slots, difference, checked.bad, output);
+                   if (keeps_spectra) StoreRadiance(wave, slots, checked.bad, output);
                  }
                  if (is_light) StoreWeight(wave, slots, output);
                  Push(wave.queue(QueueId::kFree), slots, valid);

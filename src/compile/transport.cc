@@ -6,23 +6,29 @@
 namespace lanelight {
 namespace {
 
-[[noreturn]] void Refuse(const SourceLocation& where, const std::string& what) {
-  throw InputError(where, what +
-                              " is not supported with --transport spectral yet; "
-                              "--transport rgb renders it");
-}
+// Of a scene with this film.
+struct Refusal {
+  const Film& film;
+
+  [[noreturn]] void operator()(const SourceLocation& where,
+                               const std::string& what) const {
+    throw InputError(where, what + " is not supported with --transport spectral yet; " +
+                                (film.buckets.count > 0 ? "with Film \"rgb\", " : "") +
+                                "--transport rgb renders it");
+  }
+};
 
 bool IsGrey(Rgb c) { return c.x == c.y && c.y == c.z; }
 
-void CheckMedium(const Medium& medium) {
+void CheckMedium(const Medium& medium, const Refusal& refuse) {
   const std::string name = medium.name.empty() ? "" : " \"" + medium.name + "\"";
   if (medium.kind == MediumKind::kRgbGrid) {
-    Refuse(medium.where, "the medium" + name + " of type \"rgbgrid\"");
+    refuse(medium.where, "the medium" + name + " of type \"rgbgrid\"");
   }
   const bool heated = !medium.temperature.empty() || medium.sparse_temperature != nullptr;
   const bool varies = medium.kind != MediumKind::kHomogeneous;
   if (heated || (varies && !IsGrey(medium.emission))) {
-    Refuse(medium.where, "the medium" + name + ", which emits coloured light,");
+    refuse(medium.where, "the medium" + name + ", which emits coloured light,");
   }
 }
 
@@ -75,9 +81,10 @@ std::optional<SpectrumUser> FindSpectrum(const SceneDescription& description,
 }
 
 void CheckTransport(const SceneDescription& description, const std::vector<Index>& used) {
-  for (const Medium& medium : description.media) CheckMedium(medium);
-  ForEachUsed(description, used, [](const Material& m) {
-    if (m.kind == MaterialKind::kMeasured) Refuse(m.where, "the material \"measured\"");
+  const Refusal refuse = {description.film};
+  for (const Medium& medium : description.media) CheckMedium(medium, refuse);
+  ForEachUsed(description, used, [&](const Material& m) {
+    if (m.kind == MaterialKind::kMeasured) refuse(m.where, "the material \"measured\"");
   });
 }
 

@@ -51,6 +51,13 @@ void FilmAccumulator::UseRegression(double coefficient) {
                  PixelRect{x0_, y0_, x0_ + width_, y0_ + height_}, groups_, coefficient));
 }
 
+void FilmAccumulator::UseBuckets(const SpectralBuckets& buckets) {
+  for (std::uint64_t samples : samples_) LL_CHECK_EQ(samples, std::uint64_t{0});
+  bucket_film_ = std::make_unique<BucketFilm>(buckets, samples_.size());
+  features_.Add(Feature::kSpectralFilm);
+  planes_ = SamplePlanes(features_);
+}
+
 void FilmAccumulator::UseControl(Feature feature, PlaneGroup group,
                                  std::unique_ptr<FilmControl> control) {
   for (std::uint64_t samples : samples_) LL_CHECK_EQ(samples, std::uint64_t{0});
@@ -79,6 +86,10 @@ void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
   }
   if (has_aov()) AddPlanes(PlaneGroup::kAov, planes, count, aov_[index].of);
   if (has_gbuffer()) AddPlanes(PlaneGroup::kGbuffer, planes, count, gbuffer_[index].of);
+  if (bucket_film_) {
+    bucket_film_->Add(index, planes + planes_.First(PlaneGroup::kRadiance),
+                      planes[planes_.First(PlaneGroup::kTriple)], count);
+  }
   samples_[index] += count;
 }
 
@@ -187,6 +198,13 @@ double FilmAccumulator::Gbuffer(int x, int y, int plane) const {
                     : gbuffer_[index].of[plane] / hits;
 }
 
+double FilmAccumulator::Bucket(int x, int y, int bucket) const {
+  LL_CHECK(bucket_film_ != nullptr);
+  const std::size_t index = Index(x, y);
+  if (samples_[index] == 0) return 0;
+  return bucket_film_->Sum(index, bucket) / static_cast<double>(samples_[index]);
+}
+
 std::vector<MutableStateColumn> FilmAccumulator::Columns() {
   std::vector<MutableStateColumn> columns = {
       MakeStateColumn<std::uint64_t>("samples", "samples taken", samples_, {})};
@@ -214,6 +232,7 @@ std::vector<MutableStateColumn> FilmAccumulator::Columns() {
         "shading normal (X, Y, Z each), u, v, dz/dx, dz/dy",
         gbuffer_, {kGbufferPlanes}));
   }
+  if (bucket_film_) columns.push_back(bucket_film_->Column());
   if (!control_) return columns;
   for (MutableStateColumn& column : control_->Columns())
     columns.push_back(std::move(column));

@@ -12,6 +12,7 @@
 
 #include "src/core/column.h"
 #include "src/core/vec.h"
+#include "src/image/bucket_film.h"
 #include "src/image/film_control.h"
 #include "src/image/replicate_sums.h"
 #include "src/path/sample_planes.h"
@@ -46,12 +47,20 @@ class FilmAccumulator {
   void UseDifferences();
   void UseRegression(double coefficient);
   void FitControl();
+  /// From here on (before any sample) samples have their wavelengths as well, and the
+  /// film keeps means by bucket.
+  void UseBuckets(const SpectralBuckets& buckets);
+  /// Null without.
+  const SpectralBuckets* buckets() const {
+    return bucket_film_ ? &bucket_film_->buckets() : nullptr;
+  }
   /// What the control variate achieved; empty without the two above.
   std::optional<ControlReport> Control() const;
 
   /// Planes that a film takes of a sample, at most.
   static constexpr int kMostPlanes =
-      kColorPlanes + kAovPlanes + kGbufferPlanes +
+      kColorPlanes + kAovPlanes + kGbufferPlanes + NumPlanes(PlaneGroup::kRadiance) +
+      NumPlanes(PlaneGroup::kTriple) +
       std::max(NumPlanes(PlaneGroup::kDifference), NumPlanes(PlaneGroup::kNumbers));
 
   /// Adds `count` consecutive samples of one pixel; planes[p][i] is plane p (in the order
@@ -75,6 +84,10 @@ class FilmAccumulator {
   /// Of a plane of the g-buffer; the first, the share of samples that hit something,
   /// over all samples, the others over those. Zero where there are none.
   double Gbuffer(int x, int y, int plane) const;
+  /// Of a bucket: mean over the samples of the mean radiance at those of its wavelengths
+  /// that paths carry, in units of WhiteRadiance() before exposure. Zero without samples,
+  /// and of a bucket in which paths carry none.
+  double Bucket(int x, int y, int bucket) const;
 
   /// All that AddSamples has brought, by pixel, row by row: a film of the same pixels,
   /// planes and groups that is given these goes on from there.
@@ -118,6 +131,7 @@ class FilmAccumulator {
   std::vector<Open> open_;                 // sums of incomplete pairs; without replicates
   std::vector<AovSums> aov_;
   std::vector<GbufferSums> gbuffer_;
+  std::unique_ptr<BucketFilm> bucket_film_;
   FeatureSet features_;  // of renders that it takes samples of
   SamplePlanes planes_;  // that it takes
   PlaneGroup control_planes_ = PlaneGroup::kCount;

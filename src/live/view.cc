@@ -43,6 +43,7 @@ Film ReducedFilm(const Film& film, int factor) {
 
 Stage::Stage(const std::string& scene, const RenderSettings& settings)
     : path(scene), job(PrepareJob(scene, settings)) {
+  job.plan.options.spectral_film = false;  // nobody sees more than colours
   eye = EyeOf(job.loaded->description.camera, DistanceToMiddle(job));
 }
 

@@ -17,8 +17,6 @@ struct Refusal {
   std::string_view directive, type, why;
 };
 constexpr Refusal kRefusals[] = {
-    {"Film", "spectral",
-     "light is transported as linear sRGB, so there are no spectra to write"},
     {"Texture", "ptex",
      "textures per face (Ptex files) are not in this renderer; an image with surface "
      "coordinates can stand for one"}};

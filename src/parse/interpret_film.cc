@@ -82,13 +82,41 @@ void ReadGbuffer(ParamSet& params, Film* film) {
       "coordinatesystem", {{"camera", Gbuffer::kCamera}, {"world", Gbuffer::kWorld}});
 }
 
+void ReadSpectral(ParseState& state, ParamSet& params, Film* film) {
+  constexpr int kMostBuckets = 1024;
+  constexpr double kLeastWidth = 0.01;  // nm: names of channels have three digits
+  SpectralBuckets& buckets = film->buckets;
+  buckets.count = params.Integer("nbuckets", 16, {1, kMostBuckets});
+  const Limits range = {kFirstNm, kLastNm};
+  buckets.first = params.Float("lambdamin", kFirstNm, range);
+  buckets.last = params.Float("lambdamax", kLastNm, range);
+  if (buckets.last - buckets.first < kLeastWidth * buckets.count) {
+    throw InputError(
+        params.where(),
+        fmt::format(
+            "{} buckets from \"lambdamin\" {} to \"lambdamax\" {} nm are narrower "
+            "than {} nm",
+            buckets.count, buckets.first, buckets.last, kLeastWidth));
+  }
+  // The first and the last bin are the wide ones.
+  const auto& edge = CarriedWavelengths().edge;
+  const double low = edge[1], high = edge[kWavelengthBins - 1];
+  if (buckets.first >= low && buckets.last <= high) return;
+  state.AddNote(params.where(),
+                fmt::format("film \"spectral\": paths carry {} to {} nm and tell none "
+                            "apart below {:.0f} and above {:.0f} nm: buckets beyond are "
+                            "zero, those that reach beyond are means of what is within",
+                            kFirstCarriedNm, kLastCarriedNm, low, high));
+}
+
 }  // namespace
 
 void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params) {
-  if (type != "rgb" && type != "gbuffer") {
-    ThrowUnknown(params.where(), "film", type, {"rgb", "gbuffer"});
+  if (type != "rgb" && type != "gbuffer" && type != "spectral") {
+    ThrowUnknown(params.where(), "film", type, {"rgb", "gbuffer", "spectral"});
   }
   Film film;
+  if (type == "spectral") ReadSpectral(state, params, &film);
   if (type == "gbuffer") ReadGbuffer(params, &film);
   film.width = params.Integer("xresolution", 1280, {1, kLargestSide});
   film.height = params.Integer("yresolution", 720, {1, kLargestSide});

@@ -81,6 +81,7 @@ namespace lanelight {
   X(kSignedFilter, "a pixel filter with negative lobes")                      \
   X(kAov, "auxiliary output (--aov)")                                         \
   X(kGbuffer, "auxiliary output of where first hits are (--gbuffer)")         \
+  X(kSpectralFilm, "a film that keeps spectra (Film \"spectral\")")           \
   X(kSampledHittableLights, "light samples of shapes and environments")       \
   X(kLightTable, "light-selection=power or uniform")                          \
   X(kLightTree, "light-selection=tree")                                       \

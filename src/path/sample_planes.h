@@ -17,6 +17,8 @@ inline constexpr int kRecordedVertices = 4;
   X(Color, 3, ({}), true, "radiance, red, green, blue")                                   \
   X(Aov, 7, ({kAov}), false, "of the first hit: albedo, shading normal, depth")           \
   X(Gbuffer, 14, ({kGbuffer}), false, "of the first hit: whether there is one, point, geometric normal, shading normal, u, v, dz/dx, dz/dy") \
+  X(Radiance, 3, ({kSpectralFilm}), true, "before the film makes a colour of it: at the long, the middle and the short wavelength of the path, weighed") \
+  X(Triple, 1, ({kSpectralFilm}), false, "of bins that these wavelengths are of") \
   X(Difference, 3, ({kControlDifference}), true, "h - E[h] of a control variate")         \
   X(Numbers, 4, ({kRegressionControl}), false, "that drove a path (first_numbers.h): position in the pixel, first scattered direction, its light sample, choices of lobes") \
   X(Record, 3 * kRecordedVertices + 5, ({kRecordsPaths}), false, "cell, throughput, gathered of each vertex; gathered at the end; depth; the three sums of the risk") \
@@ -67,7 +69,7 @@ class SamplePlanes {
   static bool Sums(PlaneGroup group);
 
  private:
-  int first_[kNumPlaneGroups] = {0, -1, -1, -1, -1, -1, -1, -1, -1};
+  int first_[kNumPlaneGroups] = {0, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
   int count_ = kColorPlanes;
 };
 

@@ -65,6 +65,11 @@ void CheckControl(const Strategy& s, const PreparedScene& scene,
 // A sample of a block is not what one path has brought.
 void CheckReuse(const Strategy& s, const FeatureSet& plan) {
   if (s.reuse == Reuse::kNone) return;
+  if (plan.HasAll({Feature::kReuse, Feature::kSpectralFilm})) {
+    Refuse(
+        "reuse=block does not work with Film \"spectral\": what a block shares out are "
+        "colours, not wavelengths; use reuse=none, or Film \"rgb\"");
+  }
   if (plan.HasAll({Feature::kReuse, Feature::kDispersion})) {
     Refuse(
         "reuse=block does not work with --transport spectral where glass disperses, "

@@ -18,6 +18,7 @@ struct PlanOptions {
   SimdTarget target;  // of all kernels
   std::uint32_t max_depth = 5;
   Auxiliary auxiliary = Auxiliary::kNone;
+  bool spectral_film = false;   // samples keep their wavelengths for its buckets
   std::uint32_t wavefront = 0;  // paths; 0 = sized so that the live columns fit in L2
   /// Of a training pass (src/train/training.h): what it turns on to record. It has
   /// independent points, no pairs and no control variate.

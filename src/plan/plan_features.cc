@@ -128,6 +128,7 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
   f.Add(TurnsOn(strategy.points));
   f.Add(TurnsOn(strategy.pairs));
   AddControl(strategy, f);
+  if (options.spectral_film && !options.training) f.Add(Feature::kSpectralFilm);
   if (options.training) f.Add(*options.training);
   return f;
 }

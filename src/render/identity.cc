@@ -40,7 +40,17 @@ Json IdentityOf(const Job& job) {
                    {"strategy", ToText(job.scene.strategy)},
                    {"color_space", job.loaded->description.film.color_space},
                    {"version", FullVersion()}});
+  const SpectralBuckets& buckets = job.loaded->description.film.buckets;
+  if (buckets.count > 0) {
+    identity["buckets"] = {
+        {"count", buckets.count}, {"first_nm", buckets.first}, {"last_nm", buckets.last}};
+  }
   return identity;
+}
+
+SpectralBuckets BucketsOf(const Json& identity) {
+  const Json& buckets = identity.at("buckets");
+  return {buckets.at("count"), buckets.at("first_nm"), buckets.at("last_nm")};
 }
 
 std::string IdentityDifferences(const Json& a, const std::string& who_a, const Json& b,

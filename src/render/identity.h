@@ -14,6 +14,9 @@ namespace lanelight {
 /// shapes.
 nlohmann::json IdentityOf(const Job& job);
 
+/// Of a render whose film keeps spectra, from its identity.
+SpectralBuckets BucketsOf(const nlohmann::json& identity);
+
 /// One line for each thing that differs, "seed: the state has 1, this render 2"; empty if
 /// nothing does. `had`, `has`: who the two are, e.g. "the state", "this render".
 std::string IdentityDifferences(const nlohmann::json& a, const std::string& who_a,

@@ -28,6 +28,7 @@ void ReleaseCopies(SceneDescription& description) {
 void SetTransport(LoadedScene& loaded, const RenderSettings& settings) {
   SceneDescription& description = loaded.description;
   std::optional<Transport>& transport = description.integrator.transport;
+  if (description.film.buckets.count > 0) loaded.transport_why = "the film keeps spectra";
   if (transport) return;
   std::vector<Strategy> strategies = settings.compared;
   strategies.push_back(description.strategy);
@@ -48,7 +49,7 @@ Job Prepare(LoadedScene loaded, const RenderSettings& asked) {
   ApplySettings(settings, description);
   SetTransport(loaded, settings);
   job.window = RenderedPixels(description.film);
-  CheckFilmFits(job.window, AuxiliaryOf(settings, description.film), description.strategy,
+  CheckFilmFits(job.window, LayersOf(settings, description.film), description.strategy,
                 PhysicalMemory());
   loaded.load_seconds += watch.Lap();
 
@@ -117,6 +118,7 @@ FilmAccumulator MakeFilm(const Job& job) {
   FilmAccumulator film(job.window.x0, job.window.y0, job.window.width(),
                        job.window.height(), GroupsOf(job.scene.strategy),
                        job.plan.options.auxiliary);
+  if (job.plan.options.spectral_film) film.UseBuckets(job.scene.view.film.buckets);
   film.set_chance_of_light(ChanceOfLight(job.scene));
   return film;
 }

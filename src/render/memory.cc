@@ -18,10 +18,10 @@ namespace {
 // The output holds R, G, B, three variances and the count.
 constexpr std::uint64_t kPlanesPerPixel = (2 * kColorPlanes + 1) * sizeof(float);
 
-std::uint64_t AuxiliaryPerPixel(Auxiliary auxiliary) {
-  const int aov = auxiliary >= Auxiliary::kAov ? kAovPlanes : 0;
-  const int gbuffer = auxiliary >= Auxiliary::kGbuffer ? kGbufferPlanes : 0;
-  return static_cast<std::uint64_t>(aov + gbuffer) * sizeof(float);
+std::uint64_t LayersPerPixel(const FilmLayers& layers) {
+  const int aov = layers.auxiliary >= Auxiliary::kAov ? kAovPlanes : 0;
+  const int gbuffer = layers.auxiliary >= Auxiliary::kGbuffer ? kGbufferPlanes : 0;
+  return static_cast<std::uint64_t>(aov + gbuffer + layers.buckets) * sizeof(float);
 }
 
 // Sums from which the coefficients of control variates are fitted.
@@ -46,12 +46,17 @@ std::uint64_t AddressSpace() {
 
 }  // namespace
 
-std::uint64_t FilmBytes(const PixelRect& window, Auxiliary auxiliary,
+FilmLayers LayersOf(const RenderSettings& settings, const Film& film) {
+  return {AuxiliaryOf(settings, film), film.buckets.count};
+}
+
+std::uint64_t FilmBytes(const PixelRect& window, const FilmLayers& layers,
                         const Strategy& strategy) {
   // The planes exist twice for a moment: as planes, and packed into the file's bytes.
   const std::uint64_t per_pixel =
-      FilmAccumulator::BytesPerPixel(GroupsOf(strategy), auxiliary) +
-      2 * kPlanesPerPixel + 2 * AuxiliaryPerPixel(auxiliary) + ControlPerPixel(strategy);
+      FilmAccumulator::BytesPerPixel(GroupsOf(strategy), layers.auxiliary) +
+      BucketFilm::BytesPerPixel({layers.buckets}) + 2 * kPlanesPerPixel +
+      2 * LayersPerPixel(layers) + ControlPerPixel(strategy);
   return window.pixels() * per_pixel;
 }
 
@@ -73,15 +78,17 @@ std::string OutOfMemoryText() {
   return text + "; a lower --resolution, a --crop or fewer --threads need less";
 }
 
-void CheckFilmFits(const PixelRect& window, Auxiliary auxiliary, const Strategy& strategy,
-                   std::uint64_t memory) {
-  const std::uint64_t need = FilmBytes(window, auxiliary, strategy);
+void CheckFilmFits(const PixelRect& window, const FilmLayers& layers,
+                   const Strategy& strategy, std::uint64_t memory) {
+  const std::uint64_t need = FilmBytes(window, layers, strategy);
   if (need <= memory) return;
-  throw InputError(
-      fmt::format("an image of {}x{} pixels needs {:.1f} GiB of memory, this "
-                  "machine has {:.1f} GiB; lower --resolution or render parts "
-                  "with --crop",
-                  window.width(), window.height(), need / kGiB, memory / kGiB));
+  const bool buckets = layers.buckets > 0;
+  throw InputError(fmt::format(
+      "an image of {}x{} pixels{} needs {:.1f} GiB of memory, this machine has {:.1f} "
+      "GiB; lower --resolution{} or render parts with --crop",
+      window.width(), window.height(),
+      buckets ? fmt::format(" with {} buckets of wavelengths", layers.buckets) : "",
+      need / kGiB, memory / kGiB, buckets ? " or \"nbuckets\"" : ""));
 }
 
 }  // namespace lanelight

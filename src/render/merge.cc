@@ -64,6 +64,10 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
   if (file.HasPixels("regression_sums")) features.Add(Feature::kRegressionControl);
   merged.film = std::make_unique<FilmAccumulator>(w.x0, w.y0, w.width(), w.height(),
                                                   GroupsOf(strategy), auxiliary);
+  if (file.HasPixels("buckets")) {
+    merged.film->UseBuckets(BucketsOf(merged.identity));
+    features.Add(Feature::kSpectralFilm);
+  }
   merged.films = std::make_unique<Films>(SamplePlanes(features),
                                          strategy.coefficient.value_or(1), *merged.film);
   merged.film->set_chance_of_light(merged.head.value("chance_of_light", 1.0));

@@ -61,6 +61,17 @@ void AppendAov(const FilmAccumulator& film, double scale, std::size_t pixels,
   for (ExrPlane& plane : aov) planes.push_back(std::move(plane));
 }
 
+void AppendBuckets(const FilmAccumulator& film, std::size_t pixels,
+                   std::vector<ExrPlane>& planes) {
+  for (int b = 0; b < film.buckets()->count; ++b) {
+    ExrPlane plane = {ChannelName(*film.buckets(), b), std::vector<float>(pixels)};
+    FillPixels(film, [&](std::size_t i, int x, int y) {
+      plane.values[i] = static_cast<float>(film.Bucket(x, y, b));
+    });
+    planes.push_back(std::move(plane));
+  }
+}
+
 }  // namespace
 
 int VarianceExponent(const FilmAccumulator& film) {
@@ -96,6 +107,7 @@ std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale) {
   });
   if (film.has_aov()) AppendAov(film, scale, pixels, planes);
   if (film.has_gbuffer()) AppendGbuffer(film, pixels, planes);
+  if (film.buckets() != nullptr) AppendBuckets(film, pixels, planes);
   return planes;
 }
 
@@ -170,6 +182,11 @@ ExrOptions OutputOptions(const nlohmann::json& identity, const nlohmann::json& h
   options.attributes["settings"] = DumpJson(settings);
   const nlohmann::json machine = head.value("machine", nlohmann::json());
   if (!machine.is_null()) options.attributes["machine"] = machine.value("text", "");
+  if (film.buckets() != nullptr) {
+    // As pbrt-v4 says it.
+    options.attributes["spectralLayoutVersion"] = "1.0";
+    options.attributes["emissiveUnits"] = "W.m^-2.sr^-1";
+  }
   NoteError(run.error, options);
   NoteObservations(film, options);
   NoteVarianceUnit(film, options);

@@ -22,7 +22,7 @@ void NoteVarianceUnit(const FilmAccumulator& film, ExrOptions& options);
 /// VarianceExponent; NaN where there are fewer than two observations); samples; with
 /// auxiliary planes
 /// albedo.R/G/B, normal.X/Y/Z and depth.Z in units of the scene file (`scale` is
-/// CompiledScene::scale).
+/// CompiledScene::scale); of a film that keeps spectra its buckets, by ChannelName().
 std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale);
 
 /// What has been done: how much, what a pilot has changed of the strategy

@@ -78,6 +78,19 @@ void ApplyFilm(const RenderSettings& settings, Film& film) {
   CheckCrop(film);
 }
 
+// A film that keeps spectra needs wavelengths.
+void ApplySpectralFilm(const std::optional<AskedTransport>& asked,
+                       std::optional<Transport>& transport) {
+  const bool rgb = asked ? *asked == AskedTransport::kRgb : transport == Transport::kRgb;
+  if (rgb) {
+    throw InputError(fmt::format(
+        "the scene's Film \"spectral\" keeps wavelengths, and with {} paths carry none: "
+        "leave it out, or use Film \"rgb\"",
+        asked ? "--transport rgb" : "the \"transport\" \"rgb\" of its Integrator"));
+  }
+  transport = Transport::kSpectral;
+}
+
 // Nothing is left where the scene is to decide.
 void ApplyTransport(const std::optional<AskedTransport>& asked,
                     std::optional<Transport>& transport) {
@@ -103,7 +116,12 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
                     *settings.seconds));
   }
   if (settings.max_depth) scene.integrator.max_depth = *settings.max_depth;
-  ApplyTransport(settings.transport, scene.integrator.transport);
+  std::optional<Transport>& transport = scene.integrator.transport;
+  if (scene.film.buckets.count > 0) {
+    ApplySpectralFilm(settings.transport, transport);
+  } else {
+    ApplyTransport(settings.transport, transport);
+  }
   const int depth = scene.integrator.max_depth;
   if (depth < 0 || depth > kMaxDepth) {
     throw InputError(
@@ -159,6 +177,7 @@ PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription
   options.target = SimdTarget(settings.target);
   options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
   options.auxiliary = AuxiliaryOf(settings, scene.film);
+  options.spectral_film = scene.film.buckets.count > 0;
   options.wavefront = settings.wavefront;
   return options;
 }

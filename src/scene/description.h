@@ -18,6 +18,7 @@
 #include "src/image/film_response.h"
 #include "src/image/measured_reflectance.h"
 #include "src/image/sparse_grid.h"
+#include "src/image/spectral_buckets.h"
 #include "src/image/spectrum_integral.h"
 
 namespace lanelight {
@@ -312,6 +313,7 @@ struct Film {
   FilmResponse response;
   std::string color_space = "srgb";  // of the image
   Gbuffer gbuffer = Gbuffer::kNone;
+  SpectralBuckets buckets;  // Film "spectral"
 };
 
 struct Sampler {

@@ -69,7 +69,7 @@ Job CellRenderer::Prepare(const SweepCell& cell) {
   const Strategy strategy =
       StrategyNamed(Get(cell.values, Axis::kStrategy).value_or(kSceneStrategyName), {},
                     job_->scene.strategy);
-  CheckFilmFits(job_->window, AuxiliaryOf(settings, job_->loaded->description.film),
+  CheckFilmFits(job_->window, LayersOf(settings, job_->loaded->description.film),
                 strategy, PhysicalMemory());
   return WithStrategy(WithAmount(*job_, settings), strategy);
 }

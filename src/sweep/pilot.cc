@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "src/estimate/estimate.h"
-#include "src/prepare/groups.h"
 #include "src/render/output.h"
 #include "src/render/saving.h"
 
@@ -64,9 +63,10 @@ Pilot RenderPilot(const Job& job, double seconds, bool half) {
   options.seed = job.seed;
   options.threads = job.settings.threads;
   // The first render fills caches; the last one measures.
+  Job windowed = job;
+  windowed.window = {0, 0, width, height};
   for (options.spp = kPilotSamples;; options.spp *= 4) {
-    FilmAccumulator film(0, 0, width, height, GroupsOf(job.scene.strategy),
-                         Auxiliary::kNone);
+    FilmAccumulator film = MakeFilm(windowed);
     const RunResult result = Run(job.scene, job.plan, options, film);
     pilot.sample_seconds =
         result.seconds / double(std::max<std::uint64_t>(1, result.samples));

@@ -8,6 +8,7 @@ Films::Films(const SamplePlanes& planes, double coefficient, FilmAccumulator& fi
     : planes_(planes), film_(film) {
   LL_CHECK_EQ(planes.Has(PlaneGroup::kAov), film.has_aov());
   LL_CHECK_EQ(planes.Has(PlaneGroup::kGbuffer), film.has_gbuffer());
+  LL_CHECK_EQ(planes.Has(PlaneGroup::kRadiance), film.buckets() != nullptr);
   if (planes.Has(PlaneGroup::kDifference)) film_.UseDifferences();
   if (planes.Has(PlaneGroup::kNumbers)) film_.UseRegression(coefficient);
 }

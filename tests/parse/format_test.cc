@@ -82,10 +82,10 @@ TEST_CASE("what is wrong with a document of pbrt's format is found", "[parse][fo
   CHECK(count(&FormatFaults::FindFalse, sphere) == 0);
   sphere[0].lines[0].status = FormatStatus::kNoted;
   CHECK(count(&FormatFaults::FindFalse, sphere) == 1);
-  FormatTable film = Only("Film", "spectral");
-  film[0].why = "no reason";
-  film[0].lines.clear();
-  CHECK(count(&FormatFaults::FindFalse, film) == 1);
+  FormatTable ptex = Only("Texture", "ptex");
+  ptex[0].why = "no reason";
+  ptex[0].lines.clear();
+  CHECK(count(&FormatFaults::FindFalse, ptex) == 2);  // of numbers and of colours
   CHECK(count(&FormatFaults::FindMissing, realistic) == 0);
   realistic[0].lines.pop_back();  // once for each line, and once without
   CHECK(count(&FormatFaults::FindMissing, realistic) == realistic[0].lines.size() + 1);

@@ -76,16 +76,29 @@ def rank_process(tag, rank):
     sys.exit(f"FAILED: no process of rank {rank}")
 
 
+def check_same_bits(p, name, render):
+    p.single(*render, "-o", "alone.exr")
+    for ranks in 1, 2, 4:
+        subprocess.run(p.command(ranks, "render", *render, "-o", "ranks.exr", "--threads",
+                                 "1", "--quiet", "--json", "ranks.json"), check=True)
+        check(pixels("ranks.exr") == pixels("alone.exr"),
+              f"{name}: {ranks} ranks have other pixels")
+        check(json.load(open("ranks.json"))["ranks"] == ranks, "ranks of the report")
+
+
 def test_same_bits(p):
     for strategy in STRATEGIES:
-        render = [p.scene(), *SIZE, "--spp", "70", "--aov", "--strategy", strategy]
-        p.single(*render, "-o", "alone.exr")
-        for ranks in 1, 2, 4:
-            subprocess.run(p.command(ranks, "render", *render, "-o", "ranks.exr", "--threads",
-                                     "1", "--quiet", "--json", "ranks.json"), check=True)
-            check(pixels("ranks.exr") == pixels("alone.exr"),
-                  f"{strategy}: {ranks} ranks have other pixels")
-            check(json.load(open("ranks.json"))["ranks"] == ranks, "ranks of the report")
+        check_same_bits(p, strategy, [p.scene(), *SIZE, "--spp", "70", "--aov", "--strategy",
+                                      strategy])
+
+
+def test_buckets_of_wavelengths(p):
+    scene = open(p.scene("prism")).read()
+    check('Film "rgb"' in scene, "the film of prism.pbrt")
+    with open("spectra.pbrt", "w") as file:
+        file.write(scene.replace('Film "rgb"', 'Film "spectral"'))
+    check_same_bits(p, "buckets", ["spectra.pbrt", *SIZE, "--spp", "70"])
+    check(b"S0.550,938nm" in open("ranks.exr", "rb").read(), "no bucket in the image")
 
 
 def test_ends(p):

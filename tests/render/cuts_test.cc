@@ -1,6 +1,7 @@
 // The same bits however a render is cut: over threads, parts, stops and resumptions, for
 // strategies of every kind of film and training.
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <random>
 
 #include "tests/render/kept_render.h"
@@ -106,6 +107,22 @@ TEST_CASE("cuts: 64 parts, auxiliary planes", "[cuts]") {
   KeptRender r = RenderOf("cornell-box", "");
   r.settings.gbuffer = Gbuffer::kCamera;
   CheckCuts(r, {64});
+}
+
+TEST_CASE("cuts: buckets of wavelengths", "[cuts][buckets]") {
+  TemporaryFolder folder;
+  std::ifstream prism(Scene("prism"));
+  std::string text{std::istreambuf_iterator<char>(prism), {}};
+  const std::string film = "Film \"rgb\"";
+  REQUIRE(text.find(film) != std::string::npos);
+  text.replace(text.find(film), film.size(), "Film \"spectral\" \"integer nbuckets\" 5");
+  KeptRender r = RenderOf("prism", "");
+  r.scene = folder.File("spectra.pbrt");
+  std::ofstream(r.scene) << text;
+  const Outcome whole = RenderKept(r);
+  CHECK(std::count_if(whole.planes.begin(), whole.planes.end(),
+                      [](const auto& plane) { return plane.starts_with("S0."); }) == 5);
+  CheckCuts(r, {3, 7});
 }
 
 TEST_CASE("cuts: the matrix of scenes and strategies", "[cuts][slow]") {
