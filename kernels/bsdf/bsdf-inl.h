@@ -63,6 +63,7 @@ struct PlainBsdf {
   static constexpr bool kEvenSides = false;  // f for wi is the same for all wo on a side
   static constexpr bool kTransmits = false;  // not all directions are on wo's side
   static constexpr bool kFibre = false;      // MaterialSource has uv_v
+  static constexpr bool kByWavelength = false;  // Load looks at the path's wavelengths
 };
 
 /// Where material parameters come from: the table, or columns filled by the texture
@@ -74,8 +75,9 @@ struct MaterialSource {
   const float *alpha2_x, *alpha2_y, *coat_thickness;
   const float *coat_albedo_r, *coat_albedo_g, *coat_albedo_b, *coat_g;
   bool color_by_path, alpha_by_path, color1_by_path, coat_by_path, medium_by_path;
-  const float* uv_v;  // only for kFibre; null otherwise
-  const float* eta;   // of glass, by path; null: of the table
+  const float* uv_v;        // only for kFibre; null otherwise
+  const float* eta;         // of glass, by path; null: of the table
+  const float* wavelength;  // of paths that carry wavelengths; else null
 };
 
 LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
@@ -100,6 +102,7 @@ LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
           false,
           false,
           false,
+          nullptr,
           nullptr,
           nullptr};
 }

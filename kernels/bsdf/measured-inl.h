@@ -10,18 +10,25 @@
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/bsdf/measured_tables-inl.h"
+#include "kernels/texture/wavelengths-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 struct MeasuredBsdf : PlainBsdf {
   static constexpr bool kAnisotropic = true;
+  static constexpr bool kByWavelength = true;
   struct Params {
     const MeasuredTable* table;
     VI record;
+    bool spectral;  // paths carry wavelengths
+    VI triple;      // those of them
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
     const MeasuredTable& table = in.source.table->measured;
-    return {&table, hn::Max(in.Int(table.of_material), hn::Zero(DI()))};
+    const VI record = hn::Max(in.Int(table.of_material), hn::Zero(DI()));
+    const float* number = in.source.wavelength;
+    if (number == nullptr) return {&table, record, false, hn::Zero(DI())};
+    return {&table, record, true, Wavelengths(Gather(number, in.slot)).triple};
   }
 
   LANELIGHT_LONG_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo, V3 wi) {
@@ -70,6 +77,8 @@ struct MeasuredBsdf : PlainBsdf {
   struct Known {
     const MeasuredTable& table;
     RecordWords<MeasuredRecord> record;
+    bool spectral;
+    VI triple;
     VF flip_x, flip_y, flip_z;  // to the upper side, and the part that was measured
     V3 wo;
     VF theta, phi;
@@ -80,6 +89,8 @@ struct MeasuredBsdf : PlainBsdf {
     LANELIGHT_INLINE Known(const Params& m, V3 direction)
         : table(*m.table),
           record(table.records.data(), m.record),
+          spectral(m.spectral),
+          triple(m.triple),
           vndf(table, record, slices, offsetof(MeasuredRecord, vndf)),
           luminance(table, record, slices, offsetof(MeasuredRecord, luminance)) {
       SetWo(direction);
@@ -160,8 +171,17 @@ struct MeasuredBsdf : PlainBsdf {
       const VF ndf = of(offsetof(MeasuredRecord, ndf)).Single(normal.x, normal.y);
       const VF scale = hn::Div(hn::Mul(Splat(0.25f), ndf), sigma);
       const MF seen = hn::Gt(sigma, hn::Zero(DF()));
-      return Mul(of(offsetof(MeasuredRecord, reflectance)).Color(x, y),
-                 hn::IfThenElseZero(seen, scale));
+      const MeasuredFunction reflectance = of(offsetof(MeasuredRecord, reflectance));
+      const V3 color = spectral ? Spectrum(reflectance, x, y) : reflectance.Color(x, y);
+      return Mul(color, hn::IfThenElseZero(seen, scale));
+    }
+
+    /// At the wavelengths of paths, linear between those of the file.
+    LANELIGHT_INLINE V3 Spectrum(const MeasuredFunction& f, VF x, VF y) const {
+      const VI bins = record.I(offsetof(MeasuredRecord, bins));
+      const VI count = record.I(offsetof(MeasuredRecord, wavelengths));
+      const V3 at = ByBin(table.values.data(), hn::Add(bins, triple));
+      return f.Between(x, y, count, at);
     }
 
     LANELIGHT_INLINE static VF OfTheta(VF angle) {

@@ -114,6 +114,29 @@ struct MeasuredFunction {
     }
     return sum;
   }
+  /// Of one with `count` slices for each, at three places between these in [0, count -
+  /// 1].
+  LANELIGHT_INLINE V3 Between(VF x, VF y, VI count, V3 at_slices) const {
+    const DI di;
+    const Place p = PlaceOf(x, y);
+    const VI size = hn::Mul(width, height), one = hn::Set(di, 1);
+    const VI last = hn::Sub(count, one);
+    const auto value = [&](VF place) HWY_ATTR {
+      const VI low = hn::ConvertTo(di, place), high = hn::Min(hn::Add(low, one), last);
+      const VF part = hn::Sub(place, hn::ConvertTo(DF(), low));
+      VF sum = hn::Zero(DF());
+      for (int i = 0; i < slices.count; ++i) {
+        const VI first = hn::Mul(slices.at[i], count);
+        const auto of = [&](VI slice) HWY_ATTR {
+          const VI begin = hn::Add(hn::Mul(hn::Add(first, slice), size), at);
+          return Between(begin, p.cell, p);
+        };
+        sum = hn::MulAdd(Lerp(part, of(low), of(high)), slices.share[i], sum);
+      }
+      return sum;
+    };
+    return {value(at_slices.x), value(at_slices.y), value(at_slices.z)};
+  }
 };
 
 /// A density over the unit square as a map: (0, 1)^2, evenly, to points that have it.

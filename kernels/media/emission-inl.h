@@ -5,14 +5,19 @@
 #include "hwy/contrib/math/math-inl.h"
 
 #include "kernels/media/voxels-inl.h"
+#include "src/image/blackbody.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Colour of a black body of (t - offset) * scale kelvin; none up to kLeastKelvin.
-LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF t) {
+/// Temperature that `t` stands for.
+LANELIGHT_INLINE VF Kelvin(const BlackbodyTable& table, VF t) {
+  return hn::Mul(hn::Sub(t, Splat(table.offset)), Splat(table.scale));
+}
+
+/// Colour of a black body, of kLeastKelvin at least.
+LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF kelvin) {
   const DI di;
   const VF least = Splat(kLeastKelvin);
-  const VF kelvin = hn::Mul(hn::Sub(t, Splat(table.offset)), Splat(table.scale));
   const VF ratio = hn::Mul(hn::Max(kelvin, least), Splat(1 / kLeastKelvin));
   const VF at = hn::Mul(hn::Log(DF(), ratio), Splat(table.entries_per_log));
   // There are two entries at least.
@@ -25,27 +30,70 @@ LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF t) {
     const VF b = Gather(table.colors.data() + 3 + c, entry);
     return hn::MulAdd(share, hn::Sub(b, a), a);
   };
-  return IfThenElseZero(hn::Gt(kelvin, least), V3{channel(0), channel(1), channel(2)});
+  return {channel(0), channel(1), channel(2)};
 }
 
-/// At p of the box, in the lanes of `mask`.
-inline HWY_NOINLINE V3 EmissionFactor(const MediumGrid& grid, V3 p, MF mask) {
-  const MediumEmission& emission = grid.emission;
-  V3 factor = Splat3(1, 1, 1);
-  if (!emission.values.empty()) {
-    VF v[3];
-    Interpolate(grid.size, emission.values.data(), emission.channels, p, v);
-    factor = emission.channels == 1 ? V3{v[0], v[0], v[0]} : V3{v[0], v[1], v[2]};
-  }
-  if (emission.blackbody.colors.empty()) return factor;
-  VF t;
-  if (emission.sparse.grid != nullptr) {
-    t = SparseValue(emission.sparse, p, mask);
-  } else {
-    Interpolate(grid.size, emission.temperatures.data(), 1, p, &t);
-  }
-  return Mul(factor, BlackbodyColor(emission.blackbody, t));
+/// Spectra of black bodies of `kelvin` over their maxima, at wavelengths of which the row
+/// kPlanck has `planck` (Planck's law).
+LANELIGHT_INLINE V3 BlackbodySpectra(V3 planck, VF kelvin) {
+  const VF safe = hn::Clamp(kelvin, Splat(kLeastKelvin), Splat(1e9f));
+  const auto one = [&](VF of) HWY_ATTR {
+    const VF x = hn::Div(of, safe), q = hn::Mul(x, Splat(float(1 / kPlanckPeak)));
+    const VF q2 = hn::Mul(q, q), q5 = hn::Mul(hn::Mul(q2, q2), q);
+    return hn::Div(hn::Mul(q5, Splat(float(kPlanckAtPeak))), hn::Expm1(DF(), x));
+  };
+  return {one(planck.x), one(planck.y), one(planck.z)};
 }
+
+/// What a medium that varies emits over its absorption, for a batch of paths.
+struct GridEmission {
+  const MediumGrid& grid;
+  V3 scale;
+  V3 planck = {};  // row kPlanck, of black bodies and wavelengths
+  V3 place = {};   // of wavelengths, where colours are by voxel
+  bool spectral;
+
+  /// Medium `i` of the table, which has a grid.
+  LANELIGHT_INLINE GridEmission(const Wave& wave, std::size_t i, const Slots& slots)
+      : grid(wave.scene->media
+                 .grids[static_cast<std::size_t>(wave.scene->media.media[i].grid)]),
+        spectral(wave.path.wavelength != nullptr) {
+    const Media lanes(wave.scene->media, hn::Set(DI(), static_cast<int32_t>(i)));
+    scale = lanes.Emission(wave, slots);
+    if (spectral && grid.emission.heated()) planck = lanes.Planck(wave, slots);
+    if (spectral && grid.emission.channels == 4) place = Places(wave, slots);
+  }
+
+  /// At p of the box, in the lanes of `mask`.
+  LANELIGHT_INLINE V3 At(V3 p, MF mask) const {
+    return grid.emission.empty() ? scale : Mul(scale, Factor(p, mask));
+  }
+
+ private:
+  HWY_NOINLINE V3 Factor(V3 p, MF mask) const {
+    const MediumEmission& emission = grid.emission;
+    V3 factor = Splat3(1, 1, 1);
+    if (emission.channels == 4) {
+      InterpolateSpectra<1>(grid.size, emission.values.data(), place, p, &factor);
+    } else if (!emission.values.empty()) {
+      VF v[3];
+      Interpolate(grid.size, emission.values.data(), emission.channels, p, v);
+      factor = emission.channels == 1 ? V3{v[0], v[0], v[0]} : V3{v[0], v[1], v[2]};
+    }
+    if (!emission.heated()) return factor;
+    VF t;
+    if (emission.sparse.grid != nullptr) {
+      t = SparseValue(emission.sparse, p, mask);
+    } else {
+      Interpolate(grid.size, emission.temperatures.data(), 1, p, &t);
+    }
+    const VF kelvin = Kelvin(emission.blackbody, t);
+    const V3 body = spectral ? BlackbodySpectra(planck, kelvin)
+                             : BlackbodyColor(emission.blackbody, kelvin);
+    const MF glows = hn::Gt(kelvin, Splat(kLeastKelvin));
+    return Mul(factor, IfThenElseZero(glows, body));
+  }
+};
 
 LANELIGHT_END_KERNELS
 

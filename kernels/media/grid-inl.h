@@ -21,12 +21,16 @@ struct GridMedium {
   const MediumGrid& grid;
   const MediumRecord& medium;
   V3 sigma_t, sigma_s;  // of a density of 1, as the paths carry them
+  V3 place = {};        // of their wavelengths, where colours are by voxel
+  bool spectral;        // they carry wavelengths
 
   /// Medium `i` of the table, which has a grid, for a batch of paths.
   LANELIGHT_INLINE GridMedium(const Wave& wave, std::size_t i, const Slots& slots)
       : grid(wave.scene->media
                  .grids[static_cast<std::size_t>(wave.scene->media.media[i].grid)]),
-        medium(wave.scene->media.media[i]) {
+        medium(wave.scene->media.media[i]),
+        spectral(wave.path.wavelength != nullptr) {
+    if (spectral && IsColored()) place = Places(wave, slots);
     const Media lanes(wave.scene->media, hn::Set(DI(), static_cast<int32_t>(i)));
     sigma_t = lanes.SigmaT(wave, slots);
     sigma_s = lanes.SigmaS(wave, slots);
@@ -49,6 +53,11 @@ struct GridMedium {
   }
   /// At `p` of the box, in the lanes of `mask`.
   LANELIGHT_INLINE Coefficients At(V3 p, MF mask) const {
+    if (IsColored() && spectral) {
+      V3 v[2];
+      InterpolateSpectra<2>(grid.size, grid.values.data(), place, p, v);
+      return {v[0], v[1]};
+    }
     if (IsColored()) {
       VF v[6];
       Interpolate(grid.size, grid.values.data(), 6, p, v);

@@ -27,13 +27,17 @@ struct Media : RecordWords<MediumRecord> {
       : RecordWords(table.media.data(), hn::Max(medium, hn::Zero(DI()))) {}
   // What paths carry of coefficients: colours, or their values at three wavelengths.
   LANELIGHT_INLINE V3 SigmaT(const Wave& wave, const Slots& slots) const {
-    return Carried(wave, slots, offsetof(MediumRecord, sigma_t), 0);
+    return Carried(wave, slots, offsetof(MediumRecord, sigma_t), MediumRow::kSigmaT);
   }
   LANELIGHT_INLINE V3 SigmaS(const Wave& wave, const Slots& slots) const {
-    return Carried(wave, slots, offsetof(MediumRecord, sigma_s), 1);
+    return Carried(wave, slots, offsetof(MediumRecord, sigma_s), MediumRow::kSigmaS);
   }
   LANELIGHT_INLINE V3 Emission(const Wave& wave, const Slots& slots) const {
-    return Carried(wave, slots, offsetof(MediumRecord, emission), 2);
+    return Carried(wave, slots, offsetof(MediumRecord, emission), MediumRow::kEmission);
+  }
+  /// Of paths that carry wavelengths, and media that have this row.
+  LANELIGHT_INLINE V3 Planck(const Wave& wave, const Slots& slots) const {
+    return AtRow(wave, slots, MediumRow::kPlanck);
   }
   /// Has a grid.
   LANELIGHT_INLINE MF Varies() const {
@@ -49,10 +53,14 @@ struct Media : RecordWords<MediumRecord> {
 
  private:
   LANELIGHT_INLINE V3 Carried(const Wave& wave, const Slots& slots, std::size_t color,
-                              int32_t row) const {
+                              MediumRow row) const {
     if (HWY_LIKELY(wave.path.wavelength == nullptr)) return F3(color);
+    return AtRow(wave, slots, row);
+  }
+  LANELIGHT_INLINE V3 AtRow(const Wave& wave, const Slots& slots, MediumRow row) const {
     const VI first = I(offsetof(MediumRecord, spectra));
-    return AtRows(wave.scene->spectra, hn::Add(first, hn::Set(DI(), row)),
+    return AtRows(wave.scene->spectra,
+                  hn::Add(first, hn::Set(DI(), static_cast<int32_t>(row))),
                   Wavelengths(wave.path, slots));
   }
 };

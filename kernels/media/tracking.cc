@@ -23,6 +23,7 @@ LANELIGHT_BEGIN_KERNELS
 template <bool kEmission>
 struct Track {
   const GridMedium& medium;
+  const GridEmission* emission;  // null without kEmission
   const Channel& channel;
   V3 odds;  // before the walk
   V3 f = Splat3(1, 1, 1), pdf = Splat3(1, 1, 1);
@@ -44,17 +45,13 @@ struct Track {
   HWY_INLINE void Emit(MF mask, V3 sigma_m, V3 p, V3 sigma_a) {
     const V3 candidates = Mul(odds, Mul(pdf, sigma_m));
     const V3 sent = Mul(Mul(f, sigma_a), hn::Div(Splat(1.0f), MeanChannel(candidates)));
-    const float* e = medium.medium.emission;
-    V3 emission = Splat3(e[0], e[1], e[2]);
-    if (!medium.grid.emission.empty()) {
-      emission = Mul(emission, EmissionFactor(medium.grid, p, mask));
-    }
-    emitted = emitted + IfThenElseZero(mask, Mul(sent, emission));
+    emitted = emitted + IfThenElseZero(mask, Mul(sent, emission->At(p, mask)));
   }
   // A tentative collision at p; true where it is real.
   HWY_INLINE MF Collide(MF mask, V3 sigma_m, V3 p, VF u) {
     const Coefficients at = medium.At(p, mask);
     const V3 sigma_t = at.sigma_a + at.sigma_s, null = sigma_m - sigma_t;
+    LL_DCHECK(AllUnder(mask, hn::Ge(hn::Min(null.x, hn::Min(null.y, null.z)), Splat(0))));
     const VF own_m = channel.Of(sigma_m), own_t = channel.Of(sigma_t);
     if constexpr (kEmission) Emit(mask, sigma_m, p, at.sigma_a);
     const MF real = hn::And(mask, hn::Lt(hn::Mul(u, own_m), own_t));
@@ -95,7 +92,7 @@ struct Track {
 
 template <bool kEmission>
 HWY_INLINE void TrackBatch(Wave& wave, const GridMedium& medium,
-                           const StoreSlots& slots) {
+                           const GridEmission* emission, const StoreSlots& slots) {
   const PathColumns& p = wave.path;
   const VF t = Gather(p.t, slots), u = Gather(p.u_medium_1, slots);
   Stretch path(p, slots);
@@ -108,7 +105,7 @@ HWY_INLINE void TrackBatch(Wave& wave, const GridMedium& medium,
   // other lanes.
   VF behind_0, behind_1;
   random.Next(&behind_0, &behind_1);
-  Track<kEmission> track{medium, channel, before};
+  Track<kEmission> track{medium, emission, channel, before};
   track.Walk(at, random, ExponentialOf(Gather(p.u_medium_0, slots)));
   if constexpr (kEmission) {
     const V3 l = Gather3(p.l_r, p.l_g, p.l_b, slots);
@@ -134,7 +131,13 @@ void MediumTracking(Wave& wave) {
           return hn::RebindMask(DF(), hn::Eq(index, own));
         });
     ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
-      TrackBatch<kEmission>(wave, GridMedium(wave, i, slots), slots);
+      const GridMedium medium(wave, i, slots);
+      if constexpr (kEmission) {
+        const GridEmission emission(wave, i, slots);
+        TrackBatch<true>(wave, medium, &emission, slots);
+      } else {
+        TrackBatch<false>(wave, medium, nullptr, slots);
+      }
     });
   }
   LeaveWithEvents(wave);

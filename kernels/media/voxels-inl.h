@@ -30,13 +30,13 @@ struct AxisSamples {
   }
 };
 
-/// Interpolates samples at the centres of voxels, `channels` for each, at p in [0, 1]^3.
-LANELIGHT_INLINE void Interpolate(const int32_t size[3], const float* values,
-                                  int32_t channels, V3 p, VF* out) {
+/// Calls visit(voxel, weight) for the eight voxels around p in [0, 1]^3, which samples at
+/// the centres of voxels are interpolated between; those outside have no weight.
+template <class Visit>
+LANELIGHT_INLINE void ForVoxelsAround(const int32_t size[3], V3 p, const Visit& visit) {
   const DI di;
   const AxisSamples axes[3] = {AxisSamples(p.x, size[0]), AxisSamples(p.y, size[1]),
                                AxisSamples(p.z, size[2])};
-  for (int c = 0; c < channels; ++c) out[c] = hn::Zero(DF());
   for (int corner = 0; corner < 8; ++corner) {
     VI index = hn::Zero(di);
     VF weight = Splat(1.0f);
@@ -49,13 +49,48 @@ LANELIGHT_INLINE void Interpolate(const int32_t size[3], const float* values,
       weight = hn::Mul(weight, high ? share : hn::Sub(Splat(1.0f), share));
       inside = hn::And(inside, high ? axes[a].has_high : axes[a].has_low);
     }
-    index = hn::IfThenElseZero(hn::RebindMask(di, inside),
-                               hn::Mul(index, hn::Set(di, channels)));
-    weight = hn::IfThenElseZero(inside, weight);
+    visit(hn::IfThenElseZero(hn::RebindMask(di, inside), index),
+          hn::IfThenElseZero(inside, weight));
+  }
+}
+
+/// Interpolates `channels` numbers for each voxel.
+LANELIGHT_INLINE void Interpolate(const int32_t size[3], const float* values,
+                                  int32_t channels, V3 p, VF* out) {
+  for (int c = 0; c < channels; ++c) out[c] = hn::Zero(DF());
+  ForVoxelsAround(size, p, [&](VI voxel, VF weight) HWY_ATTR {
+    const VI index = hn::Mul(voxel, hn::Set(DI(), channels));
     for (int c = 0; c < channels; ++c) {
       out[c] = hn::MulAdd(weight, Gather(values + c, index), out[c]);
     }
-  }
+  });
+}
+
+/// Where the wavelengths of paths lie in the polynomials of VoxelSpectrum.
+LANELIGHT_INLINE V3 Places(const Wave& wave, const Slots& slots) {
+  return ByBin(wave.scene->spectra.place.data(), Wavelengths(wave.path, slots).triple);
+}
+
+/// The same of kCount VoxelSpectrum for each voxel: what they are at three wavelengths,
+/// by their places (SpectrumTable::place).
+template <int kCount>
+LANELIGHT_INLINE void InterpolateSpectra(const int32_t size[3], const float* values,
+                                         V3 place, V3 p, V3* out) {
+  const VF half = Splat(0.5f), one = Splat(1.0f);
+  for (int k = 0; k < kCount; ++k) out[k] = Splat3(0, 0, 0);
+  ForVoxelsAround(size, p, [&](VI voxel, VF weight) HWY_ATTR {
+    const VI index = hn::Mul(voxel, hn::Set(DI(), 4 * kCount));
+    for (int k = 0; k < kCount; ++k) {
+      const V3 c = Gather3(values + 4 * k, values + 4 * k + 1, values + 4 * k + 2, index);
+      const VF scale = Gather(values + 4 * k + 3, index);
+      const auto at = [&](VF t) HWY_ATTR {
+        const VF v = hn::MulAdd(hn::MulAdd(c.x, t, c.y), t, c.z);
+        const VF of = hn::MulAdd(half, hn::Mul(v, Rsqrt(hn::MulAdd(v, v, one))), half);
+        return hn::Mul(scale, of);
+      };
+      out[k] = MulAdd(V3{at(place.x), at(place.y), at(place.z)}, weight, out[k]);
+    }
+  });
 }
 
 /// p by a row-major 3x4 matrix.

@@ -32,6 +32,7 @@ void ProbeSample(const BsdfBatch& batch) {
   const DF df;
   MaterialSource source = TableSource(*batch.materials);
   source.uv_v = batch.uv_v;
+  source.wavelength = batch.wavelength;
   for (std::uint32_t i = 0; i < batch.n; i += hn::Lanes(df)) {
     const typename Bsdf::Params material = Bsdf::Load(ProbeInputs(source, batch, i));
     const V3 u = Load3(batch.u, i);
@@ -48,6 +49,7 @@ void ProbeEval(const BsdfBatch& batch) {
   const DF df;
   MaterialSource source = TableSource(*batch.materials);
   source.uv_v = batch.uv_v;
+  source.wavelength = batch.wavelength;
   for (std::uint32_t i = 0; i < batch.n; i += hn::Lanes(df)) {
     const typename Bsdf::Params material = Bsdf::Load(ProbeInputs(source, batch, i));
     const BsdfValue v = Bsdf::Eval(material, Load3(batch.wo, i), Load3(batch.wi, i));

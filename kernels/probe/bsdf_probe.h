@@ -16,8 +16,9 @@ struct BsdfBatch {
   const MaterialTable* materials = nullptr;
   std::uint32_t material = 0;  // row of the table, for all
   std::uint32_t n = 0;
-  std::uint32_t seed = 0;       // of materials that are evaluated by a random walk
-  const float* uv_v = nullptr;  // of fibres: v, for all, at the place of `material`
+  std::uint32_t seed = 0;             // of materials that are evaluated by a random walk
+  const float* uv_v = nullptr;        // of fibres: v, for all, at the place of `material`
+  const float* wavelength = nullptr;  // of spectra: the number of the paths, likewise
   const float* wo[3] = {};
   const float* u[3] = {};      // Sample: lobe and direction, in [0, 1)
   float* wi[3] = {};           // Eval: in; Sample: out

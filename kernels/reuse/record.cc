@@ -190,7 +190,7 @@ Stage RecordReuseStage() {
           .meaning = "keeps first and second vertices of paths for their block",
           .input = QueueId::kVertex,
           .needs = {Feature::kReuse, Feature::kScatters},
-          .reads = FirstVertexFields(true) | kRadiance | state |
+          .reads = FirstVertexFields(true, true) | kRadiance | state |
                    FieldSet{Field::output, Field::bsdf_pdf},
           .writes = kRadiance | kThroughput | state,
           .resolve = Always<RecordReuse>};

@@ -89,7 +89,7 @@ Stage ConsiderStage() {
           .reads = numbers | kThroughput | kNormal | kTangent | kParameters |
                    kLightSample |
                    FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::uv_v,
-                            Field::material, Field::ls_light},
+                            Field::wavelength, Field::material, Field::ls_light},
           .writes = numbers | kKeptSample,
           .resolve = Always<Consider>};
 }

@@ -72,15 +72,15 @@ Stage ForceDiffuseStage() {
   using namespace fields;
   const FieldSet color = {Field::color0_r, Field::color0_g, Field::color0_b};
   const FieldSet identity = {Field::pixel, Field::sample, Field::branch, Field::depth};
-  return {
-      .name = "force_diffuse",
-      .meaning = "reflectances of all materials, which scatter evenly",
-      .input = QueueId::kSurface,
-      .needs = {Feature::kForcedDiffuse, Feature::kScatters},
-      .reads = kNormal | kTangent | kParameters | identity |
-               FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::uv_v, Field::material},
-      .writes = color | FieldSet{Field::material},
-      .resolve = Always<ForceDiffuse>};
+  return {.name = "force_diffuse",
+          .meaning = "reflectances of all materials, which scatter evenly",
+          .input = QueueId::kSurface,
+          .needs = {Feature::kForcedDiffuse, Feature::kScatters},
+          .reads = kNormal | kTangent | kParameters | identity |
+                   FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::uv_v,
+                            Field::wavelength, Field::material},
+          .writes = color | FieldSet{Field::material},
+          .resolve = Always<ForceDiffuse>};
 }
 
 LANELIGHT_END_KERNELS

@@ -64,6 +64,7 @@ struct SurfaceReader {
       source.alpha_y = path.alpha_y;
     }
     source.eta = path.eta;
+    source.wavelength = path.wavelength;
     UseTexturedLayers();
     if constexpr (Bsdf::kFibre) source.uv_v = path.uv_v;
   }
@@ -264,6 +265,7 @@ Stage ShadeStage(const char* name, const char* meaning) {
                              Field::material};
   const FieldSet direction = {Field::d_x, Field::d_y, Field::d_z};
   const FieldSet across = Bsdf::kFibre ? FieldSet{Field::uv_v} : FieldSet{};
+  const FieldSet spectra = Bsdf::kByWavelength ? FieldSet{Field::wavelength} : FieldSet{};
   const FieldSet history = {Field::bsdf_pdf, Field::eta_scale, Field::depth, Field::t};
   return {.name = name,
           .meaning = meaning,
@@ -271,7 +273,7 @@ Stage ShadeStage(const char* name, const char* meaning) {
           .needs = {ShadeFeature(kKind), Feature::kScatters},
           .reads = identity | direction | kThroughput | kPoint | kNormal | kTangent |
                    kParameters | points | kGuideProposal | kLightSample | across |
-                   FieldSet{Field::eta_scale},
+                   spectra | FieldSet{Field::eta_scale},
           .writes = kRay | kThroughput | kShadow | kStartNormal | history,
           .resolve = ResolveShade<Bsdf, kKind>};
 }

@@ -75,7 +75,7 @@ LANELIGHT_INLINE V3 FilmColor(const SpectrumTable& table, V3 value,
           channel(table.film[2].data())};
 }
 
-/// Reflectances, their channels in [0, 1], by MakeUpsamplingTable().
+/// Reflectances, their channels in [0, 1], by UpsamplingTable().
 inline HWY_NOINLINE V3 UpsampledReflectances(const SpectrumTable& table, V3 rgb,
                                              const Wavelengths& w) {
   const VF one = Splat(1.0f), half = Splat(0.5f), two = Splat(2.0f);

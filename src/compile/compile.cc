@@ -170,7 +170,6 @@ CompiledScene CompileScene(const SceneDescription& description,
 
   std::optional<SpectrumRows> rows;
   if (description.integrator.transport == Transport::kSpectral) {
-    CheckTransport(description, UsedMaterials(placement));
     rows.emplace();
   } else {
     NoteDispersion(description, UsedMaterials(placement), scene.notes);

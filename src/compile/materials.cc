@@ -123,7 +123,8 @@ CompiledMaterials Builder::Finish() {
   out.spectra = spectra_;
   if (d_.integrator.force_diffuse) Force(out.table);
   for (const MaterialRow& row : rows_) AddMaterialRow(row, out);
-  AddMeasured(rows_, out.table.measured);
+  AddMeasured(rows_, out.table.measured,
+              spectra_ == nullptr ? Transport::kRgb : Transport::kSpectral);
   AddCoatTables(build_.coats(), out.table);
   if (spectra_ == nullptr) CorrectBases(out.table);
   for (const Texture& t : build_.derived()) {

@@ -1,6 +1,9 @@
 #include "src/compile/measured.h"
 
+#include <algorithm>
 #include <limits>
+
+#include "src/image/wavelengths.h"
 
 namespace lanelight {
 namespace {
@@ -27,7 +30,7 @@ class MeasuredBuilder {
  public:
   explicit MeasuredBuilder(MeasuredTable& table) : table_(table) {}
 
-  void Add(const MeasuredReflectance& m) {
+  void Add(const MeasuredReflectance& m, Transport transport) {
     MeasuredRecord record = {};
     record.phis = m.isotropic() ? 1 : static_cast<std::int32_t>(m.phi.size());
     record.thetas = static_cast<std::int32_t>(m.theta.size());
@@ -40,7 +43,11 @@ class MeasuredBuilder {
     const auto slices = static_cast<std::size_t>(record.phis * record.thetas);
     record.vndf = Warp(m.vndf, slices);
     record.luminance = Warp(m.luminance, slices);
-    record.reflectance = Grid(m.reflectance, 3 * slices);
+    if (transport == Transport::kSpectral) {
+      AddSpectra(ReadMeasuredSpectra(m), slices, record);
+    } else {
+      record.reflectance = Grid(m.reflectance, 3 * slices);
+    }
     table_.records.push_back(record);
     table_.any_turns |= !m.isotropic();
   }
@@ -60,6 +67,8 @@ class MeasuredBuilder {
     return grid;
   }
   MeasuredWarp Warp(const MeasuredTensor& t, std::size_t slices);
+  void AddSpectra(const MeasuredSpectra& spectra, std::size_t slices,
+                  MeasuredRecord& record);
 
   MeasuredTable& table_;
 };
@@ -97,6 +106,24 @@ MeasuredWarp MeasuredBuilder::Warp(const MeasuredTensor& t, std::size_t slices) 
   return warp;
 }
 
+// Where a wavelength lies among increasing ones: 1.5 is halfway from the second to the
+// third. Beyond their ends it is at the end.
+double PositionOf(const std::vector<double>& nodes, double nm) {
+  const auto after = std::upper_bound(nodes.begin(), nodes.end(), nm);
+  if (after == nodes.begin()) return 0;
+  if (after == nodes.end()) return static_cast<double>(nodes.size() - 1);
+  const double before = static_cast<double>(after - nodes.begin() - 1);
+  return before + (nm - after[-1]) / (after[0] - after[-1]);
+}
+
+void MeasuredBuilder::AddSpectra(const MeasuredSpectra& spectra, std::size_t slices,
+                                 MeasuredRecord& record) {
+  record.wavelengths = static_cast<std::int32_t>(spectra.nm.size());
+  record.bins = Here();
+  for (const double nm : CarriedWavelengths().centre) Push(PositionOf(spectra.nm, nm));
+  record.reflectance = Grid(spectra.reflectance, spectra.nm.size() * slices);
+}
+
 }  // namespace
 
 Rgb HeadOnAlbedo(const MeasuredReflectance& measured) {
@@ -105,7 +132,8 @@ Rgb HeadOnAlbedo(const MeasuredReflectance& measured) {
   return Rgb{Integral(t, 0), Integral(t, 1), Integral(t, 2)} / cells;
 }
 
-void AddMeasured(const std::vector<MaterialRow>& rows, MeasuredTable& table) {
+void AddMeasured(const std::vector<MaterialRow>& rows, MeasuredTable& table,
+                 Transport transport) {
   std::map<const MeasuredReflectance*, std::int32_t> known;
   MeasuredBuilder builder(table);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -113,7 +141,7 @@ void AddMeasured(const std::vector<MaterialRow>& rows, MeasuredTable& table) {
     const auto next = static_cast<std::int32_t>(table.records.size());
     const auto [at, added] = known.try_emplace(rows[i].measured.get(), next);
     if (added) {
-      builder.Add(*rows[i].measured);
+      builder.Add(*rows[i].measured, transport);
       if (table.values.size() > std::numeric_limits<std::int32_t>::max()) {
         throw InputError(SourceLocation{},
                          "measured materials of more than 2^31 numbers");

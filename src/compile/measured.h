@@ -10,7 +10,10 @@ namespace lanelight {
 /// The part of light that comes back, of light that falls along the normal.
 Rgb HeadOnAlbedo(const MeasuredReflectance& measured);
 
-/// Adds the tables that rows refer to, each once; none do: nothing.
-void AddMeasured(const std::vector<MaterialRow>& rows, MeasuredTable& table);
+/// Adds the tables that rows refer to, each once; none do: nothing. Of paths that carry
+/// wavelengths spectra instead of colours, which are read from their files; throws
+/// InputError as ReadMeasuredSpectra().
+void AddMeasured(const std::vector<MaterialRow>& rows, MeasuredTable& table,
+                 Transport transport = Transport::kRgb);
 
 }  // namespace lanelight

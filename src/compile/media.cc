@@ -12,6 +12,7 @@
 #include "src/compile/store.h"
 #include "src/compile/textures.h"
 #include "src/core/check.h"
+#include "src/image/blackbody.h"
 
 namespace lanelight {
 namespace {
@@ -74,11 +75,22 @@ void MediumBuilder::SetAlbedo(const Medium& m, MediumRecord& record) {
   }
 }
 
+// What a medium emits over its absorption, in units of D65.
+std::vector<float> EmissionOf(const Medium& m) {
+  if (m.emission_spectrum == nullptr || m.emission == Rgb{}) {
+    return BinValues(UpsampledColor(m.emission));
+  }
+  std::vector<float> values = LightValues(m.emission, m.emission_spectrum);
+  const double luminance = Luminance(m.emission);
+  for (float& v : values) v = static_cast<float>(double(v) * luminance);
+  return values;
+}
+
 // What SetCoefficients and SetAlbedo say of three colours, for each bin of wavelengths.
 void MediumBuilder::AddSpectra(const Medium& m, MediumRecord& record) {
   std::vector<float> t = BinValues(UpsampledColor(m.sigma_a));
   std::vector<float> s = BinValues(UpsampledColor(m.sigma_s));
-  std::vector<float> e = BinValues(UpsampledColor(m.emission));
+  std::vector<float> e = EmissionOf(m);
   // What the record was scaled by, where the file's numbers are not beyond float32.
   const Rgb extinction = m.sigma_a + m.sigma_s;
   int most = 0;
@@ -100,7 +112,15 @@ void MediumBuilder::AddSpectra(const Medium& m, MediumRecord& record) {
     s[b] = static_cast<float>(scattered * albedo);
     if (record.grid < 0) e[b] = static_cast<float>(double(e[b]) * absorbed);
   }
-  record.spectra = materials_.spectra->Append({t, s, e});
+  if (record.grid < 0 || !table_.grids[std::size_t(record.grid)].emission.heated()) {
+    record.spectra = materials_.spectra->Append({t, s, e});
+    return;
+  }
+  const std::vector<float> units = UnitsOfBlackbody();
+  for (std::size_t b = 0; b < e.size(); ++b) e[b] *= units[b];
+  const std::vector<float> planck =
+      BinValues([](double nm) { return kSecondRadiation / nm; });
+  record.spectra = materials_.spectra->Append({t, s, e, planck});
 }
 
 // The same of the densities of a grid, which are factors on the extinction.
@@ -133,7 +153,9 @@ std::int32_t MediumBuilder::Use(Index medium) {
   if (m.kind != MediumKind::kHomogeneous) {
     record.grid = static_cast<std::int32_t>(table_.grids.size());
     Store(m.emission, record.emission);
-    table_.grids.push_back(CompileMediumGrid(m, frame_));
+    const auto transport =
+        materials_.spectra == nullptr ? Transport::kRgb : Transport::kSpectral;
+    table_.grids.push_back(CompileMediumGrid(m, frame_, transport));
     LimitDensity(table_.grids.back(), record);
   }
   if (materials_.spectra != nullptr) AddSpectra(m, record);

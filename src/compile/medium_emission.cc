@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/compile/store.h"
+#include "src/compile/voxel_spectra.h"
 #include "src/image/blackbody.h"
 
 namespace lanelight {
@@ -16,10 +17,7 @@ namespace {
 constexpr int kEntries = 4096;
 
 // Of temperatures up to `largest`, before offset and scale.
-BlackbodyTable MakeBlackbodyTable(const Medium& medium, double largest) {
-  BlackbodyTable table;
-  table.offset = static_cast<float>(medium.temperature_offset);
-  table.scale = static_cast<float>(medium.temperature_scale);
+void AddColors(const Medium& medium, double largest, BlackbodyTable& table) {
   const double kelvin =
       (largest - medium.temperature_offset) * medium.temperature_scale * (1 + 1e-5);
   const double most = std::max(kelvin, 1.01 * kLeastKelvin);
@@ -30,7 +28,6 @@ BlackbodyTable MakeBlackbodyTable(const Medium& medium, double largest) {
     const Rgb color = RgbOfBlackbody(kLeastKelvin * std::exp(step * i));
     for (int c = 0; c < 3; ++c) table.colors.push_back(static_cast<float>(color[c]));
   }
-  return table;
 }
 
 }  // namespace
@@ -45,20 +42,33 @@ PlacedSparseGrid PlaceSparseGrid(std::shared_ptr<const SparseGrid> grid,
   return placed;
 }
 
-MediumEmission CompileMediumEmission(const Medium& medium) {
+MediumEmission CompileMediumEmission(const Medium& medium, Transport transport) {
   MediumEmission emission;
   if (medium.emission == Rgb{}) return emission;
-  emission.channels = medium.kind == MediumKind::kRgbGrid ? 3 : 1;
-  emission.values.assign(medium.emission_grid.begin(), medium.emission_grid.end());
+  const bool colors = medium.kind == MediumKind::kRgbGrid;
+  const auto& e = medium.emission_grid;
+  if (colors && transport == Transport::kSpectral) {
+    emission.channels = 4;
+    for (std::size_t v = 0; v < e.size(); v += 3) {
+      AppendSpectrum({e[v], e[v + 1], e[v + 2]}, emission.values);
+    }
+  } else {
+    emission.channels = colors ? 3 : 1;
+    emission.values.assign(e.begin(), e.end());
+  }
+  double largest = 0;
   if (!medium.temperature.empty()) {
     const auto& t = medium.temperature;
     emission.temperatures.assign(t.begin(), t.end());
-    emission.blackbody =
-        MakeBlackbodyTable(medium, *std::max_element(t.begin(), t.end()));
+    largest = *std::max_element(t.begin(), t.end());
   } else if (medium.sparse_temperature != nullptr) {
     emission.sparse = PlaceSparseGrid(medium.sparse_temperature, medium);
-    emission.blackbody = MakeBlackbodyTable(medium, medium.sparse_temperature->largest());
+    largest = medium.sparse_temperature->largest();
   }
+  if (!emission.heated()) return emission;
+  emission.blackbody.offset = static_cast<float>(medium.temperature_offset);
+  emission.blackbody.scale = static_cast<float>(medium.temperature_scale);
+  if (transport == Transport::kRgb) AddColors(medium, largest, emission.blackbody);
   return emission;
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "src/compile/medium_emission.h"
 #include "src/compile/range.h"
 #include "src/compile/store.h"
+#include "src/compile/voxel_spectra.h"
 
 namespace lanelight {
 namespace {
@@ -14,9 +16,15 @@ namespace {
 // Rounding of the kernels, which the bounds must hold for as well.
 constexpr double kSlack = 1 + 1e-5;
 
-// Extinction of a voxel, in the unit of the majorants.
-double Extinction(const MediumGrid& grid, std::size_t voxel) {
+// Extinction of a voxel, in the unit of the majorants. What lies between voxels is
+// between theirs, in each channel or at each wavelength.
+double Extinction(const MediumGrid& grid, Transport transport, std::size_t voxel) {
   if (grid.source == MediumSource::kDensities) return grid.values[voxel];
+  if (transport == Transport::kSpectral) {
+    VoxelSpectrum both[2];
+    std::memcpy(both, grid.values.data() + 8 * voxel, sizeof both);
+    return LargestOf(both[0]) + LargestOf(both[1]);
+  }
   const float* v = grid.values.data() + 6 * voxel;
   double largest = 0;
   for (int c = 0; c < 3; ++c) largest = std::max(largest, double{v[c]} + v[c + 3]);
@@ -35,7 +43,7 @@ Reach VoxelsOf(int cell, int size) {
           std::min(size - 1, static_cast<int>(std::floor(high)) + 2)};
 }
 
-double BoundOfVoxels(const MediumGrid& grid, const int cell[3]) {
+double BoundOfVoxels(const MediumGrid& grid, Transport transport, const int cell[3]) {
   const Reach r[3] = {VoxelsOf(cell[0], grid.size[0]), VoxelsOf(cell[1], grid.size[1]),
                       VoxelsOf(cell[2], grid.size[2])};
   double largest = 0;
@@ -44,7 +52,7 @@ double BoundOfVoxels(const MediumGrid& grid, const int cell[3]) {
       for (int x = r[0].first; x <= r[0].last; ++x) {
         const std::size_t voxel =
             (static_cast<std::size_t>(z) * grid.size[1] + y) * grid.size[0] + x;
-        largest = std::max(largest, Extinction(grid, voxel));
+        largest = std::max(largest, Extinction(grid, transport, voxel));
       }
     }
   }
@@ -83,25 +91,39 @@ double BoundOfSparse(const PlacedSparseGrid& placed, const int cell[3]) {
   return placed.grid->LargestIn(low, high);
 }
 
-double BoundOf(const MediumGrid& grid, const int cell[3]) {
+double BoundOf(const MediumGrid& grid, Transport transport, const int cell[3]) {
   if (grid.source == MediumSource::kCloud) return BoundOfCloud(grid.cloud, cell);
   if (grid.source == MediumSource::kSparse) return BoundOfSparse(grid.sparse, cell);
-  return BoundOfVoxels(grid, cell);
+  return BoundOfVoxels(grid, transport, cell);
 }
 
-void SetMajorants(MediumGrid& grid) {
+void SetMajorants(Transport transport, MediumGrid& grid) {
   grid.majorants.reserve(kMajorantCells * kMajorantCells * kMajorantCells);
   for (int z = 0; z < kMajorantCells; ++z) {
     for (int y = 0; y < kMajorantCells; ++y) {
       for (int x = 0; x < kMajorantCells; ++x) {
         const int cell[3] = {x, y, z};
-        grid.majorants.push_back(static_cast<float>(BoundOf(grid, cell) * kSlack));
+        grid.majorants.push_back(
+            static_cast<float>(BoundOf(grid, transport, cell) * kSlack));
       }
     }
   }
 }
 
-void SetSource(const Medium& medium, const Frame& frame, MediumGrid& grid) {
+// Of six numbers per voxel, two spectra.
+void SetSpectra(const Medium& medium, double unit, MediumGrid& grid) {
+  for (std::size_t v = 0; v < medium.grid.size(); v += 3) {
+    Rgb color;
+    for (int c = 0; c < 3; ++c) {
+      const float value = medium.grid[v + static_cast<std::size_t>(c)];
+      color[c] = std::min(value / unit, kFarthestInScene / 2);
+    }
+    AppendSpectrum(color, grid.values);
+  }
+}
+
+void SetSource(const Medium& medium, const Frame& frame, Transport transport,
+               MediumGrid& grid) {
   if (medium.kind == MediumKind::kNanoVdb) {
     grid.source = MediumSource::kSparse;
     grid.sparse = PlaceSparseGrid(medium.sparse_density, medium);
@@ -121,6 +143,7 @@ void SetSource(const Medium& medium, const Frame& frame, MediumGrid& grid) {
   std::copy(medium.grid_size, medium.grid_size + 3, grid.size);
   // Densities have no unit; coefficients are per scene length.
   const double unit = colors ? frame.scale : 1;
+  if (colors && transport == Transport::kSpectral) return SetSpectra(medium, unit, grid);
   grid.values.reserve(medium.grid.size());
   for (const float v : medium.grid) {
     grid.values.push_back(static_cast<float>(std::min(v / unit, kFarthestInScene)));
@@ -145,11 +168,12 @@ void SetMap(const Medium& medium, const Frame& frame, MediumGrid& grid) {
 
 }  // namespace
 
-MediumGrid CompileMediumGrid(const Medium& medium, const Frame& frame) {
+MediumGrid CompileMediumGrid(const Medium& medium, const Frame& frame,
+                             Transport transport) {
   MediumGrid grid;
-  SetSource(medium, frame, grid);
-  grid.emission = CompileMediumEmission(medium);
-  SetMajorants(grid);
+  SetSource(medium, frame, transport, grid);
+  grid.emission = CompileMediumEmission(medium, transport);
+  SetMajorants(transport, grid);
   SetMap(medium, frame, grid);
   return grid;
 }

@@ -7,7 +7,8 @@
 
 namespace lanelight {
 
-/// The grid of a medium that has one, in scene units.
-MediumGrid CompileMediumGrid(const Medium& medium, const Frame& frame);
+/// The grid of a medium that has one, in scene units, for paths of this kind.
+MediumGrid CompileMediumGrid(const Medium& medium, const Frame& frame,
+                             Transport transport = Transport::kRgb);
 
 }  // namespace lanelight

@@ -23,6 +23,26 @@ std::vector<float> Values(const ColorValue& color, ColorBound bound) {
 
 }  // namespace
 
+std::vector<float> LightValues(Rgb color, const OwnSpectrum& spectrum) {
+  std::vector<float> values;
+  if (spectrum == nullptr) {
+    values = BinValues(UpsampledColor(color / Luminance(color)));
+  } else {
+    const Spectrum d65 = DaylightD65();
+    values = BinMeans([&](double nm) { return (*spectrum)(nm) / d65(nm); });
+  }
+  // What the fit misses of the luminance, and the unit of the spectrum.
+  const double luminance = Luminance(ColorOfBins(values));
+  if (!(luminance > 0)) {
+    throw InputError(fmt::format(
+        "a light emits nothing from {} to {} nm, which is what --transport spectral "
+        "carries; --transport rgb renders it",
+        kFirstCarriedNm, kLastCarriedNm));
+  }
+  for (float& v : values) v = static_cast<float>(double(v) / luminance);
+  return values;
+}
+
 SpectrumRows::SpectrumRows() {
   const WavelengthBins& bins = CarriedWavelengths();
   for (int b = 0; b < kWavelengthBins; ++b) {
@@ -46,23 +66,7 @@ std::int32_t SpectrumRows::Of(const ColorValue& color, ColorBound bound) {
 }
 
 std::int32_t SpectrumRows::OfLight(Rgb color, const OwnSpectrum& spectrum) {
-  std::vector<float> values;
-  if (spectrum == nullptr) {
-    values = BinValues(UpsampledColor(color / Luminance(color)));
-  } else {
-    const Spectrum d65 = DaylightD65();
-    values = BinMeans([&](double nm) { return (*spectrum)(nm) / d65(nm); });
-  }
-  // What the fit misses of the luminance, and the unit of the spectrum.
-  const double luminance = Luminance(ColorOfBins(values));
-  if (!(luminance > 0)) {
-    throw InputError(fmt::format(
-        "a light emits nothing from {} to {} nm, which is what --transport spectral "
-        "carries; --transport rgb renders it",
-        kFirstCarriedNm, kLastCarriedNm));
-  }
-  for (float& v : values) v = static_cast<float>(double(v) / luminance);
-  return Intern(values);
+  return Intern(LightValues(color, spectrum));
 }
 
 std::int32_t SpectrumRows::OfIndex(const Spectrum& index) {
@@ -87,7 +91,7 @@ void SpectrumRows::NeedSigmoids() {
   }
   table_.per_half_tangent =
       static_cast<float>(1 / HalfTangentOfGrey(1 - kLeastUpsampled));
-  const std::vector<float> sigmoids = MakeUpsamplingTable();
+  const std::vector<float>& sigmoids = UpsamplingTable();
   table_.sigmoids.assign(sigmoids.begin(), sigmoids.end());
 }
 

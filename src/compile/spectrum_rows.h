@@ -15,6 +15,10 @@ namespace lanelight {
 /// What bounds a colour of a material.
 enum class ColorBound { kReflectance, kUnbounded };
 
+/// By bin: light of this colour, which is not black, per unit of luminance, in units of
+/// D65. InputError where the spectrum has nothing that paths carry.
+std::vector<float> LightValues(Rgb color, const OwnSpectrum& spectrum);
+
 /// Collects the rows of a scene; equal ones are kept once.
 class SpectrumRows {
  public:
@@ -22,7 +26,7 @@ class SpectrumRows {
 
   /// A colour that has no texture.
   std::int32_t Of(const ColorValue& color, ColorBound bound);
-  /// Of light of this colour, per unit of luminance. The colour is not black.
+  /// LightValues.
   std::int32_t OfLight(Rgb color, const OwnSpectrum& spectrum);
   /// An index of refraction: a row of SpectrumTable::indices.
   std::int32_t OfIndex(const Spectrum& index);

@@ -6,30 +6,25 @@
 namespace lanelight {
 namespace {
 
-// Of a scene with this film.
-struct Refusal {
-  const Film& film;
+// Of the light that a medium emits.
+bool HasSpectrum(const Medium& m) {
+  return m.emission != Rgb{} &&
+         (m.emission_spectrum != nullptr || !m.temperature.empty() ||
+          m.sparse_temperature != nullptr);
+}
 
-  [[noreturn]] void operator()(const SourceLocation& where,
-                               const std::string& what) const {
-    throw InputError(where, what + " is not supported with --transport spectral yet; " +
-                                (film.buckets.count > 0 ? "with Film \"rgb\", " : "") +
-                                "--transport rgb renders it");
-  }
-};
-
-bool IsGrey(Rgb c) { return c.x == c.y && c.y == c.z; }
-
-void CheckMedium(const Medium& medium, const Refusal& refuse) {
-  const std::string name = medium.name.empty() ? "" : " \"" + medium.name + "\"";
-  if (medium.kind == MediumKind::kRgbGrid) {
-    refuse(medium.where, "the medium" + name + " of type \"rgbgrid\"");
-  }
-  const bool heated = !medium.temperature.empty() || medium.sparse_temperature != nullptr;
-  const bool varies = medium.kind != MediumKind::kHomogeneous;
-  if (heated || (varies && !IsGrey(medium.emission))) {
-    refuse(medium.where, "the medium" + name + ", which emits coloured light,");
-  }
+// Those that shapes bound, and the camera's.
+std::vector<Index> MediaOf(const SceneDescription& d) {
+  std::vector<Index> media = {d.camera.medium};
+  const auto add = [&](const std::vector<Shape>& shapes) {
+    for (const Shape& shape : shapes) {
+      media.insert(media.end(), {shape.media.inside, shape.media.outside});
+    }
+  };
+  add(d.shapes);
+  for (const ObjectDefinition& object : d.objects) add(object.shapes);
+  std::erase(media, kNone);
+  return media;
 }
 
 // The materials that shapes have, and those that they mix; mixes may be nested deeply.
@@ -57,7 +52,7 @@ std::string NameOf(const Material& m) {
 bool HasSpectrum(const Material& m) {
   const ColorValue* const colors[] = {&m.reflectance, &m.transmittance, &m.eta, &m.k,
                                       &m.coat_albedo};
-  return m.dispersion != nullptr ||
+  return m.dispersion != nullptr || m.measured != nullptr ||
          std::any_of(std::begin(colors), std::end(colors),
                      [](const ColorValue* c) { return c->spectrum != nullptr; });
 }
@@ -77,15 +72,13 @@ std::optional<SpectrumUser> FindSpectrum(const SceneDescription& description,
   };
   for (const Light& light : description.lights) add(light, "a light");
   for (const AreaLight& light : description.area_lights) add(light, "an area light");
+  for (const Index i : MediaOf(description)) {
+    const Medium& m = description.media[static_cast<std::size_t>(i)];
+    if (!found && HasSpectrum(m)) {
+      found = {m.where, "the light of the medium \"" + m.name + "\""};
+    }
+  }
   return found;
-}
-
-void CheckTransport(const SceneDescription& description, const std::vector<Index>& used) {
-  const Refusal refuse = {description.film};
-  for (const Medium& medium : description.media) CheckMedium(medium, refuse);
-  ForEachUsed(description, used, [&](const Material& m) {
-    if (m.kind == MaterialKind::kMeasured) refuse(m.where, "the material \"measured\"");
-  });
 }
 
 void NoteDispersion(const SceneDescription& description, const std::vector<Index>& used,

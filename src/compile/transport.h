@@ -1,4 +1,4 @@
-// What paths that carry wavelengths cannot carry yet, and what others cannot at all.
+// What paths that carry wavelengths have of a scene that others have not.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,6 @@
 
 namespace lanelight {
 
-/// Throws InputError, with the place, for what the description uses and only red, green
-/// and blue are known of: grids of colours, media that glow by their temperature, and
-/// materials that are measured. `used`: the materials of shapes.
-void CheckTransport(const SceneDescription& description, const std::vector<Index>& used);
-
 /// What a spectrum, or an index by wavelength, is the look of.
 struct SpectrumUser {
   SourceLocation where;
@@ -21,9 +16,9 @@ struct SpectrumUser {
   bool disperses = false;
 };
 
-/// The first such of the used materials and the lights, or one that disperses if there is
-/// any; nothing if all colours are given as such. (Spectra inside textures and of media
-/// are taken by their colour in any case.)
+/// The first such of the used materials, the lights and the media that glow, or one that
+/// disperses if there is any; nothing if all colours are given as such. (Spectra inside
+/// textures and of coefficients of media are taken by their colour in any case.)
 std::optional<SpectrumUser> FindSpectrum(const SceneDescription& description,
                                          const std::vector<Index>& used);
 

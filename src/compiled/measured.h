@@ -30,8 +30,10 @@ struct MeasuredRecord {
   std::int32_t parts;             // MeasuredReflectance::parts
   MeasuredGrid ndf, sigma;
   MeasuredWarp vndf, luminance;
-  MeasuredGrid reflectance;  // three slices each
-  std::int32_t pad[7];
+  MeasuredGrid reflectance;  // three slices each; with kSpectral as many as wavelengths
+  std::int32_t wavelengths;  // with kSpectral: of the file
+  std::int32_t bins;  // with kSpectral: where bins lie among these, a number for each bin
+  std::int32_t pad[5];
 };
 static_assert(sizeof(MeasuredRecord) == 128);
 

@@ -24,11 +24,15 @@ struct MediumRecord {
   std::uint32_t inside;    // 1: of a material; events in it and on its bounds from within
                            // do not count
   std::int32_t albedos;    // offset in MediumTable::albedos; -1: not textured
-  std::int32_t spectra;  // with kSpectral: rows of SpectrumTable of sigma_t, sigma_s and
-                         // emission, one after the other
+  std::int32_t spectra;    // with kSpectral: rows of SpectrumTable (MediumRow)
   float pad;
 };
 static_assert(sizeof(MediumRecord) == 64);
+
+/// Rows of a medium, one after the other. kPlanck: h c / (k lambda), kelvin, only where
+/// its emission is that of black bodies; kEmission is then in units of D65 for spectra
+/// over their maximum.
+enum class MediumRow : std::int32_t { kSigmaT, kSigmaS, kEmission, kPlanck };
 
 /// What lies on both sides of a surface, inside being away from its normal.
 struct MediumSides {
@@ -43,10 +47,18 @@ inline constexpr std::int32_t kMajorantCells = 16;
 /// What a medium that varies is made of.
 enum class MediumSource : std::int32_t {
   kDensities,  // factors on the coefficients of the record, at voxels
-  kColors,     // sigma_a and sigma_s per unit of scene length, at voxels
+  kColors,     // sigma_a and sigma_s per unit of scene length, at voxels: colours, or
+               // with kSpectral two VoxelSpectrum
   kCloud,      // factors, made up from noise
   kSparse      // factors, of a NanoVDB grid
 };
+
+/// The spectrum of a colour at a voxel: scale * sigmoid((c[0] t + c[1]) t + c[2]), t the
+/// place of a wavelength (src/image/upsampling.h).
+struct VoxelSpectrum {
+  float c[3], scale;
+};
+static_assert(sizeof(VoxelSpectrum) == 4 * sizeof(float));
 
 /// pbrt-v4's procedural cloud, in the medium's own space.
 struct CloudShape {
@@ -65,7 +77,7 @@ struct PlacedSparseGrid {
 struct BlackbodyTable {
   float offset = 0, scale = 1;
   float entries_per_log = 0;    // entries per factor of e
-  AlignedVector<float> colors;  // three each
+  AlignedVector<float> colors;  // three each; none with kSpectral: Planck's law
 };
 /// Cooler ones emit nothing (as pbrt).
 inline constexpr float kLeastKelvin = 100;
@@ -73,12 +85,14 @@ inline constexpr float kLeastKelvin = 100;
 /// What the emission of a medium is multiplied with at a point; each part may be empty.
 struct MediumEmission {
   AlignedVector<float> values;  // at the voxels of the medium
-  std::int32_t channels = 1;    // of `values`: 1 or 3
+  std::int32_t channels = 1;    // of `values`: 1, or of colours 3; with kSpectral a
+                                // VoxelSpectrum, 4
   AlignedVector<float> temperatures;
   PlacedSparseGrid sparse;   // of temperatures
   BlackbodyTable blackbody;  // of either
 
-  bool empty() const { return values.empty() && blackbody.colors.empty(); }
+  bool heated() const { return !temperatures.empty() || sparse.grid != nullptr; }
+  bool empty() const { return values.empty() && !heated(); }
 };
 
 /// A medium that varies within a box: samples at the centres of nx * ny * nz voxels, x
@@ -86,7 +100,7 @@ struct MediumEmission {
 struct MediumGrid {
   MediumSource source = MediumSource::kDensities;
   std::int32_t size[3] = {};
-  AlignedVector<float> values;  // per voxel 1, of kColors 6: sigma_a and sigma_s
+  AlignedVector<float> values;  // per voxel 1, of kColors 6 or 8
   CloudShape cloud;             // kCloud
   PlacedSparseGrid sparse;      // kSparse
   MediumEmission emission;

@@ -27,7 +27,7 @@ struct SpectrumTable {
   AlignedVector<float> film[3];  // what 1 in a bin adds to red, green and blue
   AlignedVector<float> place;    // of bins: argument of sigmoids (src/image/upsampling.h)
   // Of colours that come by path; else empty: PolynomialThrough(), row by row, and
-  // MakeUpsamplingTable().
+  // UpsamplingTable().
   AlignedVector<float> polynomial, sigmoids;
   float per_half_tangent = 0;  // 1 / HalfTangentOfGrey(1 - kLeastUpsampled)
 };

@@ -5,19 +5,18 @@
 #include "src/core/check.h"
 #include "src/image/color_matrix.h"
 #include "src/image/spectrum_integral.h"
+#include "src/image/wavelengths.h"
 
 namespace lanelight {
 namespace {
 
-// Over its maximum, which by Wien's law is where h c / (lambda k T) = 4.965.
+// Over its maximum.
 Spectrum NormalizedBlackbody(double kelvin) {
-  constexpr double kSecondConstant = 1.438776877e7;  // h c / k, in nm K
-  constexpr double kPeak = 4.965114231744276;
   return [kelvin](double nm) {
-    const double x = kSecondConstant / (nm * kelvin);
+    const double x = kSecondRadiation / (nm * kelvin);
     if (x > 700) return 0.0;  // below 1e-290
-    const double q = x / kPeak, q2 = q * q;
-    return q2 * q2 * q * (std::expm1(kPeak) / std::expm1(x));
+    const double q = x / kPlanckPeak, q2 = q * q;
+    return q2 * q2 * q * (std::expm1(kPlanckPeak) / std::expm1(x));
   };
 }
 
@@ -33,6 +32,14 @@ Rgb RgbOfBlackbody(double kelvin) {
   const Rgb seen = Max(color, Rgb{});
   if (!(luminance > 0)) return {};
   return seen * (unit * luminance / Luminance(seen));
+}
+
+std::vector<float> UnitsOfBlackbody() {
+  const Spectrum d65 = DaylightD65();
+  std::vector<float> units = BinMeans([&](double nm) { return 1 / d65(nm); });
+  const double scale = kPhotometricIntegral / Luminance(ColorOfBins(units));
+  for (float& v : units) v = static_cast<float>(double(v) * scale);
+  return units;
 }
 
 }  // namespace lanelight

@@ -25,6 +25,8 @@ class Reader {
  public:
   explicit Reader(std::string bytes) : file_(std::move(bytes)) {}
   MeasuredReflectance Read();
+  /// Of so many known directions.
+  MeasuredSpectra Spectra(std::size_t phis, std::size_t thetas) const;
 
  private:
   void NeedShape(const std::string& name,
@@ -34,8 +36,6 @@ class Reader {
                         const std::vector<std::uint64_t>& leading) const;
   void CheckPhi(const MeasuredReflectance& m) const;
   void CheckMass(const std::string& name, const MeasuredTensor& t) const;
-  std::vector<float> Colors(const std::vector<float>& spectra, std::size_t slices,
-                            std::size_t numbers) const;
 
   TensorFile file_;
 };
@@ -125,9 +125,10 @@ void Reader::CheckMass(const std::string& name, const MeasuredTensor& t) const {
 
 // Linear sRGB under D65 of values at wavelengths, linear between these: for each of
 // `slices`, wavelengths of `numbers` to three of them.
-std::vector<float> Reader::Colors(const std::vector<float>& spectra, std::size_t slices,
-                                  std::size_t numbers) const {
-  const std::vector<double> nm = Nodes("wavelengths", 1, 1e5);
+std::vector<float> ColorsOf(const MeasuredSpectra& spectra, std::size_t slices) {
+  const std::vector<double>& nm = spectra.nm;
+  const auto numbers = static_cast<std::size_t>(spectra.reflectance.width) *
+                       static_cast<std::size_t>(spectra.reflectance.height);
   std::vector<Rgb> weights(nm.size());
   for (std::size_t w = 0; w < nm.size(); ++w) {
     std::vector<double> one(nm.size());
@@ -138,7 +139,7 @@ std::vector<float> Reader::Colors(const std::vector<float>& spectra, std::size_t
   std::vector<Rgb> sums(numbers);
   for (std::size_t s = 0; s < slices; ++s) {
     std::fill(sums.begin(), sums.end(), Rgb{});
-    const float* v = spectra.data() + s * nm.size() * numbers;
+    const float* v = spectra.reflectance.values.data() + s * nm.size() * numbers;
     for (std::size_t w = 0; w < nm.size(); ++w) {
       for (std::size_t i = 0; i < numbers; ++i) sums[i] += weights[w] * double{*v++};
     }
@@ -173,22 +174,46 @@ MeasuredReflectance Reader::Read() {
   m.luminance = Tensor("luminance", slices);
   CheckMass("vndf", m.vndf);
   CheckMass("luminance", m.luminance);
-  const std::uint64_t wavelengths = file_.Find("wavelengths").count;
-  m.reflectance = Tensor("spectra", {slices[0], slices[1], wavelengths});
-  const auto numbers = static_cast<std::size_t>(m.reflectance.width) *
-                       static_cast<std::size_t>(m.reflectance.height);
-  m.reflectance.values =
-      Colors(m.reflectance.values, m.phi.size() * m.theta.size(), numbers);
+  const MeasuredSpectra spectra = Spectra(m.phi.size(), m.theta.size());
+  m.reflectance = {spectra.reflectance.width, spectra.reflectance.height,
+                   ColorsOf(spectra, m.phi.size() * m.theta.size())};
   return m;
 }
 
-std::shared_ptr<const MeasuredReflectance> FromBytes(std::string bytes,
-                                                     const std::string& path) {
+MeasuredSpectra Reader::Spectra(std::size_t phis, std::size_t thetas) const {
+  const std::uint64_t wavelengths = file_.Find("wavelengths").count;
+  MeasuredSpectra spectra;
+  spectra.reflectance = Tensor("spectra", {phis, thetas, wavelengths});
+  spectra.nm = Nodes("wavelengths", 1, 1e5);
+  return spectra;
+}
+
+// What `read` makes of the bytes, with its errors about the file.
+template <class Read>
+auto FromBytes(std::string bytes, const std::string& path, const Read& read) {
   try {
-    return std::make_shared<MeasuredReflectance>(Reader(std::move(bytes)).Read());
+    return read(Reader(std::move(bytes)));
   } catch (const InputError& error) {
     throw InputError(fmt::format("cannot use the measured reflectance \"{}\": {}", path,
                                  WithoutPrefix(error)));
+  }
+}
+
+std::shared_ptr<const MeasuredReflectance> Known(std::string bytes,
+                                                 const std::string& path) {
+  return FromBytes(std::move(bytes), path, [&](Reader reader) {
+    auto m = std::make_shared<MeasuredReflectance>(reader.Read());
+    m->path = path;
+    return m;
+  });
+}
+
+std::string BytesOf(const std::string& path) {
+  try {
+    return ReadWholeFile(path);
+  } catch (const Unreadable& problem) {
+    throw InputError(fmt::format("cannot read the measured reflectance \"{}\": {}", path,
+                                 problem.reason()));
   }
 }
 
@@ -202,19 +227,18 @@ int MeasuredReflectance::parts() const {
 
 std::shared_ptr<const MeasuredReflectance> ReadMeasuredReflectance(
     std::istream& file, const std::string& path) {
-  return FromBytes({std::istreambuf_iterator<char>(file), {}}, path);
+  return Known({std::istreambuf_iterator<char>(file), {}}, path);
 }
 
 std::shared_ptr<const MeasuredReflectance> ReadMeasuredReflectance(
     const std::string& path) {
-  std::string bytes;
-  try {
-    bytes = ReadWholeFile(path);
-  } catch (const Unreadable& problem) {
-    throw InputError(fmt::format("cannot read the measured reflectance \"{}\": {}", path,
-                                 problem.reason()));
-  }
-  return FromBytes(std::move(bytes), path);
+  return Known(BytesOf(path), path);
+}
+
+MeasuredSpectra ReadMeasuredSpectra(const MeasuredReflectance& measured) {
+  return FromBytes(BytesOf(measured.path), measured.path, [&](const Reader& reader) {
+    return reader.Spectra(measured.phi.size(), measured.theta.size());
+  });
 }
 
 }  // namespace lanelight

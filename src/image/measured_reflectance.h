@@ -25,6 +25,7 @@ struct MeasuredTensor {
 /// where s is the point that the density `vndf` takes to h: by its rows first, then along
 /// them.
 struct MeasuredReflectance {
+  std::string path;  // of the file
   std::vector<double> phi, theta;
   MeasuredTensor ndf, sigma;   // of normals; projected area: one slice
   MeasuredTensor vndf;         // of visible normals
@@ -45,5 +46,15 @@ std::shared_ptr<const MeasuredReflectance> ReadMeasuredReflectance(
 /// The same; opens the file itself.
 std::shared_ptr<const MeasuredReflectance> ReadMeasuredReflectance(
     const std::string& path);
+
+/// What the colours of `reflectance` are made of: a slice for each wavelength.
+struct MeasuredSpectra {
+  std::vector<double> nm;  // increasing
+  MeasuredTensor reflectance;
+};
+/// Opens the file once more: spectra are many times as large as colours, and only renders
+/// that carry wavelengths keep them. InputError where it cannot be read, or has other
+/// directions by now.
+MeasuredSpectra ReadMeasuredSpectra(const MeasuredReflectance& measured);
 
 }  // namespace lanelight

@@ -143,6 +143,8 @@ Spectrum UpsampledColor(Rgb rgb) {
   return [=](double nm) { return scale * shape(nm); };
 }
 
+namespace {
+
 std::vector<float> MakeUpsamplingTable() {
   constexpr int n = kUpsamplingNodes;
   std::vector<float> table(3 * n * n * n);
@@ -162,6 +164,48 @@ std::vector<float> MakeUpsamplingTable() {
     }
   });
   return table;
+}
+
+}  // namespace
+
+const std::vector<float>& UpsamplingTable() {
+  static const std::vector<float> table = MakeUpsamplingTable();
+  return table;
+}
+
+SigmoidSpectrum SigmoidByTable(Rgb rgb) {
+  static const auto rows = PolynomialThrough();
+  static const double end = HalfTangentOfGrey(1 - kLeastUpsampled);
+  struct Axis {
+    double part;
+    std::size_t stride;
+  };
+  std::array<Axis, 3> axes;
+  std::size_t at = 0, stride = 3;
+  for (int i = 0; i < 3; ++i, stride *= kUpsamplingNodes) {
+    const double v = std::clamp(rgb[i], kLeastUpsampled, 1 - kLeastUpsampled);
+    const double x = (HalfTangentOfGrey(v) / end + 1) / 2 * (kUpsamplingNodes - 1);
+    const double cell = std::clamp(std::floor(x), 0.0, kUpsamplingNodes - 2.0);
+    axes[static_cast<std::size_t>(i)] = {x - cell, stride};
+    at += stride * static_cast<std::size_t>(cell);
+  }
+  // From corner to corner along the axis of the largest part first.
+  std::sort(axes.begin(), axes.end(), [](Axis a, Axis b) { return a.part > b.part; });
+  const float* node = UpsamplingTable().data() + at;
+  double share = 1 - axes[0].part;
+  Vec3d h = Vec3d{node[0], node[1], node[2]} * share;
+  for (std::size_t i = 0; i < 3; ++i) {
+    node += axes[i].stride;
+    share = axes[i].part - (i < 2 ? axes[i + 1].part : 0);
+    h += Vec3d{node[0], node[1], node[2]} * share;
+  }
+  SigmoidSpectrum sigmoid;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (int i = 0; i < 3; ++i) {
+      sigmoid.c[k] += rows[k][static_cast<std::size_t>(i)] * 2 * h[i] / (1 - h[i] * h[i]);
+    }
+  }
+  return sigmoid;
 }
 
 }  // namespace lanelight

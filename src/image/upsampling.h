@@ -43,7 +43,10 @@ Spectrum UpsampledColor(Rgb rgb);
 inline constexpr int kUpsamplingNodes = 17;
 inline constexpr double kLeastUpsampled = 2e-4;
 inline constexpr std::array<double, 3> kUpsamplingNm = {450, 545, 610};
-std::vector<float> MakeUpsamplingTable();
+const std::vector<float>& UpsamplingTable();  // made once
+
+/// The sigmoid of a reflectance by that table, as kernels look it up.
+SigmoidSpectrum SigmoidByTable(Rgb rgb);
 
 /// tan(a / 2) of p = tan(a): in (-1, 1).
 double HalfTangent(double p);

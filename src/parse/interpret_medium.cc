@@ -32,9 +32,7 @@ void ReadHomogeneous(ParseState& state, ParamSet& params, Medium* medium) {
   const double scale = params.Float("scale", 1, kNotNegative);
   medium->sigma_a *= scale;
   medium->sigma_s *= scale;
-  medium->emission =
-      PlainColor(state, params, "Le", {0, 0, 0}, SpectrumUse::kIlluminant) *
-      params.Float("Lescale", 1, kNotNegative);
+  ReadEmission(state, params, params.Float("Lescale", 1, kNotNegative), medium);
 }
 
 struct MediumType {

@@ -81,6 +81,13 @@ void ReadSigmas(ParseState& state, ParamSet& params, double scale, Medium* mediu
   medium->sigma_s = sigma("sigma_s");
 }
 
+void ReadEmission(ParseState& state, ParamSet& params, double scale, Medium* medium) {
+  medium->emission =
+      PlainColor(state, params, "Le", {0, 0, 0}, SpectrumUse::kIlluminant) * scale;
+  const Param* given = params.Find("Le", {});
+  if (given != nullptr) medium->emission_spectrum = SpectrumOf(state, params, *given);
+}
+
 void ReadTemperatureScale(ParamSet& params, Medium* medium) {
   const double cutoff = params.Float("temperaturecutoff", 0);
   medium->temperature_offset = params.Float("temperatureoffset", cutoff);
@@ -96,8 +103,7 @@ void ReadUniformGrid(ParseState& state, ParamSet& params, Medium* medium) {
   ReadSigmas(state, params, params.Float("scale", 1, kNotNegative), medium);
   ReadTemperatureScale(params, medium);
   const double scale = ReadEmissionScale(params, voxels, medium);
-  medium->emission =
-      PlainColor(state, params, "Le", {0, 0, 0}, SpectrumUse::kIlluminant) * scale;
+  ReadEmission(state, params, scale, medium);
   const Param* t = Samples(params, "temperature", ParamType::kFloat, voxels, 1);
   if (t == nullptr) return;
   if (params.Find("Le", {}) != nullptr) {

@@ -17,6 +17,8 @@ void ReadNanoVdb(ParseState& state, ParamSet& params, Medium* medium);
 void ReadBox(ParamSet& params, Medium* medium);
 /// "sigma_a" and "sigma_s", 1 if not given, times `scale`.
 void ReadSigmas(ParseState& state, ParamSet& params, double scale, Medium* medium);
+/// "Le", black if not given, times `scale`.
+void ReadEmission(ParseState& state, ParamSet& params, double scale, Medium* medium);
 /// "temperatureoffset", or by its older name "temperaturecutoff", and "temperaturescale".
 void ReadTemperatureScale(ParamSet& params, Medium* medium);
 

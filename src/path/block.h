@@ -58,11 +58,13 @@ inline constexpr std::uint32_t kGlossyKinds =
 /// Of a metal that serves others, at least: a narrow lobe has nothing for most of them.
 inline constexpr float kLeastGlossyAlpha = 0.1f;
 
-/// What is kept of a first vertex, of what there is; `fibres`: some may be hair.
-inline FieldSet FirstVertexFields(bool fibres) {
+/// What is kept of a first vertex, of what there is; `fibres`: some may be hair,
+/// `measured`: or a table by wavelength.
+inline FieldSet FirstVertexFields(bool fibres, bool measured) {
   using namespace fields;
-  return (fibres ? FieldSet{Field::uv_v} : FieldSet{}) | kThroughput | kPoint | kNormal |
-         kTangent | kParameters |
+  return (fibres ? FieldSet{Field::uv_v} : FieldSet{}) |
+         (measured ? FieldSet{Field::wavelength} : FieldSet{}) | kThroughput | kPoint |
+         kNormal | kTangent | kParameters |
          FieldSet{Field::pixel, Field::sample,   Field::depth,
                   Field::d_x,   Field::d_y,      Field::d_z,
                   Field::prim,  Field::material, Field::guide_cell};

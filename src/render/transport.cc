@@ -42,15 +42,13 @@ std::string Refusal(std::span<const Strategy> strategies, bool disperses) {
 }
 
 // And why the scene does not.
-std::string Refusal(const SceneDescription& scene, const std::vector<Index>& used) {
-  try {
-    CheckTransport(scene, used);
-  } catch (const InputError& error) {
-    return error.message();
-  }
+std::string Refusal(const SceneDescription& scene) {
   const auto dark = [](const auto& light) { return !EmitsCarried(light.spectrum); };
   if (std::any_of(scene.lights.begin(), scene.lights.end(), dark) ||
-      std::any_of(scene.area_lights.begin(), scene.area_lights.end(), dark)) {
+      std::any_of(scene.area_lights.begin(), scene.area_lights.end(), dark) ||
+      std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) {
+        return m.emission != Rgb{} && !EmitsCarried(m.emission_spectrum);
+      })) {
     return fmt::format("a light emits nothing from {} to {} nm", kFirstCarriedNm,
                        kLastCarriedNm);
   }
@@ -67,7 +65,7 @@ TransportChoice ChooseTransport(const SceneDescription& scene,
   const std::string has =
       user->what + (user->disperses ? " disperses" : " has a spectrum");
   std::string refusal = Refusal(strategies, user->disperses);
-  if (refusal.empty()) refusal = Refusal(scene, used);
+  if (refusal.empty()) refusal = Refusal(scene);
   if (refusal.empty()) return {Transport::kSpectral, has, {}, false};
   return {Transport::kRgb, fmt::format("{}, though {}", refusal, has), user->where, true};
 }

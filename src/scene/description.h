@@ -354,7 +354,8 @@ struct Medium {
   SourceLocation where;
   Rgb sigma_a{1, 1, 1}, sigma_s{1, 1, 1};
   Rgb emission;  // radiance of the blackbody limit: sigma_a * emission per length
-  double g = 0;  // Henyey-Greenstein
+  OwnSpectrum emission_spectrum;  // that `emission` is the colour of
+  double g = 0;                   // Henyey-Greenstein
   Transform world_from_medium;
   /// The inside of a material of index `eta`; all that happens in it is one event. If
   /// `by_reflectance`, sigma_s is its extinction and sigma_a 0, and its albedo such that

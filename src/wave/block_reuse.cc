@@ -113,7 +113,8 @@ void BlockReuse::PlacePairs() {
 void BlockReuse::MakeRoom(std::uint32_t samples, const PathColumns& paths) {
   if (samples <= room_) return;
   room_ = samples;
-  const FieldSet first = FirstVertexFields(plan_.features.Has(Feature::kHair));
+  const FieldSet first = FirstVertexFields(plan_.features.Has(Feature::kHair),
+                                           plan_.features.Has(Feature::kMeasured));
   const FieldSet glossy = GlossyVertexFields();
   const bool any_glossy = plan_.features.Has(Feature::kReuseGlossy);
   std::size_t columns = kColumnsOf<ReuseColumns>;

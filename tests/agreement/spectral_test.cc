@@ -1,36 +1,18 @@
 // Paths that carry wavelengths: closed forms, and the scalar tracer, which renders each
-// triple of wavelengths by itself (AtTriple below).
+// triple of wavelengths by itself (AtTriple).
 #include <catch2/catch.hpp>
 
-#include "src/compile/spectrum_rows.h"
 #include "src/image/spectrum.h"
-#include "tests/agreement/agreement.h"
+#include "tests/agreement/spectral_reference.h"
+#include "tests/image/temporary_folder.h"
+#include "tests/reference/measured.h"
 
 namespace lanelight::test {
 namespace {
 
-SceneDescription Spectral(SceneDescription scene) {
-  scene.integrator.transport = Transport::kSpectral;
-  return scene;
-}
-
-OwnSpectrum Own(const Spectrum& spectrum) {
-  return std::make_shared<const Spectrum>(spectrum);
-}
-
 // Of a colour that is the spectrum under D65, or that of the light.
 ColorValue Reflecting(const Spectrum& spectrum) {
   return {ColorUnderD65(spectrum), kNone, Own(spectrum)};
-}
-
-double LargestDifference(const stat::ImageEstimate& a, const stat::ImageEstimate& b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.mean.size(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      largest = std::max(largest, std::abs(a.mean[i][c] - b.mean[i][c]));
-    }
-  }
-  return largest;
 }
 
 void CheckColor(const SceneDescription& scene, std::uint64_t spp, Rgb exact,
@@ -42,76 +24,6 @@ void CheckColor(const SceneDescription& scene, std::uint64_t spp, Rgb exact,
   INFO(result.ToString());
   CHECK(result.same);
   CHECK(result.detectable_bias < 0.02);
-}
-
-// What the description is for the long, the middle and the short wavelength of a triple,
-// in the channels red, green and blue.
-struct AtTriple {
-  int triple;
-
-  Rgb Of(const Spectrum& spectrum) const {
-    const auto& centre = CarriedWavelengths().centre;
-    return {spectrum(centre[2 * kTriples + triple]), spectrum(centre[kTriples + triple]),
-            spectrum(centre[triple])};
-  }
-  void Reflect(ColorValue& color) const {
-    color.constant =
-        Of(color.spectrum ? *color.spectrum : UpsampledReflectance(color.constant));
-  }
-  void Index(ColorValue& color) const {
-    if (color.spectrum) color.constant = Of(*color.spectrum);
-  }
-  Rgb Light(Rgb color, const OwnSpectrum& own) const {
-    if (!own) return Of(UpsampledColor(color));
-    const Spectrum d65 = DaylightD65();
-    const auto in_d65 = [&](double nm) { return (*own)(nm) / d65(nm); };
-    return Of(in_d65) * (Luminance(color) / Luminance(ColorOfBins(BinMeans(in_d65))));
-  }
-  SceneDescription operator()(SceneDescription scene) const {
-    for (Material& m : scene.materials) {
-      Reflect(m.reflectance);
-      Reflect(m.transmittance);
-      Index(m.eta);
-      Index(m.k);
-    }
-    for (lanelight::Light& light : scene.lights) {
-      light.emission = Light(light.emission, light.spectrum);
-    }
-    for (Medium& medium : scene.media) {
-      medium.sigma_a = Of(UpsampledColor(medium.sigma_a));
-      medium.sigma_s = Of(UpsampledColor(medium.sigma_s));
-      medium.emission = Of(UpsampledColor(medium.emission));
-    }
-    for (AreaLight& light : scene.area_lights) {
-      light.radiance = Light(light.radiance, light.spectrum);
-    }
-    return scene;
-  }
-};
-
-// Mean over triples that lie evenly.
-stat::ImageEstimate SpectralReference(const SceneDescription& scene, int samples) {
-  constexpr int kEvery = 4, kCount = kTriples / kEvery;
-  stat::ImageEstimate out;
-  for (int i = kEvery / 2; i < kTriples; i += kEvery) {
-    TwinOptions options = Options(ReferenceEstimator::kLightSampling, samples);
-    options.seed = static_cast<std::uint64_t>(i) + 1;
-    const auto one = Estimate(RenderReference(AtTriple{i}(scene), options));
-    if (out.mean.empty()) out = {one.width, one.height, 0, {}, {}};
-    out.mean.resize(one.mean.size());
-    out.variance.resize(one.mean.size());
-    out.observations += one.observations;
-    const auto& film = CarriedWavelengths().film;
-    const Rgb f[3] = {film[2 * kTriples + i], film[kTriples + i], film[i]};
-    for (std::size_t p = 0; p < one.mean.size(); ++p) {
-      for (int k = 0; k < 3; ++k) {
-        out.mean[p] += f[k] * (one.mean[p][k] / kCount);
-        // The channels of a sample go up and down together: their errors may add up.
-        out.variance[p] += f[k] * f[k] * (3 * one.variance[p][k] / kCount / kCount);
-      }
-    }
-  }
-  return out;
 }
 
 // Colours of every kind, by spectra and not.
@@ -173,13 +85,6 @@ SceneDescription Patch(const ColorValue& reflectance, const ColorValue& light) {
   b.AddDistant({0, 0, 1}, light.constant * 3.14159265358979);
   b.scene().lights.back().spectrum = light.spectrum;
   return b.Build();
-}
-
-// What a film sees of light in units of D65.
-Rgb Seen(const Spectrum& light) {
-  Rgb sum;
-  for (double nm = 380.125; nm < 780; nm += 0.25) sum += WhiteShare(nm) * light(nm) / 4;
-  return sum;
 }
 
 // Colour of light that a surface has changed, for light of luminance 1.
@@ -289,6 +194,44 @@ TEST_CASE("spectral: media agree with the scalar tracer", "[spectral]") {
   INFO(result.ToString());
   CHECK(result.same);
   CHECK(result.detectable_bias < 0.04);
+}
+
+TEST_CASE("spectral: measured materials agree with the scalar tracer", "[spectral]") {
+  const TemporaryFolder folder;
+  auto model = reference::VarnishModel();
+  SceneBuilder b(8, 8);
+  b.Depth(2).Perspective({0, -4, 1.5}, {0, 0, 0.4}, {0, 0, 1}, 30);
+  b.AddPlane({0, 0, -0.1}, {0, 0, 1}, b.AddDiffuse({0.6, 0.3, 0.2}));
+  Material varnish;
+  varnish.kind = MaterialKind::kMeasured;
+  varnish.measured = ReadMeasuredReflectance(
+      folder.Write("varnish.bsdf", reference::MeasuredFile(model)));
+  b.AddSphere({0, 0, 0.6}, 0.6, b.AddMaterial(varnish));
+  b.AddQuad({-1, -1.5, 2.5}, {0, 2, 0}, {2, 0, 0}, b.AddDiffuse(Grey(0)),
+            b.AddEmission({8, 7, 5}));
+  b.AddEnvironment({0.3, 0.4, 0.5});
+  const SceneDescription scene = b.Build();
+  const auto reference = SpectralReference(scene, 200);
+  const auto image = RenderWavefront(Spectral(scene), 4096);
+  const auto result = stat::CompareMeans(image, reference, {4, 1e-6, 2e-3});
+  INFO(result.ToString());
+  CHECK(result.same);
+  CHECK(result.detectable_bias < 0.05);
+  // Power: a file without colour is not that near.
+  SceneDescription grey = scene;
+  for (Material& m : grey.materials) {
+    if (m.measured == nullptr) continue;
+    m.measured = ReadMeasuredReflectance(
+        folder.Write("grey.bsdf", reference::MeasuredFile(reference::ChalkModel(0.3))));
+  }
+  CHECK_FALSE(stat::CompareMeans(RenderWavefront(Spectral(grey), 4096), reference,
+                                 {4, 1e-6, 2e-3})
+                  .same);
+  const auto shared =
+      stat::CompareMeans(RenderWavefront(Spectral(scene), 4096, "reuse=block"), image,
+                         {4, 1e-6, 2e-3, 1e-5});
+  INFO("reuse=block: " << shared.ToString());
+  CHECK(shared.same);
 }
 
 TEST_CASE("spectral: glass that disperses loses no light", "[spectral]") {

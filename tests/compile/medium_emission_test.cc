@@ -5,8 +5,10 @@
 
 #include "src/compile/medium_emission.h"
 #include "src/compile/medium_grid.h"
+#include "src/compile/voxel_spectra.h"
 #include "src/image/blackbody.h"
 #include "src/image/spectrum.h"
+#include "src/image/upsampling.h"
 #include "tests/media/varying_scenes.h"
 #include "tests/reference/media.h"
 
@@ -43,7 +45,72 @@ std::pair<double, double> CheckMajorants(const Medium& medium) {
   return {bounds / (kSide * kSide * kSide), densities / (kSide * kSide * kSide)};
 }
 
+// Colours at random voxels, most of them saturated.
+Medium RandomColors() {
+  Medium medium;
+  medium.kind = MediumKind::kRgbGrid;
+  medium.grid_size[0] = 5, medium.grid_size[1] = 4, medium.grid_size[2] = 3;
+  reference::Random random(7);
+  for (int i = 0; i < 6 * 60; ++i) {
+    const double v = random.Uniform();
+    medium.grid.push_back(v < 0.3 ? 0 : static_cast<float>(v * v * 4));
+  }
+  return medium;
+}
+
+// Points of the box, and a bin, where extinction is above the bound of their cell.
+int CountAbove(const MediumGrid& spectra, const MediumGrid& bounds) {
+  Medium shape = RandomColors();
+  int above = 0;
+  reference::Random random(3);
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3d share = {random.Uniform(), random.Uniform(), random.Uniform()};
+    const auto bin = static_cast<std::size_t>(random.Uniform() * kWavelengthBins);
+    const double t = SigmoidPlace(CarriedWavelengths().centre[bin]);
+    for (std::size_t v = 0; v < 120; ++v) {
+      const float* s = spectra.values.data() + 4 * v;
+      const double p = (s[0] * t + s[1]) * t + s[2];
+      const double value = s[3] * (0.5 + 0.5 * p / std::sqrt(1 + p * p));
+      // Both parts of the extinction, in the place of scattering's red.
+      shape.grid[v / 2 * 6 + (v % 2 == 0 ? 0 : 3)] = static_cast<float>(value);
+    }
+    const auto at = reference::MediumAt(shape, share);
+    above += at.sigma_a.x + at.sigma_s.x > MajorantAt(bounds, share);
+  }
+  return above;
+}
+
 }  // namespace
+
+TEST_CASE("bounds of colours hold at each wavelength", "[compile][media][spectral]") {
+  const Medium medium = RandomColors();
+  const MediumGrid spectral = CompileMediumGrid(medium, Frame(), Transport::kSpectral);
+  REQUIRE(spectral.values.size() == 8 * 60);
+  CHECK(CountAbove(spectral, spectral) == 0);
+  // Power: those of red, green and blue do not.
+  CHECK(CountAbove(spectral, CompileMediumGrid(medium, Frame())) > 10);
+}
+
+TEST_CASE("spectra of voxels have the colours asked for", "[compile][media][spectral]") {
+  reference::Random random(5);
+  double mean = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Rgb color = {random.Uniform() * 3, random.Uniform() * 3, random.Uniform() * 3};
+    const VoxelSpectrum s = SpectrumOfVoxel(color);
+    const SigmoidSpectrum shape = {{s.c[0], s.c[1], s.c[2]}};
+    double most = 0;
+    const std::vector<float> values =
+        BinValues([&](double nm) { return s.scale * shape(nm); });
+    for (const float v : values) most = std::max(most, double{v});
+    CHECK(most <= LargestOf(s));
+    CHECK(LargestOf(s) <= most * 1.01 + 1e-6);
+    mean += Length(ColorOfBins(values) - color) / Length(color) / 500;
+  }
+  CHECK(mean < 3e-3);
+  const VoxelSpectrum grey = SpectrumOfVoxel({0.3, 0.3, 0.3});
+  CHECK(LargestOf(grey) == double{0.6f} / 2);
+  CHECK(LargestOf(SpectrumOfVoxel({})) == 0);
+}
 
 TEST_CASE("bounds of clouds and NanoVDB grids hold", "[compile][media]") {
   const TemporaryFolder folder;
@@ -88,7 +155,7 @@ TEST_CASE("the table of black bodies", "[compile][media]") {
   medium.kind = MediumKind::kUniformGrid;
   medium.temperature = {20000};
   medium.emission = {1, 1, 1};
-  const BlackbodyTable table = CompileMediumEmission(medium).blackbody;
+  const BlackbodyTable table = CompileMediumEmission(medium, Transport::kRgb).blackbody;
   for (double kelvin = 1000; kelvin < 20000; kelvin *= 1.0117) {
     const double at = std::log(kelvin / kLeastKelvin) * table.entries_per_log;
     const auto i = static_cast<std::size_t>(at);

@@ -61,6 +61,16 @@ TEST_CASE("transport: wavelengths where something has a spectrum", "[render][spe
     CHECK_THAT(choice.why, Catch::Contains(" has a spectrum") ||
                                Catch::Contains("the glass disperses"));
   }
+  const std::string fire =
+      "MakeNamedMedium \"fire\" \"string type\" \"uniformgrid\" \"float density\" [ 1 ] "
+      "\"float temperature\" [ 1500 ]\n";
+  const std::string bound =
+      "MediumInterface \"fire\" \"\"\nMaterial \"interface\"\nShape \"sphere\"\n";
+  const TransportChoice glows = ChoiceFor(fire + bound + kLamp + kRed);
+  CHECK(glows.transport == Transport::kSpectral);
+  CHECK_THAT(glows.why,
+             Catch::Contains("the light of the medium \"fire\" has a spectrum"));
+  CHECK(ChoiceFor(fire + kLamp + kRed).transport == Transport::kRgb);
   // What no shape has does not count.
   const std::string unused =
       "MakeNamedMaterial \"m\" \"string type\" \"conductor\"\n" + kLamp + kRed;
@@ -79,10 +89,6 @@ TEST_CASE("transport: RGB, and why, where wavelengths are refused",
              Catch::Contains("glass disperses"));
   CHECK(ChoiceFor(kLamp + kCopper + kRed, "reuse=block").transport ==
         Transport::kSpectral);
-  const std::string grid =
-      "MakeNamedMedium \"m\" \"string type\" \"rgbgrid\" \"integer nx\" 1 "
-      "\"integer ny\" 1 \"integer nz\" 1 \"rgb sigma_a\" [ 1 2 3 ]\n";
-  CHECK_THAT(refused(grid + kLamp + kCopper, ""), Catch::Contains("rgbgrid"));
   CHECK_THAT(
       refused("LightSource \"point\" \"spectrum I\" [ 790 1 820 1 ]\n" + kCopper, ""),
       Catch::Contains("a light emits nothing"));
@@ -108,13 +114,11 @@ TEST_CASE("transport: a job carries what is asked for", "[render][spectral]") {
   says.integrator.transport = Transport::kRgb;
   CHECK_FALSE(PrepareJob(says, {}).plan.features.Has(Feature::kSpectral));
   CHECK(JobOf(scene, AskedTransport::kSpectral).plan.features.Has(Feature::kSpectral));
-  const Job grid = JobOf(
-      "MakeNamedMedium \"m\" \"string type\" \"rgbgrid\" \"integer nx\" 1 "
-      "\"integer ny\" 1 \"integer nz\" 1 \"rgb sigma_a\" [ 1 2 3 ]\n" +
-          scene,
-      AskedTransport::kByScene);
-  CHECK_FALSE(grid.plan.features.Has(Feature::kSpectral));
-  CHECK(Notes(grid, "rendered in red, green and blue, since"));
+  const Job dark =
+      JobOf("LightSource \"point\" \"spectrum I\" [ 790 1 820 1 ]\n" + kCopper,
+            AskedTransport::kByScene);
+  CHECK_FALSE(dark.plan.features.Has(Feature::kSpectral));
+  CHECK(Notes(dark, "rendered in red, green and blue, since"));
 }
 
 TEST_CASE("transport: what is compared is rendered alike", "[render][spectral]") {

@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "src/compile/measured.h"
+#include "src/image/wavelengths.h"
+#include "tests/image/temporary_folder.h"
 #include "tests/reference/measured.h"
 #include "tests/shade/probe_batch.h"
 
@@ -24,9 +26,23 @@ Vec3d Upwards(double z, double phi = 0.7) {
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-// Means over the hemisphere of Eval and of its distance from the model, at 550 nm.
+// The same by wavelength, of one triple.
+TestMaterial SpectralMaterialOf(const reference::MeasuredModel& model, int triple) {
+  const TemporaryFolder folder;
+  TestMaterial m = MaterialOf(model);
+  const std::string path = folder.Write("m.bsdf", reference::MeasuredFile(model));
+  MaterialRow row;
+  row.measured = m.local.measured = ReadMeasuredReflectance(path);
+  m.table.measured = {};
+  AddMeasured({row}, m.table.measured, Transport::kSpectral);
+  m.wavelength = {static_cast<float>((triple + 0.5) / kTriples / 3)};
+  return m;
+}
+
+// Means over the hemisphere of Eval and of its distance from the model, of a channel that
+// is at this wavelength.
 double DistanceFrom(const TestMaterial& m, const reference::MeasuredModel& model,
-                    Vec3d wo) {
+                    Vec3d wo, int channel = 1, double nm = 550) {
   ProbeBatch batch(8192);
   batch.SetWo(wo);
   reference::Random random(5);
@@ -37,8 +53,8 @@ double DistanceFrom(const TestMaterial& m, const reference::MeasuredModel& model
   batch.Eval(m);
   double off = 0, sum = 0;
   for (std::uint32_t i = 0; i < batch.n; ++i) {
-    const double want = model.f_cos(550, wo, Normalize(batch.Wi(i)));
-    off += std::abs(batch.value[1][i] - want), sum += want;
+    const double want = model.f_cos(nm, wo, Normalize(batch.Wi(i)));
+    off += std::abs(batch.value[channel][i] - want), sum += want;
   }
   return off / sum;
 }
@@ -74,6 +90,49 @@ TEST_CASE("measured chalk and metal are what they are made of", "[shade][measure
   // Another roughness is further away than that.
   CHECK(DistanceFrom(metal_table, reference::MetalModel(0.42, 0.42, 0.6, 0.6),
                      Upwards(0.6)) > 0.1);
+}
+
+TEST_CASE("measured: each wavelength has its own value", "[shade][measured][spectral]") {
+  for (const bool turns : {false, true}) {
+    // Linear between the wavelengths of the file.
+    auto model = reference::MetalModel(0.5, turns ? 0.25 : 0.5, 0.2, 0.9);
+    if (turns) model.phis = 9, model.parts = 4;
+    for (const int triple : {0, 40, 100, kTriples - 1}) {
+      const TestMaterial m = SpectralMaterialOf(model, triple);
+      for (int c = 0; c < 3; ++c) {
+        const auto bin = static_cast<std::size_t>((2 - c) * kTriples + triple);
+        const double nm = CarriedWavelengths().centre[bin];
+        INFO("turns " << turns << ", " << nm << " nm");
+        CHECK(DistanceFrom(m, model, Upwards(0.6), c, nm) < 0.12);
+        // Power: the value of another wavelength is not that near.
+        if (c != 1) CHECK(DistanceFrom(m, model, Upwards(0.6), 1, nm) > 0.14);
+      }
+    }
+  }
+}
+
+TEST_CASE("measured: what is grey is the same by wavelength",
+          "[shade][measured][spectral]") {
+  const auto model = reference::ChalkModel(0.5);
+  const TestMaterial rgb = MaterialOf(model), spectral = SpectralMaterialOf(model, 17);
+  ProbeBatch a(4096), b(4096);
+  for (ProbeBatch* batch : {&a, &b}) batch->SetWo(Upwards(0.6)), batch->RandomPoints(2);
+  a.Sample(rgb), b.Sample(spectral);
+  for (std::uint32_t i = 0; i < a.n; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      if (!(std::abs(a.value[c][i] - b.value[c][i]) <= 2e-5f * a.value[c][i])) {
+        FAIL("sample " << i << ": " << a.value[c][i] << ", " << b.value[c][i]);
+      }
+    }
+  }
+}
+
+TEST_CASE("measured: a file that has gone is an error by wavelength",
+          "[compile][measured][spectral]") {
+  MaterialRow row;
+  row.measured = MaterialOf(reference::ChalkModel(0.5)).local.measured;
+  MeasuredTable table;
+  CHECK_THROWS_AS(AddMeasured({row}, table, Transport::kSpectral), InputError);
 }
 
 TEST_CASE("measured: the files of scenes are those of their models",

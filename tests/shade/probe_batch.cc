@@ -224,6 +224,7 @@ BsdfBatch ProbeBatch::View(const TestMaterial& material, std::uint32_t seed) {
   batch.n = n;
   batch.seed = seed;
   batch.uv_v = material.uv_v.data();
+  if (!material.wavelength.empty()) batch.wavelength = material.wavelength.data();
   for (int c = 0; c < 3; ++c) {
     batch.wo[c] = wo[c].data();
     batch.u[c] = u[c].data();

@@ -16,8 +16,9 @@ struct TestMaterial {
   std::string name;
   ShadeKind kind;
   reference::LocalMaterial local;
-  MaterialTable table;        // one row
-  AlignedVector<float> uv_v;  // of fibres: across
+  MaterialTable table;                   // one row
+  AlignedVector<float> uv_v;             // of fibres: across
+  AlignedVector<float> wavelength = {};  // of spectra: number of all paths; else empty
 };
 
 /// `local` as a row of a table.
