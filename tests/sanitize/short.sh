@@ -54,6 +54,16 @@ for strategy in points=stratified,pairs=antithetic,directions=light \
   render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy "$strategy"
 done
 render sun-sky.pbrt --resolution 81x61 --spp 16 --strategy control=ambient
+# Wavelengths where nothing in the scene asks for them, and a film that keeps them.
+for scene in media cloud measured subsurface textured-layers image-lights; do
+  render "$scene.pbrt" --resolution 41x33 --spp 3 --transport spectral
+done
+render cornell-box.pbrt --resolution 41x33 --spp 4 --transport spectral \
+  --strategy control=analytic
+render sun-sky.pbrt --resolution 41x33 --spp 4 --transport spectral \
+  --strategy control=ambient
+sed 's/^Film "rgb"/Film "spectral"/' prism.pbrt > "$out/spectra.pbrt"
+render "$out/spectra.pbrt" --resolution 41x33 --spp 4
 # Media with what else there is to paths.
 render media.pbrt --resolution 40x30 --spp 4 --strategy guiding=radiance,pairs=antithetic
 # Paths that serve their block: tiles that are cut off, all kinds of materials, a guide.
