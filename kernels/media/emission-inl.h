@@ -40,7 +40,9 @@ LANELIGHT_INLINE V3 BlackbodySpectra(V3 planck, VF kelvin) {
   const auto one = [&](VF of) HWY_ATTR {
     const VF x = hn::Div(of, safe), q = hn::Mul(x, Splat(float(1 / kPlanckPeak)));
     const VF q2 = hn::Mul(q, q), q5 = hn::Mul(hn::Mul(q2, q2), q);
-    return hn::Div(hn::Mul(q5, Splat(float(kPlanckAtPeak))), hn::Expm1(DF(), x));
+    // Of cold bodies, whose light is below 1e-20, more than Expm1 can take.
+    const VF e = hn::Expm1(DF(), hn::Min(x, Splat(80.0f)));
+    return hn::Div(hn::Mul(q5, Splat(float(kPlanckAtPeak))), e);
   };
   return {one(planck.x), one(planck.y), one(planck.z)};
 }

@@ -119,6 +119,14 @@ TEST_CASE("spectral media: a slab of black bodies", "[media][spectral][closed-fo
   CHECK(Length(right - one) > 0.05 * Length(right));
 }
 
+TEST_CASE("spectral media: cold black bodies are dark", "[media][spectral]") {
+  for (const float kelvin : {101.0f, 160.0f, 250.0f, 350.0f, 500.0f}) {
+    INFO(kelvin << " K");
+    const auto image = RenderWavefront(Spectral(Slab(HeatedGrid(Grey(1), kelvin))), 256);
+    for (const Rgb& mean : image.mean) CHECK(Length(mean) < 1e-9);
+  }
+}
+
 TEST_CASE("spectral media: black bodies in grey are those of RGB", "[media][spectral]") {
   for (const float kelvin : {1500.0f, 3000.0f, 6500.0f}) {
     const SceneDescription scene = Slab(HeatedGrid(Grey(1), kelvin));
