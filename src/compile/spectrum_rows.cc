@@ -36,7 +36,7 @@ std::vector<float> LightValues(Rgb color, const OwnSpectrum& spectrum) {
   if (!(luminance > 0)) {
     throw InputError(fmt::format(
         "a light emits nothing from {} to {} nm, which is what --transport spectral "
-        "carries; --transport rgb renders it",
+        "carries; --transport rgb with Film \"rgb\" renders it",
         kFirstCarriedNm, kLastCarriedNm));
   }
   for (float& v : values) v = static_cast<float>(double(v) / luminance);

@@ -250,6 +250,10 @@ TEST_CASE("spectral film: what has no wavelengths is refused", "[render][buckets
   const std::string text = SpectralText("", kOneEnvironment + kGreyBall);
   CHECK_THAT(Refused([&] { SpectralJob(text, 1, "reuse=block"); }),
              Catch::Contains("reuse=block does not work with Film \"spectral\""));
+  const std::string unseen = "LightSource \"point\" \"spectrum I\" [ 790 1 820 1 ]\n";
+  CHECK_THAT(Refused([&] { SpectralJob(SpectralText("", unseen + kGreyBall)); }),
+             Catch::Contains("a light emits nothing from 380 to 780 nm") &&
+                 Catch::Contains("with Film \"rgb\""));
   CHECK_THAT(Refused([&] { SpectralJob(SpectralText("\"integer nbuckets\" 0", "")); }),
              Catch::Contains("nbuckets"));
   CHECK_THAT(
