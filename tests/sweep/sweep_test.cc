@@ -128,4 +128,20 @@ TEST_CASE("sweep: a dry run predicts and renders nothing", "[sweep][cli]") {
   CHECK_THAT(Sweep(file, out, {"--dry-run"}).out, Contains("22 are done"));
 }
 
+TEST_CASE("sweep: a dry run renders with the films of its scenes", "[sweep][cli]") {
+  for (const char* film : {"gbuffer", "spectral"}) {
+    const TempDirectory directory;
+    WriteText(directory / "s.pbrt",
+              std::string("Camera \"perspective\"\nFilm \"") + film +
+                  "\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+                  "WorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n");
+    const std::string file = WriteText(directory / "sweep.toml",
+                                       "[grid]\nscene = [\"s.pbrt\"]\nspp = [4, 16]\n");
+    const ProcessResult r = Sweep(file, directory / "out", {"--dry-run"});
+    INFO(r.out << r.err);
+    CHECK(r.exit_code == kExitGood);
+    CHECK_THAT(r.out, Contains("1 of 1 combinations") && !Contains("will fail"));
+  }
+}
+
 }  // namespace lanelight::sweep_process
