@@ -180,7 +180,7 @@ struct MeasuredBsdf : PlainBsdf {
     LANELIGHT_INLINE V3 Spectrum(const MeasuredFunction& f, VF x, VF y) const {
       const VI bins = record.I(offsetof(MeasuredRecord, bins));
       const VI count = record.I(offsetof(MeasuredRecord, wavelengths));
-      const V3 at = ByBin(table.values.data(), hn::Add(bins, triple));
+      const V3 at = ByBin(table.values.data(), bins, triple);
       return f.Between(x, y, count, at);
     }
 

@@ -189,7 +189,7 @@ inline HWY_NOINLINE V3 AtWavelengths(const Wave& wave, const Slots& slots, VI in
   const DI di;
   const SpectrumTable& table = wave.scene->spectra;
   const Wavelengths at(wave.path, slots);
-  const VI row = Gather(wave.scene->lights.spectrum.data(), index);
+  const VI row = Lookup(wave.scene->lights.spectrum, index);
   const auto own = hn::Gt(row, hn::Set(di, -1));
   // The weights of Luminance() (src/core/vec.h), in which the rows are stated.
   const VF luminance = Dot(color, Splat3(0.212671f, 0.715160f, 0.072169f));
