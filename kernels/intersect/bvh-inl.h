@@ -125,17 +125,25 @@ LANELIGHT_INLINE uint32_t PushChildren(const WideNode& node, uint32_t bits,
   return static_cast<uint32_t>(best);
 }
 
+struct NothingAhead {
+  LANELIGHT_INLINE void operator()(uint32_t) const {}
+};
+
 /// Visits the leaves that the ray (a SlabRay, or a Frustum) meets before `t_max`, roughly
-/// nearest first. `leaf` may lower t_max; it returns true to end the traversal.
-template <class Ray, class Leaf>
+/// nearest first. `leaf` may lower t_max; it returns true to end the traversal. `ahead`
+/// is told what is likely to come next, a node or a leaf, before the ray meets this one:
+/// in trees that no cache holds it may fetch it.
+template <class Ray, class Leaf, class Ahead = NothingAhead>
 LANELIGHT_INLINE void Traverse(const WideNode* HWY_RESTRICT nodes, uint32_t root,
-                               const Ray& ray, const float& t_max, Leaf&& leaf) {
+                               const Ray& ray, const float& t_max, Leaf&& leaf,
+                               const Ahead& ahead = {}) {
   if (root == kEmptyRef) return;
   uint64_t stack[kTraversalStack];
   uint64_t* top = stack;
   HWY_ALIGN float entry[kBvhWidth];
   uint32_t ref = root;
   for (;;) {
+    if (top != stack) ahead(static_cast<uint32_t>(top[-1]));
     if (ref & kLeafBit) {
       if (leaf(ref & ~kLeafBit)) return;
     } else {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "hwy/cache_control.h"
+
 #include "kernels/intersect/curve-inl.h"
 #include "kernels/intersect/rays-inl.h"
 #include "src/compiled/scene.h"
@@ -41,6 +43,29 @@ HWY_INLINE bool MeetsRibbon(const Geometry& geometry, const PiecePlace& at,
   const float cosine = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
   return share <= cosine * cosine;
 }
+
+// Trees of hair are larger than caches.
+struct FetchAhead {
+  const WideNode* nodes;
+  const CurveBlock* blocks;
+
+  HWY_INLINE void operator()(uint32_t ref) const {
+    if ((ref & kLeafBit) != 0) {
+      Fetch(blocks[ref & ~kLeafBit]);
+    } else {
+      Fetch(nodes[ref]);
+    }
+  }
+
+ private:
+  template <class Value>
+  HWY_INLINE static void Fetch(const Value& value) {
+    const char* bytes = reinterpret_cast<const char*>(&value);
+    for (std::size_t at = 0; at < sizeof(Value); at += kCacheLine) {
+      hwy::Prefetch(bytes + at);
+    }
+  }
+};
 
 // Neighbouring pieces of a curve meet in a line that both may claim, at the same
 // distance.
@@ -84,7 +109,8 @@ HWY_INLINE void TraceCurves(const CompiledScene& scene, const float o[3],
     return kAny && best.found;
   };
   const Bvh& tree = scene.accel.curves;
-  Traverse(scene.accel.nodes.data(), tree.root, MakeSlabRay(o, d, tree), best.t, leaf);
+  Traverse(scene.accel.nodes.data(), tree.root, MakeSlabRay(o, d, tree), best.t, leaf,
+           FetchAhead{scene.accel.nodes.data(), blocks});
 }
 
 // Calls each(i, slot, o, d) for the rays of a batch one by one.
