@@ -11,6 +11,7 @@
 
 #include "hwy/contrib/math/math-inl.h"
 #include "kernels/lights/map_samples-inl.h"
+#include "kernels/lights/portal_sums-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/surface/point-inl.h"
 #include "src/compiled/lights.h"
@@ -59,103 +60,6 @@ LANELIGHT_INLINE PortalWindow WindowFrom(const Portal& portal, V3 from) {
   const MF wide = hn::And(hn::Lt(low.s, high.s), hn::Lt(low.t, high.t));
   return {low.s, high.s, low.t, high.t, hn::And(wide, hn::And(low.ahead, high.ahead))};
 }
-
-/// Half a vector of windows, in texels, and the sums of weights inside them.
-class PortalSums {
- public:
-  LANELIGHT_INLINE PortalSums(const Portal& portal, VD x0, VD x1, VD y0, VD y1)
-      : sums_(portal.sums.data()),
-        size_(hn::Set(DD(), portal.size)),
-        x0_(x0),
-        x1_(x1),
-        y0_(y0),
-        y1_(y1) {}
-
-  struct Point {
-    VD x, y;
-    VD column, row;  // of its texel
-    VD density;      // over the square
-  };
-
-  HWY_NOINLINE Point Sample(VD u0, VD u1) const {
-    const VD total = Left(x1_);
-    Point at;
-    at.x = Invert(
-        x0_, x1_, hn::Mul(u0, total), [&](VD x) HWY_ATTR { return Left(x); }, &at.column);
-    const VD next = hn::Add(at.column, hn::Set(DD(), 1.0));
-    const VD whole = Between(at.column, next, y0_, y1_);
-    at.y = Invert(
-        y0_, y1_, hn::Mul(u1, whole),
-        [&](VD y) HWY_ATTR { return Between(at.column, next, y0_, y); }, &at.row);
-    at.density = Density(at.column, at.row);
-    return at;
-  }
-
-  /// Of a point of the window with this texel; 0 where the window is black.
-  LANELIGHT_INLINE VD Density(VD column, VD row) const {
-    const VD one = hn::Set(DD(), 1.0), zero = hn::Zero(DD());
-    const VD total = Left(x1_);
-    const VD mine = Between(column, hn::Add(column, one), row, hn::Add(row, one));
-    const VD density = hn::Div(hn::Mul(mine, hn::Mul(size_, size_)), total);
-    const auto some = hn::And(hn::Gt(mine, zero), hn::Gt(total, zero));
-    return hn::IfThenElseZero(some, density);
-  }
-
- private:
-  LANELIGHT_INLINE VD Node(VD column, VD row) const {
-    // By way of 32 bits: AVX2 has no conversion of doubles to 64.
-    const hn::RebindToSigned<DD> di;
-    const hn::Rebind<int32_t, DD> narrow;
-    const VD at = hn::MulAdd(row, hn::Add(size_, hn::Set(DD(), 1.0)), column);
-    const auto index = hn::PromoteTo(di, hn::DemoteTo(narrow, at));
-    return hn::GatherIndex(DD(), sums_, index);
-  }
-  // Of all to the left of x and below y, both in [0, size].
-  LANELIGHT_INLINE VD Below(VD x, VD y) const {
-    const VD one = hn::Set(DD(), 1.0), last = hn::Sub(size_, one);
-    const VD i = hn::Min(hn::Floor(x), last), j = hn::Min(hn::Floor(y), last);
-    const VD i1 = hn::Add(i, one), j1 = hn::Add(j, one);
-    const VD right = hn::Sub(x, i), above = hn::Sub(y, j);
-    const auto mix = [](VD a, VD b, VD t)
-                         HWY_ATTR { return hn::MulAdd(hn::Sub(b, a), t, a); };
-    return mix(mix(Node(i, j), Node(i1, j), right), mix(Node(i, j1), Node(i1, j1), right),
-               above);
-  }
-  HWY_NOINLINE VD Between(VD left, VD right, VD low, VD high) const {
-    return hn::Sub(hn::Sub(Below(right, high), Below(left, high)),
-                   hn::Sub(Below(right, low), Below(left, low)));
-  }
-  LANELIGHT_INLINE VD Left(VD x) const { return Between(x0_, x, y0_, y1_); }
-
-  // Where a sum that grows linearly over each texel reaches `wanted`, between low and
-  // high; `texel`: in which.
-  template <class Sum>
-  LANELIGHT_INLINE VD Invert(VD low, VD high, VD wanted, const Sum& sum,
-                             VD* texel) const {
-    const VD one = hn::Set(DD(), 1.0), half = hn::Set(DD(), 0.5);
-    VD a = hn::Min(hn::Floor(low), hn::Sub(size_, one));
-    VD b = hn::Max(hn::Ceil(high), hn::Add(a, one));
-    for (;;) {
-      const auto open = hn::Gt(hn::Sub(b, a), one);
-      if (hn::AllFalse(DD(), open)) break;
-      const VD middle = hn::Floor(hn::Mul(hn::Add(a, b), half));
-      const auto right = hn::Le(sum(middle), wanted);
-      a = hn::IfThenElse(hn::And(open, right), middle, a);
-      b = hn::IfThenElse(hn::AndNot(right, open), middle, b);
-    }
-    *texel = a;
-    const VD first = hn::Max(a, low), last = hn::Min(b, high);
-    const VD at_first = sum(first), width = hn::Sub(sum(last), at_first);
-    const auto rises = hn::Gt(width, hn::Zero(DD()));
-    const VD share =
-        hn::IfThenElse(rises, hn::Div(hn::Sub(wanted, at_first), width), half);
-    const VD inside = hn::Min(hn::Max(share, hn::Zero(DD())), one);
-    return hn::MulAdd(hn::Sub(last, first), inside, first);
-  }
-
-  const double* sums_;
-  VD size_, x0_, x1_, y0_, y1_;
-};
 
 template <bool kUpper>
 LANELIGHT_INLINE PortalSums SumsOf(const Portal& portal, const PortalWindow& w) {
