@@ -2,6 +2,8 @@
 // constants or its textures.
 #include "kernels/simd/each_target-inl.h"
 
+#include <limits>
+
 #include "kernels/queue/batch-inl.h"
 #include "kernels/texture/levels-inl.h"
 #include "src/compiled/scene.h"
@@ -9,8 +11,110 @@
 
 LANELIGHT_BEGIN_KERNELS
 
+// Hits are taken texture by texture, so many at a time: a vector of neighbours may need
+// several textures, each in a few of its lanes.
+class TexturedHits {
+ public:
+  static constexpr uint32_t kMost = 2048;
+
+  LANELIGHT_INLINE void Add(VI slots, VI ids, MF mask) {
+    const uint32_t end = size_;
+    Append(slots, mask, slots_, end);
+    size_ = end + Append(ids, mask, ids_, end);
+  }
+  LANELIGHT_INLINE bool empty() const { return size_ == 0; }
+
+  /// Takes out those of the first one's texture.
+  LANELIGHT_INLINE int32_t Take(Queue& taken) {
+    const DI di;
+    const DF df;
+    const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
+    const int32_t first = ids_[0];
+    uint32_t left = 0;
+    taken.size = 0;
+    for (uint32_t i = 0; i < size_; i += lanes) {
+      // What is written has been read: it lies before the end of this vector.
+      const VI slots = hn::LoadU(di, slots_ + i), ids = hn::LoadU(di, ids_ + i);
+      const MF valid = hn::FirstN(df, size_ - i);
+      const MF same = hn::RebindMask(df, hn::Eq(ids, hn::Set(di, first)));
+      const MF others = hn::AndNot(same, valid);
+      Push(taken, slots, hn::And(same, valid));
+      Append(slots, others, slots_, left);
+      left += Append(ids, others, ids_, left);
+    }
+    size_ = left;
+    PadTail(taken);
+    return first;
+  }
+
+ private:
+  // How many.
+  LANELIGHT_INLINE static uint32_t Append(VI values, MF mask, int32_t* to, uint32_t end) {
+    const DI di;
+    hn::StoreU(hn::Compress(values, hn::RebindMask(di, mask)), di, to + end);
+    return static_cast<uint32_t>(hn::CountTrue(DF(), mask));
+  }
+
+  static constexpr std::size_t kRoom = kMost + hn::MaxLanes(DI());
+  HWY_ALIGN int32_t slots_[kRoom], ids_[kRoom];
+  uint32_t size_ = 0;
+};
+
+LANELIGHT_INLINE Slots SlotsAt(const Queue& queue, uint32_t i) {
+  return Slots(hn::BitCast(DI(), hn::LoadU(DU(), queue.items + i)));
+}
+
+template <class Point>
+LANELIGHT_INLINE Point LoadPoint(const PathColumns& path, const Slots& slots) {
+  const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
+  if constexpr (Point::kHasPlace) {
+    Point at;
+    at.u = u, at.v = v;
+    at.p = Gather3(path.p_x, path.p_y, path.p_z, slots);
+    at.n = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+    if constexpr (Point::kHasFootprint) at.spread = LoadFootprint(path, slots);
+    return at;
+  } else {
+    return Point{u, v};
+  }
+}
+
+// A parameter of materials has `textures`, by material, the constant of a material, and
+// a column or three, to which Store() writes what a constant or a texture says.
+template <class Point, class Parameter>
+HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
+  const DI di;
+  const PathColumns& path = wave.path;
+  const Queue& queue = wave.queue(QueueId::kSurface);
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
+  HWY_ALIGN uint32_t room[TexturedHits::kMost + hn::MaxLanes(DI())];
+  Queue taken = {room, 0};
+  for (uint32_t begin = 0; begin < queue.size; begin += TexturedHits::kMost) {
+    const uint32_t end = HWY_MIN(queue.size, begin + TexturedHits::kMost);
+    TexturedHits hits;
+    for (uint32_t i = begin; i < end; i += lanes) {
+      const StoreSlots slots = SlotsAt(queue, i);
+      const VI material = Gather(path.material, slots);
+      parameter.Store(slots, material, parameter.Constant(material));
+      const VI ids = Lookup(parameter.textures, material);
+      const MF textured = hn::RebindMask(DF(), hn::Gt(ids, hn::Set(di, -1)));
+      if (hn::AllFalse(DF(), textured)) continue;
+      hits.Add(slots, ids, hn::And(textured, hn::FirstN(DF(), end - i)));
+    }
+    while (!hits.empty()) {
+      const int32_t texture = hits.Take(taken);
+      for (uint32_t i = 0; i < taken.size; i += lanes) {
+        const StoreSlots slots = SlotsAt(taken, i);
+        const V3 value =
+            EvalTexture(wave.scene->textures, texture, LoadPoint<Point>(path, slots));
+        parameter.StoreTextured(slots, Gather(path.material, slots), value);
+      }
+    }
+  }
+}
+
 // What bounds a colour parameter from above: reflectances end at 1, indices do not.
-HWY_INLINE VF ColorLimit(const MaterialTable& materials, VI material) {
+LANELIGHT_INLINE VF ColorLimit(const MaterialTable& materials, VI material) {
   const DI di;
   const DF df;
   const VI kind = Lookup(materials.kind, material);
@@ -24,135 +128,101 @@ HWY_INLINE VF ColorLimit(const MaterialTable& materials, VI material) {
                         Splat(1.0f));
 }
 
-HWY_INLINE V3 ClampColor(V3 c, VF limit) {
-  const VF zero = Splat(0.0f);
-  return {hn::Min(hn::Max(c.x, zero), limit), hn::Min(hn::Max(c.y, zero), limit),
-          hn::Min(hn::Max(c.z, zero), limit)};
-}
+struct ColorParameter {
+  const MaterialTable& materials;
+  bool reflects;  // whatever the material
+  const AlignedVector<int32_t>& textures;
+  const AlignedVector<float>*constant_r, *constant_g, *constant_b;
+  float *r, *g, *b;
+
+  LANELIGHT_INLINE V3 Constant(VI material) const {
+    return {Lookup(*constant_r, material), Lookup(*constant_g, material),
+            Lookup(*constant_b, material)};
+  }
+  LANELIGHT_INLINE void Store(const StoreSlots& slots, VI material, V3 color) const {
+    const VF zero = Splat(0.0f);
+    const VF limit = reflects ? Splat(1.0f) : ColorLimit(materials, material);
+    const auto clamped = [&](VF c) HWY_ATTR { return hn::Min(hn::Max(c, zero), limit); };
+    Scatter3({clamped(color.x), clamped(color.y), clamped(color.z)}, r, g, b, slots);
+  }
+  LANELIGHT_INLINE void StoreTextured(const StoreSlots& slots, VI material,
+                                      V3 value) const {
+    Store(slots, material, value);
+  }
+};
 
 // GGX alpha: the constant, or from the texture as the material asks. pbrt's floor of
 // 1e-4.
-template <class Point>
-HWY_INLINE VF Alpha(const CompiledScene& scene, VI material, const Point& at,
-                    const AlignedVector<float>& constants,
-                    const AlignedVector<int32_t>& textures) {
-  const DI di;
-  const VI id = Lookup(textures, material);
-  const VF constant = Lookup(constants, material);
-  const auto textured = hn::Gt(id, hn::Set(di, -1));
-  if (hn::AllFalse(di, textured)) return constant;
-  const VF roughness = hn::Max(EvalFloats(scene.textures, id, at, constant), Splat(0.0f));
-  const VI remap = Lookup(scene.materials.alpha_remap, material);
-  const auto remapped = hn::RebindMask(DF(), hn::Ne(remap, hn::Zero(di)));
-  const VF alpha = hn::IfThenElse(remapped, hn::Sqrt(roughness), roughness);
-  return hn::IfThenElse(hn::RebindMask(DF(), textured), hn::Max(alpha, Splat(1e-4f)),
-                        constant);
-}
+struct AlphaParameter {
+  const MaterialTable& materials;
+  const AlignedVector<int32_t>& textures;
+  const AlignedVector<float>& constants;
+  float* alpha;
 
-// The colours and the roughness of a batch at `at`.
-template <bool kRoughness, bool kColor1, class Point>
-HWY_INLINE void EvalParameters(const CompiledScene& scene, const PathColumns& path,
-                               const StoreSlots& slots, VI material, const Point& at) {
-  const MaterialTable& m = scene.materials;
-  const VF limit = ColorLimit(m, material);
-  const V3 color0 =
-      EvalTextures(scene.textures, Lookup(m.color0_texture, material), at,
-                   V3{Lookup(m.color0_r, material), Lookup(m.color0_g, material),
-                      Lookup(m.color0_b, material)});
-  Scatter3(ClampColor(color0, limit), path.color0_r, path.color0_g, path.color0_b, slots);
-  if constexpr (kColor1) {
-    const V3 color1 =
-        EvalTextures(scene.textures, Lookup(m.color1_texture, material), at,
-                     V3{Lookup(m.color1_r, material), Lookup(m.color1_g, material),
-                        Lookup(m.color1_b, material)});
-    Scatter3(ClampColor(color1, limit), path.color1_r, path.color1_g, path.color1_b,
-             slots);
+  LANELIGHT_INLINE VF Constant(VI material) const { return Lookup(constants, material); }
+  LANELIGHT_INLINE void Store(const StoreSlots& slots, VI, VF constant) const {
+    Scatter(constant, alpha, slots);
   }
-  if constexpr (kRoughness) {
-    Scatter(Alpha(scene, material, at, m.alpha_x, m.alpha_x_texture), path.alpha_x,
-            slots);
-    Scatter(Alpha(scene, material, at, m.alpha_y, m.alpha_y_texture), path.alpha_y,
-            slots);
+  LANELIGHT_INLINE void StoreTextured(const StoreSlots& slots, VI material,
+                                      V3 value) const {
+    const VF roughness = hn::Max(value.x, Splat(0.0f));
+    const VI remap = Lookup(materials.alpha_remap, material);
+    const MF remapped = hn::RebindMask(DF(), hn::Ne(remap, hn::Zero(DI())));
+    const VF of_texture = hn::IfThenElse(remapped, hn::Sqrt(roughness), roughness);
+    Scatter(hn::Max(of_texture, Splat(1e-4f)), alpha, slots);
   }
-}
+};
 
-template <bool kRoughness, bool kColor1>
-HWY_INLINE void Textures(Wave& wave) {
+// A number of a coat, between limits.
+struct CoatParameter {
+  const AlignedVector<int32_t>& textures;
+  const AlignedVector<float>& constants;
+  float* column;
+  float least, most;
+
+  LANELIGHT_INLINE VF Constant(VI material) const { return Lookup(constants, material); }
+  LANELIGHT_INLINE void Store(const StoreSlots& slots, VI, VF value) const {
+    Scatter(hn::Min(hn::Max(value, Splat(least)), Splat(most)), column, slots);
+  }
+  LANELIGHT_INLINE void StoreTextured(const StoreSlots& slots, VI material,
+                                      V3 value) const {
+    Store(slots, material, value.x);
+  }
+};
+
+// Everything that the plan has columns for.
+template <class Point>
+void Textures(Wave& wave) {
   const PathColumns& path = wave.path;
-  ForEachBatch(
-      wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
-        const VI material = Gather(path.material, slots);
-        const UvPoint at = {Gather(path.uv_u, slots), Gather(path.uv_v, slots)};
-        EvalParameters<kRoughness, kColor1>(*wave.scene, path, slots, material, at);
-      });
-}
-
-// The layers of coats.
-template <class Point>
-HWY_INLINE void EvalCoat(const CompiledScene& scene, const PathColumns& path,
-                         const StoreSlots& slots, VI material, const Point& at) {
-  const MaterialTable& m = scene.materials;
-  Scatter(Alpha(scene, material, at, m.alpha2_x, m.alpha2_x_texture), path.alpha2_0,
-          slots);
-  Scatter(Alpha(scene, material, at, m.alpha2_y, m.alpha2_y_texture), path.alpha2_1,
-          slots);
-  const VF thickness = EvalFloats(scene.textures, Lookup(m.thickness_texture, material),
-                                  at, Lookup(m.coat_thickness, material));
-  Scatter(hn::Max(thickness, hn::Zero(DF())), path.coat_thickness, slots);
-}
-
-template <class Point>
-HWY_INLINE void EvalCoatMedium(const CompiledScene& scene, const PathColumns& path,
-                               const StoreSlots& slots, VI material, const Point& at) {
-  const MaterialTable& m = scene.materials;
-  const V3 albedo = EvalTextures(
-      scene.textures, Lookup(m.coat_albedo_texture, material), at,
-      V3{Lookup(m.coat_albedo_r, material), Lookup(m.coat_albedo_g, material),
-         Lookup(m.coat_albedo_b, material)});
-  Scatter3(ClampColor(albedo, Splat(1.0f)), path.coat_albedo_r, path.coat_albedo_g,
-           path.coat_albedo_b, slots);
-  const VF g = EvalFloats(scene.textures, Lookup(m.coat_g_texture, material), at,
-                          Lookup(m.coat_g, material));
-  const VF limit = Splat(kMostCoatAsymmetry);
-  Scatter(hn::Max(hn::Neg(limit), hn::Min(g, limit)), path.coat_g, slots);
-}
-
-// Everything that the plan has columns for: for the few scenes that need it.
-template <class Point>
-HWY_INLINE void AllTextures(Wave& wave) {
-  const CompiledScene& scene = *wave.scene;
-  const PathColumns& path = wave.path;
-  const auto point = [&](const StoreSlots& slots) HWY_ATTR {
-    const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
-    if constexpr (Point::kHasPlace) {
-      Point at;
-      at.u = u, at.v = v;
-      at.p = Gather3(path.p_x, path.p_y, path.p_z, slots);
-      at.n = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
-      if constexpr (Point::kHasFootprint) at.spread = LoadFootprint(path, slots);
-      return at;
-    } else {
-      return Point{u, v};
-    }
-  };
-  ForEachBatch(wave, wave.queue(QueueId::kSurface),
-               [&](const StoreSlots& slots, MF) HWY_ATTR {
-                 const VI material = Gather(path.material, slots);
-                 const auto at = point(slots);
-                 if (path.alpha_x != nullptr && path.color1_r != nullptr) {
-                   EvalParameters<true, true>(scene, path, slots, material, at);
-                 } else if (path.alpha_x != nullptr) {
-                   EvalParameters<true, false>(scene, path, slots, material, at);
-                 } else if (path.color1_r != nullptr) {
-                   EvalParameters<false, true>(scene, path, slots, material, at);
-                 } else {
-                   EvalParameters<false, false>(scene, path, slots, material, at);
-                 }
-                 if (path.coat_thickness != nullptr)
-                   EvalCoat(scene, path, slots, material, at);
-                 if (path.coat_g != nullptr)
-                   EvalCoatMedium(scene, path, slots, material, at);
-               });
+  const MaterialTable& m = wave.scene->materials;
+  const auto eval = [&](const auto& parameter)
+                        HWY_ATTR { EvalParameter<Point>(wave, parameter); };
+  LL_DCHECK(HoldsSlots(wave, wave.queue(QueueId::kSurface)));
+  PadTail(wave.queue(QueueId::kSurface));
+  eval(ColorParameter{m, false, m.color0_texture, &m.color0_r, &m.color0_g, &m.color0_b,
+                      path.color0_r, path.color0_g, path.color0_b});
+  if (path.color1_r != nullptr) {
+    eval(ColorParameter{m, false, m.color1_texture, &m.color1_r, &m.color1_g, &m.color1_b,
+                        path.color1_r, path.color1_g, path.color1_b});
+  }
+  if (path.alpha_x != nullptr) {
+    eval(AlphaParameter{m, m.alpha_x_texture, m.alpha_x, path.alpha_x});
+    eval(AlphaParameter{m, m.alpha_y_texture, m.alpha_y, path.alpha_y});
+  }
+  if (path.coat_thickness != nullptr) {
+    eval(AlphaParameter{m, m.alpha2_x_texture, m.alpha2_x, path.alpha2_0});
+    eval(AlphaParameter{m, m.alpha2_y_texture, m.alpha2_y, path.alpha2_1});
+    eval(CoatParameter{m.thickness_texture, m.coat_thickness, path.coat_thickness, 0,
+                       std::numeric_limits<float>::infinity()});
+  }
+  if (path.coat_g != nullptr) {
+    eval(ColorParameter{m, true, m.coat_albedo_texture, &m.coat_albedo_r,
+                        &m.coat_albedo_g, &m.coat_albedo_b, path.coat_albedo_r,
+                        path.coat_albedo_g, path.coat_albedo_b});
+    eval(CoatParameter{m.coat_g_texture, m.coat_g, path.coat_g, -kMostCoatAsymmetry,
+                       kMostCoatAsymmetry});
+  }
+  CountBatches(wave, wave.queue(QueueId::kSurface));
 }
 
 Stage TextureStage() {
@@ -165,21 +235,9 @@ Stage TextureStage() {
           .writes = fields::kParameters,
           .resolve = [](const FeatureSet& features) -> StageFn {
             LL_CHECK(features.Has(Feature::kUv));
-            if (features.Has(Feature::kTextureFootprints)) {
-              return AllTextures<FilteredPoint>;
-            }
-            if (features.Has(Feature::kTexturePlaces)) {
-              return AllTextures<PlacedPoint>;
-            }
-            if (features.HasAny({Feature::kTexturedCoat, Feature::kTexturedCoatMedium})) {
-              return AllTextures<UvPoint>;
-            }
-            const bool roughness = features.Has(Feature::kTexturedRoughness);
-            const bool color1 = features.Has(Feature::kTexturedColor1);
-            if (roughness && color1) return Textures<true, true>;
-            if (roughness) return Textures<true, false>;
-            if (color1) return Textures<false, true>;
-            return Textures<false, false>;
+            if (features.Has(Feature::kTextureFootprints)) return Textures<FilteredPoint>;
+            return features.Has(Feature::kTexturePlaces) ? Textures<PlacedPoint>
+                                                         : Textures<UvPoint>;
           }};
 }
 
