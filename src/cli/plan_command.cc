@@ -24,12 +24,17 @@ struct PlanCommandOptions {
   bool json = false;
 };
 
+// A line of a list of what has names.
+std::string NamedRow(const std::string& name, const std::string& text) {
+  return FactRow("  " + name, text, 24);
+}
+
 std::string Features(const FeatureSet& features) {
   std::string text;
   for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
     const auto feature = static_cast<Feature>(i);
     if (!features.Has(feature)) continue;
-    text += fmt::format("  {:<22} {}\n", FeatureName(feature), FeatureMeaning(feature));
+    text += NamedRow(FeatureName(feature), FeatureMeaning(feature));
   }
   return text;
 }
@@ -39,26 +44,28 @@ std::string Stages(const Plan& plan) {
   for (std::size_t i = 0; i < plan.stages.size(); ++i) {
     const Stage& s = plan.stages[i].stage;
     const bool repeated = i >= plan.first_repeated && i < plan.last_repeated;
-    text += fmt::format("  {:<22} {}{}\n", s.name, s.meaning,
-                        repeated ? ", once for each candidate" : "");
+    text += NamedRow(
+        s.name, std::string(s.meaning) + (repeated ? ", once for each candidate" : ""));
   }
   if (!plan.block_stages.empty()) {
     text += fmt::format("\nstages of blocks of paths that have ended ({}), in order:\n",
                         plan.block_stages.size());
   }
   for (const PlannedStage& s : plan.block_stages) {
-    text += fmt::format("  {:<22} {}\n", s.stage.name, s.stage.meaning);
+    text += NamedRow(s.stage.name, s.stage.meaning);
   }
   if (!plan.seen_stages.empty()) {
-    text += fmt::format("\nof them, for camera rays at edges of lights ({}):\n ",
+    text += fmt::format("\nof them, for camera rays at edges of lights ({}):\n",
                         plan.seen_stages.size());
-    for (const PlannedStage& s : plan.seen_stages)
-      text += fmt::format(" {}", s.stage.name);
-    text += "\n";
+    std::string names;
+    for (const PlannedStage& s : plan.seen_stages) {
+      names += std::string(names.empty() ? "" : " ") + s.stage.name;
+    }
+    text += FactRow("", names, 1);
   }
   text += fmt::format("\nstages left out ({}):\n", plan.omitted.size());
   for (const OmittedStage& s : plan.omitted) {
-    text += fmt::format("  {:<22} {}\n", s.stage.name, s.reason);
+    text += NamedRow(s.stage.name, s.reason);
   }
   return text;
 }
@@ -79,12 +86,12 @@ std::string Fields(const Plan& plan) {
   std::string text = fmt::format("fields ({}), {} bytes per path:\n",
                                  plan.live_fields.size(), plan.bytes_per_path);
   for (Field f : plan.live_fields) {
-    text +=
-        fmt::format("  {:<22} {:<4} {}\n", FieldName(f), FieldType(f), FieldMeaning(f));
+    text += FactRow(fmt::format("  {:<22} {:<4}", FieldName(f), FieldType(f)),
+                    FieldMeaning(f), 29);
   }
   text += fmt::format("\nfields left out ({}):\n", plan.absent_fields.size());
   for (Field f : plan.absent_fields) {
-    text += fmt::format("  {:<22} {}\n", FieldName(f), NeededBy(f));
+    text += NamedRow(FieldName(f), NeededBy(f));
   }
   return text;
 }

@@ -6,12 +6,16 @@
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/terminal.h"
 #include "src/core/json_text.h"
 #include "src/strategy/strategies_json.h"
 #include "src/strategy/strategy.h"
 
 namespace lanelight {
 namespace {
+
+// What is said of a choice, below its name.
+std::string Said(const std::string& text) { return FactRow("", text, 5); }
 
 std::string ChoicesText() {
   std::string text, axis;
@@ -20,15 +24,17 @@ std::string ChoicesText() {
       axis = c.axis;
       text += fmt::format("{}{}=\n", text.empty() ? "" : "\n", axis);
     }
-    text += fmt::format("  {}{}\n      {}\n      {}\n", c.name, c.arguments, c.meaning,
-                        c.formula);
-    if (*c.source != '\0') text += fmt::format("      [{}]\n", c.source);
+    text +=
+        fmt::format("  {}{}\n", c.name, c.arguments) + Said(c.meaning) + Said(c.formula);
+    if (*c.source != '\0') text += Said(fmt::format("[{}]", c.source));
   }
-  return text +
-         "\nc=\n  optimal|NUMBER\n      coefficient of the control variate: estimated "
-         "per "
-         "pixel and channel (default), or given\n      F = f - c (h - E[h]); the paper's "
-         "equation 7 writes f + c (h - E[h]), so its c = 1 is c=-1 here\n";
+  return text + "\nc=\n  optimal|NUMBER\n" +
+         Said(
+             "coefficient of the control variate: estimated per pixel and channel "
+             "(default), or given") +
+         Said(
+             "F = f - c (h - E[h]); the paper's equation 7 writes f + c (h - E[h]), so "
+             "its c = 1 is c=-1 here");
 }
 
 std::string PresetsText() {
@@ -36,13 +42,14 @@ std::string PresetsText() {
       "\npresets, each one change from paper-plain; refine them by adding "
       ",key=value\n";
   for (const PresetInfo& p : AllPresets()) {
-    text += fmt::format("  {:<18} {}{}{}\n", p.name, p.meaning,
-                        *p.changes == '\0' ? "" : ": ", p.changes);
+    text += FactRow(
+        fmt::format("  {}", p.name),
+        fmt::format("{}{}{}", p.meaning, *p.changes == '\0' ? "" : ": ", p.changes), 20);
   }
   Strategy plain;
   ApplyStrategy("paper-plain", {}, plain);
-  return text + fmt::format("\npaper-plain  {}\ndefault      {}\n", ToText(plain),
-                            ToText(Strategy{}));
+  return text + "\n" + FactRow("paper-plain", ToText(plain), 12) +
+         FactRow("default", ToText(Strategy{}), 12);
 }
 
 }  // namespace

@@ -85,9 +85,9 @@ std::size_t ReadersColumns() {
   return piped ? std::string::npos : TerminalColumns(Stream::kOutput);
 }
 
-std::string FactRow(const std::string& label, const std::string& text) {
-  constexpr std::size_t kFactLabel = 14;
-  return LabelledRow(label, text, ReadersColumns(), kFactLabel);
+std::string FactRow(const std::string& label, const std::string& text,
+                    std::size_t label_columns) {
+  return LabelledRow(label, text, ReadersColumns(), label_columns);
 }
 
 }  // namespace lanelight

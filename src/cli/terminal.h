@@ -32,7 +32,9 @@ std::string SummaryRow(const std::string& label, const std::string& text);
 /// says nothing, else as TerminalColumns.
 std::size_t ReadersColumns();
 
-/// A row of facts about a file, as long as ReadersColumns.
-std::string FactRow(const std::string& label, const std::string& text);
+/// A row of facts about a file, or of a list, as long as ReadersColumns.
+inline constexpr std::size_t kFactLabel = 14;
+std::string FactRow(const std::string& label, const std::string& text,
+                    std::size_t label_columns = kFactLabel);
 
 }  // namespace lanelight

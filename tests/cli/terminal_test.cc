@@ -125,6 +125,19 @@ TEST_CASE("facts of images fit a terminal, and are lines of their own in a pipe"
   }
 }
 
+TEST_CASE("lists fit a terminal, and are lines of their own in a pipe", "[cli]") {
+  TempDirectory directory;
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"plan", WriteSphereScene(directory)}, {"strategies"}}) {
+    const ProcessResult fitted = RunLanelight(command, InColumns("70"));
+    INFO(fitted.out);
+    REQUIRE(fitted.exit_code == kExitGood);
+    // The first line of a plan is the name of its scene.
+    CHECK(WidestLine(fitted.out.substr(fitted.out.find('\n'))) <= 70);
+    CHECK(WidestLine(RunLanelight(command, InColumns("")).out) > 100);
+  }
+}
+
 TEST_CASE("amounts have units", "[cli]") {
   const nlohmann::json s = SettingsOf({"--spp", "1k", "--time", "5m", "--target", "20%"});
   CHECK(s.at("spp") == 1000);
