@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -14,8 +15,6 @@
 namespace lanelight {
 namespace reference {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // A point of a path on a diffuse surface; `n` is on the side that the path came from.
 struct Vertex {
@@ -126,7 +125,7 @@ Pair ReuseTwin::Evaluate(const Vertex& x, const Vertex& y) const {
   const Vec3d w = to / std::sqrt(d2);
   const double cos_x = Dot(x.n, w), cos_y = -Dot(y.n, w);
   if (!(cos_x > 0 && cos_y > 0)) return {};
-  const double pdf_area = cos_x / kPi * cos_y / d2;
+  const double pdf_area = cos_x / std::numbers::pi * cos_y / d2;
   return {x.albedo * pdf_area, pdf_area};
 }
 
