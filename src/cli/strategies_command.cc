@@ -8,6 +8,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/terminal.h"
 #include "src/core/json_text.h"
+#include "src/core/text_layout.h"
 #include "src/strategy/strategies_json.h"
 #include "src/strategy/strategy.h"
 
@@ -38,9 +39,12 @@ std::string ChoicesText() {
 }
 
 std::string PresetsText() {
-  std::string text =
-      "\npresets, each one change from paper-plain; refine them by adding "
-      ",key=value\n";
+  std::string text = "\n" +
+                     Wrapped(
+                         "presets, each one change from paper-plain; refine them by "
+                         "adding ,key=value",
+                         ReadersColumns()) +
+                     "\n";
   for (const PresetInfo& p : AllPresets()) {
     text += FactRow(
         fmt::format("  {}", p.name),

@@ -72,8 +72,13 @@ std::string Wrapped(std::string_view text, std::size_t width, std::size_t indent
 
 std::string LabelledRow(const std::string& label, const std::string& text,
                         std::size_t width, std::size_t label_columns) {
-  std::string row =
-      label + std::string(label_columns - std::min(label_columns, label.size()), ' ');
+  if (label.size() > label_columns && label_columns > 0) {
+    // Its end counts as the first word.
+    const std::size_t cut = label_columns - 1;
+    return label.substr(0, cut) +
+           Wrapped(label.substr(cut) + " " + text, width, label_columns + 1) + "\n";
+  }
+  const std::string row = label + std::string(label_columns - label.size(), ' ');
   return row + " " + Wrapped(text, width, label_columns + 1) + "\n";
 }
 

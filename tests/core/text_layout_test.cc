@@ -33,6 +33,11 @@ TEST_CASE("lines break between words and after commas of lists", "[core]") {
 TEST_CASE("what goes on in a row stands below its text", "[core]") {
   CHECK(LabelledRow("error", "1 %", 80) == "error      1 %\n");
   CHECK(LabelledRow("error", "one two", 15) == "error      one\n           two\n");
+  CHECK(LabelledRow("stage_longer", "one two", 22, 6) == "stage_longer one two\n");
+  CHECK(LabelledRow("stage_longer", "one two", 18, 6) ==
+        "stage_longer one\n       two\n");
+  CHECK(LabelledRow("stage_longer", "one two", 17, 6) ==
+        "stage_longer\n       one two\n");
 }
 
 TEST_CASE("tables fit their width, and lose no column", "[core]") {
