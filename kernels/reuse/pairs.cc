@@ -151,7 +151,9 @@ HWY_INLINE void StorePair(Wave& wave, uint32_t at, const Lanes& x, const SecondV
   const Connection c(x, y);
   const BsdfValue value = x.Value(c.wi);
   const VF pdf = hn::Mul(value.pdf, c.geometry);
-  const MF found = hn::And(hn::And(valid, c.connects), IsPositiveFinite(pdf));
+  // A path that would carry nothing to y ends at x: it cannot propose y.
+  const MF proposes = hn::And(IsPositiveFinite(pdf), CarriesLight(value.f_cos));
+  const MF found = hn::And(hn::And(valid, c.connects), proposes);
   const V3 f = IfThenElseZero(found, Mul(value.f_cos, c.geometry));
   const MF own = hn::RebindMask(df, hn::Eq(x.records.index, y.record));
   hn::StoreU(f.x, df, pairs.f_r + at);

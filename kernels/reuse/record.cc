@@ -97,9 +97,20 @@ HWY_INLINE void BeginSuffix(const PathColumns& p, const StoreSlots& slots) {
   Scatter(worth, p.eta_scale, slots);
 }
 
+// Curves turn towards the ray that meets them, but for ribbons: the point that one path
+// meets, and its normal, are not those that another would meet.
+HWY_INLINE MF IsSameToAll(const Wave& wave, const Slots& slots) {
+  const VI curves =
+      hn::Set(DI(), static_cast<int32_t>(wave.scene->geometry.ranges.curves));
+  return hn::RebindMask(DF(), hn::Lt(Gather(wave.path.prim, slots), curves));
+}
+
 // Paths at a second vertex that they have found by a density.
 HWY_INLINE MF FindsSecond(const Wave& wave, const Slots& slots) {
-  const MF found = hn::Gt(Gather(wave.path.bsdf_pdf, slots), hn::Zero(DF()));
+  MF found = hn::Gt(Gather(wave.path.bsdf_pdf, slots), hn::Zero(DF()));
+  if (wave.run->features.Has(Feature::kCurves)) {
+    found = hn::And(found, IsSameToAll(wave, slots));
+  }
   return hn::And(IsIn(wave, slots, ReuseState::kFirst), found);
 }
 
@@ -191,7 +202,7 @@ Stage RecordReuseStage() {
           .input = QueueId::kVertex,
           .needs = {Feature::kReuse, Feature::kScatters},
           .reads = FirstVertexFields(true, true) | kRadiance | state |
-                   FieldSet{Field::output, Field::bsdf_pdf},
+                   FieldSet{Field::output, Field::bsdf_pdf, Field::prim},
           .writes = kRadiance | kThroughput | state,
           .resolve = Always<RecordReuse>};
 }
