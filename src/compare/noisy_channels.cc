@@ -24,16 +24,6 @@ double DegreesOfFreedom(const Image& image) {
   return std::max(1.0, NumberOf(image, kObservations, 2) - 1);
 }
 
-// How much larger the variance of a mean of pixels is because these have paths in common:
-// the sum of the correlations of their errors. That of the squares is known, and of the
-// pixels whose errors go together (those of a tile of reuse=block) none more than the
-// others.
-double PixelsAsOne(const Image& image) {
-  constexpr double kOthers = 16 * 16 - 1;
-  const double squares = NumberOf(image, kDependentPixels, 1);
-  return 1 + std::sqrt(kOthers * std::max(0.0, squares - 1));
-}
-
 // Sums over pixels, on the way to a mean.
 struct EstimateSum {
   double value = 0, variance = 0, quartic = 0;  // the last: squares of variances
@@ -113,9 +103,11 @@ ChannelMeans MeansOf(const NoisyChannel& test, const NoisyChannel& reference,
       sums_b[layout.At(x, y)].Add(value_b, variance_b);
     }
   }
-  const auto mean_a = [one = PixelsAsOne(test.image), dof = DegreesOfFreedom(test.image)](
-                          const EstimateSum& sum) { return sum.Mean(one, dof); };
-  const auto mean_b = [one = PixelsAsOne(reference.image),
+  const auto mean_a = [one = PixelsAsOne(NumberOf(test.image, kDependentPixels, 1)),
+                       dof = DegreesOfFreedom(test.image)](const EstimateSum& sum) {
+    return sum.Mean(one, dof);
+  };
+  const auto mean_b = [one = PixelsAsOne(NumberOf(reference.image, kDependentPixels, 1)),
                        dof = DegreesOfFreedom(reference.image)](const EstimateSum& sum) {
     return sum.Mean(one, dof);
   };

@@ -10,8 +10,8 @@
 namespace lanelight {
 namespace {
 
-constexpr int kTiles = 192;  // about
-constexpr int kLeastSide = 4;
+constexpr int kMostTiles = 1024;  // about
+constexpr int kLeastSide = 8;
 
 // At least so many of a tile's samples must be expected.
 constexpr double kLeastObservations = 25;
@@ -21,8 +21,13 @@ constexpr double kLeastObservations = 25;
 TileLayout LayoutOf(int width, int height) {
   const double pixels = double(width) * height;
   const int side =
-      std::max(kLeastSide, static_cast<int>(std::ceil(std::sqrt(pixels / kTiles))));
+      std::max(kLeastSide, static_cast<int>(std::ceil(std::sqrt(pixels / kMostTiles))));
   return {side, (width + side - 1) / side, (height + side - 1) / side};
+}
+
+double PixelsAsOne(double squares) {
+  constexpr double kOthers = 16 * 16 - 1;
+  return 1 + std::sqrt(kOthers * std::max(0.0, squares - 1));
 }
 
 stat::MeanEstimate VarianceAround(const TileLayout& layout,

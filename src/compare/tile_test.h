@@ -16,7 +16,8 @@ inline constexpr double kFloatRounding = 1e-6;
 /// Probability that tests of two images that are equal raise any false alarm.
 inline constexpr double kBiasLevel = 1e-3;
 
-/// About 192 squares over an image, row by row; those at its far edges may be cut.
+/// Squares over an image, row by row: of 8 x 8 pixels, or larger, so that there are about
+/// 1024 at most. Those at the far edges may be cut.
 struct TileLayout {
   int side = 0, columns = 0, rows = 0;
 
@@ -27,6 +28,12 @@ struct TileLayout {
 };
 
 TileLayout LayoutOf(int width, int height);
+
+/// How many times the variance of a mean of pixels with paths in common is that of
+/// independent ones: the sum of the correlations of their errors. `squares`: the sum of
+/// their squares (SampleGroups::dependents), which is known; of the pixels of a tile of
+/// reuse=block, none is taken to be correlated more than the others.
+double PixelsAsOne(double squares);
 
 /// Mean of the variances of the tiles around one, five by five, with its degrees of
 /// freedom (Welch and Satterthwaite; no mean): rare samples that the tile has missed have

@@ -17,7 +17,7 @@ double Satterthwaite(double variance, double sum_of_squares_over_dof) {
 
 }  // namespace
 
-MeanEstimate Average(const std::vector<MeanEstimate>& estimates) {
+MeanEstimate Average(const std::vector<MeanEstimate>& estimates, double as_one) {
   LL_CHECK(!estimates.empty());
   const double n = static_cast<double>(estimates.size());
   MeanEstimate out;
@@ -29,6 +29,11 @@ MeanEstimate Average(const std::vector<MeanEstimate>& estimates) {
     if (v > 0) quartic += v * v / e.dof;
   }
   out.dof = Satterthwaite(out.variance, quartic);
+  const double each = std::min(as_one, n);
+  if (each > 1) {
+    out.dof = std::max(estimates[0].dof, out.dof / each);
+    out.variance *= each;
+  }
   return out;
 }
 

@@ -13,8 +13,10 @@ struct MeanEstimate {
   double dof = 0;
 };
 
-/// Mean of independent estimates; degrees of freedom by Welch and Satterthwaite.
-MeanEstimate Average(const std::vector<MeanEstimate>& estimates);
+/// Mean of estimates; degrees of freedom by Welch and Satterthwaite. `as_one` >= 1: how
+/// many times the variance of the mean is that of independent estimates (the sum of the
+/// correlations of one with all others), at most their number.
+MeanEstimate Average(const std::vector<MeanEstimate>& estimates, double as_one = 1);
 
 /// Welch's t-test of equal means: two-sided p-value. `tolerance` >= 0: differences up to
 /// it count as none (the test is then conservative). With both variances zero: 1 if the

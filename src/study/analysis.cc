@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/compare/tile_test.h"
+#include "src/prepare/groups.h"
 #include "src/study/study_images.h"
 
 namespace lanelight {
@@ -54,7 +56,7 @@ class SceneAnalyser {
     const std::size_t index = out_.strategies.size();
     std::vector<std::vector<Rgb>> firsts;
     for (std::uint64_t spp : runs.counts) {
-      const Cells cells = store_.Load(runs.Text(), spp);
+      const Cells cells = Load(runs, spp);
       if (cells.repetitions.empty()) continue;
       for (const Measurement& m : cells.repetitions) AddMachine(m.machine, out_.machines);
       strategy.levels.push_back(
@@ -72,7 +74,7 @@ class SceneAnalyser {
       strategy.order = FitOrder(strategy, strategy.squares, runs_.reference.OwnMse());
       strategy.order_relmse =
           FitOrder(strategy, strategy.costs, runs_.reference.OwnRelMse());
-      const Cells cells = store_.Load(runs.Text(), strategy.AtLevel().spp);
+      const Cells cells = Load(runs, strategy.AtLevel().spp);
       strategy.stages = cells.stages;
       for (const Measurement& m : cells.repetitions) {
         strategy.trimmed.push_back({std::max(0.0, m.relmse_trimmed), m.cpu_seconds});
@@ -86,6 +88,12 @@ class SceneAnalyser {
       AddLevelImages(runs_, {index, pictured_.size(), firsts}, strategy, images_);
     }
     out_.strategies.push_back(std::move(strategy));
+  }
+
+  Cells Load(const StrategyRuns& runs, std::uint64_t spp) const {
+    Cells cells = store_.Load(runs.Text(), spp);
+    cells.moments.pixels_as_one = PixelsAsOne(GroupsOf(runs.named.strategy).dependents);
+    return cells;
   }
 
   // Of one kind of squared error, `own` being the reference's. Levels whose error is

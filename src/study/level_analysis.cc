@@ -129,15 +129,15 @@ stat::MeanEstimate ReferenceMean(const Reference& reference) {
   return stat::Average(pixels);
 }
 
-// Mean over the pixels of all repetitions. Pixels are independent, so the variance of the
-// mean is the sum of theirs, known with many more degrees of freedom than from the means
-// of a few repetitions.
+// Mean over the pixels of all repetitions. The variance of the mean is that of the
+// pixels, known with many more degrees of freedom than from the means of a few
+// repetitions.
 stat::MeanEstimate ImageMean(const Moments& moments) {
   std::vector<stat::MeanEstimate> pixels;
   for (std::size_t i = 0; i < moments.size(); ++i) {
     pixels.push_back(moments.GreyEstimate(i));
   }
-  return stat::Average(pixels);
+  return stat::Average(pixels, moments.pixels_as_one);
 }
 
 LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,

@@ -28,6 +28,10 @@ class Moments {
   /// That mean over the repetitions.
   stat::MeanEstimate GreyEstimate(std::size_t pixel) const;
 
+  /// How many times the variance of a mean of pixels is that of independent ones, at most
+  /// their number: above 1 where pixels have paths in common (reuse=block).
+  double pixels_as_one = 1;
+
   /// The sums, to be saved.
   StateColumn Column() const;
   /// The same to be filled with those of `count` images.

@@ -16,8 +16,8 @@ struct TileMeans {
 
 }  // namespace
 
-// Pixels are independent, so the mean of a tile varies by what its pixels do, with more
-// degrees of freedom than its own repetitions have (Welch and Satterthwaite).
+// The mean of a tile varies by what its pixels do, with more degrees of freedom than its
+// own repetitions have (Welch and Satterthwaite).
 TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint64_t spp,
                    double level) {
   TileTest test;
@@ -33,7 +33,7 @@ TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint
     }
   }
   for (const TileMeans& tile : tiles) {
-    test.means.push_back(stat::Average(tile.image));
+    test.means.push_back(stat::Average(tile.image, moments.pixels_as_one));
     test.reference.push_back(stat::Average(tile.reference));
   }
   const double samples = double(spp) * double(moments.count());

@@ -99,11 +99,11 @@ TEST_CASE("differences beyond noise are found, and where they are", "[agreement]
   }
   SECTION("of a tile, in one channel") {
     Image image = render.Make();
-    Brighten(image, 1.6, 8, 12, 12, 16, 2);
+    Brighten(image, 1.3, 8, 16, 16, 24, 2);
     const Agreement a = TestAgreement(image, reference, false);
-    REQUIRE(a.layout.side == 4);
-    CHECK(a.failed == std::vector<std::size_t>{a.layout.At(8, 12)});
-    CHECK(a.z[a.layout.At(8, 12)] > 4);
+    REQUIRE(a.layout.side == 8);
+    CHECK(a.failed == std::vector<std::size_t>{a.layout.At(8, 16)});
+    CHECK(a.z[a.layout.At(8, 16)] > 4);
   }
   SECTION("half as large as those that are found in half of the cases") {
     Image image = render.Make();

@@ -10,6 +10,7 @@
 #include "tests/reference/bsdf.h"
 #include "tests/reference/camera.h"
 #include "tests/reference/frame.h"
+#include "tests/reference/optics.h"
 #include "tests/reference/path_tracer.h"
 
 namespace lanelight {
@@ -23,11 +24,20 @@ struct Vertex {
   Rgb albedo;
 };
 
+// A diffuse surface that a ray meets, behind mirrors if need be.
+struct Arrival {
+  Vertex vertex;
+  Ray ray;               // that meets it
+  Rgb beta = {1, 1, 1};  // of the mirrors
+  int events = 0;        // at them
+};
+
 // One path of a block: the first vertex, the second one, and what that sends.
 struct Path {
-  std::optional<Vertex> first, second;
-  Rgb own;       // light that is no other's: what lights send to the first vertex
-  Rgb sent;      // radiance of the second vertex towards any side that sees it
+  std::optional<Arrival> first;
+  std::optional<Vertex> second;
+  Rgb own;   // light that is no other's: emission, and delta lights at the first vertex
+  Rgb sent;  // radiance of the second vertex towards any side that sees it
   double q = 1;  // probability with which it is kept
 };
 
@@ -44,12 +54,13 @@ struct ReuseTwin {
   const Lights& lights;
   Random& random;
 
-  std::optional<Vertex> Meet(const Ray& ray) const;
+  std::optional<Arrival> Meet(Ray ray) const;
   Rgb Gather(const Ray& ray, int depth) const;
   bool Sees(const Vertex& x, const Vertex& y) const;
   Path Trace(const Ray& ray) const;
   double SurelyKept(const std::vector<Path>& paths) const;
-  Pair Evaluate(const Vertex& x, const Vertex& y) const;
+  Pair Evaluate(const Arrival& x, const Vertex& y) const;
+  bool Counts(const Arrival& x, const Path& owner) const;
   void Share(const Path& owner, const std::vector<const Path*>& block,
              std::vector<Rgb>& light) const;
   void Connect(const std::vector<const Path*>& block, std::vector<Rgb>& light) const;
@@ -57,15 +68,27 @@ struct ReuseTwin {
 
 double MostOf(Rgb c) { return std::max({c.x, c.y, c.z}); }
 
-std::optional<Vertex> ReuseTwin::Meet(const Ray& ray) const {
-  const Hit hit = geometry.Intersect(ray, kInfinity, random);
-  if (hit.primitive == kNone) return std::nullopt;
-  const SurfacePoint at = geometry.Describe(ray, hit);
-  const Material& material =
-      scene.materials[geometry.primitives()[hit.primitive].material];
-  LL_CHECK(material.kind == MaterialKind::kDiffuse);
-  const Vec3d n = Dot(at.ng, ray.d) < 0 ? at.ng : -at.ng;
-  return Vertex{hit.primitive, at.p, n, material.reflectance.constant};
+// The next surface, by the law of reflection where it is a mirror.
+std::optional<Arrival> ReuseTwin::Meet(Ray ray) const {
+  Arrival arrival;
+  for (;; ++arrival.events) {
+    const Hit hit = geometry.Intersect(ray, kInfinity, random);
+    if (hit.primitive == kNone) return std::nullopt;
+    const SurfacePoint at = geometry.Describe(ray, hit);
+    const Material& material =
+        scene.materials[geometry.primitives()[hit.primitive].material];
+    const Vec3d n = Dot(at.ng, ray.d) < 0 ? at.ng : -at.ng;
+    if (material.kind == MaterialKind::kDiffuse) {
+      arrival.vertex = {hit.primitive, at.p, n, material.reflectance.constant};
+      arrival.ray = ray;
+      return arrival;
+    }
+    LL_CHECK(material.kind == MaterialKind::kConductor);
+    const double cosine = -Dot(ray.d, n);
+    arrival.beta = arrival.beta *
+                   FresnelConductor(cosine, material.eta.constant, material.k.constant);
+    ray = {at.p, Normalize(ray.d + 2 * cosine * n), hit.primitive};
+  }
 }
 
 // Radiance along the ray, by the plain path tracer.
@@ -86,15 +109,29 @@ bool ReuseTwin::Sees(const Vertex& x, const Vertex& y) const {
 Path ReuseTwin::Trace(const Ray& ray) const {
   Path path;
   path.first = Meet(ray);
-  if (!path.first) return path;
-  // A path that may scatter once gathers what lights send to the first vertex.
-  path.own = Gather(ray, 1);
-  if (scene.integrator.max_depth < 2) return path;
-  const Vertex& x = *path.first;
+  if (!path.first) {
+    path.own = Gather(ray, scene.integrator.max_depth);
+    return path;
+  }
+  const Arrival& x = *path.first;
+  const int left = scene.integrator.max_depth - x.events;  // events at x and later
+  // Up to what the ray leaving x meets: emission seen, also by x, and delta lights at x.
+  path.own = Gather(ray, std::min(x.events + 1, scene.integrator.max_depth));
+  if (left < 1 || MostOf(x.beta * x.vertex.albedo) == 0) return path;
   const Vec3d local = SampleDiffuse(Scattering::kLambertian, random);
-  const Ray next = {x.p, Normalize(MakeFrame(x.n).ToWorld(local)), x.primitive};
-  path.second = Meet(next);
-  if (path.second) path.sent = Gather(next, scene.integrator.max_depth - 1);
+  const Ray next = {x.vertex.p, Normalize(MakeFrame(x.vertex.n).ToWorld(local)),
+                    x.vertex.primitive};
+  const std::optional<Arrival> y = Meet(next);
+  // Behind a mirror it is the path's own: no density finds it.
+  if (!y || y->events > 0 || left < 2) {
+    if (left >= 2) {
+      path.own += x.beta * x.vertex.albedo * (Gather(next, left - 1) - Gather(next, 0));
+    }
+    return path;
+  }
+  path.second = y->vertex;
+  path.sent = Gather(next, left - 1) - Gather(next, 0);  // less what y emits
+  if (x.vertex.primitive == options.silent_primitive) path.sent = {};
   return path;
 }
 
@@ -119,14 +156,22 @@ double ReuseTwin::SurelyKept(const std::vector<Path>& paths) const {
 
 // What x sends on of the light that comes from y, and the density by area at y of the
 // direction that finds it; nothing where they do not face each other.
-Pair ReuseTwin::Evaluate(const Vertex& x, const Vertex& y) const {
-  const Vec3d to = y.p - x.p;
+Pair ReuseTwin::Evaluate(const Arrival& x, const Vertex& y) const {
+  const Vec3d to = y.p - x.vertex.p;
   const double d2 = Dot(to, to);
   const Vec3d w = to / std::sqrt(d2);
-  const double cos_x = Dot(x.n, w), cos_y = -Dot(y.n, w);
+  const double cos_x = Dot(x.vertex.n, w), cos_y = -Dot(y.n, w);
   if (!(cos_x > 0 && cos_y > 0)) return {};
   const double pdf_area = cos_x / std::numbers::pi * cos_y / d2;
-  return {x.albedo * pdf_area, pdf_area};
+  return {x.beta * x.vertex.albedo * pdf_area, pdf_area};
+}
+
+// Whether the path of x might have found a second vertex of the owner's depth.
+bool ReuseTwin::Counts(const Arrival& x, const Path& owner) const {
+  const bool black = MostOf(x.beta * x.vertex.albedo) == 0;
+  const bool other_depth = x.events != owner.first->events;
+  return (!black || options.counts_black) &&
+         (!other_depth || options.counts_other_depths);
 }
 
 // Gives every pixel of the block its part of what one second vertex sends.
@@ -136,14 +181,16 @@ void ReuseTwin::Share(const Path& owner, const std::vector<const Path*>& block,
   std::vector<Rgb> carried(block.size());
   double densities = options.counts_owner_twice ? Evaluate(*owner.first, y).pdf_area : 0;
   for (std::size_t i = 0; i < block.size(); ++i) {
-    if (!block[i]->first) continue;
+    if (!block[i]->first || !Counts(*block[i]->first, owner)) continue;
     const Pair pair = Evaluate(*block[i]->first, y);
     if (pair.pdf_area == 0) continue;
-    const bool seen = block[i] == &owner || Sees(*block[i]->first, y);
+    const bool seen = block[i] == &owner || Sees(block[i]->first->vertex, y);
     if (seen || options.forgets_visibility) {
       densities += pair.pdf_area;
     }
-    if (seen) carried[i] = pair.f * owner.sent;
+    if (seen && block[i]->first->events == owner.first->events) {
+      carried[i] = pair.f * owner.sent;
+    }
   }
   const double kept = options.forgets_roulette ? 1 : owner.q;
   for (std::size_t i = 0; i < block.size(); ++i)

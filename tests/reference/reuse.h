@@ -1,6 +1,7 @@
-// The estimator of reuse=block as one would write it down: for diffuse surfaces and
-// lights that no direction can hit, in double precision, block by block and pair by pair.
-// What kernels/reuse/ does in lanes is compared with it, means and variances alike.
+// The estimator of reuse=block, written plainly in double precision, block by block and
+// pair by pair: diffuse surfaces, smooth metals, and every light of the reference tracer.
+// Tests compare the means of kernels/reuse/ with it, and where no lamp can be hit, the
+// variances too.
 #pragma once
 
 #include "tests/reference/path_tracer.h"
@@ -16,11 +17,14 @@ struct ReuseTwinOptions {
   bool forgets_visibility = false;  // in the denominator
   bool counts_owner_twice = false;  // in the denominator
   bool forgets_roulette = false;    // what is kept is not made brighter
+  bool counts_black = false;        // densities of paths that end at a black first vertex
+  bool counts_other_depths = false;  // and of those with another number of mirrors before
+  int silent_primitive = -2;         // paths that leave it count, and share nothing
 };
 
 /// Pixels row by row, with the variance of their means as if they were independent.
-/// Blocks are made of pixels by chance, others for each sample. All materials are
-/// diffuse, the image is one tile of the renderer at most, and its filter is a box.
+/// Blocks are made of pixels by chance, others for each sample. All materials are diffuse
+/// or smooth metals, the image is one tile of the renderer at most, its filter a box.
 ReferenceImage RenderReuseReference(const SceneDescription& scene,
                                     const ReuseTwinOptions& options);
 

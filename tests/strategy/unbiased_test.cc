@@ -14,7 +14,7 @@
 #include "tests/reference/closed_forms.h"
 #include "src/prepare/prepared_scene.h"
 #include "src/stat/hypothesis.h"
-#include "tests/strategy/covering.h"
+#include "tests/strategy/combinations.h"
 #include "tests/strategy/hard_scenes.h"
 #include "tests/strategy/tiles.h"
 #include "tests/agreement/agreement.h"
@@ -27,93 +27,6 @@ using namespace hard;
 constexpr double kFalseAlarm = 1e-4;  // for all comparisons of a test case together
 // A comparison that finds no smaller bias than that is not made.
 constexpr double kJudged = 0.25;
-
-// Arguments with which a choice takes part; the others take part as they are.
-const std::map<std::string, std::vector<std::string>>& Variants() {
-  static const std::map<std::string, std::vector<std::string>> kVariants = {
-      {"mis", {"mis:power", "mis:balance"}},
-      {"antithetic",
-       {"antithetic:all", "antithetic:pixel", "antithetic:light", "antithetic:bsdf",
-        "antithetic:first-bounce"}},
-      {"analytic", {"analytic,c=1", "analytic,c=optimal"}},
-      {"ambient", {"ambient,c=1", "ambient,c=optimal"}},
-      {"regression", {"regression,c=1"}},
-      {"block", {"block:8", "block:64:compact", "block:16:apart"}},
-      {"constant", {"constant:0.2"}},
-      {"throughput", {"throughput:0.1:1", "throughput:0:2:4"}},
-      {"contribution", {"contribution", "contribution:0.02"}}};
-  return kVariants;
-}
-
-std::vector<Axis> MakeAxes() {
-  std::vector<Axis> axes;
-  for (const ChoiceInfo& choice : AllChoices()) {
-    if (axes.empty() || axes.back().key != choice.axis) axes.push_back({choice.axis, {}});
-    const auto variants = Variants().find(choice.name);
-    auto& values = axes.back().values;
-    if (variants == Variants().end()) {
-      values.push_back(choice.name);
-    } else {
-      values.insert(values.end(), variants->second.begin(), variants->second.end());
-    }
-  }
-  return axes;
-}
-
-// Every choice of src/strategy/choices.h.
-const std::vector<Axis>& Axes() {
-  static const std::vector<Axis> kAxes = MakeAxes();
-  return kAxes;
-}
-
-const std::vector<Combination>& Combinations() {
-  static const std::vector<Combination> kCombinations = CoverPairs(Axes(), 60);
-  return kCombinations;
-}
-
-bool Accepts(const SceneDescription& scene, const std::string& strategy) {
-  SceneDescription copy = scene;
-  ApplyStrategy(strategy, {}, copy.strategy);
-  PlanOptions options;
-  options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
-  try {
-    MakePlan(PrepareScene(copy), options);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
-std::size_t AxisOf(const std::string& key) {
-  const auto at = std::find_if(Axes().begin(), Axes().end(),
-                               [&](const Axis& axis) { return axis.key == key; });
-  REQUIRE(at != Axes().end());
-  return static_cast<std::size_t>(at - Axes().begin());
-}
-
-// The combination as this scene takes it. What refuses reuse=block are choices of other
-// axes, and control variates are what else a scene refuses.
-Combination FitTo(const SceneDescription& scene, const Combination& combination,
-                  bool keep_reuse) {
-  Combination fitted = combination;
-  const auto fits = [&] { return Accepts(scene, StrategyOf(Axes(), fitted)); };
-  if (fits()) return fitted;
-  if (combination[AxisOf("reuse")] != 0) {
-    if (keep_reuse) {
-      for (const char* key : {"control", "roulette"}) {
-        fitted[AxisOf(key)] = 0;
-      }
-      CHECK(fits());
-      return fitted;
-    }
-    fitted[AxisOf("reuse")] = 0;
-    if (fits()) return fitted;
-  }
-  CHECK(fitted[AxisOf("control")] != 0);
-  fitted[AxisOf("control")] = 0;
-  CHECK(fits());
-  return fitted;
-}
 
 stat::ImageTestResult Compare(const HardScene& hard, const std::string& strategy,
                               const stat::ImageEstimate& truth, std::uint64_t spp,
@@ -158,9 +71,10 @@ class Power {
 void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth, std::uint64_t spp,
               Power& power) {
   const auto& combinations = Combinations();
+  const PreparedScene prepared = PrepareScene(hard.scene);
   std::vector<double> uniformity;
   for (std::size_t i = 0; i < combinations.size(); ++i) {
-    const Combination fitted = FitTo(hard.scene, combinations[i], i % 2 == 0);
+    const Combination fitted = FitTo(prepared, combinations[i], i % 2 == 0);
     const std::string strategy = StrategyOf(Axes(), fitted);
     const stat::ImageTestResult result =
         Compare(hard, strategy, truth, spp, i + 1,

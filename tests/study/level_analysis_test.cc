@@ -158,16 +158,16 @@ TEST_CASE("tiles that differ are found, others are not", "[study]") {
   Random random(8);
   int alarms = 0, found = 0, misplaced = 0;
   for (int run = 0; run < 60; ++run) {
-    const Reference r = NoisyReference(32, 24, 0.01, random);
+    const Reference r = NoisyReference(64, 48, 0.01, random);
     alarms += !TestTiles(Simulate(r, 6, 0.1, random).moments, r, 16, 0.01).failed.empty();
     const auto brighten = [](std::vector<Rgb>& image) {
-      for (int y = 8; y < 12; ++y) {
-        for (int x = 4; x < 8; ++x) image[y * 32 + x] *= 1.15;
+      for (int y = 16; y < 24; ++y) {
+        for (int x = 8; x < 16; ++x) image[y * 64 + x] *= 1.15;
       }
     };
     const TileTest test =
         TestTiles(Simulate(r, 6, 0.1, random, brighten).moments, r, 16, 0.01);
-    REQUIRE(test.layout.side == 4);
+    REQUIRE(test.layout.side == 8);
     REQUIRE(test.layout.columns == 8);
     for (std::size_t tile : test.failed) {
       ++(tile == 2 * 8 + 1 ? found : misplaced);
@@ -177,6 +177,31 @@ TEST_CASE("tiles that differ are found, others are not", "[study]") {
   CHECK(alarms <= 5);  // 0.6 expected
   CHECK(misplaced <= 5);
   CHECK(found >= 50);
+}
+
+TEST_CASE("tiles whose pixels have paths in common raise no alarms", "[study]") {
+  // All pixels of a block of 16 x 16 have one error, as those of path reuse have a part
+  // of theirs: the variance of a tile's mean is that of a pixel.
+  Random random(9);
+  int independent = 0, alarms = 0;
+  for (int run = 0; run < 40; ++run) {
+    const Reference r = NoisyReference(64, 48, 0.001, random);
+    const auto shift = [&](std::vector<Rgb>& image) {
+      double error[3][4];
+      for (auto& row : error) {
+        for (double& e : row) e = 1 + 0.05 * (random.Uniform() - 0.5);
+      }
+      for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 64; ++x) image[y * 64 + x] *= error[y / 16][x / 16];
+      }
+    };
+    Moments moments = Simulate(r, 6, 0.001, random, shift).moments;
+    independent += !TestTiles(moments, r, 16, 0.01).failed.empty();
+    moments.pixels_as_one = PixelsAsOne(16 * 16);
+    alarms += !TestTiles(moments, r, 16, 0.01).failed.empty();
+  }
+  CHECK(independent == 40);
+  CHECK(alarms <= 3);
 }
 
 }  // namespace lanelight

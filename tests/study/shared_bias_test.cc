@@ -10,13 +10,13 @@ namespace {
 
 using reference::Random;
 
-constexpr int kBiasWidth = 32, kBiasHeight = 24, kStrategies = 5, kRepetitions = 6;
+constexpr int kBiasWidth = 64, kBiasHeight = 48, kStrategies = 5, kRepetitions = 6;
 constexpr std::uint64_t kSpp = 16;
-constexpr std::size_t kTile = 2 * 8 + 1;  // of 8 x 6 tiles of 4 x 4 pixels
+constexpr std::size_t kTile = 2 * 8 + 1;  // of 8 x 6 tiles
 
 void BrightenTile(std::vector<Rgb>& image) {
-  for (int y = 8; y < 12; ++y) {
-    for (int x = 4; x < 8; ++x) image[y * kBiasWidth + x] *= 1.15;
+  for (int y = 16; y < 24; ++y) {
+    for (int x = 8; x < 16; ++x) image[y * kBiasWidth + x] *= 1.15;
   }
 }
 
@@ -97,13 +97,14 @@ TEST_CASE("the bias of one strategy is found among others", "[study]") {
 }
 
 TEST_CASE("a tile of rare samples is not tested", "[study]") {
-  // In the tile all light comes in samples that one pixel in 20 of an image gets: 5 of
+  // In the tile all light comes in samples that one pixel in 80 of an image gets: 5 of
   // them are expected in all repetitions of a strategy, and none come in one of 150.
+  constexpr double kRarePixel = 1.0 / 80;
   Random random(23);
   const auto rare = [&random](std::vector<Rgb>& image) {
-    for (int y = 8; y < 12; ++y) {
-      for (int x = 4; x < 8; ++x) {
-        const double hit = random.Uniform() < 0.05 ? 1 : 0;
+    for (int y = 16; y < 24; ++y) {
+      for (int x = 8; x < 16; ++x) {
+        const double hit = random.Uniform() < kRarePixel ? 1 : 0;
         image[y * kBiasWidth + x] = Rgb{1e-4 + hit, 1e-4 + hit, 1e-4 + hit};
       }
     }
@@ -112,10 +113,10 @@ TEST_CASE("a tile of rare samples is not tested", "[study]") {
   for (int run = 0; run < 60; ++run) {
     Reference r = Usual(random);
     r.spp = 12 * kSpp * kRepetitions;
-    for (int y = 8; y < 12; ++y) {
-      for (int x = 4; x < 8; ++x) {
+    for (int y = 16; y < 24; ++y) {
+      for (int x = 8; x < 16; ++x) {
         double hits = 0;
-        for (int i = 0; i < 12 * kRepetitions; ++i) hits += random.Uniform() < 0.05;
+        for (int i = 0; i < 12 * kRepetitions; ++i) hits += random.Uniform() < kRarePixel;
         const double n = 12.0 * kRepetitions;
         const Rgb one{1, 1, 1};
         r.mean[y * kBiasWidth + x] = one * (1e-4 + hits / n);
@@ -134,10 +135,10 @@ TEST_CASE("a tile of rare samples is not tested", "[study]") {
 }
 
 TEST_CASE("skewed samples raise no alarms", "[study]") {
-  // Bright samples, one in 30, so that about 26 of them make the mean of a tile: few of
+  // Bright samples, one in 120, so that about 26 of them make the mean of a tile: few of
   // them look like a low mean with a small variance.
   Random random(24);
-  constexpr double kRare = 1.0 / 30;
+  constexpr double kRare = 1.0 / 120;
   const auto bright = [&random](std::vector<Rgb>& image) {
     for (Rgb& c : image) {
       double hits = 0;

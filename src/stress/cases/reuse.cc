@@ -79,6 +79,31 @@ std::vector<Point> ByCorner(double half, const Effort& effort) {
   return points;
 }
 
+// A room whose walls emit inwards, with black stripes around it that reflect nothing. The
+// camera in the middle sees as much of the black as of the rest. From every point of a
+// sphere all others are seen alike, so that what arrives is the series of half the
+// albedo. A black first vertex finds nothing: a density that it had would take from the
+// others.
+std::vector<Point> ByBlackStripes(double stripes, const Effort& effort) {
+  const double albedo = double(0.8f), emission = double(0.2f);
+  const std::string text = fmt::format(
+      "LookAt 0 0 0  1 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 80\n"
+      "PixelFilter \"box\"\nWorldBegin\n"
+      "Texture \"stripes\" \"spectrum\" \"checkerboard\" \"float uscale\" {:.17g}\n"
+      "  \"float vscale\" 0.5 {} {}\n",
+      stripes, Grey("tex1", 0), Grey("tex2", albedo));
+  const std::string walls =
+      Block(Glow(emission) + "ReverseOrientation\n" +
+            Sphere({}, 4, "\"diffuse\" \"texture reflectance\" \"stripes\""));
+  const double arrives = ClosedRoom(emission, albedo / 2, 7);
+  std::vector<Point> points;
+  for (const char* layout : kLayouts) {
+    points.push_back(
+        Served(layout, emission + albedo / 2 * arrives, text + walls, 8, effort));
+  }
+  return points;
+}
+
 // A metal in the corner, seen from the diffuse floor, held against paths of their own.
 std::vector<Point> BySharedAlpha(double alpha, const Effort& effort) {
   const std::string scene = Corner(1, Metal(0.8, alpha, alpha));
@@ -107,6 +132,10 @@ void AddReuseCases(std::vector<Case>& cases) {
           LogAxis("half of what is seen", "", {1e-4, 100}, Decades(-4, 2, 2),
                   Decades(-6, 4)),
           ByCorner});
+  closed({"reuse-black", "black surfaces that emit on one side, beside diffuse ones",
+          "every stripe has the radiance of the series",
+          LogAxis("stripes", "", {2, 512}, {2, 16, 128}, {2, 4, 8, 16, 32, 64, 128, 512}),
+          ByBlackStripes});
   twins({"reuse-alpha", "second vertices of metal through the least alpha that is shared",
          "the image of paths that serve their own pixels",
          LogAxis("alpha", "", {1e-3, 1}, {1e-3, 0.09, 0.11, 0.3},

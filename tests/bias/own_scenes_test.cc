@@ -1,0 +1,46 @@
+// No strategy is biased in any tile of our own scenes.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/bias/scene_bias.h"
+
+namespace lanelight::test {
+namespace {
+
+// Scenes whose paths are so long that they would take most of the time: the first is held
+// to a closed form (tests/scenes), the second is tested at length.
+constexpr const char* kVeryLong = "albedo-0.999";
+constexpr const char* kLong = "cloud";
+
+std::vector<std::filesystem::path> OwnScenes(bool with_long) {
+  const auto folder = std::filesystem::path(LANELIGHT_SOURCE_DIR) / "scenes";
+  std::vector<std::filesystem::path> files;
+  for (const auto& place : {folder, folder / "stiff"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(place)) {
+      const auto& path = entry.path();
+      if (path.extension() != ".pbrt" || path.stem() == kVeryLong) continue;
+      if (path.stem() == kLong && !with_long) continue;
+      files.push_back(path);
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("own scenes: no strategy is biased in any tile", "[bias]") {
+  const BiasPower power =
+      CheckSceneBias(OwnScenes(false), BiasCoverage::kRotating, ScreeningRounds());
+  CHECK(power.choices() > 40);
+  power.Check(0.03, 0.003);
+}
+
+TEST_CASE("own scenes: no choice is biased in any tile, at length", "[bias][slow]") {
+  const BiasPower power =
+      CheckSceneBias(OwnScenes(true), BiasCoverage::kEveryChoice, LongRounds());
+  CHECK(power.choices() > 40);
+  power.Check(0.01, 0.001);
+}
+
+}  // namespace lanelight::test

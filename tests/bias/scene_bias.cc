@@ -1,0 +1,124 @@
+#include "tests/bias/scene_bias.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <sstream>
+
+#include "src/parse/parse.h"
+#include "tests/strategy/combinations.h"
+
+namespace lanelight::test {
+namespace {
+
+const char* const kBase = "decide=none";
+
+// Strategies whose rays nearly never meet the lamps of a scene: all renders miss the same
+// light, so that they seem to agree on too dark an image.
+struct Blind {
+  const char* scene;
+  const char* choice;
+};
+constexpr Blind kBlind[] = {{"blinds", "directions=bsdf"},
+                            {"blinds", "directions=uniform"},
+                            {"tiny-light", "directions=bsdf"},
+                            {"tiny-light", "directions=uniform"}};
+
+bool IsBlind(const std::string& scene, const std::string& strategy) {
+  return std::any_of(std::begin(kBlind), std::end(kBlind), [&](const Blind& blind) {
+    return scene == blind.scene && strategy.find(blind.choice) != std::string::npos;
+  });
+}
+
+// Scenes whose samples take long have fewer of them.
+std::vector<BiasRound> RoundsOf(const std::string& scene, std::vector<BiasRound> rounds) {
+  constexpr std::uint64_t kFewer = 4;
+  for (const char* slow : {"closed-room", "corridor", "hair", "instances", "many-lights",
+                           "roughness-1e-4"}) {
+    if (scene != slow) continue;
+    for (BiasRound& round : rounds) round.spp /= kFewer;
+  }
+  return rounds;
+}
+
+std::vector<std::string> ChoicesOf(const std::string& strategy) {
+  std::vector<std::string> choices;
+  std::istringstream text(strategy);
+  for (std::string one; std::getline(text, one, ',');) choices.push_back(one);
+  return choices;
+}
+
+PreparedScene Prepare(const std::filesystem::path& file) {
+  SceneDescription description = ParseScene(file.string());
+  description.film.width = description.film.height = kBiasImage;
+  std::fill_n(description.film.crop, 4, 0);
+  return PrepareScene(description);
+}
+
+std::vector<std::string> EveryChoice() {
+  std::vector<std::string> strategies;
+  for (const Axis& axis : Axes()) {
+    for (const std::string& value : axis.values) {
+      strategies.push_back(axis.key + "=" + value);
+    }
+  }
+  return strategies;
+}
+
+// What trial runs choose, and the combinations in turn.
+std::vector<std::string> Rotating(const PreparedScene& scene, std::size_t index,
+                                  std::size_t scenes) {
+  constexpr std::size_t kMostEach = 2;
+  const std::size_t each =
+      std::min(kMostEach, (Combinations().size() + scenes - 1) / scenes);
+  constexpr const char* kInTurn[] = {"roulette=throughput:0:2:4", "roulette=adjoint",
+                                     "reuse=block:32:compact", "directions=light"};
+  std::vector<std::string> strategies = {"reuse=block",
+                                         kInTurn[index % std::size(kInTurn)]};
+  for (std::size_t k = 0; k < each; ++k) {
+    const std::size_t row = (index * each + k) % Combinations().size();
+    strategies.push_back(
+        StrategyOf(Axes(), FitTo(scene, Combinations()[row], k % 2 == 0)));
+  }
+  return strategies;
+}
+
+}  // namespace
+
+void BiasPower::Add(const std::string& strategy, const BiasVerdict& verdict) {
+  for (const std::string& choice : ChoicesOf(strategy)) {
+    auto& [tile, image] = least_.try_emplace(choice, 1e9, 1e9).first->second;
+    tile = std::min(tile, verdict.tile_power);
+    image = std::min(image, verdict.image_power);
+  }
+}
+
+void BiasPower::Check(double tile, double image) const {
+  for (const auto& [choice, power] : least_) {
+    INFO(choice << ": a bias of " << 100 * power.first << " % of a tile, or of "
+                << 100 * power.second << " % of the image, would be found");
+    CHECK((power.first < tile || power.second < image));
+  }
+}
+
+BiasPower CheckSceneBias(const std::vector<std::filesystem::path>& files,
+                         BiasCoverage coverage, const std::vector<BiasRound>& rounds) {
+  BiasPower power;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string name = files[i].stem().string();
+    BiasTest test(Prepare(files[i]), kBase, RoundsOf(name, rounds));
+    const auto strategies = coverage == BiasCoverage::kEveryChoice
+                                ? EveryChoice()
+                                : Rotating(test.scene(), i, files.size());
+    for (const std::string& strategy : strategies) {
+      if (!Accepts(test.scene(), strategy) || IsBlind(name, strategy)) continue;
+      const BiasVerdict verdict = test.Compare(strategy);
+      if (verdict.identical || !verdict.IsTelling()) continue;
+      INFO(files[i] << ", " << strategy << ": " << verdict.worst);
+      CHECK_FALSE(verdict.biased);
+      power.Add(strategy, verdict);
+    }
+  }
+  return power;
+}
+
+}  // namespace lanelight::test
