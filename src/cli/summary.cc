@@ -145,12 +145,6 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
 
 }  // namespace
 
-Strategy StrategyInForce(const RunResult& result, const Job& job) {
-  Strategy strategy = job.scene.strategy;
-  ApplyStrategy(result.training.changes, {}, strategy);
-  return strategy;
-}
-
 std::string StageTable(const RunResult& result) {
   double total = 0;
   for (const StageProfile& s : result.stages) total += s.seconds;

@@ -32,6 +32,10 @@ nlohmann::json HeadJson(const Job& job, const std::string& scene, bool half);
 /// All of it; `head` is of HeadJson.
 nlohmann::json ToJson(const RenderReport& report, const nlohmann::json& head);
 
+/// Returns the strategy that rendered the image: the job's, with the changes that its
+/// trial run has made.
+Strategy StrategyInForce(const RunResult& result, const Job& job);
+
 /// How the sample points are randomised.
 std::string PointsText(const Job& job);
 
