@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "src/core/machine_info.h"
 #include "src/render/settings.h"
 #include "src/stat/interval.h"
 #include "src/run/run.h"
@@ -21,28 +22,32 @@ inline constexpr int kLeastRepeats = 6;
 
 struct ThroughputOptions {
   std::vector<std::string> scenes;   // files, or names of BenchScenes()
-  RenderSettings settings;           // without spp: chosen for runs of kRunSeconds
+  RenderSettings settings;           // without spp: BenchSpp()
   std::vector<int> threads;          // one row each
   std::vector<std::string> targets;  // likewise
   double within = 0.01;  // half the interval over the median, at which it ends
   double seconds = 10;   // at most, for each row
 };
-inline constexpr double kRunSeconds = 0.2;
 
 /// One scene, on one SIMD target, with one number of threads.
 struct ThroughputRow {
   std::string scene, target, strategy;
   int threads = 0, width = 0, height = 0;
   std::uint64_t spp = 0;
-  std::vector<double> seconds;  // of the repeats
-  RunResult counts;             // of the last one: the same in all, but for times
+  std::vector<double> seconds;      // of the repeats
+  std::vector<double> cpu_seconds;  // likewise, of all threads together
+  double waiting_seconds = 0;  // of all repeats: while other programs had the processors
+  RunResult counts;            // of the last one: the same in all, but for times
   std::size_t bytes_per_path = 0;
   std::uint32_t wavefront = 0;  // paths in flight of a thread
 
   /// Seconds of a render: the median, and its interval.
   Interval Seconds() const;
-  /// Samples per second.
+  /// Samples per second by the wall clock, and per second of processor time.
   Interval Rate() const;
+  Interval CpuRate() const;
+  /// Fraction of the time of all threads in which they waited for a processor.
+  double Waiting() const;
   /// Half the interval over the median.
   double Spread() const;
   std::uint64_t rays() const { return counts.rays_closest + counts.rays_shadow; }
@@ -59,6 +64,12 @@ struct StageGroup {
 /// "generate", "closest", "shadow", "surface", "shade", "lights", "lights seen" (by the
 /// camera), "film", "other".
 std::vector<StageGroup> StageGroups(const ThroughputRow& row);
+
+/// Reasons why rates measured on a machine so busy say little: its load before the start
+/// exceeds its cores, or rows waited for a processor. Empty if it was quiet.
+std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
+                                     const MachineInfo& machine);
+inline constexpr double kMostWaiting = 0.1;
 
 struct BenchProgress {
   std::string scene;
