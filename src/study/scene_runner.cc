@@ -43,7 +43,7 @@ void SceneRunner::Run() {
   CheckStrategies();
   Settle();
   if (!Stopped()) RunCells();
-  if (!Stopped()) RunDiffuseModels();
+  if (!Stopped() && options_.paper) RunDiffuseModels();
   scene_.interrupted = Stopped();
 }
 

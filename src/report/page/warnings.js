@@ -99,6 +99,7 @@ function warningTexts(view) {
   const { scene } = view;
   const plain = (title, text) => ({ title, text, strategies: [] });
   return [
+    ...(scene.cautions || []).map((text) => plain("The ranking.", text)),
     ...missingWarnings(view),
     ...biasWarnings(view),
     ...strategyWarnings(view),
