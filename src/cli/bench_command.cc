@@ -117,7 +117,7 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
           .add_option("--simd", bench.targets,
                       WithDefault("SIMD targets, one row each", "the best there is"))
           ->delimiter(',')
-          ->transform(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))
+          ->transform(ValueOf(TargetType(AvailableTargets())))
           ->type_name("NAME,...");
   command.add_flag("--all-targets", options.all_targets, "Measure all SIMD targets")
       ->excludes(targets);
@@ -148,8 +148,8 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
   command
       .add_option(
           "--against", options.against,
-          "Print the ratios to the rows of this JSON of before; exit with 9 if a row is "
-          "slower beyond doubt, with 10 if the two cannot be compared")
+          "Exit with 9 if a row is slower, beyond doubt, than in this JSON of before, "
+          "with 10 if they cannot be compared, and print all ratios")
       ->type_name("FILE");
   command
       .add_option("--tolerance", options.tolerance,

@@ -52,6 +52,10 @@ void PrintUnsampled(const RenderReport& report, const Job& job,
       report.unsampled_pixels, job.window.pixels(), job.plan.options.max_depth));
 }
 
+void PrintBlack(const RenderReport& report) {
+  if (report.black) PrintError(fmt::format("warning: {}", kNoLight));
+}
+
 // The summary says it in its last line.
 int CheckImageChanges(const Job& job, const RenderOutputs& options) {
   const std::string text = ImageChangesText(job.loaded->description.notes);
@@ -160,6 +164,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
     return kExitInvalidSamples;
   }
   PrintUnsampled(report, job, options);
+  PrintBlack(report);
   const CheckpointSettings& checkpoint = options.targets.checkpoint;
   if (!checkpoint.path.empty() && !rendering.state_kept) {
     PrintError("error: the last state could not be kept in '" + checkpoint.path + "'");

@@ -20,6 +20,7 @@ struct RenderReport {
   RunResult result;
   ErrorEstimate error;
   std::uint64_t unsampled_pixels = 0;  // of the film: without a sample, black
+  bool black = false;                  // all samples are black
   double load_seconds = 0, build_seconds = 0, write_seconds = 0;
   TreeReport trees;
   bool half = false;

@@ -202,4 +202,8 @@ std::optional<std::string> TargetType::Read(const std::string& text) const {
   return NamesType::Read(upper);
 }
 
+std::string TargetType::Right(const std::string& text) const {
+  return "available: " + WhyNoTarget(text);
+}
+
 }  // namespace lanelight

@@ -45,6 +45,7 @@ void SceneRunner::Run() {
   if (!Stopped()) RunCells();
   if (!Stopped() && options_.paper) RunDiffuseModels();
   scene_.interrupted = Stopped();
+  if (!Stopped()) Report("finished");
 }
 
 // By one process; the others wait, and take over what it has found.
