@@ -26,7 +26,8 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
                     job.seconds, DurationText(r.seconds)));
   }
   if (!job.target.Any() || Reached(job.target, report.error)) return kExitGood;
-  const std::string error = PercentText(report.error) + ", " + ErrorText(report.error);
+  std::string error = PercentText(report.error);
+  if (report.error.why != kNoLight) error += ", " + ErrorText(report.error);
   const std::string limit = r.stop_reason == StopReason::kInterrupted ? "interruption"
                             : r.stop_reason == StopReason::kTime      ? "--time"
                                                                       : "--spp";
