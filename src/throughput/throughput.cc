@@ -182,24 +182,6 @@ std::vector<StageGroup> StageGroups(const ThroughputRow& row) {
   return groups;
 }
 
-std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
-                                     const MachineInfo& machine) {
-  std::vector<std::string> reasons;
-  if (IsOverloaded(machine)) {
-    reasons.push_back(
-        fmt::format("the load before the start, {:.2f}, exceeds the {:.3g} "
-                    "cores of the machine",
-                    *machine.load, *CoresAtATime(machine)));
-  }
-  double worst = 0;
-  for (const ThroughputRow& row : rows) worst = std::max(worst, row.Waiting());
-  if (worst > kMostWaiting) {
-    reasons.push_back(fmt::format(
-        "threads waited for a processor up to {:.0f} % of the time", 100 * worst));
-  }
-  return reasons;
-}
-
 std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
     const std::function<void(const BenchProgress&)>& on_progress) {

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "src/core/machine_info.h"
 #include "src/render/settings.h"
 #include "src/stat/interval.h"
 #include "src/run/run.h"
@@ -64,12 +63,6 @@ struct StageGroup {
 /// "generate", "closest", "shadow", "surface", "shade", "lights", "lights seen" (by the
 /// camera), "film", "other".
 std::vector<StageGroup> StageGroups(const ThroughputRow& row);
-
-/// Reasons why rates measured on a machine so busy say little: its load before the start
-/// exceeds its cores, or rows waited for a processor. Empty if it was quiet.
-std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
-                                     const MachineInfo& machine);
-inline constexpr double kMostWaiting = 0.1;
 
 struct BenchProgress {
   std::string scene;

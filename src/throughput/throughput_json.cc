@@ -1,6 +1,5 @@
 #include "src/throughput/throughput_json.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "src/core/error.h"
@@ -12,6 +11,7 @@
 #include "src/strategy/choices_text.h"
 #include "src/strategy/strategy.h"
 #include "src/throughput/throughput_comparison.h"
+#include "src/throughput/throughput_warnings.h"
 
 namespace lanelight {
 namespace {
@@ -66,32 +66,6 @@ Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
 }
 
 }  // namespace
-
-std::string Joined(const std::vector<std::string>& reasons) {
-  std::string text;
-  for (const std::string& reason : reasons) text += (text.empty() ? "" : "; ") + reason;
-  return text;
-}
-
-std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& rows,
-                                            double within) {
-  std::vector<std::string> warnings;
-  if (const std::string busy = Joined(BusyReasons(rows, ThisMachine())); !busy.empty()) {
-    warnings.push_back("The machine was busy: " + busy +
-                       ". Rates per second of processor time say more.");
-  }
-  double worst = 0;
-  for (const ThroughputRow& row : rows) worst = std::max(worst, row.Spread());
-  if (worst > within) {
-    warnings.push_back(fmt::format(
-        "Not all medians are known within {:.3g} %: the worst {}. The machine is not "
-        "quiet, or --time is too short.",
-        100 * within,
-        std::isfinite(worst) ? fmt::format("within {:.2g} %", 100 * worst)
-                             : "has no interval"));
-  }
-  return warnings;
-}
 
 Json ToJson(const std::vector<ThroughputRow>& rows, double within) {
   Json out = {{"schema", kBenchSchema},

@@ -16,14 +16,6 @@ inline constexpr int kBenchSchema = 1;
 /// `within`: what medians were to be known to (ThroughputOptions::within).
 nlohmann::json ToJson(const std::vector<ThroughputRow>& rows, double within);
 
-/// With "; " between them.
-std::string Joined(const std::vector<std::string>& reasons);
-
-/// What a reader of these rows has to know, one sentence each: that the machine was busy,
-/// and that medians are known less well than within `within`.
-std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& rows,
-                                            double within);
-
 /// What of a row a comparison needs.
 struct KnownRow {
   std::string scene, target, strategy;

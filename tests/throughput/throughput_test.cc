@@ -13,6 +13,7 @@
 #include "src/throughput/throughput.h"
 #include "src/throughput/throughput_comparison.h"
 #include "src/throughput/throughput_table.h"
+#include "src/throughput/throughput_warnings.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight::test {
