@@ -1,7 +1,7 @@
 // Which Highway targets kernels are compiled for, and why not for others; and what their
 // code stands between. LANELIGHT_TARGETS, a list of some of these, comes from the build
 // (cmake/targets.cmake). At run time the best one that the machine has is chosen;
-// `--target` forces one (kernels/simd/target.h).
+// `--simd` forces one (kernels/simd/target.h).
 //
 //   AVX3   16 lanes, compress and gather in hardware: what the design is for
 //   AVX2   8 lanes, gather in hardware

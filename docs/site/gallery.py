@@ -60,7 +60,7 @@ def render(lanelight, scene, picture):
     return (made.stderr.strip().split("\n") or [""])[-1]
 
 
-def make(lanelight, scenes, folder):
+def make(lanelight, scenes, folder, pictures=True):
     """Writes the page and its pictures into folder/pages; scenes that need data from
     elsewhere are left out."""
     kept = folder / "gallery"
@@ -71,7 +71,7 @@ def make(lanelight, scenes, folder):
             f"Our own scenes, each rendered by `./run docs` until its relative MSE is below "
             f"{ERROR}, with {SAMPLES} samples per pixel at most. Captions are from the scenes' "
             "headers; [another page](scenes/README.md) says more.", "", '<div class="gallery">']
-    for scene in sorted(scenes.glob("*.pbrt")):
+    for scene in sorted(scenes.glob("*.pbrt")) if pictures else []:
         picture = kept / f"{scene.stem}.png"
         if not picture.exists() or picture.stat().st_mtime < newest:
             print(f"== rendering scenes/{scene.name}", flush=True)

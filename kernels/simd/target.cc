@@ -18,6 +18,8 @@ LANELIGHT_END_KERNELS
 #include <fmt/ranges.h>
 #include <strings.h>
 
+#include <algorithm>
+
 #include "src/core/error.h"
 
 namespace lanelight {
@@ -55,17 +57,30 @@ std::int64_t TargetNamed(const std::string& name) {
   for (const std::int64_t target : UsableTargets()) {
     if (strcasecmp(hwy::TargetName(target), name.c_str()) == 0) return target;
   }
-  throw InputError(fmt::format("unknown SIMD target '{}'; this machine can run: {}", name,
-                               fmt::join(AvailableTargets(), ", ")));
+  throw InputError(
+      fmt::format("SIMD target '{}' is not available: {}", name, WhyNoTarget(name)));
 }
 
-std::vector<std::string> CompiledTargets() {
+// What `./run build` compiles: "all" in cmake/targets.cmake.
+#if HWY_ARCH_X86
+constexpr std::int64_t kAllTargets = HWY_AVX3 | HWY_AVX2 | HWY_SSE4;
+#elif HWY_ARCH_ARM_A64
+constexpr std::int64_t kAllTargets = HWY_NEON;
+#else
+constexpr std::int64_t kAllTargets = HWY_EMU128;
+#endif
+
+// Names of the bits.
+std::vector<std::string> TargetsOf(std::int64_t targets) {
   std::vector<std::string> names;
-  for (std::int64_t bits = HWY_TARGETS & ~HWY_DISABLED_TARGETS; bits != 0;
-       bits &= bits - 1) {
+  for (std::int64_t bits = targets; bits != 0; bits &= bits - 1) {
     names.push_back(hwy::TargetName(bits & -bits));
   }
   return names;
+}
+
+std::vector<std::string> CompiledTargets() {
+  return TargetsOf(HWY_TARGETS & ~HWY_DISABLED_TARGETS);
 }
 
 }  // namespace
@@ -74,6 +89,23 @@ std::vector<std::string> AvailableTargets() {
   std::vector<std::string> names;
   for (std::int64_t target : UsableTargets()) names.push_back(hwy::TargetName(target));
   return names;
+}
+
+std::string WhyNoTarget(const std::string& name) {
+  const auto is_named = [&name](const std::string& other) {
+    return strcasecmp(other.c_str(), name.c_str()) == 0;
+  };
+  const std::vector<std::string> compiled = CompiledTargets();
+  const std::string usable = fmt::format("{}", fmt::join(AvailableTargets(), ", "));
+  if (std::ranges::any_of(compiled, is_named)) {
+    return fmt::format("this machine's processor cannot run {}; it can run: {}", name,
+                       usable);
+  }
+  if (std::ranges::any_of(TargetsOf(kAllTargets), is_named)) {
+    return fmt::format("this build has {} only; `./run build` adds the others",
+                       fmt::join(compiled, ", "));
+  }
+  return "the SIMD targets of this machine are: " + usable;
 }
 
 void RequireTarget() {

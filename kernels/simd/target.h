@@ -38,6 +38,10 @@ class SimdTarget {
 /// Targets compiled in that this machine can run, best first, e.g. {"AVX3", "AVX2", ...}.
 std::vector<std::string> AvailableTargets();
 
+/// Why there is no such target here, and what to do: the program was built without it, or
+/// the machine cannot run it, or there is none of that name.
+std::string WhyNoTarget(const std::string& name);
+
 /// Throws InputError if there is none. What kernels do then is undefined.
 void RequireTarget();
 

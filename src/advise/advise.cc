@@ -260,8 +260,9 @@ class Adviser {
       AdvisedCandidate& c = all_[i];
       if (i == chosen_) {
         c.status = CandidateStatus::kChosen;
-        c.reason = i == 0 ? "no other is clearly more efficient"
-                          : "clearly more efficient than the default";
+        c.reason = i == 0                 ? "no other is clearly more efficient"
+                   : c.efficiency.low > 1 ? "clearly more efficient than the default"
+                                          : "probably more efficient than the default";
       } else if (c.status == CandidateStatus::kKept) {
         c.reason = i == 0 ? "the default; another is clearly more efficient"
                    : i == unseen_
@@ -309,6 +310,10 @@ class Adviser {
 
 }  // namespace
 
+bool IsUncertain(const Interval& efficiency) {
+  return efficiency.HasBounds() && !(efficiency.high <= kMostUncertain * efficiency.low);
+}
+
 Advice Advise(const Job& job, const AdviceOptions& options) {
   const ThreadLimit threads(job.settings.threads);
   return Adviser(job, options).Run();
@@ -323,14 +328,15 @@ Job WithAdvice(Job job, const Advice& advice, const AdviceOptions& options) {
 nlohmann::json ToJson(const Advice& advice) {
   nlohmann::json candidates = nlohmann::json::array();
   for (const AdvisedCandidate& c : advice.candidates) {
-    candidates.push_back(
-        {{"strategy", ToText(c.strategy)},
-         {"changes", c.changes},
-         {"meaning", c.meaning},
-         {"status", Name(c.status)},
-         {"reason", c.reason},
-         {"efficiency", c.samples > 0 ? IntervalJson(c.efficiency) : nullptr},
-         {"samples", c.samples}});
+    candidates.push_back({{"strategy", ToText(c.strategy)},
+                          {"changes", c.changes},
+                          {"meaning", c.meaning},
+                          {"status", Name(c.status)},
+                          {"reason", c.reason},
+                          {"efficiency", c.samples > 0 && !IsUncertain(c.efficiency)
+                                             ? IntervalJson(c.efficiency)
+                                             : nullptr},
+                          {"samples", c.samples}});
   }
   return {{"candidates", candidates},  {"chosen", ToText(advice.chosen)},
           {"why", advice.why},         {"pilot_seconds", advice.pilot_seconds},

@@ -36,6 +36,17 @@ struct Advice {
   bool interrupted = false;   // by the user, or since the trial took far too long
 };
 
+/// What changes it tries, beside the scene's own strategy.
+inline constexpr const char* kTriedByAdvice =
+    "roulette, light selection and path reuse; not samplers, guiding or other keys, "
+    "which "
+    "`lanelight study` compares";
+
+/// An efficiency of which a trial has seen too little to state an interval: its ends are
+/// more than kMostUncertain apart.
+bool IsUncertain(const Interval& efficiency);
+inline constexpr double kMostUncertain = 1000;
+
 /// Runs the trial. Candidates are compared by relative variance times counted work, on
 /// the same pixels (StrategyTrial): first all; then the default, the best two and what
 /// both make together; last the best and the default on yet other pixels, which decide.

@@ -52,11 +52,15 @@ std::string AdviceText(const Advice& advice) {
     const std::string changes = c.changes.empty()           ? "(the default)"
                                 : c.meaning == kOwnStrategy ? "(the scene's own)"
                                                             : c.changes;
-    lines.push_back({changes, c.samples > 0 ? EstimateText(c.efficiency) : "",
-                     Name(c.status), c.reason});
+    const std::string efficiency = c.samples == 0 ? ""
+                                   : IsUncertain(c.efficiency)
+                                       ? "too few samples"
+                                       : EstimateText(c.efficiency);
+    lines.push_back({changes, efficiency, Name(c.status), c.reason});
   }
   return TextTable(lines, {TerminalColumns(Stream::kOutput), 1, 3}) + "\n" +
-         SkippedText(advice) + SummaryRow("advice", advice.why) +
+         SkippedText(advice) + SummaryRow("tried", kTriedByAdvice) +
+         SummaryRow("advice", advice.why) +
          SummaryRow("strategy", ToText(advice.chosen)) +
          SummaryRow("pilot",
                     fmt::format("{}, {:.3g} rays", DurationText(advice.pilot_seconds),
@@ -124,15 +128,12 @@ void AddAdviseCommand(CLI::App& root, Command& chosen) {
   AddOutputOptions(*command, options->outputs, options->scene.settings);
   AddSceneOptions(*command, options->scene);
   command->footer(
-      "\nChanges of the default strategy, and the scene's own (or --strategy), are tried "
-      "on the\n"
-      "same pixels, by variance times counted work: the same advice each time, for a "
-      "scene, "
-      "its\n"
-      "settings and --seed. What is not clearly better is not advised. Without -o only "
-      "the "
-      "advice\n"
-      "is printed.\n"
+      "\nTries the scene's own strategy (or --strategy), and changes of the default in\n"
+      "roulette, light selection and path reuse; not samplers, guiding or other keys,\n"
+      "which `lanelight study` compares. All are tried on the same pixels, by variance\n"
+      "times counted work: the same advice each time, for a scene, its settings and\n"
+      "--seed. What is not clearly better is not advised. Without -o only the advice is\n"
+      "printed.\n"
       "\nExamples:\n"
       "  lanelight advise scene.pbrt --time 60\n"
       "  lanelight advise scene.pbrt --time 60 -o out.exr --json advice.json");

@@ -62,7 +62,7 @@ int Bench(BenchCommandOptions options) {
   std::optional<KnownThroughput> before;
   if (!options.against.empty()) before = ReadThroughput(options.against);
   const std::vector<ThroughputRow> rows = MeasureRows(options);
-  const nlohmann::json json = ToJson(rows);
+  const nlohmann::json json = ToJson(rows, options.bench.within);
   const std::size_t columns = TerminalColumns(Stream::kOutput);
   if (options.json != "-") {
     Print(ThroughputText(rows, options.bench.within, {false, columns}));
@@ -81,10 +81,15 @@ int Bench(BenchCommandOptions options) {
   if (options.json != "-") {
     Print("\n" + ComparisonText(comparison, *before, options.tolerance, columns));
   }
-  for (const RateRatio& row : comparison.rows) {
-    if (row.Regresses(options.tolerance)) return kExitSlower;
+  switch (comparison.Judge(options.tolerance)) {
+    case RateComparison::Verdict::kNotSlower:
+      return kExitGood;
+    case RateComparison::Verdict::kSlower:
+      return kExitSlower;
+    case RateComparison::Verdict::kNotComparable:
+      break;
   }
-  return kExitGood;
+  return kExitNotComparable;
 }
 
 void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
@@ -96,8 +101,9 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
   AddSetting(command, "resolution", bench.settings);
   AddSetting(command, "crop", bench.settings);
   AddSetting(command, "spp", bench.settings)
-      ->description(WithDefault("Samples per pixel of a render",
-                                fmt::format("as many as take {} s", kRunSeconds)));
+      ->description(WithDefault(
+          "Samples per pixel of a render",
+          fmt::format("a fixed number for each scene; {} for scene files", kFileSpp)));
   AddSetting(command, "strategy", bench.settings);
   AddSetting(command, "sampler", bench.settings);
   command
@@ -111,7 +117,7 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
           .add_option("--simd", bench.targets,
                       WithDefault("SIMD targets, one row each", "the best there is"))
           ->delimiter(',')
-          ->transform(CLI::IsMember(AvailableTargets(), CLI::ignore_case).description(""))
+          ->transform(ValueOf(TargetType(AvailableTargets())))
           ->type_name("NAME,...");
   command.add_flag("--all-targets", options.all_targets, "Measure all SIMD targets")
       ->excludes(targets);
@@ -140,9 +146,10 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
       ->check(EndsIn(".html"))
       ->type_name("FILE");
   command
-      .add_option("--against", options.against,
-                  "Exit with 9 if a row is slower, beyond doubt, than in this JSON of "
-                  "before, and print all ratios")
+      .add_option(
+          "--against", options.against,
+          "Exit with 9 if a row is slower, beyond doubt, than in this JSON of before, "
+          "with 10 if they cannot be compared, and print all ratios")
       ->type_name("FILE");
   command
       .add_option("--tolerance", options.tolerance,

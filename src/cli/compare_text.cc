@@ -18,16 +18,24 @@ std::string ChannelText(const CompareResult& r) {
   return text;
 }
 
-std::string ZText(const ZScores& z) {
-  if (!z.available) return FactRow("z-scores", "none: no image carries variances");
-  return FactRow("z-scores",
-                 fmt::format("mean {:.3f}, deviation {:.3f}, |z|>2: {:.2f} %, |z|>3: "
-                             "{:.2f} % (noise alone: 0, 1, 4.55 %, 0.27 %)",
-                             z.mean, z.standard_deviation, 100 * z.beyond_2,
-                             100 * z.beyond_3)) +
-         FactRow("", fmt::format("{} values; {} equal without variance, {} different "
-                                 "without variance, {} with an invalid variance",
-                                 z.count, z.exact, z.mismatched, z.invalid));
+// How many values differ by more than their noise explains. Mean and deviation of the
+// z-scores are in the JSON: they say something only where the images differ by noise.
+std::string NoiseText(const ZScores& z) {
+  if (!z.available) return FactRow("noise", "unknown: no image carries variances");
+  std::string text;
+  if (z.count > 0) {
+    text = fmt::format(
+        "{:.3g} % of {} values differ by more than 2 standard errors (noise alone: 4.55 "
+        "%), {:.3g} % by more than 3 (0.27 %)",
+        100 * z.beyond_2, z.count, 100 * z.beyond_3);
+  }
+  const auto add = [&text](std::uint64_t count, const char* what) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : "; ", count, what);
+  };
+  add(z.exact, "are equal without variance");
+  add(z.mismatched, "differ without variance");
+  add(z.invalid, "have an invalid variance");
+  return FactRow("noise", text);
 }
 
 std::string NumberText(double value) { return fmt::format("{:.6g}", value); }
@@ -47,7 +55,7 @@ std::string MeasuresText(const CompareResult& r) {
          FactRow("PSNR", fmt::format("{:.2f} dB", r.psnr)) + ChannelText(r) +
          FactRow("tile rel. MSE", fmt::format("median {:.3g}, largest {:.3g}",
                                               r.tile_relmse_median, r.tile_relmse_max)) +
-         ZText(r.z);
+         NoiseText(r.z);
 }
 
 std::string FlipText(const char* name, const FlipSummary& s, const std::string& note) {

@@ -7,6 +7,7 @@
 namespace lanelight {
 namespace {
 
+constexpr const char* kBlack = "unknown: every sample is black";
 constexpr const char* kUnknown = "unknown: needs two samples per pixel, or two pairs";
 
 // Three digits, and no more zeros than these.
@@ -33,6 +34,7 @@ std::string PercentOf(double relative_mse) { return Percent(relative_mse) + " %"
 
 std::string PercentText(const ErrorEstimate& e) {
   if (!e.available) return kUnknown;
+  if (e.why == kNoLight) return kBlack;
   const Interval& v = e.relmse;
   if (v.HasBounds()) {
     return fmt::format("{} [{}, {}]", PercentOf(v.value), Percent(v.low),
@@ -43,12 +45,13 @@ std::string PercentText(const ErrorEstimate& e) {
 }
 
 std::string BriefPercentText(const ErrorEstimate& e) {
-  if (!e.available) return "unknown";
+  if (!e.available || e.why == kNoLight) return "unknown";
   return e.relmse.HasBounds() ? PercentText(e) : "at least " + PercentOf(e.relmse.low);
 }
 
 std::string ErrorText(const ErrorEstimate& e) {
   if (!e.available) return kUnknown;
+  if (e.why == kNoLight) return kBlack;
   return WithReason(fmt::format("RMSE {}, relative MSE {} (95 % confidence)",
                                 IntervalText(e.rmse), IntervalText(e.relmse)),
                     e);

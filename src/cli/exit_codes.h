@@ -14,6 +14,7 @@ enum ExitCode : int {
   kExitStressFailed = 7,    // stress: a case failed
   kExitImageDiffers = 8,    // render: the image is not what the scene file asks for
   kExitSlower = 9,          // bench: slower than what it was compared with
+  kExitNotComparable = 10,  // bench: busy machine, or rows of other renders
 };
 
 }  // namespace lanelight

@@ -81,6 +81,7 @@ int Merge(const MergeOptions& options) {
   } else if (!options.outputs.quiet) {
     Print(MergeSummaryText(rendering.report, merged, options.outputs.verbose));
   }
+  if (rendering.report.black) PrintError(fmt::format("warning: {}", kNoLight));
   if (rendering.report.result.health.Total() > 0) return kExitInvalidSamples;
   return good ? kExitGood : kExitBadInput;
 }

@@ -77,7 +77,7 @@ std::string NeededBy(Field field) {
   for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
     const auto feature = static_cast<Feature>(i);
     if (!needs.Has(feature)) continue;
-    text += std::string(text.empty() ? "no " : ", no ") + FeatureMeaning(feature);
+    text += (text.empty() ? "" : ", ") + WithoutFeature(feature);
   }
   return text;
 }
@@ -108,8 +108,8 @@ std::string StrategyWords(const Job& job) {
   const std::string text = ToText(strategy);
   if (strategy.decide != Decide::kPilot) return text;
   return text +
-         "; decide=pilot: before the image a pilot finds out whether another "
-         "roulette, guiding or reuse pays, and `render` says which";
+         "; decide=pilot: a short trial run before the image finds out whether another "
+         "roulette or reuse is more efficient, and `render` says which";
 }
 
 std::string Text(const Job& job, const std::string& scene) {

@@ -73,10 +73,9 @@ int Profile(const ProfileCommandOptions& options) {
 }
 
 void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
-  RenderSettings& settings = options.scene.settings;
-  settings.spp = 16;
-  AddSetting(command, "spp", settings);
-  AddSetting(command, "seed", settings);
+  AddSettings(command, kAmountFlag, options.scene.settings);
+  // As `render` has it: the profile is of the same program.
+  options.scene.settings.decision = DefaultDecision::kIfLong;
   command.add_option("--json", options.json, "Write the profile as JSON ('-': print it)")
       ->type_name("FILE");
   command
@@ -104,14 +103,17 @@ void AddProfileCommand(CLI::App& root, Command& chosen) {
   AddProfileOptions(*command, *options);
   AddSceneOptions(*command, options->scene);
   command->footer(
-      "\nThe image is not kept. Ctrl-C prints what was measured "
-      "so far;\n"
-      "a second one aborts. docs/profile.md says what the columns mean.\n"
+      "\nRenders what `lanelight render` renders with the same arguments, its trial run\n"
+      "included; the image is not kept. Ctrl-C prints what was measured so far; a "
+      "second\n"
+      "one aborts. docs/profile.md says what the columns mean.\n"
       "\nExamples:\n"
       "  lanelight profile scene.pbrt --threads 1\n"
       "  lanelight profile scene.pbrt --spp 4 --trace trace.json --json profile.json");
-  command->callback(
-      [options, &chosen] { chosen = [options] { return Profile(*options); }; });
+  command->callback([options, &chosen] {
+    CheckAmountOptions(options->scene.settings);
+    chosen = [options] { return Profile(*options); };
+  });
 }
 
 }  // namespace lanelight

@@ -24,12 +24,20 @@ std::string PeaksText(const Peaks& peaks, SimdTarget target) {
                             target.name());
 }
 
+// What was profiled: the strategy that `render` uses with the same arguments.
+std::string StrategyWords(const Job& job, const RunResult& result) {
+  const std::string text = ToText(StrategyInForce(result, job));
+  if (job.scene.strategy.decide != Decide::kPilot) return text;
+  return fmt::format("chosen by a trial run of {}, the row \"{}\": {}",
+                     DurationText(result.training.seconds), kPilotRowName, text);
+}
+
 std::string HeaderText(const ProfileReport& report, const Job& job,
                        const RunResult& result, const std::string& scene) {
   const double pixels = double(job.window.pixels());
   const SimdTarget target = job.plan.options.target;
   std::string text =
-      SummaryRow("scene", scene) +
+      SummaryRow("strategy", StrategyWords(job, result)) + SummaryRow("scene", scene) +
       SummaryRow(
           "render",
           fmt::format("{}x{} pixels, {:.4g} samples each in {}{}; threads: {}, lanes: {} "
@@ -39,7 +47,6 @@ std::string HeaderText(const ProfileReport& report, const Job& job,
                       result.stopped_early ? " (stopped early)" : "",
                       ThreadCount(job.settings.threads), target.lanes(), target.name())) +
       SummaryRow("machine", MachineText(ThisMachine())) +
-      SummaryRow("strategy", ToText(job.scene.strategy)) +
       SummaryRow("peaks", PeaksText(report.peaks, target)) +
       SummaryRow("columns",
                  fmt::format("{:.0f} KiB of a wavefront's paths, which live in {}",

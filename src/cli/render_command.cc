@@ -63,15 +63,6 @@ int Render(const RenderCommandOptions& options, RankGroup& group) {
   return PrintRendering(rendering, job, options.outputs);
 }
 
-// Without a target both would say how much to render.
-void CheckAmountOptions(const RenderSettings& settings) {
-  if (!settings.spp || !settings.seconds || HasTarget(settings)) return;
-  throw CLI::ValidationError(
-      "--time",
-      "--time excludes --spp, except as limits of --target, --target-relmse or "
-      "--target-rmse");
-}
-
 }  // namespace
 
 void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen) {

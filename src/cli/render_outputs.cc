@@ -26,7 +26,8 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
                     job.seconds, DurationText(r.seconds)));
   }
   if (!job.target.Any() || Reached(job.target, report.error)) return kExitGood;
-  const std::string error = PercentText(report.error) + ", " + ErrorText(report.error);
+  std::string error = PercentText(report.error);
+  if (report.error.why != kNoLight) error += ", " + ErrorText(report.error);
   const std::string limit = r.stop_reason == StopReason::kInterrupted ? "interruption"
                             : r.stop_reason == StopReason::kTime      ? "--time"
                                                                       : "--spp";
@@ -50,6 +51,10 @@ void PrintUnsampled(const RenderReport& report, const Job& job,
       "warning: {} of {} pixels have no sample and are black: the render was stopped "
       "before, or paths there do not end (the maximum depth is {})",
       report.unsampled_pixels, job.window.pixels(), job.plan.options.max_depth));
+}
+
+void PrintBlack(const RenderReport& report) {
+  if (report.black) PrintError(fmt::format("warning: {}", kNoLight));
 }
 
 // The summary says it in its last line.
@@ -160,6 +165,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
     return kExitInvalidSamples;
   }
   PrintUnsampled(report, job, options);
+  PrintBlack(report);
   const CheckpointSettings& checkpoint = options.targets.checkpoint;
   if (!checkpoint.path.empty() && !rendering.state_kept) {
     PrintError("error: the last state could not be kept in '" + checkpoint.path + "'");

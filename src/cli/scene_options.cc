@@ -47,6 +47,15 @@ void AddSettings(CLI::App& command, SettingUse use, RenderSettings& settings) {
   }
 }
 
+void CheckAmountOptions(const RenderSettings& settings) {
+  // Without a target both would say how much to render.
+  if (!settings.spp || !settings.seconds || HasTarget(settings)) return;
+  throw CLI::ValidationError(
+      "--time",
+      "--time excludes --spp, except as limits of --target, --target-relmse or "
+      "--target-rmse");
+}
+
 void AddSceneOptions(CLI::App& command, SceneOptions& options) {
   command.add_option("SCENE", options.scene, "Scene file in the text format of pbrt-v4")
       ->required()

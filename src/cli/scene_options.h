@@ -23,6 +23,10 @@ void AddSettings(CLI::App& command, SettingUse use, RenderSettings& settings);
 /// The scene itself, and the settings of commands that read one.
 void AddSceneOptions(CLI::App& command, SceneOptions& options);
 
+/// Throws CLI::ValidationError if --time and --spp both say how much to render: that
+/// needs an error target, of which they are the limits.
+void CheckAmountOptions(const RenderSettings& settings);
+
 /// The flags that give these settings, each with a space before it.
 std::string FlagsText(const RenderSettings& settings);
 

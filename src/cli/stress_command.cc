@@ -15,6 +15,7 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/stress_exit.h"
 #include "src/cli/stress_table.h"
+#include "src/cli/validators.h"
 #include "src/cli/work_progress.h"
 #include "src/core/json_text.h"
 #include "src/render/saving.h"
@@ -124,14 +125,17 @@ void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
       .add_option("--part", options.part,
                   "Run every N-th of these cases only, from the I-th on")
       ->type_name("I/N");
-  std::vector<std::string> targets = AvailableTargets();
-  targets.push_back("all");
+  CLI::Validator target = ValueOf(TargetType(AvailableTargets()));
   command
       .add_option("--simd", options.targets,
                   WithDefault("SIMD targets (see `lanelight info`), or all that this "
                               "machine has",
                               "the best there is"))
-      ->check(CLI::IsMember(targets, CLI::ignore_case).description(""))
+      ->transform(CLI::Validator(
+          [target](std::string& text) {
+            return text == "all" ? std::string() : target(text);
+          },
+          ""))
       ->delimiter(',')
       ->type_name("NAME");
   options.settings.seed = options.suite.effort.seed;

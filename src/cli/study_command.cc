@@ -98,9 +98,11 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
       ->excludes(list);
   CLI::Option* spp =
       command
-          .add_option("--spp", s.spp,
-                      "Samples per pixel, e.g. 1,4,16,64; default: powers of two up to "
-                      "what the baseline renders in a second")
+          .add_option(
+              "--spp", s.spp,
+              "Samples per pixel, e.g. 1,4,16,64; default: powers of two up to "
+              "what the baseline renders in a second, and at least to 64 or to an "
+              "error of 10 %")
           ->delimiter(',')
           ->transform(ValueOf(CountType{1, kMaxSpp}))
           ->type_name("N,...");

@@ -88,6 +88,13 @@ std::string Twins(const SceneRuns& runs) {
   return text;
 }
 
+std::string Cautions(const SceneAnalysis& analysis) {
+  std::string text;
+  for (const std::string& caution : analysis.cautions)
+    text += Wrap("warning: " + caution);
+  return text;
+}
+
 }  // namespace
 
 std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
@@ -117,7 +124,8 @@ std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
              "\nto target: processor time to a relative MSE of {:.3g}; * "
              "extrapolated\n\n",
              analysis.target_relmse) +
-         Wrap(analysis.verdict) + (runs.differs.empty() ? "" : Wrap(runs.differs));
+         Wrap(analysis.verdict) + Cautions(analysis) +
+         (runs.differs.empty() ? "" : Wrap(runs.differs));
 }
 
 }  // namespace lanelight

@@ -54,8 +54,9 @@ std::string ImageRow(const RenderReport& report, const PixelRect& window) {
 }
 
 std::string ErrorRow(const ErrorEstimate& error) {
-  return SummaryRow("error", Painted(Ink::kBold, PercentText(error), Stream::kOutput) +
-                                 (error.available ? ", 95 % confidence" : ""));
+  return SummaryRow(
+      "error", Painted(Ink::kBold, PercentText(error), Stream::kOutput) +
+                   (error.available && error.why != kNoLight ? ", 95 % confidence" : ""));
 }
 
 std::string SpeedRows(const RunResult& r) {
@@ -144,12 +145,6 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
 }
 
 }  // namespace
-
-Strategy StrategyInForce(const RunResult& result, const Job& job) {
-  Strategy strategy = job.scene.strategy;
-  ApplyStrategy(result.training.changes, {}, strategy);
-  return strategy;
-}
 
 std::string StageTable(const RunResult& result) {
   double total = 0;

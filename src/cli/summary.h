@@ -33,7 +33,4 @@ std::string TransportText(const Job& job);
 /// One row per stage: calls, items, lane occupancy, thread seconds, share, ns per item.
 std::string StageTable(const RunResult& result);
 
-/// What rendered the image: the job's strategy as a pilot has changed it.
-Strategy StrategyInForce(const RunResult& result, const Job& job);
-
 }  // namespace lanelight

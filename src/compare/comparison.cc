@@ -84,21 +84,19 @@ ImageComparison Compare(const NamedImage& test, const NamedImage& reference,
 }
 
 std::string AgreementText(const Agreement& a) {
-  const std::string test = fmt::format(
-      "{} tests of equal means, which call images that differ by noise alone different "
-      "once in {:.0f} pairs",
-      a.tests - a.untested, 1 / a.level);
+  const std::string tests = fmt::format("{} tests of equal means, false-alarm rate {}",
+                                        a.tests - a.untested, Percent(a.level));
   switch (a.verdict) {
     case AgreementVerdict::kAgree:
       return fmt::format(
-          "agree: {}, find nothing{}", test,
+          "no significant difference ({}){}", tests,
           std::isfinite(a.detectable)
-              ? fmt::format("; a difference of the whole of {} would be found in half of "
-                            "the cases",
+              ? fmt::format("; smallest detectable difference of the whole image: {}",
                             Percent(a.detectable))
               : "");
     case AgreementVerdict::kDiffer:
-      return fmt::format("differ: {} ({}), by {}", WhatFailed(a), PText(a.p), test);
+      return fmt::format("significant difference in {} ({}; {})", WhatFailed(a),
+                         PText(a.p), tests);
     case AgreementVerdict::kCannotTell:
       break;
   }

@@ -122,6 +122,16 @@ std::string MachineText(const MachineInfo& machine) {
          (machine.load ? fmt::format("{:.2f}", *machine.load) : "unknown");
 }
 
+std::optional<double> CoresAtATime(const MachineInfo& machine) {
+  if (!machine.cores) return machine.quota;
+  return std::min(double(*machine.cores), machine.quota.value_or(double(*machine.cores)));
+}
+
+bool IsOverloaded(const MachineInfo& machine) {
+  const std::optional<double> cores = CoresAtATime(machine);
+  return machine.load && cores && *machine.load > *cores;
+}
+
 void AddMachine(const MachineInfo& machine, std::vector<MachineInfo>& machines) {
   const auto same = [text = TextWithoutLoad(machine)](const MachineInfo& other) {
     return TextWithoutLoad(other) == text;

@@ -32,6 +32,12 @@ const MachineInfo& ThisMachine();
 /// "AMD EPYC 9B14, 2 cores, 7.8 GiB, load 0.42".
 std::string MachineText(const MachineInfo& machine);
 
+/// Cores that the process may use at a time: all of them, or its quota if that is less.
+std::optional<double> CoresAtATime(const MachineInfo& machine);
+/// The load of the minute before the program began exceeds these cores, so that other
+/// programs take part of the time that it measures. False where either is unknown.
+bool IsOverloaded(const MachineInfo& machine);
+
 /// Adds it, unless there is one of which MachineText() says the same but for the load: of
 /// these two the higher load stays.
 void AddMachine(const MachineInfo& machine, std::vector<MachineInfo>& machines);

@@ -349,8 +349,7 @@ ErrorEstimate EstimateError(const PixelRect& window,
   ErrorEstimate out = FromSums(sums);
   // Samples that are all black are equal, and say nothing of a lamp that they missed.
   if (out.available && grid.IsBlack()) {
-    return Unseen(std::move(out),
-                  "no sample has met any light: is there any that the camera can see?");
+    return Unseen(std::move(out), kNoLight);
   }
   if (!out.available || out.has_interval) return out;
   const auto times = [](const Interval& v) { return v.high / v.value; };

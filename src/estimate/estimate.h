@@ -20,6 +20,10 @@ inline constexpr double kEstimateConfidence = 0.95;
 
 /// Where the samples cannot tell an upper end, it is infinite, and `low` is what the
 /// error is at least, with probability kEstimateConfidence.
+/// ErrorEstimate::why of an image whose samples are all black.
+inline constexpr const char* kNoLight =
+    "no light reached the image; does the scene have a light?";
+
 struct ErrorEstimate {
   bool available = false;     // at least one pixel has two independent observations
   bool has_interval = false;  // `rmse` and `relmse` both have an upper end

@@ -1,7 +1,11 @@
 #include "src/live/score.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "src/stat/confidence_sequence.h"
+#include "src/stat/distributions.h"
 
 namespace lanelight::live {
 namespace {
@@ -12,10 +16,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct LogError {
   double down = kInfinity, up = kInfinity;
 };
-LogError LogErrorOf(const Interval& error) {
+LogError LogErrorOf(const Interval& error, double stretch) {
   LogError out;
-  if (error.low > 0) out.down = std::log(error.value / error.low);
-  if (std::isfinite(error.high)) out.up = std::log(error.high / error.value);
+  if (error.low > 0) out.down = stretch * std::log(error.value / error.low);
+  if (std::isfinite(error.high)) out.up = stretch * std::log(error.high / error.value);
   return out;
 }
 
@@ -23,9 +27,22 @@ double CostOf(const Look& look, Pace pace) {
   return pace == Pace::kTime ? look.seconds : double(look.spp);
 }
 
+// At these looks, for an interval that holds at all of them.
+double StretchAt(const std::vector<Look>& a, const std::vector<Look>& b, std::size_t i,
+                 std::size_t j) {
+  const double more =
+      std::max(double(a[i].spp) / double(a[0].spp), double(b[j].spp) / double(b[0].spp));
+  return stat::TimeUniformQuantile(more * more, kEstimateConfidence) /
+         stat::NormalQuantile(0.5 + kEstimateConfidence / 2);
+}
+
+Ahead AheadBy(const Interval& ratio) {
+  return ratio.low > 1 ? Ahead::kB : ratio.high < 1 ? Ahead::kA : Ahead::kUnknown;
+}
+
 }  // namespace
 
-Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace) {
+Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace, double stretch) {
   Ratio ratio;
   const Interval &ea = a.error.relmse, &eb = b.error.relmse;
   if (!(ea.value > 0) || !(eb.value > 0) || !std::isfinite(ea.value) ||
@@ -35,7 +52,7 @@ Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace) {
   }
   ratio.available = true;
   const double value = ea.value * CostOf(a, pace) / (eb.value * CostOf(b, pace));
-  const LogError la = LogErrorOf(ea), lb = LogErrorOf(eb);
+  const LogError la = LogErrorOf(ea, stretch), lb = LogErrorOf(eb, stretch);
   ratio.interval = {value, value * std::exp(-std::hypot(la.down, lb.up)),
                     value * std::exp(std::hypot(la.up, lb.down))};
   if (!std::isfinite(ea.high)) ratio.why = "of A: " + a.error.why;
@@ -45,13 +62,29 @@ Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace) {
   return ratio;
 }
 
-Ratio EfficiencyOf(const Contender& a, const Contender& b, Pace pace) {
-  if (a.looks().empty() || b.looks().empty()) {
-    Ratio ratio;
-    ratio.why = "errors are estimated from 8 samples per pixel on";
-    return ratio;
+Ratio EfficiencyOf(const std::vector<Look>& a, const std::vector<Look>& b, Pace pace) {
+  Ratio last;
+  if (a.empty() || b.empty()) {
+    last.why = "errors are estimated from 8 samples per pixel on";
+    return last;
   }
-  return EfficiencyOf(a.looks().back(), b.looks().back(), pace);
+  Ahead ahead = Ahead::kUnknown;
+  std::uint64_t since = 0;
+  for (std::size_t k = 0; k < std::max(a.size(), b.size()); ++k) {
+    const std::size_t i = std::min(k, a.size() - 1), j = std::min(k, b.size() - 1);
+    last = EfficiencyOf(a[i], b[j], pace, StretchAt(a, b, i, j));
+    const Ahead now = last.available ? AheadBy(last.interval) : Ahead::kUnknown;
+    if (now == Ahead::kUnknown || now == ahead) continue;
+    ahead = now;
+    since = a[i].spp;
+  }
+  last.ahead = ahead;
+  last.since = since;
+  return last;
+}
+
+Ratio EfficiencyOf(const Contender& a, const Contender& b, Pace pace) {
+  return EfficiencyOf(a.looks(), b.looks(), pace);
 }
 
 }  // namespace lanelight::live

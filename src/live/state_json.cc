@@ -85,6 +85,10 @@ json RatioJson(const StateOfPage& state) {
   out["value"] = ratio.interval.value;
   out["low"] = ratio.interval.low;
   out["high"] = ratio.interval.high;
+  if (ratio.ahead != Ahead::kUnknown) {
+    out["ahead"] = ratio.ahead == Ahead::kB ? "B" : "A";
+    out["since"] = ratio.since;
+  }
   return out;
 }
 

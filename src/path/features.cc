@@ -20,4 +20,16 @@ const char* FeatureMeaning(Feature f) {
   return kMeanings[static_cast<int>(f)];
 }
 
+std::string WithoutFeature(Feature f) {
+  std::string meaning = FeatureMeaning(f);
+  // Choices of a strategy are named as on the command line.
+  if (meaning.substr(0, meaning.find(' ')).find('=') != meaning.npos) {
+    return "not " + meaning;
+  }
+  for (const std::string article : {"a ", "an "}) {
+    if (meaning.starts_with(article)) meaning.erase(0, article.size());
+  }
+  return "no " + meaning;
+}
+
 }  // namespace lanelight

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
+#include <string>
 
 #include "src/path/shade_kinds.h"
 #include "src/strategy/choices.h"
@@ -12,94 +13,94 @@
 namespace lanelight {
 
 // Features of scenes and options. X(bit name, what it means when set)
-#define LANELIGHT_COMMON_FEATURES(X)                                          \
-  X(kTriangles, "triangle meshes")                                            \
-  X(kSpheres, "spheres")                                                      \
-  X(kDisks, "disks")                                                          \
-  X(kPlanes, "infinite planes")                                               \
-  X(kLargeSpheres, "spheres much larger than the camera's distance to them")  \
-  X(kCurves, "curves")                                                        \
-  X(kInstances, "object instances")                                           \
-  X(kMotion, "something that moves while the shutter is open")                \
-  X(kMovingInstances, "object instances that move")                           \
-  X(kMovingCamera, "a camera that moves")                                     \
-  X(kVertexNormals, "interpolated vertex normals")                            \
-  X(kUv, "surface coordinates (a texture is looked up)")                      \
-  X(kTangents, "tangent frames (an anisotropic material)")                    \
-  X(kTextures, "textured material parameters")                                \
-  X(kTexturedRoughness, "textured roughness")                                 \
-  X(kTexturedColor1, "a textured second colour parameter")                    \
-  X(kTexturedCoat, "textured layers of a coat")                               \
-  X(kTexturedCoatMedium, "a textured medium in a coat")                       \
-  X(kTexturePlaces, "textures that depend on where a point is")               \
-  X(kTextureFootprints, "textures filtered over the footprint of a pixel")    \
-  X(kBumps, "displacement textures, shaded as bumps")                         \
-  X(kNormalMaps, "normal maps")                                               \
-  X(kSpectral, "paths that carry wavelengths (transport=spectral)")           \
-  X(kPlainSpectra, "colours by wavelength, none of them textured")            \
-  X(kSpectralColor1, "a second colour parameter by wavelength")               \
-  X(kDispersion, "glass whose index depends on the wavelength")               \
-  X(kForcedDiffuse, "surfaces that scatter evenly, whatever their material")  \
-  X(kAlpha, "alpha cut-outs")                                                 \
-  X(kMix, "mix materials")                                                    \
-  X(kRefraction, "a refracting interface (roulette must know eta)")           \
-  X(kOtherEvents, "events beside surfaces, such as points in a medium")       \
-  X(kMedia, "participating media")                                            \
-  X(kMediumGrids, "media whose density varies")                               \
-  X(kMediumEmission, "media that emit light")                                 \
-  X(kMediumChanges, "surfaces that have media beside them")                   \
-  X(kInterfaces, "surfaces that only bound a medium")                         \
-  X(kSubsurface, "insides of materials, in which events are not counted")     \
-  X(kSubsurfaceTextures, "insides of materials whose albedo is textured")     \
-  X(kOpaqueShadows, "shadow rays that any surface stops")                     \
-  X(kLights, "light that is sampled")                                         \
-  X(kManyLights, "more than one light")                                       \
-  X(kTriangleLights, "emitting triangles")                                    \
-  X(kRectangleLights, "emitting rectangles (two triangles each)")             \
-  X(kSphereLights, "emitting spheres")                                        \
-  X(kDiskLights, "emitting disks")                                            \
-  X(kPointLights, "point lights")                                             \
-  X(kSpotLights, "spot lights")                                               \
-  X(kDistantLights, "distant lights")                                         \
-  X(kImageLights, "point lights with an image of their directions")           \
-  X(kEmissionImages, "emitting shapes with an image")                         \
-  X(kEmissionCuts, "emitting shapes that alpha cuts")                         \
-  X(kUnseenLights, "emitting shapes that rays pass through")                  \
-  X(kPortals, "an environment seen through a portal")                         \
-  X(kInfiniteConstant, "constant environment")                                \
-  X(kInfiniteImage, "environment image")                                      \
-  X(kAreaLights, "emitting shapes")                                           \
-  X(kInfiniteLights, "an environment")                                        \
-  X(kMis, "a light that BSDF sampling can hit: multiple importance sampling") \
-  X(kScatters, "paths of more than zero bounces (maximum depth > 0)")         \
-  X(kPerspective, "a perspective camera")                                     \
-  X(kOrthographic, "an orthographic camera")                                  \
-  X(kSphericalCamera, "a spherical camera")                                   \
-  X(kRealisticCamera, "a camera with a lens system")                          \
-  X(kLens, "a thin lens")                                                     \
-  X(kFiltered, "a pixel filter other than the box")                           \
-  X(kSignedFilter, "a pixel filter with negative lobes")                      \
-  X(kAov, "auxiliary output (--aov)")                                         \
-  X(kGbuffer, "auxiliary output of where first hits are (--gbuffer)")         \
-  X(kSpectralFilm, "a film that keeps spectra (Film \"spectral\")")           \
-  X(kSampledHittableLights, "light samples of shapes and environments")       \
-  X(kLightTable, "light-selection=power or uniform")                          \
-  X(kLightTree, "light-selection=tree")                                       \
-  X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")        \
-  X(kSplitting, "paths that split (roulette=adjoint, efficiency)")            \
-  X(kPathValues, "values of paths, from a training pass")                     \
-  X(kRecordsPaths, "a training pass that records what paths find")            \
-  X(kSolidAngleLights, "light-points=solid-angle")                            \
-  X(kProjectedLights, "light-points=projected")                               \
-  X(kProjectedHits, "light-points=projected, and hits weighed against it")    \
-  X(kLightCandidates, "several candidates for each light sample")             \
-  X(kGuided, "a guide that proposes directions, from training passes")        \
-  X(kReuse, "paths that serve the pixels of their block (reuse=block)")       \
-  X(kReuseGlossy, "glossy surfaces that serve the pixels of a block")         \
-  X(kDecides, "a strategy chosen by a pilot")                                 \
-  X(kRecordsGuide, "a training pass that records what a guide learns from")   \
-  X(kRecordsUnsplit, "a training pass: what paths would bring unsplit")       \
-  X(kControl, "a control variate (samples may be negative)")                  \
+#define LANELIGHT_COMMON_FEATURES(X)                                         \
+  X(kTriangles, "triangle meshes")                                           \
+  X(kSpheres, "spheres")                                                     \
+  X(kDisks, "disks")                                                         \
+  X(kPlanes, "infinite planes")                                              \
+  X(kLargeSpheres, "spheres much larger than the camera's distance to them") \
+  X(kCurves, "curves")                                                       \
+  X(kInstances, "object instances")                                          \
+  X(kMotion, "shapes that move while the shutter is open")                   \
+  X(kMovingInstances, "object instances that move")                          \
+  X(kMovingCamera, "a camera that moves")                                    \
+  X(kVertexNormals, "interpolated vertex normals")                           \
+  X(kUv, "textures that need surface coordinates")                           \
+  X(kTangents, "anisotropic materials, which need tangents")                 \
+  X(kTextures, "textured material parameters")                               \
+  X(kTexturedRoughness, "textured roughness")                                \
+  X(kTexturedColor1, "a textured second colour parameter")                   \
+  X(kTexturedCoat, "textured layers of a coat")                              \
+  X(kTexturedCoatMedium, "a textured medium in a coat")                      \
+  X(kTexturePlaces, "textures that depend on where a point is")              \
+  X(kTextureFootprints, "textures filtered over the footprint of a pixel")   \
+  X(kBumps, "displacement textures, shaded as bumps")                        \
+  X(kNormalMaps, "normal maps")                                              \
+  X(kSpectral, "paths that carry wavelengths (transport=spectral)")          \
+  X(kPlainSpectra, "colours by wavelength, none of them textured")           \
+  X(kSpectralColor1, "a second colour parameter by wavelength")              \
+  X(kDispersion, "glass whose index depends on the wavelength")              \
+  X(kForcedDiffuse, "surfaces that scatter evenly, whatever their material") \
+  X(kAlpha, "alpha cut-outs")                                                \
+  X(kMix, "mix materials")                                                   \
+  X(kRefraction, "a refracting interface, whose eta roulette must know")     \
+  X(kOtherEvents, "events beside surfaces, such as points in a medium")      \
+  X(kMedia, "participating media")                                           \
+  X(kMediumGrids, "media whose density varies")                              \
+  X(kMediumEmission, "media that emit light")                                \
+  X(kMediumChanges, "surfaces that have media beside them")                  \
+  X(kInterfaces, "surfaces that only bound a medium")                        \
+  X(kSubsurface, "insides of materials, in which events are not counted")    \
+  X(kSubsurfaceTextures, "insides of materials whose albedo is textured")    \
+  X(kOpaqueShadows, "shadow rays that any surface stops")                    \
+  X(kLights, "light that is sampled")                                        \
+  X(kManyLights, "more than one light")                                      \
+  X(kTriangleLights, "emitting triangles")                                   \
+  X(kRectangleLights, "emitting rectangles (two triangles each)")            \
+  X(kSphereLights, "emitting spheres")                                       \
+  X(kDiskLights, "emitting disks")                                           \
+  X(kPointLights, "point lights")                                            \
+  X(kSpotLights, "spot lights")                                              \
+  X(kDistantLights, "distant lights")                                        \
+  X(kImageLights, "point lights with an image of their directions")          \
+  X(kEmissionImages, "emitting shapes with an image")                        \
+  X(kEmissionCuts, "emitting shapes that alpha cuts")                        \
+  X(kUnseenLights, "emitting shapes that rays pass through")                 \
+  X(kPortals, "an environment seen through a portal")                        \
+  X(kInfiniteConstant, "constant environment")                               \
+  X(kInfiniteImage, "environment image")                                     \
+  X(kAreaLights, "emitting shapes")                                          \
+  X(kInfiniteLights, "an environment")                                       \
+  X(kMis, "light that BSDF sampling can hit (multiple importance sampling)") \
+  X(kScatters, "paths of more than zero bounces (maximum depth > 0)")        \
+  X(kPerspective, "a perspective camera")                                    \
+  X(kOrthographic, "an orthographic camera")                                 \
+  X(kSphericalCamera, "a spherical camera")                                  \
+  X(kRealisticCamera, "a camera with a lens system")                         \
+  X(kLens, "a thin lens")                                                    \
+  X(kFiltered, "a pixel filter other than the box")                          \
+  X(kSignedFilter, "a pixel filter with negative lobes")                     \
+  X(kAov, "auxiliary output (--aov)")                                        \
+  X(kGbuffer, "auxiliary output of where first hits are (--gbuffer)")        \
+  X(kSpectralFilm, "a film that keeps spectra (Film \"spectral\")")          \
+  X(kSampledHittableLights, "light samples of shapes and environments")      \
+  X(kLightTable, "light-selection=power or uniform")                         \
+  X(kLightTree, "light-selection=tree")                                      \
+  X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")       \
+  X(kSplitting, "paths that split (roulette=adjoint, efficiency)")           \
+  X(kPathValues, "values of paths, from a training pass")                    \
+  X(kRecordsPaths, "a training pass that records what paths find")           \
+  X(kSolidAngleLights, "light-points=solid-angle")                           \
+  X(kProjectedLights, "light-points=projected")                              \
+  X(kProjectedHits, "light-points=projected, and hits weighed against it")   \
+  X(kLightCandidates, "further candidates for each light sample")            \
+  X(kGuided, "a guide that proposes directions, from training passes")       \
+  X(kReuse, "paths that serve the pixels of their block (reuse=block)")      \
+  X(kReuseGlossy, "glossy surfaces that serve the pixels of a block")        \
+  X(kDecides, "a strategy chosen by a pilot")                                \
+  X(kRecordsGuide, "a training pass that records what a guide learns from")  \
+  X(kRecordsUnsplit, "a training pass that records what single paths bring") \
+  X(kControl, "a control variate (samples may be negative)")                 \
   X(kControlDifference, "a control variate with an estimated coefficient")
 
 // Choices of strategies that have a stage or kernel of their own, and kinds of materials.
@@ -204,5 +205,7 @@ constexpr FeatureSet KindsWith(ShadeTraits trait) {
 const char* FeatureName(Feature f);
 /// One-line meaning from the list above.
 const char* FeatureMeaning(Feature f);
+/// What a scene without it lacks, after that meaning: "no thin lens", "not points=sobol".
+std::string WithoutFeature(Feature f);
 
 }  // namespace lanelight

@@ -26,8 +26,7 @@ std::vector<Stage> RegisteredStages(SimdTarget target) {
 std::string ReasonToOmit(const Stage& stage, const FeatureSet& features) {
   for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
     const Feature f = static_cast<Feature>(i);
-    if (stage.needs.Has(f) && !features.Has(f))
-      return std::string("no ") + FeatureMeaning(f);
+    if (stage.needs.Has(f) && !features.Has(f)) return WithoutFeature(f);
   }
   return "";
 }

@@ -80,6 +80,7 @@ Json ToJson(const ProfileReport& report, const Job& job, const RunResult& result
       {"spp", job.spp},
       {"seed", job.seed},
       {"strategy", ToText(job.scene.strategy)},
+      {"strategy_in_force", ToText(StrategyInForce(result, job))},
       {"scene_hash", fmt::format("{:016x}", job.loaded->scene_hash)},
       {"stopped_early", result.stopped_early},
       {"seconds",

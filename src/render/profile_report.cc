@@ -43,7 +43,7 @@ void AddRows(const RunResult& result, ProfileReport& report) {
   add(RowKind::kPart, result.parts);
   if (result.training.cpu_seconds > 0) {
     report.rows.push_back(
-        MakeRow(RowKind::kPilot, "pilot passes", result.training.cpu_seconds));
+        MakeRow(RowKind::kPilot, kPilotRowName, result.training.cpu_seconds));
   }
   const double rest = std::max(0.0, result.cpu_seconds - timed);
   report.rows.push_back(MakeRow(RowKind::kOutside, "outside stages", rest));

@@ -27,6 +27,8 @@ enum class Bound {
 const char* Name(Bound bound);
 
 enum class RowKind { kStage, kPart, kPilot, kOutside };
+/// Name of the row of kPilot.
+inline constexpr const char* kPilotRowName = "pilot passes";
 /// "stage", "task", "pilot", "outside".
 const char* Name(RowKind kind);
 

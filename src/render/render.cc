@@ -42,6 +42,16 @@ std::uint64_t CountUnsampled(const FilmAccumulator& film) {
   return count;
 }
 
+// Every sample is black; false without samples.
+bool IsBlack(const FilmAccumulator& film) {
+  bool black = true, sampled = false;
+  ForEachPixel(film, [&](int x, int y) {
+    sampled |= film.Samples(x, y) > 0;
+    black &= film.Mean(x, y) == Rgb{};
+  });
+  return black && sampled;
+}
+
 // All ranks are to render the same, bit by bit.
 void AgreeOnJob(const Job& job, RankGroup& group) {
   const std::string own = DumpJson(IdentityOf(job));
@@ -148,6 +158,7 @@ void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
                     const RenderTargets& targets, const Json& members, Rendering& out) {
   out.report.error = EstimateError(film);
   out.report.unsampled_pixels = CountUnsampled(film);
+  out.report.black = IsBlack(film);
   Saver saver;
   SaveImages(film, facts, targets, saver, out.report);
   if (!targets.json.empty()) {

@@ -71,6 +71,12 @@ Json TreesJson(const TreeReport& trees) {
 
 }  // namespace
 
+Strategy StrategyInForce(const RunResult& result, const Job& job) {
+  Strategy strategy = job.scene.strategy;
+  ApplyStrategy(result.training.changes, {}, strategy);
+  return strategy;
+}
+
 std::string PointsText(const Job& job) {
   return PointsText(job.scene.strategy, job.OpenEnded() ? 0 : job.spp);
 }

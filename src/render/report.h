@@ -20,6 +20,7 @@ struct RenderReport {
   RunResult result;
   ErrorEstimate error;
   std::uint64_t unsampled_pixels = 0;  // of the film: without a sample, black
+  bool black = false;                  // all samples are black
   double load_seconds = 0, build_seconds = 0, write_seconds = 0;
   TreeReport trees;
   bool half = false;
@@ -31,6 +32,10 @@ nlohmann::json ToJson(const ErrorEstimate& error);
 nlohmann::json HeadJson(const Job& job, const std::string& scene, bool half);
 /// All of it; `head` is of HeadJson.
 nlohmann::json ToJson(const RenderReport& report, const nlohmann::json& head);
+
+/// Returns the strategy that rendered the image: the job's, with the changes that its
+/// trial run has made.
+Strategy StrategyInForce(const RunResult& result, const Job& job);
 
 /// How the sample points are randomised.
 std::string PointsText(const Job& job);

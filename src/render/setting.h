@@ -130,6 +130,7 @@ NamesType<Scattering> ScatteringNames();
 struct TargetType : NamesType<std::string> {
   explicit TargetType(const std::vector<std::string>& targets);
   std::optional<std::string> Read(const std::string& text) const;
+  std::string Right(const std::string& text) const;
 };
 
 }  // namespace lanelight

@@ -135,8 +135,8 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
     "sum_j f_i(x_j) V L_j / sum_k p_k(x_j) V", "Bekaert, Sbert and Halton 2002")
 
 #define LANELIGHT_DECISIONS(X)                                                            \
-  X(None, PLAIN, ({}), "none", "", "the strategy is as its other keys say (default)", "one strategy", "")       \
-  X(Pilot, PLAIN, ({kDecides}), "pilot", "", "roulette is chosen by a pilot, where a change of it pays; else it is as its key says", \
+  X(None, PLAIN, ({}), "none", "", "the strategy is as its other keys say (default where a strategy is named, and of short renders)", "one strategy", "")       \
+  X(Pilot, PLAIN, ({kDecides}), "pilot", "", "a short trial run before the image chooses roulette and reuse, where a change of them is clearly more efficient (default of `render`, `plan` and `profile` from 4 s or 8 million samples on, where no strategy is named)", \
     "argmin over strategies of variance times cost", "")
 // clang-format on
 

@@ -47,6 +47,7 @@ class SceneAnalyser {
     Calibrate(options_.confidence, out_);
     FindTargets();
     out_.verdict = Verdict(runs_, out_);
+    out_.cautions = Cautions(runs_, options_, out_);
     return std::move(out_);
   }
 

@@ -120,6 +120,7 @@ struct SceneAnalysis {
   std::vector<std::size_t> suspect_tiles;  // TileTest::shared of any strategy
   double bias_level = 0;
   std::string verdict;
+  std::vector<std::string> cautions;  // Cautions()
   std::vector<MachineInfo> machines;  // that rendered the cells
   std::string reference_image;        // name
   std::vector<std::string> diffuse_images;
@@ -162,6 +163,11 @@ void Calibrate(double confidence, SceneAnalysis& analysis);
 /// Sentences about that; may be empty.
 std::string CalibrationText(const SceneRuns& runs, const SceneAnalysis& analysis);
 std::string Verdict(const SceneRuns& runs, const SceneAnalysis& analysis);
+/// Why the ranking may be another than that of long renders on a quiet machine, one
+/// sentence each: its sample count is small, ranks change between sample counts, or the
+/// load of the machine exceeds its cores.
+std::vector<std::string> Cautions(const SceneRuns& runs, const StudyOptions& options,
+                                  const SceneAnalysis& analysis);
 /// The verdict's sentences about bias; may be empty.
 std::string BiasText(const SceneRuns& runs, const SceneAnalysis& analysis);
 /// Puts a sentence, which may be empty, behind what there is.

@@ -13,6 +13,11 @@ namespace lanelight {
 inline constexpr double kDefaultStudySeconds =
     1;  // of the largest render of the baseline
 
+/// Below so many samples per pixel a ranking may be another than after many, unless the
+/// relative error (the root of the relative MSE) is small already.
+inline constexpr std::uint64_t kLeastLargest = 64;
+inline constexpr double kSmallError = 0.1;
+
 struct StudyOptions {
   std::vector<std::string> scenes;
   RenderSettings settings;              // what `render` takes too; no spp, no seconds

@@ -43,8 +43,9 @@ void SceneRunner::Run() {
   CheckStrategies();
   Settle();
   if (!Stopped()) RunCells();
-  if (!Stopped()) RunDiffuseModels();
+  if (!Stopped() && options_.paper) RunDiffuseModels();
   scene_.interrupted = Stopped();
+  if (!Stopped()) Report("finished");
 }
 
 // By one process; the others wait, and take over what it has found.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/estimate/estimate.h"
 #include "src/stat/interval.h"
 
 namespace lanelight {
@@ -50,6 +51,7 @@ class Pilots {
     std::uint64_t spp = 1;
     // Of the processor; `few`: of a quarter of the samples.
     std::vector<double> seconds, few;
+    double for_small_error = std::numeric_limits<double>::infinity();
     std::uint64_t FewSpp() const { return std::max<std::uint64_t>(spp / 4, 1); }
   };
   struct Seconds {
@@ -58,11 +60,20 @@ class Pilots {
 
   bool Stopped() const { return stop_ != nullptr && *stop_; }
 
-  Seconds Render(const Strategy& strategy, std::uint64_t spp) {
-    const Job job = WithRender(job_, strategy, spp, job_.seed);
-    const RunResult result = RunJob(job, {}, stop_).result;
+  JobRun Render(const Strategy& strategy, std::uint64_t spp) {
+    return RunJob(WithRender(job_, strategy, spp, job_.seed), {}, stop_);
+  }
+
+  static Seconds SecondsOf(const RunResult& result) {
     return {std::max(result.seconds, kLeastSeconds),
             std::max(result.cpu_seconds, kLeastSeconds)};
+  }
+
+  // Squared errors fall as 1 / samples.
+  static double ForSmallError(const FilmAccumulator& film, std::uint64_t spp) {
+    const ErrorEstimate error = EstimateError(film);
+    if (!error.available) return std::numeric_limits<double>::infinity();
+    return double(spp) * error.relmse.value / (kSmallError * kSmallError);
   }
 
   // Renders of doubling size until one is as long as a pilot: its samples. What they
@@ -72,7 +83,8 @@ class Pilots {
     std::uint64_t spp = 1;
     Render(strategy, spp);
     // A half, or the next would be too long.
-    while (Render(strategy, spp).wall < wanted / 2 && spp < kMostSpp && !Stopped()) {
+    while (SecondsOf(Render(strategy, spp).result).wall < wanted / 2 && spp < kMostSpp &&
+           !Stopped()) {
       spp *= 2;
     }
     return spp;
@@ -80,8 +92,10 @@ class Pilots {
 
   void Measure(std::size_t i) {
     Pilot& pilot = pilots_[i];
-    pilot.few.push_back(Render(strategies_[i], pilot.FewSpp()).cpu);
-    const Seconds taken = Render(strategies_[i], pilot.spp);
+    pilot.few.push_back(SecondsOf(Render(strategies_[i], pilot.FewSpp()).result).cpu);
+    const JobRun run = Render(strategies_[i], pilot.spp);
+    const Seconds taken = SecondsOf(run.result);
+    pilot.for_small_error = ForSmallError(run.film, pilot.spp);
     pilot.seconds.push_back(taken.cpu);
     wall_per_cpu_.push_back(taken.wall / taken.cpu);
   }
@@ -96,7 +110,7 @@ class Pilots {
         SamplesOfBudget(seconds_ / stat::Median(wall_per_cpu_),
                         {double(pilot.spp), stat::Median(pilot.seconds)},
                         {double(pilot.FewSpp()), stat::Median(pilot.few)});
-    return {std::clamp(samples, 1.0, double(kMostSpp)), spread};
+    return {std::clamp(samples, 1.0, double(kMostSpp)), spread, pilot.for_small_error};
   }
 
   const Job& job_;
@@ -123,6 +137,12 @@ std::vector<Calibration> Calibrate(const Job& job,
   return Pilots(job, strategies, seconds, stop).Run();
 }
 
+std::uint64_t DefaultLargest(const Calibration& baseline) {
+  const double enough = std::clamp(baseline.for_small_error, 1.0, double(kLeastLargest));
+  return std::max(std::bit_floor(static_cast<std::uint64_t>(baseline.samples)),
+                  std::bit_ceil(static_cast<std::uint64_t>(std::ceil(enough))));
+}
+
 std::vector<std::uint64_t> CountsUpTo(std::uint64_t largest) {
   std::vector<std::uint64_t> counts;
   for (std::uint64_t n = 1; n < largest; n *= 2) counts.push_back(n);
@@ -147,8 +167,8 @@ void ChooseCounts(const StudyOptions& options, const Job& job,
       Calibrate(job, calibrated, options.budget.value_or(kDefaultStudySeconds), stop);
   for (std::size_t i = 0; i < runs.size() && !found.empty(); ++i) {
     const Calibration& c = found[each ? i : 0];
-    const auto most = static_cast<std::uint64_t>(c.samples);
-    runs[i]->counts = CountsUpTo(each ? most : std::bit_floor(most));
+    runs[i]->counts =
+        CountsUpTo(each ? static_cast<std::uint64_t>(c.samples) : DefaultLargest(c));
     runs[i]->count_spread = each ? c.spread : 0;
   }
 }

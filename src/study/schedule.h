@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "src/study/runs.h"
@@ -14,6 +15,9 @@ struct Calibration {
   double samples = 1;  // per pixel in the budget, at least 1
   /// Standard error of log(samples), by the scatter of the pilots.
   double spread = 0;
+  /// Samples per pixel for a relative error of kSmallError, by the pilots' own estimates;
+  /// infinite where they state none.
+  double for_small_error = std::numeric_limits<double>::infinity();
 };
 
 struct PilotTime {
@@ -38,6 +42,12 @@ std::vector<Calibration> Calibrate(const Job& job,
                                    double seconds, const std::atomic<bool>* stop);
 inline constexpr int kPilotRounds = 5;
 inline constexpr double kShortestPilot = 0.02, kLongestPilot = 1;
+
+/// The largest sample count of a study that is asked for neither counts nor a budget:
+/// what kDefaultStudySeconds are enough for, but at least kLeastLargest, or as many as
+/// bring the baseline's error to kSmallError. Strategies rank otherwise after a few
+/// samples than after many. A power of two.
+std::uint64_t DefaultLargest(const Calibration& baseline);
 
 /// Powers of two below `largest`, and `largest` rounded down to seven binary digits.
 std::vector<std::uint64_t> CountsUpTo(std::uint64_t largest);

@@ -201,6 +201,7 @@ Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
                  {"suspect_tiles", analysis.suspect_tiles},
                  {"level", analysis.bias_level}};
   out["verdict"] = analysis.verdict;
+  out["cautions"] = analysis.cautions;
   out["machines"] = ToJson(analysis.machines);
   out["diffuse"] = DiffuseJson(runs, analysis);
   out["interrupted"] = runs.interrupted;

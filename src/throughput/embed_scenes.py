@@ -3,13 +3,14 @@ import pathlib
 import re
 import sys
 
-# Name, and what it stresses.
+# Name, samples per pixel of a render (about half a second on one thread), and what the scene
+# stresses.
 SCENES = [
-    ("cornell-box", "few triangles, diffuse: queues, shading, light samples"),
-    ("glass", "smooth and rough glass: long paths that part, textures"),
-    ("instances", "trees in trees: closest hits that share little"),
-    ("many-lights", "hundreds of lamps: choosing lights, shadow rays"),
-    ("media", "fog: distances, phase functions, rays through boundaries"),
+    ("cornell-box", 16, "few triangles, diffuse: queues, shading, light samples"),
+    ("glass", 32, "smooth and rough glass: long paths that part, textures"),
+    ("instances", 16, "trees in trees: closest hits that share little"),
+    ("many-lights", 8, "hundreds of lamps: choosing lights, shadow rays"),
+    ("media", 16, "fog: distances, phase functions, rays through boundaries"),
 ]
 # Longer literals than this are not portable.
 MOST = 15000
@@ -34,8 +35,8 @@ def literal(text):
 
 def main():
     folder, out = map(pathlib.Path, sys.argv[1:])
-    rows = ",\n".join(f'{{"{name}", "{stresses}",\n{literal(whole(folder / f"{name}.pbrt"))}}}'
-                      for name, stresses in SCENES)
+    rows = ",\n".join(f'{{"{name}", {spp}, "{stresses}",\n{literal(whole(folder / f"{name}.pbrt"))}}}'
+                      for name, spp, stresses in SCENES)
     out.write_text("// Written by src/throughput/embed_scenes.py.\n"
                    '#include "src/throughput/bench_scenes.h"\n\nnamespace lanelight {\n\n'
                    "const std::vector<BenchScene>& BenchScenes() {\n"

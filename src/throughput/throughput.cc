@@ -1,9 +1,9 @@
 #include "src/throughput/throughput.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "kernels/simd/target.h"
@@ -16,8 +16,6 @@
 namespace lanelight {
 namespace {
 
-// Samples of a pixel in the first render, which tells how many fill kRunSeconds.
-constexpr std::uint64_t kFirstSpp = 4;
 // Rounding, and paths that went another way for it, between targets.
 constexpr double kSameImage = 5e-3;
 
@@ -46,6 +44,7 @@ class SceneBench {
   SceneBench(const ThroughputOptions& options, const std::string& scene)
       : options_(options), scene_(scene) {
     RenderSettings settings = options.settings;
+    if (!settings.spp) settings.spp = BenchSpp(scene);
     for (const std::string& target : options.targets) {
       settings.target = target;
       jobs_.push_back(PrepareJob(ReadBenchScene(scene), settings));
@@ -55,27 +54,25 @@ class SceneBench {
     }
   }
 
-  /// Warms caches, checks images, and chooses the number of samples.
+  /// Warms caches and checks images.
   void Begin(const std::atomic<bool>& stop) {
-    if (!options_.settings.spp) SetSpp(kFirstSpp);
-    double first = 0, fastest = std::numeric_limits<double>::infinity();
+    double first = 0;
     for (std::size_t i = 0; i < rows_.size() && !stop; ++i) {
       const double mean = Render(JobOf(i), rows_[i], stop);
       if (stop) return;
       if (i == 0) first = mean;
       LL_CHECK(std::abs(mean - first) <= kSameImage * std::abs(first) + 1e-9);
-      fastest = std::min(fastest, rows_[i].counts.seconds);
     }
-    if (options_.settings.spp) return;
-    const double wanted = double(kFirstSpp) * kRunSeconds / std::max(fastest, 1e-6);
-    SetSpp(std::bit_ceil(static_cast<std::uint64_t>(std::clamp(wanted, 1.0, 65536.0))));
   }
 
   void Repeat(const std::atomic<bool>& stop) {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       Render(JobOf(i), rows_[i], stop);
       if (stop) return;
-      rows_[i].seconds.push_back(rows_[i].counts.seconds);
+      ThroughputRow& row = rows_[i];
+      row.seconds.push_back(row.counts.seconds);
+      row.cpu_seconds.push_back(row.counts.cpu_seconds);
+      row.waiting_seconds += std::max(0.0, row.counts.waiting_seconds);
     }
   }
 
@@ -100,9 +97,6 @@ class SceneBench {
     row.bytes_per_path = job.plan.bytes_per_path;
     row.wavefront = job.plan.wavefront;
     return row;
-  }
-  void SetSpp(std::uint64_t spp) {
-    for (ThroughputRow& row : rows_) row.spp = spp;
   }
 
   const ThroughputOptions& options_;
@@ -136,16 +130,28 @@ std::string GroupOf(const std::string& stage) {
   return "other";
 }
 
+// Samples over seconds of either kind.
+Interval RateIn(const ThroughputRow& row, const Interval& seconds) {
+  const double samples = double(row.counts.samples);
+  return {samples / seconds.value, samples / seconds.high, samples / seconds.low};
+}
+
 }  // namespace
 
 Interval ThroughputRow::Seconds() const {
   return stat::MedianInterval(seconds, kBenchConfidence);
 }
 
-Interval ThroughputRow::Rate() const {
-  const Interval s = Seconds();
-  const double samples = double(counts.samples);
-  return {samples / s.value, samples / s.high, samples / s.low};
+Interval ThroughputRow::Rate() const { return RateIn(*this, Seconds()); }
+
+Interval ThroughputRow::CpuRate() const {
+  return RateIn(*this, stat::MedianInterval(cpu_seconds, kBenchConfidence));
+}
+
+double ThroughputRow::Waiting() const {
+  const double cpu = std::accumulate(cpu_seconds.begin(), cpu_seconds.end(), 0.0);
+  const double all = cpu + waiting_seconds;
+  return all > 0 ? waiting_seconds / all : 0;
 }
 
 double ThroughputRow::Spread() const {

@@ -21,28 +21,32 @@ inline constexpr int kLeastRepeats = 6;
 
 struct ThroughputOptions {
   std::vector<std::string> scenes;   // files, or names of BenchScenes()
-  RenderSettings settings;           // without spp: chosen for runs of kRunSeconds
+  RenderSettings settings;           // without spp: BenchSpp()
   std::vector<int> threads;          // one row each
   std::vector<std::string> targets;  // likewise
   double within = 0.01;  // half the interval over the median, at which it ends
   double seconds = 10;   // at most, for each row
 };
-inline constexpr double kRunSeconds = 0.2;
 
 /// One scene, on one SIMD target, with one number of threads.
 struct ThroughputRow {
   std::string scene, target, strategy;
   int threads = 0, width = 0, height = 0;
   std::uint64_t spp = 0;
-  std::vector<double> seconds;  // of the repeats
-  RunResult counts;             // of the last one: the same in all, but for times
+  std::vector<double> seconds;      // of the repeats
+  std::vector<double> cpu_seconds;  // likewise, of all threads together
+  double waiting_seconds = 0;  // of all repeats: while other programs had the processors
+  RunResult counts;            // of the last one: the same in all, but for times
   std::size_t bytes_per_path = 0;
   std::uint32_t wavefront = 0;  // paths in flight of a thread
 
   /// Seconds of a render: the median, and its interval.
   Interval Seconds() const;
-  /// Samples per second.
+  /// Samples per second by the wall clock, and per second of processor time.
   Interval Rate() const;
+  Interval CpuRate() const;
+  /// Fraction of the time of all threads in which they waited for a processor.
+  double Waiting() const;
   /// Half the interval over the median.
   double Spread() const;
   std::uint64_t rays() const { return counts.rays_closest + counts.rays_shadow; }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/format.h>
+
 namespace lanelight {
 Interval RateRatioOf(const Interval& now, const Interval& before) {
   const double ratio = now.value / before.value;
@@ -14,21 +16,58 @@ Interval RateRatioOf(const Interval& now, const Interval& before) {
   return {ratio, ratio * std::exp(-below), ratio * std::exp(above)};
 }
 
+namespace {
+
+// Keys of the rows that the other has of the same scene; empty without one.
+std::string OfSameScene(const KnownRow& row, const KnownThroughput& other) {
+  std::string keys;
+  for (const KnownRow& candidate : other.rows) {
+    if (candidate.scene != row.scene) continue;
+    keys += (keys.empty() ? "" : "; ") + candidate.Key();
+  }
+  return keys;
+}
+
+void AddBusy(const KnownThroughput& known, const char* when, RateComparison& comparison) {
+  for (const std::string& reason : known.busy) {
+    comparison.busy.push_back(fmt::format("{}, {}", when, reason));
+  }
+}
+
+}  // namespace
+
 RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput& now) {
-  std::map<std::string, Interval> old;
-  for (const KnownRow& row : before.rows) old[row.Key()] = row.rate;
+  std::map<std::string, const KnownRow*> old;
+  for (const KnownRow& row : before.rows) old[row.Key()] = &row;
   RateComparison comparison;
+  AddBusy(before, "before", comparison);
+  AddBusy(now, "now", comparison);
   for (const KnownRow& row : now.rows) {
     const auto found = old.find(row.Key());
-    if (found == old.end()) {
-      comparison.only_in_one.push_back(row.Key());
+    if (found != old.end()) {
+      const KnownRow& other = *found->second;
+      comparison.rows.push_back({row.Key(), RateRatioOf(row.rate, other.rate),
+                                 RateRatioOf(row.cpu_rate, other.cpu_rate)});
+      old.erase(found);
       continue;
     }
-    comparison.rows.push_back({row.Key(), RateRatioOf(row.rate, found->second)});
-    old.erase(found);
+    const std::string others = OfSameScene(row, before);
+    if (others.empty()) {
+      comparison.only_in_one.push_back(row.Key());
+    } else {
+      comparison.refused.push_back(fmt::format("{} (before: {})", row.Key(), others));
+    }
   }
   for (const auto& [key, unused] : old) comparison.only_in_one.push_back(key);
   return comparison;
+}
+
+RateComparison::Verdict RateComparison::Judge(double tolerance) const {
+  if (!busy.empty()) return Verdict::kNotComparable;
+  for (const RateRatio& row : rows) {
+    if (row.Regresses(tolerance)) return Verdict::kSlower;
+  }
+  return refused.empty() && !rows.empty() ? Verdict::kNotSlower : Verdict::kNotComparable;
 }
 
 double RateComparison::Mean() const {

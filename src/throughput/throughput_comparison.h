@@ -9,8 +9,9 @@
 namespace lanelight {
 
 struct RateRatio {
-  std::string row;  // KnownRow::Key()
-  Interval ratio;   // rate of the new one over that of the old
+  std::string row;     // KnownRow::Key()
+  Interval ratio;      // rate of the new one over that of the old
+  Interval cpu_ratio;  // the same of rates per second of processor time
 
   /// Slower by more than `tolerance`, beyond doubt.
   bool Regresses(double tolerance) const {
@@ -21,6 +22,16 @@ struct RateRatio {
 struct RateComparison {
   std::vector<RateRatio> rows;  // of both
   std::vector<std::string> only_in_one;
+  /// Rows of scenes in both that differ in samples, size, threads, target or strategy
+  /// from all rows of the other: a sentence each.
+  std::vector<std::string> refused;
+  /// Why either machine was too busy for a comparison; empty if neither was.
+  std::vector<std::string> busy;
+
+  enum class Verdict { kNotSlower, kSlower, kNotComparable };
+  /// Not comparable: either machine was busy, or a row was refused and no other is
+  /// slower.
+  Verdict Judge(double tolerance) const;
   /// Geometric mean of the ratios; 1 without rows.
   double Mean() const;
 };

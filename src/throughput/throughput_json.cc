@@ -11,6 +11,7 @@
 #include "src/strategy/choices_text.h"
 #include "src/strategy/strategy.h"
 #include "src/throughput/throughput_comparison.h"
+#include "src/throughput/throughput_warnings.h"
 
 namespace lanelight {
 namespace {
@@ -49,10 +50,13 @@ Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
           {"resolution", {row.width, row.height}},
           {"spp", row.spp},
           {"seconds", row.seconds},
+          {"cpu_seconds", row.cpu_seconds},
+          {"waiting", row.Waiting()},
           {"samples", row.counts.samples},
           {"rays",
            {{"closest", row.counts.rays_closest}, {"shadow", row.counts.rays_shadow}}},
           {"samples_per_second", IntervalJson(row.Rate())},
+          {"samples_per_cpu_second", IntervalJson(row.CpuRate())},
           {"parallel_efficiency", ParallelEfficiency(rows, row)},
           {"rays_per_second", double(row.rays()) / row.Seconds().value},
           {"bytes_per_path", row.bytes_per_path},
@@ -63,11 +67,13 @@ Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
 
 }  // namespace
 
-Json ToJson(const std::vector<ThroughputRow>& rows) {
+Json ToJson(const std::vector<ThroughputRow>& rows, double within) {
   Json out = {{"schema", kBenchSchema},
               {"machine", ToJson(ThisMachine())},
               {"program", FullVersion()},
               {"confidence", kBenchConfidence},
+              {"busy", BusyReasons(rows, ThisMachine())},
+              {"warnings", ThroughputWarnings(rows, within)},
               {"rows", Json::array()}};
   for (const ThroughputRow& row : rows) out["rows"].push_back(ToJson(row, rows));
   return out;
@@ -75,24 +81,25 @@ Json ToJson(const std::vector<ThroughputRow>& rows) {
 
 std::string KnownRow::Key() const {
   const std::string changes = ChoicesNotIn(ToText(Strategy{}), strategy);
-  return fmt::format("{}, {}, {} thread{}, {}x{}{}{}", scene, target, threads,
-                     threads == 1 ? "" : "s", width, height, changes.empty() ? "" : ", ",
-                     changes);
+  return fmt::format("{}, {}, {} thread{}, {}x{}, {} spp{}{}", scene, target, threads,
+                     threads == 1 ? "" : "s", width, height, spp,
+                     changes.empty() ? "" : ", ", changes);
 }
 
 KnownThroughput ThroughputFromJson(const Json& json) {
   KnownThroughput known;
   known.machine = json.at("machine").at("text");
   known.program = json.at("program");
+  known.busy = json.at("busy");
+  const auto interval = [](const Json& rate) {
+    return Interval{rate.at("value"), rate.at("low"), rate.at("high")};
+  };
   for (const Json& row : json.at("rows")) {
-    const Json& rate = row.at("samples_per_second");
-    known.rows.push_back({row.at("scene"),
-                          row.at("target"),
-                          row.at("strategy"),
-                          row.at("threads"),
-                          row.at("resolution").at(0),
-                          row.at("resolution").at(1),
-                          {rate.at("value"), rate.at("low"), rate.at("high")}});
+    known.rows.push_back({row.at("scene"), row.at("target"), row.at("strategy"),
+                          row.at("threads"), row.at("resolution").at(0),
+                          row.at("resolution").at(1), row.at("spp"),
+                          interval(row.at("samples_per_second")),
+                          interval(row.at("samples_per_cpu_second"))});
   }
   return known;
 }
@@ -103,6 +110,12 @@ KnownThroughput ReadThroughput(const std::string& path) {
     if (!json.contains("rows") || !json.contains("program")) {
       throw InputError(
           fmt::format("'{}' is not what `lanelight bench --json` writes", path));
+    }
+    if (!json.contains("busy")) {
+      throw InputError(fmt::format(
+          "'{}' is of an older version, which chose samples per pixel by the clock: "
+          "measure again with `lanelight bench --json`",
+          path));
     }
     return ThroughputFromJson(json);
   });

@@ -12,6 +12,7 @@
 #include "src/core/version.h"
 #include "src/render/machine_json.h"
 #include "src/report/values.h"
+#include "src/throughput/throughput_warnings.h"
 
 namespace lanelight {
 namespace {
@@ -68,6 +69,7 @@ Cells RateCells(const std::vector<ThroughputRow>& rows, const ThroughputRow& row
           std::to_string(row.threads),
           Millions(row.Rate().value),
           spread,
+          Millions(row.CpuRate().value),
           Scaling(rows, row),
           Millions(double(row.counts.rays_closest) / seconds),
           Millions(double(row.counts.rays_shadow) / seconds),
@@ -92,18 +94,20 @@ std::string GroupTable(const std::vector<ThroughputRow>& rows, const TableStyle&
   return Table(lines, style);
 }
 
-std::string Precision(const std::vector<ThroughputRow>& rows, double within) {
-  double worst = 0;
-  for (const ThroughputRow& row : rows) worst = std::max(worst, row.Spread());
-  if (worst <= within) {
-    return fmt::format("All medians are known within {:.3g} % (95 % intervals).",
-                       100 * within);
+std::string WarningLines(const std::vector<ThroughputRow>& rows, double within,
+                         std::size_t width) {
+  const std::vector<std::string> warnings = ThroughputWarnings(rows, within);
+  if (warnings.empty()) {
+    return Wrapped(fmt::format("All medians are known within {:.3g} % (95 % intervals).",
+                               100 * within),
+                   width) +
+           "\n";
   }
-  return fmt::format(
-      "Not all medians are known within {:.3g} %, the worst within {}: the machine is "
-      "not quiet, or --time too short.",
-      100 * within,
-      std::isfinite(worst) ? fmt::format("{:.2g} %", 100 * worst) : "nothing certain");
+  std::string text;
+  for (const std::string& warning : warnings) {
+    text += Wrapped("warning: " + warning, width) + "\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -112,70 +116,36 @@ std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within
                            const TableStyle& style) {
   if (rows.empty()) return "Nothing was measured.\n";
   std::vector<Cells> lines = {{"scene", "target", "threads", "Msamples/s", "+-",
-                               "scaling", "closest M/s", "shadow M/s", "lanes",
-                               "bytes/path", "spp", "repeats"}};
+                               "per cpu s", "scaling", "closest M/s", "shadow M/s",
+                               "lanes", "bytes/path", "spp", "repeats"}};
   for (const ThroughputRow& row : rows) lines.push_back(RateCells(rows, row));
   const std::string gap = style.markdown ? "\n" : "";
   const std::size_t width = style.markdown ? std::string::npos : style.width;
   return LabelledRow("machine", MachineText(ThisMachine()), width, kLabel) + gap +
          LabelledRow("program", FullVersion(), width, kLabel) + "\n" +
          Table(lines, style) + "\n" + GroupTable(rows, style) + "\n" +
-         Wrapped(Precision(rows, within), width) + "\n";
+         WarningLines(rows, within, width);
 }
 
 std::string ThroughputCsv(const std::vector<ThroughputRow>& rows) {
   std::string text =
       "scene,target,threads,width_pixels,height_pixels,spp,repeats,seconds,"
       "samples_per_second,samples_per_second_low,samples_per_second_high,"
+      "samples_per_cpu_second,"
       "rays_closest_per_second,rays_shadow_per_second,bytes_per_path,strategy," +
       MachineCsvHeader() + "\n";
   for (const ThroughputRow& row : rows) {
     const Interval rate = row.Rate();
     const double seconds = row.Seconds().value;
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                        CsvField(row.scene), row.target, row.threads, row.width,
-                        row.height, row.spp, row.seconds.size(), seconds, rate.value,
-                        rate.low, rate.high, double(row.counts.rays_closest) / seconds,
-                        double(row.counts.rays_shadow) / seconds, row.bytes_per_path,
-                        CsvField(row.strategy), MachineCsvRow(ThisMachine()));
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                    CsvField(row.scene), row.target, row.threads, row.width, row.height,
+                    row.spp, row.seconds.size(), seconds, rate.value, rate.low, rate.high,
+                    row.CpuRate().value, double(row.counts.rays_closest) / seconds,
+                    double(row.counts.rays_shadow) / seconds, row.bytes_per_path,
+                    CsvField(row.strategy), MachineCsvRow(ThisMachine()));
   }
   return text;
-}
-
-std::string ComparisonText(const RateComparison& comparison,
-                           const KnownThroughput& before, double tolerance,
-                           std::size_t width) {
-  std::string text = LabelledRow("against", before.machine, width, kLabel) +
-                     LabelledRow("", before.program, width, kLabel) + "\n";
-  std::string slower;
-  const auto line = [width](const std::string& words) {
-    return Wrapped(words, width, kLabel) + "\n";
-  };
-  for (const RateRatio& row : comparison.rows) {
-    const bool regresses = row.Regresses(tolerance);
-    const Interval& ratio = row.ratio;
-    text += fmt::format("{:.3f} [{:.3f}, {:.3f}]  ", ratio.value, ratio.low, ratio.high) +
-            line(row.row + (regresses ? "  SLOWER" : ""));
-    if (regresses) slower += (slower.empty() ? "" : "; ") + row.row;
-  }
-  for (const std::string& row : comparison.only_in_one) {
-    text += line("only in one of them: " + row);
-  }
-  if (comparison.rows.empty()) return text + "\nNothing can be compared.\n";
-  const std::string verdict =
-      slower.empty()
-          ? fmt::format("nothing is slower by more than {:.3g} %", 100 * tolerance)
-          : "slower: " + slower;
-  return text + "\n" +
-         Wrapped(fmt::format("{:.3g} times as fast (geometric mean of {}); {}.",
-                             comparison.Mean(), comparison.rows.size(), verdict),
-                 width) +
-         "\n" +
-         Wrapped(
-             "Intervals tell how well each run knows its medians, not what else the "
-             "machines did meanwhile.",
-             width) +
-         "\n";
 }
 
 }  // namespace lanelight

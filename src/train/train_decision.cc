@@ -1,4 +1,4 @@
-// decide=pilot: which change of roulette or guiding, if any, makes the render cheaper at
+// decide=pilot: which change of roulette or reuse, if any, makes the render cheaper at
 // equal error. All candidates learn what they need from a pilot of their own, shorter
 // than that of a render; then the same pixels are rendered with each, with the points of
 // the render: in four randomisations, whose scatter is the variance. Independent samples

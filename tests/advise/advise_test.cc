@@ -129,4 +129,17 @@ TEST_CASE("a trial that the user ends leaves the default", "[advise]") {
   CHECK(advice.chosen == Strategy());
 }
 
+TEST_CASE("an efficiency of which little is known is not stated", "[advise]") {
+  CHECK_FALSE(IsUncertain(WithoutBounds(1)));
+  CHECK_FALSE(IsUncertain({1.5, 0.8, 2.5}));
+  CHECK(IsUncertain({2, 3.1e-46, 1.1e3}));
+  Advice advice;
+  advice.candidates = {{Strategy{}, "", ""}, {Strategy{}, "roulette=none", ""}};
+  for (AdvisedCandidate& c : advice.candidates) c.samples = 100;
+  advice.candidates[1].efficiency = {2, 3.1e-46, 1.1e3};
+  const nlohmann::json json = ToJson(advice);
+  CHECK(json["candidates"][0]["efficiency"]["value"] == 1);
+  CHECK(json["candidates"][1]["efficiency"].is_null());
+}
+
 }  // namespace lanelight

@@ -27,6 +27,14 @@ def every_row_has_its_rate(page):
 
 
 @check
+def warnings_of_the_terminal_are_on_the_page(page):
+    warnings = data(page)["warnings"]
+    require(warnings, "the test's bench has medians that are not known well enough")
+    for warning in warnings:
+        require(warning in page.find("#summary .warnings").text, warning)
+
+
+@check
 def efficiency_is_drawn(page):
     page.scroll_through()
     rows = data(page)["rows"]

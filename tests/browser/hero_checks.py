@@ -53,6 +53,7 @@ def warnings_are_said_once(page):
     titles = [item.text for item in page.all("#summary .warnings li > b")]
     require(len(set(titles)) == len(titles), "said twice:", titles)
     text = " ".join(items)
+    require("at 16 samples per pixel. Ranks change." in text, "no caution:", text)
     require("points at" in text or "not from each other" in text, "no word of it:", text)
     page.open()
 

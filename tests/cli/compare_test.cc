@@ -57,6 +57,29 @@ TEST_CASE("several images are compared with the last", "[cli]") {
              Contains("\nFLIP ") && Contains("\nverdict "));
 }
 
+TEST_CASE("how far images differ beyond their noise is said in percent of the values",
+          "[cli]") {
+  TempDirectory directory;
+  const auto write = [&](const char* name, float value) {
+    std::vector<ExrPlane> planes;
+    for (const char* channel : {"R", "G", "B"}) {
+      planes.push_back({channel, std::vector<float>(24 * 16, value)});
+      planes.push_back(
+          {std::string("variance.") + channel, std::vector<float>(24 * 16, 1e-6f), true});
+    }
+    WriteExr(directory / name, 24, 16, planes);
+    return directory / name;
+  };
+  const std::string a = write("a.exr", 1), b = write("b.exr", 1.5f);
+  const std::string differs = RunLanelight({"compare", a, b}).out;
+  CHECK_THAT(differs, Contains("100 % of 1152 values differ by more than 2 standard "
+                               "errors (noise alone: 4.55 %)") &&
+                          Contains("significant difference in") &&
+                          Contains("false-alarm rate 0.1 %"));
+  CHECK_THAT(differs, !Contains("z-score") && !Contains("deviation"));
+  CHECK_THAT(RunLanelight({"compare", a, a}).out, Contains("no significant difference"));
+}
+
 TEST_CASE("compare writes a page and a picture", "[cli]") {
   TempDirectory directory;
   const std::string a = WriteGrey(directory / "a.exr", 1.1f);

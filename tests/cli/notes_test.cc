@@ -130,4 +130,27 @@ TEST_CASE("a study keeps the notes of compiling", "[cli]") {
   CHECK_THAT(nlohmann::json::parse(in).dump(), Contains(kDead) && Contains(kDropped));
 }
 
+TEST_CASE("a scene without light gets one warning, with any number of samples", "[cli]") {
+  const TempDirectory directory;
+  const std::string scene = WriteText(
+      directory / "dark.pbrt",
+      "Camera \"perspective\"\nFilm \"rgb\" \"integer xresolution\" 8 \"integer "
+      "yresolution\" 8\nWorldBegin\nTranslate 0 0 4\nShape \"sphere\"\n");
+  for (const char* spp : {"1", "2", "64"}) {
+    const ProcessResult r =
+        RunLanelight({"render", scene, "-o", directory / "dark.exr", "--spp", spp});
+    INFO(r.out << r.err);
+    CHECK(r.exit_code == kExitGood);
+    const std::string warning =
+        "no light reached the image; does the scene have a light?";
+    const std::size_t at = r.err.find("warning: " + warning);
+    REQUIRE(at != std::string::npos);
+    CHECK(r.err.find(warning, at + 10) == std::string::npos);
+    CHECK_THAT(r.out, !Contains(warning) && !Contains("at least 0 %"));
+  }
+  const ProcessResult lit = RunLanelight(
+      {"render", WriteSphereScene(directory), "-o", directory / "lit.exr", "--spp", "1"});
+  CHECK_THAT(lit.err, !Contains("no light"));
+}
+
 }  // namespace lanelight

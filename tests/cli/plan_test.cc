@@ -7,6 +7,7 @@
 
 #include "src/cli/exit_codes.h"
 #include "src/image/exr.h"
+#include "src/path/features.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {
@@ -40,6 +41,21 @@ TEST_CASE("plan prints what runs, what does not, and why", "[cli]") {
   CHECK_THAT(r.out, Contains("bytes per path") && Contains("stages left out") &&
                         Contains("fields left out") && Contains("wavefront"));
   CHECK_THAT(r.out, Contains("no triangle"));
+}
+
+TEST_CASE("what a scene lacks is said without articles", "[cli]") {
+  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+    const std::string text = WithoutFeature(static_cast<Feature>(i));
+    INFO(text);
+    CHECK((text.starts_with("no ") || text.starts_with("not ")));
+    for (const char* word : {"no a ", "no an ", "no the ", "no some", "no several "}) {
+      CHECK_THAT(text, !Contains(word));
+    }
+    const std::string first = text.substr(0, text.find(' ', 4));
+    CHECK(text.starts_with("not ") == (first.find('=') != text.npos));
+  }
+  CHECK(WithoutFeature(Feature::kOrthographic) == "no orthographic camera");
+  CHECK(WithoutFeature(Feature::kHaltonPoints) == "not points=halton");
 }
 
 TEST_CASE("the plan of a sphere under a point light has only what it needs", "[cli]") {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <signal.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -137,6 +138,39 @@ TEST_CASE("the JSON of a profile says the same, with more digits", "[cli]") {
     CHECK_THAT(counters.at("note").get<std::string>(), Contains("perf_event_open"));
   }
   CHECK(p.at("trace").at("events") == 0);
+}
+
+TEST_CASE("profile runs the strategy that render runs with the same arguments", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory);
+  const std::string profile = directory / "p.json", render = directory / "r.json";
+  // So many samples that a render of them begins with a trial run.
+  const std::vector<std::string> amount = {"--resolution", "256x192", "--spp", "192"};
+  std::vector<std::string> arguments = {"render", scene, "-o", directory / "out.exr",
+                                        "--json", render};
+  arguments.insert(arguments.end(), amount.begin(), amount.end());
+  REQUIRE(RunLanelight(arguments).exit_code == kExitGood);
+  std::vector<std::string> flags = amount;
+  flags.insert(flags.end(), {"--json", profile});
+  const ProcessResult r = Profile(scene, flags);
+  const Json rendered = ReadJson(render), profiled = ReadJson(profile);
+  CHECK(profiled.at("strategy") == rendered.at("settings").at("strategy"));
+  CHECK_THAT(profiled.at("strategy"), Contains("decide=pilot"));
+  std::vector<std::string> names, rows;
+  for (const Json& stage : rendered.at("stages")) names.push_back(stage.at("name"));
+  bool has_pilot = false;
+  for (const Json& row : profiled.at("rows")) {
+    if (row.at("kind") == "stage") rows.push_back(row.at("name"));
+    has_pilot |= row.at("kind") == "pilot";
+  }
+  std::sort(names.begin(), names.end());
+  std::sort(rows.begin(), rows.end());
+  CHECK(names == rows);
+  CHECK(has_pilot);
+  CHECK_THAT(Lines(r.out).at(0), Contains("strategy") && Contains("trial run"));
+
+  const ProcessResult given = Profile(scene, {"--strategy", "points=halton"});
+  CHECK_THAT(Lines(given.out).at(0), Contains("points=halton") && !Contains("trial run"));
 }
 
 TEST_CASE("the rows of a profile account for the processor time", "[cli]") {

@@ -43,6 +43,22 @@ TEST_CASE("lanelight strategies lists every choice and preset", "[cli]") {
   CHECK(list.at("presets").size() == AllPresets().size());
 }
 
+TEST_CASE("the default of decide says where it is which", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteScene(directory, kSky);
+  const auto plan = [&](const char* spp) {
+    return RunLanelight({"plan", scene, "--spp", spp}).out;
+  };
+  CHECK_THAT(plan("1"), Contains("decide=none"));
+  CHECK_THAT(plan("1000000"), Contains("decide=pilot"));
+  const std::string list = RunLanelight({"strategies"}).out;
+  const std::string decide = list.substr(list.find("decide=\n"));
+  CHECK_THAT(decide,
+             Contains("default where a strategy is named, and of short renders") &&
+                 Contains("chooses roulette and reuse") &&
+                 Contains("from 4 s or 8 million samples on"));
+}
+
 TEST_CASE("--strategy is used, reported, and changes the plan", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteScene(directory, kSky);

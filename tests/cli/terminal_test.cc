@@ -210,7 +210,7 @@ TEST_CASE("the strategy that is told is the one that renders", "[cli]") {
              !Contains("strategy"));
   // A pilot decides in long renders, and so says the plan.
   CHECK_THAT(RunLanelight({"plan", scene, "--time", "1h"}).out,
-             Contains("decide=pilot") && Contains("a pilot finds out"));
+             Contains("decide=pilot") && Contains("trial run before"));
   CHECK_THAT(RunLanelight({"plan", scene, "--spp", "1"}).out, Contains("decide=none"));
 }
 

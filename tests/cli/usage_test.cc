@@ -109,6 +109,23 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
   }
 }
 
+TEST_CASE("a SIMD target that is not built says how to get it", "[cli]") {
+  const std::vector<std::string> available = AvailableTargets();
+  for (const std::string name : {"AVX3", "AVX2", "SSE4"}) {
+    if (std::find(available.begin(), available.end(), name) != available.end()) continue;
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"render", "x.pbrt", "-o", "x.exr", "--simd", name},
+          {"bench", "--simd", name},
+          {"stress", "--simd", name}}) {
+      const ProcessResult r = RunLanelight(command);
+      INFO(r.err);
+      CHECK(r.exit_code == kExitUsage);
+      CHECK_THAT(r.err, Contains("`./run build` adds the others") ||
+                            Contains("processor cannot run " + name));
+    }
+  }
+}
+
 TEST_CASE("info prints the target, threads and libraries", "[cli]") {
   const ProcessResult r = RunLanelight({"info", "--threads", "1"});
   CHECK(r.exit_code == kExitGood);

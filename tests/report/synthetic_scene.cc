@@ -113,6 +113,7 @@ Json CrowdedScene() {
       {"tests", 20},     {"failed", 0},          {"strategies", Json::array()},
       {"alike", {1, 2}}, {"suspect_tiles", {3}}, {"level", 0.001}};
   scene["verdict"] = "Many strategies are alike.";
+  scene["cautions"] = {"The ranking is at 16 samples per pixel.", "Ranks change."};
   Rank(scene);
   return scene;
 }

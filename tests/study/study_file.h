@@ -11,9 +11,10 @@ using test::ReadJson;
 
 /// Removes seconds, and what is computed from them, and what else the machine was doing.
 inline void RemoveTimings(nlohmann::json& json) {
-  for (const char* name : {"seconds", "cpu_seconds", "wall_seconds", "efficiency",
-                           "efficiency_trimmed", "rank", "ranking", "to_target",
-                           "verdict", "ns_per_item", "share", "machine", "machines"}) {
+  for (const char* name :
+       {"seconds", "cpu_seconds", "wall_seconds", "efficiency", "efficiency_trimmed",
+        "rank", "ranking", "to_target", "verdict", "cautions", "ns_per_item", "share",
+        "machine", "machines"}) {
     if (json.is_object()) json.erase(name);
   }
   if (!json.is_structured()) return;

@@ -11,6 +11,7 @@
 #include "src/core/input_file.h"
 #include "src/image/colors.h"
 #include "src/render/machine_json.h"
+#include "src/study/schedule.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/study/study_file.h"
 
@@ -79,7 +80,7 @@ TEST_CASE("a study writes numbers, rows, images and a report", "[study]") {
   CHECK(scene["reference"]["relmse"].get<double>() > 0);
   CHECK(scene["ranking"].size() == 3);
   CHECK(scene["bias"]["failed"] == 0);
-  CHECK(scene["diffuse"].size() == 3);
+  CHECK(scene["diffuse"].empty());  // only on the page of --paper
   for (const Json& strategy : scene["strategies"]) {
     INFO(strategy["name"]);
     CHECK(strategy["status"] == "ok");
@@ -310,6 +311,26 @@ TEST_CASE("sample counts", "[study]") {
       CHECK(std::is_sorted(runs.counts.begin(), runs.counts.end()));
     }
   }
+}
+
+TEST_CASE("the diffuse models are rendered for the paper's page alone", "[study]") {
+  const TemporaryFolder folder;
+  StudyOptions options = TinyStudy(folder, "out");
+  options.spp = {1};
+  options.repetitions = 1;
+  CHECK(Study(options, {})[0].runs.diffuse.empty());
+  options.paper = options.resume = true;
+  CHECK(Study(options, {})[0].runs.diffuse.size() == 3);
+}
+
+TEST_CASE("a study without counts goes on to 64 samples, or to a small error",
+          "[study]") {
+  const double unknown = std::numeric_limits<double>::infinity();
+  CHECK(DefaultLargest({2.9, 0, unknown}) == 64);
+  CHECK(DefaultLargest({2.9, 0, 1000}) == 64);
+  CHECK(DefaultLargest({2.9, 0, 9}) == 16);
+  CHECK(DefaultLargest({100, 0, 9}) == 64);
+  CHECK(DefaultLargest({300, 0, unknown}) == 256);
 }
 
 TEST_CASE("the verdict names what rare bright samples hide", "[study]") {

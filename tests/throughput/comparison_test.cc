@@ -12,9 +12,10 @@ namespace lanelight::test {
 namespace {
 
 KnownThroughput Known(std::vector<Interval> rates) {
-  KnownThroughput known = {"a machine", "a program", {}};
+  KnownThroughput known = {"a machine", "a program", {}, {}};
   for (std::size_t i = 0; i < rates.size(); ++i) {
-    known.rows.push_back({"scene", "AVX2", "default", int(i) + 1, 64, 64, rates[i]});
+    known.rows.push_back(
+        {"scene", "AVX2", "default", int(i) + 1, 64, 64, 16, rates[i], rates[i]});
   }
   return known;
 }
@@ -55,8 +56,39 @@ TEST_CASE("rows of one measurement alone are named, and not compared", "[through
       CompareRates(Known({{1, 1, 1}, {2, 2, 2}}), Known({{3, 3, 3}}));
   CHECK(c.rows.size() == 1);
   REQUIRE(c.only_in_one.size() == 1);
-  CHECK(c.only_in_one[0] == "scene, AVX2, 2 threads, 64x64, default");
+  CHECK(c.only_in_one[0] == "scene, AVX2, 2 threads, 64x64, 16 spp, default");
   CHECK(c.Mean() == Approx(3));
+}
+
+TEST_CASE("rows of other samples, sizes or threads are refused", "[throughput]") {
+  using Verdict = RateComparison::Verdict;
+  const KnownThroughput before = Known({{100, 99, 101}});
+  for (const int kind : {0, 1, 2}) {
+    KnownThroughput now = Known({{10, 9.9, 10.1}});
+    if (kind == 0) now.rows[0].spp = 1;
+    if (kind == 1) now.rows[0].width = 32;
+    if (kind == 2) now.rows[0].threads = 2;
+    const RateComparison c = CompareRates(before, now);
+    CHECK(c.rows.empty());
+    CHECK(c.refused.size() == 1);
+    CHECK(c.Judge(0.05) == Verdict::kNotComparable);
+    CHECK_THAT(ComparisonText(c, before, 0.05, 200),
+               Catch::Contains("refused: ") && Catch::Contains("not comparable"));
+  }
+}
+
+TEST_CASE("rates of a busy machine are not compared", "[throughput]") {
+  using Verdict = RateComparison::Verdict;
+  KnownThroughput before = Known({{100, 99, 101}});
+  const KnownThroughput now = Known({{50, 49, 51}});
+  CHECK(CompareRates(before, now).Judge(0.05) == Verdict::kSlower);
+  CHECK(CompareRates(now, before).Judge(0.05) == Verdict::kNotSlower);
+  before.busy = {"the load before the start, 5.00, exceeds the 2 cores of the machine"};
+  for (const auto& c : {CompareRates(before, now), CompareRates(now, before)}) {
+    CHECK(c.Judge(0.05) == Verdict::kNotComparable);
+    CHECK_THAT(ComparisonText(c, before, 0.05, 200),
+               Catch::Contains("not comparable") && Catch::Contains("load"));
+  }
 }
 
 TEST_CASE("rows are told apart by what of a strategy is not as by default",
@@ -64,10 +96,10 @@ TEST_CASE("rows are told apart by what of a strategy is not as by default",
   KnownRow row = Known({{1, 1, 1}}).rows[0];
   Strategy strategy;
   row.strategy = ToText(strategy);
-  CHECK(row.Key() == "scene, AVX2, 1 thread, 64x64");
+  CHECK(row.Key() == "scene, AVX2, 1 thread, 64x64, 16 spp");
   strategy.roulette = Roulette::kNone;
   row.strategy = ToText(strategy);
-  CHECK(row.Key() == "scene, AVX2, 1 thread, 64x64, roulette=none");
+  CHECK(row.Key() == "scene, AVX2, 1 thread, 64x64, 16 spp, roulette=none");
 }
 
 TEST_CASE("texts of a bench fit, whether or not medians are known", "[throughput]") {

@@ -12,6 +12,8 @@
 #include "src/report/page.h"
 #include "src/throughput/throughput.h"
 #include "src/throughput/throughput_comparison.h"
+#include "src/throughput/throughput_table.h"
+#include "src/throughput/throughput_warnings.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight::test {
@@ -66,13 +68,47 @@ TEST_CASE("rows are measured six times at least, with the samples asked for",
   }
 }
 
-TEST_CASE("without samples asked for, renders are made long enough", "[throughput]") {
+TEST_CASE("samples per pixel are fixed for each scene", "[throughput]") {
   ThroughputOptions options = SmallBench();
   options.settings.spp.reset();
   options.threads = {1};
+  const BenchScene& scene = BenchScenes().at(0);
   const ThroughputRow row = Measure(options).at(0);
-  CHECK(row.spp > 4);
+  CHECK(scene.name == options.scenes[0]);
+  CHECK(row.spp == scene.spp);
   CHECK(row.counts.samples == row.spp * 16 * 16);
+  CHECK(ToJson({row}, 1)["rows"][0]["spp"] == scene.spp);
+  CHECK_THAT(ThroughputText({row}, 1, {}), Catch::Contains("spp"));
+  CHECK(BenchSpp("a-file.pbrt") == kFileSpp);
+}
+
+TEST_CASE("rates are per second of the clock, and of processor time", "[throughput]") {
+  ThroughputRow row = Measure(SmallBench()).at(0);
+  row.seconds.assign(6, 2.0);
+  row.cpu_seconds.assign(6, 0.5);
+  CHECK(row.Rate().value == Approx(double(row.counts.samples) / 2));
+  CHECK(row.CpuRate().value == Approx(double(row.counts.samples) * 2));
+  row.waiting_seconds = 1;  // beside the 3 seconds of processor time
+  CHECK(row.Waiting() == Approx(0.25));
+}
+
+TEST_CASE("a busy machine is one whose load exceeds its cores, or where threads wait",
+          "[throughput]") {
+  MachineInfo machine;
+  ThroughputRow row;
+  row.cpu_seconds.assign(6, 1.0);
+  CHECK(BusyReasons({row}, machine).empty());  // nothing is known of it
+  machine.cores = 4;
+  machine.load = 3.9;
+  CHECK(BusyReasons({row}, machine).empty());
+  machine.load = 4.1;
+  CHECK_THAT(BusyReasons({row}, machine).at(0), Catch::Contains("4.10"));
+  machine.load = 3;
+  machine.quota = 2;
+  CHECK(BusyReasons({row}, machine).size() == 1);
+  machine.load = 0;
+  row.waiting_seconds = 1;
+  CHECK_THAT(BusyReasons({row}, machine).at(0), Catch::Contains("14 %"));
 }
 
 TEST_CASE("kinds of stages have all the time of stages", "[throughput]") {
@@ -90,7 +126,7 @@ TEST_CASE("kinds of stages have all the time of stages", "[throughput]") {
 TEST_CASE("efficiency is the rate over that of as many times one thread",
           "[throughput]") {
   const std::vector<ThroughputRow> rows = Measure(SmallBench());
-  const nlohmann::json json = ToJson(rows);
+  const nlohmann::json json = ToJson(rows, 1);
   const nlohmann::json& one = json["rows"][0]["parallel_efficiency"];
   CHECK(one["value"] == 1);
   CHECK(one["low"].is_null());
@@ -99,11 +135,11 @@ TEST_CASE("efficiency is the rate over that of as many times one thread",
   CHECK(two["value"].get<double>() == Approx(ratio.value / 2));
   CHECK(two["high"].get<double>() == Approx(ratio.high / 2));
   // Without a row of one thread nobody knows.
-  CHECK(ToJson({rows[1]})["rows"][0]["parallel_efficiency"].is_null());
+  CHECK(ToJson({rows[1]}, 1)["rows"][0]["parallel_efficiency"].is_null());
 }
 
 TEST_CASE("The page of a bench can be written", "[throughput][report]") {
-  const std::string page = BenchReportPage(ToJson(Measure(SmallBench())));
+  const std::string page = BenchReportPage(ToJson(Measure(SmallBench()), 1e-9));
   CHECK(page.substr(0, 15) == "<!doctype html>");
   const char* path = std::getenv("LANELIGHT_SYNTHETIC_BENCH");
   if (path == nullptr) return;

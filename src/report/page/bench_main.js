@@ -39,19 +39,30 @@ function benchTable() {
     twoLines(intervalTexts(interval || { value: null }));
   return plainTable(
     "All rows",
-    ["Scene", "Target", "Threads", "Samples / s", "Efficiency", "Rays / s", "Bytes / path",
+    ["Scene", "Target", "Threads", "Samples / s", "Samples / processor s", "Efficiency", "Rays / s", "Bytes / path",
       "Samples per pixel", "Repeats"],
     study.rows.map((row) => [
       row.scene,
       row.target,
       fmtCount(row.threads),
       twoLines(texts(row)),
+      twoLines(rateTexts(row.samples_per_cpu_second)),
       efficiency(row),
       rateTick(row.rays_per_second),
       fmtCount(row.bytes_per_path),
       fmtCount(row.spp),
       fmtCount(row.seconds.length),
     ]),
+  );
+}
+
+// The sentences that the terminal prints.
+function benchWarnings() {
+  if (study.warnings.length === 0) return [];
+  return el(
+    "div",
+    { class: "warnings", role: "note" },
+    el("ul", {}, study.warnings.map((text) => el("li", {}, text))),
   );
 }
 
@@ -93,6 +104,7 @@ function startBench() {
     el("dl", { class: "facts" },
       fact("Machine", study.machine.text, null, { class: "wide" }),
       fact("Program", study.program, null, { class: "wide" })),
+    benchWarnings(),
   );
   content.replaceChildren(head, ...(lines.length > 0 ? benchSections(lines) : []));
   if (lines.length === 0) return;

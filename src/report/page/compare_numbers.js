@@ -31,9 +31,8 @@ const COMPARISON_ROWS = [
   ...flipRows("hdr", "FLIP at all exposures"),
   ...flipRows("ldr", "FLIP on screen"),
   [
-    "z-scores: mean, deviation",
-    (c) =>
-      c.z.available ? `${fmt(c.z.mean)}, ${fmt(c.z.standard_deviation)}` : UNKNOWN,
+    "Differ by more than 2 standard errors (noise alone: 4.55 %)",
+    (c) => (c.z.available && c.z.count > 0 ? fmtPercent(c.z.beyond_2) : UNKNOWN),
   ],
   ["Agreement", (c) => c.agreement.verdict],
   ["p of the test", (c) => pText(c.agreement.p)],

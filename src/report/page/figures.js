@@ -36,7 +36,7 @@ function diffuseFigure(view) {
     return figureBox(
       1,
       "Diffuse models",
-      missingPicture("This scene has no diffuse surfaces."),
+      missingPicture("Not rendered: the scene has no diffuse surfaces."),
       null,
     );
   }
@@ -245,7 +245,7 @@ function figuresSection(view, compare) {
   return section(
     "figures",
     "The paper's figures on this scene",
-    diffuseFigure(view),
+    (view.scene.diffuse || []).length > 0 && diffuseFigure(view),
     controls,
     el("div", { class: "paper-grid" }, [...hosts.values()]),
     convergenceFigure(view, paperStrategies(view)),

@@ -1,14 +1,12 @@
 "use strict";
 // Which of the two is ahead, in words.
 
-function verdictText(ratio, pace) {
+function verdictText({ ahead, since }, pace) {
   const at = pace === "time" ? "at equal processor time" : "at equal samples";
-  const { low, high } = ratio;
-  const better = known(low) && low > 1,
-    worse = known(high) && high < 1;
-  if (better) return `B is ahead of A ${at}`;
-  if (worse) return `A is ahead of B ${at}`;
-  return `No difference is certain yet ${at}`;
+  if (!ahead) return `No difference is certain yet ${at}`;
+  const other = ahead === "A" ? "B" : "A";
+  return `${ahead} is ahead of ${other} ${at}, certain since ${fmtCount(since)} ` +
+    "samples per pixel";
 }
 
 function drawScore(node, state) {
@@ -26,7 +24,7 @@ function drawScore(node, state) {
       el("span", { class: "bounds" }, ` ${bounds}`)),
     el("p", {}, el("b", {}, `${verdictText(ratio, state.pace)}. `),
       `Efficiency of B over A, 1 / (relative MSE × ${
-        state.pace === "time" ? "processor time" : "samples"}), so far, with its 95 % interval `,
+        state.pace === "time" ? "processor time" : "samples"}), with a 95 % interval that holds at all looks together, `,
       "from what both estimate of their own errors."),
     ratio.why && el("p", { class: "note" }, `An end is open, ${ratio.why}`),
   );

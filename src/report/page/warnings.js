@@ -99,6 +99,7 @@ function warningTexts(view) {
   const { scene } = view;
   const plain = (title, text) => ({ title, text, strategies: [] });
   return [
+    (scene.cautions || []).length > 0 && plain("Ranking:", scene.cautions.join(" ")),
     ...missingWarnings(view),
     ...biasWarnings(view),
     ...strategyWarnings(view),
