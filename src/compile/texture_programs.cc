@@ -71,6 +71,7 @@ class ProgramBuilder {
       case TextureKind::kDots:
       case TextureKind::kMetalExtinction:
       case TextureKind::kCoatedBase:
+      case TextureKind::kRegularAlpha:
         return true;
       default:
         return false;
@@ -98,6 +99,11 @@ class ProgramBuilder {
     SetPlace(t, world_from_scene_, node);
     if (t.kind == TextureKind::kCoatedBase) {
       node.fit = CoatFitOffset(t.amount.constant, t.octaves);
+    }
+    // Of other mappings the footprint is not known.
+    if (t.kind == TextureKind::kCheckerboard && t.dimension == 2 &&
+        t.mapping.kind == MappingKind::kUv) {
+      node.filter = t.filter;
     }
     if (t.kind == TextureKind::kImage) {
       node.image = images_.ImageIndex(t);

@@ -57,6 +57,13 @@ struct Lookups {
     m.color0_r = m.color0_g = m.color0_b = {0.5f};
     m.color0_texture = {0};
   }
+  explicit Lookups(const Texture& texture) {
+    scene.textures = CompileTextures({texture});
+    MaterialTable& m = scene.materials;
+    m.kind = {0};
+    m.color0_r = m.color0_g = m.color0_b = {0.5f};
+    m.color0_texture = {0};
+  }
   struct Point {
     float u, v, dudx = 0, dudy = 0, dvdx = 0, dvdy = 0;
   };
@@ -193,6 +200,52 @@ TEST_CASE("images get levels only where a filter asks", "[texture][levels]") {
   CHECK(plain.scene.textures.images[0].rgb.size() == 3 * 256);
   Lookups filtered(16, [](double u, double) { return u; }, ImageFilter::kTrilinear);
   CHECK(filtered.scene.textures.images[0].level_begin.size() == 5);
+}
+
+TEST_CASE("checkerboards are filtered by a triangle of 1.5 steps to either side",
+          "[texture][levels]") {
+  Texture texture;
+  texture.kind = TextureKind::kCheckerboard;
+  texture.filter = ImageFilter::kTrilinear;
+  texture.mapping = {2, 3, 0.25, 0};
+  texture.tex1.constant = {1, 1, 1};
+  texture.tex2.constant = {0.25, 0.25, 0.25};
+  Lookups lookups(texture);
+  // The mean of a square wave over the triangle, by the midpoint rule.
+  const auto mean = [](double x, double reach) {
+    constexpr int kSteps = 20000;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double at = (i + 0.5) / kSteps * 2 - 1;
+      const bool odd = std::fmod(std::floor(x + at * reach) + 1000, 2) != 0;
+      sum += (odd ? -1 : 1) * (1 - std::abs(at)) * 2 / kSteps;
+    }
+    return sum;
+  };
+  for (const float step : {0.0f, 0.003f, 0.05f, 0.15f, 0.4f, 3.0f}) {
+    for (const float u : {0.1f, 0.37f, 0.38f, 0.62f, -4.9f}) {
+      for (const float v : {0.01f, 0.33f, 0.5f}) {
+        CAPTURE(step, u, v);
+        // The longer of both steps counts, in the texture's own coordinates.
+        const float value =
+            lookups.Eval({{u, v, step, -step / 2, 0.1f * step, -step}})[0];
+        const double product =
+            mean(2.0 * u + 0.25, 1.5 * 2 * step) * mean(3.0 * v, 1.5 * 3 * step);
+        CHECK(value == Approx(0.625 + 0.375 * product).margin(5e-4));
+      }
+    }
+  }
+}
+
+TEST_CASE("checkerboards of programs and of other mappings stay sharp",
+          "[texture][levels]") {
+  Texture texture;
+  texture.kind = TextureKind::kCheckerboard;
+  texture.tex1.constant = {1, 1, 1};
+  CHECK(Lookups(texture).Eval({{0.01f, 0.5f, 1, 1, 1, 1}})[0] == 1);
+  texture.filter = ImageFilter::kTrilinear;
+  texture.dimension = 3;
+  CHECK(CompileTextures({texture}).nodes[0].filter == ImageFilter::kBilinear);
 }
 
 }  // namespace lanelight
