@@ -51,13 +51,12 @@ LANELIGHT_INLINE VF FilteredWave(VF x, VF reach) {
 
 /// How much of the second colour a checkerboard has about (s, t) over a footprint, with
 /// pbrt-v4's filter: a triangle that reaches 1.5 times the longer step to either side.
-LANELIGHT_INLINE VF SecondOfChecks(const TexturePair& st, VF s_x, VF s_y, VF t_x,
-                                   VF t_y) {
+LANELIGHT_INLINE VF SecondOfChecks(const TexturePair& st, const MapSteps& d) {
   const auto reach = [](VF x, VF y) HWY_ATTR {
     return hn::Mul(Splat(1.5f), hn::Max(hn::Abs(x), hn::Abs(y)));
   };
-  const VF product =
-      hn::Mul(FilteredWave(st.s, reach(s_x, s_y)), FilteredWave(st.t, reach(t_x, t_y)));
+  const VF product = hn::Mul(FilteredWave(st.s, reach(d.s_x, d.s_y)),
+                             FilteredWave(st.t, reach(d.t_x, d.t_y)));
   return hn::NegMulAdd(Splat(0.5f), product, Splat(0.5f));
 }
 

@@ -180,10 +180,7 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
       case TextureKind::kCheckerboard: {
         if constexpr (Point::kHasFootprint) {
           if (node.filter >= ImageFilter::kTrilinear) {
-            const VF su = Splat(node.su), sv = Splat(node.sv);
-            const auto& d = at.spread;
-            const VF second = SecondOfChecks(st, hn::Mul(d.dudx, su), hn::Mul(d.dudy, su),
-                                             hn::Mul(d.dvdx, sv), hn::Mul(d.dvdy, sv));
+            const VF second = SecondOfChecks(st, StepsOf(node, at));
             value[i] = Lerp(operand(0), operand(1), second);
             break;
           }
@@ -198,10 +195,7 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
       case TextureKind::kImage:
         if constexpr (Point::kHasFootprint) {
           if (node.filter >= ImageFilter::kTrilinear) {
-            // Of other mappings the footprint is not known.
-            const bool by_uv = node.mapping == MappingKind::kUv;
-            const auto spread = by_uv ? at.spread : at.spread.Only(hn::FirstN(DF(), 0));
-            value[i] = EvalFiltered(table, node, st.s, st.t, spread);
+            value[i] = EvalFiltered(table, node, st.s, st.t, StepsOf(node, at));
             break;
           }
         }

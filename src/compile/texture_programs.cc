@@ -100,11 +100,7 @@ class ProgramBuilder {
     if (t.kind == TextureKind::kCoatedBase) {
       node.fit = CoatFitOffset(t.amount.constant, t.octaves);
     }
-    // Of other mappings the footprint is not known.
-    if (t.kind == TextureKind::kCheckerboard && t.dimension == 2 &&
-        t.mapping.kind == MappingKind::kUv) {
-      node.filter = t.filter;
-    }
+    if (t.kind == TextureKind::kCheckerboard && t.dimension == 2) node.filter = t.filter;
     if (t.kind == TextureKind::kImage) {
       node.image = images_.ImageIndex(t);
       node.wrap = t.wrap;
