@@ -75,6 +75,7 @@ void ReadPly(ParseState& state, ParamSet& params, Shape*) {
     request.displacement = height.texture;
   }
   request.edge_length = EdgeLength(state, params);
+  params.Ignore("displacement.uvscale", "pbrt-v4 has no such parameter");
   state.meshes.push_back(std::move(request));
 }
 
