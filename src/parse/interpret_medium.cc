@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <map>
 
-#include "src/core/error_text.h"
 #include "src/core/suggest.h"
 #include "src/parse/interpret.h"
 #include "src/parse/motion.h"
@@ -16,15 +15,17 @@ namespace {
 const Coefficients* FindPreset(ParseState& state, ParamSet& params) {
   const Param* preset = params.Find("preset", {ParamType::kString});
   if (preset == nullptr) return nullptr;
-  try {
-    return &CoefficientsOf(params.String("preset", ""), preset->where,
-                           "preset of a medium:");
-  } catch (const InputError& error) {
-    state.AddNote(preset->where,
-                  WithoutPrefix(error) + "; \"sigma_a\" and \"sigma_s\" count instead",
-                  true);
-    return nullptr;
-  }
+  const std::string name = params.String("preset", "");
+  const Coefficients* found = FindCoefficients(name);
+  if (found != nullptr) return found;
+  const std::string near = NearestName(name, NamesOfCoefficients());
+  state.AddNote(preset->where,
+                fmt::format("unknown preset {} of a medium{}: its \"sigma_a\" and "
+                            "\"sigma_s\" count, each 1 by default",
+                            Quoted(name),
+                            near.empty() ? "" : " (did you mean " + Quoted(near) + "?)"),
+                true);
+  return nullptr;
 }
 
 // From a preset, or else each by itself.
